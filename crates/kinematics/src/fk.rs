@@ -1,0 +1,79 @@
+//! Forward kinematics: joint positions in, the pose of every frame out.
+//!
+//! The chain is folded once, when the model is built: each joint gets a frame whose z axis is the joint's
+//! axis, and the constant transforms between neighbours absorb everything fixed. At run time a joint costs
+//! one sine–cosine pair and one product,
+//!
+//! `T_base_i = T_base_{i−1} · F_i · Rot_z(q_i)`,
+//!
+//! the product of exponentials written in local frames (Lynch & Park, *Modern Robotics*, ch. 4).
+
+use crate::model::RobotModel;
+use crate::rotation::Rigid;
+use crate::{AXES, JointVector, Pose};
+
+/// A frame fixed to one of the arm's bodies: body 0 is the base, body i is what joint i moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    body: usize,
+    /// `T_body_frame`, from the folded joint frame of the body.
+    pub(crate) offset: Rigid,
+}
+
+impl Frame {
+    pub(crate) fn new(body: usize, offset: Rigid) -> Self {
+        Self { body, offset }
+    }
+
+    /// The body that carries the frame: 0 for the base, 1–6 for what joint 1–6 moves.
+    #[must_use]
+    pub fn body(&self) -> usize {
+        self.body
+    }
+
+    /// A frame fixed to this one, at `T_this_new`.
+    #[must_use]
+    pub fn offset(&self, relative: &Rigid) -> Self {
+        Self::new(self.body, self.offset.then(relative))
+    }
+}
+
+/// Poses of the seven bodies at one configuration, in the base frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyPoses {
+    /// `T_base_body`; index 0 is the identity, index i the folded frame of joint i (z = its axis).
+    pub(crate) bodies: [Rigid; AXES + 1],
+}
+
+impl BodyPoses {
+    /// `T_base_frame` as matrix and vector.
+    #[inline]
+    #[must_use]
+    pub fn rigid(&self, frame: &Frame) -> Rigid {
+        self.bodies[frame.body].then(&frame.offset)
+    }
+
+    /// `T_base_frame`.
+    #[must_use]
+    pub fn pose(&self, frame: &Frame) -> Pose {
+        Pose::from(&self.rigid(frame))
+    }
+}
+
+impl RobotModel {
+    /// Poses of all bodies at the joint positions `q` \[rad\]. Limits are not checked; NaN in, NaN out.
+    #[must_use]
+    pub fn fk(&self, q: &JointVector) -> BodyPoses {
+        let mut bodies = [Rigid::identity(); AXES + 1];
+        for (i, folded) in self.folded().iter().enumerate() {
+            bodies[i + 1] = bodies[i].then(folded).turned_about_z(q[i]);
+        }
+        BodyPoses { bodies }
+    }
+
+    /// Pose `T_base_frame` of one frame at `q` \[rad\].
+    #[must_use]
+    pub fn pose(&self, q: &JointVector, frame: &Frame) -> Pose {
+        self.fk(q).pose(frame)
+    }
+}

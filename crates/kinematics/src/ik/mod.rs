@@ -1,0 +1,146 @@
+//! Inverse kinematics: damped least squares with a QP fallback.
+//!
+//! # What is solved
+//!
+//! Find `q` within the joint limits whose frame pose `T_base_frame(q)` equals the target, to
+//! [`IkSettings::position_tolerance_m`] and [`IkSettings::orientation_tolerance_rad`]. The error is
+//!
+//! `e(q) = (p* − p(q),  log(R* R(q)ᵀ))` — metres and radians, in base axes, one weight each,
+//!
+//! and `J(q)` the geometric Jacobian in base axes.
+//!
+//! # The cascade, in order
+//!
+//! 1. **DLS** from the caller's seed ([`dls`]): `Δq = (JᵀJ + λI)⁻¹ Jᵀ e`, with `λ` proportional to `‖e‖²`
+//!    (Sugihara, *IEEE Trans. Robotics* 2011) and raised tenfold after a step that does not reduce the
+//!    error (Levenberg–Marquardt); steps are bounded and clamped to the limits.
+//! 2. **QP** ([`qp`]), from where DLS stopped, when it stopped for one of two reasons: *stagnation* (the
+//!    error fell by less than 10 % in 8 iterations) or an *active limit* (three accepted steps in a row were
+//!    clamped). It solves `min ‖J Δq − e‖² + λ‖Δq‖²` within the joint position bounds and a step bound
+//!    (clarabel) until DLS on the joints that are free of their limits can polish the answer to the
+//!    same tolerance.
+//! 3. A target beyond the arm's [reach bound](crate::RobotModel::reach_bound) ends here, as unreachable.
+//! 4. **Listed starts** ([`starts`]): steps 1 and 2 again from a fixed list of configurations, the nearest
+//!    in pose first. The list depends on the arm alone, so the answer depends on the arguments alone.
+//!    (From these, QP runs for an active limit only.)
+//! 5. **Random restarts**, only when the caller asks for them with a seed of their own
+//!    ([`RandomRestarts`]).
+//!
+//! Whatever step answers, the result is checked once more in one place: inside the limits and within both
+//! tolerances, or it is an error.
+
+mod cascade;
+pub mod dls;
+pub mod qp;
+mod settings;
+pub mod starts;
+mod task;
+
+pub use cascade::IkSolver;
+pub use settings::{IkSettings, IkSettingsError, RandomRestarts};
+
+use crate::JointVector;
+use serde::Serialize;
+
+/// Which method found the answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// Damped least squares.
+    Dls,
+    /// The quadratic program, polished by damped least squares on the free joints.
+    Qp,
+}
+
+/// From where the answer was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Start {
+    /// The caller's seed.
+    Seed,
+    /// An entry of the listed starts, counted in the order tried.
+    Listed(usize),
+    /// A random restart, counted in the order tried.
+    Random(usize),
+}
+
+/// A configuration within the limits that meets both tolerances.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct IkSolution {
+    /// Joint positions \[rad\].
+    pub q: JointVector,
+    /// Linear systems and QPs solved, over all starts.
+    pub iterations: usize,
+    /// The method that answered.
+    pub method: Method,
+    /// The start that led to the answer.
+    pub start: Start,
+    /// Distance of the frame's origin from the target's \[m\].
+    pub position_error_m: f64,
+    /// Angle between the frame and the target \[rad\].
+    pub orientation_error_rad: f64,
+}
+
+/// Why no start led to the target; read at the best configuration found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, thiserror::Error)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum IkCause {
+    /// The target lies beyond the arm's reach bound; or no joint motion reduces the error to first order
+    /// (`‖Jᵀe‖ ≤ 10⁻³ ‖J‖ ‖e‖`) and no limit is in the way.
+    #[error("unreachable")]
+    Unreachable,
+    /// A joint stands at its limit and would have to go on (the one with the largest pull is named).
+    #[error("stopped by the limit of joint {}", .joint + 1)]
+    Limit {
+        /// Joint index, 0 for joint 1.
+        joint: usize,
+    },
+    /// The Jacobian has nearly lost a direction (smallest singular value below 10⁻³) that is needed.
+    #[error("singular")]
+    Singular,
+    /// Iterations ran out while the error was still falling.
+    #[error("out of iterations")]
+    Iterations,
+}
+
+/// No solution was found: the best configuration and why it stopped there.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct IkFailure {
+    /// The configuration with the smallest error found, within the limits \[rad\].
+    pub q: JointVector,
+    /// Linear systems and QPs solved, over all starts.
+    pub iterations: usize,
+    /// Why.
+    pub cause: IkCause,
+    /// Distance of the frame's origin from the target's \[m\].
+    pub position_error_m: f64,
+    /// Angle between the frame and the target \[rad\].
+    pub orientation_error_rad: f64,
+}
+
+/// Why [`IkSolver::solve`] did not answer.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum IkError {
+    /// The target pose has NaN or infinite entries.
+    #[error("the target pose is not finite: position {position:?} m")]
+    Target {
+        /// The position as given.
+        position: [f64; 3],
+    },
+    /// The seed has a NaN or infinite entry.
+    #[error("the seed of joint {} is not finite: {found}", .joint + 1)]
+    Seed {
+        /// Joint index, 0 for joint 1.
+        joint: usize,
+        /// What was given \[rad\].
+        found: f64,
+    },
+    /// No start led to the target.
+    #[error(
+        "no solution ({}): best configuration is {:.3e} m and {:.3e} rad off after {} iterations",
+        .0.cause, .0.position_error_m, .0.orientation_error_rad, .0.iterations
+    )]
+    NotSolved(IkFailure),
+}

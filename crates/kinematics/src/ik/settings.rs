@@ -1,0 +1,112 @@
+//! Settings of the inverse kinematics.
+
+use std::f64::consts::PI;
+
+/// Restarts from random configurations within the limits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RandomRestarts {
+    /// Seed of the random stream; the same seed gives the same answer.
+    pub seed: u64,
+    /// How many to try.
+    pub count: usize,
+}
+
+/// Settings of [`super::IkSolver`]; [`IkSettings::default`] suits the IRB 120 and arms of its size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IkSettings {
+    /// Largest accepted distance between the frame's origin and the target's \[m\]; default 1e-6.
+    pub position_tolerance_m: f64,
+    /// Largest accepted angle between the frame and the target \[rad\]; default 1e-6.
+    pub orientation_tolerance_rad: f64,
+    /// Most DLS iterations from one start; default 60.
+    pub max_iterations: usize,
+    /// Most quadratic programs from one start; default 30.
+    pub max_qp_iterations: usize,
+    /// Damping per squared error: `λ = damping ‖e‖²` (e in m and rad); default 0.3.
+    pub damping: f64,
+    /// Largest joint step of one iteration \[rad\]; default 0.7.
+    pub step_bound_rad: f64,
+    /// How many of the listed starts are tried after the seed; default 24, at most [`super::starts::LISTED`].
+    pub listed_starts: usize,
+    /// Random restarts after the listed ones; default none.
+    pub random_restarts: Option<RandomRestarts>,
+}
+
+impl Default for IkSettings {
+    fn default() -> Self {
+        Self {
+            position_tolerance_m: 1e-6,
+            orientation_tolerance_rad: 1e-6,
+            max_iterations: 60,
+            max_qp_iterations: 30,
+            damping: 0.3,
+            step_bound_rad: 0.7,
+            listed_starts: 24,
+            random_restarts: None,
+        }
+    }
+}
+
+/// A setting out of its range.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("IK setting {name} must be {expected}; found {found}")]
+pub struct IkSettingsError {
+    /// The setting's name.
+    pub name: &'static str,
+    /// Its range.
+    pub expected: &'static str,
+    /// The value found.
+    pub found: f64,
+}
+
+impl IkSettings {
+    /// Checks every setting against its range.
+    ///
+    /// # Errors
+    /// [`IkSettingsError`] for the first setting out of range, NaN included.
+    pub fn validate(&self) -> Result<(), IkSettingsError> {
+        let tolerance = |v: f64| (1e-13..=1.0).contains(&v);
+        let checks = [
+            (
+                "position_tolerance_m",
+                self.position_tolerance_m,
+                "in [1e-13, 1] m",
+                tolerance(self.position_tolerance_m),
+            ),
+            (
+                "orientation_tolerance_rad",
+                self.orientation_tolerance_rad,
+                "in [1e-13, 1] rad",
+                tolerance(self.orientation_tolerance_rad),
+            ),
+            (
+                "max_iterations",
+                self.max_iterations as f64,
+                "at least 1",
+                self.max_iterations >= 1,
+            ),
+            (
+                "damping",
+                self.damping,
+                "in [0, 1e6]",
+                (0.0..=1e6).contains(&self.damping),
+            ),
+            (
+                "step_bound_rad",
+                self.step_bound_rad,
+                "in (0, π] rad",
+                self.step_bound_rad > 0.0 && self.step_bound_rad <= PI,
+            ),
+            (
+                "listed_starts",
+                self.listed_starts as f64,
+                "at most 256",
+                self.listed_starts <= super::starts::LISTED,
+            ),
+        ];
+        match checks.into_iter().find(|(_, _, _, fine)| !fine) {
+            Some((name, found, expected, _)) => Err(IkSettingsError { name, expected, found }),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! The listed starts: a fixed, evenly spread set of configurations within the limits.
+//!
+//! They are the first [`LISTED`] points of the six-dimensional Halton sequence (bases 2, 3, 5, 7, 11, 13;
+//! Halton 1960), scaled to the joint limits, with joints that turn further than ±π kept within it. For
+//! a target, the starts whose frame is nearest to it are tried first: squared distance of the origins in
+//! metres plus 0.05 of the squared chord between the rotations.
+
+use crate::fk::Frame;
+use crate::rotation::Rigid;
+use crate::{AXES, JointVector, RobotModel};
+use std::f64::consts::PI;
+
+/// Length of the list.
+pub const LISTED: usize = 256;
+
+const BASES: [u32; AXES] = [2, 3, 5, 7, 11, 13];
+const ROTATION_WEIGHT: f64 = 0.05;
+
+/// The list for one frame of one arm.
+#[derive(Debug, Clone)]
+pub(super) struct Starts {
+    entries: Vec<(JointVector, Rigid)>,
+}
+
+impl Starts {
+    pub fn new(robot: &RobotModel, frame: &Frame) -> Self {
+        let entry = |k| {
+            let q = halton(robot, k);
+            (q, robot.fk(&q).rigid(frame))
+        };
+        Self {
+            entries: (1..=LISTED as u32).map(entry).collect(),
+        }
+    }
+
+    /// The `count` starts nearest to the target, nearest first (ties by position in the list).
+    pub fn nearest(&self, target: &Rigid, count: usize) -> Vec<JointVector> {
+        let distance = |pose: &Rigid| {
+            let chord = (pose.rotation - target.rotation).norm_squared();
+            (pose.translation - target.translation).norm_squared() + ROTATION_WEIGHT * chord
+        };
+        let mut ranked: Vec<_> = self.entries.iter().map(|(q, pose)| (distance(pose), q)).collect();
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ranked.into_iter().take(count).map(|(_, q)| *q).collect()
+    }
+}
+
+/// Point `k` of the sequence within the arm's limits \[rad\].
+fn halton(robot: &RobotModel, k: u32) -> JointVector {
+    JointVector::from_fn(|joint, _| {
+        let [lower, upper] = robot.limits().sampling_range(joint);
+        let within_a_turn = [lower.max(-PI), upper.min(PI)];
+        let [lower, upper] = if within_a_turn[0] < within_a_turn[1] {
+            within_a_turn
+        } else {
+            [lower, upper]
+        };
+        lower + (upper - lower) * radical_inverse(k, BASES[joint])
+    })
+}
+
+/// The digits of `k` mirrored at the radix point, in (0, 1).
+fn radical_inverse(mut k: u32, base: u32) -> f64 {
+    let (mut value, mut place) = (0.0, 1.0);
+    while k > 0 {
+        place /= f64::from(base);
+        value += f64::from(k % base) * place;
+        k /= base;
+    }
+    value
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn radical_inverse_mirrors_the_digits() {
+        assert_eq!([1, 2, 3, 4].map(|k| radical_inverse(k, 2)), [0.5, 0.25, 0.75, 0.125]);
+        assert!((radical_inverse(5, 3) - (2.0 / 3.0 + 1.0 / 9.0)).abs() < 1e-15);
+    }
+}

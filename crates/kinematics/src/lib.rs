@@ -1,0 +1,71 @@
+//! Kinematics of six-axis serial arms: URDF in, poses, Jacobians and inverse kinematics out.
+//!
+//! # Conventions (for the whole project)
+//!
+//! - SI units and radians everywhere; a name carries its unit where it is not obvious (`length_m`,
+//!   `start_deg` in files).
+//! - `T_a_b` maps coordinates in frame `b` to frame `a`: `p_a = T_a_b p_b`. A *pose* of frame `b` is
+//!   `T_base_b`, with `base` the root link of the URDF, unless another frame is named.
+//! - A rotation vector is axis × angle, angle in [0, π]. Roll–pitch–yaw is URDF's: fixed axes x, y, z,
+//!   `R = Rz(yaw) Ry(pitch) Rx(roll)`. A quaternion is written (w, x, y, z).
+//! - A twist and every six-row matrix is (linear, angular): rows 0–2 m or m/s, rows 3–5 rad or rad/s.
+//! - Joint vectors are ordered from the base to the tip: index 0 is joint 1.
+//!
+//! # Where things are
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | URDF text → [`RobotModel`], every malformation named | [`urdf`] |
+//! | collision pairs that may be ignored (SRDF) | [`srdf`] |
+//! | the immutable arm: joints, links, frames | [`model`] |
+//! | joint limits and margins | [`limits`] |
+//! | collision shapes | [`geometry`] |
+//! | forward kinematics | [`fk`] |
+//! | geometric Jacobian, manipulability | [`jacobian`] |
+//! | tool frames by name | [`tool_frame`] |
+//! | inverse kinematics | [`ik`] |
+//! | trigonometry, the same on every machine | [`trig`] |
+//!
+//! # Example
+//!
+//! ```
+//! use platewash_kinematics::{ik::{IkSettings, IkSolver}, JointVector, RobotModel, ToolFrame};
+//!
+//! let robot = RobotModel::irb120()?;
+//! let tool0 = robot.tool_frame(ToolFrame::Tool0)?;
+//! let q = JointVector::new(0.1, 0.2, -0.1, 0.3, 0.8, 0.0);
+//! let target = robot.pose(&q, &tool0);
+//! let solver = IkSolver::new(&robot, tool0, IkSettings::default())?;
+//! let answer = solver.solve(&target, &JointVector::zeros())?;
+//! assert!(answer.position_error_m <= 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod fk;
+pub mod geometry;
+pub mod ik;
+pub mod jacobian;
+pub mod limits;
+pub mod model;
+pub mod rotation;
+pub mod srdf;
+pub mod tool_frame;
+pub mod trig;
+pub mod urdf;
+
+pub use fk::{BodyPoses, Frame};
+pub use jacobian::{Axes, Jacobian};
+pub use limits::{JointLimits, LimitViolation};
+pub use model::{Joint, Link, RobotModel};
+pub use srdf::{DisabledPairs, SrdfError};
+pub use tool_frame::{ToolFrame, ToolFrameError};
+pub use urdf::UrdfError;
+
+/// Number of joints of every arm that this project handles.
+pub const AXES: usize = 6;
+
+/// One value per joint, from the base to the tip: \[rad\] for positions, \[rad/s\] for speeds.
+pub type JointVector = nalgebra::Vector6<f64>;
+
+/// A rigid transform `T_a_b`: rotation as a unit quaternion, translation in metres.
+pub type Pose = nalgebra::Isometry3<f64>;

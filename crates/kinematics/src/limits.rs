@@ -1,0 +1,124 @@
+//! Joint limits, margins and violations.
+
+use crate::{AXES, JointVector};
+use serde::Serialize;
+
+/// Position, speed and effort limits of the six joints, in joint order.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JointLimits {
+    /// Lowest position \[rad\]; −∞ for a continuous joint.
+    pub lower: JointVector,
+    /// Highest position \[rad\]; +∞ for a continuous joint.
+    pub upper: JointVector,
+    /// Highest speed, both ways \[rad/s\]; positive.
+    pub velocity: JointVector,
+    /// Highest torque \[N·m\], where the description knows one: an effort of 0 means "unknown".
+    pub effort: [Option<f64>; AXES],
+}
+
+/// A joint that stands outside its position limits.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LimitViolation {
+    /// Joint index, 0 for joint 1.
+    pub joint: usize,
+    /// Position found \[rad\].
+    pub position_rad: f64,
+    /// The limit that is broken \[rad\].
+    pub limit_rad: f64,
+}
+
+impl JointLimits {
+    /// Distance of each joint from its nearer limit \[rad\]: negative outside, +∞ for a continuous joint.
+    #[must_use]
+    pub fn margins(&self, q: &JointVector) -> JointVector {
+        (q - self.lower).inf(&(self.upper - q))
+    }
+
+    /// Whether every joint is at or inside its limits; false for NaN.
+    #[must_use]
+    pub fn contain(&self, q: &JointVector) -> bool {
+        (0..AXES).all(|i| self.lower[i] <= q[i] && q[i] <= self.upper[i])
+    }
+
+    /// The first joint outside its limits (or NaN), if any.
+    #[must_use]
+    pub fn violation(&self, q: &JointVector) -> Option<LimitViolation> {
+        (0..AXES).find_map(|joint| {
+            let (position_rad, lower, upper) = (q[joint], self.lower[joint], self.upper[joint]);
+            let inside = lower <= position_rad && position_rad <= upper;
+            let limit_rad = if position_rad < lower { lower } else { upper };
+            (!inside).then_some(LimitViolation {
+                joint,
+                position_rad,
+                limit_rad,
+            })
+        })
+    }
+
+    /// The nearest configuration inside the limits, joint by joint.
+    #[must_use]
+    pub fn clamp(&self, q: &JointVector) -> JointVector {
+        q.sup(&self.lower).inf(&self.upper)
+    }
+
+    /// The finite range that sampling uses: the limits, with ±π for a continuous joint \[rad\].
+    #[must_use]
+    pub fn sampling_range(&self, joint: usize) -> [f64; 2] {
+        use std::f64::consts::PI;
+        let (lower, upper) = (self.lower[joint], self.upper[joint]);
+        if lower.is_finite() && upper.is_finite() {
+            [lower, upper]
+        } else {
+            [lower.max(-PI), upper.min(PI)]
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn limits() -> JointLimits {
+        JointLimits {
+            lower: JointVector::new(-1.0, -2.0, f64::NEG_INFINITY, 0.5, -1.0, -1.0),
+            upper: JointVector::new(1.0, 3.0, f64::INFINITY, 0.75, 1.0, 1.0),
+            velocity: JointVector::repeat(1.0),
+            effort: [None; AXES],
+        }
+    }
+
+    #[test]
+    fn margins_are_signed_distances_to_the_nearer_limit() {
+        let q = JointVector::new(0.25, 3.5, 100.0, 0.625, -1.0, f64::NAN);
+        let margins = limits().margins(&q);
+        assert_eq!(margins[0], 0.75);
+        assert_eq!(margins[1], -0.5);
+        assert_eq!(margins[2], f64::INFINITY);
+        assert_eq!(margins[3], 0.125);
+        assert_eq!(margins[4], 0.0);
+    }
+
+    #[test]
+    fn nan_is_never_inside() {
+        let mut q = JointVector::new(0.0, 0.0, 0.0, 0.6, 0.0, 0.0);
+        assert!(limits().contain(&q));
+        assert_eq!(limits().violation(&q), None);
+        q[5] = f64::NAN;
+        assert!(!limits().contain(&q));
+        assert_eq!(limits().violation(&q).map(|v| v.joint), Some(5));
+    }
+
+    #[test]
+    fn clamp_returns_the_nearest_point_inside() {
+        let q = limits().clamp(&JointVector::new(9.0, -9.0, 9.0, 0.0, 0.0, 0.0));
+        assert_eq!(q, JointVector::new(1.0, -2.0, 9.0, 0.5, 0.0, 0.0));
+        assert!(limits().contain(&q));
+    }
+
+    #[test]
+    fn a_continuous_joint_is_sampled_over_one_turn() {
+        use std::f64::consts::PI;
+        assert_eq!(limits().sampling_range(2), [-PI, PI]);
+        assert_eq!(limits().sampling_range(3), [0.5, 0.75]);
+    }
+}

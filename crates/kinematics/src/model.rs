@@ -1,0 +1,152 @@
+//! The immutable model of a six-axis arm.
+
+use crate::fk::Frame;
+use crate::geometry::{Inertial, Primitive};
+use crate::limits::JointLimits;
+use crate::rotation::Rigid;
+use crate::srdf::DisabledPairs;
+use crate::urdf::{self, MeshSource, UrdfError};
+use crate::{AXES, SrdfError};
+use nalgebra::Point3;
+
+/// A revolute joint of the chain.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Joint {
+    /// Name in the description.
+    pub name: String,
+    /// Name of the link it moves.
+    pub child: String,
+}
+
+/// A link of the description, moving or fixed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// Name in the description.
+    pub name: String,
+    /// The link frame, fixed to the body that carries it.
+    pub frame: Frame,
+    /// Collision geometry in the link frame; empty for pure frames.
+    pub collision: Vec<Primitive>,
+    /// Mass properties, where stated.
+    pub inertial: Option<Inertial>,
+}
+
+/// What went wrong while the embedded IRB 120 was read; never seen unless the sources were edited.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EmbeddedModelError {
+    /// The URDF does not load.
+    #[error(transparent)]
+    Urdf(#[from] UrdfError),
+    /// The SRDF does not load.
+    #[error(transparent)]
+    Srdf(#[from] SrdfError),
+}
+
+/// Text of the embedded description of the ABB IRB 120.
+pub const IRB120_URDF: &str = include_str!("../../../urdf/irb120.urdf");
+/// Text of the embedded list of its link pairs that need no collision check.
+pub const IRB120_SRDF: &str = include_str!("../../../urdf/irb120.srdf");
+
+/// An arm with six revolute axes in series, as its URDF describes it. Immutable once built.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RobotModel {
+    pub(crate) name: String,
+    pub(crate) sha256: String,
+    pub(crate) joints: [Joint; AXES],
+    pub(crate) limits: JointLimits,
+    pub(crate) folded: [Rigid; AXES],
+    pub(crate) links: Vec<Link>,
+    pub(crate) last_link: Frame,
+    pub(crate) disabled: Option<DisabledPairs>,
+}
+
+impl RobotModel {
+    /// The embedded ABB IRB 120, with its list of link pairs that may be ignored.
+    ///
+    /// # Errors
+    /// None in a released build: the embedded text is tested.
+    pub fn irb120() -> Result<Self, EmbeddedModelError> {
+        let model = Self::from_urdf(IRB120_URDF, &MeshSource::none())?;
+        let disabled = DisabledPairs::parse(IRB120_SRDF)?;
+        Ok(model.with_disabled_pairs(disabled)?)
+    }
+
+    /// A model from expanded URDF text; `meshes` says where `package://` and relative mesh files are.
+    ///
+    /// # Errors
+    /// [`UrdfError`], naming the joint or link at fault.
+    pub fn from_urdf(text: &str, meshes: &MeshSource) -> Result<Self, UrdfError> {
+        urdf::load(text, meshes)
+    }
+
+    /// The same model with a list of link pairs that need no collision check.
+    ///
+    /// # Errors
+    /// [`SrdfError::UnknownLink`] when the list names a link that this arm does not have.
+    pub fn with_disabled_pairs(mut self, disabled: DisabledPairs) -> Result<Self, SrdfError> {
+        disabled.check_links(self.links.iter().map(|l| l.name.as_str()))?;
+        self.disabled = Some(disabled);
+        Ok(self)
+    }
+
+    /// Name in the description.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// SHA-256 of the URDF text, in lower-case hexadecimal.
+    #[must_use]
+    pub fn sha256(&self) -> &str {
+        &self.sha256
+    }
+
+    /// The six joints from the base to the tip.
+    #[must_use]
+    pub fn joints(&self) -> &[Joint; AXES] {
+        &self.joints
+    }
+
+    /// Limits of the six joints.
+    #[must_use]
+    pub fn limits(&self) -> &JointLimits {
+        &self.limits
+    }
+
+    /// Every link of the description, ordered from the root outwards.
+    #[must_use]
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// Frame of the link behind joint 6.
+    #[must_use]
+    pub fn last_link_frame(&self) -> Frame {
+        self.last_link
+    }
+
+    /// Link pairs that need no collision check, where a list was given.
+    #[must_use]
+    pub fn disabled_pairs(&self) -> Option<&DisabledPairs> {
+        self.disabled.as_ref()
+    }
+
+    /// Upper bound on the distance of `frame`'s origin from a fixed point, and that point in the base frame \[m\].
+    ///
+    /// The point is where joint 2's origin projects onto axis 1; the bound is the sum of the constant
+    /// distances along the chain from there (triangle inequality). Beyond it nothing can be reached.
+    #[must_use]
+    pub fn reach_bound(&self, frame: &Frame) -> (Point3<f64>, f64) {
+        let second = self.folded[1].translation;
+        let off_axis = second.xy().norm();
+        let centre = self.folded[0].translation + self.folded[0].rotation.column(2) * second.z;
+        let rest: f64 = self.folded[2..].iter().map(|f| f.translation.norm()).sum();
+        (centre.into(), off_axis + rest + frame.offset.translation.norm())
+    }
+
+    /// `F_i = T_{i−1}_i` at q = 0 between folded joint frames.
+    pub(crate) fn folded(&self) -> &[Rigid; AXES] {
+        &self.folded
+    }
+}

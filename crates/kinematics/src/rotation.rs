@@ -1,0 +1,179 @@
+//! Rotation matrices, rotation vectors and folded rigid transforms.
+
+use crate::Pose;
+use crate::trig::{atan2, sin_cos};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+/// A rigid transform as matrix and vector, `p_a = R p_b + t`: the form in which chains are folded, because
+/// one product is cheaper than with quaternions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rigid {
+    /// Rotation matrix `R_a_b`.
+    pub rotation: Matrix3<f64>,
+    /// Origin of `b` in `a` \[m\].
+    pub translation: Vector3<f64>,
+}
+
+impl Rigid {
+    /// The identity.
+    #[must_use]
+    pub fn identity() -> Self {
+        Self {
+            rotation: Matrix3::identity(),
+            translation: Vector3::zeros(),
+        }
+    }
+
+    /// `T_a_c = T_a_b T_b_c`.
+    #[inline]
+    #[must_use]
+    pub fn then(&self, next: &Self) -> Self {
+        Self {
+            rotation: self.rotation * next.rotation,
+            translation: self.rotation * next.translation + self.translation,
+        }
+    }
+
+    /// The same transform with its last frame turned by `angle` \[rad\] about that frame's own z axis.
+    #[inline]
+    #[must_use]
+    pub fn turned_about_z(&self, angle: f64) -> Self {
+        let (s, c) = sin_cos(angle);
+        let (x, y) = (self.rotation.column(0), self.rotation.column(1));
+        Self {
+            rotation: Matrix3::from_columns(&[x * c + y * s, y * c - x * s, self.rotation.column(2).into()]),
+            translation: self.translation,
+        }
+    }
+
+    /// The inverse transform.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let rotation = self.rotation.transpose();
+        Self {
+            rotation,
+            translation: -(rotation * self.translation),
+        }
+    }
+}
+
+impl From<&Pose> for Rigid {
+    fn from(pose: &Pose) -> Self {
+        Self {
+            rotation: *pose.rotation.to_rotation_matrix().matrix(),
+            translation: pose.translation.vector,
+        }
+    }
+}
+
+impl From<&Rigid> for Pose {
+    fn from(rigid: &Rigid) -> Self {
+        let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rigid.rotation));
+        Pose::from_parts(rigid.translation.into(), rotation)
+    }
+}
+
+/// Rotation matrix of URDF's roll, pitch, yaw \[rad\]: `Rz(yaw) Ry(pitch) Rx(roll)`.
+#[must_use]
+pub fn from_rpy(rpy: [f64; 3]) -> Matrix3<f64> {
+    let [(sr, cr), (sp, cp), (sy, cy)] = rpy.map(sin_cos);
+    Matrix3::new(
+        cy * cp,
+        cy * sp * sr - sy * cr,
+        cy * sp * cr + sy * sr,
+        sy * cp,
+        sy * sp * sr + cy * cr,
+        sy * sp * cr - cy * sr,
+        -sp,
+        cp * sr,
+        cp * cr,
+    )
+}
+
+/// Rotation vector (axis × angle, angle in [0, π]) of a rotation matrix: the logarithm on SO(3).
+///
+/// Exact to rounding everywhere: the angle comes from `atan2(‖v‖, tr R − 1)` with `v` the skew part, which
+/// is accurate near 0; near π, where `v` vanishes, the axis comes from the symmetric part
+/// `(R + Rᵀ)/2 = cos θ I + (1 − cos θ) a aᵀ` and only its sign from `v`.
+#[must_use]
+pub fn rotation_vector(r: &Matrix3<f64>) -> Vector3<f64> {
+    // v = 2 sin θ · axis, and tr R − 1 = 2 cos θ.
+    let v = Vector3::new(r.m32 - r.m23, r.m13 - r.m31, r.m21 - r.m12);
+    let (two_sin, two_cos) = (v.norm(), r.trace() - 1.0);
+    let angle = atan2(two_sin, two_cos);
+    if two_cos > -1.9 {
+        // θ/(2 sin θ) → 1/2 at 0; the series is exact to rounding below 1e-8.
+        let scale = if two_sin < 1e-8 { 0.5 } else { angle / two_sin };
+        return v * scale;
+    }
+    let cosine = 0.5 * two_cos;
+    let symmetric = (r + r.transpose()) * 0.5 - Matrix3::identity() * cosine;
+    let longest = (0..3)
+        .max_by(|&a, &b| symmetric[(a, a)].total_cmp(&symmetric[(b, b)]))
+        .unwrap_or(0);
+    let axis = symmetric.column(longest).normalize();
+    let sign = if axis.dot(&v) < 0.0 { -1.0 } else { 1.0 };
+    axis * (sign * angle)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::f64::consts::PI;
+
+    fn exp(v: Vector3<f64>) -> Matrix3<f64> {
+        *Rotation3::from_scaled_axis(v).matrix()
+    }
+
+    proptest! {
+        #[test]
+        fn logarithm_inverts_the_exponential(x in -1.0..1.0f64, y in -1.0..1.0f64, z in -1.0..1.0f64, angle in 0.0..PI) {
+            let v = Vector3::new(x, y, z);
+            prop_assume!(v.norm() > 1e-3);
+            let v = v.normalize() * angle;
+            prop_assert!((rotation_vector(&exp(v)) - v).norm() < 1e-13, "{v:?}");
+        }
+
+        #[test]
+        fn inverse_undoes(r in -3.0..3.0f64, p in -3.0..3.0f64, y in -3.0..3.0f64, t in -2.0..2.0f64) {
+            let a = Rigid { rotation: from_rpy([r, p, y]), translation: Vector3::new(t, -t, 0.3) };
+            let one = a.then(&a.inverse());
+            prop_assert!((one.rotation - Matrix3::identity()).norm() < 1e-14);
+            prop_assert!(one.translation.norm() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn logarithm_at_zero_tiny_and_near_pi() {
+        assert_eq!(rotation_vector(&Matrix3::identity()), Vector3::zeros());
+        let axes = [
+            Vector3::x(),
+            Vector3::y(),
+            -Vector3::z(),
+            Vector3::new(1.0, -2.0, 0.5).normalize(),
+            Vector3::new(-1e-9, 1.0, 1e-9).normalize(),
+        ];
+        for axis in axes {
+            for angle in [1e-12, 1e-8, 1e-4, 1.0, 3.0, PI - 1e-4, PI - 1e-8] {
+                let v = axis * angle;
+                assert!(
+                    (rotation_vector(&exp(v)) - v).norm() < 1e-14 + 1e-14 * angle,
+                    "{axis:?} {angle}"
+                );
+            }
+            // At π exactly both signs of the axis are right.
+            let found = rotation_vector(&exp(axis * PI));
+            assert!((found.norm() - PI).abs() < 1e-14);
+            assert!((found.normalize().dot(&axis).abs() - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn rpy_turns_about_fixed_axes_in_the_order_x_y_z() {
+        let by_hand = Rotation3::from_axis_angle(&Vector3::z_axis(), 0.3)
+            * Rotation3::from_axis_angle(&Vector3::y_axis(), -0.7)
+            * Rotation3::from_axis_angle(&Vector3::x_axis(), 1.9);
+        assert!((from_rpy([1.9, -0.7, 0.3]) - by_hand.matrix()).norm() < 1e-15);
+    }
+}

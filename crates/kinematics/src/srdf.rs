@@ -1,0 +1,157 @@
+//! Link pairs that need no collision check, read from an SRDF file (the `disable_collisions` elements that
+//! MoveIt's set-up assistant writes).
+
+use quick_xml::events::{BytesStart, Event};
+use quick_xml::reader::Reader;
+
+/// Unordered pairs of link names that need no collision check.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct DisabledPairs {
+    pairs: Vec<(String, String)>,
+}
+
+/// Why an SRDF file was refused.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SrdfError {
+    /// Not well-formed XML.
+    #[error("SRDF is not well-formed XML at byte {position}: {detail}")]
+    Xml {
+        /// Byte offset.
+        position: u64,
+        /// The parser's words.
+        detail: String,
+    },
+    /// The root element is not `<robot>`.
+    #[error("SRDF must have a <robot> root element; found {found}")]
+    NotARobot {
+        /// What stands there.
+        found: String,
+    },
+    /// A `disable_collisions` element without one of its links.
+    #[error("SRDF: a <disable_collisions> element at byte {position} has no attribute '{attribute}'")]
+    MissingAttribute {
+        /// Byte offset.
+        position: u64,
+        /// `link1` or `link2`.
+        attribute: &'static str,
+    },
+    /// A link that the arm does not have.
+    #[error("SRDF names link '{link}', which the URDF does not have")]
+    UnknownLink {
+        /// The name.
+        link: String,
+    },
+}
+
+impl DisabledPairs {
+    /// Reads the `disable_collisions` elements of an SRDF text; everything else in it is ignored.
+    ///
+    /// # Errors
+    /// [`SrdfError`] for broken XML, another root element, or an element without its links.
+    pub fn parse(text: &str) -> Result<Self, SrdfError> {
+        let mut reader = Reader::from_str(text);
+        let mut pairs = Vec::new();
+        let mut root_seen = false;
+        let mut depth = 0_usize;
+        loop {
+            let position = reader.buffer_position();
+            let event = reader.read_event().map_err(|e| xml(position, &e))?;
+            match &event {
+                Event::Start(tag) | Event::Empty(tag) => {
+                    if !root_seen && tag.name().as_ref() != "robot" {
+                        return Err(not_a_robot(tag));
+                    }
+                    root_seen = true;
+                    if tag.name().as_ref() == "disable_collisions" {
+                        pairs.push((attribute(tag, "link1", position)?, attribute(tag, "link2", position)?));
+                    }
+                    depth += usize::from(matches!(event, Event::Start(_)));
+                }
+                Event::End(_) => depth = depth.saturating_sub(1),
+                Event::Eof if depth > 0 => return Err(xml(position, &"the file ends inside an element")),
+                Event::Eof if !root_seen => {
+                    let found = "no element at all".to_owned();
+                    return Err(SrdfError::NotARobot { found });
+                }
+                Event::Eof => return Ok(Self { pairs }),
+                _ => {}
+            }
+        }
+    }
+
+    /// Whether the pair may be ignored, in either order.
+    #[must_use]
+    pub fn contains(&self, a: &str, b: &str) -> bool {
+        self.pairs.iter().any(|(x, y)| (x == a && y == b) || (x == b && y == a))
+    }
+
+    pub(crate) fn check_links<'a>(&self, known: impl Iterator<Item = &'a str> + Clone) -> Result<(), SrdfError> {
+        let unknown = self
+            .pairs
+            .iter()
+            .flat_map(|(a, b)| [a, b])
+            .find(|name| !known.clone().any(|k| k == *name));
+        match unknown {
+            Some(link) => Err(SrdfError::UnknownLink { link: link.clone() }),
+            None => Ok(()),
+        }
+    }
+}
+
+fn xml(position: u64, detail: &dyn std::fmt::Display) -> SrdfError {
+    let detail = detail.to_string();
+    SrdfError::Xml { position, detail }
+}
+
+fn not_a_robot(tag: &BytesStart<'_>) -> SrdfError {
+    let found = format!("<{}>", tag.name().as_ref());
+    SrdfError::NotARobot { found }
+}
+
+fn attribute(tag: &BytesStart<'_>, name: &'static str, position: u64) -> Result<String, SrdfError> {
+    tag.try_get_attribute(name)
+        .map_err(|e| xml(position, &e))?
+        .map(|a| a.value.into_owned())
+        .ok_or(SrdfError::MissingAttribute {
+            position,
+            attribute: name,
+        })
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_pairs_in_either_order() {
+        let text = r#"<?xml version="1.0"?><robot name="x"><group name="g"><chain base_link="a" tip_link="b"/></group>
+            <disable_collisions link1="a" link2="b" reason="Adjacent"/></robot>"#;
+        let pairs = DisabledPairs::parse(text).unwrap();
+        assert!(pairs.contains("a", "b") && pairs.contains("b", "a") && !pairs.contains("a", "c"));
+        assert_eq!(
+            pairs.check_links(["a", "c"].into_iter()),
+            Err(SrdfError::UnknownLink { link: "b".into() })
+        );
+    }
+
+    #[test]
+    fn refuses_what_is_not_an_srdf() {
+        assert!(matches!(DisabledPairs::parse(""), Err(SrdfError::NotARobot { .. })));
+        assert!(matches!(
+            DisabledPairs::parse("<sdf/>"),
+            Err(SrdfError::NotARobot { .. })
+        ));
+        assert!(matches!(DisabledPairs::parse("<robot>"), Err(SrdfError::Xml { .. })));
+        assert!(matches!(
+            DisabledPairs::parse("<robot></sdf>"),
+            Err(SrdfError::Xml { .. })
+        ));
+        let half = r#"<robot><disable_collisions link1="a"/></robot>"#;
+        assert!(matches!(
+            DisabledPairs::parse(half),
+            Err(SrdfError::MissingAttribute { attribute: "link2", .. })
+        ));
+    }
+}

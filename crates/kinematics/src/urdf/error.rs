@@ -1,0 +1,123 @@
+//! Why a URDF was refused.
+
+/// Why a URDF was refused; every variant says which element is at fault.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // the fields are named after what the message prints
+pub enum UrdfError {
+    /// Larger than any sensible description.
+    #[error("URDF is {bytes} bytes long; at most {limit} are read")]
+    TooLarge { bytes: usize, limit: usize },
+    /// Nested deeper than any sensible description.
+    #[error("URDF nests elements {depth} deep at line {line}; at most {limit} are read")]
+    TooDeep { depth: usize, limit: usize, line: usize },
+    /// Not well-formed XML.
+    #[error("URDF is not well-formed XML at line {line}: {detail}")]
+    Xml { line: usize, detail: String },
+    /// The file ends in the middle.
+    #[error("URDF ends inside <{element}> (line {line}): the file is cut off")]
+    Truncated { element: String, line: usize },
+    /// The root element is not `<robot>`.
+    #[error("URDF must have a <robot> root element; found {found}")]
+    NotARobot { found: String },
+    /// An unexpanded xacro file.
+    #[error("line {line} has the xacro tag <{tag}>: expand the file first with `xacro FILE.xacro > FILE.urdf`")]
+    Xacro { tag: String, line: usize },
+    /// An element that `urdf-rs` refuses (a bad number, a missing attribute, an unknown joint type).
+    #[error("URDF cannot be read: {detail}")]
+    Syntax { detail: String },
+    /// Two links or two joints share a name.
+    #[error("URDF has two {kind}s named '{name}'")]
+    Duplicate { kind: &'static str, name: String },
+    /// A joint refers to a link that does not exist.
+    #[error("joint '{joint}': its {role} link '{link}' does not exist")]
+    UnknownLink {
+        joint: String,
+        role: &'static str,
+        link: String,
+    },
+    /// A link is the child of two joints.
+    #[error("link '{link}' is the child of both joint '{first}' and joint '{second}'")]
+    TwoParents {
+        link: String,
+        first: String,
+        second: String,
+    },
+    /// Links that hang together in a ring.
+    #[error("link '{link}' is part of a cycle of joints")]
+    Cycle { link: String },
+    /// No link, or several links without a parent.
+    #[error("URDF must have exactly one root link; found {}", list(.found))]
+    Roots { found: Vec<String> },
+    /// Another number of axes than six.
+    #[error("six revolute or continuous joints are needed; found {}: {}", .found.len(), list(.found))]
+    AxisCount { found: Vec<String> },
+    /// The moving joints are not in series.
+    #[error("the six axes must be in series; joint '{joint}' does not move what joint '{previous}' moves")]
+    Branch { joint: String, previous: String },
+    /// A joint of a kind that this project does not handle.
+    #[error("joint '{joint}' is {kind}; only revolute, continuous and fixed joints are handled")]
+    JointKind { joint: String, kind: String },
+    /// A joint that follows another one.
+    #[error("joint '{joint}' mimics joint '{follows}'; independent axes are needed")]
+    Mimic { joint: String, follows: String },
+    /// A zero or non-finite axis.
+    #[error("joint '{joint}': axis must be a finite vector other than zero; found {found:?}")]
+    Axis { joint: String, found: [f64; 3] },
+    /// No `<limit>` element (or all zeros, which reads the same).
+    #[error("joint '{joint}' has no <limit> element (or one of zeros only): give lower, upper and velocity")]
+    MissingLimit { joint: String },
+    /// Reversed or empty limits.
+    #[error("joint '{joint}': lower limit {lower} rad must be below upper limit {upper} rad")]
+    LimitOrder { joint: String, lower: f64, upper: f64 },
+    /// Limits too large to be radians.
+    #[error("joint '{joint}': limits {lower} … {upper} exceed ±{limit_rad} rad; URDF states radians, not degrees")]
+    LimitSize {
+        joint: String,
+        lower: f64,
+        upper: f64,
+        limit_rad: f64,
+    },
+    /// A speed limit that is not positive and finite.
+    #[error("joint '{joint}': speed limit must be positive and finite [rad/s]; found {found}")]
+    Velocity { joint: String, found: f64 },
+    /// A negative torque limit.
+    #[error("joint '{joint}': effort must not be negative [N·m]; found {found} (0 means unknown)")]
+    Effort { joint: String, found: f64 },
+    /// NaN or infinity.
+    #[error("{at}: {what} must be finite; found {found}")]
+    NotFinite { at: String, what: String, found: String },
+    /// A length too large to be metres.
+    #[error("{at}: {what} {found} exceeds {limit_m} m; URDF states metres")]
+    TooLong {
+        at: String,
+        what: String,
+        found: String,
+        limit_m: f64,
+    },
+    /// A collision shape with a size that is not positive.
+    #[error("link '{link}': collision {shape} needs positive sizes; found {found}")]
+    ShapeSize {
+        link: String,
+        shape: &'static str,
+        found: String,
+    },
+    /// A mesh that cannot be found.
+    #[error("link '{link}': mesh '{file}' not found; looked in {}; give its package's folder with --package-path", list(.searched))]
+    MeshNotFound {
+        link: String,
+        file: String,
+        searched: Vec<String>,
+    },
+    /// A mesh that cannot be read.
+    #[error("link '{link}': mesh '{file}' cannot be read: {detail}")]
+    Mesh { link: String, file: String, detail: String },
+}
+
+fn list(names: &[String]) -> String {
+    if names.is_empty() {
+        "none".to_owned()
+    } else {
+        names.join(", ")
+    }
+}

@@ -1,0 +1,113 @@
+//! Collision meshes: found through package folders, read as vertices (their convex hull is what counts).
+
+use super::{UrdfError, length};
+use nalgebra::Point3;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+/// Where mesh files are looked for.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct MeshSource {
+    package_paths: Vec<PathBuf>,
+    urdf_folder: Option<PathBuf>,
+}
+
+impl MeshSource {
+    /// No folder at all: descriptions without meshes still load.
+    #[must_use]
+    pub fn none() -> Self {
+        Self::default()
+    }
+
+    /// Looks for `package://NAME/…` in each folder (as `FOLDER/NAME/…`, or `FOLDER/…` when the folder is
+    /// called NAME), and for relative files beside the URDF.
+    #[must_use]
+    pub fn new(package_paths: &[PathBuf], urdf_folder: Option<&Path>) -> Self {
+        Self {
+            package_paths: package_paths.to_vec(),
+            urdf_folder: urdf_folder.map(Path::to_path_buf),
+        }
+    }
+
+    /// The scaled vertices of a mesh file.
+    pub(super) fn load(&self, link: &str, file: &str, scale: [f64; 3]) -> Result<Vec<Point3<f64>>, UrdfError> {
+        let path = self.find(link, file)?;
+        let wrong = |detail: String| UrdfError::Mesh {
+            link: link.to_owned(),
+            file: path.display().to_string(),
+            detail,
+        };
+        let extension = path
+            .extension()
+            .and_then(|e| e.to_str())
+            .unwrap_or_default()
+            .to_lowercase();
+        let mut points = match extension.as_str() {
+            "stl" => stl(&path),
+            "obj" => obj(&path),
+            other => Err(format!("format '{other}' is not handled; convert it to STL or OBJ").into()),
+        }
+        .map_err(|e| wrong(e.to_string()))?;
+        for point in &mut points {
+            *point = Point3::new(point.x * scale[0], point.y * scale[1], point.z * scale[2]);
+            length(&format!("link '{link}'"), "mesh vertex", point.coords.as_slice())?;
+        }
+        if points.len() < 4 {
+            return Err(wrong(format!(
+                "it has {} vertices; a hull needs at least 4",
+                points.len()
+            )));
+        }
+        Ok(points)
+    }
+
+    fn find(&self, link: &str, file: &str) -> Result<PathBuf, UrdfError> {
+        let candidates = self.candidates(file);
+        candidates
+            .iter()
+            .find(|path| path.is_file())
+            .cloned()
+            .ok_or_else(|| UrdfError::MeshNotFound {
+                link: link.to_owned(),
+                file: file.to_owned(),
+                searched: candidates.iter().map(|path| path.display().to_string()).collect(),
+            })
+    }
+
+    fn candidates(&self, file: &str) -> Vec<PathBuf> {
+        if let Some(inside) = file.strip_prefix("package://") {
+            let (package, rest) = inside.split_once('/').unwrap_or((inside, ""));
+            let place = |folder: &PathBuf| {
+                let named = folder.file_name().is_some_and(|name| name == package);
+                [Some(folder.join(inside)), named.then(|| folder.join(rest))]
+            };
+            return self.package_paths.iter().flat_map(place).flatten().collect();
+        }
+        let path = Path::new(file.strip_prefix("file://").unwrap_or(file));
+        match &self.urdf_folder {
+            Some(folder) if path.is_relative() => vec![folder.join(path)],
+            _ => vec![path.to_path_buf()],
+        }
+    }
+}
+
+/// What a mesh reader answers; its error is only ever printed.
+type Vertices = Result<Vec<Point3<f64>>, Box<dyn std::error::Error>>;
+
+fn stl(path: &Path) -> Vertices {
+    let mesh = stl_io::read_stl(&mut BufReader::new(File::open(path)?))?;
+    let point = |v: &stl_io::Vertex| Point3::new(f64::from(v.0[0]), f64::from(v.0[1]), f64::from(v.0[2]));
+    Ok(mesh.vertices.iter().map(point).collect())
+}
+
+fn obj(path: &Path) -> Vertices {
+    let (models, _materials) = tobj::load_obj(path, &tobj::LoadOptions::default())?;
+    let points = |model: tobj::Model| {
+        let triples = model.mesh.positions.chunks_exact(3);
+        triples
+            .map(|v| Point3::new(v[0].into(), v[1].into(), v[2].into()))
+            .collect::<Vec<_>>()
+    };
+    Ok(models.into_iter().flat_map(points).collect())
+}

@@ -1,0 +1,244 @@
+//! URDF text to [`RobotModel`]: everything a lenient parser lets through is caught here, by name.
+//!
+//! The stages: [`scan`] bounds size and depth and finds cut files before any recursive parser sees them;
+//! `urdf-rs` reads the elements; [`tree`] checks the structure and orders the six joints; [`collision`]
+//! converts the geometry (recognising [`capsule`]s, loading meshes as hulls through [`mesh`]).
+//!
+//! xacro is not expanded: run `xacro FILE.xacro > FILE.urdf` first.
+
+mod capsule;
+mod collision;
+mod error;
+mod mesh;
+mod scan;
+mod tree;
+
+pub use error::UrdfError;
+pub use mesh::MeshSource;
+
+use crate::fk::Frame;
+use crate::geometry::Inertial;
+use crate::limits::JointLimits;
+use crate::model::{Joint, Link, RobotModel};
+use crate::rotation::{Rigid, from_rpy};
+use crate::{AXES, JointVector, Pose};
+use nalgebra::{Matrix3, Vector3};
+use sha2::{Digest, Sha256};
+use tree::Tree;
+
+/// Largest position limit that is believed \[rad\]; beyond it the file is probably in degrees.
+const LARGEST_POSITION_LIMIT_RAD: f64 = 100.0;
+/// Largest length that is believed \[m\]; beyond it the file is probably in millimetres.
+const LARGEST_LENGTH_M: f64 = 100.0;
+
+/// Builds the model from expanded URDF text.
+///
+/// # Errors
+/// [`UrdfError`], naming the joint or link at fault.
+pub(crate) fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
+    scan::check(text)?;
+    let robot = urdf_rs::read_from_string(text).map_err(|e| UrdfError::Syntax { detail: e.to_string() })?;
+    let tree = Tree::build(&robot)?;
+    let limits = limits(&tree)?;
+    let joints = tree.axes.map(|joint| Joint {
+        name: joint.name.clone(),
+        child: joint.child.link.clone(),
+    });
+    let (folded, frames) = fold(&tree)?;
+    let last_link = frames[tree.position(&tree.axes[AXES - 1].child.link)];
+    let links = tree
+        .links
+        .iter()
+        .zip(&frames)
+        .map(|(link, frame)| convert_link(link, *frame, meshes));
+    Ok(RobotModel {
+        name: robot.name.clone(),
+        sha256: Sha256::digest(text.as_bytes())
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect(),
+        joints,
+        limits,
+        folded,
+        links: links.collect::<Result<_, _>>()?,
+        last_link,
+        disabled: None,
+    })
+}
+
+fn convert_link(link: &urdf_rs::Link, frame: Frame, meshes: &MeshSource) -> Result<Link, UrdfError> {
+    Ok(Link {
+        name: link.name.clone(),
+        frame,
+        collision: collision::primitives(link, meshes)?,
+        inertial: inertial(link)?,
+    })
+}
+
+/// Folds every fixed transform: joint frames with z along the axis, and each link as an offset from the
+/// body that carries it.
+fn fold(tree: &Tree<'_>) -> Result<([Rigid; AXES], Vec<Frame>), UrdfError> {
+    let mut folded = [Rigid::identity(); AXES];
+    let mut frames = vec![Frame::new(0, Rigid::identity())];
+    for link in &tree.links[1..] {
+        let joint = tree.joint_above(&link.name);
+        let at = format!("joint '{}'", joint.name);
+        let parent = frames[tree.position(&joint.parent.link)];
+        let placed = parent.offset(&rigid(&joint.origin, &at)?);
+        let axis_index = tree.axes.iter().position(|axis| axis.name == joint.name);
+        frames.push(match axis_index {
+            None => placed,
+            Some(i) => {
+                let align = Rigid {
+                    rotation: frame_with_z_along(&unit_axis(joint)?),
+                    translation: Vector3::zeros(),
+                };
+                folded[i] = placed.offset.then(&align);
+                Frame::new(i + 1, align.inverse())
+            }
+        });
+    }
+    Ok((folded, frames))
+}
+
+fn unit_axis(joint: &urdf_rs::Joint) -> Result<Vector3<f64>, UrdfError> {
+    let axis = Vector3::from(joint.axis.xyz.0);
+    let norm = axis.norm();
+    if norm.is_finite() && norm > 1e-9 {
+        return Ok(axis / norm);
+    }
+    Err(UrdfError::Axis {
+        joint: joint.name.clone(),
+        found: joint.axis.xyz.0,
+    })
+}
+
+/// A rotation whose third column is the given unit vector; exact (a permutation) for coordinate axes.
+fn frame_with_z_along(z: &Vector3<f64>) -> Matrix3<f64> {
+    let helper = if z.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
+    let x = (helper - z * z.dot(&helper)).normalize();
+    Matrix3::from_columns(&[x, z.cross(&x), *z])
+}
+
+fn rigid(origin: &urdf_rs::Pose, at: &str) -> Result<Rigid, UrdfError> {
+    length(at, "origin xyz", &origin.xyz.0)?;
+    finite(at, "origin rpy", &origin.rpy.0)?;
+    Ok(Rigid {
+        rotation: from_rpy(origin.rpy.0),
+        translation: origin.xyz.0.into(),
+    })
+}
+
+fn pose(origin: &urdf_rs::Pose, at: &str) -> Result<Pose, UrdfError> {
+    rigid(origin, at).map(|r| Pose::from(&r))
+}
+
+fn finite(at: &str, what: &str, values: &[f64]) -> Result<(), UrdfError> {
+    if values.iter().all(|v| v.is_finite()) {
+        return Ok(());
+    }
+    Err(UrdfError::NotFinite {
+        at: at.to_owned(),
+        what: what.to_owned(),
+        found: format!("{values:?}"),
+    })
+}
+
+fn length(at: &str, what: &str, values: &[f64]) -> Result<(), UrdfError> {
+    finite(at, what, values)?;
+    if values.iter().all(|v| v.abs() <= LARGEST_LENGTH_M) {
+        return Ok(());
+    }
+    Err(UrdfError::TooLong {
+        at: at.to_owned(),
+        what: what.to_owned(),
+        found: format!("{values:?}"),
+        limit_m: LARGEST_LENGTH_M,
+    })
+}
+
+fn limits(tree: &Tree<'_>) -> Result<JointLimits, UrdfError> {
+    let mut limits = JointLimits {
+        lower: JointVector::repeat(f64::NEG_INFINITY),
+        upper: JointVector::repeat(f64::INFINITY),
+        velocity: JointVector::zeros(),
+        effort: [None; AXES],
+    };
+    for (i, joint) in tree.axes.iter().enumerate() {
+        let limit = checked_limit(joint)?;
+        if joint.joint_type == urdf_rs::JointType::Revolute {
+            (limits.lower[i], limits.upper[i]) = (limit.lower, limit.upper);
+        }
+        limits.velocity[i] = limit.velocity;
+        limits.effort[i] = (limit.effort > 0.0).then_some(limit.effort);
+    }
+    Ok(limits)
+}
+
+fn checked_limit(joint: &urdf_rs::Joint) -> Result<&urdf_rs::JointLimit, UrdfError> {
+    let (limit, name) = (&joint.limit, joint.name.clone());
+    let at = format!("joint '{name}'");
+    if [limit.lower, limit.upper, limit.velocity, limit.effort] == [0.0; 4] {
+        return Err(UrdfError::MissingLimit { joint: name });
+    }
+    finite(
+        &at,
+        "limit (lower, upper, effort)",
+        &[limit.lower, limit.upper, limit.effort],
+    )?;
+    if !(limit.velocity.is_finite() && limit.velocity > 0.0) {
+        return Err(UrdfError::Velocity {
+            joint: name,
+            found: limit.velocity,
+        });
+    }
+    if limit.effort < 0.0 {
+        return Err(UrdfError::Effort {
+            joint: name,
+            found: limit.effort,
+        });
+    }
+    let (lower, upper) = (limit.lower, limit.upper);
+    if joint.joint_type == urdf_rs::JointType::Revolute {
+        if lower >= upper {
+            return Err(UrdfError::LimitOrder {
+                joint: name,
+                lower,
+                upper,
+            });
+        }
+        if lower.abs().max(upper.abs()) > LARGEST_POSITION_LIMIT_RAD {
+            return Err(UrdfError::LimitSize {
+                joint: name,
+                lower,
+                upper,
+                limit_rad: LARGEST_POSITION_LIMIT_RAD,
+            });
+        }
+    }
+    Ok(limit)
+}
+
+/// Mass properties of a link; `None` where the file states none (`urdf-rs` then reports zeros).
+fn inertial(link: &urdf_rs::Link) -> Result<Option<Inertial>, UrdfError> {
+    let at = format!("link '{}'", link.name);
+    let urdf_rs::Inertial { origin, mass, inertia } = &link.inertial;
+    let moments = [
+        inertia.ixx,
+        inertia.ixy,
+        inertia.ixz,
+        inertia.iyy,
+        inertia.iyz,
+        inertia.izz,
+    ];
+    if mass.value == 0.0 && moments == [0.0; 6] {
+        return Ok(None);
+    }
+    finite(&at, "inertial mass", &[mass.value])?;
+    finite(&at, "inertial inertia", &moments)?;
+    Ok(Some(Inertial {
+        pose: pose(origin, &at)?,
+        mass_kg: mass.value,
+        inertia_kg_m2: moments,
+    }))
+}

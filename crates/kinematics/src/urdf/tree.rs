@@ -1,0 +1,164 @@
+//! The structure of a URDF: one root, no cycles, six axes in series.
+
+use super::UrdfError;
+use crate::AXES;
+use std::collections::{BTreeMap, BTreeSet};
+use urdf_rs::{JointType, Robot};
+
+/// A checked URDF tree: links from the root outwards, and the six axes from the base to the tip.
+pub(super) struct Tree<'a> {
+    /// Every link, a parent always before its children.
+    pub links: Vec<&'a urdf_rs::Link>,
+    /// The six moving joints in series.
+    pub axes: [&'a urdf_rs::Joint; AXES],
+    above: BTreeMap<&'a str, &'a urdf_rs::Joint>,
+    positions: BTreeMap<&'a str, usize>,
+}
+
+impl<'a> Tree<'a> {
+    pub(super) fn build(robot: &'a Robot) -> Result<Self, UrdfError> {
+        unique("link", robot.links.iter().map(|l| l.name.as_str()))?;
+        unique("joint", robot.joints.iter().map(|j| j.name.as_str()))?;
+        robot.joints.iter().try_for_each(check_kind)?;
+        let above = joints_above(robot)?;
+        let links = links_from_root(robot, &above)?;
+        let axes = axes_in_series(&links, &above)?;
+        let positions = links.iter().enumerate().map(|(i, l)| (l.name.as_str(), i)).collect();
+        Ok(Self {
+            links,
+            axes,
+            above,
+            positions,
+        })
+    }
+
+    /// Index in `links` of a link that the tree is known to hold.
+    pub(super) fn position(&self, link: &str) -> usize {
+        self.positions[link]
+    }
+
+    /// The joint whose child is `link`, which is known not to be the root.
+    pub(super) fn joint_above(&self, link: &str) -> &'a urdf_rs::Joint {
+        self.above[link]
+    }
+}
+
+fn unique<'a>(kind: &'static str, names: impl Iterator<Item = &'a str>) -> Result<(), UrdfError> {
+    let mut seen = BTreeSet::new();
+    for name in names {
+        if !seen.insert(name) {
+            let name = name.to_owned();
+            return Err(UrdfError::Duplicate { kind, name });
+        }
+    }
+    Ok(())
+}
+
+fn check_kind(joint: &urdf_rs::Joint) -> Result<(), UrdfError> {
+    if let Some(mimic) = &joint.mimic {
+        return Err(UrdfError::Mimic {
+            joint: joint.name.clone(),
+            follows: mimic.joint.clone(),
+        });
+    }
+    match joint.joint_type {
+        JointType::Revolute | JointType::Continuous | JointType::Fixed => Ok(()),
+        ref other => Err(UrdfError::JointKind {
+            joint: joint.name.clone(),
+            kind: format!("{other:?}").to_lowercase(),
+        }),
+    }
+}
+
+/// For every link but the root, the joint above it.
+fn joints_above(robot: &Robot) -> Result<BTreeMap<&str, &urdf_rs::Joint>, UrdfError> {
+    let known: BTreeSet<_> = robot.links.iter().map(|l| l.name.as_str()).collect();
+    let mut above: BTreeMap<&str, &urdf_rs::Joint> = BTreeMap::new();
+    for joint in &robot.joints {
+        for (role, link) in [("parent", &joint.parent.link), ("child", &joint.child.link)] {
+            if !known.contains(link.as_str()) {
+                return Err(UrdfError::UnknownLink {
+                    joint: joint.name.clone(),
+                    role,
+                    link: link.clone(),
+                });
+            }
+        }
+        if let Some(first) = above.insert(&joint.child.link, joint) {
+            return Err(UrdfError::TwoParents {
+                link: joint.child.link.clone(),
+                first: first.name.clone(),
+                second: joint.name.clone(),
+            });
+        }
+    }
+    Ok(above)
+}
+
+fn links_from_root<'a>(
+    robot: &'a Robot,
+    above: &BTreeMap<&str, &urdf_rs::Joint>,
+) -> Result<Vec<&'a urdf_rs::Link>, UrdfError> {
+    let mut children: BTreeMap<&str, Vec<&urdf_rs::Link>> = BTreeMap::new();
+    let mut roots = Vec::new();
+    for link in &robot.links {
+        match above.get(link.name.as_str()) {
+            Some(joint) => children.entry(&joint.parent.link).or_default().push(link),
+            None => roots.push(link),
+        }
+    }
+    let [root] = roots[..] else {
+        return Err(match (roots.first(), robot.links.first()) {
+            (None, Some(link)) => UrdfError::Cycle {
+                link: link.name.clone(),
+            },
+            _ => UrdfError::Roots {
+                found: roots.iter().map(|l| l.name.clone()).collect(),
+            },
+        });
+    };
+    let mut links = vec![root];
+    let mut next = 0;
+    while next < links.len() {
+        links.extend(children.remove(links[next].name.as_str()).unwrap_or_default());
+        next += 1;
+    }
+    match children.values().flatten().next() {
+        Some(unreached) => Err(UrdfError::Cycle {
+            link: unreached.name.clone(),
+        }),
+        None => Ok(links),
+    }
+}
+
+fn axes_in_series<'a>(
+    links: &[&'a urdf_rs::Link],
+    above: &BTreeMap<&'a str, &'a urdf_rs::Joint>,
+) -> Result<[&'a urdf_rs::Joint; AXES], UrdfError> {
+    let moving: Vec<&urdf_rs::Joint> = links
+        .iter()
+        .filter_map(|link| above.get(link.name.as_str()).copied())
+        .filter(|joint| joint.joint_type != JointType::Fixed)
+        .collect();
+    for pair in moving.windows(2) {
+        if nearest_axis_above(&pair[1].parent.link, above) != Some(pair[0].name.as_str()) {
+            return Err(UrdfError::Branch {
+                joint: pair[1].name.clone(),
+                previous: pair[0].name.clone(),
+            });
+        }
+    }
+    <[_; AXES]>::try_from(moving).map_err(|moving| UrdfError::AxisCount {
+        found: moving.iter().map(|j| j.name.clone()).collect(),
+    })
+}
+
+fn nearest_axis_above<'a>(mut link: &'a str, above: &BTreeMap<&str, &'a urdf_rs::Joint>) -> Option<&'a str> {
+    loop {
+        let joint = above.get(link)?;
+        if joint.joint_type != JointType::Fixed {
+            return Some(&joint.name);
+        }
+        link = &joint.parent.link;
+    }
+}

@@ -1,0 +1,43 @@
+"""Paths and models shared by the tests of this folder. Run: pytest tests/python"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+FIXTURES = ROOT / "crates" / "kinematics" / "tests" / "fixtures"
+sys.path.insert(0, str(FIXTURES))
+sys.dont_write_bytecode = True
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    """The repository."""
+    return ROOT
+
+
+@pytest.fixture(scope="session")
+def fixtures() -> Path:
+    """The folder of the kinematics fixtures and their generator."""
+    return FIXTURES
+
+
+@pytest.fixture(scope="session")
+def irb120_urdf() -> Path:
+    return ROOT / "urdf" / "irb120.urdf"
+
+
+@pytest.fixture(scope="session")
+def irb120(irb120_urdf) -> pin.Model:
+    """Pinocchio's model of the arm."""
+    return pin.buildModelFromUrdf(str(irb120_urdf))
+
+
+@pytest.fixture(scope="session")
+def random_configurations(irb120) -> np.ndarray:
+    """300 joint vectors [rad], uniform within the limits, always the same."""
+    rng = np.random.default_rng(20)
+    return rng.uniform(irb120.lowerPositionLimit, irb120.upperPositionLimit, size=(300, 6))
