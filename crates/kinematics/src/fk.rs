@@ -11,6 +11,7 @@
 use crate::model::RobotModel;
 use crate::rotation::Rigid;
 use crate::{AXES, JointVector, Pose};
+use nalgebra::Vector3;
 
 /// A frame fixed to one of the arm's bodies: body 0 is the base, body i is what joint i moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,6 +24,12 @@ pub struct Frame {
 impl Frame {
     pub(crate) fn new(body: usize, offset: Rigid) -> Self {
         Self { body, offset }
+    }
+
+    /// The base frame.
+    #[must_use]
+    pub fn base() -> Self {
+        Self::new(0, Rigid::identity())
     }
 
     /// The body that carries the frame: 0 for the base, 1–6 for what joint 1–6 moves.
@@ -46,6 +53,12 @@ pub struct BodyPoses {
 }
 
 impl BodyPoses {
+    /// Directions of the six joint axes, base frame, unit length.
+    #[must_use]
+    pub fn joint_axes(&self) -> [Vector3<f64>; AXES] {
+        std::array::from_fn(|i| self.bodies[i + 1].rotation.column(2).into_owned())
+    }
+
     /// `T_base_frame` as matrix and vector.
     #[inline]
     #[must_use]

@@ -1,7 +1,7 @@
 //! Collision geometry of a link, as data: no collision library is involved here.
 
 use crate::Pose;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 /// A convex shape in its own frame; lengths in metres.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,4 +55,72 @@ pub struct Inertial {
     pub mass_kg: f64,
     /// Inertia about the centre of mass: ixx, ixy, ixz, iyy, iyz, izz \[kg·m²\].
     pub inertia_kg_m2: [f64; 6],
+}
+
+impl Shape {
+    /// How far the shape extends from its origin along a unit direction, in its own frame \[m\] (its support
+    /// function).
+    #[must_use]
+    pub fn support(&self, direction: &Vector3<f64>) -> f64 {
+        let across = direction.xy().norm();
+        match self {
+            Self::Box { half_m } => direction.abs().dot(&Vector3::from(*half_m)),
+            Self::Cylinder {
+                radius_m,
+                half_length_m,
+            } => direction.z.abs() * half_length_m + across * radius_m,
+            Self::Sphere { radius_m } => *radius_m,
+            Self::Capsule {
+                radius_m,
+                half_length_m,
+            } => direction.z.abs() * half_length_m + radius_m,
+            Self::Hull { points } => points
+                .iter()
+                .map(|p| p.coords.dot(direction))
+                .fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_1_SQRT_2;
+
+    #[test]
+    fn supports_by_hand() {
+        let diagonal = Vector3::new(FRAC_1_SQRT_2, 0.0, FRAC_1_SQRT_2);
+        let cases = [
+            (
+                Shape::Box {
+                    half_m: [1.0, 2.0, 3.0],
+                },
+                4.0 * FRAC_1_SQRT_2,
+            ),
+            (
+                Shape::Cylinder {
+                    radius_m: 1.0,
+                    half_length_m: 3.0,
+                },
+                4.0 * FRAC_1_SQRT_2,
+            ),
+            (Shape::Sphere { radius_m: 1.0 }, 1.0),
+            (
+                Shape::Capsule {
+                    radius_m: 1.0,
+                    half_length_m: 3.0,
+                },
+                3.0 * FRAC_1_SQRT_2 + 1.0,
+            ),
+            (
+                Shape::Hull {
+                    points: vec![Point3::origin(), Point3::new(2.0, 5.0, 2.0)],
+                },
+                4.0 * FRAC_1_SQRT_2,
+            ),
+        ];
+        for (shape, expected) in cases {
+            assert!((shape.support(&diagonal) - expected).abs() < 1e-15, "{shape:?}");
+        }
+    }
 }

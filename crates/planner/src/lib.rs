@@ -1,1 +1,25 @@
-//! x
+//! The plate-washing job, from a scenario to a report.
+//!
+//! Conventions (units, frames, order of twists) are those of [`platewash_kinematics`].
+
+pub mod clearance;
+pub mod control;
+pub mod coverage;
+pub mod csv;
+pub mod cubic;
+pub mod job;
+pub mod layout;
+pub mod order;
+pub mod plan;
+pub mod random;
+pub mod report;
+pub mod reproduce;
+pub mod robot;
+pub mod scenario;
+pub mod spiral;
+pub mod tool_path;
+pub mod tracking;
+pub mod trajectory;
+pub mod transition;
+
+pub(crate) use platewash_kinematics::trig;

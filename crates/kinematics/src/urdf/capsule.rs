@@ -40,7 +40,7 @@ fn capsule(cylinder: &Primitive, ends: &[Primitive]) -> Option<Primitive> {
     };
     let [a, b] = ends else { return None };
     let both = |low: &Primitive, high: &Primitive| closes(low, -half_length_m) && closes(high, half_length_m);
-    (both(a, b) || both(b, a)).then(|| Primitive {
+    (both(a, b) || both(b, a)).then_some(Primitive {
         pose: cylinder.pose,
         shape: Shape::Capsule {
             radius_m,

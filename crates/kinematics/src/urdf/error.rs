@@ -23,9 +23,9 @@ pub enum UrdfError {
     /// An unexpanded xacro file.
     #[error("line {line} has the xacro tag <{tag}>: expand the file first with `xacro FILE.xacro > FILE.urdf`")]
     Xacro { tag: String, line: usize },
-    /// An element that `urdf-rs` refuses (a bad number, a missing attribute, an unknown joint type).
-    #[error("URDF cannot be read: {detail}")]
-    Syntax { detail: String },
+    /// An element that cannot be read (a bad number, a missing attribute, an unknown joint type).
+    #[error("URDF cannot be read at {at}: {detail}")]
+    Syntax { at: String, detail: String },
     /// Two links or two joints share a name.
     #[error("URDF has two {kind}s named '{name}'")]
     Duplicate { kind: &'static str, name: String },
@@ -95,6 +95,9 @@ pub enum UrdfError {
         found: String,
         limit_m: f64,
     },
+    /// A negative mass.
+    #[error("link '{link}': mass must not be negative [kg]; found {found}")]
+    Mass { link: String, found: f64 },
     /// A collision shape with a size that is not positive.
     #[error("link '{link}': collision {shape} needs positive sizes; found {found}")]
     ShapeSize {
@@ -114,10 +117,13 @@ pub enum UrdfError {
     Mesh { link: String, file: String, detail: String },
 }
 
+/// Most names that a message lists.
+const LISTED: usize = 20;
+
 fn list(names: &[String]) -> String {
-    if names.is_empty() {
-        "none".to_owned()
-    } else {
-        names.join(", ")
+    match names.len() {
+        0 => "none".to_owned(),
+        1..=LISTED => names.join(", "),
+        many => format!("{} and {} more", names[..LISTED].join(", "), many - LISTED),
     }
 }

@@ -1,9 +1,7 @@
 //! Collision meshes: found through package folders, read as vertices (their convex hull is what counts).
 
-use super::{UrdfError, length};
+use super::{UrdfError, length, vertices};
 use nalgebra::Point3;
-use std::fs::File;
-use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 /// Where mesh files are looked for.
@@ -38,17 +36,17 @@ impl MeshSource {
             file: path.display().to_string(),
             detail,
         };
-        let extension = path
-            .extension()
-            .and_then(|e| e.to_str())
-            .unwrap_or_default()
-            .to_lowercase();
-        let mut points = match extension.as_str() {
-            "stl" => stl(&path),
-            "obj" => obj(&path),
-            other => Err(format!("format '{other}' is not handled; convert it to STL or OBJ").into()),
+        if !scale.iter().all(|s| s.is_finite() && *s != 0.0) {
+            return Err(wrong(format!("its scale {scale:?} must be finite and not zero")));
         }
-        .map_err(|e| wrong(e.to_string()))?;
+        let bytes = std::fs::read(&path).map_err(|e| wrong(e.to_string()))?;
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+        let mut points = match extension.to_lowercase().as_str() {
+            "stl" => vertices::stl(&bytes),
+            "obj" => vertices::obj(&bytes),
+            other => Err(format!("format '{other}' is not handled; convert it to STL or OBJ")),
+        }
+        .map_err(wrong)?;
         for point in &mut points {
             *point = Point3::new(point.x * scale[0], point.y * scale[1], point.z * scale[2]);
             length(&format!("link '{link}'"), "mesh vertex", point.coords.as_slice())?;
@@ -90,24 +88,4 @@ impl MeshSource {
             _ => vec![path.to_path_buf()],
         }
     }
-}
-
-/// What a mesh reader answers; its error is only ever printed.
-type Vertices = Result<Vec<Point3<f64>>, Box<dyn std::error::Error>>;
-
-fn stl(path: &Path) -> Vertices {
-    let mesh = stl_io::read_stl(&mut BufReader::new(File::open(path)?))?;
-    let point = |v: &stl_io::Vertex| Point3::new(f64::from(v.0[0]), f64::from(v.0[1]), f64::from(v.0[2]));
-    Ok(mesh.vertices.iter().map(point).collect())
-}
-
-fn obj(path: &Path) -> Vertices {
-    let (models, _materials) = tobj::load_obj(path, &tobj::LoadOptions::default())?;
-    let points = |model: tobj::Model| {
-        let triples = model.mesh.positions.chunks_exact(3);
-        triples
-            .map(|v| Point3::new(v[0].into(), v[1].into(), v[2].into()))
-            .collect::<Vec<_>>()
-    };
-    Ok(models.into_iter().flat_map(points).collect())
 }

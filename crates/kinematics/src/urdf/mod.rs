@@ -1,33 +1,34 @@
 //! URDF text to [`RobotModel`]: everything a lenient parser lets through is caught here, by name.
 //!
-//! The stages: [`scan`] bounds size and depth and finds cut files before any recursive parser sees them;
-//! `urdf-rs` reads the elements; [`tree`] checks the structure and orders the six joints; [`collision`]
-//! converts the geometry (recognising [`capsule`]s, loading meshes as hulls through [`mesh`]).
+//! The stages: `scan` bounds size and depth and finds cut files before any recursive parser sees them;
+//! `urdf-rs` reads the elements (where it refuses one, `culprit` finds which); `tree` checks the structure
+//! and orders the six joints; `limit` checks their limits; `collision` converts the geometry (recognising
+//! `capsule`s, finding meshes through `mesh` and reading their `vertices`).
 //!
 //! xacro is not expanded: run `xacro FILE.xacro > FILE.urdf` first.
 
 mod capsule;
 mod collision;
+mod culprit;
 mod error;
+mod limit;
 mod mesh;
 mod scan;
 mod tree;
+mod vertices;
 
 pub use error::UrdfError;
 pub use mesh::MeshSource;
 
 use crate::fk::Frame;
 use crate::geometry::Inertial;
-use crate::limits::JointLimits;
 use crate::model::{Joint, Link, RobotModel};
 use crate::rotation::{Rigid, from_rpy};
-use crate::{AXES, JointVector, Pose};
+use crate::{AXES, Pose};
 use nalgebra::{Matrix3, Vector3};
 use sha2::{Digest, Sha256};
 use tree::Tree;
 
-/// Largest position limit that is believed \[rad\]; beyond it the file is probably in degrees.
-const LARGEST_POSITION_LIMIT_RAD: f64 = 100.0;
 /// Largest length that is believed \[m\]; beyond it the file is probably in millimetres.
 const LARGEST_LENGTH_M: f64 = 100.0;
 
@@ -37,9 +38,9 @@ const LARGEST_LENGTH_M: f64 = 100.0;
 /// [`UrdfError`], naming the joint or link at fault.
 pub(crate) fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
     scan::check(text)?;
-    let robot = urdf_rs::read_from_string(text).map_err(|e| UrdfError::Syntax { detail: e.to_string() })?;
+    let robot = urdf_rs::read_from_string(text).map_err(|e| syntax(text, &e))?;
     let tree = Tree::build(&robot)?;
-    let limits = limits(&tree)?;
+    let limits = limit::limits(&tree)?;
     let joints = tree.axes.map(|joint| Joint {
         name: joint.name.clone(),
         child: joint.child.link.clone(),
@@ -64,6 +65,13 @@ pub(crate) fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfEr
         last_link,
         disabled: None,
     })
+}
+
+fn syntax(text: &str, error: &urdf_rs::UrdfError) -> UrdfError {
+    UrdfError::Syntax {
+        at: culprit::find(text).unwrap_or_else(|| "an unknown place".to_owned()),
+        detail: error.to_string().trim_start_matches("custom: ").to_owned(),
+    }
 }
 
 fn convert_link(link: &urdf_rs::Link, frame: Frame, meshes: &MeshSource) -> Result<Link, UrdfError> {
@@ -157,68 +165,6 @@ fn length(at: &str, what: &str, values: &[f64]) -> Result<(), UrdfError> {
     })
 }
 
-fn limits(tree: &Tree<'_>) -> Result<JointLimits, UrdfError> {
-    let mut limits = JointLimits {
-        lower: JointVector::repeat(f64::NEG_INFINITY),
-        upper: JointVector::repeat(f64::INFINITY),
-        velocity: JointVector::zeros(),
-        effort: [None; AXES],
-    };
-    for (i, joint) in tree.axes.iter().enumerate() {
-        let limit = checked_limit(joint)?;
-        if joint.joint_type == urdf_rs::JointType::Revolute {
-            (limits.lower[i], limits.upper[i]) = (limit.lower, limit.upper);
-        }
-        limits.velocity[i] = limit.velocity;
-        limits.effort[i] = (limit.effort > 0.0).then_some(limit.effort);
-    }
-    Ok(limits)
-}
-
-fn checked_limit(joint: &urdf_rs::Joint) -> Result<&urdf_rs::JointLimit, UrdfError> {
-    let (limit, name) = (&joint.limit, joint.name.clone());
-    let at = format!("joint '{name}'");
-    if [limit.lower, limit.upper, limit.velocity, limit.effort] == [0.0; 4] {
-        return Err(UrdfError::MissingLimit { joint: name });
-    }
-    finite(
-        &at,
-        "limit (lower, upper, effort)",
-        &[limit.lower, limit.upper, limit.effort],
-    )?;
-    if !(limit.velocity.is_finite() && limit.velocity > 0.0) {
-        return Err(UrdfError::Velocity {
-            joint: name,
-            found: limit.velocity,
-        });
-    }
-    if limit.effort < 0.0 {
-        return Err(UrdfError::Effort {
-            joint: name,
-            found: limit.effort,
-        });
-    }
-    let (lower, upper) = (limit.lower, limit.upper);
-    if joint.joint_type == urdf_rs::JointType::Revolute {
-        if lower >= upper {
-            return Err(UrdfError::LimitOrder {
-                joint: name,
-                lower,
-                upper,
-            });
-        }
-        if lower.abs().max(upper.abs()) > LARGEST_POSITION_LIMIT_RAD {
-            return Err(UrdfError::LimitSize {
-                joint: name,
-                lower,
-                upper,
-                limit_rad: LARGEST_POSITION_LIMIT_RAD,
-            });
-        }
-    }
-    Ok(limit)
-}
-
 /// Mass properties of a link; `None` where the file states none (`urdf-rs` then reports zeros).
 fn inertial(link: &urdf_rs::Link) -> Result<Option<Inertial>, UrdfError> {
     let at = format!("link '{}'", link.name);
@@ -235,6 +181,12 @@ fn inertial(link: &urdf_rs::Link) -> Result<Option<Inertial>, UrdfError> {
         return Ok(None);
     }
     finite(&at, "inertial mass", &[mass.value])?;
+    if mass.value < 0.0 {
+        return Err(UrdfError::Mass {
+            link: link.name.clone(),
+            found: mass.value,
+        });
+    }
     finite(&at, "inertial inertia", &moments)?;
     Ok(Some(Inertial {
         pose: pose(origin, &at)?,

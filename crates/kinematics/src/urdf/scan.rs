@@ -1,7 +1,9 @@
-//! First look at URDF text with a pull parser: bounds size and depth, finds cut files, refuses xacro.
-//! Nothing recursive may see the text before this.
+//! First look at URDF text with a pull parser: bounds size and depth, finds cut files and stray text, refuses
+//! xacro and vectors with words among their numbers. Nothing recursive may see the text before this.
 
 use super::UrdfError;
+use quick_xml::errors::SyntaxError;
+use quick_xml::events::attributes::Attribute;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
@@ -9,6 +11,9 @@ use quick_xml::reader::Reader;
 const MAX_BYTES: usize = 16 << 20;
 /// Deepest nesting that is read; real descriptions need fewer than 10 levels.
 const MAX_DEPTH: usize = 64;
+/// Elements whose attributes below are vectors; `urdf-rs` skips what is not a number in them.
+const WITH_VECTORS: [&str; 4] = ["origin", "axis", "box", "mesh"];
+const VECTORS: [&str; 4] = ["xyz", "rpy", "size", "scale"];
 
 /// Checks well-formedness, size, depth and the root element.
 pub(super) fn check(text: &str) -> Result<(), UrdfError> {
@@ -19,78 +24,156 @@ pub(super) fn check(text: &str) -> Result<(), UrdfError> {
         });
     }
     let mut reader = Reader::from_str(text);
-    let mut open: Vec<String> = Vec::new();
-    let mut root: Option<String> = None;
+    let mut scan = Scan::new(text);
     loop {
         let event = reader.read_event();
-        let line = || line_at(text, reader.buffer_position());
+        scan.position = reader.buffer_position();
         match event {
-            Ok(Event::Start(tag)) => {
-                open.push(element(&tag, &mut root, line())?);
-                if open.len() > MAX_DEPTH {
-                    return Err(UrdfError::TooDeep {
-                        depth: open.len(),
-                        limit: MAX_DEPTH,
-                        line: line(),
-                    });
-                }
-            }
-            Ok(Event::Empty(tag)) => {
-                element(&tag, &mut root, line())?;
-            }
-            Ok(Event::End(_)) => {
-                open.pop();
-            }
-            Ok(Event::Eof) => return end(open.pop(), root, line()),
-            Ok(_) => {}
-            Err(quick_xml::Error::Syntax(e)) => {
-                return Err(match open.pop() {
-                    Some(element) => UrdfError::Truncated { element, line: line() },
-                    None => xml(line(), &e),
-                });
-            }
-            Err(e) => return Err(xml(line(), &e)),
+            Ok(Event::Eof) => return scan.end(),
+            Ok(event) => scan.take(&event)?,
+            Err(e) => return Err(scan.broken(&e)),
         }
     }
 }
 
-/// Notes the root element; returns the element's name.
-fn element(tag: &BytesStart<'_>, root: &mut Option<String>, line: usize) -> Result<String, UrdfError> {
-    let name = tag.name().as_ref().to_owned();
-    if name.starts_with("xacro:") {
-        return Err(UrdfError::Xacro { tag: name, line });
-    }
-    for attribute in tag.attributes() {
-        attribute.map_err(|e| xml(line, &e))?;
-    }
-    match root {
-        None if name != "robot" => Err(UrdfError::NotARobot {
-            found: format!("<{name}>"),
-        }),
-        None => {
-            *root = Some(name.clone());
-            Ok(name)
-        }
-        Some(_) => Ok(name),
-    }
-}
-
-fn end(open: Option<String>, root: Option<String>, line: usize) -> Result<(), UrdfError> {
-    match (open, root) {
-        (Some(element), _) => Err(UrdfError::Truncated { element, line }),
-        (None, None) => Err(UrdfError::NotARobot {
-            found: "no element at all".to_owned(),
-        }),
-        (None, Some(_)) => Ok(()),
-    }
-}
-
-fn xml(line: usize, detail: &dyn std::fmt::Display) -> UrdfError {
-    let detail = detail.to_string();
-    UrdfError::Xml { line, detail }
-}
-
-fn line_at(text: &str, position: u64) -> usize {
+/// The line of a byte position, counted from 1.
+pub(super) fn line_at(text: &str, position: u64) -> usize {
     let end = usize::try_from(position).unwrap_or(text.len()).min(text.len());
     1 + text.as_bytes()[..end].iter().filter(|b| **b == b'\n').count()
+}
+
+/// What has been seen so far.
+struct Scan<'a> {
+    text: &'a str,
+    /// Bytes read.
+    position: u64,
+    /// Names of the elements that are not closed yet.
+    open: Vec<String>,
+    root_seen: bool,
+}
+
+impl<'a> Scan<'a> {
+    fn new(text: &'a str) -> Self {
+        Self {
+            text,
+            position: 0,
+            open: Vec::new(),
+            root_seen: false,
+        }
+    }
+
+    /// Counted only when an error needs it: counting at every tag would take quadratic time.
+    fn line(&self) -> usize {
+        line_at(self.text, self.position)
+    }
+
+    fn take(&mut self, event: &Event<'_>) -> Result<(), UrdfError> {
+        match event {
+            Event::Start(tag) => {
+                let name = self.element(tag)?;
+                self.open.push(name);
+                self.depth()
+            }
+            Event::Empty(tag) => self.element(tag).map(drop),
+            Event::End(_) => {
+                self.open.pop();
+                Ok(())
+            }
+            Event::Text(text) if self.open.is_empty() && !blank(text) => Err(self.stray()),
+            Event::CData(_) | Event::GeneralRef(_) if self.open.is_empty() => Err(self.stray()),
+            _ => Ok(()),
+        }
+    }
+
+    /// Checks an element's name, place and attributes; returns the name.
+    fn element(&mut self, tag: &BytesStart<'_>) -> Result<String, UrdfError> {
+        let name = tag.name().as_ref().to_owned();
+        if name.starts_with("xacro:") {
+            return Err(UrdfError::Xacro {
+                tag: name,
+                line: self.line(),
+            });
+        }
+        for attribute in tag.attributes() {
+            let attribute = attribute.map_err(|e| self.xml(&e))?;
+            if WITH_VECTORS.contains(&name.as_str()) && VECTORS.contains(&attribute.key.as_ref()) {
+                self.numbers(&name, &attribute)?;
+            }
+        }
+        match (self.root_seen, self.open.is_empty()) {
+            (false, _) if name != "robot" => Err(UrdfError::NotARobot {
+                found: format!("<{name}>"),
+            }),
+            (true, true) => Err(self.xml(&format!("<{name}> stands after the end of the root element"))),
+            _ => {
+                self.root_seen = true;
+                Ok(name)
+            }
+        }
+    }
+
+    fn numbers(&self, element: &str, attribute: &Attribute<'_>) -> Result<(), UrdfError> {
+        match attribute.value.split_whitespace().find(|v| v.parse::<f64>().is_err()) {
+            None => Ok(()),
+            Some(word) => Err(UrdfError::Syntax {
+                at: format!("<{element}> (line {})", self.line()),
+                detail: format!("'{word}' in {} is not a number", attribute.key.as_ref()),
+            }),
+        }
+    }
+
+    fn depth(&self) -> Result<(), UrdfError> {
+        if self.open.len() <= MAX_DEPTH {
+            return Ok(());
+        }
+        Err(UrdfError::TooDeep {
+            depth: self.open.len(),
+            limit: MAX_DEPTH,
+            line: self.line(),
+        })
+    }
+
+    fn end(mut self) -> Result<(), UrdfError> {
+        match self.open.pop() {
+            Some(element) => Err(UrdfError::Truncated {
+                element,
+                line: self.line(),
+            }),
+            None if self.root_seen => Ok(()),
+            None => Err(UrdfError::NotARobot {
+                found: "no element at all".to_owned(),
+            }),
+        }
+    }
+
+    /// A parser error: a syntax error means that the text ended inside some markup, but for a wrong `<!…`.
+    fn broken(mut self, error: &quick_xml::Error) -> UrdfError {
+        let cut = match error {
+            quick_xml::Error::Syntax(SyntaxError::InvalidBangMarkup) => self.text.ends_with("<!"),
+            quick_xml::Error::Syntax(_) => true,
+            _ => false,
+        };
+        match self.open.pop().filter(|_| cut) {
+            Some(element) => UrdfError::Truncated {
+                element,
+                line: self.line(),
+            },
+            None => self.xml(error),
+        }
+    }
+
+    fn stray(&self) -> UrdfError {
+        self.xml(&"text outside the root element")
+    }
+
+    fn xml(&self, detail: &dyn std::fmt::Display) -> UrdfError {
+        UrdfError::Xml {
+            line: self.line(),
+            detail: detail.to_string(),
+        }
+    }
+}
+
+fn blank(text: &str) -> bool {
+    text.trim_start_matches('\u{feff}').trim().is_empty()
 }

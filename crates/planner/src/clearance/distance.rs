@@ -1,0 +1,107 @@
+//! Distance between two placed parts.
+
+use super::part::{Core, Extent, Placed};
+use parry3d_f64::math::{Pose, Vector};
+use parry3d_f64::query::details::closest_points_segment_segment;
+use parry3d_f64::query::{ClosestPoints, DefaultQueryDispatcher, QueryDispatcher};
+use parry3d_f64::shape::{Shape, SharedShape};
+
+/// Distance between two parts and the middle between their nearest points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Separation {
+    /// \[m\]; ≤ 0 when they touch or overlap.
+    pub distance: f64,
+    /// Base frame \[m\].
+    pub place: [f64; 3],
+}
+
+/// Nearest points of two cores, base frame; equal when the cores meet.
+type Nearest = (Vector, Vector);
+
+/// The distance between two parts; NaN poses give NaN (never a distance of 0).
+pub(super) fn separation(a: &Placed<'_>, b: &Placed<'_>) -> Separation {
+    if !(a.pose.translation.is_finite() && b.pose.translation.is_finite()) {
+        return Separation {
+            distance: f64::NAN,
+            place: [f64::NAN; 3],
+        };
+    }
+    let (p, q) = match (a.core, b.core) {
+        (Core::Floor, _) => return over_floor(b),
+        (_, Core::Floor) => return over_floor(a),
+        (Core::Segment(half_a), Core::Segment(half_b)) => segments(a, *half_a, b, *half_b),
+        (Core::Segment(half), Core::Solid(solid, _)) => segment_and_solid(a, *half, b, solid),
+        (Core::Solid(solid, _), Core::Segment(half)) => {
+            let (p, q) = segment_and_solid(b, *half, a, solid);
+            (q, p)
+        }
+        (Core::Solid(solid_a, _), Core::Solid(solid_b, _)) => iterative(&a.pose, &**solid_a, &b.pose, &**solid_b),
+    };
+    let gap = q - p;
+    let length = gap.length();
+    let direction = if length > 0.0 { gap / length } else { Vector::ZERO };
+    let middle = (p + direction * a.radius + q - direction * b.radius) * 0.5;
+    Separation {
+        distance: length - a.radius - b.radius,
+        place: middle.to_array(),
+    }
+}
+
+/// Segment against segment, a closed form.
+fn segments(a: &Placed<'_>, half_a: f64, b: &Placed<'_>, half_b: f64) -> Nearest {
+    let (sa, sb) = (a.segment(half_a), b.segment(half_b));
+    match closest_points_segment_segment(&Pose::IDENTITY, &sa, &sb, f64::MAX) {
+        ClosestPoints::WithinMargin(p, q) => (p, q),
+        ClosestPoints::Intersecting | ClosestPoints::Disjoint => (sa.a, sa.a),
+    }
+}
+
+/// Segment or point against a solid: a point has a projection, a segment goes through the iterative routine.
+fn segment_and_solid(a: &Placed<'_>, half: f64, b: &Placed<'_>, solid: &SharedShape) -> Nearest {
+    let segment = a.segment(half);
+    if half == 0.0 {
+        let projection = solid.project_point(&b.pose, segment.a, true);
+        return (segment.a, projection.point);
+    }
+    iterative(&Pose::IDENTITY, &segment, &b.pose, &**solid)
+}
+
+/// Nearest points of two convex shapes by GJK.
+fn iterative(pose_a: &Pose, a: &dyn Shape, pose_b: &Pose, b: &dyn Shape) -> Nearest {
+    let relative = pose_a.inv_mul(pose_b);
+    match DefaultQueryDispatcher.closest_points(&relative, a, b, f64::MAX) {
+        Ok(ClosestPoints::WithinMargin(p, q)) => (*pose_a * p, *pose_b * q),
+        _ => (pose_a.translation, pose_a.translation),
+    }
+}
+
+/// Height of a part over the floor z = 0, a closed form.
+fn over_floor(part: &Placed<'_>) -> Separation {
+    let lowest = |points: &mut dyn Iterator<Item = Vector>| {
+        points.min_by(|p, q| p.z.total_cmp(&q.z)).unwrap_or(part.pose.translation)
+    };
+    let low = match part.core {
+        Core::Segment(half) => {
+            let segment = part.segment(*half);
+            lowest(&mut [segment.a, segment.b].into_iter())
+        }
+        Core::Solid(_, Extent::Vertices(vertices)) => lowest(&mut vertices.iter().map(|v| part.pose * *v)),
+        Core::Solid(_, Extent::Cylinder(radius, half)) => lowest_of_cylinder(part, *radius, *half),
+        Core::Floor => part.pose.translation,
+    };
+    let distance = low.z - part.radius;
+    Separation {
+        distance,
+        place: [low.x, low.y, distance * 0.5],
+    }
+}
+
+/// Lowest point of a cylinder: down along its axis, then down the steepest way across.
+fn lowest_of_cylinder(part: &Placed<'_>, radius: f64, half: f64) -> Vector {
+    let axis = part.pose.rotation * Vector::Y;
+    let down_axis = if axis.z > 0.0 { -axis } else { axis };
+    let across = -Vector::Z + axis * axis.z;
+    let steep = across.length();
+    let across = if steep > 0.0 { across / steep } else { Vector::ZERO };
+    part.pose.translation + down_axis * half + across * radius
+}

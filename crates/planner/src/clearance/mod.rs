@@ -1,0 +1,235 @@
+//! Smallest distances between the arm, its tool, the floor and the plates.
+//!
+//! The collision library (parry) appears in this folder only; its types do not leave it.
+//!
+//! # Accuracy
+//!
+//! Distances between spheres, capsules and the floor are closed forms, right to rounding (1e-12 m). The others
+//! come from an iterative routine (GJK) whose answer is right to [`ITERATIVE_ERROR_M`]; the tests hold it to that
+//! against closed forms, and against an independent library. Bodies that overlap have a distance ≤ 0; how far they
+//! overlap is only a lower bound of the penetration depth.
+
+mod distance;
+mod pairs;
+mod part;
+
+use crate::layout::Plate;
+use crate::scenario::ToolSection;
+use distance::{Separation, separation};
+use nalgebra::{Point3, Vector3};
+use part::{Part, Placed};
+use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
+use serde::Serialize;
+use std::f64::consts::FRAC_PI_2;
+
+/// Largest error of a distance that comes from the iterative routine \[m\].
+pub const ITERATIVE_ERROR_M: f64 = 2e-5;
+
+/// Something that must not be touched or must not touch.
+#[derive(Debug, Clone)]
+struct Body {
+    name: String,
+    kind: BodyKind,
+    parts: Vec<Part>,
+}
+
+/// What a body is; decides which pairs are checked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum BodyKind {
+    /// A link, with the index of the arm's body that carries it.
+    Link(usize),
+    /// The tool's handle.
+    Handle,
+    /// The sponge.
+    Sponge,
+    /// The plane z = 0.
+    Floor,
+    /// A plate.
+    Plate(usize),
+}
+
+/// Distance between two bodies at one configuration.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PairClearance {
+    /// One body.
+    pub a: String,
+    /// The other.
+    pub b: String,
+    /// Distance \[m\]; ≤ 0 when they touch or overlap.
+    pub distance_m: f64,
+    /// Half-way between the two nearest points \[m\], base frame.
+    pub place_m: [f64; 3],
+}
+
+/// Why no clearance model could be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ClearanceError {
+    /// A mesh whose points span no volume.
+    #[error("link '{link}': its collision mesh is flat; a convex hull needs a volume")]
+    FlatHull {
+        /// The link.
+        link: String,
+    },
+}
+
+/// The bodies and pairs of one job, ready for many configurations.
+#[derive(Debug, Clone)]
+pub struct ClearanceModel {
+    robot: RobotModel,
+    bodies: Vec<Body>,
+    pairs: Vec<(usize, usize)>,
+}
+
+impl ClearanceModel {
+    /// The arm with its tool (none when `length_m` is 0), over the floor z = 0 and the plates.
+    ///
+    /// Pairs: links that can meet (all but those that the arm's list disables; without a list, all but neighbours and
+    /// pairs that touch in every configuration sampled); handle and sponge with every link up to the forearm;
+    /// everything that moves with the floor and the plates.
+    ///
+    /// # Errors
+    /// [`ClearanceError::FlatHull`] for a mesh without volume.
+    pub fn new(robot: &RobotModel, tool: &ToolSection, plates: &[Plate]) -> Result<Self, ClearanceError> {
+        let mut bodies = Vec::new();
+        for link in robot.links().iter().filter(|link| !link.collision.is_empty()) {
+            let parts = link.collision.iter().map(|p| Part::new(&p.shape, link.frame.offset(&Rigid::from(&p.pose))));
+            let flat = || ClearanceError::FlatHull { link: link.name.clone() };
+            bodies.push(Body {
+                name: link.name.clone(),
+                kind: BodyKind::Link(link.frame.body()),
+                parts: parts.collect::<Option<_>>().ok_or_else(flat)?,
+            });
+        }
+        bodies.extend(tool_bodies(robot, tool));
+        bodies.push(body("floor", BodyKind::Floor, Part::floor()));
+        bodies.extend(plates.iter().enumerate().map(|(i, plate)| plate_body(i, plate)));
+        let mut model = Self {
+            robot: robot.clone(),
+            bodies,
+            pairs: Vec::new(),
+        };
+        model.pairs = pairs::choose(&model);
+        Ok(model)
+    }
+
+    /// Names of the pairs that are checked.
+    #[must_use]
+    pub fn pair_names(&self) -> Vec<(&str, &str)> {
+        let name = |i: usize| self.bodies[i].name.as_str();
+        self.pairs.iter().map(|&(a, b)| (name(a), name(b))).collect()
+    }
+
+    /// Distances of all pairs at `q` \[rad\], in the order of [`ClearanceModel::pair_names`].
+    #[must_use]
+    pub fn all(&self, q: &JointVector) -> Vec<PairClearance> {
+        let placed = self.place(q);
+        let all = self.pairs.iter().map(|&(a, b)| {
+            let least = self.part_pairs(a, b).map(|(p, r)| separation(&placed[a][p], &placed[b][r]));
+            self.describe(a, b, nearest(least))
+        });
+        all.collect()
+    }
+
+    /// The smallest distance at `q` \[rad\] and where it is. The sponge may touch the plates in `working`.
+    ///
+    /// `None` when there is nothing to check: a description without collision geometry.
+    #[must_use]
+    pub fn smallest(&self, q: &JointVector, working: &[usize]) -> Option<PairClearance> {
+        let placed = self.place(q);
+        let mut best: Option<(usize, usize, Separation)> = None;
+        let mut candidates: Vec<_> = self
+            .pairs
+            .iter()
+            .filter(|&&(a, b)| !self.exempt(a, b, working))
+            .flat_map(|&(a, b)| self.part_pairs(a, b).map(move |(p, r)| (a, b, p, r)))
+            .map(|(a, b, p, r)| (placed[a][p].sphere_gap(&placed[b][r]), a, b, p, r))
+            .collect();
+        candidates.sort_unstable_by(|x, y| x.0.total_cmp(&y.0));
+        for (at_least, a, b, p, r) in candidates {
+            if best.as_ref().is_some_and(|(.., s)| at_least >= s.distance) {
+                break;
+            }
+            let found = separation(&placed[a][p], &placed[b][r]);
+            if best.as_ref().is_none_or(|(.., s)| found.distance < s.distance) {
+                best = Some((a, b, found));
+            }
+        }
+        best.map(|(a, b, found)| self.describe(a, b, found))
+    }
+
+    fn exempt(&self, a: usize, b: usize, working: &[usize]) -> bool {
+        match (self.bodies[a].kind, self.bodies[b].kind) {
+            (BodyKind::Sponge, BodyKind::Plate(i)) | (BodyKind::Plate(i), BodyKind::Sponge) => working.contains(&i),
+            _ => false,
+        }
+    }
+
+    fn part_pairs(&self, a: usize, b: usize) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let (in_a, in_b) = (self.bodies[a].parts.len(), self.bodies[b].parts.len());
+        (0..in_a).flat_map(move |p| (0..in_b).map(move |r| (p, r)))
+    }
+
+    fn place(&self, q: &JointVector) -> Vec<Vec<Placed<'_>>> {
+        let poses = self.robot.fk(q);
+        self.bodies.iter().map(|body| body.parts.iter().map(|part| part.place(&poses)).collect()).collect()
+    }
+
+    fn describe(&self, a: usize, b: usize, found: Separation) -> PairClearance {
+        PairClearance {
+            a: self.bodies[a].name.clone(),
+            b: self.bodies[b].name.clone(),
+            distance_m: found.distance,
+            place_m: found.place,
+        }
+    }
+}
+
+fn nearest(separations: impl Iterator<Item = Separation>) -> Separation {
+    separations.min_by(|x, y| x.distance.total_cmp(&y.distance)).unwrap_or(Separation {
+        distance: f64::INFINITY,
+        place: [0.0; 3],
+    })
+}
+
+fn body(name: &str, kind: BodyKind, part: Part) -> Body {
+    Body {
+        name: name.to_owned(),
+        kind,
+        parts: vec![part],
+    }
+}
+
+/// Handle and sponge, cylinders along the z axis of the mounting frame.
+fn tool_bodies(robot: &RobotModel, tool: &ToolSection) -> Vec<Body> {
+    let handle_length = tool.length_m - tool.sponge_height_m;
+    if tool.length_m <= 0.0 || handle_length <= 0.0 {
+        return Vec::new();
+    }
+    let mount = robot.mounting_frame();
+    let along = |middle: f64| {
+        mount.offset(&Rigid {
+            translation: Vector3::new(0.0, 0.0, middle),
+            ..Rigid::identity()
+        })
+    };
+    let handle = Part::cylinder(tool.radius_m, handle_length / 2.0, along(handle_length / 2.0));
+    let sponge_half = tool.sponge_height_m / 2.0;
+    let sponge = Part::cylinder(tool.sponge_radius_m, sponge_half, along(handle_length + sponge_half));
+    vec![body("handle", BodyKind::Handle, handle), body("sponge", BodyKind::Sponge, sponge)]
+}
+
+fn plate_body(index: usize, plate: &Plate) -> Body {
+    let half = plate.thickness_m / 2.0;
+    let centre = Point3::new(plate.x_m, plate.y_m, plate.z_m - half);
+    let frame = Frame::base().offset(&Rigid::from(&Pose::translation(centre.x, centre.y, centre.z)));
+    let part = Part::cylinder(plate.radius_m, half, frame);
+    body(&format!("plate {index}"), BodyKind::Plate(index), part)
+}
+
+/// A quarter turn that lays parry's cylinder (along y) along z.
+const Y_TO_Z: f64 = FRAC_PI_2;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,152 @@
+//! A convex part of a body: a core shape with a radius around it.
+//!
+//! A sphere is a point with a radius and a capsule a segment with one, so that their distances have closed forms.
+
+use nalgebra::Point3;
+use parry3d_f64::math::{Pose, Vector};
+use parry3d_f64::shape::{ConvexPolyhedron, Cuboid, Cylinder, Segment, SharedShape};
+use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::{BodyPoses, Frame};
+
+/// The core of a part, in its own frame.
+#[derive(Clone)]
+pub(super) enum Core {
+    /// A segment on z, half length \[m\]; 0 for a point.
+    Segment(f64),
+    /// A solid of the collision library.
+    Solid(SharedShape, Extent),
+    /// The half-space z ≤ 0 of the base frame.
+    Floor,
+}
+
+/// What the height of a solid over the floor needs.
+#[derive(Debug, Clone)]
+pub(super) enum Extent {
+    /// Vertices \[m\].
+    Vertices(Vec<Vector>),
+    /// A cylinder along y: radius and half length \[m\].
+    Cylinder(f64, f64),
+}
+
+/// A part of a body, fixed to one of the arm's frames.
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    core: Core,
+    radius: f64,
+    /// Radius of the sphere about the origin that holds the part \[m\].
+    bounding: f64,
+    frame: Frame,
+}
+
+/// A part at one configuration, base frame.
+pub(super) struct Placed<'a> {
+    pub core: &'a Core,
+    pub radius: f64,
+    pub pose: Pose,
+    bounding: f64,
+}
+
+impl std::fmt::Debug for Core {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Segment(half) => write!(f, "Segment({half})"),
+            Self::Solid(_, extent) => write!(f, "Solid({extent:?})"),
+            Self::Floor => write!(f, "Floor"),
+        }
+    }
+}
+
+impl Part {
+    /// The part for a link's shape; `None` for a mesh without volume.
+    pub fn new(shape: &Shape, frame: Frame) -> Option<Self> {
+        Some(match shape {
+            Shape::Sphere { radius_m } => Self::round(0.0, *radius_m, frame),
+            Shape::Capsule { radius_m, half_length_m } => Self::round(*half_length_m, *radius_m, frame),
+            Shape::Cylinder { radius_m, half_length_m } => Self::cylinder(*radius_m, *half_length_m, frame),
+            Shape::Box { half_m: [x, y, z] } => {
+                let corner = Vector::new(*x, *y, *z);
+                let signs = [-1.0, 1.0];
+                let corners = signs.iter().flat_map(|i| signs.iter().map(move |j| (i, j)));
+                let corners = corners.flat_map(|(i, j)| signs.iter().map(move |k| Vector::new(*i, *j, *k) * corner));
+                Self::solid(SharedShape::new(Cuboid::new(corner)), Extent::Vertices(corners.collect()), frame)
+            }
+            Shape::Hull { points } => {
+                let vertices: Vec<_> = points.iter().map(|p: &Point3<f64>| Vector::new(p.x, p.y, p.z)).collect();
+                let hull = ConvexPolyhedron::from_convex_hull(&vertices)?;
+                let vertices = hull.points().to_vec();
+                Self::solid(SharedShape::new(hull), Extent::Vertices(vertices), frame)
+            }
+        })
+    }
+
+    /// A cylinder along the frame's z axis; lengths in metres.
+    pub fn cylinder(radius: f64, half_length: f64, frame: Frame) -> Self {
+        // parry's cylinder lies along y; `place` turns it.
+        let extent = Extent::Cylinder(radius, half_length);
+        Self::solid(SharedShape::new(Cylinder::new(half_length, radius)), extent, frame)
+    }
+
+    /// The floor; it needs no frame of its own.
+    pub fn floor() -> Self {
+        Self {
+            core: Core::Floor,
+            radius: 0.0,
+            bounding: f64::INFINITY,
+            frame: Frame::base(),
+        }
+    }
+
+    fn round(half_length: f64, radius: f64, frame: Frame) -> Self {
+        Self {
+            core: Core::Segment(half_length),
+            radius,
+            bounding: half_length + radius,
+            frame,
+        }
+    }
+
+    fn solid(shape: SharedShape, extent: Extent, frame: Frame) -> Self {
+        let bounding = match &extent {
+            Extent::Vertices(vertices) => vertices.iter().map(|v| v.length()).fold(0.0, f64::max),
+            Extent::Cylinder(radius, half) => (radius * radius + half * half).sqrt(),
+        };
+        Self {
+            core: Core::Solid(shape, extent),
+            radius: 0.0,
+            bounding,
+            frame,
+        }
+    }
+
+    /// The part where the arm's bodies stand.
+    pub fn place(&self, poses: &BodyPoses) -> Placed<'_> {
+        let pose: Pose = poses.pose(&self.frame).into();
+        let pose = match &self.core {
+            Core::Solid(_, Extent::Cylinder(..)) => pose * Pose::rotation(Vector::new(super::Y_TO_Z, 0.0, 0.0)),
+            _ => pose,
+        };
+        Placed {
+            core: &self.core,
+            radius: self.radius,
+            pose,
+            bounding: self.bounding,
+        }
+    }
+}
+
+impl Placed<'_> {
+    /// The core segment's ends, base frame.
+    pub fn segment(&self, half: f64) -> Segment {
+        let end = |z: f64| self.pose * Vector::new(0.0, 0.0, z);
+        Segment::new(end(-half), end(half))
+    }
+
+    /// A lower bound of the distance to another part, from bounding spheres \[m\].
+    pub fn sphere_gap(&self, other: &Self) -> f64 {
+        match (self.core, other.core) {
+            (Core::Floor, _) => other.pose.translation.z - other.bounding,
+            (_, Core::Floor) => self.pose.translation.z - self.bounding,
+            _ => (self.pose.translation - other.pose.translation).length() - self.bounding - other.bounding,
+        }
+    }
+}

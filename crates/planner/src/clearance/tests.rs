@@ -1,0 +1,187 @@
+use super::*;
+use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+use platewash_kinematics::geometry::Shape;
+use proptest::prelude::*;
+
+fn iso() -> impl Strategy<Value = Isometry3<f64>> {
+    (prop::array::uniform3(-1.0..1.0f64), prop::array::uniform3(-3.0..3.0f64))
+        .prop_map(|(t, r)| Isometry3::from_parts(Translation3::from(t), UnitQuaternion::from_scaled_axis(r.into())))
+}
+
+fn part(shape: &Shape, pose: &Isometry3<f64>) -> Part {
+    Part::new(shape, Frame::base().offset(&Rigid::from(pose))).unwrap()
+}
+
+fn gap(a: &Part, b: &Part) -> Separation {
+    let robot = RobotModel::irb120().unwrap();
+    let poses = robot.fk(&JointVector::zeros());
+    separation(&a.place(&poses), &b.place(&poses))
+}
+
+fn distance(a: (&Shape, &Isometry3<f64>), b: (&Shape, &Isometry3<f64>)) -> f64 {
+    gap(&part(a.0, a.1), &part(b.0, b.1)).distance
+}
+
+/// Distance of two segments by brute refinement of the convex problem in (s, t) ∈ [0, 1]².
+fn segment_distance(a: [Point3<f64>; 2], b: [Point3<f64>; 2]) -> f64 {
+    let at = |s: f64, t: f64| (a[0] + (a[1] - a[0]) * s - (b[0] + (b[1] - b[0]) * t)).norm();
+    let best_t = |s: f64| {
+        let (u, w) = (b[1] - b[0], a[0] + (a[1] - a[0]) * s - b[0]);
+        let t = if u.norm_squared() > 0.0 { (w.dot(&u) / u.norm_squared()).clamp(0.0, 1.0) } else { 0.0 };
+        at(s, t)
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..200 {
+        let (m, n) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        if best_t(m) < best_t(n) { high = n } else { low = m }
+    }
+    best_t((low + high) / 2.0)
+}
+
+proptest! {
+    #[test]
+    fn capsules_are_right_to_rounding(a in iso(), b in iso(), ha in 0.0..0.3f64, hb in 0.0..0.3f64) {
+        let ends = |p: &Isometry3<f64>, h: f64| [p * Point3::new(0.0, 0.0, -h), p * Point3::new(0.0, 0.0, h)];
+        let (ra, rb) = (0.05, 0.08);
+        let (sa, sb) = (
+            Shape::Capsule { radius_m: ra, half_length_m: ha },
+            Shape::Capsule { radius_m: rb, half_length_m: hb },
+        );
+        let expected = segment_distance(ends(&a, ha), ends(&b, hb)) - ra - rb;
+        prop_assert!((distance((&sa, &a), (&sb, &b)) - expected).abs() < 1e-9);
+    }
+
+    /// Point to cylinder and to box have closed forms; the capsule goes through the iterative routine.
+    #[test]
+    fn solids_are_right_to_the_stated_error(a in iso(), b in iso(), h in 0.001..0.2f64) {
+        let local = b.inverse() * Point3::from(a.translation.vector);
+        let outside = |d: f64| d.max(0.0);
+        let (r, half) = (0.145, 0.01);
+        let cylinder = Shape::Cylinder { radius_m: r, half_length_m: half };
+        let to_cylinder = outside(local.xy().coords.norm() - r).hypot(outside(local.z.abs() - half));
+        let cuboid = Shape::Box { half_m: [0.1, 0.2, 0.05] };
+        let to_box = Vector3::new(outside(local.x.abs() - 0.1), outside(local.y.abs() - 0.2), outside(local.z.abs() - 0.05)).norm();
+        let hull = Shape::Hull { points: [-1.0, 1.0].iter().flat_map(|x| [-1.0, 1.0].iter().flat_map(move |y| [-1.0, 1.0]
+            .iter().map(move |z| Point3::new(0.1 * x, 0.2 * y, 0.05 * z)))).collect() };
+        let ball = Shape::Sphere { radius_m: 0.03 };
+        for (solid, expected) in [(&cylinder, to_cylinder), (&cuboid, to_box), (&hull, to_box)] {
+            let found = distance((&ball, &a), (solid, &b));
+            if expected > 1e-6 {
+                prop_assert!((found - (expected - 0.03)).abs() < ITERATIVE_ERROR_M, "{found} {expected}");
+            } else {
+                prop_assert!(found <= -0.03 + ITERATIVE_ERROR_M);
+            }
+        }
+        // A capsule is never farther than its middle, never nearer than that less its half length, and as
+        // near as its nearest sampled point.
+        let capsule = Shape::Capsule { radius_m: 0.03, half_length_m: h };
+        let found = distance((&capsule, &a), (&cylinder, &b));
+        let sampled = (0..=2000).map(|k| {
+            let z = h * (f64::from(k) / 1000.0 - 1.0);
+            let p = b.inverse() * (a * Point3::new(0.0, 0.0, z));
+            outside(p.xy().coords.norm() - r).hypot(outside(p.z.abs() - half))
+        }).fold(f64::INFINITY, f64::min) - 0.03;
+        if sampled > -0.03 + 1e-4 {
+            prop_assert!(found <= sampled + ITERATIVE_ERROR_M && found >= sampled - h / 1000.0 - ITERATIVE_ERROR_M, "{found} {sampled}");
+        } else {
+            prop_assert!(found <= 0.0);
+        }
+        // Solid against solid: symmetric.
+        let there = distance((&cylinder, &a), (&cuboid, &b));
+        let back = distance((&cuboid, &b), (&cylinder, &a));
+        prop_assert!((there - back).abs() < ITERATIVE_ERROR_M);
+    }
+
+    /// The half-space trap: a box, a cylinder, a hull and a capsule over the floor, at any attitude.
+    #[test]
+    fn heights_over_the_floor_are_closed_forms(pose in iso()) {
+        let high = Isometry3::translation(0.0, 0.0, 2.0) * pose;
+        let axis = high.rotation * Vector3::z();
+        let z = high.translation.z;
+        let tilted = (1.0 - axis.z * axis.z).max(0.0).sqrt();
+        let rotation = high.rotation.to_rotation_matrix();
+        let row = rotation.matrix().row(2).abs();
+        let cases = [
+            (Shape::Sphere { radius_m: 0.1 }, z - 0.1),
+            (Shape::Capsule { radius_m: 0.1, half_length_m: 0.3 }, z - 0.3 * axis.z.abs() - 0.1),
+            (Shape::Cylinder { radius_m: 0.1, half_length_m: 0.3 }, z - 0.3 * axis.z.abs() - 0.1 * tilted),
+            (Shape::Box { half_m: [0.1, 0.2, 0.3] }, z - row[0] * 0.1 - row[1] * 0.2 - row[2] * 0.3),
+        ];
+        for (shape, expected) in cases {
+            let found = gap(&part(&shape, &high), &Part::floor());
+            prop_assert!((found.distance - expected).abs() < 1e-12, "{shape:?}: {} {expected}", found.distance);
+            prop_assert!(found.distance > 0.0);
+        }
+    }
+
+    #[test]
+    fn the_smallest_is_the_least_of_all(q in prop::array::uniform6(-1.5..1.5f64)) {
+        let model = model();
+        let q = JointVector::from(q);
+        let least = model.all(&q).into_iter().min_by(|x, y| x.distance_m.total_cmp(&y.distance_m)).unwrap();
+        let found = model.smallest(&q, &[]).unwrap();
+        prop_assert!((found.distance_m - least.distance_m).abs() < 1e-12, "{found:?} {least:?}");
+    }
+}
+
+fn model() -> ClearanceModel {
+    let tool = ToolSection { length_m: 0.15, ..ToolSection::default() };
+    let plate = |x_m, y_m| Plate { x_m, y_m, z_m: 0.03, radius_m: 0.145, thickness_m: 0.02 };
+    ClearanceModel::new(&RobotModel::irb120().unwrap(), &tool, &[plate(0.3, -0.2), plate(0.3, 0.2)]).unwrap()
+}
+
+#[test]
+fn the_irb_120_checks_the_eight_self_pairs() {
+    let bare = ClearanceModel::new(&RobotModel::irb120().unwrap(), &ToolSection::default(), &[]).unwrap();
+    let pairs = bare.pair_names();
+    let own: Vec<_> = pairs.iter().filter(|(_, b)| *b != "floor").map(|(a, b)| format!("{a}-{b}")).collect();
+    let expected = [(0, 3), (0, 4), (0, 5), (0, 6), (1, 3), (1, 4), (1, 5), (1, 6)]
+        .map(|(a, b)| format!("{}-link_{b}", if a == 0 { "base_link".to_owned() } else { format!("link_{a}") }));
+    assert_eq!(own, expected);
+    let floor: Vec<_> = pairs.iter().filter(|(_, b)| *b == "floor").map(|(a, _)| *a).collect();
+    assert_eq!(floor, ["link_2", "link_3", "link_4", "link_5", "link_6"], "link_1 keeps its height");
+}
+
+#[test]
+fn without_a_list_neighbours_and_pairs_that_always_touch_are_left_out() {
+    let robot = RobotModel::from_urdf(platewash_kinematics::model::IRB120_URDF, &platewash_kinematics::urdf::MeshSource::none());
+    let model = ClearanceModel::new(&robot.unwrap(), &ToolSection::default(), &[]).unwrap();
+    let pairs = model.pair_names();
+    assert!(!pairs.contains(&("link_4", "link_6")), "these shapes always overlap");
+    assert!(!pairs.contains(&("link_2", "link_3")), "neighbours");
+    assert!(pairs.contains(&("base_link", "link_4")));
+}
+
+/// By hand: at q = 0 with a 150 mm tool the tool lies along +x at z = 0.63 m.
+#[test]
+fn known_distances_at_the_home_position() {
+    let all = model().all(&JointVector::zeros());
+    let of = |a: &str, b: &str| all.iter().find(|p| p.a == a && p.b == b).unwrap().distance_m;
+    assert!((of("handle", "floor") - (0.63 - 0.02)).abs() < 1e-12);
+    assert!((of("sponge", "floor") - (0.63 - 0.025)).abs() < 1e-12);
+    assert!((of("link_6", "floor") - (0.63 - 0.0255)).abs() < 1e-12);
+    let to_plate = model().all(&JointVector::zeros()).into_iter().filter(|p| p.b.starts_with("plate")).count();
+    assert_eq!(to_plate, 2 * (6 + 2), "six moving links, handle and sponge against each plate");
+}
+
+#[test]
+fn the_sponge_may_touch_the_plate_it_works_on() {
+    let model = model();
+    // Tool straight down over plate 1 with the sponge on its surface: found by the place of contact alone.
+    let robot = RobotModel::irb120().unwrap();
+    let tip = robot.mounting_frame().offset(&Rigid { translation: Vector3::new(0.0, 0.0, 0.15), ..Rigid::identity() });
+    let solver = platewash_kinematics::ik::IkSolver::new(&robot, tip, Default::default()).unwrap();
+    let down = crate::tool_path::tool_down(Vector3::new(0.35, 0.2, 0.029));
+    let q = solver.solve(&down, &JointVector::new(0.5, 0.3, 0.2, 0.0, 1.0, 0.0)).unwrap().q;
+    let touching = model.smallest(&q, &[]).unwrap();
+    assert_eq!((touching.a.as_str(), touching.b.as_str()), ("sponge", "plate 1"));
+    assert!(touching.distance_m <= 0.0);
+    assert!(model.smallest(&q, &[1]).unwrap().distance_m > 0.0);
+    assert!(model.smallest(&q, &[0]).unwrap().distance_m <= 0.0);
+}
+
+#[test]
+fn nan_is_never_a_distance_of_zero() {
+    let q = JointVector::repeat(f64::NAN);
+    assert!(model().all(&q).iter().all(|p| !(p.distance_m >= 0.0)));
+}

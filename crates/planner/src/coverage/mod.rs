@@ -1,0 +1,157 @@
+//! How much of a plate the sponge sweeps.
+
+mod disc;
+mod raster;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use raster::{Capsule, Raster, Uncovered};
+
+/// Cells may not be smaller than this part of the plate's radius, so that every call ends soon.
+const SMALLEST_CELL: f64 = 1e-5;
+
+/// What is added to both sides of the bounds for rounding, as a part of the disc's area.
+const ROUNDING: f64 = 1e-11;
+
+/// How finely to look.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CoverageSettings {
+    /// Edge of the smallest cells, metres, at least 1e-5 of the disc's radius. The error falls in proportion.
+    pub cell_m: f64,
+}
+
+impl Default for CoverageSettings {
+    fn default() -> Self {
+        Self { cell_m: 0.001 }
+    }
+}
+
+/// The swept part of a disc, as fractions of the disc's area, 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Coverage {
+    /// Best estimate: the smallest cells count as swept when their middle is.
+    pub fraction: f64,
+    /// The true value is not below this.
+    pub lower: f64,
+    /// The true value is not above this.
+    pub upper: f64,
+}
+
+impl Coverage {
+    /// Width of the interval that contains the true value.
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        self.upper - self.lower
+    }
+}
+
+/// A number that makes no sense.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CoverageError {
+    /// A point of the path is not finite.
+    #[error("point {index} of the path is not finite")]
+    PathNotFinite {
+        /// Index of the point, from 0.
+        index: usize,
+    },
+    /// The centre of the disc is not finite.
+    #[error("the centre of the disc is not finite")]
+    CentreNotFinite,
+    /// A length is not finite or not greater than zero.
+    #[error("{quantity} = {value_m} m is not a finite length greater than zero")]
+    NotPositive {
+        /// Which length.
+        quantity: &'static str,
+        /// Its value, metres.
+        value_m: f64,
+    },
+    /// The cells are so small that the raster would not end in reasonable time.
+    #[error("cell_m = {cell_m} m is less than {smallest_m} m, 1e-5 of the disc's radius")]
+    CellTooSmall {
+        /// Its value, metres.
+        cell_m: f64,
+        /// The smallest value allowed for this disc, metres.
+        smallest_m: f64,
+    },
+}
+
+/// The part of a disc that a round sponge sweeps while its centre follows a polyline.
+///
+/// `polyline` and `centre` are in one plane frame, metres; `radius_m` is the disc's radius, `sponge_radius_m` the sponge's.
+/// An empty polyline sweeps nothing, one of a single point the sponge's own disc; repeated points do no harm.
+///
+/// The swept area is the union of capsules, one a segment. Square cells are halved while they are neither wholly within one
+/// capsule nor wholly outside of all, down to `cell_m`; only those that remain undecided enter the error, so that
+/// [`Coverage::lower`] and [`Coverage::upper`] are proven (rounding included, for points within a hundred radii or so).
+/// Areas along the rim of the disc are exact.
+///
+/// # Errors
+///
+/// [`CoverageError`] for a number that is not finite, a length that is not greater than zero, or cells that are too small.
+pub fn coverage(
+    polyline: &[[f64; 2]],
+    centre: [f64; 2],
+    radius_m: f64,
+    sponge_radius_m: f64,
+    settings: &CoverageSettings,
+) -> Result<Coverage, CoverageError> {
+    validate(polyline, centre, radius_m, sponge_radius_m, settings)?;
+    let about_centre = |p: [f64; 2]| [p[0] - centre[0], p[1] - centre[1]];
+    let capsules: Vec<Capsule> = match polyline {
+        [] => Vec::new(),
+        &[point] => vec![Capsule::new(about_centre(point), about_centre(point))],
+        _ => polyline
+            .windows(2)
+            .map(|ends| Capsule::new(about_centre(ends[0]), about_centre(ends[1])))
+            .collect(),
+    };
+    let uncovered = Raster::new(&capsules, radius_m, sponge_radius_m, settings.cell_m).uncovered();
+    Ok(as_fractions(&uncovered, std::f64::consts::PI * radius_m * radius_m))
+}
+
+fn as_fractions(uncovered: &Uncovered, disc_area: f64) -> Coverage {
+    let covered = |uncovered_area: f64, rounding: f64| (1.0 - uncovered_area / disc_area + rounding).clamp(0.0, 1.0);
+    Coverage {
+        fraction: covered(uncovered.by_middle, 0.0),
+        lower: covered(uncovered.at_most, -ROUNDING),
+        upper: covered(uncovered.at_least, ROUNDING),
+    }
+}
+
+fn validate(
+    polyline: &[[f64; 2]],
+    centre: [f64; 2],
+    radius_m: f64,
+    sponge_radius_m: f64,
+    settings: &CoverageSettings,
+) -> Result<(), CoverageError> {
+    let finite = |p: &[f64; 2]| p.iter().all(|c| c.is_finite());
+    if let Some(index) = polyline.iter().position(|p| !finite(p)) {
+        return Err(CoverageError::PathNotFinite { index });
+    }
+    if !finite(&centre) {
+        return Err(CoverageError::CentreNotFinite);
+    }
+    let cell_m = settings.cell_m;
+    for (quantity, value_m) in [
+        ("radius_m", radius_m),
+        ("sponge_radius_m", sponge_radius_m),
+        ("cell_m", cell_m),
+    ] {
+        if !(value_m.is_finite() && value_m > 0.0) {
+            return Err(CoverageError::NotPositive { quantity, value_m });
+        }
+    }
+    let smallest_m = SMALLEST_CELL * radius_m;
+    if cell_m < smallest_m {
+        Err(CoverageError::CellTooSmall { cell_m, smallest_m })
+    } else {
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,148 @@
+//! The quadtree that decides, cell by cell, what is swept.
+
+use super::disc::area_of_rectangle_in_disc;
+
+/// The axis of a capsule: a segment, which may be a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Capsule {
+    start: [f64; 2],
+    along: [f64; 2],
+    /// 1 / length², 0 for a point.
+    inverse_length_squared: f64,
+}
+
+impl Capsule {
+    pub(super) fn new(start: [f64; 2], end: [f64; 2]) -> Self {
+        let along = [end[0] - start[0], end[1] - start[1]];
+        let inverse = (along[0] * along[0] + along[1] * along[1]).recip();
+        Self {
+            start,
+            along,
+            inverse_length_squared: if inverse.is_finite() { inverse } else { 0.0 },
+        }
+    }
+
+    /// Square of the distance of a point from the axis.
+    fn distance_squared(&self, p: [f64; 2]) -> f64 {
+        let (x, y) = (p[0] - self.start[0], p[1] - self.start[1]);
+        let t = ((x * self.along[0] + y * self.along[1]) * self.inverse_length_squared).clamp(0.0, 1.0);
+        let (dx, dy) = (x - t * self.along[0], y - t * self.along[1]);
+        dx * dx + dy * dy
+    }
+}
+
+/// Area of the disc that is not swept, in the square of the unit of the lengths.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Uncovered {
+    /// Proven lower bound.
+    pub(super) at_least: f64,
+    /// Proven upper bound.
+    pub(super) at_most: f64,
+    /// Estimate: undecided cells count by their middle.
+    pub(super) by_middle: f64,
+}
+
+/// The state of a recursion over square cells about the disc's centre.
+#[derive(Debug)]
+pub(super) struct Raster<'a> {
+    capsules: &'a [Capsule],
+    radius: f64,
+    sponge_radius: f64,
+    cell: f64,
+    /// The capsules that reach the current cell, after those that reach the cells around it.
+    near: Vec<u32>,
+    uncovered: Uncovered,
+}
+
+impl<'a> Raster<'a> {
+    /// Lengths in one unit, the disc's centre at the origin.
+    pub(super) fn new(capsules: &'a [Capsule], radius: f64, sponge_radius: f64, cell: f64) -> Self {
+        let near = (0..capsules.len() as u32).collect();
+        Self {
+            capsules,
+            radius,
+            sponge_radius,
+            cell,
+            near,
+            uncovered: Uncovered::default(),
+        }
+    }
+
+    /// The area of the disc that no capsule covers.
+    pub(super) fn uncovered(mut self) -> Uncovered {
+        // The root is the smallest square around the disc that halves down to cells of the wanted size.
+        let mut half = 0.5 * self.cell;
+        let mut depth = 0;
+        while half < self.radius {
+            half *= 2.0;
+            depth += 1;
+        }
+        self.visit([0.0, 0.0], half, depth, 0);
+        self.uncovered
+    }
+
+    /// Adds the cell about `middle`; `near[first..]` holds every capsule that may reach it.
+    fn visit(&mut self, middle: [f64; 2], half: f64, depth: u32, first: usize) {
+        if self.is_outside_disc(middle, half) {
+            return;
+        }
+        let half_diagonal = half * std::f64::consts::SQRT_2;
+        let (within, reach) = (self.sponge_radius - half_diagonal, self.sponge_radius + half_diagonal);
+        let last = self.near.len();
+        let mut nearest_squared = f64::INFINITY;
+        for k in first..last {
+            let squared = self.capsules[self.near[k] as usize].distance_squared(middle);
+            nearest_squared = nearest_squared.min(squared);
+            if within > 0.0 && squared <= within * within {
+                self.near.truncate(last);
+                return;
+            }
+            if squared < reach * reach {
+                self.near.push(self.near[k]);
+            }
+        }
+        if self.near.len() == last {
+            self.add_uncovered(self.area_in_disc(middle, half));
+        } else if depth == 0 {
+            let area = self.area_in_disc(middle, half);
+            self.add_undecided(area, nearest_squared <= self.sponge_radius * self.sponge_radius);
+        } else {
+            let quarter = 0.5 * half;
+            for (x, y) in [
+                (-quarter, -quarter),
+                (quarter, -quarter),
+                (-quarter, quarter),
+                (quarter, quarter),
+            ] {
+                self.visit([middle[0] + x, middle[1] + y], quarter, depth - 1, last);
+            }
+        }
+        self.near.truncate(last);
+    }
+
+    fn add_uncovered(&mut self, area: f64) {
+        self.uncovered.at_least += area;
+        self.uncovered.at_most += area;
+        self.uncovered.by_middle += area;
+    }
+
+    fn add_undecided(&mut self, area: f64, middle_is_covered: bool) {
+        self.uncovered.at_most += area;
+        if !middle_is_covered {
+            self.uncovered.by_middle += area;
+        }
+    }
+
+    fn is_outside_disc(&self, [x, y]: [f64; 2], half: f64) -> bool {
+        let (dx, dy) = ((x.abs() - half).max(0.0), (y.abs() - half).max(0.0));
+        dx * dx + dy * dy >= self.radius * self.radius
+    }
+
+    fn area_in_disc(&self, [x, y]: [f64; 2], half: f64) -> f64 {
+        let (dx, dy) = (x.abs() + half, y.abs() + half);
+        if dx * dx + dy * dy <= self.radius * self.radius {
+            return 4.0 * half * half;
+        }
+        area_of_rectangle_in_disc(self.radius, [x - half, x + half], [y - half, y + half])
+    }
+}

@@ -1,0 +1,151 @@
+//! Why a layout could not be made.
+
+use thiserror::Error;
+
+/// What is wrong with one number of the request.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum InputProblem {
+    /// NaN or infinite.
+    #[error("is not a finite number")]
+    NotFinite,
+    /// Below zero where only zero or more makes sense.
+    #[error("is negative")]
+    Negative,
+    /// Zero or negative where a size is needed.
+    #[error("is not greater than zero")]
+    NotPositive,
+    /// A range whose lower end lies above its upper end.
+    #[error("is reversed: its first number is greater than its second")]
+    Reversed,
+    /// A range of zero width, which has no area to draw from.
+    #[error("has no width")]
+    NoWidth,
+    /// An azimuth range of more than a full turn.
+    #[error("spans more than 360 degrees")]
+    MoreThanATurn,
+    /// Above the largest supported value.
+    #[error("is greater than {max}")]
+    TooLarge {
+        /// The largest supported value, in the unit of the key.
+        max: usize,
+    },
+}
+
+/// Why a region holds no admissible position even before the first plate.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum EmptyReason {
+    /// The ranges `x_m`, `y_m`, `rho_m` and `azimuth_deg` have no area in common.
+    #[error("its ranges (x_m, y_m, rho_m, azimuth_deg) have no area in common")]
+    Disjoint,
+    /// Every point of the region is within `base_radius_m` of the base axis.
+    #[error("all of it lies within base_radius_m = {base_radius_m} m of the base axis")]
+    WithinBase {
+        /// The radius around the base axis that must stay free, metres.
+        base_radius_m: f64,
+    },
+}
+
+/// Why a layout could not be made.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum LayoutError {
+    /// A number of the request makes no sense.
+    #[error("{key} {problem}")]
+    InvalidInput {
+        /// The key, spelled as in a scenario's `[layout]` table.
+        key: &'static str,
+        /// What is wrong with it.
+        problem: InputProblem,
+    },
+    /// A coordinate of an explicitly given plate is not a finite number.
+    #[error("positions_m[{plate}] is not finite")]
+    InvalidPosition {
+        /// Index of the plate, from 0.
+        plate: usize,
+    },
+    /// The region admits no plate at all.
+    #[error("the region is empty: {reason}")]
+    EmptyRegion {
+        /// Why.
+        reason: EmptyReason,
+    },
+    /// Proven infeasible: more plates than any arrangement can hold (see [`packing_bound`](super::packing_bound)).
+    #[error("{count} plates cannot fit: with this spacing no arrangement holds more than {upper_bound}")]
+    Impossible {
+        /// Plates asked for.
+        count: usize,
+        /// No arrangement holds more plates than this.
+        upper_bound: usize,
+    },
+    /// Not proven infeasible, but every random layout ran into a dead end.
+    #[error(
+        "no layout of {count} plates found: {layouts_tried} random layouts held at most {most_placed} before no room was \
+         left{}", upper_bound_text(*.upper_bound)
+    )]
+    NoRoom {
+        /// Plates asked for.
+        count: usize,
+        /// The largest number of plates placed before a dead end.
+        most_placed: usize,
+        /// Layouts begun, each of which ended with no room for the next plate.
+        layouts_tried: u32,
+        /// No arrangement holds more plates than this; `None` without a spacing.
+        upper_bound: Option<usize>,
+    },
+}
+
+fn upper_bound_text(upper_bound: Option<usize>) -> String {
+    upper_bound.map_or_else(String::new, |n| {
+        format!(" (no arrangement whatever holds more than {n})")
+    })
+}
+
+impl LayoutError {
+    pub(super) fn invalid(key: &'static str, problem: InputProblem) -> Self {
+        Self::InvalidInput { key, problem }
+    }
+}
+
+/// Refuses what is not a finite number.
+pub(super) fn finite(key: &'static str, value: f64) -> Result<(), LayoutError> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(LayoutError::invalid(key, InputProblem::NotFinite))
+    }
+}
+
+/// Refuses what is not a finite number of zero or more.
+pub(super) fn not_negative(key: &'static str, value: f64) -> Result<(), LayoutError> {
+    finite(key, value)?;
+    if value < 0.0 {
+        Err(LayoutError::invalid(key, InputProblem::Negative))
+    } else {
+        Ok(())
+    }
+}
+
+/// Refuses what is not a finite number greater than zero.
+pub(super) fn positive(key: &'static str, value: f64) -> Result<(), LayoutError> {
+    finite(key, value)?;
+    if value <= 0.0 {
+        Err(LayoutError::invalid(key, InputProblem::NotPositive))
+    } else {
+        Ok(())
+    }
+}
+
+/// Refuses what is not a finite range `[low, high]` of positive width.
+pub(super) fn range(key: &'static str, [low, high]: [f64; 2]) -> Result<(), LayoutError> {
+    finite(key, low)?;
+    finite(key, high)?;
+    if low > high {
+        return Err(LayoutError::invalid(key, InputProblem::Reversed));
+    }
+    if low == high {
+        return Err(LayoutError::invalid(key, InputProblem::NoWidth));
+    }
+    Ok(())
+}

@@ -1,0 +1,167 @@
+//! What is wrong with a layout, without making it useless.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::{BaseFootprint, Plate, Region, Spacing};
+
+/// Something that a layout breaks. Plates are named by index, from 0; lengths are in metres, positions in the base frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Finding {
+    /// Two centres are not farther apart than `min_distance_m`. A rule of the layout: the plates need not touch.
+    SpacingBroken {
+        /// The plate that comes first.
+        a: usize,
+        /// The other plate.
+        b: usize,
+        /// Distance between the centres, metres.
+        distance_m: f64,
+        /// The distance that must be exceeded, metres.
+        required_m: f64,
+    },
+    /// A centre is not farther from the base axis than `base_radius_m`. A rule of the layout: plate and base need not touch.
+    TooCloseToBase {
+        /// The plate.
+        plate: usize,
+        /// Distance of its centre from the base axis, metres.
+        distance_m: f64,
+        /// The distance that must be exceeded, metres.
+        required_m: f64,
+    },
+    /// Two plates occupy the same space.
+    PlatesOverlap {
+        /// The plate that comes first.
+        a: usize,
+        /// The other plate.
+        b: usize,
+        /// How far they would have to be moved apart, metres.
+        overlap_m: f64,
+    },
+    /// A plate lies over the footprint of the robot's base.
+    OverlapsBase {
+        /// The plate.
+        plate: usize,
+        /// How far it would have to be moved away, metres.
+        overlap_m: f64,
+    },
+    /// A centre lies outside the region.
+    LeavesRegion {
+        /// The plate.
+        plate: usize,
+        /// Its x, metres.
+        x_m: f64,
+        /// Its y, metres.
+        y_m: f64,
+    },
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mm = |metres: f64| 1e3 * metres;
+        match *self {
+            Self::SpacingBroken {
+                a,
+                b,
+                distance_m,
+                required_m,
+            } => write!(
+                f,
+                "plate {a} and plate {b} are {:.1} mm apart; the spacing rule wants more than {:.1} mm",
+                mm(distance_m),
+                mm(required_m)
+            ),
+            Self::TooCloseToBase {
+                plate,
+                distance_m,
+                required_m,
+            } => write!(
+                f,
+                "plate {plate} is {:.1} mm from the base axis; the spacing rule wants more than {:.1} mm",
+                mm(distance_m),
+                mm(required_m)
+            ),
+            Self::PlatesOverlap { a, b, overlap_m } => {
+                write!(f, "plate {a} and plate {b} overlap by {:.1} mm", mm(overlap_m))
+            }
+            Self::OverlapsBase { plate, overlap_m } => {
+                write!(f, "plate {plate} overlaps the robot's base by {:.1} mm", mm(overlap_m))
+            }
+            Self::LeavesRegion { plate, x_m, y_m } => {
+                write!(
+                    f,
+                    "plate {plate} at x = {:.1} mm, y = {:.1} mm lies outside the region",
+                    mm(x_m),
+                    mm(y_m)
+                )
+            }
+        }
+    }
+}
+
+/// Plates that overlap each other or the base.
+pub(super) fn overlaps(plates: &[Plate], base: &BaseFootprint) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for (i, plate) in plates.iter().enumerate() {
+        let overlap_m = plate.radius_m - signed_distance(base, [plate.x_m, plate.y_m]);
+        if overlap_m > 0.0 {
+            findings.push(Finding::OverlapsBase { plate: i, overlap_m });
+        }
+    }
+    for (a, b, distance_m) in pairs(plates) {
+        let overlap_m = plates[a].radius_m + plates[b].radius_m - distance_m;
+        if overlap_m > 0.0 {
+            findings.push(Finding::PlatesOverlap { a, b, overlap_m });
+        }
+    }
+    findings
+}
+
+/// Plates that break the rules by which layouts are drawn.
+pub(super) fn broken_rules(plates: &[Plate], region: Option<&Region>, spacing: &Spacing) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for (i, &Plate { x_m, y_m, .. }) in plates.iter().enumerate() {
+        if region.is_some_and(|region| !region.contains([x_m, y_m])) {
+            findings.push(Finding::LeavesRegion { plate: i, x_m, y_m });
+        }
+        let (squared, required_m) = (x_m * x_m + y_m * y_m, spacing.base_radius_m);
+        if squared <= required_m * required_m {
+            findings.push(Finding::TooCloseToBase {
+                plate: i,
+                distance_m: squared.sqrt(),
+                required_m,
+            });
+        }
+    }
+    for (a, b, distance_m) in pairs(plates) {
+        if distance_m <= spacing.min_distance_m {
+            findings.push(Finding::SpacingBroken {
+                a,
+                b,
+                distance_m,
+                required_m: spacing.min_distance_m,
+            });
+        }
+    }
+    findings
+}
+
+/// Every pair of plates once, with the distance between their centres.
+fn pairs(plates: &[Plate]) -> impl Iterator<Item = (usize, usize, f64)> {
+    (0..plates.len()).flat_map(move |a| {
+        (a + 1..plates.len()).map(move |b| {
+            let (dx, dy) = (plates[a].x_m - plates[b].x_m, plates[a].y_m - plates[b].y_m);
+            (a, b, (dx * dx + dy * dy).sqrt())
+        })
+    })
+}
+
+/// Distance of a point from a rectangle, negative inside.
+fn signed_distance(base: &BaseFootprint, [x, y]: [f64; 2]) -> f64 {
+    let beyond = |value: f64, [low, high]: [f64; 2]| (low - value).max(value - high);
+    let (dx, dy) = (beyond(x, base.x_m), beyond(y, base.y_m));
+    let (outside_x, outside_y) = (dx.max(0.0), dy.max(0.0));
+    (outside_x * outside_x + outside_y * outside_y).sqrt() + dx.max(dy).min(0.0)
+}

@@ -1,0 +1,199 @@
+//! Random layouts by the paper's law, without its endless loop.
+//!
+//! The law is sequential: each plate is uniform over the part of the region that is strictly farther than `min_distance_m`
+//! from every earlier plate and strictly farther than `base_radius_m` from the base axis. When nothing is left, the layout
+//! is a dead end and is begun anew.
+//!
+//! Each plate is drawn by rejection from the region's box first. If that fails, a quadtree over the box is refined: cells
+//! wholly in one disc or outside the region are dropped, and rejection goes on from the cells that remain. Both draw from a
+//! superset of the free part, so that an accepted point is exactly uniform over it. When no cell remains, the free part is
+//! proven empty. Free parts thinner than about 1e-9 m may be taken for empty; nothing else is.
+//!
+//! Source of the refinement: G. Zhang and S. Torquato, "Precise algorithm to generate random sequential addition of hard
+//! hyperspheres at saturation", Physical Review E 88 (2013) 053312.
+
+use rand::Rng;
+
+use super::Spacing;
+use super::cells::{Cells, Refined};
+use super::discs::Discs;
+use super::error::{EmptyReason, LayoutError};
+use super::region::{Area, Region};
+use super::space::Space;
+
+/// Draws from the box before cells are used.
+const BOX_DRAWS: u64 = 64;
+
+/// Draws from cells that may not be refined any further, besides 64 for each cell. What they miss counts as empty.
+const LAST_DRAWS: u64 = 4096;
+
+/// Draws plates into one region with one spacing.
+#[derive(Clone, Debug)]
+pub struct Sampler {
+    area: Area,
+    spacing: Spacing,
+    box_draws: u64,
+}
+
+/// How one layout, begun once, ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Attempt {
+    /// All plates are placed: their centres `[x, y]`, metres in the base frame, in the order they were drawn.
+    Placed(Vec<[f64; 2]>),
+    /// There is no room for the next plate.
+    DeadEnd {
+        /// Plates placed until then.
+        placed: usize,
+    },
+}
+
+/// Work done so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Work {
+    /// Candidate positions drawn.
+    pub(super) draws: u64,
+    /// Quadtree cells examined.
+    pub(super) cells: u64,
+}
+
+impl Sampler {
+    /// Prepares a region and a spacing.
+    ///
+    /// # Errors
+    ///
+    /// [`LayoutError::InvalidInput`] for a number that makes no sense, [`LayoutError::EmptyRegion`] when not even a first
+    /// plate has room.
+    pub fn new(region: &Region, spacing: &Spacing) -> Result<Self, LayoutError> {
+        region.validate()?;
+        spacing.validate()?;
+        let sampler = Self {
+            area: Area::new(region),
+            spacing: *spacing,
+            box_draws: BOX_DRAWS,
+        };
+        let base_radius_m = spacing.base_radius_m;
+        if !sampler.has_room_for_first_plate(0.0) {
+            return Err(LayoutError::EmptyRegion {
+                reason: EmptyReason::Disjoint,
+            });
+        }
+        if !sampler.has_room_for_first_plate(base_radius_m) {
+            return Err(LayoutError::EmptyRegion {
+                reason: EmptyReason::WithinBase { base_radius_m },
+            });
+        }
+        Ok(sampler)
+    }
+
+    /// Draws `count` plates one after the other and stops at a dead end. Takes a bounded number of steps, and does not
+    /// depend on the machine: the same generator state gives the same plates.
+    pub fn attempt<R: Rng + ?Sized>(&self, count: usize, rng: &mut R) -> Attempt {
+        self.attempt_counting(count, rng, &mut Work::default())
+    }
+
+    /// Draws one more plate beside those at `placed` (`[x, y]`, metres in the base frame): uniform over the free part of
+    /// the region, or `None` when nothing is free.
+    pub fn place<R: Rng + ?Sized>(&self, placed: &[[f64; 2]], rng: &mut R) -> Option<[f64; 2]> {
+        let mut discs = self.no_discs(placed.len());
+        placed.iter().for_each(|&centre| discs.push(centre));
+        self.draw(&discs, &mut None, rng, &mut Work::default())
+    }
+
+    pub(super) fn attempt_counting<R: Rng + ?Sized>(&self, count: usize, rng: &mut R, work: &mut Work) -> Attempt {
+        let mut discs = self.no_discs(count);
+        let mut cells = None;
+        while discs.len() < count {
+            match self.draw(&discs, &mut cells, rng, work) {
+                Some(centre) => discs.push(centre),
+                None => return Attempt::DeadEnd { placed: discs.len() },
+            }
+        }
+        Attempt::Placed(discs.into_centres())
+    }
+
+    /// The next plate, or `None` at a dead end. Cells, once begun, are kept for the plates that follow.
+    fn draw<R: Rng + ?Sized>(
+        &self,
+        discs: &Discs,
+        cells: &mut Option<Cells>,
+        rng: &mut R,
+        work: &mut Work,
+    ) -> Option<[f64; 2]> {
+        let space = self.space(discs, self.spacing.base_radius_m);
+        if cells.is_none() {
+            let ([x, y], [width, height]) = (self.area.low(), self.area.size());
+            let in_box = |rng: &mut R| [x + unit(rng) * width, y + unit(rng) * height];
+            if let Some(found) = first_free(&space, self.box_draws, in_box, rng, work) {
+                return Some(found);
+            }
+        }
+        let cells = cells.get_or_insert_with(Cells::root);
+        loop {
+            let count = cells.len() as u64;
+            let in_cells = |rng: &mut R| cells.point(&space, [unit(rng), unit(rng), unit(rng)]);
+            if let Some(found) = first_free(&space, 4 + count / 4, in_cells, rng, work) {
+                return Some(found);
+            }
+            match cells.refine(&space, &mut work.cells) {
+                Refined::Yes => {}
+                Refined::Empty => return None,
+                Refined::Exhausted => {
+                    let in_cells = |rng: &mut R| cells.point(&space, [unit(rng), unit(rng), unit(rng)]);
+                    return first_free(&space, LAST_DRAWS + 64 * count, in_cells, rng, work);
+                }
+            }
+        }
+    }
+
+    fn space<'a>(&'a self, discs: &'a Discs, base_radius_m: f64) -> Space<'a> {
+        Space {
+            area: &self.area,
+            base_radius_squared: base_radius_m * base_radius_m,
+            discs,
+        }
+    }
+
+    fn no_discs(&self, count: usize) -> Discs {
+        Discs::new(self.spacing.min_distance_m, self.area.low(), self.area.size(), count)
+    }
+
+    /// Refines until the middle of a cell is free, so that no generator is needed.
+    fn has_room_for_first_plate(&self, base_radius_m: f64) -> bool {
+        if self.area.size().iter().any(|&s| s <= 0.0) {
+            return false;
+        }
+        let discs = self.no_discs(0);
+        let space = self.space(&discs, base_radius_m);
+        let mut cells = Cells::root();
+        loop {
+            if cells.middles(&space).any(|p| space.is_free(p)) {
+                return true;
+            }
+            if cells.refine(&space, &mut 0) != Refined::Yes {
+                return false;
+            }
+        }
+    }
+}
+
+/// The first of a number of random points that is free.
+fn first_free<R: Rng + ?Sized>(
+    space: &Space,
+    draws: u64,
+    point: impl Fn(&mut R) -> [f64; 2],
+    rng: &mut R,
+    work: &mut Work,
+) -> Option<[f64; 2]> {
+    (0..draws).find_map(|_| {
+        work.draws += 1;
+        Some(point(rng)).filter(|&p| space.is_free(p))
+    })
+}
+
+/// Uniform in [0, 1), from the upper 53 bits of one word: the same on every machine and with every version of `rand`.
+fn unit<R: Rng + ?Sized>(rng: &mut R) -> f64 {
+    (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+#[cfg(test)]
+mod tests;

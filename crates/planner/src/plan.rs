@@ -1,0 +1,230 @@
+//! The plan file: everything that a verifier needs besides the URDF, sealed with a hash.
+
+use crate::job::Job;
+use crate::layout::Plate;
+use crate::report::JobReport;
+use crate::scenario::{Scenario, ToolSection};
+use crate::tool_path::{Segment, SegmentKind};
+use platewash_kinematics::{AXES, JointVector};
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+/// The format that this version writes and reads.
+pub const FORMAT: &str = "platewash-plan/1";
+
+/// A plan file, `"format": "platewash-plan/1"`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    /// [`FORMAT`].
+    pub format: String,
+    /// SHA-256 over the canonical JSON (RFC 8785) of everything else, lower-case hexadecimal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hash: Option<String>,
+    /// The scenario, resolved, with its seed.
+    pub scenario: Scenario,
+    /// The arm.
+    pub robot: PlanRobot,
+    /// What it holds.
+    pub tool: ToolSection,
+    /// The plates.
+    pub plates: Vec<Plate>,
+    /// Plate indices in the order of washing.
+    pub order: Vec<usize>,
+    /// What the tip must do, as parameters.
+    pub tool_path: Vec<Segment>,
+    /// Limits that hold for the motion.
+    pub limits: PlanLimits,
+    /// The segments in time.
+    pub segments: Vec<PlanSegment>,
+    /// The motion: cubic Hermite between knots.
+    pub knots: Knots,
+    /// What a reader wants to know first.
+    pub summary: Summary,
+}
+
+/// The arm of a plan.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PlanRobot {
+    /// Name in the URDF.
+    pub name: String,
+    /// SHA-256 of the URDF.
+    pub urdf_sha256: String,
+}
+
+/// Joint limits of a plan; `null` where a joint has no position limit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlanLimits {
+    /// Lowest positions \[rad\].
+    pub lower_rad: [Option<f64>; AXES],
+    /// Highest positions \[rad\].
+    pub upper_rad: [Option<f64>; AXES],
+    /// Speeds \[rad/s\].
+    pub velocity_rad_s: [f64; AXES],
+    /// Accelerations \[rad/s²\]: an assumption.
+    pub acceleration_rad_s2: [f64; AXES],
+}
+
+/// A segment in time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PlanSegment {
+    /// What it is for.
+    pub kind: SegmentKind,
+    /// The plate washed, or the plate it leads to.
+    pub plate: usize,
+    /// Start \[s\].
+    pub t_start_s: f64,
+    /// End \[s\].
+    pub t_end_s: f64,
+}
+
+/// The knots of a motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Knots {
+    /// Times \[s\].
+    pub t_s: Vec<f64>,
+    /// Positions \[rad\], one row a knot.
+    pub q_rad: Vec<JointVector>,
+    /// Speeds \[rad/s\], one row a knot.
+    pub qd_rad_s: Vec<JointVector>,
+}
+
+/// What a reader wants to know first.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// The report's first line.
+    pub headline: String,
+    /// Plates that count as washed.
+    pub plates_washed: usize,
+    /// Duration \[s\].
+    pub duration_s: f64,
+    /// Waypoints solved and asked.
+    pub waypoints_reached: [usize; 2],
+}
+
+/// Why a plan file could not be written or read.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlanFileError {
+    /// A number in it is not finite, which JSON cannot say.
+    #[error("plan cannot be written as JSON: {detail}")]
+    Unwritable {
+        /// The serialiser's words.
+        detail: String,
+    },
+    /// Not a plan file.
+    #[error("not a plan file: {detail}")]
+    Unreadable {
+        /// The parser's words, with line and column.
+        detail: String,
+    },
+    /// Another format.
+    #[error("plan format must be \"{FORMAT}\"; found \"{found}\"")]
+    Format {
+        /// The format found.
+        found: String,
+    },
+}
+
+impl Plan {
+    /// The plan of a job, sealed.
+    ///
+    /// # Errors
+    /// [`PlanFileError::Unwritable`].
+    pub fn new(job: &Job, report: &JobReport) -> Result<Self, PlanFileError> {
+        let limits = job.robot.limits();
+        let finite = |v: &JointVector| std::array::from_fn(|i| v[i].is_finite().then_some(v[i]));
+        let mut plan = Self {
+            format: FORMAT.to_owned(),
+            hash: None,
+            scenario: job.scenario.clone(),
+            robot: PlanRobot {
+                name: job.robot.name().to_owned(),
+                urdf_sha256: job.robot.sha256().to_owned(),
+            },
+            tool: job.scenario.tool.clone(),
+            plates: job.layout.plates.clone(),
+            order: job.tool_path.order.clone(),
+            tool_path: job.tool_path.segments.clone(),
+            limits: PlanLimits {
+                lower_rad: finite(&limits.lower),
+                upper_rad: finite(&limits.upper),
+                velocity_rad_s: limits.velocity.into(),
+                acceleration_rad_s2: job.scenario.limits.joint_acceleration_rad_s2,
+            },
+            segments: segments(job),
+            knots: knots(job),
+            summary: report.summary(),
+        };
+        plan.hash = Some(plan.seal()?);
+        Ok(plan)
+    }
+
+    /// The hash that belongs to the contents.
+    ///
+    /// # Errors
+    /// [`PlanFileError::Unwritable`].
+    pub fn seal(&self) -> Result<String, PlanFileError> {
+        let open = Self {
+            hash: None,
+            ..self.clone()
+        };
+        let canonical = serde_json_canonicalizer::to_vec(&open).map_err(unwritable)?;
+        Ok(Sha256::digest(canonical).iter().map(|byte| format!("{byte:02x}")).collect())
+    }
+
+    /// Whether the stored hash is that of the contents.
+    #[must_use]
+    pub fn is_sealed(&self) -> bool {
+        self.hash.is_some() && self.hash == self.seal().ok()
+    }
+
+    /// The file's text: canonical JSON, one line.
+    ///
+    /// # Errors
+    /// [`PlanFileError::Unwritable`].
+    pub fn to_json(&self) -> Result<String, PlanFileError> {
+        serde_json_canonicalizer::to_string(self).map_err(unwritable)
+    }
+
+    /// Reads a plan file's text. The hash is not checked here: see [`Plan::is_sealed`].
+    ///
+    /// # Errors
+    /// [`PlanFileError`] for anything but a plan of this format.
+    pub fn from_json(text: &str) -> Result<Self, PlanFileError> {
+        let plan: Self = serde_json::from_str(text).map_err(|e| PlanFileError::Unreadable { detail: e.to_string() })?;
+        if plan.format != FORMAT {
+            return Err(PlanFileError::Format { found: plan.format });
+        }
+        Ok(plan)
+    }
+}
+
+fn unwritable(e: serde_json::Error) -> PlanFileError {
+    PlanFileError::Unwritable { detail: e.to_string() }
+}
+
+fn knots(job: &Job) -> Knots {
+    let motion = &job.planned;
+    Knots {
+        t_s: motion.times().to_vec(),
+        q_rad: motion.positions().to_vec(),
+        qd_rad_s: motion.speeds().to_vec(),
+    }
+}
+
+/// The segments one after the other; the first begins at 0, with the step from the start configuration.
+#[must_use]
+pub fn segments(job: &Job) -> Vec<PlanSegment> {
+    let mut end = 0;
+    let in_time = job.tool_path.segments.iter().map(|segment| {
+        let start = end;
+        end += segment.waypoints.len();
+        PlanSegment {
+            kind: segment.kind,
+            plate: segment.plate,
+            t_start_s: if start == 0 { 0.0 } else { job.time_of(start - 1) },
+            t_end_s: job.time_of(end.saturating_sub(1)),
+        }
+    });
+    in_time.collect()
+}

@@ -1,0 +1,198 @@
+//! The report as a person reads it.
+
+use super::{ClosestApproach, JobFinding, JobReport, MotionReport, PlateReport, Verdict, Violation, ViolationKind};
+use platewash_kinematics::JointVector;
+use std::fmt::{self, Display, Formatter};
+
+/// Violations listed one by one for a motion before the rest is only counted.
+const LISTED_VIOLATIONS: usize = 12;
+
+/// The first line: whether the job washes, and the main reasons if not.
+pub(super) fn headline(verdict: Verdict, plates: &[PlateReport], plan: &MotionReport, done: &MotionReport) -> String {
+    let washed = plates.iter().filter(|p| p.washed).count();
+    let total = plates.len();
+    if verdict == Verdict::Washed {
+        return format!("WASHED: {washed} of {total} plates, every limit kept.");
+    }
+    let mut reasons = Vec::new();
+    let (reached, asked) = plates.iter().fold((0, 0), |(r, w), p| (r + p.reached, w + p.waypoints));
+    if reached < asked {
+        reasons.push(format!("{} of {asked} washing waypoints out of reach", asked - reached));
+    }
+    let contact = |m: &MotionReport| m.violations.iter().any(|v| v.kind == ViolationKind::Clearance);
+    if contact(plan) || contact(done) {
+        reasons.push("too little clearance".to_owned());
+    }
+    let least = plates.iter().map(|p| p.executed_coverage.fraction).fold(1.0, f64::min);
+    if washed < total {
+        reasons.push(format!("as little as {:.1} % of a plate covered", 100.0 * least));
+    }
+    if done.violations.iter().chain(&plan.violations).any(|v| v.kind != ViolationKind::Clearance) {
+        reasons.push("joint limits broken".to_owned());
+    }
+    format!("NOT WASHED: {washed} of {total} plates washed; {}.", reasons.join(", "))
+}
+
+impl Display for JobReport {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}\n", self.headline)?;
+        let (name, seed, robot) = (&self.scenario, self.seed, &self.robot);
+        writeln!(f, "scenario {name}, seed {seed}, robot {robot}, {:.2} s of motion", self.duration_s)?;
+        self.plates(f)?;
+        self.transitions(f)?;
+        writeln!(f, "\nWhole job, largest share of each joint's limit (1 to 6; acceleration limits are assumptions)")?;
+        motion(f, "planned", &self.planned)?;
+        motion(f, "executed", &self.executed)?;
+        violations(f, "planned", &self.planned.violations)?;
+        violations(f, "executed", &self.executed.violations)?;
+        if !self.findings.is_empty() {
+            writeln!(f, "\nFindings")?;
+        }
+        self.findings.iter().try_for_each(|finding| writeln!(f, "  - {finding}"))
+    }
+}
+
+impl JobReport {
+    fn plates(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (sponge, wanted) = (1e3 * self.sponge_radius_m, 100.0 * self.coverage_required);
+        writeln!(f, "\nPlates, in the order of washing (coverage by a sponge of radius {sponge} mm; {wanted} % wanted)")?;
+        writeln!(
+            f,
+            "  {:<6} {:>16} {:>9} {:>12} {:>8} {:>9} {:>19} {:>7}",
+            "plate", "centre, mm", "reached", "worst IK, mm", "ideal, %", "done, %", "error rms, max, mm", "washed"
+        )?;
+        for p in &self.plates {
+            writeln!(
+                f,
+                "  {:<6} {:>16} {:>9} {:>12.4} {:>8.1} {:>9.1} {:>19} {:>7}",
+                p.plate,
+                format!("({:.0}, {:.0})", 1e3 * p.centre_m[0], 1e3 * p.centre_m[1]),
+                format!("{}/{}", p.reached, p.waypoints),
+                1e3 * p.worst_ik_position_error_m,
+                100.0 * p.ideal_coverage.fraction,
+                100.0 * p.executed_coverage.fraction,
+                format!("{:.1}, {:.1}", 1e3 * p.tracking_rms_m, 1e3 * p.tracking_max_m),
+                if p.washed { "yes" } else { "no" },
+            )?;
+        }
+        for p in &self.plates {
+            if let Some(u) = &p.worst_unreached {
+                writeln!(
+                    f,
+                    "  plate {}: {} waypoints not reached; worst is waypoint {} ({}), {:.1} mm and {:.1}° off",
+                    p.plate,
+                    p.waypoints - p.reached,
+                    u.waypoint,
+                    u.cause,
+                    1e3 * u.position_error_m,
+                    u.orientation_error_rad.to_degrees()
+                )?;
+            }
+        }
+        writeln!(f, "\nSmallest clearance (pair, place, time; {:.1} mm wanted)", 1e3 * self.clearance_required_m)?;
+        for p in &self.plates {
+            nearest(f, &format!("plate {}, planned", p.plate), p.planned_clearance.as_ref())?;
+            nearest(f, &format!("plate {}, executed", p.plate), p.executed_clearance.as_ref())?;
+        }
+        Ok(())
+    }
+
+    fn transitions(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let t = &self.transitions;
+        if t.waypoints == 0 {
+            return Ok(());
+        }
+        nearest(f, "transitions, planned", t.planned_clearance.as_ref())?;
+        nearest(f, "transitions, executed", t.executed_clearance.as_ref())?;
+        let (rms, most) = (1e3 * t.tracking_rms_m, 1e3 * t.tracking_max_m);
+        writeln!(
+            f,
+            "\nTransitions: {}/{} waypoints reached, tracking error {rms:.1} mm rms, {most:.1} mm at most",
+            t.reached, t.waypoints
+        )
+    }
+}
+
+fn nearest(f: &mut Formatter<'_>, what: &str, approach: Option<&ClosestApproach>) -> fmt::Result {
+    let Some(ClosestApproach { t_s, pair }) = approach else {
+        return writeln!(f, "  {what:<22} nothing to check");
+    };
+    let [x, y, z] = pair.place_m.map(|v| 1e3 * v);
+    let bodies = format!("{} – {}", pair.a, pair.b);
+    writeln!(f, "  {what:<22} {:>7.1} mm  {bodies:<22} at ({x:.0}, {y:.0}, {z:.0}) mm, t = {t_s:.2} s", 1e3 * pair.distance_m)
+}
+
+fn motion(f: &mut Formatter<'_>, what: &str, report: &MotionReport) -> fmt::Result {
+    let shares = |v: &JointVector| v.iter().map(|share| format!("{share:>8.2}")).collect::<String>();
+    writeln!(f, "  {what:<9} speed       {}", shares(&report.speed_share))?;
+    writeln!(f, "  {what:<9} acceleration{}", shares(&report.acceleration_share))
+}
+
+fn violations(f: &mut Formatter<'_>, what: &str, all: &[Violation]) -> fmt::Result {
+    if all.is_empty() {
+        return writeln!(f, "\nViolations, {what} motion: none");
+    }
+    writeln!(f, "\nViolations, {what} motion: {}", all.len())?;
+    // The worst of each kind and body first, so that the list says something before it is cut.
+    let mut ranked: Vec<_> = all.iter().collect();
+    ranked.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
+    ranked.iter().take(LISTED_VIOLATIONS).try_for_each(|v| writeln!(f, "  - {v}"))?;
+    match all.len().saturating_sub(LISTED_VIOLATIONS) {
+        0 => Ok(()),
+        more => writeln!(f, "  - and {more} more; all of them in the JSON report"),
+    }
+}
+
+impl Violation {
+    /// How bad it is, for ranking: contacts first, then the share of the limit.
+    fn severity(&self) -> f64 {
+        match self.kind {
+            ViolationKind::Clearance => 1e9 - self.worst,
+            ViolationKind::Position => 1e6 + (self.worst - self.limit).abs(),
+            ViolationKind::Speed | ViolationKind::Acceleration => self.worst / self.limit,
+        }
+    }
+}
+
+impl Display for Violation {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (worst, limit) = (self.worst, self.limit);
+        match self.kind {
+            ViolationKind::Position => {
+                write!(f, "{} position {:.2}° beyond {:.2}°", self.who, worst.to_degrees(), limit.to_degrees())
+            }
+            ViolationKind::Speed => write!(f, "{} speed {worst:.2} rad/s of {limit:.2}", self.who),
+            ViolationKind::Acceleration => write!(f, "{} acceleration {worst:.0} rad/s² of {limit:.1}", self.who),
+            ViolationKind::Clearance => {
+                write!(f, "{} clearance {:.1} mm of {:.1} mm", self.who, 1e3 * worst, 1e3 * limit)
+            }
+        }?;
+        write!(f, ", t = {:.2} … {:.2} s", self.t_start_s, self.t_end_s)
+    }
+}
+
+impl Display for JobFinding {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let mm = |p: &[f64; 3]| format!("({:.0}, {:.0}, {:.0}) mm", 1e3 * p[0], 1e3 * p[1], 1e3 * p[2]);
+        match self {
+            Self::Layout { finding } => write!(f, "{finding}"),
+            Self::NoApproach {
+                believed_m,
+                tip_m,
+                distance_m,
+            } => write!(
+                f,
+                "no approach: the program believes to start at {}; the tip is at {}, {:.0} mm from the first waypoint, \
+                 which is commanded at once",
+                mm(believed_m),
+                mm(tip_m),
+                1e3 * distance_m
+            ),
+            Self::StopsAtWaypoints { waypoints } => write!(
+                f,
+                "each transition stops at all of its {waypoints} waypoints (zero-velocity cubics): acceleration is not continuous"
+            ),
+            Self::Unchecked { links } => write!(f, "no collision geometry, so nothing is checked: {}", links.join(", ")),
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! The one table of scenario keys: unit, range, meaning.
+
+/// What values a key takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Domain {
+    /// Text that is not empty.
+    Text,
+    /// A path of a file, relative to the scenario's folder.
+    Path,
+    /// A list of folder paths.
+    Paths,
+    /// One of some words.
+    Word(&'static [&'static str]),
+    /// `true` or `false`.
+    Bool,
+    /// A whole number, both ends included.
+    Integer(i64, i64),
+    /// A number, both ends included.
+    Number(f64, f64),
+    /// A number above the first and up to the second.
+    NumberAbove(f64, f64),
+    /// `[least, greatest]`, least below greatest, both within the range.
+    Range(f64, f64),
+    /// Six numbers, one a joint, each within the range.
+    Joints(f64, f64),
+    /// Six numbers, each above the first and up to the second.
+    JointsAbove(f64, f64),
+    /// A list of 1 to 1000 points `[x, y]`, coordinates within the range.
+    Points(f64, f64),
+}
+
+/// A key of the scenario file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Key {
+    /// Dotted path.
+    pub path: &'static str,
+    /// Unit; empty for none.
+    pub unit: &'static str,
+    /// Values it takes.
+    pub domain: Domain,
+    /// What it means.
+    pub meaning: &'static str,
+}
+
+const fn key(path: &'static str, unit: &'static str, domain: Domain, meaning: &'static str) -> Key {
+    Key { path, unit, domain, meaning }
+}
+
+use Domain::{Bool, Integer, Joints, JointsAbove, Number, NumberAbove, Path, Paths, Points, Range, Text, Word};
+
+/// Every key, in the order of the reference.
+pub const KEYS: &[Key] = &[
+    key("name", "", Text, "Name, for reports."),
+    key("seed", "", Integer(0, i64::MAX), "Seed of every random stream; the same seed gives the same bytes."),
+    key("job.on_failure", "", Word(&["report", "fail"]), "A job that does not wash: report it (exit code 0), or also end with exit code 3 (infeasible) or 4 (verification failed)."),
+    key("job.order", "", Word(&["nearest", "given"]), "Order of the plates: always the nearest unvisited centre, or as listed."),
+    key("job.required_coverage", "", Number(0.0, 1.0), "Share of a plate's disc that the executed sponge must sweep for the plate to count as washed."),
+    key("robot.model", "", Word(&["irb120"]), "Built-in arm."),
+    key("robot.urdf", "", Path, "Expanded URDF of another six-axis arm, in place of the built-in one; relative to the scenario's folder."),
+    key("robot.srdf", "", Path, "SRDF whose `disable_collisions` elements name the link pairs that need no check. Without it: adjacent pairs and pairs that always touch."),
+    key("robot.package_path", "", Paths, "Folders in which `package://` mesh names are looked up."),
+    key("robot.tool_frame", "", Word(&["flange", "tool0", "matlab_tool0"]), "Frame in which tool poses are stated and returned; nothing else changes."),
+    key("robot.start_deg", "deg", Joints(-36000.0, 36000.0), "Joint positions at the start, within the arm's limits."),
+    key("tool.length_m", "m", Number(0.0, 2.0), "From the flange to the sponge's far face, along the flange's normal; 0 means no tool body."),
+    key("tool.radius_m", "m", NumberAbove(0.0, 1.0), "Radius of the handle."),
+    key("tool.sponge_radius_m", "m", NumberAbove(0.0, 1.0), "Radius of the sponge; decides coverage, also where there is no tool body."),
+    key("tool.sponge_height_m", "m", NumberAbove(0.0, 1.0), "Height of the sponge; with a tool body, below its length."),
+    key("layout.count", "", Integer(1, 1000), "Plates to sample."),
+    key("layout.plate_radius_m", "m", NumberAbove(0.0, 10.0), "Radius of a plate."),
+    key("layout.plate_height_m", "m", Number(-10.0, 10.0), "z of the washing surface."),
+    key("layout.plate_thickness_m", "m", NumberAbove(0.0, 1.0), "Thickness of a plate, downwards from its washing surface."),
+    key("layout.region", "", Word(&["text", "appendix"]), "Region of plate centres by name: as the paper's text, or as its appendix code."),
+    key("layout.x_m", "m", Range(-10.0, 10.0), "Range of x of plate centres."),
+    key("layout.y_m", "m", Range(-10.0, 10.0), "Range of y of plate centres."),
+    key("layout.rho_m", "m", Range(0.0, 10.0), "Range of the distance of plate centres from the base axis."),
+    key("layout.azimuth_deg", "deg", Range(-720.0, 720.0), "Range of the azimuth of plate centres, counter-clockwise from x, at most a turn wide."),
+    key("layout.min_distance_m", "m", Number(0.0, 10.0), "Plate centres are farther apart than this."),
+    key("layout.base_radius_m", "m", Number(0.0, 10.0), "Plate centres are farther from the base axis than this."),
+    key("layout.positions_m", "m", Points(-10.0, 10.0), "Plate centres, in place of sampling."),
+    key("wash.points", "", Integer(2, 100_000), "Waypoints of the spiral."),
+    key("wash.turns", "", NumberAbove(0.0, 1000.0), "Turns of the spiral."),
+    key("wash.path_radius_m", "m", NumberAbove(0.0, 10.0), "Outer radius of the spiral."),
+    key("wash.height_m", "m", Number(0.0, 1.0), "Height of the tip above the washing surface."),
+    key("wash.closing_ring", "", Bool, "Whether a full circle at the outer radius follows the spiral."),
+    key("wash.clearance_m", "m", Number(0.0, 1.0), "Least clearance that counts as free; at 0 only contact is a violation."),
+    key("ik.method", "", Word(&["numeric"]), "Solver: damped least squares with a QP fallback."),
+    key("ik.seed", "", Word(&["executed", "previous"]), "Each waypoint is solved from the configuration that the arm really has (the paper), or from the previous answer."),
+    key("ik.position_tolerance_m", "m", Number(1e-12, 1e-2), "Largest accepted position error."),
+    key("ik.orientation_tolerance_rad", "rad", Number(1e-12, 1e-2), "Largest accepted orientation error."),
+    key("transition.interpolation", "", Word(&["zero_velocity", "c2_spline"]), "Curve between plates: cubics at rest at every waypoint (the paper), or one spline with continuous acceleration."),
+    key("transition.samples", "", Integer(2, 100_000), "Samples along the curve, both ends included."),
+    key("transition.mid_points", "", Integer(2, 1000), "Waypoints of the arc round the base, both ends included."),
+    key("transition.mid_radius_m", "m", NumberAbove(0.0, 10.0), "Radius of the arc; without it, max(layout.base_radius_m + 0.1, 0.3)."),
+    key("transition.mid_height_m", "m", Number(-10.0, 10.0), "z of the arc."),
+    key("limits.joint_acceleration_rad_s2", "rad/s²", JointsAbove(0.0, 1e6), "Joint acceleration limits: an assumption, as the manufacturer publishes none."),
+    key("control.law", "", Word(&["paper", "exact"]), "How the arm follows: the paper's law, or exactly."),
+    key("control.kp", "1/s", Number(0.0, 1e6), "Proportional gain of the paper's law."),
+    key("control.kd", "", Number(0.0, 1e6), "Derivative gain of the paper's law."),
+    key("control.dt_s", "s", NumberAbove(0.0, 10.0), "Time between waypoints."),
+];
+
+impl Domain {
+    /// The range in words, as messages and the reference print it.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        match self {
+            Text => "text".to_owned(),
+            Path => "a path".to_owned(),
+            Paths => "a list of folders".to_owned(),
+            Word(words) => {
+                let quoted: Vec<_> = words.iter().map(|w| format!("\"{w}\"")).collect();
+                quoted.join(" or ")
+            }
+            Bool => "true or false".to_owned(),
+            Integer(least, i64::MAX) => format!("a whole number from {least}"),
+            Integer(least, most) => format!("a whole number from {least} to {most}"),
+            Number(least, most) => format!("a number from {least} to {most}"),
+            NumberAbove(above, most) => format!("a number above {above}, up to {most}"),
+            Range(least, most) => format!("[least, greatest] with least < greatest, from {least} to {most}"),
+            Joints(least, most) => format!("six numbers from {least} to {most}"),
+            JointsAbove(above, most) => format!("six numbers above {above}, up to {most}"),
+            Points(least, most) => format!("a list of 1 to 1000 [x, y], coordinates from {least} to {most}"),
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Inverse kinematics along the tool path and what the arm makes of it, one step a waypoint.
+//!
+//! The two belong together in the paper's program: each waypoint is solved from the configuration that the arm
+//! **really** has, which lags behind, and an unsolved waypoint's best configuration is commanded all the same.
+
+use crate::control::ControlLaw;
+use crate::scenario::IkSeed;
+use crate::tool_path::{ToolPath, tool_down};
+use nalgebra::Vector3;
+use platewash_kinematics::ik::{IkCause, IkError, IkSolver, Method};
+use platewash_kinematics::{JointVector, RobotModel};
+use serde::Serialize;
+
+/// The inverse kinematics' answer at one waypoint.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum IkOutcome {
+    /// Solved within tolerance and limits.
+    Solved {
+        /// The method that answered.
+        method: Method,
+    },
+    /// Not solved: the best configuration found is commanded.
+    Failed {
+        /// Why.
+        cause: IkCause,
+    },
+}
+
+/// One waypoint: what was asked, commanded and done.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Index of the segment.
+    pub segment: usize,
+    /// Where the tip shall be \[m\].
+    pub target: Vector3<f64>,
+    /// Configuration commanded \[rad\].
+    pub commanded: JointVector,
+    /// Configuration after the step \[rad\].
+    pub executed: JointVector,
+    /// Where the tip is after the step \[m\].
+    pub executed_tip: Vector3<f64>,
+    /// What the inverse kinematics answered.
+    pub outcome: IkOutcome,
+    /// Distance of the commanded tip from the target \[m\].
+    pub ik_position_error_m: f64,
+    /// Angle of the commanded tip from the target \[rad\].
+    pub ik_orientation_error_rad: f64,
+    /// Iterations spent.
+    pub ik_iterations: usize,
+}
+
+impl Step {
+    /// Whether the inverse kinematics solved this waypoint.
+    #[must_use]
+    pub fn reached(&self) -> bool {
+        matches!(self.outcome, IkOutcome::Solved { .. })
+    }
+
+    /// Distance of the executed tip from the target \[m\].
+    #[must_use]
+    pub fn tracking_error_m(&self) -> f64 {
+        (self.executed_tip - self.target).norm()
+    }
+}
+
+/// Solves and follows every waypoint of `path` from the configuration `start` \[rad\].
+///
+/// # Errors
+/// [`IkError::Target`] or [`IkError::Seed`] for numbers that are not finite; an unreachable waypoint is no
+/// error but a [`Step`] with [`IkOutcome::Failed`].
+pub fn follow(
+    robot: &RobotModel,
+    solver: &IkSolver<'_>,
+    path: &ToolPath,
+    seed: IkSeed,
+    law: &mut dyn ControlLaw,
+    start: &JointVector,
+) -> Result<Vec<Step>, IkError> {
+    let mut steps = Vec::with_capacity(path.len());
+    let (mut executed, mut answer) = (*start, *start);
+    for (segment, part) in path.segments.iter().enumerate() {
+        law.begin_segment();
+        for target in &part.waypoints {
+            let from = match seed {
+                IkSeed::Executed => executed,
+                IkSeed::Previous => answer,
+            };
+            let mut step = solve(solver, segment, *target, &from)?;
+            answer = step.commanded;
+            executed = law.step(&step.commanded, &executed);
+            step.executed = executed;
+            step.executed_tip = robot.fk(&executed).rigid(solver.frame()).translation;
+            steps.push(step);
+        }
+    }
+    Ok(steps)
+}
+
+/// Solves one waypoint; the executed part is filled in by the caller.
+fn solve(solver: &IkSolver<'_>, segment: usize, target: Vector3<f64>, from: &JointVector) -> Result<Step, IkError> {
+    let (commanded, outcome, position, orientation, iterations) = match solver.solve(&tool_down(target), from) {
+        Ok(s) => {
+            let outcome = IkOutcome::Solved { method: s.method };
+            (s.q, outcome, s.position_error_m, s.orientation_error_rad, s.iterations)
+        }
+        Err(IkError::NotSolved(f)) => {
+            let outcome = IkOutcome::Failed { cause: f.cause };
+            (f.q, outcome, f.position_error_m, f.orientation_error_rad, f.iterations)
+        }
+        Err(other) => return Err(other),
+    };
+    Ok(Step {
+        segment,
+        target,
+        commanded,
+        executed: commanded,
+        executed_tip: target,
+        outcome,
+        ik_position_error_m: position,
+        ik_orientation_error_rad: orientation,
+        ik_iterations: iterations,
+    })
+}

@@ -1,0 +1,229 @@
+//! Joint motion over time: knots (t, q, q̇) with cubic Hermite segments between them.
+//!
+//! Each segment is a cubic per joint, so that the extremes of position, speed and acceleration are exact: speed is a
+//! parabola, acceleration a line.
+
+use platewash_kinematics::{AXES, JointVector};
+use serde::{Deserialize, Serialize};
+
+/// Knots of a motion; times ascend strictly from 0.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Trajectory {
+    /// Times \[s\].
+    t_s: Vec<f64>,
+    /// Joint positions \[rad\].
+    q_rad: Vec<JointVector>,
+    /// Joint speeds \[rad/s\].
+    qd_rad_s: Vec<JointVector>,
+}
+
+/// State of the joints at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointState {
+    /// Positions \[rad\].
+    pub q: JointVector,
+    /// Speeds \[rad/s\].
+    pub qd: JointVector,
+    /// Accelerations \[rad/s²\], to the right of the time.
+    pub qdd: JointVector,
+}
+
+/// Largest magnitudes within one segment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SegmentExtremes {
+    /// Start and end \[s\].
+    pub span_s: [f64; 2],
+    /// Lowest and highest position of each joint \[rad\].
+    pub position: [JointVector; 2],
+    /// Largest speed of each joint \[rad/s\].
+    pub speed: JointVector,
+    /// Largest acceleration of each joint \[rad/s²\].
+    pub acceleration: JointVector,
+}
+
+impl Trajectory {
+    /// A motion through positions at equal time steps: speeds at the knots are central differences, and zero at both
+    /// ends (a Catmull–Rom curve at rest at its ends).
+    #[must_use]
+    pub fn through(positions: Vec<JointVector>, dt_s: f64) -> Self {
+        let n = positions.len();
+        let speed = |k: usize| match k {
+            0 => JointVector::zeros(),
+            _ if k + 1 == n => JointVector::zeros(),
+            _ => (positions[k + 1] - positions[k - 1]) / (2.0 * dt_s),
+        };
+        Self {
+            t_s: (0..n).map(|k| k as f64 * dt_s).collect(),
+            qd_rad_s: (0..n).map(speed).collect(),
+            q_rad: positions,
+        }
+    }
+
+    /// Times of the knots \[s\].
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.t_s
+    }
+
+    /// Positions at the knots \[rad\].
+    #[must_use]
+    pub fn positions(&self) -> &[JointVector] {
+        &self.q_rad
+    }
+
+    /// Speeds at the knots \[rad/s\].
+    #[must_use]
+    pub fn speeds(&self) -> &[JointVector] {
+        &self.qd_rad_s
+    }
+
+    /// Time of the last knot \[s\]; 0 for an empty motion.
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.t_s.last().copied().unwrap_or(0.0)
+    }
+
+    /// State at time `t` \[s\], clamped to the motion; `None` for an empty motion or NaN.
+    #[must_use]
+    pub fn at(&self, t: f64) -> Option<JointState> {
+        if t.is_nan() || self.t_s.is_empty() {
+            return None;
+        }
+        let after = self.t_s.partition_point(|&knot| knot <= t);
+        let k = after.saturating_sub(1).min(self.t_s.len().saturating_sub(2));
+        let Some(cubic) = self.cubic(k) else {
+            let still = JointVector::zeros();
+            return Some(JointState { q: self.q_rad[0], qd: still, qdd: still });
+        };
+        Some(cubic.at((t - self.t_s[k]).clamp(0.0, cubic.h)))
+    }
+
+    /// Extremes of every segment, in time order.
+    pub fn extremes(&self) -> impl Iterator<Item = SegmentExtremes> + '_ {
+        (0..self.t_s.len().saturating_sub(1)).filter_map(|k| {
+            let span_s = [self.t_s[k], self.t_s[k + 1]];
+            self.cubic(k).map(|cubic| cubic.extremes(span_s))
+        })
+    }
+
+    fn cubic(&self, k: usize) -> Option<Cubic> {
+        let h = self.t_s.get(k + 1)? - self.t_s[k];
+        let (q0, q1) = (self.q_rad[k], self.q_rad[k + 1]);
+        let (v0, v1) = (self.qd_rad_s[k], self.qd_rad_s[k + 1]);
+        let slope = (q1 - q0) / h;
+        Some(Cubic {
+            h,
+            c: [q0, v0, (slope * 3.0 - v0 * 2.0 - v1) / h, (v0 + v1 - slope * 2.0) / (h * h)],
+        })
+    }
+}
+
+/// `q(u) = c₀ + c₁u + c₂u² + c₃u³` for u in [0, h].
+struct Cubic {
+    h: f64,
+    c: [JointVector; 4],
+}
+
+impl Cubic {
+    fn at(&self, u: f64) -> JointState {
+        let [c0, c1, c2, c3] = &self.c;
+        JointState {
+            q: c0 + (c1 + (c2 + c3 * u) * u) * u,
+            qd: c1 + (c2 * 2.0 + c3 * (3.0 * u)) * u,
+            qdd: c2 * 2.0 + c3 * (6.0 * u),
+        }
+    }
+
+    fn extremes(&self, span_s: [f64; 2]) -> SegmentExtremes {
+        let (start, end) = (self.at(0.0), self.at(self.h));
+        let mut extremes = SegmentExtremes {
+            span_s,
+            position: [start.q.inf(&end.q), start.q.sup(&end.q)],
+            speed: start.qd.abs().sup(&end.qd.abs()),
+            acceleration: start.qdd.abs().sup(&end.qdd.abs()),
+        };
+        for joint in 0..AXES {
+            for u in self.turning_points(joint) {
+                let state = self.at(u);
+                let [least, most] = &mut extremes.position;
+                least[joint] = least[joint].min(state.q[joint]);
+                most[joint] = most[joint].max(state.q[joint]);
+                extremes.speed[joint] = extremes.speed[joint].max(state.qd[joint].abs());
+            }
+        }
+        extremes
+    }
+
+    /// Times in (0, h) at which a joint's speed is zero (position turns) or extreme.
+    fn turning_points(&self, joint: usize) -> impl Iterator<Item = f64> {
+        let [a, b, c] = [3.0 * self.c[3][joint], 2.0 * self.c[2][joint], self.c[1][joint]];
+        let discriminant = b * b - 4.0 * a * c;
+        let root = discriminant.max(0.0).sqrt();
+        // The numerically stable pair of roots of a u² + b u + c = 0 (Numerical Recipes, §5.6).
+        let sum = -0.5 * (b + if b < 0.0 { -root } else { root });
+        let stationary = [sum / a, c / sum].into_iter().filter(move |_| discriminant >= 0.0);
+        let h = self.h;
+        stationary.chain([-b / (2.0 * a)]).filter(move |u| *u > 0.0 && *u < h)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn motion() -> impl Strategy<Value = Trajectory> {
+        let knot = prop::array::uniform6(-2.0..2.0f64).prop_map(JointVector::from);
+        prop::collection::vec(knot, 2..8).prop_map(|q| Trajectory::through(q, 0.1))
+    }
+
+    proptest! {
+        #[test]
+        fn the_motion_passes_its_knots_with_a_continuous_speed(motion in motion()) {
+            for (k, &t) in motion.times().iter().enumerate() {
+                let here = motion.at(t).unwrap();
+                prop_assert!((here.q - motion.positions()[k]).amax() < 1e-12);
+                prop_assert!((here.qd - motion.qd_rad_s[k]).amax() < 1e-9);
+                let before = motion.at(t - 1e-9).unwrap();
+                prop_assert!((before.qd - here.qd).amax() < 1e-4);
+            }
+        }
+
+        #[test]
+        fn extremes_bound_a_dense_sampling_and_are_attained(motion in motion()) {
+            for segment in motion.extremes() {
+                let [from, to] = segment.span_s;
+                let mut seen = (JointVector::zeros(), JointVector::zeros(), JointVector::repeat(f64::NEG_INFINITY));
+                for k in 0..=1000 {
+                    let state = motion.at(from + (to - from - 1e-12) * f64::from(k) / 1000.0).unwrap();
+                    seen = (seen.0.sup(&state.qd.abs()), seen.1.sup(&state.qdd.abs()), seen.2.sup(&state.q));
+                    prop_assert!((0..6).all(|j| state.q[j] >= segment.position[0][j] - 1e-12));
+                }
+                for (bound, seen) in [(segment.speed, seen.0), (segment.acceleration, seen.1), (segment.position[1], seen.2)] {
+                    for j in 0..6 {
+                        prop_assert!(seen[j] <= bound[j] + 1e-8 * (1.0 + bound[j].abs()));
+                        prop_assert!(seen[j] >= bound[j] - 1e-3 * (1.0 + bound[j].abs()));
+                    }
+                }
+            }
+        }
+
+        #[test]
+        fn speed_is_the_derivative_of_position(motion in motion(), share in 0.01..0.99f64) {
+            let (t, h) = (motion.duration_s() * share, 1e-6);
+            let [before, here, after] = [t - h, t, t + h].map(|t| motion.at(t).unwrap());
+            prop_assert!(((after.q - before.q) / (2.0 * h) - here.qd).amax() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn short_motions_and_times_outside_are_no_trap() {
+        assert_eq!(Trajectory::default().at(0.0), None);
+        let single = Trajectory::through(vec![JointVector::repeat(0.5)], 0.01);
+        assert_eq!(single.at(3.0).map(|s| s.q), Some(JointVector::repeat(0.5)));
+        let two = Trajectory::through(vec![JointVector::zeros(), JointVector::repeat(1.0)], 0.01);
+        assert_eq!(two.at(-1.0).map(|s| s.q), Some(JointVector::zeros()));
+        assert_eq!(two.at(9.0).map(|s| s.q), Some(JointVector::repeat(1.0)));
+        assert_eq!(two.at(f64::NAN), None);
+    }
+}

@@ -1,0 +1,131 @@
+//! `platewash fk`: where the arm is, and how near it comes to itself and its surroundings.
+
+use super::angles::JointArguments;
+use super::failure::Failure;
+use super::options::Options;
+use super::{output, robot};
+use clap::Args;
+use platewash::kinematics::jacobian::manipulability;
+use platewash::planner::job;
+use platewash::{Axes, ClearanceModel, JointVector, PairClearance, PlanError, Pose, RobotModel, ToolFrame};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Arguments of `fk`.
+#[derive(Debug, Args)]
+pub struct FkArguments {
+    #[command(flatten)]
+    joints: JointArguments,
+    /// File with six numbers a line, in place of one configuration
+    #[arg(long, value_name = "FILE")]
+    file: Option<PathBuf>,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    robot: String,
+    configurations: Vec<Configuration>,
+}
+
+#[derive(Serialize)]
+struct Configuration {
+    q_rad: JointVector,
+    q_deg: JointVector,
+    within_limits: bool,
+    limit_margins_rad: JointVector,
+    manipulability: f64,
+    frames: BTreeMap<String, FramePose>,
+    clearance: Vec<PairClearance>,
+}
+
+/// A pose as people and programs read it.
+#[derive(Serialize)]
+pub struct FramePose {
+    /// \[m\].
+    pub position_m: [f64; 3],
+    /// Rows of the rotation matrix.
+    pub rotation: [[f64; 3]; 3],
+    /// (w, x, y, z).
+    pub quaternion_wxyz: [f64; 4],
+    /// URDF's roll, pitch, yaw \[rad\].
+    pub rpy_rad: [f64; 3],
+    /// The same \[deg\].
+    pub rpy_deg: [f64; 3],
+}
+
+impl From<&Pose> for FramePose {
+    fn from(pose: &Pose) -> Self {
+        let matrix = pose.rotation.to_rotation_matrix();
+        let (roll, pitch, yaw) = pose.rotation.euler_angles();
+        let q = pose.rotation.quaternion();
+        Self {
+            position_m: pose.translation.vector.into(),
+            rotation: std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)])),
+            quaternion_wxyz: [q.w, q.i, q.j, q.k],
+            rpy_rad: [roll, pitch, yaw],
+            rpy_deg: [roll, pitch, yaw].map(f64::to_degrees),
+        }
+    }
+}
+
+/// Poses of all frames, limit margins, manipulability and clearances. With `--scenario`, its tool and plates count too.
+pub fn run(options: &Options, arguments: &FkArguments) -> Result<ExitCode, Failure> {
+    let configurations = arguments.joints.configurations(arguments.file.as_ref())?;
+    let scenario = options.scenario()?;
+    let robot = platewash::planner::robot::load(&scenario.robot)?;
+    let clearance = if options.scenario.is_some() {
+        let layout = job::place_plates(&scenario, &robot).map_err(PlanError::from)?;
+        ClearanceModel::new(&robot, &scenario.tool, &layout.plates)
+    } else {
+        ClearanceModel::new(&robot, &robot::bare(), &[])
+    };
+    let clearance = clearance.map_err(PlanError::from)?;
+    let answer = Answer {
+        robot: robot.name().to_owned(),
+        configurations: configurations.iter().map(|q| configuration(&robot, &clearance, q)).collect(),
+    };
+    output::print_either(options.json, &answer, || answer.configurations.iter().map(text).collect())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn configuration(robot: &RobotModel, clearance: &ClearanceModel, q: &JointVector) -> Configuration {
+    let poses = robot.fk(q);
+    let mut frames: BTreeMap<_, _> = robot.links().iter().map(|l| (l.name.clone(), FramePose::from(&poses.pose(&l.frame)))).collect();
+    if let Ok(frame) = robot.tool_frame(ToolFrame::MatlabTool0) {
+        frames.insert(ToolFrame::MatlabTool0.name().to_owned(), FramePose::from(&poses.pose(&frame)));
+    }
+    Configuration {
+        q_rad: *q,
+        q_deg: q.map(f64::to_degrees),
+        within_limits: robot.limits().contain(q),
+        limit_margins_rad: robot.limits().margins(q),
+        manipulability: manipulability(&poses.jacobian(&robot.mounting_frame(), Axes::Base)),
+        frames,
+        clearance: clearance.all(q),
+    }
+}
+
+fn text(c: &Configuration) -> String {
+    let mut text = both_units(&c.q_rad);
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "within limits: {}; manipulability {:.3e}", if c.within_limits { "yes" } else { "NO" }, c.manipulability);
+    let _ = writeln!(text, "\n{:<14} {:>28}   {:>27}   {:>25}", "frame", "position, mm", "roll, pitch, yaw, deg", "rad");
+    for (name, pose) in &c.frames {
+        let [x, y, z] = pose.position_m.map(|v| 1e3 * v);
+        let ([r, p, w], [a, b, d]) = (pose.rpy_deg, pose.rpy_rad);
+        let _ = writeln!(text, "{name:<14} {x:>9.3} {y:>9.3} {z:>9.3} {r:>10.4} {p:>9.4} {w:>9.4} {a:>9.5} {b:>8.5} {d:>8.5}");
+    }
+    if let Some(least) = c.clearance.iter().min_by(|a, b| a.distance_m.total_cmp(&b.distance_m)) {
+        let _ = writeln!(text, "\nsmallest clearance: {:.2} mm, {} – {}\n", 1e3 * least.distance_m, least.a, least.b);
+    }
+    text
+}
+
+/// Joint positions in degrees and radians, two lines.
+pub fn both_units(q: &JointVector) -> String {
+    let line = |v: &JointVector, digits: usize| v.iter().map(|x| format!(" {x:>12.digits$}")).collect::<String>();
+    format!("q, deg {}\nq, rad {}\n", line(&q.map(f64::to_degrees), 6), line(q, 9))
+}

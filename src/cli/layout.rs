@@ -1,0 +1,40 @@
+//! `platewash layout`: the plates and what is wrong with them.
+
+use super::failure::Failure;
+use super::options::Options;
+use super::output;
+use platewash::planner::job;
+use platewash::planner::layout::{Layout, LayoutSource};
+use platewash::{PlanError, planner::robot};
+use std::fmt::Write;
+use std::process::ExitCode;
+
+/// Places the plates; with `--out`, writes `layout.json`.
+pub fn run(options: &Options) -> Result<ExitCode, Failure> {
+    let scenario = options.scenario()?;
+    let robot = robot::load(&scenario.robot)?;
+    let layout = job::place_plates(&scenario, &robot).map_err(PlanError::from)?;
+    if let Some(folder) = &options.out {
+        let file = folder.join("layout.json");
+        output::write_files(&[(file.clone(), output::json(&layout)?)])?;
+        output::message(options.quiet, &format!("wrote {}", file.display()));
+    }
+    output::print_either(options.json, &layout, || text(&layout))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn text(layout: &Layout) -> String {
+    let mut text = match layout.source {
+        LayoutSource::Sampled { restarts, draws } => format!("sampled, {restarts} restarts, {draws} draws\n"),
+        LayoutSource::Explicit => "given\n".to_owned(),
+    };
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{:<6} {:>9} {:>9} {:>9} {:>9}", "plate", "x, m", "y, m", "z, m", "radius, m");
+    for (i, p) in layout.plates.iter().enumerate() {
+        let _ = writeln!(text, "{i:<6} {:>9.4} {:>9.4} {:>9.4} {:>9.4}", p.x_m, p.y_m, p.z_m, p.radius_m);
+    }
+    for finding in &layout.findings {
+        let _ = writeln!(text, "  - {finding}");
+    }
+    text
+}

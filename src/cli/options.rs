@@ -1,0 +1,83 @@
+//! Options that every verb takes.
+
+use super::failure::Failure;
+use anyhow::anyhow;
+use clap::Args;
+use platewash::planner::robot;
+use platewash::planner::scenario::SHIPPED;
+use platewash::{RobotModel, Scenario};
+use std::path::PathBuf;
+
+/// Options that every verb takes.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Scenario: a file, or a shipped name (paper-appendix, paper-text) [default: paper-appendix]
+    #[arg(long, global = true, value_name = "FILE|NAME")]
+    pub scenario: Option<String>,
+    /// Seed in place of the scenario's
+    #[arg(long, global = true, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Folder for files that are written
+    #[arg(long, global = true, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Expanded URDF of another six-axis arm
+    #[arg(long, global = true, value_name = "FILE")]
+    pub urdf: Option<PathBuf>,
+    /// Folder in which package:// mesh names are looked up (may be repeated)
+    #[arg(long, global = true, value_name = "DIR", requires = "urdf")]
+    pub package_path: Vec<PathBuf>,
+    /// SRDF with the link pairs that need no collision check
+    #[arg(long, global = true, value_name = "FILE", requires = "urdf")]
+    pub srdf: Option<PathBuf>,
+    /// Machine-readable result on standard output, nothing else there
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// No messages or progress on standard error
+    #[arg(long, short, global = true, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// More messages on standard error (-vv for still more)
+    #[arg(long, short, global = true, action = clap::ArgAction::Count)]
+    pub verbose: u8,
+    /// Worker threads [default: one a processor]; results do not depend on it
+    #[arg(long, global = true, value_name = "N")]
+    pub threads: Option<usize>,
+}
+
+impl Options {
+    /// Starts logging and the thread pool.
+    pub fn set_up(&self) -> Result<(), Failure> {
+        let level = match (self.quiet, self.verbose) {
+            (true, _) => tracing::Level::ERROR,
+            (false, 0) => tracing::Level::WARN,
+            (false, 1) => tracing::Level::INFO,
+            (false, _) => tracing::Level::DEBUG,
+        };
+        tracing_subscriber::fmt().with_max_level(level).with_writer(std::io::stderr).without_time().with_target(false).init();
+        let threads = self.threads.unwrap_or(0);
+        if self.threads == Some(0) || threads > 1024 {
+            return Err(Failure::input(anyhow!("--threads must be from 1 to 1024; found {threads}")));
+        }
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(Failure::internal)
+    }
+
+    /// The scenario with what the options override.
+    pub fn scenario(&self) -> Result<Scenario, Failure> {
+        let name = self.scenario.as_deref().unwrap_or(SHIPPED[0].name);
+        let mut scenario = Scenario::load(name)?;
+        if let Some(seed) = self.seed {
+            scenario.seed = seed;
+        }
+        if let Some(urdf) = &self.urdf {
+            scenario.robot.urdf = Some(urdf.clone());
+            scenario.robot.srdf.clone_from(&self.srdf);
+            scenario.robot.package_path.clone_from(&self.package_path);
+        }
+        scenario.validate()?;
+        Ok(scenario)
+    }
+
+    /// The arm of the scenario, or of the options.
+    pub fn robot(&self) -> Result<RobotModel, Failure> {
+        Ok(robot::load(&self.scenario()?.robot)?)
+    }
+}

@@ -1,0 +1,55 @@
+//! `platewash reproduce`: what the paper's program really does, measured.
+
+use super::failure::Failure;
+use super::options::Options;
+use super::output;
+use super::progress::Progress;
+use anyhow::anyhow;
+use clap::Args;
+use platewash::planner::reproduce::{ReproduceSettings, reproduce};
+use std::process::ExitCode;
+
+/// Most layouts, or layouts begun, that are taken on.
+const MOST: usize = 10_000_000;
+
+/// Arguments of `reproduce`.
+#[derive(Debug, Args)]
+pub struct ReproduceArguments {
+    /// Layouts simulated in each of the paper's two regions
+    #[arg(long, value_name = "N", default_value_t = ReproduceSettings::default().layouts)]
+    layouts: usize,
+    /// Layouts begun to measure each dead-end rate
+    #[arg(long, value_name = "N", default_value_t = ReproduceSettings::default().draws)]
+    draws: usize,
+}
+
+/// Measures and prints the table; with `--out`, writes `reproduce.json` and `reproduce.txt`.
+pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode, Failure> {
+    for (name, value) in [("--layouts", arguments.layouts), ("--draws", arguments.draws)] {
+        if !(1..=MOST).contains(&value) {
+            return Err(Failure::input(anyhow!("{name} must be from 1 to {MOST}; found {value}")));
+        }
+    }
+    if options.scenario.is_some() || options.urdf.is_some() {
+        return Err(Failure::input(anyhow!("reproduce measures the paper's own scenarios: leave out --scenario and --urdf")));
+    }
+    let settings = ReproduceSettings {
+        layouts: arguments.layouts,
+        draws: arguments.draws,
+        seed: options.seed.unwrap_or(ReproduceSettings::default().seed),
+    };
+    let progress = Progress::new(options.quiet);
+    let result = reproduce(&settings, &|done, total| progress.note(done, total));
+    progress.finish();
+    let result = result?;
+    if let Some(folder) = &options.out {
+        let files = [
+            (folder.join("reproduce.json"), output::json(&result)?),
+            (folder.join("reproduce.txt"), result.to_string()),
+        ];
+        output::write_files(&files)?;
+        output::message(options.quiet, &format!("wrote {}, {}", files[0].0.display(), files[1].0.display()));
+    }
+    output::print_either(options.json, &result, || result.to_string())?;
+    Ok(ExitCode::SUCCESS)
+}

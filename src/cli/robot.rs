@@ -1,0 +1,91 @@
+//! `platewash robot`: the arm as loaded.
+
+use super::failure::Failure;
+use super::options::Options;
+use super::output;
+use platewash::kinematics::AXES;
+use platewash::{ClearanceModel, PlanError, RobotModel};
+use serde::Serialize;
+use std::fmt::Write;
+use std::process::ExitCode;
+
+#[derive(Serialize)]
+struct Answer {
+    name: String,
+    urdf_sha256: String,
+    joints: Vec<JointRow>,
+    frames: Vec<String>,
+    reach_bound_m: f64,
+    clearance_pairs: Vec<[String; 2]>,
+}
+
+#[derive(Serialize)]
+struct JointRow {
+    name: String,
+    child: String,
+    lower_rad: f64,
+    upper_rad: f64,
+    lower_deg: f64,
+    upper_deg: f64,
+    velocity_rad_s: f64,
+    velocity_deg_s: f64,
+    effort_n_m: Option<f64>,
+}
+
+/// Shows joints, limits, frames and the pairs that are checked for clearance (the bare arm over the floor).
+pub fn run(options: &Options) -> Result<ExitCode, Failure> {
+    let robot = options.robot()?;
+    let clearance = ClearanceModel::new(&robot, &bare(), &[]).map_err(PlanError::from)?;
+    let answer = Answer {
+        name: robot.name().to_owned(),
+        urdf_sha256: robot.sha256().to_owned(),
+        joints: (0..AXES).map(|i| joint(&robot, i)).collect(),
+        frames: robot.links().iter().map(|l| l.name.clone()).collect(),
+        reach_bound_m: robot.reach_bound(&robot.last_link_frame()).1,
+        clearance_pairs: clearance.pair_names().into_iter().map(|(a, b)| [a.to_owned(), b.to_owned()]).collect(),
+    };
+    output::print_either(options.json, &answer, || text(&answer))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// No tool body.
+pub fn bare() -> platewash::planner::scenario::ToolSection {
+    platewash::planner::scenario::ToolSection {
+        length_m: 0.0,
+        ..Default::default()
+    }
+}
+
+fn joint(robot: &RobotModel, i: usize) -> JointRow {
+    let (joint, limits) = (&robot.joints()[i], robot.limits());
+    JointRow {
+        name: joint.name.clone(),
+        child: joint.child.clone(),
+        lower_rad: limits.lower[i],
+        upper_rad: limits.upper[i],
+        lower_deg: limits.lower[i].to_degrees(),
+        upper_deg: limits.upper[i].to_degrees(),
+        velocity_rad_s: limits.velocity[i],
+        velocity_deg_s: limits.velocity[i].to_degrees(),
+        effort_n_m: limits.effort[i],
+    }
+}
+
+fn text(answer: &Answer) -> String {
+    let mut text = format!("{} (URDF SHA-256 {})\n\n", answer.name, answer.urdf_sha256);
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{:<12} {:>20} {:>22} {:>10} {:>9}  {}", "joint", "limits, deg", "limits, rad", "deg/s", "rad/s", "moves");
+    for j in &answer.joints {
+        let degrees = format!("{:.2} … {:.2}", j.lower_deg, j.upper_deg);
+        let radians = format!("{:.5} … {:.5}", j.lower_rad, j.upper_rad);
+        let _ = writeln!(
+            text,
+            "{:<12} {degrees:>20} {radians:>22} {:>10.1} {:>9.4}  {}",
+            j.name, j.velocity_deg_s, j.velocity_rad_s, j.child
+        );
+    }
+    let _ = writeln!(text, "\nreach of the last link, at most {:.3} m\nframes: {}", answer.reach_bound_m, answer.frames.join(", "));
+    let pairs: Vec<_> = answer.clearance_pairs.iter().map(|[a, b]| format!("{a} – {b}")).collect();
+    let _ = writeln!(text, "\npairs checked for clearance ({}):\n  {}", pairs.len(), pairs.join("\n  "));
+    text
+}

@@ -1,0 +1,45 @@
+//! `platewash run`: a scenario to the end.
+
+use super::failure::{self, Failure};
+use super::options::Options;
+use super::output;
+use super::plan::{self, PlanArguments};
+use clap::Args;
+use platewash::planner::scenario::OnFailure;
+use platewash::{Job, Verdict};
+use std::process::ExitCode;
+
+/// Arguments of `run`.
+#[derive(Debug, Args, Default)]
+pub struct RunArguments {
+    #[command(flatten)]
+    pub plan: PlanArguments,
+}
+
+/// Plans, follows and judges the scenario; writes the plan, both motions and the report.
+pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Failure> {
+    let scenario = options.scenario()?;
+    let job = Job::run(&scenario)?;
+    tracing::info!("planned {} waypoints on {} plates", job.tool_path.len(), job.layout.plates.len());
+    let report = job.report()?;
+    tracing::info!("checked {} violations", report.executed.violations.len());
+    let folder = plan::folder(options);
+    let text = report.to_string();
+    let mut files = plan::files(&job, &report, &folder, &arguments.plan)?;
+    files.push((folder.join("executed.csv"), plan::motion_csv(&job, &job.executed, &arguments.plan)?));
+    files.push((folder.join("report.json"), output::json(&report)?));
+    files.push((folder.join("report.txt"), text.clone()));
+    output::write_files(&files)?;
+    output::print_either(options.json, &report, || text)?;
+    plan::name_files(options, &files);
+    Ok(exit_code(report.verdict, scenario.job.on_failure))
+}
+
+/// The exit code of a finished job.
+pub fn exit_code(verdict: Verdict, on_failure: OnFailure) -> ExitCode {
+    ExitCode::from(match (on_failure, verdict) {
+        (OnFailure::Report, _) | (_, Verdict::Washed) => 0,
+        (OnFailure::Fail, Verdict::Infeasible) => failure::INFEASIBLE,
+        (OnFailure::Fail, Verdict::NotVerified) => failure::NOT_VERIFIED,
+    })
+}
