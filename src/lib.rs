@@ -33,3 +33,8 @@ pub use platewash_planner::reproduce::{Reproduction, reproduce};
 pub use platewash_planner::scenario::Scenario;
 pub use platewash_planner::tool_path::ToolPath;
 pub use platewash_planner::trajectory::Trajectory;
+
+/// The example in the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct ReadmeExample;

@@ -50,7 +50,9 @@ impl JointArguments {
         match file {
             Some(_) if !given.is_empty() => Err(Failure::input(anyhow!("give joint positions or --file, not both"))),
             Some(file) => read(file, unit).map_err(Failure::input),
-            None => Ok(vec![joints(given, unit).context("joint positions").map_err(Failure::input)?]),
+            None => Ok(vec![
+                joints(given, unit).context("joint positions").map_err(Failure::input)?,
+            ]),
         }
     }
 }
@@ -67,7 +69,9 @@ pub fn joints(values: &[f64], unit: Unit) -> anyhow::Result<JointVector> {
 /// A file with six numbers a line, separated by blanks or commas; empty lines and lines from `#` on are skipped.
 fn read(file: &Path, unit: Unit) -> anyhow::Result<Vec<JointVector>> {
     let name = file.display();
-    let bytes = std::fs::metadata(file).with_context(|| format!("{name}: cannot be read"))?.len();
+    let bytes = std::fs::metadata(file)
+        .with_context(|| format!("{name}: cannot be read"))?
+        .len();
     if bytes > MAX_BYTES {
         return Err(anyhow!("{name}: is {bytes} bytes long; at most {MAX_BYTES} are read"));
     }
@@ -76,7 +80,9 @@ fn read(file: &Path, unit: Unit) -> anyhow::Result<Vec<JointVector>> {
     for (index, line) in text.lines().enumerate() {
         let at = || format!("{name}, line {}", index + 1);
         let content = line.split('#').next().unwrap_or_default();
-        let words = content.split(|c: char| c.is_whitespace() || c == ',').filter(|w| !w.is_empty());
+        let words = content
+            .split(|c: char| c.is_whitespace() || c == ',')
+            .filter(|w| !w.is_empty());
         let values = words.map(|w| w.parse().map_err(|_| anyhow!("'{w}' is not a number")));
         let values = values.collect::<anyhow::Result<Vec<f64>>>().with_context(at)?;
         if !values.is_empty() {

@@ -1,10 +1,10 @@
 //! What goes wrong, as a message and an exit code.
 
+use platewash::PlanError;
 use platewash::planner::csv::CsvError;
 use platewash::planner::plan::PlanFileError;
 use platewash::planner::robot::RobotError;
 use platewash::planner::scenario::ScenarioError;
-use platewash::PlanError;
 use std::io::Write;
 use std::process::ExitCode;
 

@@ -85,17 +85,29 @@ pub fn run(options: &Options, arguments: &FkArguments) -> Result<ExitCode, Failu
     let clearance = clearance.map_err(PlanError::from)?;
     let answer = Answer {
         robot: robot.name().to_owned(),
-        configurations: configurations.iter().map(|q| configuration(&robot, &clearance, q)).collect(),
+        configurations: configurations
+            .iter()
+            .map(|q| configuration(&robot, &clearance, q))
+            .collect(),
     };
-    output::print_either(options.json, &answer, || answer.configurations.iter().map(text).collect())?;
+    output::print_either(options.json, &answer, || {
+        answer.configurations.iter().map(text).collect()
+    })?;
     Ok(ExitCode::SUCCESS)
 }
 
 fn configuration(robot: &RobotModel, clearance: &ClearanceModel, q: &JointVector) -> Configuration {
     let poses = robot.fk(q);
-    let mut frames: BTreeMap<_, _> = robot.links().iter().map(|l| (l.name.clone(), FramePose::from(&poses.pose(&l.frame)))).collect();
+    let mut frames: BTreeMap<_, _> = robot
+        .links()
+        .iter()
+        .map(|l| (l.name.clone(), FramePose::from(&poses.pose(&l.frame))))
+        .collect();
     if let Ok(frame) = robot.tool_frame(ToolFrame::MatlabTool0) {
-        frames.insert(ToolFrame::MatlabTool0.name().to_owned(), FramePose::from(&poses.pose(&frame)));
+        frames.insert(
+            ToolFrame::MatlabTool0.name().to_owned(),
+            FramePose::from(&poses.pose(&frame)),
+        );
     }
     Configuration {
         q_rad: *q,
@@ -111,15 +123,33 @@ fn configuration(robot: &RobotModel, clearance: &ClearanceModel, q: &JointVector
 fn text(c: &Configuration) -> String {
     let mut text = both_units(&c.q_rad);
     // Writing to a String cannot fail.
-    let _ = writeln!(text, "within limits: {}; manipulability {:.3e}", if c.within_limits { "yes" } else { "NO" }, c.manipulability);
-    let _ = writeln!(text, "\n{:<14} {:>28}   {:>27}   {:>25}", "frame", "position, mm", "roll, pitch, yaw, deg", "rad");
+    let _ = writeln!(
+        text,
+        "within limits: {}; manipulability {:.3e}",
+        if c.within_limits { "yes" } else { "NO" },
+        c.manipulability
+    );
+    let _ = writeln!(
+        text,
+        "\n{:<14} {:>28}   {:>27}   {:>25}",
+        "frame", "position, mm", "roll, pitch, yaw, deg", "rad"
+    );
     for (name, pose) in &c.frames {
         let [x, y, z] = pose.position_m.map(|v| 1e3 * v);
         let ([r, p, w], [a, b, d]) = (pose.rpy_deg, pose.rpy_rad);
-        let _ = writeln!(text, "{name:<14} {x:>9.3} {y:>9.3} {z:>9.3} {r:>10.4} {p:>9.4} {w:>9.4} {a:>9.5} {b:>8.5} {d:>8.5}");
+        let _ = writeln!(
+            text,
+            "{name:<14} {x:>9.3} {y:>9.3} {z:>9.3} {r:>10.4} {p:>9.4} {w:>9.4} {a:>9.5} {b:>8.5} {d:>8.5}"
+        );
     }
     if let Some(least) = c.clearance.iter().min_by(|a, b| a.distance_m.total_cmp(&b.distance_m)) {
-        let _ = writeln!(text, "\nsmallest clearance: {:.2} mm, {} – {}\n", 1e3 * least.distance_m, least.a, least.b);
+        let _ = writeln!(
+            text,
+            "\nsmallest clearance: {:.2} mm, {} – {}\n",
+            1e3 * least.distance_m,
+            least.a,
+            least.b
+        );
     }
     text
 }

@@ -28,7 +28,13 @@ pub struct IkArguments {
     #[arg(long, value_name = "NAME")]
     frame: Option<String>,
     /// Seed configuration in degrees [default: zeros]
-    #[arg(long, num_args = 6, allow_negative_numbers = true, value_name = "Q", conflicts_with = "seed_rad")]
+    #[arg(
+        long,
+        num_args = 6,
+        allow_negative_numbers = true,
+        value_name = "Q",
+        conflicts_with = "seed_rad"
+    )]
     seed_deg: Option<Vec<f64>>,
     /// Seed configuration in radians
     #[arg(long, num_args = 6, allow_negative_numbers = true, value_name = "Q")]
@@ -130,7 +136,11 @@ fn answer(solver: &IkSolver<'_>, target: &Pose, seed: &JointVector, name: &str) 
 fn text(answer: &Answer, arm: &RobotModel) -> String {
     let head = match answer.cause {
         None => format!("solved for {} of {}", answer.frame, arm.name()),
-        Some(cause) => format!("NOT solved for {} of {}: {cause}; best configuration found:", answer.frame, arm.name()),
+        Some(cause) => format!(
+            "NOT solved for {} of {}: {cause}; best configuration found:",
+            answer.frame,
+            arm.name()
+        ),
     };
     let how = match (answer.method, answer.start) {
         (Some(method), Some(start)) => format!(", by {method:?} from {start:?}").to_lowercase(),
@@ -156,7 +166,11 @@ fn frame(arm: &RobotModel, scenario: &Scenario, name: &str) -> anyhow::Result<Fr
 
 fn target(arguments: &IkArguments) -> anyhow::Result<Pose> {
     let position: [f64; 3] = finite(&arguments.position).context("--position")?;
-    let Orientation { rpy_deg, rpy_rad, quaternion } = &arguments.orientation;
+    let Orientation {
+        rpy_deg,
+        rpy_rad,
+        quaternion,
+    } = &arguments.orientation;
     let rotation = match (rpy_deg, rpy_rad, quaternion) {
         (Some(rpy), ..) => from_rpy(finite::<3>(rpy).context("--rpy-deg")?.map(f64::to_radians)),
         (_, Some(rpy), _) => from_rpy(finite(rpy).context("--rpy-rad")?),
@@ -164,7 +178,10 @@ fn target(arguments: &IkArguments) -> anyhow::Result<Pose> {
             let [w, x, y, z] = finite(wxyz).context("--quaternion")?;
             let quaternion = Quaternion::new(w, x, y, z);
             let unit = UnitQuaternion::try_new(quaternion, 1e-9);
-            *unit.ok_or_else(|| anyhow!("--quaternion must not be zero"))?.to_rotation_matrix().matrix()
+            *unit
+                .ok_or_else(|| anyhow!("--quaternion must not be zero"))?
+                .to_rotation_matrix()
+                .matrix()
         }
         (None, None, None) => return Err(anyhow!("give --rpy-deg, --rpy-rad or --quaternion")),
     };

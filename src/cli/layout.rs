@@ -29,9 +29,17 @@ fn text(layout: &Layout) -> String {
         LayoutSource::Explicit => "given\n".to_owned(),
     };
     // Writing to a String cannot fail.
-    let _ = writeln!(text, "{:<6} {:>9} {:>9} {:>9} {:>9}", "plate", "x, m", "y, m", "z, m", "radius, m");
+    let _ = writeln!(
+        text,
+        "{:<6} {:>9} {:>9} {:>9} {:>9}",
+        "plate", "x, m", "y, m", "z, m", "radius, m"
+    );
     for (i, p) in layout.plates.iter().enumerate() {
-        let _ = writeln!(text, "{i:<6} {:>9.4} {:>9.4} {:>9.4} {:>9.4}", p.x_m, p.y_m, p.z_m, p.radius_m);
+        let _ = writeln!(
+            text,
+            "{i:<6} {:>9.4} {:>9.4} {:>9.4} {:>9.4}",
+            p.x_m, p.y_m, p.z_m, p.radius_m
+        );
     }
     for finding in &layout.findings {
         let _ = writeln!(text, "  - {finding}");

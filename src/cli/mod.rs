@@ -61,7 +61,9 @@ enum Verb {
 /// Parses the arguments, does what they ask, and maps what went wrong to an exit code.
 pub fn main() -> ExitCode {
     let outcome = std::panic::catch_unwind(|| {
-        let parsed = Arguments::command().try_get_matches().and_then(|m| Arguments::from_arg_matches(&m));
+        let parsed = Arguments::command()
+            .try_get_matches()
+            .and_then(|m| Arguments::from_arg_matches(&m));
         match parsed {
             Ok(arguments) => dispatch(arguments),
             Err(e) => {

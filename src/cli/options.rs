@@ -52,12 +52,22 @@ impl Options {
             (false, 1) => tracing::Level::INFO,
             (false, _) => tracing::Level::DEBUG,
         };
-        tracing_subscriber::fmt().with_max_level(level).with_writer(std::io::stderr).without_time().with_target(false).init();
+        tracing_subscriber::fmt()
+            .with_max_level(level)
+            .with_writer(std::io::stderr)
+            .without_time()
+            .with_target(false)
+            .init();
         let threads = self.threads.unwrap_or(0);
         if self.threads == Some(0) || threads > 1024 {
-            return Err(Failure::input(anyhow!("--threads must be from 1 to 1024; found {threads}")));
+            return Err(Failure::input(anyhow!(
+                "--threads must be from 1 to 1024; found {threads}"
+            )));
         }
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(Failure::internal)
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global()
+            .map_err(Failure::internal)
     }
 
     /// The scenario with what the options override.

@@ -11,9 +11,9 @@ use tempfile::NamedTempFile;
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure::input(anyhow::Error::new(e).context("standard output cannot be written")))
-        }
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::input(
+            anyhow::Error::new(e).context("standard output cannot be written"),
+        )),
         _ => Ok(()),
     }
 }
@@ -46,7 +46,9 @@ pub fn write_files(files: &[(PathBuf, String)]) -> Result<(), Failure> {
     }
     for (staged, path) in complete {
         let renamed = staged.persist(path);
-        renamed.with_context(|| format!("{}: cannot be written", path.display())).map_err(Failure::input)?;
+        renamed
+            .with_context(|| format!("{}: cannot be written", path.display()))
+            .map_err(Failure::input)?;
     }
     Ok(())
 }
@@ -61,7 +63,10 @@ fn stage(path: &Path, text: &str) -> anyhow::Result<NamedTempFile> {
         anyhow::bail!("{}: cannot be written: it is a folder", path.display());
     }
     let cannot = || format!("{}: cannot be written", path.display());
-    let mut staged = tempfile::Builder::new().prefix(".platewash-").tempfile_in(folder).with_context(cannot)?;
+    let mut staged = tempfile::Builder::new()
+        .prefix(".platewash-")
+        .tempfile_in(folder)
+        .with_context(cannot)?;
     staged.write_all(text.as_bytes()).with_context(cannot)?;
     readable_by_all(&staged).with_context(cannot)?;
     Ok(staged)

@@ -33,7 +33,10 @@ pub fn run(options: &Options, arguments: &PlanArguments) -> Result<ExitCode, Fai
     let summary = report.summary();
     output::print_either(options.json, &summary, || {
         let [reached, asked] = summary.waypoints_reached;
-        let line = format!("{reached} of {asked} waypoints reached, {:.2} s of motion", summary.duration_s);
+        let line = format!(
+            "{reached} of {asked} waypoints reached, {:.2} s of motion",
+            summary.duration_s
+        );
         format!("{}\n{line}\n", summary.headline)
     })?;
     name_files(options, &files);

@@ -27,11 +27,15 @@ pub struct ReproduceArguments {
 pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode, Failure> {
     for (name, value) in [("--layouts", arguments.layouts), ("--draws", arguments.draws)] {
         if !(1..=MOST).contains(&value) {
-            return Err(Failure::input(anyhow!("{name} must be from 1 to {MOST}; found {value}")));
+            return Err(Failure::input(anyhow!(
+                "{name} must be from 1 to {MOST}; found {value}"
+            )));
         }
     }
     if options.scenario.is_some() || options.urdf.is_some() {
-        return Err(Failure::input(anyhow!("reproduce measures the paper's own scenarios: leave out --scenario and --urdf")));
+        return Err(Failure::input(anyhow!(
+            "reproduce measures the paper's own scenarios: leave out --scenario and --urdf"
+        )));
     }
     let settings = ReproduceSettings {
         layouts: arguments.layouts,
@@ -48,7 +52,10 @@ pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode
             (folder.join("reproduce.txt"), result.to_string()),
         ];
         output::write_files(&files)?;
-        output::message(options.quiet, &format!("wrote {}, {}", files[0].0.display(), files[1].0.display()));
+        output::message(
+            options.quiet,
+            &format!("wrote {}, {}", files[0].0.display(), files[1].0.display()),
+        );
     }
     output::print_either(options.json, &result, || result.to_string())?;
     Ok(ExitCode::SUCCESS)

@@ -42,7 +42,11 @@ pub fn run(options: &Options) -> Result<ExitCode, Failure> {
         joints: (0..AXES).map(|i| joint(&robot, i)).collect(),
         frames: robot.links().iter().map(|l| l.name.clone()).collect(),
         reach_bound_m: robot.reach_bound(&robot.last_link_frame()).1,
-        clearance_pairs: clearance.pair_names().into_iter().map(|(a, b)| [a.to_owned(), b.to_owned()]).collect(),
+        clearance_pairs: clearance
+            .pair_names()
+            .into_iter()
+            .map(|(a, b)| [a.to_owned(), b.to_owned()])
+            .collect(),
     };
     output::print_either(options.json, &answer, || text(&answer))?;
     Ok(ExitCode::SUCCESS)
@@ -74,7 +78,11 @@ fn joint(robot: &RobotModel, i: usize) -> JointRow {
 fn text(answer: &Answer) -> String {
     let mut text = format!("{} (URDF SHA-256 {})\n\n", answer.name, answer.urdf_sha256);
     // Writing to a String cannot fail.
-    let _ = writeln!(text, "{:<12} {:>20} {:>22} {:>10} {:>9}  {}", "joint", "limits, deg", "limits, rad", "deg/s", "rad/s", "moves");
+    let _ = writeln!(
+        text,
+        "{:<12} {:>20} {:>22} {:>10} {:>9}  {}",
+        "joint", "limits, deg", "limits, rad", "deg/s", "rad/s", "moves"
+    );
     for j in &answer.joints {
         let degrees = format!("{:.2} … {:.2}", j.lower_deg, j.upper_deg);
         let radians = format!("{:.5} … {:.5}", j.lower_rad, j.upper_rad);
@@ -84,8 +92,22 @@ fn text(answer: &Answer) -> String {
             j.name, j.velocity_deg_s, j.velocity_rad_s, j.child
         );
     }
-    let _ = writeln!(text, "\nreach of the last link, at most {:.3} m\nframes: {}", answer.reach_bound_m, answer.frames.join(", "));
-    let pairs: Vec<_> = answer.clearance_pairs.iter().map(|[a, b]| format!("{a} – {b}")).collect();
-    let _ = writeln!(text, "\npairs checked for clearance ({}):\n  {}", pairs.len(), pairs.join("\n  "));
+    let _ = writeln!(
+        text,
+        "\nreach of the last link, at most {:.3} m\nframes: {}",
+        answer.reach_bound_m,
+        answer.frames.join(", ")
+    );
+    let pairs: Vec<_> = answer
+        .clearance_pairs
+        .iter()
+        .map(|[a, b]| format!("{a} – {b}"))
+        .collect();
+    let _ = writeln!(
+        text,
+        "\npairs checked for clearance ({}):\n  {}",
+        pairs.len(),
+        pairs.join("\n  ")
+    );
     text
 }

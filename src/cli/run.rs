@@ -20,13 +20,20 @@ pub struct RunArguments {
 pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
     let job = Job::run(&scenario)?;
-    tracing::info!("planned {} waypoints on {} plates", job.tool_path.len(), job.layout.plates.len());
+    tracing::info!(
+        "planned {} waypoints on {} plates",
+        job.tool_path.len(),
+        job.layout.plates.len()
+    );
     let report = job.report()?;
     tracing::info!("checked {} violations", report.executed.violations.len());
     let folder = plan::folder(options);
     let text = report.to_string();
     let mut files = plan::files(&job, &report, &folder, &arguments.plan)?;
-    files.push((folder.join("executed.csv"), plan::motion_csv(&job, &job.executed, &arguments.plan)?));
+    files.push((
+        folder.join("executed.csv"),
+        plan::motion_csv(&job, &job.executed, &arguments.plan)?,
+    ));
     files.push((folder.join("report.json"), output::json(&report)?));
     files.push((folder.join("report.txt"), text.clone()));
     output::write_files(&files)?;

@@ -1,5 +1,6 @@
 """Paths and models shared by the tests of this folder. Run: pytest tests/python"""
 
+import os
 import sys
 from pathlib import Path
 
@@ -17,6 +18,14 @@ sys.dont_write_bytecode = True
 def root() -> Path:
     """The repository."""
     return ROOT
+
+
+@pytest.fixture(scope="session")
+def platewash() -> Path:
+    """The command: PLATEWASH_BIN, else target/release/platewash."""
+    binary = Path(os.environ.get("PLATEWASH_BIN", ROOT / "target" / "release" / "platewash")).resolve()
+    assert binary.is_file(), f"{binary} is missing: cargo build --release --bin platewash, or set PLATEWASH_BIN"
+    return binary
 
 
 @pytest.fixture(scope="session")

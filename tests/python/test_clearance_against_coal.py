@@ -1,13 +1,10 @@
 """`platewash fk --json` states the same clearances as coal finds from the URDF primitives.
 
-The command is PLATEWASH_BIN, else target/release/platewash; without either file its tests are skipped. The
-tests of the reference itself (against MuJoCo and closed forms) always run.
+The reference itself is held against MuJoCo and closed forms.
 """
 
 import json
-import os
 import subprocess
-from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -81,17 +78,13 @@ def poses(tree, configurations):
 
 
 @pytest.fixture(scope="module")
-def report(root, configurations, tmp_path_factory) -> dict:
+def report(platewash, configurations, tmp_path_factory) -> dict:
     """What the command says about the configurations."""
-    given = os.environ.get("PLATEWASH_BIN")
-    binary = Path(given) if given else root / "target" / "release" / "platewash"
-    if not given and not binary.is_file():
-        pytest.skip("no command: cargo build --release, or set PLATEWASH_BIN")
     folder = tmp_path_factory.mktemp("coal")
     (folder / "coal.toml").write_text(SCENARIO, encoding="utf-8")
     lines = (" ".join(repr(float(v)) for v in q) for q in configurations)
     (folder / "q.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    command = [str(binary.resolve()), "fk", "--rad", "--file", "q.txt", "--scenario", "coal.toml", "--json"]
+    command = [str(platewash), "fk", "--rad", "--file", "q.txt", "--scenario", "coal.toml", "--json"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=50, check=False)
     assert done.returncode == 0, f"{' '.join(command)}\n{done.stderr}"
     return json.loads(done.stdout)

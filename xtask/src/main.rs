@@ -1,2 +1,85 @@
-//! x
-fn main() {}
+//! The project's own chores.
+//!
+//!     cargo xtask test [--only lint|rust|python]    every test there is, or one part of them
+//!     cargo xtask bench [ARGUMENTS]                 the benchmarks; arguments go to criterion
+
+mod python;
+mod step;
+mod suite;
+
+use anyhow::{Result, bail};
+use std::process::ExitCode;
+use suite::Part;
+
+const USAGE: &str = "\
+cargo xtask test [--only lint|rust|python]    every test there is, or one part of them
+cargo xtask bench [ARGUMENTS]                 the benchmarks; arguments go to criterion";
+
+/// What to do.
+#[derive(Debug, PartialEq, Eq)]
+enum Chore {
+    Test(Option<Part>),
+    Bench(Vec<String>),
+    Help,
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let chore = match parse(&arguments) {
+        Ok(chore) => chore,
+        Err(error) => {
+            eprintln!("{error}\n\n{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    let done = match chore {
+        Chore::Test(only) => suite::run(only),
+        Chore::Bench(arguments) => suite::bench(&arguments),
+        Chore::Help => {
+            println!("{USAGE}");
+            Ok(())
+        }
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("\nFAILED: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn parse(arguments: &[String]) -> Result<Chore> {
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words[..] {
+        ["test"] => Ok(Chore::Test(None)),
+        ["test", "--only", part] => Part::named(part).map(|part| Chore::Test(Some(part))),
+        ["bench", ..] => Ok(Chore::Bench(arguments[1..].to_vec())),
+        [] | ["help" | "--help" | "-h"] => Ok(Chore::Help),
+        _ => bail!("unknown arguments: {}", words.join(" ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(line: &str) -> Option<Chore> {
+        parse(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>()).ok()
+    }
+
+    #[test]
+    fn every_chore_is_understood() {
+        assert_eq!(parsed("test"), Some(Chore::Test(None)));
+        assert_eq!(parsed("test --only python"), Some(Chore::Test(Some(Part::Python))));
+        assert_eq!(parsed("bench ik_warm"), Some(Chore::Bench(vec!["ik_warm".to_owned()])));
+        assert_eq!(parsed(""), Some(Chore::Help));
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        for line in ["tset", "test --only", "test --only ruby", "test now"] {
+            assert_eq!(parsed(line), None, "{line}");
+        }
+    }
+}

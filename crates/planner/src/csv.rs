@@ -45,7 +45,9 @@ pub fn table(
     if !(dt_s > 0.0 && whole < MAX_ROWS as f64) {
         return Err(CsvError::Step { dt_s, duration_s });
     }
-    let times = (0..whole.max(0.0) as usize).map(|k| k as f64 * dt_s).chain([duration_s]);
+    let times = (0..whole.max(0.0) as usize)
+        .map(|k| k as f64 * dt_s)
+        .chain([duration_s]);
     let mut text = String::from(HEADER);
     text.push('\n');
     for t in times {

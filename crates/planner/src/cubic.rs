@@ -29,7 +29,11 @@ pub fn sample(waypoints: &[Vector3<f64>], interpolation: Interpolation, samples:
         let time = (k * segments) as f64 / last as f64;
         let segment = (time as usize).min(segments - 1);
         let ends = [segment, segment + 1];
-        hermite(ends.map(|i| waypoints[i]), ends.map(|i| slopes[i]), time - segment as f64)
+        hermite(
+            ends.map(|i| waypoints[i]),
+            ends.map(|i| slopes[i]),
+            time - segment as f64,
+        )
     };
     (0..samples).map(at).collect()
 }

@@ -46,7 +46,10 @@ impl PlanError {
     #[must_use]
     pub fn is_infeasible(&self) -> bool {
         use LayoutError::{EmptyRegion, Impossible, NoRoom};
-        matches!(self, Self::Layout(NoRoom { .. } | Impossible { .. } | EmptyRegion { .. }))
+        matches!(
+            self,
+            Self::Layout(NoRoom { .. } | Impossible { .. } | EmptyRegion { .. })
+        )
     }
 }
 
@@ -114,7 +117,10 @@ pub fn check(scenario: &Scenario) -> Result<(RobotModel, Vec<layout::Finding>), 
         let findings = place_plates(scenario, &robot)?.findings;
         return Ok((robot, findings));
     }
-    let (section, region) = (&scenario.layout, region(&scenario.layout).unwrap_or(Region::PAPER_APPENDIX));
+    let (section, region) = (
+        &scenario.layout,
+        region(&scenario.layout).unwrap_or(Region::PAPER_APPENDIX),
+    );
     layout::Sampler::new(&region, &spacing(section))?;
     let count = section.count;
     match layout::packing_bound(&region, section.min_distance_m).filter(|&bound| count > bound) {

@@ -9,12 +9,7 @@ use crate::scenario::OrderRule;
 /// centre (in xy; ties go to the lower index). The position is `start` (x, y \[m\]) at first, then the last
 /// spiral point of the plate just washed, `exit(plate)`, not its centre.
 #[must_use]
-pub fn order(
-    plates: &[Plate],
-    rule: OrderRule,
-    start: [f64; 2],
-    exit: impl Fn(&Plate) -> [f64; 2],
-) -> Vec<usize> {
+pub fn order(plates: &[Plate], rule: OrderRule, start: [f64; 2], exit: impl Fn(&Plate) -> [f64; 2]) -> Vec<usize> {
     let mut open: Vec<usize> = (0..plates.len()).collect();
     let mut order = Vec::with_capacity(plates.len());
     let mut here = start;
@@ -37,7 +32,10 @@ fn nearest(plates: &[Plate], open: &[usize], here: [f64; 2]) -> usize {
         dx * dx + dy * dy
     };
     let by_distance = |a: &(usize, &usize), b: &(usize, &usize)| squared(*a.1).total_cmp(&squared(*b.1));
-    open.iter().enumerate().min_by(by_distance).map_or(0, |(position, _)| position)
+    open.iter()
+        .enumerate()
+        .min_by(by_distance)
+        .map_or(0, |(position, _)| position)
 }
 
 #[cfg(test)]
@@ -45,7 +43,13 @@ mod tests {
     use super::*;
 
     fn plate(x_m: f64, y_m: f64) -> Plate {
-        Plate { x_m, y_m, z_m: 0.03, radius_m: 0.145, thickness_m: 0.02 }
+        Plate {
+            x_m,
+            y_m,
+            z_m: 0.03,
+            radius_m: 0.145,
+            thickness_m: 0.02,
+        }
     }
 
     #[test]
@@ -54,14 +58,20 @@ mod tests {
         let plates = [plate(0.0, 0.1), plate(-0.2, 0.1), plate(0.3, 0.1)];
         let exit = |p: &Plate| [p.x_m + 0.145, p.y_m];
         assert_eq!(order(&plates, OrderRule::Nearest, [0.0, 0.0], exit), [0, 2, 1]);
-        assert_eq!(order(&plates, OrderRule::Nearest, [0.0, 0.0], |p| [p.x_m, p.y_m]), [0, 1, 2]);
+        assert_eq!(
+            order(&plates, OrderRule::Nearest, [0.0, 0.0], |p| [p.x_m, p.y_m]),
+            [0, 1, 2]
+        );
         assert_eq!(order(&plates, OrderRule::Given, [9.0, 9.0], exit), [0, 1, 2]);
     }
 
     #[test]
     fn every_plate_comes_once_and_ties_go_to_the_lower_index() {
         let plates = [plate(0.3, 0.0), plate(-0.3, 0.0), plate(0.0, 0.3)];
-        assert_eq!(order(&plates, OrderRule::Nearest, [0.0, 0.0], |_| [0.0, 0.0]), [0, 1, 2]);
+        assert_eq!(
+            order(&plates, OrderRule::Nearest, [0.0, 0.0], |_| [0.0, 0.0]),
+            [0, 1, 2]
+        );
         assert!(order(&[], OrderRule::Nearest, [0.0, 0.0], |_| [0.0, 0.0]).is_empty());
     }
 }

@@ -169,7 +169,10 @@ impl Plan {
             ..self.clone()
         };
         let canonical = serde_json_canonicalizer::to_vec(&open).map_err(unwritable)?;
-        Ok(Sha256::digest(canonical).iter().map(|byte| format!("{byte:02x}")).collect())
+        Ok(Sha256::digest(canonical)
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect())
     }
 
     /// Whether the stored hash is that of the contents.

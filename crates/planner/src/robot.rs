@@ -71,7 +71,9 @@ pub fn load(section: &RobotSection) -> Result<RobotModel, RobotError> {
         file: path.display().to_string(),
         error,
     };
-    robot.with_disabled_pairs(DisabledPairs::parse(&read(path)?).map_err(srdf)?).map_err(srdf)
+    robot
+        .with_disabled_pairs(DisabledPairs::parse(&read(path)?).map_err(srdf)?)
+        .map_err(srdf)
 }
 
 fn read(path: &Path) -> Result<String, RobotError> {
@@ -109,7 +111,11 @@ pub fn base_footprint(robot: &RobotModel) -> BaseFootprint {
         }
     }
     let [x_m, y_m] = bounds.map(|[least, most]| {
-        if least < most { [least, most] } else { [-DEFAULT_HALF_SIDE_M, DEFAULT_HALF_SIDE_M] }
+        if least < most {
+            [least, most]
+        } else {
+            [-DEFAULT_HALF_SIDE_M, DEFAULT_HALF_SIDE_M]
+        }
     });
     BaseFootprint { x_m, y_m }
 }

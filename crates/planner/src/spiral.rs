@@ -48,7 +48,12 @@ impl Spiral {
 mod tests {
     use super::*;
 
-    const PAPER: Spiral = Spiral { points: 55, turns: 3.0, radius_m: 0.145, closing_ring: false };
+    const PAPER: Spiral = Spiral {
+        points: 55,
+        turns: 3.0,
+        radius_m: 0.145,
+        closing_ring: false,
+    };
 
     #[test]
     fn the_papers_spiral_turns_20_degrees_a_waypoint_and_ends_on_the_x_axis() {
@@ -69,12 +74,19 @@ mod tests {
 
     #[test]
     fn the_ring_is_a_full_circle_that_starts_where_the_spiral_ends() {
-        let ringed = Spiral { closing_ring: true, turns: 2.5, ..PAPER };
+        let ringed = Spiral {
+            closing_ring: true,
+            turns: 2.5,
+            ..PAPER
+        };
         let points = ringed.waypoints([0.0, 0.0]);
         let ring = &points[54..];
         assert_eq!(ring.len() - 1, 22, "54 steps over 2.5 turns are 21.6 a turn");
         let (first, last) = (ring[0], ring[ring.len() - 1]);
         assert!((first[0] - last[0]).abs() < 1e-14 && (first[1] - last[1]).abs() < 1e-14);
-        assert!(ring.iter().all(|p| ((p[0] * p[0] + p[1] * p[1]).sqrt() - 0.145).abs() < 1e-15));
+        assert!(
+            ring.iter()
+                .all(|p| ((p[0] * p[0] + p[1] * p[1]).sqrt() - 0.145).abs() < 1e-15)
+        );
     }
 }

@@ -90,7 +90,13 @@ impl ToolPath {
     #[must_use]
     pub fn new(scenario: &Scenario, layout: &Layout) -> Self {
         let spiral = spiral(scenario);
-        let end = |p: &Plate| spiral.waypoints([p.x_m, p.y_m]).last().copied().unwrap_or([p.x_m, p.y_m]);
+        let end = |p: &Plate| {
+            spiral
+                .waypoints([p.x_m, p.y_m])
+                .last()
+                .copied()
+                .unwrap_or([p.x_m, p.y_m])
+        };
         let order = order(&layout.plates, scenario.job.order, [0.0, 0.0], end);
         let mut segments: Vec<Segment> = Vec::new();
         for &plate in &order {
@@ -156,7 +162,9 @@ fn transition_segment(scenario: &Scenario, from: Vector3<f64>, to: Vector3<f64>,
     let section = &scenario.transition;
     let arc = Arc {
         points: section.mid_points,
-        radius_m: section.mid_radius_m.unwrap_or((scenario.layout.base_radius_m + 0.1).max(0.3)),
+        radius_m: section
+            .mid_radius_m
+            .unwrap_or((scenario.layout.base_radius_m + 0.1).max(0.3)),
         height_m: section.mid_height_m,
     };
     let through = transition::waypoints(from, to, &arc);

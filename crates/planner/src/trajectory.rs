@@ -93,7 +93,11 @@ impl Trajectory {
         let k = after.saturating_sub(1).min(self.t_s.len().saturating_sub(2));
         let Some(cubic) = self.cubic(k) else {
             let still = JointVector::zeros();
-            return Some(JointState { q: self.q_rad[0], qd: still, qdd: still });
+            return Some(JointState {
+                q: self.q_rad[0],
+                qd: still,
+                qdd: still,
+            });
         };
         Some(cubic.at((t - self.t_s[k]).clamp(0.0, cubic.h)))
     }
@@ -113,7 +117,12 @@ impl Trajectory {
         let slope = (q1 - q0) / h;
         Some(Cubic {
             h,
-            c: [q0, v0, (slope * 3.0 - v0 * 2.0 - v1) / h, (v0 + v1 - slope * 2.0) / (h * h)],
+            c: [
+                q0,
+                v0,
+                (slope * 3.0 - v0 * 2.0 - v1) / h,
+                (v0 + v1 - slope * 2.0) / (h * h),
+            ],
         })
     }
 }

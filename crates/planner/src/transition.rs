@@ -54,7 +54,11 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const ARC: Arc = Arc { points: 5, radius_m: 0.35, height_m: 0.25 };
+    const ARC: Arc = Arc {
+        points: 5,
+        radius_m: 0.35,
+        height_m: 0.25,
+    };
 
     proptest! {
         #[test]

@@ -78,7 +78,9 @@ fn iterative(pose_a: &Pose, a: &dyn Shape, pose_b: &Pose, b: &dyn Shape) -> Near
 /// Height of a part over the floor z = 0, a closed form.
 fn over_floor(part: &Placed<'_>) -> Separation {
     let lowest = |points: &mut dyn Iterator<Item = Vector>| {
-        points.min_by(|p, q| p.z.total_cmp(&q.z)).unwrap_or(part.pose.translation)
+        points
+            .min_by(|p, q| p.z.total_cmp(&q.z))
+            .unwrap_or(part.pose.translation)
     };
     let low = match part.core {
         Core::Segment(half) => {
@@ -100,8 +102,12 @@ fn over_floor(part: &Placed<'_>) -> Separation {
 fn lowest_of_cylinder(part: &Placed<'_>, radius: f64, half: f64) -> Vector {
     let axis = part.pose.rotation * Vector::Y;
     let down_axis = if axis.z > 0.0 { -axis } else { axis };
-    let across = -Vector::Z + axis * axis.z;
-    let steep = across.length();
-    let across = if steep > 0.0 { across / steep } else { Vector::ZERO };
+    // −z less its part along the axis, written so that nothing cancels when the axis is nearly upright.
+    let steep = (axis.x * axis.x + axis.y * axis.y).sqrt();
+    let across = if steep > 0.0 {
+        Vector::new(axis.x * axis.z / steep, axis.y * axis.z / steep, -steep)
+    } else {
+        Vector::X
+    };
     part.pose.translation + down_axis * half + across * radius
 }

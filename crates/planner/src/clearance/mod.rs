@@ -94,8 +94,13 @@ impl ClearanceModel {
     pub fn new(robot: &RobotModel, tool: &ToolSection, plates: &[Plate]) -> Result<Self, ClearanceError> {
         let mut bodies = Vec::new();
         for link in robot.links().iter().filter(|link| !link.collision.is_empty()) {
-            let parts = link.collision.iter().map(|p| Part::new(&p.shape, link.frame.offset(&Rigid::from(&p.pose))));
-            let flat = || ClearanceError::FlatHull { link: link.name.clone() };
+            let parts = link
+                .collision
+                .iter()
+                .map(|p| Part::new(&p.shape, link.frame.offset(&Rigid::from(&p.pose))));
+            let flat = || ClearanceError::FlatHull {
+                link: link.name.clone(),
+            };
             bodies.push(Body {
                 name: link.name.clone(),
                 kind: BodyKind::Link(link.frame.body()),
@@ -126,7 +131,9 @@ impl ClearanceModel {
     pub fn all(&self, q: &JointVector) -> Vec<PairClearance> {
         let placed = self.place(q);
         let all = self.pairs.iter().map(|&(a, b)| {
-            let least = self.part_pairs(a, b).map(|(p, r)| separation(&placed[a][p], &placed[b][r]));
+            let least = self
+                .part_pairs(a, b)
+                .map(|(p, r)| separation(&placed[a][p], &placed[b][r]));
             self.describe(a, b, nearest(least))
         });
         all.collect()
@@ -173,7 +180,10 @@ impl ClearanceModel {
 
     fn place(&self, q: &JointVector) -> Vec<Vec<Placed<'_>>> {
         let poses = self.robot.fk(q);
-        self.bodies.iter().map(|body| body.parts.iter().map(|part| part.place(&poses)).collect()).collect()
+        self.bodies
+            .iter()
+            .map(|body| body.parts.iter().map(|part| part.place(&poses)).collect())
+            .collect()
     }
 
     fn describe(&self, a: usize, b: usize, found: Separation) -> PairClearance {
@@ -187,10 +197,12 @@ impl ClearanceModel {
 }
 
 fn nearest(separations: impl Iterator<Item = Separation>) -> Separation {
-    separations.min_by(|x, y| x.distance.total_cmp(&y.distance)).unwrap_or(Separation {
-        distance: f64::INFINITY,
-        place: [0.0; 3],
-    })
+    separations
+        .min_by(|x, y| x.distance.total_cmp(&y.distance))
+        .unwrap_or(Separation {
+            distance: f64::INFINITY,
+            place: [0.0; 3],
+        })
 }
 
 fn body(name: &str, kind: BodyKind, part: Part) -> Body {
@@ -217,7 +229,10 @@ fn tool_bodies(robot: &RobotModel, tool: &ToolSection) -> Vec<Body> {
     let handle = Part::cylinder(tool.radius_m, handle_length / 2.0, along(handle_length / 2.0));
     let sponge_half = tool.sponge_height_m / 2.0;
     let sponge = Part::cylinder(tool.sponge_radius_m, sponge_half, along(handle_length + sponge_half));
-    vec![body("handle", BodyKind::Handle, handle), body("sponge", BodyKind::Sponge, sponge)]
+    vec![
+        body("handle", BodyKind::Handle, handle),
+        body("sponge", BodyKind::Sponge, sponge),
+    ]
 }
 
 fn plate_body(index: usize, plate: &Plate) -> Body {

@@ -48,7 +48,9 @@ fn drop_always_touching(model: &ClearanceModel, pairs: &mut Vec<(usize, usize)>)
     for k in 0..SAMPLES {
         let placed = model.place(&spread(&model.robot, k));
         for (&(a, b), always) in pairs.iter().zip(&mut always).filter(|(_, always)| **always) {
-            let least = model.part_pairs(a, b).map(|(p, r)| separation(&placed[a][p], &placed[b][r]));
+            let least = model
+                .part_pairs(a, b)
+                .map(|(p, r)| separation(&placed[a][p], &placed[b][r]));
             *always = nearest(least).distance <= 0.0;
         }
     }

@@ -61,17 +61,30 @@ impl Part {
     pub fn new(shape: &Shape, frame: Frame) -> Option<Self> {
         Some(match shape {
             Shape::Sphere { radius_m } => Self::round(0.0, *radius_m, frame),
-            Shape::Capsule { radius_m, half_length_m } => Self::round(*half_length_m, *radius_m, frame),
-            Shape::Cylinder { radius_m, half_length_m } => Self::cylinder(*radius_m, *half_length_m, frame),
+            Shape::Capsule {
+                radius_m,
+                half_length_m,
+            } => Self::round(*half_length_m, *radius_m, frame),
+            Shape::Cylinder {
+                radius_m,
+                half_length_m,
+            } => Self::cylinder(*radius_m, *half_length_m, frame),
             Shape::Box { half_m: [x, y, z] } => {
                 let corner = Vector::new(*x, *y, *z);
                 let signs = [-1.0, 1.0];
                 let corners = signs.iter().flat_map(|i| signs.iter().map(move |j| (i, j)));
                 let corners = corners.flat_map(|(i, j)| signs.iter().map(move |k| Vector::new(*i, *j, *k) * corner));
-                Self::solid(SharedShape::new(Cuboid::new(corner)), Extent::Vertices(corners.collect()), frame)
+                Self::solid(
+                    SharedShape::new(Cuboid::new(corner)),
+                    Extent::Vertices(corners.collect()),
+                    frame,
+                )
             }
             Shape::Hull { points } => {
-                let vertices: Vec<_> = points.iter().map(|p: &Point3<f64>| Vector::new(p.x, p.y, p.z)).collect();
+                let vertices: Vec<_> = points
+                    .iter()
+                    .map(|p: &Point3<f64>| Vector::new(p.x, p.y, p.z))
+                    .collect();
                 let hull = ConvexPolyhedron::from_convex_hull(&vertices)?;
                 let vertices = hull.points().to_vec();
                 Self::solid(SharedShape::new(hull), Extent::Vertices(vertices), frame)

@@ -27,7 +27,11 @@ fn segment_distance(a: [Point3<f64>; 2], b: [Point3<f64>; 2]) -> f64 {
     let at = |s: f64, t: f64| (a[0] + (a[1] - a[0]) * s - (b[0] + (b[1] - b[0]) * t)).norm();
     let best_t = |s: f64| {
         let (u, w) = (b[1] - b[0], a[0] + (a[1] - a[0]) * s - b[0]);
-        let t = if u.norm_squared() > 0.0 { (w.dot(&u) / u.norm_squared()).clamp(0.0, 1.0) } else { 0.0 };
+        let t = if u.norm_squared() > 0.0 {
+            (w.dot(&u) / u.norm_squared()).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
         at(s, t)
     };
     let (mut low, mut high) = (0.0, 1.0);
@@ -92,13 +96,17 @@ proptest! {
         prop_assert!((there - back).abs() < ITERATIVE_ERROR_M);
     }
 
-    /// The half-space trap: a box, a cylinder, a hull and a capsule over the floor, at any attitude.
+    /// The half-space trap: a box, a cylinder, a hull and a capsule over the floor, at any attitude, nearly upright and
+    /// nearly lying ones included.
     #[test]
-    fn heights_over_the_floor_are_closed_forms(pose in iso()) {
-        let high = Isometry3::translation(0.0, 0.0, 2.0) * pose;
+    fn heights_over_the_floor_are_closed_forms(pose in iso(), tiny in -17.0..0.0f64, lying in any::<bool>(), near in any::<bool>()) {
+        let base = Vector3::new(if lying { FRAC_PI_2 } else { 0.0 }, 0.0, 0.0);
+        let leaning = UnitQuaternion::from_scaled_axis(Vector3::new(0.3, -0.4, 0.1) * 10.0_f64.powf(tiny));
+        let upright = Isometry3::from_parts(pose.translation, leaning * UnitQuaternion::from_scaled_axis(base));
+        let high = Isometry3::translation(0.0, 0.0, 2.0) * if near { upright } else { pose };
         let axis = high.rotation * Vector3::z();
         let z = high.translation.z;
-        let tilted = (1.0 - axis.z * axis.z).max(0.0).sqrt();
+        let tilted = axis.xy().norm();
         let rotation = high.rotation.to_rotation_matrix();
         let row = rotation.matrix().row(2).abs();
         let cases = [
@@ -125,26 +133,59 @@ proptest! {
 }
 
 fn model() -> ClearanceModel {
-    let tool = ToolSection { length_m: 0.15, ..ToolSection::default() };
-    let plate = |x_m, y_m| Plate { x_m, y_m, z_m: 0.03, radius_m: 0.145, thickness_m: 0.02 };
-    ClearanceModel::new(&RobotModel::irb120().unwrap(), &tool, &[plate(0.3, -0.2), plate(0.3, 0.2)]).unwrap()
+    let tool = ToolSection {
+        length_m: 0.15,
+        ..ToolSection::default()
+    };
+    let plate = |x_m, y_m| Plate {
+        x_m,
+        y_m,
+        z_m: 0.03,
+        radius_m: 0.145,
+        thickness_m: 0.02,
+    };
+    ClearanceModel::new(
+        &RobotModel::irb120().unwrap(),
+        &tool,
+        &[plate(0.3, -0.2), plate(0.3, 0.2)],
+    )
+    .unwrap()
 }
 
 #[test]
 fn the_irb_120_checks_the_eight_self_pairs() {
     let bare = ClearanceModel::new(&RobotModel::irb120().unwrap(), &ToolSection::default(), &[]).unwrap();
     let pairs = bare.pair_names();
-    let own: Vec<_> = pairs.iter().filter(|(_, b)| *b != "floor").map(|(a, b)| format!("{a}-{b}")).collect();
-    let expected = [(0, 3), (0, 4), (0, 5), (0, 6), (1, 3), (1, 4), (1, 5), (1, 6)]
-        .map(|(a, b)| format!("{}-link_{b}", if a == 0 { "base_link".to_owned() } else { format!("link_{a}") }));
+    let own: Vec<_> = pairs
+        .iter()
+        .filter(|(_, b)| *b != "floor")
+        .map(|(a, b)| format!("{a}-{b}"))
+        .collect();
+    let expected = [(0, 3), (0, 4), (0, 5), (0, 6), (1, 3), (1, 4), (1, 5), (1, 6)].map(|(a, b)| {
+        format!(
+            "{}-link_{b}",
+            if a == 0 {
+                "base_link".to_owned()
+            } else {
+                format!("link_{a}")
+            }
+        )
+    });
     assert_eq!(own, expected);
     let floor: Vec<_> = pairs.iter().filter(|(_, b)| *b == "floor").map(|(a, _)| *a).collect();
-    assert_eq!(floor, ["link_2", "link_3", "link_4", "link_5", "link_6"], "link_1 keeps its height");
+    assert_eq!(
+        floor,
+        ["link_2", "link_3", "link_4", "link_5", "link_6"],
+        "link_1 keeps its height"
+    );
 }
 
 #[test]
 fn without_a_list_neighbours_and_pairs_that_always_touch_are_left_out() {
-    let robot = RobotModel::from_urdf(platewash_kinematics::model::IRB120_URDF, &platewash_kinematics::urdf::MeshSource::none());
+    let robot = RobotModel::from_urdf(
+        platewash_kinematics::model::IRB120_URDF,
+        &platewash_kinematics::urdf::MeshSource::none(),
+    );
     let model = ClearanceModel::new(&robot.unwrap(), &ToolSection::default(), &[]).unwrap();
     let pairs = model.pair_names();
     assert!(!pairs.contains(&("link_4", "link_6")), "these shapes always overlap");
@@ -160,8 +201,16 @@ fn known_distances_at_the_home_position() {
     assert!((of("handle", "floor") - (0.63 - 0.02)).abs() < 1e-12);
     assert!((of("sponge", "floor") - (0.63 - 0.025)).abs() < 1e-12);
     assert!((of("link_6", "floor") - (0.63 - 0.0255)).abs() < 1e-12);
-    let to_plate = model().all(&JointVector::zeros()).into_iter().filter(|p| p.b.starts_with("plate")).count();
-    assert_eq!(to_plate, 2 * (6 + 2), "six moving links, handle and sponge against each plate");
+    let to_plate = model()
+        .all(&JointVector::zeros())
+        .into_iter()
+        .filter(|p| p.b.starts_with("plate"))
+        .count();
+    assert_eq!(
+        to_plate,
+        2 * (6 + 2),
+        "six moving links, handle and sponge against each plate"
+    );
 }
 
 #[test]
@@ -169,10 +218,16 @@ fn the_sponge_may_touch_the_plate_it_works_on() {
     let model = model();
     // Tool straight down over plate 1 with the sponge on its surface: found by the place of contact alone.
     let robot = RobotModel::irb120().unwrap();
-    let tip = robot.mounting_frame().offset(&Rigid { translation: Vector3::new(0.0, 0.0, 0.15), ..Rigid::identity() });
+    let tip = robot.mounting_frame().offset(&Rigid {
+        translation: Vector3::new(0.0, 0.0, 0.15),
+        ..Rigid::identity()
+    });
     let solver = platewash_kinematics::ik::IkSolver::new(&robot, tip, Default::default()).unwrap();
     let down = crate::tool_path::tool_down(Vector3::new(0.35, 0.2, 0.029));
-    let q = solver.solve(&down, &JointVector::new(0.5, 0.3, 0.2, 0.0, 1.0, 0.0)).unwrap().q;
+    let q = solver
+        .solve(&down, &JointVector::new(0.5, 0.3, 0.2, 0.0, 1.0, 0.0))
+        .unwrap()
+        .q;
     let touching = model.smallest(&q, &[]).unwrap();
     assert_eq!((touching.a.as_str(), touching.b.as_str()), ("sponge", "plate 1"));
     assert!(touching.distance_m <= 0.0);

@@ -152,7 +152,12 @@ impl JobReport {
     }
 }
 
-fn verdict(plates: &[PlateReport], transitions: &TransitionReport, plan: &MotionReport, done: &MotionReport) -> Verdict {
+fn verdict(
+    plates: &[PlateReport],
+    transitions: &TransitionReport,
+    plan: &MotionReport,
+    done: &MotionReport,
+) -> Verdict {
     let reached = plates.iter().all(|p| p.reached == p.waypoints) && transitions.reached == transitions.waypoints;
     let clear = !plan.violations.iter().any(|v| v.kind == ViolationKind::Clearance);
     if !reached || !clear {
@@ -169,7 +174,13 @@ fn transitions(job: &Job, approaches: &[plate::StepApproach]) -> TransitionRepor
     let steps: Vec<_> = job.steps.iter().filter(|s| between(s)).collect();
     let (tracking_rms_m, tracking_max_m) = plate::tracking_errors(steps.iter().copied());
     let nearest = |of: fn(&plate::StepApproach) -> Option<&ClosestApproach>| {
-        plate::nearest(job.steps.iter().zip(approaches).filter(|(s, _)| between(s)).filter_map(|(_, a)| of(a)))
+        plate::nearest(
+            job.steps
+                .iter()
+                .zip(approaches)
+                .filter(|(s, _)| between(s))
+                .filter_map(|(_, a)| of(a)),
+        )
     };
     TransitionReport {
         waypoints: steps.len(),
@@ -182,10 +193,19 @@ fn transitions(job: &Job, approaches: &[plate::StepApproach]) -> TransitionRepor
 }
 
 fn findings(job: &Job) -> Vec<JobFinding> {
-    let of_layout = job.layout.findings.iter().cloned().map(|finding| JobFinding::Layout { finding });
+    let of_layout = job
+        .layout
+        .findings
+        .iter()
+        .cloned()
+        .map(|finding| JobFinding::Layout { finding });
     let mut findings: Vec<_> = of_layout.collect();
     if let (Some(start), Some(first)) = (job.planned.positions().first(), job.steps.first()) {
-        let tip = job.robot.fk(start).rigid(&robot::tip_frame(&job.robot, &job.scenario.tool)).translation;
+        let tip = job
+            .robot
+            .fk(start)
+            .rigid(&robot::tip_frame(&job.robot, &job.scenario.tool))
+            .translation;
         findings.push(JobFinding::NoApproach {
             believed_m: [0.0; 3],
             tip_m: tip.into(),
@@ -199,7 +219,10 @@ fn findings(job: &Job) -> Vec<JobFinding> {
         findings.push(JobFinding::StopsAtWaypoints { waypoints });
     }
     let bare = job.robot.joints().iter().filter(|j| {
-        job.robot.links().iter().any(|l| l.name == j.child && l.collision.is_empty())
+        job.robot
+            .links()
+            .iter()
+            .any(|l| l.name == j.child && l.collision.is_empty())
     });
     let links: Vec<_> = bare.map(|j| j.child.clone()).collect();
     if !links.is_empty() {

@@ -76,20 +76,32 @@ impl MotionReport {
         let accelerations = JointVector::from(job.scenario.limits.joint_acceleration_rad_s2);
         let extremes: Vec<_> = motion.extremes().collect();
         let largest = |of: fn(&SegmentExtremes) -> &JointVector| {
-            extremes.iter().fold(JointVector::zeros(), |most, segment| most.sup(of(segment)))
+            extremes
+                .iter()
+                .fold(JointVector::zeros(), |most, segment| most.sup(of(segment)))
         };
         let mut violations = Vec::new();
         for joint in 0..AXES {
             let who = || job.robot.joints()[joint].name.clone();
             let mut note = |kind, side, limit: f64, of: &dyn Fn(&SegmentExtremes) -> f64| {
                 let mut merger = Merger::new(kind, who(), side, limit);
-                extremes.iter().for_each(|segment| merger.note(segment.span_s, of(segment)));
+                extremes
+                    .iter()
+                    .for_each(|segment| merger.note(segment.span_s, of(segment)));
                 violations.extend(merger.found);
             };
-            note(ViolationKind::Position, Side::Below, limits.lower[joint], &|s| s.position[0][joint]);
-            note(ViolationKind::Position, Side::Above, limits.upper[joint], &|s| s.position[1][joint]);
-            note(ViolationKind::Speed, Side::Above, limits.velocity[joint], &|s| s.speed[joint]);
-            note(ViolationKind::Acceleration, Side::Above, accelerations[joint], &|s| s.acceleration[joint]);
+            note(ViolationKind::Position, Side::Below, limits.lower[joint], &|s| {
+                s.position[0][joint]
+            });
+            note(ViolationKind::Position, Side::Above, limits.upper[joint], &|s| {
+                s.position[1][joint]
+            });
+            note(ViolationKind::Speed, Side::Above, limits.velocity[joint], &|s| {
+                s.speed[joint]
+            });
+            note(ViolationKind::Acceleration, Side::Above, accelerations[joint], &|s| {
+                s.acceleration[joint]
+            });
         }
         let approaches: Vec<_> = approaches.flatten().collect();
         violations.extend(clearance_violations(&approaches, job));

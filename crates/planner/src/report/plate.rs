@@ -79,7 +79,10 @@ pub(super) fn approaches(job: &Job, clearance: &ClearanceModel) -> Vec<StepAppro
     let at = |(k, step): (usize, &Step)| {
         // Washing, the sponge may touch its plate; on the way, the plate it leaves and the one it comes to.
         let here = segments[step.segment].plate;
-        let from = step.segment.checked_sub(1).map_or(here, |before| segments[before].plate);
+        let from = step
+            .segment
+            .checked_sub(1)
+            .map_or(here, |before| segments[before].plate);
         let working = match segments[step.segment].kind {
             SegmentKind::Wash => [here, here],
             SegmentKind::Transition => [from, here],
@@ -99,27 +102,44 @@ pub(super) fn approaches(job: &Job, clearance: &ClearanceModel) -> Vec<StepAppro
 
 /// The nearest of several approaches (the first of equals).
 pub(super) fn nearest<'a>(approaches: impl Iterator<Item = &'a ClosestApproach>) -> Option<ClosestApproach> {
-    approaches.min_by(|a, b| a.pair.distance_m.total_cmp(&b.pair.distance_m)).cloned()
+    approaches
+        .min_by(|a, b| a.pair.distance_m.total_cmp(&b.pair.distance_m))
+        .cloned()
 }
 
 /// Root mean square and maximum of the tracking error \[m\]; zeros without steps.
 pub(super) fn tracking_errors<'a>(steps: impl Iterator<Item = &'a Step>) -> (f64, f64) {
-    let (count, sum, most) = steps.map(Step::tracking_error_m).fold((0.0, 0.0, 0.0_f64), |(n, sum, most), error| {
-        (n + 1.0, sum + error * error, most.max(error))
-    });
+    let (count, sum, most) = steps
+        .map(Step::tracking_error_m)
+        .fold((0.0, 0.0, 0.0_f64), |(n, sum, most), error| {
+            (n + 1.0, sum + error * error, most.max(error))
+        });
     (f64::sqrt(sum / f64::max(count, 1.0)), most)
 }
 
 /// Every plate, in the order of washing.
 pub(super) fn plates(job: &Job, approaches: &[StepApproach]) -> Result<Vec<PlateReport>, CoverageError> {
-    let washes = job.tool_path.segments.iter().enumerate().filter(|(_, s)| s.kind == SegmentKind::Wash);
-    washes.map(|(segment, part)| plate(job, approaches, segment, part.plate)).collect()
+    let washes = job
+        .tool_path
+        .segments
+        .iter()
+        .enumerate()
+        .filter(|(_, s)| s.kind == SegmentKind::Wash);
+    washes
+        .map(|(segment, part)| plate(job, approaches, segment, part.plate))
+        .collect()
 }
 
 fn plate(job: &Job, approaches: &[StepApproach], segment: usize, index: usize) -> Result<PlateReport, CoverageError> {
     let here = |step: &&Step| step.segment == segment;
     let steps: Vec<_> = job.steps.iter().filter(here).collect();
-    let near = || job.steps.iter().zip(approaches).filter(|(s, _)| s.segment == segment).map(|(_, a)| a);
+    let near = || {
+        job.steps
+            .iter()
+            .zip(approaches)
+            .filter(|(s, _)| s.segment == segment)
+            .map(|(_, a)| a)
+    };
     let plate = job.layout.plates[index];
     let centre_m = [plate.x_m, plate.y_m];
     let swept = |of: fn(&Step) -> [f64; 2]| {
@@ -131,7 +151,9 @@ fn plate(job: &Job, approaches: &[StepApproach], segment: usize, index: usize) -
     let executed_coverage = swept(|s| [s.executed_tip.x, s.executed_tip.y])?;
     let executed_clearance = nearest(near().filter_map(|a| a.executed.as_ref()));
     let reached = steps.iter().filter(|s| s.reached()).count();
-    let clear = executed_clearance.as_ref().is_none_or(|c| is_clear(c.pair.distance_m, job.scenario.wash.clearance_m));
+    let clear = executed_clearance
+        .as_ref()
+        .is_none_or(|c| is_clear(c.pair.distance_m, job.scenario.wash.clearance_m));
     let (tracking_rms_m, tracking_max_m) = tracking_errors(steps.iter().copied());
     Ok(PlateReport {
         plate: index,
@@ -157,15 +179,18 @@ pub(super) fn is_clear(distance_m: f64, required_m: f64) -> bool {
 }
 
 fn worst_unreached(steps: &[&Step]) -> Option<Unreached> {
-    let failed = steps.iter().enumerate().filter_map(|(waypoint, step)| match step.outcome {
-        IkOutcome::Solved { .. } => None,
-        IkOutcome::Failed { cause } => Some(Unreached {
-            waypoint,
-            target_m: step.target.into(),
-            cause,
-            position_error_m: step.ik_position_error_m,
-            orientation_error_rad: step.ik_orientation_error_rad,
-        }),
-    });
+    let failed = steps
+        .iter()
+        .enumerate()
+        .filter_map(|(waypoint, step)| match step.outcome {
+            IkOutcome::Solved { .. } => None,
+            IkOutcome::Failed { cause } => Some(Unreached {
+                waypoint,
+                target_m: step.target.into(),
+                cause,
+                position_error_m: step.ik_position_error_m,
+                orientation_error_rad: step.ik_orientation_error_rad,
+            }),
+        });
     failed.max_by(|a, b| a.position_error_m.total_cmp(&b.position_error_m))
 }

@@ -27,7 +27,12 @@ pub(super) fn headline(verdict: Verdict, plates: &[PlateReport], plan: &MotionRe
     if washed < total {
         reasons.push(format!("as little as {:.1} % of a plate covered", 100.0 * least));
     }
-    if done.violations.iter().chain(&plan.violations).any(|v| v.kind != ViolationKind::Clearance) {
+    if done
+        .violations
+        .iter()
+        .chain(&plan.violations)
+        .any(|v| v.kind != ViolationKind::Clearance)
+    {
         reasons.push("joint limits broken".to_owned());
     }
     format!("NOT WASHED: {washed} of {total} plates washed; {}.", reasons.join(", "))
@@ -37,10 +42,17 @@ impl Display for JobReport {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}\n", self.headline)?;
         let (name, seed, robot) = (&self.scenario, self.seed, &self.robot);
-        writeln!(f, "scenario {name}, seed {seed}, robot {robot}, {:.2} s of motion", self.duration_s)?;
+        writeln!(
+            f,
+            "scenario {name}, seed {seed}, robot {robot}, {:.2} s of motion",
+            self.duration_s
+        )?;
         self.plates(f)?;
         self.transitions(f)?;
-        writeln!(f, "\nWhole job, largest share of each joint's limit (1 to 6; acceleration limits are assumptions)")?;
+        writeln!(
+            f,
+            "\nWhole job, largest share of each joint's limit (1 to 6; acceleration limits are assumptions)"
+        )?;
         motion(f, "planned", &self.planned)?;
         motion(f, "executed", &self.executed)?;
         violations(f, "planned", &self.planned.violations)?;
@@ -48,14 +60,19 @@ impl Display for JobReport {
         if !self.findings.is_empty() {
             writeln!(f, "\nFindings")?;
         }
-        self.findings.iter().try_for_each(|finding| writeln!(f, "  - {finding}"))
+        self.findings
+            .iter()
+            .try_for_each(|finding| writeln!(f, "  - {finding}"))
     }
 }
 
 impl JobReport {
     fn plates(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let (sponge, wanted) = (1e3 * self.sponge_radius_m, 100.0 * self.coverage_required);
-        writeln!(f, "\nPlates, in the order of washing (coverage by a sponge of radius {sponge} mm; {wanted} % wanted)")?;
+        writeln!(
+            f,
+            "\nPlates, in the order of washing (coverage by a sponge of radius {sponge} mm; {wanted} % wanted)"
+        )?;
         writeln!(
             f,
             "  {:<6} {:>16} {:>9} {:>12} {:>8} {:>9} {:>19} {:>7}",
@@ -89,10 +106,18 @@ impl JobReport {
                 )?;
             }
         }
-        writeln!(f, "\nSmallest clearance (pair, place, time; {:.1} mm wanted)", 1e3 * self.clearance_required_m)?;
+        writeln!(
+            f,
+            "\nSmallest clearance (pair, place, time; {:.1} mm wanted)",
+            1e3 * self.clearance_required_m
+        )?;
         for p in &self.plates {
             nearest(f, &format!("plate {}, planned", p.plate), p.planned_clearance.as_ref())?;
-            nearest(f, &format!("plate {}, executed", p.plate), p.executed_clearance.as_ref())?;
+            nearest(
+                f,
+                &format!("plate {}, executed", p.plate),
+                p.executed_clearance.as_ref(),
+            )?;
         }
         Ok(())
     }
@@ -119,7 +144,11 @@ fn nearest(f: &mut Formatter<'_>, what: &str, approach: Option<&ClosestApproach>
     };
     let [x, y, z] = pair.place_m.map(|v| 1e3 * v);
     let bodies = format!("{} – {}", pair.a, pair.b);
-    writeln!(f, "  {what:<22} {:>7.1} mm  {bodies:<22} at ({x:.0}, {y:.0}, {z:.0}) mm, t = {t_s:.2} s", 1e3 * pair.distance_m)
+    writeln!(
+        f,
+        "  {what:<22} {:>7.1} mm  {bodies:<22} at ({x:.0}, {y:.0}, {z:.0}) mm, t = {t_s:.2} s",
+        1e3 * pair.distance_m
+    )
 }
 
 fn motion(f: &mut Formatter<'_>, what: &str, report: &MotionReport) -> fmt::Result {
@@ -136,7 +165,10 @@ fn violations(f: &mut Formatter<'_>, what: &str, all: &[Violation]) -> fmt::Resu
     // The worst of each kind and body first, so that the list says something before it is cut.
     let mut ranked: Vec<_> = all.iter().collect();
     ranked.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
-    ranked.iter().take(LISTED_VIOLATIONS).try_for_each(|v| writeln!(f, "  - {v}"))?;
+    ranked
+        .iter()
+        .take(LISTED_VIOLATIONS)
+        .try_for_each(|v| writeln!(f, "  - {v}"))?;
     match all.len().saturating_sub(LISTED_VIOLATIONS) {
         0 => Ok(()),
         more => writeln!(f, "  - and {more} more; all of them in the JSON report"),
@@ -159,12 +191,24 @@ impl Display for Violation {
         let (worst, limit) = (self.worst, self.limit);
         match self.kind {
             ViolationKind::Position => {
-                write!(f, "{} position {:.2}° beyond {:.2}°", self.who, worst.to_degrees(), limit.to_degrees())
+                write!(
+                    f,
+                    "{} position {:.2}° beyond {:.2}°",
+                    self.who,
+                    worst.to_degrees(),
+                    limit.to_degrees()
+                )
             }
             ViolationKind::Speed => write!(f, "{} speed {worst:.2} rad/s of {limit:.2}", self.who),
             ViolationKind::Acceleration => write!(f, "{} acceleration {worst:.0} rad/s² of {limit:.1}", self.who),
             ViolationKind::Clearance => {
-                write!(f, "{} clearance {:.1} mm of {:.1} mm", self.who, 1e3 * worst, 1e3 * limit)
+                write!(
+                    f,
+                    "{} clearance {:.1} mm of {:.1} mm",
+                    self.who,
+                    1e3 * worst,
+                    1e3 * limit
+                )
             }
         }?;
         write!(f, ", t = {:.2} … {:.2} s", self.t_start_s, self.t_end_s)
@@ -192,7 +236,9 @@ impl Display for JobFinding {
                 f,
                 "each transition stops at all of its {waypoints} waypoints (zero-velocity cubics): acceleration is not continuous"
             ),
-            Self::Unchecked { links } => write!(f, "no collision geometry, so nothing is checked: {}", links.join(", ")),
+            Self::Unchecked { links } => {
+                write!(f, "no collision geometry, so nothing is checked: {}", links.join(", "))
+            }
         }
     }
 }

@@ -111,7 +111,12 @@ impl Bench {
     }
 
     /// Reach and contact of the exact path, each waypoint from the previous answer.
-    fn check_exactly(&self, path: &ToolPath, clearance: &ClearanceModel, sample: &mut LayoutSample) -> Result<(), PlanError> {
+    fn check_exactly(
+        &self,
+        path: &ToolPath,
+        clearance: &ClearanceModel,
+        sample: &mut LayoutSample,
+    ) -> Result<(), PlanError> {
         let tip = robot::tip_frame(&self.robot, &self.scenario.tool);
         let solver = IkSolver::new(&self.robot, tip, job::ik_settings(&self.scenario))?;
         for segment in &path.segments {
@@ -165,7 +170,12 @@ fn execute(job: &Job, sample: &mut LayoutSample) -> Result<(), CoverageError> {
             sample.first_spiral_errors.extend(errors);
         } else {
             sample.later_spiral_errors.extend(errors);
-            sample.outermost_radii.push(steps.iter().map(|s| from_centre(&plate, &s.executed_tip)).fold(0.0, f64::max));
+            sample.outermost_radii.push(
+                steps
+                    .iter()
+                    .map(|s| from_centre(&plate, &s.executed_tip))
+                    .fold(0.0, f64::max),
+            );
         }
         let path: Vec<_> = steps.iter().map(|s| [s.executed_tip.x, s.executed_tip.y]).collect();
         sample.plates[plates].executed_coverage = by_sponge(&path, &plate, &EXECUTED_CELL)?.map(|c| c.fraction);
@@ -177,7 +187,12 @@ fn execute(job: &Job, sample: &mut LayoutSample) -> Result<(), CoverageError> {
         (0..speed.len()).any(|j| speed[j] > job.robot.limits().velocity[j])
     };
     sample.steps = job.steps.len();
-    sample.steps_too_fast = job.executed.positions().windows(2).filter(|pair| too_fast(pair)).count();
+    sample.steps_too_fast = job
+        .executed
+        .positions()
+        .windows(2)
+        .filter(|pair| too_fast(pair))
+        .count();
     Ok(())
 }
 
@@ -198,7 +213,13 @@ fn by_sponge(
     };
     let mut all = [nothing; SPONGES_MM.len()];
     for (covered, sponge) in all.iter_mut().zip(SPONGES_MM) {
-        *covered = coverage(path, [plate.x_m, plate.y_m], plate.radius_m, 1e-3 * f64::from(sponge), settings)?;
+        *covered = coverage(
+            path,
+            [plate.x_m, plate.y_m],
+            plate.radius_m,
+            1e-3 * f64::from(sponge),
+            settings,
+        )?;
     }
     Ok(all)
 }
@@ -209,6 +230,11 @@ pub(super) fn ideal_coverage(scenario: &Scenario) -> Result<[f64; SPONGES_MM.len
     single.layout.positions_m = Some(vec![[0.3, 0.0]]);
     let layout = job::place_plates(&single, &robot::load(&single.robot)?)?;
     let path = ToolPath::new(&single, &layout);
-    let spiral: Vec<_> = path.segments.iter().flat_map(|s| &s.waypoints).map(|p| [p.x, p.y]).collect();
+    let spiral: Vec<_> = path
+        .segments
+        .iter()
+        .flat_map(|s| &s.waypoints)
+        .map(|p| [p.x, p.y])
+        .collect();
     Ok(by_sponge(&spiral, &layout.plates[0], &CoverageSettings { cell_m: 2e-4 })?.map(|c| c.fraction))
 }

@@ -54,8 +54,22 @@ pub(super) fn rows(control: &ControlSection) -> Vec<Row> {
         half_width_95: None,
     };
     vec![
-        row(GROUP, "law_gain".into(), "gain".into(), "", Some(1.0), exact(response.gain)),
-        row(GROUP, "law_phase".into(), "phase".into(), "deg", Some(0.0), exact(response.phase_rad.to_degrees())),
+        row(
+            GROUP,
+            "law_gain".into(),
+            "gain".into(),
+            "",
+            Some(1.0),
+            exact(response.gain),
+        ),
+        row(
+            GROUP,
+            "law_phase".into(),
+            "phase".into(),
+            "deg",
+            Some(0.0),
+            exact(response.phase_rad.to_degrees()),
+        ),
     ]
 }
 
@@ -68,7 +82,11 @@ mod tests {
     #[test]
     fn the_measured_response_is_that_of_the_transfer_function() {
         use nalgebra::Complex;
-        for (kp, kd, turn) in [(20.0, 0.1, TURN_PER_WAYPOINT), (20.0, 0.1, TURN_PER_WAYPOINT / 2.0), (50.0, 0.0, TURN_PER_WAYPOINT)] {
+        for (kp, kd, turn) in [
+            (20.0, 0.1, TURN_PER_WAYPOINT),
+            (20.0, 0.1, TURN_PER_WAYPOINT / 2.0),
+            (50.0, 0.0, TURN_PER_WAYPOINT),
+        ] {
             let (a, b) = (kp * 0.01, kd);
             let z = Complex::new(f64::cos(turn), f64::sin(turn));
             let h = z * (z * (a + b) - b) / (z * z - z * (1.0 - a - b) - b);

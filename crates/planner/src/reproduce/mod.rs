@@ -73,8 +73,10 @@ pub struct Reproduction {
 }
 
 /// The paper's regions with the scenarios that state them.
-const REGIONS: [(RegionName, &str, &str); 2] =
-    [(RegionName::Text, "text", "paper-text"), (RegionName::Appendix, "appendix", "paper-appendix")];
+const REGIONS: [(RegionName, &str, &str); 2] = [
+    (RegionName::Text, "text", "paper-text"),
+    (RegionName::Appendix, "appendix", "paper-appendix"),
+];
 
 /// Measures everything; `progress(done, total)` is called after each layout, from any thread.
 ///
@@ -98,7 +100,10 @@ pub fn reproduce(
             progress(1 + done.fetch_add(1, Ordering::Relaxed), total);
             sample
         };
-        let samples = (0..settings.layouts).into_par_iter().map(measure).collect::<Result<Vec<_>, _>>()?;
+        let samples = (0..settings.layouts)
+            .into_par_iter()
+            .map(measure)
+            .collect::<Result<Vec<_>, _>>()?;
         rows.extend(feasibility_rows(region, &samples));
         pooled.extend(samples);
     }
@@ -134,15 +139,69 @@ fn feasibility_rows(region: &'static str, samples: &[LayoutSample]) -> Vec<Row> 
     const GROUP: &str = "Layouts, reach and contact (tool straight down, exact inverse kinematics)";
     type Count = fn(&LayoutSample) -> usize;
     let quantities: [(&str, &str, f64, Count, Count); 9] = [
-        ("plates_overlap", "layouts whose plates overlap", 0.0, |s| s.plates_overlap.into(), |_| 1),
-        ("base_overlap", "layouts with a plate over the robot's base", 0.0, |s| s.base_overlap.into(), |_| 1),
-        ("points_reached", "spiral points with an exact solution", 100.0, |s| s.reached(), |s| s.points()),
-        ("points_clear", "spiral points reached and free of contact", 100.0, |s| s.clear(), |s| s.points()),
-        ("plates_clear", "plates with every point reached and free", 100.0, |s| s.clear_plates(), |s| s.plates.len()),
-        ("layouts_clear", "layouts with every point reached and free", 100.0, |s| s.is_clear().into(), |_| 1),
-        ("transitions_reached", "transition points with an exact solution", 100.0, |s| s.transition.reached, |s| s.transition.points),
-        ("transition_points_clear", "reached transition points free of contact", 100.0, |s| s.transition.clear, |s| s.transition.reached),
-        ("transitions_clear", "transitions wholly free of contact", 100.0, |s| s.clear_transitions, |s| s.transitions),
+        (
+            "plates_overlap",
+            "layouts whose plates overlap",
+            0.0,
+            |s| s.plates_overlap.into(),
+            |_| 1,
+        ),
+        (
+            "base_overlap",
+            "layouts with a plate over the robot's base",
+            0.0,
+            |s| s.base_overlap.into(),
+            |_| 1,
+        ),
+        (
+            "points_reached",
+            "spiral points with an exact solution",
+            100.0,
+            |s| s.reached(),
+            |s| s.points(),
+        ),
+        (
+            "points_clear",
+            "spiral points reached and free of contact",
+            100.0,
+            |s| s.clear(),
+            |s| s.points(),
+        ),
+        (
+            "plates_clear",
+            "plates with every point reached and free",
+            100.0,
+            |s| s.clear_plates(),
+            |s| s.plates.len(),
+        ),
+        (
+            "layouts_clear",
+            "layouts with every point reached and free",
+            100.0,
+            |s| s.is_clear().into(),
+            |_| 1,
+        ),
+        (
+            "transitions_reached",
+            "transition points with an exact solution",
+            100.0,
+            |s| s.transition.reached,
+            |s| s.transition.points,
+        ),
+        (
+            "transition_points_clear",
+            "reached transition points free of contact",
+            100.0,
+            |s| s.transition.clear,
+            |s| s.transition.reached,
+        ),
+        (
+            "transitions_clear",
+            "transitions wholly free of contact",
+            100.0,
+            |s| s.clear_transitions,
+            |s| s.transitions,
+        ),
     ];
     let make = |(key, quantity, paper, part, whole): (&str, &str, f64, Count, Count)| {
         let (key, quantity) = (format!("{key}.{region}"), format!("{quantity}, {region} region"));
@@ -155,7 +214,10 @@ fn tracking_rows(samples: &[LayoutSample]) -> Vec<Row> {
     const GROUP: &str = "Tracking under the paper's control law (both regions)";
     let rms = |of: fn(&LayoutSample) -> &[f64]| {
         batch_means(samples, |batch| {
-            let (n, sum) = batch.iter().flat_map(|s| of(s)).fold((0.0, 0.0), |(n, sum), e| (n + 1.0, sum + e * e));
+            let (n, sum) = batch
+                .iter()
+                .flat_map(|s| of(s))
+                .fold((0.0, 0.0), |(n, sum), e| (n + 1.0, sum + e * e));
             1e3 * f64::sqrt(sum / f64::max(n, 1.0))
         })
     };
@@ -166,13 +228,48 @@ fn tracking_rows(samples: &[LayoutSample]) -> Vec<Row> {
     };
     let mm = |key: &str, quantity: &str, paper, e| row(GROUP, key.into(), quantity.into(), "mm", paper, e);
     vec![
-        mm("tracking_rms.first_spiral", "tip error on the first spiral, rms", Some(0.0), rms(|s| &s.first_spiral_errors)),
-        mm("tracking_rms.later_spirals", "tip error on later spirals, rms", Some(0.0), rms(|s| &s.later_spiral_errors)),
-        mm("tracking_p95.later_spirals", "tip error on later spirals, 95th percentile", Some(0.0), share(0.95, |s| &s.later_spiral_errors)),
-        mm("tracking_rms.transitions", "tip error on transitions, rms", Some(0.0), rms(|s| &s.transition_errors)),
-        mm("executed_radius.median", "outermost executed radius on later plates, median", Some(145.0), share(0.5, |s| &s.outermost_radii)),
-        mm("executed_radius.p05", "the same, 5th percentile", None, share(0.05, |s| &s.outermost_radii)),
-        mm("executed_radius.p95", "the same, 95th percentile", None, share(0.95, |s| &s.outermost_radii)),
+        mm(
+            "tracking_rms.first_spiral",
+            "tip error on the first spiral, rms",
+            Some(0.0),
+            rms(|s| &s.first_spiral_errors),
+        ),
+        mm(
+            "tracking_rms.later_spirals",
+            "tip error on later spirals, rms",
+            Some(0.0),
+            rms(|s| &s.later_spiral_errors),
+        ),
+        mm(
+            "tracking_p95.later_spirals",
+            "tip error on later spirals, 95th percentile",
+            Some(0.0),
+            share(0.95, |s| &s.later_spiral_errors),
+        ),
+        mm(
+            "tracking_rms.transitions",
+            "tip error on transitions, rms",
+            Some(0.0),
+            rms(|s| &s.transition_errors),
+        ),
+        mm(
+            "executed_radius.median",
+            "outermost executed radius on later plates, median",
+            Some(145.0),
+            share(0.5, |s| &s.outermost_radii),
+        ),
+        mm(
+            "executed_radius.p05",
+            "the same, 5th percentile",
+            None,
+            share(0.05, |s| &s.outermost_radii),
+        ),
+        mm(
+            "executed_radius.p95",
+            "the same, 95th percentile",
+            None,
+            share(0.95, |s| &s.outermost_radii),
+        ),
         row(
             GROUP,
             "steps_too_fast".into(),
@@ -199,7 +296,10 @@ fn coverage_rows(samples: &[LayoutSample]) -> Result<Vec<Row>, PlanError> {
             100.0 * sum / f64::max(n, 1.0)
         });
         for (path, estimate) in [("ideal", exact), ("executed", executed)] {
-            let (key, quantity) = (format!("coverage.{path}.{sponge}mm"), format!("{path} path, sponge radius {sponge} mm"));
+            let (key, quantity) = (
+                format!("coverage.{path}.{sponge}mm"),
+                format!("{path} path, sponge radius {sponge} mm"),
+            );
             rows.push(row(GROUP, key, quantity, "%", Some(100.0), estimate));
         }
     }

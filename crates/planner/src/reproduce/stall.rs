@@ -43,7 +43,9 @@ fn dead_ends(sampler: &Sampler, settings: &ReproduceSettings, region: &str, coun
     let block = |b: usize| {
         let mut rng = random::stream(settings.seed, &format!("reproduce/dead ends/{region}/{count}/{b}"));
         let attempts = BLOCK.min(settings.draws - b * BLOCK);
-        (0..attempts).filter(|_| matches!(sampler.attempt(count, &mut rng), Attempt::DeadEnd { .. })).count()
+        (0..attempts)
+            .filter(|_| matches!(sampler.attempt(count, &mut rng), Attempt::DeadEnd { .. }))
+            .count()
     };
     (0..settings.draws.div_ceil(BLOCK)).into_par_iter().map(block).sum()
 }

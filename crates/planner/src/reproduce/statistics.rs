@@ -5,7 +5,8 @@ const BATCHES: usize = 20;
 
 /// Quantiles 0.975 of Student's t by degrees of freedom 3 … 19.
 const T_975: [f64; 17] = [
-    3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093,
+    3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101,
+    2.093,
 ];
 
 /// A value with the half-width of its 95 % interval, where there is one.
@@ -21,7 +22,9 @@ pub(super) fn batch_means<T>(samples: &[T], statistic: impl Fn(&[T]) -> f64) -> 
     let batches = BATCHES.min(samples.len() / 2);
     let half_width_95 = (batches >= 4).then(|| {
         let bound = |k: usize| k * samples.len() / batches;
-        let values: Vec<f64> = (0..batches).map(|k| statistic(&samples[bound(k)..bound(k + 1)])).collect();
+        let values: Vec<f64> = (0..batches)
+            .map(|k| statistic(&samples[bound(k)..bound(k + 1)]))
+            .collect();
         let mean = values.iter().sum::<f64>() / batches as f64;
         let variance = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / (batches - 1) as f64;
         T_975[batches - 4] * (variance / batches as f64).sqrt()
@@ -70,7 +73,13 @@ mod tests {
         // 400 values 0 and 1 in turn, in batches of 20 each of mean 1/2: no spread. Sorted: a large one.
         let mean = |batch: &[f64]| batch.iter().sum::<f64>() / batch.len() as f64;
         let alternating: Vec<f64> = (0..400).map(|k| f64::from(k % 2)).collect();
-        assert_eq!(batch_means(&alternating, mean), Estimate { value: 0.5, half_width_95: Some(0.0) });
+        assert_eq!(
+            batch_means(&alternating, mean),
+            Estimate {
+                value: 0.5,
+                half_width_95: Some(0.0)
+            }
+        );
         let sorted: Vec<f64> = (0..400).map(|k| f64::from(k / 200)).collect();
         let expected = 2.093 * (0.25 * 20.0 / 19.0 / 20.0_f64).sqrt();
         assert!((batch_means(&sorted, mean).half_width_95.unwrap() - expected).abs() < 1e-12);

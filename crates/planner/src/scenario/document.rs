@@ -13,15 +13,27 @@ pub fn reference() -> String {
     for key in KEYS {
         let (here, name) = key.path.rsplit_once('.').unwrap_or(("", key.path));
         if section != Some(here) {
-            let title = if here.is_empty() { "Top level".to_owned() } else { format!("`[{here}]`") };
+            let title = if here.is_empty() {
+                "Top level".to_owned()
+            } else {
+                format!("`[{here}]`")
+            };
             // Writing to a String cannot fail.
-            let _ = write!(text, "\n## {title}\n\n| key | unit | default | range | meaning |\n| --- | --- | --- | --- | --- |\n");
+            let _ = write!(
+                text,
+                "\n## {title}\n\n| key | unit | default | range | meaning |\n| --- | --- | --- | --- | --- |\n"
+            );
             section = Some(here);
         }
         let default = defaults.as_ref().and_then(|v| look_up(v, key.path));
         let default = default.map_or_else(|| "none".to_owned(), |v| format!("`{v}`"));
         let unit = if key.unit.is_empty() { "–" } else { key.unit };
-        let _ = writeln!(text, "| `{name}` | {unit} | {default} | {} | {} |", key.domain.describe(), key.meaning);
+        let _ = writeln!(
+            text,
+            "| `{name}` | {unit} | {default} | {} | {} |",
+            key.domain.describe(),
+            key.meaning
+        );
     }
     text
 }
@@ -78,7 +90,13 @@ mod tests {
     #[test]
     fn the_committed_page_is_current() {
         let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scenario.md");
+        if std::env::var_os("PLATEWASH_WRITE_DOCS").is_some() {
+            std::fs::write(page, reference()).unwrap();
+        }
         let committed = std::fs::read_to_string(page).unwrap();
-        assert!(committed == reference(), "docs/scenario.md is out of date: run `cargo xtask docs`");
+        assert!(
+            committed == reference(),
+            "docs/scenario.md is out of date: run `cargo xtask docs`"
+        );
     }
 }

@@ -22,7 +22,11 @@ pub enum Problem {
     UnknownKey { key: String, nearest: Option<String> },
     /// A value out of its range or of the wrong type.
     #[error("{key} must be {expected}; found {found}")]
-    Value { key: String, expected: String, found: String },
+    Value {
+        key: String,
+        expected: String,
+        found: String,
+    },
     /// Keys that contradict each other.
     #[error("{keys}: {detail}")]
     Conflict { keys: String, detail: String },

@@ -57,7 +57,9 @@ impl Scenario {
             error(source_name, line, problem)
         })?;
         let scenario: Self = toml::from_str(text).map_err(syntax)?;
-        scenario.check_conflicts().map_err(|problem| error(source_name, None, problem))?;
+        scenario
+            .check_conflicts()
+            .map_err(|problem| error(source_name, None, problem))?;
         Ok(scenario)
     }
 
@@ -68,7 +70,9 @@ impl Scenario {
     pub fn validate(&self) -> Result<(), ScenarioError> {
         let syntax = |detail: String| error(&self.name, None, Problem::Syntax { detail });
         let text = toml::to_string(self).map_err(|e| syntax(e.to_string()))?;
-        Self::parse(&text, &self.name).map(|_| ()).map_err(|e| ScenarioError { line: None, ..e })
+        Self::parse(&text, &self.name)
+            .map(|_| ())
+            .map_err(|e| ScenarioError { line: None, ..e })
     }
 
     fn resolve_paths(&mut self, folder: &Path) {
@@ -86,12 +90,16 @@ impl Scenario {
         let (layout, tool) = (&self.layout, &self.tool);
         let ranges = [layout.x_m, layout.y_m, layout.rho_m, layout.azimuth_deg];
         if layout.region.is_some() && ranges.iter().any(Option::is_some) {
-            return conflict("layout.region", "give either a named region or ranges (x_m, y_m, rho_m, azimuth_deg)".into());
+            return conflict(
+                "layout.region",
+                "give either a named region or ranges (x_m, y_m, rho_m, azimuth_deg)".into(),
+            );
         }
         if layout.azimuth_deg.is_some_and(|[from, to]| to - from > 360.0) {
             return conflict("layout.azimuth_deg", "the range is more than a turn wide".into());
         }
-        let bounded = layout.region.is_some() || layout.rho_m.is_some() || (layout.x_m.is_some() && layout.y_m.is_some());
+        let bounded =
+            layout.region.is_some() || layout.rho_m.is_some() || (layout.x_m.is_some() && layout.y_m.is_some());
         if layout.positions_m.is_none() && !bounded {
             return conflict(
                 "layout",
@@ -100,10 +108,16 @@ impl Scenario {
         }
         if tool.length_m > 0.0 && tool.sponge_height_m >= tool.length_m {
             let (sponge, length) = (tool.sponge_height_m, tool.length_m);
-            return conflict("tool.sponge_height_m", format!("must be below tool.length_m = {length}; found {sponge}"));
+            return conflict(
+                "tool.sponge_height_m",
+                format!("must be below tool.length_m = {length}; found {sponge}"),
+            );
         }
         if self.robot.urdf.is_none() && (self.robot.srdf.is_some() || !self.robot.package_path.is_empty()) {
-            return conflict("robot.urdf", "robot.srdf and robot.package_path need a robot.urdf".into());
+            return conflict(
+                "robot.urdf",
+                "robot.srdf and robot.package_path need a robot.urdf".into(),
+            );
         }
         Ok(())
     }
@@ -122,7 +136,14 @@ fn check_table(table: &DeTable<'_>, prefix: &str) -> Result<(), Misfit> {
             (None, found) if is_section => {
                 let found = describe(found);
                 let expected = format!("a section: write [{path}]");
-                return Err((value.span().start, Problem::Value { key: path, expected, found }));
+                return Err((
+                    value.span().start,
+                    Problem::Value {
+                        key: path,
+                        expected,
+                        found,
+                    },
+                ));
             }
             _ => return Err((name.span().start, unknown(path))),
         }
@@ -131,8 +152,12 @@ fn check_table(table: &DeTable<'_>, prefix: &str) -> Result<(), Misfit> {
 }
 
 fn unknown(key: String) -> Problem {
-    let ranked = KEYS.iter().map(|k| (strsim::normalized_damerau_levenshtein(k.path, &key), k.path));
-    let nearest = ranked.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(likeness, _)| *likeness > 0.6);
+    let ranked = KEYS
+        .iter()
+        .map(|k| (strsim::normalized_damerau_levenshtein(k.path, &key), k.path));
+    let nearest = ranked
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .filter(|(likeness, _)| *likeness > 0.6);
     Problem::UnknownKey {
         key,
         nearest: nearest.map(|(_, path)| path.to_owned()),
@@ -181,7 +206,9 @@ fn six(value: &DeValue<'_>, fine: impl Fn(f64) -> bool) -> bool {
 }
 
 fn elements<'a, 'i>(value: &'a DeValue<'i>) -> Option<Vec<&'a DeValue<'i>>> {
-    value.as_array().map(|array| array.iter().map(Spanned::get_ref).collect())
+    value
+        .as_array()
+        .map(|array| array.iter().map(Spanned::get_ref).collect())
 }
 
 fn numbers(value: &DeValue<'_>) -> Option<Vec<f64>> {
@@ -197,7 +224,9 @@ fn number(value: &DeValue<'_>) -> Option<f64> {
 }
 
 fn integer(value: &DeValue<'_>) -> Option<i64> {
-    value.as_integer().and_then(|i| i64::from_str_radix(i.as_str(), i.radix()).ok())
+    value
+        .as_integer()
+        .and_then(|i| i64::from_str_radix(i.as_str(), i.radix()).ok())
 }
 
 fn describe(value: &DeValue<'_>) -> String {
@@ -225,5 +254,8 @@ fn error(source_name: &str, line: Option<usize>, problem: Problem) -> ScenarioEr
 }
 
 fn line_at(text: &str, byte: usize) -> usize {
-    1 + text.as_bytes()[..byte.min(text.len())].iter().filter(|b| **b == b'\n').count()
+    1 + text.as_bytes()[..byte.min(text.len())]
+        .iter()
+        .filter(|b| **b == b'\n')
+        .count()
 }

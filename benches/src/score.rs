@@ -1,0 +1,67 @@
+//! What a solver's answers are worth, by our own forward kinematics.
+
+use crate::problems::{Problems, Seeds};
+use crate::solvers::Solver;
+use crate::{ORIENTATION_TOLERANCE_RAD, POSITION_TOLERANCE_M};
+use platewash_kinematics::rotation::{Rigid, rotation_vector};
+use platewash_kinematics::{JointVector, Pose, RobotModel, ToolFrame, ToolFrameError};
+
+/// Peers measure the error with other formulas; this much more than the tolerance is rounding.
+const ROUNDING: f64 = 1.0 + 1e-3;
+
+/// Outcome of one pass over a workload.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Score {
+    /// Targets.
+    pub count: usize,
+    /// Answers within both tolerances and the joint limits.
+    pub solved: usize,
+    /// Answers that are not, although the solver called them solved.
+    pub wrong: usize,
+    /// Along a path, the largest step of a joint between consecutive answers \[rad\].
+    pub largest_step_rad: Option<f64>,
+}
+
+impl Score {
+    /// Runs the workload once and checks every answer.
+    ///
+    /// # Errors
+    /// An arm without `tool0`.
+    pub fn of(solver: &mut dyn Solver, problems: &Problems, robot: &RobotModel) -> Result<Self, ToolFrameError> {
+        let tool0 = robot.tool_frame(ToolFrame::Tool0)?;
+        let mut score = Self {
+            count: problems.targets.len(),
+            solved: 0,
+            wrong: 0,
+            largest_step_rad: None,
+        };
+        let path = matches!(problems.seeds, Seeds::LastAnswer(_));
+        let mut last: Option<JointVector> = None;
+        problems.run(solver, |target, answer| {
+            let Some(q) = answer else { return };
+            if robot.limits().contain(&q) && reached(&problems.targets[target], &robot.fk(&q).rigid(&tool0)) {
+                score.solved += 1;
+            } else {
+                score.wrong += 1;
+            }
+            if let Some(last) = last.replace(q).filter(|_| path) {
+                let step = (q - last).amax();
+                score.largest_step_rad = Some(score.largest_step_rad.map_or(step, |s| s.max(step)));
+            }
+        });
+        Ok(score)
+    }
+
+    /// Share of the targets that were solved \[%\].
+    #[must_use]
+    pub fn percent(&self) -> f64 {
+        100.0 * self.solved as f64 / self.count as f64
+    }
+}
+
+fn reached(target: &Pose, found: &Rigid) -> bool {
+    let target = Rigid::from(target);
+    let position_m = (target.translation - found.translation).norm();
+    let angle_rad = rotation_vector(&(target.rotation * found.rotation.transpose())).norm();
+    position_m <= POSITION_TOLERANCE_M * ROUNDING && angle_rad <= ORIENTATION_TOLERANCE_RAD * ROUNDING
+}

@@ -1,0 +1,81 @@
+//! The Python tests, in a virtual environment of their own.
+
+use crate::step::{Step, root, target};
+use anyhow::{Context, Result, bail};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const REQUIREMENTS: &str = "tests/python/requirements.txt";
+/// Prints the version if the interpreter is complete; Debian ships `venv` without `ensurepip`.
+const PROBE: &str = "import ensurepip, platform, venv; print(platform.python_version())";
+const MISSING: &str = "\
+the Python tests need Python 3 with venv and pip.
+    Debian, Ubuntu:  apt install python3 python3-venv
+    Fedora:          dnf install python3
+    macOS:           brew install python
+    Windows:         winget install Python.Python.3.12
+If it goes by another name, set PYTHON, as in PYTHON=python3.12.
+Without Python, `cargo xtask test --only lint` and `--only rust` still work.";
+
+/// Runs `tests/python` against the release build of the command.
+pub fn tests() -> Result<()> {
+    let python = environment()?;
+    let command = target()
+        .join("release")
+        .join(format!("platewash{}", std::env::consts::EXE_SUFFIX));
+    Step::program("Python tests", python, &["-m", "pytest", "tests/python"])
+        .with("PLATEWASH_BIN", command)
+        .run()
+}
+
+/// The interpreter of the virtual environment, made anew when the interpreter or the requirements changed.
+fn environment() -> Result<PathBuf> {
+    let base = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let version = version(&base)?;
+    let requirements = std::fs::read_to_string(root().join(REQUIREMENTS)).context(REQUIREMENTS)?;
+    let folder = target().join("python");
+    let python = interpreter(&folder);
+    // Written last, so that an interrupted installation is not taken for a finished one.
+    let stamp = folder.join("stamp.txt");
+    let wanted = format!("{base} {version}\n{requirements}");
+    if python.is_file() && std::fs::read_to_string(&stamp).is_ok_and(|found| found == wanted) {
+        return Ok(python);
+    }
+    let place = folder.to_string_lossy();
+    Step::program("virtual environment", &base, &["-m", "venv", "--clear", &place]).run()?;
+    let install = [
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--disable-pip-version-check",
+        "-r",
+        REQUIREMENTS,
+    ];
+    if let Err(error) = Step::program("Python packages", &python, &install).run() {
+        bail!(
+            "{error:#}\n(a package that is not found may mean that {REQUIREMENTS} is for another Python than {version})"
+        );
+    }
+    std::fs::write(&stamp, wanted).with_context(|| stamp.display().to_string())?;
+    Ok(python)
+}
+
+/// The interpreter's version, if it has what is needed.
+fn version(base: &str) -> Result<String> {
+    let Ok(output) = Command::new(base).args(["-c", PROBE]).output() else {
+        bail!("no program '{base}': {MISSING}");
+    };
+    if !output.status.success() {
+        bail!("'{base}' is incomplete: {MISSING}");
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+}
+
+fn interpreter(folder: &Path) -> PathBuf {
+    if cfg!(windows) {
+        folder.join("Scripts").join("python.exe")
+    } else {
+        folder.join("bin").join("python")
+    }
+}

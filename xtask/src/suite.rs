@@ -1,0 +1,87 @@
+//! Everything that must pass, in order.
+
+use crate::python;
+use crate::step::Step;
+use anyhow::{Result, bail};
+use std::time::Instant;
+
+/// The crates under test: all but the benchmarks, which alone need the solvers that others wrote.
+const CRATES: [&str; 3] = ["--workspace", "--exclude", "platewash-benches"];
+
+/// One thing that must pass.
+type Check = fn() -> Result<()>;
+
+/// A part of the suite that can be run alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// Format, clippy and the documentation.
+    Lint,
+    /// The tests in Rust.
+    Rust,
+    /// The tests in Python, of the finished command.
+    Python,
+}
+
+impl Part {
+    /// The part of that name.
+    pub fn named(name: &str) -> Result<Self> {
+        match name {
+            "lint" => Ok(Self::Lint),
+            "rust" => Ok(Self::Rust),
+            "python" => Ok(Self::Python),
+            other => bail!("unknown part '{other}'"),
+        }
+    }
+}
+
+/// Runs the whole suite or one part of it, up to the first failure.
+pub fn run(only: Option<Part>) -> Result<()> {
+    let start = Instant::now();
+    let steps: [(Part, Check); 6] = [
+        (Part::Lint, format),
+        (Part::Lint, clippy),
+        (Part::Rust, tests),
+        (Part::Lint, documentation),
+        (Part::Python, release),
+        (Part::Python, python::tests),
+    ];
+    let due = steps.iter().filter(|(part, _)| only.is_none_or(|only| only == *part));
+    for (_, step) in due {
+        step()?;
+    }
+    println!("\nEverything passed in {:.0} s.", start.elapsed().as_secs_f64());
+    Ok(())
+}
+
+/// Runs the benchmarks.
+pub fn bench(arguments: &[String]) -> Result<()> {
+    let arguments = arguments.iter().map(String::as_str);
+    let line: Vec<&str> = ["bench", "-p", "platewash-benches", "--"]
+        .into_iter()
+        .chain(arguments)
+        .collect();
+    Step::cargo("benchmarks", &line).run()
+}
+
+fn format() -> Result<()> {
+    Step::cargo("format", &["fmt", "--all", "--", "--check"]).run()
+}
+
+fn clippy() -> Result<()> {
+    let line = [&["clippy"], &CRATES[..], &["--all-targets", "--", "-D", "warnings"]].concat();
+    Step::cargo("clippy", &line).run()
+}
+
+fn tests() -> Result<()> {
+    Step::cargo("tests", &[&["test"], &CRATES[..]].concat()).run()
+}
+
+fn documentation() -> Result<()> {
+    Step::cargo("documentation", &[&["doc"], &CRATES[..], &["--no-deps"]].concat())
+        .with("RUSTDOCFLAGS", "-D warnings")
+        .run()
+}
+
+fn release() -> Result<()> {
+    Step::cargo("release build", &["build", "--release", "--bin", "platewash"]).run()
+}
