@@ -2,6 +2,7 @@
 //!
 //!     cargo xtask test [--only lint|rust|python]    every test there is, or one part of them
 //!     cargo xtask bench [ARGUMENTS]                 the benchmarks; arguments go to criterion
+//!     cargo xtask docs                              writes the pages that are made from the program
 
 mod python;
 mod step;
@@ -13,13 +14,15 @@ use suite::Part;
 
 const USAGE: &str = "\
 cargo xtask test [--only lint|rust|python]    every test there is, or one part of them
-cargo xtask bench [ARGUMENTS]                 the benchmarks; arguments go to criterion";
+cargo xtask bench [ARGUMENTS]                 the benchmarks; arguments go to criterion
+cargo xtask docs                              writes the pages that are made from the program";
 
 /// What to do.
 #[derive(Debug, PartialEq, Eq)]
 enum Chore {
     Test(Option<Part>),
     Bench(Vec<String>),
+    Docs,
     Help,
 }
 
@@ -35,6 +38,7 @@ fn main() -> ExitCode {
     let done = match chore {
         Chore::Test(only) => suite::run(only),
         Chore::Bench(arguments) => suite::bench(&arguments),
+        Chore::Docs => suite::docs(),
         Chore::Help => {
             println!("{USAGE}");
             Ok(())
@@ -55,6 +59,7 @@ fn parse(arguments: &[String]) -> Result<Chore> {
         ["test"] => Ok(Chore::Test(None)),
         ["test", "--only", part] => Part::named(part).map(|part| Chore::Test(Some(part))),
         ["bench", ..] => Ok(Chore::Bench(arguments[1..].to_vec())),
+        ["docs"] => Ok(Chore::Docs),
         [] | ["help" | "--help" | "-h"] => Ok(Chore::Help),
         _ => bail!("unknown arguments: {}", words.join(" ")),
     }
@@ -73,6 +78,7 @@ mod tests {
         assert_eq!(parsed("test"), Some(Chore::Test(None)));
         assert_eq!(parsed("test --only python"), Some(Chore::Test(Some(Part::Python))));
         assert_eq!(parsed("bench ik_warm"), Some(Chore::Bench(vec!["ik_warm".to_owned()])));
+        assert_eq!(parsed("docs"), Some(Chore::Docs));
         assert_eq!(parsed(""), Some(Chore::Help));
     }
 

@@ -45,11 +45,12 @@ pub fn run(only: Option<Part>) -> Result<()> {
         (Part::Python, release),
         (Part::Python, python::tests),
     ];
-    let due = steps.iter().filter(|(part, _)| only.is_none_or(|only| only == *part));
-    for (_, step) in due {
+    let mut passed = 0;
+    for (_, step) in steps.iter().filter(|(part, _)| only.is_none_or(|only| only == *part)) {
         step()?;
+        passed += 1;
     }
-    println!("\nEverything passed in {:.0} s.", start.elapsed().as_secs_f64());
+    println!("\nAll {passed} steps passed in {:.0} s.", start.elapsed().as_secs_f64());
     Ok(())
 }
 
@@ -61,6 +62,16 @@ pub fn bench(arguments: &[String]) -> Result<()> {
         .chain(arguments)
         .collect();
     Step::cargo("benchmarks", &line).run()
+}
+
+/// Writes the pages that are made from the program: their tests write before they compare.
+pub fn docs() -> Result<()> {
+    Step::cargo(
+        "pages",
+        &["test", "-p", "platewash-planner", "the_committed_page_is_current"],
+    )
+    .with("PLATEWASH_WRITE_DOCS", "1")
+    .run()
 }
 
 fn format() -> Result<()> {
