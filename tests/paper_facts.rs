@@ -1,6 +1,6 @@
 //! `reproduce` against an earlier, independent measurement of the paper's program (another inverse kinematics, another
 //! collision library, the real arm's meshes). Its half-widths are of 95 % intervals.
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash::planner::reproduce::{ReproduceSettings, Reproduction, reproduce};
 

@@ -216,14 +216,14 @@ fn tracking_rows(samples: &[LayoutSample]) -> Vec<Row> {
         batch_means(samples, |batch| {
             let (n, sum) = batch
                 .iter()
-                .flat_map(|s| of(s))
+                .flat_map(of)
                 .fold((0.0, 0.0), |(n, sum), e| (n + 1.0, sum + e * e));
             1e3 * f64::sqrt(sum / f64::max(n, 1.0))
         })
     };
     let share = |share: f64, of: fn(&LayoutSample) -> &[f64]| {
         batch_means(samples, |batch| {
-            1e3 * percentile(batch.iter().flat_map(|s| of(s)).copied().collect(), share)
+            1e3 * percentile(batch.iter().flat_map(of).copied().collect(), share)
         })
     };
     let mm = |key: &str, quantity: &str, paper, e| row(GROUP, key.into(), quantity.into(), "mm", paper, e);
