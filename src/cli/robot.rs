@@ -80,8 +80,8 @@ fn text(answer: &Answer) -> String {
     // Writing to a String cannot fail.
     let _ = writeln!(
         text,
-        "{:<12} {:>20} {:>22} {:>10} {:>9}  {}",
-        "joint", "limits, deg", "limits, rad", "deg/s", "rad/s", "moves"
+        "{:<12} {:>20} {:>22} {:>10} {:>9}  moves",
+        "joint", "limits, deg", "limits, rad", "deg/s", "rad/s"
     );
     for j in &answer.joints {
         let degrees = format!("{:.2} … {:.2}", j.lower_deg, j.upper_deg);
