@@ -28,7 +28,7 @@ const COVERAGE: [(u32, f64, f64); 8] = [
 
 fn measured() -> Reproduction {
     let settings = ReproduceSettings {
-        layouts: 80,
+        layouts: 200,
         draws: 20_000,
         seed: 1,
     };
@@ -82,21 +82,26 @@ fn the_papers_tables_are_reproduced() {
             "{key}: {found} against {expected}"
         );
     }
-    // Reach (another solver) and contact (the real meshes; this project's shapes are larger, so never more is free).
-    for (region, reached, clear, plates, layouts) in
-        [("text", 99.1, 98.5, 74.3, 30.4), ("appendix", 99.3, 98.7, 75.1, 36.8)]
-    {
-        assert!((value(&r, &format!("points_reached.{region}")).0 - reached).abs() < 0.6);
-        for (key, earlier, most_less) in [
-            ("points_clear", clear, 1.0),
-            ("plates_clear", plates, 9.0),
-            ("layouts_clear", layouts, 15.0),
-        ] {
+    // Outermost executed radius: 73–87 mm.
+    assert!((value(&r, "executed_radius.p05").0 - 73.0).abs() < 3.0);
+    assert!((value(&r, "executed_radius.median").0 - 86.0).abs() < 3.0);
+    // Overlaps: 74 / 82 % of layouts (plates), 5.0 / 6.3 % (base), from about 400 accepted layouts each.
+    for (region, plates, base) in [("text", 74.0, 5.0), ("appendix", 82.0, 6.3)] {
+        for (key, earlier, half_width) in [("plates_overlap", plates, 4.3), ("base_overlap", base, 2.3)] {
             let (found, own) = value(&r, &format!("{key}.{region}"));
-            assert!(
-                found < earlier + 1.5 * own && found > earlier - most_less - own,
-                "{key}.{region}: {found} against {earlier}"
-            );
+            assert!((found - earlier).abs() < 1.5 * f64::hypot(half_width, own), "{key}.{region}: {found}");
+        }
+    }
+    // Reach (another solver) and contact (the real meshes; this project's shapes are larger, so never more is free). The last
+    // number is how much less may be free: what docs/reproduce.md states, and its sampling error.
+    for (region, reached, clear, plates, layouts) in [
+        ("text", 99.1, 98.5, 74.3, 30.4),
+        ("appendix", 99.3, 98.7, 75.1, 36.8),
+    ] {
+        assert!((value(&r, &format!("points_reached.{region}")).0 - reached).abs() < 0.4);
+        for (key, earlier, less) in [("points_clear", clear, 0.2), ("plates_clear", plates, 4.2), ("layouts_clear", layouts, 5.2)] {
+            let (found, own) = value(&r, &format!("{key}.{region}"));
+            assert!(found < earlier + own && found > earlier - less - own, "{key}.{region}: {found} ± {own} against {earlier}");
         }
         assert_eq!(value(&r, &format!("transitions_clear.{region}")).0, 100.0);
     }

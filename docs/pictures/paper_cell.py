@@ -69,8 +69,7 @@ def main(folder, target):
         paths = {}
         with open(folder / name, newline="") as file:
             for row in csv.DictReader(file):
-                # The first row is the start, where the arm is not over any plate yet.
-                if row["segment"] == "wash" and float(row["t_s"]) > 0.0:
+                if row["segment"] == "wash":
                     paths.setdefault(int(row["plate"]), []).append((float(row["tip_x_m"]), float(row["tip_y_m"])))
         return paths
 

@@ -41,6 +41,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod fingerprint;
 pub mod fk;
 pub mod geometry;
 pub mod ik;
@@ -53,6 +54,7 @@ pub mod tool_frame;
 pub mod trig;
 pub mod urdf;
 
+pub use fingerprint::sha256_hex;
 pub use fk::{BodyPoses, Frame};
 pub use jacobian::{Axes, Jacobian};
 pub use limits::{JointLimits, LimitViolation};

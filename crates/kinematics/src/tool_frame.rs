@@ -82,6 +82,12 @@ impl RobotModel {
         }
     }
 
+    /// Whether the description says by itself how a tool leaves the flange: it has a `tool0` behind joint 6.
+    #[must_use]
+    pub fn states_its_mounting_frame(&self) -> bool {
+        self.tool_frame(ToolFrame::Tool0).is_ok()
+    }
+
     /// The frame in which a tool is mounted: its z axis leaves the flange. It is `tool0` where the
     /// description has one, otherwise the flange turned by 90° about y (ROS-Industrial's flange has x out).
     #[must_use]

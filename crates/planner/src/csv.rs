@@ -52,7 +52,11 @@ pub fn table(
     text.push('\n');
     for t in times {
         let Some(state) = motion.at(t) else { continue };
-        let part = segments.iter().find(|s| t < s.t_end_s).or(segments.last());
+        // Times that are a knot's up to rounding belong to the segment that the knot ends.
+        let part = segments
+            .iter()
+            .find(|s| t <= s.t_end_s + 1e-6 * dt_s)
+            .or(segments.last());
         let (kind, plate) = part.map_or(("", String::new()), |s| (s.kind.name(), s.plate.to_string()));
         // Writing to a String cannot fail.
         let _ = write!(text, "{t},{kind},{plate}");

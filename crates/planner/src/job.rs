@@ -9,7 +9,7 @@ use crate::report::JobReport;
 use crate::robot::{self, RobotError};
 use crate::scenario::{LayoutSection, Scenario, ScenarioError};
 use crate::tool_path::ToolPath;
-use crate::tracking::{self, Step};
+use crate::tracking::{self, Step, TrackingError};
 use crate::trajectory::Trajectory;
 use platewash_kinematics::ik::{IkError, IkSettings, IkSettingsError, IkSolver};
 use platewash_kinematics::{JointVector, RobotModel};
@@ -26,19 +26,47 @@ pub enum PlanError {
     Robot(#[from] RobotError),
     /// The plates could not be placed.
     #[error("layout: {0}")]
-    Layout(#[from] LayoutError),
+    Layout(LayoutError),
     /// An inverse-kinematics setting is out of range.
     #[error(transparent)]
     IkSettings(#[from] IkSettingsError),
     /// A waypoint or configuration is not finite.
     #[error("inverse kinematics: {0}")]
-    Ik(#[from] IkError),
+    Ik(IkError),
+    /// The control law does not stay finite.
+    #[error(transparent)]
+    Tracking(#[from] TrackingError),
     /// The collision model could not be made.
     #[error("clearance: {0}")]
-    Clearance(#[from] ClearanceError),
+    Clearance(ClearanceError),
     /// Coverage could not be measured.
     #[error("coverage: {0}")]
-    Coverage(#[from] CoverageError),
+    Coverage(CoverageError),
+}
+
+// The messages above hold those of their causes, which are therefore not told again as sources.
+impl From<LayoutError> for PlanError {
+    fn from(error: LayoutError) -> Self {
+        Self::Layout(error)
+    }
+}
+
+impl From<IkError> for PlanError {
+    fn from(error: IkError) -> Self {
+        Self::Ik(error)
+    }
+}
+
+impl From<ClearanceError> for PlanError {
+    fn from(error: ClearanceError) -> Self {
+        Self::Clearance(error)
+    }
+}
+
+impl From<CoverageError> for PlanError {
+    fn from(error: CoverageError) -> Self {
+        Self::Coverage(error)
+    }
 }
 
 impl PlanError {

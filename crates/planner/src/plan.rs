@@ -3,11 +3,11 @@
 use crate::job::Job;
 use crate::layout::Plate;
 use crate::report::JobReport;
+use crate::robot;
 use crate::scenario::{Scenario, ToolSection};
 use crate::tool_path::{Segment, SegmentKind};
-use platewash_kinematics::{AXES, JointVector};
+use platewash_kinematics::{AXES, JointVector, sha256_hex};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 /// The format that this version writes and reads.
 pub const FORMAT: &str = "platewash-plan/1";
@@ -24,12 +24,18 @@ pub struct Plan {
     pub scenario: Scenario,
     /// The arm.
     pub robot: PlanRobot,
+    /// The tip on the arm: the frame that follows the tool path.
+    pub tip: TipPose,
+    /// The pairs of bodies that were checked for clearance, by name.
+    pub clearance_pairs: Vec<[String; 2]>,
     /// What it holds.
     pub tool: ToolSection,
     /// The plates.
     pub plates: Vec<Plate>,
     /// Plate indices in the order of washing.
     pub order: Vec<usize>,
+    /// How exactly the tip must be where the tool path says, where the inverse kinematics solved it.
+    pub tolerances: Tolerances,
     /// What the tip must do, as parameters.
     pub tool_path: Vec<Segment>,
     /// Limits that hold for the motion.
@@ -49,6 +55,26 @@ pub struct PlanRobot {
     pub name: String,
     /// SHA-256 of the URDF.
     pub urdf_sha256: String,
+}
+
+/// The tip in the frame of the link behind joint 6: `T_link_tip`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TipPose {
+    /// The link.
+    pub link: String,
+    /// Origin \[m\].
+    pub position_m: [f64; 3],
+    /// Orientation (w, x, y, z); z leaves the tool.
+    pub quaternion_wxyz: [f64; 4],
+}
+
+/// Tolerances of the tool path.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Tolerances {
+    /// Distance of the tip from its waypoint \[m\].
+    pub position_m: f64,
+    /// Angle of the tip from its waypoint \[rad\].
+    pub orientation_rad: f64,
 }
 
 /// Joint limits of a plan; `null` where a joint has no position limit.
@@ -136,14 +162,20 @@ impl Plan {
         let mut plan = Self {
             format: FORMAT.to_owned(),
             hash: None,
-            scenario: job.scenario.clone(),
+            scenario: portable(&job.scenario),
             robot: PlanRobot {
                 name: job.robot.name().to_owned(),
                 urdf_sha256: job.robot.sha256().to_owned(),
             },
+            tip: tip_pose(job),
+            clearance_pairs: report.clearance_pairs.clone(),
             tool: job.scenario.tool.clone(),
             plates: job.layout.plates.clone(),
             order: job.tool_path.order.clone(),
+            tolerances: Tolerances {
+                position_m: job.scenario.ik.position_tolerance_m,
+                orientation_rad: job.scenario.ik.orientation_tolerance_rad,
+            },
             tool_path: job.tool_path.segments.clone(),
             limits: PlanLimits {
                 lower_rad: finite(&limits.lower),
@@ -169,10 +201,7 @@ impl Plan {
             ..self.clone()
         };
         let canonical = serde_json_canonicalizer::to_vec(&open).map_err(unwritable)?;
-        Ok(Sha256::digest(canonical)
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect())
+        Ok(sha256_hex(&canonical))
     }
 
     /// Whether the stored hash is that of the contents.
@@ -215,19 +244,54 @@ fn knots(job: &Job) -> Knots {
     }
 }
 
-/// The segments one after the other; the first begins at 0, with the step from the start configuration.
+/// The segments one after the other: the step from the start to the first waypoint, then one per segment of the tool path.
+/// A time belongs to the segment that ends at or after it.
 #[must_use]
 pub fn segments(job: &Job) -> Vec<PlanSegment> {
+    let Some(first) = job.tool_path.segments.first() else {
+        return Vec::new();
+    };
+    let mut all = vec![PlanSegment {
+        kind: SegmentKind::Depart,
+        plate: first.plate,
+        t_start_s: 0.0,
+        t_end_s: job.time_of(0),
+    }];
     let mut end = 0;
-    let in_time = job.tool_path.segments.iter().map(|segment| {
-        let start = end;
+    for segment in &job.tool_path.segments {
         end += segment.waypoints.len();
-        PlanSegment {
+        all.push(PlanSegment {
             kind: segment.kind,
             plate: segment.plate,
-            t_start_s: if start == 0 { 0.0 } else { job.time_of(start - 1) },
+            t_start_s: all[all.len() - 1].t_end_s,
             t_end_s: job.time_of(end.saturating_sub(1)),
+        });
+    }
+    all
+}
+
+/// The scenario as a plan states it: descriptions by file name, so that the same job has the same hash wherever it lies.
+fn portable(scenario: &Scenario) -> Scenario {
+    let mut portable = scenario.clone();
+    let robot = &mut portable.robot;
+    for path in [&mut robot.urdf, &mut robot.srdf].into_iter().flatten() {
+        if let Some(name) = path.file_name() {
+            *path = name.into();
         }
-    });
-    in_time.collect()
+    }
+    robot.package_path.clear();
+    portable
+}
+
+/// The tip in the frame of the link behind joint 6.
+fn tip_pose(job: &Job) -> TipPose {
+    let poses = job.robot.fk(&JointVector::zeros());
+    let tip = robot::tip_frame(&job.robot, &job.scenario.tool);
+    let relative = poses.pose(&job.robot.last_link_frame()).inv_mul(&poses.pose(&tip));
+    let q = relative.rotation.quaternion();
+    TipPose {
+        link: job.robot.joints()[AXES - 1].child.clone(),
+        position_m: relative.translation.vector.into(),
+        quaternion_wxyz: [q.w, q.i, q.j, q.k],
+    }
 }

@@ -17,7 +17,7 @@ const DEFAULT_HALF_SIDE_M: f64 = 0.09;
 #[non_exhaustive]
 pub enum RobotError {
     /// The built-in description is broken.
-    #[error("built-in arm: {0}")]
+    #[error(transparent)]
     BuiltIn(#[from] EmbeddedModelError),
     /// A file cannot be read.
     #[error("{file}: cannot be read: {detail}")]

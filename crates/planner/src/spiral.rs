@@ -4,6 +4,9 @@ use crate::trig::sin_cos;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
+/// Most points of a closing ring: a tenth of a degree apart.
+const MOST_RING_POINTS: f64 = 3600.0;
+
 /// An Archimedean spiral from the centre outwards, as the paper samples it: `points` waypoints with
 /// θ = linspace(0, 2π·turns) and r = linspace(0, radius), equally spaced in angle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -37,10 +40,10 @@ impl Spiral {
         spiral.chain(ring).collect()
     }
 
-    /// Points of one full circle at the spiral's angular spacing or finer.
+    /// Points of one full circle at the spiral's angular spacing or finer, from 3 to [`MOST_RING_POINTS`].
     fn ring_points(&self) -> usize {
         let last = self.points.saturating_sub(1).max(1) as f64;
-        (last / self.turns).ceil().max(3.0) as usize
+        (last / self.turns).ceil().clamp(3.0, MOST_RING_POINTS) as usize
     }
 }
 
@@ -82,6 +85,8 @@ mod tests {
         let points = ringed.waypoints([0.0, 0.0]);
         let ring = &points[54..];
         assert_eq!(ring.len() - 1, 22, "54 steps over 2.5 turns are 21.6 a turn");
+        let endless = Spiral { turns: 1e-9, ..ringed };
+        assert_eq!(endless.waypoints([0.0, 0.0]).len(), 55 + 3600);
         let (first, last) = (ring[0], ring[ring.len() - 1]);
         assert!((first[0] - last[0]).abs() < 1e-14 && (first[1] - last[1]).abs() < 1e-14);
         assert!(

@@ -17,6 +17,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SegmentKind {
+    /// From the start to the first waypoint.
+    Depart,
     /// Washing a plate.
     Wash,
     /// From one plate to the next.
@@ -28,6 +30,7 @@ impl SegmentKind {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Self::Depart => "depart",
             Self::Wash => "wash",
             Self::Transition => "transition",
         }

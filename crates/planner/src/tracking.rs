@@ -64,11 +64,41 @@ impl Step {
     }
 }
 
+/// Joint positions beyond this are divergence, not motion \[rad\].
+const LARGEST_POSITION_RAD: f64 = 1e6;
+
+/// Why a path could not be followed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TrackingError {
+    /// A waypoint or the start is not finite.
+    #[error("waypoint {waypoint}: {error}")]
+    Ik {
+        /// Index of the waypoint, over all segments.
+        waypoint: usize,
+        /// Why.
+        error: IkError,
+    },
+    /// The control law drives a joint out of all bounds.
+    #[error(
+        "the control law diverges: joint {} is at {position_rad:e} rad after waypoint {waypoint}; lower control.kp, control.kd \
+         or control.dt_s", .joint + 1
+    )]
+    Divergence {
+        /// Index of the waypoint, over all segments.
+        waypoint: usize,
+        /// Joint index, 0 for joint 1.
+        joint: usize,
+        /// Where it is \[rad\].
+        position_rad: f64,
+    },
+}
+
 /// Solves and follows every waypoint of `path` from the configuration `start` \[rad\].
 ///
 /// # Errors
-/// [`IkError::Target`] or [`IkError::Seed`] for numbers that are not finite; an unreachable waypoint is no
-/// error but a [`Step`] with [`IkOutcome::Failed`].
+/// [`TrackingError`] for numbers that are not finite and for a control law that diverges; an unreachable waypoint is
+/// no error but a [`Step`] with [`IkOutcome::Failed`].
 pub fn follow(
     robot: &RobotModel,
     solver: &IkSolver<'_>,
@@ -76,7 +106,7 @@ pub fn follow(
     seed: IkSeed,
     law: &mut dyn ControlLaw,
     start: &JointVector,
-) -> Result<Vec<Step>, IkError> {
+) -> Result<Vec<Step>, TrackingError> {
     let mut steps = Vec::with_capacity(path.len());
     let (mut executed, mut answer) = (*start, *start);
     for (segment, part) in path.segments.iter().enumerate() {
@@ -86,15 +116,32 @@ pub fn follow(
                 IkSeed::Executed => executed,
                 IkSeed::Previous => answer,
             };
-            let mut step = solve(solver, segment, *target, &from)?;
+            let waypoint = steps.len();
+            let solved = solve(solver, segment, *target, &from);
+            let mut step = solved.map_err(|error| TrackingError::Ik { waypoint, error })?;
             answer = step.commanded;
             executed = law.step(&step.commanded, &executed);
+            check_bounded(waypoint, &executed)?;
             step.executed = executed;
             step.executed_tip = robot.fk(&executed).rigid(solver.frame()).translation;
             steps.push(step);
         }
     }
     Ok(steps)
+}
+
+fn check_bounded(waypoint: usize, q: &JointVector) -> Result<(), TrackingError> {
+    // A range holds no NaN.
+    let bounds = -LARGEST_POSITION_RAD..=LARGEST_POSITION_RAD;
+    let stray = q.iter().position(|position| !bounds.contains(position));
+    match stray {
+        Some(joint) => Err(TrackingError::Divergence {
+            waypoint,
+            joint,
+            position_rad: q[joint],
+        }),
+        None => Ok(()),
+    }
 }
 
 /// Solves one waypoint; the executed part is filled in by the caller.

@@ -1,7 +1,7 @@
 //! The cascade that users call: seed, QP, listed starts, random restarts. See the [module](super) text.
 
 use super::starts::Starts;
-use super::task::{Descent, Iterate, Stop, Task};
+use super::task::{Descent, Iterate, ON_LIMIT_RAD, Stop, Task};
 use super::{IkCause, IkError, IkFailure, IkSettings, IkSettingsError, IkSolution, Method, RandomRestarts, Start};
 use super::{dls, qp};
 use crate::fk::Frame;
@@ -14,27 +14,22 @@ use rand_pcg::Pcg64;
 const STATIONARY: f64 = 1e-3;
 /// A smallest singular value below this is a lost direction.
 const SINGULAR: f64 = 1e-3;
-/// A joint this close to a limit counts as standing on it \[rad\].
-const ON_LIMIT_RAD: f64 = 1e-6;
-
 /// Solves for one frame of one arm; build it once and call [`IkSolver::solve`] often.
 #[derive(Debug, Clone)]
 pub struct IkSolver<'a> {
-    robot: &'a RobotModel,
+    pub(super) robot: &'a RobotModel,
     frame: Frame,
-    settings: IkSettings,
+    pub(super) settings: IkSettings,
     starts: Starts,
 }
 
-/// When the QP follows DLS.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Fallback {
-    StagnationOrLimit,
-    LimitOnly,
-}
-
-/// Best iterate over the starts tried so far, and the work spent on them.
-struct Search {
+/// Below this squared error (m², rad²) the QP follows DLS at once.
+const NEAR: f64 = 1e-2;
+/// How many stops of the list the QP takes up.
+const QP_FROM_LIST: usize = 6;
+/// One search: the task, the best iterate over all starts, and the work spent.
+struct Search<'t> {
+    task: &'t Task<'t>,
     best: Iterate,
     iterations: usize,
 }
@@ -74,55 +69,97 @@ impl<'a> IkSolver<'a> {
     /// [`IkError::NotSolved`] with the best configuration and the cause; [`IkError::Target`] and
     /// [`IkError::Seed`] for input that is not finite.
     pub fn solve(&self, target: &Pose, seed: &JointVector) -> Result<IkSolution, IkError> {
-        let task = self.task(target, seed)?;
+        let task = self.task(target)?;
+        check_seed(seed)?;
         let start = task.at(self.robot.limits().clamp(seed));
         let mut search = Search {
+            task: &task,
             best: start,
             iterations: 0,
         };
-        if let Some(answer) = self.try_start(&task, start, Start::Seed, Fallback::StagnationOrLimit, &mut search) {
-            return Ok(answer);
-        }
-        if self.beyond_reach(&task.target) {
-            return Err(IkError::NotSolved(self.failure(&task, &search)));
-        }
-        for (k, q) in self
-            .starts
-            .nearest(&task.target, self.settings.listed_starts)
-            .into_iter()
-            .enumerate()
-        {
-            let from = task.at(q);
-            if let Some(answer) = self.try_start(&task, from, Start::Listed(k), Fallback::LimitOnly, &mut search) {
-                return Ok(answer);
-            }
-        }
-        if let Some(RandomRestarts { seed, count }) = self.settings.random_restarts {
-            let mut rng = Pcg64::seed_from_u64(seed);
-            for k in 0..count {
-                let from = task.at(self.random_configuration(&mut rng));
-                if let Some(answer) = self.try_start(&task, from, Start::Random(k), Fallback::LimitOnly, &mut search) {
-                    return Ok(answer);
-                }
-            }
-        }
-        Err(IkError::NotSolved(self.failure(&task, &search)))
+        let answer = self.search(&mut search, start);
+        answer.ok_or_else(|| IkError::NotSolved(self.failure(&search)))
     }
 
-    fn task(&self, target: &Pose, seed: &JointVector) -> Result<Task<'a>, IkError> {
+    /// The stages in order; `None` when all of them fail.
+    fn search(&self, search: &mut Search<'_>, start: Iterate) -> Option<IkSolution> {
+        let first = dls::descend(search.task, start, &dls::ALL_FREE, &self.settings);
+        if let Some(answer) = self.note(&first, Method::Dls, Start::Seed, search) {
+            return Some(answer);
+        }
+        let mut postponed = None;
+        if matches!(first.stop, Stop::Stagnation | Stop::ActiveLimit) {
+            if first.best.cost < NEAR {
+                let answer = self.bounded(first.best, Start::Seed, search);
+                if answer.is_some() {
+                    return answer;
+                }
+            } else {
+                postponed = Some((first.best, Start::Seed));
+            }
+        }
+        if self.beyond_reach(&search.task.target) {
+            return None;
+        }
+        self.from_list(postponed, search).or_else(|| self.from_random(search))
+    }
+
+    /// DLS from the listed starts, then the QP where it is due.
+    fn from_list(&self, postponed: Option<(Iterate, Start)>, search: &mut Search<'_>) -> Option<IkSolution> {
+        let mut stopped = Vec::new();
+        let starts = self.starts.nearest(&search.task.target, self.settings.listed_starts);
+        for (k, q) in starts.into_iter().enumerate() {
+            let from = search.task.at(q);
+            let descent = dls::descend(search.task, from, &dls::ALL_FREE, &self.settings);
+            if let Some(answer) = self.note(&descent, Method::Dls, Start::Listed(k), search) {
+                return Some(answer);
+            }
+            if descent.stop == Stop::ActiveLimit {
+                stopped.push((descent.best, Start::Listed(k)));
+            }
+        }
+        stopped.sort_by(|a, b| a.0.cost.total_cmp(&b.0.cost));
+        stopped.truncate(QP_FROM_LIST);
+        let mut due = postponed.into_iter().chain(stopped);
+        due.find_map(|(from, start)| self.bounded(from, start, search))
+    }
+
+    /// Random restarts, if the caller asked for any.
+    fn from_random(&self, search: &mut Search<'_>) -> Option<IkSolution> {
+        let RandomRestarts { seed, count } = self.settings.random_restarts?;
+        let mut rng = Pcg64::seed_from_u64(seed);
+        (0..count).find_map(|k| {
+            let from = search.task.at(self.random_configuration(&mut rng));
+            let descent = dls::descend(search.task, from, &dls::ALL_FREE, &self.settings);
+            let answer = self.note(&descent, Method::Dls, Start::Random(k), search);
+            if answer.is_some() || descent.stop != Stop::ActiveLimit {
+                return answer;
+            }
+            self.bounded(descent.best, Start::Random(k), search)
+        })
+    }
+
+    /// The QP from where DLS stopped.
+    fn bounded(&self, from: Iterate, start: Start, search: &mut Search<'_>) -> Option<IkSolution> {
+        let descent = qp::descend(search.task, from, &self.settings);
+        self.note(&descent, Method::Qp, start, search)
+    }
+
+    pub(super) fn task(&self, target: &Pose) -> Result<Task<'a>, IkError> {
         let position: [f64; 3] = target.translation.vector.into();
-        if !position
+        if position
             .iter()
             .chain(target.rotation.coords.iter())
             .all(|v| v.is_finite())
         {
-            return Err(IkError::Target { position });
+            return Ok(self.task_unchecked(target));
         }
-        if let Some(joint) = (0..AXES).find(|&i| !seed[i].is_finite()) {
-            let found = seed[joint];
-            return Err(IkError::Seed { joint, found });
-        }
-        Ok(Task {
+        Err(IkError::Target { position })
+    }
+
+    /// The task for a target that is known to be finite.
+    pub(super) fn task_unchecked(&self, target: &Pose) -> Task<'a> {
+        Task {
             robot: self.robot,
             frame: self.frame,
             target: Rigid::from(target),
@@ -130,48 +167,18 @@ impl<'a> IkSolver<'a> {
                 self.settings.position_tolerance_m,
                 self.settings.orientation_tolerance_rad,
             ],
-        })
+        }
     }
 
-    /// DLS, then QP where it is due; notes the best iterate and the work.
-    fn try_start(
-        &self,
-        task: &Task<'_>,
-        from: Iterate,
-        start: Start,
-        fallback: Fallback,
-        search: &mut Search,
-    ) -> Option<IkSolution> {
-        let descent = dls::descend(task, from, &dls::ALL_FREE, &self.settings);
-        if let Some(answer) = self.note(task, &descent, Method::Dls, start, search) {
-            return Some(answer);
-        }
-        let due = match fallback {
-            Fallback::StagnationOrLimit => matches!(descent.stop, Stop::Stagnation | Stop::ActiveLimit),
-            Fallback::LimitOnly => descent.stop == Stop::ActiveLimit,
-        };
-        if !due {
-            return None;
-        }
-        let descent = qp::descend(task, descent.best, &self.settings);
-        self.note(task, &descent, Method::Qp, start, search)
-    }
-
-    /// The one place where a solution is accepted: within the limits and both tolerances.
-    fn note(
-        &self,
-        task: &Task<'_>,
-        descent: &Descent,
-        method: Method,
-        start: Start,
-        search: &mut Search,
-    ) -> Option<IkSolution> {
+    /// Notes a descent. The one place where a solution is accepted: within the limits and both tolerances.
+    fn note(&self, descent: &Descent, method: Method, start: Start, search: &mut Search<'_>) -> Option<IkSolution> {
         search.iterations += descent.iterations;
         let best = &descent.best;
         if best.cost < search.best.cost {
             search.best = *best;
         }
-        (task.solved(best) && self.robot.limits().contain(&best.q)).then(|| IkSolution {
+        let accepted = search.task.solved(best) && self.robot.limits().contain(&best.q);
+        accepted.then(|| IkSolution {
             q: best.q,
             iterations: search.iterations,
             method,
@@ -187,17 +194,18 @@ impl<'a> IkSolver<'a> {
         (target.translation - centre.coords).norm() > bound + self.settings.position_tolerance_m
     }
 
-    fn failure(&self, task: &Task<'_>, search: &Search) -> IkFailure {
+    fn failure(&self, search: &Search<'_>) -> IkFailure {
+        let best = &search.best;
         IkFailure {
-            q: search.best.q,
+            q: best.q,
             iterations: search.iterations,
-            cause: self.cause(task, &search.best),
-            position_error_m: search.best.position_error(),
-            orientation_error_rad: search.best.orientation_error(),
+            cause: self.cause(search.task, best),
+            position_error_m: best.position_error(),
+            orientation_error_rad: best.orientation_error(),
         }
     }
 
-    fn cause(&self, task: &Task<'_>, at: &Iterate) -> IkCause {
+    pub(super) fn cause(&self, task: &Task<'_>, at: &Iterate) -> IkCause {
         if self.beyond_reach(&task.target) {
             return IkCause::Unreachable;
         }
@@ -224,7 +232,7 @@ impl<'a> IkSolver<'a> {
             return IkCause::Limit { joint };
         }
         if gradient.norm() <= threshold {
-            return IkCause::Unreachable;
+            return IkCause::LocalMinimum;
         }
         if jacobian.singular_values().min() < SINGULAR {
             return IkCause::Singular;
@@ -237,5 +245,15 @@ impl<'a> IkSolver<'a> {
             let [lower, upper] = self.robot.limits().sampling_range(joint);
             lower + (upper - lower) * rng.random::<f64>()
         })
+    }
+}
+
+fn check_seed(seed: &JointVector) -> Result<(), IkError> {
+    match (0..AXES).find(|&joint| !seed[joint].is_finite()) {
+        Some(joint) => Err(IkError::Seed {
+            joint,
+            found: seed[joint],
+        }),
+        None => Ok(()),
     }
 }

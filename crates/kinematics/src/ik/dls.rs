@@ -1,5 +1,6 @@
 //! Damped least squares: `Δq = (JᵀJ + λI)⁻¹ Jᵀ e`.
 
+use super::linear::solve_spd;
 use super::settings::IkSettings;
 use super::task::{Descent, Iterate, Stop, Task};
 use crate::{AXES, JointVector};
@@ -78,7 +79,7 @@ fn step(jacobian: &Matrix6<f64>, error: &Vector6<f64>, lambda: f64, free: &Free)
         column.fill(0.0);
     }
     let normal = jacobian.tr_mul(&jacobian) + Matrix6::from_diagonal_element(lambda);
-    Some(normal.cholesky()?.solve(&jacobian.tr_mul(error)))
+    solve_spd(&normal, &jacobian.tr_mul(error))
 }
 
 /// The step shortened so that no joint moves more than `bound` \[rad\]; its direction is kept.

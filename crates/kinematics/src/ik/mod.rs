@@ -18,25 +18,33 @@
 //!    error fell by less than 10 % in 8 iterations) or an *active limit* (three accepted steps in a row were
 //!    clamped). It solves `min ‖J Δq − e‖² + λ‖Δq‖²` within the joint position bounds and a step bound
 //!    (clarabel) until DLS on the joints that are free of their limits can polish the answer to the
-//!    same tolerance.
+//!    same tolerance. It runs at once where DLS stopped near the target (`‖e‖ < 0.1`), and otherwise after step 4,
+//!    because a program costs as much as a hundred DLS steps.
 //! 3. A target beyond the arm's [reach bound](crate::RobotModel::reach_bound) ends here, as unreachable.
-//! 4. **Listed starts** ([`starts`]): steps 1 and 2 again from a fixed list of configurations, the nearest
-//!    in pose first. The list depends on the arm alone, so the answer depends on the arguments alone.
-//!    (From these, QP runs for an active limit only.)
+//! 4. **Listed starts** ([`starts`]): DLS from a fixed list of configurations, the nearest in pose first;
+//!    then the QP from the seed's stop (if it is still due) and from the best six stops of the list that hit a limit.
+//!    The list depends on the arm alone, so the answer depends on the arguments alone.
 //! 5. **Random restarts**, only when the caller asks for them with a seed of their own
-//!    ([`RandomRestarts`]).
+//!    ([`RandomRestarts`]): DLS, then QP where a limit stopped it.
+//!
+//! A failure reports the configuration with the smallest error over all starts, which may be on another branch than the
+//! seed: MATLAB's solver, which the paper uses, restarts and does the same.
 //!
 //! Whatever step answers, the result is checked once more in one place: inside the limits and within both
 //! tolerances, or it is an error.
 
+pub mod analytic;
 mod cascade;
 pub mod dls;
+mod linear;
+pub mod path;
 pub mod qp;
 mod settings;
 pub mod starts;
 mod task;
 
 pub use cascade::IkSolver;
+pub use path::{IkPath, IkPathError, PathBreak};
 pub use settings::{IkSettings, IkSettingsError, RandomRestarts};
 
 use crate::JointVector;
@@ -86,10 +94,13 @@ pub struct IkSolution {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum IkCause {
-    /// The target lies beyond the arm's reach bound; or no joint motion reduces the error to first order
-    /// (`‖Jᵀe‖ ≤ 10⁻³ ‖J‖ ‖e‖`) and no limit is in the way.
+    /// The target lies beyond the arm's reach bound: proven.
     #[error("unreachable")]
     Unreachable,
+    /// No joint motion reduces the error to first order (`‖Jᵀe‖ ≤ 10⁻³ ‖J‖ ‖e‖`) and no limit is in the way: most likely out
+    /// of reach, but that is not proven.
+    #[error("no nearer configuration")]
+    LocalMinimum,
     /// A joint stands at its limit and would have to go on (the one with the largest pull is named).
     #[error("stopped by the limit of joint {}", .joint + 1)]
     Limit {

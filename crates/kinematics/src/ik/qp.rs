@@ -7,7 +7,7 @@
 
 use super::dls;
 use super::settings::IkSettings;
-use super::task::{Descent, Iterate, Stop, Task};
+use super::task::{Descent, Iterate, ON_LIMIT_RAD, Stop, Task};
 use crate::{AXES, JointVector};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
@@ -19,9 +19,6 @@ const LEAST_DAMPING: f64 = 1e-9;
 const LEAST_GAIN: f64 = 1e-3;
 /// Below this squared error (m², rad²) DLS tries to polish.
 const POLISH_BELOW: f64 = 1e-2;
-/// A joint this close to a limit counts as standing on it \[rad\].
-const ON_LIMIT_RAD: f64 = 1e-6;
-
 /// Descends from `start` (within the limits) by bounded steps and polishes the answer.
 pub(super) fn descend(task: &Task<'_>, start: Iterate, settings: &IkSettings) -> Descent {
     let limits = task.robot.limits();

@@ -26,7 +26,7 @@ pub struct IkSettings {
     pub damping: f64,
     /// Largest joint step of one iteration \[rad\]; default 0.7.
     pub step_bound_rad: f64,
-    /// How many of the listed starts are tried after the seed; default 24, at most [`super::starts::LISTED`].
+    /// How many of the listed starts are tried after the seed; default 64, at most [`super::starts::LISTED`].
     pub listed_starts: usize,
     /// Random restarts after the listed ones; default none.
     pub random_restarts: Option<RandomRestarts>,
@@ -41,7 +41,7 @@ impl Default for IkSettings {
             max_qp_iterations: 30,
             damping: 0.3,
             step_bound_rad: 0.7,
-            listed_starts: 24,
+            listed_starts: 64,
             random_restarts: None,
         }
     }
@@ -104,6 +104,7 @@ impl IkSettings {
                 self.listed_starts <= super::starts::LISTED,
             ),
         ];
+        // (No bound is needed on max_qp_iterations, where 0 means no QP, nor on random_restarts.count, where 0 means none.)
         match checks.into_iter().find(|(_, _, _, fine)| !fine) {
             Some((name, found, expected, _)) => Err(IkSettingsError { name, expected, found }),
             None => Ok(()),

@@ -6,6 +6,9 @@ use crate::rotation::{Rigid, rotation_vector};
 use crate::{JointVector, RobotModel};
 use nalgebra::Vector6;
 
+/// A joint this close to a limit counts as standing on it \[rad\].
+pub(super) const ON_LIMIT_RAD: f64 = 1e-6;
+
 /// One inverse-kinematics problem: an arm, a frame on it, and where that frame shall be.
 pub(super) struct Task<'a> {
     pub robot: &'a RobotModel,

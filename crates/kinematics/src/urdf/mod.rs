@@ -20,13 +20,13 @@ mod vertices;
 pub use error::UrdfError;
 pub use mesh::MeshSource;
 
+use crate::fingerprint::sha256_hex;
 use crate::fk::Frame;
 use crate::geometry::Inertial;
 use crate::model::{Joint, Link, RobotModel};
 use crate::rotation::{Rigid, from_rpy};
 use crate::{AXES, Pose};
 use nalgebra::{Matrix3, Vector3};
-use sha2::{Digest, Sha256};
 use tree::Tree;
 
 /// Largest length that is believed \[m\]; beyond it the file is probably in millimetres.
@@ -54,10 +54,7 @@ pub(crate) fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfEr
         .map(|(link, frame)| convert_link(link, *frame, meshes));
     Ok(RobotModel {
         name: robot.name.clone(),
-        sha256: Sha256::digest(text.as_bytes())
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect(),
+        sha256: sha256_hex(text.as_bytes()),
         joints,
         limits,
         folded,

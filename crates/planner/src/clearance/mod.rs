@@ -166,6 +166,22 @@ impl ClearanceModel {
         best.map(|(a, b, found)| self.describe(a, b, found))
     }
 
+    /// All pairs that are in contact or nearer than `required_m` at `q` \[rad\], nearest first. The sponge may touch the
+    /// plates in `working`.
+    #[must_use]
+    pub fn too_near(&self, q: &JointVector, working: &[usize], required_m: f64) -> Vec<PairClearance> {
+        let placed = self.place(q);
+        let pairs = self.pairs.iter().filter(|&&(a, b)| !self.exempt(a, b, working));
+        let near = pairs.map(|&(a, b)| {
+            let candidates = self.part_pairs(a, b).map(|(p, r)| (&placed[a][p], &placed[b][r]));
+            let candidates = candidates.filter(|(p, r)| p.sphere_gap(r) <= required_m);
+            self.describe(a, b, nearest(candidates.map(|(p, r)| separation(p, r))))
+        });
+        let mut near: Vec<_> = near.filter(|pair| !is_clear(pair.distance_m, required_m)).collect();
+        near.sort_by(|x, y| x.distance_m.total_cmp(&y.distance_m));
+        near
+    }
+
     fn exempt(&self, a: usize, b: usize, working: &[usize]) -> bool {
         match (self.bodies[a].kind, self.bodies[b].kind) {
             (BodyKind::Sponge, BodyKind::Plate(i)) | (BodyKind::Plate(i), BodyKind::Sponge) => working.contains(&i),
@@ -194,6 +210,12 @@ impl ClearanceModel {
             place_m: found.place,
         }
     }
+}
+
+/// Whether a distance \[m\] keeps the clearance asked for \[m\]; at 0 only contact breaks it. NaN keeps nothing.
+#[must_use]
+pub fn is_clear(distance_m: f64, required_m: f64) -> bool {
+    distance_m > 0.0 && distance_m >= required_m
 }
 
 fn nearest(separations: impl Iterator<Item = Separation>) -> Separation {

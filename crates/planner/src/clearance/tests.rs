@@ -129,6 +129,11 @@ proptest! {
         let least = model.all(&q).into_iter().min_by(|x, y| x.distance_m.total_cmp(&y.distance_m)).unwrap();
         let found = model.smallest(&q, &[]).unwrap();
         prop_assert!((found.distance_m - least.distance_m).abs() < 1e-12, "{found:?} {least:?}");
+        // Every pair nearer than a margin is found, and no other.
+        let near = model.too_near(&q, &[], 0.08);
+        let expected = model.all(&q).into_iter().filter(|p| p.distance_m < 0.08).count();
+        prop_assert_eq!(near.len(), expected);
+        prop_assert!(near.first().is_none_or(|p| (p.distance_m - found.distance_m).abs() < 1e-12));
     }
 }
 

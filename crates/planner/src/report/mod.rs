@@ -53,6 +53,17 @@ pub enum JobFinding {
         /// Waypoints of each transition.
         waypoints: usize,
     },
+    /// The sponge is not on the plates while it should wash them.
+    NoContact {
+        /// Washing waypoints without contact.
+        waypoints: usize,
+        /// Washing waypoints in all.
+        of: usize,
+        /// Whether there is a tool body at all.
+        tool: bool,
+    },
+    /// The description has no `tool0`: the tool is assumed to leave the flange along its x axis.
+    AssumedMount,
     /// Links without collision geometry, which nothing checks.
     Unchecked {
         /// Their names.
@@ -67,6 +78,8 @@ pub struct TransitionReport {
     pub waypoints: usize,
     /// Waypoints solved.
     pub reached: usize,
+    /// The unreached waypoint that is farthest away, counted over all transitions.
+    pub worst_unreached: Option<Unreached>,
     /// Distance of the executed tip from the path, root mean square \[m\].
     pub tracking_rms_m: f64,
     /// The same, at most \[m\].
@@ -106,6 +119,8 @@ pub struct JobReport {
     pub executed: MotionReport,
     /// What else is to be said.
     pub findings: Vec<JobFinding>,
+    /// The pairs of bodies that were checked for clearance, by name.
+    pub clearance_pairs: Vec<[String; 2]>,
     /// Duration \[s\].
     pub duration_s: f64,
 }
@@ -115,23 +130,30 @@ impl JobReport {
         let approaches = plate::approaches(job, clearance);
         let plates = plate::plates(job, &approaches)?;
         let transitions = transitions(job, &approaches);
-        let planned = MotionReport::new(job, &job.planned, approaches.iter().map(|a| a.planned.as_ref()));
-        let executed = MotionReport::new(job, &job.executed, approaches.iter().map(|a| a.executed.as_ref()));
+        let planned = MotionReport::new(job, &job.planned, approaches.iter().map(|a| &a.planned));
+        let executed = MotionReport::new(job, &job.executed, approaches.iter().map(|a| &a.executed));
+        let findings = findings(job, &plates);
+        let required = job.scenario.job.required_coverage;
         let verdict = verdict(&plates, &transitions, &planned, &executed);
         Ok(Self {
             scenario: job.scenario.name.clone(),
             seed: job.scenario.seed,
             robot: job.robot.name().to_owned(),
             verdict,
-            headline: text::headline(verdict, &plates, &planned, &executed),
+            headline: text::headline(verdict, &plates, &transitions, &planned, &executed, required),
             sponge_radius_m: job.scenario.tool.sponge_radius_m,
             clearance_required_m: job.scenario.wash.clearance_m,
-            coverage_required: job.scenario.job.required_coverage,
+            coverage_required: required,
             plates,
             transitions,
             planned,
             executed,
-            findings: findings(job),
+            findings,
+            clearance_pairs: clearance
+                .pair_names()
+                .into_iter()
+                .map(|(a, b)| [a.to_owned(), b.to_owned()])
+                .collect(),
             duration_s: job.planned.duration_s(),
         })
     }
@@ -185,48 +207,63 @@ fn transitions(job: &Job, approaches: &[plate::StepApproach]) -> TransitionRepor
     TransitionReport {
         waypoints: steps.len(),
         reached: steps.iter().filter(|s| s.reached()).count(),
+        worst_unreached: plate::worst_unreached(&steps),
         tracking_rms_m,
         tracking_max_m,
-        planned_clearance: nearest(|a| a.planned.as_ref()),
-        executed_clearance: nearest(|a| a.executed.as_ref()),
+        planned_clearance: nearest(|a| a.planned.nearest.as_ref()),
+        executed_clearance: nearest(|a| a.executed.nearest.as_ref()),
     }
 }
 
-fn findings(job: &Job) -> Vec<JobFinding> {
-    let of_layout = job
-        .layout
-        .findings
-        .iter()
-        .cloned()
-        .map(|finding| JobFinding::Layout { finding });
-    let mut findings: Vec<_> = of_layout.collect();
-    if let (Some(start), Some(first)) = (job.planned.positions().first(), job.steps.first()) {
-        let tip = job
-            .robot
-            .fk(start)
-            .rigid(&robot::tip_frame(&job.robot, &job.scenario.tool))
-            .translation;
-        findings.push(JobFinding::NoApproach {
-            believed_m: [0.0; 3],
-            tip_m: tip.into(),
-            distance_m: (tip - first.target).norm(),
-        });
+/// A first waypoint nearer than this needs no approach \[m\].
+const APPROACHED_M: f64 = 1e-3;
+
+fn findings(job: &Job, plates: &[PlateReport]) -> Vec<JobFinding> {
+    let of_layout = job.layout.findings.iter().cloned();
+    let mut findings: Vec<_> = of_layout.map(|finding| JobFinding::Layout { finding }).collect();
+    findings.extend(no_approach(job));
+    findings.extend(stops_at_waypoints(job));
+    findings.extend(no_contact(job, plates));
+    if !job.robot.states_its_mounting_frame() {
+        findings.push(JobFinding::AssumedMount);
     }
-    let transition = &job.scenario.transition;
-    let any = job.tool_path.segments.iter().any(|s| s.kind == SegmentKind::Transition);
-    if any && transition.interpolation == Interpolation::ZeroVelocity {
-        let waypoints = transition.mid_points + 2;
-        findings.push(JobFinding::StopsAtWaypoints { waypoints });
-    }
-    let bare = job.robot.joints().iter().filter(|j| {
+    let bare = |child: &str| {
         job.robot
             .links()
             .iter()
-            .any(|l| l.name == j.child && l.collision.is_empty())
-    });
-    let links: Vec<_> = bare.map(|j| j.child.clone()).collect();
+            .any(|l| l.name == child && l.collision.is_empty())
+    };
+    let children = job.robot.joints().iter().map(|j| &j.child);
+    let links: Vec<_> = children.filter(|child| bare(child)).cloned().collect();
     if !links.is_empty() {
         findings.push(JobFinding::Unchecked { links });
     }
     findings
+}
+
+fn no_approach(job: &Job) -> Option<JobFinding> {
+    let (start, first) = (job.planned.positions().first()?, job.steps.first()?);
+    let tip = robot::tip_frame(&job.robot, &job.scenario.tool);
+    let tip = job.robot.fk(start).rigid(&tip).translation;
+    let distance_m = (tip - first.target).norm();
+    (distance_m > APPROACHED_M).then(|| JobFinding::NoApproach {
+        believed_m: [0.0; 3],
+        tip_m: tip.into(),
+        distance_m,
+    })
+}
+
+fn stops_at_waypoints(job: &Job) -> Option<JobFinding> {
+    let transition = &job.scenario.transition;
+    let any = job.tool_path.segments.iter().any(|s| s.kind == SegmentKind::Transition);
+    let waypoints = transition.mid_points + 2;
+    (any && transition.interpolation == Interpolation::ZeroVelocity)
+        .then_some(JobFinding::StopsAtWaypoints { waypoints })
+}
+
+fn no_contact(job: &Job, plates: &[PlateReport]) -> Option<JobFinding> {
+    let of: usize = plates.iter().map(|p| p.waypoints).sum();
+    let waypoints = of - plates.iter().map(|p| p.in_contact).sum::<usize>();
+    let tool = job.scenario.tool.length_m > 0.0;
+    (waypoints > 0).then_some(JobFinding::NoContact { waypoints, of, tool })
 }

@@ -1,10 +1,11 @@
 //! A motion against the limits.
 
-use super::plate::{ClosestApproach, is_clear};
+use super::plate::{ClosestApproach, Nearness};
 use crate::job::Job;
 use crate::trajectory::{SegmentExtremes, Trajectory};
 use platewash_kinematics::{AXES, JointVector};
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// What a violation breaks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -37,7 +38,8 @@ pub struct Violation {
     pub limit: f64,
 }
 
-/// A motion against the limits.
+/// A motion against the limits. Speeds and accelerations are the exact extremes of the cubics through the waypoints
+/// (speeds at the waypoints are central differences).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MotionReport {
     /// Largest speed of each joint as a share of its limit.
@@ -70,7 +72,7 @@ impl MotionReport {
     pub(super) fn new<'a>(
         job: &Job,
         motion: &Trajectory,
-        approaches: impl Iterator<Item = Option<&'a ClosestApproach>>,
+        nearness: impl Iterator<Item = &'a Nearness> + Clone,
     ) -> Self {
         let limits = job.robot.limits();
         let accelerations = JointVector::from(job.scenario.limits.joint_acceleration_rad_s2);
@@ -103,25 +105,24 @@ impl MotionReport {
                 s.acceleration[joint]
             });
         }
-        let approaches: Vec<_> = approaches.flatten().collect();
-        violations.extend(clearance_violations(&approaches, job));
+        violations.extend(clearance_violations(nearness.clone().flat_map(|n| &n.too_near), job));
         Self {
             speed_share: largest(|s| &s.speed).component_div(&limits.velocity),
             acceleration_share: largest(|s| &s.acceleration).component_div(&accelerations),
-            clearance: super::plate::nearest(approaches.into_iter()),
+            clearance: super::plate::nearest(nearness.filter_map(|n| n.nearest.as_ref())),
             violations,
         }
     }
 }
 
-/// Consecutive steps in which the same pair comes too near.
-fn clearance_violations(approaches: &[&ClosestApproach], job: &Job) -> Vec<Violation> {
+/// Consecutive steps in which the same pair comes too near, pair by pair.
+fn clearance_violations<'a>(approaches: impl Iterator<Item = &'a ClosestApproach>, job: &Job) -> Vec<Violation> {
     let (limit, dt) = (job.scenario.wash.clearance_m, job.scenario.control.dt_s);
-    let mut found: Vec<Violation> = Vec::new();
-    for approach in approaches.iter().filter(|a| !is_clear(a.pair.distance_m, limit)) {
+    let mut by_pair: BTreeMap<String, Vec<Violation>> = BTreeMap::new();
+    for approach in approaches {
         let who = format!("{} – {}", approach.pair.a, approach.pair.b);
-        let follows = |v: &&mut Violation| v.who == who && approach.t_s - v.t_end_s < 1.5 * dt;
-        match found.last_mut().filter(follows) {
+        let found = by_pair.entry(who.clone()).or_default();
+        match found.last_mut().filter(|open| approach.t_s - open.t_end_s < 1.5 * dt) {
             Some(open) => {
                 open.t_end_s = approach.t_s;
                 open.worst = open.worst.min(approach.pair.distance_m);
@@ -136,7 +137,7 @@ fn clearance_violations(approaches: &[&ClosestApproach], job: &Job) -> Vec<Viola
             }),
         }
     }
-    found
+    by_pair.into_values().flatten().collect()
 }
 
 impl Merger {

@@ -1,8 +1,9 @@
 //! What happened on each plate.
 
-use crate::clearance::{ClearanceModel, PairClearance};
+use crate::clearance::{ClearanceModel, PairClearance, is_clear};
 use crate::coverage::{Coverage, CoverageError, CoverageSettings, coverage};
 use crate::job::Job;
+use crate::layout::Plate;
 use crate::tool_path::SegmentKind;
 use crate::tracking::{IkOutcome, Step};
 use platewash_kinematics::JointVector;
@@ -19,11 +20,25 @@ pub struct ClosestApproach {
     pub pair: PairClearance,
 }
 
-/// Nearest approaches at one step.
-pub(super) struct StepApproach {
-    pub planned: Option<ClosestApproach>,
-    pub executed: Option<ClosestApproach>,
+/// How near the arm comes at one step.
+pub(super) struct Nearness {
+    /// The nearest pair.
+    pub nearest: Option<ClosestApproach>,
+    /// All pairs that keep too little clearance.
+    pub too_near: Vec<ClosestApproach>,
 }
+
+/// The same for what was commanded and what was done.
+pub(super) struct StepApproach {
+    pub planned: Nearness,
+    pub executed: Nearness,
+}
+
+/// Fine enough that the proven error of a plate's coverage is about a tenth of a percent.
+const RASTER: CoverageSettings = CoverageSettings { cell_m: 2e-4 };
+
+/// The tip counts as touching the plate up to this height above it \[m\].
+const CONTACT_HEIGHT_M: f64 = 1e-3;
 
 /// A waypoint that was not reached.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -47,7 +62,8 @@ pub struct PlateReport {
     pub plate: usize,
     /// Its centre \[m\].
     pub centre_m: [f64; 2],
-    /// Whether it counts as washed: every waypoint solved, free of contact, and enough of it covered.
+    /// Whether it counts as washed: every waypoint solved, the sponge on the plate at each, nothing else too near, and
+    /// enough surely covered (the lower bound).
     pub washed: bool,
     /// Waypoints asked.
     pub waypoints: usize,
@@ -63,9 +79,13 @@ pub struct PlateReport {
     pub planned_clearance: Option<ClosestApproach>,
     /// Nearest approach of the executed motion.
     pub executed_clearance: Option<ClosestApproach>,
-    /// Covered share of the plate had the tip followed the waypoints.
+    /// Waypoints at which the executed sponge is on the plate: there is a tool body, and its tip is no higher than 1 mm above the
+    /// surface and no deeper than the sponge.
+    pub in_contact: usize,
+    /// Covered share of the plate had the tip followed the waypoints, seen from above: as if the sponge touched wherever the
+    /// tip passes.
     pub ideal_coverage: Coverage,
-    /// Covered share of the plate as executed.
+    /// Covered share of the plate as executed, seen from above.
     pub executed_coverage: Coverage,
     /// Distance of the executed tip from the waypoints, root mean square \[m\].
     pub tracking_rms_m: f64,
@@ -73,31 +93,51 @@ pub struct PlateReport {
     pub tracking_max_m: f64,
 }
 
-/// Nearest approaches at every step, commanded and executed.
+/// How near the arm comes at every step, commanded and executed.
 pub(super) fn approaches(job: &Job, clearance: &ClearanceModel) -> Vec<StepApproach> {
-    let segments = &job.tool_path.segments;
     let at = |(k, step): (usize, &Step)| {
-        // Washing, the sponge may touch its plate; on the way, the plate it leaves and the one it comes to.
-        let here = segments[step.segment].plate;
-        let from = step
-            .segment
-            .checked_sub(1)
-            .map_or(here, |before| segments[before].plate);
-        let working = match segments[step.segment].kind {
-            SegmentKind::Wash => [here, here],
-            SegmentKind::Transition => [from, here],
-        };
-        let approach = |q: &JointVector| {
-            let pair = clearance.smallest(q, &working)?;
-            let t_s = job.time_of(k);
-            Some(ClosestApproach { t_s, pair })
-        };
+        let working = worked_on(job, k);
+        let nearness = |q| nearness(clearance, q, &working, job, k);
         StepApproach {
-            planned: approach(&step.commanded),
-            executed: approach(&step.executed),
+            planned: nearness(&step.commanded),
+            executed: nearness(&step.executed),
         }
     };
     job.steps.iter().enumerate().map(at).collect()
+}
+
+fn nearness(clearance: &ClearanceModel, q: &JointVector, working: &[usize], job: &Job, step: usize) -> Nearness {
+    let required_m = job.scenario.wash.clearance_m;
+    let timed = |pair| ClosestApproach {
+        t_s: job.time_of(step),
+        pair,
+    };
+    let nearest = clearance.smallest(q, working);
+    // Nearly all configurations keep their distance; only the others are looked at pair by pair.
+    let too_near = match &nearest {
+        Some(pair) if !is_clear(pair.distance_m, required_m) => clearance.too_near(q, working, required_m),
+        _ => Vec::new(),
+    };
+    Nearness {
+        nearest: nearest.map(timed),
+        too_near: too_near.into_iter().map(timed).collect(),
+    }
+}
+
+/// The plate that the sponge may touch at a step: the one it washes; on the way, the one it leaves for the first half and
+/// the one it comes to for the second.
+fn worked_on(job: &Job, step: usize) -> [usize; 1] {
+    let segments = &job.tool_path.segments;
+    let index = job.steps[step].segment;
+    let segment = &segments[index];
+    let first_half = || {
+        let before: usize = segments[..index].iter().map(|s| s.waypoints.len()).sum();
+        2 * (step - before) < segment.waypoints.len()
+    };
+    match (segment.kind, index.checked_sub(1)) {
+        (SegmentKind::Transition, Some(left)) if first_half() => [segments[left].plate],
+        _ => [segment.plate],
+    }
 }
 
 /// The nearest of several approaches (the first of equals).
@@ -145,27 +185,27 @@ fn plate(job: &Job, approaches: &[StepApproach], segment: usize, index: usize) -
     let swept = |of: fn(&Step) -> [f64; 2]| {
         let path: Vec<_> = steps.iter().map(|s| of(s)).collect();
         let sponge = job.scenario.tool.sponge_radius_m;
-        coverage(&path, centre_m, plate.radius_m, sponge, &CoverageSettings::default())
+        coverage(&path, centre_m, plate.radius_m, sponge, &RASTER)
     };
     let worst = |of: fn(&Step) -> f64| steps.iter().map(|s| of(s)).fold(0.0, f64::max);
     let executed_coverage = swept(|s| [s.executed_tip.x, s.executed_tip.y])?;
-    let executed_clearance = nearest(near().filter_map(|a| a.executed.as_ref()));
     let reached = steps.iter().filter(|s| s.reached()).count();
-    let clear = executed_clearance
-        .as_ref()
-        .is_none_or(|c| is_clear(c.pair.distance_m, job.scenario.wash.clearance_m));
+    let in_contact = steps.iter().filter(|s| touches(job, &plate, s)).count();
+    let clear = near().all(|a| a.executed.too_near.is_empty());
+    let covered = executed_coverage.lower >= job.scenario.job.required_coverage;
     let (tracking_rms_m, tracking_max_m) = tracking_errors(steps.iter().copied());
     Ok(PlateReport {
         plate: index,
         centre_m,
-        washed: reached == steps.len() && clear && executed_coverage.fraction >= job.scenario.job.required_coverage,
+        washed: reached == steps.len() && in_contact == steps.len() && clear && covered,
         waypoints: steps.len(),
         reached,
         worst_ik_position_error_m: worst(|s| s.ik_position_error_m),
         worst_ik_orientation_error_rad: worst(|s| s.ik_orientation_error_rad),
         worst_unreached: worst_unreached(&steps),
-        planned_clearance: nearest(near().filter_map(|a| a.planned.as_ref())),
-        executed_clearance,
+        planned_clearance: nearest(near().filter_map(|a| a.planned.nearest.as_ref())),
+        executed_clearance: nearest(near().filter_map(|a| a.executed.nearest.as_ref())),
+        in_contact,
         ideal_coverage: swept(|s| [s.target.x, s.target.y])?,
         executed_coverage,
         tracking_rms_m,
@@ -173,12 +213,15 @@ fn plate(job: &Job, approaches: &[StepApproach], segment: usize, index: usize) -
     })
 }
 
-/// Whether a distance keeps the clearance asked for; at 0 only contact breaks it.
-pub(super) fn is_clear(distance_m: f64, required_m: f64) -> bool {
-    distance_m > 0.0 && distance_m >= required_m
+/// Whether the executed sponge is on the plate at a step.
+fn touches(job: &Job, plate: &Plate, step: &Step) -> bool {
+    let tool = &job.scenario.tool;
+    let height = step.executed_tip.z - plate.z_m;
+    tool.length_m > 0.0 && (-tool.sponge_height_m..=CONTACT_HEIGHT_M).contains(&height)
 }
 
-fn worst_unreached(steps: &[&Step]) -> Option<Unreached> {
+/// The unreached waypoint that is farthest away, of the steps of one segment.
+pub(super) fn worst_unreached(steps: &[&Step]) -> Option<Unreached> {
     let failed = steps
         .iter()
         .enumerate()

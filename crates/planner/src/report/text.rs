@@ -1,6 +1,10 @@
 //! The report as a person reads it.
 
-use super::{ClosestApproach, JobFinding, JobReport, MotionReport, PlateReport, Verdict, Violation, ViolationKind};
+use super::{
+    ClosestApproach, JobFinding, JobReport, MotionReport, PlateReport, TransitionReport, Unreached, Verdict, Violation,
+    ViolationKind,
+};
+use crate::coverage::Coverage;
 use platewash_kinematics::JointVector;
 use std::fmt::{self, Display, Formatter};
 
@@ -8,31 +12,45 @@ use std::fmt::{self, Display, Formatter};
 const LISTED_VIOLATIONS: usize = 12;
 
 /// The first line: whether the job washes, and the main reasons if not.
-pub(super) fn headline(verdict: Verdict, plates: &[PlateReport], plan: &MotionReport, done: &MotionReport) -> String {
+pub(super) fn headline(
+    verdict: Verdict,
+    plates: &[PlateReport],
+    transitions: &TransitionReport,
+    plan: &MotionReport,
+    done: &MotionReport,
+    required_coverage: f64,
+) -> String {
     let washed = plates.iter().filter(|p| p.washed).count();
     let total = plates.len();
     if verdict == Verdict::Washed {
         return format!("WASHED: {washed} of {total} plates, every limit kept.");
     }
     let mut reasons = Vec::new();
-    let (reached, asked) = plates.iter().fold((0, 0), |(r, w), p| (r + p.reached, w + p.waypoints));
-    if reached < asked {
-        reasons.push(format!("{} of {asked} washing waypoints out of reach", asked - reached));
+    let asked: usize = plates.iter().map(|p| p.waypoints).sum();
+    let unreached = asked - plates.iter().map(|p| p.reached).sum::<usize>();
+    if unreached > 0 {
+        reasons.push(format!("{unreached} of {asked} washing waypoints out of reach"));
     }
-    let contact = |m: &MotionReport| m.violations.iter().any(|v| v.kind == ViolationKind::Clearance);
-    if contact(plan) || contact(done) {
+    if transitions.reached < transitions.waypoints {
+        let unreached = transitions.waypoints - transitions.reached;
+        reasons.push(format!(
+            "{unreached} of {} waypoints between plates out of reach",
+            transitions.waypoints
+        ));
+    }
+    let off = asked - plates.iter().map(|p| p.in_contact).sum::<usize>();
+    if off > 0 {
+        reasons.push(format!("the sponge off the plate at {off} of {asked} waypoints"));
+    }
+    let all = || plan.violations.iter().chain(&done.violations);
+    if all().any(|v| v.kind == ViolationKind::Clearance) {
         reasons.push("too little clearance".to_owned());
     }
-    let least = plates.iter().map(|p| p.executed_coverage.fraction).fold(1.0, f64::min);
-    if washed < total {
+    let least = plates.iter().map(|p| p.executed_coverage.lower).fold(1.0, f64::min);
+    if least < required_coverage {
         reasons.push(format!("as little as {:.1} % of a plate covered", 100.0 * least));
     }
-    if done
-        .violations
-        .iter()
-        .chain(&plan.violations)
-        .any(|v| v.kind != ViolationKind::Clearance)
-    {
+    if all().any(|v| v.kind != ViolationKind::Clearance) {
         reasons.push("joint limits broken".to_owned());
     }
     format!("NOT WASHED: {washed} of {total} plates washed; {}.", reasons.join(", "))
@@ -51,7 +69,11 @@ impl Display for JobReport {
         self.transitions(f)?;
         writeln!(
             f,
-            "\nWhole job, largest share of each joint's limit (1 to 6; acceleration limits are assumptions)"
+            "\nWhole job, largest share of each joint's limit (1 to 6; acceleration limits are assumptions), of the cubics"
+        )?;
+        writeln!(
+            f,
+            "through the waypoints (their speeds there are central differences: the program commands positions only)"
         )?;
         motion(f, "planned", &self.planned)?;
         motion(f, "executed", &self.executed)?;
@@ -75,36 +97,35 @@ impl JobReport {
         )?;
         writeln!(
             f,
-            "  {:<6} {:>16} {:>9} {:>12} {:>8} {:>9} {:>19} {:>7}",
-            "plate", "centre, mm", "reached", "worst IK, mm", "ideal, %", "done, %", "error rms, max, mm", "washed"
+            "  {:<6} {:>16} {:>9} {:>12} {:>11} {:>11} {:>19} {:>8} {:>7}",
+            "plate",
+            "centre, mm",
+            "reached",
+            "worst IK, mm",
+            "ideal, %",
+            "done, %",
+            "error rms, max, mm",
+            "contact",
+            "washed"
         )?;
         for p in &self.plates {
             writeln!(
                 f,
-                "  {:<6} {:>16} {:>9} {:>12.4} {:>8.1} {:>9.1} {:>19} {:>7}",
+                "  {:<6} {:>16} {:>9} {:>12.4} {:>11} {:>11} {:>19} {:>8} {:>7}",
                 p.plate,
                 format!("({:.0}, {:.0})", 1e3 * p.centre_m[0], 1e3 * p.centre_m[1]),
                 format!("{}/{}", p.reached, p.waypoints),
                 1e3 * p.worst_ik_position_error_m,
-                100.0 * p.ideal_coverage.fraction,
-                100.0 * p.executed_coverage.fraction,
+                percent(&p.ideal_coverage),
+                percent(&p.executed_coverage),
                 format!("{:.1}, {:.1}", 1e3 * p.tracking_rms_m, 1e3 * p.tracking_max_m),
+                format!("{}/{}", p.in_contact, p.waypoints),
                 if p.washed { "yes" } else { "no" },
             )?;
         }
         for p in &self.plates {
-            if let Some(u) = &p.worst_unreached {
-                writeln!(
-                    f,
-                    "  plate {}: {} waypoints not reached; worst is waypoint {} ({}), {:.1} mm and {:.1}° off",
-                    p.plate,
-                    p.waypoints - p.reached,
-                    u.waypoint,
-                    u.cause,
-                    1e3 * u.position_error_m,
-                    u.orientation_error_rad.to_degrees()
-                )?;
-            }
+            let what = format!("plate {}", p.plate);
+            unreached(f, &what, p.waypoints - p.reached, p.worst_unreached.as_ref())?;
         }
         writeln!(
             f,
@@ -134,8 +155,27 @@ impl JobReport {
             f,
             "\nTransitions: {}/{} waypoints reached, tracking error {rms:.1} mm rms, {most:.1} mm at most",
             t.reached, t.waypoints
-        )
+        )?;
+        unreached(f, "transitions", t.waypoints - t.reached, t.worst_unreached.as_ref())
     }
+}
+
+/// A coverage with half the width of its proven interval, in percent.
+fn percent(c: &Coverage) -> String {
+    format!("{:.1} ± {:.1}", 100.0 * c.fraction, 50.0 * c.error())
+}
+
+fn unreached(f: &mut Formatter<'_>, what: &str, count: usize, worst: Option<&Unreached>) -> fmt::Result {
+    let Some(u) = worst else { return Ok(()) };
+    let [x, y, z] = u.target_m.map(|v| 1e3 * v);
+    writeln!(
+        f,
+        "  {what}: {count} waypoints not reached; worst is waypoint {} at ({x:.0}, {y:.0}, {z:.0}) mm ({}), {:.1} mm and {:.1}° off",
+        u.waypoint,
+        u.cause,
+        1e3 * u.position_error_m,
+        u.orientation_error_rad.to_degrees()
+    )
 }
 
 fn nearest(f: &mut Formatter<'_>, what: &str, approach: Option<&ClosestApproach>) -> fmt::Result {
@@ -152,7 +192,17 @@ fn nearest(f: &mut Formatter<'_>, what: &str, approach: Option<&ClosestApproach>
 }
 
 fn motion(f: &mut Formatter<'_>, what: &str, report: &MotionReport) -> fmt::Result {
-    let shares = |v: &JointVector| v.iter().map(|share| format!("{share:>8.2}")).collect::<String>();
+    let shares = |v: &JointVector| {
+        v.iter()
+            .map(|share| {
+                if *share < 1e4 {
+                    format!("{share:>10.2}")
+                } else {
+                    format!("{share:>10.2e}")
+                }
+            })
+            .collect::<String>()
+    };
     writeln!(f, "  {what:<9} speed       {}", shares(&report.speed_share))?;
     writeln!(f, "  {what:<9} acceleration{}", shares(&report.acceleration_share))
 }
@@ -235,6 +285,21 @@ impl Display for JobFinding {
             Self::StopsAtWaypoints { waypoints } => write!(
                 f,
                 "each transition stops at all of its {waypoints} waypoints (zero-velocity cubics): acceleration is not continuous"
+            ),
+            Self::NoContact { waypoints, of, tool } => {
+                let why = if *tool {
+                    ""
+                } else {
+                    " (there is no tool body: the flange hovers)"
+                };
+                write!(
+                    f,
+                    "the sponge is off the plate at {waypoints} of {of} washing waypoints{why}; coverage is what it would sweep"
+                )
+            }
+            Self::AssumedMount => write!(
+                f,
+                "the description has no tool0: the tool is assumed to leave the flange along its x axis; add a link tool0 to say how"
             ),
             Self::Unchecked { links } => {
                 write!(f, "no collision geometry, so nothing is checked: {}", links.join(", "))

@@ -17,11 +17,17 @@ use rand::Rng;
 /// Sponge radii for which coverage is measured \[mm\].
 pub(super) const SPONGES_MM: [u32; 8] = [10, 15, 20, 25, 30, 35, 40, 45];
 
-/// Coverage raster of the many executed spirals; its own error stays far below the sampling error.
-const EXECUTED_CELL: CoverageSettings = CoverageSettings { cell_m: 0.002 };
+/// Coverage raster of the many executed spirals; its proven error is added to the sampling error.
+const EXECUTED_CELL: CoverageSettings = CoverageSettings { cell_m: 5e-4 };
 
 /// Posture from which the exact check of a segment starts: in front of the base, elbow up, flange down (degrees).
 const READY_DEG: [f64; 6] = [0.0, 10.0, 10.0, 0.0, 70.0, 0.0];
+
+const NOTHING: Coverage = Coverage {
+    fraction: 0.0,
+    lower: 0.0,
+    upper: 0.0,
+};
 
 /// How many points there are, are reached, and are reached without contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -36,7 +42,7 @@ pub(super) struct Counts {
 pub(super) struct PlateSample {
     pub spiral: Counts,
     /// By sponge radius, see [`SPONGES_MM`].
-    pub executed_coverage: [f64; SPONGES_MM.len()],
+    pub executed_coverage: [Coverage; SPONGES_MM.len()],
 }
 
 /// What one layout came to.
@@ -124,9 +130,9 @@ impl Bench {
             match segment.kind {
                 SegmentKind::Wash => sample.plates.push(PlateSample {
                     spiral: counts,
-                    executed_coverage: [0.0; SPONGES_MM.len()],
+                    executed_coverage: [NOTHING; SPONGES_MM.len()],
                 }),
-                SegmentKind::Transition => {
+                SegmentKind::Depart | SegmentKind::Transition => {
                     let sum = &mut sample.transition;
                     sum.points += counts.points;
                     sum.reached += counts.reached;
@@ -178,7 +184,7 @@ fn execute(job: &Job, sample: &mut LayoutSample) -> Result<(), CoverageError> {
             );
         }
         let path: Vec<_> = steps.iter().map(|s| [s.executed_tip.x, s.executed_tip.y]).collect();
-        sample.plates[plates].executed_coverage = by_sponge(&path, &plate, &EXECUTED_CELL)?.map(|c| c.fraction);
+        sample.plates[plates].executed_coverage = by_sponge(&path, &plate, &EXECUTED_CELL)?;
         plates += 1;
     }
     let dt = job.scenario.control.dt_s;
@@ -206,12 +212,7 @@ fn by_sponge(
     plate: &Plate,
     settings: &CoverageSettings,
 ) -> Result<[Coverage; SPONGES_MM.len()], CoverageError> {
-    let nothing = Coverage {
-        fraction: 0.0,
-        lower: 0.0,
-        upper: 0.0,
-    };
-    let mut all = [nothing; SPONGES_MM.len()];
+    let mut all = [NOTHING; SPONGES_MM.len()];
     for (covered, sponge) in all.iter_mut().zip(SPONGES_MM) {
         *covered = coverage(
             path,
@@ -225,7 +226,7 @@ fn by_sponge(
 }
 
 /// Coverage of a plate had the tip followed the waypoints, by sponge radius.
-pub(super) fn ideal_coverage(scenario: &Scenario) -> Result<[f64; SPONGES_MM.len()], PlanError> {
+pub(super) fn ideal_coverage(scenario: &Scenario) -> Result<[Coverage; SPONGES_MM.len()], PlanError> {
     let mut single = scenario.clone();
     single.layout.positions_m = Some(vec![[0.3, 0.0]]);
     let layout = job::place_plates(&single, &robot::load(&single.robot)?)?;
@@ -236,5 +237,9 @@ pub(super) fn ideal_coverage(scenario: &Scenario) -> Result<[f64; SPONGES_MM.len
         .flat_map(|s| &s.waypoints)
         .map(|p| [p.x, p.y])
         .collect();
-    Ok(by_sponge(&spiral, &layout.plates[0], &CoverageSettings { cell_m: 2e-4 })?.map(|c| c.fraction))
+    Ok(by_sponge(
+        &spiral,
+        &layout.plates[0],
+        &CoverageSettings { cell_m: 1e-4 },
+    )?)
 }

@@ -1,7 +1,8 @@
 //! The paper's control law as what it is: a filter, with a gain and a phase.
 
+use super::Row;
+use super::rows::row;
 use super::statistics::Estimate;
-use super::{Row, row};
 use crate::control::{ControlLaw, PaperLaw};
 use crate::scenario::ControlSection;
 use crate::trig::{atan2, sin_cos};

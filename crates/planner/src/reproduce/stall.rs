@@ -1,7 +1,8 @@
 //! How often sequential sampling comes to a dead end: there the paper's program hangs.
 
+use super::rows::row;
 use super::statistics::binomial_percent;
-use super::{REGIONS, ReproduceSettings, Row, row};
+use super::{REGIONS, ReproduceSettings, Row};
 use crate::job::PlanError;
 use crate::layout::{Attempt, Sampler, Spacing};
 use crate::random;

@@ -35,13 +35,16 @@ pub(super) fn batch_means<T>(samples: &[T], statistic: impl Fn(&[T]) -> f64) -> 
     }
 }
 
-/// Share of successes in percent, with the binomial standard error times 1.96.
+/// Share of successes in percent, with the larger side of Wilson's 95 % interval (1927), which is honest at 0 and 1 too.
 pub(super) fn binomial_percent(successes: usize, trials: usize) -> Estimate {
-    let share = successes as f64 / (trials.max(1)) as f64;
-    let error = (share * (1.0 - share) / (trials.max(1)) as f64).sqrt();
+    const Z: f64 = 1.96;
+    let n = trials.max(1) as f64;
+    let share = successes as f64 / n;
+    let centre = (share + Z * Z / (2.0 * n)) / (1.0 + Z * Z / n);
+    let half = Z / (1.0 + Z * Z / n) * (share * (1.0 - share) / n + Z * Z / (4.0 * n * n)).sqrt();
     Estimate {
         value: 100.0 * share,
-        half_width_95: (trials > 1).then_some(196.0 * error),
+        half_width_95: (trials > 1).then_some(100.0 * ((centre - share).abs() + half)),
     }
 }
 
@@ -90,6 +93,9 @@ mod tests {
     fn binomial_errors_by_hand() {
         let e = binomial_percent(50, 100);
         assert_eq!(e.value, 50.0);
-        assert!((e.half_width_95.unwrap() - 9.8).abs() < 1e-12);
+        // Wilson's interval for 50 of 100 is 0.4038 … 0.5962.
+        assert!((e.half_width_95.unwrap() - 9.617).abs() < 0.01);
+        // For 0 of 100 it reaches up to 0.0370.
+        assert!((binomial_percent(0, 100).half_width_95.unwrap() - 3.70).abs() < 0.01);
     }
 }
