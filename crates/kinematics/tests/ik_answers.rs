@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use nalgebra::{Matrix3, Vector3};
-use platewash_kinematics::ik::{IkCause, IkError, IkSettings, IkSolver, Method, RandomRestarts, Start};
+use platewash_kinematics::ik::{AnalyticStarts, IkCause, IkError, IkSettings, IkSolver, Method, RandomRestarts, Start};
 use platewash_kinematics::rotation::from_rpy;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{AXES, JointVector, Pose, RobotModel};
@@ -32,21 +32,41 @@ fn errors(robot: &RobotModel, q: &JointVector, target: &Pose) -> (f64, f64) {
 /// within the limits, `Ok` is within tolerance, and a pose of the arm is nearly always solved.
 #[test]
 fn a_hundred_thousand_random_targets_never_get_a_wrong_answer() {
+    let [reachable, solved, stray] = over_random_targets(IkSettings::default(), 100_000);
+    println!("reachable {reachable}, solved {solved}, random targets solved {stray}");
+    assert_eq!(
+        solved, reachable,
+        "with analytic starts every pose of the arm is solved"
+    );
+    assert!(stray > 0, "some random targets are within reach");
+}
+
+/// The numeric cascade alone, as on arms without a closed form.
+#[test]
+fn without_analytic_starts_nearly_every_pose_is_solved_and_no_answer_is_wrong() {
+    let settings = IkSettings {
+        analytic_starts: AnalyticStarts::Unused,
+        ..IkSettings::default()
+    };
+    let [reachable, solved, _] = over_random_targets(settings, 20_000);
+    println!("reachable {reachable}, solved {solved}");
+    assert!(solved as f64 >= 0.999 * reachable as f64, "{solved} of {reachable}");
+}
+
+/// Poses of the arm, how many of them are solved, and how many random targets are.
+fn over_random_targets(settings: IkSettings, count: usize) -> [usize; 3] {
     let robot = RobotModel::irb120().unwrap();
-    let solver = IkSolver::new(&robot, robot.frame("tool0").unwrap(), IkSettings::default()).unwrap();
+    let solver = IkSolver::new(&robot, robot.frame("tool0").unwrap(), settings).unwrap();
     let workers = 2;
     let counts: Vec<[usize; 3]> = std::thread::scope(|scope| {
         let run = |worker: u64| {
             let (robot, solver) = (&robot, &solver);
-            move || count_answers(robot, solver, worker, 100_000 / workers as usize)
+            move || count_answers(robot, solver, worker, count / workers as usize)
         };
         let handles: Vec<_> = (0..workers).map(|w| scope.spawn(run(w))).collect();
         handles.into_iter().map(|h| h.join().unwrap()).collect()
     });
-    let [reachable, solved, stray]: [usize; 3] = std::array::from_fn(|k| counts.iter().map(|c| c[k]).sum());
-    println!("reachable {reachable}, solved {solved}, random targets solved {stray}");
-    assert!(solved as f64 >= 0.999 * reachable as f64, "{solved} of {reachable}");
-    assert!(stray > 0, "some random targets are within reach");
+    std::array::from_fn(|k| counts.iter().map(|c| c[k]).sum())
 }
 
 fn count_answers(robot: &RobotModel, solver: &IkSolver<'_>, worker: u64, count: usize) -> [usize; 3] {
@@ -147,6 +167,7 @@ fn the_qp_takes_over_at_an_active_limit() {
     let tool0 = robot.frame("tool0").unwrap();
     let settings = IkSettings {
         listed_starts: 0,
+        analytic_starts: AnalyticStarts::Unused,
         ..IkSettings::default()
     };
     let solver = IkSolver::new(&robot, tool0, settings).unwrap();
@@ -176,21 +197,25 @@ fn failures_say_why() {
     assert_eq!(failure.cause, IkCause::Unreachable);
     assert!(failure.position_error_m > 1.2, "{failure:?}");
 
-    // 20 mm beyond the stretched arm, wrist in line: within the reach bound (which adds up all lengths), but no nearer.
-    let stretched = robot.pose(&JointVector::new(0.0, 1.3, -1.3, 0.0, 0.0, 0.0), &tool0);
-    let beyond = Pose::from_parts(
-        (stretched.translation.vector * 1.0 + Vector3::new(0.02, 0.0, 0.0)).into(),
-        stretched.rotation,
-    );
-    if let Err(IkError::NotSolved(failure)) = solver.solve(&beyond, &JointVector::new(0.0, 1.3, -1.3, 0.0, 0.0, 0.0)) {
-        assert!(
-            matches!(
-                failure.cause,
-                IkCause::LocalMinimum | IkCause::Singular | IkCause::Iterations
-            ),
-            "{failure:?}"
-        );
-        assert!(failure.position_error_m < 0.03);
+    // 20 mm beyond the stretched arm, wrist in line: the branches prove it; the numeric cascade finds no way nearer.
+    let q = JointVector::new(0.0, 1.3, -1.3, 0.0, 0.0, 0.0);
+    let stretched = robot.pose(&q, &tool0);
+    let beyond = stretched.translation.vector + Vector3::new(0.05, 0.0, 0.0);
+    let beyond = Pose::from_parts(beyond.into(), stretched.rotation);
+    let numeric = IkSettings {
+        analytic_starts: AnalyticStarts::Unused,
+        ..IkSettings::default()
+    };
+    for (settings, expected) in [
+        (IkSettings::default(), IkCause::Unreachable),
+        (numeric, IkCause::LocalMinimum),
+    ] {
+        let solver = IkSolver::new(&robot, tool0, settings).unwrap();
+        let Err(IkError::NotSolved(failure)) = solver.solve(&beyond, &q) else {
+            panic!("beyond reach")
+        };
+        assert_eq!(failure.cause, expected, "{failure:?}");
+        assert!(failure.position_error_m > 0.02 && failure.position_error_m < 0.06);
     }
 
     // One iteration is not enough for anything: the cause says so.
@@ -198,6 +223,7 @@ fn failures_say_why() {
         max_iterations: 1,
         max_qp_iterations: 0,
         listed_starts: 0,
+        analytic_starts: AnalyticStarts::Unused,
         ..IkSettings::default()
     };
     let hasty = IkSolver::new(&robot, tool0, hasty).unwrap();
@@ -218,6 +244,9 @@ fn failures_say_why() {
         panic!("beyond joint 1")
     };
     assert_eq!(failure.cause, IkCause::Limit { joint: 0 });
+    // The analytic branches say by how much: the pose lies at an azimuth of 90°.
+    let excess = failure.limit_excess_rad.unwrap();
+    assert!((excess - (PI / 2.0 - 0.5)).abs() < 1e-9, "{excess}");
 }
 
 #[test]
@@ -267,6 +296,7 @@ fn random_restarts_need_a_seed() {
     let with = |random_restarts| {
         let settings = IkSettings {
             listed_starts: 0,
+            analytic_starts: AnalyticStarts::Unused,
             random_restarts,
             ..IkSettings::default()
         };

@@ -1,8 +1,11 @@
 //! The cascade that users call: seed, QP, listed starts, random restarts. See the [module](super) text.
 
+use super::analytic::{AnalyticArm, AnalyticError, NotAnalytic, Solutions};
 use super::starts::Starts;
 use super::task::{Descent, Iterate, ON_LIMIT_RAD, Stop, Task};
-use super::{IkCause, IkError, IkFailure, IkSettings, IkSettingsError, IkSolution, Method, RandomRestarts, Start};
+use super::{
+    AnalyticStarts, IkCause, IkError, IkFailure, IkSettings, IkSettingsError, IkSolution, Method, RandomRestarts, Start,
+};
 use super::{dls, qp};
 use crate::fk::Frame;
 use crate::rotation::Rigid;
@@ -21,8 +24,32 @@ pub struct IkSolver<'a> {
     frame: Frame,
     pub(super) settings: IkSettings,
     starts: Starts,
+    analytic: Option<AnalyticArm>,
 }
 
+/// Why [`IkSolver::solve_all`] has no answer.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AllBranchesError {
+    /// The arm has no closed form.
+    #[error("this arm has no analytic inverse kinematics: {0}")]
+    NotAnalytic(NotAnalytic),
+    /// The frame is not carried by the last link.
+    #[error("the frame is not fixed to what joint 6 moves")]
+    Frame,
+    /// The target or the previous configuration is not finite.
+    #[error(transparent)]
+    Input(#[from] AnalyticError),
+}
+
+impl From<NotAnalytic> for AllBranchesError {
+    fn from(reason: NotAnalytic) -> Self {
+        Self::NotAnalytic(reason)
+    }
+}
+
+/// Above this squared error (m², rad²) at the seed, the seed is cold.
+const COLD: f64 = 0.09;
 /// Below this squared error (m², rad²) the QP follows DLS at once.
 const NEAR: f64 = 1e-2;
 /// How many stops of the list the QP takes up.
@@ -32,6 +59,8 @@ struct Search<'t> {
     task: &'t Task<'t>,
     best: Iterate,
     iterations: usize,
+    /// Why no analytic branch will do, once they were tried.
+    no_branch: Option<AnalyticError>,
 }
 
 impl<'a> IkSolver<'a> {
@@ -42,7 +71,12 @@ impl<'a> IkSolver<'a> {
     pub fn new(robot: &'a RobotModel, frame: Frame, settings: IkSettings) -> Result<Self, IkSettingsError> {
         settings.validate()?;
         let starts = Starts::new(robot, &frame);
+        let analytic = match settings.analytic_starts {
+            AnalyticStarts::Used if frame.body() == AXES => AnalyticArm::recognise(robot).ok(),
+            _ => None,
+        };
         Ok(Self {
+            analytic,
             robot,
             frame,
             settings,
@@ -76,32 +110,70 @@ impl<'a> IkSolver<'a> {
             task: &task,
             best: start,
             iterations: 0,
+            no_branch: None,
         };
         let answer = self.search(&mut search, start);
         answer.ok_or_else(|| IkError::NotSolved(self.failure(&search)))
     }
 
+    /// Every configuration within the limits that brings the frame to `target`, branch by branch with all wraps, and why
+    /// each other branch is none. `previous` \[rad\] decides free joints at singularities.
+    ///
+    /// # Errors
+    /// [`AllBranchesError`] when the arm has no closed form, or for input that is not finite. No solution is no error: see
+    /// [`Solutions::rejections`].
+    pub fn solve_all(&self, target: &Pose, previous: &JointVector) -> Result<Solutions, AllBranchesError> {
+        let target = AnalyticArm::body_target(&self.frame, &Rigid::from(target)).ok_or(AllBranchesError::Frame)?;
+        let solutions = match &self.analytic {
+            Some(arm) => arm.solve_all(&target, previous, self.robot.limits()),
+            None => AnalyticArm::recognise(self.robot)?.solve_all(&target, previous, self.robot.limits()),
+        };
+        Ok(solutions?)
+    }
+
     /// The stages in order; `None` when all of them fail.
     fn search(&self, search: &mut Search<'_>, start: Iterate) -> Option<IkSolution> {
+        let cold = start.cost > COLD;
+        if cold && let Some(answer) = self.from_branches(&start.q, search) {
+            return Some(answer);
+        }
         let first = dls::descend(search.task, start, &dls::ALL_FREE, &self.settings);
         if let Some(answer) = self.note(&first, Method::Dls, Start::Seed, search) {
             return Some(answer);
         }
-        let mut postponed = None;
-        if matches!(first.stop, Stop::Stagnation | Stop::ActiveLimit) {
-            if first.best.cost < NEAR {
-                let answer = self.bounded(first.best, Start::Seed, search);
-                if answer.is_some() {
-                    return answer;
-                }
-            } else {
-                postponed = Some((first.best, Start::Seed));
-            }
+        let due = matches!(first.stop, Stop::Stagnation | Stop::ActiveLimit);
+        let near = first.best.cost < NEAR;
+        if due
+            && near
+            && let Some(answer) = self.bounded(first.best, Start::Seed, search)
+        {
+            return Some(answer);
         }
-        if self.beyond_reach(&search.task.target) {
+        if !cold && let Some(answer) = self.from_branches(&start.q, search) {
+            return Some(answer);
+        }
+        if search.no_branch.is_some() || self.beyond_reach(&search.task.target) {
             return None;
         }
+        let postponed = (due && !near).then_some((first.best, Start::Seed));
         self.from_list(postponed, search).or_else(|| self.from_random(search))
+    }
+
+    /// DLS from the analytic branch nearest to `seed`, where the arm has branches.
+    fn from_branches(&self, seed: &JointVector, search: &mut Search<'_>) -> Option<IkSolution> {
+        let arm = self.analytic.as_ref()?;
+        let target = AnalyticArm::body_target(&self.frame, &search.task.target)?;
+        match arm.nearest(&target, seed, self.robot.limits()) {
+            Ok(nearest) => {
+                let from = search.task.at(nearest.q);
+                let descent = dls::descend(search.task, from, &dls::ALL_FREE, &self.settings);
+                self.note(&descent, Method::Dls, Start::Analytic, search)
+            }
+            Err(reason) => {
+                search.no_branch = Some(reason);
+                None
+            }
+        }
     }
 
     /// DLS from the listed starts, then the QP where it is due.
@@ -196,10 +268,22 @@ impl<'a> IkSolver<'a> {
 
     fn failure(&self, search: &Search<'_>) -> IkFailure {
         let best = &search.best;
+        let (cause, limit_excess_rad) = match search.no_branch {
+            Some(AnalyticError::OutOfReach(_)) => (IkCause::Unreachable, None),
+            Some(AnalyticError::Limits { violation, .. }) => {
+                let joint = violation.joint;
+                (
+                    IkCause::Limit { joint },
+                    Some((violation.position_rad - violation.limit_rad).abs()),
+                )
+            }
+            _ => (self.cause(search.task, best), None),
+        };
         IkFailure {
             q: best.q,
             iterations: search.iterations,
-            cause: self.cause(search.task, best),
+            cause,
+            limit_excess_rad,
             position_error_m: best.position_error(),
             orientation_error_rad: best.orientation_error(),
         }
@@ -248,7 +332,7 @@ impl<'a> IkSolver<'a> {
     }
 }
 
-fn check_seed(seed: &JointVector) -> Result<(), IkError> {
+pub(super) fn check_seed(seed: &JointVector) -> Result<(), IkError> {
     match (0..AXES).find(|&joint| !seed[joint].is_finite()) {
         Some(joint) => Err(IkError::Seed {
             joint,

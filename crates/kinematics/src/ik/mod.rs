@@ -9,22 +9,35 @@
 //!
 //! and `J(q)` the geometric Jacobian in base axes.
 //!
-//! # The cascade, in order
+//! # Which method answers when
 //!
-//! 1. **DLS** from the caller's seed ([`dls`]): `Δq = (JᵀJ + λI)⁻¹ Jᵀ e`, with `λ` proportional to `‖e‖²`
+//! | call | answers |
+//! | --- | --- |
+//! | [`IkSolver::solve`] | one configuration for one pose, by the cascade below |
+//! | [`IkSolver::solve_all`] | every branch and wrap within the limits, and why each other branch is none (arms that [`analytic`] recognises) |
+//! | [`IkSolver::solve_path`] | one configuration per waypoint, without jumps, or where and why not ([`path`]) |
+//! | [`IkSolver::solve_generalized`] | one configuration for a pose with freedom, bounds on the motion and clearance rows ([`generalized`]) |
+//!
+//! # The cascade of `solve`, in order
+//!
+//! 1. **Analytic branches**, on arms that [`analytic`] recognises, when the seed is cold (`‖e‖ > 0.3` at the seed): the in-limit
+//!    branch nearest to the seed is where DLS starts, and mostly ends. When the seed is warm this step comes after step 3.
+//!    On these arms the steps from 4 on never run: where no branch is within the limits there is no solution, and
+//!    the failure says which filter left none.
+//! 2. **DLS** from the caller's seed ([`dls`]): `Δq = (JᵀJ + λI)⁻¹ Jᵀ e`, with `λ` proportional to `‖e‖²`
 //!    (Sugihara, *IEEE Trans. Robotics* 2011) and raised tenfold after a step that does not reduce the
 //!    error (Levenberg–Marquardt); steps are bounded and clamped to the limits.
-//! 2. **QP** ([`qp`]), from where DLS stopped, when it stopped for one of two reasons: *stagnation* (the
+//! 3. **QP** ([`qp`]), from where DLS stopped, when it stopped for one of two reasons: *stagnation* (the
 //!    error fell by less than 10 % in 8 iterations) or an *active limit* (three accepted steps in a row were
 //!    clamped). It solves `min ‖J Δq − e‖² + λ‖Δq‖²` within the joint position bounds and a step bound
 //!    (clarabel) until DLS on the joints that are free of their limits can polish the answer to the
-//!    same tolerance. It runs at once where DLS stopped near the target (`‖e‖ < 0.1`), and otherwise after step 4,
+//!    same tolerance. It runs at once where DLS stopped near the target (`‖e‖ < 0.1`), and otherwise after the listed starts,
 //!    because a program costs as much as a hundred DLS steps.
-//! 3. A target beyond the arm's [reach bound](crate::RobotModel::reach_bound) ends here, as unreachable.
-//! 4. **Listed starts** ([`starts`]): DLS from a fixed list of configurations, the nearest in pose first;
+//! 4. A target beyond the arm's [reach bound](crate::RobotModel::reach_bound) ends here, as unreachable.
+//! 5. **Listed starts** ([`starts`]): DLS from a fixed list of configurations, the nearest in pose first;
 //!    then the QP from the seed's stop (if it is still due) and from the best six stops of the list that hit a limit.
 //!    The list depends on the arm alone, so the answer depends on the arguments alone.
-//! 5. **Random restarts**, only when the caller asks for them with a seed of their own
+//! 6. **Random restarts**, only when the caller asks for them with a seed of their own
 //!    ([`RandomRestarts`]): DLS, then QP where a limit stopped it.
 //!
 //! A failure reports the configuration with the smallest error over all starts, which may be on another branch than the
@@ -36,6 +49,8 @@
 pub mod analytic;
 mod cascade;
 pub mod dls;
+pub mod freedom;
+pub mod generalized;
 mod linear;
 pub mod path;
 pub mod qp;
@@ -43,9 +58,11 @@ mod settings;
 pub mod starts;
 mod task;
 
-pub use cascade::IkSolver;
+pub use cascade::{AllBranchesError, IkSolver};
+pub use freedom::{TaskFreedom, TaskFreedomError, Yaw};
+pub use generalized::{ClearanceRow, GeneralizedError, GeneralizedSolution, GeneralizedTask};
 pub use path::{IkPath, IkPathError, PathBreak};
-pub use settings::{IkSettings, IkSettingsError, RandomRestarts};
+pub use settings::{AnalyticStarts, IkSettings, IkSettingsError, RandomRestarts};
 
 use crate::JointVector;
 use serde::Serialize;
@@ -66,6 +83,8 @@ pub enum Method {
 pub enum Start {
     /// The caller's seed.
     Seed,
+    /// The analytic branch nearest to the seed.
+    Analytic,
     /// An entry of the listed starts, counted in the order tried.
     Listed(usize),
     /// A random restart, counted in the order tried.
@@ -94,14 +113,15 @@ pub struct IkSolution {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum IkCause {
-    /// The target lies beyond the arm's reach bound: proven.
+    /// The target lies beyond the arm's reach bound, or no analytic branch reaches it: proven.
     #[error("unreachable")]
     Unreachable,
     /// No joint motion reduces the error to first order (`‖Jᵀe‖ ≤ 10⁻³ ‖J‖ ‖e‖`) and no limit is in the way: most likely out
     /// of reach, but that is not proven.
     #[error("no nearer configuration")]
     LocalMinimum,
-    /// A joint stands at its limit and would have to go on (the one with the largest pull is named).
+    /// A joint stands at its limit and would have to go on (the one with the largest pull is named), or every analytic branch
+    /// breaks a limit (the joint of the branch that breaks it by least).
     #[error("stopped by the limit of joint {}", .joint + 1)]
     Limit {
         /// Joint index, 0 for joint 1.
@@ -124,6 +144,8 @@ pub struct IkFailure {
     pub iterations: usize,
     /// Why.
     pub cause: IkCause,
+    /// For a limit found by the analytic branches: how far the joint would have to go beyond it \[rad\].
+    pub limit_excess_rad: Option<f64>,
     /// Distance of the frame's origin from the target's \[m\].
     pub position_error_m: f64,
     /// Angle between the frame and the target \[rad\].

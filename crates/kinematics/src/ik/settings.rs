@@ -11,6 +11,15 @@ pub struct RandomRestarts {
     pub count: usize,
 }
 
+/// Whether analytic branches serve as starts on arms that have them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AnalyticStarts {
+    /// They do, where [`super::analytic::AnalyticArm::recognise`] accepts the arm.
+    Used,
+    /// They do not: the numeric cascade alone.
+    Unused,
+}
+
 /// Settings of [`super::IkSolver`]; [`IkSettings::default`] suits the IRB 120 and arms of its size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IkSettings {
@@ -26,6 +35,8 @@ pub struct IkSettings {
     pub damping: f64,
     /// Largest joint step of one iteration \[rad\]; default 0.7.
     pub step_bound_rad: f64,
+    /// Analytic branches as starts; default [`AnalyticStarts::Used`].
+    pub analytic_starts: AnalyticStarts,
     /// How many of the listed starts are tried after the seed; default 64, at most [`super::starts::LISTED`].
     pub listed_starts: usize,
     /// Random restarts after the listed ones; default none.
@@ -41,6 +52,7 @@ impl Default for IkSettings {
             max_qp_iterations: 30,
             damping: 0.3,
             step_bound_rad: 0.7,
+            analytic_starts: AnalyticStarts::Used,
             listed_starts: 64,
             random_restarts: None,
         }

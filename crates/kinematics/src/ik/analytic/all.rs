@@ -1,0 +1,191 @@
+//! All answers within the limits, and why the other branches are none.
+
+use super::window::{Window, nearest_integer};
+use super::wrist::Turn;
+use super::{AnalyticArm, AnalyticError, Branch, Degenerate, LIMIT_ROUNDING_RAD, Label, OutOfReach, check_finite};
+use crate::rotation::Rigid;
+use crate::{AXES, JointLimits, JointVector, LimitViolation};
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// The filter that rejected a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
+pub enum Rejection {
+    /// Its shoulder side cannot reach the wrist centre.
+    #[error("out of reach: {0}")]
+    OutOfReach(OutOfReach),
+    /// The joint that misses its limits by most, at the turn that misses by least.
+    #[error("joint {} at {} rad is beyond {} rad", .0.joint + 1, .0.position_rad, .0.limit_rad)]
+    Limit(LimitViolation),
+}
+
+/// One branch within the limits, with every whole turn of its joints that the limits allow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solution {
+    /// Its name.
+    pub label: Label,
+    /// Where it is degenerate.
+    pub degenerate: Degenerate,
+    /// Every joint at its lowest value within the limits \[rad\].
+    pub lowest: JointVector,
+    /// How many values, a whole turn apart, each joint has within its limits. A continuous joint counts as
+    /// one: the value nearest to `previous`.
+    pub turns: [u32; AXES],
+    upper: JointVector,
+}
+
+/// The configurations of a [`Solution`]: every combination of turns, joint 6 changing fastest.
+#[derive(Debug, Clone)]
+pub struct Configurations {
+    solution: Solution,
+    next: Option<[u32; AXES]>,
+}
+
+/// The eight branches of one target under limits, each a solution or the reason why not.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solutions {
+    slots: [Result<Solution, Rejection>; 8],
+}
+
+impl Solution {
+    /// Every configuration of this branch within the limits \[rad\].
+    #[must_use]
+    pub fn configurations(&self) -> Configurations {
+        Configurations {
+            solution: *self,
+            next: Some([0; AXES]),
+        }
+    }
+}
+
+impl Iterator for Configurations {
+    type Item = JointVector;
+
+    fn next(&mut self) -> Option<JointVector> {
+        let now = self.next?;
+        let Solution {
+            lowest, upper, turns, ..
+        } = &self.solution;
+        let mut after = now;
+        // Count up, joint 6 first; past the last combination nothing is left.
+        self.next = (0..AXES).rev().find(|&i| now[i] + 1 < turns[i]).map(|i| {
+            after[i] += 1;
+            after[i + 1..].fill(0);
+            after
+        });
+        Some(JointVector::from_fn(|i, _| {
+            (lowest[i] + TAU * f64::from(now[i])).min(upper[i])
+        }))
+    }
+}
+
+impl Solutions {
+    /// The branches with a configuration within the limits, in the order of [`Label::ALL`].
+    pub fn iter(&self) -> impl Iterator<Item = &Solution> {
+        self.slots.iter().filter_map(|slot| slot.as_ref().ok())
+    }
+
+    /// Every configuration within the limits \[rad\]. Branches that meet in a singularity repeat it.
+    pub fn configurations(&self) -> impl Iterator<Item = (Label, JointVector)> {
+        self.iter()
+            .flat_map(|solution| solution.configurations().map(|q| (solution.label, q)))
+    }
+
+    /// The branches without one, each with the filter that rejected it.
+    pub fn rejections(&self) -> impl Iterator<Item = (Label, Rejection)> {
+        let rejection = |(label, slot): (Label, &Result<Solution, Rejection>)| Some((label, slot.err()?));
+        Label::ALL.into_iter().zip(&self.slots).filter_map(rejection)
+    }
+
+    /// One branch by its label.
+    ///
+    /// # Errors
+    /// [`Rejection`]: the filter that rejected it.
+    pub fn get(&self, label: Label) -> Result<Solution, Rejection> {
+        self.slots[label.index()]
+    }
+}
+
+impl AnalyticArm {
+    /// All configurations within `limits` that bring body 6 to `target` (`T_base_body6`, as for
+    /// [`AnalyticArm::branches`]): branches and whole turns of their joints. Free joints keep their value in
+    /// `previous` \[rad\] (set to the nearer limit if it is outside) as far as the limits allow.
+    ///
+    /// # Errors
+    /// [`AnalyticError::Target`] and [`AnalyticError::Start`] for input that is not finite. That no branch is within
+    /// the limits is no error here: [`Solutions::rejections`] says why.
+    pub fn solve_all(
+        &self,
+        target: &Rigid,
+        previous: &JointVector,
+        limits: &JointLimits,
+    ) -> Result<Solutions, AnalyticError> {
+        check_finite(target, previous)?;
+        let window = Window::new(limits, previous);
+        let kept = self.all_within(target, &window);
+        if kept.iter().next().is_some() {
+            return Ok(kept);
+        }
+        let goal = self.goal(target);
+        let moved = self
+            .critical_turns(&goal, &window)
+            .map(|q1| self.all_within(target, &window.anchored(q1)))
+            .find(|solutions| solutions.iter().next().is_some());
+        Ok(moved.unwrap_or(kept))
+    }
+
+    pub(super) fn all_within(&self, target: &Rigid, window: &Window<'_>) -> Solutions {
+        let slots = self.all_branches(target, &window.anchor).map(|slot| match slot {
+            Ok((branch, turn)) => self.solution(target, &branch, &turn, window),
+            Err(miss) => Err(Rejection::OutOfReach(miss)),
+        });
+        Solutions { slots }
+    }
+
+    /// The branch with its turns, or its worst joint.
+    fn solution(
+        &self,
+        target: &Rigid,
+        branch: &Branch,
+        turn: &Turn,
+        window: &Window<'_>,
+    ) -> Result<Solution, Rejection> {
+        let rejected = || {
+            let misses = (0..AXES).map(|joint| window.miss(joint, branch.q[joint]));
+            let worst = misses.fold(window.miss(0, branch.q[0]), |a, b| if b.0 > a.0 { b } else { a });
+            Rejection::Limit(worst.1)
+        };
+        let q = self.branch_within(target, branch, turn, window).ok_or_else(rejected)?;
+        let mut lowest = q;
+        let mut turns = [1; AXES];
+        for joint in 0..AXES {
+            (lowest[joint], turns[joint]) = turns_within(q[joint], window.limits, joint);
+        }
+        Ok(Solution {
+            label: branch.label,
+            degenerate: branch.degenerate,
+            lowest,
+            turns,
+            upper: window.limits.upper,
+        })
+    }
+
+    /// The branch's configuration nearest to the start, within the limits.
+    fn branch_within(&self, target: &Rigid, branch: &Branch, turn: &Turn, window: &Window<'_>) -> Option<JointVector> {
+        let [q1, q2, q3] = [0, 1, 2].map(|joint| window.value(joint, branch.q[joint]));
+        let [q4, q5, q6] = self.wrist_within(turn, branch.label.wrist, window)?;
+        let q = JointVector::new(q1?, q2?, q3?, q4, q5, q6);
+        self.settled(target, q, window.limits)
+    }
+}
+
+/// The lowest of the values a whole turn apart within the limits, and how many there are. `q` is one of them.
+fn turns_within(q: f64, limits: &JointLimits, joint: usize) -> (f64, u32) {
+    let (lower, upper) = (limits.lower[joint], limits.upper[joint]);
+    if !(lower.is_finite() && upper.is_finite()) {
+        return (q, 1);
+    }
+    let fit = |room: f64| ((room + LIMIT_ROUNDING_RAD) / TAU).floor().max(0.0);
+    let (below, above) = (fit(q - lower), fit(upper - q));
+    ((q - TAU * below).max(lower), nearest_integer(below + above) as u32 + 1)
+}

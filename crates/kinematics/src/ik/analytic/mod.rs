@@ -1,0 +1,173 @@
+//! Analytic inverse kinematics of arms with a spherical wrist and parallel axes 2 and 3.
+//!
+//! # Which arms
+//!
+//! [`AnalyticArm::recognise`] looks at the folded chain alone, `T_base_6 = Π F_i Rot_z(q_i)`, so zero positions,
+//! axis signs and the way frames are hung on the links do not matter. It asks that
+//!
+//! - axes 2 and 3 are parallel, and axis 1 is perpendicular to them (it need not meet axis 2, nor be vertical,
+//!   nor pass through the base's origin);
+//! - axes 4, 5 and 6 meet in one point, the *wrist centre*, with 4 ⟂ 5 and 5 ⟂ 6;
+//! - the upper arm (axis 2 to axis 3) and the forearm (axis 3 to the wrist centre) have a length.
+//!
+//! That is the ortho-parallel basis with spherical wrist (Brandstötter, Angerer & Hofbaur, 2014), with the
+//! direction of axis 4 left open. Each property must hold to [`GEOMETRY_TOLERANCE_M`] and
+//! [`GEOMETRY_TOLERANCE_RAD`]; anything else is refused with the property and its deviation ([`NotAnalytic`]).
+//!
+//! # Equations
+//!
+//! The *shoulder frame* S stands on axis 1 at the height of axis 2: z along axis 1, y along ± axis 2, x = y × z to
+//! the *front*. In it axis 2 passes through (a₁, ·, 0) and the wrist centre always has y = b.
+//!
+//! 1. Wrist centre `w` of the target, in S at q₁ = 0. Joint 1 (`position`):
+//!    `Rot_z(q₁) (X, b, Z) = w`, so `Z = w_z` and `X = ±√(w_x² + w_y² − b²)`: front or back.
+//! 2. In the plane of the arm, with `p = Z + i (X − a₁)` and `θ` the turn about y:
+//!    `p = L₂ e^{i φ₂} + L₃ e^{i (φ₂ + ψ)}`, so `cos ψ = (|p|² − L₂² − L₃²) / (2 L₂ L₃)`, `ψ = ±…`: elbow up or down, and
+//!    `e^{i φ₂} ∥ p · conj(L₂ + L₃ e^{i ψ})`. Joints 2 and 3 are φ₂ and ψ less their values at the zero position.
+//! 3. What is left for the wrist (`wrist`) is a rotation of z–y–z form:
+//!    `Kᵀ Rot_y(−θ₂₃) Rot_z(−q₁) R = Rot_z(q₄) Rot_y(q₅ + α₅) Rot_z(q₆ + α₆)`: plain or flipped.
+//!
+//! Sines and cosines are carried through algebraically; each joint value costs one `atan2`.
+//!
+//! # Accuracy
+//!
+//! Every step uses the rounded result of the one before it: an elbow angle that full stretch leaves uncertain
+//! by √ε is used as it is for joint 2 and the wrist, and joint 6 is read off after undoing the joint 4
+//! that was found. So the pose is met to rounding (about 1e-15 m and rad on an arm of 1 m) even where
+//! single joints are ill-determined, and no iteration is needed.
+//!
+//! # Singularities
+//!
+//! - **Wrist** (`|sin(q₅ + α₅)| ≤` [`FREE_WRIST_RAD`]): joint 4 keeps its previous value and joint 6 takes the rest; where a
+//!   limit of joint 6 forbids that, joint 4 moves just as far as it must. Both wrist labels hold the same answer.
+//! - **Shoulder** (b = 0 and the wrist centre within [`FREE_SHOULDER_M`] of axis 1): joint 1 keeps its previous value;
+//!   where limits forbid that, it moves to the next value at which they allow an answer ([`AnalyticArm::nearest`]).
+//! - **Stretch, fold, and the column |b| around axis 1**: the two branches meet. A target up to
+//!   [`REACH_ROUNDING_M`] beyond is answered by the pose on the border, one further out is refused.
+//! - A wrist centre on axis 2 (arms with L₂ = L₃ only): joint 2 keeps its previous value; where limits forbid that, no other
+//!   value is tried.
+//!
+//! # Limits
+//!
+//! A joint is taken as within its limits up to [`LIMIT_ROUNDING_RAD`] and set onto the limit. Near a singularity a
+//! joint may be uncertain by more than that; a branch within [`LIMIT_NEAR_RAD`] is moved onto the limit and the other
+//! joints closed by Gauss–Newton, and counts only if the pose is met to [`CLOSED`] m and rad.
+
+mod all;
+mod branch;
+mod critical;
+mod nearest;
+mod position;
+mod recognise;
+mod settle;
+mod window;
+mod wrist;
+
+pub use all::{Configurations, Rejection, Solution, Solutions};
+pub use branch::{Branch, Branches, Degenerate, Elbow, Label, OutOfReach, ReachBorder, Shoulder, Wrist};
+pub use nearest::Nearest;
+pub use recognise::NotAnalytic;
+
+use crate::rotation::Rigid;
+use crate::{AXES, JointVector, LimitViolation};
+use nalgebra::{Complex, Matrix3};
+
+/// Largest deviation of a length that must be zero for an arm to be recognised \[m\].
+pub const GEOMETRY_TOLERANCE_M: f64 = 1e-10;
+/// Largest deviation of an angle that must be 0° or 90° for an arm to be recognised \[rad\].
+pub const GEOMETRY_TOLERANCE_RAD: f64 = 1e-10;
+/// Shortest upper arm and forearm \[m\].
+pub const SHORTEST_LINK_M: f64 = 1e-3;
+/// A target this far beyond full stretch, full fold or the column around axis 1 is still answered \[m\].
+pub const REACH_ROUNDING_M: f64 = 5e-10;
+/// A wrist centre this close to axis 1 (or axis 2, where the arm can fold so far) leaves the joint free \[m\].
+pub const FREE_SHOULDER_M: f64 = 1e-10;
+/// Axes 4 and 6 this close to parallel leave joint 4 free \[rad\].
+pub const FREE_WRIST_RAD: f64 = 1e-10;
+/// A joint this far beyond a limit is set onto it \[rad\].
+pub const LIMIT_ROUNDING_RAD: f64 = 1e-11;
+/// A branch this far beyond a limit is moved onto it if the other joints can make up for it \[rad\].
+pub const LIMIT_NEAR_RAD: f64 = 1e-5;
+/// … to this much \[m and rad\].
+pub const CLOSED: f64 = 2e-10;
+/// At most this many whole turns of a continuous joint are followed, either way.
+pub const MOST_TURNS: f64 = 1000.0;
+
+/// An arm whose inverse kinematics has a closed form: see the [module](self) text. Immutable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AnalyticArm {
+    /// `F_i` of the model.
+    folded: [Rigid; AXES],
+    /// `T_S_base`: base coordinates to the shoulder frame at q₁ = 0.
+    shoulder_from_base: Rigid,
+    /// Wrist centre on the z axis of body 6 \[m\].
+    wrist_along_axis_6: f64,
+    /// x of axis 2 in the shoulder frame, a₁ \[m\].
+    shoulder_offset: f64,
+    /// y of the wrist centre in the shoulder frame, b \[m\]; exactly 0 when within tolerance.
+    lateral_offset: f64,
+    /// Upper arm L₂ and forearm L₃ \[m\].
+    lengths: [f64; 2],
+    /// +1 where axis 2 (axis 3) points along y of the shoulder frame, −1 where against it.
+    signs: [f64; 2],
+    /// `e^{i φ₂}` at q₂ = 0.
+    upper_at_zero: Complex<f64>,
+    /// ψ at q₃ = 0 \[rad\], and `e^{i ψ}` there.
+    bend_at_zero: f64,
+    turn_at_zero: Complex<f64>,
+    /// `Kᵀ`, K the rotation from the z–y–z wrist's first frame to the shoulder frame at q₁ = q₂ = q₃ = 0.
+    wrist_from_shoulder: Matrix3<f64>,
+    /// α₅ and α₆ \[rad\].
+    wrist_at_zero: [f64; 2],
+}
+
+/// Why there is no analytic answer.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AnalyticError {
+    /// The target has NaN or infinite entries.
+    #[error("the target pose is not finite: position {position:?} m")]
+    Target {
+        /// The position as given.
+        position: [f64; 3],
+    },
+    /// The start has a NaN or infinite entry.
+    #[error("the start of joint {} is not finite: {found}", .joint + 1)]
+    Start {
+        /// Joint index, 0 for joint 1.
+        joint: usize,
+        /// What was given \[rad\].
+        found: f64,
+    },
+    /// No branch reaches the wrist centre; the one that misses it by least.
+    #[error("out of reach: {0}")]
+    OutOfReach(OutOfReach),
+    /// Every branch that reaches the target breaks a limit; the one that breaks its worst limit by least.
+    #[error(
+        "outside the limits: the nearest branch needs joint {} at {} rad, limit {} rad",
+        .violation.joint + 1, .violation.position_rad, .violation.limit_rad
+    )]
+    Limits {
+        /// The branch.
+        label: Label,
+        /// Its worst joint.
+        violation: LimitViolation,
+    },
+}
+
+/// Refuses targets and starts with NaN or infinite entries.
+#[inline]
+fn check_finite(target: &Rigid, start: &JointVector) -> Result<(), AnalyticError> {
+    // A sum is finite only if its terms are; targets so large that it overflows are no poses either.
+    if !(target.rotation.sum() + target.translation.sum()).is_finite() {
+        let position = target.translation.into();
+        return Err(AnalyticError::Target { position });
+    }
+    match (0..AXES).find(|&joint| !start[joint].is_finite()) {
+        Some(joint) => Err(AnalyticError::Start {
+            joint,
+            found: start[joint],
+        }),
+        None => Ok(()),
+    }
+}
