@@ -89,19 +89,28 @@ fn the_papers_tables_are_reproduced() {
     for (region, plates, base) in [("text", 74.0, 5.0), ("appendix", 82.0, 6.3)] {
         for (key, earlier, half_width) in [("plates_overlap", plates, 4.3), ("base_overlap", base, 2.3)] {
             let (found, own) = value(&r, &format!("{key}.{region}"));
-            assert!((found - earlier).abs() < 1.5 * f64::hypot(half_width, own), "{key}.{region}: {found}");
+            assert!(
+                (found - earlier).abs() < 1.5 * f64::hypot(half_width, own),
+                "{key}.{region}: {found}"
+            );
         }
     }
     // Reach (another solver) and contact (the real meshes; this project's shapes are larger, so never more is free). The last
     // number is how much less may be free: what docs/reproduce.md states, and its sampling error.
-    for (region, reached, clear, plates, layouts) in [
-        ("text", 99.1, 98.5, 74.3, 30.4),
-        ("appendix", 99.3, 98.7, 75.1, 36.8),
-    ] {
+    for (region, reached, clear, plates, layouts) in
+        [("text", 99.1, 98.5, 74.3, 30.4), ("appendix", 99.3, 98.7, 75.1, 36.8)]
+    {
         assert!((value(&r, &format!("points_reached.{region}")).0 - reached).abs() < 0.4);
-        for (key, earlier, less) in [("points_clear", clear, 0.2), ("plates_clear", plates, 4.2), ("layouts_clear", layouts, 5.2)] {
+        for (key, earlier, less) in [
+            ("points_clear", clear, 0.2),
+            ("plates_clear", plates, 4.2),
+            ("layouts_clear", layouts, 5.2),
+        ] {
             let (found, own) = value(&r, &format!("{key}.{region}"));
-            assert!(found < earlier + own && found > earlier - less - own, "{key}.{region}: {found} ± {own} against {earlier}");
+            assert!(
+                found < earlier + own && found > earlier - less - own,
+                "{key}.{region}: {found} ± {own} against {earlier}"
+            );
         }
         assert_eq!(value(&r, &format!("transitions_clear.{region}")).0, 100.0);
     }

@@ -57,8 +57,16 @@ fn a_hovering_flange_washes_nothing() {
     });
     assert_ne!(report.verdict, Verdict::Washed);
     assert!(!report.plates[0].washed && report.plates[0].in_contact == 0);
-    assert!(report.plates[0].executed_coverage.fraction > 0.99, "seen from above it would");
-    assert!(report.findings.iter().any(|f| matches!(f, JobFinding::NoContact { tool: false, .. })));
+    assert!(
+        report.plates[0].executed_coverage.fraction > 0.99,
+        "seen from above it would"
+    );
+    assert!(
+        report
+            .findings
+            .iter()
+            .any(|f| matches!(f, JobFinding::NoContact { tool: false, .. }))
+    );
     assert!(report.headline.contains("off the plate"), "{}", report.headline);
     // With a tool that hovers 2 mm too high, the same.
     let report = judged(|s| s.wash.height_m = 0.002);
@@ -69,9 +77,15 @@ fn a_hovering_flange_washes_nothing() {
 fn limits_that_are_broken_are_named_with_their_time() {
     let report = judged(|s| s.control.dt_s = 0.1);
     assert_eq!(report.verdict, Verdict::NotVerified);
-    assert_eq!(report.headline, "NOT WASHED: 1 of 1 plates washed; joint limits broken.");
+    assert_eq!(
+        report.headline,
+        "NOT WASHED: 1 of 1 plates washed; joint limits broken."
+    );
     let worst = &report.executed.violations[0];
-    assert_eq!((worst.kind, worst.who.as_str()), (ViolationKind::Acceleration, "joint_1"));
+    assert_eq!(
+        (worst.kind, worst.who.as_str()),
+        (ViolationKind::Acceleration, "joint_1")
+    );
     assert!(worst.worst > worst.limit && worst.t_end_s > worst.t_start_s);
 }
 
@@ -79,10 +93,16 @@ fn limits_that_are_broken_are_named_with_their_time() {
 fn too_little_clearance_names_every_pair() {
     let report = judged(|s| s.wash.clearance_m = 0.04);
     assert_eq!(report.verdict, Verdict::Infeasible);
-    assert_eq!(report.headline, "NOT WASHED: 0 of 1 plates washed; too little clearance.");
+    assert_eq!(
+        report.headline,
+        "NOT WASHED: 0 of 1 plates washed; too little clearance."
+    );
     let mut pairs: Vec<_> = report.planned.violations.iter().map(|v| v.who.as_str()).collect();
     pairs.dedup();
-    assert!(pairs.contains(&"link_4 – handle") && pairs.contains(&"handle – plate 0"), "{pairs:?}");
+    assert!(
+        pairs.contains(&"link_4 – handle") && pairs.contains(&"handle – plate 0"),
+        "{pairs:?}"
+    );
     for v in &report.planned.violations {
         assert!(v.kind == ViolationKind::Clearance && v.worst < 0.04);
     }
@@ -110,7 +130,9 @@ fn a_control_law_that_diverges_is_an_error() {
     let mut scenario = good();
     scenario.control.law = ControlLawName::Paper;
     (scenario.control.kp, scenario.control.dt_s) = (1e6, 10.0);
-    let Err(PlanError::Tracking(error)) = Job::run(&scenario) else { panic!("it diverges") };
+    let Err(PlanError::Tracking(error)) = Job::run(&scenario) else {
+        panic!("it diverges")
+    };
     assert!(matches!(error, TrackingError::Divergence { .. }));
     assert!(error.to_string().contains("control.kp"), "{error}");
 }

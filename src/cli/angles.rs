@@ -5,10 +5,14 @@ use anyhow::{Context, anyhow};
 use clap::Args;
 use platewash::JointVector;
 use platewash::kinematics::AXES;
+use platewash::kinematics::urdf::file::read_text;
 use std::path::{Path, PathBuf};
 
 /// Longest file of configurations that is read \[bytes\].
-const MAX_BYTES: u64 = 256 << 20;
+const MAX_BYTES: u64 = 64 << 20;
+
+/// Most configurations that are read: seconds of work.
+const MAX_CONFIGURATIONS: usize = 100_000;
 
 /// The unit in which angles are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,13 +73,7 @@ pub fn joints(values: &[f64], unit: Unit) -> anyhow::Result<JointVector> {
 /// A file with six numbers a line, separated by blanks or commas; empty lines and lines from `#` on are skipped.
 fn read(file: &Path, unit: Unit) -> anyhow::Result<Vec<JointVector>> {
     let name = file.display();
-    let bytes = std::fs::metadata(file)
-        .with_context(|| format!("{name}: cannot be read"))?
-        .len();
-    if bytes > MAX_BYTES {
-        return Err(anyhow!("{name}: is {bytes} bytes long; at most {MAX_BYTES} are read"));
-    }
-    let text = std::fs::read_to_string(file).with_context(|| format!("{name}: cannot be read"))?;
+    let text = read_text(file, MAX_BYTES).with_context(|| format!("{name}: cannot be read"))?;
     let mut all = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let at = || format!("{name}, line {}", index + 1);
@@ -87,6 +85,9 @@ fn read(file: &Path, unit: Unit) -> anyhow::Result<Vec<JointVector>> {
         let values = values.collect::<anyhow::Result<Vec<f64>>>().with_context(at)?;
         if !values.is_empty() {
             all.push(joints(&values, unit).with_context(at)?);
+        }
+        if all.len() > MAX_CONFIGURATIONS {
+            return Err(anyhow!("more than {MAX_CONFIGURATIONS} configurations; split the file")).with_context(at);
         }
     }
     if all.is_empty() {

@@ -8,12 +8,15 @@ use super::output;
 use anyhow::{Context, anyhow};
 use clap::Args;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
-use platewash::kinematics::ik::RandomRestarts;
+use platewash::kinematics::ik::{AnalyticStarts, RandomRestarts};
 use platewash::kinematics::rotation::from_rpy;
 use platewash::planner::{job, robot};
 use platewash::{Frame, IkError, IkSettings, IkSolver, JointVector, Pose, RobotModel, Scenario, ToolFrame};
 use serde::Serialize;
 use std::process::ExitCode;
+
+/// Most random restarts: seconds of work.
+const MOST_RESTARTS: usize = 10_000;
 
 /// Arguments of `ik`.
 #[derive(Debug, Args)]
@@ -24,7 +27,7 @@ pub struct IkArguments {
     #[command(flatten)]
     orientation: Orientation,
     /// Frame that is brought there: flange, tool0, matlab_tool0, tip (of the scenario's tool) or a link's name [default:
-    /// the scenario's tool_frame]
+    /// tool0; with --scenario, its tool_frame]
     #[arg(long, value_name = "NAME")]
     frame: Option<String>,
     /// Seed configuration in degrees [default: zeros]
@@ -39,7 +42,7 @@ pub struct IkArguments {
     /// Seed configuration in radians
     #[arg(long, num_args = 6, allow_negative_numbers = true, value_name = "Q")]
     seed_rad: Option<Vec<f64>>,
-    /// Random restarts after the listed starts; their stream is --seed
+    /// Random restarts after the listed starts, at most 10000; their stream is --seed
     #[arg(long, value_name = "N", default_value_t = 0)]
     restarts: usize,
 }
@@ -80,9 +83,20 @@ struct Answer {
 
 /// Solves one pose; an unreachable one is exit code 3 with the best configuration found.
 pub fn run(options: &Options, arguments: &IkArguments) -> Result<ExitCode, Failure> {
+    if arguments.restarts > MOST_RESTARTS {
+        return Err(Failure::input(anyhow!(
+            "--restarts must be from 0 to {MOST_RESTARTS}; found {}",
+            arguments.restarts
+        )));
+    }
     let scenario = options.scenario()?;
     let arm = robot::load(&scenario.robot)?;
-    let name = arguments.frame.as_deref().unwrap_or(scenario.robot.tool_frame.name());
+    // The default scenario states poses as the paper does; a bare `ik` means ROS-Industrial's tool0.
+    let stated = match options.scenario {
+        Some(_) => scenario.robot.tool_frame,
+        None => ToolFrame::Tool0,
+    };
+    let name = arguments.frame.as_deref().unwrap_or(stated.name());
     let frame = frame(&arm, &scenario, name).map_err(Failure::input)?;
     let target = target(arguments).map_err(Failure::input)?;
     let seed = seed(arguments).map_err(Failure::input)?;
@@ -92,6 +106,7 @@ pub fn run(options: &Options, arguments: &IkArguments) -> Result<ExitCode, Failu
     };
     let settings = IkSettings {
         random_restarts: (arguments.restarts > 0).then_some(restarts),
+        analytic_starts: AnalyticStarts::Used,
         ..job::ik_settings(&scenario)
     };
     let solver = IkSolver::new(&arm, frame, settings).map_err(Failure::input)?;

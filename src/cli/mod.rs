@@ -19,6 +19,7 @@ mod validate;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use failure::Failure;
 use options::Options;
+use std::io::ErrorKind;
 use std::process::ExitCode;
 
 /// Plan, check and report the washing of plates by a six-axis arm.
@@ -67,10 +68,14 @@ pub fn main() -> ExitCode {
         match parsed {
             Ok(arguments) => dispatch(arguments),
             Err(e) => {
-                let code = e.exit_code();
-                // A closed pipe is no reason to fail.
-                let _ = e.print();
-                Ok(ExitCode::from(u8::try_from(code).unwrap_or(failure::INPUT)))
+                let code = u8::try_from(e.exit_code()).unwrap_or(failure::INPUT);
+                match e.print() {
+                    // A closed pipe is no reason to fail; help that cannot be written is.
+                    Err(cannot) if code == 0 && cannot.kind() != ErrorKind::BrokenPipe => {
+                        Err(Failure::internal(cannot))
+                    }
+                    _ => Ok(ExitCode::from(code)),
+                }
             }
         }
     });

@@ -1,7 +1,7 @@
 //! Options that every verb takes.
 
 use super::failure::Failure;
-use anyhow::anyhow;
+use anyhow::{Context, anyhow, ensure};
 use clap::Args;
 use platewash::planner::robot;
 use platewash::planner::scenario::SHIPPED;
@@ -14,8 +14,8 @@ pub struct Options {
     /// Scenario: a file, or a shipped name (paper-appendix, paper-text) [default: paper-appendix]
     #[arg(long, global = true, value_name = "FILE|NAME")]
     pub scenario: Option<String>,
-    /// Seed in place of the scenario's
-    #[arg(long, global = true, value_name = "N")]
+    /// Seed in place of the scenario's, from 0 to 2^63 − 1
+    #[arg(long, global = true, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
     /// Folder for files that are written
     #[arg(long, global = true, value_name = "DIR")]
@@ -90,4 +90,13 @@ impl Options {
     pub fn robot(&self) -> Result<RobotModel, Failure> {
         Ok(robot::load(&self.scenario()?.robot)?)
     }
+}
+
+/// A seed as a scenario may state one: TOML knows no larger integers.
+fn seed(text: &str) -> anyhow::Result<u64> {
+    const MOST: u64 = i64::MAX as u64;
+    let expected = || format!("must be a whole number from 0 to {MOST} (2^63 − 1)");
+    let seed = text.parse().with_context(expected)?;
+    ensure!(seed <= MOST, expected());
+    Ok(seed)
 }

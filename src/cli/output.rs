@@ -3,15 +3,16 @@
 use super::failure::Failure;
 use anyhow::Context;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::io::{ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use tempfile::NamedTempFile;
 
 /// Prints to standard output; a reader that has gone away is no error.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::input(
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::internal(
             anyhow::Error::new(e).context("standard output cannot be written"),
         )),
         _ => Ok(()),
@@ -40,6 +41,7 @@ pub fn message(quiet: bool, text: &str) {
 
 /// Writes all files or none: each goes to a temporary file beside its place, and they are renamed once all are complete.
 pub fn write_files(files: &[(PathBuf, String)]) -> Result<(), Failure> {
+    refuse_one_place_for_two(files).map_err(Failure::input)?;
     let mut complete = Vec::new();
     for (path, text) in files {
         complete.push((stage(path, text).map_err(Failure::input)?, path));
@@ -63,23 +65,47 @@ fn stage(path: &Path, text: &str) -> anyhow::Result<NamedTempFile> {
         anyhow::bail!("{}: cannot be written: it is a folder", path.display());
     }
     let cannot = || format!("{}: cannot be written", path.display());
-    let mut staged = tempfile::Builder::new()
-        .prefix(".platewash-")
-        .tempfile_in(folder)
-        .with_context(cannot)?;
+    let mut staged = temporary().tempfile_in(folder).with_context(cannot)?;
     staged.write_all(text.as_bytes()).with_context(cannot)?;
-    readable_by_all(&staged).with_context(cannot)?;
     Ok(staged)
 }
 
-/// Temporary files are private; results are not.
-#[cfg(unix)]
-fn readable_by_all(file: &NamedTempFile) -> std::io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))
+/// Temporary files are private; results are for whom the system's mask allows.
+fn temporary() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".platewash-");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder
 }
 
-#[cfg(not(unix))]
-fn readable_by_all(_file: &NamedTempFile) -> std::io::Result<()> {
+/// No file may take the place of another one of the same run.
+fn refuse_one_place_for_two(files: &[(PathBuf, String)]) -> anyhow::Result<()> {
+    let mut taken = BTreeMap::new();
+    for (path, _) in files {
+        let place = place(path).with_context(|| format!("{}: cannot be written", path.display()))?;
+        if let Some(first) = taken.insert(place, path) {
+            anyhow::bail!(
+                "{}: is also where {} is written: give --csv or --out another place",
+                path.display(),
+                first.file_name().unwrap_or(first.as_os_str()).display()
+            );
+        }
+    }
     Ok(())
+}
+
+/// Where a file will be, links followed but for its own name, whether its folders exist yet or not.
+fn place(path: &Path) -> std::io::Result<PathBuf> {
+    let absolute = std::path::absolute(path)?;
+    let mut place = PathBuf::new();
+    for part in absolute.components() {
+        // What does not exist yet has no links to follow.
+        place = place.canonicalize().unwrap_or(place);
+        match part {
+            Component::ParentDir => drop(place.pop()),
+            part => place.push(part),
+        }
+    }
+    Ok(place)
 }

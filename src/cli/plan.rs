@@ -2,12 +2,17 @@
 
 use super::failure::Failure;
 use super::options::Options;
+use super::progress::Progress;
 use super::{output, run};
+use anyhow::{Context, anyhow, ensure};
 use clap::Args;
-use platewash::planner::{csv, plan, robot};
-use platewash::{Job, JobReport, Plan, Trajectory};
+use platewash::planner::{csv, job, plan, robot};
+use platewash::{Job, JobReport, Plan, PlanError, Scenario, Trajectory};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+
+/// Most rows of a CSV file: some 300 megabytes.
+const MAX_ROWS: f64 = 1e6;
 
 /// Folder that is written to without `--out`.
 const DEFAULT_FOLDER: &str = "out";
@@ -19,15 +24,14 @@ pub struct PlanArguments {
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
     /// Time step of the CSV files in seconds [default: the scenario's control.dt_s]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = time_step, allow_negative_numbers = true)]
     pub dt: Option<f64>,
 }
 
 /// Plans the scenario and writes the plan and its CSV.
 pub fn run(options: &Options, arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
-    let job = Job::run(&scenario)?;
-    let report = job.report()?;
+    let (job, report) = carry_out(options, &scenario)?;
     let files = files(&job, &report, &folder(options), arguments)?;
     output::write_files(&files)?;
     let summary = report.summary();
@@ -41,6 +45,22 @@ pub fn run(options: &Options, arguments: &PlanArguments) -> Result<ExitCode, Fai
     })?;
     name_files(options, &files);
     Ok(run::exit_code(report.verdict, scenario.job.on_failure))
+}
+
+/// Plans, follows and judges a scenario that is not too much work, with a sign of life.
+pub fn carry_out(options: &Options, scenario: &Scenario) -> Result<(Job, JobReport), Failure> {
+    let _progress = Progress::new(options.quiet, "planning");
+    let robot = robot::load(&scenario.robot)?;
+    let layout = job::place_plates(scenario, &robot).map_err(PlanError::from)?;
+    let job = Job::on(scenario, robot, layout)?;
+    tracing::info!(
+        "planned {} waypoints on {} plates",
+        job.tool_path.len(),
+        job.layout.plates.len()
+    );
+    let report = job.report()?;
+    tracing::info!("checked {} violations", report.executed.violations.len());
+    Ok((job, report))
 }
 
 /// Where files go.
@@ -66,7 +86,21 @@ pub fn files(
 pub fn motion_csv(job: &Job, motion: &Trajectory, arguments: &PlanArguments) -> Result<String, Failure> {
     let tip = robot::tip_frame(&job.robot, &job.scenario.tool);
     let dt_s = arguments.dt.unwrap_or(job.scenario.control.dt_s);
+    let duration_s = motion.duration_s();
+    if duration_s / dt_s > MAX_ROWS {
+        return Err(Failure::input(anyhow!(
+            "--dt: a time step of {dt_s} s gives more than {MAX_ROWS} rows for {duration_s} s of motion; give at least {:e} s",
+            duration_s / MAX_ROWS
+        )));
+    }
     Ok(csv::table(motion, &plan::segments(job), &job.robot, &tip, dt_s)?)
+}
+
+fn time_step(text: &str) -> anyhow::Result<f64> {
+    let expected = "must be a positive number of seconds";
+    let dt_s: f64 = text.parse().context(expected)?;
+    ensure!(dt_s.is_finite() && dt_s > 0.0, expected);
+    Ok(dt_s)
 }
 
 /// Says what was written.

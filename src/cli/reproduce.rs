@@ -9,8 +9,11 @@ use clap::Args;
 use platewash::planner::reproduce::{ReproduceSettings, reproduce};
 use std::process::ExitCode;
 
-/// Most layouts, or layouts begun, that are taken on.
-const MOST: usize = 10_000_000;
+/// Most layouts that are simulated in a region: minutes of work.
+const MOST_LAYOUTS: usize = 10_000;
+
+/// Most layouts begun for each dead-end rate: tens of seconds of work, for rates right to a tenth of a percent.
+const MOST_DRAWS: usize = 1_000_000;
 
 /// Arguments of `reproduce`.
 #[derive(Debug, Args)]
@@ -25,10 +28,13 @@ pub struct ReproduceArguments {
 
 /// Measures and prints the table; with `--out`, writes `reproduce.json` and `reproduce.txt`.
 pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode, Failure> {
-    for (name, value) in [("--layouts", arguments.layouts), ("--draws", arguments.draws)] {
-        if !(1..=MOST).contains(&value) {
+    for (name, value, most) in [
+        ("--layouts", arguments.layouts, MOST_LAYOUTS),
+        ("--draws", arguments.draws, MOST_DRAWS),
+    ] {
+        if !(1..=most).contains(&value) {
             return Err(Failure::input(anyhow!(
-                "{name} must be from 1 to {MOST}; found {value}"
+                "{name} must be from 1 to {most}; found {value}"
             )));
         }
     }
@@ -42,9 +48,9 @@ pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode
         draws: arguments.draws,
         seed: options.seed.unwrap_or(ReproduceSettings::default().seed),
     };
-    let progress = Progress::new(options.quiet);
+    let progress = Progress::new(options.quiet, "measuring dead ends");
     let result = reproduce(&settings, &|done, total| progress.note(done, total));
-    progress.finish();
+    drop(progress);
     let result = result?;
     if let Some(folder) = &options.out {
         let files = [

@@ -5,8 +5,8 @@ use super::options::Options;
 use super::output;
 use super::plan::{self, PlanArguments};
 use clap::Args;
+use platewash::Verdict;
 use platewash::planner::scenario::OnFailure;
-use platewash::{Job, Verdict};
 use std::process::ExitCode;
 
 /// Arguments of `run`.
@@ -19,14 +19,7 @@ pub struct RunArguments {
 /// Plans, follows and judges the scenario; writes the plan, both motions and the report.
 pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
-    let job = Job::run(&scenario)?;
-    tracing::info!(
-        "planned {} waypoints on {} plates",
-        job.tool_path.len(),
-        job.layout.plates.len()
-    );
-    let report = job.report()?;
-    tracing::info!("checked {} violations", report.executed.violations.len());
+    let (job, report) = plan::carry_out(options, &scenario)?;
     let folder = plan::folder(options);
     let text = report.to_string();
     let mut files = plan::files(&job, &report, &folder, &arguments.plan)?;

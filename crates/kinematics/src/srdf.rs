@@ -3,11 +3,13 @@
 
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Unordered pairs of link names that need no collision check.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct DisabledPairs {
-    pairs: Vec<(String, String)>,
+    /// For the first link of each pair, the second ones.
+    pairs: BTreeMap<String, BTreeSet<String>>,
 }
 
 /// Why an SRDF file was refused.
@@ -51,7 +53,7 @@ impl DisabledPairs {
     /// [`SrdfError`] for broken XML, another root element, or an element without its links.
     pub fn parse(text: &str) -> Result<Self, SrdfError> {
         let mut reader = Reader::from_str(text);
-        let mut pairs = Vec::new();
+        let mut pairs = BTreeMap::<String, BTreeSet<String>>::new();
         let mut root_seen = false;
         let mut depth = 0_usize;
         loop {
@@ -64,7 +66,8 @@ impl DisabledPairs {
                     }
                     root_seen = true;
                     if tag.name().as_ref() == "disable_collisions" {
-                        pairs.push((attribute(tag, "link1", position)?, attribute(tag, "link2", position)?));
+                        let [a, b] = [attribute(tag, "link1", position)?, attribute(tag, "link2", position)?];
+                        pairs.entry(a).or_default().insert(b);
                     }
                     depth += usize::from(matches!(event, Event::Start(_)));
                 }
@@ -83,16 +86,17 @@ impl DisabledPairs {
     /// Whether the pair may be ignored, in either order.
     #[must_use]
     pub fn contains(&self, a: &str, b: &str) -> bool {
-        self.pairs.iter().any(|(x, y)| (x == a && y == b) || (x == b && y == a))
+        let listed = |x: &str, y: &str| self.pairs.get(x).is_some_and(|others| others.contains(y));
+        listed(a, b) || listed(b, a)
     }
 
-    pub(crate) fn check_links<'a>(&self, known: impl Iterator<Item = &'a str> + Clone) -> Result<(), SrdfError> {
-        let unknown = self
+    pub(crate) fn check_links<'a>(&self, known: impl Iterator<Item = &'a str>) -> Result<(), SrdfError> {
+        let known: BTreeSet<_> = known.collect();
+        let named = self
             .pairs
             .iter()
-            .flat_map(|(a, b)| [a, b])
-            .find(|name| !known.clone().any(|k| k == *name));
-        match unknown {
+            .flat_map(|(a, others)| std::iter::once(a).chain(others));
+        match named.into_iter().find(|name| !known.contains(name.as_str())) {
             Some(link) => Err(SrdfError::UnknownLink { link: link.clone() }),
             None => Ok(()),
         }

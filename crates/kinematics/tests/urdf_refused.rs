@@ -47,7 +47,13 @@ fn missing_limit_of_a_continuous_joint() {
         text.contains("<limit lower=\"-1.91986\" upper=\"1.22173\""),
         "joint 3 keeps its own"
     );
-    assert_refused!(text, UrdfError::MissingLimit { .. }, "joint_2");
+    assert_refused!(
+        text,
+        UrdfError::MissingVelocity { .. },
+        "joint_2",
+        "give velocity",
+        "position needs none"
+    );
 }
 
 #[test]
@@ -297,6 +303,14 @@ fn a_ring_apart_from_the_arm() {
         matches!(&error, UrdfError::Cycle { link } if link == "flange" || link == "tool0"),
         "{error}"
     );
+    // What hangs below the ring comes first by name, and is not part of it.
+    let below = r#"<link name="a"/><joint name="j_a" type="fixed"><parent link="aa"/><child link="a"/></joint>
+        <link name="aa"/><joint name="j_aa" type="fixed"><parent link="flange"/><child link="aa"/></joint></robot>"#;
+    let error = load(&text.replace("</robot>", below)).unwrap_err();
+    assert!(
+        matches!(&error, UrdfError::Cycle { link } if link == "flange" || link == "tool0"),
+        "{error}"
+    );
     let text = with_joint("flange-tool0", "<parent link=\"flange\"/>", "<parent link=\"tool0\"/>");
     assert_refused!(text, UrdfError::Cycle { .. }, "tool0");
 }
@@ -505,8 +519,30 @@ fn two_hundred_thousand_links_are_refused_soon() {
     let links: String = (0..200_000).map(|k| format!("<link name=\"stray_{k}\"/>\n")).collect();
     let start = Instant::now();
     let text = format!("<robot name=\"many\">{links}</robot>");
-    assert_refused!(text, UrdfError::Roots { .. }, "stray_0", "and 199980 more");
+    assert_refused!(text, UrdfError::TooMany { kind: "link", .. }, "200000", "at most 1000");
     assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
+}
+
+#[test]
+fn many_roots_are_not_all_listed() {
+    let links: String = (0..200).map(|k| format!("<link name=\"stray_{k}\"/>\n")).collect();
+    let text = format!("<robot name=\"many\">{links}</robot>");
+    assert_refused!(text, UrdfError::Roots { .. }, "stray_0", "and 180 more");
+}
+
+#[test]
+fn more_collision_elements_than_can_be_checked() {
+    let ball = "<collision><geometry><sphere radius=\"0.1\"/></geometry></collision>";
+    let text = edited(&[(
+        "</robot>",
+        &format!("<link name=\"balls\">{}</link></robot>", ball.repeat(501)),
+    )]);
+    assert_refused!(
+        text,
+        UrdfError::TooMany { kind: "collision", .. },
+        "<collision>",
+        "at most 500"
+    );
 }
 
 proptest! {

@@ -6,7 +6,7 @@ use platewash_kinematics::{Frame, JointVector, RobotModel};
 use std::fmt::Write;
 
 /// Most rows that are written.
-pub const MAX_ROWS: usize = 10_000_000;
+pub const MAX_ROWS: usize = 1_000_000;
 
 /// Why a motion was not written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

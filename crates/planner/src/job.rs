@@ -7,11 +7,11 @@ use crate::layout::{self, Layout, LayoutError, Plate, PlateGeometry, Region, Sam
 use crate::random;
 use crate::report::JobReport;
 use crate::robot::{self, RobotError};
-use crate::scenario::{LayoutSection, Scenario, ScenarioError};
+use crate::scenario::{IkMethod, LayoutSection, Scenario, ScenarioError};
 use crate::tool_path::ToolPath;
 use crate::tracking::{self, Step, TrackingError};
 use crate::trajectory::Trajectory;
-use platewash_kinematics::ik::{IkError, IkSettings, IkSettingsError, IkSolver};
+use platewash_kinematics::ik::{AnalyticStarts, IkError, IkSettings, IkSettingsError, IkSolver};
 use platewash_kinematics::{JointVector, RobotModel};
 
 /// Why a job could not be carried out; one variant a stage.
@@ -73,11 +73,8 @@ impl PlanError {
     /// Whether the input was fine but asks for what cannot be done (exit code 3), as opposed to bad input.
     #[must_use]
     pub fn is_infeasible(&self) -> bool {
-        use LayoutError::{EmptyRegion, Impossible, NoRoom};
-        matches!(
-            self,
-            Self::Layout(NoRoom { .. } | Impossible { .. } | EmptyRegion { .. })
-        )
+        use LayoutError::{EmptyRegion, NoRoom};
+        matches!(self, Self::Layout(NoRoom { .. } | EmptyRegion { .. }))
     }
 }
 
@@ -131,7 +128,7 @@ pub fn place_plates(scenario: &Scenario, robot: &RobotModel) -> Result<Layout, L
 }
 
 /// Checks a scenario without running it: the arm loads, the start lies within its limits, and the plates have room in
-/// principle (given ones are placed, sampled ones held against [`layout::packing_bound`]).
+/// principle (given ones are placed; for sampled ones the region is not empty).
 ///
 /// Returns the arm, and what is to be said about given plates.
 ///
@@ -145,16 +142,9 @@ pub fn check(scenario: &Scenario) -> Result<(RobotModel, Vec<layout::Finding>), 
         let findings = place_plates(scenario, &robot)?.findings;
         return Ok((robot, findings));
     }
-    let (section, region) = (
-        &scenario.layout,
-        region(&scenario.layout).unwrap_or(Region::PAPER_APPENDIX),
-    );
-    layout::Sampler::new(&region, &spacing(section))?;
-    let count = section.count;
-    match layout::packing_bound(&region, section.min_distance_m).filter(|&bound| count > bound) {
-        Some(upper_bound) => Err(LayoutError::Impossible { count, upper_bound }.into()),
-        None => Ok((robot, Vec::new())),
-    }
+    let region = region(&scenario.layout).unwrap_or(Region::PAPER_APPENDIX);
+    layout::Sampler::new(&region, &spacing(&scenario.layout))?;
+    Ok((robot, Vec::new()))
 }
 
 /// The start configuration \[rad\], within the limits.
@@ -204,6 +194,7 @@ impl Job {
     /// # Errors
     /// As [`Job::run`].
     pub fn on(scenario: &Scenario, robot: RobotModel, layout: Layout) -> Result<Self, PlanError> {
+        scenario.check_work()?;
         let start = start(scenario, &robot)?;
         let tool_path = ToolPath::new(scenario, &layout);
         let solver = IkSolver::new(&robot, robot::tip_frame(&robot, &scenario.tool), ik_settings(scenario))?;
@@ -247,10 +238,14 @@ impl Job {
     }
 }
 
-/// Inverse-kinematics settings of a scenario.
+/// Inverse-kinematics settings of a scenario: its tolerances, and the numeric cascade alone for the method "numeric".
 #[must_use]
 pub fn ik_settings(scenario: &Scenario) -> IkSettings {
+    let analytic_starts = match scenario.ik.method {
+        IkMethod::Numeric => AnalyticStarts::Unused,
+    };
     IkSettings {
+        analytic_starts,
         position_tolerance_m: scenario.ik.position_tolerance_m,
         orientation_tolerance_rad: scenario.ik.orientation_tolerance_rad,
         ..IkSettings::default()

@@ -5,7 +5,7 @@ use crate::scenario::{BuiltInArm, RobotSection, ToolSection};
 use nalgebra::Vector3;
 use platewash_kinematics::model::EmbeddedModelError;
 use platewash_kinematics::rotation::Rigid;
-use platewash_kinematics::urdf::MeshSource;
+use platewash_kinematics::urdf::{MAX_BYTES, MeshSource, file};
 use platewash_kinematics::{DisabledPairs, Frame, LimitViolation, RobotModel, SrdfError, UrdfError};
 use std::path::Path;
 
@@ -77,7 +77,7 @@ pub fn load(section: &RobotSection) -> Result<RobotModel, RobotError> {
 }
 
 fn read(path: &Path) -> Result<String, RobotError> {
-    std::fs::read_to_string(path).map_err(|e| RobotError::Unreadable {
+    file::read_text(path, MAX_BYTES as u64).map_err(|e| RobotError::Unreadable {
         file: path.display().to_string(),
         detail: e.to_string(),
     })

@@ -134,7 +134,7 @@ impl<'a> IkSolver<'a> {
     /// The stages in order; `None` when all of them fail.
     fn search(&self, search: &mut Search<'_>, start: Iterate) -> Option<IkSolution> {
         let cold = start.cost > COLD;
-        if cold && let Some(answer) = self.from_branches(&start.q, search) {
+        if cold && let Some(answer) = self.try_branches(&start.q, search) {
             return Some(answer);
         }
         let first = dls::descend(search.task, start, &dls::ALL_FREE, &self.settings);
@@ -149,18 +149,18 @@ impl<'a> IkSolver<'a> {
         {
             return Some(answer);
         }
-        if !cold && let Some(answer) = self.from_branches(&start.q, search) {
+        if !cold && let Some(answer) = self.try_branches(&start.q, search) {
             return Some(answer);
         }
         if search.no_branch.is_some() || self.beyond_reach(&search.task.target) {
             return None;
         }
         let postponed = (due && !near).then_some((first.best, Start::Seed));
-        self.from_list(postponed, search).or_else(|| self.from_random(search))
+        self.try_list(postponed, search).or_else(|| self.try_random(search))
     }
 
     /// DLS from the analytic branch nearest to `seed`, where the arm has branches.
-    fn from_branches(&self, seed: &JointVector, search: &mut Search<'_>) -> Option<IkSolution> {
+    fn try_branches(&self, seed: &JointVector, search: &mut Search<'_>) -> Option<IkSolution> {
         let arm = self.analytic.as_ref()?;
         let target = AnalyticArm::body_target(&self.frame, &search.task.target)?;
         match arm.nearest(&target, seed, self.robot.limits()) {
@@ -177,7 +177,7 @@ impl<'a> IkSolver<'a> {
     }
 
     /// DLS from the listed starts, then the QP where it is due.
-    fn from_list(&self, postponed: Option<(Iterate, Start)>, search: &mut Search<'_>) -> Option<IkSolution> {
+    fn try_list(&self, postponed: Option<(Iterate, Start)>, search: &mut Search<'_>) -> Option<IkSolution> {
         let mut stopped = Vec::new();
         let starts = self.starts.nearest(&search.task.target, self.settings.listed_starts);
         for (k, q) in starts.into_iter().enumerate() {
@@ -197,7 +197,7 @@ impl<'a> IkSolver<'a> {
     }
 
     /// Random restarts, if the caller asked for any.
-    fn from_random(&self, search: &mut Search<'_>) -> Option<IkSolution> {
+    fn try_random(&self, search: &mut Search<'_>) -> Option<IkSolution> {
         let RandomRestarts { seed, count } = self.settings.random_restarts?;
         let mut rng = Pcg64::seed_from_u64(seed);
         (0..count).find_map(|k| {

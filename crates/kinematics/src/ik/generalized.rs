@@ -53,6 +53,9 @@ pub struct ClearanceRow {
     pub required_m: f64,
 }
 
+/// Clearance rows at a configuration \[rad\].
+pub type ClearanceRows<'c> = dyn Fn(&JointVector) -> Vec<ClearanceRow> + 'c;
+
 /// What is asked besides the target pose.
 #[derive(Clone, Copy)]
 pub struct GeneralizedTask<'c> {
@@ -61,7 +64,7 @@ pub struct GeneralizedTask<'c> {
     /// Largest motion of each joint from the seed \[rad\], e.g. speed × time; `None` for no bound.
     pub motion_rad: Option<JointVector>,
     /// Clearance rows at a configuration; `None` for none.
-    pub clearance: Option<&'c dyn Fn(&JointVector) -> Vec<ClearanceRow>>,
+    pub clearance: Option<&'c ClearanceRows<'c>>,
 }
 
 /// A configuration that meets a [`GeneralizedTask`].
@@ -102,6 +105,9 @@ pub enum GeneralizedError {
     NotSolved(IkFailure),
 }
 
+/// A row of constraints: entries by variable, and the bound.
+type Row = (Vec<(usize, f64)>, f64);
+
 /// One search.
 struct Search<'s> {
     solver: &'s IkSolver<'s>,
@@ -138,7 +144,7 @@ impl IkSolver<'_> {
             best: (f64::INFINITY, start),
             iterations: 0,
         };
-        let answer = search.from(start).or_else(|| search.from_grid(&start));
+        let answer = search.improve(start).or_else(|| search.try_grid(&start));
         answer.ok_or_else(|| GeneralizedError::NotSolved(search.failure()))
     }
 
@@ -162,7 +168,7 @@ impl IkSolver<'_> {
 
 impl Search<'_> {
     /// Programs from one configuration until an allowed pose is met or nothing is gained.
-    fn from(&mut self, start: JointVector) -> Option<GeneralizedSolution> {
+    fn improve(&mut self, start: JointVector) -> Option<GeneralizedSolution> {
         let mut q = start;
         let mut cost = self.cost(&q);
         let mut boost = 1.0;
@@ -193,7 +199,7 @@ impl Search<'_> {
     }
 
     /// Further starts: exact solutions for tilted and turned targets.
-    fn from_grid(&mut self, seed: &JointVector) -> Option<GeneralizedSolution> {
+    fn try_grid(&mut self, seed: &JointVector) -> Option<GeneralizedSolution> {
         let mut starts: Vec<(f64, f64, JointVector)> = Vec::new();
         for deviation in self.grid() {
             let task = self.task(deviation.applied_to(&self.target));
@@ -213,7 +219,7 @@ impl Search<'_> {
                 .then(a.1.total_cmp(&b.1))
         });
         starts.truncate(IMPROVED);
-        starts.into_iter().find_map(|(_, _, q)| self.from(q))
+        starts.into_iter().find_map(|(_, _, q)| self.improve(q))
     }
 
     /// Deviations on a coarse grid of the allowed ones.
@@ -333,8 +339,7 @@ impl Search<'_> {
     fn constraints(&self, q: &JointVector, n: usize) -> (DMatrix<f64>, Vec<f64>, Vec<SupportedConeT<f64>>) {
         let freedom = &self.asked.freedom;
         let step = self.solver.settings.step_bound_rad;
-        let mut equal: Vec<(Vec<(usize, f64)>, f64)> = Vec::new();
-        let mut at_most: Vec<(Vec<(usize, f64)>, f64)> = Vec::new();
+        let (mut equal, mut at_most): (Vec<Row>, Vec<Row>) = (Vec::new(), Vec::new());
         for j in 0..AXES {
             at_most.push((vec![(j, 1.0)], (self.highest[j] - q[j]).clamp(0.0, step)));
             at_most.push((vec![(j, -1.0)], (q[j] - self.lowest[j]).clamp(0.0, step)));
@@ -352,7 +357,7 @@ impl Search<'_> {
             // A row that is missing already only asks not to get worse: the program stays feasible.
             at_most.push((entries, (row.distance_m - row.required_m).max(0.0)));
         }
-        let tilt: Vec<(Vec<(usize, f64)>, f64)> = if freedom.tilt_rad > 0.0 {
+        let tilt: Vec<Row> = if freedom.tilt_rad > 0.0 {
             vec![
                 (Vec::new(), freedom.tilt_rad),
                 (vec![(AXES + 3, -1.0)], 0.0),

@@ -60,7 +60,7 @@ mod task;
 
 pub use cascade::{AllBranchesError, IkSolver};
 pub use freedom::{TaskFreedom, TaskFreedomError, Yaw};
-pub use generalized::{ClearanceRow, GeneralizedError, GeneralizedSolution, GeneralizedTask};
+pub use generalized::{ClearanceRow, ClearanceRows, GeneralizedError, GeneralizedSolution, GeneralizedTask};
 pub use path::{IkPath, IkPathError, PathBreak};
 pub use settings::{AnalyticStarts, IkSettings, IkSettingsError, RandomRestarts};
 

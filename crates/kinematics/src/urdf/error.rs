@@ -8,6 +8,13 @@ pub enum UrdfError {
     /// Larger than any sensible description.
     #[error("URDF is {bytes} bytes long; at most {limit} are read")]
     TooLarge { bytes: usize, limit: usize },
+    /// More links or collision elements than any sensible description.
+    #[error("URDF has {found} <{kind}> elements; at most {limit} are read: leave out what does not belong to the arm")]
+    TooMany {
+        kind: &'static str,
+        found: usize,
+        limit: usize,
+    },
     /// Nested deeper than any sensible description.
     #[error("URDF nests elements {depth} deep at line {line}; at most {limit} are read")]
     TooDeep { depth: usize, limit: usize, line: usize },
@@ -67,6 +74,12 @@ pub enum UrdfError {
     /// No `<limit>` element (or all zeros, which reads the same).
     #[error("joint '{joint}' has no <limit> element (or one of zeros only): give lower, upper and velocity")]
     MissingLimit { joint: String },
+    /// A continuous joint without a `<limit>` element (or all zeros, which reads the same).
+    #[error(
+        "continuous joint '{joint}' has no <limit> element (or one of zeros only): give velocity, as motions are checked \
+         against every joint's speed limit; its position needs none"
+    )]
+    MissingVelocity { joint: String },
     /// Reversed or empty limits.
     #[error("joint '{joint}': lower limit {lower} rad must be below upper limit {upper} rad")]
     LimitOrder { joint: String, lower: f64, upper: f64 },

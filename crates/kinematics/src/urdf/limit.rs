@@ -19,8 +19,7 @@ pub(super) fn limits(tree: &Tree<'_>) -> Result<JointLimits, UrdfError> {
     for (i, joint) in tree.axes.iter().enumerate() {
         let limit = &joint.limit;
         if [limit.lower, limit.upper, limit.velocity, limit.effort] == [0.0; 4] {
-            let joint = joint.name.clone();
-            return Err(UrdfError::MissingLimit { joint });
+            return Err(missing(joint));
         }
         if joint.joint_type == JointType::Revolute {
             [limits.lower[i], limits.upper[i]] = positions(joint)?;
@@ -29,6 +28,14 @@ pub(super) fn limits(tree: &Tree<'_>) -> Result<JointLimits, UrdfError> {
         limits.effort[i] = effort(joint)?;
     }
     Ok(limits)
+}
+
+fn missing(joint: &urdf_rs::Joint) -> UrdfError {
+    let name = joint.name.clone();
+    match joint.joint_type {
+        JointType::Continuous => UrdfError::MissingVelocity { joint: name },
+        _ => UrdfError::MissingLimit { joint: name },
+    }
 }
 
 fn positions(joint: &urdf_rs::Joint) -> Result<[f64; 2], UrdfError> {

@@ -1,8 +1,11 @@
 //! Collision meshes: found through package folders, read as vertices (their convex hull is what counts).
 
-use super::{UrdfError, length, vertices};
+use super::{UrdfError, file, length, vertices};
 use nalgebra::Point3;
 use std::path::{Path, PathBuf};
+
+/// Longest mesh file that is read \[bytes\].
+const MAX_BYTES: u64 = 64 << 20;
 
 /// Where mesh files are looked for.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -29,8 +32,8 @@ impl MeshSource {
     }
 
     /// The scaled vertices of a mesh file.
-    pub(super) fn load(&self, link: &str, file: &str, scale: [f64; 3]) -> Result<Vec<Point3<f64>>, UrdfError> {
-        let path = self.find(link, file)?;
+    pub(super) fn load(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<Vec<Point3<f64>>, UrdfError> {
+        let path = self.find(link, name)?;
         let wrong = |detail: String| UrdfError::Mesh {
             link: link.to_owned(),
             file: path.display().to_string(),
@@ -39,7 +42,7 @@ impl MeshSource {
         if !scale.iter().all(|s| s.is_finite() && *s != 0.0) {
             return Err(wrong(format!("its scale {scale:?} must be finite and not zero")));
         }
-        let bytes = std::fs::read(&path).map_err(|e| wrong(e.to_string()))?;
+        let bytes = file::read_bytes(&path, MAX_BYTES).map_err(|e| wrong(e.to_string()))?;
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
         let mut points = match extension.to_lowercase().as_str() {
             "stl" => vertices::stl(&bytes),

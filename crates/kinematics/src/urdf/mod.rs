@@ -3,7 +3,7 @@
 //! The stages: `scan` bounds size and depth and finds cut files before any recursive parser sees them;
 //! `urdf-rs` reads the elements (where it refuses one, `culprit` finds which); `tree` checks the structure
 //! and orders the six joints; `limit` checks their limits; `collision` converts the geometry (recognising
-//! `capsule`s, finding meshes through `mesh` and reading their `vertices`).
+//! `capsule`s, finding meshes through `mesh` and reading their `vertices`). Every file is read through `file`.
 //!
 //! xacro is not expanded: run `xacro FILE.xacro > FILE.urdf` first.
 
@@ -11,6 +11,7 @@ mod capsule;
 mod collision;
 mod culprit;
 mod error;
+pub mod file;
 mod limit;
 mod mesh;
 mod scan;
@@ -19,6 +20,7 @@ mod vertices;
 
 pub use error::UrdfError;
 pub use mesh::MeshSource;
+pub use scan::MAX_BYTES;
 
 use crate::fingerprint::sha256_hex;
 use crate::fk::Frame;
@@ -28,6 +30,12 @@ use crate::rotation::{Rigid, from_rpy};
 use crate::{AXES, Pose};
 use nalgebra::{Matrix3, Vector3};
 use tree::Tree;
+
+/// Most links that are read; real descriptions need fewer than 50.
+const MAX_LINKS: usize = 1000;
+
+/// Most collision elements that are read, all links together: every pair of them may need a check.
+const MAX_COLLISIONS: usize = 500;
 
 /// Largest length that is believed \[m\]; beyond it the file is probably in millimetres.
 const LARGEST_LENGTH_M: f64 = 100.0;
@@ -39,6 +47,7 @@ const LARGEST_LENGTH_M: f64 = 100.0;
 pub(crate) fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
     scan::check(text)?;
     let robot = urdf_rs::read_from_string(text).map_err(|e| syntax(text, &e))?;
+    sizes(&robot)?;
     let tree = Tree::build(&robot)?;
     let limits = limit::limits(&tree)?;
     let joints = tree.axes.map(|joint| Joint {
@@ -62,6 +71,20 @@ pub(crate) fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfEr
         last_link,
         disabled: None,
     })
+}
+
+/// Refuses descriptions so large that the checks of every pair would not end.
+fn sizes(robot: &urdf_rs::Robot) -> Result<(), UrdfError> {
+    let collisions = robot.links.iter().map(|link| link.collision.len()).sum();
+    for (kind, found, limit) in [
+        ("link", robot.links.len(), MAX_LINKS),
+        ("collision", collisions, MAX_COLLISIONS),
+    ] {
+        if found > limit {
+            return Err(UrdfError::TooMany { kind, found, limit });
+        }
+    }
+    Ok(())
 }
 
 fn syntax(text: &str, error: &urdf_rs::UrdfError) -> UrdfError {

@@ -8,7 +8,7 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
 /// Longest text that is read \[bytes\].
-const MAX_BYTES: usize = 16 << 20;
+pub const MAX_BYTES: usize = 16 << 20;
 /// Deepest nesting that is read; real descriptions need fewer than 10 levels.
 const MAX_DEPTH: usize = 64;
 /// Elements whose attributes below are vectors; `urdf-rs` skips what is not a number in them.

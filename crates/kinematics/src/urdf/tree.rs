@@ -109,9 +109,7 @@ fn links_from_root<'a>(
     }
     let [root] = roots[..] else {
         return Err(match (roots.first(), robot.links.first()) {
-            (None, Some(link)) => UrdfError::Cycle {
-                link: link.name.clone(),
-            },
+            (None, Some(link)) => cycle(&link.name, above),
             _ => UrdfError::Roots {
                 found: roots.iter().map(|l| l.name.clone()).collect(),
             },
@@ -124,11 +122,18 @@ fn links_from_root<'a>(
         next += 1;
     }
     match children.values().flatten().next() {
-        Some(unreached) => Err(UrdfError::Cycle {
-            link: unreached.name.clone(),
-        }),
+        Some(unreached) => Err(cycle(&unreached.name, above)),
         None => Ok(links),
     }
+}
+
+/// The cycle that `link`, which no root leads to, is in or hangs below: upwards, the first link that repeats is in it.
+fn cycle<'a>(mut link: &'a str, above: &BTreeMap<&str, &'a urdf_rs::Joint>) -> UrdfError {
+    let mut seen = BTreeSet::new();
+    while seen.insert(link) {
+        link = above.get(link).map_or(link, |joint| &joint.parent.link);
+    }
+    UrdfError::Cycle { link: link.to_owned() }
 }
 
 fn axes_in_series<'a>(

@@ -1,6 +1,6 @@
 //! Which pairs of bodies are checked.
 
-use super::{BodyKind, ClearanceModel, nearest, separation};
+use super::{BodyKind, ClearanceModel, separation};
 use platewash_kinematics::{JointVector, RobotModel};
 
 /// Configurations sampled to find pairs that always touch.
@@ -48,10 +48,8 @@ fn drop_always_touching(model: &ClearanceModel, pairs: &mut Vec<(usize, usize)>)
     for k in 0..SAMPLES {
         let placed = model.place(&spread(&model.robot, k));
         for (&(a, b), always) in pairs.iter().zip(&mut always).filter(|(_, always)| **always) {
-            let least = model
-                .part_pairs(a, b)
-                .map(|(p, r)| separation(&placed[a][p], &placed[b][r]));
-            *always = nearest(least).distance <= 0.0;
+            let touch = |(p, r): (usize, usize)| separation(&placed[a][p], &placed[b][r]).distance <= 0.0;
+            *always = model.part_pairs(a, b).any(touch);
         }
     }
     let mut always = always.into_iter();

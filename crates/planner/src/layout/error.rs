@@ -39,8 +39,16 @@ pub enum EmptyReason {
     /// The ranges `x_m`, `y_m`, `rho_m` and `azimuth_deg` have no area in common.
     #[error("its ranges (x_m, y_m, rho_m, azimuth_deg) have no area in common")]
     Disjoint,
-    /// Every point of the region is within `base_radius_m` of the base axis.
-    #[error("all of it lies within base_radius_m = {base_radius_m} m of the base axis")]
+    /// What the ranges have in common is a point, a line or a strip of about a nanometre.
+    #[error(
+        "what its ranges (x_m, y_m, rho_m, azimuth_deg) have in common is too thin to draw from: a point, a line, or a \
+         strip of about a nanometre; widen one of them"
+    )]
+    TooThin,
+    /// Every point of the region, but for slivers of about a nanometre, is within `base_radius_m` of the base axis.
+    #[error(
+        "all of it (but for what is too thin to draw from) lies within base_radius_m = {base_radius_m} m of the base axis"
+    )]
     WithinBase {
         /// The radius around the base axis that must stay free, metres.
         base_radius_m: f64,
@@ -71,18 +79,10 @@ pub enum LayoutError {
         /// Why.
         reason: EmptyReason,
     },
-    /// Proven infeasible: more plates than any arrangement can hold (see [`packing_bound`](super::packing_bound)).
-    #[error("{count} plates cannot fit: with this spacing no arrangement holds more than {upper_bound}")]
-    Impossible {
-        /// Plates asked for.
-        count: usize,
-        /// No arrangement holds more plates than this.
-        upper_bound: usize,
-    },
-    /// Not proven infeasible, but every random layout ran into a dead end.
+    /// Every random layout ran into a dead end; proven infeasible when `count` exceeds `upper_bound`.
     #[error(
-        "no layout of {count} plates found: {layouts_tried} random layouts held at most {most_placed} before no room was \
-         left{}", upper_bound_text(*.upper_bound)
+        "{}: the best of {layouts_tried} random layouts held {most_placed} before no room was left{}",
+        verdict(*.count, *.upper_bound), upper_bound_text(*.upper_bound)
     )]
     NoRoom {
         /// Plates asked for.
@@ -91,20 +91,37 @@ pub enum LayoutError {
         most_placed: usize,
         /// Layouts begun, each of which ended with no room for the next plate.
         layouts_tried: u32,
-        /// No arrangement holds more plates than this; `None` without a spacing.
+        /// No arrangement holds more plates than this, from the region's area and outline; `None` without a spacing.
         upper_bound: Option<usize>,
     },
 }
 
+fn verdict(count: usize, upper_bound: Option<usize>) -> String {
+    if upper_bound.is_some_and(|bound| count > bound) {
+        format!("{count} plates cannot fit")
+    } else {
+        format!("no layout of {count} plates found")
+    }
+}
+
 fn upper_bound_text(upper_bound: Option<usize>) -> String {
     upper_bound.map_or_else(String::new, |n| {
-        format!(" (no arrangement whatever holds more than {n})")
+        format!("; by area no arrangement holds more than {n} at this spacing")
     })
 }
 
 impl LayoutError {
     pub(super) fn invalid(key: &'static str, problem: InputProblem) -> Self {
         Self::InvalidInput { key, problem }
+    }
+
+    /// Whether no seed can give a layout, as opposed to none having been found.
+    #[must_use]
+    pub fn is_proven(&self) -> bool {
+        match self {
+            Self::NoRoom { count, upper_bound, .. } => upper_bound.is_some_and(|bound| *count > bound),
+            _ => true,
+        }
     }
 }
 

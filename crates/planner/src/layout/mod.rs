@@ -89,6 +89,16 @@ impl Default for SampleSettings {
     }
 }
 
+impl SampleSettings {
+    /// Enough to say how many plates random layouts hold where the count asked for is out of the question.
+    fn for_a_measure(self) -> Self {
+        Self {
+            max_restarts: self.max_restarts.min(99),
+            max_steps: self.max_steps.min(1_000_000),
+        }
+    }
+}
+
 /// Draws a layout by the paper's law (see [`Sampler`]), beginning anew at every dead end. It ends in bounded time for every
 /// request. The same generator state gives the same layout on every machine. Findings are overlaps, which the law allows:
 /// with the paper's numbers plates of 0.145 m radius may be 0.28 m apart.
@@ -96,8 +106,8 @@ impl Default for SampleSettings {
 /// # Errors
 ///
 /// [`LayoutError::InvalidInput`] names the number that makes no sense; [`LayoutError::EmptyRegion`] when not even a first
-/// plate has room; [`LayoutError::Impossible`], without any draw, when [`packing_bound`] rules the request out;
-/// [`LayoutError::NoRoom`] when every layout begun came to a dead end.
+/// plate has room; [`LayoutError::NoRoom`] when every layout begun came to a dead end. Where [`packing_bound`] rules the
+/// request out, at most a hundred layouts are begun, only to say how many plates they held.
 pub fn sample<R: Rng + ?Sized>(
     request: &SampleRequest,
     settings: &SampleSettings,
@@ -116,9 +126,10 @@ pub fn sample<R: Rng + ?Sized>(
     check_count(count)?;
     let sampler = Sampler::new(region, spacing)?;
     let upper_bound = packing_bound(region, spacing.min_distance_m);
-    if let Some(upper_bound) = upper_bound.filter(|&bound| count > bound) {
-        return Err(LayoutError::Impossible { count, upper_bound });
-    }
+    let settings = match upper_bound {
+        Some(bound) if count > bound => settings.for_a_measure(),
+        _ => *settings,
+    };
     let mut work = Work::default();
     let (mut most_placed, mut restarts) = (0, 0);
     loop {

@@ -1,4 +1,4 @@
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -118,12 +118,21 @@ fn a_thousand_plates_are_placed() {
 #[test]
 fn impossible_requests_end_soon() {
     let impossible = draw(&request(Region::PAPER_TEXT, 8), 1);
+    let LayoutError::NoRoom {
+        most_placed: placed @ 5..7,
+        layouts_tried: 100,
+        upper_bound: Some(7),
+        ..
+    } = impossible.clone().unwrap_err()
+    else {
+        panic!("{impossible:?}")
+    };
     assert_eq!(
-        impossible,
-        Err(LayoutError::Impossible {
-            count: 8,
-            upper_bound: 7
-        })
+        impossible.unwrap_err().to_string(),
+        format!(
+            "8 plates cannot fit: the best of 100 random layouts held {placed} before no room was left; by area no \
+             arrangement holds more than 7 at this spacing"
+        )
     );
     let LayoutError::NoRoom {
         count,
@@ -198,6 +207,9 @@ fn empty_regions_say_why() {
     let disjoint = LayoutError::EmptyRegion {
         reason: EmptyReason::Disjoint,
     };
+    let too_thin = LayoutError::EmptyRegion {
+        reason: EmptyReason::TooThin,
+    };
     let error = |region| draw(&request(region, 1), 1).unwrap_err();
     let small = Region {
         x_m: [0.0, 0.1],
@@ -235,15 +247,24 @@ fn empty_regions_say_why() {
             azimuth_deg: Some([90.0, 180.0]),
             ..square(1.0)
         }),
-        disjoint
+        too_thin
     );
     assert_eq!(
         error(Region {
             azimuth_deg: Some([100.0, 350.0]),
             ..square(1.0)
         }),
-        disjoint
+        too_thin
     );
+    // A ring that is there, but a tenth of a nanometre wide.
+    let ring = |width: f64| Region {
+        x_m: [-1.0, 1.0],
+        y_m: [-1.0, 1.0],
+        rho_m: Some([0.3, 0.3 + width]),
+        azimuth_deg: None,
+    };
+    assert_eq!(error(ring(1e-10)), too_thin);
+    assert!(draw(&request(ring(1e-6), 1), 1).is_ok());
 }
 
 #[test]

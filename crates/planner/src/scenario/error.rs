@@ -12,8 +12,8 @@ pub enum Problem {
     #[error("is neither a file nor a shipped scenario; shipped: {shipped}")]
     NotFound { shipped: String },
     /// Larger than any sensible scenario.
-    #[error("is {bytes} bytes long; at most {limit} are read")]
-    TooLarge { bytes: u64, limit: u64 },
+    #[error("is longer than {limit} bytes, the most that are read")]
+    TooLarge { limit: u64 },
     /// Not TOML.
     #[error("is not valid TOML: {detail}")]
     Syntax { detail: String },

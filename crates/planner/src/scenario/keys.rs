@@ -3,7 +3,7 @@
 /// What values a key takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Domain {
-    /// Text that is not empty.
+    /// Text that is not empty and has no control characters, which a terminal would obey.
     Text,
     /// A path of a file, relative to the scenario's folder.
     Path,
@@ -130,7 +130,12 @@ pub const KEYS: &[Key] = &[
         NumberAbove(0.0, 1.0),
         "Height of the sponge; with a tool body, below its length.",
     ),
-    key("layout.count", "", Integer(1, 1000), "Plates to sample."),
+    key(
+        "layout.count",
+        "",
+        Integer(1, 1000),
+        "Plates to sample; not used with `positions_m`.",
+    ),
     key(
         "layout.plate_radius_m",
         "m",
@@ -185,7 +190,7 @@ pub const KEYS: &[Key] = &[
         "layout.positions_m",
         "m",
         Points(-10.0, 10.0),
-        "Plate centres, in place of sampling.",
+        "Plate centres, in place of sampling: as many plates as are listed.",
     ),
     key("wash.points", "", Integer(2, 100_000), "Waypoints of the spiral."),
     key("wash.turns", "", NumberAbove(0.0, 1000.0), "Turns of the spiral."),
@@ -286,7 +291,7 @@ pub const KEYS: &[Key] = &[
         Number(0.0, 1e6),
         "Derivative gain of the paper's law.",
     ),
-    key("control.dt_s", "s", NumberAbove(0.0, 10.0), "Time between waypoints."),
+    key("control.dt_s", "s", Number(1e-6, 10.0), "Time between waypoints."),
 ];
 
 impl Domain {
@@ -294,7 +299,7 @@ impl Domain {
     #[must_use]
     pub fn describe(&self) -> String {
         match self {
-            Text => "text".to_owned(),
+            Text => "text without control characters".to_owned(),
             Path => "a path".to_owned(),
             Paths => "a list of folders".to_owned(),
             Word(words) => {
@@ -302,7 +307,7 @@ impl Domain {
                 quoted.join(" or ")
             }
             Bool => "true or false".to_owned(),
-            Integer(least, i64::MAX) => format!("a whole number from {least}"),
+            Integer(least, i64::MAX) => format!("a whole number from {least} to {} (2^63 − 1)", i64::MAX),
             Integer(least, most) => format!("a whole number from {least} to {most}"),
             Number(least, most) => format!("a number from {least} to {most}"),
             NumberAbove(above, most) => format!("a number above {above}, up to {most}"),

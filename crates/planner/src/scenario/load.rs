@@ -3,6 +3,7 @@
 use super::keys::{Domain, KEYS};
 use super::shipped::SHIPPED;
 use super::{Problem, Scenario, ScenarioError};
+use platewash_kinematics::urdf::file::{self, FileError};
 use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -27,16 +28,8 @@ impl Scenario {
             let shipped = shipped.join(", ");
             return Err(fail(Problem::NotFound { shipped }));
         }
-        let unreadable = |e: std::io::Error| {
-            let detail = e.to_string();
-            fail(Problem::Unreadable { detail })
-        };
-        let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
-        if bytes > MAX_BYTES {
-            let limit = MAX_BYTES;
-            return Err(fail(Problem::TooLarge { bytes, limit }));
-        }
-        let mut scenario = Self::parse(&std::fs::read_to_string(path).map_err(unreadable)?, name_or_file)?;
+        let text = file::read_text(path, MAX_BYTES).map_err(|e| fail(unread(e)))?;
+        let mut scenario = Self::parse(&text, name_or_file)?;
         scenario.resolve_paths(path.parent().unwrap_or(Path::new("")));
         Ok(scenario)
     }
@@ -119,7 +112,16 @@ impl Scenario {
                 "robot.srdf and robot.package_path need a robot.urdf".into(),
             );
         }
-        Ok(())
+        self.check_waypoints()
+    }
+}
+
+fn unread(error: FileError) -> Problem {
+    match error {
+        FileError::TooLong { limit } => Problem::TooLarge { limit },
+        other => Problem::Unreadable {
+            detail: other.to_string(),
+        },
     }
 }
 
@@ -159,7 +161,7 @@ fn unknown(key: String) -> Problem {
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .filter(|(likeness, _)| *likeness > 0.6);
     Problem::UnknownKey {
-        key,
+        key: printable(&key),
         nearest: nearest.map(|(_, path)| path.to_owned()),
     }
 }
@@ -180,7 +182,8 @@ fn check_value(domain: Domain, key: &str, value: &Spanned<DeValue<'_>>) -> Resul
 fn fits(domain: Domain, value: &DeValue<'_>) -> bool {
     let text = value.as_str().is_some_and(|s| !s.trim().is_empty());
     match domain {
-        Domain::Text | Domain::Path => text,
+        Domain::Text => text && !value.as_str().is_some_and(|s| s.contains(char::is_control)),
+        Domain::Path => text,
         Domain::Paths => elements(value).is_some_and(|all| all.iter().all(|v| v.as_str().is_some())),
         Domain::Word(words) => value.as_str().is_some_and(|s| words.contains(&s)),
         Domain::Bool => matches!(value, DeValue::Boolean(_)),
@@ -231,7 +234,7 @@ fn integer(value: &DeValue<'_>) -> Option<i64> {
 
 fn describe(value: &DeValue<'_>) -> String {
     match value {
-        DeValue::String(text) => format!("\"{text}\""),
+        DeValue::String(text) => format!("\"{}\"", printable(text)),
         DeValue::Integer(integer) => integer.to_string(),
         DeValue::Float(float) => float.to_string(),
         DeValue::Boolean(boolean) => boolean.to_string(),
@@ -245,7 +248,19 @@ fn describe(value: &DeValue<'_>) -> String {
     }
 }
 
-fn error(source_name: &str, line: Option<usize>, problem: Problem) -> ScenarioError {
+/// The text with control characters written out, so that a terminal does not obey them.
+fn printable(text: &str) -> String {
+    let written = |c: char| {
+        if c.is_control() {
+            c.escape_default().to_string()
+        } else {
+            c.to_string()
+        }
+    };
+    text.chars().map(written).collect()
+}
+
+pub(super) fn error(source_name: &str, line: Option<usize>, problem: Problem) -> ScenarioError {
     ScenarioError {
         source_name: source_name.to_owned(),
         line,
@@ -258,4 +273,34 @@ fn line_at(text: &str, byte: usize) -> usize {
         .iter()
         .filter(|b| **b == b'\n')
         .count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_reach_no_terminal() {
+        for text in [
+            "name = \"a\\u001b[31m\"\n",
+            "\"k\\u001b[2J\" = 1\n",
+            "seed = \"\\u0007\"\n",
+        ] {
+            let message = Scenario::parse(text, "case").unwrap_err().to_string();
+            assert!(!message.contains(char::is_control), "{message:?}");
+            assert!(message.contains("\\u{"), "{message:?}");
+        }
+    }
+
+    #[test]
+    fn only_regular_files_of_sensible_length_are_read() {
+        let folder = std::env::temp_dir().join(format!("platewash-load-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("long.toml");
+        std::fs::write(&path, " ".repeat(MAX_BYTES as usize + 1)).unwrap();
+        let problem = |path: &Path| Scenario::load(&path.to_string_lossy()).unwrap_err().problem;
+        assert_eq!(problem(&path), Problem::TooLarge { limit: MAX_BYTES });
+        assert!(problem(&folder).to_string().contains("not a regular file"));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
 }

@@ -7,11 +7,14 @@ mod document;
 mod error;
 pub mod keys;
 mod load;
+mod paths;
 mod shipped;
+mod work;
 
 pub use document::reference;
 pub use error::{Problem, ScenarioError};
 pub use shipped::{SHIPPED, ShippedScenario};
+pub use work::{MAX_PLATE_CHECKS, MAX_WAYPOINTS};
 
 use crate::layout::Region;
 use platewash_kinematics::ToolFrame;
@@ -86,13 +89,13 @@ pub struct RobotSection {
     /// An arm that is built in.
     pub model: BuiltInArm,
     /// A description that replaces it.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "paths::lossy")]
     pub urdf: Option<PathBuf>,
     /// Its list of link pairs that need no check.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "paths::lossy")]
     pub srdf: Option<PathBuf>,
     /// Folders in which `package://` names are looked up.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "paths::lossy_all")]
     pub package_path: Vec<PathBuf>,
     /// The frame in which tool poses are stated and returned.
     pub tool_frame: ToolFrame,

@@ -1,0 +1,39 @@
+//! a·b + c with one rounding or two: the one thing in which the portable and the vector kernels differ.
+
+/// How a·b + c is rounded. A kernel that is generic over this is written once and gives the portable bits
+/// with [`Separate`] and the fastest ones with [`Fused`].
+pub trait MulAdd {
+    /// a·b + c.
+    fn mul_add(a: f64, b: f64, c: f64) -> f64;
+}
+
+/// Rounds the product, then the sum: the same bits on every machine and at every optimisation level, because
+/// Rust never contracts the two into one instruction.
+#[derive(Debug, Clone, Copy)]
+pub struct Separate;
+
+/// Rounds once. Meant for functions with `#[target_feature(enable = "avx2,fma")]`, where it is one
+/// instruction; elsewhere it calls the C library's `fma`, with the same bits but slowly.
+#[derive(Debug, Clone, Copy)]
+pub struct Fused;
+
+impl MulAdd for Separate {
+    #[inline(always)]
+    fn mul_add(a: f64, b: f64, c: f64) -> f64 {
+        a * b + c
+    }
+}
+
+impl MulAdd for Fused {
+    #[inline(always)]
+    fn mul_add(a: f64, b: f64, c: f64) -> f64 {
+        a.mul_add(b, c)
+    }
+}
+
+/// c₀ + c₁z + … + c₅z⁵, in pairs to shorten the chain of dependent operations (G. Estrin, 1960).
+#[inline(always)]
+pub(super) fn polynomial<M: MulAdd>(c: &[f64; 6], z: f64, z2: f64) -> f64 {
+    let pair = |k: usize| M::mul_add(z, c[k + 1], c[k]);
+    M::mul_add(z2, M::mul_add(z2, pair(4), pair(2)), pair(0))
+}

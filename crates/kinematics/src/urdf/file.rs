@@ -1,0 +1,101 @@
+//! Input files: regular ones only (a pipe or device may never end), read up to a limit whatever their stated length.
+
+use std::fs::{File, metadata};
+use std::io::Read;
+use std::path::Path;
+
+/// Why an input file was not read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FileError {
+    /// It does not exist, or the system refuses it.
+    #[error("{detail}")]
+    System {
+        /// The system's words.
+        detail: String,
+    },
+    /// A folder, pipe, socket or device.
+    #[error("not a regular file")]
+    NotRegular,
+    /// Longer than anything sensible.
+    #[error("longer than {limit} bytes, the most that are read")]
+    TooLong {
+        /// The most that are read \[bytes\].
+        limit: u64,
+    },
+    /// Bytes that are no text.
+    #[error("not UTF-8 text: byte {position} is at fault")]
+    NotText {
+        /// Offset of the first byte at fault.
+        position: usize,
+    },
+}
+
+/// The bytes of a regular file of at most `limit` bytes.
+///
+/// # Errors
+/// [`FileError`], without the file's name.
+pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
+    // Looked at before it is opened: opening a pipe waits for its writer.
+    if !metadata(path).map_err(|e| system(&e))?.is_file() {
+        return Err(FileError::NotRegular);
+    }
+    let file = File::open(path).map_err(|e| system(&e))?;
+    let mut bytes = Vec::new();
+    file.take(limit.saturating_add(1))
+        .read_to_end(&mut bytes)
+        .map_err(|e| system(&e))?;
+    if bytes.len() as u64 > limit {
+        return Err(FileError::TooLong { limit });
+    }
+    Ok(bytes)
+}
+
+/// The text of a regular file of at most `limit` bytes.
+///
+/// # Errors
+/// [`FileError`], without the file's name.
+pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
+    String::from_utf8(read_bytes(path, limit)?).map_err(|e| FileError::NotText {
+        position: e.utf8_error().valid_up_to(),
+    })
+}
+
+fn system(error: &std::io::Error) -> FileError {
+    FileError::System {
+        detail: error.to_string(),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_limit_counts_what_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("text");
+        std::fs::write(&path, "12345").unwrap();
+        assert_eq!(read_text(&path, 5), Ok("12345".to_owned()));
+        assert_eq!(read_text(&path, 4), Err(FileError::TooLong { limit: 4 }));
+        std::fs::write(&path, b"12\xff").unwrap();
+        assert_eq!(read_text(&path, 5), Err(FileError::NotText { position: 2 }));
+        assert_eq!(read_bytes(folder.path(), 5), Err(FileError::NotRegular));
+        assert!(matches!(
+            read_bytes(&folder.path().join("none"), 5),
+            Err(FileError::System { .. })
+        ));
+    }
+
+    /// `/dev/zero` never ends; files below `/proc` state a length of zero.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn devices_are_refused_and_stated_lengths_not_believed() {
+        assert_eq!(read_bytes(Path::new("/dev/zero"), 5), Err(FileError::NotRegular));
+        assert_eq!(
+            read_bytes(Path::new("/proc/self/status"), 5),
+            Err(FileError::TooLong { limit: 5 })
+        );
+    }
+}

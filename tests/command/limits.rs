@@ -1,0 +1,62 @@
+//! Work and input without end: refused, soon and by name.
+
+use super::*;
+use std::time::{Duration, Instant};
+
+#[track_caller]
+fn soon(ran: impl FnOnce() -> Ran) -> Ran {
+    let start = Instant::now();
+    let ran = ran();
+    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
+    ran
+}
+
+#[test]
+fn work_without_end_is_refused() {
+    let folder = folder();
+    let dir = folder.path();
+    let ik = ["ik", "--position", "0.3", "0", "0.3", "--rpy-deg", "0", "0", "0"];
+    let restarts = [&ik[..], &["--restarts", "1000000000"]].concat();
+    soon(|| platewash(dir, &restarts)).refused(2, &["--restarts", "10000", "1000000000"]);
+    soon(|| platewash(dir, &["reproduce", "--draws", "10000000"])).refused(2, &["--draws", "1000000"]);
+    soon(|| platewash(dir, &["reproduce", "--layouts", "10001"])).refused(2, &["--layouts", "10000"]);
+    soon(|| platewash(dir, &["run", "--dt", "1e-6"])).refused(2, &["--dt", "1000000 rows", "give at least"]);
+    let positions: Vec<_> = (0..1000).map(|k| format!("[{}, 0.3]", k as f64 * 1e-3)).collect();
+    let positions = format!("positions_m = [{}]", positions.join(", "));
+    let file = scenario(dir, "region = \"appendix\"", &positions);
+    let file = file.to_str().unwrap();
+    for verb in ["run", "plan", "validate"] {
+        soon(|| platewash(dir, &[verb, "--scenario", file])).refused(2, &["1000 plates", "wash.points"]);
+    }
+    soon(|| platewash(dir, &["layout", "--scenario", file])).done();
+    assert_eq!(names(dir), ["case.toml"]);
+}
+
+#[test]
+fn more_configurations_than_a_hundred_thousand_are_refused() {
+    let folder = folder();
+    std::fs::write(folder.path().join("many.txt"), "0 0 0 0 0 0\n".repeat(100_001)).unwrap();
+    let many = ["fk", "--deg", "--file", "many.txt"];
+    soon(|| platewash(folder.path(), &many)).refused(2, &["many.txt, line 100001", "100000"]);
+}
+
+/// `/dev/zero` never ends, and opening a pipe waits for its writer.
+#[cfg(target_os = "linux")]
+#[test]
+fn devices_and_pipes_are_no_input() {
+    let folder = folder();
+    let dir = folder.path();
+    assert!(Command::new("mkfifo").arg(dir.join("pipe")).status().unwrap().success());
+    std::fs::write(dir.join("arm.urdf"), platewash::kinematics::model::IRB120_URDF).unwrap();
+    for file in ["/dev/zero", "pipe", "."] {
+        let cases: [&[&str]; 4] = [
+            &["run", "--scenario", file],
+            &["run", "--urdf", file],
+            &["run", "--urdf", "arm.urdf", "--srdf", file],
+            &["fk", "--deg", "--file", file],
+        ];
+        for arguments in cases {
+            soon(|| platewash(dir, arguments)).refused(2, &[file, "not a regular file"]);
+        }
+    }
+}

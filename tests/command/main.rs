@@ -1,0 +1,96 @@
+//! The command as a person or a script meets it: results, exit codes, messages, files.
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+
+mod arms;
+mod files;
+mod limits;
+mod scenarios;
+mod verbs;
+
+use serde_json::Value;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+struct Ran {
+    code: i32,
+    stdout: String,
+    stderr: String,
+}
+
+impl Ran {
+    fn json(&self) -> Value {
+        serde_json::from_str(&self.stdout).unwrap_or_else(|e| panic!("{e}: {}", self.stdout))
+    }
+
+    /// One clear message: the exit code, `error:` once, every fragment in it, nothing said twice, and nothing on standard
+    /// output.
+    #[track_caller]
+    fn refused(&self, code: i32, fragments: &[&str]) {
+        assert_eq!(self.code, code, "stderr: {}", self.stderr);
+        assert_eq!(self.stderr.matches("error:").count(), 1, "{}", self.stderr);
+        assert!(self.stdout.is_empty(), "{}", self.stdout);
+        assert_eq!(repetition(&self.stderr), None, "{}", self.stderr);
+        for fragment in fragments {
+            assert!(self.stderr.contains(fragment), "no '{fragment}' in: {}", self.stderr);
+        }
+    }
+
+    #[track_caller]
+    fn done(self) -> Self {
+        assert_eq!(self.code, 0, "stderr: {}", self.stderr);
+        self
+    }
+}
+
+/// A long fragment that a message, the hints on usage apart, has twice.
+fn repetition(message: &str) -> Option<String> {
+    const LONG: usize = 28;
+    let message = message.split("Usage:").next().unwrap_or_default();
+    let letters: Vec<char> = message.chars().collect();
+    let mut seen = std::collections::BTreeSet::new();
+    letters
+        .windows(LONG)
+        .find(|w| !seen.insert(w.to_vec()))
+        .map(|w| w.iter().collect())
+}
+
+fn platewash(folder: &Path, arguments: &[&str]) -> Ran {
+    platewash_os(folder, &arguments.iter().map(OsStr::new).collect::<Vec<_>>())
+}
+
+fn platewash_os(folder: &Path, arguments: &[&OsStr]) -> Ran {
+    let Output { status, stdout, stderr } = Command::new(env!("CARGO_BIN_EXE_platewash"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    Ran {
+        code: status.code().unwrap(),
+        stdout: String::from_utf8(stdout).unwrap(),
+        stderr: String::from_utf8(stderr).unwrap(),
+    }
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|e| e.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+/// The shipped scenario with one line replaced (the replacement must take effect).
+fn scenario(folder: &Path, from: &str, to: &str) -> PathBuf {
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/paper-appendix.toml")).unwrap();
+    assert!(text.contains(from), "no '{from}' in the shipped scenario");
+    let path = folder.join("case.toml");
+    std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
+    path
+}
