@@ -10,6 +10,7 @@
 
 use crate::model::RobotModel;
 use crate::rotation::Rigid;
+use crate::trig::{Separate, sin_cos_lanes};
 use crate::{AXES, JointVector, Pose};
 use nalgebra::Vector3;
 
@@ -77,9 +78,11 @@ impl RobotModel {
     /// Poses of all bodies at the joint positions `q` \[rad\]. Limits are not checked; NaN in, NaN out.
     #[must_use]
     pub fn fk(&self, q: &JointVector) -> BodyPoses {
+        // All six at once: the lanes have the bits of `sin_cos`, at less than half its cost.
+        let (sines, cosines) = sin_cos_lanes::<Separate, AXES>(q.as_ref());
         let mut bodies = [Rigid::identity(); AXES + 1];
         for (i, folded) in self.folded().iter().enumerate() {
-            bodies[i + 1] = bodies[i].then(folded).turned_about_z(q[i]);
+            bodies[i + 1] = bodies[i].then(folded).turned_about_z(sines[i], cosines[i]);
         }
         BodyPoses { bodies }
     }

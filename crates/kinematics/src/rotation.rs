@@ -34,11 +34,11 @@ impl Rigid {
         }
     }
 
-    /// The same transform with its last frame turned by `angle` \[rad\] about that frame's own z axis.
+    /// The same transform with its last frame turned about that frame's own z axis, by the angle of the given sine and
+    /// cosine.
     #[inline]
     #[must_use]
-    pub fn turned_about_z(&self, angle: f64) -> Self {
-        let (s, c) = sin_cos(angle);
+    pub fn turned_about_z(&self, s: f64, c: f64) -> Self {
         let (x, y) = (self.rotation.column(0), self.rotation.column(1));
         Self {
             rotation: Matrix3::from_columns(&[x * c + y * s, y * c - x * s, self.rotation.column(2).into()]),
@@ -90,6 +90,9 @@ pub fn from_rpy(rpy: [f64; 3]) -> Matrix3<f64> {
     )
 }
 
+/// Twice the sine below which the angle comes from a series.
+const SMALL: f64 = 0.02;
+
 /// Rotation vector (axis × angle, angle in [0, π]) of a rotation matrix: the logarithm on SO(3).
 ///
 /// Exact to rounding everywhere: the angle comes from `atan2(‖v‖, tr R − 1)` with `v` the skew part, which
@@ -100,11 +103,14 @@ pub fn rotation_vector(r: &Matrix3<f64>) -> Vector3<f64> {
     // v = 2 sin θ · axis, and tr R − 1 = 2 cos θ.
     let v = Vector3::new(r.m32 - r.m23, r.m13 - r.m31, r.m21 - r.m12);
     let (two_sin, two_cos) = (v.norm(), r.trace() - 1.0);
+    if two_sin < SMALL && two_cos > 0.0 {
+        // θ/(2 sin θ) = asin(x)/(2x) with x = sin θ: the next term is below 1e-17.
+        let x2 = 0.25 * two_sin * two_sin;
+        return v * (0.5 + x2 * (1.0 / 12.0 + x2 * (3.0 / 80.0 + x2 * (5.0 / 224.0))));
+    }
     let angle = atan2(two_sin, two_cos);
     if two_cos > -1.9 {
-        // θ/(2 sin θ) → 1/2 at 0; the series is exact to rounding below 1e-8.
-        let scale = if two_sin < 1e-8 { 0.5 } else { angle / two_sin };
-        return v * scale;
+        return v * (angle / two_sin);
     }
     let cosine = 0.5 * two_cos;
     let symmetric = (r + r.transpose()) * 0.5 - Matrix3::identity() * cosine;

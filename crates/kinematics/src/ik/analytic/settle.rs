@@ -1,6 +1,7 @@
 //! Closing a branch that ends beyond a limit by no more than its joints are uncertain.
 
 use super::{AnalyticArm, CLOSED, LIMIT_ROUNDING_RAD};
+use crate::trig::sin_cos;
 use crate::rotation::{Rigid, rotation_vector};
 use crate::{AXES, JointLimits, JointVector};
 use nalgebra::{Matrix6, Vector6};
@@ -46,7 +47,8 @@ impl AnalyticArm {
     fn error_and_jacobian(&self, target: &Rigid, q: &JointVector) -> (Vector6<f64>, Matrix6<f64>) {
         let mut body = Rigid::identity();
         let bodies: [Rigid; AXES] = std::array::from_fn(|i| {
-            body = body.then(&self.folded[i]).turned_about_z(q[i]);
+            let (s, c) = sin_cos(q[i]);
+            body = body.then(&self.folded[i]).turned_about_z(s, c);
             body
         });
         let linear = target.translation - body.translation;
