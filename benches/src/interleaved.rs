@@ -20,14 +20,38 @@ pub struct Row {
     pub name: &'static str,
     /// Its answers.
     pub score: Score,
-    /// Mean time per target, median over the rounds \[ns\].
-    pub mean_ns: f64,
-    /// Ratio to the first solver's mean in the same round, median over the rounds.
-    pub ratio: f64,
-    /// Time that half of the targets need at most \[ns\].
-    pub half_ns: f64,
-    /// Time that 99 % of the targets need at most \[ns\].
-    pub most_ns: f64,
+    /// Its time per target.
+    pub turn: Turn,
+    /// Times that 50 % and 99 % of the targets need at most \[ns\]; none for a solver that takes all targets at once.
+    pub quantiles_ns: Option<[f64; 2]>,
+}
+
+/// What a contestant needs per unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Turn {
+    /// Median over the rounds \[ns\].
+    pub median_ns: f64,
+    /// Time of each of the first contestants divided by its own in the same round, medians over the rounds.
+    pub ratios: Vec<f64>,
+}
+
+/// Lets the contestants take turns; each call gives the time of one pass per unit \[ns\]. The first `own` are what the
+/// others are compared with.
+pub fn turns(contestants: &mut [Box<dyn FnMut() -> f64 + '_>], own: usize) -> Vec<Turn> {
+    let mut times = vec![Vec::new(); contestants.len()];
+    for _ in 0..ROUNDS {
+        for (contestant, times) in contestants.iter_mut().zip(&mut times) {
+            times.push(contestant());
+        }
+    }
+    let turn = |k: usize| Turn {
+        median_ns: quantile(times[k].clone(), 0.5),
+        ratios: times[..own]
+            .iter()
+            .map(|first| quantile(first.iter().zip(&times[k]).map(|(a, b)| a / b).collect(), 0.5))
+            .collect(),
+    };
+    (0..contestants.len()).map(turn).collect()
 }
 
 /// Scores every solver, then times them in turns.
@@ -36,32 +60,35 @@ pub struct Row {
 /// An arm without `tool0`.
 pub fn compare(
     solvers: &mut [Box<dyn Solver + '_>],
+    own: usize,
     problems: &Problems,
     robot: &RobotModel,
 ) -> Result<Vec<Row>, ToolFrameError> {
+    let names: Vec<_> = solvers.iter().map(|solver| solver.name()).collect();
     let scores: Vec<Score> = solvers
         .iter_mut()
         .map(|solver| Score::of(solver.as_mut(), problems, robot))
         .collect::<Result<_, _>>()?;
-    let alone: Vec<Vec<f64>> = solvers.iter_mut().map(|s| each_ns(s.as_mut(), problems)).collect();
-    let mut means = vec![Vec::new(); solvers.len()];
-    for _ in 0..ROUNDS {
-        for (solver, means) in solvers.iter_mut().zip(&mut means) {
-            means.push(mean_ns(solver.as_mut(), problems));
-        }
+    let alone: Vec<_> = solvers
+        .iter_mut()
+        .map(|solver| {
+            let at_once = solver.path(&problems.start()).is_some();
+            let times = each_ns(solver.as_mut(), problems);
+            (!at_once).then(|| [0.5, 0.99].map(|share| quantile(times.clone(), share)))
+        })
+        .collect();
+    let mut contestants: Vec<Box<dyn FnMut() -> f64>> = Vec::new();
+    for solver in solvers {
+        contestants.push(Box::new(|| mean_ns(solver.as_mut(), problems)));
     }
-    let row = |k: usize| {
-        let ratios = means[k].iter().zip(&means[0]).map(|(own, first)| own / first);
-        Row {
-            name: solvers[k].name(),
-            score: scores[k],
-            mean_ns: quantile(means[k].clone(), 0.5),
-            ratio: quantile(ratios.collect(), 0.5),
-            half_ns: quantile(alone[k].clone(), 0.5),
-            most_ns: quantile(alone[k].clone(), 0.99),
-        }
+    let turns = turns(&mut contestants, own);
+    let row = |(k, turn)| Row {
+        name: names[k],
+        score: scores[k],
+        turn,
+        quantiles_ns: alone[k],
     };
-    Ok((0..solvers.len()).map(row).collect())
+    Ok(turns.into_iter().enumerate().map(row).collect())
 }
 
 /// Time per target of one pass \[ns\].
@@ -94,20 +121,30 @@ fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
 /// The rows as a Markdown table.
 #[must_use]
 pub fn table(title: &str, rows: &[Row]) -> String {
-    let mut text = format!("\n{title}, {ROUNDS} interleaved rounds\n\n");
-    text += "| solver | solved % | wrong | mean ns | ratio | 50 % within ns | 99 % within ns | largest step rad |\n";
-    text += "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+    let own = rows.first().map_or(0, |row| row.turn.ratios.len());
+    let mut text = format!("\n{title}, {ROUNDS} interleaved rounds\n\n| solver | solved % | wrong | mean ns |");
+    for row in &rows[..own] {
+        text += &format!(" {} / it |", row.name.trim_start_matches("platewash "));
+    }
+    text += " 50 % within ns | 99 % within ns | largest step rad |\n| --- ";
+    text += &"| ---: ".repeat(6 + own);
+    text += "|\n";
     for row in rows {
-        let Row { name, score, .. } = row;
+        let Row { name, score, turn, .. } = row;
         let (solved, wrong) = (score.percent(), score.wrong);
+        let ratios: String = turn.ratios.iter().map(|ratio| format!(" {ratio:.3} |")).collect();
+        let [half, most] = match row.quantiles_ns {
+            Some(quantiles) => quantiles.map(|ns| format!("{ns:.0}")),
+            None => ["–".to_owned(), "–".to_owned()],
+        };
         let step = score
             .largest_step_rad
             .map_or("–".to_owned(), |step| format!("{step:.3}"));
         // Writing to a string does not fail.
         let _ = writeln!(
             text,
-            "| {name} | {solved:.1} | {wrong} | {:.0} | {:.2} | {:.0} | {:.0} | {step} |",
-            row.mean_ns, row.ratio, row.half_ns, row.most_ns
+            "| {name} | {solved:.2} | {wrong} | {:.0} |{ratios} {half} | {most} | {step} |",
+            turn.median_ns
         );
     }
     text

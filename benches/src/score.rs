@@ -1,8 +1,8 @@
 //! What a solver's answers are worth, by our own forward kinematics.
 
+use crate::Tolerance;
 use crate::problems::{Problems, Seeds};
 use crate::solvers::Solver;
-use crate::{ORIENTATION_TOLERANCE_RAD, POSITION_TOLERANCE_M};
 use platewash_kinematics::rotation::{Rigid, rotation_vector};
 use platewash_kinematics::{JointVector, Pose, RobotModel, ToolFrame, ToolFrameError};
 
@@ -39,7 +39,13 @@ impl Score {
         let mut last: Option<JointVector> = None;
         problems.run(solver, |target, answer| {
             let Some(q) = answer else { return };
-            if robot.limits().contain(&q) && reached(&problems.targets[target], &robot.fk(&q).rigid(&tool0)) {
+            if robot.limits().contain(&q)
+                && reached(
+                    &problems.targets[target],
+                    &robot.fk(&q).rigid(&tool0),
+                    problems.tolerance,
+                )
+            {
                 score.solved += 1;
             } else {
                 score.wrong += 1;
@@ -59,9 +65,17 @@ impl Score {
     }
 }
 
-fn reached(target: &Pose, found: &Rigid) -> bool {
-    let target = Rigid::from(target);
-    let position_m = (target.translation - found.translation).norm();
-    let angle_rad = rotation_vector(&(target.rotation * found.rotation.transpose())).norm();
-    position_m <= POSITION_TOLERANCE_M * ROUNDING && angle_rad <= ORIENTATION_TOLERANCE_RAD * ROUNDING
+fn reached(target: &Pose, found: &Rigid, tolerance: Tolerance) -> bool {
+    let [position_m, angle_rad] = errors(&Rigid::from(target), found);
+    position_m <= tolerance.position_m * ROUNDING && angle_rad <= tolerance.orientation_rad * ROUNDING
+}
+
+/// Distance \[m\] and angle \[rad\] between two poses.
+#[must_use]
+pub fn errors(target: &Rigid, found: &Rigid) -> [f64; 2] {
+    let turn = target.rotation * found.rotation.transpose();
+    [
+        (target.translation - found.translation).norm(),
+        rotation_vector(&turn).norm(),
+    ]
 }

@@ -1,8 +1,8 @@
 //! The crate `k`: Newton steps on the Jacobian, restarted from random configurations.
 
 use super::Solver;
-use crate::problems::configuration;
-use crate::{ORIENTATION_TOLERANCE_RAD, POSITION_TOLERANCE_M};
+use crate::Tolerance;
+use crate::problems::{Problems, configuration};
 use k::nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use k::{InverseKinematicsSolver, JacobianIkSolver, SerialChain};
 use platewash_kinematics::{AXES, JointVector, Pose, RobotModel};
@@ -34,7 +34,7 @@ impl<'a> KJacobian<'a> {
     ///
     /// # Errors
     /// A description that the crate does not read.
-    pub fn new(robot: &'a RobotModel, targets: &[Pose]) -> Result<Self, Box<dyn Error>> {
+    pub fn new(robot: &'a RobotModel, problems: &Problems) -> Result<Self, Box<dyn Error>> {
         let chain = k::Chain::<f64>::from_urdf_file(URDF)?;
         let tip = chain.find_link("tool0").ok_or("no tool0")?;
         let convert = |pose: &Pose| {
@@ -42,11 +42,15 @@ impl<'a> KJacobian<'a> {
             let rotation = UnitQuaternion::from_quaternion(Quaternion::new(q.w, q.x, q.y, q.z));
             Isometry3::from_parts(Translation3::new(p.x, p.y, p.z), rotation)
         };
+        let Tolerance {
+            position_m,
+            orientation_rad,
+        } = problems.tolerance;
         Ok(Self {
             robot,
             arm: SerialChain::from_end(tip),
-            solver: JacobianIkSolver::new(POSITION_TOLERANCE_M, ORIENTATION_TOLERANCE_RAD, GAIN, STEPS),
-            targets: targets.iter().map(convert).collect(),
+            solver: JacobianIkSolver::new(position_m, orientation_rad, GAIN, STEPS),
+            targets: problems.targets.iter().map(convert).collect(),
             rng: Pcg64::seed_from_u64(STREAM),
         })
     }

@@ -1,12 +1,13 @@
 //! The crate `rs-opw-kinematics`: all analytic solutions, of which the nearest within the limits is taken.
 
 use super::Solver;
+use super::pick::nearest_within;
 use platewash_kinematics::{AXES, JointVector, Pose, RobotModel};
 use rs_opw_kinematics::glam::{DQuat, DVec3};
 use rs_opw_kinematics::kinematic_traits::{Kinematics, Pose as OpwPose};
 use rs_opw_kinematics::kinematics_impl::OPWKinematics;
 use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 /// `rs_opw_kinematics::kinematics_impl::OPWKinematics`.
 pub struct Opw<'a> {
@@ -31,10 +32,6 @@ impl<'a> Opw<'a> {
             sign_corrections: [1; AXES],
             dof: 6,
         };
-        let convert = |pose: &Pose| {
-            let (p, q) = (pose.translation.vector, pose.rotation.coords);
-            OpwPose::from_parts(DVec3::new(p.x, p.y, p.z), DQuat::from_xyzw(q.x, q.y, q.z, q.w))
-        };
         Self {
             robot,
             solver: OPWKinematics::new(parameters),
@@ -42,21 +39,16 @@ impl<'a> Opw<'a> {
         }
     }
 
-    /// The solution with every joint turned by whole turns towards `seed`, as far as the limits allow.
-    fn towards(&self, solution: [f64; AXES], seed: &JointVector) -> Option<JointVector> {
-        let limits = self.robot.limits();
-        let q = JointVector::from_fn(|i, _| {
-            let nearest = solution[i] + TAU * ((seed[i] - solution[i]) / TAU).round();
-            if nearest > limits.upper[i] {
-                nearest - TAU
-            } else if nearest < limits.lower[i] {
-                nearest + TAU
-            } else {
-                nearest
-            }
-        });
-        limits.contain(&q).then_some(q)
+    /// What the crate calls a solution for a pose \[rad\], joints in (−π, π].
+    #[must_use]
+    pub fn solutions(&self, pose: &Pose) -> Vec<[f64; AXES]> {
+        self.solver.inverse(&convert(pose))
     }
+}
+
+fn convert(pose: &Pose) -> OpwPose {
+    let (p, q) = (pose.translation.vector, pose.rotation.coords);
+    OpwPose::from_parts(DVec3::new(p.x, p.y, p.z), DQuat::from_xyzw(q.x, q.y, q.z, q.w))
 }
 
 impl Solver for Opw<'_> {
@@ -66,9 +58,6 @@ impl Solver for Opw<'_> {
 
     fn solve(&mut self, target: usize, seed: &JointVector) -> Option<JointVector> {
         let solutions = self.solver.inverse(&self.targets[target]);
-        let within = solutions
-            .into_iter()
-            .filter_map(|solution| self.towards(solution, seed));
-        within.min_by(|a, b| (a - seed).amax().total_cmp(&(b - seed).amax()))
+        nearest_within(self.robot.limits(), solutions, seed)
     }
 }

@@ -1,38 +1,44 @@
-//! Our own: damped least squares, QP and listed starts, with the settings that users get.
+//! Our own, with the settings that users get.
 
 use super::Solver;
-use crate::{ORIENTATION_TOLERANCE_RAD, POSITION_TOLERANCE_M};
+use crate::problems::Problems;
+use platewash_kinematics::ik::analytic::AnalyticArm;
 use platewash_kinematics::ik::{IkSettings, IkSolver};
+use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{JointVector, Pose, RobotModel, ToolFrame};
 use std::error::Error;
 
-/// `platewash_kinematics::ik`.
-pub struct Platewash<'a> {
+fn solver<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<IkSolver<'a>, Box<dyn Error>> {
+    let settings = IkSettings {
+        position_tolerance_m: problems.tolerance.position_m,
+        orientation_tolerance_rad: problems.tolerance.orientation_rad,
+        ..IkSettings::default()
+    };
+    Ok(IkSolver::new(robot, robot.tool_frame(ToolFrame::Tool0)?, settings)?)
+}
+
+/// `platewash_kinematics::ik::IkSolver::solve`: damped least squares, QP and analytic starts.
+pub struct Solve<'a> {
     solver: IkSolver<'a>,
     targets: Vec<Pose>,
 }
 
-impl<'a> Platewash<'a> {
+impl<'a> Solve<'a> {
     /// Prepares the solver for `tool0`.
     ///
     /// # Errors
     /// An arm without `tool0`.
-    pub fn new(robot: &'a RobotModel, targets: &[Pose]) -> Result<Self, Box<dyn Error>> {
-        let settings = IkSettings {
-            position_tolerance_m: POSITION_TOLERANCE_M,
-            orientation_tolerance_rad: ORIENTATION_TOLERANCE_RAD,
-            ..IkSettings::default()
-        };
+    pub fn new(robot: &'a RobotModel, problems: &Problems) -> Result<Self, Box<dyn Error>> {
         Ok(Self {
-            solver: IkSolver::new(robot, robot.tool_frame(ToolFrame::Tool0)?, settings)?,
-            targets: targets.to_vec(),
+            solver: solver(robot, problems)?,
+            targets: problems.targets.clone(),
         })
     }
 }
 
-impl Solver for Platewash<'_> {
+impl Solver for Solve<'_> {
     fn name(&self) -> &'static str {
-        "platewash"
+        "platewash `solve`"
     }
 
     fn solve(&mut self, target: usize, seed: &JointVector) -> Option<JointVector> {
@@ -40,5 +46,71 @@ impl Solver for Platewash<'_> {
             .solve(&self.targets[target], seed)
             .ok()
             .map(|answer| answer.q)
+    }
+}
+
+/// `platewash_kinematics::ik::IkSolver::solve_path`: damped least squares from a prediction, without jumps.
+pub struct Path<'a>(Solve<'a>);
+
+impl<'a> Path<'a> {
+    /// Prepares the solver for `tool0`.
+    ///
+    /// # Errors
+    /// An arm without `tool0`.
+    pub fn new(robot: &'a RobotModel, problems: &Problems) -> Result<Self, Box<dyn Error>> {
+        Ok(Self(Solve::new(robot, problems)?))
+    }
+}
+
+impl Solver for Path<'_> {
+    fn name(&self) -> &'static str {
+        "platewash `solve_path`"
+    }
+
+    fn solve(&mut self, target: usize, seed: &JointVector) -> Option<JointVector> {
+        self.0.solve(target, seed)
+    }
+
+    fn path(&mut self, start: &JointVector) -> Option<Vec<Option<JointVector>>> {
+        let Solve { solver, targets } = &self.0;
+        Some(match solver.solve_path(targets, start) {
+            Ok(path) => path.q.into_iter().map(Some).collect(),
+            Err(_) => vec![None; targets.len()],
+        })
+    }
+}
+
+/// `platewash_kinematics::ik::analytic::AnalyticArm::nearest`: the closed form alone.
+pub struct Nearest<'a> {
+    robot: &'a RobotModel,
+    arm: AnalyticArm,
+    targets: Vec<Rigid>,
+}
+
+impl<'a> Nearest<'a> {
+    /// Prepares the solver for `tool0`.
+    ///
+    /// # Errors
+    /// An arm without a closed form or without `tool0` behind joint 6.
+    pub fn new(robot: &'a RobotModel, problems: &Problems) -> Result<Self, Box<dyn Error>> {
+        let tool0 = robot.tool_frame(ToolFrame::Tool0)?;
+        let body = |pose: &Pose| AnalyticArm::body_target(&tool0, &Rigid::from(pose));
+        let targets: Option<Vec<Rigid>> = problems.targets.iter().map(body).collect();
+        Ok(Self {
+            robot,
+            arm: AnalyticArm::recognise(robot)?,
+            targets: targets.ok_or("tool0 is not behind joint 6")?,
+        })
+    }
+}
+
+impl Solver for Nearest<'_> {
+    fn name(&self) -> &'static str {
+        "platewash `nearest`"
+    }
+
+    fn solve(&mut self, target: usize, seed: &JointVector) -> Option<JointVector> {
+        let answer = self.arm.nearest(&self.targets[target], seed, self.robot.limits());
+        answer.ok().map(|nearest| nearest.q)
     }
 }

@@ -24,6 +24,7 @@
 //! | geometric Jacobian, manipulability | [`jacobian`] |
 //! | tool frames by name | [`tool_frame`] |
 //! | inverse kinematics | [`ik`] |
+//! | many configurations at once | [`batch`] |
 //! | trigonometry, the same on every machine | [`trig`] |
 //!
 //! # Example
@@ -41,6 +42,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod batch;
 pub mod fingerprint;
 pub mod fk;
 pub mod geometry;

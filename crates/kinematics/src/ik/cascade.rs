@@ -84,6 +84,16 @@ impl<'a> IkSolver<'a> {
         })
     }
 
+    /// The arm.
+    pub(crate) fn robot(&self) -> &'a RobotModel {
+        self.robot
+    }
+
+    /// Whether a seed with this squared error (m², rad²) is too far away to begin at.
+    pub(crate) fn is_cold(squared_error: f64) -> bool {
+        squared_error > COLD
+    }
+
     /// The settings in force.
     #[must_use]
     pub fn settings(&self) -> &IkSettings {
@@ -133,7 +143,7 @@ impl<'a> IkSolver<'a> {
 
     /// The stages in order; `None` when all of them fail.
     fn search(&self, search: &mut Search<'_>, start: Iterate) -> Option<IkSolution> {
-        let cold = start.cost > COLD;
+        let cold = Self::is_cold(start.cost);
         if cold && let Some(answer) = self.try_branches(&start.q, search) {
             return Some(answer);
         }

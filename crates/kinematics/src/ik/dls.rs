@@ -7,13 +7,13 @@ use crate::{AXES, JointVector};
 use nalgebra::{Matrix6, Vector6};
 
 /// Smallest damping: keeps the normal matrix definite at an exact singularity without slowing convergence.
-const LEAST_DAMPING: f64 = 1e-11;
+pub(crate) const LEAST_DAMPING: f64 = 1e-11;
 /// Stagnation: the error norm fell by less than 10 % (its square by less than 19 %) …
 const STAGNATION_RATIO: f64 = 0.81;
 /// … within this many iterations.
 const STAGNATION_WINDOW: usize = 8;
 /// An active limit: this many accepted steps in a row were clamped.
-const CLAMPED_IN_A_ROW: usize = 3;
+pub(crate) const CLAMPED_IN_A_ROW: usize = 3;
 
 /// Joints that may move; the others are held where they are.
 pub(super) type Free = [bool; AXES];
@@ -46,8 +46,9 @@ pub(super) fn descend(task: &Task<'_>, start: Iterate, free: &Free, settings: &I
             }
             milestone = here.cost;
         }
-        let lambda = (settings.damping * here.cost).max(LEAST_DAMPING) * boost;
-        let Some(step) = step(&task.jacobian(&here), &here.error, lambda, free) else {
+        let jacobian = task.jacobian(&here);
+        let lambda = settings.damping.lambda(here.cost, &jacobian).max(LEAST_DAMPING) * boost;
+        let Some(step) = step(&jacobian, &here.error, lambda, free) else {
             return stopped(Stop::Stagnation);
         };
         let aim = here.q + bounded(step, settings.step_bound_rad);

@@ -37,6 +37,8 @@ const MAX_PROGRAMS: usize = 40;
 const POLISH_BELOW: f64 = 1e-6;
 /// A program that gains less than this share of the squared distance ends the search from a start.
 const LEAST_GAIN: f64 = 1e-4;
+/// Smallest damping of a program.
+const LEAST_DAMPING: f64 = 1e-9;
 /// Directions of tilt, and yaws, that give further starts.
 const DIRECTIONS: usize = 12;
 /// How many of the further starts that meet nothing exactly are improved by programs.
@@ -183,7 +185,7 @@ impl Search<'_> {
                 }
             }
             self.iterations += 1;
-            let step = self.program(&q, (self.solver.settings.damping * cost).max(1e-9) * boost)?;
+            let step = self.program(&q, cost, boost)?;
             let next = (q + step).sup(&self.lowest).inf(&self.highest);
             let reached = self.cost(&next);
             if reached < cost * (1.0 - LEAST_GAIN) || reached < POLISH_BELOW && reached < cost {
@@ -299,13 +301,14 @@ impl Search<'_> {
     }
 
     /// The convex program at `q`; its joint step, or `None` unless it is solved.
-    fn program(&self, q: &JointVector, lambda: f64) -> Option<JointVector> {
+    fn program(&self, q: &JointVector, cost: f64, boost: f64) -> Option<JointVector> {
         // Variables: Δq (6), p (3), s (2).
         const N: usize = AXES + 5;
         let bodies = self.solver.robot.fk(q);
         let frame = bodies.rigid(self.solver.frame());
         let jacobian = bodies.jacobian(self.solver.frame(), Axes::Base);
         let slope = Deviation::jacobian(&frame, &self.target, &jacobian);
+        let lambda = self.solver.settings.damping.lambda(cost, &jacobian).max(LEAST_DAMPING) * boost;
         let mut here = Deviation::of(&frame, &self.target).0;
         let mut m = DMatrix::zeros(6, N);
         m.view_mut((0, 0), (6, AXES)).copy_from(&slope);

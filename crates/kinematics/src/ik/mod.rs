@@ -16,6 +16,7 @@
 //! | [`IkSolver::solve`] | one configuration for one pose, by the cascade below |
 //! | [`IkSolver::solve_all`] | every branch and wrap within the limits, and why each other branch is none (arms that [`analytic`] recognises) |
 //! | [`IkSolver::solve_path`] | one configuration per waypoint, without jumps, or where and why not ([`path`]) |
+//! | [`batch::solve`](crate::batch::solve) | `solve` for many poses, each from a seed of its own; warm ones four at a time ([`crate::batch`]) |
 //! | [`IkSolver::solve_generalized`] | one configuration for a pose with freedom, bounds on the motion and clearance rows ([`generalized`]) |
 //!
 //! # The cascade of `solve`, in order
@@ -24,9 +25,9 @@
 //!    branch nearest to the seed is where DLS starts, and mostly ends. When the seed is warm this step comes after step 3.
 //!    On these arms the steps from 4 on never run: where no branch is within the limits there is no solution, and
 //!    the failure says which filter left none.
-//! 2. **DLS** from the caller's seed ([`dls`]): `Δq = (JᵀJ + λI)⁻¹ Jᵀ e`, with `λ` proportional to `‖e‖²`
-//!    (Sugihara, *IEEE Trans. Robotics* 2011) and raised tenfold after a step that does not reduce the
-//!    error (Levenberg–Marquardt); steps are bounded and clamped to the limits.
+//! 2. **DLS** from the caller's seed ([`dls`]): `Δq = (JᵀJ + λI)⁻¹ Jᵀ e`, with `λ` as [`Damping`] says (by default in
+//!    proportion to `‖e‖²`; Sugihara, *IEEE Trans. Robotics* 2011), raised tenfold after a step that does not reduce the
+//!    error and let fall again by those that do (Levenberg–Marquardt); steps are bounded and clamped to the limits.
 //! 3. **QP** ([`qp`]), from where DLS stopped, when it stopped for one of two reasons: *stagnation* (the
 //!    error fell by less than 10 % in 8 iterations) or an *active limit* (three accepted steps in a row were
 //!    clamped). It solves `min ‖J Δq − e‖² + λ‖Δq‖²` within the joint position bounds and a step bound
@@ -48,6 +49,7 @@
 
 pub mod analytic;
 mod cascade;
+mod damping;
 pub mod dls;
 pub mod freedom;
 pub mod generalized;
@@ -59,6 +61,7 @@ pub mod starts;
 mod task;
 
 pub use cascade::{AllBranchesError, IkSolver};
+pub use damping::Damping;
 pub use freedom::{TaskFreedom, TaskFreedomError, Yaw};
 pub use generalized::{ClearanceRow, ClearanceRows, GeneralizedError, GeneralizedSolution, GeneralizedTask};
 pub use path::{IkPath, IkPathError, PathBreak};

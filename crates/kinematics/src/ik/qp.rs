@@ -37,7 +37,7 @@ pub(super) fn descend(task: &Task<'_>, start: Iterate, settings: &IkSettings) ->
             }
         }
         let jacobian = task.jacobian(&here);
-        let lambda = (settings.damping * here.cost).max(LEAST_DAMPING) * boost;
+        let lambda = settings.damping.lambda(here.cost, &jacobian).max(LEAST_DAMPING) * boost;
         let bounds = [
             (limits.lower - here.q).sup(&JointVector::repeat(-settings.step_bound_rad)),
             (limits.upper - here.q).inf(&JointVector::repeat(settings.step_bound_rad)),

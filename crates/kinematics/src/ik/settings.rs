@@ -1,5 +1,6 @@
 //! Settings of the inverse kinematics.
 
+use super::damping::Damping;
 use std::f64::consts::PI;
 
 /// Restarts from random configurations within the limits.
@@ -31,8 +32,8 @@ pub struct IkSettings {
     pub max_iterations: usize,
     /// Most quadratic programs from one start; default 30.
     pub max_qp_iterations: usize,
-    /// Damping per squared error: `λ = damping ‖e‖²` (e in m and rad); default 0.3.
-    pub damping: f64,
+    /// How strongly steps are damped; default `λ = 0.3 ‖e‖²`.
+    pub damping: Damping,
     /// Largest joint step of one iteration \[rad\]; default 0.7.
     pub step_bound_rad: f64,
     /// Analytic branches as starts; default [`AnalyticStarts::Used`].
@@ -50,7 +51,7 @@ impl Default for IkSettings {
             orientation_tolerance_rad: 1e-6,
             max_iterations: 60,
             max_qp_iterations: 30,
-            damping: 0.3,
+            damping: Damping::default(),
             step_bound_rad: 0.7,
             analytic_starts: AnalyticStarts::Used,
             listed_starts: 64,
@@ -99,9 +100,9 @@ impl IkSettings {
             ),
             (
                 "damping",
-                self.damping,
-                "in [0, 1e6]",
-                (0.0..=1e6).contains(&self.damping),
+                self.damping.misfit().unwrap_or(0.0),
+                "in [0, 1e6], a threshold above 0",
+                self.damping.misfit().is_none(),
             ),
             (
                 "step_bound_rad",

@@ -1,15 +1,18 @@
 //! Closing a branch that ends beyond a limit by no more than its joints are uncertain.
 
 use super::{AnalyticArm, CLOSED, LIMIT_ROUNDING_RAD};
-use crate::trig::sin_cos;
 use crate::rotation::{Rigid, rotation_vector};
+use crate::trig::sin_cos;
 use crate::{AXES, JointLimits, JointVector};
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::{Complex, Matrix6, Vector6};
 
 /// Most Gauss–Newton steps.
 const STEPS: usize = 6;
 /// Damping: keeps the normal matrix definite where the free joints are singular.
 const DAMPING: f64 = 1e-16;
+/// Regularity times distance beyond the limit above which nothing within the limit near by meets the pose to [`CLOSED`]: moving
+/// by δ costs a pose error of about the regularity times δ, unless both are so small that the curvature counts.
+const HOPELESS: f64 = 50.0 * CLOSED;
 
 impl AnalyticArm {
     /// `q` within the limits, if it is so up to rounding or the free joints can make up for the rest.
@@ -24,8 +27,12 @@ impl AnalyticArm {
     #[cold]
     fn settle(&self, target: &Rigid, q: JointVector, limits: &JointLimits) -> Option<JointVector> {
         let mut here = limits.clamp(&q);
-        if (here - q).amax() <= LIMIT_ROUNDING_RAD {
+        let beyond = (here - q).amax();
+        if beyond <= LIMIT_ROUNDING_RAD {
             return Some(here);
+        }
+        if self.regularity(&q) * beyond > HOPELESS {
+            return None;
         }
         for _ in 0..STEPS {
             let (error, mut jacobian) = self.error_and_jacobian(target, &here);
@@ -41,6 +48,19 @@ impl AnalyticArm {
             here = limits.clamp(&(here + normal.cholesky()?.solve(&jacobian.tr_mul(&error))));
         }
         None
+    }
+
+    /// |det J| but for a constant factor: `|sin ψ · X / (L₂ + L₃) · sin(q₅ + α₅)|`, zero at full stretch or fold, with
+    /// the wrist centre beside axis 1, and with axes 4 and 6 parallel.
+    fn regularity(&self, q: &JointVector) -> f64 {
+        let [upper, fore] = self.lengths;
+        let [sign_2, sign_3] = self.signs;
+        let (s, c) = sin_cos(sign_2 * q[1]);
+        let upper_arm = self.upper_at_zero * Complex::new(c, s);
+        let (s, c) = sin_cos(self.bend_at_zero + sign_3 * q[2]);
+        let out = self.shoulder_offset + (upper_arm * (Complex::new(c, s) * fore + upper)).im;
+        let (wrist, _) = sin_cos(q[4] + self.wrist_at_zero[0]);
+        (s * out / (upper + fore) * wrist).abs()
     }
 
     /// `(p* − p, log(R* Rᵀ))` of body 6 and its geometric Jacobian, in base axes \[m, rad\].

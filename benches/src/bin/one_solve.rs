@@ -1,0 +1,70 @@
+//! A number of solves for an instruction counter, after the same preparation whatever the number: the difference of two
+//! runs is what one solve costs.
+//!
+//!     valgrind --tool=callgrind target/release/one_solve warm 1
+//!     valgrind --tool=callgrind target/release/one_solve warm 2
+//!
+//! | first word | one solve is |
+//! | --- | --- |
+//! | `warm` | `IkSolver::solve` of the next point of a spiral from the last answer |
+//! | `path` | one more point of `IkSolver::solve_path` |
+//! | `cold` | `AnalyticArm::nearest` of a random pose from a random start |
+//! | `cold-solve` | `IkSolver::solve` of the same |
+//!
+//! `cold` calls [`one_case`] for each of its cases, by which callgrind can tell them apart.
+#![allow(clippy::print_stdout)]
+
+use platewash_benches::problems::{Problems, THROUGH_M};
+use platewash_benches::solvers::{Nearest, Path, Solve, Solver};
+use platewash_kinematics::{JointVector, RobotModel};
+use std::error::Error;
+use std::hint::black_box;
+
+/// Random poses, the same in every run.
+const CASES: usize = 10_000;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut words = std::env::args().skip(1);
+    let which = words.next().unwrap_or_default();
+    let count: usize = words.next().unwrap_or_default().parse()?;
+    let robot = RobotModel::irb120()?;
+    let spiral = Problems::spiral(&robot, THROUGH_M)?;
+    let random = Problems::random(&robot, CASES)?;
+    let solved = match which.as_str() {
+        "warm" => run(&mut Solve::new(&robot, &spiral)?, &spiral, count),
+        "path" => {
+            let start = spiral.start();
+            let mut some = spiral;
+            some.targets.truncate(count);
+            let answers = Path::new(&robot, &some)?.path(&start);
+            answers.into_iter().flatten().flatten().count()
+        }
+        "cold" => run(&mut Nearest::new(&robot, &random)?, &random, count),
+        "cold-solve" => run(&mut Solve::new(&robot, &random)?, &random, count),
+        _ => return Err("one of warm, path, cold, cold-solve, and a number".into()),
+    };
+    println!("{solved} of {count} solved");
+    Ok(())
+}
+
+fn run(solver: &mut dyn Solver, problems: &Problems, count: usize) -> usize {
+    use platewash_benches::problems::Seeds;
+    let mut last = problems.start();
+    let mut solved = 0;
+    for target in 0..count.min(problems.targets.len()) {
+        let seed = match &problems.seeds {
+            Seeds::LastAnswer(_) => last,
+            Seeds::Given(seeds) => seeds[target],
+        };
+        let answer = one_case(solver, target, &seed);
+        last = answer.unwrap_or(last);
+        solved += usize::from(answer.is_some());
+    }
+    solved
+}
+
+/// One solve, and nothing else.
+#[inline(never)]
+fn one_case(solver: &mut dyn Solver, target: usize, seed: &JointVector) -> Option<JointVector> {
+    black_box(solver.solve(black_box(target), black_box(seed)))
+}

@@ -1,0 +1,59 @@
+//! Many configurations at once: forward kinematics, Jacobians and warm inverse kinematics, four to an instruction.
+//!
+//! | function | for every entry | against one at a time |
+//! | --- | --- | --- |
+//! | [`fk`], [`fk_into`] | pose of a frame | within 1e-12 |
+//! | [`jacobian`], [`jacobian_into`] | geometric Jacobian of a frame | within 1e-12 |
+//! | [`solve`], [`solve_into`] | joint positions for a pose, from a near seed | the same branch, both within tolerance |
+//!
+//! Configurations stand side by side in vectors of four doubles ([`Path`] says with which instructions). Chunks of
+//! fixed size go to rayon's current thread pool. No answer depends on its neighbours, on its place, or on the number
+//! of threads; between processors with and without AVX2 the last bits differ, unless [`Path::Portable`] is asked for.
+//!
+//! | concept | file |
+//! | --- | --- |
+//! | the chain folded for speed | `chain.rs` |
+//! | poses of four configurations, columns of Jacobians | `forward.rs` |
+//! | the two forward batches | `poses.rs` |
+//! | pose errors and damped steps of four problems | `step.rs` |
+//! | the inverse batch | `inverse.rs` |
+//! | vectors of four, and the only `unsafe` | `vector.rs` |
+#![allow(clippy::needless_range_loop)] // a lane's or a joint's number indexes several arrays at once
+
+mod chain;
+mod forward;
+mod inverse;
+mod poses;
+mod step;
+mod vector;
+
+pub use inverse::{solve, solve_into};
+pub use poses::{fk, fk_into, jacobian, jacobian_into};
+pub use vector::Path;
+
+/// Configurations to a unit of work for the thread pool. Fixed, so that nothing depends on the number of threads.
+const CHUNK: usize = 512;
+
+/// Slices that don't fit together.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BatchError {
+    /// One slice is longer or shorter than the first.
+    #[error("{name}: {expected} entries are needed; found {found}")]
+    Length {
+        /// Which slice.
+        name: &'static str,
+        /// Its due length.
+        expected: usize,
+        /// The length found.
+        found: usize,
+    },
+}
+
+fn same_length(name: &'static str, expected: usize, found: usize) -> Result<(), BatchError> {
+    if expected == found {
+        Ok(())
+    } else {
+        Err(BatchError::Length { name, expected, found })
+    }
+}

@@ -1,0 +1,178 @@
+//! The two forward batches: poses, and Jacobians.
+
+use super::chain::Chain;
+use super::forward::{Tips, dot, frames, frames_and_lines, gather, moment, no_lines};
+use super::vector::{Kernel, LANES, Path, Vector, run};
+use super::{BatchError, CHUNK, same_length};
+use crate::rotation::Rigid;
+use crate::{Axes, Frame, Jacobian, JointVector, Pose, RobotModel};
+use nalgebra::{Matrix3, Vector3};
+use rayon::prelude::*;
+
+/// Poses `T_base_frame` at the joint positions `q` \[rad\], in their order. Limits are not checked; a configuration
+/// with NaN or ∞ in a joint between base and frame gives NaN throughout and leaves the others alone.
+///
+/// Agrees with [`RobotModel::pose`] within 1e-12 (m, and entries of the rotation matrix). A quaternion per pose costs
+/// about as much as its forward kinematics: [`fk_into`] is the fast form.
+#[must_use]
+pub fn fk(robot: &RobotModel, frame: &Frame, q: &[JointVector], path: Path) -> Vec<Pose> {
+    let (mut positions, mut rotations) = (vec![[0.0; 3]; q.len()], vec![[0.0; 9]; q.len()]);
+    evaluate(&Chain::new(robot, frame), q, &mut positions, &mut rotations, path);
+    let pose = |(p, r): (&[f64; 3], &[f64; 9])| {
+        Pose::from(&Rigid {
+            rotation: Matrix3::from_row_slice(r),
+            translation: Vector3::from(*p),
+        })
+    };
+    positions
+        .par_iter()
+        .zip(&rotations)
+        .with_min_len(CHUNK)
+        .map(pose)
+        .collect()
+}
+
+/// The same as [`fk`] without a quaternion and without an allocation per call beyond the chain's: configuration k
+/// gives `positions[k]`, the frame's origin in the base frame \[m\], and `rotations[k]`, `R_base_frame` row by row.
+///
+/// # Errors
+/// [`BatchError::Length`] when a slice is not as long as `q`; nothing is written then.
+pub fn fk_into(
+    robot: &RobotModel,
+    frame: &Frame,
+    q: &[JointVector],
+    positions: &mut [[f64; 3]],
+    rotations: &mut [[f64; 9]],
+    path: Path,
+) -> Result<(), BatchError> {
+    same_length("positions", q.len(), positions.len())?;
+    same_length("rotations", q.len(), rotations.len())?;
+    evaluate(&Chain::new(robot, frame), q, positions, rotations, path);
+    Ok(())
+}
+
+/// Geometric Jacobians (rows: m/rad, then rad/rad) of `frame` at the joint positions `q` \[rad\], in their order, in
+/// the given axes: column i is `(z_i × (p − p_i), z_i)`, zero for joints beyond the frame. Agrees with
+/// [`BodyPoses::jacobian`] within 1e-12.
+/// NaN and ∞ as in [`fk`]: they spoil the columns of their own configuration that depend on them.
+///
+/// [`BodyPoses::jacobian`]: crate::BodyPoses::jacobian
+#[must_use]
+pub fn jacobian(robot: &RobotModel, frame: &Frame, q: &[JointVector], axes: Axes, path: Path) -> Vec<Jacobian> {
+    let mut jacobians = vec![Jacobian::zeros(); q.len()];
+    differentiate(&Chain::new(robot, frame), q, &mut jacobians, axes, path);
+    jacobians
+}
+
+/// The same as [`jacobian`], written to `jacobians`.
+///
+/// # Errors
+/// [`BatchError::Length`] when `jacobians` is not as long as `q`; nothing is written then.
+pub fn jacobian_into(
+    robot: &RobotModel,
+    frame: &Frame,
+    q: &[JointVector],
+    axes: Axes,
+    jacobians: &mut [Jacobian],
+    path: Path,
+) -> Result<(), BatchError> {
+    same_length("jacobians", q.len(), jacobians.len())?;
+    differentiate(&Chain::new(robot, frame), q, jacobians, axes, path);
+    Ok(())
+}
+
+fn evaluate(chain: &Chain, q: &[JointVector], positions: &mut [[f64; 3]], rotations: &mut [[f64; 9]], path: Path) {
+    let chunks = q
+        .par_chunks(CHUNK)
+        .zip(positions.par_chunks_mut(CHUNK))
+        .zip(rotations.par_chunks_mut(CHUNK));
+    chunks.for_each(|((q, positions), rotations)| {
+        run(
+            path,
+            Poses {
+                chain,
+                q,
+                positions,
+                rotations,
+            },
+        )
+    });
+}
+
+fn differentiate(chain: &Chain, q: &[JointVector], jacobians: &mut [Jacobian], axes: Axes, path: Path) {
+    let chunks = q.par_chunks(CHUNK).zip(jacobians.par_chunks_mut(CHUNK));
+    chunks.for_each(|(q, jacobians)| {
+        run(
+            path,
+            Jacobians {
+                chain,
+                q,
+                jacobians,
+                axes,
+            },
+        )
+    });
+}
+
+/// One chunk of poses.
+struct Poses<'a> {
+    chain: &'a Chain,
+    q: &'a [JointVector],
+    positions: &'a mut [[f64; 3]],
+    rotations: &'a mut [[f64; 9]],
+}
+
+impl Kernel for Poses<'_> {
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let outputs = self.positions.chunks_mut(LANES).zip(self.rotations.chunks_mut(LANES));
+        for (q, (positions, rotations)) in self.q.chunks(LANES).zip(outputs) {
+            let tips: Tips<V> = frames(self.chain, &gather(q));
+            let (p, x) = (rows(&tips.p), rows(&tips.x));
+            let (y, z) = (rows(&tips.y), rows(&tips.z));
+            for (l, (position, rotation)) in positions.iter_mut().zip(rotations).enumerate() {
+                *position = [p[0][l], p[1][l], p[2][l]];
+                *rotation = [
+                    x[0][l], y[0][l], z[0][l], x[1][l], y[1][l], z[1][l], x[2][l], y[2][l], z[2][l],
+                ];
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn rows<V: Vector>(v: &[V; 3]) -> [[f64; LANES]; 3] {
+    [v[0].to_array(), v[1].to_array(), v[2].to_array()]
+}
+
+/// One chunk of Jacobians.
+struct Jacobians<'a> {
+    chain: &'a Chain,
+    q: &'a [JointVector],
+    jacobians: &'a mut [Jacobian],
+    axes: Axes,
+}
+
+impl Kernel for Jacobians<'_> {
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let mut lines = no_lines::<V>();
+        for (q, jacobians) in self.q.chunks(LANES).zip(self.jacobians.chunks_mut(LANES)) {
+            let tips = frames_and_lines(self.chain, &gather(q), &mut lines);
+            for (i, line) in lines.iter().enumerate().take(self.chain.links.len()) {
+                let (mut linear, mut angular) = (moment(line, &tips.p), line.axis);
+                if self.axes == Axes::Local {
+                    linear = [dot(&tips.x, &linear), dot(&tips.y, &linear), dot(&tips.z, &linear)];
+                    angular = [dot(&tips.x, &angular), dot(&tips.y, &angular), dot(&tips.z, &angular)];
+                }
+                let (linear, angular) = (rows(&linear), rows(&angular));
+                for (l, jacobian) in jacobians.iter_mut().enumerate() {
+                    for a in 0..3 {
+                        jacobian[(a, i)] = linear[a][l];
+                        jacobian[(a + 3, i)] = angular[a][l];
+                    }
+                }
+            }
+        }
+    }
+}

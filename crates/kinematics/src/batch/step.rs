@@ -1,0 +1,145 @@
+//! The pose error and the damped step of four inverse-kinematics problems at once: the equations of [`crate::ik`],
+//! lane by lane.
+
+use super::forward::{Line, Tips, cross, dot, moment};
+use super::vector::Vector;
+use crate::AXES;
+
+/// Below this cosine of the error angle (0.5 rad) a lane is left to the scalar solver.
+pub(super) const LEAST_COSINE: f64 = 0.877_582_561_890_372_8;
+
+/// Pose errors.
+pub(super) struct Errors<V> {
+    /// `p* − p` \[m\], base axes.
+    pub linear: [V; 3],
+    /// `log(R* Rᵀ)` \[rad\], base axes; meaningless where `cosine` is below [`LEAST_COSINE`].
+    pub angular: [V; 3],
+    /// `‖p* − p‖²` \[m²\].
+    pub position: V,
+    /// Squared error angle \[rad²\].
+    pub angle: V,
+    /// Cosine of the error angle.
+    pub cosine: V,
+}
+
+/// The errors of `tips` against `targets`.
+///
+/// With v = sin θ · axis, the skew part of `R* Rᵀ = Σ r*_k r_kᵀ` over the columns, and t = tan(θ/2) = sin θ / (1 + cos θ), the
+/// rotation vector is `v · 2 arctan(t) / (t (1 + cos θ))`.
+#[inline(always)]
+pub(super) fn errors<V: Vector>(targets: &Tips<V>, tips: &Tips<V>) -> Errors<V> {
+    let (x, y, z) = (
+        cross(&tips.x, &targets.x),
+        cross(&tips.y, &targets.y),
+        cross(&tips.z, &targets.z),
+    );
+    let twice_sine = [x[0] + y[0] + z[0], x[1] + y[1] + z[1], x[2] + y[2] + z[2]];
+    let trace = dot(&tips.x, &targets.x) + dot(&tips.y, &targets.y) + dot(&tips.z, &targets.z);
+    let one = V::splat(1.0);
+    // tr R = 1 + 2 cos θ, hence 2 (1 + cos θ) = tr R + 1.
+    let inverse = one / (trace + one);
+    let square = dot(&twice_sine, &twice_sine);
+    let factor = (inverse + inverse) * arctan_over(square * (inverse * inverse));
+    let (p, s) = (&tips.p, &targets.p);
+    let linear = [s[0] - p[0], s[1] - p[1], s[2] - p[2]];
+    Errors {
+        linear,
+        angular: [factor * twice_sine[0], factor * twice_sine[1], factor * twice_sine[2]],
+        position: dot(&linear, &linear),
+        angle: square * (factor * factor),
+        cosine: (trace - one) * V::splat(0.5),
+    }
+}
+
+/// arctan(t)/t as a function of t², for |t| ≤ tan(0.25): `Σ (−t²)ᵏ/(2k + 1)`, cut where a term is below 1e-13.
+#[inline(always)]
+fn arctan_over<V: Vector>(square: V) -> V {
+    let mut sum = V::splat(1.0 / 21.0);
+    for odd in [19.0, 17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0, 1.0] {
+        sum = square.neg_mul_add(sum, V::splat(1.0 / odd));
+    }
+    sum
+}
+
+/// What bounds the steps of all lanes.
+pub(super) struct Bounds {
+    /// λ = gain ‖e‖² …
+    pub gain: f64,
+    /// … and at least this.
+    pub least_damping: f64,
+    /// Largest joint step \[rad\].
+    pub step_rad: f64,
+    /// Joint limits \[rad\].
+    pub lower: [f64; AXES],
+    /// Joint limits \[rad\].
+    pub upper: [f64; AXES],
+}
+
+/// The damped step `Δq = (JᵀJ + λI)⁻¹ Jᵀ e` \[rad\].
+#[inline(always)]
+pub(super) fn damped_step<V: Vector>(bounds: &Bounds, p: &[V; 3], lines: &[Line<V>; AXES], e: &Errors<V>) -> [V; AXES] {
+    let cost = e.position + e.angle;
+    let lambda = larger(V::splat(bounds.gain) * cost, V::splat(bounds.least_damping));
+    let zero = V::splat(0.0);
+    let (mut normal, mut gradient, mut moments) = ([[zero; AXES]; AXES], [zero; AXES], [[zero; 3]; AXES]);
+    for i in 0..AXES {
+        moments[i] = moment(&lines[i], p);
+        let (m, z) = (&moments[i], &lines[i].axis);
+        gradient[i] = dot(m, &e.linear) + dot(z, &e.angular);
+        for k in 0..i {
+            normal[i][k] = dot(m, &moments[k]) + dot(z, &lines[k].axis);
+        }
+        normal[i][i] = dot(m, m) + (dot(z, z) + lambda);
+    }
+    solve(normal, gradient)
+}
+
+/// `q + Δq`, shortened to the step bound and clamped to the limits, and how many steps in a row a limit cut.
+#[inline(always)]
+pub(super) fn moved<V: Vector>(bounds: &Bounds, mut q: [V; AXES], dq: &[V; AXES], clamped: V) -> ([V; AXES], V) {
+    let (zero, one) = (V::splat(0.0), V::splat(1.0));
+    let mut largest = zero;
+    for d in dq {
+        largest = larger(larger(*d, zero - *d), largest);
+    }
+    let bound = V::splat(bounds.step_rad);
+    let gain = largest.if_above(bound, bound / largest, one);
+    let mut streak = zero;
+    for i in 0..AXES {
+        let aim = q[i] + gain * dq[i];
+        let (lower, upper) = (V::splat(bounds.lower[i]), V::splat(bounds.upper[i]));
+        streak = lower.if_above(aim, one, aim.if_above(upper, one, streak));
+        q[i] = lower.if_above(aim, lower, aim.if_above(upper, upper, aim));
+    }
+    (q, streak * (clamped + one))
+}
+
+/// The larger one; the second if either is NaN.
+#[inline(always)]
+fn larger<V: Vector>(a: V, b: V) -> V {
+    a.if_above(b, a, b)
+}
+
+/// `A x = b` by LDLᵀ from A's lower triangle, as the scalar solver does it, but without its test of the pivots: a
+/// step that is nonsense does not lower the error, and the lane is given up for it.
+#[inline(always)]
+fn solve<V: Vector>(mut a: [[V; AXES]; AXES], mut x: [V; AXES]) -> [V; AXES] {
+    let mut inverse = x;
+    for j in 0..AXES {
+        inverse[j] = V::splat(1.0) / a[j][j];
+        for i in j + 1..AXES {
+            let scaled = a[i][j] * inverse[j];
+            for k in j + 1..=i {
+                a[i][k] = scaled.neg_mul_add(a[k][j], a[i][k]);
+            }
+            x[i] = scaled.neg_mul_add(x[j], x[i]);
+        }
+    }
+    for j in (0..AXES).rev() {
+        for i in j + 1..AXES {
+            x[j] = a[i][j].neg_mul_add(x[i], x[j]);
+        }
+        x[j] = x[j] * inverse[j];
+    }
+    x
+}
