@@ -149,7 +149,7 @@ pub fn check(scenario: &Scenario) -> Result<(RobotModel, Vec<layout::Finding>), 
 
 /// The start configuration \[rad\], within the limits.
 fn start(scenario: &Scenario, robot: &RobotModel) -> Result<JointVector, RobotError> {
-    let start = JointVector::from(scenario.robot.start_deg).map(f64::to_radians);
+    let [start, _] = scenario.homes();
     match robot.limits().violation(&start) {
         Some(violation) => Err(RobotError::Start(violation)),
         None => Ok(start),

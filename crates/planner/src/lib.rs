@@ -17,6 +17,7 @@ pub mod reproduce;
 pub mod robot;
 pub mod scenario;
 pub mod spiral;
+pub mod stroke;
 pub mod tool_path;
 pub mod tracking;
 pub mod trajectory;

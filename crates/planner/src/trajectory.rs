@@ -41,7 +41,62 @@ pub struct SegmentExtremes {
     pub acceleration: JointVector,
 }
 
+/// Knots that are no motion.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum KnotError {
+    /// The lists differ in length.
+    #[error("knots: {times} times, {positions} positions and {speeds} speeds; there must be as many of each")]
+    Count {
+        /// Times.
+        times: usize,
+        /// Positions.
+        positions: usize,
+        /// Speeds.
+        speeds: usize,
+    },
+    /// A number is not finite.
+    #[error("knot {knot}: not finite")]
+    NotFinite {
+        /// Index of the knot.
+        knot: usize,
+    },
+    /// Times don't ascend strictly from 0.
+    #[error("knot {knot}: time {t_s} s; times must ascend strictly, from 0")]
+    Time {
+        /// Index of the knot.
+        knot: usize,
+        /// Its time \[s\].
+        t_s: f64,
+    },
+}
+
 impl Trajectory {
+    /// A motion from its knots.
+    ///
+    /// # Errors
+    /// [`KnotError`] with the first knot that does not fit.
+    pub fn from_knots(t_s: Vec<f64>, q_rad: Vec<JointVector>, qd_rad_s: Vec<JointVector>) -> Result<Self, KnotError> {
+        if t_s.len() != q_rad.len() || t_s.len() != qd_rad_s.len() {
+            return Err(KnotError::Count {
+                times: t_s.len(),
+                positions: q_rad.len(),
+                speeds: qd_rad_s.len(),
+            });
+        }
+        for (knot, &time) in t_s.iter().enumerate() {
+            let numbers = q_rad[knot].iter().chain(qd_rad_s[knot].iter());
+            if !time.is_finite() || !numbers.into_iter().all(|v| v.is_finite()) {
+                return Err(KnotError::NotFinite { knot });
+            }
+            let fits = if knot == 0 { time == 0.0 } else { time > t_s[knot - 1] };
+            if !fits {
+                return Err(KnotError::Time { knot, t_s: time });
+            }
+        }
+        Ok(Self { t_s, q_rad, qd_rad_s })
+    }
+
     /// A motion through positions at equal time steps: speeds at the knots are central differences, and zero at both
     /// ends (a Catmull–Rom curve at rest at its ends).
     #[must_use]
@@ -223,6 +278,22 @@ mod tests {
             let [before, here, after] = [t - h, t, t + h].map(|t| motion.at(t).unwrap());
             prop_assert!(((after.q - before.q) / (2.0 * h) - here.qd).amax() < 1e-3);
         }
+    }
+
+    #[test]
+    fn knots_that_are_no_motion_are_refused() {
+        let (still, nan) = (JointVector::zeros(), JointVector::repeat(f64::NAN));
+        let knots = |t: &[f64], q: &[JointVector]| Trajectory::from_knots(t.to_vec(), q.to_vec(), vec![still; t.len()]);
+        assert!(knots(&[], &[]).is_ok());
+        assert!(knots(&[0.0, 1.0], &[still; 2]).is_ok());
+        assert!(matches!(knots(&[0.0], &[]), Err(KnotError::Count { positions: 0, .. })));
+        assert_eq!(knots(&[0.0, 1.0], &[still, nan]), Err(KnotError::NotFinite { knot: 1 }));
+        assert_eq!(knots(&[f64::INFINITY], &[still]), Err(KnotError::NotFinite { knot: 0 }));
+        assert_eq!(knots(&[1.0], &[still]), Err(KnotError::Time { knot: 0, t_s: 1.0 }));
+        assert_eq!(
+            knots(&[0.0, 0.0], &[still; 2]),
+            Err(KnotError::Time { knot: 1, t_s: 0.0 })
+        );
     }
 
     #[test]

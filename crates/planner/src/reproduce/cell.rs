@@ -132,7 +132,7 @@ impl Bench {
                     spiral: counts,
                     executed_coverage: [NOTHING; SPONGES_MM.len()],
                 }),
-                SegmentKind::Depart | SegmentKind::Transition => {
+                _ => {
                     let sum = &mut sample.transition;
                     sum.points += counts.points;
                     sum.reached += counts.reached;

@@ -74,6 +74,7 @@ mod tests {
         let mut full = Scenario::default();
         (full.robot.urdf, full.robot.srdf) = (Some("a".into()), Some("b".into()));
         full.robot.package_path = vec!["c".into()];
+        full.robot.home_deg = Some([0.0; 6]);
         let layout = &mut full.layout;
         layout.region = Some(super::super::RegionName::Text);
         (layout.x_m, layout.y_m) = (Some([0.0, 1.0]), Some([0.0, 1.0]));

@@ -63,6 +63,13 @@ pub const KEYS: &[Key] = &[
         "Seed of every random stream; the same seed gives the same bytes.",
     ),
     key(
+        "job.program",
+        "",
+        Word(&["paper", "certified"]),
+        "Waypoint after waypoint as the paper's program, or planned as a whole, from home to home, with a certificate. Each uses \
+         the keys that it needs.",
+    ),
+    key(
         "job.on_failure",
         "",
         Word(&["report", "fail"]),
@@ -71,8 +78,8 @@ pub const KEYS: &[Key] = &[
     key(
         "job.order",
         "",
-        Word(&["nearest", "given"]),
-        "Order of the plates: always the nearest unvisited centre, or as listed.",
+        Word(&["nearest", "given", "fastest"]),
+        "Order of the plates: always the nearest unvisited centre, as listed, or the least travel time in all (certified only).",
     ),
     key(
         "job.required_coverage",
@@ -110,6 +117,12 @@ pub const KEYS: &[Key] = &[
         "deg",
         Joints(-36000.0, 36000.0),
         "Joint positions at the start, within the arm's limits.",
+    ),
+    key(
+        "robot.home_deg",
+        "deg",
+        Joints(-36000.0, 36000.0),
+        "Joint positions at the end, within the arm's limits; without it, those at the start (certified).",
     ),
     key(
         "tool.length_m",
@@ -187,6 +200,12 @@ pub const KEYS: &[Key] = &[
         "Plate centres are farther from the base axis than this.",
     ),
     key(
+        "layout.overlap",
+        "",
+        Word(&["report", "fail"]),
+        "Plates that overlap: a finding only, or the certificate fails.",
+    ),
+    key(
         "layout.positions_m",
         "m",
         Points(-10.0, 10.0),
@@ -217,6 +236,30 @@ pub const KEYS: &[Key] = &[
         "m",
         Number(0.0, 1.0),
         "Least clearance that counts as free; at 0 only contact is a violation.",
+    ),
+    key(
+        "wash.tilt_max_deg",
+        "deg",
+        Number(0.0, 60.0),
+        "Largest angle of the tool from the plate's normal while it washes (certified).",
+    ),
+    key(
+        "wash.speed_m_s",
+        "m/s",
+        NumberAbove(0.0, 10.0),
+        "Largest speed of the tip while it washes (certified).",
+    ),
+    key(
+        "wash.acceleration_m_s2",
+        "m/s²",
+        NumberAbove(0.0, 1000.0),
+        "Largest acceleration of the tip while it washes (certified).",
+    ),
+    key(
+        "wash.lift_m",
+        "m",
+        NumberAbove(0.0, 1.0),
+        "How far the tip approaches and retreats along the plate's normal (certified).",
     ),
     key(
         "ik.method",
@@ -272,6 +315,18 @@ pub const KEYS: &[Key] = &[
         "rad/s²",
         JointsAbove(0.0, 1e6),
         "Joint acceleration limits: an assumption, as the manufacturer publishes none.",
+    ),
+    key(
+        "limits.tip_speed_m_s",
+        "m/s",
+        NumberAbove(0.0, 100.0),
+        "Largest speed of the tip anywhere (certified): an assumption.",
+    ),
+    key(
+        "limits.tip_acceleration_m_s2",
+        "m/s²",
+        NumberAbove(0.0, 1e4),
+        "Largest acceleration of the tip anywhere (certified): an assumption.",
     ),
     key(
         "control.law",

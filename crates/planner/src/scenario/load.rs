@@ -2,7 +2,7 @@
 
 use super::keys::{Domain, KEYS};
 use super::shipped::SHIPPED;
-use super::{Problem, Scenario, ScenarioError};
+use super::{OrderRule, Problem, Program, Scenario, ScenarioError};
 use platewash_kinematics::urdf::file::{self, FileError};
 use std::path::Path;
 use toml::Spanned;
@@ -110,6 +110,13 @@ impl Scenario {
             return conflict(
                 "robot.urdf",
                 "robot.srdf and robot.package_path need a robot.urdf".into(),
+            );
+        }
+        if self.job.program == Program::Paper && self.job.order == OrderRule::Fastest {
+            return conflict(
+                "job.order",
+                "\"fastest\" is for job.program = \"certified\"; the paper's program knows \"nearest\" and \"given\""
+                    .into(),
             );
         }
         self.check_waypoints()

@@ -17,7 +17,7 @@ pub use shipped::{SHIPPED, ShippedScenario};
 pub use work::{MAX_PLATE_CHECKS, MAX_WAYPOINTS};
 
 use crate::layout::Region;
-use platewash_kinematics::ToolFrame;
+use platewash_kinematics::{JointVector, ToolFrame};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -54,12 +54,24 @@ pub struct Scenario {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct JobSection {
+    /// How the job is planned.
+    pub program: Program,
     /// Whether a job that does not wash ends with an error.
     pub on_failure: OnFailure,
     /// In which order plates are washed.
     pub order: OrderRule,
     /// Share of a plate that must be swept for it to count as washed.
     pub required_coverage: f64,
+}
+
+/// How a job is planned.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Program {
+    /// Waypoint after waypoint, each solved and followed by a control law: the paper's program.
+    Paper,
+    /// As a whole, from home to home: tool path, posture, crossings, timing, certificate.
+    Certified,
 }
 
 /// What a job that does not wash leads to.
@@ -80,6 +92,8 @@ pub enum OrderRule {
     Nearest,
     /// As listed.
     Given,
+    /// The least travel time in all; [`Program::Certified`] only.
+    Fastest,
 }
 
 /// `[robot]`.
@@ -101,6 +115,9 @@ pub struct RobotSection {
     pub tool_frame: ToolFrame,
     /// Joint positions at the start \[deg\].
     pub start_deg: [f64; 6],
+    /// Joint positions at the end \[deg\]; by default those at the start. [`Program::Certified`] only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub home_deg: Option<[f64; 6]>,
 }
 
 /// Arms that are built in.
@@ -156,9 +173,21 @@ pub struct LayoutSection {
     pub min_distance_m: f64,
     /// Least distance of a centre from the base axis \[m\].
     pub base_radius_m: f64,
+    /// What overlapping plates lead to.
+    pub overlap: Overlap,
     /// Plate centres, in place of sampling \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub positions_m: Option<Vec<[f64; 2]>>,
+}
+
+/// What plates that overlap lead to, in a certificate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Overlap {
+    /// A finding.
+    Report,
+    /// The certificate fails.
+    Fail,
 }
 
 /// The paper's two regions.
@@ -198,6 +227,14 @@ pub struct WashSection {
     pub closing_ring: bool,
     /// Least clearance that counts as free \[m\].
     pub clearance_m: f64,
+    /// Largest angle of the tool from the plate's normal \[deg\]. This key and those below: [`Program::Certified`] only.
+    pub tilt_max_deg: f64,
+    /// Largest speed of the tip along the path \[m/s\].
+    pub speed_m_s: f64,
+    /// Largest acceleration of the tip on the path \[m/s²\].
+    pub acceleration_m_s2: f64,
+    /// How far the tip approaches and retreats along the plate's normal \[m\].
+    pub lift_m: f64,
 }
 
 /// `[ik]`.
@@ -265,6 +302,10 @@ pub enum Interpolation {
 pub struct LimitsSection {
     /// Joint acceleration limits \[rad/s²\]: an assumption, as the manufacturer publishes none.
     pub joint_acceleration_rad_s2: [f64; 6],
+    /// Largest speed of the tip anywhere \[m/s\]: an assumption. [`Program::Certified`] only.
+    pub tip_speed_m_s: f64,
+    /// Largest acceleration of the tip anywhere \[m/s²\]: an assumption. [`Program::Certified`] only.
+    pub tip_acceleration_m_s2: f64,
 }
 
 /// `[control]`.
@@ -291,6 +332,15 @@ pub enum ControlLawName {
     Exact,
 }
 
+impl Scenario {
+    /// Joint positions at the start and at the end \[rad\].
+    #[must_use]
+    pub fn homes(&self) -> [JointVector; 2] {
+        let start = self.robot.start_deg;
+        [start, self.robot.home_deg.unwrap_or(start)].map(|deg| JointVector::from(deg).map(f64::to_radians))
+    }
+}
+
 impl Default for Scenario {
     fn default() -> Self {
         Self {
@@ -312,6 +362,7 @@ impl Default for Scenario {
 impl Default for JobSection {
     fn default() -> Self {
         Self {
+            program: Program::Certified,
             on_failure: OnFailure::Report,
             order: OrderRule::Nearest,
             required_coverage: 0.99,
@@ -328,6 +379,7 @@ impl Default for RobotSection {
             package_path: Vec::new(),
             tool_frame: ToolFrame::Tool0,
             start_deg: [0.0; 6],
+            home_deg: None,
         }
     }
 }
@@ -357,6 +409,7 @@ impl Default for LayoutSection {
             azimuth_deg: None,
             min_distance_m: 0.28,
             base_radius_m: 0.25,
+            overlap: Overlap::Fail,
             positions_m: None,
         }
     }
@@ -371,6 +424,10 @@ impl Default for WashSection {
             height_m: 0.05,
             closing_ring: false,
             clearance_m: 0.0,
+            tilt_max_deg: 15.0,
+            speed_m_s: 0.25,
+            acceleration_m_s2: 4.0,
+            lift_m: 0.03,
         }
     }
 }
@@ -402,6 +459,8 @@ impl Default for LimitsSection {
     fn default() -> Self {
         Self {
             joint_acceleration_rad_s2: [4.0, 4.0, 4.0, 5.0, 5.0, 6.0],
+            tip_speed_m_s: 1.0,
+            tip_acceleration_m_s2: 8.0,
         }
     }
 }
