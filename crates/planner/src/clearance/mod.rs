@@ -12,6 +12,7 @@
 mod distance;
 mod pairs;
 mod part;
+mod washing;
 
 use crate::layout::Plate;
 use crate::scenario::ToolSection;

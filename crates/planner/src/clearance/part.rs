@@ -2,10 +2,11 @@
 //!
 //! A sphere is a point with a radius and a capsule a segment with one, so that their distances have closed forms.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::shape::{ConvexPolyhedron, Cuboid, Cylinder, Segment, SharedShape};
 use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{BodyPoses, Frame};
 
 /// The core of a part, in its own frame.
@@ -128,6 +129,37 @@ impl Part {
             radius: 0.0,
             bounding,
             frame,
+        }
+    }
+
+    /// The frame that the part is fixed to, base frame.
+    pub fn rigid(&self, poses: &BodyPoses) -> Rigid {
+        poses.rigid(&self.frame)
+    }
+
+    /// A lower bound of the distance to another part from its bounding sphere; `here` and `there` are the parts'
+    /// [`Part::rigid`] \[m\].
+    pub fn gap_to_sphere(&self, here: &Rigid, other: &Self, there: &Rigid) -> f64 {
+        self.distance_to_point(here, &there.translation) - other.bounding
+    }
+
+    /// Distance of a point of the base frame from the part \[m\]: exact for capsules, cylinders and the floor, otherwise a
+    /// lower bound from the bounding sphere.
+    fn distance_to_point(&self, here: &Rigid, point: &Vector3<f64>) -> f64 {
+        let away = point - here.translation;
+        match &self.core {
+            Core::Floor => point.z,
+            Core::Segment(half) => {
+                let axis = here.rotation.column(2);
+                (away - axis * axis.dot(&away).clamp(-half, *half)).norm() - self.radius
+            }
+            Core::Solid(_, Extent::Cylinder(radius, half)) => {
+                let along = here.rotation.column(2).dot(&away);
+                let across = (away.norm_squared() - along * along).max(0.0).sqrt();
+                let (over, beside) = ((along.abs() - half).max(0.0), (across - radius).max(0.0));
+                (over * over + beside * beside).sqrt()
+            }
+            Core::Solid(..) => away.norm() - self.bounding,
         }
     }
 
