@@ -11,6 +11,7 @@ pub mod job;
 pub mod layout;
 pub mod order;
 pub mod plan;
+pub mod posture;
 pub mod random;
 pub mod report;
 pub mod reproduce;

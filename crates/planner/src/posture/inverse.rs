@@ -1,0 +1,148 @@
+//! Configurations for a pose of the tip: all to start from, and the one that continues a path.
+
+use super::obstacle::Obstacle;
+use platewash_kinematics::ik::analytic::{AnalyticArm, Degenerate, Elbow, Label, Rejection, Shoulder, Wrist};
+use platewash_kinematics::ik::{IkSettings, IkSettingsError, IkSolver};
+use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::{AXES, Frame, JointLimits, JointVector, Pose, RobotModel};
+use std::f64::consts::PI;
+
+/// How exactly the numeric solver meets a pose \[m and rad\].
+const TOLERANCE: f64 = 1e-9;
+
+/// Configurations this near to each other start the same path \[rad\].
+const SAME_START_RAD: f64 = 0.5 * PI;
+
+/// A configuration to start from, and the branch to stay on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Start {
+    /// \[rad\].
+    pub q: JointVector,
+    /// Shoulder and elbow, where the arm has named branches. The wrist follows by continuity: where axes 4 and 6 are
+    /// parallel in the arm's plane, the names of its branches change and joint 4 does not.
+    pub sides: Option<(Shoulder, Elbow)>,
+}
+
+/// The inverse kinematics of an arm.
+#[derive(Debug)]
+pub(super) enum Inverse<'a> {
+    /// In closed form.
+    Analytic {
+        arm: Box<AnalyticArm>,
+        tip: Frame,
+        limits: &'a JointLimits,
+    },
+    /// By iteration.
+    Numeric(Box<IkSolver<'a>>),
+}
+
+impl<'a> Inverse<'a> {
+    pub fn new(robot: &'a RobotModel, tip: Frame) -> Result<Self, IkSettingsError> {
+        if let (Ok(arm), AXES) = (AnalyticArm::recognise(robot), tip.body()) {
+            return Ok(Self::Analytic {
+                arm: Box::new(arm),
+                tip,
+                limits: robot.limits(),
+            });
+        }
+        let settings = IkSettings {
+            position_tolerance_m: TOLERANCE,
+            orientation_tolerance_rad: TOLERANCE,
+            ..IkSettings::default()
+        };
+        Ok(Self::Numeric(Box::new(IkSolver::new(robot, tip, settings)?)))
+    }
+
+    /// The configuration for `target` that is nearest to `start`, on its branch and within the limits.
+    ///
+    /// # Errors
+    /// [`Obstacle::Reach`], [`Obstacle::Limit`], [`Obstacle::Unsolved`] or [`Obstacle::NotFinite`].
+    pub fn continuing(&self, target: &Rigid, start: &Start) -> Result<JointVector, Obstacle> {
+        let (arm, tip, limits) = match self {
+            Self::Analytic { arm, tip, limits } => (arm, tip, limits),
+            Self::Numeric(solver) => return Ok(solver.solve(&Pose::from(target), &start.q)?.q),
+        };
+        let body = AnalyticArm::body_target(tip, target).ok_or(Obstacle::NotFinite)?;
+        let found = arm.nearest(&body, &start.q, limits);
+        let Some((shoulder, elbow)) = start.sides else {
+            return Ok(found?.q);
+        };
+        if let Ok(found) = found
+            && on_sides(found.label, found.degenerate, (shoulder, elbow))
+        {
+            return Ok(found.q);
+        }
+        let all = arm.solve_all(&body, &start.q, limits)?;
+        let mut best: Result<JointVector, Option<Rejection>> = Err(None);
+        for wrist in [Wrist::Plain, Wrist::Flipped] {
+            match all.get(Label::new(shoulder, elbow, wrist)) {
+                Ok(solution) => {
+                    for q in solution.configurations() {
+                        best = Ok(match best {
+                            Ok(other) if (other - start.q).norm() <= (q - start.q).norm() => other,
+                            _ => q,
+                        });
+                    }
+                }
+                Err(rejection) => best = best.map_err(|other| lesser(other, rejection)),
+            }
+        }
+        best.map_err(|rejection| rejection.map_or(Obstacle::NotFinite, Obstacle::from))
+    }
+
+    /// The configurations for `target` within the limits, one a branch, nearest to `near` \[rad\]: with shoulder in front and elbow
+    /// up first (there the arm stays above what lies around it), then the nearest.
+    ///
+    /// # Errors
+    /// As [`Inverse::continuing`], when there is none.
+    pub fn starts(&self, target: &Rigid, near: &JointVector) -> Result<Vec<Start>, Obstacle> {
+        let anywhere = Start { q: *near, sides: None };
+        let Self::Analytic { arm, tip, limits } = self else {
+            let q = self.continuing(target, &anywhere)?;
+            return Ok(vec![Start { q, sides: None }]);
+        };
+        let body = AnalyticArm::body_target(tip, target).ok_or(Obstacle::NotFinite)?;
+        let all = arm.solve_all(&body, near, limits)?;
+        let mut found: Vec<_> = all
+            .configurations()
+            .map(|(label, q)| Start {
+                q,
+                sides: Some((label.shoulder, label.elbow)),
+            })
+            .collect();
+        let rank = |start: &Start| start.sides != Some((Shoulder::Front, Elbow::Up));
+        let far = |start: &Start| (start.q - near).norm();
+        found.sort_by(|a, b| rank(a).cmp(&rank(b)).then(far(a).total_cmp(&far(b))));
+        let mut starts = Vec::new();
+        merge_starts(&mut starts, found);
+        if starts.is_empty() {
+            self.continuing(target, &anywhere)?;
+        }
+        Ok(starts)
+    }
+}
+
+/// Adds the starts that no start there already stands for: of the turns of a joint only the first, nearest one counts.
+pub(super) fn merge_starts(starts: &mut Vec<Start>, more: Vec<Start>) {
+    for start in more {
+        let same = |other: &Start| {
+            let turned = (start.q - other.q).map(|d| (d - 2.0 * PI * (d / (2.0 * PI)).round()).abs());
+            start.sides == other.sides && turned.amax() < SAME_START_RAD
+        };
+        if !starts.iter().any(same) {
+            starts.push(start);
+        }
+    }
+}
+
+fn on_sides(label: Label, meets: Degenerate, (shoulder, elbow): (Shoulder, Elbow)) -> bool {
+    (label.shoulder == shoulder || meets.shoulder) && (label.elbow == elbow || meets.elbow)
+}
+
+fn lesser(other: Option<Rejection>, rejection: Rejection) -> Option<Rejection> {
+    let by = |r: &Rejection| Obstacle::from(*r).shortfall();
+    match other {
+        Some(other) if by(&other) <= by(&rejection) => Some(other),
+        _ => Some(rejection),
+    }
+}

@@ -1,0 +1,122 @@
+//! What keeps the arm from a posture: the filters of a vertex, one a variant.
+
+use crate::clearance::PairClearance;
+use platewash_kinematics::LimitViolation;
+use platewash_kinematics::ik::analytic::{AnalyticError, OutOfReach, Rejection};
+use platewash_kinematics::ik::{IkCause, IkError};
+
+/// Why a contact point cannot be washed at a tilt in a configuration of the arm.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Obstacle {
+    /// The wrist cannot be where it must.
+    #[error("out of reach by {:.1} mm", 1e3 * .0.by_m)]
+    Reach(OutOfReach),
+    /// A joint would be beyond its limit.
+    #[error(
+        "joint {} is {:.2}° beyond its limit of {:.2}°",
+        .0.joint + 1, (.0.position_rad - .0.limit_rad).abs().to_degrees(), .0.limit_rad.to_degrees()
+    )]
+    Limit(LimitViolation),
+    /// The numeric inverse kinematics found nothing.
+    #[error("inverse kinematics: {cause}, {:.1} mm off", 1e3 * position_error_m)]
+    Unsolved {
+        /// Why.
+        cause: IkCause,
+        /// How far the best configuration is away \[m\].
+        position_error_m: f64,
+    },
+    /// Two bodies are too near.
+    #[error("{} is {:.1} mm from {}; {:.1} mm must be kept", pair.a, 1e3 * pair.distance_m, pair.b, 1e3 * required_m)]
+    Clearance {
+        /// The bodies.
+        pair: PairClearance,
+        /// What they must keep \[m\].
+        required_m: f64,
+    },
+    /// A joint would have to move too far from the last contact point.
+    #[error("joint {} would have to jump by {:.1}°", joint + 1, by_rad.to_degrees())]
+    Jump {
+        /// Joint index, 0 for joint 1.
+        joint: usize,
+        /// How far \[rad\].
+        by_rad: f64,
+    },
+    /// The pose or the start of the arm is not finite.
+    #[error("not finite")]
+    NotFinite,
+}
+
+/// The kinds of [`Obstacle`], for counting.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Filter {
+    /// [`Obstacle::Reach`] and [`Obstacle::Unsolved`].
+    Reach,
+    /// [`Obstacle::Limit`].
+    Limit,
+    /// [`Obstacle::Clearance`].
+    Clearance,
+    /// [`Obstacle::Jump`].
+    Continuity,
+    /// [`Obstacle::NotFinite`].
+    Numbers,
+}
+
+impl Obstacle {
+    /// Its kind.
+    #[must_use]
+    pub fn filter(&self) -> Filter {
+        match self {
+            Self::Reach(_) | Self::Unsolved { .. } => Filter::Reach,
+            Self::Limit(_) => Filter::Limit,
+            Self::Clearance { .. } => Filter::Clearance,
+            Self::Jump { .. } => Filter::Continuity,
+            Self::NotFinite => Filter::Numbers,
+        }
+    }
+
+    /// How far it is from being none, in the unit of its kind: m for reach and clearance, rad for limits and jumps.
+    #[must_use]
+    pub fn shortfall(&self) -> f64 {
+        match self {
+            Self::Reach(miss) => miss.by_m,
+            Self::Unsolved { position_error_m, .. } => *position_error_m,
+            Self::Limit(violation) => (violation.position_rad - violation.limit_rad).abs(),
+            Self::Clearance { pair, required_m } => required_m - pair.distance_m,
+            Self::Jump { by_rad, .. } => *by_rad,
+            Self::NotFinite => f64::INFINITY,
+        }
+    }
+}
+
+impl From<AnalyticError> for Obstacle {
+    fn from(error: AnalyticError) -> Self {
+        match error {
+            AnalyticError::OutOfReach(miss) => Self::Reach(miss),
+            AnalyticError::Limits { violation, .. } => Self::Limit(violation),
+            _ => Self::NotFinite,
+        }
+    }
+}
+
+impl From<Rejection> for Obstacle {
+    fn from(rejection: Rejection) -> Self {
+        match rejection {
+            Rejection::OutOfReach(miss) => Self::Reach(miss),
+            Rejection::Limit(violation) => Self::Limit(violation),
+        }
+    }
+}
+
+impl From<IkError> for Obstacle {
+    fn from(error: IkError) -> Self {
+        match error {
+            IkError::NotSolved(failure) => Self::Unsolved {
+                cause: failure.cause,
+                position_error_m: failure.position_error_m,
+            },
+            _ => Self::NotFinite,
+        }
+    }
+}

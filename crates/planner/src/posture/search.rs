@@ -1,0 +1,206 @@
+//! Tilts along a stroke by a shortest path through a layered graph.
+//!
+//! Layers are contact points about [`SPACING_M`] apart; the vertices of a layer are tilts at most [`TILT_STEP_RAD`] apart
+//! that are reachable on one branch of the arm, within the limits and clear. An edge joins equal or neighbouring tilts of
+//! neighbouring layers, if no joint moves by more than 0.35 rad per 5 mm. It costs
+//!
+//! `Σ_i |Δq_i| + h (w_τ ((τ − τ*)/2°)² + w_l m² + w_c c) + w_Δ |Δτ|`
+//!
+//! with h the spacing over 5 mm, τ* the tilt of the sloping policy, m the worst joint's lack of [`AMPLE_MARGIN_RAD`] from
+//! a limit as a share of it, and c one where the clearance is less than ample. What is near a singularity costs joint
+//! travel. The policy is in it because steps of 2° are too coarse to find by themselves the slow turn of the tool that
+//! saves joint travel; near the policy, smoothing finds it again.
+//!
+//! The graph has no cycles, so one sweep forward finds the least cost of every vertex (Bellman 1957).
+
+use super::inverse::Start;
+use super::policy::{GENTLE_TILT_RAD, TiltPolicy};
+use super::samples::Samples;
+use super::settings::PostureSettings;
+use super::task::{Task, check_step};
+use platewash_kinematics::{AXES, JointVector};
+
+/// Distance of neighbouring layers along the stroke, at most \[m\].
+pub(super) const SPACING_M: f64 = 5e-3;
+
+/// Difference of neighbouring tilts, at most \[rad\]: 2°. With the spacing it bounds how fast the tilt changes.
+pub(super) const TILT_STEP_RAD: f64 = std::f64::consts::PI / 90.0;
+
+/// This far from its limits a joint costs nothing more \[rad\].
+const AMPLE_MARGIN_RAD: f64 = 0.2;
+
+/// w_τ, w_l, w_c \[rad\] and w_Δ.
+const WEIGHTS: [f64; 4] = [2e-2, 2e-2, 1e-2, 0.05];
+
+/// The layers and the tilts of a search.
+#[derive(Debug, Clone)]
+pub(super) struct Graph {
+    /// θ of the layers \[rad\].
+    pub theta: Vec<f64>,
+    /// Distance of the layers along the stroke \[m\].
+    pub spacing_m: f64,
+    /// Tilts, ascending, 0 in the middle \[rad\].
+    pub tilts: Vec<f64>,
+    /// τ*.
+    preferred: TiltPolicy,
+}
+
+/// A path through the graph.
+#[derive(Debug, Clone)]
+pub(super) struct GraphPath {
+    /// Index of the tilt, per layer.
+    pub tilt: Vec<usize>,
+    /// The tilts around it that will do without a gap, per layer \[rad\].
+    pub ranges: Vec<[f64; 2]>,
+    /// The configuration at the first layer \[rad\].
+    pub first: JointVector,
+}
+
+/// A posture that will do.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Vertex {
+    pub q: JointVector,
+    /// Cost of being here, and of the best way here \[rad\].
+    own: f64,
+    total: f64,
+    /// Index of the tilt before it.
+    from: usize,
+}
+
+/// Vertices of a layer, by tilt.
+type Layer = Vec<Option<Vertex>>;
+
+impl Graph {
+    pub fn new(task: &Task<'_>, settings: &PostureSettings) -> Self {
+        let tilt_max_rad = settings.tilt_max_rad;
+        let Samples { stroke, centre, .. } = &task.samples;
+        let gentle = tilt_max_rad.min(GENTLE_TILT_RAD);
+        let pieces = (task.samples.whole_m() / SPACING_M).ceil().max(1.0);
+        let steps = (tilt_max_rad / TILT_STEP_RAD).ceil();
+        let step = if steps > 0.0 { tilt_max_rad / steps } else { 0.0 };
+        let steps = steps as i32;
+        Self {
+            theta: task.samples.evenly(pieces as usize + 1),
+            spacing_m: task.samples.whole_m() / pieces,
+            tilts: (-steps..=steps).map(|k| step * f64::from(k)).collect(),
+            preferred: TiltPolicy::sloping(gentle, task.cell.seen(centre).r, stroke.radius_m),
+        }
+    }
+
+    /// The cheapest path on the branch of `start`.
+    ///
+    /// # Errors
+    /// The index of the first layer that no path reaches.
+    pub fn cheapest(&self, task: &Task<'_>, start: &Start) -> Result<GraphPath, usize> {
+        let mut layers: Vec<Layer> = Vec::with_capacity(self.theta.len());
+        for k in 0..self.theta.len() {
+            let mut layer = self.layer(task, k, layers.last(), start);
+            if let Some(before) = layers.last() {
+                self.connect(before, &mut layer);
+            }
+            if layer.iter().all(Option::is_none) {
+                return Err(k);
+            }
+            layers.push(layer);
+        }
+        self.trace(&layers).ok_or(self.theta.len() - 1)
+    }
+
+    /// The vertices of a layer, each continued from its neighbours in the layer before or from the tilt below.
+    pub fn layer(&self, task: &Task<'_>, k: usize, before: Option<&Layer>, start: &Start) -> Layer {
+        let contact = task.samples.at(self.theta[k]);
+        let [preferred, _] = self.preferred.tilt(task.cell.seen(&contact).r);
+        let mut layer: Layer = Vec::with_capacity(self.tilts.len());
+        for (j, &tilt) in self.tilts.iter().enumerate() {
+            let of = |layer: &Layer, j: usize| layer.get(j).copied().flatten();
+            let known = before
+                .and_then(|b| of(b, j).or_else(|| of(b, j + 1)).or_else(|| of(b, j.wrapping_sub(1))))
+                .or_else(|| of(&layer, j.wrapping_sub(1)));
+            let near = Start {
+                q: known.map_or(start.q, |vertex| vertex.q),
+                sides: start.sides,
+            };
+            let target = task.cell.tip_rigid(&contact, tilt);
+            let q = task.cell.inverse.continuing(&target, &near).ok();
+            let off = (tilt - preferred) / TILT_STEP_RAD;
+            layer.push(q.and_then(|q| self.vertex(task, q, off)));
+        }
+        layer
+    }
+
+    /// A vertex at `q`, if it is clear; `off` is how many steps of 2° its tilt is off the preferred one.
+    fn vertex(&self, task: &Task<'_>, q: JointVector, off: f64) -> Option<Vertex> {
+        let room = task.has_room(&q);
+        if !room && task.check_clear(&q).is_err() {
+            return None;
+        }
+        let [for_tilt, for_limit, for_clearance, _] = WEIGHTS;
+        let margin = task.cell.robot.limits().margins(&q).min();
+        let lack = (1.0 - margin / AMPLE_MARGIN_RAD).max(0.0);
+        let cost = for_tilt * off * off + for_limit * lack * lack + if room { 0.0 } else { for_clearance };
+        let own = cost * self.spacing_m / SPACING_M;
+        Some(Vertex {
+            q,
+            own,
+            total: own,
+            from: 0,
+        })
+    }
+
+    /// Finds the best way to each vertex and removes those without one.
+    fn connect(&self, before: &Layer, layer: &mut Layer) {
+        let [.., for_change] = WEIGHTS;
+        for (j, slot) in layer.iter_mut().enumerate() {
+            let Some(vertex) = slot else { continue };
+            let mut best: Option<(f64, usize)> = None;
+            for i in [Some(j), j.checked_sub(1), Some(j + 1)].into_iter().flatten() {
+                let Some(from) = before.get(i).copied().flatten() else {
+                    continue;
+                };
+                if check_step(&from.q, &vertex.q, self.spacing_m).is_err() {
+                    continue;
+                }
+                let travel: f64 = (0..AXES).map(|joint| (vertex.q[joint] - from.q[joint]).abs()).sum();
+                let change = (self.tilts[i] - self.tilts[j]).abs();
+                let total = from.total + travel + for_change * change + vertex.own;
+                if best.is_none_or(|(least, _)| total < least) {
+                    best = Some((total, i));
+                }
+            }
+            *slot = best.map(|(total, from)| Vertex { total, from, ..*vertex });
+        }
+    }
+
+    /// Back from the cheapest vertex of the last layer.
+    fn trace(&self, layers: &[Layer]) -> Option<GraphPath> {
+        let cost = |slot: &Option<Vertex>| slot.map_or(f64::INFINITY, |vertex| vertex.total);
+        let last = layers.last()?;
+        let mut j = (0..last.len()).min_by(|&a, &b| cost(&last[a]).total_cmp(&cost(&last[b])))?;
+        let mut path = GraphPath {
+            tilt: Vec::with_capacity(layers.len()),
+            ranges: Vec::with_capacity(layers.len()),
+            first: JointVector::zeros(),
+        };
+        for layer in layers.iter().rev() {
+            let vertex = layer[j]?;
+            path.tilt.push(j);
+            path.ranges.push(self.range(layer, j));
+            path.first = vertex.q;
+            j = vertex.from;
+        }
+        path.tilt.reverse();
+        path.ranges.reverse();
+        Some(path)
+    }
+
+    /// The tilts around index `j` that will do without a gap \[rad\].
+    fn range(&self, layer: &Layer, j: usize) -> [f64; 2] {
+        let least = layer[..j].iter().rposition(Option::is_none).map_or(0, |gap| gap + 1);
+        let most = layer[j..]
+            .iter()
+            .position(Option::is_none)
+            .map_or(layer.len(), |gap| j + gap)
+            - 1;
+        [self.tilts[least], self.tilts[most]]
+    }
+}

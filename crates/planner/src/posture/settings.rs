@@ -1,0 +1,74 @@
+//! What a posture must keep.
+
+use super::PostureError;
+use crate::stroke::Stroke;
+use nalgebra::Vector3;
+use platewash_kinematics::JointVector;
+use std::f64::consts::FRAC_PI_2;
+
+/// Added to the clearance asked for, so that the motion between the points checked keeps it too \[m\].
+pub const RESERVE_M: f64 = 5e-4;
+
+/// How far the chord between neighbouring contact points may leave the stroke \[m\].
+pub const CHORD_ERROR_M: f64 = 2e-5;
+
+/// The largest tilt that can be asked for \[rad\]: short of lying flat.
+pub const LARGEST_TILT_RAD: f64 = 0.9 * FRAC_PI_2;
+
+/// Lengths beyond this are no plates \[m\].
+const LARGEST_M: f64 = 10.0;
+
+/// The most turns of a stroke.
+const MOST_TURNS: f64 = 200.0;
+
+/// What a posture must keep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PostureSettings {
+    /// Largest angle of the tool from the plate's normal \[rad\], in [0, [`LARGEST_TILT_RAD`]].
+    pub tilt_max_rad: f64,
+    /// Clearance of every pair, but for the sponge and the plates \[m\], in [0, 1]; [`RESERVE_M`] is added to it.
+    pub clearance_m: f64,
+}
+
+impl PostureSettings {
+    /// Clearance with its reserve \[m\].
+    #[must_use]
+    pub fn required_m(&self) -> f64 {
+        self.clearance_m + RESERVE_M
+    }
+
+    /// Refuses settings out of their range, NaN included.
+    ///
+    /// # Errors
+    /// [`PostureError::Input`], naming the first.
+    pub fn validate(&self) -> Result<(), PostureError> {
+        within("tilt_max_rad", self.tilt_max_rad, [0.0, LARGEST_TILT_RAD])?;
+        within("clearance_m", self.clearance_m, [0.0, 1.0])
+    }
+}
+
+/// Refuses a stroke, a centre or a configuration that is none.
+pub(super) fn check_input(stroke: &Stroke, centre: &Vector3<f64>, near: &JointVector) -> Result<(), PostureError> {
+    within("stroke.radius_m", stroke.radius_m, [1e-4, LARGEST_M])?;
+    within("stroke.turns", stroke.turns, [0.25, MOST_TURNS])?;
+    within("stroke.start_angle_rad", stroke.start_angle_rad, [-1e3, 1e3])?;
+    for &coordinate in centre {
+        within("centre", coordinate, [-LARGEST_M, LARGEST_M])?;
+    }
+    for &joint in near {
+        within("near", joint, [-1e3, 1e3])?;
+    }
+    Ok(())
+}
+
+fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), PostureError> {
+    if (least..=most).contains(&found) {
+        return Ok(());
+    }
+    Err(PostureError::Input {
+        name,
+        least,
+        most,
+        found,
+    })
+}
