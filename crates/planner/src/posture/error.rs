@@ -4,6 +4,7 @@ use super::inverse::Start;
 use super::obstacle::{Filter, Obstacle};
 use super::search::Graph;
 use super::task::{Stop, Task, check_step};
+use crate::clearance::ClearanceError;
 use nalgebra::Vector3;
 use platewash_kinematics::ik::IkSettingsError;
 use std::fmt;
@@ -55,6 +56,9 @@ pub enum PostureError {
     /// The inverse kinematics refused its settings.
     #[error(transparent)]
     Ik(#[from] IkSettingsError),
+    /// No clearance model can be made of the arm.
+    #[error(transparent)]
+    Clearance(#[from] ClearanceError),
     /// At some contact points no tilt within the limit is reachable, within the joint limits and clear.
     #[error("plate {plate}: no tilt will do at {dead} of {tried} points of the stroke; {}", at(.ends))]
     NoTilt {

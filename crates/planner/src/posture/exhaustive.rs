@@ -33,7 +33,7 @@ pub struct Found {
 ///
 /// # Errors
 /// [`PostureError`] for numbers out of range.
-pub fn anyhow_washable(
+pub fn posture_anywhere(
     cell: &Cell<'_>,
     (stroke, theta): (&Stroke, f64),
     centre: Vector3<f64>,

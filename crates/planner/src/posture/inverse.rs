@@ -28,7 +28,7 @@ pub(super) struct Start {
 pub(super) enum Inverse<'a> {
     /// In closed form.
     Analytic {
-        arm: AnalyticArm,
+        arm: Box<AnalyticArm>,
         tip: Frame,
         limits: &'a JointLimits,
     },
@@ -39,8 +39,11 @@ pub(super) enum Inverse<'a> {
 impl<'a> Inverse<'a> {
     pub fn new(robot: &'a RobotModel, tip: Frame) -> Result<Self, IkSettingsError> {
         if let (Ok(arm), AXES) = (AnalyticArm::recognise(robot), tip.body()) {
-            let limits = robot.limits();
-            return Ok(Self::Analytic { arm, tip, limits });
+            return Ok(Self::Analytic {
+                arm: Box::new(arm),
+                tip,
+                limits: robot.limits(),
+            });
         }
         let settings = IkSettings {
             position_tolerance_m: TOLERANCE,

@@ -15,8 +15,8 @@
 //! # How
 //!
 //! 1. [`policy`]: a tilt by the distance from axis 1 alone. It mostly suffices, and costs one pass over the points.
-//! 2. `search`: the cheapest path through a graph of tilts along the stroke, smoothed (`spline`) as far as it stays
-//!    within what will do.
+//! 2. `search`: the cheapest path through a graph of tilts along the stroke, near the policy where that will do, smoothed
+//!    (`spline`) as far as it stays within what will do.
 //!
 //! Each is tried on every branch of the arm, elbow up in front first. Whatever answers has been checked at every
 //! contact point. Where nothing answers, the error names contact points and what stands in the way there.
@@ -34,6 +34,7 @@ mod spline;
 mod task;
 #[cfg(test)]
 mod tests;
+pub mod washable;
 
 pub use cell::Cell;
 pub use error::{DeadEnd, MOST_DEAD_ENDS, PostureError, Reason};
@@ -141,13 +142,24 @@ fn overlap(a: &Plate, b: &Plate) -> bool {
     apart < a.radius_m + b.radius_m && !above(a, b) && !above(b, a)
 }
 
-/// The washing by the measured policy, and for greater tilts by the one with their whole amplitude.
-fn by_policy(task: &Task<'_>, settings: &PostureSettings, near: &JointVector) -> Option<Washing> {
+/// The policies worth trying, the best first: those that slope over the plate take the least joint travel, those that stay
+/// upright keep the most clearance.
+fn policies(task: &Task<'_>, settings: &PostureSettings) -> Vec<TiltPolicy> {
     let most = settings.tilt_max_rad;
-    let gentle = most.min(policy::MEASURED_TILT_RAD);
-    let amplitudes = [Some(gentle), (most > gentle).then_some(most)];
-    amplitudes.into_iter().flatten().find_map(|tilt_rad| {
-        let policy = TiltPolicy::up_to(tilt_rad);
+    let gentle = most.min(policy::GENTLE_TILT_RAD);
+    let mut amplitudes = vec![gentle];
+    amplitudes.extend((most > gentle).then_some(most));
+    let (centre, radius) = (task.samples.centre, task.samples.stroke.radius_m);
+    let both = |&tilt: &f64| {
+        let sloping = TiltPolicy::sloping(tilt, task.cell.seen(&centre).r, radius);
+        [sloping, TiltPolicy::upright(tilt)]
+    };
+    amplitudes.iter().flat_map(both).collect()
+}
+
+/// The washing by the first policy that will do.
+fn by_policy(task: &Task<'_>, settings: &PostureSettings, near: &JointVector) -> Option<Washing> {
+    policies(task, settings).into_iter().find_map(|policy| {
         let profile = Profile::Policy(policy);
         let tilts = task.tilts(&profile);
         let first = task.cell.tip_rigid(&task.samples.contact[0], tilts[0]);
@@ -164,7 +176,7 @@ fn by_search(
     settings: &PostureSettings,
     near: &JointVector,
 ) -> Result<Washing, PostureError> {
-    let graph = Graph::new(task, settings.tilt_max_rad);
+    let graph = Graph::new(task, settings);
     let starts = search_starts(task, &graph, near);
     let mut furthest: Option<(usize, Start)> = None;
     let mut between = None;

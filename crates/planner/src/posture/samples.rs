@@ -7,8 +7,10 @@ use nalgebra::Vector3;
 /// Contact points, densely along a stroke.
 #[derive(Debug, Clone)]
 pub(super) struct Samples {
-    stroke: Stroke,
-    centre: Vector3<f64>,
+    /// The stroke.
+    pub stroke: Stroke,
+    /// Its centre at the height of the tip \[m\], base frame.
+    pub centre: Vector3<f64>,
     /// θ \[rad\], ascending.
     pub theta: Vec<f64>,
     /// Contact points \[m\], base frame.

@@ -4,14 +4,19 @@
 //! that are reachable on one branch of the arm, within the limits and clear. An edge joins equal or neighbouring tilts of
 //! neighbouring layers, if no joint moves by more than 0.35 rad per 5 mm. It costs
 //!
-//! `Σ_i |Δq_i| + h (w_τ (τ/τ_max)² + w_l m² + w_c c) + w_Δ |Δτ|`
+//! `Σ_i |Δq_i| + h (w_τ ((τ − τ*)/2°)² + w_l m² + w_c c) + w_Δ |Δτ|`
 //!
-//! with h the spacing over 5 mm, m the worst joint's lack of [`AMPLE_MARGIN_RAD`] from a limit as a share of it, and c one
-//! where the clearance is less than ample. What is near a singularity costs joint travel.
+//! with h the spacing over 5 mm, τ* the tilt of the sloping policy, m the worst joint's lack of [`AMPLE_MARGIN_RAD`] from
+//! a limit as a share of it, and c one where the clearance is less than ample. What is near a singularity costs joint
+//! travel. The policy is in it because steps of 2° are too coarse to find by themselves the slow turn of the tool that
+//! saves joint travel; near the policy, smoothing finds it again.
 //!
 //! The graph has no cycles, so one sweep forward finds the least cost of every vertex (Bellman 1957).
 
 use super::inverse::Start;
+use super::policy::{GENTLE_TILT_RAD, TiltPolicy};
+use super::samples::Samples;
+use super::settings::PostureSettings;
 use super::task::{Task, check_step};
 use platewash_kinematics::{AXES, JointVector};
 
@@ -25,7 +30,7 @@ pub(super) const TILT_STEP_RAD: f64 = std::f64::consts::PI / 90.0;
 const AMPLE_MARGIN_RAD: f64 = 0.2;
 
 /// w_τ, w_l, w_c \[rad\] and w_Δ.
-const WEIGHTS: [f64; 4] = [4e-3, 2e-2, 1e-2, 0.5];
+const WEIGHTS: [f64; 4] = [2e-2, 2e-2, 1e-2, 0.05];
 
 /// The layers and the tilts of a search.
 #[derive(Debug, Clone)]
@@ -36,6 +41,8 @@ pub(super) struct Graph {
     pub spacing_m: f64,
     /// Tilts, ascending, 0 in the middle \[rad\].
     pub tilts: Vec<f64>,
+    /// τ*.
+    preferred: TiltPolicy,
 }
 
 /// A path through the graph.
@@ -64,7 +71,10 @@ pub(super) struct Vertex {
 type Layer = Vec<Option<Vertex>>;
 
 impl Graph {
-    pub fn new(task: &Task<'_>, tilt_max_rad: f64) -> Self {
+    pub fn new(task: &Task<'_>, settings: &PostureSettings) -> Self {
+        let tilt_max_rad = settings.tilt_max_rad;
+        let Samples { stroke, centre, .. } = &task.samples;
+        let gentle = tilt_max_rad.min(GENTLE_TILT_RAD);
         let pieces = (task.samples.whole_m() / SPACING_M).ceil().max(1.0);
         let steps = (tilt_max_rad / TILT_STEP_RAD).ceil();
         let step = if steps > 0.0 { tilt_max_rad / steps } else { 0.0 };
@@ -73,6 +83,7 @@ impl Graph {
             theta: task.samples.evenly(pieces as usize + 1),
             spacing_m: task.samples.whole_m() / pieces,
             tilts: (-steps..=steps).map(|k| step * f64::from(k)).collect(),
+            preferred: TiltPolicy::sloping(gentle, task.cell.seen(centre).r, stroke.radius_m),
         }
     }
 
@@ -98,6 +109,7 @@ impl Graph {
     /// The vertices of a layer, each continued from its neighbours in the layer before or from the tilt below.
     pub fn layer(&self, task: &Task<'_>, k: usize, before: Option<&Layer>, start: &Start) -> Layer {
         let contact = task.samples.at(self.theta[k]);
+        let [preferred, _] = self.preferred.tilt(task.cell.seen(&contact).r);
         let mut layer: Layer = Vec::with_capacity(self.tilts.len());
         for (j, &tilt) in self.tilts.iter().enumerate() {
             let of = |layer: &Layer, j: usize| layer.get(j).copied().flatten();
@@ -110,23 +122,22 @@ impl Graph {
             };
             let target = task.cell.tip_rigid(&contact, tilt);
             let q = task.cell.inverse.continuing(&target, &near).ok();
-            layer.push(q.and_then(|q| self.vertex(task, q, tilt)));
+            let off = (tilt - preferred) / TILT_STEP_RAD;
+            layer.push(q.and_then(|q| self.vertex(task, q, off)));
         }
         layer
     }
 
-    /// A vertex at `q`, if it is clear.
-    fn vertex(&self, task: &Task<'_>, q: JointVector, tilt: f64) -> Option<Vertex> {
+    /// A vertex at `q`, if it is clear; `off` is how many steps of 2° its tilt is off the preferred one.
+    fn vertex(&self, task: &Task<'_>, q: JointVector, off: f64) -> Option<Vertex> {
         let room = task.has_room(&q);
         if !room && task.check_clear(&q).is_err() {
             return None;
         }
         let [for_tilt, for_limit, for_clearance, _] = WEIGHTS;
-        let most = self.tilts.last().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
-        let share = tilt / most;
         let margin = task.cell.robot.limits().margins(&q).min();
         let lack = (1.0 - margin / AMPLE_MARGIN_RAD).max(0.0);
-        let cost = for_tilt * share * share + for_limit * lack * lack + if room { 0.0 } else { for_clearance };
+        let cost = for_tilt * off * off + for_limit * lack * lack + if room { 0.0 } else { for_clearance };
         let own = cost * self.spacing_m / SPACING_M;
         Some(Vertex {
             q,
