@@ -8,6 +8,7 @@ pub mod coverage;
 pub mod csv;
 pub mod cubic;
 pub mod job;
+pub mod joint_path;
 pub mod layout;
 pub mod order;
 pub mod plan;
