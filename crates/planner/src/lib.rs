@@ -19,6 +19,7 @@ pub mod robot;
 pub mod scenario;
 pub mod spiral;
 pub mod stroke;
+pub mod timing;
 pub mod tool_path;
 pub mod tracking;
 pub mod trajectory;
