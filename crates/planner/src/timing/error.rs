@@ -1,0 +1,48 @@
+//! Why a path could not be timed.
+
+use super::limits::Limit;
+use crate::trajectory::KnotError;
+
+/// Why a path could not be timed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TimingError {
+    /// A limit is no positive finite number.
+    #[error("limit of the {limit}: {value}; it must be a positive, finite number")]
+    Limit {
+        /// Which.
+        limit: Limit,
+        /// Its value \[rad/s, rad/s², m/s, m/s²\].
+        value: f64,
+    },
+    /// The path stays where it is, so that there is nothing to time.
+    #[error("the path does not move: all of its {samples} configurations are the same")]
+    NoMotion {
+        /// Samples of the path.
+        samples: usize,
+    },
+    /// The path is so steep, so slow or so finely sampled that its time cannot be computed.
+    #[error("no time can be computed at the path's parameter {u}: the numbers leave the range of a double")]
+    Range {
+        /// Where, as the path's parameter.
+        u: f64,
+    },
+    /// Cubics in time would leave the path by more than allowed with as many knots as may be.
+    #[error(
+        "at the path's parameter {u} the motion leaves the path by {error_rad:.1e} rad with {knots} knots; \
+         at most {allowed_rad:.1e} rad is allowed"
+    )]
+    PathError {
+        /// Where, as the path's parameter.
+        u: f64,
+        /// Largest deviation of a joint there \[rad\].
+        error_rad: f64,
+        /// What is allowed \[rad\].
+        allowed_rad: f64,
+        /// Knots of the motion.
+        knots: usize,
+    },
+    /// The knots are no motion.
+    #[error(transparent)]
+    Knots(#[from] KnotError),
+}

@@ -1,0 +1,83 @@
+//! What a timed motion must keep to.
+
+use super::TimingError;
+use platewash_kinematics::{AXES, JointVector};
+
+/// Limits of a motion, the same in both directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionLimits {
+    /// Largest speed of each joint \[rad/s\]; positive, finite.
+    pub velocity: JointVector,
+    /// Largest acceleration of each joint \[rad/s²\]; positive, finite.
+    pub acceleration: JointVector,
+    /// Limits of the tip; `None` for none.
+    pub tip: Option<TipLimits>,
+}
+
+/// Limits of the tip's origin in the base frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipLimits {
+    /// Largest speed \[m/s\]; positive, finite.
+    pub speed_m_s: f64,
+    /// Largest magnitude of the acceleration, along and across the path together \[m/s²\]; positive, finite.
+    pub acceleration_m_s2: f64,
+}
+
+/// A limit by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Limit {
+    /// Speed of a joint, by index.
+    JointSpeed(usize),
+    /// Acceleration of a joint, by index.
+    JointAcceleration(usize),
+    /// Speed of the tip.
+    TipSpeed,
+    /// Acceleration of the tip.
+    TipAcceleration,
+}
+
+impl std::fmt::Display for Limit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::JointSpeed(joint) => write!(f, "speed of joint {}", joint + 1),
+            Self::JointAcceleration(joint) => write!(f, "acceleration of joint {}", joint + 1),
+            Self::TipSpeed => write!(f, "speed of the tip"),
+            Self::TipAcceleration => write!(f, "acceleration of the tip"),
+        }
+    }
+}
+
+impl MotionLimits {
+    /// Refuses a limit that is not a positive finite number.
+    pub(super) fn check(&self) -> Result<(), TimingError> {
+        let joints = (0..AXES).flat_map(|joint| {
+            [
+                (Limit::JointSpeed(joint), self.velocity[joint]),
+                (Limit::JointAcceleration(joint), self.acceleration[joint]),
+            ]
+        });
+        let tip = self.tip.iter().flat_map(|tip| {
+            [
+                (Limit::TipSpeed, tip.speed_m_s),
+                (Limit::TipAcceleration, tip.acceleration_m_s2),
+            ]
+        });
+        match joints.chain(tip).find(|(_, value)| !value.is_normal() || *value < 0.0) {
+            Some((limit, value)) => Err(TimingError::Limit { limit, value }),
+            None => Ok(()),
+        }
+    }
+
+    /// The same limits, all of them multiplied by `share`.
+    pub(super) fn times(&self, share: f64) -> Self {
+        Self {
+            velocity: self.velocity * share,
+            acceleration: self.acceleration * share,
+            tip: self.tip.map(|tip| TipLimits {
+                speed_m_s: tip.speed_m_s * share,
+                acceleration_m_s2: tip.acceleration_m_s2 * share,
+            }),
+        }
+    }
+}

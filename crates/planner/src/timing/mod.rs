@@ -1,0 +1,89 @@
+//! Time-optimal timing along a path of the joints.
+//!
+//! [`time_optimal`] makes a [`JointPath`] a [`Trajectory`] from rest to rest that is as fast as its limits allow. What
+//! is promised is the trajectory itself, cubic Hermite pieces between knots: their accelerations, not those of the path,
+//! are what the limits constrain, and no motion is returned that breaks a limit anywhere.
+//!
+//! | concept | file |
+//! | --- | --- |
+//! | limits | `limits.rs` |
+//! | knots on the path, and where more are needed | `grid.rs`, `refine.rs` |
+//! | how the tip moves | `tip.rs` |
+//! | constraints of an interval | `interval.rs` |
+//! | linear program of an interval | `program.rs` |
+//! | backward and forward pass | `passes.rs` |
+//! | a piece of the motion | `hermite.rs` |
+//! | what a piece demands of its limits | `check.rs` |
+//! | the rounds of all this | `rounds.rs` |
+
+mod check;
+mod error;
+mod grid;
+mod hermite;
+mod interval;
+mod limits;
+mod passes;
+mod program;
+mod refine;
+mod rounds;
+#[cfg(test)]
+mod tests;
+mod tip;
+
+pub use error::TimingError;
+pub use limits::{Limit, MotionLimits, TipLimits};
+pub use refine::{LONGEST_PIECE_S, PATH_ERROR_RAD};
+pub use rounds::SHORTEST_PIECE_S;
+
+use crate::joint_path::JointPath;
+use crate::trajectory::Trajectory;
+use grid::Grid;
+use platewash_kinematics::{Frame, RobotModel};
+use rounds::Rounds;
+use tip::TipModel;
+
+/// A path in time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Timed {
+    /// The motion, from time 0, at rest at both ends. Its knots are the path's samples and more between them.
+    pub motion: Trajectory,
+    /// The path's parameter at every knot; those of the samples are among them to the bit.
+    pub parameters: Vec<f64>,
+    /// Largest distance of a joint from the path \[rad\]: measured in the middle of every piece, where the leading term
+    /// of the error of Hermite interpolation, `t² (h − t)²`, is largest.
+    pub path_error_rad: f64,
+}
+
+/// The fastest motion along `path`, from rest to rest, within `limits`; `tip` is the point on `robot` that the limits of
+/// the tip are for (unused without them).
+///
+/// - All samples of the path are knots; between them there are more where a piece would take longer than
+///   [`LONGEST_PIECE_S`] or leave the path by more than [`PATH_ERROR_RAD`]. No piece is shorter than
+///   [`SHORTEST_PIECE_S`], so that samples should not lie closer than the fastest motion passes in that time.
+/// - Between neighbouring knots the acceleration of the path's parameter is constant. In this class the motion is
+///   optimal up to the greed of the forward pass at points where a limit does not depend on that acceleration (Pham &
+///   Pham 2018, §V), and up to about 1e-4 of its duration.
+/// - Joint speeds and accelerations keep their limits exactly; so do the tip's, by a bound between samples of it
+///   (see `check.rs`), all with a relative margin of 5e-7 that absorbs rounding.
+/// - Where the path's own derivative is zero at an end, the motion rests there at any speed of the parameter.
+///
+/// The time is O(n) in the knots, with some five rounds at most; nothing depends on threads.
+///
+/// # Errors
+/// [`TimingError`]: limits that are not positive, a path that does not move or that is out of the range of numbers.
+pub fn time_optimal(
+    path: &JointPath,
+    robot: &RobotModel,
+    tip: &Frame,
+    limits: &MotionLimits,
+) -> Result<Timed, TimingError> {
+    limits.check()?;
+    let still = path.positions().iter().all(|q| *q == path.positions()[0]);
+    if still && path.slopes().iter().all(|m| m.amax() == 0.0) {
+        return Err(TimingError::NoMotion {
+            samples: path.positions().len(),
+        });
+    }
+    let tip = limits.tip.map(|_| TipModel::new(robot, tip));
+    Rounds::new(Grid::of(path, tip)?, limits).run()
+}
