@@ -54,6 +54,12 @@ pub struct BodyPoses {
 }
 
 impl BodyPoses {
+    /// `T_base_body`: the identity for the base, then for each joint a frame on its axis, z along it.
+    #[must_use]
+    pub fn bodies(&self) -> &[Rigid; AXES + 1] {
+        &self.bodies
+    }
+
     /// Directions of the six joint axes, base frame, unit length.
     #[must_use]
     pub fn joint_axes(&self) -> [Vector3<f64>; AXES] {

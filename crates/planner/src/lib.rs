@@ -2,6 +2,7 @@
 //!
 //! Conventions (units, frames, order of twists) are those of [`platewash_kinematics`].
 
+pub mod certificate;
 pub mod clearance;
 pub mod control;
 pub mod coverage;

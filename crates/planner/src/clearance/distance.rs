@@ -13,6 +13,8 @@ pub(super) struct Separation {
     pub distance: f64,
     /// Base frame \[m\].
     pub place: [f64; 3],
+    /// Unit vector from the first part to the second along the nearest points, base frame; zero where their cores meet.
+    pub normal: [f64; 3],
 }
 
 /// Nearest points of two cores, base frame; equal when the cores meet.
@@ -24,11 +26,12 @@ pub(super) fn separation(a: &Placed<'_>, b: &Placed<'_>) -> Separation {
         return Separation {
             distance: f64::NAN,
             place: [f64::NAN; 3],
+            normal: [0.0; 3],
         };
     }
     let (p, q) = match (a.core, b.core) {
-        (Core::Floor, _) => return over_floor(b),
-        (_, Core::Floor) => return over_floor(a),
+        (Core::Floor, _) => return over_floor(b, 1.0),
+        (_, Core::Floor) => return over_floor(a, -1.0),
         (Core::Segment(half_a), Core::Segment(half_b)) => segments(a, *half_a, b, *half_b),
         (Core::Segment(half), Core::Solid(solid, _)) => segment_and_solid(a, *half, b, solid),
         (Core::Solid(solid, _), Core::Segment(half)) => {
@@ -44,6 +47,7 @@ pub(super) fn separation(a: &Placed<'_>, b: &Placed<'_>) -> Separation {
     Separation {
         distance: length - a.radius - b.radius,
         place: middle.to_array(),
+        normal: direction.to_array(),
     }
 }
 
@@ -75,8 +79,8 @@ fn iterative(pose_a: &Pose, a: &dyn Shape, pose_b: &Pose, b: &dyn Shape) -> Near
     }
 }
 
-/// Height of a part over the floor z = 0, a closed form.
-fn over_floor(part: &Placed<'_>) -> Separation {
+/// Height of a part over the floor z = 0, a closed form; `up` is the sign of the normal, 1 when the floor comes first.
+fn over_floor(part: &Placed<'_>, up: f64) -> Separation {
     let lowest = |points: &mut dyn Iterator<Item = Vector>| {
         points
             .min_by(|p, q| p.z.total_cmp(&q.z))
@@ -95,6 +99,7 @@ fn over_floor(part: &Placed<'_>) -> Separation {
     Separation {
         distance,
         place: [low.x, low.y, distance * 0.5],
+        normal: [0.0, 0.0, up],
     }
 }
 

@@ -10,6 +10,8 @@
 //! overlap is only a lower bound of the penetration depth.
 
 mod distance;
+pub(crate) mod lever;
+pub(crate) mod motion;
 mod pairs;
 mod part;
 mod washing;
@@ -225,6 +227,7 @@ fn nearest(separations: impl Iterator<Item = Separation>) -> Separation {
         .unwrap_or(Separation {
             distance: f64::INFINITY,
             place: [0.0; 3],
+            normal: [0.0; 3],
         })
 }
 

@@ -2,6 +2,7 @@
 //!
 //! A sphere is a point with a radius and a capsule a segment with one, so that their distances have closed forms.
 
+use super::lever::Levers;
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::shape::{ConvexPolyhedron, Cuboid, Cylinder, Segment, SharedShape};
@@ -163,6 +164,41 @@ impl Part {
         }
     }
 
+    /// The arm's body that carries the part: 0 for what never moves.
+    pub fn body(&self) -> usize {
+        self.frame.body()
+    }
+
+    /// The frame that the part is fixed to.
+    pub fn frame(&self) -> Frame {
+        self.frame
+    }
+
+    /// Levers of the part's origin, widened to the whole part; those of joints that do not move it stay 0.
+    pub fn widened(&self, levers: &Levers) -> Levers {
+        let body = self.body();
+        Levers::from_fn(|i, _| if i < body { levers[i] + self.bounding } else { 0.0 })
+    }
+
+    /// Whether the distance to another part is a closed form.
+    pub fn is_exact_with(&self, other: &Self) -> bool {
+        match (&self.core, &other.core) {
+            (Core::Floor, _) | (_, Core::Floor) | (Core::Segment(_), Core::Segment(_)) => true,
+            (Core::Segment(half), Core::Solid(..)) | (Core::Solid(..), Core::Segment(half)) => *half == 0.0,
+            (Core::Solid(..), Core::Solid(..)) => false,
+        }
+    }
+
+    /// [`Placed::sphere_gap`] without placing the parts.
+    pub fn sphere_gap(&self, other: &Self, poses: &BodyPoses) -> f64 {
+        let centre = |part: &Self| poses.rigid(&part.frame).translation;
+        match (&self.core, &other.core) {
+            (Core::Floor, _) => centre(other).z - other.bounding,
+            (_, Core::Floor) => centre(self).z - self.bounding,
+            _ => (centre(self) - centre(other)).norm() - self.bounding - other.bounding,
+        }
+    }
+
     /// The part where the arm's bodies stand.
     pub fn place(&self, poses: &BodyPoses) -> Placed<'_> {
         let pose: Pose = poses.pose(&self.frame).into();
@@ -180,6 +216,25 @@ impl Part {
 }
 
 impl Placed<'_> {
+    /// How far the part reaches along a unit direction from the base frame's origin \[m\].
+    pub fn support(&self, direction: Vector) -> f64 {
+        let local = self.pose.rotation.inverse() * direction;
+        let beyond = match self.core {
+            Core::Segment(half) => half * local.z.abs() + self.radius,
+            Core::Solid(_, Extent::Vertices(vertices)) => {
+                vertices.iter().map(|v| v.dot(local)).fold(f64::NEG_INFINITY, f64::max)
+            }
+            // The cylinder lies along y in its own frame.
+            Core::Solid(_, Extent::Cylinder(radius, half)) => {
+                half * local.y.abs() + radius * (local.x * local.x + local.z * local.z).sqrt()
+            }
+            // The half-space z ≤ 0 is bounded upwards alone.
+            Core::Floor if direction.x == 0.0 && direction.y == 0.0 && direction.z > 0.0 => 0.0,
+            Core::Floor => f64::INFINITY,
+        };
+        self.pose.translation.dot(direction) + beyond
+    }
+
     /// The core segment's ends, base frame.
     pub fn segment(&self, half: f64) -> Segment {
         let end = |z: f64| self.pose * Vector::new(0.0, 0.0, z);

@@ -1,0 +1,93 @@
+//! Why a plan cannot be judged at all.
+
+use crate::clearance::ClearanceError;
+use crate::coverage::CoverageError;
+use crate::robot::RobotError;
+use crate::scenario::ScenarioError;
+use crate::trajectory::KnotError;
+
+/// Why a plan cannot be judged at all; a plan that breaks its promises is no error.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum VerifyError {
+    /// The arm of the scenario cannot be made.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+    /// The scenario in the plan is none.
+    #[error("the plan's scenario: {0}")]
+    Scenario(ScenarioError),
+    /// The knots are no motion.
+    #[error("{0}")]
+    Knots(KnotError),
+    /// Fewer than two knots.
+    #[error("{found} knots; a motion has at least 2")]
+    NoMotion {
+        /// Knots found.
+        found: usize,
+    },
+    /// A joint turns so far that its sine means nothing any more.
+    #[error("joint {} gets to {position_rad:e} rad; no more than ±{most_rad} rad can be judged", .joint + 1)]
+    TurnsTooFar {
+        /// Joint index, 0 for joint 1.
+        joint: usize,
+        /// How far \[rad\].
+        position_rad: f64,
+        /// How far is possible \[rad\].
+        most_rad: f64,
+    },
+    /// More plates than any layout may have.
+    #[error("{found} plates; a layout has at most {most}")]
+    TooManyPlates {
+        /// Plates found.
+        found: usize,
+        /// Plates allowed.
+        most: usize,
+    },
+    /// More segments than any job on that many plates has.
+    #[error("{found} segments for {plates} plates; there are {most} at most")]
+    TooManySegments {
+        /// Segments found, in time or in the tool path.
+        found: usize,
+        /// Plates.
+        plates: usize,
+        /// Segments possible.
+        most: usize,
+    },
+    /// A plate is no cylinder.
+    #[error("plate {plate}: its centre, height, radius and thickness must be finite, the latter two above 0")]
+    NoPlate {
+        /// Index of the plate.
+        plate: usize,
+    },
+    /// The collision model cannot be made.
+    #[error("clearance: {0}")]
+    Clearance(ClearanceError),
+    /// Coverage cannot be measured.
+    #[error("coverage: {0}")]
+    Coverage(CoverageError),
+}
+
+// The messages above hold those of their causes, which are therefore not told again as sources.
+impl From<ScenarioError> for VerifyError {
+    fn from(error: ScenarioError) -> Self {
+        Self::Scenario(error)
+    }
+}
+
+impl From<KnotError> for VerifyError {
+    fn from(error: KnotError) -> Self {
+        Self::Knots(error)
+    }
+}
+
+impl From<ClearanceError> for VerifyError {
+    fn from(error: ClearanceError) -> Self {
+        Self::Clearance(error)
+    }
+}
+
+impl From<CoverageError> for VerifyError {
+    fn from(error: CoverageError) -> Self {
+        Self::Coverage(error)
+    }
+}

@@ -1,0 +1,6 @@
+//! The certificate against a hand-made plan, its mutations, an independent sampler, and files that are no plans.
+
+mod adversarial;
+mod differential;
+mod made;
+mod mutations;

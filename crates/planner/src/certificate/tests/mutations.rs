@@ -1,0 +1,291 @@
+//! Every promise is broken on purpose, the plan sealed again, and the right promise must say so.
+
+use super::made::{Recipe, good, irb120, resealed};
+use crate::certificate::PromiseName::{self, *};
+use crate::certificate::{Certificate, CertificateVerdict, Status, verify};
+use crate::plan::Plan;
+use crate::scenario::Overlap;
+use crate::tool_path::{SegmentKind, Shape};
+use platewash_kinematics::JointVector;
+
+fn judged(plan: Plan) -> Certificate {
+    verify(&resealed(plan), &irb120()).unwrap()
+}
+
+fn broken(certificate: &Certificate) -> Vec<PromiseName> {
+    certificate.broken().map(|p| p.name).collect()
+}
+
+/// Changes the good plan, seals it, and expects exactly these promises not to pass.
+#[track_caller]
+fn breaks(expected: &[PromiseName], change: impl FnOnce(&mut Plan)) -> Certificate {
+    let mut plan = good();
+    change(&mut plan);
+    let certificate = judged(plan);
+    assert_eq!(certificate.hash.status, Status::Pass);
+    assert_eq!(broken(&certificate), expected, "{certificate}");
+    assert_eq!(certificate.verdict, CertificateVerdict::Fail);
+    certificate
+}
+
+/// The same, but other promises may break too.
+#[track_caller]
+fn breaks_at_least(expected: &[PromiseName], change: impl FnOnce(&mut Plan)) -> Certificate {
+    let mut plan = good();
+    change(&mut plan);
+    let certificate = judged(plan);
+    let found = broken(&certificate);
+    assert!(
+        expected.iter().all(|name| found.contains(name)),
+        "{expected:?}\n{certificate}"
+    );
+    certificate
+}
+
+fn stage(plan: &Plan, kind: SegmentKind) -> usize {
+    plan.segments.iter().position(|s| s.kind == kind).unwrap()
+}
+
+/// Knots strictly within the first segment of a kind.
+fn within(plan: &Plan, kind: SegmentKind) -> std::ops::Range<usize> {
+    let segment = plan.segments[stage(plan, kind)];
+    let knot = |t: f64| plan.knots.t_s.iter().position(|x| *x == t).unwrap();
+    knot(segment.t_start_s) + 1..knot(segment.t_end_s)
+}
+
+#[test]
+fn the_good_plan_passes() {
+    let certificate = verify(&good(), &irb120()).unwrap();
+    assert_eq!(broken(&certificate), [], "{certificate}");
+    assert_eq!(certificate.verdict, CertificateVerdict::Pass);
+    assert!(certificate.to_string().starts_with("CERTIFIED"));
+}
+
+#[test]
+fn harmless_edits_pass() {
+    let mut plan = good();
+    plan.scenario.name = "renamed".into();
+    plan.summary.headline = "another".into();
+    // A knot more, on the curve of the motion.
+    let k = within(&plan, SegmentKind::Wash).start + 40;
+    let motion = crate::trajectory::Trajectory::from_knots(
+        plan.knots.t_s.clone(),
+        plan.knots.q_rad.clone(),
+        plan.knots.qd_rad_s.clone(),
+    )
+    .unwrap();
+    let t = 0.3 * plan.knots.t_s[k] + 0.7 * plan.knots.t_s[k + 1];
+    let state = motion.at(t).unwrap();
+    plan.knots.t_s.insert(k + 1, t);
+    plan.knots.q_rad.insert(k + 1, state.q);
+    plan.knots.qd_rad_s.insert(k + 1, state.qd);
+    let certificate = judged(plan);
+    assert_eq!(certificate.verdict, CertificateVerdict::Pass, "{certificate}");
+}
+
+#[test]
+fn tampering_without_the_seal_is_a_finding_of_its_own() {
+    let mut plan = good();
+    plan.summary.headline = "washed twice".into();
+    let certificate = verify(&plan, &irb120()).unwrap();
+    assert_eq!(broken(&certificate), []);
+    assert_eq!(
+        (certificate.hash.status, certificate.verdict),
+        (Status::Fail, CertificateVerdict::Fail)
+    );
+    plan.hash = None;
+    assert_eq!(verify(&plan, &irb120()).unwrap().hash.status, Status::Fail);
+}
+
+#[test]
+fn statements_that_do_not_follow_are_named() {
+    breaks(&[Limits], |p| p.limits.tilt_rad += 0.1);
+    breaks(&[Limits], |p| p.limits.clearance_m = 0.001);
+    breaks(&[Limits], |p| p.limits.velocity_rad_s[2] *= 2.0);
+    breaks(&[Limits], |p| p.limits.upper_rad[0] = None);
+    breaks(&[Limits], |p| p.limits.coverage = 0.5);
+    let told = breaks(&[Tolerances], |p| p.tolerances.path_m = 0.01);
+    assert!(
+        told.to_string().contains("tolerances.path_m: 0.01; expected 0.0002"),
+        "{told}"
+    );
+    breaks(&[Tool], |p| p.tool.length_m += 0.01);
+    breaks(&[Tool], |p| p.tip.position_m[0] += 0.01);
+    breaks(&[Arm], |p| p.robot.urdf_sha256 = "0".repeat(64));
+    breaks(&[Arm], |p| p.robot.name = "other".into());
+    breaks(&[Arm], |p| p.scenario.job.program = crate::scenario::Program::Paper);
+    breaks(&[ClearancePairs], |p| _ = p.clearance_pairs.pop());
+    breaks(&[ClearancePairs], |p| p.clearance_pairs.swap(0, 1));
+    breaks(&[HomeToHome], |p| p.home_rad[1][3] += 0.1);
+    breaks(&[Plates], |p| p.plates[1].thickness_m *= 0.5);
+}
+
+#[test]
+fn another_tool_consistently_stated_leaves_the_path() {
+    let robot = irb120();
+    breaks_at_least(&[StrokeDeviation, LineDeviation, ContactHeight], |p| {
+        p.scenario.tool.length_m += 0.01;
+        p.tool = p.scenario.tool.clone();
+        p.tip = crate::plan::TipPose::new(&robot, &p.tool);
+    });
+}
+
+#[test]
+fn plates_elsewhere_are_not_washed() {
+    breaks(&[Plates, ToolPath], |p| p.plates[0].x_m += 2e-4);
+    breaks_at_least(&[Coverage, ToolPath], |p| {
+        p.plates[0].x_m += 0.03;
+        let moved = [p.plates[0].x_m, p.plates[0].y_m];
+        p.scenario.layout.positions_m.as_mut().unwrap()[0] = moved;
+    });
+}
+
+#[test]
+fn the_stroke_must_be_the_scenarios_and_be_followed() {
+    let edit = |p: &mut Plan, change: fn(&mut crate::stroke::Stroke)| {
+        let wash = stage(p, SegmentKind::Wash);
+        if let Shape::Stroke { stroke, .. } = &mut p.tool_path[wash].shape {
+            change(stroke);
+        }
+    };
+    breaks(&[ToolPath, StrokeDeviation], |p| edit(p, |s| s.radius_m -= 0.003));
+    breaks(&[ToolPath, StrokeDeviation], |p| edit(p, |s| s.turns += 0.5));
+    breaks(&[ToolPath, StrokeDeviation], |p| edit(p, |s| s.closing_ring = false));
+    // The angle at which it starts is free, but the tip must follow it, and the retreat begins where it ends.
+    breaks(&[ToolPath, StrokeDeviation], |p| edit(p, |s| s.start_angle_rad += 0.1));
+    breaks_at_least(&[ToolPath], |p| {
+        let approach = stage(p, SegmentKind::Approach);
+        if let Shape::Line { height_m, .. } = &mut p.tool_path[approach].shape {
+            *height_m -= 0.01;
+        }
+    });
+}
+
+#[test]
+fn a_smaller_stroke_with_another_scenario_leaves_the_rim() {
+    let mut recipe = Recipe::arc(&[20.0]);
+    recipe.scenario.wash.path_radius_m = 0.112;
+    let certificate = verify(&recipe.plan(), &irb120()).unwrap();
+    assert_eq!(broken(&certificate), [Coverage], "{certificate}");
+    let coverage = certificate.promise(Coverage).unwrap();
+    assert_eq!(
+        coverage.status,
+        Status::Fail,
+        "proved to be too little, not merely unproved"
+    );
+}
+
+#[test]
+fn a_knot_moved_is_seen_by_joints_and_by_the_path() {
+    breaks_at_least(&[StrokeDeviation], |p| {
+        let k = within(p, SegmentKind::Wash).start + 200;
+        p.knots.q_rad[k][1] += 0.002;
+    });
+    breaks_at_least(&[LineDeviation, JointAcceleration], |p| {
+        let k = within(p, SegmentKind::Retreat).start + 20;
+        p.knots.q_rad[k][2] += 0.02;
+    });
+    breaks_at_least(&[JointPosition, JointSpeed], |p| p.knots.q_rad[40][4] += 3.0);
+    breaks(&[HomeToHome], |p| p.knots.q_rad[0][5] += 1e-6);
+    breaks_at_least(&[RestAtContact], |p| {
+        let k = within(p, SegmentKind::Wash).start - 1;
+        p.knots.qd_rad_s[k][0] = 1e-3;
+    });
+}
+
+#[test]
+fn a_stretch_run_backwards_is_no_stroke() {
+    let told = breaks_at_least(&[StrokeDeviation], |p| {
+        let washing = within(p, SegmentKind::Wash);
+        let (from, to) = (washing.start + 300, washing.start + 340);
+        p.knots.q_rad[from..to].reverse();
+        p.knots.qd_rad_s[from..to].reverse();
+        p.knots.qd_rad_s[from..to].iter_mut().for_each(|v| *v = -*v);
+    });
+    assert_eq!(told.promise(StrokeDeviation).unwrap().status, Status::Fail);
+}
+
+#[test]
+fn time_squeezed_is_too_fast() {
+    let squeeze = |p: &mut Plan, factor: f64| {
+        p.knots.t_s.iter_mut().for_each(|t| *t *= factor);
+        p.knots.qd_rad_s.iter_mut().for_each(|v| *v /= factor);
+        for segment in &mut p.segments {
+            segment.t_start_s *= factor;
+            segment.t_end_s *= factor;
+        }
+    };
+    breaks_at_least(&[WashSpeed, WashAcceleration], |p| squeeze(p, 0.45));
+    breaks_at_least(&[TipSpeed, JointAcceleration], |p| squeeze(p, 0.2));
+    breaks_at_least(&[JointSpeed, TipAcceleration], |p| squeeze(p, 0.1));
+}
+
+#[test]
+fn segments_are_complete_and_in_order() {
+    breaks_at_least(&[Segments], |p| _ = p.segments.remove(3));
+    breaks_at_least(&[Segments], |p| _ = p.tool_path.remove(3));
+    breaks_at_least(&[Segments], |p| p.segments.insert(2, p.segments[2]));
+    breaks_at_least(&[Segments], |p| p.segments[2].kind = SegmentKind::Transition);
+    breaks_at_least(&[Segments], |p| p.segments[2].plate = 1);
+    breaks_at_least(&[Segments], |p| p.segments[2].t_end_s += 1e-6);
+    breaks_at_least(&[Segments], |p| p.segments[4].t_start_s -= 1e-6);
+    breaks_at_least(&[Segments], |p| p.segments.last_mut().unwrap().t_end_s = 1e300);
+    breaks_at_least(&[Segments], |p| p.order.swap(0, 1));
+    breaks_at_least(&[Segments, EveryPlateOnce], |p| p.order[1] = 0);
+    breaks_at_least(&[Segments, EveryPlateOnce], |p| p.order.push(7));
+    // The boundary of a wash a knot later: the arm does not rest there and the line has not ended.
+    breaks_at_least(&[RestAtContact], |p| {
+        let (wash, knot) = (stage(p, SegmentKind::Wash), within(p, SegmentKind::Wash).start + 5);
+        p.segments[wash].t_start_s = p.knots.t_s[knot];
+        p.segments[wash - 1].t_end_s = p.knots.t_s[knot];
+    });
+}
+
+#[test]
+fn the_tilt_is_judged_against_the_scenario() {
+    let mut recipe = Recipe::arc(&[20.0]);
+    recipe.lean = 0.1;
+    let plan = recipe.plan();
+    let certificate = verify(&plan, &irb120()).unwrap();
+    let tilt = certificate.promise(Tilt).unwrap();
+    let bound = tilt.measure.unwrap().bound.unwrap();
+    assert_eq!(tilt.status, Status::Pass);
+    assert!((0.1..0.1005).contains(&bound), "{bound}");
+    let mut strict = plan;
+    strict.scenario.wash.tilt_max_deg = 5.0;
+    strict.limits.tilt_rad = 5.0_f64.to_radians();
+    assert_eq!(broken(&judged(strict)), [Tilt]);
+}
+
+#[test]
+fn a_margin_beyond_the_clearance_is_found() {
+    let told = breaks(&[Clearance], |p| {
+        p.scenario.wash.clearance_m = 0.0215;
+        p.limits.clearance_m = 0.0215;
+    });
+    let promise = told.promise(Clearance).unwrap();
+    assert_eq!(promise.status, Status::Fail);
+    assert_eq!(promise.worst.pair, Some(["link_4".to_owned(), "handle".to_owned()]));
+}
+
+#[test]
+fn plates_that_overlap_fail_or_are_reported() {
+    let mut recipe = Recipe::arc(&[-22.0, 22.0]);
+    let certificate = verify(&recipe.plan(), &irb120()).unwrap();
+    assert_eq!(broken(&certificate), [PlatesApart], "{certificate}");
+    recipe.scenario.layout.overlap = Overlap::Report;
+    let certificate = verify(&recipe.plan(), &irb120()).unwrap();
+    assert_eq!(certificate.verdict, CertificateVerdict::Pass, "{certificate}");
+    assert_eq!(certificate.promise(PlatesApart).unwrap().discrepancies.len(), 1);
+}
+
+#[test]
+fn another_home_consistently_stated_is_another_motion() {
+    breaks(&[HomeToHome], |p| {
+        p.scenario.robot.start_deg[5] += 1.0;
+        p.home_rad = p.scenario.homes();
+    });
+    breaks_at_least(&[HomeToHome], |p| {
+        *p.knots.qd_rad_s.last_mut().unwrap() = JointVector::repeat(0.01)
+    });
+}

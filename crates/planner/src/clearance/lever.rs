@@ -1,0 +1,112 @@
+//! How far a point that the arm carries can be from each joint's axis, and how fast that lets it move.
+//!
+//! With z_i the axis of joint i and p a point on the body behind joint k, ∂p/∂q_i = z_i × (p − p_i), and every further
+//! derivative puts one more z × in front of that of the outermost joint: for i ≤ j ≤ … ≤ m,
+//! ‖∂ⁿp / ∂q_i ∂q_j … ∂q_m‖ ≤ ‖z_m × (p − p_m)‖ = ρ_m, the lever of the **outermost** joint.
+
+use nalgebra::Vector3;
+use platewash_kinematics::{AXES, BodyPoses, JointVector};
+
+/// Bounds ρ of a point's distances from the six axes \[m\]; 0 for the joints that do not move it.
+pub(crate) type Levers = JointVector;
+
+/// Levers that hold in every configuration, for a point on `body` that is at `point` (base frame, m) in the configuration of
+/// `poses`: the distance from axis i to the origin of joint i + 1, which never changes, and the constant lengths from
+/// there on (triangle inequality).
+pub(crate) fn greatest(poses: &BodyPoses, body: usize, point: &Vector3<f64>) -> Levers {
+    let origin = |i: usize| poses.bodies()[i].translation;
+    let mut levers = Levers::zeros();
+    let mut beyond = 0.0;
+    let mut next = *point;
+    for joint in (1..=body).rev() {
+        levers[joint - 1] = from_axis(poses, joint, &next) + beyond;
+        beyond += (next - origin(joint)).norm();
+        next = origin(joint);
+    }
+    levers
+}
+
+/// Levers at one configuration.
+pub(crate) fn at(poses: &BodyPoses, body: usize, point: &Vector3<f64>) -> Levers {
+    Levers::from_fn(|i, _| if i < body { from_axis(poses, i + 1, point) } else { 0.0 })
+}
+
+/// Levers that hold while each joint i is within `drift[i]` \[rad\] of where they were `here`: the distance from axis j
+/// depends on the joints beyond j alone.
+pub(crate) fn within(here: &Levers, drift: &JointVector, greatest: &Levers) -> Levers {
+    let mut levers = *here;
+    let mut moved = 0.0;
+    for joint in (0..AXES).rev() {
+        levers[joint] = (here[joint] + moved).min(greatest[joint]);
+        moved += greatest[joint] * drift[joint];
+    }
+    levers
+}
+
+/// The joints from index `first` on alone: how a body moves in the frame of an earlier one.
+pub(crate) fn from(levers: &Levers, first: usize) -> Levers {
+    Levers::from_fn(|i, _| if i < first { 0.0 } else { levers[i] })
+}
+
+/// Σ ρ over all tuples of joints, one index from each of `rates`, of the outermost joint's lever times the product of the
+/// rates: Σ_m ρ_m (Π_r S_r,m − Π_r S_r,m−1) with the partial sums S_r,m = Σ_{i ≤ m} rate_r,i. Joints before `first` do
+/// not count.
+pub(crate) fn tuples<const N: usize>(levers: &Levers, first: usize, rates: [&JointVector; N]) -> f64 {
+    let mut sums = [0.0; N];
+    let mut before = 0.0;
+    let mut total = 0.0;
+    for joint in first..AXES {
+        for (sum, rate) in sums.iter_mut().zip(rates) {
+            *sum += rate[joint];
+        }
+        let product: f64 = sums.iter().product();
+        total += levers[joint] * (product - before);
+        before = product;
+    }
+    total
+}
+
+fn from_axis(poses: &BodyPoses, joint: usize, point: &Vector3<f64>) -> f64 {
+    let body = &poses.bodies()[joint];
+    let axis = body.rotation.column(2).into_owned();
+    axis.cross(&(point - body.translation)).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_kinematics::RobotModel;
+    use proptest::prelude::*;
+
+    fn configuration() -> impl Strategy<Value = JointVector> {
+        prop::array::uniform6(-3.0..3.0f64).prop_map(JointVector::from)
+    }
+
+    proptest! {
+        #[test]
+        fn levers_bound_distances_in_other_configurations(q in configuration(), r in configuration(), share in 0.0..0.2f64) {
+            let robot = RobotModel::irb120().unwrap();
+            let frame = robot.mounting_frame();
+            let point = |q: &JointVector| robot.pose(q, &frame).translation.vector;
+            let greatest = greatest(&robot.fk(&q), 6, &point(&q));
+            let near = q + (r - q) * share;
+            let here = at(&robot.fk(&q), 6, &point(&q));
+            let local = within(&here, &(near - q).abs(), &greatest);
+            for i in 0..AXES {
+                prop_assert!(at(&robot.fk(&r), 6, &point(&r))[i] <= greatest[i] + 1e-12);
+                prop_assert!(at(&robot.fk(&near), 6, &point(&near))[i] <= local[i] + 1e-12);
+            }
+        }
+
+        #[test]
+        fn tuples_are_the_sum_they_stand_for(l in configuration(), a in configuration(), b in configuration(), first in 0..3usize) {
+            let mut sum = 0.0;
+            for i in first..AXES {
+                for j in first..AXES {
+                    sum += l[i.max(j)] * a[i] * b[j];
+                }
+            }
+            prop_assert!((tuples(&l, first, [&a, &b]) - sum).abs() < 1e-10);
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Bounds of the distance between two parts while the joints move, for proofs that hold between samples.
+//!
+//! A pair of bodies is a list of pairs of convex parts, one of them *fixed*, on the earlier body of the chain, and one
+//! *moving*. Seen from the fixed part only the joints between the two bodies move the other.
+//!
+//! - **First order.** No point of the moving part is displaced by more than Σ_j ρ_j |Δq_j|, so that the distance does
+//!   not fall by more (ρ: [`super::lever`]).
+//! - **Second order.** Along a direction n fixed to the fixed part, the gap g = min n·b − max n·a over the points of both parts
+//!   is a lower bound of the distance, for any n. Each n·b is a function of time whose second derivative is bounded by
+//!   A = sup ‖b̈‖; between two times h apart it is therefore at least the smaller of its end values less A h²/8, and so is g.
+//!
+//! Nothing here allocates.
+
+use super::distance::separation;
+use super::lever::{self, Levers};
+use super::part::Part;
+use super::part::Placed;
+use super::{BodyKind, ClearanceModel, ITERATIVE_ERROR_M};
+use parry3d_f64::math::Vector;
+use platewash_kinematics::{BodyPoses, JointVector};
+use std::ops::Range;
+
+/// What a closed form or a support function may be wrong by \[m\].
+const ROUNDING_M: f64 = 1e-9;
+
+/// What a pair is, for rules that depend on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PairKind {
+    /// The sponge and a plate.
+    SpongeAndPlate(usize),
+    /// Any other.
+    Other,
+}
+
+/// Two convex parts, the joints between them and their levers.
+#[derive(Debug, Clone)]
+pub(crate) struct PartPair<'a> {
+    fixed: &'a Part,
+    moving: &'a Part,
+    /// Indices of the joints that move one in the frame of the other.
+    joints: Range<usize>,
+    /// Levers of the moving part that hold in every configuration.
+    greatest: Levers,
+}
+
+/// Distance of two parts at one configuration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Measured {
+    /// What was found \[m\]; ≤ 0 when they touch or overlap.
+    pub distance_m: f64,
+    /// What the true distance is not below \[m\].
+    pub at_least_m: f64,
+    /// Half-way between the nearest points \[m\], base frame.
+    pub place_m: [f64; 3],
+    /// From the fixed part to the moving one, in the frame of the fixed part; zero where they overlap.
+    pub normal: [f64; 3],
+}
+
+impl ClearanceModel {
+    /// Number of pairs, in the order of [`ClearanceModel::pair_names`].
+    pub(crate) fn pair_count(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// What a pair is.
+    pub(crate) fn pair_kind(&self, pair: usize) -> PairKind {
+        let (a, b) = self.pairs[pair];
+        match (self.bodies[a].kind, self.bodies[b].kind) {
+            (BodyKind::Sponge, BodyKind::Plate(i)) | (BodyKind::Plate(i), BodyKind::Sponge) => {
+                PairKind::SpongeAndPlate(i)
+            }
+            _ => PairKind::Other,
+        }
+    }
+
+    /// The pairs of parts of a pair of bodies.
+    pub(crate) fn parts_of(&self, pair: usize) -> Vec<PartPair<'_>> {
+        let zero = self.robot.fk(&JointVector::zeros());
+        let (a, b) = self.pairs[pair];
+        self.part_pairs(a, b)
+            .map(|(p, r)| PartPair::new(&self.bodies[a].parts[p], &self.bodies[b].parts[r], &zero))
+            .collect()
+    }
+}
+
+impl<'a> PartPair<'a> {
+    fn new(a: &'a Part, b: &'a Part, zero: &BodyPoses) -> Self {
+        let (fixed, moving) = if a.body() <= b.body() { (a, b) } else { (b, a) };
+        let joints = fixed.body()..moving.body();
+        let point = zero.rigid(&moving.frame()).translation;
+        let greatest = moving.widened(&lever::greatest(zero, moving.body(), &point));
+        Self {
+            fixed,
+            moving,
+            greatest: lever::from(&greatest, joints.start),
+            joints,
+        }
+    }
+
+    /// A lower bound of the distance from spheres around the parts \[m\].
+    pub fn sphere_gap(&self, poses: &BodyPoses) -> f64 {
+        self.fixed.sphere_gap(self.moving, poses)
+    }
+
+    /// The distance.
+    pub fn measure(&self, poses: &BodyPoses) -> Measured {
+        let (fixed, moving) = (self.fixed.place(poses), self.moving.place(poses));
+        let found = separation(&fixed, &moving);
+        let normal = fixed.pose.rotation.inverse() * Vector::from_array(found.normal);
+        let error = if self.fixed.is_exact_with(self.moving) {
+            ROUNDING_M
+        } else {
+            ITERATIVE_ERROR_M
+        };
+        Measured {
+            distance_m: found.distance,
+            at_least_m: found.distance - error,
+            place_m: found.place,
+            normal: normal.to_array(),
+        }
+    }
+
+    /// The gap along a direction in the frame of the fixed part: a lower bound of the distance \[m\], rounding included.
+    pub fn gap_along(&self, normal: [f64; 3], poses: &BodyPoses) -> f64 {
+        let (fixed, moving) = (self.fixed.place(poses), self.moving.place(poses));
+        let normal = fixed.pose.rotation * Vector::from_array(normal);
+        let from = |part: &Placed<'_>, direction: Vector| part.support(direction);
+        -from(&moving, -normal) - from(&fixed, normal) - ROUNDING_M
+    }
+
+    /// Levers of the moving part while each joint is within `drift` \[rad\] of the configuration of `poses`.
+    pub fn levers(&self, poses: &BodyPoses, drift: &JointVector) -> Levers {
+        let point = poses.rigid(&self.moving.frame()).translation;
+        let here = self.moving.widened(&lever::at(poses, self.moving.body(), &point));
+        lever::within(&lever::from(&here, self.joints.start), drift, &self.greatest)
+    }
+
+    /// The greatest acceleration of a point of the moving part as the fixed one sees it, for joint speeds \[rad/s\] and
+    /// accelerations \[rad/s²\] up to those given \[m/s²\].
+    pub fn acceleration(&self, levers: &Levers, speed: &JointVector, acceleration: &JointVector) -> f64 {
+        let first = self.joints.start;
+        lever::tuples(levers, first, [acceleration]) + lever::tuples(levers, first, [speed, speed])
+    }
+}
