@@ -10,7 +10,8 @@
 //!
 //! The sponge is round, so yaw is free: it is chosen such that joints 4 and 6 rest, which takes the least joint travel
 //! ([`Cell::tip_pose`]). Of the two directions in which the tool can tilt, the one in the arm's own vertical plane is
-//! the useful one.
+//! the useful one; only next to plates so near that the sponge comes over them does the tool lean away from them
+//! ([`neighbours`]).
 //!
 //! # How
 //!
@@ -25,6 +26,7 @@ mod cell;
 mod error;
 pub mod exhaustive;
 mod inverse;
+mod neighbours;
 mod obstacle;
 pub mod policy;
 mod samples;
@@ -46,6 +48,7 @@ use crate::layout::Plate;
 use crate::stroke::Stroke;
 use inverse::{Start, merge_starts};
 use nalgebra::Vector3;
+use neighbours::Neighbours;
 use platewash_kinematics::JointVector;
 use samples::Samples;
 use search::{Graph, GraphPath};
@@ -62,7 +65,7 @@ pub struct Washing {
     /// Parameters of the stroke, from 0 to its end, as [`Stroke::parameters`] gives them for
     /// [`settings::CHORD_ERROR_M`] \[rad\].
     pub theta: Vec<f64>,
-    /// Tilt of the tool at each, positive outwards \[rad\].
+    /// Tilt of the tool at each: its angle from the plate's normal, positive where the flange leans away from axis 1 \[rad\].
     pub tilt_rad: Vec<f64>,
     /// Configuration of the arm at each \[rad\].
     pub q: Vec<JointVector>,
@@ -126,11 +129,14 @@ fn task<'a>(
     check_input(stroke, &centre, near)?;
     let count = cell.plates.len();
     let here = cell.plates.get(plate).ok_or(PostureError::Plate { plate, count })?;
-    let touches = |(i, other): (usize, &Plate)| (i == plate || overlap(here, other)).then_some(i);
+    let touches = |other: &Plate| std::ptr::eq(other, here) || overlap(here, other);
+    let (radius, most) = (stroke.radius_m, settings.tilt_max_rad);
+    let spared = cell.plates.iter().filter(|other| !touches(other));
     Ok(Task {
         cell,
         samples: Samples::new(stroke, centre),
-        working: cell.plates.iter().enumerate().filter_map(touches).collect(),
+        working: (0..count).filter(|&i| touches(&cell.plates[i])).collect(),
+        neighbours: Neighbours::reached(spared, &centre, radius, cell.sponge_radius_m, most),
         required_m: settings.required_m(),
     })
 }
@@ -162,7 +168,7 @@ fn by_policy(task: &Task<'_>, settings: &PostureSettings, near: &JointVector) ->
     policies(task, settings).into_iter().find_map(|policy| {
         let profile = Profile::Policy(policy);
         let tilts = task.tilts(&profile);
-        let first = task.cell.tip_rigid(&task.samples.contact[0], tilts[0]);
+        let first = task.target(&task.samples.contact[0], tilts[0]);
         let starts = task.cell.inverse.starts(&first, near).unwrap_or_default();
         let q = starts.iter().find_map(|start| task.follow(&tilts, start).ok())?;
         Some(finish(task, &profile, tilts, q, How::Policy(policy)))
@@ -206,7 +212,7 @@ fn search_starts(task: &Task<'_>, graph: &Graph, near: &JointVector) -> Vec<Star
     tilts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let mut starts = Vec::new();
     for tilt in tilts {
-        let target = task.cell.tip_rigid(&task.samples.contact[0], tilt);
+        let target = task.target(&task.samples.contact[0], tilt);
         merge_starts(&mut starts, task.cell.inverse.starts(&target, near).unwrap_or_default());
     }
     starts
@@ -238,9 +244,14 @@ fn smooth(task: &Task<'_>, graph: &Graph, path: &GraphPath, start: &Start) -> Re
 }
 
 /// The answer, with its slopes at the ends.
-fn finish(task: &Task<'_>, profile: &Profile, tilt_rad: Vec<f64>, q: Vec<JointVector>, how: How) -> Washing {
+fn finish(task: &Task<'_>, profile: &Profile, tilts: Vec<f64>, q: Vec<JointVector>, how: How) -> Washing {
     let theta = task.samples.theta.clone();
     let last = q.len() - 1;
+    let contacts = task.samples.contact.iter();
+    let tilt_rad = contacts
+        .zip(&tilts)
+        .map(|(contact, &tilt)| task.whole_tilt(contact, tilt))
+        .collect();
     // At a singularity there is no slope; then the chord's.
     let chord = |a: usize, b: usize| (q[b] - q[a]) / (theta[b] - theta[a]);
     let slope = |k: usize, pair: [usize; 2]| task.slope(profile, k, &q[k]).unwrap_or_else(|| chord(pair[0], pair[1]));

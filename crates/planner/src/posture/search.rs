@@ -109,7 +109,7 @@ impl Graph {
     /// The vertices of a layer, each continued from its neighbours in the layer before or from the tilt below.
     pub fn layer(&self, task: &Task<'_>, k: usize, before: Option<&Layer>, start: &Start) -> Layer {
         let contact = task.samples.at(self.theta[k]);
-        let [preferred, _] = self.preferred.tilt(task.cell.seen(&contact).r);
+        let preferred = self.preferred.tilt(task.cell.seen(&contact).r);
         let mut layer: Layer = Vec::with_capacity(self.tilts.len());
         for (j, &tilt) in self.tilts.iter().enumerate() {
             let of = |layer: &Layer, j: usize| layer.get(j).copied().flatten();
@@ -120,7 +120,7 @@ impl Graph {
                 q: known.map_or(start.q, |vertex| vertex.q),
                 sides: start.sides,
             };
-            let target = task.cell.tip_rigid(&contact, tilt);
+            let target = task.target(&contact, tilt);
             let q = task.cell.inverse.continuing(&target, &near).ok();
             let off = (tilt - preferred) / TILT_STEP_RAD;
             layer.push(q.and_then(|q| self.vertex(task, q, off)));

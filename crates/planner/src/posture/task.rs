@@ -2,6 +2,7 @@
 
 use super::cell::Cell;
 use super::inverse::Start;
+use super::neighbours::Neighbours;
 use super::obstacle::Obstacle;
 use super::policy::TiltPolicy;
 use super::samples::Samples;
@@ -22,7 +23,10 @@ pub(super) const ROOM_M: f64 = 8e-3;
 /// … contact points within this length need no look of their own \[m\].
 const STRIDE_M: f64 = 4e-3;
 
-/// A tilt for each contact point.
+/// Step of θ for differences \[rad\].
+const DIFFERENCE_RAD: f64 = 1e-3;
+
+/// A tilt in the arm's plane for each contact point.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Profile {
     /// By the distance from axis 1.
@@ -38,6 +42,8 @@ pub(super) struct Task<'a> {
     pub samples: Samples,
     /// Plates that the sponge may touch: the one it works on, and those that overlap it.
     pub working: Vec<usize>,
+    /// Plates that the sponge comes over without being allowed to touch them.
+    pub neighbours: Neighbours,
     /// What every other pair must keep \[m\].
     pub required_m: f64,
 }
@@ -83,8 +89,8 @@ impl Task<'_> {
     /// Tilt \[rad\] at a contact point at the length `s` \[m\] along the stroke.
     pub fn tilt(&self, profile: &Profile, contact: &Vector3<f64>, s: f64) -> f64 {
         match profile {
-            Profile::Policy(policy) => policy.tilt(self.cell.seen(contact).r)[0],
-            Profile::Spline(spline) => spline.tilt(s)[0],
+            Profile::Policy(policy) => policy.tilt(self.cell.seen(contact).r),
+            Profile::Spline(spline) => spline.tilt(s),
         }
     }
 
@@ -109,7 +115,7 @@ impl Task<'_> {
         let mut last = *start;
         for (sample, (point, &tilt)) in contact.iter().zip(tilts).enumerate() {
             let stop = |obstacle| Stop { sample, obstacle };
-            let target = self.cell.tip_rigid(point, tilt);
+            let target = self.target(point, tilt);
             let q = self.cell.inverse.continuing(&target, &last).map_err(stop)?;
             if sample > 0 {
                 let length = length_m[sample] - length_m[sample - 1];
@@ -128,21 +134,37 @@ impl Task<'_> {
         Ok(all)
     }
 
-    /// `dq/dθ` where the tip follows the profile: `J q′ = (p′, ω)`, with ω of [`Cell::turning`]; `None` at a singularity.
+    /// Where the tip must be for a contact point, with the tool tilted in the arm's plane by `tilt_rad` but for
+    /// [`Neighbours`].
+    pub fn target(&self, contact: &Vector3<f64>, tilt_rad: f64) -> Rigid {
+        if self.neighbours.is_empty() {
+            return self.cell.tip_rigid(contact, tilt_rad);
+        }
+        let lean = self.cell.seen(contact).out * tilt_rad;
+        self.cell.tip_leaning(contact, &self.neighbours.lean(contact, lean))
+    }
+
+    /// Angle of the tool from the plate's normal there, with the sign of the lean away from axis 1 \[rad\].
+    pub fn whole_tilt(&self, contact: &Vector3<f64>, tilt_rad: f64) -> f64 {
+        let out = self.cell.seen(contact).out;
+        let lean = self.neighbours.lean(contact, out * tilt_rad);
+        lean.norm().copysign(lean.dot(&out))
+    }
+
+    /// `dq/dθ` where the tip follows the profile: `J q′ = (p′, ω)`, ω by differences of the exact rotation; `None` at a
+    /// singularity.
     pub fn slope(&self, profile: &Profile, sample: usize, q: &JointVector) -> Option<JointVector> {
-        let Samples {
-            theta,
-            contact,
-            length_m,
-            ..
-        } = &self.samples;
-        let (point, first) = (&contact[sample], self.samples.first(theta[sample]));
-        let tilt_first = match profile {
-            Profile::Policy(policy) => policy.tilt(self.cell.seen(point).r)[1] * self.cell.receding(point, &first),
-            Profile::Spline(spline) => spline.tilt(length_m[sample])[1] * first.norm(),
+        let (theta, length) = (self.samples.theta[sample], self.samples.length_m[sample]);
+        let first = self.samples.first(theta);
+        let rotation = |step: f64| {
+            let contact = self.samples.at(theta + step);
+            let tilt = self.tilt(profile, &contact, length + step * first.norm());
+            self.target(&contact, tilt).rotation
         };
-        let turning = self.cell.turning(point, &first, tilt_first);
-        let twist = Vector6::new(first.x, first.y, first.z, turning.x, turning.y, turning.z);
+        let h = DIFFERENCE_RAD;
+        let change = ((rotation(h) - rotation(-h)) * 8.0 - (rotation(2.0 * h) - rotation(-2.0 * h))) / (12.0 * h);
+        let spin = change * rotation(0.0).transpose();
+        let twist = Vector6::new(first.x, first.y, first.z, spin.m32, spin.m13, spin.m21);
         let jacobian = self.cell.robot.fk(q).jacobian(&self.cell.tip, Axes::Base);
         let slope = jacobian.lu().solve(&twist)?;
         let bounded = slope.amax() <= JOINT_RATE * first.norm().max(1e-3);

@@ -2,11 +2,13 @@ use super::exhaustive::posture_anywhere;
 use super::washable::{Move, Washable, washable};
 use super::*;
 use crate::clearance::ClearanceModel;
-use crate::robot::tip_frame;
 use crate::scenario::ToolSection;
 use crate::trig::sin_cos;
 use platewash_kinematics::{RobotModel, rotation::Rigid};
 use proptest::prelude::*;
+
+mod input;
+mod scale;
 
 const TOOL: ToolSection = ToolSection {
     length_m: 0.15,
@@ -52,7 +54,7 @@ fn settings(tilt_deg: f64) -> PostureSettings {
 fn within<T>(tool: &ToolSection, plates: &[Plate], act: impl FnOnce(&Cell<'_>) -> T) -> T {
     let robot = RobotModel::irb120().unwrap();
     let clearance = ClearanceModel::new(&robot, tool, plates).unwrap();
-    act(&Cell::new(&robot, tip_frame(&robot, tool), &clearance, plates).unwrap())
+    act(&Cell::new(&robot, tool, &clearance, plates).unwrap())
 }
 
 /// The second derivatives of the clamped cubic spline through (x, y) (de Boor, ch. IV), by elimination.
@@ -233,10 +235,8 @@ proptest! {
             let side = pose.rotation * Vector3::x();
             assert!(side.dot(&Vector3::z().cross(&out)).abs() < 1e-12, "x of the tip lies in the arm's plane");
             assert!((pose.translation.vector - contact).norm() == 0.0);
-            // The general lean is this one when it is away from axis 1, and the opposite tilt towards it.
-            let turned = |azimuth: f64, tilt: f64| cell.tip_leaning(&contact, tilt, azimuth);
-            assert!((turned(0.0, tilt).rotation - Rigid::from(&pose).rotation).norm() < 1e-12);
-            assert!((turned(std::f64::consts::PI, -tilt).rotation - Rigid::from(&pose).rotation).norm() < 1e-12);
+            let leaning = cell.tip_leaning(&contact, &(out * tilt));
+            assert!((leaning.rotation - Rigid::from(&pose).rotation).norm() < 1e-12);
         });
     }
 
@@ -255,7 +255,7 @@ proptest! {
             let start = cell.inverse.starts(&first, &HOME).unwrap()[0];
             let at = |theta: f64| {
                 let contact = task.samples.at(theta);
-                cell.inverse.continuing(&cell.tip_rigid(&contact, task.tilt(&profile, &contact, 0.0)), &start).unwrap()
+                cell.inverse.continuing(&task.target(&contact, task.tilt(&profile, &contact, 0.0)), &start).unwrap()
             };
             let (theta, h) = (task.samples.theta[k], 1e-5);
             let slope = task.slope(&profile, k, &at(theta)).unwrap();

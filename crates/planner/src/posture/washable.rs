@@ -8,7 +8,7 @@ use super::task::Task;
 use super::{Cell, PostureError, PostureSettings, by_policy, search_starts, task};
 use crate::clearance::ClearanceModel;
 use crate::layout::Plate;
-use crate::robot::{base_footprint, tip_frame};
+use crate::robot::base_footprint;
 use crate::scenario::ToolSection;
 use crate::stroke::Stroke;
 use crate::trig::sin_cos;
@@ -101,7 +101,7 @@ fn survey(task: &Task<'_>, graph: &Graph, start: &Start) -> Vec<Unwashed> {
             continue;
         }
         let contact = task.samples.at(theta);
-        let obstacle = |&tilt: &f64| task.posture(&task.cell.tip_rigid(&contact, tilt), &here).err();
+        let obstacle = |&tilt: &f64| task.posture(&task.target(&contact, tilt), &here).err();
         let reasons = reasons(graph.tilts.iter().filter_map(obstacle));
         unwashed.push((task.cell.seen(&contact).r, reasons));
     }
@@ -219,7 +219,7 @@ impl Move<'_> {
             return Ok(false);
         }
         let clearance = ClearanceModel::new(self.robot, self.tool, &plates)?;
-        let cell = Cell::new(self.robot, tip_frame(self.robot, self.tool), &clearance, &plates)?;
+        let cell = Cell::new(self.robot, self.tool, &clearance, &plates)?;
         let centre = Vector3::new(centre.x, centre.y, moved.z_m + self.height_m);
         let task = task(&cell, self.stroke, centre, self.plate, self.settings, self.near)?;
         Ok(by_policy(&task, self.settings, self.near).is_some())
