@@ -4,7 +4,8 @@
 //! takes: tilts out of the arm's plane are tried too, and neighbouring points are not looked at. Yaw about the tool's
 //! axis is left out where it changes nothing but joint 6: with the tool along axis 6.
 
-use super::{Cell, PostureError, PostureSettings, task};
+use super::task::Task;
+use super::{Cell, PostureError, PostureSettings};
 use crate::stroke::Stroke;
 use crate::trig::sin_cos;
 use nalgebra::Vector3;
@@ -42,7 +43,7 @@ pub fn posture_anywhere(
     settings: &PostureSettings,
     near: &JointVector,
 ) -> Result<Option<Found>, PostureError> {
-    let task = task(cell, stroke, centre, plate, settings, near)?;
+    let task = Task::new(cell, stroke, centre, plate, settings, near)?;
     let contact = task.samples.at(theta.clamp(0.0, stroke.end()));
     let out = cell.seen(&contact).out;
     let steps = (settings.tilt_max_rad / TILT_STEP_RAD).ceil();

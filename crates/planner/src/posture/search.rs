@@ -26,6 +26,9 @@ pub(super) const SPACING_M: f64 = 5e-3;
 /// Difference of neighbouring tilts, at most \[rad\]: 2°. With the spacing it bounds how fast the tilt changes.
 pub(super) const TILT_STEP_RAD: f64 = std::f64::consts::PI / 90.0;
 
+/// The most layers that a survey looks at.
+const MOST_SURVEYED: usize = 2000;
+
 /// This far from its limits a joint costs nothing more \[rad\].
 const AMPLE_MARGIN_RAD: f64 = 0.2;
 
@@ -85,6 +88,12 @@ impl Graph {
             tilts: (-steps..=steps).map(|k| step * f64::from(k)).collect(),
             preferred: TiltPolicy::sloping(gentle, task.cell.seen(centre).r, stroke.radius_m),
         }
+    }
+
+    /// Indices of layers for a survey: all, or of very many an even choice.
+    pub fn surveyed(&self) -> impl ExactSizeIterator<Item = usize> + use<> {
+        let count = self.theta.len();
+        (0..count).step_by(count.div_ceil(MOST_SURVEYED))
     }
 
     /// The cheapest path on the branch of `start`.

@@ -1,12 +1,17 @@
 //! One plate to wash: whether a contact point can be washed at a tilt, and a whole stroke at a profile of tilts.
 
 use super::cell::Cell;
+use super::error::PostureError;
 use super::inverse::Start;
 use super::neighbours::Neighbours;
 use super::obstacle::Obstacle;
 use super::policy::TiltPolicy;
 use super::samples::Samples;
+use super::settings::{PostureSettings, SPARED_M, check_input};
 use super::spline::TiltSpline;
+use crate::clearance::WashingMargins;
+use crate::layout::Plate;
+use crate::stroke::Stroke;
 use nalgebra::{Vector3, Vector6};
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Axes, JointVector};
@@ -44,8 +49,8 @@ pub(super) struct Task<'a> {
     pub working: Vec<usize>,
     /// Plates that the sponge comes over without being allowed to touch them.
     pub neighbours: Neighbours,
-    /// What every other pair must keep \[m\].
-    pub required_m: f64,
+    /// What the bodies must keep.
+    pub margins: WashingMargins,
 }
 
 /// Where a profile cannot be followed further.
@@ -57,7 +62,38 @@ pub(super) struct Stop {
     pub obstacle: Obstacle,
 }
 
-impl Task<'_> {
+impl<'a> Task<'a> {
+    /// The task, if the input makes sense.
+    ///
+    /// # Errors
+    /// [`PostureError::Input`] and [`PostureError::Plate`].
+    pub fn new(
+        cell: &'a Cell<'a>,
+        stroke: &Stroke,
+        centre: Vector3<f64>,
+        plate: usize,
+        settings: &PostureSettings,
+        near: &JointVector,
+    ) -> Result<Self, PostureError> {
+        settings.validate()?;
+        check_input(stroke, &centre, near)?;
+        let count = cell.plates.len();
+        let here = cell.plates.get(plate).ok_or(PostureError::Plate { plate, count })?;
+        let touches = |other: &Plate| std::ptr::eq(other, here) || overlap(here, other);
+        let (radius, most) = (stroke.radius_m, settings.tilt_max_rad);
+        let spared = cell.plates.iter().filter(|other| !touches(other));
+        Ok(Self {
+            cell,
+            samples: Samples::new(stroke, centre),
+            working: (0..count).filter(|&i| touches(&cell.plates[i])).collect(),
+            neighbours: Neighbours::reached(spared, &centre, radius, cell.sponge_radius_m, most),
+            margins: WashingMargins {
+                required_m: settings.required_m(),
+                spared_m: SPARED_M,
+            },
+        })
+    }
+
     /// The configuration at a pose of the tip, continued from `start` and clear.
     ///
     /// # Errors
@@ -70,20 +106,24 @@ impl Task<'_> {
 
     /// Whether the bodies keep off each other at `q` \[rad\].
     pub fn check_clear(&self, q: &JointVector) -> Result<(), Obstacle> {
-        let (clearance, required_m) = (self.cell.clearance, self.required_m);
-        if clearance.keeps_washing(q, &self.working, required_m) {
+        let clearance = self.cell.clearance;
+        if clearance.keeps_washing(q, &self.working, &self.margins) {
             return Ok(());
         }
-        match clearance.nearest_washing(q, &self.working, required_m) {
-            Some(pair) => Err(Obstacle::Clearance { pair, required_m }),
+        match clearance.nearest_washing(q, &self.working, &self.margins) {
+            Some((pair, required_m)) => Err(Obstacle::Clearance { pair, required_m }),
             None => Ok(()),
         }
     }
 
     /// Whether the bodies keep [`ROOM_M`] more than they must.
     pub fn has_room(&self, q: &JointVector) -> bool {
-        let ample = self.required_m + ROOM_M;
-        self.cell.clearance.keeps_washing(q, &self.working, ample)
+        let WashingMargins { required_m, spared_m } = self.margins;
+        let ample = WashingMargins {
+            required_m: required_m + ROOM_M,
+            spared_m: spared_m + ROOM_M,
+        };
+        self.cell.clearance.keeps_washing(q, &self.working, &ample)
     }
 
     /// Tilt \[rad\] at a contact point at the length `s` \[m\] along the stroke.
@@ -170,6 +210,13 @@ impl Task<'_> {
         let bounded = slope.amax() <= JOINT_RATE * first.norm().max(1e-3);
         bounded.then_some(slope)
     }
+}
+
+/// Whether two plates share a place.
+pub(super) fn overlap(a: &Plate, b: &Plate) -> bool {
+    let apart = Vector3::new(a.x_m - b.x_m, a.y_m - b.y_m, 0.0).norm();
+    let above = |top: &Plate, bottom: &Plate| top.z_m - top.thickness_m > bottom.z_m;
+    apart < a.radius_m + b.radius_m && !above(a, b) && !above(b, a)
 }
 
 /// Refuses a joint step that is no continuous motion along `length` \[m\] of the stroke.

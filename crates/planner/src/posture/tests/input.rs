@@ -48,6 +48,13 @@ fn numbers_that_make_no_sense_are_refused_by_name() {
             assert_eq!(refused(&good, Vector3::new(0.3, bad, 0.0), &fine, &HOME), "centre");
             assert_eq!(refused(&good, at, &fine, &JointVector::repeat(bad)), "near");
         }
+        let (radius_m, turns) = (9.0, 100.0);
+        let long = Stroke {
+            radius_m,
+            turns,
+            ..good
+        };
+        assert_eq!(refused(&long, at, &fine, &HOME), "length of the stroke");
         assert_eq!(
             washing(cell, &good, at, 7, &fine, &HOME).unwrap_err(),
             PostureError::Plate { plate: 7, count: 1 }
@@ -73,8 +80,8 @@ fn extremes_end() {
         within(&TOOL, &plates, |cell| {
             for (radius_m, turns, tilt) in [
                 (1e-4, 0.25, 0.0),
-                (10.0, 3.0, 15.0),
-                (0.12, 60.0, 80.0),
+                (8.0, 1.5, 15.0),
+                (0.12, 40.0, 80.0),
                 (0.05, 0.25, 15.0),
             ] {
                 let stroke = Stroke {

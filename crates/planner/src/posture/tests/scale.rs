@@ -15,6 +15,8 @@ struct Tally {
     failed: usize,
     /// Failures at dead ends of which the exhaustive search finds every one, or not every one, infeasible.
     judged: [usize; 2],
+    /// Least distance of the sponge from a plate that it must not touch, and of any other pair \[m\].
+    least_m: [f64; 2],
     travel_rad: Vec<f64>,
     times: Vec<Duration>,
     first_failure: Option<String>,
@@ -29,6 +31,25 @@ impl Tally {
         match answer {
             Ok(washing) => {
                 self.travel_rad.push(washing.travel_rad());
+                let touches = |i: &usize| overlap(&cell.plates[*i], &cell.plates[plate]);
+                let working: Vec<_> = (0..cell.plates.len()).filter(touches).collect();
+                for q in washing.q.iter().step_by(8) {
+                    for pair in cell.clearance.all(q) {
+                        if working
+                            .iter()
+                            .any(|i| pair.a == "sponge" && pair.b == format!("plate {i}"))
+                        {
+                            continue;
+                        }
+                        let kind = usize::from(!(pair.a == "sponge" && pair.b.starts_with("plate")));
+                        let least = &mut self.least_m[kind];
+                        *least = if *least == 0.0 {
+                            pair.distance_m
+                        } else {
+                            least.min(pair.distance_m)
+                        };
+                    }
+                }
                 let gentle = TiltPolicy::sloping(
                     settings.tilt_max_rad.min(policy::GENTLE_TILT_RAD),
                     cell.seen(&at).r,
@@ -73,7 +94,7 @@ impl Tally {
             self.travel_rad.last(),
         ];
         println!(
-            "{name}: {} plates; sloping {}, other policy {}, searched {}, failed {} (arm's own {}, not proven {}); travel {travel:.1?} rad; \
+            "{name}: {} plates; sloping {}, other policy {}, searched {}, failed {} (arm's own {}, not proven {}); travel {travel:.1?} rad; least distances {:.2?} mm; \
              median, 95 %, longest {times:.1?}; first failure: {:?}",
             self.times.len(),
             self.gentle,
@@ -82,6 +103,7 @@ impl Tally {
             self.failed,
             self.judged[0],
             self.judged[1],
+            self.least_m.map(|m| 1e3 * m),
             self.first_failure
         );
     }
