@@ -56,6 +56,15 @@ impl Neighbours {
         }
     }
 
+    /// Without any, the lean stays in the arm's plane.
+    pub fn none() -> Self {
+        Self {
+            plates: Vec::new(),
+            away_rad: 0.0,
+        }
+    }
+
+    /// Whether there is nothing to lean away from.
     pub fn is_empty(&self) -> bool {
         self.plates.is_empty()
     }

@@ -1,6 +1,7 @@
 //! How a plate is washed: the policies in turn, then the search.
 
 use super::inverse::{Start, merge_starts};
+use super::neighbours::Neighbours;
 use super::policy::GENTLE_TILT_RAD;
 use super::search::{Graph, GraphPath};
 use super::spline::{TiltSpline, smoothed};
@@ -63,11 +64,18 @@ pub fn washing(
     settings: &PostureSettings,
     near: &JointVector,
 ) -> Result<Washing, PostureError> {
-    let task = Task::new(cell, stroke, centre, plate, settings, near)?;
-    if let Some(washing) = by_policy(&task, settings, near) {
-        return Ok(washing);
+    let mut task = Task::new(cell, stroke, centre, plate, settings, near)?;
+    let choose = |task: &Task<'_>| match by_policy(task, settings, near) {
+        Some(washing) => Ok(washing),
+        None => by_search(task, plate, settings, near),
+    };
+    let answer = choose(&task);
+    if answer.is_ok() || task.neighbours.is_empty() {
+        return answer;
     }
-    by_search(&task, plate, settings, near)
+    // Leaning away from a neighbour can itself stand in the way; a tilt in the arm's plane may spare it too.
+    task.neighbours = Neighbours::none();
+    choose(&task).or(answer)
 }
 
 /// The policies worth trying, the best first: those that slope over the plate take the least joint travel, those that stay
