@@ -1,18 +1,26 @@
 //! Clearance while the sponge works on a plate: a quick yes or no, and what stands in the way.
 //!
-//! Every pair keeps the margin, with one exception: the sponge runs over the rim of its plate, and so may come as near
-//! to the other plates as it likes without touching them. Plates in `working` it may touch.
+//! Every pair keeps the margin, with one exception: the sponge runs over the rim of its plate, and so comes nearer to the
+//! other plates, without touching them. Plates in `working` it may touch.
 
 use super::{BodyKind, ClearanceModel, PairClearance, is_clear, nearest, separation};
 use platewash_kinematics::JointVector;
 
+/// What the bodies keep while the sponge washes; touching keeps nothing, not even 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WashingMargins {
+    /// Every pair but those below \[m\].
+    pub required_m: f64,
+    /// The sponge and the plates that it must not touch \[m\].
+    pub spared_m: f64,
+}
+
 impl ClearanceModel {
-    /// Whether at `q` \[rad\] every pair keeps `required_m` while the sponge washes: it may touch the plates in `working` and
-    /// must only not touch the others. False for NaN.
+    /// Whether at `q` \[rad\] the bodies keep `margins` while the sponge washes the plates in `working`. False for NaN.
     ///
     /// Stops at the first pair that is too near, and asks for a distance only where bounding spheres leave it open.
     #[must_use]
-    pub fn keeps_washing(&self, q: &JointVector, working: &[usize], required_m: f64) -> bool {
+    pub fn keeps_washing(&self, q: &JointVector, working: &[usize], margins: &WashingMargins) -> bool {
         let poses = self.robot.fk(q);
         let mut first = Vec::with_capacity(self.bodies.len());
         let mut frames = Vec::with_capacity(4 * self.bodies.len());
@@ -29,38 +37,39 @@ impl ClearanceModel {
                 || is_clear(separation(&part.place(&poses), &other.place(&poses)).distance, required)
         };
         self.pairs.iter().all(|&(a, b)| {
-            self.asked_washing(a, b, working, required_m)
+            self.asked_washing(a, b, working, margins)
                 .is_none_or(|required| self.part_pairs(a, b).all(|parts| keeps((a, b), parts, required)))
         })
     }
 
-    /// The pair that [`ClearanceModel::keeps_washing`] finds too near and that is the nearest of them; `None` where it finds none.
+    /// The nearest of the pairs that [`ClearanceModel::keeps_washing`] finds too near, and what it must keep \[m\]; `None`
+    /// where there is none.
     #[must_use]
-    pub fn nearest_washing(&self, q: &JointVector, working: &[usize], required_m: f64) -> Option<PairClearance> {
+    pub fn nearest_washing(
+        &self,
+        q: &JointVector,
+        working: &[usize],
+        margins: &WashingMargins,
+    ) -> Option<(PairClearance, f64)> {
         let placed = self.place(q);
-        let mut worst: Option<(usize, usize, super::Separation)> = None;
-        for &(a, b) in &self.pairs {
-            let Some(required) = self.asked_washing(a, b, working, required_m) else {
-                continue;
-            };
+        let too_near = |&(a, b): &(usize, usize)| {
+            let required = self.asked_washing(a, b, working, margins)?;
             let parts = self.part_pairs(a, b).map(|(p, r)| (&placed[a][p], &placed[b][r]));
             let found = nearest(parts.map(|(p, r)| separation(p, r)));
-            let nearer =
-                |other: &(usize, usize, super::Separation)| found.distance.total_cmp(&other.2.distance).is_lt();
-            if !is_clear(found.distance, required) && worst.as_ref().is_none_or(nearer) {
-                worst = Some((a, b, found));
-            }
-        }
-        worst.map(|(a, b, found)| self.describe(a, b, found))
+            (!is_clear(found.distance, required)).then_some((a, b, found, required))
+        };
+        let all = self.pairs.iter().filter_map(too_near);
+        let (a, b, found, required) = all.min_by(|x, y| x.2.distance.total_cmp(&y.2.distance))?;
+        Some((self.describe(a, b, found), required))
     }
 
     /// The distance that a pair must keep \[m\]; `None` where it may touch.
-    fn asked_washing(&self, a: usize, b: usize, working: &[usize], required_m: f64) -> Option<f64> {
+    fn asked_washing(&self, a: usize, b: usize, working: &[usize], margins: &WashingMargins) -> Option<f64> {
         use BodyKind::{Plate, Sponge};
         match (self.bodies[a].kind, self.bodies[b].kind) {
             _ if self.exempt(a, b, working) => None,
-            (Sponge, Plate(_)) | (Plate(_), Sponge) => Some(0.0),
-            _ => Some(required_m),
+            (Sponge, Plate(_)) | (Plate(_), Sponge) => Some(margins.spared_m),
+            _ => Some(margins.required_m),
         }
     }
 }

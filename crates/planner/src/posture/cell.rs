@@ -4,6 +4,8 @@ use super::PostureError;
 use super::inverse::Inverse;
 use crate::clearance::ClearanceModel;
 use crate::layout::Plate;
+use crate::robot::tip_frame;
+use crate::scenario::ToolSection;
 use crate::trig::sin_cos;
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::rotation::Rigid;
@@ -23,6 +25,7 @@ pub struct Cell<'a> {
     pub clearance: &'a ClearanceModel,
     /// The plates, as in `clearance`.
     pub plates: &'a [Plate],
+    pub(super) sponge_radius_m: f64,
     pub(super) inverse: Inverse<'a>,
     /// A point of axis 1 and its direction, base frame.
     axis_1: [Vector3<f64>; 2],
@@ -35,31 +38,29 @@ pub struct Cell<'a> {
 pub(super) struct Seen {
     /// Distance from axis 1 \[m\].
     pub r: f64,
-    /// Away from axis 1 \[m\], at right angles to it.
-    pub away: Vector3<f64>,
-    /// ρ̂: its horizontal direction.
+    /// ρ̂: the horizontal direction away from axis 1.
     pub out: Vector3<f64>,
-    /// Its horizontal length \[m\]; 0 where it has no direction.
-    pub horizontal: f64,
 }
 
 impl<'a> Cell<'a> {
-    /// A cell. `plates` are those that `clearance` was made with.
+    /// A cell. `tool` and `plates` are those that `clearance` was made with.
     ///
     /// # Errors
     /// [`PostureError::Ik`], for a solver that refuses its settings.
     pub fn new(
         robot: &'a RobotModel,
-        tip: Frame,
+        tool: &ToolSection,
         clearance: &'a ClearanceModel,
         plates: &'a [Plate],
     ) -> Result<Self, PostureError> {
+        let tip = tip_frame(robot, tool);
         let axes = robot.fk(&JointVector::zeros()).joint_axes();
         let mut cell = Self {
             robot,
             tip,
             clearance,
             plates,
+            sponge_radius_m: tool.sponge_radius_m,
             inverse: Inverse::new(robot, tip)?,
             axis_1: [robot.reach_bound(&tip).0.coords, axes[0]],
             across: Vector3::y(),
@@ -80,20 +81,21 @@ impl<'a> Cell<'a> {
 
     pub(super) fn tip_rigid(&self, contact: &Vector3<f64>, tilt_rad: f64) -> Rigid {
         let Seen { out, .. } = self.seen(contact);
-        self.leaning(contact, &out, &Vector3::z().cross(&out), tilt_rad)
+        self.leaning(contact, &out, &out, tilt_rad)
     }
 
-    /// The tip with the tool leaning by `tilt_rad` to the side that is `azimuth_rad` counter-clockwise from ρ̂.
-    pub(super) fn tip_leaning(&self, contact: &Vector3<f64>, tilt_rad: f64, azimuth_rad: f64) -> Rigid {
+    /// The tip with the flange leaning towards `lean`, horizontal, by its length \[rad\].
+    pub(super) fn tip_leaning(&self, contact: &Vector3<f64>, lean: &Vector3<f64>) -> Rigid {
         let Seen { out, .. } = self.seen(contact);
-        let (s, c) = sin_cos(azimuth_rad);
-        let side = Vector3::z().cross(&out);
-        self.leaning(contact, &(out * c + side * s), &side, tilt_rad)
+        let tilt_rad = lean.norm();
+        let towards = if tilt_rad > 0.0 { lean / tilt_rad } else { out };
+        self.leaning(contact, &out, &towards, tilt_rad)
     }
 
-    /// The straight tool whose `across` points along `side`, turned about `ẑ × lean` by the tilt.
-    fn leaning(&self, contact: &Vector3<f64>, lean: &Vector3<f64>, side: &Vector3<f64>, tilt_rad: f64) -> Rigid {
+    /// The straight tool whose `across` points along `ẑ × out`, turned about `ẑ × lean` by the tilt.
+    fn leaning(&self, contact: &Vector3<f64>, out: &Vector3<f64>, lean: &Vector3<f64>, tilt_rad: f64) -> Rigid {
         let (s, c) = sin_cos(tilt_rad);
+        let side = Vector3::z().cross(out);
         let hinge = Vector3::z().cross(lean);
         let z = -(Vector3::z() * c + lean * s);
         let leant = lean * c - Vector3::z() * s;
@@ -111,42 +113,9 @@ impl<'a> Cell<'a> {
         let away = contact - point;
         let away = away - direction * direction.dot(&away);
         let level = Vector3::new(away.x, away.y, 0.0);
-        let horizontal = level.norm();
-        let (out, horizontal) = if horizontal > ON_AXIS_M {
-            (level / horizontal, horizontal)
-        } else {
-            (Vector3::x(), 0.0)
-        };
         Seen {
             r: away.norm(),
-            away,
-            out,
-            horizontal,
-        }
-    }
-
-    /// How the tip turns along the stroke \[rad per unit\], where the contact point moves by `first` \[m\] and the tilt by
-    /// `tilt_first` \[rad\] per unit: `ω = φ′ ẑ + τ′ (ẑ × ρ̂)`, φ the azimuth.
-    pub(super) fn turning(&self, contact: &Vector3<f64>, first: &Vector3<f64>, tilt_first: f64) -> Vector3<f64> {
-        let seen = self.seen(contact);
-        let side = Vector3::z().cross(&seen.out);
-        let [_, direction] = self.axis_1;
-        let away_first = first - direction * direction.dot(first);
-        let azimuth_first = if seen.horizontal > 0.0 {
-            side.dot(&away_first) / seen.horizontal
-        } else {
-            0.0
-        };
-        Vector3::z() * azimuth_first + side * tilt_first
-    }
-
-    /// Derivative of the distance from axis 1 where the contact point moves by `first` \[m\].
-    pub(super) fn receding(&self, contact: &Vector3<f64>, first: &Vector3<f64>) -> f64 {
-        let seen = self.seen(contact);
-        if seen.r > 0.0 {
-            seen.away.dot(first) / seen.r
-        } else {
-            0.0
+            out: level.try_normalize(ON_AXIS_M).unwrap_or_else(Vector3::x),
         }
     }
 

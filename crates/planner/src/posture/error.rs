@@ -138,13 +138,13 @@ pub(super) fn reasons(obstacles: impl IntoIterator<Item = Obstacle>) -> Vec<Reas
 pub(super) fn no_tilt(task: &Task<'_>, graph: &Graph, plate: usize, layer: usize, start: &Start) -> PostureError {
     let mut here = *start;
     let (mut dead, mut at_layer) = (Vec::new(), here);
-    for k in 0..graph.theta.len() {
+    for k in graph.surveyed() {
         let vertices = graph.layer(task, k, None, &here);
         match vertices.iter().flatten().next() {
             Some(vertex) => here.q = vertex.q,
             None => dead.push((k, here)),
         }
-        if k + 1 == layer {
+        if k < layer {
             at_layer = here;
         }
     }
@@ -157,7 +157,7 @@ pub(super) fn no_tilt(task: &Task<'_>, graph: &Graph, plate: usize, layer: usize
     PostureError::NoTilt {
         plate,
         dead: dead.len(),
-        tried: graph.theta.len(),
+        tried: graph.surveyed().len(),
         ends: ends.map(|(k, near)| dead_end(task, graph, *k, near)).collect(),
     }
 }
@@ -177,7 +177,7 @@ fn dead_end(task: &Task<'_>, graph: &Graph, layer: usize, near: &Start) -> DeadE
     let theta = graph.theta[layer];
     let position_m = task.samples.at(theta);
     let obstacle = |&tilt: &f64| {
-        let target = task.cell.tip_rigid(&position_m, tilt);
+        let target = task.target(&position_m, tilt);
         match task.posture(&target, near) {
             Ok(q) => check_step(&near.q, &q, graph.spacing_m).err(),
             Err(obstacle) => Some(obstacle),

@@ -4,8 +4,10 @@
 //! takes: tilts out of the arm's plane are tried too, and neighbouring points are not looked at. Yaw about the tool's
 //! axis is left out where it changes nothing but joint 6: with the tool along axis 6.
 
-use super::{Cell, PostureError, PostureSettings, task};
+use super::task::Task;
+use super::{Cell, PostureError, PostureSettings};
 use crate::stroke::Stroke;
+use crate::trig::sin_cos;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
 
@@ -41,8 +43,9 @@ pub fn posture_anywhere(
     settings: &PostureSettings,
     near: &JointVector,
 ) -> Result<Option<Found>, PostureError> {
-    let task = task(cell, stroke, centre, plate, settings, near)?;
+    let task = Task::new(cell, stroke, centre, plate, settings, near)?;
     let contact = task.samples.at(theta.clamp(0.0, stroke.end()));
+    let out = cell.seen(&contact).out;
     let steps = (settings.tilt_max_rad / TILT_STEP_RAD).ceil();
     for k in 0..=steps as u32 {
         let tilt_rad = if k == 0 {
@@ -53,7 +56,9 @@ pub fn posture_anywhere(
         let directions = if k == 0 { 1 } else { DIRECTIONS };
         for d in 0..directions {
             let azimuth_rad = std::f64::consts::TAU * f64::from(d) / f64::from(DIRECTIONS);
-            let target = cell.tip_leaning(&contact, tilt_rad, azimuth_rad);
+            let (s, c) = sin_cos(azimuth_rad);
+            let lean = (out * c + Vector3::z().cross(&out) * s) * tilt_rad;
+            let target = cell.tip_leaning(&contact, &lean);
             let starts = cell.inverse.starts(&target, near).unwrap_or_default();
             if let Some(start) = starts.iter().find(|start| task.check_clear(&start.q).is_ok()) {
                 return Ok(Some(Found {

@@ -26,6 +26,9 @@ pub(super) const SPACING_M: f64 = 5e-3;
 /// Difference of neighbouring tilts, at most \[rad\]: 2°. With the spacing it bounds how fast the tilt changes.
 pub(super) const TILT_STEP_RAD: f64 = std::f64::consts::PI / 90.0;
 
+/// The most layers that a survey looks at.
+const MOST_SURVEYED: usize = 2000;
+
 /// This far from its limits a joint costs nothing more \[rad\].
 const AMPLE_MARGIN_RAD: f64 = 0.2;
 
@@ -87,6 +90,12 @@ impl Graph {
         }
     }
 
+    /// Indices of layers for a survey: all, or of very many an even choice.
+    pub fn surveyed(&self) -> impl ExactSizeIterator<Item = usize> + use<> {
+        let count = self.theta.len();
+        (0..count).step_by(count.div_ceil(MOST_SURVEYED))
+    }
+
     /// The cheapest path on the branch of `start`.
     ///
     /// # Errors
@@ -109,7 +118,7 @@ impl Graph {
     /// The vertices of a layer, each continued from its neighbours in the layer before or from the tilt below.
     pub fn layer(&self, task: &Task<'_>, k: usize, before: Option<&Layer>, start: &Start) -> Layer {
         let contact = task.samples.at(self.theta[k]);
-        let [preferred, _] = self.preferred.tilt(task.cell.seen(&contact).r);
+        let preferred = self.preferred.tilt(task.cell.seen(&contact).r);
         let mut layer: Layer = Vec::with_capacity(self.tilts.len());
         for (j, &tilt) in self.tilts.iter().enumerate() {
             let of = |layer: &Layer, j: usize| layer.get(j).copied().flatten();
@@ -120,7 +129,7 @@ impl Graph {
                 q: known.map_or(start.q, |vertex| vertex.q),
                 sides: start.sides,
             };
-            let target = task.cell.tip_rigid(&contact, tilt);
+            let target = task.target(&contact, tilt);
             let q = task.cell.inverse.continuing(&target, &near).ok();
             let off = (tilt - preferred) / TILT_STEP_RAD;
             layer.push(q.and_then(|q| self.vertex(task, q, off)));

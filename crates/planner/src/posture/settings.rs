@@ -4,10 +4,13 @@ use super::PostureError;
 use crate::stroke::Stroke;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Added to the clearance asked for, so that the motion between the points checked keeps it too \[m\].
 pub const RESERVE_M: f64 = 5e-4;
+
+/// What the sponge keeps from plates that it must not touch \[m\]: more than it moves off between the points checked.
+pub const SPARED_M: f64 = 5e-5;
 
 /// How far the chord between neighbouring contact points may leave the stroke \[m\].
 pub const CHORD_ERROR_M: f64 = 2e-5;
@@ -21,12 +24,15 @@ const LARGEST_M: f64 = 10.0;
 /// The most turns of a stroke.
 const MOST_TURNS: f64 = 200.0;
 
+/// The longest stroke \[m\]; it bounds time and memory.
+const LONGEST_M: f64 = 100.0;
+
 /// What a posture must keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PostureSettings {
     /// Largest angle of the tool from the plate's normal \[rad\], in [0, [`LARGEST_TILT_RAD`]].
     pub tilt_max_rad: f64,
-    /// Clearance of every pair, but for the sponge and the plates \[m\], in [0, 1]; [`RESERVE_M`] is added to it.
+    /// Clearance of every pair but the sponge and the plates \[m\], in [0, 1]; [`RESERVE_M`] is added to it.
     pub clearance_m: f64,
 }
 
@@ -52,6 +58,9 @@ pub(super) fn check_input(stroke: &Stroke, centre: &Vector3<f64>, near: &JointVe
     within("stroke.radius_m", stroke.radius_m, [1e-4, LARGEST_M])?;
     within("stroke.turns", stroke.turns, [0.25, MOST_TURNS])?;
     within("stroke.start_angle_rad", stroke.start_angle_rad, [-1e3, 1e3])?;
+    // A spiral of mean radius R/2, and a ring.
+    let length = PI * stroke.radius_m * (stroke.turns + 2.0);
+    within("length of the stroke", length, [0.0, LONGEST_M])?;
     for &coordinate in centre {
         within("centre", coordinate, [-LARGEST_M, LARGEST_M])?;
     }

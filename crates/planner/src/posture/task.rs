@@ -1,11 +1,17 @@
 //! One plate to wash: whether a contact point can be washed at a tilt, and a whole stroke at a profile of tilts.
 
 use super::cell::Cell;
+use super::error::PostureError;
 use super::inverse::Start;
+use super::neighbours::Neighbours;
 use super::obstacle::Obstacle;
 use super::policy::TiltPolicy;
 use super::samples::Samples;
+use super::settings::{PostureSettings, SPARED_M, check_input};
 use super::spline::TiltSpline;
+use crate::clearance::WashingMargins;
+use crate::layout::Plate;
+use crate::stroke::Stroke;
 use nalgebra::{Vector3, Vector6};
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Axes, JointVector};
@@ -22,7 +28,10 @@ pub(super) const ROOM_M: f64 = 8e-3;
 /// … contact points within this length need no look of their own \[m\].
 const STRIDE_M: f64 = 4e-3;
 
-/// A tilt for each contact point.
+/// Step of θ for differences \[rad\].
+const DIFFERENCE_RAD: f64 = 1e-3;
+
+/// A tilt in the arm's plane for each contact point.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Profile {
     /// By the distance from axis 1.
@@ -38,8 +47,10 @@ pub(super) struct Task<'a> {
     pub samples: Samples,
     /// Plates that the sponge may touch: the one it works on, and those that overlap it.
     pub working: Vec<usize>,
-    /// What every other pair must keep \[m\].
-    pub required_m: f64,
+    /// Plates that the sponge comes over without being allowed to touch them.
+    pub neighbours: Neighbours,
+    /// What the bodies must keep.
+    pub margins: WashingMargins,
 }
 
 /// Where a profile cannot be followed further.
@@ -51,7 +62,38 @@ pub(super) struct Stop {
     pub obstacle: Obstacle,
 }
 
-impl Task<'_> {
+impl<'a> Task<'a> {
+    /// The task, if the input makes sense.
+    ///
+    /// # Errors
+    /// [`PostureError::Input`] and [`PostureError::Plate`].
+    pub fn new(
+        cell: &'a Cell<'a>,
+        stroke: &Stroke,
+        centre: Vector3<f64>,
+        plate: usize,
+        settings: &PostureSettings,
+        near: &JointVector,
+    ) -> Result<Self, PostureError> {
+        settings.validate()?;
+        check_input(stroke, &centre, near)?;
+        let count = cell.plates.len();
+        let here = cell.plates.get(plate).ok_or(PostureError::Plate { plate, count })?;
+        let touches = |other: &Plate| std::ptr::eq(other, here) || overlap(here, other);
+        let (radius, most) = (stroke.radius_m, settings.tilt_max_rad);
+        let spared = cell.plates.iter().filter(|other| !touches(other));
+        Ok(Self {
+            cell,
+            samples: Samples::new(stroke, centre),
+            working: (0..count).filter(|&i| touches(&cell.plates[i])).collect(),
+            neighbours: Neighbours::reached(spared, &centre, radius, cell.sponge_radius_m, most),
+            margins: WashingMargins {
+                required_m: settings.required_m(),
+                spared_m: SPARED_M,
+            },
+        })
+    }
+
     /// The configuration at a pose of the tip, continued from `start` and clear.
     ///
     /// # Errors
@@ -64,27 +106,31 @@ impl Task<'_> {
 
     /// Whether the bodies keep off each other at `q` \[rad\].
     pub fn check_clear(&self, q: &JointVector) -> Result<(), Obstacle> {
-        let (clearance, required_m) = (self.cell.clearance, self.required_m);
-        if clearance.keeps_washing(q, &self.working, required_m) {
+        let clearance = self.cell.clearance;
+        if clearance.keeps_washing(q, &self.working, &self.margins) {
             return Ok(());
         }
-        match clearance.nearest_washing(q, &self.working, required_m) {
-            Some(pair) => Err(Obstacle::Clearance { pair, required_m }),
+        match clearance.nearest_washing(q, &self.working, &self.margins) {
+            Some((pair, required_m)) => Err(Obstacle::Clearance { pair, required_m }),
             None => Ok(()),
         }
     }
 
     /// Whether the bodies keep [`ROOM_M`] more than they must.
     pub fn has_room(&self, q: &JointVector) -> bool {
-        let ample = self.required_m + ROOM_M;
-        self.cell.clearance.keeps_washing(q, &self.working, ample)
+        let WashingMargins { required_m, spared_m } = self.margins;
+        let ample = WashingMargins {
+            required_m: required_m + ROOM_M,
+            spared_m: spared_m + ROOM_M,
+        };
+        self.cell.clearance.keeps_washing(q, &self.working, &ample)
     }
 
     /// Tilt \[rad\] at a contact point at the length `s` \[m\] along the stroke.
     pub fn tilt(&self, profile: &Profile, contact: &Vector3<f64>, s: f64) -> f64 {
         match profile {
-            Profile::Policy(policy) => policy.tilt(self.cell.seen(contact).r)[0],
-            Profile::Spline(spline) => spline.tilt(s)[0],
+            Profile::Policy(policy) => policy.tilt(self.cell.seen(contact).r),
+            Profile::Spline(spline) => spline.tilt(s),
         }
     }
 
@@ -109,7 +155,7 @@ impl Task<'_> {
         let mut last = *start;
         for (sample, (point, &tilt)) in contact.iter().zip(tilts).enumerate() {
             let stop = |obstacle| Stop { sample, obstacle };
-            let target = self.cell.tip_rigid(point, tilt);
+            let target = self.target(point, tilt);
             let q = self.cell.inverse.continuing(&target, &last).map_err(stop)?;
             if sample > 0 {
                 let length = length_m[sample] - length_m[sample - 1];
@@ -128,26 +174,49 @@ impl Task<'_> {
         Ok(all)
     }
 
-    /// `dq/dθ` where the tip follows the profile: `J q′ = (p′, ω)`, with ω of [`Cell::turning`]; `None` at a singularity.
+    /// Where the tip must be for a contact point, with the tool tilted in the arm's plane by `tilt_rad` but for
+    /// [`Neighbours`].
+    pub fn target(&self, contact: &Vector3<f64>, tilt_rad: f64) -> Rigid {
+        if self.neighbours.is_empty() {
+            return self.cell.tip_rigid(contact, tilt_rad);
+        }
+        let lean = self.cell.seen(contact).out * tilt_rad;
+        self.cell.tip_leaning(contact, &self.neighbours.lean(contact, lean))
+    }
+
+    /// Angle of the tool from the plate's normal there, with the sign of the lean away from axis 1 \[rad\].
+    pub fn whole_tilt(&self, contact: &Vector3<f64>, tilt_rad: f64) -> f64 {
+        let out = self.cell.seen(contact).out;
+        let lean = self.neighbours.lean(contact, out * tilt_rad);
+        lean.norm().copysign(lean.dot(&out))
+    }
+
+    /// `dq/dθ` where the tip follows the profile: `J q′ = (p′, ω)`, ω by differences of the exact rotation; `None` at a
+    /// singularity.
     pub fn slope(&self, profile: &Profile, sample: usize, q: &JointVector) -> Option<JointVector> {
-        let Samples {
-            theta,
-            contact,
-            length_m,
-            ..
-        } = &self.samples;
-        let (point, first) = (&contact[sample], self.samples.first(theta[sample]));
-        let tilt_first = match profile {
-            Profile::Policy(policy) => policy.tilt(self.cell.seen(point).r)[1] * self.cell.receding(point, &first),
-            Profile::Spline(spline) => spline.tilt(length_m[sample])[1] * first.norm(),
+        let (theta, length) = (self.samples.theta[sample], self.samples.length_m[sample]);
+        let first = self.samples.first(theta);
+        let rotation = |step: f64| {
+            let contact = self.samples.at(theta + step);
+            let tilt = self.tilt(profile, &contact, length + step * first.norm());
+            self.target(&contact, tilt).rotation
         };
-        let turning = self.cell.turning(point, &first, tilt_first);
-        let twist = Vector6::new(first.x, first.y, first.z, turning.x, turning.y, turning.z);
+        let h = DIFFERENCE_RAD;
+        let change = ((rotation(h) - rotation(-h)) * 8.0 - (rotation(2.0 * h) - rotation(-2.0 * h))) / (12.0 * h);
+        let spin = change * rotation(0.0).transpose();
+        let twist = Vector6::new(first.x, first.y, first.z, spin.m32, spin.m13, spin.m21);
         let jacobian = self.cell.robot.fk(q).jacobian(&self.cell.tip, Axes::Base);
         let slope = jacobian.lu().solve(&twist)?;
         let bounded = slope.amax() <= JOINT_RATE * first.norm().max(1e-3);
         bounded.then_some(slope)
     }
+}
+
+/// Whether two plates share a place.
+pub(super) fn overlap(a: &Plate, b: &Plate) -> bool {
+    let apart = Vector3::new(a.x_m - b.x_m, a.y_m - b.y_m, 0.0).norm();
+    let above = |top: &Plate, bottom: &Plate| top.z_m - top.thickness_m > bottom.z_m;
+    apart < a.radius_m + b.radius_m && !above(a, b) && !above(b, a)
 }
 
 /// Refuses a joint step that is no continuous motion along `length` \[m\] of the stroke.

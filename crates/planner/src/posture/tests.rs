@@ -1,12 +1,19 @@
 use super::exhaustive::posture_anywhere;
-use super::washable::{Move, Washable, washable};
+use super::task::{Profile, Task, overlap};
+use super::washable::{Cause, Move, Washable, washable};
+use super::washing::{by_search, policies};
 use super::*;
-use crate::clearance::ClearanceModel;
-use crate::robot::tip_frame;
+use crate::clearance::{ClearanceModel, PairClearance, WashingMargins};
+use crate::layout::Plate;
 use crate::scenario::ToolSection;
+use crate::stroke::Stroke;
 use crate::trig::sin_cos;
-use platewash_kinematics::{RobotModel, rotation::Rigid};
+use nalgebra::Vector3;
+use platewash_kinematics::{JointVector, RobotModel, rotation::Rigid};
 use proptest::prelude::*;
+
+mod input;
+mod scale;
 
 const TOOL: ToolSection = ToolSection {
     length_m: 0.15,
@@ -52,7 +59,7 @@ fn settings(tilt_deg: f64) -> PostureSettings {
 fn within<T>(tool: &ToolSection, plates: &[Plate], act: impl FnOnce(&Cell<'_>) -> T) -> T {
     let robot = RobotModel::irb120().unwrap();
     let clearance = ClearanceModel::new(&robot, tool, plates).unwrap();
-    act(&Cell::new(&robot, tip_frame(&robot, tool), &clearance, plates).unwrap())
+    act(&Cell::new(&robot, tool, &clearance, plates).unwrap())
 }
 
 /// The second derivatives of the clamped cubic spline through (x, y) (de Boor, ch. IV), by elimination.
@@ -194,7 +201,7 @@ proptest! {
         let plates = [plate_at(rho, azimuth)];
         let (stroke, settings) = (stroke(RADIUS_M), settings(15.0));
         within(&TOOL, &plates, |cell| {
-            let task = task(cell, &stroke, centre(&plates[0]), 0, &settings, &HOME).unwrap();
+            let task = Task::new(cell, &stroke, centre(&plates[0]), 0, &settings, &HOME).unwrap();
             let washing = by_search(&task, 0, &settings, &HOME).unwrap();
             check(cell, &stroke, 0, &settings, &washing);
             assert!(washing.travel_rad() < 15.0, "{}", washing.travel_rad());
@@ -207,17 +214,23 @@ proptest! {
 
     /// The quick answer of the clearance model is that of all its distances.
     #[test]
-    fn the_quick_clearance_is_the_slow_one(q in prop::array::uniform6(-1.9..1.9f64), required in 0.0..0.05f64) {
+    fn the_quick_clearance_is_the_slow_one(
+        q in prop::array::uniform6(-1.9..1.9f64), required_m in 0.0..0.05f64, spared_m in 0.0..0.02f64,
+    ) {
         let plates = [plate_at(0.3, 10.0), plate_at(0.4, 60.0)];
         within(&TOOL, &plates, |cell| {
-            let q = JointVector::from(q);
-            let kept = cell.clearance.all(&q).iter().all(|pair| {
-                let sponge_on = |plate: &str| pair.a == "sponge" && pair.b == plate;
-                let required = if sponge_on("plate 1") { 0.0 } else { required };
-                sponge_on("plate 0") || (pair.distance_m > 0.0 && pair.distance_m >= required)
-            });
-            assert_eq!(cell.clearance.keeps_washing(&q, &[0], required), kept);
-            assert_eq!(cell.clearance.nearest_washing(&q, &[0], required).is_none(), kept);
+            let (q, margins) = (JointVector::from(q), WashingMargins { required_m, spared_m });
+            let sponge_on = |pair: &PairClearance, plate: &str| pair.a == "sponge" && pair.b == plate;
+            let asked = |pair: &PairClearance| if sponge_on(pair, "plate 1") { spared_m } else { required_m };
+            let near = |pair: &PairClearance| !(pair.distance_m > 0.0 && pair.distance_m >= asked(pair));
+            let mut all = cell.clearance.all(&q);
+            all.retain(|pair| !sponge_on(pair, "plate 0") && near(pair));
+            assert_eq!(cell.clearance.keeps_washing(&q, &[0], &margins), all.is_empty());
+            let least = all.iter().map(|pair| pair.distance_m).fold(f64::INFINITY, f64::min);
+            match cell.clearance.nearest_washing(&q, &[0], &margins) {
+                Some((pair, required)) => assert!(pair.distance_m == least && required == asked(&pair)),
+                None => assert!(all.is_empty()),
+            }
         });
     }
 
@@ -233,10 +246,8 @@ proptest! {
             let side = pose.rotation * Vector3::x();
             assert!(side.dot(&Vector3::z().cross(&out)).abs() < 1e-12, "x of the tip lies in the arm's plane");
             assert!((pose.translation.vector - contact).norm() == 0.0);
-            // The general lean is this one when it is away from axis 1, and the opposite tilt towards it.
-            let turned = |azimuth: f64, tilt: f64| cell.tip_leaning(&contact, tilt, azimuth);
-            assert!((turned(0.0, tilt).rotation - Rigid::from(&pose).rotation).norm() < 1e-12);
-            assert!((turned(std::f64::consts::PI, -tilt).rotation - Rigid::from(&pose).rotation).norm() < 1e-12);
+            let leaning = cell.tip_leaning(&contact, &(out * tilt));
+            assert!((leaning.rotation - Rigid::from(&pose).rotation).norm() < 1e-12);
         });
     }
 
@@ -246,7 +257,7 @@ proptest! {
         let plates = [plate_at(rho, azimuth)];
         let (stroke, settings) = (stroke(RADIUS_M), settings(15.0));
         within(&TOOL, &plates, |cell| {
-            let task = task(cell, &stroke, centre(&plates[0]), 0, &settings, &HOME).unwrap();
+            let task = Task::new(cell, &stroke, centre(&plates[0]), 0, &settings, &HOME).unwrap();
             let policy = policies(&task, &settings)[0];
             let profile = Profile::Policy(policy);
             let tilts = task.tilts(&profile);
@@ -255,7 +266,7 @@ proptest! {
             let start = cell.inverse.starts(&first, &HOME).unwrap()[0];
             let at = |theta: f64| {
                 let contact = task.samples.at(theta);
-                cell.inverse.continuing(&cell.tip_rigid(&contact, task.tilt(&profile, &contact, 0.0)), &start).unwrap()
+                cell.inverse.continuing(&task.target(&contact, task.tilt(&profile, &contact, 0.0)), &start).unwrap()
             };
             let (theta, h) = (task.samples.theta[k], 1e-5);
             let slope = task.slope(&profile, k, &at(theta)).unwrap();
@@ -265,38 +276,44 @@ proptest! {
     }
 }
 
-/// Plates against the base are refused for what stands in the way, and the exhaustive search agrees at every dead end.
+/// Plates too near, too far or behind are refused for what stands in the way, and where no other branch of the arm would do the
+/// exhaustive search agrees at every dead end.
 #[test]
 fn a_failure_is_the_arms_own() {
-    for (rho, azimuth, tilt) in [
-        (0.2, 0.0, 15.0),
-        (0.25, 45.0, 30.0),
-        (0.6, 20.0, 15.0),
-        (0.4, 179.0, 15.0),
-    ] {
+    let cases = [
+        (0.2, 0.0, 15.0, [Filter::Limit, Filter::Clearance], 0.0),
+        (0.25, 45.0, 30.0, [Filter::Limit, Filter::Clearance], 0.0),
+        (0.6, 20.0, 15.0, [Filter::Reach, Filter::Reach], 0.0),
+        (0.4, 179.0, 15.0, [Filter::Limit, Filter::Limit], 1.0),
+    ];
+    for (rho, azimuth, tilt, expected, elsewhere) in cases {
         let plates = [plate_at(rho, azimuth)];
         within(&TOOL, &plates, |cell| {
-            let (stroke, settings) = (stroke(0.145), settings(tilt));
-            let at = centre(&plates[0]);
+            let (stroke, settings, at) = (stroke(0.145), settings(tilt), centre(&plates[0]));
             let failed = washing(cell, &stroke, at, 0, &settings, &HOME);
             let Err(PostureError::NoTilt { ends, .. }) = &failed else {
                 panic!("{rho} {azimuth}: {failed:?}");
             };
-            let found: Vec<_> = ends
-                .iter()
-                .map(|end| posture_anywhere(cell, (&stroke, end.theta), at, 0, &settings, &HOME).unwrap())
-                .collect();
-            println!(
-                "{rho} {azimuth}: {} of {} anyhow: {}",
-                found.iter().flatten().count(),
-                found.len(),
-                failed.unwrap_err()
-            );
-            let part = washable(cell, &stroke, at, 0, &settings, &HOME).unwrap();
-            let Washable::Part { share, causes } = part else {
-                panic!("{part:?}")
+            let anywhere = |end: &&DeadEnd| {
+                let found = posture_anywhere(cell, (&stroke, end.theta), at, 0, &settings, &HOME);
+                found.unwrap().is_some()
             };
-            println!("   {share} {causes:?}");
+            let feasible = ends.iter().filter(anywhere).count() as f64 / ends.len() as f64;
+            assert!(feasible <= elsewhere, "{rho} {azimuth}: {feasible}");
+            let Washable::Part { share, causes } = washable(cell, &stroke, at, 0, &settings, &HOME).unwrap() else {
+                panic!("{rho} {azimuth}: washable");
+            };
+            assert!(0.4 < share && share < 1.0, "{share}");
+            let filters: Vec<_> = causes.iter().map(|cause| cause.least.filter()).collect();
+            assert!(expected.iter().all(|filter| filters.contains(filter)), "{causes:?}");
+            for Cause {
+                from_axis_m: [least, most],
+                share,
+                ..
+            } in causes
+            {
+                assert!(least <= most && rho - 0.146 <= least && most <= rho + 0.146 && share > 0.0);
+            }
         });
     }
 }
@@ -305,7 +322,7 @@ fn a_failure_is_the_arms_own() {
 fn a_better_position_is_near_and_does() {
     let robot = RobotModel::irb120().unwrap();
     let (stroke, settings) = (stroke(RADIUS_M), settings(15.0));
-    for (rho, azimuth) in [(0.2, 30.0), (0.56, -40.0), (0.36, 0.0)] {
+    for (rho, azimuth, furthest) in [(0.2, 30.0, 0.065), (0.56, -40.0, 0.055), (0.36, 0.0, 0.0)] {
         let plates = [plate_at(rho, azimuth), plate_at(0.4, 120.0)];
         let search = Move {
             robot: &robot,
@@ -317,7 +334,6 @@ fn a_better_position_is_near_and_does() {
             settings: &settings,
             near: &HOME,
         };
-        let t = std::time::Instant::now();
         let found = search.nearest_washable().unwrap().unwrap();
         let moved = [
             Plate {
@@ -327,12 +343,7 @@ fn a_better_position_is_near_and_does() {
             },
             plates[1],
         ];
-        println!(
-            "{rho} {azimuth} -> {} {} in {:?}",
-            found.norm(),
-            found.y.atan2(found.x).to_degrees(),
-            t.elapsed()
-        );
+        assert!((centre(&moved[0]) - centre(&plates[0])).norm() <= furthest, "{found}");
         within(&TOOL, &moved, |cell| {
             let washing = washing(cell, &stroke, centre(&moved[0]), 0, &settings, &HOME).unwrap();
             check(cell, &stroke, 0, &settings, &washing);

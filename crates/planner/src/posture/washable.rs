@@ -4,11 +4,12 @@ use super::error::{Reason, reasons};
 use super::inverse::Start;
 use super::obstacle::Obstacle;
 use super::search::Graph;
-use super::task::Task;
-use super::{Cell, PostureError, PostureSettings, by_policy, search_starts, task};
+use super::task::{Task, overlap};
+use super::washing::{by_policy, search_starts};
+use super::{Cell, PostureError, PostureSettings};
 use crate::clearance::ClearanceModel;
 use crate::layout::Plate;
-use crate::robot::{base_footprint, tip_frame};
+use crate::robot::base_footprint;
 use crate::scenario::ToolSection;
 use crate::stroke::Stroke;
 use crate::trig::sin_cos;
@@ -67,7 +68,7 @@ pub fn washable(
     settings: &PostureSettings,
     near: &JointVector,
 ) -> Result<Washable, PostureError> {
-    let task = task(cell, stroke, centre, plate, settings, near)?;
+    let task = Task::new(cell, stroke, centre, plate, settings, near)?;
     if by_policy(&task, settings, near).is_some() {
         return Ok(Washable::Whole);
     }
@@ -80,7 +81,7 @@ pub fn washable(
     if best.is_empty() {
         return Ok(Washable::Whole);
     }
-    let tried = graph.theta.len() as f64;
+    let tried = graph.surveyed().len() as f64;
     Ok(Washable::Part {
         share: 1.0 - best.len() as f64 / tried,
         causes: causes(best, tried),
@@ -94,14 +95,14 @@ type Unwashed = (f64, Vec<Reason>);
 fn survey(task: &Task<'_>, graph: &Graph, start: &Start) -> Vec<Unwashed> {
     let mut here = *start;
     let mut unwashed = Vec::new();
-    for (k, &theta) in graph.theta.iter().enumerate() {
+    for k in graph.surveyed() {
         let vertices = graph.layer(task, k, None, &here);
         if let Some(vertex) = vertices.iter().flatten().next() {
             here.q = vertex.q;
             continue;
         }
-        let contact = task.samples.at(theta);
-        let obstacle = |&tilt: &f64| task.posture(&task.cell.tip_rigid(&contact, tilt), &here).err();
+        let contact = task.samples.at(graph.theta[k]);
+        let obstacle = |&tilt: &f64| task.posture(&task.target(&contact, tilt), &here).err();
         let reasons = reasons(graph.tilts.iter().filter_map(obstacle));
         unwashed.push((task.cell.seen(&contact).r, reasons));
     }
@@ -215,13 +216,13 @@ impl Move<'_> {
         (plates[self.plate].x_m, plates[self.plate].y_m) = (centre.x, centre.y);
         let moved = plates[self.plate];
         let others = plates.iter().enumerate().filter(|(i, _)| *i != self.plate);
-        if others.into_iter().any(|(_, other)| super::overlap(&moved, other)) || self.meets_base(&moved) {
+        if others.into_iter().any(|(_, other)| overlap(&moved, other)) || self.meets_base(&moved) {
             return Ok(false);
         }
         let clearance = ClearanceModel::new(self.robot, self.tool, &plates)?;
-        let cell = Cell::new(self.robot, tip_frame(self.robot, self.tool), &clearance, &plates)?;
+        let cell = Cell::new(self.robot, self.tool, &clearance, &plates)?;
         let centre = Vector3::new(centre.x, centre.y, moved.z_m + self.height_m);
-        let task = task(&cell, self.stroke, centre, self.plate, self.settings, self.near)?;
+        let task = Task::new(&cell, self.stroke, centre, self.plate, self.settings, self.near)?;
         Ok(by_policy(&task, self.settings, self.near).is_some())
     }
 

@@ -1,0 +1,195 @@
+//! How a plate is washed: the policies in turn, then the search.
+
+use super::inverse::{Start, merge_starts};
+use super::neighbours::Neighbours;
+use super::policy::GENTLE_TILT_RAD;
+use super::search::{Graph, GraphPath};
+use super::spline::{TiltSpline, smoothed};
+use super::task::{Profile, Stop, Task};
+use super::{Cell, Obstacle, PostureError, PostureSettings, TiltPolicy, error};
+use crate::stroke::Stroke;
+use nalgebra::Vector3;
+use platewash_kinematics::JointVector;
+
+/// Passes of smoothing tried on a searched path, the smoothest first.
+const SMOOTHING: [usize; 6] = [256, 64, 16, 4, 1, 0];
+
+/// How a plate is washed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Washing {
+    /// Parameters of the stroke, from 0 to its end, as [`Stroke::parameters`] gives them for
+    /// [`super::settings::CHORD_ERROR_M`] \[rad\].
+    pub theta: Vec<f64>,
+    /// Tilt of the tool at each: its angle from the plate's normal, positive where the flange leans away from axis 1 \[rad\].
+    pub tilt_rad: Vec<f64>,
+    /// Configuration of the arm at each \[rad\].
+    pub q: Vec<JointVector>,
+    /// dq/dθ at the first and at the last.
+    pub end_slopes: [JointVector; 2],
+    /// How the tilt was chosen.
+    pub how: How,
+}
+
+/// How the tilt was chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum How {
+    /// By the distance from axis 1.
+    Policy(TiltPolicy),
+    /// By a search along the stroke.
+    Search {
+        /// Passes of smoothing that its path bore.
+        smoothing: usize,
+    },
+}
+
+impl Washing {
+    /// Joint travel `Σ_k Σ_i |q_i(k+1) − q_i(k)|` \[rad\].
+    #[must_use]
+    pub fn travel_rad(&self) -> f64 {
+        self.q.windows(2).map(|pair| (pair[1] - pair[0]).abs().sum()).sum()
+    }
+}
+
+/// How to wash plate number `plate` along `stroke` around `centre` (base frame, at the height of the tip \[m\]), from a
+/// configuration not far from `near` \[rad\].
+///
+/// # Errors
+/// [`PostureError`]: a number out of range; or the contact points where nothing will do, and why.
+pub fn washing(
+    cell: &Cell<'_>,
+    stroke: &Stroke,
+    centre: Vector3<f64>,
+    plate: usize,
+    settings: &PostureSettings,
+    near: &JointVector,
+) -> Result<Washing, PostureError> {
+    let mut task = Task::new(cell, stroke, centre, plate, settings, near)?;
+    let choose = |task: &Task<'_>| match by_policy(task, settings, near) {
+        Some(washing) => Ok(washing),
+        None => by_search(task, plate, settings, near),
+    };
+    let answer = choose(&task);
+    if answer.is_ok() || task.neighbours.is_empty() {
+        return answer;
+    }
+    // Leaning away from a neighbour can itself stand in the way; a tilt in the arm's plane may spare it too.
+    task.neighbours = Neighbours::none();
+    choose(&task).or(answer)
+}
+
+/// The policies worth trying, the best first: those that slope over the plate take the least joint travel, those that stay
+/// upright keep the most clearance.
+pub(super) fn policies(task: &Task<'_>, settings: &PostureSettings) -> Vec<TiltPolicy> {
+    let most = settings.tilt_max_rad;
+    let gentle = most.min(GENTLE_TILT_RAD);
+    let mut amplitudes = vec![gentle];
+    amplitudes.extend((most > gentle).then_some(most));
+    let (centre, radius) = (task.samples.centre, task.samples.stroke.radius_m);
+    let both = |&tilt: &f64| {
+        let sloping = TiltPolicy::sloping(tilt, task.cell.seen(&centre).r, radius);
+        [sloping, TiltPolicy::upright(tilt)]
+    };
+    amplitudes.iter().flat_map(both).collect()
+}
+
+/// The washing by the first policy that will do.
+pub(super) fn by_policy(task: &Task<'_>, settings: &PostureSettings, near: &JointVector) -> Option<Washing> {
+    policies(task, settings).into_iter().find_map(|policy| {
+        let profile = Profile::Policy(policy);
+        let tilts = task.tilts(&profile);
+        let first = task.target(&task.samples.contact[0], tilts[0]);
+        let starts = task.cell.inverse.starts(&first, near).unwrap_or_default();
+        let q = starts.iter().find_map(|start| task.follow(&tilts, start).ok())?;
+        Some(finish(task, &profile, tilts, q, How::Policy(policy)))
+    })
+}
+
+/// The washing by the cheapest path through the graph of tilts.
+pub(super) fn by_search(
+    task: &Task<'_>,
+    plate: usize,
+    settings: &PostureSettings,
+    near: &JointVector,
+) -> Result<Washing, PostureError> {
+    let graph = Graph::new(task, settings);
+    let starts = search_starts(task, &graph, near);
+    let mut furthest: Option<(usize, Start)> = None;
+    let mut between = None;
+    for start in starts {
+        match graph.cheapest(task, &start) {
+            Ok(path) => match smooth(task, &graph, &path, &start) {
+                Ok(washing) => return Ok(washing),
+                Err(stop) => between = between.or(Some(stop)),
+            },
+            Err(layer) if furthest.is_none_or(|(other, _)| layer > other) => furthest = Some((layer, start)),
+            Err(_) => {}
+        }
+    }
+    Err(match (between, furthest) {
+        (Some(stop), _) => error::between(task, plate, stop),
+        (None, Some((layer, start))) => error::no_tilt(task, &graph, plate, layer, &start),
+        (None, None) => {
+            let start = Start { q: *near, sides: None };
+            error::no_tilt(task, &graph, plate, 0, &start)
+        }
+    })
+}
+
+/// The branches on which some tilt reaches the first contact point, those of the smallest tilts first.
+pub(super) fn search_starts(task: &Task<'_>, graph: &Graph, near: &JointVector) -> Vec<Start> {
+    let mut tilts = graph.tilts.clone();
+    tilts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let mut starts = Vec::new();
+    for tilt in tilts {
+        let target = task.target(&task.samples.contact[0], tilt);
+        merge_starts(&mut starts, task.cell.inverse.starts(&target, near).unwrap_or_default());
+    }
+    starts
+}
+
+/// The path's tilts, as smooth as they can be and still do.
+fn smooth(task: &Task<'_>, graph: &Graph, path: &GraphPath, start: &Start) -> Result<Washing, Stop> {
+    let rough: Vec<f64> = path.tilt.iter().map(|&j| graph.tilts[j]).collect();
+    let start = Start {
+        q: path.first,
+        ..*start
+    };
+    let mut last_stop = None;
+    for smoothing in SMOOTHING {
+        let profile = Profile::Spline(TiltSpline {
+            control_rad: smoothed(&rough, &path.ranges, smoothing),
+            spacing_m: graph.spacing_m,
+        });
+        let tilts = task.tilts(&profile);
+        match task.follow(&tilts, &start) {
+            Ok(q) => return Ok(finish(task, &profile, tilts, q, How::Search { smoothing })),
+            Err(stop) => last_stop = Some(stop),
+        }
+    }
+    Err(last_stop.unwrap_or(Stop {
+        sample: 0,
+        obstacle: Obstacle::NotFinite,
+    }))
+}
+
+/// The answer, with its slopes at the ends.
+fn finish(task: &Task<'_>, profile: &Profile, tilts: Vec<f64>, q: Vec<JointVector>, how: How) -> Washing {
+    let theta = task.samples.theta.clone();
+    let last = q.len() - 1;
+    let contacts = task.samples.contact.iter();
+    let tilt_rad = contacts
+        .zip(&tilts)
+        .map(|(contact, &tilt)| task.whole_tilt(contact, tilt))
+        .collect();
+    // At a singularity there is no slope; then the chord's.
+    let chord = |a: usize, b: usize| (q[b] - q[a]) / (theta[b] - theta[a]);
+    let slope = |k: usize, pair: [usize; 2]| task.slope(profile, k, &q[k]).unwrap_or_else(|| chord(pair[0], pair[1]));
+    Washing {
+        end_slopes: [slope(0, [0, 1]), slope(last, [last - 1, last])],
+        theta,
+        tilt_rad,
+        q,
+        how,
+    }
+}
