@@ -25,6 +25,7 @@ pub use platewash_kinematics::ik::{IkError, IkFailure, IkSettings, IkSolution, I
 pub use platewash_kinematics::{Axes, Frame, Jacobian, JointLimits, JointVector, Pose, RobotModel, ToolFrame};
 pub use platewash_planner::clearance::{ClearanceModel, PairClearance};
 pub use platewash_planner::coverage::{Coverage, coverage};
+pub use platewash_planner::cycle::{Cycle, CycleReport};
 pub use platewash_planner::job::{Job, PlanError};
 pub use platewash_planner::layout::{Layout, Plate, Region};
 pub use platewash_planner::plan::Plan;

@@ -3,6 +3,7 @@
 //! Exit codes: 0 done, 1 internal error, 2 bad usage or input, 3 infeasible, 4 verification failed.
 
 mod angles;
+mod cycle;
 mod failure;
 mod fk;
 mod ik;
@@ -14,6 +15,7 @@ mod progress;
 mod reproduce;
 mod robot;
 mod run;
+mod sweep;
 mod validate;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -55,6 +57,8 @@ enum Verb {
     Ik(ik::IkArguments),
     /// Show the arm: joints, limits, frames and the pairs checked for clearance.
     Robot,
+    /// Plan and prove many layouts of a scenario, one a seed.
+    Sweep(sweep::SweepArguments),
     /// Re-measure what the paper's program really does.
     Reproduce(reproduce::ReproduceArguments),
 }
@@ -98,6 +102,7 @@ fn dispatch(arguments: Arguments) -> Result<ExitCode, Failure> {
         Verb::Fk(arguments) => fk::run(&options, &arguments),
         Verb::Ik(arguments) => ik::run(&options, &arguments),
         Verb::Robot => robot::run(&options),
+        Verb::Sweep(arguments) => sweep::run(&options, &arguments),
         Verb::Reproduce(arguments) => reproduce::run(&options, &arguments),
     }
 }

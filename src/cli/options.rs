@@ -11,7 +11,7 @@ use std::path::PathBuf;
 /// Options that every verb takes.
 #[derive(Debug, Args)]
 pub struct Options {
-    /// Scenario: a file, or a shipped name (paper-appendix, paper-text) [default: paper-appendix]
+    /// Scenario: a file, or a shipped name (kitchen, kitchen-roomy, kitchen-rim, paper-appendix, paper-text) [default: kitchen]
     #[arg(long, global = true, value_name = "FILE|NAME")]
     pub scenario: Option<String>,
     /// Seed in place of the scenario's, from 0 to 2^63 − 1

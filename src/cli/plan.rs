@@ -3,12 +3,14 @@
 use super::failure::Failure;
 use super::options::Options;
 use super::progress::Progress;
-use super::{output, run};
+use super::{cycle, output, run};
 use anyhow::{Context, anyhow, ensure};
 use clap::Args;
+use platewash::planner::plan::PlanSegment;
+use platewash::planner::scenario::Program;
 use platewash::planner::{csv, job, plan, robot};
-use platewash::{Job, JobReport, Plan, PlanError, Scenario, Trajectory};
-use std::path::{Path, PathBuf};
+use platewash::{Job, JobReport, Plan, PlanError, RobotModel, Scenario, Trajectory};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Most rows of a CSV file: some 300 megabytes.
@@ -31,8 +33,11 @@ pub struct PlanArguments {
 /// Plans the scenario and writes the plan and its CSV.
 pub fn run(options: &Options, arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
+    if scenario.job.program == Program::Certified {
+        return cycle::plan(options, &scenario, arguments);
+    }
     let (job, report) = carry_out(options, &scenario)?;
-    let files = files(&job, &report, &folder(options), arguments)?;
+    let files = files(options, &job, &report, arguments)?;
     output::write_files(&files)?;
     let summary = report.summary();
     output::print_either(options.json, &summary, || {
@@ -68,24 +73,37 @@ pub fn folder(options: &Options) -> PathBuf {
     options.out.clone().unwrap_or_else(|| PathBuf::from(DEFAULT_FOLDER))
 }
 
+/// Where the planned motion's CSV goes.
+pub fn csv_file(options: &Options, arguments: &PlanArguments) -> PathBuf {
+    let default = || folder(options).join("trajectory.csv");
+    arguments.csv.clone().unwrap_or_else(default)
+}
+
 /// The plan file and the planned motion's CSV, not written yet.
 pub fn files(
+    options: &Options,
     job: &Job,
     report: &JobReport,
-    folder: &Path,
     arguments: &PlanArguments,
 ) -> Result<Vec<(PathBuf, String)>, Failure> {
-    let csv = arguments.csv.clone().unwrap_or_else(|| folder.join("trajectory.csv"));
+    let segments = plan::segments(job);
+    let csv = motion_csv(&job.scenario, &job.robot, &job.planned, &segments, arguments)?;
     Ok(vec![
-        (folder.join("plan.json"), Plan::new(job, report)?.to_json()?),
-        (csv, motion_csv(job, &job.planned, arguments)?),
+        (folder(options).join("plan.json"), Plan::new(job, report)?.to_json()?),
+        (csv_file(options, arguments), csv),
     ])
 }
 
-/// A motion of the job as CSV.
-pub fn motion_csv(job: &Job, motion: &Trajectory, arguments: &PlanArguments) -> Result<String, Failure> {
-    let tip = robot::tip_frame(&job.robot, &job.scenario.tool);
-    let dt_s = arguments.dt.unwrap_or(job.scenario.control.dt_s);
+/// A motion as CSV.
+pub fn motion_csv(
+    scenario: &Scenario,
+    robot: &RobotModel,
+    motion: &Trajectory,
+    segments: &[PlanSegment],
+    arguments: &PlanArguments,
+) -> Result<String, Failure> {
+    let tip = robot::tip_frame(robot, &scenario.tool);
+    let dt_s = arguments.dt.unwrap_or(scenario.control.dt_s);
     let duration_s = motion.duration_s();
     if duration_s / dt_s > MAX_ROWS {
         return Err(Failure::input(anyhow!(
@@ -93,7 +111,7 @@ pub fn motion_csv(job: &Job, motion: &Trajectory, arguments: &PlanArguments) -> 
             duration_s / MAX_ROWS
         )));
     }
-    Ok(csv::table(motion, &plan::segments(job), &job.robot, &tip, dt_s)?)
+    Ok(csv::table(motion, segments, robot, &tip, dt_s)?)
 }
 
 fn time_step(text: &str) -> anyhow::Result<f64> {

@@ -2,11 +2,11 @@
 
 use super::failure::{self, Failure};
 use super::options::Options;
-use super::output;
 use super::plan::{self, PlanArguments};
+use super::{cycle, output};
 use clap::Args;
 use platewash::Verdict;
-use platewash::planner::scenario::OnFailure;
+use platewash::planner::scenario::{OnFailure, Program};
 use std::process::ExitCode;
 
 /// Arguments of `run`.
@@ -19,14 +19,16 @@ pub struct RunArguments {
 /// Plans, follows and judges the scenario; writes the plan, both motions and the report.
 pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
+    if scenario.job.program == Program::Certified {
+        return cycle::run(options, &scenario, &arguments.plan);
+    }
     let (job, report) = plan::carry_out(options, &scenario)?;
     let folder = plan::folder(options);
     let text = report.to_string();
-    let mut files = plan::files(&job, &report, &folder, &arguments.plan)?;
-    files.push((
-        folder.join("executed.csv"),
-        plan::motion_csv(&job, &job.executed, &arguments.plan)?,
-    ));
+    let mut files = plan::files(options, &job, &report, &arguments.plan)?;
+    let segments = platewash::planner::plan::segments(&job);
+    let executed = plan::motion_csv(&scenario, &job.robot, &job.executed, &segments, &arguments.plan)?;
+    files.push((folder.join("executed.csv"), executed));
     files.push((folder.join("report.json"), output::json(&report)?));
     files.push((folder.join("report.txt"), text.clone()));
     output::write_files(&files)?;

@@ -63,7 +63,7 @@ fn any_path_of_the_system_will_do() {
     std::fs::write(folder.path().join(path), platewash::kinematics::model::IRB120_URDF).unwrap();
     let arguments = ["plan", "--out", ".", "--urdf"].map(OsStr::new);
     let ran = platewash_os(folder.path(), &[&arguments[..], &[path]].concat()).done();
-    assert!(ran.stdout.contains("waypoints"), "{}", ran.stdout);
+    assert!(ran.stdout.contains("from home to home"), "{}", ran.stdout);
     let plan = std::fs::read_to_string(folder.path().join("plan.json")).unwrap();
     assert!(plan.contains("arm\u{fffd}.urdf"));
 }

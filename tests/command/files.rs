@@ -6,12 +6,16 @@ use super::*;
 fn without_a_verb_the_default_scenario_runs_to_the_end() {
     let folder = folder();
     let ran = platewash(folder.path(), &[]).done();
-    assert!(ran.stdout.starts_with("NOT WASHED: "), "{}", ran.stdout);
+    assert!(
+        ran.stdout.starts_with("PROVED: 4 plates washed whole"),
+        "{}",
+        ran.stdout
+    );
     let out = folder.path().join("out");
     assert_eq!(
         names(&out),
         [
-            "executed.csv",
+            "certificate.json",
             "plan.json",
             "report.json",
             "report.txt",
@@ -19,6 +23,21 @@ fn without_a_verb_the_default_scenario_runs_to_the_end() {
         ]
     );
     assert_eq!(std::fs::read_to_string(out.join("report.txt")).unwrap(), ran.stdout);
+}
+
+#[test]
+fn the_papers_scenario_runs_to_the_end_and_does_not_wash() {
+    let folder = folder();
+    let ran = platewash(folder.path(), &["run", "--scenario", "paper-appendix"]).done();
+    assert!(ran.stdout.starts_with("NOT WASHED: "), "{}", ran.stdout);
+    let files = [
+        "executed.csv",
+        "plan.json",
+        "report.json",
+        "report.txt",
+        "trajectory.csv",
+    ];
+    assert_eq!(names(&folder.path().join("out")), files);
 }
 
 #[test]
@@ -42,24 +61,37 @@ fn json_is_the_report_and_nothing_else() {
 #[test]
 fn the_same_seed_gives_the_same_bytes_and_another_seed_another_layout() {
     let folder = folder();
-    let run = |seed: &str, out: &str, threads: &str| {
-        platewash(
-            folder.path(),
-            &["run", "--seed", seed, "--out", out, "--threads", threads],
-        )
-        .done();
-        ["plan.json", "trajectory.csv", "executed.csv", "report.json"]
-            .map(|f| std::fs::read(folder.path().join(out).join(f)).unwrap())
+    let run = |scenario: &str, seed: &str, threads: &str| {
+        let arguments = [
+            "run",
+            "--scenario",
+            scenario,
+            "--seed",
+            seed,
+            "--out",
+            "a",
+            "--threads",
+            threads,
+        ];
+        platewash(folder.path(), &arguments).done();
+        let out = folder.path().join("a");
+        let files = names(&out).into_iter().map(|f| std::fs::read(out.join(f)).unwrap());
+        files.collect::<Vec<_>>()
     };
-    let first = run("7", "a", "1");
-    assert_eq!(first, run("7", "b", "2"));
-    assert_ne!(first, run("8", "c", "1"));
+    for scenario in ["paper-appendix", "kitchen-rim"] {
+        let first = run(scenario, "7", "1");
+        assert_eq!(first.len(), 5);
+        assert_eq!(first, run(scenario, "7", "2"));
+        assert_eq!(first, run(scenario, "7", "8"));
+        assert_ne!(first, run(scenario, "8", "1"));
+        std::fs::remove_dir_all(folder.path().join("a")).unwrap();
+    }
 }
 
 #[test]
 fn the_plan_file_keeps_its_contract() {
     let folder = folder();
-    platewash(folder.path(), &["plan", "--out", "."]).done();
+    platewash(folder.path(), &["plan", "--scenario", "paper-appendix", "--out", "."]).done();
     let text = std::fs::read_to_string(folder.path().join("plan.json")).unwrap();
     let plan: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(plan["format"], "platewash-plan/1");
@@ -109,7 +141,17 @@ fn the_csv_has_its_columns_and_its_time_step() {
     let folder = folder();
     platewash(
         folder.path(),
-        &["plan", "--out", ".", "--csv", "deep/er/motion.csv", "--dt", "0.004"],
+        &[
+            "plan",
+            "--scenario",
+            "paper-appendix",
+            "--out",
+            ".",
+            "--csv",
+            "deep/er/motion.csv",
+            "--dt",
+            "0.004",
+        ],
     )
     .done();
     assert_eq!(names(folder.path()), ["deep", "plan.json"]);
@@ -149,7 +191,7 @@ fn no_output_takes_the_place_of_another() {
         "out/plan.json",
         "./out/plan.json",
         "new/../out/report.json",
-        "out/../out/executed.csv",
+        "out/../out/certificate.json",
     ] {
         let name = csv.rsplit('/').next().unwrap();
         platewash(dir, &["run", "--csv", csv]).refused(2, &["--csv", name]);

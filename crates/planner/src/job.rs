@@ -3,6 +3,7 @@
 use crate::clearance::{ClearanceError, ClearanceModel};
 use crate::control;
 use crate::coverage::CoverageError;
+use crate::cycle::CycleError;
 use crate::layout::{self, Layout, LayoutError, Plate, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing};
 use crate::random;
 use crate::report::JobReport;
@@ -42,6 +43,9 @@ pub enum PlanError {
     /// Coverage could not be measured.
     #[error("coverage: {0}")]
     Coverage(CoverageError),
+    /// The cycle of a certified job could not be planned.
+    #[error(transparent)]
+    Cycle(#[from] CycleError),
 }
 
 // The messages above hold those of their causes, which are therefore not told again as sources.
@@ -74,7 +78,11 @@ impl PlanError {
     #[must_use]
     pub fn is_infeasible(&self) -> bool {
         use LayoutError::{EmptyRegion, NoRoom};
-        matches!(self, Self::Layout(NoRoom { .. } | EmptyRegion { .. }))
+        match self {
+            Self::Layout(NoRoom { .. } | EmptyRegion { .. }) => true,
+            Self::Cycle(error) => error.is_infeasible(),
+            _ => false,
+        }
     }
 }
 
@@ -148,7 +156,7 @@ pub fn check(scenario: &Scenario) -> Result<(RobotModel, Vec<layout::Finding>), 
 }
 
 /// The start configuration \[rad\], within the limits.
-fn start(scenario: &Scenario, robot: &RobotModel) -> Result<JointVector, RobotError> {
+pub(crate) fn start(scenario: &Scenario, robot: &RobotModel) -> Result<JointVector, RobotError> {
     let [start, _] = scenario.homes();
     match robot.limits().violation(&start) {
         Some(violation) => Err(RobotError::Start(violation)),
@@ -238,11 +246,12 @@ impl Job {
     }
 }
 
-/// Inverse-kinematics settings of a scenario: its tolerances, and the numeric cascade alone for the method "numeric".
+/// Inverse-kinematics settings of a scenario: its tolerances, and analytic branches as starts unless the method is "numeric".
 #[must_use]
 pub fn ik_settings(scenario: &Scenario) -> IkSettings {
     let analytic_starts = match scenario.ik.method {
         IkMethod::Numeric => AnalyticStarts::Unused,
+        IkMethod::Analytic => AnalyticStarts::Used,
     };
     IkSettings {
         analytic_starts,

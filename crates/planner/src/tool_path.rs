@@ -9,7 +9,7 @@ use crate::order::order;
 use crate::scenario::{Interpolation, Scenario};
 use crate::spiral::Spiral;
 use crate::stroke::Stroke;
-use crate::transition::{self, Arc};
+use crate::transition;
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 use serde::{Deserialize, Serialize};
@@ -194,14 +194,7 @@ fn wash_segment(scenario: &Scenario, plate: &Plate, index: usize) -> Segment {
 
 fn transition_segment(scenario: &Scenario, from: Vector3<f64>, to: Vector3<f64>, plate: usize) -> Segment {
     let section = &scenario.transition;
-    let arc = Arc {
-        points: section.mid_points,
-        radius_m: section
-            .mid_radius_m
-            .unwrap_or((scenario.layout.base_radius_m + 0.1).max(0.3)),
-        height_m: section.mid_height_m,
-    };
-    let through = transition::waypoints(from, to, &arc);
+    let through = transition::waypoints(from, to, &scenario.arc());
     Segment {
         kind: SegmentKind::Transition,
         plate,

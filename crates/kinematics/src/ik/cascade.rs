@@ -85,7 +85,8 @@ impl<'a> IkSolver<'a> {
     }
 
     /// The arm.
-    pub(crate) fn robot(&self) -> &'a RobotModel {
+    #[must_use]
+    pub fn robot(&self) -> &'a RobotModel {
         self.robot
     }
 

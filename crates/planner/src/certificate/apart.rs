@@ -41,11 +41,6 @@ pub(super) fn promise(plan: &Plan, robot: &RobotModel) -> Promise {
     promise
 }
 
-/// Whether two plates occupy the same space.
-pub(super) fn overlap(a: &Plate, b: &Plate) -> bool {
-    gap(a, b) < 0.0
-}
-
 /// Distance between the rims of two plates of the same height, negative where they overlap \[m\].
 fn gap(a: &Plate, b: &Plate) -> f64 {
     let (dx, dy) = (a.x_m - b.x_m, a.y_m - b.y_m);

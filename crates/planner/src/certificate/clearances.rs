@@ -1,10 +1,9 @@
 //! Clearance of every pair over the whole motion.
 //!
 //! Every pair keeps the scenario's clearance, always, but for the sponge and the plates. While it approaches, washes or leaves a
-//! plate, the sponge may touch that one; any other it must merely not touch, unless the two plates overlap, which is a
-//! finding about the layout. Otherwise it keeps clear of all.
+//! plate, the sponge may touch plates: the one that it works on, and over whose rim it runs a neighbour. Otherwise it keeps clear
+//! of all.
 
-use super::apart;
 use super::clear::{FINE_M, Found, Goal, Search};
 use super::promise::{Measure, Promise, PromiseName, Sense, Status, Unit, Worst};
 use super::schedule::{Schedule, is_at_plate};
@@ -28,9 +27,7 @@ const MOST_BUDGET: usize = 400_000;
 pub enum PairRule {
     /// The scenario's clearance.
     Clearance,
-    /// No contact: the sponge at one plate and another plate.
-    NoContact,
-    /// Nothing: the sponge and the plate it works on, or a plate that overlaps that one.
+    /// Nothing: the sponge and a plate, while it works on any.
     Exempt,
 }
 
@@ -76,7 +73,6 @@ pub(super) fn judge(
     let tasks = tasks(plan, model, schedule);
     let budget = (BUDGET / tasks.len().max(1)).clamp(LEAST_BUDGET, MOST_BUDGET);
     let search = |task: &Task, parts: &[PartPair<'_>], enough_m: Option<f64>| {
-        let limit_m = if task.rule == PairRule::Clearance { limit_m } else { 0.0 };
         let during = task.during.as_deref().unwrap_or_default();
         Search::run(
             robot,
@@ -115,8 +111,7 @@ fn line((a, b): (&str, &str), task: &Task, found: Option<Found>, limit_m: f64) -
     let status = match (task.rule, found) {
         (PairRule::Exempt, _) => Status::Pass,
         (_, None) => Status::NotProved,
-        (rule, Some(found)) => {
-            let limit_m = if rule == PairRule::Clearance { limit_m } else { 0.0 };
+        (PairRule::Clearance, Some(found)) => {
             Promise::measured(PromiseName::Clearance, measure(limit_m, &found), Worst::default()).status
         }
     };
@@ -141,9 +136,9 @@ fn measure(limit_m: f64, found: &Found) -> Measure {
     }
 }
 
-/// The promise about all lines under a rule: the least bound, and where the least distance was found.
-pub(super) fn promise(name: PromiseName, rule: PairRule, limit_m: f64, lines: &[PairBound]) -> Promise {
-    let lines: Vec<_> = lines.iter().filter(|l| l.rule == rule).collect();
+/// The promise about all lines that ask for clearance: the least bound, and where the least distance was found.
+pub(super) fn promise(limit_m: f64, lines: &[PairBound]) -> Promise {
+    let lines: Vec<_> = lines.iter().filter(|l| l.rule == PairRule::Clearance).collect();
     let status = |status| lines.iter().any(|l| l.status == status);
     let least = |of: fn(&PairBound) -> Option<f64>| lines.iter().filter_map(|l| of(l)).min_by(f64::total_cmp);
     let worst = lines.iter().filter(|l| l.seen_m.is_some()).min_by(|a, b| {
@@ -152,12 +147,12 @@ pub(super) fn promise(name: PromiseName, rule: PairRule, limit_m: f64, lines: &[
     });
     let bounded = lines.iter().all(|l| l.at_least_m.is_some());
     Promise {
-        name,
+        name: PromiseName::Clearance,
         status: match (status(Status::Fail), status(Status::NotProved)) {
             (true, _) => Status::Fail,
             (_, true) => Status::NotProved,
             // Without collision geometry there is nothing to be clear of, and nothing is proved.
-            _ if lines.is_empty() && rule == PairRule::Clearance => Status::NotProved,
+            _ if lines.is_empty() => Status::NotProved,
             _ => Status::Pass,
         },
         measure: (!lines.is_empty()).then(|| Measure {
@@ -181,7 +176,7 @@ fn tasks(plan: &Plan, model: &ClearanceModel, schedule: Option<&Schedule>) -> Ve
     let mut tasks = Vec::new();
     let whole = 0..plan.knots.t_s.len().saturating_sub(1);
     for pair in 0..model.pair_count() {
-        let PairKind::SpongeAndPlate(plate) = model.pair_kind(pair) else {
+        let PairKind::SpongeAndPlate(_) = model.pair_kind(pair) else {
             let during = Some(vec![whole.clone()]);
             tasks.push(Task {
                 pair,
@@ -190,8 +185,8 @@ fn tasks(plan: &Plan, model: &ClearanceModel, schedule: Option<&Schedule>) -> Ve
             });
             continue;
         };
-        let during = |rule| schedule.map(|schedule| phases(plan, schedule, plate, rule));
-        for rule in [PairRule::Clearance, PairRule::NoContact, PairRule::Exempt] {
+        let during = |rule| schedule.map(|schedule| phases(schedule, rule));
+        for rule in [PairRule::Clearance, PairRule::Exempt] {
             let during = during(rule);
             if during.as_ref().is_none_or(|d| !d.is_empty()) {
                 tasks.push(Task { pair, rule, during });
@@ -201,16 +196,14 @@ fn tasks(plan: &Plan, model: &ClearanceModel, schedule: Option<&Schedule>) -> Ve
     tasks
 }
 
-/// The pieces during which the sponge is under a rule with a plate; neighbours joined.
-fn phases(plan: &Plan, schedule: &Schedule, plate: usize, rule: PairRule) -> Vec<Range<usize>> {
+/// The pieces during which the sponge is under a rule with the plates; neighbours joined.
+fn phases(schedule: &Schedule, rule: PairRule) -> Vec<Range<usize>> {
     let mut phases: Vec<Range<usize>> = Vec::new();
     for stage in &schedule.stages {
-        let found = if !is_at_plate(stage.kind) {
-            PairRule::Clearance
-        } else if stage.plate == plate || overlap(plan, stage.plate, plate) {
+        let found = if is_at_plate(stage.kind) {
             PairRule::Exempt
         } else {
-            PairRule::NoContact
+            PairRule::Clearance
         };
         if found != rule {
             continue;
@@ -221,11 +214,4 @@ fn phases(plan: &Plan, schedule: &Schedule, plate: usize, rule: PairRule) -> Vec
         }
     }
     phases
-}
-
-fn overlap(plan: &Plan, a: usize, b: usize) -> bool {
-    match (plan.plates.get(a), plan.plates.get(b)) {
-        (Some(a), Some(b)) => apart::overlap(a, b),
-        _ => false,
-    }
 }

@@ -159,12 +159,7 @@ pub fn verify(plan: &Plan, robot: &RobotModel) -> Result<Certificate, VerifyErro
     promises.extend(joints::promises(&pieces, &limits, schedule));
     promises.extend(tips.promises(&limits, &pieces, schedule));
     promises.extend(deviations(&arm, plan, &pieces, schedule));
-    let line = |name, rule, limit_m| clearances::promise(name, rule, limit_m, &clearance);
-    promises.push(line(PromiseName::Clearance, PairRule::Clearance, limits.clearance_m));
-    promises.push(match schedule {
-        Some(_) => line(PromiseName::SpongeAndOtherPlates, PairRule::NoContact, 0.0),
-        None => Promise::not_judged(PromiseName::SpongeAndOtherPlates),
-    });
+    promises.push(clearances::promise(limits.clearance_m, &clearance));
     promises.push(coverage_promise(&coverage, plan, &limits, schedule));
     let hash = hash(plan);
     let sound = hash.status == Status::Pass && promises.iter().all(|p| p.status == Status::Pass);

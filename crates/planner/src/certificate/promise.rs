@@ -68,8 +68,6 @@ pub enum PromiseName {
     LineDeviation,
     /// Clearance of every pair.
     Clearance,
-    /// The sponge, while it works on a plate, touches no other.
-    SpongeAndOtherPlates,
     /// Share of each plate that the sponge sweeps.
     Coverage,
 }
@@ -103,7 +101,6 @@ impl PromiseName {
             Self::StrokeDeviation => "stroke deviation",
             Self::LineDeviation => "line deviation",
             Self::Clearance => "clearance",
-            Self::SpongeAndOtherPlates => "sponge, other plates",
             Self::Coverage => "coverage",
         }
     }

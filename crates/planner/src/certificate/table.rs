@@ -107,13 +107,11 @@ fn place(worst: &Worst) -> String {
 
 fn pair_row(f: &mut fmt::Formatter<'_>, line: &PairBound) -> fmt::Result {
     let pair = format!("{} – {}", line.pair[0], line.pair[1]);
-    let rule = match line.rule {
-        PairRule::Exempt => return writeln!(f, "  {pair:<26} exempt while the sponge works there"),
-        PairRule::NoContact => "no contact, at another plate",
-        PairRule::Clearance => "",
-    };
+    if line.rule == PairRule::Exempt {
+        return writeln!(f, "  {pair:<26} exempt while the sponge works on a plate");
+    }
     let mm = |v: Option<f64>| v.map_or("none".to_owned(), |v| format!("{:.2}", 1e3 * v));
     let time = line.time_s.map_or(String::new(), |t| format!("at {t:.3} s"));
     let (bound, status) = (mm(line.at_least_m), word(line.status));
-    writeln!(f, "  {pair:<26} {bound:>9} mm  {status:<10} {time} {rule}")
+    writeln!(f, "  {pair:<26} {bound:>9} mm  {status:<10} {time}")
 }

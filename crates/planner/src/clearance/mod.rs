@@ -16,8 +16,6 @@ mod pairs;
 mod part;
 mod washing;
 
-pub use washing::WashingMargins;
-
 use crate::layout::Plate;
 use crate::scenario::ToolSection;
 use distance::{Separation, separation};

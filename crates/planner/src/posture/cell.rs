@@ -25,7 +25,6 @@ pub struct Cell<'a> {
     pub clearance: &'a ClearanceModel,
     /// The plates, as in `clearance`.
     pub plates: &'a [Plate],
-    pub(super) sponge_radius_m: f64,
     pub(super) inverse: Inverse<'a>,
     /// A point of axis 1 and its direction, base frame.
     axis_1: [Vector3<f64>; 2],
@@ -60,7 +59,6 @@ impl<'a> Cell<'a> {
             tip,
             clearance,
             plates,
-            sponge_radius_m: tool.sponge_radius_m,
             inverse: Inverse::new(robot, tip)?,
             axis_1: [robot.reach_bound(&tip).0.coords, axes[0]],
             across: Vector3::y(),
@@ -106,6 +104,12 @@ impl<'a> Cell<'a> {
             rotation: here * there.transpose(),
             translation: *contact,
         }
+    }
+
+    /// Distance of a point \[m\] from axis 1 \[m\].
+    #[must_use]
+    pub fn distance(&self, point: &Vector3<f64>) -> f64 {
+        self.seen(point).r
     }
 
     pub(super) fn seen(&self, contact: &Vector3<f64>) -> Seen {

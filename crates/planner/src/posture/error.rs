@@ -177,7 +177,7 @@ fn dead_end(task: &Task<'_>, graph: &Graph, layer: usize, near: &Start) -> DeadE
     let theta = graph.theta[layer];
     let position_m = task.samples.at(theta);
     let obstacle = |&tilt: &f64| {
-        let target = task.target(&position_m, tilt);
+        let target = task.cell.tip_rigid(&position_m, tilt);
         match task.posture(&target, near) {
             Ok(q) => check_step(&near.q, &q, graph.spacing_m).err(),
             Err(obstacle) => Some(obstacle),

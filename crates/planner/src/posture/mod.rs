@@ -10,8 +10,7 @@
 //!
 //! The sponge is round, so yaw is free: it is chosen such that joints 4 and 6 rest, which takes the least joint travel
 //! ([`Cell::tip_pose`]). Of the two directions in which the tool can tilt, the one in the arm's own vertical plane is
-//! the useful one; only next to plates so near that the sponge comes over them does the tool lean away from them
-//! (`neighbours`).
+//! the useful one.
 //!
 //! # How
 //!
@@ -27,7 +26,6 @@ mod cell;
 mod error;
 pub mod exhaustive;
 mod inverse;
-mod neighbours;
 mod obstacle;
 pub mod policy;
 mod samples;

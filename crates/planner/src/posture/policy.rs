@@ -16,6 +16,7 @@
 //!   measured on the IRB 120 with a tool of 150 mm, where it suffices for every plate of the paper up to a path radius
 //!   of 0.13 m.
 
+use serde::Serialize;
 use std::f64::consts::PI;
 
 /// The amplitude that is tried before greater ones \[rad\]: 15°. More saves no joint travel worth the clearance.
@@ -28,7 +29,7 @@ pub const FASTEST_RAD_M: f64 = PI / 90.0 / 5e-3;
 const STEEPEST: f64 = 1.875;
 
 /// The tilt as a function of the distance from axis 1; see the [module](self) text.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TiltPolicy {
     /// T: the tilt outwards near the base, and inwards far out \[rad\].
     pub tilt_rad: f64,

@@ -129,7 +129,7 @@ impl Graph {
                 q: known.map_or(start.q, |vertex| vertex.q),
                 sides: start.sides,
             };
-            let target = task.target(&contact, tilt);
+            let target = task.cell.tip_rigid(&contact, tilt);
             let q = task.cell.inverse.continuing(&target, &near).ok();
             let off = (tilt - preferred) / TILT_STEP_RAD;
             layer.push(q.and_then(|q| self.vertex(task, q, off)));

@@ -9,9 +9,6 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Added to the clearance asked for, so that the motion between the points checked keeps it too \[m\].
 pub const RESERVE_M: f64 = 5e-4;
 
-/// What the sponge keeps from plates that it must not touch \[m\]: more than it moves off between the points checked.
-pub const SPARED_M: f64 = 5e-5;
-
 /// How far the chord between neighbouring contact points may leave the stroke \[m\].
 pub const CHORD_ERROR_M: f64 = 2e-5;
 

@@ -3,13 +3,11 @@
 use super::cell::Cell;
 use super::error::PostureError;
 use super::inverse::Start;
-use super::neighbours::Neighbours;
 use super::obstacle::Obstacle;
 use super::policy::TiltPolicy;
 use super::samples::Samples;
-use super::settings::{PostureSettings, SPARED_M, check_input};
+use super::settings::{PostureSettings, check_input};
 use super::spline::TiltSpline;
-use crate::clearance::WashingMargins;
 use crate::layout::Plate;
 use crate::stroke::Stroke;
 use nalgebra::{Vector3, Vector6};
@@ -45,12 +43,8 @@ pub(super) enum Profile {
 pub(super) struct Task<'a> {
     pub cell: &'a Cell<'a>,
     pub samples: Samples,
-    /// Plates that the sponge may touch: the one it works on, and those that overlap it.
-    pub working: Vec<usize>,
-    /// Plates that the sponge comes over without being allowed to touch them.
-    pub neighbours: Neighbours,
-    /// What the bodies must keep.
-    pub margins: WashingMargins,
+    /// What every pair but the sponge and the plates must keep \[m\].
+    pub required_m: f64,
 }
 
 /// Where a profile cannot be followed further.
@@ -78,19 +72,13 @@ impl<'a> Task<'a> {
         settings.validate()?;
         check_input(stroke, &centre, near)?;
         let count = cell.plates.len();
-        let here = cell.plates.get(plate).ok_or(PostureError::Plate { plate, count })?;
-        let touches = |other: &Plate| std::ptr::eq(other, here) || overlap(here, other);
-        let (radius, most) = (stroke.radius_m, settings.tilt_max_rad);
-        let spared = cell.plates.iter().filter(|other| !touches(other));
+        if plate >= count {
+            return Err(PostureError::Plate { plate, count });
+        }
         Ok(Self {
             cell,
             samples: Samples::new(stroke, centre),
-            working: (0..count).filter(|&i| touches(&cell.plates[i])).collect(),
-            neighbours: Neighbours::reached(spared, &centre, radius, cell.sponge_radius_m, most),
-            margins: WashingMargins {
-                required_m: settings.required_m(),
-                spared_m: SPARED_M,
-            },
+            required_m: settings.required_m(),
         })
     }
 
@@ -106,24 +94,19 @@ impl<'a> Task<'a> {
 
     /// Whether the bodies keep off each other at `q` \[rad\].
     pub fn check_clear(&self, q: &JointVector) -> Result<(), Obstacle> {
-        let clearance = self.cell.clearance;
-        if clearance.keeps_washing(q, &self.working, &self.margins) {
+        let (clearance, required_m) = (self.cell.clearance, self.required_m);
+        if clearance.keeps_washing(q, required_m) {
             return Ok(());
         }
-        match clearance.nearest_washing(q, &self.working, &self.margins) {
-            Some((pair, required_m)) => Err(Obstacle::Clearance { pair, required_m }),
+        match clearance.nearest_washing(q, required_m) {
+            Some(pair) => Err(Obstacle::Clearance { pair, required_m }),
             None => Ok(()),
         }
     }
 
     /// Whether the bodies keep [`ROOM_M`] more than they must.
     pub fn has_room(&self, q: &JointVector) -> bool {
-        let WashingMargins { required_m, spared_m } = self.margins;
-        let ample = WashingMargins {
-            required_m: required_m + ROOM_M,
-            spared_m: spared_m + ROOM_M,
-        };
-        self.cell.clearance.keeps_washing(q, &self.working, &ample)
+        self.cell.clearance.keeps_washing(q, self.required_m + ROOM_M)
     }
 
     /// Tilt \[rad\] at a contact point at the length `s` \[m\] along the stroke.
@@ -155,7 +138,7 @@ impl<'a> Task<'a> {
         let mut last = *start;
         for (sample, (point, &tilt)) in contact.iter().zip(tilts).enumerate() {
             let stop = |obstacle| Stop { sample, obstacle };
-            let target = self.target(point, tilt);
+            let target = self.cell.tip_rigid(point, tilt);
             let q = self.cell.inverse.continuing(&target, &last).map_err(stop)?;
             if sample > 0 {
                 let length = length_m[sample] - length_m[sample - 1];
@@ -174,23 +157,6 @@ impl<'a> Task<'a> {
         Ok(all)
     }
 
-    /// Where the tip must be for a contact point, with the tool tilted in the arm's plane by `tilt_rad` but for
-    /// [`Neighbours`].
-    pub fn target(&self, contact: &Vector3<f64>, tilt_rad: f64) -> Rigid {
-        if self.neighbours.is_empty() {
-            return self.cell.tip_rigid(contact, tilt_rad);
-        }
-        let lean = self.cell.seen(contact).out * tilt_rad;
-        self.cell.tip_leaning(contact, &self.neighbours.lean(contact, lean))
-    }
-
-    /// Angle of the tool from the plate's normal there, with the sign of the lean away from axis 1 \[rad\].
-    pub fn whole_tilt(&self, contact: &Vector3<f64>, tilt_rad: f64) -> f64 {
-        let out = self.cell.seen(contact).out;
-        let lean = self.neighbours.lean(contact, out * tilt_rad);
-        lean.norm().copysign(lean.dot(&out))
-    }
-
     /// `dq/dθ` where the tip follows the profile: `J q′ = (p′, ω)`, ω by differences of the exact rotation; `None` at a
     /// singularity.
     pub fn slope(&self, profile: &Profile, sample: usize, q: &JointVector) -> Option<JointVector> {
@@ -199,7 +165,7 @@ impl<'a> Task<'a> {
         let rotation = |step: f64| {
             let contact = self.samples.at(theta + step);
             let tilt = self.tilt(profile, &contact, length + step * first.norm());
-            self.target(&contact, tilt).rotation
+            self.cell.tip_rigid(&contact, tilt).rotation
         };
         let h = DIFFERENCE_RAD;
         let change = ((rotation(h) - rotation(-h)) * 8.0 - (rotation(2.0 * h) - rotation(-2.0 * h))) / (12.0 * h);

@@ -1,9 +1,9 @@
 use super::exhaustive::posture_anywhere;
-use super::task::{Profile, Task, overlap};
+use super::task::{Profile, Task};
 use super::washable::{Cause, Move, Washable, washable};
 use super::washing::{by_search, policies};
 use super::*;
-use crate::clearance::{ClearanceModel, PairClearance, WashingMargins};
+use crate::clearance::{ClearanceModel, PairClearance};
 use crate::layout::Plate;
 use crate::scenario::ToolSection;
 use crate::stroke::Stroke;
@@ -90,9 +90,6 @@ fn check(cell: &Cell<'_>, stroke: &Stroke, plate: usize, settings: &PostureSetti
     let (centre, limits) = (centre(&cell.plates[plate]), cell.robot.limits());
     assert_eq!(washing.theta, stroke.parameters(settings::CHORD_ERROR_M));
     assert_eq!([washing.q.len(), washing.tilt_rad.len()], [washing.theta.len(); 2]);
-    let overlapping: Vec<_> = (0..cell.plates.len())
-        .filter(|&i| overlap(&cell.plates[i], &cell.plates[plate]))
-        .collect();
     for (k, (&theta, q)) in washing.theta.iter().zip(&washing.q).enumerate() {
         let (tip, contact) = (cell.robot.fk(q).rigid(&cell.tip), stroke.at(theta).position);
         let contact = centre + Vector3::new(contact.x, contact.y, 0.0);
@@ -107,16 +104,9 @@ fn check(cell: &Cell<'_>, stroke: &Stroke, plate: usize, settings: &PostureSetti
         assert!(lean <= settings.tilt_max_rad + 1e-9);
         assert!(limits.contain(q), "point {k}");
         for pair in cell.clearance.all(q) {
-            let between_sponge_and = |i: &usize| pair.a == "sponge" && pair.b == format!("plate {i}");
-            if overlapping.iter().any(between_sponge_and) {
-                continue;
-            }
-            let other_plate = pair.a == "sponge" && pair.b.starts_with("plate");
-            let required = if other_plate { 0.0 } else { settings.clearance_m };
-            assert!(
-                pair.distance_m > 0.0 && pair.distance_m >= required,
-                "point {k}: {pair:?}"
-            );
+            let sponge_on_plate = pair.a == "sponge" && pair.b.starts_with("plate");
+            let kept = pair.distance_m > 0.0 && pair.distance_m >= settings.clearance_m;
+            assert!(sponge_on_plate || kept, "point {k}: {pair:?}");
         }
     }
     check_between(cell, stroke, &centre, washing);
@@ -214,21 +204,18 @@ proptest! {
 
     /// The quick answer of the clearance model is that of all its distances.
     #[test]
-    fn the_quick_clearance_is_the_slow_one(
-        q in prop::array::uniform6(-1.9..1.9f64), required_m in 0.0..0.05f64, spared_m in 0.0..0.02f64,
-    ) {
+    fn the_quick_clearance_is_the_slow_one(q in prop::array::uniform6(-1.9..1.9f64), required in 0.0..0.05f64) {
         let plates = [plate_at(0.3, 10.0), plate_at(0.4, 60.0)];
         within(&TOOL, &plates, |cell| {
-            let (q, margins) = (JointVector::from(q), WashingMargins { required_m, spared_m });
-            let sponge_on = |pair: &PairClearance, plate: &str| pair.a == "sponge" && pair.b == plate;
-            let asked = |pair: &PairClearance| if sponge_on(pair, "plate 1") { spared_m } else { required_m };
-            let near = |pair: &PairClearance| !(pair.distance_m > 0.0 && pair.distance_m >= asked(pair));
+            let q = JointVector::from(q);
+            let near = |pair: &PairClearance| !(pair.distance_m > 0.0 && pair.distance_m >= required);
             let mut all = cell.clearance.all(&q);
-            all.retain(|pair| !sponge_on(pair, "plate 0") && near(pair));
-            assert_eq!(cell.clearance.keeps_washing(&q, &[0], &margins), all.is_empty());
+            assert_eq!(cell.clearance.keeps(&q, required), !all.iter().any(near));
+            all.retain(|pair| !(pair.a == "sponge" && pair.b.starts_with("plate")) && near(pair));
+            assert_eq!(cell.clearance.keeps_washing(&q, required), all.is_empty());
             let least = all.iter().map(|pair| pair.distance_m).fold(f64::INFINITY, f64::min);
-            match cell.clearance.nearest_washing(&q, &[0], &margins) {
-                Some((pair, required)) => assert!(pair.distance_m == least && required == asked(&pair)),
+            match cell.clearance.nearest_washing(&q, required) {
+                Some(pair) => assert_eq!(pair.distance_m, least),
                 None => assert!(all.is_empty()),
             }
         });
@@ -266,7 +253,7 @@ proptest! {
             let start = cell.inverse.starts(&first, &HOME).unwrap()[0];
             let at = |theta: f64| {
                 let contact = task.samples.at(theta);
-                cell.inverse.continuing(&task.target(&contact, task.tilt(&profile, &contact, 0.0)), &start).unwrap()
+                cell.inverse.continuing(&task.cell.tip_rigid(&contact, task.tilt(&profile, &contact, 0.0)), &start).unwrap()
             };
             let (theta, h) = (task.samples.theta[k], 1e-5);
             let slope = task.slope(&profile, k, &at(theta)).unwrap();

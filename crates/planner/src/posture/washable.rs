@@ -102,7 +102,7 @@ fn survey(task: &Task<'_>, graph: &Graph, start: &Start) -> Vec<Unwashed> {
             continue;
         }
         let contact = task.samples.at(graph.theta[k]);
-        let obstacle = |&tilt: &f64| task.posture(&task.target(&contact, tilt), &here).err();
+        let obstacle = |&tilt: &f64| task.posture(&task.cell.tip_rigid(&contact, tilt), &here).err();
         let reasons = reasons(graph.tilts.iter().filter_map(obstacle));
         unwashed.push((task.cell.seen(&contact).r, reasons));
     }

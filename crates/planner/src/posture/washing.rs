@@ -1,7 +1,6 @@
 //! How a plate is washed: the policies in turn, then the search.
 
 use super::inverse::{Start, merge_starts};
-use super::neighbours::Neighbours;
 use super::policy::GENTLE_TILT_RAD;
 use super::search::{Graph, GraphPath};
 use super::spline::{TiltSpline, smoothed};
@@ -10,6 +9,8 @@ use super::{Cell, Obstacle, PostureError, PostureSettings, TiltPolicy, error};
 use crate::stroke::Stroke;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
+use serde::Serialize;
+use std::fmt;
 
 /// Passes of smoothing tried on a searched path, the smoothest first.
 const SMOOTHING: [usize; 6] = [256, 64, 16, 4, 1, 0];
@@ -31,7 +32,8 @@ pub struct Washing {
 }
 
 /// How the tilt was chosen.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum How {
     /// By the distance from axis 1.
@@ -41,6 +43,15 @@ pub enum How {
         /// Passes of smoothing that its path bore.
         smoothing: usize,
     },
+}
+
+impl fmt::Display for How {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Policy(policy) => write!(f, "tilt by distance, up to {:.1}°", policy.tilt_rad.to_degrees()),
+            Self::Search { .. } => f.write_str("tilt searched along the path"),
+        }
+    }
 }
 
 impl Washing {
@@ -64,18 +75,11 @@ pub fn washing(
     settings: &PostureSettings,
     near: &JointVector,
 ) -> Result<Washing, PostureError> {
-    let mut task = Task::new(cell, stroke, centre, plate, settings, near)?;
-    let choose = |task: &Task<'_>| match by_policy(task, settings, near) {
+    let task = Task::new(cell, stroke, centre, plate, settings, near)?;
+    match by_policy(&task, settings, near) {
         Some(washing) => Ok(washing),
-        None => by_search(task, plate, settings, near),
-    };
-    let answer = choose(&task);
-    if answer.is_ok() || task.neighbours.is_empty() {
-        return answer;
+        None => by_search(&task, plate, settings, near),
     }
-    // Leaning away from a neighbour can itself stand in the way; a tilt in the arm's plane may spare it too.
-    task.neighbours = Neighbours::none();
-    choose(&task).or(answer)
 }
 
 /// The policies worth trying, the best first: those that slope over the plate take the least joint travel, those that stay
@@ -98,7 +102,7 @@ pub(super) fn by_policy(task: &Task<'_>, settings: &PostureSettings, near: &Join
     policies(task, settings).into_iter().find_map(|policy| {
         let profile = Profile::Policy(policy);
         let tilts = task.tilts(&profile);
-        let first = task.target(&task.samples.contact[0], tilts[0]);
+        let first = task.cell.tip_rigid(&task.samples.contact[0], tilts[0]);
         let starts = task.cell.inverse.starts(&first, near).unwrap_or_default();
         let q = starts.iter().find_map(|start| task.follow(&tilts, start).ok())?;
         Some(finish(task, &profile, tilts, q, How::Policy(policy)))
@@ -142,7 +146,7 @@ pub(super) fn search_starts(task: &Task<'_>, graph: &Graph, near: &JointVector) 
     tilts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let mut starts = Vec::new();
     for tilt in tilts {
-        let target = task.target(&task.samples.contact[0], tilt);
+        let target = task.cell.tip_rigid(&task.samples.contact[0], tilt);
         merge_starts(&mut starts, task.cell.inverse.starts(&target, near).unwrap_or_default());
     }
     starts
@@ -174,14 +178,9 @@ fn smooth(task: &Task<'_>, graph: &Graph, path: &GraphPath, start: &Start) -> Re
 }
 
 /// The answer, with its slopes at the ends.
-fn finish(task: &Task<'_>, profile: &Profile, tilts: Vec<f64>, q: Vec<JointVector>, how: How) -> Washing {
+fn finish(task: &Task<'_>, profile: &Profile, tilt_rad: Vec<f64>, q: Vec<JointVector>, how: How) -> Washing {
     let theta = task.samples.theta.clone();
     let last = q.len() - 1;
-    let contacts = task.samples.contact.iter();
-    let tilt_rad = contacts
-        .zip(&tilts)
-        .map(|(contact, &tilt)| task.whole_tilt(contact, tilt))
-        .collect();
     // At a singularity there is no slope; then the chord's.
     let chord = |a: usize, b: usize| (q[b] - q[a]) / (theta[b] - theta[a]);
     let slope = |k: usize, pair: [usize; 2]| task.slope(profile, k, &q[k]).unwrap_or_else(|| chord(pair[0], pair[1]));

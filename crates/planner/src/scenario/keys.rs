@@ -264,8 +264,8 @@ pub const KEYS: &[Key] = &[
     key(
         "ik.method",
         "",
-        Word(&["numeric"]),
-        "Solver: damped least squares with a QP fallback.",
+        Word(&["numeric", "analytic"]),
+        "Solver of the paper's program: damped least squares with a QP fallback, alone or also from the closed form's nearest branch.",
     ),
     key(
         "ik.seed",

@@ -17,6 +17,7 @@ pub use shipped::{SHIPPED, ShippedScenario};
 pub use work::{MAX_PLATE_CHECKS, MAX_WAYPOINTS};
 
 use crate::layout::Region;
+use crate::transition::Arc;
 use platewash_kinematics::{JointVector, ToolFrame};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -255,8 +256,10 @@ pub struct IkSection {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum IkMethod {
-    /// Damped least squares with a QP fallback.
+    /// Damped least squares with a QP fallback, from the seed and a fixed list of starts.
     Numeric,
+    /// The same, from the closed form's nearest branch where the seed is far away or fails (arms that have one).
+    Analytic,
 }
 
 /// From where each waypoint is solved.
@@ -338,6 +341,19 @@ impl Scenario {
     pub fn homes(&self) -> [JointVector; 2] {
         let start = self.robot.start_deg;
         [start, self.robot.home_deg.unwrap_or(start)].map(|deg| JointVector::from(deg).map(f64::to_radians))
+    }
+
+    /// The arc round the base.
+    #[must_use]
+    pub fn arc(&self) -> Arc {
+        let section = &self.transition;
+        Arc {
+            points: section.mid_points,
+            radius_m: section
+                .mid_radius_m
+                .unwrap_or((self.layout.base_radius_m + 0.1).max(0.3)),
+            height_m: section.mid_height_m,
+        }
     }
 }
 

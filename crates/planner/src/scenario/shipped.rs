@@ -12,6 +12,18 @@ pub struct ShippedScenario {
 /// All shipped scenarios; the first is the default.
 pub const SHIPPED: &[ShippedScenario] = &[
     ShippedScenario {
+        name: "kitchen",
+        text: include_str!("../../../../scenarios/kitchen.toml"),
+    },
+    ShippedScenario {
+        name: "kitchen-roomy",
+        text: include_str!("../../../../scenarios/kitchen-roomy.toml"),
+    },
+    ShippedScenario {
+        name: "kitchen-rim",
+        text: include_str!("../../../../scenarios/kitchen-rim.toml"),
+    },
+    ShippedScenario {
         name: "paper-appendix",
         text: include_str!("../../../../scenarios/paper-appendix.toml"),
     },

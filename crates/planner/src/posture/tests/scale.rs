@@ -31,16 +31,8 @@ impl Tally {
         match answer {
             Ok(washing) => {
                 self.travel_rad.push(washing.travel_rad());
-                let touches = |i: &usize| overlap(&cell.plates[*i], &cell.plates[plate]);
-                let working: Vec<_> = (0..cell.plates.len()).filter(touches).collect();
                 for q in washing.q.iter().step_by(8) {
                     for pair in cell.clearance.all(q) {
-                        if working
-                            .iter()
-                            .any(|i| pair.a == "sponge" && pair.b == format!("plate {i}"))
-                        {
-                            continue;
-                        }
                         let kind = usize::from(!(pair.a == "sponge" && pair.b.starts_with("plate")));
                         let least = &mut self.least_m[kind];
                         *least = if *least == 0.0 {

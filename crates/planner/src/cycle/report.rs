@@ -1,0 +1,97 @@
+//! What a cycle came to, with its certificate: for people and as data.
+
+use super::{CrossingSummary, Cycle, TourSummary, VisitSummary};
+use crate::certificate::{Certificate, CertificateVerdict};
+use crate::layout;
+use crate::report::Verdict;
+use serde::Serialize;
+use std::fmt;
+
+/// A cycle and its proof. Lengths in metres, times in seconds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CycleReport {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Its seed.
+    pub seed: u64,
+    /// Name of the arm.
+    pub robot: String,
+    /// How it ended.
+    pub verdict: Verdict,
+    /// The first line: whether it washes, and whether that is proved.
+    pub headline: String,
+    /// Duration \[s\].
+    pub duration_s: f64,
+    /// One entry a plate, in the order of washing.
+    pub visits: Vec<VisitSummary>,
+    /// From home, between the plates, and home.
+    pub crossings: Vec<CrossingSummary>,
+    /// What the order gains.
+    pub tour: TourSummary,
+    /// What is to be said about the plates.
+    pub findings: Vec<layout::Finding>,
+    /// The proof.
+    pub certificate: Certificate,
+}
+
+impl CycleReport {
+    /// Sums up a cycle and its certificate.
+    #[must_use]
+    pub fn new(cycle: &Cycle, certificate: Certificate) -> Self {
+        let (verdict, proof) = match certificate.verdict {
+            CertificateVerdict::Pass => (Verdict::Washed, "PROVED"),
+            CertificateVerdict::Fail => (Verdict::NotVerified, "NOT PROVED"),
+        };
+        let duration_s = cycle.motion.duration_s();
+        let headline = format!(
+            "{proof}: {} plates washed whole, from home to home in {duration_s:.2} s",
+            cycle.order.len()
+        );
+        Self {
+            scenario: cycle.scenario.name.clone(),
+            seed: cycle.scenario.seed,
+            robot: cycle.robot.name().to_owned(),
+            verdict,
+            headline,
+            duration_s,
+            visits: cycle.visits.clone(),
+            crossings: cycle.crossings.clone(),
+            tour: cycle.tour,
+            findings: cycle.layout.findings.clone(),
+            certificate,
+        }
+    }
+}
+
+impl fmt::Display for CycleReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.headline)?;
+        writeln!(
+            f,
+            "scenario {}, seed {}, arm {}\n",
+            self.scenario, self.seed, self.robot
+        )?;
+        for finding in &self.findings {
+            writeln!(f, "note: {finding}")?;
+        }
+        writeln!(f, "{:<24} {:>9}  how", "motion", "time, s")?;
+        for (k, crossing) in self.crossings.iter().enumerate() {
+            let plate = |k: usize| self.visits.get(k).map(|v| v.plate);
+            let name = match (k.checked_sub(1).and_then(plate), plate(k)) {
+                (None, Some(to)) => format!("home to plate {to}"),
+                (Some(from), Some(to)) => format!("plate {from} to plate {to}"),
+                (Some(from), None) => format!("plate {from} to home"),
+                (None, None) => "home".to_owned(),
+            };
+            writeln!(f, "{name:<24} {:>9.2}  {}", crossing.duration_s, crossing.route)?;
+            if let Some(visit) = self.visits.get(k) {
+                let name = format!("wash plate {}", visit.plate);
+                writeln!(f, "{name:<24} {:>9.2}  {}", visit.wash_s, visit.posture)?;
+            }
+        }
+        let travel: f64 = self.crossings.iter().map(|c| c.duration_s).sum();
+        writeln!(f, "{:<24} {travel:>9.2}", "all crossings")?;
+        writeln!(f, "{:<24} {:>9.2}\n", "whole cycle", self.duration_s)?;
+        write!(f, "{}", self.certificate)
+    }
+}
