@@ -1,0 +1,53 @@
+//! Time-optimal timing of joint paths.
+//!
+//!     cargo bench -p platewash-benches --bench timing
+#![allow(missing_docs)]
+
+use criterion::{BenchmarkId, Criterion};
+use platewash_kinematics::{JointVector, RobotModel, ToolFrame, trig};
+use platewash_planner::joint_path::{Ends, JointPath};
+use platewash_planner::timing::{MotionLimits, TipLimits, time_optimal};
+use std::error::Error;
+use std::hint::black_box;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut criterion = Criterion::default().configure_from_args();
+    let robot = RobotModel::irb120()?;
+    let tip = robot.tool_frame(ToolFrame::Flange)?;
+    let joints = MotionLimits {
+        velocity: robot.limits().velocity,
+        acceleration: JointVector::new(4.0, 4.0, 4.0, 5.0, 5.0, 6.0),
+        tip: None,
+    };
+    let with_tip = MotionLimits {
+        tip: Some(TipLimits {
+            speed_m_s: 0.25,
+            acceleration_m_s2: 4.0,
+        }),
+        ..joints
+    };
+    let mut group = criterion.benchmark_group("timing");
+    for (limits, name) in [(joints, "limits of the joints"), (with_tip, "and of the tip")] {
+        for samples in [100, 1000] {
+            let path = waves(samples)?;
+            // Beforehand once, so that an error ends the benchmark.
+            time_optimal(&path, &robot, &tip, &limits)?;
+            group.bench_with_input(BenchmarkId::new(name, samples), &path, |b, path| {
+                b.iter(|| black_box(time_optimal(path, &robot, &tip, &limits)));
+            });
+        }
+    }
+    group.finish();
+    criterion.final_summary();
+    Ok(())
+}
+
+/// A smooth path on which every joint turns a few times.
+fn waves(samples: u32) -> Result<JointPath, Box<dyn Error>> {
+    let u: Vec<f64> = (0..samples).map(|k| f64::from(k) / f64::from(samples - 1)).collect();
+    let q = u
+        .iter()
+        .map(|u| JointVector::from_fn(|joint, _| 0.5 * trig::sin((4.0 + 3.0 * joint as f64) * u + 0.7 * joint as f64)));
+    let q = q.collect();
+    Ok(JointPath::through(u, q, Ends::NotAKnot)?)
+}
