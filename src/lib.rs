@@ -23,6 +23,7 @@ pub use platewash_planner as planner;
 
 pub use platewash_kinematics::ik::{IkError, IkFailure, IkSettings, IkSolution, IkSolver};
 pub use platewash_kinematics::{Axes, Frame, Jacobian, JointLimits, JointVector, Pose, RobotModel, ToolFrame};
+pub use platewash_planner::certificate::{Certificate, Promise, VerifyError};
 pub use platewash_planner::clearance::{ClearanceModel, PairClearance};
 pub use platewash_planner::coverage::{Coverage, coverage};
 pub use platewash_planner::cycle::{Cycle, CycleReport};

@@ -17,6 +17,7 @@ mod robot;
 mod run;
 mod sweep;
 mod validate;
+mod verify;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use failure::Failure;
@@ -51,6 +52,8 @@ enum Verb {
     Plan(plan::PlanArguments),
     /// Check a scenario without running it.
     Validate,
+    /// Judge a plan file: what is proved about it, and what is not.
+    Verify(verify::VerifyArguments),
     /// Forward kinematics of one or many configurations, with clearances.
     Fk(fk::FkArguments),
     /// Inverse kinematics of one pose.
@@ -99,6 +102,7 @@ fn dispatch(arguments: Arguments) -> Result<ExitCode, Failure> {
         Verb::Layout => layout::run(&options),
         Verb::Plan(arguments) => plan::run(&options, &arguments),
         Verb::Validate => validate::run(&options),
+        Verb::Verify(arguments) => verify::run(&options, &arguments),
         Verb::Fk(arguments) => fk::run(&options, &arguments),
         Verb::Ik(arguments) => ik::run(&options, &arguments),
         Verb::Robot => robot::run(&options),

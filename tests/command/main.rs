@@ -6,6 +6,7 @@ mod files;
 mod limits;
 mod scenarios;
 mod verbs;
+mod verify;
 
 use serde_json::Value;
 use std::ffi::OsStr;

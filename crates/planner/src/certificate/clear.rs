@@ -24,6 +24,9 @@ const COARSE: f64 = 0.1;
 /// Shortest interval that is halved \[s\].
 const SHORTEST_S: f64 = 1e-7;
 
+/// No direction is known.
+const NO_NORMAL: [f64; 3] = [0.0; 3];
+
 /// What a pair must keep and how exactly that is to be known.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Goal {
@@ -69,6 +72,8 @@ struct Candidate {
     order: usize,
     part: usize,
     interval: Interval,
+    /// From one part to the other, in the frame of the earlier one, as it is somewhere in the interval or near it.
+    normal: [f64; 3],
 }
 
 impl Ord for Candidate {
@@ -127,7 +132,7 @@ impl<'a> Search<'a> {
         };
         for interval in during.iter().flat_map(|pieces| timeline.cover(pieces)) {
             for part in 0..parts.len() {
-                search.look(part, interval, f64::NEG_INFINITY);
+                search.look(part, interval, f64::NEG_INFINITY, NO_NORMAL);
             }
         }
         search.settle();
@@ -148,24 +153,27 @@ impl<'a> Search<'a> {
             };
             let Some(halves) = halves else { return };
             for half in halves {
-                self.look(worst.part, half, worst.bound);
+                self.look(worst.part, half, worst.bound, worst.normal);
             }
         }
     }
 
-    /// Bounds an interval, of which `inherited` is known already.
-    fn look(&mut self, part: usize, interval: Interval, inherited: f64) {
+    /// Bounds an interval, of which a bound and the direction of an interval around it are known already.
+    fn look(&mut self, part: usize, interval: Interval, inherited: f64, normal: [f64; 3]) {
         self.looked_at += 1;
-        let bound = inherited.max(self.bound(part, &interval));
+        let (bound, normal) = self.bound(part, &interval, normal);
         self.open.push(Candidate {
-            bound,
+            bound: inherited.max(bound),
             order: self.looked_at,
             part,
             interval,
+            normal,
         });
     }
 
-    fn bound(&mut self, part: usize, interval: &Interval) -> f64 {
+    /// A lower bound over an interval, and the direction that led to it. The cheapest that is good enough: spheres around the
+    /// parts, the direction known, the nearest points.
+    fn bound(&mut self, part: usize, interval: &Interval, known: [f64; 3]) -> (f64, [f64; 3]) {
         let pair = &self.parts[part];
         let extent = self.timeline.extent(interval);
         let (time_s, q) = self.timeline.middle(interval);
@@ -174,8 +182,23 @@ impl<'a> Search<'a> {
         let levers = pair.levers(&poses, &drift);
         let fall = levers.dot(&drift);
         let far = pair.sphere_gap(&poses) - fall;
-        if self.goal.accepts(far, self.found.seen_m) && self.found.seen_m.is_finite() {
-            return far;
+        if self.found.seen_m.is_finite() && self.goal.accepts(far, self.found.seen_m) {
+            return (far, known);
+        }
+        let [from, to] = self.timeline.times(interval);
+        let acceleration = pair.acceleration(&levers, &extent.speed, &extent.acceleration);
+        let sag = 0.125 * (to - from) * (to - from) * acceleration;
+        let ends = self.timeline.ends(interval);
+        let along = |normal| {
+            let [a, b] = ends.map(|q| pair.gap_along(normal, &self.robot.fk(&q)));
+            a.min(b)
+        };
+        if known != NO_NORMAL {
+            let gap = along(known);
+            // Where the gap itself would do, shorter intervals will: no nearest points are needed.
+            if self.goal.accepts(gap, self.found.seen_m) {
+                return (gap - sag, known);
+            }
         }
         let measured = pair.measure(&poses);
         if measured.distance_m < self.found.seen_m {
@@ -184,19 +207,10 @@ impl<'a> Search<'a> {
             self.found.place_m = measured.place_m;
         }
         let displaced = measured.at_least_m - fall;
-        if measured.normal == [0.0; 3] || self.goal.accepts(displaced, self.found.seen_m) {
-            return displaced;
+        let settled = measured.normal == NO_NORMAL || self.goal.accepts(displaced, self.found.seen_m);
+        if settled || measured.distance_m - sag <= displaced {
+            return (displaced, measured.normal);
         }
-        let [from, to] = self.timeline.times(interval);
-        let acceleration = pair.acceleration(&levers, &extent.speed, &extent.acceleration);
-        let sag = 0.125 * (to - from) * (to - from) * acceleration;
-        if measured.distance_m - sag <= displaced {
-            return displaced;
-        }
-        let [a, b] = self
-            .timeline
-            .ends(interval)
-            .map(|q| pair.gap_along(measured.normal, &self.robot.fk(&q)));
-        displaced.max(a.min(b) - sag)
+        (displaced.max(along(measured.normal) - sag), measured.normal)
     }
 }

@@ -13,6 +13,12 @@ pub enum VerifyError {
     /// The arm of the scenario cannot be made.
     #[error(transparent)]
     Robot(#[from] RobotError),
+    /// The plan is about an arm that is not built in, and none was given.
+    #[error("the plan is for the arm of \"{file}\"; give its description")]
+    NoDescription {
+        /// File name of the description.
+        file: String,
+    },
     /// The scenario in the plan is none.
     #[error("the plan's scenario: {0}")]
     Scenario(ScenarioError),

@@ -115,13 +115,18 @@ impl Certificate {
     }
 }
 
-/// The arm that a plan is about: the built-in one, or that of a description that the caller gives, as a plan knows the name of
-/// the file alone.
+/// The arm that a plan is about: the built-in one, or that of a description that the caller gives. A plan knows the name of its
+/// description alone, not where it lies.
 ///
 /// # Errors
-/// [`VerifyError::Robot`].
+/// [`VerifyError::NoDescription`], [`VerifyError::Robot`].
 pub fn arm(plan: &Plan, description: Option<&RobotSection>) -> Result<RobotModel, VerifyError> {
-    Ok(robot::load(description.unwrap_or(&plan.scenario.robot))?)
+    match (description, &plan.scenario.robot.urdf) {
+        (None, Some(urdf)) => Err(VerifyError::NoDescription {
+            file: urdf.display().to_string(),
+        }),
+        (given, _) => Ok(robot::load(given.unwrap_or(&plan.scenario.robot))?),
+    }
 }
 
 /// Judges a plan for an arm.

@@ -229,12 +229,21 @@ fn fields(prefix: &str, stated: &impl Serialize, expected: &impl Serialize) -> V
         return Vec::new();
     };
     let keys: std::collections::BTreeSet<_> = stated.keys().chain(expected.keys()).collect();
-    let say = |v: Option<&Value>| v.map_or("nothing".to_owned(), Value::to_string);
+    let say = |v: Option<&Value>| v.map_or("nothing".to_owned(), |v| shortened(&v.to_string()));
     keys.into_iter()
         .map(|key| (key, stated.get(key), expected.get(key)))
         .filter(|(_, stated, expected)| stated != expected)
         .map(|(key, stated, expected)| Discrepancy::new(format!("{prefix}.{key}"), say(stated), say(expected)))
         .collect()
+}
+
+/// The beginning of a long text.
+fn shortened(text: &str) -> String {
+    const MOST: usize = 80;
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
 }
 
 /// Text from a file, with control characters written out.
