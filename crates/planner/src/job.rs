@@ -14,6 +14,7 @@ use crate::tracking::{self, Step, TrackingError};
 use crate::trajectory::Trajectory;
 use platewash_kinematics::ik::{AnalyticStarts, IkError, IkSettings, IkSettingsError, IkSolver};
 use platewash_kinematics::{JointVector, RobotModel};
+use rand_pcg::Pcg64;
 
 /// Why a job could not be carried out; one variant a stage.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -110,6 +111,11 @@ pub struct Job {
 /// # Errors
 /// [`LayoutError`].
 pub fn place_plates(scenario: &Scenario, robot: &RobotModel) -> Result<Layout, LayoutError> {
+    draw_plates(scenario, robot, &mut random::stream(scenario.seed, "layout"))
+}
+
+/// The same from a stream of the caller's, so that one layout after the other can be drawn.
+pub(crate) fn draw_plates(scenario: &Scenario, robot: &RobotModel, rng: &mut Pcg64) -> Result<Layout, LayoutError> {
     let section = &scenario.layout;
     let spacing = spacing(section);
     let geometry = PlateGeometry {
@@ -129,8 +135,7 @@ pub fn place_plates(scenario: &Scenario, robot: &RobotModel) -> Result<Layout, L
                 geometry,
                 base,
             };
-            let mut rng = random::stream(scenario.seed, "layout");
-            layout::sample(&request, &SampleSettings::default(), &mut rng)
+            layout::sample(&request, &SampleSettings::default(), rng)
         }
     }
 }

@@ -5,6 +5,7 @@
 
 mod arm;
 mod assemble;
+mod choice;
 mod report;
 mod tour;
 mod travel;
@@ -65,6 +66,16 @@ pub enum CycleError {
     /// A plate cannot be washed whole.
     #[error("{0}")]
     Unwashable(Box<UnwashablePlate>),
+    /// No layout drawn can be washed whole.
+    #[error(
+        "none of {layouts} layouts drawn can be washed whole, as layout.only_washable asks; of the last one, {last}"
+    )]
+    NoneWashable {
+        /// Layouts drawn.
+        layouts: usize,
+        /// What stands in the way in the last one.
+        last: String,
+    },
     /// The arm cannot follow the line over a plate.
     #[error("the line over plate {plate}: {error}")]
     Line {
@@ -94,7 +105,10 @@ impl CycleError {
     /// Whether the input was fine but asks for what cannot be done (exit code 3).
     #[must_use]
     pub fn is_infeasible(&self) -> bool {
-        matches!(self, Self::Unwashable(_) | Self::Line { .. } | Self::Crossing(_))
+        matches!(
+            self,
+            Self::Unwashable(_) | Self::NoneWashable { .. } | Self::Line { .. } | Self::Crossing(_)
+        )
     }
 }
 
@@ -163,7 +177,7 @@ impl Cycle {
     pub fn plan(scenario: &Scenario) -> Result<Self, PlanError> {
         scenario.validate()?;
         let robot = robot::load(&scenario.robot)?;
-        let layout = job::place_plates(scenario, &robot)?;
+        let layout = choice::place(scenario, &robot)?;
         Self::on(scenario, robot, layout)
     }
 

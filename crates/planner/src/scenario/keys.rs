@@ -206,6 +206,12 @@ pub const KEYS: &[Key] = &[
         "Plates that overlap: a finding only, or the certificate fails.",
     ),
     key(
+        "layout.only_washable",
+        "",
+        Bool,
+        "Whether sampled layouts are drawn anew until every plate can be washed whole (certified).",
+    ),
+    key(
         "layout.positions_m",
         "m",
         Points(-10.0, 10.0),

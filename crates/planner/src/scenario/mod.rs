@@ -176,6 +176,8 @@ pub struct LayoutSection {
     pub base_radius_m: f64,
     /// What overlapping plates lead to.
     pub overlap: Overlap,
+    /// Whether layouts are drawn until every plate can be washed whole.
+    pub only_washable: bool,
     /// Plate centres, in place of sampling \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub positions_m: Option<Vec<[f64; 2]>>,
@@ -426,6 +428,7 @@ impl Default for LayoutSection {
             min_distance_m: 0.28,
             base_radius_m: 0.25,
             overlap: Overlap::Fail,
+            only_washable: false,
             positions_m: None,
         }
     }

@@ -1,0 +1,56 @@
+//! Layouts of which every plate can be washed whole, for scenarios that ask for them.
+
+use super::arm::Arm;
+use super::{CycleError, Stages, visit};
+use crate::job::{self, PlanError};
+use crate::layout::Layout;
+use crate::posture::{self, Cell};
+use crate::random;
+use crate::scenario::Scenario;
+use platewash_kinematics::RobotModel;
+
+/// Layouts drawn before it is given up.
+const MOST_LAYOUTS: usize = 200;
+
+/// The plates of a scenario. With `layout.only_washable`, sampled layouts are drawn from the seed's stream until every plate
+/// can be washed whole.
+///
+/// # Errors
+/// [`PlanError::Layout`], or [`CycleError::NoneWashable`] when no layout drawn will do.
+pub(super) fn place(scenario: &Scenario, robot: &RobotModel) -> Result<Layout, PlanError> {
+    if !scenario.layout.only_washable || scenario.layout.positions_m.is_some() {
+        return Ok(job::place_plates(scenario, robot)?);
+    }
+    let mut rng = random::stream(scenario.seed, "layout");
+    let mut last = None;
+    for _ in 0..MOST_LAYOUTS {
+        let layout = job::draw_plates(scenario, robot, &mut rng)?;
+        let stages = Stages::new(scenario, robot, &layout.plates)?;
+        match stages.first_unwashable()? {
+            None => return Ok(layout),
+            stop => last = stop,
+        }
+    }
+    Err(CycleError::NoneWashable {
+        layouts: MOST_LAYOUTS,
+        last: last.unwrap_or_default(),
+    }
+    .into())
+}
+
+impl Stages<'_> {
+    /// What stands in the way on the first plate that cannot be washed whole.
+    fn first_unwashable(&self) -> Result<Option<String>, CycleError> {
+        let cell =
+            Cell::new(self.robot, &self.scenario.tool, &self.clearance, self.plates).map_err(CycleError::Cell)?;
+        let arm = Arm::new(cell, self.posture.tilt_max_rad)?;
+        let home = self.robot.fk(&self.homes[0]).rigid(&arm.cell.tip).translation;
+        let stop = self.plates.iter().enumerate().find_map(|(plate, place)| {
+            let centre = visit::centre(place, self.scenario);
+            let stroke = visit::stroke(self.scenario, &centre, &home);
+            let answer = posture::washing(&arm.cell, &stroke, centre, plate, &self.posture, &self.homes[0]);
+            answer.err().map(|error| error.to_string())
+        });
+        Ok(stop)
+    }
+}

@@ -1,0 +1,172 @@
+//! Certified jobs: planned, proved, and refused with a reason.
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+
+use platewash::planner::certificate::{self, CertificateVerdict, PromiseName};
+use platewash::planner::cycle::CycleError;
+use platewash::planner::scenario::{OrderRule, Overlap};
+use platewash::planner::sweep::{SweepOutcome, sweep};
+use platewash::{Cycle, PlanError, Scenario};
+
+/// A layout of its own per seed, each proved with the figures that the scenarios promise.
+#[test]
+fn the_shipped_scenarios_are_proved() {
+    for name in ["kitchen", "kitchen-roomy", "kitchen-rim"] {
+        let rows = sweep(&Scenario::load(name).unwrap(), 1..=6).unwrap();
+        for row in rows {
+            assert_eq!(
+                row.outcome,
+                SweepOutcome::Proved,
+                "{name}, seed {}: {:?}",
+                row.seed,
+                row.reason
+            );
+            assert!(
+                row.coverage.unwrap() >= 0.995 && row.clearance_m.unwrap() >= 0.01,
+                "{row:?}"
+            );
+        }
+    }
+}
+
+/// The paper's own spacing and base radius, with everything else done properly; plates that overlap are a finding.
+#[test]
+fn the_papers_spacing_is_washed_too() {
+    let mut scenario = Scenario::load("kitchen").unwrap();
+    scenario.layout.min_distance_m = 0.28;
+    scenario.layout.base_radius_m = 0.25;
+    scenario.layout.overlap = Overlap::Report;
+    for region in ["text", "appendix"] {
+        scenario.layout.region = Some(if region == "text" {
+            platewash::planner::scenario::RegionName::Text
+        } else {
+            platewash::planner::scenario::RegionName::Appendix
+        });
+        for row in sweep(&scenario, 1..=6).unwrap() {
+            assert_eq!(
+                row.outcome,
+                SweepOutcome::Proved,
+                "{region}, seed {}: {:?}",
+                row.seed,
+                row.reason
+            );
+        }
+    }
+}
+
+fn explicit(positions: &[[f64; 2]]) -> Scenario {
+    let mut scenario = Scenario::load("kitchen").unwrap();
+    scenario.layout.positions_m = Some(positions.to_vec());
+    scenario
+}
+
+#[test]
+fn a_plate_out_of_reach_is_named_with_the_nearest_place_that_will_do() {
+    let scenario = explicit(&[[0.40, 0.0], [0.1, 0.56]]);
+    let error = Cycle::plan(&scenario).unwrap_err();
+    assert!(error.is_infeasible());
+    let PlanError::Cycle(CycleError::Unwashable(plate)) = &error else {
+        panic!("{error}");
+    };
+    assert_eq!(plate.plate, 1);
+    let share = plate.share.unwrap();
+    assert!(share > 0.5 && share < 1.0);
+    let message = error.to_string();
+    assert!(
+        message.contains("out of reach") && message.contains("nearest position"),
+        "{message}"
+    );
+    // There it can be washed, and it is not far.
+    let [x, y] = plate.nearest_m.unwrap();
+    assert!((x - 0.1_f64).hypot(y - 0.56) < 0.12);
+    Cycle::plan(&explicit(&[[0.40, 0.0], [x, y]])).unwrap();
+}
+
+#[test]
+fn overlapping_plates_fail_the_certificate_unless_only_reported() {
+    let mut scenario = explicit(&[[0.35, 0.10], [0.35, -0.15]]);
+    for (overlap, verdict) in [
+        (Overlap::Fail, CertificateVerdict::Fail),
+        (Overlap::Report, CertificateVerdict::Pass),
+    ] {
+        scenario.layout.overlap = overlap;
+        let cycle = Cycle::plan(&scenario).unwrap();
+        let certificate = certificate::verify(&cycle.to_plan().unwrap(), &cycle.robot).unwrap();
+        assert_eq!(certificate.verdict, verdict);
+        let broken: Vec<_> = certificate.broken().map(|p| p.name).collect();
+        let expected = [PromiseName::PlatesApart];
+        assert_eq!(broken, if overlap == Overlap::Fail { &expected[..] } else { &[] });
+        assert!(
+            !certificate
+                .promise(PromiseName::PlatesApart)
+                .unwrap()
+                .discrepancies
+                .is_empty()
+        );
+    }
+}
+
+#[test]
+fn layouts_are_drawn_until_they_can_be_washed_where_the_scenario_asks() {
+    let mut scenario = Scenario::load("kitchen").unwrap();
+    scenario.layout.region = None;
+    scenario.layout.rho_m = Some([0.40, 0.62]);
+    scenario.layout.azimuth_deg = Some([-90.0, 90.0]);
+    scenario.layout.count = 2;
+    let proved = |scenario: &Scenario| {
+        let rows = sweep(scenario, 1..=8).unwrap();
+        rows.iter().filter(|row| row.outcome == SweepOutcome::Proved).count()
+    };
+    assert!(proved(&scenario) < 8);
+    scenario.layout.only_washable = true;
+    assert_eq!(proved(&scenario), 8);
+    // Where nothing can be washed, it says so instead of drawing for ever.
+    scenario.layout.rho_m = Some([0.61, 0.62]);
+    scenario.layout.count = 1;
+    let error = Cycle::plan(&scenario).unwrap_err();
+    assert!(
+        error.is_infeasible() && error.to_string().contains("only_washable"),
+        "{error}"
+    );
+}
+
+#[test]
+fn the_best_order_is_no_slower_than_nearest_next() {
+    for seed in 1..=10 {
+        let mut scenario = Scenario {
+            seed,
+            ..Scenario::load("kitchen").unwrap()
+        };
+        let best = Cycle::plan(&scenario).unwrap().tour;
+        assert!(best.travel_s <= best.nearest_next_s + 1e-12);
+        scenario.job.order = OrderRule::Nearest;
+        let nearest = Cycle::plan(&scenario).unwrap();
+        assert_eq!(nearest.tour.travel_s, best.nearest_next_s);
+        scenario.job.order = OrderRule::Given;
+        assert_eq!(Cycle::plan(&scenario).unwrap().order, [0, 1, 2, 3]);
+    }
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_by_name() {
+    let refused = |change: fn(&mut Scenario), word: &str| {
+        let mut scenario = Scenario::load("kitchen").unwrap();
+        change(&mut scenario);
+        let error = Cycle::plan(&scenario).unwrap_err();
+        assert!(error.to_string().contains(word), "{error}");
+        error.is_infeasible()
+    };
+    assert!(!refused(|s| s.tool.length_m = 0.0, "tool.length_m"));
+    assert!(!refused(
+        |s| s.robot.home_deg = Some([0.0, 200.0, 0.0, 0.0, 0.0, 0.0]),
+        "robot.home_deg: joint 2"
+    ));
+    assert!(!refused(
+        |s| s.robot.start_deg = [180.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        "robot.start_deg: joint 1"
+    ));
+    assert!(!refused(|s| s.wash.tilt_max_deg = f64::NAN, "tilt_max_deg"));
+    assert!(!refused(|s| s.wash.speed_m_s = 0.0, "speed_m_s"));
+    // Home with the tool in the floor.
+    assert!(refused(|s| s.robot.start_deg = [0.0, 90.0, 0.0, 0.0, 0.0, 0.0], "home"));
+    assert!(refused(|s| s.wash.clearance_m = 0.2, "cannot be washed"));
+}
