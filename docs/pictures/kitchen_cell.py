@@ -1,0 +1,63 @@
+"""Draws kitchen-cell.svg: what the paper's program washes beside what a certified job washes.
+
+    platewash run --scenario paper-appendix --out paper
+    platewash run --scenario kitchen --out kitchen
+    python docs/pictures/kitchen_cell.py paper kitchen docs/pictures/kitchen-cell.svg
+"""
+
+import csv
+import json
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from paper_cell import GAP, HEIGHT, WIDTH, line, panel, text  # noqa: E402
+
+
+def tip_paths(file):
+    """Points of the tip while it washes, by plate, and between."""
+    washing, between = {}, [[]]
+    with open(file, newline="") as rows:
+        for row in csv.DictReader(rows):
+            point = float(row["tip_x_m"]), float(row["tip_y_m"])
+            if row["segment"] == "wash":
+                washing.setdefault(int(row["plate"]), []).append(point)
+                if between[-1]:
+                    between.append([])
+            else:
+                between[-1].append(point)
+    return washing, [path for path in between if len(path) > 1]
+
+
+def main(paper, kitchen, target):
+    plans = [json.loads((folder / "plan.json").read_text()) for folder in (paper, kitchen)]
+    reports = [json.loads((folder / "report.json").read_text()) for folder in (paper, kitchen)]
+    executed, _ = tip_paths(paper / "executed.csv")
+    washed, between = tip_paths(kitchen / "trajectory.csv")
+    washed = {plate: path[::4] + path[-1:] for plate, path in washed.items()}
+    swept = {p["plate"]: f'{100 * p["executed_coverage"]["fraction"]:.0f} %' for p in reports[0]["plates"]}
+    certificate = reports[1]["certificate"]
+    proved = {p["plate"]: f'{100 * p["at_least"]:.0f} %' for p in certificate["coverage"]}
+    clearance = next(p for p in certificate["promises"] if p["name"] == "clearance")["measure"]["bound"]
+    left = panel("The paper's program", "as its control law executes it", plans[0]["plates"], executed, "#c2258f", swept)
+    note = f'{reports[1]["duration_s"]:.1f} s from home to home, nothing nearer than {1e3 * clearance:.0f} mm'
+    ways = "\n".join(
+        line(path[::8] + path[-1:], fill="none", stroke="#57606a", stroke_width=1.2, stroke_dasharray="5 4") for path in between
+    )
+    right = panel("kitchen, proved", note, plans[1]["plates"], washed, "#0969da", proved) + ways
+    width = 2 * WIDTH + 3 * GAP
+    foot = "Share of each plate that a sponge of radius 25 mm sweeps (right: guaranteed at least), seen from above. Dashed: crossings."
+    svg = f"""<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {HEIGHT}" font-family="Helvetica, Arial, sans-serif">
+<rect width="100%" height="100%" fill="#ffffff"/>
+<g transform="translate({GAP} 14)">{left}</g>
+<g transform="translate({2 * GAP + WIDTH} 14)">{right}</g>
+{text(GAP, HEIGHT - 14, foot, 13, fill="#57606a")}
+</svg>
+"""
+    target.write_text(svg)
+
+
+if __name__ == "__main__":
+    main(*map(Path, sys.argv[1:]))
