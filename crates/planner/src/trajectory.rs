@@ -39,6 +39,8 @@ pub struct SegmentExtremes {
     pub speed: JointVector,
     /// Largest acceleration of each joint \[rad/s²\].
     pub acceleration: JointVector,
+    /// Jerk of each joint, constant within the segment \[rad/s³\].
+    pub jerk: JointVector,
 }
 
 /// Knots that are no motion.
@@ -205,6 +207,7 @@ impl Cubic {
             position: [start.q.inf(&end.q), start.q.sup(&end.q)],
             speed: start.qd.abs().sup(&end.qd.abs()),
             acceleration: start.qdd.abs().sup(&end.qdd.abs()),
+            jerk: self.c[3].abs() * 6.0,
         };
         for joint in 0..AXES {
             for u in self.turning_points(joint) {
@@ -269,6 +272,16 @@ mod tests {
                         prop_assert!(seen[j] >= bound[j] - 1e-3 * (1.0 + bound[j].abs()));
                     }
                 }
+            }
+        }
+
+        #[test]
+        fn jerk_is_the_slope_of_the_acceleration(motion in motion()) {
+            for segment in motion.extremes() {
+                let [from, to] = segment.span_s;
+                let [start, end] = [from, from + 0.5 * (to - from)].map(|t| motion.at(t).unwrap().qdd);
+                let slope = ((end - start) / (0.5 * (to - from))).abs();
+                prop_assert!((slope - segment.jerk).amax() < 1e-6 * (1.0 + segment.jerk.amax()));
             }
         }
 

@@ -4,6 +4,7 @@ use super::{CrossingSummary, Cycle, TourSummary, VisitSummary};
 use crate::certificate::{Certificate, CertificateVerdict};
 use crate::layout;
 use crate::report::Verdict;
+use platewash_kinematics::{AXES, JointVector};
 use serde::Serialize;
 use std::fmt;
 
@@ -28,6 +29,8 @@ pub struct CycleReport {
     pub crossings: Vec<CrossingSummary>,
     /// What the order gains.
     pub tour: TourSummary,
+    /// Largest jerk of each joint between knots \[rad/s³\]: reported, not promised. At knots the acceleration may jump.
+    pub jerk_rad_s3: [f64; AXES],
     /// What is to be said about the plates.
     pub findings: Vec<layout::Finding>,
     /// The proof.
@@ -57,10 +60,16 @@ impl CycleReport {
             visits: cycle.visits.clone(),
             crossings: cycle.crossings.clone(),
             tour: cycle.tour,
+            jerk_rad_s3: largest_jerk(cycle).into(),
             findings: cycle.layout.findings.clone(),
             certificate,
         }
     }
+}
+
+fn largest_jerk(cycle: &Cycle) -> JointVector {
+    let jerks = cycle.motion.extremes().map(|segment| segment.jerk);
+    jerks.fold(JointVector::zeros(), |largest, jerk| largest.sup(&jerk))
 }
 
 impl fmt::Display for CycleReport {
@@ -91,7 +100,20 @@ impl fmt::Display for CycleReport {
         }
         let travel: f64 = self.crossings.iter().map(|c| c.duration_s).sum();
         writeln!(f, "{:<24} {travel:>9.2}", "all crossings")?;
-        writeln!(f, "{:<24} {:>9.2}\n", "whole cycle", self.duration_s)?;
+        writeln!(f, "{:<24} {:>9.2}", "whole cycle", self.duration_s)?;
+        let tour = &self.tour;
+        let gain = tour.nearest_next_s - tour.travel_s;
+        writeln!(
+            f,
+            "order: {:.2} s of travel estimated, {gain:.2} s less than nearest-next",
+            tour.travel_s
+        )?;
+        let jerk: Vec<_> = self.jerk_rad_s3.iter().map(|j| format!("{j:.0}")).collect();
+        writeln!(
+            f,
+            "largest jerk between knots, not promised: {} rad/s³\n",
+            jerk.join(", ")
+        )?;
         write!(f, "{}", self.certificate)
     }
 }

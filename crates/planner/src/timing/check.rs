@@ -13,10 +13,10 @@ use platewash_kinematics::JointVector;
 /// Share of a limit that the bound between looks may take at most; then looks are not made denser.
 const SLACK: f64 = 1e-4;
 /// Looks into a piece at most.
-const MOST_STEPS: u32 = 64;
+const MOST_STEPS: u32 = 16;
 
 /// Demand over limit, by piece: above 1 the limit is broken.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Demand {
     /// Of the speeds of joints and tip, the larger.
     pub speed: f64,
@@ -27,6 +27,16 @@ pub(super) struct Demand {
 }
 
 impl Demand {
+    /// The larger of each; NaN counts as infinite.
+    pub fn or(&self, other: &Self) -> Self {
+        let larger = |a: f64, b: f64| if b.is_nan() { f64::INFINITY } else { a.max(b) };
+        Self {
+            speed: larger(self.speed, other.speed),
+            joints: larger(self.joints, other.joints),
+            tip: larger(self.tip, other.tip),
+        }
+    }
+
     /// By what time must be stretched for this demand to be 1.
     pub fn stretch(&self) -> f64 {
         self.speed.max(self.joints.sqrt()).max(self.tip.sqrt())
@@ -126,7 +136,7 @@ mod tests {
             for (bound, seen) in [(demand.speed, speed), (demand.joints, seen[1]), (demand.tip, seen[3])] {
                 prop_assert!(seen <= bound * (1.0 + 1e-12), "{seen} {bound}");
                 // Where the limit holds at the first look, the bound need not be close.
-                prop_assert!(bound <= 1.0 || bound <= seen * 1.01 + 0.01, "{seen} {bound}");
+                prop_assert!(bound <= 1.0 || bound <= seen * 1.05 + 0.01, "{seen} {bound}");
             }
         }
     }

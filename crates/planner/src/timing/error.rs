@@ -42,6 +42,15 @@ pub enum TimingError {
         /// Knots of the motion.
         knots: usize,
     },
+    /// The limits are not held however long the motion takes, because its times round too coarsely: the path has
+    /// samples much too close together for its length.
+    #[error("a motion of {duration_s:.1} s still exceeds its limits: time would have to be stretched by {excess:.1e}")]
+    Unheld {
+        /// By what share time would have to be stretched further.
+        excess: f64,
+        /// Duration reached \[s\].
+        duration_s: f64,
+    },
     /// The knots are no motion.
     #[error(transparent)]
     Knots(#[from] KnotError),

@@ -15,7 +15,7 @@ const ROOM: f64 = 0.8;
 /// Pieces that one piece becomes at most, in one round.
 const MOST_PARTS: f64 = 64.0;
 /// Knots of a motion at most, for each sample of its path, and for any path.
-const MOST_KNOTS: [usize; 2] = [16, 16_384];
+const MOST_KNOTS: [usize; 2] = [16, 4096];
 
 /// How a piece fares: x = ṡ² at its ends, length in s, duration and deviation from the path.
 #[derive(Debug, Clone, Copy)]

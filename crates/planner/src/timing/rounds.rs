@@ -19,6 +19,10 @@ pub const SHORTEST_PIECE_S: f64 = 1e-4;
 const MARGIN: f64 = 1e-6;
 /// Excess of a limit that is left to stretching the whole motion in time.
 const STRETCHED: f64 = 1e-4;
+/// Stretch that is not worth it: what it mends is within the margin.
+const HELD: f64 = 2e-7;
+/// Times that a motion is stretched at most; the first is enough but where times round coarsely.
+const STRETCHES: usize = 8;
 /// Rounds of lowering limits at most.
 const LOWERINGS: usize = 6;
 /// Rounds of refining knots at most.
@@ -86,7 +90,8 @@ impl<'a> Rounds<'a> {
             }
             worst = self.lower();
         }
-        self.finish(worst.stretch().max(1.0))
+        self.stretch(worst)?;
+        self.finish()
     }
 
     /// Intervals and bounds of the grid's knots; tightened as the intervals that they are parts of.
@@ -158,19 +163,18 @@ impl<'a> Rounds<'a> {
         self.grid.knots().len() > knots
     }
 
+    /// What piece k demands of the limits.
+    fn demand(&self, k: usize) -> Demand {
+        let piece = piece(k, &self.times, self.grid.knots(), &self.speeds);
+        check::demand(&piece, &self.grid, &self.limits)
+    }
+
     /// Lowers limits where the motion exceeds them; gives the largest demands.
     fn lower(&mut self) -> Demand {
-        let mut worst = Demand {
-            speed: 0.0,
-            joints: 0.0,
-            tip: 0.0,
-        };
+        let mut worst = Demand::default();
         for k in 0..self.intervals.len() {
-            let piece = piece(k, &self.times, self.grid.knots(), &self.speeds);
-            let demand = check::demand(&piece, &self.grid, &self.limits);
-            worst.speed = worst.speed.max(demand.speed);
-            worst.joints = worst.joints.max(demand.joints);
-            worst.tip = worst.tip.max(demand.tip);
+            let demand = self.demand(k);
+            worst = worst.or(&demand);
             if demand.speed > 1.0 {
                 self.slowed[k] *= demand.speed;
             }
@@ -184,18 +188,31 @@ impl<'a> Rounds<'a> {
         worst
     }
 
-    /// The motion, stretched in time.
-    fn finish(self, stretch: f64) -> Result<Timed, TimingError> {
+    /// Stretches the whole motion in time until it keeps its limits, `worst` being what it demands.
+    fn stretch(&mut self, mut worst: Demand) -> Result<(), TimingError> {
+        for _ in 0..STRETCHES {
+            let by = worst.stretch();
+            if by <= 1.0 + HELD {
+                return Ok(());
+            }
+            self.times.iter_mut().for_each(|t| *t *= by);
+            self.speeds.iter_mut().for_each(|qd| *qd /= by);
+            worst = (0..self.intervals.len()).fold(Demand::default(), |worst, k| worst.or(&self.demand(k)));
+        }
+        Err(TimingError::Unheld {
+            excess: worst.stretch() - 1.0,
+            duration_s: self.times[self.times.len() - 1],
+        })
+    }
+
+    /// The motion.
+    fn finish(self) -> Result<Timed, TimingError> {
         let knots = self.grid.knots();
         let path_error_rad = refine::close(&self.courses, |k| knots[k].u)?;
-        let motion = Trajectory::from_knots(
-            self.times.iter().map(|t| t * stretch).collect(),
-            knots.iter().map(|knot| knot.q).collect(),
-            self.speeds.iter().map(|qd| qd / stretch).collect(),
-        )?;
+        let positions = knots.iter().map(|knot| knot.q).collect();
         Ok(Timed {
-            motion,
             parameters: knots.iter().map(|knot| knot.u).collect(),
+            motion: Trajectory::from_knots(self.times, positions, self.speeds)?,
             path_error_rad,
         })
     }

@@ -377,3 +377,33 @@ fn limits_that_are_none_are_refused_by_name() {
         }
     }
 }
+
+/// Samples 1e-9 apart on a path of length 5: the motion is so slow that its times round coarsely, which showed in the
+/// accelerations after it was stretched.
+#[test]
+fn coarse_times_are_stretched_until_limits_hold_or_refused() {
+    let (robot, tip) = arm();
+    let second = 5.34475090086502 + 0.0006948170109641293;
+    let u = vec![0.0, 5.34475090086502, second, second + 1e-9];
+    let q = vec![
+        JointVector::zeros(),
+        -JointVector::x(),
+        JointVector::zeros(),
+        JointVector::zeros(),
+    ];
+    let path = JointPath::through(u, q, Ends::NotAKnot).unwrap();
+    match time_optimal(&path, &robot, &tip, &limits(Some(WASH))) {
+        Ok(timed) => {
+            let most = timed
+                .motion
+                .extremes()
+                .map(|s| s.acceleration.component_div(&limits(None).acceleration).max());
+            assert!(most.fold(0.0, f64::max) <= 1.0);
+        }
+        // Or says that it cannot.
+        Err(error) => assert!(
+            matches!(error, TimingError::Unheld { .. } | TimingError::Range { .. }),
+            "{error}"
+        ),
+    }
+}
