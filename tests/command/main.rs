@@ -3,6 +3,7 @@
 
 mod arms;
 mod files;
+mod golden;
 mod limits;
 mod scenarios;
 mod verbs;
