@@ -12,6 +12,7 @@ pub mod plain_fk;
 pub mod problems;
 pub mod score;
 pub mod solvers;
+pub mod stages;
 pub mod tilts;
 
 /// Largest accepted distance from a target, the same for every solver.
