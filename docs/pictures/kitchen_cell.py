@@ -13,7 +13,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from paper_cell import GAP, HEIGHT, WIDTH, line, panel, text  # noqa: E402
+from paper_cell import line, page, panel  # noqa: E402
 
 
 def tip_paths(file):
@@ -47,16 +47,8 @@ def main(paper, kitchen, target):
         line(path[::8] + path[-1:], fill="none", stroke="#57606a", stroke_width=1.2, stroke_dasharray="5 4") for path in between
     )
     right = panel("kitchen, proved", note, plans[1]["plates"], washed, "#0969da", proved) + ways
-    width = 2 * WIDTH + 3 * GAP
     foot = "Share of each plate that a sponge of radius 25 mm sweeps (right: guaranteed at least), seen from above. Dashed: crossings."
-    svg = f"""<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {HEIGHT}" font-family="Helvetica, Arial, sans-serif">
-<rect width="100%" height="100%" fill="#ffffff"/>
-<g transform="translate({GAP} 14)">{left}</g>
-<g transform="translate({2 * GAP + WIDTH} 14)">{right}</g>
-{text(GAP, HEIGHT - 14, foot, 13, fill="#57606a")}
-</svg>
-"""
-    target.write_text(svg)
+    target.write_text(page(left, right, foot))
 
 
 if __name__ == "__main__":

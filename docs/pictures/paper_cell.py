@@ -60,6 +60,18 @@ def panel(title, note, plates, paths, colour, labels):
     return "\n".join(out)
 
 
+def page(left, right, foot):
+    """The whole picture: two panels beside one another and a line below."""
+    width = 2 * WIDTH + 3 * GAP
+    return f"""<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {HEIGHT}" font-family="Helvetica, Arial, sans-serif">
+<rect width="100%" height="100%" fill="#ffffff"/>
+<g transform="translate({GAP} 14)">{left}</g>
+<g transform="translate({2 * GAP + WIDTH} 14)">{right}</g>
+{text(GAP, HEIGHT - 14, foot, 13, fill="#57606a")}
+</svg>
+"""
+
+
 def main(folder, target):
     plan = json.loads((folder / "plan.json").read_text())
     report = json.loads((folder / "report.json").read_text())
@@ -79,16 +91,8 @@ def main(folder, target):
     numbers = range(len(plates))
     left = panel("Commanded", "the spirals that the program asks for", plates, ideal, "#c2258f", {i: label[i][0] for i in numbers})
     right = panel("Executed", "what its control law makes of them", plates, executed, "#0969da", {i: label[i][1] for i in numbers})
-    width = 2 * WIDTH + 3 * GAP
     foot = f"Paper's program, {plan['scenario']['name']}, seed {plan['scenario']['seed']}: share of each plate swept by a sponge of radius 25 mm, seen from above."
-    svg = f"""<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {HEIGHT}" font-family="Helvetica, Arial, sans-serif">
-<rect width="100%" height="100%" fill="#ffffff"/>
-<g transform="translate({GAP} 14)">{left}</g>
-<g transform="translate({2 * GAP + WIDTH} 14)">{right}</g>
-{text(GAP, HEIGHT - 14, foot, 13, fill="#57606a")}
-</svg>
-"""
-    target.write_text(svg)
+    target.write_text(page(left, right, foot))
 
 
 if __name__ == "__main__":

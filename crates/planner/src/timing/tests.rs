@@ -11,7 +11,8 @@ use platewash_kinematics::{AXES, JointVector};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-fn arm() -> (RobotModel, Frame) {
+/// The IRB 120 and the tip of a tool 150 mm long.
+pub(super) fn arm() -> (RobotModel, Frame) {
     let robot = RobotModel::irb120().unwrap();
     let tool = ToolSection {
         length_m: 0.15,

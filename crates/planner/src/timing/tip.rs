@@ -146,22 +146,11 @@ fn levers(robot: &RobotModel, tip: &Frame) -> [f64; AXES] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot;
-    use crate::scenario::ToolSection;
+    use crate::timing::tests::arm;
     use proptest::prelude::*;
 
     fn vector(most: f64) -> impl Strategy<Value = JointVector> {
         prop::array::uniform6(-most..most).prop_map(JointVector::from)
-    }
-
-    fn arm() -> (RobotModel, Frame) {
-        let robot = RobotModel::irb120().unwrap();
-        let tool = ToolSection {
-            length_m: 0.15,
-            ..ToolSection::default()
-        };
-        let tip = robot::tip_frame(&robot, &tool);
-        (robot, tip)
     }
 
     proptest! {
