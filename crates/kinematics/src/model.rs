@@ -96,7 +96,8 @@ impl RobotModel {
         &self.name
     }
 
-    /// SHA-256 of the URDF text, in lower-case hexadecimal.
+    /// SHA-256 of the URDF text and of the vertices of its collision meshes, in lower-case hexadecimal; of the text alone
+    /// where there are no meshes.
     #[must_use]
     pub fn sha256(&self) -> &str {
         &self.sha256

@@ -44,6 +44,7 @@ pub struct PlanParts<'a> {
 
 /// A plan file, `"format": "platewash-plan/1"`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Plan {
     /// [`FORMAT`].
     pub format: String,
@@ -82,6 +83,7 @@ pub struct Plan {
 
 /// The arm of a plan.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PlanRobot {
     /// Name in the URDF.
     pub name: String,
@@ -91,6 +93,7 @@ pub struct PlanRobot {
 
 /// The tip in the frame of the link behind joint 6: `T_link_tip`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TipPose {
     /// The link.
     pub link: String,
@@ -118,6 +121,7 @@ impl TipPose {
 
 /// Tolerances of the tool path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Tolerances {
     /// Distance of the tip from its waypoint \[m\].
     pub position_m: f64,
@@ -144,6 +148,7 @@ impl Tolerances {
 
 /// Limits of a plan; `null` where a joint has no position limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PlanLimits {
     /// Lowest positions \[rad\].
     pub lower_rad: [Option<f64>; AXES],
@@ -157,9 +162,9 @@ pub struct PlanLimits {
     pub tip_speed_m_s: f64,
     /// Acceleration of the tip anywhere \[m/s²\].
     pub tip_acceleration_m_s2: f64,
-    /// Speed of the tip while it washes \[m/s\].
+    /// Speed of the tip while it washes, never above that anywhere \[m/s\].
     pub wash_speed_m_s: f64,
-    /// Acceleration of the tip while it washes \[m/s²\].
+    /// Acceleration of the tip while it washes, never above that anywhere \[m/s²\].
     pub wash_acceleration_m_s2: f64,
     /// Angle of the tool from the plate's normal while it approaches, washes and retreats \[rad\].
     pub tilt_rad: f64,
@@ -182,9 +187,9 @@ impl PlanLimits {
             acceleration_rad_s2: scenario.limits.joint_acceleration_rad_s2,
             tip_speed_m_s: scenario.limits.tip_speed_m_s,
             tip_acceleration_m_s2: scenario.limits.tip_acceleration_m_s2,
-            wash_speed_m_s: scenario.wash.speed_m_s,
-            wash_acceleration_m_s2: scenario.wash.acceleration_m_s2,
-            tilt_rad: scenario.wash.tilt_max_deg.to_radians(),
+            wash_speed_m_s: scenario.wash.speed_m_s.min(scenario.limits.tip_speed_m_s),
+            wash_acceleration_m_s2: (scenario.wash.acceleration_m_s2).min(scenario.limits.tip_acceleration_m_s2),
+            tilt_rad: scenario.tilt_max_rad(),
             clearance_m: scenario.wash.clearance_m,
             coverage: scenario.job.required_coverage,
         }
@@ -193,6 +198,7 @@ impl PlanLimits {
 
 /// A segment in time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PlanSegment {
     /// What it is for.
     pub kind: SegmentKind,
@@ -206,6 +212,7 @@ pub struct PlanSegment {
 
 /// The knots of a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Knots {
     /// Times \[s\].
     pub t_s: Vec<f64>,
@@ -217,6 +224,7 @@ pub struct Knots {
 
 /// What a reader wants to know first.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Summary {
     /// The report's first line.
     pub headline: String,

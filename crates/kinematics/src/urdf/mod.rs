@@ -24,7 +24,7 @@ pub use scan::MAX_BYTES;
 
 use crate::fingerprint::sha256_hex;
 use crate::fk::Frame;
-use crate::geometry::Inertial;
+use crate::geometry::{Inertial, Shape};
 use crate::model::{Joint, Link, RobotModel};
 use crate::rotation::{Rigid, from_rpy};
 use crate::{AXES, Pose};
@@ -61,16 +61,30 @@ pub(crate) fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfEr
         .iter()
         .zip(&frames)
         .map(|(link, frame)| convert_link(link, *frame, meshes));
+    let links = links.collect::<Result<Vec<_>, _>>()?;
     Ok(RobotModel {
         name: robot.name.clone(),
-        sha256: sha256_hex(text.as_bytes()),
+        sha256: fingerprint(text, &links),
         joints,
         limits,
         folded,
-        links: links.collect::<Result<_, _>>()?,
+        links,
         last_link,
         disabled: None,
     })
+}
+
+/// SHA-256 of the text, followed by the vertices of its collision meshes, as bytes of little-endian doubles in metres, where
+/// there are any.
+fn fingerprint(text: &str, links: &[Link]) -> String {
+    let mut bytes = text.as_bytes().to_vec();
+    for primitive in links.iter().flat_map(|link| &link.collision) {
+        if let Shape::Hull { points } = &primitive.shape {
+            let numbers = points.iter().flat_map(|p| p.coords.iter().copied());
+            bytes.extend(numbers.flat_map(f64::to_le_bytes));
+        }
+    }
+    sha256_hex(&bytes)
 }
 
 /// Refuses descriptions so large that the checks of every pair would not end.

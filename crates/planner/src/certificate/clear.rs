@@ -185,9 +185,9 @@ impl<'a> Search<'a> {
         if self.found.seen_m.is_finite() && self.goal.accepts(far, self.found.seen_m) {
             return (far, known);
         }
-        let [from, to] = self.timeline.times(interval);
+        let length_s = self.timeline.length_s(interval);
         let acceleration = pair.acceleration(&levers, &extent.speed, &extent.acceleration);
-        let sag = 0.125 * (to - from) * (to - from) * acceleration;
+        let sag = 0.125 * length_s * length_s * acceleration;
         let ends = self.timeline.ends(interval);
         let along = |normal| {
             let [a, b] = ends.map(|q| pair.gap_along(normal, &self.robot.fk(&q)));

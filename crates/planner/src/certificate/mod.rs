@@ -111,7 +111,7 @@ impl Certificate {
 
     /// The promises that are broken or not proved.
     pub fn broken(&self) -> impl Iterator<Item = &Promise> {
-        self.promises.iter().filter(|p| p.status != Status::Pass)
+        self.promises.iter().filter(|p| !p.status.is_kept())
     }
 }
 
@@ -167,7 +167,7 @@ pub fn verify(plan: &Plan, robot: &RobotModel) -> Result<Certificate, VerifyErro
     promises.push(clearances::promise(limits.clearance_m, &clearance));
     promises.push(coverage_promise(&coverage, plan, &limits, schedule));
     let hash = hash(plan);
-    let sound = hash.status == Status::Pass && promises.iter().all(|p| p.status == Status::Pass);
+    let sound = hash.status == Status::Pass && promises.iter().all(|p| p.status.is_kept());
     Ok(Certificate {
         verdict: if sound {
             CertificateVerdict::Pass

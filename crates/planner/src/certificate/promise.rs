@@ -13,6 +13,16 @@ pub enum Status {
     Fail,
     /// Neither could be shown.
     NotProved,
+    /// It does not hold, and the scenario does not ask for it: it is reported.
+    Exempt,
+}
+
+impl Status {
+    /// Whether nothing stands against the plan.
+    #[must_use]
+    pub fn is_kept(self) -> bool {
+        matches!(self, Self::Pass | Self::Exempt)
+    }
 }
 
 /// The promises of a certified job, in the order of the certificate.
@@ -60,7 +70,7 @@ pub enum PromiseName {
     WashAcceleration,
     /// Angle of the tool from the plate's normal while it approaches, washes and retreats.
     Tilt,
-    /// Height of the tip over or under where it shall be while it washes.
+    /// Height of the tip over or under the plate while it washes.
     ContactHeight,
     /// Distance of the tip from the stroke while it washes, the whole of it in order.
     StrokeDeviation,

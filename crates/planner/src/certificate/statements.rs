@@ -9,9 +9,10 @@ use crate::plan::{Plan, PlanLimits, TipPose, Tolerances};
 use crate::scenario::Program;
 use crate::stroke::Stroke;
 use crate::tool_path::{Segment, SegmentKind, Shape};
-use platewash_kinematics::RobotModel;
+use platewash_kinematics::{AXES, RobotModel};
 use serde::Serialize;
 use serde_json::Value;
+use std::f64::consts::TAU;
 
 /// By how much a declared place may differ from where it should be \[m\].
 const PLACE_M: f64 = 1e-9;
@@ -30,7 +31,7 @@ pub(super) fn promises(plan: &Plan, robot: &RobotModel, clearance: &ClearanceMod
             PromiseName::Tolerances,
             fields("tolerances", &plan.tolerances, &Tolerances::new(&plan.scenario)),
         ),
-        Promise::stated(PromiseName::ClearancePairs, pairs(plan, clearance)),
+        Promise::stated(PromiseName::ClearancePairs, pairs(plan, robot, clearance)),
         Promise::stated(PromiseName::ToolPath, tool_path(plan)),
         Promise::stated(PromiseName::EveryPlateOnce, every_plate_once(plan)),
     ]
@@ -91,9 +92,23 @@ fn plates(plan: &Plan) -> Vec<Discrepancy> {
     wrong
 }
 
-fn pairs(plan: &Plan, clearance: &ClearanceModel) -> Vec<Discrepancy> {
+/// The pairs, and that every body of the arm has a shape: what has none keeps clear of nothing.
+fn pairs(plan: &Plan, robot: &RobotModel, clearance: &ClearanceModel) -> Vec<Discrepancy> {
     let expected = clearance.pair_names();
-    let mut wrong = Vec::new();
+    let mut wrong: Vec<_> = (0..=AXES)
+        .filter(|&body| {
+            !robot
+                .links()
+                .iter()
+                .any(|l| l.frame.body() == body && !l.collision.is_empty())
+        })
+        .map(|body| {
+            let links = robot.links().iter().filter(|l| l.frame.body() == body);
+            let names: Vec<_> = links.map(|l| quoted(&l.name)).collect();
+            let what = format!("collision geometry of {}", names.join(", "));
+            Discrepancy::new(what, "none", "a shape, so that its clearance can be proved")
+        })
+        .collect();
     if plan.clearance_pairs.len() != expected.len() {
         let stated = plan.clearance_pairs.len();
         wrong.push(Discrepancy::new("number of clearance_pairs", stated, expected.len()));
@@ -126,7 +141,8 @@ fn every_plate_once(plan: &Plan) -> Vec<Discrepancy> {
     wrong
 }
 
-/// Each segment's shape against the scenario and its plate. The angle at which a stroke leaves the centre is free.
+/// Each segment's shape against the scenario and its plate. The angle at which a stroke leaves the centre is free,
+/// within a turn.
 fn tool_path(plan: &Plan) -> Vec<Discrepancy> {
     let mut wrong = Vec::new();
     let mut start_angle = 0.0;
@@ -148,6 +164,10 @@ fn tool_path(plan: &Plan) -> Vec<Discrepancy> {
             ));
             continue;
         };
+        if start_angle.abs() > TAU {
+            let what = format!("tool_path[{i}].start_angle_rad");
+            wrong.push(Discrepancy::new(what, start_angle, "within a turn of 0"));
+        }
         if !agree(&segment.shape, &expected) {
             wrong.extend(fields(&format!("tool_path[{i}]"), &segment.shape, &expected));
         }

@@ -90,6 +90,7 @@ fn word(status: Status) -> &'static str {
         Status::Pass => "pass",
         Status::Fail => "FAIL",
         Status::NotProved => "NOT PROVED",
+        Status::Exempt => "exempt",
     }
 }
 

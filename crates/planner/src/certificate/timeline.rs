@@ -95,6 +95,17 @@ impl<'a> Timeline<'a> {
         }
     }
 
+    /// Length \[s\], not less than it is however late it begins: no difference of times that round.
+    pub fn length_s(&self, interval: &Interval) -> f64 {
+        match *interval {
+            Interval::Pieces { first, end, .. } => {
+                let sum: f64 = self.pieces[first..end].iter().map(|piece| piece.length_s).sum();
+                sum * (1.0 + (end - first) as f64 * f64::EPSILON)
+            }
+            Interval::Within { u: [from, to], .. } => to - from,
+        }
+    }
+
     /// Start and end \[s\].
     pub fn times(&self, interval: &Interval) -> [f64; 2] {
         match *interval {

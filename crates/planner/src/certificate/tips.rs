@@ -14,6 +14,9 @@ const RESOLUTION: f64 = 2e-3;
 /// The same for the sine of the tilt.
 const TILT_RESOLUTION: f64 = 2e-4;
 
+/// By how much an angle between two directions may be wrong where it is small \[rad\].
+const TILT_ROUNDING_RAD: f64 = 1e-8;
+
 /// The same for the height of the contact \[m\].
 const HEIGHT_RESOLUTION_M: f64 = 5e-6;
 
@@ -48,14 +51,15 @@ impl Tips {
         let (washing, moving): (Vec<_>, Vec<_>) = schedule.stages.iter().partition(|s| s.kind == SegmentKind::Wash);
         watch_rates(arm, &mut tips.moving, &moving.into_iter().map(of).collect::<Vec<_>>());
         watch_rates(arm, &mut tips.washing, &washing.into_iter().map(of).collect::<Vec<_>>());
-        let sine = crate::trig::sin(limits.tilt_rad);
+        let sine = crate::trig::sin(limits.tilt_rad + TILT_ROUNDING_RAD);
         for (i, stage) in schedule.stages.iter().enumerate().filter(|(_, s)| is_at_plate(s.kind)) {
             let mut watch = Watch::new(sine, TILT_RESOLUTION);
             let bend = |s: &Stretch<'_>| arm.derivatives(s).second_of_axis();
             observe(arm, &mut watch, &[of(stage)], &sine_of_tilt, &bend);
             tips.tilt.push((i, watch));
             if let (SegmentKind::Wash, Some(plate)) = (stage.kind, plan.plates.get(stage.plate)) {
-                let height = plate.z_m + plan.scenario.wash.height_m;
+                // The sponge touches where the tip is in the plane of the plate, wherever the stroke is declared.
+                let height = plate.z_m;
                 let mut watch = Watch::new(crate::plan::PATH_TOLERANCE_M, HEIGHT_RESOLUTION_M);
                 let bend = |s: &Stretch<'_>| arm.derivatives(s).second();
                 observe(arm, &mut watch, &[of(stage)], &|m| (m.position.z - height).abs(), &bend);
@@ -108,7 +112,7 @@ impl Tips {
         all.push(promise(
             PromiseName::Tilt,
             &angle,
-            (limits.tilt_rad, Unit::Radian),
+            (limits.tilt_rad + TILT_ROUNDING_RAD, Unit::Radian),
             place(&tilt),
         ));
         let height = greatest(&self.height);

@@ -180,12 +180,13 @@ impl Part {
         Levers::from_fn(|i, _| if i < body { levers[i] + self.bounding } else { 0.0 })
     }
 
-    /// Whether the distance to another part is a closed form.
+    /// Whether the distance to another part is right to rounding: over the floor and between two spheres. Between segments
+    /// the closed form takes nearly parallel ones for parallel, which costs more the shorter they are.
     pub fn is_exact_with(&self, other: &Self) -> bool {
+        let is_sphere = |core: &Core| matches!(core, Core::Segment(half) if *half == 0.0);
         match (&self.core, &other.core) {
-            (Core::Floor, _) | (_, Core::Floor) | (Core::Segment(_), Core::Segment(_)) => true,
-            (Core::Segment(half), Core::Solid(..)) | (Core::Solid(..), Core::Segment(half)) => *half == 0.0,
-            (Core::Solid(..), Core::Solid(..)) => false,
+            (Core::Floor, _) | (_, Core::Floor) => true,
+            (a, b) => is_sphere(a) && is_sphere(b),
         }
     }
 

@@ -284,7 +284,7 @@ impl<'a> Stages<'a> {
             ),
             crossing: of_tip(limits.tip_speed_m_s, limits.tip_acceleration_m_s2),
             posture: PostureSettings {
-                tilt_max_rad: wash.tilt_max_deg.to_radians(),
+                tilt_max_rad: scenario.tilt_max_rad(),
                 clearance_m: wash.clearance_m,
             },
             homes,

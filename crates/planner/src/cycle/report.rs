@@ -41,15 +41,12 @@ impl CycleReport {
     /// Sums up a cycle and its certificate.
     #[must_use]
     pub fn new(cycle: &Cycle, certificate: Certificate) -> Self {
-        let (verdict, proof) = match certificate.verdict {
-            CertificateVerdict::Pass => (Verdict::Washed, "PROVED"),
-            CertificateVerdict::Fail => (Verdict::NotVerified, "NOT PROVED"),
+        let verdict = match certificate.verdict {
+            CertificateVerdict::Pass => Verdict::Washed,
+            CertificateVerdict::Fail => Verdict::NotVerified,
         };
         let duration_s = cycle.motion.duration_s();
-        let headline = format!(
-            "{proof}: {} plates washed whole, from home to home in {duration_s:.2} s",
-            cycle.order.len()
-        );
+        let headline = headline(cycle.order.len(), duration_s, &certificate);
         Self {
             scenario: cycle.scenario.name.clone(),
             seed: cycle.scenario.seed,
@@ -65,6 +62,34 @@ impl CycleReport {
             certificate,
         }
     }
+}
+
+/// Share of a plate from which on it counts as washed whole in words.
+const WHOLE: f64 = 0.995;
+
+/// The first line: what is proved, or which promises are not.
+fn headline(plates: usize, duration_s: f64, certificate: &Certificate) -> String {
+    let covered = certificate
+        .coverage
+        .iter()
+        .map(|plate| plate.at_least)
+        .fold(1.0, f64::min);
+    let broken: Vec<_> = certificate.broken().map(|promise| promise.name.words()).collect();
+    if certificate.verdict == CertificateVerdict::Fail {
+        let what = if broken.is_empty() {
+            "the hash".to_owned()
+        } else {
+            broken.join(", ")
+        };
+        return format!("NOT PROVED: a plan for {plates} plates in {duration_s:.2} s does not keep {what}");
+    }
+    // Rounded down: no more is said than is proved.
+    let share = if covered >= WHOLE {
+        "washed whole".to_owned()
+    } else {
+        format!("washed by at least {:.1} %", (1000.0 * covered).floor() / 10.0)
+    };
+    format!("PROVED: {plates} plates {share}, from home to home in {duration_s:.2} s")
 }
 
 fn largest_jerk(cycle: &Cycle) -> JointVector {

@@ -35,6 +35,7 @@ pub struct BaseFootprint {
 
 /// A plate: a cylinder from `z_m` − `thickness_m` up to `z_m`, base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Plate {
     /// Centre, x, metres.
     pub x_m: f64,

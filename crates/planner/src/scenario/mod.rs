@@ -345,6 +345,19 @@ impl Scenario {
         [start, self.robot.home_deg.unwrap_or(start)].map(|deg| JointVector::from(deg).map(f64::to_radians))
     }
 
+    /// Largest angle of the tool from a plate's normal \[rad\]: `wash.tilt_max_deg`, and no more than the sponge gives way by its
+    /// height `h` over its radius `s`, `asin(h / s)`. Beyond that its rim would have to go through the plate.
+    #[must_use]
+    pub fn tilt_max_rad(&self) -> f64 {
+        let asked = self.wash.tilt_max_deg.to_radians();
+        let gives_way = self.tool.sponge_height_m / self.tool.sponge_radius_m;
+        if gives_way < 1.0 {
+            asked.min(crate::trig::asin(gives_way))
+        } else {
+            asked
+        }
+    }
+
     /// The arc round the base.
     #[must_use]
     pub fn arc(&self) -> Arc {
