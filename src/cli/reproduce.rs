@@ -1,13 +1,12 @@
 //! `platewash reproduce`: what the paper's program really does, measured.
 
-use super::failure::Failure;
+use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
 use super::progress::Progress;
 use anyhow::anyhow;
 use clap::Args;
 use platewash::planner::reproduce::{ReproduceSettings, reproduce};
-use std::process::ExitCode;
 
 /// Most layouts that are simulated in a region: minutes of work.
 const MOST_LAYOUTS: usize = 10_000;
