@@ -7,6 +7,7 @@ use super::progress::Progress;
 use anyhow::anyhow;
 use clap::Args;
 use platewash::planner::reproduce::{ReproduceSettings, reproduce};
+use std::ops::ControlFlow;
 
 /// Most layouts that are simulated in a region: minutes of work.
 const MOST_LAYOUTS: usize = 10_000;
@@ -48,7 +49,10 @@ pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode
         seed: options.seed.unwrap_or(ReproduceSettings::default().seed),
     };
     let progress = Progress::new(options.quiet, "measuring dead ends");
-    let result = reproduce(&settings, &|done, total| progress.note(done, total));
+    let result = reproduce(&settings, &|done, total| {
+        progress.note(done, total);
+        ControlFlow::Continue(())
+    });
     drop(progress);
     let result = result?;
     if let Some(folder) = &options.out {
