@@ -174,14 +174,58 @@ impl ScenarioObject {
         }
     }
 
-    fn __getattr__<'py>(&self, py: Python<'py>, key: &str) -> PyResult<Bound<'py, PyAny>> {
-        let known = !key.starts_with('_') && self.table(py)?.contains_key(key);
-        if known {
-            return self.section(py, key);
-        }
-        Err(pyo3::exceptions::PyAttributeError::new_err(format!(
-            "a Scenario has no section '{key}'"
-        )))
+    /// What counts as done.
+    #[getter]
+    fn job<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "job")
+    }
+
+    /// The arm.
+    #[getter]
+    fn robot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "robot")
+    }
+
+    /// What it holds.
+    #[getter]
+    fn tool<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "tool")
+    }
+
+    /// Where the plates lie.
+    #[getter]
+    fn layout<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "layout")
+    }
+
+    /// The path on a plate.
+    #[getter]
+    fn wash<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "wash")
+    }
+
+    /// Inverse kinematics along the path.
+    #[getter]
+    fn ik<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "ik")
+    }
+
+    /// The way between plates.
+    #[getter]
+    fn transition<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "transition")
+    }
+
+    /// Limits beyond those of the arm's description.
+    #[getter]
+    fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "limits")
+    }
+
+    /// How the arm follows.
+    #[getter]
+    fn control<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "control")
     }
 
     fn __repr__(&self) -> String {
