@@ -15,7 +15,9 @@ joint vectors have shape (6,), many of them (N, 6), from the base to the tip. An
 from importlib.metadata import version as _version
 
 from ._core import (
+    Certificate,
     ClearanceModel,
+    Cycle,
     IkSolution,
     Job,
     Layout,
@@ -30,7 +32,9 @@ from ._core import (
     plan,
     reproduce,
     run_command,
+    sweep,
     transition_waypoints,
+    verify,
 )
 from ._errors import (
     IkError,
@@ -45,6 +49,7 @@ from ._errors import (
     ScenarioError,
     ShapeError,
     UrdfError,
+    VerifyError,
 )
 from ._records import CoverageRaster, IkBatch, IkBranches, Record
 from ._values import Coverage, IkSettings, Plate, Spiral, Stroke, Tool
@@ -52,9 +57,11 @@ from ._values import Coverage, IkSettings, Plate, Spiral, Stroke, Tool
 __version__: str = _version("pyplatewash")
 
 __all__ = [
+    "Certificate",
     "ClearanceModel",
     "Coverage",
     "CoverageRaster",
+    "Cycle",
     "IkBatch",
     "IkBranches",
     "IkError",
@@ -82,6 +89,7 @@ __all__ = [
     "Tool",
     "Trajectory",
     "UrdfError",
+    "VerifyError",
     "coverage",
     "coverage_raster",
     "cubic_samples",
@@ -89,5 +97,7 @@ __all__ = [
     "plan",
     "reproduce",
     "run_command",
+    "sweep",
     "transition_waypoints",
+    "verify",
 ]

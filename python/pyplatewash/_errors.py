@@ -120,8 +120,16 @@ class PlanError(PlatewashError):
     waypoint: int | None = None
     #: Joint at fault, 0 for joint 1.
     joint: int | None = None
-    #: Why, in one word, where there is one.
+    #: Why, in one word, where there is one: ``"unwashable"``, ``"line"``, ``"no_way"``, ``"home"``.
     cause: str | None = None
+    #: For a plate that cannot be washed whole: the share of its stroke that can.
+    share: float | None = None
+    #: For such a plate whose position was given: the nearest centre at which it can be, shape (2,) [m].
+    nearest_m: npt.NDArray[np.float64] | None = None
+
+
+class VerifyError(InputError):
+    """A plan says nothing that could be judged. A plan that breaks its promises is no error."""
 
 
 class InternalError(PlatewashError):

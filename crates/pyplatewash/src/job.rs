@@ -213,20 +213,3 @@ impl JobObject {
         Ok((slf.get_type().getattr("run")?, arguments))
     }
 }
-
-/// Plans a scenario (or the shipped name or file of one): the plan file, sealed.
-///
-/// Raises ScenarioError, LayoutError or PlanError. A paper's job that does not wash is no error: see `Plan.summary`.
-#[pyfunction]
-#[pyo3(name = "plan", signature = (scenario, *, seed=None))]
-pub fn plan_scenario(py: Python<'_>, scenario: ScenarioArgument<'_>, seed: Option<u64>) -> PyResult<PlanObject> {
-    let mut scenario = scenario.resolve(py)?;
-    scenario.seed = seed.unwrap_or(scenario.seed);
-    let planned = patiently(py, move |_| {
-        let job = Job::run(&scenario)?;
-        let report = job.report()?;
-        Ok::<_, platewash::PlanError>(Plan::new(&job, &report))
-    })?;
-    let plan = planned.map_err(|e| errors::plan(py, &e))?;
-    Ok(plan.map_err(|e| file_error(py, &e))?.into())
-}

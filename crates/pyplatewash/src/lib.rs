@@ -5,10 +5,12 @@
 //! Python's side (`Tool`, `Plate`, settings, records) are Python dataclasses in `python/pyplatewash`.
 
 mod arrays;
+mod certificate;
 mod clearance;
 mod command;
 mod coverage;
 mod curves;
+mod cycle;
 mod errors;
 mod job;
 mod layout;
@@ -27,6 +29,8 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = false)]
 mod _core {
     #[pymodule_export]
+    use crate::certificate::{CertificateObject, verify};
+    #[pymodule_export]
     use crate::clearance::ClearanceObject;
     #[pymodule_export]
     use crate::command::run_command;
@@ -35,7 +39,9 @@ mod _core {
     #[pymodule_export]
     use crate::curves::{_spiral, _stroke, cubic_samples, transition_waypoints};
     #[pymodule_export]
-    use crate::job::{JobObject, plan_scenario};
+    use crate::cycle::{CycleObject, plan, sweep};
+    #[pymodule_export]
+    use crate::job::JobObject;
     #[pymodule_export]
     use crate::layout::{LayoutObject, place_plates};
     #[pymodule_export]

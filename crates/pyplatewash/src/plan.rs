@@ -1,7 +1,9 @@
 //! `Plan`: the plan file.
 
+use crate::certificate::{self, CertificateObject};
 use crate::errors;
 use crate::layout::plates;
+use crate::robot::Robot;
 use crate::scenario::ScenarioObject;
 use crate::trajectory::TrajectoryObject;
 use crate::value::{to_python, to_record};
@@ -44,7 +46,11 @@ impl PlanObject {
     }
 }
 
-fn records<'py, T: Serialize>(py: Python<'py>, all: &[T]) -> PyResult<Bound<'py, PyList>> {
+/// Serialisable things as records.
+///
+/// # Errors
+/// Out of memory.
+pub fn records<'py, T: Serialize>(py: Python<'py>, all: &[T]) -> PyResult<Bound<'py, PyList>> {
     let list = PyList::empty(py);
     for one in all {
         list.append(to_record(py, one, None)?)?;
@@ -149,6 +155,12 @@ impl PlanObject {
         let knots = &self.inner.knots;
         let motion = Trajectory::from_knots(knots.t_s.clone(), knots.q_rad.clone(), knots.qd_rad_s.clone());
         Ok(motion.map_err(|e| errors::input(py, "knots", &e.to_string()))?.into())
+    }
+
+    /// The certificate of the plan: see `pyplatewash.verify`.
+    #[pyo3(signature = (robot=None))]
+    fn verify(slf: &Bound<'_, Self>, py: Python<'_>, robot: Option<&Bound<'_, Robot>>) -> PyResult<CertificateObject> {
+        certificate::verify(py, slf, robot)
     }
 
     fn __repr__(&self) -> String {
