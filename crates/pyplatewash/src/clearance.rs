@@ -35,9 +35,10 @@ fn record<'py>(py: Python<'py>, pair: &PairClearance) -> PyResult<Bound<'py, PyA
 }
 
 impl ClearanceObject {
-    fn one<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<JointVector> {
-        let q = arrays::joint_vector("q", q)?;
-        Ok(q)
+    fn one(q: &Bound<'_, PyAny>) -> PyResult<JointVector> {
+        let found = arrays::joint_vector("q", q)?;
+        finite(q.py(), &[found])?;
+        Ok(found)
     }
 }
 
@@ -51,20 +52,11 @@ impl ClearanceObject {
         tool: Option<Bound<'_, PyAny>>,
         plates: Vec<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let fields = tool.as_ref().map(|tool| {
-            let fields = tool.extract::<ToolFields>();
-            fields.map_err(|e| errors::wrong_type(py, "tool", &format!("a Tool is needed: {}", e.value(py))))
-        });
-        let section = match fields.transpose()? {
-            Some(fields) => fields.section(py)?,
+        let section = match &tool {
+            Some(tool) => ToolFields::of(tool)?.section(py)?,
             None => ToolSection::default(),
         };
-        let made = plates.iter().map(|plate| {
-            let fields = plate.extract::<PlateFields>();
-            let fields =
-                fields.map_err(|e| errors::wrong_type(py, "plates", &format!("Plates are needed: {}", e.value(py))));
-            fields?.plate(py)
-        });
+        let made = plates.iter().map(|plate| PlateFields::of(plate)?.plate(py));
         let made = made.collect::<PyResult<Vec<_>>>()?;
         let model = robot.get().model().clone();
         let inner = alone(py, || ClearanceModel::new(&model, &section, &made))?;
@@ -129,8 +121,7 @@ impl ClearanceObject {
         q: &Bound<'py, PyAny>,
         working: Vec<usize>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let q = self.one(q)?;
-        finite(py, &[q])?;
+        let q = Self::one(q)?;
         let found = alone(py, || self.inner.smallest(&q, &working))?;
         found.map(|pair| record(py, &pair)).transpose()
     }
@@ -145,8 +136,7 @@ impl ClearanceObject {
         required_m: f64,
         working: Vec<usize>,
     ) -> PyResult<Bound<'py, PyList>> {
-        let q = self.one(q)?;
-        finite(py, &[q])?;
+        let q = Self::one(q)?;
         let found = alone(py, || self.inner.too_near(&q, &working, required_m))?;
         let list = PyList::empty(py);
         for pair in &found {

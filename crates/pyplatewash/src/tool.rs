@@ -18,6 +18,21 @@ pub struct ToolFields {
 }
 
 impl ToolFields {
+    /// The fields of the argument called `tool`.
+    ///
+    /// # Errors
+    /// `InputTypeError` for what is no `Tool`.
+    pub fn of(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let wrong = |e: PyErr| {
+            errors::wrong_type(
+                value.py(),
+                "tool",
+                &format!("a Tool is needed: {}", e.value(value.py())),
+            )
+        };
+        value.extract().map_err(wrong)
+    }
+
     /// The tool.
     ///
     /// # Errors
@@ -59,6 +74,21 @@ pub struct PlateFields {
 }
 
 impl PlateFields {
+    /// The fields of one of the `plates`.
+    ///
+    /// # Errors
+    /// `InputTypeError` for what is no `Plate`.
+    pub fn of(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let wrong = |e: PyErr| {
+            errors::wrong_type(
+                value.py(),
+                "plates",
+                &format!("Plates are needed: {}", e.value(value.py())),
+            )
+        };
+        value.extract().map_err(wrong)
+    }
+
     /// The plate.
     ///
     /// # Errors

@@ -51,10 +51,13 @@ impl Robot {
         &self.model
     }
 
-    fn frame(&self, py: Python<'_>, name: Option<&str>, tool: Option<&ToolFields>) -> PyResult<Frame> {
+    fn frame(&self, py: Python<'_>, name: Option<&str>, tool: Option<&Bound<'_, PyAny>>) -> PyResult<Frame> {
         match (name, tool) {
             (None, None) => Ok(self.mount),
-            (None, Some(tool)) => Ok(platewash::planner::robot::tip_frame(&self.model, &tool.section(py)?)),
+            (None, Some(tool)) => Ok(platewash::planner::robot::tip_frame(
+                &self.model,
+                &ToolFields::of(tool)?.section(py)?,
+            )),
             (Some(_), Some(_)) => Err(errors::input(
                 py,
                 "frame",
@@ -180,9 +183,9 @@ impl Robot {
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
         frame: Option<&str>,
-        tool: Option<ToolFields>,
+        tool: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        forward::fk(self, py, q, &self.frame(py, frame, tool.as_ref())?)
+        forward::fk(self, py, q, &self.frame(py, frame, tool)?)
     }
 
     /// Geometric Jacobian of a frame at `q`: shape (6,) gives (6, 6), (N, 6) gives (N, 6, 6).
@@ -195,7 +198,7 @@ impl Robot {
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
         frame: Option<&str>,
-        tool: Option<ToolFields>,
+        tool: Option<&Bound<'_, PyAny>>,
         axes: &str,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let axes = match axes {
@@ -203,7 +206,7 @@ impl Robot {
             "local" => Axes::Local,
             _ => return Err(errors::input(py, "axes", "must be \"base\" or \"local\"")),
         };
-        forward::jacobian(self, py, q, &self.frame(py, frame, tool.as_ref())?, axes)
+        forward::jacobian(self, py, q, &self.frame(py, frame, tool)?, axes)
     }
 
     /// Yoshikawa's manipulability `|det J|` of a frame at `q` [m³]: shape (6,) gives a number, (N, 6) gives (N,).
@@ -213,9 +216,9 @@ impl Robot {
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
         frame: Option<&str>,
-        tool: Option<ToolFields>,
+        tool: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        forward::manipulability(self, py, q, &self.frame(py, frame, tool.as_ref())?)
+        forward::manipulability(self, py, q, &self.frame(py, frame, tool)?)
     }
 
     /// A configuration within the limits that brings the frame to `target`, shape (4, 4), found from `seed`, shape (6,), by
@@ -229,10 +232,10 @@ impl Robot {
         target: &Bound<'_, PyAny>,
         seed: Option<&Bound<'_, PyAny>>,
         frame: Option<&str>,
-        tool: Option<ToolFields>,
+        tool: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<IkSolutionRecord> {
-        let frame = self.frame(py, frame, tool.as_ref())?;
+        let frame = self.frame(py, frame, tool)?;
         inverse::one(&*self.solver(py, frame, settings)?, py, target, seed)
     }
 
@@ -247,9 +250,9 @@ impl Robot {
         target: &Bound<'py, PyAny>,
         previous: Option<&Bound<'py, PyAny>>,
         frame: Option<&str>,
-        tool: Option<ToolFields>,
+        tool: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let frame = self.frame(py, frame, tool.as_ref())?;
+        let frame = self.frame(py, frame, tool)?;
         inverse::all(&*self.solver(py, frame, None)?, py, target, previous)
     }
 
@@ -264,10 +267,10 @@ impl Robot {
         targets: &Bound<'py, PyAny>,
         seed: Option<&Bound<'py, PyAny>>,
         frame: Option<&str>,
-        tool: Option<ToolFields>,
+        tool: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let frame = self.frame(py, frame, tool.as_ref())?;
+        let frame = self.frame(py, frame, tool)?;
         inverse::path(self.solver(py, frame, settings)?, py, targets, seed)
     }
 
@@ -282,10 +285,10 @@ impl Robot {
         targets: &Bound<'py, PyAny>,
         seeds: Option<&Bound<'py, PyAny>>,
         frame: Option<&str>,
-        tool: Option<ToolFields>,
+        tool: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let frame = self.frame(py, frame, tool.as_ref())?;
+        let frame = self.frame(py, frame, tool)?;
         inverse::batch(&*self.solver(py, frame, settings)?, py, targets, seeds)
     }
 
