@@ -62,6 +62,8 @@ class ScenarioError(InputError):
     key: str | None = None
     #: What was expected there.
     expected: str | None = None
+    #: What was found there.
+    found: str | None = None
 
 
 class PlanFileError(InputError):
@@ -85,28 +87,28 @@ class IkError(PlatewashError):
     """No configuration was found; the best one and why it stopped there."""
 
     #: ``"unreachable"`` (proven), ``"limit"``, ``"local_minimum"``, ``"singular"`` or ``"iterations"``.
-    cause: str | None = None
+    cause: str
     #: Joint at its limit, 0 for joint 1.
     joint: int | None = None
     #: The best configuration found, shape (6,) [rad].
-    q: npt.NDArray[np.float64] | None = None
-    #: Linear systems and quadratic programs solved.
+    q: npt.NDArray[np.float64]
+    #: Linear systems and quadratic programs solved; None for a path that breaks off.
     iterations: int | None = None
     #: How far the joint would have to go beyond its limit [rad], where known.
     limit_excess_rad: float | None = None
-    #: How far the best configuration is off [m].
+    #: How far the best configuration is off [m]; None for a path that breaks off.
     position_error_m: float | None = None
-    #: How far the best configuration is turned [rad].
+    #: How far the best configuration is turned [rad]; None for a path that breaks off.
     orientation_error_rad: float | None = None
 
 
 class IkPathError(IkError):
-    """A path breaks off."""
+    """A path breaks off; ``cause`` may also be ``"branch_end"``, and ``q`` is the last configuration before."""
 
     #: Waypoint that is not reached.
-    waypoint: int | None = None
+    waypoint: int
     #: The configurations up to there, shape (K, 6) [rad].
-    solved: npt.NDArray[np.float64] | None = None
+    solved: npt.NDArray[np.float64]
 
 
 class PlanError(PlatewashError):

@@ -5,31 +5,32 @@ import json
 import pickle
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-pw = pytest.importorskip("pyplatewash")
+import pyplatewash as pw
 
 
 @pytest.fixture(scope="module")
-def cycle() -> "pw.Cycle":
+def cycle() -> pw.Cycle:
     return pw.Cycle.plan("kitchen")
 
 
 @pytest.fixture(scope="module")
-def job() -> "pw.Job":
+def job() -> pw.Job:
     return pw.Job.run("paper-appendix")
 
 
-def test_plans_are_the_commands_to_the_byte(platewash, tmp_path):
+def test_plans_are_the_commands_to_the_byte(platewash: Path, tmp_path: Path) -> None:
     for scenario in ("kitchen", "paper-appendix"):
         subprocess.run([platewash, "plan", "--quiet", "--scenario", scenario, "--out", tmp_path], check=True, capture_output=True)
         assert (tmp_path / "plan.json").read_text() == pw.plan(scenario).to_json()
         assert pw.Plan.load(tmp_path / "plan.json") == pw.plan(scenario)
 
 
-def test_the_kitchen_is_proved(cycle):
+def test_the_kitchen_is_proved(cycle: pw.Cycle) -> None:
     plan = cycle.to_plan()
     certificate = plan.verify()
     assert certificate.proved and certificate.verdict == "pass" and certificate.broken == []
@@ -41,7 +42,7 @@ def test_the_kitchen_is_proved(cycle):
     assert len(report.visits) == len(cycle.order) == len(plan.plates) == 4
 
 
-def test_a_changed_plan_is_found_out(cycle):
+def test_a_changed_plan_is_found_out(cycle: pw.Cycle) -> None:
     table = cycle.to_plan().to_dict()
     table["knots"]["q_rad"][100][0] += 0.5
     changed = pw.Plan.from_json(json.dumps(table))
@@ -54,7 +55,7 @@ def test_a_changed_plan_is_found_out(cycle):
         pw.Plan.load("/nowhere/plan.json")
 
 
-def test_a_plate_out_of_reach_is_named_with_what_could_be_done():
+def test_a_plate_out_of_reach_is_named_with_what_could_be_done() -> None:
     scenario = pw.Scenario.load("kitchen").replace(layout={"region": None, "positions_m": [[0.7, 0.0]], "count": 1})
     with pytest.raises(pw.PlanError) as caught:
         pw.plan(scenario)
@@ -64,14 +65,14 @@ def test_a_plate_out_of_reach_is_named_with_what_could_be_done():
     assert pw.plan(moved).verify().proved
 
 
-def test_eight_threads_plan_what_one_does():
+def test_eight_threads_plan_what_one_does() -> None:
     seeds = list(range(1, 9))
     alone = [pw.plan("kitchen", seed=seed).hash for seed in seeds]
     with ThreadPoolExecutor(8) as threads:
         assert list(threads.map(lambda seed: pw.plan("kitchen", seed=seed).hash, seeds)) == alone
 
 
-def test_a_sweep_is_its_plans():
+def test_a_sweep_is_its_plans() -> None:
     rows = pw.sweep("kitchen", [3, 1])
     assert [row.seed for row in rows] == [3, 1] and {row.outcome for row in rows} == {"proved"}
     assert rows[1].duration_s == pw.plan("kitchen", seed=1).summary.duration_s
@@ -79,7 +80,7 @@ def test_a_sweep_is_its_plans():
         pw.sweep("paper-text", [1])
 
 
-def test_the_papers_job_says_that_it_does_not_wash(job):
+def test_the_papers_job_says_that_it_does_not_wash(job: pw.Job) -> None:
     report = job.report()
     assert report.headline.startswith("NOT WASHED") and str(report).startswith("NOT WASHED")
     assert job.targets.shape == job.executed_tip.shape == (len(job), 3)
@@ -94,7 +95,7 @@ def test_the_papers_job_says_that_it_does_not_wash(job):
     assert job.to_csv().count("\n") == len(job) + 2
 
 
-def test_scenarios_are_read_changed_and_refused(tmp_path):
+def test_scenarios_are_read_changed_and_refused(tmp_path: Path) -> None:
     scenario = pw.Scenario.load("paper-appendix")
     assert "kitchen" in pw.Scenario.shipped()
     assert pw.Scenario.from_dict(scenario.to_dict()) == scenario == pw.Scenario.parse(scenario.to_toml())
@@ -119,21 +120,23 @@ def test_scenarios_are_read_changed_and_refused(tmp_path):
             pw.Scenario.from_dict(wrong)
 
 
-def test_plates_without_room_are_an_error_with_numbers():
+def test_plates_without_room_are_an_error_with_numbers() -> None:
     crowded = pw.Scenario.load("paper-text").replace(layout={"count": 200})
     with pytest.raises(pw.LayoutError) as caught:
         pw.place_plates(crowded)
-    assert caught.value.cause == "no_room" and caught.value.most_placed < caught.value.upper_bound < 200
+    error = caught.value
+    assert error.cause == "no_room" and error.most_placed is not None and error.upper_bound is not None
+    assert error.most_placed < error.upper_bound < 200
 
 
-def test_findings_come_with_words():
+def test_findings_come_with_words() -> None:
     given = pw.Scenario.load("paper-appendix").replace(layout={"region": None, "positions_m": [[0.3, 0.0], [0.35, 0.0]]})
     kinds = {finding.kind: str(finding) for finding in pw.place_plates(given).findings}
     assert "overlap by 240.0 mm" in kinds["plates_overlap"]
     assert len(given.check()) == len(kinds)
 
 
-def test_trajectories_are_their_knots(job):
+def test_trajectories_are_their_knots(job: pw.Job) -> None:
     motion = job.planned
     q, qd, qdd = motion.at(motion.t_s)
     np.testing.assert_allclose(q, motion.q_rad, atol=1e-12)
@@ -153,7 +156,7 @@ def test_trajectories_are_their_knots(job):
         pw.Trajectory.through(np.zeros((3, 6)), 0.0)
 
 
-def test_clearance_in_a_stack_is_clearance_one_by_one(cycle):
+def test_clearance_in_a_stack_is_clearance_one_by_one(cycle: pw.Cycle) -> None:
     model = pw.ClearanceModel(pw.Robot.irb120(), pw.Tool(length_m=0.15), cycle.layout.plates)
     q = cycle.motion.at(np.linspace(0, cycle.motion.duration_s, 40))[0]
     distances = model.distances(q)
@@ -161,18 +164,19 @@ def test_clearance_in_a_stack_is_clearance_one_by_one(cycle):
     for k in (0, 13, 39):
         np.testing.assert_array_equal(model.distances(q[k]), distances[k])
         nearest = model.smallest(q[k])
+        assert nearest is not None
         assert nearest.distance_m == distances[k].min()
         assert (nearest.a, nearest.b) in model.pairs
         near = model.too_near(q[k], nearest.distance_m + 1e-9)
         assert near[0].distance_m == nearest.distance_m
     assert pickle.loads(pickle.dumps(model)) == model
     with pytest.raises(pw.InputError, match="row 1"):
-        model.distances([[0] * 6, [np.nan] * 6])
+        model.distances([[0.0] * 6, [np.nan] * 6])
     with pytest.raises(TypeError):
-        pw.ClearanceModel(pw.Robot.irb120(), plates=[3])
+        pw.ClearanceModel(pw.Robot.irb120(), plates=[3])  # type: ignore[list-item]  # pyright: ignore[reportArgumentType]
 
 
-def test_the_raster_keeps_the_bounds():
+def test_the_raster_keeps_the_bounds() -> None:
     path = pw.Spiral(closing_ring=True).waypoints((0.1, 0.2))
     exact = pw.coverage(path, (0.1, 0.2), 0.145, 0.02)
     raster = pw.coverage_raster(path, (0.1, 0.2), 0.145, 0.02, cells=300)
@@ -185,7 +189,7 @@ def test_the_raster_keeps_the_bounds():
     assert exact.lower <= exact.fraction <= exact.upper
 
 
-def test_curves_are_what_they_say():
+def test_curves_are_what_they_say() -> None:
     spiral = pw.Spiral().waypoints((0.25, -0.25))
     np.testing.assert_allclose(np.linalg.norm(spiral - (0.25, -0.25), axis=1), np.linspace(0, 0.145, 55), atol=1e-15)
     through = pw.transition_waypoints((0.3, 0.0, 0.08), (0.0, 0.3, 0.08), radius_m=0.4, height_m=0.3)
@@ -199,7 +203,7 @@ def test_curves_are_what_they_say():
         lambda: pw.Spiral(points=10**12).waypoints(),
         lambda: pw.Spiral(turns=np.inf).waypoints(),
         lambda: pw.Stroke(radius_m=0.1, turns=3).sample(0.0),
-        lambda: pw.cubic_samples(np.zeros((2, 3)), 5, "quintic"),
+        lambda: pw.cubic_samples(np.zeros((2, 3)), 5, "quintic"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
         lambda: pw.cubic_samples(np.full((2, 3), np.nan), 5),
         lambda: pw.coverage(np.zeros((3, 2)), (0, 0), 0.1, 0.02, cell_m=1e-12),
         lambda: pw.coverage_raster(np.zeros((3, 2)), (0, 0), 0.1, 0.02, cells=10**6),
@@ -208,7 +212,7 @@ def test_curves_are_what_they_say():
             call()
 
 
-def test_reproduce_is_the_commands(platewash):
+def test_reproduce_is_the_commands(platewash: Path) -> None:
     ours = pw.reproduce(layouts=4, draws=200, seed=2)
     theirs = subprocess.run(
         [platewash, "reproduce", "--quiet", "--json", "--layouts", "4", "--draws", "200", "--seed", "2"],
@@ -219,7 +223,7 @@ def test_reproduce_is_the_commands(platewash):
     assert str(ours).startswith("The paper's program, measured")
 
 
-def test_copies_and_pickles_are_equal(cycle, job):
+def test_copies_and_pickles_are_equal(cycle: pw.Cycle, job: pw.Job) -> None:
     plan = cycle.to_plan()
     things = [cycle, job, plan, job.plan(), plan.verify(), cycle.scenario, cycle.layout, cycle.motion, job.report()]
     things += [pw.coverage_raster(np.zeros((3, 2)), (0, 0), 0.1, 0.02, cells=5), pw.Coverage(0.5, 0.4, 0.6)]

@@ -1,25 +1,33 @@
 """The wheel's kinematics: shapes, agreement with Pinocchio, and what is refused."""
 
+# pyright: reportAttributeAccessIssue=false
+# (Pinocchio is compiled; its names are hidden from pyright.)
 import copy
 import pickle
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pinocchio as pin
 import pytest
 
-pw = pytest.importorskip("pyplatewash")
+import pyplatewash as pw
+
+Floats = npt.NDArray[np.float64]
 
 
 @pytest.fixture(scope="module")
-def robot() -> "pw.Robot":
+def robot() -> pw.Robot:
     return pw.Robot.irb120()
 
 
-def configurations(robot, n: int, seed: int = 1) -> np.ndarray:
+def configurations(robot: pw.Robot, n: int, seed: int = 1) -> Floats:
     return np.random.default_rng(seed).uniform(robot.lower, robot.upper, (n, 6))
 
 
-def test_poses_and_jacobians_are_pinocchios(robot, irb120, random_configurations):
+def test_poses_and_jacobians_are_pinocchios(robot: pw.Robot, irb120: Any, random_configurations: Floats) -> None:
     data = irb120.createData()
     frame = irb120.getFrameId("tool0")
     poses, jacobians = robot.fk(random_configurations), robot.jacobian(random_configurations)
@@ -35,12 +43,12 @@ def test_poses_and_jacobians_are_pinocchios(robot, irb120, random_configurations
         np.testing.assert_allclose(robot.jacobian(q), jacobians[k], atol=1e-12)
 
 
-def test_shapes_in_are_shapes_out(robot):
+def test_shapes_in_are_shapes_out(robot: pw.Robot) -> None:
     for n in (0, 1, 5, 600):
         q = np.zeros((n, 6))
         assert robot.fk(q).shape == (n, 4, 4)
         assert robot.jacobian(q).shape == (n, 6, 6)
-        assert robot.manipulability(q).shape == (n,)
+        assert np.shape(robot.manipulability(q)) == (n,)
         assert robot.limit_margins(q).shape == (n, 6)
         assert len(robot.ik_batch(robot.fk(q), q)) == n
         assert robot.ik_path(robot.fk(q)).shape == (n, 6)
@@ -60,13 +68,13 @@ def test_shapes_in_are_shapes_out(robot):
         lambda q: np.ascontiguousarray(np.hstack([q, q]))[:, :6],
     ],
 )
-def test_anything_array_like_is_the_same(robot, make):
+def test_anything_array_like_is_the_same(robot: pw.Robot, make: Callable[[Floats], Any]) -> None:
     q = configurations(robot, 20)
     np.testing.assert_array_equal(robot.fk(make(q)), robot.fk(q))
     assert robot.fk(np.zeros(6, int)).tolist() == robot.fk([0] * 6).tolist() == robot.fk(range(1)[:0] or [0.0] * 6).tolist()
 
 
-def test_unaligned_and_read_only_arrays_are_read(robot):
+def test_unaligned_and_read_only_arrays_are_read(robot: pw.Robot) -> None:
     q = configurations(robot, 3)
     raw = np.zeros(q.nbytes + 1, np.uint8)[1:].view(np.float64).reshape(3, 6)
     raw[:] = q
@@ -75,7 +83,7 @@ def test_unaligned_and_read_only_arrays_are_read(robot):
 
 
 @pytest.mark.parametrize("shape", [(), (5,), (7,), (6, 1), (3, 5), (2, 3, 6), (0,)])
-def test_a_wrong_shape_is_named_with_the_shape_wanted(robot, shape):
+def test_a_wrong_shape_is_named_with_the_shape_wanted(robot: pw.Robot, shape: tuple[int, ...]) -> None:
     with pytest.raises(pw.ShapeError) as caught:
         robot.fk(np.zeros(shape))
     assert caught.value.argument == "q" and caught.value.found == shape
@@ -87,12 +95,12 @@ def test_a_wrong_shape_is_named_with_the_shape_wanted(robot, shape):
     "value",
     ["abc", b"123456", [None] * 6, [1j] * 6, object(), [[1, 2], [3]], {}, {1: 2}, np.zeros(6, "M8[s]"), [True] * 6, None],
 )
-def test_what_holds_no_numbers_is_a_type_error(robot, value):
+def test_what_holds_no_numbers_is_a_type_error(robot: pw.Robot, value: Any) -> None:
     with pytest.raises(TypeError):
         robot.fk(value)
 
 
-def test_nan_goes_through_fk_and_is_refused_by_ik(robot):
+def test_nan_goes_through_fk_and_is_refused_by_ik(robot: pw.Robot) -> None:
     assert np.isnan(robot.fk([np.nan] * 6)[:3]).all()
     target = robot.fk([0.1] * 6)
     for bad in (np.full((4, 4), np.nan), np.full((4, 4), np.inf), np.zeros((4, 4)), 2 * target, np.diag([1.0, 1, -1, 1])):
@@ -102,10 +110,10 @@ def test_nan_goes_through_fk_and_is_refused_by_ik(robot):
     with pytest.raises(pw.InputError, match="joint 3"):
         robot.ik(target, [0, 0, np.nan, 0, 0, 0])
     with pytest.raises(pw.InputError, match="row 1"):
-        robot.ik_batch([target, target], [[0] * 6, [np.inf] * 6])
+        robot.ik_batch([target, target], [[0.0] * 6, [np.inf] * 6])
 
 
-def test_ik_answers_within_tolerance_and_limits(robot):
+def test_ik_answers_within_tolerance_and_limits(robot: pw.Robot) -> None:
     q = configurations(robot, 200)
     for one, target in zip(q, robot.fk(q), strict=True):
         answer = robot.ik(target)
@@ -120,7 +128,7 @@ def test_ik_answers_within_tolerance_and_limits(robot):
         )
 
 
-def test_a_batch_is_its_rows(robot):
+def test_a_batch_is_its_rows(robot: pw.Robot) -> None:
     q = configurations(robot, 3000)
     targets, seeds = robot.fk(q), robot.lower + (robot.upper - robot.lower) * 0.5
     targets[7, :3, 3] += 3.0
@@ -135,17 +143,17 @@ def test_a_batch_is_its_rows(robot):
         robot.ik_batch(targets, np.zeros((3, 6)))
 
 
-def test_an_unsolved_target_says_why_and_how_near(robot):
+def test_an_unsolved_target_says_why_and_how_near(robot: pw.Robot) -> None:
     target = np.eye(4)
     target[0, 3] = 3.0
     with pytest.raises(pw.IkError) as caught:
         robot.ik(target)
     error = pickle.loads(pickle.dumps(caught.value))
-    assert error.cause == "unreachable" and error.q.shape == (6,) and error.position_error_m > 2
+    assert error.cause == "unreachable" and error.q.shape == (6,) and error.position_error_m is not None and error.position_error_m > 2
     assert np.linalg.norm(robot.fk(error.q)[:3, 3] - target[:3, 3]) == pytest.approx(error.position_error_m)
 
 
-def test_a_path_breaks_off_where_it_leaves(robot):
+def test_a_path_breaks_off_where_it_leaves(robot: pw.Robot) -> None:
     start = robot.fk([0.1, 0.3, 0.1, 0.2, 1.0, 0.0])
     targets = np.repeat(start[None], 200, axis=0)
     targets[:, 0, 3] += np.linspace(0, 0.8, 200)
@@ -155,9 +163,10 @@ def test_a_path_breaks_off_where_it_leaves(robot):
     assert error.solved.shape == (error.waypoint, 6) and 0 < error.waypoint < 200
     np.testing.assert_allclose(robot.fk(error.solved), targets[: error.waypoint], atol=3e-6)
     assert np.abs(np.diff(error.solved, axis=0)).max() < 0.5
+    np.testing.assert_array_equal(error.q, error.solved[-1])
 
 
-def test_frames_and_tips(robot):
+def test_frames_and_tips(robot: pw.Robot) -> None:
     q = configurations(robot, 1)[0]
     tool0, matlab = robot.fk(q, "tool0"), robot.fk(q, "matlab_tool0")
     np.testing.assert_allclose(tool0[:3, 2], matlab[:3, 0], atol=1e-12)  # z here, x there: both leave the flange.
@@ -171,10 +180,10 @@ def test_frames_and_tips(robot):
     with pytest.raises(pw.InputError, match="length_m"):
         robot.fk(q, tool=pw.Tool(length_m=np.nan))
     with pytest.raises(TypeError):
-        robot.fk(q, tool="hammer")
+        robot.fk(q, tool="hammer")  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
 
 
-def test_other_arms_load_and_broken_ones_are_named(irb120_urdf, fixtures, tmp_path):
+def test_other_arms_load_and_broken_ones_are_named(irb120_urdf: Path, fixtures: Path, tmp_path: Path) -> None:
     text = irb120_urdf.read_text()
     robot = pw.Robot.from_urdf(text)
     assert pw.Robot.load(irb120_urdf).sha256 == robot.sha256 == pw.Robot.irb120().sha256
@@ -190,17 +199,17 @@ def test_other_arms_load_and_broken_ones_are_named(irb120_urdf, fixtures, tmp_pa
         other.ik_all(other.fk([0.1] * 6))
 
 
-def test_settings_are_checked(robot):
+def test_settings_are_checked(robot: pw.Robot) -> None:
     target = robot.fk([0.1] * 6)
     loose = robot.ik(target, settings=pw.IkSettings(position_tolerance_m=1e-3, analytic_starts=False))
     assert loose.position_error_m <= 1e-3
     with pytest.raises(pw.InputError, match="position_tolerance_m"):
         robot.ik(target, settings=pw.IkSettings(position_tolerance_m=-1))
     with pytest.raises(TypeError):
-        robot.ik(target, settings=3)
+        robot.ik(target, settings=3)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
 
 
-def test_copies_and_pickles_are_equal(robot):
+def test_copies_and_pickles_are_equal(robot: pw.Robot) -> None:
     answer = robot.ik(robot.fk([0.1] * 6))
     batch = robot.ik_batch(robot.fk([[0.1] * 6]))
     branches = robot.ik_all(robot.fk([0.1] * 6))

@@ -73,11 +73,13 @@ pub fn ik_path(py: Python<'_>, error: &IkPathError) -> PyErr {
             solved: q,
         } => {
             let (cause, joint) = path_break(reason);
+            let last = q.last().and_then(|q| arrays::array(py, &[6], q.as_slice()).ok());
             let fields = [
                 ("waypoint", any(py, *waypoint)),
                 ("cause", any(py, cause)),
                 ("joint", joint.and_then(|joint| any(py, joint))),
                 ("solved", solved(q)),
+                ("q", last.map(Bound::into_any)),
             ];
             raise(py, "IkPathError", &message, &fields)
         }
