@@ -136,11 +136,23 @@ def test_a_batch_is_its_rows(robot: pw.Robot) -> None:
     assert not batch.solved[7] and batch.causes == {7: "unreachable"} and batch.solved.sum() == 2999
     near = robot.ik_batch(robot.fk(q), np.clip(q + 1e-3, robot.lower, robot.upper))
     assert near.solved.all() and np.abs(near.q - q).max() < 0.1
+    np.testing.assert_allclose(robot.fk(near.q), robot.fk(q), atol=3e-6)
     for k in (0, 7, 99):
         if k != 7:
             np.testing.assert_allclose(batch.q[k], robot.ik(targets[k], seeds).q, atol=1e-9)
     with pytest.raises(pw.ShapeError):
         robot.ik_batch(targets, np.zeros((3, 6)))
+
+
+def test_every_rotation_is_read_as_it_is(robot: pw.Robot) -> None:
+    # Half turns and nearly half turns about each axis and between, where three of a quaternion's four formulas break.
+    for axis in [*np.eye(3), [1, 1, 0], [0, 1, -1], [1, -1, 1], [1, 2, 3]]:
+        for angle in (0, 1e-9, 1e-4, np.pi / 2, np.pi - 1e-4, np.pi - 1e-9, np.pi, -2.0):
+            target = pin.SE3(pin.AngleAxis(angle, np.array(axis) / np.linalg.norm(axis)).matrix(), np.array([0.3, 0.1, 0.4])).homogeneous
+            branches = robot.ik_all(target)
+            np.testing.assert_allclose(robot.fk(branches.q), np.broadcast_to(target, (len(branches), 4, 4)), atol=1e-8)
+            batch = robot.ik_batch([target, target])
+            assert batch.solved.all() == (len(branches) > 0)
 
 
 def test_an_unsolved_target_says_why_and_how_near(robot: pw.Robot) -> None:

@@ -3,19 +3,15 @@
 //! A contiguous array of doubles is read where it lies. Anything else that NumPy makes an array of real numbers from (lists,
 //! integers, strides, other byte orders) is copied once. Wrong shapes are answered with the shape found and the shapes wanted.
 
-use crate::errors::{self, Input};
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use crate::errors;
 use numpy::{
     Element, PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn,
     PyUntypedArrayMethods,
 };
-use platewash::{JointVector, Pose};
+use platewash::JointVector;
 use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
-
-/// Entries of a rotation matrix may be this far from orthonormal.
-const ORTHONORMAL: f64 = 1e-6;
 
 /// Shapes that an argument may have, as words for a message.
 #[derive(Debug, Clone, Copy)]
@@ -169,36 +165,6 @@ pub fn rows<const N: usize>(name: &'static str, value: &Bound<'_, PyAny>) -> PyR
     let numbers = Numbers::read(name, value, wanted)?;
     let (rows, _) = numbers.values()?.as_chunks::<N>();
     Ok(rows.to_vec())
-}
-
-/// A pose `T_base_frame` from a 4 × 4 matrix, row by row.
-///
-/// # Errors
-/// What is wrong with it, in words.
-pub fn pose(matrix: &[f64]) -> Result<Pose, Input> {
-    let Ok(m) = <&[f64; 16]>::try_from(matrix) else {
-        return Err(Input("16 numbers are needed".to_owned()));
-    };
-    if let Some(found) = m.iter().find(|v| !v.is_finite()) {
-        return Err(Input(format!("entries must be finite; found {found}")));
-    }
-    if m[12..] != [0.0, 0.0, 0.0, 1.0] {
-        let row = &m[12..];
-        return Err(Input(format!("the last row must be (0, 0, 0, 1); found {row:?}")));
-    }
-    let rotation = Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
-    let off = (rotation.tr_mul(&rotation) - Matrix3::identity()).amax();
-    if off > ORTHONORMAL {
-        return Err(Input(format!(
-            "the upper left 3 × 3 must be a rotation; its columns are {off:.1e} from orthonormal"
-        )));
-    }
-    if rotation.determinant() < 0.0 {
-        return Err(Input("the upper left 3 × 3 is a reflection, no rotation".to_owned()));
-    }
-    let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
-    let quaternion = UnitQuaternion::new_normalize(quaternion.into_inner());
-    Ok(Pose::from_parts(Vector3::new(m[3], m[7], m[11]).into(), quaternion))
 }
 
 /// What NumPy makes of a value, as contiguous doubles.

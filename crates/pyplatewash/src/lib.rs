@@ -15,6 +15,7 @@ mod errors;
 mod job;
 mod layout;
 mod plan;
+mod pose;
 mod reproduce;
 mod robot;
 mod scenario;

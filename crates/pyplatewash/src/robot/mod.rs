@@ -1,7 +1,9 @@
 //! `Robot`: the arm as Python sees it.
 
+mod batch;
 mod forward;
 mod inverse;
+mod rows;
 mod settings;
 mod source;
 
@@ -289,7 +291,7 @@ impl Robot {
         settings: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let frame = self.frame(py, frame, tool)?;
-        inverse::batch(&*self.solver(py, frame, settings)?, py, targets, seeds)
+        batch::solve(&*self.solver(py, frame, settings)?, py, targets, seeds)
     }
 
     fn __repr__(&self) -> String {
