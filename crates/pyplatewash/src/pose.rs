@@ -15,6 +15,37 @@ pub fn pose(matrix: &[f64]) -> Result<Pose, Input> {
     let Ok(m) = <&[f64; 16]>::try_from(matrix) else {
         return Err(Input("16 numbers are needed".to_owned()));
     };
+    Ok(scaled(m, multiple(m)?))
+}
+
+/// The same of many, into `poses` in place of what was there; `room` is scratch.
+///
+/// Roots and divisions wait for each other within one pose, but not from pose to pose: they have a loop of their own.
+///
+/// # Errors
+/// The first matrix that is no pose, and what is wrong with it.
+pub fn poses(
+    matrices: &[[f64; 16]],
+    room: &mut Vec<Quaternion<f64>>,
+    poses: &mut Vec<Pose>,
+) -> Result<(), (usize, Input)> {
+    room.clear();
+    for (k, matrix) in matrices.iter().enumerate() {
+        room.push(multiple(matrix).map_err(|e| (k, e))?);
+    }
+    poses.clear();
+    poses.extend(matrices.iter().zip(room).map(|(matrix, q)| scaled(matrix, *q)));
+    Ok(())
+}
+
+/// A pose with a matrix's translation and a multiple of its quaternion.
+fn scaled(m: &[f64; 16], quaternion: Quaternion<f64>) -> Pose {
+    let rotation = UnitQuaternion::new_normalize(quaternion);
+    Pose::from_parts(Vector3::new(m[3], m[7], m[11]).into(), rotation)
+}
+
+/// A multiple of the quaternion of a matrix that is a pose.
+fn multiple(m: &[f64; 16]) -> Result<Quaternion<f64>, Input> {
     if let Some(found) = m.iter().find(|v| !v.is_finite()) {
         return Err(Input(format!("entries must be finite; found {found}")));
     }
@@ -26,8 +57,7 @@ pub fn pose(matrix: &[f64]) -> Result<Pose, Input> {
     if !surely_rotation(&rows) {
         rotation_or_why(&rows)?;
     }
-    let quaternion = quaternion(&rows);
-    Ok(Pose::from_parts(Vector3::new(m[3], m[7], m[11]).into(), quaternion))
+    Ok(quaternion(&rows))
 }
 
 /// Whether three rows are a rotation to well within [`ORTHONORMAL`]: two unit rows at right angles, and their product.
@@ -59,9 +89,9 @@ fn rotation_or_why(rows: &[f64; 9]) -> Result<(), Input> {
     Ok(())
 }
 
-/// The quaternion of a rotation: of the four rows of `4 q qᵀ`, which the entries of the matrix add up to, the one with the
-/// largest diagonal, scaled to length 1 (Shepperd, J. Guidance and Control 1, 1978). No branches: they cost more than the rest.
-fn quaternion(&[a, b, c, d, e, f, g, h, i]: &[f64; 9]) -> UnitQuaternion<f64> {
+/// A multiple of the quaternion of a rotation: of the four rows of `4 q qᵀ`, which the entries of the matrix add up to, the one with the
+/// largest diagonal (Shepperd, J. Guidance and Control 1, 1978). No branches: they cost more than the rest.
+fn quaternion(&[a, b, c, d, e, f, g, h, i]: &[f64; 9]) -> Quaternion<f64> {
     let squares = [1.0 + a + e + i, 1.0 + a - e - i, 1.0 - a + e - i, 1.0 - a - e + i];
     let (wx, wy, wz) = (h - f, c - g, d - b);
     let (xy, xz, yz) = (b + d, c + g, f + h);
@@ -78,5 +108,5 @@ fn quaternion(&[a, b, c, d, e, f, g, h, i]: &[f64; 9]) -> UnitQuaternion<f64> {
     } else {
         first
     }];
-    UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z))
+    Quaternion::new(w, x, y, z)
 }

@@ -2,6 +2,7 @@
 
 use crate::errors::{self, Input};
 use crate::pose;
+use nalgebra::Quaternion;
 use platewash::kinematics::batch::{self, Path};
 use platewash::{IkError, IkSolution, IkSolver, JointVector, Pose};
 
@@ -43,6 +44,7 @@ pub struct Problems<'a> {
 
 /// What a thread works with, chunk after chunk.
 pub struct Desk {
+    room: Vec<Quaternion<f64>>,
     targets: Vec<Pose>,
     seeds: Vec<JointVector>,
     answers: Vec<Result<IkSolution, IkError>>,
@@ -56,6 +58,7 @@ impl Desk {
             position: [f64::NAN; 3],
         };
         Self {
+            room: Vec::with_capacity(CHUNK),
             targets: Vec::with_capacity(CHUNK),
             seeds: match problems.seeds {
                 Seeds::One(seed) => vec![seed; CHUNK],
@@ -131,11 +134,8 @@ impl<'a> Rows<'a> {
     /// The first row that cannot be worked on.
     pub fn solve(&mut self, desk: &mut Desk, problems: &Problems<'_>) -> Result<Causes, Refused> {
         let (first, n) = (self.first, self.q.len());
-        desk.targets.clear();
-        for (k, matrix) in problems.matrices[first..first + n].iter().enumerate() {
-            let target = pose::pose(matrix).map_err(|e| Refused::Pose(first + k, e))?;
-            desk.targets.push(target);
-        }
+        let matrices = &problems.matrices[first..first + n];
+        pose::poses(matrices, &mut desk.room, &mut desk.targets).map_err(|(k, e)| Refused::Pose(first + k, e))?;
         let seeds = match problems.seeds {
             Seeds::One(_) => &desk.seeds[..n],
             Seeds::Each(seeds) => &seeds[first..first + n],
