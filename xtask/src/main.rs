@@ -3,7 +3,6 @@
 //!     cargo xtask test [--only lint|rust|python]    every test there is, or one part of them
 //!     cargo xtask bench [ARGUMENTS]                 the benchmarks; arguments go to criterion
 //!     cargo xtask docs                              writes the pages that are made from the program
-//!     cargo xtask package                           the Python source package, built and installed outside the checkout
 
 mod python;
 mod step;
@@ -17,8 +16,7 @@ use suite::Part;
 const USAGE: &str = "\
 cargo xtask test [--only lint|rust|python]    every test there is, or one part of them
 cargo xtask bench [ARGUMENTS]                 the benchmarks; arguments go to criterion
-cargo xtask docs                              writes the pages that are made from the program
-cargo xtask package                           the Python source package, built and installed outside the checkout";
+cargo xtask docs                              writes the pages that are made from the program";
 
 /// What to do.
 #[derive(Debug, PartialEq, Eq)]
@@ -26,7 +24,6 @@ enum Chore {
     Test(Option<Part>),
     Bench(Vec<String>),
     Docs,
-    Package,
     Help,
 }
 
@@ -43,7 +40,6 @@ fn main() -> ExitCode {
         Chore::Test(only) => suite::run(only),
         Chore::Bench(arguments) => suite::bench(&arguments),
         Chore::Docs => suite::docs(),
-        Chore::Package => wheel::package(),
         Chore::Help => {
             println!("{USAGE}");
             Ok(())
@@ -65,7 +61,6 @@ fn parse(arguments: &[String]) -> Result<Chore> {
         ["test", "--only", part] => Part::named(part).map(|part| Chore::Test(Some(part))),
         ["bench", ..] => Ok(Chore::Bench(arguments[1..].to_vec())),
         ["docs"] => Ok(Chore::Docs),
-        ["package"] => Ok(Chore::Package),
         [] | ["help" | "--help" | "-h"] => Ok(Chore::Help),
         _ => bail!("unknown arguments: {}", words.join(" ")),
     }
@@ -85,7 +80,6 @@ mod tests {
         assert_eq!(parsed("test --only python"), Some(Chore::Test(Some(Part::Python))));
         assert_eq!(parsed("bench ik_warm"), Some(Chore::Bench(vec!["ik_warm".to_owned()])));
         assert_eq!(parsed("docs"), Some(Chore::Docs));
-        assert_eq!(parsed("package"), Some(Chore::Package));
         assert_eq!(parsed(""), Some(Chore::Help));
     }
 
