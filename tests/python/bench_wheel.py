@@ -76,7 +76,7 @@ def beside_rust(benchmark: Any, rust: Rust, work: str, ours: Callable[[], Any], 
 
 @pytest.mark.benchmark(group="fk of 100,000 configurations")
 def test_fk_ours(benchmark: Any, rust: Rust) -> None:
-    beside_rust(benchmark, rust, "fk", lambda: robot.fk(Q))
+    beside_rust(benchmark, rust, "fk", lambda: robot.fk(Q), rounds=201)
 
 
 @pytest.mark.benchmark(group="fk of 100,000 configurations")
