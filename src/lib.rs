@@ -18,6 +18,13 @@
 //! # Ok::<(), platewash::PlanError>(())
 //! ```
 
+#[cfg(feature = "command")]
+pub mod cli;
+
+// The command is written as a user of this library would write it.
+#[cfg(feature = "command")]
+extern crate self as platewash;
+
 pub use platewash_kinematics as kinematics;
 pub use platewash_planner as planner;
 

@@ -1,7 +1,5 @@
 //! The `platewash` command.
 
-mod cli;
-
 fn main() -> std::process::ExitCode {
-    cli::main()
+    platewash::cli::main(std::env::args_os()).into()
 }

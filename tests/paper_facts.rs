@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash::planner::reproduce::{ReproduceSettings, Reproduction, reproduce};
+use std::ops::ControlFlow;
 
 /// Dead-end rates in percent: key, earlier value, its 95 % half-width (binomial with 1500 runs where not stated).
 const DEAD_ENDS: [(&str, f64, f64); 6] = [
@@ -32,7 +33,7 @@ fn measured() -> Reproduction {
         draws: 20_000,
         seed: 1,
     };
-    reproduce(&settings, &|_, _| ()).unwrap()
+    reproduce(&settings, &|_, _| ControlFlow::Continue(())).unwrap()
 }
 
 fn value(r: &Reproduction, key: &str) -> (f64, f64) {
@@ -125,7 +126,8 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
     };
     let with = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        serde_json::to_string(&pool.install(|| reproduce(&settings, &|_, _| ()).unwrap())).unwrap()
+        serde_json::to_string(&pool.install(|| reproduce(&settings, &|_, _| ControlFlow::Continue(())).unwrap()))
+            .unwrap()
     };
     assert_eq!(with(1), with(2));
     assert_eq!(with(1), with(8));

@@ -1,6 +1,6 @@
 //! `platewash run` and `plan` of a certified job.
 
-use super::failure::Failure;
+use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::plan::{self, PlanArguments};
 use super::progress::Progress;
@@ -8,7 +8,6 @@ use super::{output, run};
 use platewash::planner::certificate;
 use platewash::planner::cycle::CycleReport;
 use platewash::{Cycle, Scenario};
-use std::process::ExitCode;
 
 /// Plans the cycle and writes the plan and its CSV; nothing is proved.
 pub fn plan(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -> Result<ExitCode, Failure> {

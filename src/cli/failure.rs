@@ -6,7 +6,6 @@ use platewash::planner::plan::PlanFileError;
 use platewash::planner::robot::RobotError;
 use platewash::planner::scenario::ScenarioError;
 use std::io::Write;
-use std::process::ExitCode;
 
 /// Exit code of an internal error.
 pub const INTERNAL: u8 = 1;
@@ -16,6 +15,21 @@ pub const INPUT: u8 = 2;
 pub const INFEASIBLE: u8 = 3;
 /// Exit code of a job whose execution fails the checks.
 pub const NOT_VERIFIED: u8 = 4;
+
+/// How the command ended: a number that a caller can read, which the standard library's type hides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ExitCode(pub u8);
+
+impl ExitCode {
+    /// Done.
+    pub const SUCCESS: Self = Self(0);
+}
+
+impl From<u8> for ExitCode {
+    fn from(code: u8) -> Self {
+        Self(code)
+    }
+}
 
 /// A message for standard error and an exit code.
 #[derive(Debug)]

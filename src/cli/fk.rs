@@ -1,7 +1,7 @@
 //! `platewash fk`: where the arm is, and how near it comes to itself and its surroundings.
 
 use super::angles::JointArguments;
-use super::failure::Failure;
+use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::{output, robot};
 use clap::Args;
@@ -12,7 +12,6 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 /// Arguments of `fk`.
 #[derive(Debug, Args)]

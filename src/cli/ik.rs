@@ -1,7 +1,7 @@
 //! `platewash ik`: a configuration for one pose.
 
 use super::angles::{Unit, joints};
-use super::failure::{self, Failure};
+use super::failure::{self, ExitCode, Failure};
 use super::fk::{FramePose, both_units};
 use super::options::Options;
 use super::output;
@@ -13,7 +13,6 @@ use platewash::kinematics::rotation::from_rpy;
 use platewash::planner::{job, robot};
 use platewash::{Frame, IkError, IkSettings, IkSolver, JointVector, Pose, RobotModel, Scenario, ToolFrame};
 use serde::Serialize;
-use std::process::ExitCode;
 
 /// Most random restarts: seconds of work.
 const MOST_RESTARTS: usize = 10_000;

@@ -1,13 +1,12 @@
 //! `platewash layout`: the plates and what is wrong with them.
 
-use super::failure::Failure;
+use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
 use platewash::planner::job;
 use platewash::planner::layout::{Layout, LayoutSource};
 use platewash::{PlanError, planner::robot};
 use std::fmt::Write;
-use std::process::ExitCode;
 
 /// Places the plates; with `--out`, writes `layout.json`.
 pub fn run(options: &Options) -> Result<ExitCode, Failure> {

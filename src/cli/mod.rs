@@ -20,10 +20,10 @@ mod validate;
 mod verify;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use failure::Failure;
+use failure::{ExitCode, Failure};
 use options::Options;
-use std::io::ErrorKind;
-use std::process::ExitCode;
+use std::ffi::OsString;
+use std::io::{ErrorKind, Write};
 
 /// Plan, check and report the washing of plates by a six-axis arm.
 ///
@@ -66,11 +66,16 @@ enum Verb {
     Reproduce(reproduce::ReproduceArguments),
 }
 
-/// Parses the arguments, does what they ask, and maps what went wrong to an exit code.
-pub fn main() -> ExitCode {
+/// Does what the arguments ask, the command's own name first, as the `platewash` program does: results on standard output,
+/// messages on standard error. The answer is the exit code.
+///
+/// It may be called more than once in a process; of the settings for messages the first ones count. A panic is caught
+/// and is exit code 1.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
     let outcome = std::panic::catch_unwind(|| {
         let parsed = Arguments::command()
-            .try_get_matches()
+            .try_get_matches_from(arguments)
             .and_then(|m| Arguments::from_arg_matches(&m));
         match parsed {
             Ok(arguments) => dispatch(arguments),
@@ -86,27 +91,34 @@ pub fn main() -> ExitCode {
             }
         }
     });
-    match outcome {
+    // A caller that is no Rust program does not flush; a reader that has gone away is no error.
+    let _ = std::io::stdout().flush();
+    let ExitCode(code) = match outcome {
         Ok(Ok(code)) => code,
         Ok(Err(failure)) => failure.report(),
         // The panic's own message is on standard error already.
         Err(_) => ExitCode::from(failure::INTERNAL),
-    }
+    };
+    code
 }
 
 fn dispatch(arguments: Arguments) -> Result<ExitCode, Failure> {
     let options = arguments.options;
-    options.set_up()?;
-    match arguments.verb.unwrap_or(Verb::Run(run::RunArguments::default())) {
-        Verb::Run(arguments) => run::run(&options, &arguments),
-        Verb::Layout => layout::run(&options),
-        Verb::Plan(arguments) => plan::run(&options, &arguments),
-        Verb::Validate => validate::run(&options),
-        Verb::Verify(arguments) => verify::run(&options, &arguments),
-        Verb::Fk(arguments) => fk::run(&options, &arguments),
-        Verb::Ik(arguments) => ik::run(&options, &arguments),
-        Verb::Robot => robot::run(&options),
-        Verb::Sweep(arguments) => sweep::run(&options, &arguments),
-        Verb::Reproduce(arguments) => reproduce::run(&options, &arguments),
+    let verb = arguments.verb.unwrap_or(Verb::Run(run::RunArguments::default()));
+    options.set_up()?.install(|| carry_out(&options, verb))
+}
+
+fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode, Failure> {
+    match verb {
+        Verb::Run(arguments) => run::run(options, &arguments),
+        Verb::Layout => layout::run(options),
+        Verb::Plan(arguments) => plan::run(options, &arguments),
+        Verb::Validate => validate::run(options),
+        Verb::Verify(arguments) => verify::run(options, &arguments),
+        Verb::Fk(arguments) => fk::run(options, &arguments),
+        Verb::Ik(arguments) => ik::run(options, &arguments),
+        Verb::Robot => robot::run(options),
+        Verb::Sweep(arguments) => sweep::run(options, &arguments),
+        Verb::Reproduce(arguments) => reproduce::run(options, &arguments),
     }
 }

@@ -6,7 +6,11 @@ use clap::Args;
 use platewash::planner::robot;
 use platewash::planner::scenario::SHIPPED;
 use platewash::{RobotModel, Scenario};
+use rayon::ThreadPool;
 use std::path::PathBuf;
+
+/// Stack of a worker thread: what a main thread usually has.
+const STACK_BYTES: usize = 8 << 20;
 
 /// Options that every verb takes.
 #[derive(Debug, Args)]
@@ -44,20 +48,21 @@ pub struct Options {
 }
 
 impl Options {
-    /// Starts logging and the thread pool.
-    pub fn set_up(&self) -> Result<(), Failure> {
+    /// Starts logging, where it has not begun yet; the threads to work on.
+    pub fn set_up(&self) -> Result<ThreadPool, Failure> {
         let level = match (self.quiet, self.verbose) {
             (true, _) => tracing::Level::ERROR,
             (false, 0) => tracing::Level::WARN,
             (false, 1) => tracing::Level::INFO,
             (false, _) => tracing::Level::DEBUG,
         };
-        tracing_subscriber::fmt()
+        // Only a second call in one process fails: the first one's settings stay.
+        let _ = tracing_subscriber::fmt()
             .with_max_level(level)
             .with_writer(std::io::stderr)
             .without_time()
             .with_target(false)
-            .init();
+            .try_init();
         let threads = self.threads.unwrap_or(0);
         if self.threads == Some(0) || threads > 1024 {
             return Err(Failure::input(anyhow!(
@@ -66,7 +71,8 @@ impl Options {
         }
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
-            .build_global()
+            .stack_size(STACK_BYTES)
+            .build()
             .map_err(Failure::internal)
     }
 

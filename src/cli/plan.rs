@@ -1,6 +1,6 @@
 //! `platewash plan`: the plan file and its CSV.
 
-use super::failure::Failure;
+use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::progress::Progress;
 use super::{cycle, output, run};
@@ -11,7 +11,6 @@ use platewash::planner::scenario::Program;
 use platewash::planner::{csv, job, plan, robot};
 use platewash::{Job, JobReport, Plan, PlanError, RobotModel, Scenario, Trajectory};
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 /// Most rows of a CSV file: some 300 megabytes.
 const MAX_ROWS: f64 = 1e6;

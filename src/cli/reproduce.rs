@@ -1,13 +1,13 @@
 //! `platewash reproduce`: what the paper's program really does, measured.
 
-use super::failure::Failure;
+use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
 use super::progress::Progress;
 use anyhow::anyhow;
 use clap::Args;
 use platewash::planner::reproduce::{ReproduceSettings, reproduce};
-use std::process::ExitCode;
+use std::ops::ControlFlow;
 
 /// Most layouts that are simulated in a region: minutes of work.
 const MOST_LAYOUTS: usize = 10_000;
@@ -49,7 +49,10 @@ pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode
         seed: options.seed.unwrap_or(ReproduceSettings::default().seed),
     };
     let progress = Progress::new(options.quiet, "measuring dead ends");
-    let result = reproduce(&settings, &|done, total| progress.note(done, total));
+    let result = reproduce(&settings, &|done, total| {
+        progress.note(done, total);
+        ControlFlow::Continue(())
+    });
     drop(progress);
     let result = result?;
     if let Some(folder) = &options.out {

@@ -1,13 +1,12 @@
 //! `platewash robot`: the arm as loaded.
 
-use super::failure::Failure;
+use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
 use platewash::kinematics::AXES;
 use platewash::{ClearanceModel, PlanError, RobotModel};
 use serde::Serialize;
 use std::fmt::Write;
-use std::process::ExitCode;
 
 #[derive(Serialize)]
 struct Answer {

@@ -1,13 +1,12 @@
 //! `platewash run`: a scenario to the end.
 
-use super::failure::{self, Failure};
+use super::failure::{self, ExitCode, Failure};
 use super::options::Options;
 use super::plan::{self, PlanArguments};
 use super::{cycle, output};
 use clap::Args;
 use platewash::Verdict;
 use platewash::planner::scenario::{OnFailure, Program};
-use std::process::ExitCode;
 
 /// Arguments of `run`.
 #[derive(Debug, Args, Default)]

@@ -1,6 +1,6 @@
 //! `platewash sweep`: many layouts of one scenario, each planned and proved.
 
-use super::failure::{Failure, INFEASIBLE, NOT_VERIFIED};
+use super::failure::{ExitCode, Failure, INFEASIBLE, NOT_VERIFIED};
 use super::options::Options;
 use super::output;
 use super::progress::Progress;
@@ -9,7 +9,6 @@ use clap::Args;
 use platewash::planner::scenario::{OnFailure, Program};
 use platewash::planner::sweep::{self, SweepOutcome, SweepRow};
 use std::ops::RangeInclusive;
-use std::process::ExitCode;
 
 /// Most layouts of one call.
 const MOST_LAYOUTS: u64 = 100_000;

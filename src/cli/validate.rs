@@ -1,13 +1,12 @@
 //! `platewash validate`: a scenario checked, not run.
 
-use super::failure::Failure;
+use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
 use platewash::planner::layout::{Finding, LayoutError};
 use platewash::planner::{job, robot};
 use platewash::{Layout, PlanError, Scenario};
 use serde::Serialize;
-use std::process::ExitCode;
 
 #[derive(Serialize)]
 struct Answer {

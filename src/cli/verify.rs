@@ -1,6 +1,6 @@
 //! `platewash verify`: the certificate of a plan file.
 
-use super::failure::{self, Failure};
+use super::failure::{self, ExitCode, Failure};
 use super::options::Options;
 use super::output;
 use anyhow::anyhow;
@@ -10,7 +10,6 @@ use platewash::kinematics::urdf::file;
 use platewash::planner::certificate::{self, CertificateVerdict};
 use platewash::planner::scenario::RobotSection;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 /// Longest plan file that is read \[bytes\]: some million knots.
 const MAX_BYTES: u64 = 1 << 28;

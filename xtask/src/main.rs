@@ -7,6 +7,7 @@
 mod python;
 mod step;
 mod suite;
+mod wheel;
 
 use anyhow::{Result, bail};
 use std::process::ExitCode;

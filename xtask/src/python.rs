@@ -29,8 +29,8 @@ pub fn tests() -> Result<()> {
 }
 
 /// The interpreter of the virtual environment, made anew when the interpreter or the requirements changed.
-fn environment() -> Result<PathBuf> {
-    let base = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
+pub fn environment() -> Result<PathBuf> {
+    let base = base();
     let version = version(&base)?;
     let requirements = std::fs::read_to_string(root().join(REQUIREMENTS)).context(REQUIREMENTS)?;
     let folder = target().join("python");
@@ -61,6 +61,11 @@ fn environment() -> Result<PathBuf> {
     Ok(python)
 }
 
+/// The name of the interpreter that environments are made with.
+pub fn base() -> String {
+    std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned())
+}
+
 /// The interpreter's version, if it has what is needed.
 fn version(base: &str) -> Result<String> {
     let Ok(output) = Command::new(base).args(["-c", PROBE]).output() else {
@@ -72,7 +77,8 @@ fn version(base: &str) -> Result<String> {
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
-fn interpreter(folder: &Path) -> PathBuf {
+/// The interpreter of a virtual environment.
+pub fn interpreter(folder: &Path) -> PathBuf {
     if cfg!(windows) {
         folder.join("Scripts").join("python.exe")
     } else {

@@ -1,12 +1,16 @@
 //! Everything that must pass, in order.
 
-use crate::python;
 use crate::step::Step;
+use crate::{python, wheel};
 use anyhow::{Result, bail};
 use std::time::Instant;
 
 /// The crates under test: all but the benchmarks, which alone need the solvers that others wrote.
 const CRATES: [&str; 3] = ["--workspace", "--exclude", "platewash-benches"];
+/// The same without the Python extension, whose tests are Python's.
+const RUST_CRATES: [&str; 2] = ["--exclude", "pyplatewash"];
+/// With this, pyo3 asks no interpreter: the parts in Rust need none.
+const NO_PYTHON: (&str, &str) = ("PYO3_NO_PYTHON", "1");
 
 /// One thing that must pass.
 type Check = fn() -> Result<()>;
@@ -18,7 +22,7 @@ pub enum Part {
     Lint,
     /// The tests in Rust.
     Rust,
-    /// The tests in Python, of the finished command.
+    /// The tests in Python, of the finished command and the finished wheel.
     Python,
 }
 
@@ -37,12 +41,14 @@ impl Part {
 /// Runs the whole suite or one part of it, up to the first failure.
 pub fn run(only: Option<Part>) -> Result<()> {
     let start = Instant::now();
-    let steps: [(Part, Check); 6] = [
+    let steps: [(Part, Check); 8] = [
         (Part::Lint, format),
         (Part::Lint, clippy),
         (Part::Rust, tests),
         (Part::Lint, documentation),
         (Part::Python, release),
+        (Part::Python, wheel::install),
+        (Part::Python, wheel::package),
         (Part::Python, python::tests),
     ];
     let mut passed = 0;
@@ -80,19 +86,33 @@ fn format() -> Result<()> {
 
 fn clippy() -> Result<()> {
     let line = [&["clippy"], &CRATES[..], &["--all-targets", "--", "-D", "warnings"]].concat();
-    Step::cargo("clippy", &line).run()
+    Step::cargo("clippy", &line).with(NO_PYTHON.0, NO_PYTHON.1).run()
 }
 
 fn tests() -> Result<()> {
-    Step::cargo("tests", &[&["test"], &CRATES[..]].concat()).run()
+    Step::cargo("tests", &[&["test"], &CRATES[..], &RUST_CRATES[..]].concat()).run()
 }
 
 fn documentation() -> Result<()> {
-    Step::cargo("documentation", &[&["doc"], &CRATES[..], &["--no-deps"]].concat())
-        .with("RUSTDOCFLAGS", "-D warnings")
-        .run()
+    Step::cargo(
+        "documentation",
+        &[&["doc"], &CRATES[..], &RUST_CRATES[..], &["--no-deps"]].concat(),
+    )
+    .with("RUSTDOCFLAGS", "-D warnings")
+    .run()
 }
 
 fn release() -> Result<()> {
-    Step::cargo("release build", &["build", "--release", "--bin", "platewash"]).run()
+    // Named beside it, the extension has the command's dependencies built as it needs them, too: once for both.
+    let line = [
+        "build",
+        "--release",
+        "-p",
+        "platewash",
+        "-p",
+        "pyplatewash",
+        "--bin",
+        "platewash",
+    ];
+    Step::cargo("release build", &line).run()
 }

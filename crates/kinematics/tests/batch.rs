@@ -110,8 +110,14 @@ fn poses_and_jacobians_are_those_of_one_at_a_time() {
         let q = configurations(&robot, 37, 5);
         for (frame, path) in frames(&robot).iter().flat_map(|f| PATHS.map(|p| (f, p))) {
             let (p, r) = fk_slices(&robot, frame, &q, path);
+            let mut matrices = vec![[f64::NAN; 16]; q.len()];
+            batch::fk_matrices_into(&robot, frame, &q, &mut matrices, path).unwrap();
             let poses = batch::fk(&robot, frame, &q, path);
             for k in 0..q.len() {
+                let [a, b, c] = [0, 4, 8].map(|row| &matrices[k][row..row + 3]);
+                assert_eq!([a, b, c].concat(), r[k], "the same bits");
+                assert_eq!([3, 7, 11].map(|i| matrices[k][i]), p[k]);
+                assert_eq!(matrices[k][12..], [0.0, 0.0, 0.0, 1.0]);
                 let scalar = robot.fk(&q[k]).rigid(frame);
                 let off = pose_difference(&scalar, &p[k], &r[k]);
                 assert!(off < AGREED, "{path:?} {off:e} at {:?}", q[k]);
@@ -252,6 +258,10 @@ fn lengths_must_fit() {
             Err(wrong("rotations", 10))
         );
         assert_eq!(p, [[0.0; 3]; 9], "nothing is written");
+        assert_eq!(
+            batch::fk_matrices_into(&robot, &frame, &q, &mut [[0.0; 16]; 8], path),
+            Err(wrong("matrices", 8))
+        );
         assert_eq!(
             batch::jacobian_into(&robot, &frame, &q, Axes::Base, &mut j, path),
             Err(wrong("jacobians", 8))

@@ -47,6 +47,9 @@ pub enum PlanError {
     /// The cycle of a certified job could not be planned.
     #[error(transparent)]
     Cycle(#[from] CycleError),
+    /// The caller asked to stop.
+    #[error("stopped before the end")]
+    Stopped,
 }
 
 // The messages above hold those of their causes, which are therefore not told again as sources.

@@ -2,7 +2,7 @@
 //!
 //! | function | for every entry | against one at a time |
 //! | --- | --- | --- |
-//! | [`fk`], [`fk_into`] | pose of a frame | within 1e-12 |
+//! | [`fk`], [`fk_into`], [`fk_matrices_into`] | pose of a frame | within 1e-12 |
 //! | [`jacobian`], [`jacobian_into`] | geometric Jacobian of a frame | within 1e-12 |
 //! | [`solve`], [`solve_into`] | joint positions for a pose, from a near seed | the same branch, both within tolerance |
 //!
@@ -28,7 +28,7 @@ mod step;
 mod vector;
 
 pub use inverse::{solve, solve_into};
-pub use poses::{fk, fk_into, jacobian, jacobian_into};
+pub use poses::{fk, fk_into, fk_matrices_into, jacobian, jacobian_into};
 pub use vector::Path;
 
 /// Configurations to a unit of work for the thread pool. Fixed, so that nothing depends on the number of threads.

@@ -51,6 +51,34 @@ pub fn fk_into(
     Ok(())
 }
 
+/// The same as [`fk_into`] as homogeneous matrices: `matrices[k]` is `T_base_frame` (4 × 4) row by row, the last row
+/// (0, 0, 0, 1).
+///
+/// # Errors
+/// [`BatchError::Length`] when `matrices` is not as long as `q`; nothing is written then.
+pub fn fk_matrices_into(
+    robot: &RobotModel,
+    frame: &Frame,
+    q: &[JointVector],
+    matrices: &mut [[f64; 16]],
+    path: Path,
+) -> Result<(), BatchError> {
+    same_length("matrices", q.len(), matrices.len())?;
+    let chain = Chain::new(robot, frame);
+    let chunks = q.par_chunks(CHUNK).zip(matrices.par_chunks_mut(CHUNK));
+    chunks.for_each(|(q, matrices)| {
+        run(
+            path,
+            Matrices {
+                chain: &chain,
+                q,
+                matrices,
+            },
+        )
+    });
+    Ok(())
+}
+
 /// Geometric Jacobians (rows: m/rad, then rad/rad) of `frame` at the joint positions `q` \[rad\], in their order, in
 /// the given axes: column i is `(z_i × (p − p_i), z_i)`, zero for joints beyond the frame. Agrees with
 /// [`BodyPoses::jacobian`] within 1e-12.
@@ -135,6 +163,29 @@ impl Kernel for Poses<'_> {
                 *rotation = [
                     x[0][l], y[0][l], z[0][l], x[1][l], y[1][l], z[1][l], x[2][l], y[2][l], z[2][l],
                 ];
+            }
+        }
+    }
+}
+
+/// One chunk of poses as homogeneous matrices.
+struct Matrices<'a> {
+    chain: &'a Chain,
+    q: &'a [JointVector],
+    matrices: &'a mut [[f64; 16]],
+}
+
+impl Kernel for Matrices<'_> {
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        for (q, matrices) in self.q.chunks(LANES).zip(self.matrices.chunks_mut(LANES)) {
+            let tips: Tips<V> = frames(self.chain, &gather(q));
+            let columns = [&tips.x, &tips.y, &tips.z, &tips.p].map(rows);
+            for (l, matrix) in matrices.iter_mut().enumerate() {
+                for (k, entry) in matrix[..12].iter_mut().enumerate() {
+                    *entry = columns[k % 4][k / 4][l];
+                }
+                matrix[12..].copy_from_slice(&[0.0, 0.0, 0.0, 1.0]);
             }
         }
     }

@@ -12,6 +12,7 @@ use crate::rotation::Rigid;
 use crate::{AXES, JointVector, Pose, RobotModel};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
+use std::borrow::Cow;
 
 /// A gradient this small against `‖J‖ ‖e‖` is no descent.
 const STATIONARY: f64 = 1e-3;
@@ -20,7 +21,7 @@ const SINGULAR: f64 = 1e-3;
 /// Solves for one frame of one arm; build it once and call [`IkSolver::solve`] often.
 #[derive(Debug, Clone)]
 pub struct IkSolver<'a> {
-    pub(super) robot: &'a RobotModel,
+    pub(super) robot: Cow<'a, RobotModel>,
     frame: Frame,
     pub(super) settings: IkSettings,
     starts: Starts,
@@ -77,17 +78,29 @@ impl<'a> IkSolver<'a> {
         };
         Ok(Self {
             analytic,
-            robot,
+            robot: Cow::Borrowed(robot),
             frame,
             settings,
             starts,
         })
     }
 
+    /// The same solver with an arm of its own, for callers that cannot lend one.
+    #[must_use]
+    pub fn into_owned(self) -> IkSolver<'static> {
+        IkSolver {
+            robot: Cow::Owned(self.robot.into_owned()),
+            frame: self.frame,
+            settings: self.settings,
+            starts: self.starts,
+            analytic: self.analytic,
+        }
+    }
+
     /// The arm.
     #[must_use]
-    pub fn robot(&self) -> &'a RobotModel {
-        self.robot
+    pub fn robot(&self) -> &RobotModel {
+        &self.robot
     }
 
     /// Whether a seed with this squared error (m², rad²) is too far away to begin at.
@@ -137,7 +150,7 @@ impl<'a> IkSolver<'a> {
         let target = AnalyticArm::body_target(&self.frame, &Rigid::from(target)).ok_or(AllBranchesError::Frame)?;
         let solutions = match &self.analytic {
             Some(arm) => arm.solve_all(&target, previous, self.robot.limits()),
-            None => AnalyticArm::recognise(self.robot)?.solve_all(&target, previous, self.robot.limits()),
+            None => AnalyticArm::recognise(&self.robot)?.solve_all(&target, previous, self.robot.limits()),
         };
         Ok(solutions?)
     }
@@ -228,7 +241,7 @@ impl<'a> IkSolver<'a> {
         self.note(&descent, Method::Qp, start, search)
     }
 
-    pub(super) fn task(&self, target: &Pose) -> Result<Task<'a>, IkError> {
+    pub(super) fn task(&self, target: &Pose) -> Result<Task<'_>, IkError> {
         let position: [f64; 3] = target.translation.vector.into();
         if position
             .iter()
@@ -241,9 +254,9 @@ impl<'a> IkSolver<'a> {
     }
 
     /// The task for a target that is known to be finite.
-    pub(super) fn task_unchecked(&self, target: &Pose) -> Task<'a> {
+    pub(super) fn task_unchecked(&self, target: &Pose) -> Task<'_> {
         Task {
-            robot: self.robot,
+            robot: &self.robot,
             frame: self.frame,
             target: Rigid::from(target),
             tolerance: [

@@ -251,7 +251,7 @@ impl Search<'_> {
     fn task(&self, target: Rigid) -> Task<'_> {
         let settings = &self.solver.settings;
         Task {
-            robot: self.solver.robot,
+            robot: &self.solver.robot,
             frame: *self.solver.frame(),
             target,
             tolerance: [settings.position_tolerance_m, settings.orientation_tolerance_rad],

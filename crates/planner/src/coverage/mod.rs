@@ -1,11 +1,13 @@
 //! How much of a plate the sponge sweeps.
 
 mod disc;
+mod picture;
 mod raster;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+pub use picture::{Cell, CoverageRaster, MAX_CELLS, raster};
 use raster::{Capsule, Raster, Uncovered};
 
 /// Cells may not be smaller than this part of the plate's radius, so that every call ends soon.
@@ -76,6 +78,12 @@ pub enum CoverageError {
         /// The smallest value allowed for this disc, metres.
         smallest_m: f64,
     },
+    /// A raster without cells, or with too many.
+    #[error("a raster has from 1 to {MAX_CELLS} cells along an edge; found {cells}")]
+    Cells {
+        /// Cells along an edge.
+        cells: usize,
+    },
 }
 
 /// The part of a disc that a round sponge sweeps while its centre follows a polyline.
@@ -99,17 +107,22 @@ pub fn coverage(
     settings: &CoverageSettings,
 ) -> Result<Coverage, CoverageError> {
     validate(polyline, centre, radius_m, sponge_radius_m, settings)?;
+    let capsules = capsules(polyline, centre);
+    let uncovered = Raster::new(&capsules, radius_m, sponge_radius_m, settings.cell_m).uncovered();
+    Ok(as_fractions(&uncovered, std::f64::consts::PI * radius_m * radius_m))
+}
+
+/// One capsule a segment, relative to the disc's centre.
+fn capsules(polyline: &[[f64; 2]], centre: [f64; 2]) -> Vec<Capsule> {
     let about_centre = |p: [f64; 2]| [p[0] - centre[0], p[1] - centre[1]];
-    let capsules: Vec<Capsule> = match polyline {
+    match polyline {
         [] => Vec::new(),
         &[point] => vec![Capsule::new(about_centre(point), about_centre(point))],
         _ => polyline
             .windows(2)
             .map(|ends| Capsule::new(about_centre(ends[0]), about_centre(ends[1])))
             .collect(),
-    };
-    let uncovered = Raster::new(&capsules, radius_m, sponge_radius_m, settings.cell_m).uncovered();
-    Ok(as_fractions(&uncovered, std::f64::consts::PI * radius_m * radius_m))
+    }
 }
 
 fn as_fractions(uncovered: &Uncovered, disc_area: f64) -> Coverage {
@@ -128,6 +141,27 @@ fn validate(
     sponge_radius_m: f64,
     settings: &CoverageSettings,
 ) -> Result<(), CoverageError> {
+    let cell_m = settings.cell_m;
+    let lengths = [
+        ("radius_m", radius_m),
+        ("sponge_radius_m", sponge_radius_m),
+        ("cell_m", cell_m),
+    ];
+    check_lengths(polyline, centre, &lengths)?;
+    let smallest_m = SMALLEST_CELL * radius_m;
+    if cell_m < smallest_m {
+        Err(CoverageError::CellTooSmall { cell_m, smallest_m })
+    } else {
+        Ok(())
+    }
+}
+
+/// Refuses points that are not finite and lengths that are not greater than zero.
+fn check_lengths(
+    polyline: &[[f64; 2]],
+    centre: [f64; 2],
+    lengths: &[(&'static str, f64)],
+) -> Result<(), CoverageError> {
     let finite = |p: &[f64; 2]| p.iter().all(|c| c.is_finite());
     if let Some(index) = polyline.iter().position(|p| !finite(p)) {
         return Err(CoverageError::PathNotFinite { index });
@@ -135,21 +169,9 @@ fn validate(
     if !finite(&centre) {
         return Err(CoverageError::CentreNotFinite);
     }
-    let cell_m = settings.cell_m;
-    for (quantity, value_m) in [
-        ("radius_m", radius_m),
-        ("sponge_radius_m", sponge_radius_m),
-        ("cell_m", cell_m),
-    ] {
-        if !(value_m.is_finite() && value_m > 0.0) {
-            return Err(CoverageError::NotPositive { quantity, value_m });
-        }
-    }
-    let smallest_m = SMALLEST_CELL * radius_m;
-    if cell_m < smallest_m {
-        Err(CoverageError::CellTooSmall { cell_m, smallest_m })
-    } else {
-        Ok(())
+    match lengths.iter().find(|(_, v)| !(v.is_finite() && *v > 0.0)) {
+        Some(&(quantity, value_m)) => Err(CoverageError::NotPositive { quantity, value_m }),
+        None => Ok(()),
     }
 }
 

@@ -22,8 +22,14 @@ impl Capsule {
         }
     }
 
+    /// Whether some point of the axis is within `reach` of the line at the given y.
+    pub(super) fn comes_near_height(&self, y: f64, reach: f64) -> bool {
+        let ends = [self.start[1], self.start[1] + self.along[1]];
+        ends[0].min(ends[1]) - reach <= y && y <= ends[0].max(ends[1]) + reach
+    }
+
     /// Square of the distance of a point from the axis.
-    fn distance_squared(&self, p: [f64; 2]) -> f64 {
+    pub(super) fn distance_squared(&self, p: [f64; 2]) -> f64 {
         let (x, y) = (p[0] - self.start[0], p[1] - self.start[1]);
         let t = ((x * self.along[0] + y * self.along[1]) * self.inverse_length_squared).clamp(0.0, 1.0);
         let (dx, dy) = (x - t * self.along[0], y - t * self.along[1]);

@@ -21,6 +21,7 @@ use crate::job::PlanError;
 use crate::scenario::{RegionName, Scenario};
 use rayon::prelude::*;
 use serde::Serialize;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What to measure, and how often.
@@ -78,15 +79,16 @@ const REGIONS: [(RegionName, &str, &str); 2] = [
     (RegionName::Appendix, "appendix", "paper-appendix"),
 ];
 
-/// Measures everything; `progress(done, total)` is called after each layout, from any thread.
+/// Measures everything; `progress(done, total)` is called after each layout, from any thread, and ends the work when it breaks.
 ///
 /// The answer does not depend on the number of threads.
 ///
 /// # Errors
-/// [`PlanError`] from a stage of the program; never for a layout that does not wash.
+/// [`PlanError`] from a stage of the program, never for a layout that does not wash; [`PlanError::Stopped`] when `progress`
+/// breaks.
 pub fn reproduce(
     settings: &ReproduceSettings,
-    progress: &(dyn Fn(usize, usize) + Sync),
+    progress: &(dyn Fn(usize, usize) -> ControlFlow<()> + Sync),
 ) -> Result<Reproduction, PlanError> {
     let mut rows = stall::rows(settings)?;
     rows.extend(law::rows(&Scenario::load("paper-appendix")?.control));
@@ -97,8 +99,10 @@ pub fn reproduce(
         let bench = cell::Bench::new(Scenario::load(scenario)?)?;
         let measure = |k: usize| {
             let sample = bench.measure(settings.seed, region, k);
-            progress(1 + done.fetch_add(1, Ordering::Relaxed), total);
-            sample
+            match progress(1 + done.fetch_add(1, Ordering::Relaxed), total) {
+                ControlFlow::Continue(()) => sample,
+                ControlFlow::Break(()) => Err(PlanError::Stopped),
+            }
         };
         let samples = (0..settings.layouts)
             .into_par_iter()

@@ -1,0 +1,152 @@
+//! What the sponge sweeps as a regular raster, to look at.
+
+use super::raster::Capsule;
+use super::{CoverageError, capsules, check_lengths};
+use rayon::prelude::*;
+
+/// Most cells along an edge of a raster.
+pub const MAX_CELLS: usize = 4096;
+
+/// State of a cell of a raster.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cell {
+    /// The cell lies wholly outside the disc.
+    Outside,
+    /// The sponge sweeps no part of the cell.
+    Missed,
+    /// The cell is swept in part, or it takes more than one segment of the path to sweep it.
+    Partly,
+    /// One segment of the path sweeps the cell wholly.
+    Swept,
+}
+
+/// A raster over the square around a disc.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoverageRaster {
+    /// The cells row by row, y ascending; `x_m.len()` a row.
+    pub cells: Vec<Cell>,
+    /// x of the cells' middles, in the polyline's frame \[m\].
+    pub x_m: Vec<f64>,
+    /// y of the cells' middles, in the polyline's frame \[m\].
+    pub y_m: Vec<f64>,
+}
+
+/// The swept part of a disc as a raster of `cells` × `cells`; the arguments are those of [`coverage`](super::coverage). A cell
+/// that is called swept or missed is so wholly; no cell outside the disc is called either.
+///
+/// # Errors
+/// [`CoverageError`] as for [`coverage`](super::coverage), and [`CoverageError::Cells`] for a raster without cells or with
+/// more than [`MAX_CELLS`] along an edge.
+pub fn raster(
+    polyline: &[[f64; 2]],
+    centre: [f64; 2],
+    radius_m: f64,
+    sponge_radius_m: f64,
+    cells: usize,
+) -> Result<CoverageRaster, CoverageError> {
+    check_lengths(
+        polyline,
+        centre,
+        &[("radius_m", radius_m), ("sponge_radius_m", sponge_radius_m)],
+    )?;
+    if !(1..=MAX_CELLS).contains(&cells) {
+        return Err(CoverageError::Cells { cells });
+    }
+    let capsules = capsules(polyline, centre);
+    let half = radius_m / cells as f64;
+    let middle = |k: usize| -radius_m + half * (2 * k + 1) as f64;
+    let row = |j: usize| {
+        let y = middle(j);
+        // A little more than half the diagonal, so that what is left out is out of reach of every cell.
+        let reach = sponge_radius_m + 1.5 * half;
+        let near: Vec<&Capsule> = capsules.iter().filter(|c| c.comes_near_height(y, reach)).collect();
+        let state = move |i| state([middle(i), y], half, radius_m, sponge_radius_m, &near);
+        (0..cells).map(state).collect::<Vec<_>>()
+    };
+    Ok(CoverageRaster {
+        cells: (0..cells).into_par_iter().flat_map_iter(row).collect(),
+        x_m: (0..cells).map(|k| centre[0] + middle(k)).collect(),
+        y_m: (0..cells).map(|k| centre[1] + middle(k)).collect(),
+    })
+}
+
+/// The state of the cell about `middle`, all relative to the disc's centre.
+fn state(middle: [f64; 2], half: f64, radius: f64, sponge: f64, capsules: &[&Capsule]) -> Cell {
+    let nearest = middle.map(|c| (c.abs() - half).max(0.0));
+    if nearest[0] * nearest[0] + nearest[1] * nearest[1] >= radius * radius {
+        return Cell::Outside;
+    }
+    let half_diagonal = half * std::f64::consts::SQRT_2;
+    let least = capsules
+        .iter()
+        .map(|c| c.distance_squared(middle))
+        .fold(f64::INFINITY, f64::min);
+    let (within, reach) = (sponge - half_diagonal, sponge + half_diagonal);
+    if within > 0.0 && least <= within * within {
+        Cell::Swept
+    } else if least >= reach * reach {
+        Cell::Missed
+    } else {
+        Cell::Partly
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coverage::{CoverageSettings, coverage};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_raster_keeps_the_proven_bounds(
+            polyline in prop::collection::vec(prop::array::uniform2(-0.2..0.2f64), 0..12),
+            centre in prop::array::uniform2(-0.05..0.05f64),
+            sponge in 0.005..0.1f64,
+            cells in 1..80usize,
+        ) {
+            let radius = 0.145;
+            let exact = coverage(&polyline, centre, radius, sponge, &CoverageSettings::default()).unwrap();
+            let raster = raster(&polyline, centre, radius, sponge, cells).unwrap();
+            let area = (2.0 * radius / cells as f64).powi(2) / (std::f64::consts::PI * radius * radius);
+            let share = |states: &[Cell]| area * raster.cells.iter().filter(|c| states.contains(c)).count() as f64;
+            // Cells on the rim reach beyond the disc, so that only sums with them are upper bounds.
+            prop_assert!(share(&[Cell::Swept, Cell::Partly, Cell::Missed]) >= 1.0 - 1e-9);
+            prop_assert!(share(&[Cell::Swept, Cell::Partly]) >= exact.lower - 1e-9);
+            prop_assert!(share(&[Cell::Missed, Cell::Partly]) >= 1.0 - exact.upper - 1e-9);
+            prop_assert_eq!(raster.cells.len(), cells * cells);
+        }
+
+        #[test]
+        fn a_cell_is_what_its_points_are(
+            polyline in prop::collection::vec(prop::array::uniform2(-0.2..0.2f64), 1..6),
+            sponge in 0.01..0.1f64,
+            at in (0..20usize, 0..20usize),
+            inside in prop::array::uniform2(-1.0..1.0f64),
+        ) {
+            let raster = raster(&polyline, [0.0; 2], 0.145, sponge, 20).unwrap();
+            let half = 0.145 / 20.0;
+            let point = [raster.x_m[at.0] + half * inside[0], raster.y_m[at.1] + half * inside[1]];
+            let distance = capsules(&polyline, [0.0; 2]).iter().map(|c| c.distance_squared(point).sqrt()).fold(f64::INFINITY, f64::min);
+            match raster.cells[at.1 * 20 + at.0] {
+                Cell::Swept => prop_assert!(distance <= sponge + 1e-12),
+                Cell::Missed => prop_assert!(distance >= sponge - 1e-12),
+                Cell::Outside => prop_assert!(point[0].hypot(point[1]) >= 0.145 - 1e-12),
+                Cell::Partly => (),
+            }
+        }
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused() {
+        let call = |polyline: &[[f64; 2]], radius, cells| raster(polyline, [0.0; 2], radius, 0.02, cells);
+        assert_eq!(call(&[], 0.1, 0), Err(CoverageError::Cells { cells: 0 }));
+        assert_eq!(call(&[], 0.1, 5000), Err(CoverageError::Cells { cells: 5000 }));
+        assert!(matches!(call(&[], f64::NAN, 5), Err(CoverageError::NotPositive { .. })));
+        assert_eq!(
+            call(&[[0.0, f64::INFINITY]], 0.1, 5),
+            Err(CoverageError::PathNotFinite { index: 0 })
+        );
+        assert!(call(&[], 0.1, 1).unwrap().cells.iter().all(|c| *c == Cell::Missed));
+    }
+}

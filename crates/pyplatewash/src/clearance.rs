@@ -1,0 +1,175 @@
+//! `ClearanceModel`: smallest distances between bodies.
+
+use crate::arrays::{self, JOINTS, Numbers};
+use crate::errors;
+use crate::robot::Robot;
+use crate::tool::{PlateFields, ToolFields};
+use crate::value::to_record;
+use crate::work::{STRETCH, alone, released};
+use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
+use platewash::planner::scenario::ToolSection;
+use platewash::{ClearanceModel, JointVector, PairClearance};
+use pyo3::prelude::*;
+use pyo3::types::{PyList, PyTuple};
+use rayon::prelude::*;
+
+/// The bodies and pairs of one cell: the arm, its tool, the floor and the plates.
+///
+/// Without a tool there is no tool body. Distances are metres, ≤ 0 when two bodies touch.
+#[pyclass(frozen, module = "pyplatewash", name = "ClearanceModel")]
+pub struct ClearanceObject {
+    inner: ClearanceModel,
+    arguments: (Py<Robot>, Option<Py<PyAny>>, Py<PyTuple>),
+}
+
+fn finite(py: Python<'_>, q: &[JointVector]) -> PyResult<()> {
+    match q.iter().position(|q| !q.iter().all(|v| v.is_finite())) {
+        None => Ok(()),
+        Some(row) => Err(errors::input(py, "q", &format!("row {row} is not finite"))),
+    }
+}
+
+fn record<'py>(py: Python<'py>, pair: &PairClearance) -> PyResult<Bound<'py, PyAny>> {
+    let text = format!("{} – {}: {:.1} mm", pair.a, pair.b, 1e3 * pair.distance_m);
+    to_record(py, pair, Some(text))
+}
+
+impl ClearanceObject {
+    fn one(q: &Bound<'_, PyAny>) -> PyResult<JointVector> {
+        let found = arrays::joint_vector("q", q)?;
+        finite(q.py(), &[found])?;
+        Ok(found)
+    }
+}
+
+#[pymethods]
+impl ClearanceObject {
+    #[new]
+    #[pyo3(signature = (robot, tool=None, plates=Vec::new()))]
+    fn new(
+        py: Python<'_>,
+        robot: Bound<'_, Robot>,
+        tool: Option<Bound<'_, PyAny>>,
+        plates: Vec<Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let section = match &tool {
+            Some(tool) => ToolFields::of(tool)?.section(py)?,
+            None => ToolSection::default(),
+        };
+        let made = plates.iter().map(|plate| PlateFields::of(plate)?.plate(py));
+        let made = made.collect::<PyResult<Vec<_>>>()?;
+        let model = robot.get().model().clone();
+        let inner = alone(py, || ClearanceModel::new(&model, &section, &made))?;
+        let inner = inner.map_err(|e| errors::input(py, "robot", &e.to_string()))?;
+        let arguments = (
+            robot.unbind(),
+            tool.map(Bound::unbind),
+            PyTuple::new(py, plates)?.unbind(),
+        );
+        Ok(Self { inner, arguments })
+    }
+
+    /// The pairs of bodies that are checked, by name; P of them.
+    #[getter]
+    fn pairs(&self) -> Vec<(&str, &str)> {
+        self.inner.pair_names()
+    }
+
+    /// Distances of all pairs [m], in the order of `pairs`: `q` of shape (6,) gives (P,), (N, 6) gives (N, P).
+    ///
+    /// Raises InputError for configurations that are not finite.
+    fn distances<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let numbers = Numbers::read("q", q, JOINTS)?;
+        let q = numbers.joints()?;
+        finite(py, q)?;
+        let pairs = self.inner.pair_names().len();
+        let shape = [numbers.stacked.unwrap_or(1), pairs];
+        let shape = if numbers.stacked.is_some() {
+            &shape[..]
+        } else {
+            &shape[1..]
+        };
+        let distances = arrays::zeros::<f64>(py, shape);
+        if pairs == 0 {
+            return Ok(distances);
+        }
+        let mut writable: PyReadwriteArrayDyn<'_, f64> = distances.readwrite();
+        let stretch = STRETCH / 64;
+        for (q, rows) in q
+            .chunks(stretch)
+            .zip(writable.as_slice_mut()?.chunks_mut(stretch * pairs))
+        {
+            released(py, || {
+                q.par_iter().zip(rows.par_chunks_mut(pairs)).for_each(|(q, row)| {
+                    for (cell, pair) in row.iter_mut().zip(self.inner.all(q)) {
+                        *cell = pair.distance_m;
+                    }
+                });
+            })?;
+            py.check_signals()?;
+        }
+        drop(writable);
+        Ok(distances)
+    }
+
+    /// The smallest distance at `q`, shape (6,): a record with the bodies `a` and `b`, `distance_m` and `place_m`. The sponge
+    /// may touch the plates in `working`. None when there is nothing to check.
+    #[pyo3(signature = (q, working=Vec::new()))]
+    fn smallest<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        working: Vec<usize>,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let q = Self::one(q)?;
+        let found = alone(py, || self.inner.smallest(&q, &working))?;
+        found.map(|pair| record(py, &pair)).transpose()
+    }
+
+    /// All pairs nearer than `required_m` or in contact at `q`, shape (6,), nearest first. The sponge may touch the plates in
+    /// `working`.
+    #[pyo3(signature = (q, required_m=0.0, working=Vec::new()))]
+    fn too_near<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        required_m: f64,
+        working: Vec<usize>,
+    ) -> PyResult<Bound<'py, PyList>> {
+        let q = Self::one(q)?;
+        let found = alone(py, || self.inner.too_near(&q, &working, required_m))?;
+        let list = PyList::empty(py);
+        for pair in &found {
+            list.append(record(py, pair)?)?;
+        }
+        Ok(list)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("ClearanceModel({} pairs)", self.inner.pair_names().len())
+    }
+
+    fn __eq__(&self, py: Python<'_>, other: &Self) -> PyResult<bool> {
+        let of = |s: &Self| {
+            (
+                s.arguments.0.clone_ref(py),
+                s.arguments.1.as_ref().map(|t| t.clone_ref(py)),
+                s.arguments.2.clone_ref(py),
+            )
+        };
+        of(self).into_pyobject(py)?.eq(of(other).into_pyobject(py)?)
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let (robot, tool, plates) = &self.arguments;
+        (robot, tool, plates).into_pyobject(py)
+    }
+}

@@ -1,0 +1,200 @@
+//! `Cycle`: a certified job, and the calls that lead to a plan.
+
+use crate::errors;
+use crate::layout::LayoutObject;
+use crate::plan::{PlanObject, file_error, records};
+use crate::scenario::{ScenarioArgument, ScenarioObject};
+use crate::trajectory::TrajectoryObject;
+use crate::value::to_record;
+use crate::work::patiently;
+use platewash::planner::certificate;
+use platewash::planner::plan::PlanFileError;
+use platewash::planner::scenario::Program;
+use platewash::planner::sweep::SweepRow;
+use platewash::planner::{csv, robot};
+use platewash::{Cycle, CycleReport, Job, Plan, PlanError, Scenario};
+use pyo3::prelude::*;
+use pyo3::types::{PyList, PyTuple, PyType};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// A certified job: the whole cycle, from home to home, planned before anything moves.
+#[pyclass(frozen, module = "pyplatewash", name = "Cycle")]
+pub struct CycleObject {
+    inner: Arc<Cycle>,
+}
+
+#[pymethods]
+impl CycleObject {
+    /// Plans the cycle of a scenario (or the shipped name or file of one), on a layout that was made before if one is given.
+    ///
+    /// Raises ScenarioError, LayoutError or PlanError.
+    #[classmethod]
+    #[pyo3(signature = (scenario, layout=None))]
+    fn plan(
+        _class: &Bound<'_, PyType>,
+        py: Python<'_>,
+        scenario: ScenarioArgument<'_>,
+        layout: Option<&Bound<'_, LayoutObject>>,
+    ) -> PyResult<Self> {
+        let scenario = scenario.resolve(py)?;
+        let layout = layout.map(|layout| layout.get().inner().clone());
+        let planned = patiently(py, move |_| match layout {
+            None => Cycle::plan(&scenario),
+            Some(layout) => Cycle::on(&scenario, robot::load(&scenario.robot)?, layout),
+        })?;
+        let inner = Arc::new(planned.map_err(|e| errors::plan(py, &e))?);
+        Ok(Self { inner })
+    }
+
+    /// What was asked.
+    #[getter]
+    fn scenario(&self) -> ScenarioObject {
+        self.inner.scenario.clone().into()
+    }
+
+    /// The plates.
+    #[getter]
+    fn layout(&self) -> LayoutObject {
+        self.inner.layout.clone().into()
+    }
+
+    /// Plate indices in the order of washing.
+    #[getter]
+    fn order(&self) -> Vec<usize> {
+        self.inner.order.clone()
+    }
+
+    /// The motion.
+    #[getter]
+    fn motion(&self) -> TrajectoryObject {
+        self.inner.motion.clone().into()
+    }
+
+    /// The segments in time: `kind`, `plate`, `t_start_s`, `t_end_s`.
+    #[getter]
+    fn segments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        records(py, &self.inner.segments)
+    }
+
+    /// How each plate is washed, in the order of washing: `plate`, `posture`, `wash_s`.
+    #[getter]
+    fn visits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        records(py, &self.inner.visits)
+    }
+
+    /// How the crossings go, from home, between the plates, and home: `route`, `duration_s`.
+    #[getter]
+    fn crossings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        records(py, &self.inner.crossings)
+    }
+
+    /// What the order gains: `travel_s`, `nearest_next_s`, `optimality`.
+    #[getter]
+    fn tour<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_record(py, &self.inner.tour, None)
+    }
+
+    /// The plan file's contents, sealed. Nothing is proved: see `verify`.
+    fn to_plan(&self, py: Python<'_>) -> PyResult<PlanObject> {
+        Ok(self.inner.to_plan().map_err(|e| file_error(py, &e))?.into())
+    }
+
+    /// Proves the cycle and sums it up. A record; its text is the report that the command prints.
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let cycle = self.inner.clone();
+        let plan = cycle.to_plan().map_err(|e| file_error(py, &e))?;
+        let judged = patiently(py, move |_| certificate::verify(&plan, &cycle.robot))?;
+        let report = CycleReport::new(&self.inner, judged.map_err(|e| errors::verify(py, &e))?);
+        to_record(py, &report, Some(report.to_string()))
+    }
+
+    /// The motion as CSV text, every `dt_s` [s], by default the scenario's.
+    #[pyo3(signature = (dt_s=None))]
+    fn to_csv(&self, py: Python<'_>, dt_s: Option<f64>) -> PyResult<String> {
+        let cycle = &self.inner;
+        let tip = robot::tip_frame(&cycle.robot, &cycle.scenario.tool);
+        let dt_s = dt_s.unwrap_or(cycle.scenario.control.dt_s);
+        let table = csv::table(&cycle.motion, &cycle.segments, &cycle.robot, &tip, dt_s);
+        table.map_err(|e| errors::input(py, "dt_s", &e.to_string()))
+    }
+
+    fn __repr__(&self) -> String {
+        let (name, plates) = (&self.inner.scenario.name, self.inner.order.len());
+        format!(
+            "Cycle('{name}', {plates} plates, {:.2} s)",
+            self.inner.motion.duration_s()
+        )
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        let (a, b) = (&self.inner, &other.inner);
+        (&a.scenario, &a.layout, &a.order, &a.motion) == (&b.scenario, &b.layout, &b.order, &b.motion)
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        // The same scenario on the same plates is the same cycle, to the bit.
+        let arguments = (slf.get().scenario(), slf.get().layout()).into_pyobject(slf.py())?;
+        Ok((slf.get_type().getattr("plan")?, arguments))
+    }
+}
+
+/// Plans a scenario by the program that it names.
+fn planned(scenario: &Scenario) -> Result<Result<Plan, PlanFileError>, PlanError> {
+    match scenario.job.program {
+        Program::Certified => Ok(Cycle::plan(scenario)?.to_plan()),
+        Program::Paper => {
+            let job = Job::run(scenario)?;
+            let report = job.report()?;
+            Ok(Plan::new(&job, &report))
+        }
+    }
+}
+
+/// Plans a scenario (or the shipped name or file of one) with its own program: the plan, sealed. Nothing is proved: see
+/// `verify`.
+///
+/// Raises ScenarioError, LayoutError or PlanError. A job of the paper's program that does not wash is no error: see
+/// `Plan.summary`.
+#[pyfunction]
+#[pyo3(signature = (scenario, *, seed=None))]
+pub fn plan(py: Python<'_>, scenario: ScenarioArgument<'_>, seed: Option<u64>) -> PyResult<PlanObject> {
+    let mut scenario = scenario.resolve(py)?;
+    scenario.seed = seed.unwrap_or(scenario.seed);
+    let plan = patiently(py, move |_| planned(&scenario))?.map_err(|e| errors::plan(py, &e))?;
+    Ok(plan.map_err(|e| file_error(py, &e))?.into())
+}
+
+/// Plans and proves a certified scenario once a seed: one record a seed with `seed`, `outcome` (`"proved"`, `"not_proved"`,
+/// `"infeasible"`), `duration_s`, `crossings_s`, `coverage`, `clearance_m` and `reason`. Works on all processors.
+///
+/// Raises ScenarioError or PlanError for a scenario that is wrong for every seed.
+#[pyfunction]
+pub fn sweep<'py>(
+    py: Python<'py>,
+    scenario: ScenarioArgument<'_>,
+    seeds: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyList>> {
+    let scenario = scenario.resolve(py)?;
+    if scenario.job.program != Program::Certified {
+        let problem = format!("\"{}\" is no certified job: see reproduce", scenario.name);
+        return Err(errors::input(py, "scenario", &problem));
+    }
+    let seeds: Vec<u64> = seeds.try_iter()?.map(|seed| seed?.extract()).collect::<PyResult<_>>()?;
+    let rows = patiently(py, move |cancel| {
+        let one = |&seed: &u64| match cancel.is_asked() {
+            true => Err(PlanError::Stopped),
+            false => platewash::planner::sweep::sweep(&scenario, seed..=seed),
+        };
+        seeds.par_iter().map(one).collect::<Result<Vec<Vec<SweepRow>>, _>>()
+    })?;
+    records(py, &rows.map_err(|e| errors::plan(py, &e))?.concat())
+}

@@ -1,0 +1,111 @@
+//! Scenarios that are refused, and jobs that cannot be carried out.
+
+use super::{any, input, named, raise};
+use crate::arrays;
+use platewash::planner::crossing::CrossingError;
+use platewash::planner::cycle::CycleError;
+use platewash::planner::layout::LayoutError;
+use platewash::planner::scenario::{Problem, ScenarioError};
+use platewash::planner::tracking::TrackingError;
+use platewash::{PlanError, VerifyError};
+use pyo3::prelude::*;
+
+/// A refused scenario.
+pub fn scenario(py: Python<'_>, error: &ScenarioError) -> PyErr {
+    let (key, expected, found) = match &error.problem {
+        Problem::Value { key, expected, found } => (any(py, key), any(py, expected), any(py, found)),
+        Problem::UnknownKey { key, .. } => (any(py, key), None, None),
+        Problem::Conflict { keys, .. } => (any(py, keys), None, None),
+        _ => (None, None, None),
+    };
+    let fields = [
+        ("source", any(py, &error.source_name)),
+        ("line", error.line.and_then(|line| any(py, line))),
+        ("key", key),
+        ("expected", expected),
+        ("found", found),
+    ];
+    raise(py, "ScenarioError", &error.to_string(), &fields)
+}
+
+/// A job that could not be carried out.
+pub fn plan(py: Python<'_>, error: &PlanError) -> PyErr {
+    let message = error.to_string();
+    let (stage, waypoint, joint) = match error {
+        PlanError::Scenario(error) => return scenario(py, error),
+        PlanError::Layout(error) => return layout(py, error),
+        PlanError::Robot(_) => ("robot", None, None),
+        PlanError::IkSettings(_) | PlanError::Ik(_) => ("ik", None, None),
+        PlanError::Tracking(TrackingError::Ik { waypoint, .. }) => ("tracking", Some(*waypoint), None),
+        PlanError::Tracking(TrackingError::Divergence { waypoint, joint, .. }) => {
+            ("tracking", Some(*waypoint), Some(*joint))
+        }
+        PlanError::Clearance(_) => ("clearance", None, None),
+        PlanError::Coverage(_) => ("coverage", None, None),
+        PlanError::Cycle(error) => return cycle(py, error),
+        _ => ("plan", None, None),
+    };
+    let fields = [
+        ("stage", any(py, stage)),
+        ("waypoint", waypoint.and_then(|v| any(py, v))),
+        ("joint", joint.and_then(|v| any(py, v))),
+    ];
+    raise(py, "PlanError", &message, &fields)
+}
+
+/// Plates that could not be placed.
+pub fn layout(py: Python<'_>, error: &LayoutError) -> PyErr {
+    let fields = match error {
+        LayoutError::NoRoom {
+            count,
+            most_placed,
+            upper_bound,
+            ..
+        } => vec![
+            ("cause", any(py, "no_room")),
+            ("count", any(py, *count)),
+            ("most_placed", any(py, *most_placed)),
+            ("upper_bound", upper_bound.and_then(|v| any(py, v))),
+        ],
+        LayoutError::EmptyRegion { .. } => vec![("cause", any(py, "empty_region"))],
+        LayoutError::InvalidPosition { plate } => {
+            let problem = format!("the centre of plate {plate} is not finite");
+            return input(py, "positions_m", &problem);
+        }
+        LayoutError::InvalidInput { key, problem } => return input(py, key, &problem.to_string()),
+        _ => Vec::new(),
+    };
+    raise(py, "LayoutError", &format!("layout: {error}"), &fields)
+}
+
+/// A cycle that could not be planned.
+fn cycle(py: Python<'_>, error: &CycleError) -> PyErr {
+    let mut fields = vec![("stage", any(py, "cycle"))];
+    match error {
+        CycleError::NoTool => return input(py, "tool.length_m", &error.to_string()),
+        CycleError::Unwashable(plate) => {
+            fields.extend([("cause", any(py, "unwashable")), ("plate", any(py, plate.plate))]);
+            fields.push(("share", plate.share.and_then(|share| any(py, share))));
+            let nearest = plate.nearest_m.and_then(|at| arrays::array(py, &[2], &at).ok());
+            fields.push(("nearest_m", nearest.map(Bound::into_any)));
+        }
+        CycleError::Line { plate, .. } => fields.extend([("cause", any(py, "line")), ("plate", any(py, *plate))]),
+        CycleError::Crossing(CrossingError::NoWay { from, to, .. }) => {
+            let plate = to.or(*from);
+            fields.extend([("cause", any(py, "no_way")), ("plate", plate.and_then(|p| any(py, p)))]);
+        }
+        CycleError::Crossing(CrossingError::Line { plate, .. }) => {
+            fields.extend([("cause", any(py, "line")), ("plate", any(py, *plate))]);
+        }
+        CycleError::Home(violation) => {
+            fields.extend([("cause", any(py, "home")), ("joint", any(py, violation.joint))]);
+        }
+        _ => (),
+    }
+    raise(py, "PlanError", &error.to_string(), &fields)
+}
+
+/// A plan that cannot be judged.
+pub fn verify(py: Python<'_>, error: &VerifyError) -> PyErr {
+    named(py, "VerifyError", &error.to_string())
+}

@@ -1,0 +1,130 @@
+//! `Layout`: where the plates lie.
+
+use crate::arrays;
+use crate::errors;
+use crate::scenario::ScenarioArgument;
+use crate::value::to_record;
+use crate::work::patiently;
+use numpy::PyArrayDyn;
+use platewash::planner::{job, robot};
+use platewash::{Layout, PlanError, Plate};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyDict, PyList, PyTuple, PyType};
+
+static PLATE: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+
+/// Plates, and what is to be said about them. Base frame, metres.
+#[pyclass(frozen, eq, module = "pyplatewash", name = "Layout")]
+#[derive(PartialEq)]
+pub struct LayoutObject {
+    inner: Layout,
+}
+
+impl From<Layout> for LayoutObject {
+    fn from(inner: Layout) -> Self {
+        Self { inner }
+    }
+}
+
+impl LayoutObject {
+    /// The layout.
+    #[must_use]
+    pub fn inner(&self) -> &Layout {
+        &self.inner
+    }
+}
+
+/// Plates as Python's.
+///
+/// # Errors
+/// Out of memory.
+pub fn plates<'py>(py: Python<'py>, all: &[Plate]) -> PyResult<Bound<'py, PyList>> {
+    let class = PLATE.import(py, "pyplatewash._values", "Plate")?;
+    let list = PyList::empty(py);
+    for plate in all {
+        let fields = PyDict::new(py);
+        fields.set_item("x_m", plate.x_m)?;
+        fields.set_item("y_m", plate.y_m)?;
+        fields.set_item("z_m", plate.z_m)?;
+        fields.set_item("radius_m", plate.radius_m)?;
+        fields.set_item("thickness_m", plate.thickness_m)?;
+        list.append(class.call((), Some(&fields))?)?;
+    }
+    Ok(list)
+}
+
+#[pymethods]
+impl LayoutObject {
+    /// The plates, in the order in which they were drawn or given.
+    #[getter]
+    fn plates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        plates(py, &self.inner.plates)
+    }
+
+    /// Centres of the plates, shape (N, 2) [m].
+    #[getter]
+    fn centres<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let centres: Vec<f64> = self.inner.plates.iter().flat_map(|p| [p.x_m, p.y_m]).collect();
+        arrays::array(py, &[self.inner.plates.len(), 2], &centres)
+    }
+
+    /// What is wrong with the plates: one record a finding, whose text says it in words.
+    #[getter]
+    fn findings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let list = PyList::empty(py);
+        for finding in &self.inner.findings {
+            list.append(to_record(py, finding, Some(finding.to_string()))?)?;
+        }
+        Ok(list)
+    }
+
+    /// Where the positions come from: drawn, with restarts and draws, or given.
+    #[getter]
+    fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_record(py, &self.inner.source, None)
+    }
+
+    fn __len__(&self) -> usize {
+        self.inner.plates.len()
+    }
+
+    fn __repr__(&self) -> String {
+        let findings = self.inner.findings.len();
+        format!("Layout({} plates, {findings} findings)", self.inner.plates.len())
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let py = slf.py();
+        let text = serde_json::to_string(&slf.get().inner).map_err(|e| errors::internal(py, &e.to_string()))?;
+        Ok((slf.get_type().getattr("_restore")?, (text,).into_pyobject(py)?))
+    }
+
+    /// Restores a pickled layout.
+    #[classmethod]
+    fn _restore(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str) -> PyResult<Self> {
+        let inner = serde_json::from_str(text).map_err(|e| errors::input(py, "text", &e.to_string()))?;
+        Ok(Self { inner })
+    }
+}
+
+/// Places the plates of a scenario: drawn from its seed's own stream, or as given and checked.
+///
+/// Raises LayoutError when they have no room.
+#[pyfunction]
+pub fn place_plates(py: Python<'_>, scenario: ScenarioArgument<'_>) -> PyResult<LayoutObject> {
+    let scenario = scenario.resolve(py)?;
+    let placed = patiently(py, move |_| {
+        let robot = robot::load(&scenario.robot)?;
+        job::place_plates(&scenario, &robot).map_err(PlanError::from)
+    })?;
+    Ok(placed.map_err(|e| errors::plan(py, &e))?.into())
+}

@@ -1,0 +1,123 @@
+//! Inverse kinematics of many targets, straight into NumPy's arrays.
+
+use super::inverse::no_pose;
+use super::rows::{Desk, Problems, Refused, Rows, Seeds};
+use crate::arrays::{self, JOINTS, MANY_POSES, Numbers};
+use crate::errors;
+use crate::work::released;
+use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
+use platewash::{IkSolver, JointVector};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyDict, PyType};
+use rayon::prelude::*;
+use std::time::{Duration, Instant};
+
+/// Rows between the first two looks for signals; doubled as long as they take less than [`PATIENCE`].
+const FIRST_STRETCH: usize = 1 << 13;
+const PATIENCE: Duration = Duration::from_millis(20);
+
+static BATCH: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+
+/// Arrays for the answers.
+struct Columns<'py> {
+    q: Bound<'py, PyArrayDyn<f64>>,
+    solved: Bound<'py, PyArrayDyn<bool>>,
+    iterations: Bound<'py, PyArrayDyn<i64>>,
+    errors: [Bound<'py, PyArrayDyn<f64>>; 2],
+}
+
+/// See `Robot.ik_batch`.
+pub fn solve<'py>(
+    solver: &IkSolver<'_>,
+    py: Python<'py>,
+    targets: &Bound<'py, PyAny>,
+    seeds: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let numbers = Numbers::read("targets", targets, MANY_POSES)?;
+    let (matrices, _) = numbers.values()?.as_chunks::<16>();
+    let n = matrices.len();
+    let given = seeds.map(|seeds| Numbers::read("seeds", seeds, JOINTS)).transpose()?;
+    let seeds = match &given {
+        None => Seeds::One(JointVector::zeros()),
+        Some(one) if one.stacked.is_none() => Seeds::One(one.joints()?[0]),
+        Some(each) if each.stacked == Some(n) => Seeds::Each(each.joints()?),
+        Some(other) => {
+            let found = other.stacked.unwrap_or(0);
+            let wanted = ["(6,)".to_owned(), format!("({n}, 6)")];
+            return Err(errors::shape(py, "seeds", &[found, 6], &wanted));
+        }
+    };
+    let columns = Columns {
+        q: arrays::zeros(py, &[n, 6]),
+        solved: arrays::zeros(py, &[n]),
+        iterations: arrays::zeros(py, &[n]),
+        errors: [arrays::zeros(py, &[n]), arrays::zeros(py, &[n])],
+    };
+    let problems = Problems {
+        solver,
+        matrices,
+        seeds,
+    };
+    let causes = fill(py, &columns, &problems)?;
+    let class = BATCH.import(py, "pyplatewash._records", "IkBatch")?;
+    let [position, orientation] = columns.errors;
+    class.call1((
+        columns.q,
+        columns.solved,
+        columns.iterations,
+        position,
+        orientation,
+        causes,
+    ))
+}
+
+/// Fills the arrays, stretch by stretch, on all threads; Ctrl-C is looked for in between.
+fn fill<'py>(py: Python<'py>, columns: &Columns<'py>, problems: &Problems<'_>) -> PyResult<Bound<'py, PyDict>> {
+    let mut q: PyReadwriteArrayDyn<'_, f64> = columns.q.readwrite();
+    let mut solved: PyReadwriteArrayDyn<'_, bool> = columns.solved.readwrite();
+    let mut iterations: PyReadwriteArrayDyn<'_, i64> = columns.iterations.readwrite();
+    let [position, orientation] = &columns.errors;
+    let mut position: PyReadwriteArrayDyn<'_, f64> = position.readwrite();
+    let mut orientation: PyReadwriteArrayDyn<'_, f64> = orientation.readwrite();
+    let mut rest = Rows {
+        first: 0,
+        q: bytemuck::cast_slice_mut(q.as_slice_mut()?),
+        solved: solved.as_slice_mut()?,
+        iterations: iterations.as_slice_mut()?,
+        position_error_m: position.as_slice_mut()?,
+        orientation_error_rad: orientation.as_slice_mut()?,
+    };
+    let all = PyDict::new(py);
+    let mut stretch = FIRST_STRETCH;
+    while !rest.q.is_empty() {
+        let n = stretch.min(rest.q.len());
+        let (now, later) = rest.split(n);
+        rest = later;
+        let begun = Instant::now();
+        let done: Vec<_> = released(py, || {
+            let chunks = now.chunks().into_par_iter();
+            chunks
+                .map_init(|| Desk::new(problems), |desk, mut rows| rows.solve(desk, problems))
+                .collect()
+        })?;
+        for causes in done {
+            for (row, cause) in causes.map_err(|refused| error(py, refused))? {
+                all.set_item(row, cause)?;
+            }
+        }
+        py.check_signals()?;
+        if begun.elapsed() < PATIENCE {
+            stretch *= 2;
+        }
+    }
+    Ok(all)
+}
+
+fn error(py: Python<'_>, refused: Refused) -> PyErr {
+    match refused {
+        Refused::Pose(row, problem) => no_pose(py, (row, problem)),
+        Refused::Seed(row, problem) => errors::input(py, "seeds", &format!("in row {row}: {problem}")),
+        Refused::Internal(problem) => errors::internal(py, &problem),
+    }
+}

@@ -1,0 +1,335 @@
+//! `Robot`: the arm as Python sees it.
+
+mod batch;
+mod forward;
+mod inverse;
+mod rows;
+mod settings;
+mod source;
+
+use crate::arrays;
+use crate::errors;
+use crate::tool::ToolFields;
+use numpy::PyArrayDyn;
+use platewash::{Axes, Frame, RobotModel, ToolFrame};
+use pyo3::prelude::*;
+use pyo3::types::{PyTuple, PyType};
+use settings::Solvers;
+use source::Source;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+pub use settings::IkSolutionRecord;
+
+/// A six-axis arm. Immutable.
+///
+/// Angles are radians, lengths metres. A pose is a 4 × 4 matrix `T_base_frame`. `q` is an array of shape (6,), or (N, 6) for
+/// many configurations at once.
+///
+/// The frame of a pose is called by name: `"tool0"` (ROS-Industrial's: z leaves the flange), `"flange"`, `"matlab_tool0"`
+/// (MATLAB's `tool0`: x leaves the flange) or any link. Without a name it is `tool0`, or what stands for it on arms without
+/// one; with `tool=Tool(...)` it is the tool's tip.
+#[pyclass(frozen, module = "pyplatewash")]
+pub struct Robot {
+    model: Arc<RobotModel>,
+    source: Source,
+    mount: Frame,
+    solvers: Solvers,
+}
+
+impl Robot {
+    fn new(model: RobotModel, source: Source) -> Self {
+        Self {
+            mount: model.mounting_frame(),
+            model: Arc::new(model),
+            source,
+            solvers: Solvers::default(),
+        }
+    }
+
+    /// The arm.
+    #[must_use]
+    pub fn model(&self) -> &Arc<RobotModel> {
+        &self.model
+    }
+
+    fn frame(&self, py: Python<'_>, name: Option<&str>, tool: Option<&Bound<'_, PyAny>>) -> PyResult<Frame> {
+        match (name, tool) {
+            (None, None) => Ok(self.mount),
+            (None, Some(tool)) => Ok(platewash::planner::robot::tip_frame(
+                &self.model,
+                &ToolFields::of(tool)?.section(py)?,
+            )),
+            (Some(_), Some(_)) => Err(errors::input(
+                py,
+                "frame",
+                "give either a frame or a tool, whose tip is meant",
+            )),
+            (Some(name), None) => {
+                let known = ToolFrame::ALL.into_iter().find(|f| f.name() == name);
+                let frame = known.map_or_else(|| self.model.frame(name), |known| self.model.tool_frame(known));
+                frame.map_err(|e| errors::input(py, "frame", &e.to_string()))
+            }
+        }
+    }
+}
+
+#[pymethods]
+impl Robot {
+    /// The built-in ABB IRB 120.
+    #[classmethod]
+    fn irb120(_class: &Bound<'_, PyType>, py: Python<'_>) -> PyResult<Self> {
+        let model = RobotModel::irb120().map_err(|e| errors::internal(py, &e.to_string()))?;
+        Ok(Self::new(model, Source::BuiltIn))
+    }
+
+    /// An arm from expanded URDF text (no xacro) with six revolute axes in series.
+    ///
+    /// `srdf` is SRDF text with the pairs of links that need no collision check. `package_path` lists folders in which
+    /// `package://` meshes are looked up, `folder` is the one that relative mesh names start from.
+    ///
+    /// Raises UrdfError, naming the joint or link at fault.
+    #[classmethod]
+    #[pyo3(signature = (text, *, srdf=None, package_path=Vec::new(), folder=None))]
+    fn from_urdf(
+        _class: &Bound<'_, PyType>,
+        py: Python<'_>,
+        text: String,
+        srdf: Option<String>,
+        package_path: Vec<PathBuf>,
+        folder: Option<PathBuf>,
+    ) -> PyResult<Self> {
+        let source = Source::described(text, srdf, package_path, folder);
+        Ok(Self::new(source.load(py)?, source))
+    }
+
+    /// An arm from an expanded URDF file, with an SRDF file if given; meshes are looked up beside it and in `package_path`.
+    ///
+    /// Raises UrdfError, naming the joint or link at fault.
+    #[classmethod]
+    #[pyo3(signature = (urdf, *, srdf=None, package_path=Vec::new()))]
+    fn load(
+        _class: &Bound<'_, PyType>,
+        py: Python<'_>,
+        urdf: PathBuf,
+        srdf: Option<PathBuf>,
+        package_path: Vec<PathBuf>,
+    ) -> PyResult<Self> {
+        let source = Source::files(py, &urdf, srdf.as_deref(), package_path)?;
+        Ok(Self::new(source.load(py)?, source))
+    }
+
+    /// Name in the description.
+    #[getter]
+    fn name(&self) -> &str {
+        self.model.name()
+    }
+
+    /// SHA-256 of the URDF text, in hexadecimal.
+    #[getter]
+    fn sha256(&self) -> &str {
+        self.model.sha256()
+    }
+
+    /// URDF text of the arm, for other programs.
+    #[getter]
+    fn urdf(&self) -> &str {
+        self.source.urdf()
+    }
+
+    /// Names of the six joints, from the base to the tip.
+    #[getter]
+    fn joint_names(&self) -> Vec<&str> {
+        self.model.joints().iter().map(|j| j.name.as_str()).collect()
+    }
+
+    /// Names of all links, from the root outwards.
+    #[getter]
+    fn link_names(&self) -> Vec<&str> {
+        self.model.links().iter().map(|l| l.name.as_str()).collect()
+    }
+
+    /// Lowest joint positions, shape (6,) [rad]; -inf for a continuous joint.
+    #[getter]
+    fn lower<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        arrays::array(py, &[6], self.model.limits().lower.as_slice())
+    }
+
+    /// Highest joint positions, shape (6,) [rad]; inf for a continuous joint.
+    #[getter]
+    fn upper<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        arrays::array(py, &[6], self.model.limits().upper.as_slice())
+    }
+
+    /// Highest joint speeds, shape (6,) [rad/s].
+    #[getter]
+    fn velocity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        arrays::array(py, &[6], self.model.limits().velocity.as_slice())
+    }
+
+    /// Highest joint torques [N·m], None where the description states none.
+    #[getter]
+    fn effort(&self) -> [Option<f64>; 6] {
+        self.model.limits().effort
+    }
+
+    /// Distance of each joint from its nearer limit [rad], shape of `q`; negative outside.
+    fn limit_margins<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        forward::limit_margins(self, py, q)
+    }
+
+    /// Pose `T_base_frame` at `q`: shape (6,) gives (4, 4), (N, 6) gives (N, 4, 4). Limits are not checked; NaN in, NaN out.
+    #[pyo3(signature = (q, frame=None, *, tool=None))]
+    fn fk<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        frame: Option<&str>,
+        tool: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        forward::fk(self, py, q, &self.frame(py, frame, tool)?)
+    }
+
+    /// Geometric Jacobian of a frame at `q`: shape (6,) gives (6, 6), (N, 6) gives (N, 6, 6).
+    ///
+    /// Rows 0-2 are the velocity of the frame's origin [m/s per rad/s], rows 3-5 the angular velocity, in the axes of the base
+    /// (`axes="base"`) or of the frame (`axes="local"`).
+    #[pyo3(signature = (q, frame=None, *, tool=None, axes="base"))]
+    fn jacobian<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        frame: Option<&str>,
+        tool: Option<&Bound<'_, PyAny>>,
+        axes: &str,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let axes = match axes {
+            "base" => Axes::Base,
+            "local" => Axes::Local,
+            _ => return Err(errors::input(py, "axes", "must be \"base\" or \"local\"")),
+        };
+        forward::jacobian(self, py, q, &self.frame(py, frame, tool)?, axes)
+    }
+
+    /// Yoshikawa's manipulability `|det J|` of a frame at `q` [m³]: shape (6,) gives a number, (N, 6) gives (N,).
+    #[pyo3(signature = (q, frame=None, *, tool=None))]
+    fn manipulability<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        frame: Option<&str>,
+        tool: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        forward::manipulability(self, py, q, &self.frame(py, frame, tool)?)
+    }
+
+    /// A configuration within the limits that brings the frame to `target`, shape (4, 4), found from `seed`, shape (6,), by
+    /// default zeros.
+    ///
+    /// Raises IkError with the best configuration found and the cause.
+    #[pyo3(signature = (target, seed=None, frame=None, *, tool=None, settings=None))]
+    fn ik(
+        &self,
+        py: Python<'_>,
+        target: &Bound<'_, PyAny>,
+        seed: Option<&Bound<'_, PyAny>>,
+        frame: Option<&str>,
+        tool: Option<&Bound<'_, PyAny>>,
+        settings: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<IkSolutionRecord> {
+        let frame = self.frame(py, frame, tool)?;
+        inverse::one(&*self.solver(py, frame, settings)?, py, target, seed)
+    }
+
+    /// Every configuration within the limits that brings the frame to `target`, shape (4, 4), with the names of their branches,
+    /// and why the other branches are none. `previous`, shape (6,), decides joints that are free at singularities.
+    ///
+    /// Raises InputError for an arm without closed form: its wrist is not spherical, or axes 2 and 3 are not parallel.
+    #[pyo3(signature = (target, previous=None, frame=None, *, tool=None))]
+    fn ik_all<'py>(
+        &self,
+        py: Python<'py>,
+        target: &Bound<'py, PyAny>,
+        previous: Option<&Bound<'py, PyAny>>,
+        frame: Option<&str>,
+        tool: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let frame = self.frame(py, frame, tool)?;
+        inverse::all(&*self.solver(py, frame, None)?, py, target, previous)
+    }
+
+    /// Configurations, shape (N, 6), that bring the frame through `targets`, shape (N, 4, 4), without a jump. The first one is
+    /// found from `seed`, shape (6,), by default zeros.
+    ///
+    /// Raises IkPathError with the waypoint at which the path breaks off, why, and the configurations up to there.
+    #[pyo3(signature = (targets, seed=None, frame=None, *, tool=None, settings=None))]
+    fn ik_path<'py>(
+        &self,
+        py: Python<'py>,
+        targets: &Bound<'py, PyAny>,
+        seed: Option<&Bound<'py, PyAny>>,
+        frame: Option<&str>,
+        tool: Option<&Bound<'_, PyAny>>,
+        settings: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let frame = self.frame(py, frame, tool)?;
+        inverse::path(self.solver(py, frame, settings)?, py, targets, seed)
+    }
+
+    /// Solves many targets, shape (N, 4, 4), each from its own seed, shape (N, 6), or all from one, shape (6,).
+    ///
+    /// Nothing is raised for a target that is not solved: `answer.solved` says which are, and `answer.q` holds the best
+    /// configuration found for the others. Targets near their seeds are solved several at a time, on all processors.
+    #[pyo3(signature = (targets, seeds=None, frame=None, *, tool=None, settings=None))]
+    fn ik_batch<'py>(
+        &self,
+        py: Python<'py>,
+        targets: &Bound<'py, PyAny>,
+        seeds: Option<&Bound<'py, PyAny>>,
+        frame: Option<&str>,
+        tool: Option<&Bound<'_, PyAny>>,
+        settings: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let frame = self.frame(py, frame, tool)?;
+        batch::solve(&*self.solver(py, frame, settings)?, py, targets, seeds)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Robot('{}', sha256 {}…)", self.model.name(), &self.model.sha256()[..8])
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.model, &other.model) || self.model == other.model
+    }
+
+    fn __hash__(&self) -> u64 {
+        // The first bits of a SHA-256 are as good as any.
+        u64::from_str_radix(&self.model.sha256()[..16], 16).unwrap_or(0)
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let class = slf.get_type();
+        slf.get().source.reduce(slf.py(), &class)
+    }
+
+    /// Restores a pickled arm from a description.
+    #[classmethod]
+    fn _restore(
+        class: &Bound<'_, PyType>,
+        py: Python<'_>,
+        text: String,
+        srdf: Option<String>,
+        package_path: Vec<PathBuf>,
+        folder: Option<PathBuf>,
+    ) -> PyResult<Self> {
+        Self::from_urdf(class, py, text, srdf, package_path, folder)
+    }
+}

@@ -1,0 +1,168 @@
+//! Neighbouring rows of a batch of inverse kinematics: the problems, a thread's desk, and the places for the answers.
+
+use crate::errors::{self, Input};
+use crate::pose;
+use nalgebra::Quaternion;
+use platewash::kinematics::batch::{self, Path};
+use platewash::{IkError, IkSolution, IkSolver, JointVector, Pose};
+
+/// Rows to a unit of work: their poses and answers stay in a processor's cache.
+const CHUNK: usize = 512;
+
+/// Rows that are not solved, with the word for the cause.
+pub type Causes = Vec<(usize, &'static str)>;
+
+/// A row that cannot be worked on.
+pub enum Refused {
+    /// The target is no pose.
+    Pose(usize, Input),
+    /// The seed is no configuration.
+    Seed(usize, IkError),
+    /// Something that must not happen.
+    Internal(String),
+}
+
+/// Seeds of a batch.
+#[derive(Clone, Copy)]
+pub enum Seeds<'a> {
+    /// One for all targets.
+    One(JointVector),
+    /// One a target.
+    Each(&'a [JointVector]),
+}
+
+/// What is to be solved.
+#[derive(Clone, Copy)]
+pub struct Problems<'a> {
+    /// How.
+    pub solver: &'a IkSolver<'a>,
+    /// Targets `T_base_frame`, row by row.
+    pub matrices: &'a [[f64; 16]],
+    /// From where.
+    pub seeds: Seeds<'a>,
+}
+
+/// What a thread works with, chunk after chunk.
+pub struct Desk {
+    room: Vec<Quaternion<f64>>,
+    targets: Vec<Pose>,
+    seeds: Vec<JointVector>,
+    answers: Vec<Result<IkSolution, IkError>>,
+}
+
+impl Desk {
+    /// A desk for the problems.
+    #[must_use]
+    pub fn new(problems: &Problems<'_>) -> Self {
+        let not_yet = IkError::Target {
+            position: [f64::NAN; 3],
+        };
+        Self {
+            room: Vec::with_capacity(CHUNK),
+            targets: Vec::with_capacity(CHUNK),
+            seeds: match problems.seeds {
+                Seeds::One(seed) => vec![seed; CHUNK],
+                Seeds::Each(_) => Vec::new(),
+            },
+            answers: vec![Err(not_yet); CHUNK],
+        }
+    }
+}
+
+/// Places for the answers of neighbouring rows.
+pub struct Rows<'a> {
+    /// Index of the first.
+    pub first: usize,
+    /// Configurations \[rad\].
+    pub q: &'a mut [JointVector],
+    /// Whether the target is reached.
+    pub solved: &'a mut [bool],
+    /// Linear systems and quadratic programs.
+    pub iterations: &'a mut [i64],
+    /// Distances \[m\].
+    pub position_error_m: &'a mut [f64],
+    /// Angles \[rad\].
+    pub orientation_error_rad: &'a mut [f64],
+}
+
+impl<'a> Rows<'a> {
+    /// Cuts off the first `n` rows.
+    pub fn split(self, n: usize) -> (Self, Self) {
+        let (q, q_rest) = self.q.split_at_mut(n);
+        let (solved, solved_rest) = self.solved.split_at_mut(n);
+        let (iterations, iterations_rest) = self.iterations.split_at_mut(n);
+        let (position, position_rest) = self.position_error_m.split_at_mut(n);
+        let (orientation, orientation_rest) = self.orientation_error_rad.split_at_mut(n);
+        let rows = |first, q, solved, iterations, position_error_m, orientation_error_rad| Self {
+            first,
+            q,
+            solved,
+            iterations,
+            position_error_m,
+            orientation_error_rad,
+        };
+        (
+            rows(self.first, q, solved, iterations, position, orientation),
+            rows(
+                self.first + n,
+                q_rest,
+                solved_rest,
+                iterations_rest,
+                position_rest,
+                orientation_rest,
+            ),
+        )
+    }
+
+    /// Units of work.
+    #[must_use]
+    pub fn chunks(self) -> Vec<Self> {
+        let mut all = Vec::with_capacity(self.q.len().div_ceil(CHUNK));
+        let mut rest = self;
+        while rest.q.len() > CHUNK {
+            let (chunk, others) = rest.split(CHUNK);
+            all.push(chunk);
+            rest = others;
+        }
+        all.push(rest);
+        all
+    }
+
+    /// Solves these rows, a unit of work.
+    ///
+    /// # Errors
+    /// The first row that cannot be worked on.
+    pub fn solve(&mut self, desk: &mut Desk, problems: &Problems<'_>) -> Result<Causes, Refused> {
+        let (first, n) = (self.first, self.q.len());
+        let matrices = &problems.matrices[first..first + n];
+        pose::poses(matrices, &mut desk.room, &mut desk.targets).map_err(|(k, e)| Refused::Pose(first + k, e))?;
+        let seeds = match problems.seeds {
+            Seeds::One(_) => &desk.seeds[..n],
+            Seeds::Each(seeds) => &seeds[first..first + n],
+        };
+        let answers = &mut desk.answers[..n];
+        batch::solve_into(problems.solver, &desk.targets, seeds, answers, Path::Detected)
+            .map_err(|e| Refused::Internal(e.to_string()))?;
+        let mut causes = Causes::new();
+        for (k, answer) in answers.iter().enumerate() {
+            if let Err(IkError::NotSolved(failure)) = answer {
+                causes.push((first + k, errors::cause(&failure.cause).0));
+            }
+            self.put(k, answer)?;
+        }
+        Ok(causes)
+    }
+
+    fn put(&mut self, k: usize, answer: &Result<IkSolution, IkError>) -> Result<(), Refused> {
+        self.solved[k] = answer.is_ok();
+        let (q, iterations, position, orientation) = match answer {
+            Ok(s) => (s.q, s.iterations, s.position_error_m, s.orientation_error_rad),
+            Err(IkError::NotSolved(f)) => (f.q, f.iterations, f.position_error_m, f.orientation_error_rad),
+            Err(other) => return Err(Refused::Seed(self.first + k, other.clone())),
+        };
+        self.q[k] = q;
+        self.iterations[k] = iterations as i64;
+        (self.position_error_m[k], self.orientation_error_rad[k]) = (position, orientation);
+        Ok(())
+    }
+}

@@ -1,0 +1,180 @@
+//! Settings of the inverse kinematics, and solvers that are kept between calls.
+
+use super::Robot;
+use crate::arrays;
+use crate::errors;
+use numpy::PyArrayDyn;
+use platewash::kinematics::ik::{AnalyticStarts, Method, RandomRestarts, Start};
+use platewash::{Frame, IkSettings, IkSolution, IkSolver};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Solvers that are kept; each holds a list of starts that costs some 100 µs to make.
+const KEPT: usize = 8;
+
+/// The solvers used last, the latest at the end.
+#[derive(Debug, Default)]
+pub struct Solvers(Mutex<Vec<Arc<IkSolver<'static>>>>);
+
+/// Fields of Python's `IkSettings`.
+#[derive(Debug, FromPyObject)]
+struct Fields {
+    position_tolerance_m: f64,
+    orientation_tolerance_rad: f64,
+    max_iterations: usize,
+    max_qp_iterations: usize,
+    step_bound_rad: f64,
+    analytic_starts: bool,
+    listed_starts: usize,
+    random_restarts: usize,
+    random_seed: u64,
+}
+
+impl From<Fields> for IkSettings {
+    fn from(fields: Fields) -> Self {
+        let restarts = RandomRestarts {
+            seed: fields.random_seed,
+            count: fields.random_restarts,
+        };
+        Self {
+            position_tolerance_m: fields.position_tolerance_m,
+            orientation_tolerance_rad: fields.orientation_tolerance_rad,
+            max_iterations: fields.max_iterations,
+            max_qp_iterations: fields.max_qp_iterations,
+            step_bound_rad: fields.step_bound_rad,
+            analytic_starts: if fields.analytic_starts {
+                AnalyticStarts::Used
+            } else {
+                AnalyticStarts::Unused
+            },
+            listed_starts: fields.listed_starts,
+            random_restarts: (restarts.count > 0).then_some(restarts),
+            ..Self::default()
+        }
+    }
+}
+
+impl Robot {
+    /// The solver for a frame, kept from an earlier call or new.
+    pub(super) fn solver(
+        &self,
+        py: Python<'_>,
+        frame: Frame,
+        settings: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Arc<IkSolver<'static>>> {
+        let settings = match settings {
+            None => IkSettings::default(),
+            Some(given) => given
+                .extract::<Fields>()
+                .map_err(|e| errors::wrong_type(py, "settings", &format!("IkSettings are needed: {}", e.value(py))))?
+                .into(),
+        };
+        let mut kept = self.solvers.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let same = |s: &Arc<IkSolver<'static>>| *s.frame() == frame && *s.settings() == settings;
+        if let Some(found) = kept.iter().rev().find(|s| same(s)) {
+            return Ok(found.clone());
+        }
+        let new =
+            IkSolver::new(&self.model, frame, settings).map_err(|e| errors::input(py, "settings", &e.to_string()))?;
+        let new = Arc::new(new.into_owned());
+        if kept.len() >= KEPT {
+            kept.remove(0);
+        }
+        kept.push(new.clone());
+        Ok(new)
+    }
+}
+
+/// A configuration within the limits that meets both tolerances.
+#[pyclass(frozen, module = "pyplatewash", name = "IkSolution")]
+pub struct IkSolutionRecord {
+    q: [f64; 6],
+    /// Linear systems and quadratic programs solved, over all starts.
+    #[pyo3(get)]
+    iterations: usize,
+    /// The method that answered: `"dls"` or `"qp"`.
+    #[pyo3(get)]
+    method: String,
+    /// From where the answer was found: `"seed"`, `"analytic"`, `"listed 3"`, `"random 0"`.
+    #[pyo3(get)]
+    start: String,
+    /// Distance of the frame's origin from the target's [m].
+    #[pyo3(get)]
+    position_error_m: f64,
+    /// Angle between the frame and the target [rad].
+    #[pyo3(get)]
+    orientation_error_rad: f64,
+}
+
+impl From<&IkSolution> for IkSolutionRecord {
+    fn from(solution: &IkSolution) -> Self {
+        let method = match solution.method {
+            Method::Dls => "dls",
+            Method::Qp => "qp",
+        };
+        let start = match solution.start {
+            Start::Seed => "seed".to_owned(),
+            Start::Analytic => "analytic".to_owned(),
+            Start::Listed(k) => format!("listed {k}"),
+            Start::Random(k) => format!("random {k}"),
+        };
+        Self {
+            q: solution.q.into(),
+            iterations: solution.iterations,
+            method: method.to_owned(),
+            start,
+            position_error_m: solution.position_error_m,
+            orientation_error_rad: solution.orientation_error_rad,
+        }
+    }
+}
+
+#[pymethods]
+impl IkSolutionRecord {
+    #[new]
+    fn new(
+        q: &Bound<'_, PyAny>,
+        iterations: usize,
+        method: String,
+        start: String,
+        position_error_m: f64,
+        orientation_error_rad: f64,
+    ) -> PyResult<Self> {
+        Ok(Self {
+            q: arrays::fixed("q", q)?,
+            iterations,
+            method,
+            start,
+            position_error_m,
+            orientation_error_rad,
+        })
+    }
+
+    /// Joint positions, shape (6,) [rad].
+    #[getter]
+    fn q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        arrays::array(py, &[6], &self.q)
+    }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "IkSolution(q={:.6?}, iterations={}, method='{}', start='{}', position_error_m={:.1e}, \
+             orientation_error_rad={:.1e})",
+            self.q, self.iterations, self.method, self.start, self.position_error_m, self.orientation_error_rad
+        )
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.q == other.q
+            && self.iterations == other.iterations
+            && (&self.method, &self.start) == (&other.method, &other.start)
+            && self.position_error_m == other.position_error_m
+            && self.orientation_error_rad == other.orientation_error_rad
+    }
+
+    fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let errors = (self.position_error_m, self.orientation_error_rad);
+        (self.q, self.iterations, &self.method, &self.start, errors.0, errors.1).into_pyobject(py)
+    }
+}

@@ -1,0 +1,105 @@
+//! Where an arm's description comes from: enough to make the arm again in another process.
+
+use crate::errors;
+use platewash::RobotModel;
+use platewash::kinematics::DisabledPairs;
+use platewash::kinematics::model::IRB120_URDF;
+use platewash::kinematics::urdf::{MAX_BYTES, MeshSource, file};
+use pyo3::prelude::*;
+use pyo3::types::{PyTuple, PyType};
+use std::path::{Path, PathBuf};
+
+/// A description.
+#[derive(Debug, Clone)]
+pub enum Source {
+    /// The embedded IRB 120.
+    BuiltIn,
+    /// Texts, and where their meshes are.
+    Described(Box<Description>),
+}
+
+/// Texts, and where their meshes are.
+#[derive(Debug, Clone)]
+pub struct Description {
+    urdf: String,
+    srdf: Option<String>,
+    package_path: Vec<PathBuf>,
+    folder: Option<PathBuf>,
+}
+
+impl Source {
+    /// From texts.
+    pub fn described(urdf: String, srdf: Option<String>, package_path: Vec<PathBuf>, folder: Option<PathBuf>) -> Self {
+        Self::Described(Box::new(Description {
+            urdf,
+            srdf,
+            package_path,
+            folder,
+        }))
+    }
+
+    /// From files.
+    ///
+    /// # Errors
+    /// `UrdfError` for a file that cannot be read.
+    pub fn files(py: Python<'_>, urdf: &Path, srdf: Option<&Path>, package_path: Vec<PathBuf>) -> PyResult<Self> {
+        let read = |path: &Path| {
+            file::read_text(path, MAX_BYTES as u64)
+                .map_err(|e| errors::named(py, "UrdfError", &format!("{}: cannot be read: {e}", path.display())))
+        };
+        // A path without folder is in the working folder, which may be another one when the arm is restored.
+        let folder = std::path::absolute(urdf)
+            .ok()
+            .and_then(|path| path.parent().map(Path::to_path_buf));
+        Ok(Self::described(
+            read(urdf)?,
+            srdf.map(read).transpose()?,
+            package_path,
+            folder,
+        ))
+    }
+
+    /// The URDF text.
+    pub fn urdf(&self) -> &str {
+        match self {
+            Self::BuiltIn => IRB120_URDF,
+            Self::Described(description) => &description.urdf,
+        }
+    }
+
+    /// The arm.
+    ///
+    /// # Errors
+    /// `UrdfError`, naming the joint or link at fault.
+    pub fn load(&self, py: Python<'_>) -> PyResult<RobotModel> {
+        let Self::Described(description) = self else {
+            return RobotModel::irb120().map_err(|e| errors::internal(py, &e.to_string()));
+        };
+        let wrong = |e: &dyn std::error::Error| errors::named(py, "UrdfError", &e.to_string());
+        let meshes = MeshSource::new(&description.package_path, description.folder.as_deref());
+        let robot = RobotModel::from_urdf(&description.urdf, &meshes).map_err(|e| wrong(&e))?;
+        let Some(srdf) = &description.srdf else {
+            return Ok(robot);
+        };
+        let disabled = DisabledPairs::parse(srdf).map_err(|e| wrong(&e))?;
+        robot.with_disabled_pairs(disabled).map_err(|e| wrong(&e))
+    }
+
+    /// What pickle calls to make the arm again; meshes are read again from their files.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub fn reduce<'py>(
+        &self,
+        py: Python<'py>,
+        class: &Bound<'py, PyType>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        match self {
+            Self::BuiltIn => Ok((class.getattr("irb120")?, PyTuple::empty(py))),
+            Self::Described(d) => {
+                let arguments = (&d.urdf, &d.srdf, &d.package_path, &d.folder);
+                Ok((class.getattr("_restore")?, arguments.into_pyobject(py)?))
+            }
+        }
+    }
+}

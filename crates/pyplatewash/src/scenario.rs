@@ -1,0 +1,270 @@
+//! `Scenario`: a job in full.
+
+use crate::errors;
+use crate::value::{from_mapping, to_python, to_record};
+use crate::work::patiently;
+use platewash::Scenario;
+use platewash::planner::job;
+use platewash::planner::scenario::SHIPPED;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple, PyType};
+use serde_json::{Map, Value};
+
+/// A job in full: what a scenario file states, with defaults filled in. Immutable; `replace` makes another one.
+///
+/// Keys, units and ranges are those of scenario files (docs/scenario.md). Sections are read as `scenario.wash.turns` or
+/// `scenario["wash"]["turns"]`.
+#[pyclass(frozen, eq, module = "pyplatewash", name = "Scenario")]
+#[derive(PartialEq)]
+pub struct ScenarioObject {
+    inner: Scenario,
+}
+
+impl From<Scenario> for ScenarioObject {
+    fn from(inner: Scenario) -> Self {
+        Self { inner }
+    }
+}
+
+impl ScenarioObject {
+    /// The scenario.
+    #[must_use]
+    pub fn inner(&self) -> &Scenario {
+        &self.inner
+    }
+
+    fn table(&self, py: Python<'_>) -> PyResult<Map<String, Value>> {
+        match serde_json::to_value(&self.inner) {
+            Ok(Value::Object(map)) => Ok(map),
+            Ok(_) => Err(errors::internal(py, "a scenario is a table")),
+            Err(e) => Err(errors::internal(py, &e.to_string())),
+        }
+    }
+
+    fn section<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let table = self.table(py)?;
+        to_record(py, &table.get(name).unwrap_or(&Value::Null), None)
+    }
+
+    /// A scenario from a table of plain values, checked as a file would be.
+    fn checked(py: Python<'_>, table: Map<String, Value>) -> PyResult<Self> {
+        let name = table
+            .get("name")
+            .and_then(Value::as_str)
+            .unwrap_or("unnamed")
+            .to_owned();
+        let table = without_nulls(Value::Object(table));
+        let text = toml::to_string(&table).map_err(|e| errors::input(py, "scenario", &e.to_string()))?;
+        let inner = Scenario::parse(&text, &name).map_err(|mut e| {
+            // The line is one of a text that nobody has seen.
+            e.line = None;
+            errors::scenario(py, &e)
+        })?;
+        Ok(Self { inner })
+    }
+}
+
+/// Leaves out what is `None`.
+fn without_nulls(value: Value) -> Value {
+    match value {
+        Value::Object(map) => Value::Object(
+            map.into_iter()
+                .filter(|(_, v)| !v.is_null())
+                .map(|(k, v)| (k, without_nulls(v)))
+                .collect(),
+        ),
+        Value::Array(all) => Value::Array(all.into_iter().map(without_nulls).collect()),
+        plain => plain,
+    }
+}
+
+#[pymethods]
+impl ScenarioObject {
+    /// A shipped scenario by name (see `Scenario.shipped()`), or a TOML file; paths in a file are relative to its folder.
+    ///
+    /// Raises ScenarioError with the line, the key, what was expected and what was found.
+    #[classmethod]
+    fn load(_class: &Bound<'_, PyType>, py: Python<'_>, name_or_file: std::path::PathBuf) -> PyResult<Self> {
+        let Some(name) = name_or_file.to_str() else {
+            return Err(errors::input(py, "name_or_file", "is not valid Unicode"));
+        };
+        let loaded = Scenario::load(name).map_err(|e| errors::scenario(py, &e))?;
+        Ok(Self { inner: loaded })
+    }
+
+    /// A scenario from TOML text; `source` is its name in messages.
+    ///
+    /// Raises ScenarioError.
+    #[classmethod]
+    #[pyo3(signature = (text, source="text"))]
+    fn parse(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str, source: &str) -> PyResult<Self> {
+        let inner = Scenario::parse(text, source).map_err(|e| errors::scenario(py, &e))?;
+        Ok(Self { inner })
+    }
+
+    /// A scenario from a dictionary as `to_dict` gives it; what is missing is default, None counts as missing.
+    ///
+    /// Raises ScenarioError with the key, what was expected and what was found.
+    #[classmethod]
+    fn from_dict(_class: &Bound<'_, PyType>, py: Python<'_>, table: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Self::checked(py, from_mapping("scenario", table)?)
+    }
+
+    /// Names of the scenarios that come with the package; the first is the default.
+    #[classmethod]
+    fn shipped(_class: &Bound<'_, PyType>) -> Vec<&'static str> {
+        SHIPPED.iter().map(|s| s.name).collect()
+    }
+
+    /// The same scenario with other values: `replace(seed=3, layout={"count": 3}, tool=Tool(length_m=0.15))`. Keys of a section
+    /// that are not given stay; None takes a key away.
+    ///
+    /// Raises ScenarioError.
+    #[pyo3(signature = (**changes))]
+    fn replace(&self, py: Python<'_>, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let mut table = self.table(py)?;
+        let changes = changes.map_or_else(|| Ok(Map::new()), |changes| from_mapping("", changes))?;
+        for (key, value) in changes {
+            match (table.get_mut(&key), value) {
+                (Some(Value::Object(section)), Value::Object(new)) => section.extend(new),
+                (_, value) => drop(table.insert(key, value)),
+            }
+        }
+        Self::checked(py, table)
+    }
+
+    /// Everything as plain dictionaries and lists.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.inner)
+    }
+
+    /// The scenario as a TOML file's text.
+    fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
+        toml::to_string(&self.inner).map_err(|e| errors::internal(py, &e.to_string()))
+    }
+
+    /// Checks without running: the arm loads, the start is within its limits, plates have room in principle. The findings on
+    /// plates that are given.
+    ///
+    /// Raises PlanError, LayoutError or UrdfError as running would.
+    fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let scenario = self.inner.clone();
+        let (_, findings) = patiently(py, move |_| job::check(&scenario))?.map_err(|e| errors::plan(py, &e))?;
+        to_python(py, &findings)
+    }
+
+    /// Name, for reports.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.inner.name
+    }
+
+    /// Seed of every random stream.
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.inner.seed
+    }
+
+    fn __getitem__<'py>(&self, py: Python<'py>, key: &str) -> PyResult<Bound<'py, PyAny>> {
+        let table = self.table(py)?;
+        match table.get(key) {
+            Some(Value::Object(section)) => to_record(py, section, None),
+            Some(plain) => to_python(py, plain),
+            None => Err(pyo3::exceptions::PyKeyError::new_err(key.to_owned())),
+        }
+    }
+
+    /// What counts as done.
+    #[getter]
+    fn job<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "job")
+    }
+
+    /// The arm.
+    #[getter]
+    fn robot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "robot")
+    }
+
+    /// What it holds.
+    #[getter]
+    fn tool<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "tool")
+    }
+
+    /// Where the plates lie.
+    #[getter]
+    fn layout<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "layout")
+    }
+
+    /// The path on a plate.
+    #[getter]
+    fn wash<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "wash")
+    }
+
+    /// Inverse kinematics along the path.
+    #[getter]
+    fn ik<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "ik")
+    }
+
+    /// The way between plates.
+    #[getter]
+    fn transition<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "transition")
+    }
+
+    /// Limits beyond those of the arm's description.
+    #[getter]
+    fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "limits")
+    }
+
+    /// How the arm follows.
+    #[getter]
+    fn control<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "control")
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Scenario('{}', seed={})", self.inner.name, self.inner.seed)
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let text = slf.get().to_toml(slf.py())?;
+        let arguments = (text, slf.get().name()).into_pyobject(slf.py())?;
+        Ok((slf.get_type().getattr("parse")?, arguments))
+    }
+}
+
+/// A scenario, or the name or file of one.
+#[derive(FromPyObject)]
+pub enum ScenarioArgument<'py> {
+    /// A scenario.
+    Object(Bound<'py, ScenarioObject>),
+    /// A name or file.
+    Name(std::path::PathBuf),
+}
+
+impl ScenarioArgument<'_> {
+    /// The scenario.
+    ///
+    /// # Errors
+    /// `ScenarioError`.
+    pub fn resolve(&self, py: Python<'_>) -> PyResult<Scenario> {
+        match self {
+            Self::Object(object) => Ok(object.get().inner.clone()),
+            Self::Name(name) => Scenario::load(&name.to_string_lossy()).map_err(|e| errors::scenario(py, &e)),
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Work without the interpreter lock: threads that survive a fork, Ctrl-C, no panic.
+
+use crate::errors;
+use pyo3::prelude::*;
+use rayon::ThreadPool;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// Time between two looks for signals.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Stack of a thread of ours.
+const STACK_BYTES: usize = 8 << 20;
+
+/// Items that a batch works on between two looks for signals: some ten milliseconds.
+pub const STRETCH: usize = 1 << 16;
+
+/// Tells work that nobody waits for its result any more.
+#[derive(Debug, Clone, Default)]
+pub struct Cancel(Arc<AtomicBool>);
+
+impl Cancel {
+    /// Whether to stop.
+    #[must_use]
+    pub fn is_asked(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// The pool of a process: a fork takes the memory along but not the threads.
+static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+
+/// The threads to work on, as many as `RAYON_NUM_THREADS` says, else one a processor.
+fn pool(py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
+    let mut held = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    let here = std::process::id();
+    if let Some((process, pool)) = held.as_ref()
+        && *process == here
+    {
+        return Ok(pool.clone());
+    }
+    let pool = rayon::ThreadPoolBuilder::new()
+        .stack_size(STACK_BYTES)
+        .build()
+        .map_err(|e| errors::internal(py, &format!("no threads: {e}")))?;
+    let pool = Arc::new(pool);
+    // A parent's pool has no threads here that could be told to end.
+    std::mem::forget(held.replace((here, pool.clone())));
+    Ok(pool)
+}
+
+/// Runs short work on the pool without the interpreter lock.
+///
+/// # Errors
+/// `InternalError` in place of a panic.
+pub fn released<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    let pool = pool(py)?;
+    let done = py.detach(|| catch_unwind(AssertUnwindSafe(|| pool.install(work))));
+    done.map_err(|panic| errors::internal(py, &panic_text(panic.as_ref())))
+}
+
+/// Runs short work on this thread without the interpreter lock.
+///
+/// # Errors
+/// `InternalError` in place of a panic.
+pub fn alone<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    let done = py.detach(|| catch_unwind(AssertUnwindSafe(work)));
+    done.map_err(|panic| errors::internal(py, &panic_text(panic.as_ref())))
+}
+
+/// Runs work that may take long without the interpreter lock, looking for signals: Ctrl-C raises at once, and the work is
+/// told to stop.
+///
+/// # Errors
+/// What a signal handler raises (`KeyboardInterrupt`); `InternalError` in place of a panic.
+pub fn patiently<T: Send + 'static>(py: Python<'_>, work: impl FnOnce(&Cancel) -> T + Send + 'static) -> PyResult<T> {
+    let pool = pool(py)?;
+    let cancel = Cancel::default();
+    let (answer, waiting) = channel();
+    let heard = cancel.clone();
+    let run = move || {
+        let done = catch_unwind(AssertUnwindSafe(|| pool.install(|| work(&heard))));
+        // Nobody may be waiting any more.
+        let _ = answer.send(done);
+    };
+    let spawned = std::thread::Builder::new().stack_size(STACK_BYTES).spawn(run);
+    spawned.map_err(|e| errors::internal(py, &format!("no thread: {e}")))?;
+    let waiting = Mutex::new(waiting);
+    loop {
+        let heard = py.detach(|| {
+            let waiting = waiting.lock().unwrap_or_else(PoisonError::into_inner);
+            waiting.recv_timeout(LOOK)
+        });
+        match heard {
+            Ok(Ok(done)) => return Ok(done),
+            Ok(Err(panic)) => return Err(errors::internal(py, &panic_text(panic.as_ref()))),
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(errors::internal(py, "a thread ended without an answer"));
+            }
+            Err(RecvTimeoutError::Timeout) => py
+                .check_signals()
+                .inspect_err(|_| cancel.0.store(true, Ordering::Relaxed))?,
+        }
+    }
+}
+
+fn panic_text(panic: &(dyn std::any::Any + Send)) -> String {
+    let words = panic
+        .downcast_ref::<&str>()
+        .map(|text| (*text).to_owned())
+        .or_else(|| panic.downcast_ref::<String>().cloned());
+    format!("a fault in platewash, please report it: {}", words.unwrap_or_default())
+}

@@ -1,0 +1,19 @@
+"""The command ``platewash``: the same code as the Rust program."""
+
+from __future__ import annotations
+
+import signal
+import sys
+
+from . import _core
+
+
+def main() -> None:
+    """Runs the command with the arguments of this process and ends with its exit code."""
+    # Python only notes Ctrl-C, for later; a command ends at once.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    sys.exit(_core.run_command(sys.argv[1:]))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,138 @@
+"""What can go wrong: one small hierarchy, with the place and the cause as attributes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+
+class PlatewashError(Exception):
+    """Base of every exception of this package. ``str(error)`` says where and why in one sentence."""
+
+    def __init__(self, message: str = "", **fields: Any) -> None:
+        super().__init__(message)
+        for name, value in fields.items():
+            setattr(self, name, value)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_restore, (type(self), str(self), dict(self.__dict__)))
+
+
+def _restore(kind: type[PlatewashError], message: str, fields: dict[str, Any]) -> PlatewashError:
+    return kind(message, **fields)
+
+
+class InputError(PlatewashError, ValueError):
+    """An argument has a value that makes no sense."""
+
+    #: The argument or key at fault.
+    argument: str | None = None
+
+
+class ShapeError(InputError):
+    """An array has the wrong shape."""
+
+    #: The shape found.
+    found: tuple[int, ...] = ()
+    #: The shapes wanted, as words.
+    wanted: list[str] = []
+
+
+class InputTypeError(PlatewashError, TypeError):
+    """An argument is of a wrong type, or holds no real numbers."""
+
+    #: The argument or key at fault.
+    argument: str | None = None
+
+
+class UrdfError(InputError):
+    """A description of an arm was refused; the message names the joint, link or line at fault."""
+
+
+class ScenarioError(InputError):
+    """A scenario was refused."""
+
+    #: The file or name.
+    source: str | None = None
+    #: Line in the file, from 1.
+    line: int | None = None
+    #: The key at fault.
+    key: str | None = None
+    #: What was expected there.
+    expected: str | None = None
+    #: What was found there.
+    found: str | None = None
+
+
+class PlanFileError(InputError):
+    """A plan file cannot be read or written."""
+
+
+class LayoutError(PlatewashError):
+    """The plates could not be placed."""
+
+    #: ``"no_room"`` or ``"empty_region"``.
+    cause: str | None = None
+    #: Plates asked for.
+    count: int | None = None
+    #: Plates that the best attempt placed.
+    most_placed: int | None = None
+    #: No arrangement holds more plates than this.
+    upper_bound: int | None = None
+
+
+class IkError(PlatewashError):
+    """No configuration was found; the best one and why it stopped there."""
+
+    #: ``"unreachable"`` (proven), ``"limit"``, ``"local_minimum"``, ``"singular"`` or ``"iterations"``.
+    cause: str
+    #: Joint at its limit, 0 for joint 1.
+    joint: int | None = None
+    #: The best configuration found, shape (6,) [rad].
+    q: npt.NDArray[np.float64]
+    #: Linear systems and quadratic programs solved; None for a path that breaks off.
+    iterations: int | None = None
+    #: How far the joint would have to go beyond its limit [rad], where known.
+    limit_excess_rad: float | None = None
+    #: How far the best configuration is off [m]; None for a path that breaks off.
+    position_error_m: float | None = None
+    #: How far the best configuration is turned [rad]; None for a path that breaks off.
+    orientation_error_rad: float | None = None
+
+
+class IkPathError(IkError):
+    """A path breaks off; ``cause`` may also be ``"branch_end"``, and ``q`` is the last configuration before."""
+
+    #: Waypoint that is not reached.
+    waypoint: int
+    #: The configurations up to there, shape (K, 6) [rad].
+    solved: npt.NDArray[np.float64]
+
+
+class PlanError(PlatewashError):
+    """A job could not be carried out."""
+
+    #: Stage that failed.
+    stage: str | None = None
+    #: Plate at fault.
+    plate: int | None = None
+    #: Waypoint at fault, over all segments.
+    waypoint: int | None = None
+    #: Joint at fault, 0 for joint 1.
+    joint: int | None = None
+    #: Why, in one word, where there is one: ``"unwashable"``, ``"line"``, ``"no_way"``, ``"home"``.
+    cause: str | None = None
+    #: For a plate that cannot be washed whole: the share of its stroke that can.
+    share: float | None = None
+    #: For such a plate whose position was given: the nearest centre at which it can be, shape (2,) [m].
+    nearest_m: npt.NDArray[np.float64] | None = None
+
+
+class VerifyError(InputError):
+    """A plan says nothing that could be judged. A plan that breaks its promises is no error."""
+
+
+class InternalError(PlatewashError):
+    """A fault in platewash itself; please report it."""

@@ -1,0 +1,129 @@
+"""Plain data: immutable, compared by value, printed in full, copied and pickled as any dataclass."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tool:
+    """A straight handle that leaves the flange along its normal, with a round sponge at its end.
+
+    The tip is the centre of the sponge's far face.
+
+    >>> Tool(length_m=0.15)
+    Tool(length_m=0.15, radius_m=0.02, sponge_radius_m=0.025, sponge_height_m=0.025)
+    """
+
+    #: From the flange to the sponge's far face [m]; 0 for no tool body.
+    length_m: float = 0.0
+    #: Radius of the handle [m].
+    radius_m: float = 0.02
+    #: Radius of the sponge [m]; also decides coverage.
+    sponge_radius_m: float = 0.025
+    #: Height of the sponge [m].
+    sponge_height_m: float = 0.025
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plate:
+    """A plate: a cylinder from ``z_m - thickness_m`` up to ``z_m``, where the washing surface is. Base frame."""
+
+    #: Centre [m].
+    x_m: float
+    #: Centre [m].
+    y_m: float
+    #: Height of the washing surface [m].
+    z_m: float = 0.03
+    #: Radius [m].
+    radius_m: float = 0.145
+    #: Thickness [m].
+    thickness_m: float = 0.02
+
+
+@dataclass(frozen=True, kw_only=True)
+class IkSettings:
+    """Settings of the inverse kinematics; the defaults suit the IRB 120 and arms of its size."""
+
+    #: Largest accepted distance from the target [m].
+    position_tolerance_m: float = 1e-6
+    #: Largest accepted angle from the target [rad].
+    orientation_tolerance_rad: float = 1e-6
+    #: Most damped steps from one start.
+    max_iterations: int = 60
+    #: Most quadratic programs from one start.
+    max_qp_iterations: int = 30
+    #: Largest joint step of one iteration [rad].
+    step_bound_rad: float = 0.7
+    #: Whether closed-form branches serve as starts, on arms that have them.
+    analytic_starts: bool = True
+    #: Listed starts that are tried after the seed, at most 256.
+    listed_starts: int = 64
+    #: Random restarts after those.
+    random_restarts: int = 0
+    #: Seed of the random restarts.
+    random_seed: int = 0
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """The swept part of a disc, as fractions of its area, 0 to 1."""
+
+    #: Best estimate.
+    fraction: float
+    #: The true value is not below this.
+    lower: float
+    #: The true value is not above this.
+    upper: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spiral:
+    """The paper's spiral: waypoints equally spaced in angle, from the centre outwards.
+
+    >>> Spiral().waypoints((0.25, -0.25)).shape
+    (55, 2)
+    """
+
+    #: Waypoints.
+    points: int = 55
+    #: Turns.
+    turns: float = 3.0
+    #: Outer radius [m].
+    radius_m: float = 0.145
+    #: Whether a full circle at the outer radius follows.
+    closing_ring: bool = False
+
+    def waypoints(self, centre: npt.ArrayLike = (0.0, 0.0)) -> Floats:
+        """Waypoints about ``centre``, shape (2,) [m]: shape (N, 2) [m]."""
+        return _core._spiral(self.points, self.turns, self.radius_m, self.closing_ring, centre)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stroke:
+    """A continuous spiral that runs tangentially into its closing ring: what a certified job follows.
+
+    >>> theta, points = Stroke(radius_m=0.124, turns=3.5).sample(1e-5)
+    >>> points.shape == (len(theta), 2)
+    True
+    """
+
+    #: Outer radius [m].
+    radius_m: float
+    #: Turns of the spiral, at least a quarter.
+    turns: float
+    #: Direction in which the spiral leaves the centre, counter-clockwise from +x [rad].
+    start_angle_rad: float = 0.0
+    #: Whether a full circle at the outer radius follows.
+    closing_ring: bool = True
+
+    def sample(self, chord_error_m: float = 1e-5) -> tuple[Floats, Floats]:
+        """Angles, shape (N,) [rad], and points, shape (N, 2) [m], whose chords leave the curve by at most ``chord_error_m``."""
+        return _core._stroke(self.radius_m, self.turns, self.start_angle_rad, self.closing_ring, chord_error_m)

@@ -1,0 +1,90 @@
+"""The README's example, the pages for Python users, the examples and the notebooks run, and say what they say."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import nbformat
+import numpy as np
+import pytest
+from nbclient import NotebookClient
+from readme_example import example
+
+import pyplatewash as pw
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = sorted((ROOT / "examples" / "python").glob("*.py"))
+NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+
+
+def printed(*arguments: str | Path) -> str:
+    done = subprocess.run([sys.executable, *map(str, arguments)], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_the_readmes_example_is_short_and_runs_as_printed() -> None:
+    lines = [line for line in example().splitlines() if line.strip()]
+    assert len(lines) < 12
+    headline, verdict, coverage, *poses = printed(ROOT / "tests" / "python" / "readme_example.py").splitlines()
+    assert headline == pw.plan("kitchen", seed=7).summary.headline
+    assert verdict == "proved for every moment"
+    assert float(coverage.removeprefix("least coverage ").removesuffix("%")) > 99
+    assert len(poses) == 3
+
+
+@pytest.mark.parametrize("page", ["python.md", "from-matlab.md"])
+def test_the_pages_blocks_run_from_top_to_bottom(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    blocks = re.findall(r"^```python\n(.*?)^```$", (ROOT / "docs" / page).read_text(), flags=re.MULTILINE | re.DOTALL)
+    assert len(blocks) > 4
+    monkeypatch.chdir(tmp_path)
+    after: dict[str, Any] = {}
+    for number, block in enumerate(blocks, 1):
+        exec(compile(block, f"docs/{page}, block {number}", "exec"), after)
+    if page == "from-matlab.md":
+        np.testing.assert_allclose(after["axis"], [[0, 0, -1], [1, 0, 0]], atol=1e-5)  # The trap: down and forwards.
+        np.testing.assert_allclose(after["eul2quat"]([0.3, 0.2, 0.1]), [0.98334744, 0.0342708, 0.10602051, 0.14357218], atol=1e-8)
+
+
+def test_the_papers_program_call_by_call_is_the_papers_job() -> None:
+    source = next(path for path in EXAMPLES if path.stem == "paper_program")
+    assert len(source.read_text().splitlines()) < 60
+    after: dict[str, Any] = {"__name__": "example"}
+    exec(compile(source.read_text(), source.name, "exec"), after)
+    job = pw.Job.run("paper-appendix")
+    assert after["reached"] == job.reached.sum()
+    np.testing.assert_allclose(after["executed"], job.executed_q, atol=1e-9)
+
+
+@pytest.mark.parametrize("engine", ["pinocchio", "mujoco"])
+def test_a_plan_is_replayed_elsewhere(engine: str) -> None:
+    said = printed(next(path for path in EXAMPLES if path.stem == f"replay_{engine}"))
+    found = re.search(r"differ by at most ([-+.e\d]+)", said)
+    assert found and float(found[1]) < 1e-9, said
+
+
+def test_every_example_is_tested() -> None:
+    assert [path.stem for path in EXAMPLES] == ["paper_program", "replay_mujoco", "replay_pinocchio"]
+    assert len(NOTEBOOKS) == 3
+
+
+def words(notebook: Any) -> list[str]:
+    """What the cells say, pictures and tables in HTML apart."""
+    outputs = [output for cell in notebook.cells for output in cell.get("outputs", ())]
+    return ["".join(output.get("text", "") or output.get("data", {}).get("text/plain", "")) for output in outputs]
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_notebooks_run_and_their_outputs_are_current(path: Path, tmp_path: Path) -> None:
+    executed = nbformat.read(path, as_version=4)
+    folder = {"metadata": {"path": str(tmp_path)}}
+    NotebookClient(executed, timeout=600, kernel_name="python3", record_timing=False, resources=folder).execute()
+    if os.environ.get("PLATEWASH_WRITE_DOCS"):
+        executed.metadata.pop("language_info", None)
+        nbformat.write(executed, path)
+    committed = nbformat.read(path, as_version=4)
+    assert path.stat().st_size < 100_000, "keep pictures few and small"
+    assert words(executed) == words(committed), "PLATEWASH_WRITE_DOCS=1 cargo xtask test --only python runs the notebooks anew"

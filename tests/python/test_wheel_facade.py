@@ -1,0 +1,119 @@
+"""The wheel has everything of Rust's façade that makes sense in Python; its types and its examples hold."""
+
+import doctest
+import importlib
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import pyplatewash as pw
+
+# What each name of the façade is in Python; None with the reason where it is nothing.
+PYTHON = {
+    "kinematics": None,  # a module of Rust's; its nouns are at the top
+    "planner": None,
+    "cli": "run_command",
+    "Axes": "Robot.jacobian",  # axes="base" or "local"
+    "Certificate": "Certificate",
+    "ClearanceModel": "ClearanceModel",
+    "Coverage": "Coverage",
+    "Cycle": "Cycle",
+    "CycleReport": "Cycle.report",
+    "Frame": "Robot.fk",  # frames go by name
+    "IkError": "IkError",
+    "IkFailure": "IkError",
+    "IkSettings": "IkSettings",
+    "IkSolution": "IkSolution",
+    "IkSolver": "Robot.ik",
+    "Jacobian": "Robot.jacobian",  # an array
+    "Job": "Job",
+    "JobReport": "Job.report",
+    "JointLimits": "Robot.lower",
+    "JointVector": None,  # an array of shape (6,)
+    "Layout": "Layout",
+    "PairClearance": "ClearanceModel.smallest",
+    "Plan": "Plan",
+    "PlanError": "PlanError",
+    "Plate": "Plate",
+    "Pose": None,  # an array of shape (4, 4)
+    "Promise": "Certificate.promises",
+    "Region": "Scenario.replace",  # layout={"x_m": ..., "y_m": ...}
+    "Reproduction": "reproduce",
+    "RobotModel": "Robot",
+    "Scenario": "Scenario",
+    "ToolFrame": "Robot.fk",
+    "ToolPath": "Plan.tool_path",
+    "Trajectory": "Trajectory",
+    "Verdict": "Job.report",
+    "VerifyError": "VerifyError",
+    "coverage": "coverage",
+    "reproduce": "reproduce",
+}
+
+
+def rust_names(root: Path) -> set[str]:
+    text = (root / "src" / "lib.rs").read_text()
+    names = set(re.findall(r"^pub mod (\w+)", text, flags=re.MULTILINE))
+    for used in re.findall(r"^pub use [\w:]*?(?:::)?(\{[^}]*\}|\w+)(?: as (\w+))?;", text, flags=re.MULTILINE):
+        names |= set(re.findall(r"\w+", used[1] or used[0]))
+    return names
+
+
+def test_every_name_of_rusts_facade_is_accounted_for(root: Path) -> None:
+    assert rust_names(root) == set(PYTHON), "name what is new in PYTHON, and bind it"
+    for there in filter(None, PYTHON.values()):
+        thing = pw
+        for part in there.split("."):
+            thing = getattr(thing, part)
+
+
+def test_the_scenarios_and_verbs_are_the_commands(platewash: Path) -> None:
+    assert pw.__version__ in subprocess.run([platewash, "--version"], capture_output=True, text=True).stdout
+    assert sorted(pw.__all__) == pw.__all__
+    for name in pw.__all__:
+        assert getattr(pw, name).__doc__, f"{name} has no docstring"
+
+
+@pytest.mark.parametrize("module", ["", "._values", "._records", "._errors"])
+def test_examples_in_docstrings_run(module: str) -> None:
+    found = doctest.testmod(importlib.import_module("pyplatewash" + module))
+    assert found.failed == 0
+
+
+def check(cwd: Path, *arguments: str | Path) -> None:
+    """Runs a checker on the installed package, not on the sources beside the compiled part."""
+    done = subprocess.run([sys.executable, "-m", *map(str, arguments)], cwd=cwd, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def users(root: Path) -> list[Path]:
+    """Everything in Python that uses the wheel."""
+    tests = sorted((root / "tests" / "python").glob("test_wheel_*.py"))
+    examples = sorted((root / "examples" / "python").glob("*.py"))
+    assert len(tests) >= 6 and len(examples) >= 3
+    return tests + examples
+
+
+def test_stubs_are_what_runs(tmp_path: Path) -> None:
+    check(tmp_path, "mypy.stubtest", "pyplatewash")
+
+
+def test_mypy_is_content(root: Path, tmp_path: Path) -> None:
+    strict: list[str | Path] = ["mypy", "--strict", "--config-file", root / "pyproject.toml", "--cache-dir", tmp_path]
+    check(tmp_path, *strict, "-p", "pyplatewash")
+    check(tmp_path, *strict, *users(root))
+
+
+def test_pyright_is_content(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYRIGHT_PYTHON_IGNORE_WARNINGS", "1")  # It would ask for a newer version of itself.
+    check(root, "pyright", "--pythonpath", sys.executable, Path(pw.__file__).parent, *users(root))
+
+
+def test_a_wrong_call_is_found_by_the_types(tmp_path: Path) -> None:
+    (tmp_path / "wrong.py").write_text("import pyplatewash as pw\npw.Robot.irb120().fk([0.0] * 6, axes='base')\npw.plan(3)\n")
+    found = subprocess.run([sys.executable, "-m", "mypy", "--strict", "wrong.py"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert "wrong.py:2" in found.stdout and "wrong.py:3" in found.stdout

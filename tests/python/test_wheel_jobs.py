@@ -1,0 +1,232 @@
+"""The wheel's jobs: scenarios, layouts, plans, certificates, reports."""
+
+import copy
+import json
+import pickle
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyplatewash as pw
+
+
+@pytest.fixture(scope="module")
+def cycle() -> pw.Cycle:
+    return pw.Cycle.plan("kitchen")
+
+
+@pytest.fixture(scope="module")
+def job() -> pw.Job:
+    return pw.Job.run("paper-appendix")
+
+
+def test_plans_are_the_commands_to_the_byte(platewash: Path, tmp_path: Path) -> None:
+    for scenario in ("kitchen", "paper-appendix"):
+        subprocess.run([platewash, "plan", "--quiet", "--scenario", scenario, "--out", tmp_path], check=True, capture_output=True)
+        assert (tmp_path / "plan.json").read_text() == pw.plan(scenario).to_json()
+        assert pw.Plan.load(tmp_path / "plan.json") == pw.plan(scenario)
+
+
+def test_the_kitchen_is_proved(cycle: pw.Cycle) -> None:
+    plan = cycle.to_plan()
+    certificate = plan.verify()
+    assert certificate.proved and certificate.verdict == "pass" and certificate.broken == []
+    assert {p.status for p in certificate.promises} == {"pass"}
+    assert certificate == pw.verify(plan, pw.Robot.irb120())
+    assert str(certificate).startswith("CERTIFIED")
+    report = cycle.report()
+    assert report.verdict == "washed" and str(report).startswith("PROVED")
+    assert len(report.visits) == len(cycle.order) == len(plan.plates) == 4
+
+
+def test_a_changed_plan_is_found_out(cycle: pw.Cycle) -> None:
+    table = cycle.to_plan().to_dict()
+    table["knots"]["q_rad"][100][0] += 0.5
+    changed = pw.Plan.from_json(json.dumps(table))
+    assert not changed.is_sealed()
+    certificate = changed.verify()
+    assert not certificate.proved and certificate.broken
+    with pytest.raises(pw.PlanFileError):
+        pw.Plan.from_json("{}")
+    with pytest.raises(pw.PlanFileError):
+        pw.Plan.load("/nowhere/plan.json")
+
+
+def test_a_plate_out_of_reach_is_named_with_what_could_be_done() -> None:
+    scenario = pw.Scenario.load("kitchen").replace(layout={"region": None, "positions_m": [[0.7, 0.0]], "count": 1})
+    with pytest.raises(pw.PlanError) as caught:
+        pw.plan(scenario)
+    error = pickle.loads(pickle.dumps(caught.value))
+    assert error.plate == 0 and error.cause == "unwashable" and 0 < error.share < 1
+    moved = scenario.replace(layout={"positions_m": [error.nearest_m * 0.97]})
+    assert pw.plan(moved).verify().proved
+
+
+def test_eight_threads_plan_what_one_does() -> None:
+    seeds = list(range(1, 9))
+    alone = [pw.plan("kitchen", seed=seed).hash for seed in seeds]
+    with ThreadPoolExecutor(8) as threads:
+        assert list(threads.map(lambda seed: pw.plan("kitchen", seed=seed).hash, seeds)) == alone
+
+
+def test_a_sweep_is_its_plans() -> None:
+    rows = pw.sweep("kitchen", [3, 1])
+    assert [row.seed for row in rows] == [3, 1] and {row.outcome for row in rows} == {"proved"}
+    assert rows[1].duration_s == pw.plan("kitchen", seed=1).summary.duration_s
+    with pytest.raises(pw.InputError):
+        pw.sweep("paper-text", [1])
+
+
+def test_the_papers_job_says_that_it_does_not_wash(job: pw.Job) -> None:
+    report = job.report()
+    assert report.headline.startswith("NOT WASHED") and str(report).startswith("NOT WASHED")
+    assert job.targets.shape == job.executed_tip.shape == (len(job), 3)
+    assert job.commanded_q.shape == job.executed_q.shape == (len(job), 6)
+    assert job.reached.sum() == sum(p.reached for p in report.plates) + report.transitions.reached
+    for plate in report.plates:
+        mine = job.washing & (job.plate == plate.plate)
+        centre = job.layout.centres[plate.plate]
+        measured = pw.coverage(job.executed_tip[mine, :2], centre, 0.145, report.sponge_radius_m)
+        assert measured.fraction == pytest.approx(plate.executed_coverage.fraction, abs=2e-3)
+    np.testing.assert_array_equal(job.planned.q_rad[1:], job.commanded_q)
+    assert job.to_csv().count("\n") == len(job) + 2
+
+
+def test_scenarios_are_read_changed_and_refused(tmp_path: Path) -> None:
+    scenario = pw.Scenario.load("paper-appendix")
+    assert "kitchen" in pw.Scenario.shipped()
+    assert pw.Scenario.from_dict(scenario.to_dict()) == scenario == pw.Scenario.parse(scenario.to_toml())
+    for section in scenario.to_dict():
+        assert getattr(scenario, section) == scenario[section]
+    changed = scenario.replace(seed=3, tool=pw.Tool(length_m=0.1), layout={"count": np.int64(3)})
+    assert (changed.seed, changed.tool.length_m, changed.layout.count) == (3, 0.1, 3)
+    assert scenario.seed == 1 and len(pw.place_plates(changed)) == 3
+    with pytest.raises(pw.ScenarioError) as caught:
+        scenario.replace(wash={"turns": -1})
+    assert caught.value.key == "wash.turns" and caught.value.found == "-1"
+    with pytest.raises(pw.ScenarioError, match="did you mean 'wash.turns'"):
+        scenario.replace(wash={"turnz": 1})
+    (tmp_path / "bad.toml").write_text("name = 'x'\nseed = 'y'\n")
+    with pytest.raises(pw.ScenarioError) as caught:
+        pw.Scenario.load(tmp_path / "bad.toml")
+    assert caught.value.line == 2
+    with pytest.raises(KeyError):
+        scenario["nose"]
+    for wrong in (3, [1], {"seed": object()}, {3: 4}, {"seed": 2**80}, {"seed": float("nan")}):
+        with pytest.raises(pw.PlatewashError):
+            pw.Scenario.from_dict(wrong)
+
+
+def test_plates_without_room_are_an_error_with_numbers() -> None:
+    crowded = pw.Scenario.load("paper-text").replace(layout={"count": 200})
+    with pytest.raises(pw.LayoutError) as caught:
+        pw.place_plates(crowded)
+    error = caught.value
+    assert error.cause == "no_room" and error.most_placed is not None and error.upper_bound is not None
+    assert error.most_placed < error.upper_bound < 200
+
+
+def test_findings_come_with_words() -> None:
+    given = pw.Scenario.load("paper-appendix").replace(layout={"region": None, "positions_m": [[0.3, 0.0], [0.35, 0.0]]})
+    kinds = {finding.kind: str(finding) for finding in pw.place_plates(given).findings}
+    assert "overlap by 240.0 mm" in kinds["plates_overlap"]
+    assert len(given.check()) == len(kinds)
+
+
+def test_trajectories_are_their_knots(job: pw.Job) -> None:
+    motion = job.planned
+    q, qd, qdd = motion.at(motion.t_s)
+    np.testing.assert_allclose(q, motion.q_rad, atol=1e-12)
+    np.testing.assert_allclose(qd, motion.qd_rad_s, atol=1e-7)
+    assert [x.shape for x in motion.at(0.5)] == [(6,)] * 3
+    extremes = motion.extremes()
+    assert extremes["span_s"].shape == (len(motion) - 1, 2)
+    times = np.linspace(0, motion.duration_s, 5001)
+    dense = motion.at(times)[1]
+    assert (np.abs(dense).max(axis=0) <= extremes["speed_rad_s"].max(axis=0) + 1e-9).all()
+    for bad in ([0.0, 0.0], [1.0, 2.0], [0.0, np.nan]):
+        with pytest.raises(pw.InputError):
+            pw.Trajectory(bad, np.zeros((2, 6)), np.zeros((2, 6)))
+    with pytest.raises(pw.InputError):
+        motion.at(np.nan)
+    with pytest.raises(pw.InputError):
+        pw.Trajectory.through(np.zeros((3, 6)), 0.0)
+
+
+def test_clearance_in_a_stack_is_clearance_one_by_one(cycle: pw.Cycle) -> None:
+    model = pw.ClearanceModel(pw.Robot.irb120(), pw.Tool(length_m=0.15), cycle.layout.plates)
+    q = cycle.motion.at(np.linspace(0, cycle.motion.duration_s, 40))[0]
+    distances = model.distances(q)
+    assert distances.shape == (40, len(model.pairs))
+    for k in (0, 13, 39):
+        np.testing.assert_array_equal(model.distances(q[k]), distances[k])
+        nearest = model.smallest(q[k])
+        assert nearest is not None
+        assert nearest.distance_m == distances[k].min()
+        assert (nearest.a, nearest.b) in model.pairs
+        near = model.too_near(q[k], nearest.distance_m + 1e-9)
+        assert near[0].distance_m == nearest.distance_m
+    assert pickle.loads(pickle.dumps(model)) == model
+    with pytest.raises(pw.InputError, match="row 1"):
+        model.distances([[0.0] * 6, [np.nan] * 6])
+    with pytest.raises(TypeError):
+        pw.ClearanceModel(pw.Robot.irb120(), plates=[3])  # type: ignore[list-item]  # pyright: ignore[reportArgumentType]
+
+
+def test_the_raster_keeps_the_bounds() -> None:
+    path = pw.Spiral(closing_ring=True).waypoints((0.1, 0.2))
+    exact = pw.coverage(path, (0.1, 0.2), 0.145, 0.02)
+    raster = pw.coverage_raster(path, (0.1, 0.2), 0.145, 0.02, cells=300)
+    inside = (raster.x_m[None] - 0.1) ** 2 + (raster.y_m[:, None] - 0.2) ** 2 <= 0.145**2
+    swept = (raster.state == raster.SWEPT)[inside].mean()
+    missed = (raster.state == raster.MISSED)[inside].mean()
+    assert swept <= exact.upper + 0.01 and 1 - missed >= exact.lower - 0.01
+    left, right, bottom, top = raster.extent
+    assert (left, right, bottom, top) == pytest.approx((-0.045, 0.245, 0.055, 0.345))
+    assert exact.lower <= exact.fraction <= exact.upper
+
+
+def test_curves_are_what_they_say() -> None:
+    spiral = pw.Spiral().waypoints((0.25, -0.25))
+    np.testing.assert_allclose(np.linalg.norm(spiral - (0.25, -0.25), axis=1), np.linspace(0, 0.145, 55), atol=1e-15)
+    through = pw.transition_waypoints((0.3, 0.0, 0.08), (0.0, 0.3, 0.08), radius_m=0.4, height_m=0.3)
+    assert through.shape == (7, 3) and (through[1:6, 2] == 0.3).all()
+    for kind in ("zero_velocity", "c2_spline"):
+        curve = pw.cubic_samples(through, 61, kind)
+        np.testing.assert_allclose(curve[::10], through, atol=1e-12)
+    theta, points = pw.Stroke(radius_m=0.12, turns=3.0).sample(1e-4)
+    assert (np.diff(theta) > 0).all() and np.linalg.norm(points[-1]) == pytest.approx(0.12)
+    for call in (
+        lambda: pw.Spiral(points=10**12).waypoints(),
+        lambda: pw.Spiral(turns=np.inf).waypoints(),
+        lambda: pw.Stroke(radius_m=0.1, turns=3).sample(0.0),
+        lambda: pw.cubic_samples(np.zeros((2, 3)), 5, "quintic"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+        lambda: pw.cubic_samples(np.full((2, 3), np.nan), 5),
+        lambda: pw.coverage(np.zeros((3, 2)), (0, 0), 0.1, 0.02, cell_m=1e-12),
+        lambda: pw.coverage_raster(np.zeros((3, 2)), (0, 0), 0.1, 0.02, cells=10**6),
+    ):
+        with pytest.raises(pw.InputError):
+            call()
+
+
+def test_reproduce_is_the_commands(platewash: Path) -> None:
+    ours = pw.reproduce(layouts=4, draws=200, seed=2)
+    theirs = subprocess.run(
+        [platewash, "reproduce", "--quiet", "--json", "--layouts", "4", "--draws", "200", "--seed", "2"],
+        check=True,
+        capture_output=True,
+    )
+    assert ours.to_dict() == json.loads(theirs.stdout)
+    assert str(ours).startswith("The paper's program, measured")
+
+
+def test_copies_and_pickles_are_equal(cycle: pw.Cycle, job: pw.Job) -> None:
+    plan = cycle.to_plan()
+    things = [cycle, job, plan, job.plan(), plan.verify(), cycle.scenario, cycle.layout, cycle.motion, job.report()]
+    things += [pw.coverage_raster(np.zeros((3, 2)), (0, 0), 0.1, 0.02, cells=5), pw.Coverage(0.5, 0.4, 0.6)]
+    for thing in things:
+        assert pickle.loads(pickle.dumps(thing)) == thing == copy.copy(thing) == copy.deepcopy(thing)
+        assert thing != 3 and type(thing).__name__ in repr(thing)

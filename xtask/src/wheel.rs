@@ -1,0 +1,114 @@
+//! The Python wheel: built from the checkout for the tests, and from its source package outside of it.
+
+use crate::python;
+use crate::step::{Step, root, target};
+use anyhow::{Context, Result, bail};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+/// Largest wheel \[bytes\].
+const LARGEST: u64 = 6_000_000;
+
+/// Builds the wheel from the checkout, as `pip install .` does, and installs it in the environment of the tests.
+///
+/// The Rust build is cargo's in the same target folder, so that what the release build made is not made again.
+pub fn install() -> Result<()> {
+    let tests = python::environment()?;
+    let wheel = build("wheel", &tests, &root())?;
+    let line = ["install", "--no-deps", "--force-reinstall", &text(&wheel)];
+    pip("wheel among the tests", &tests, &line).run()
+}
+
+/// Makes the source package, from it, outside the checkout, the wheel, and runs the README's example with nothing else.
+pub fn package() -> Result<()> {
+    let tests = python::environment()?;
+    let folder = emptied(target().join("package"))?;
+    let line = ["-m", "maturin", "sdist", "--out", &text(&folder)];
+    Step::program("source package", &tests, &line).run()?;
+    let package = only_file(&folder, "gz")?;
+    let outside = emptied(outside())?;
+    let line = ["-m", "tarfile", "-e", &text(&package), &text(&outside)];
+    Step::program("source package unpacked", &tests, &line).run()?;
+    touch(&outside)?;
+    let name = package.file_name().unwrap_or_default().to_string_lossy();
+    let source = outside.join(name.trim_end_matches(".tar.gz"));
+    let done = build("wheel from it", &tests, &source).and_then(|wheel| fresh(&wheel));
+    emptied(outside)?;
+    done
+}
+
+/// A folder outside the checkout, always the same for this checkout: cargo replaces what it built there the last time.
+fn outside() -> PathBuf {
+    let mut hasher = DefaultHasher::new();
+    root().hash(&mut hasher);
+    std::env::temp_dir().join(format!("platewash-source-{:016x}", hasher.finish()))
+}
+
+/// Makes all files new: those of a source package are old, and cargo would take what it built before for theirs.
+fn touch(folder: &Path) -> Result<()> {
+    for entry in std::fs::read_dir(folder).with_context(|| folder.display().to_string())? {
+        let path = entry?.path();
+        if path.is_dir() {
+            touch(&path)?;
+        } else {
+            let file = std::fs::File::options().append(true).open(&path);
+            let touched = file.and_then(|file| file.set_modified(SystemTime::now()));
+            touched.with_context(|| path.display().to_string())?;
+        }
+    }
+    Ok(())
+}
+
+/// The wheel of a project folder.
+fn build(title: &'static str, python: &Path, source: &Path) -> Result<PathBuf> {
+    let folder = emptied(target().join("wheels"))?;
+    let line = ["wheel", "--no-deps", "--wheel-dir", &text(&folder), &text(source)];
+    pip(title, python, &line).with("CARGO_TARGET_DIR", target()).run()?;
+    let wheel = only_file(&folder, "whl")?;
+    let bytes = std::fs::metadata(&wheel)?.len();
+    if bytes > LARGEST {
+        bail!("{} has {bytes} bytes; at most {LARGEST} are wanted", wheel.display());
+    }
+    println!("    {bytes} bytes");
+    Ok(wheel)
+}
+
+/// The wheel in an environment where nothing else is, and the README's example in it.
+fn fresh(wheel: &Path) -> Result<()> {
+    let folder = target().join("fresh");
+    let line = ["-m", "venv", "--clear", &text(&folder)];
+    Step::program("fresh environment", python::base(), &line).run()?;
+    let python = python::interpreter(&folder);
+    pip("wheel in it", &python, &["install", &text(wheel)]).run()?;
+    let line = ["-I", "tests/python/readme_example.py"];
+    Step::program("README's example in it", &python, &line).run()
+}
+
+/// A call of an interpreter's pip.
+fn pip(title: &'static str, python: &Path, arguments: &[&str]) -> Step {
+    let line = [&["-m", "pip", "--quiet", "--disable-pip-version-check"], arguments].concat();
+    Step::program(title, python, &line)
+}
+
+/// A folder that is not there any more.
+fn emptied(folder: PathBuf) -> Result<PathBuf> {
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    }
+    Ok(folder)
+}
+
+/// The one file with that extension in a folder.
+fn only_file(folder: &Path, extension: &str) -> Result<PathBuf> {
+    let entries = std::fs::read_dir(folder).with_context(|| folder.display().to_string())?;
+    let mut found = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    match found.find(|path| path.extension().is_some_and(|found| found == extension)) {
+        Some(path) => Ok(path),
+        None => bail!("no .{extension} file in {}", folder.display()),
+    }
+}
+
+fn text(path: &Path) -> String {
+    path.to_string_lossy().into_owned()
+}
