@@ -98,16 +98,35 @@ pub fn coverage(
     sponge_radius_m: f64,
     settings: &CoverageSettings,
 ) -> Result<Coverage, CoverageError> {
-    validate(polyline, centre, radius_m, sponge_radius_m, settings)?;
+    coverage_of_strokes(&[polyline], centre, radius_m, sponge_radius_m, settings)
+}
+
+/// The same for several polylines, between which the sponge does not touch: the union of what each one sweeps.
+///
+/// # Errors
+///
+/// As [`coverage`]; the index of a point counts all polylines one after the other.
+pub fn coverage_of_strokes<P: AsRef<[[f64; 2]]>>(
+    polylines: &[P],
+    centre: [f64; 2],
+    radius_m: f64,
+    sponge_radius_m: f64,
+    settings: &CoverageSettings,
+) -> Result<Coverage, CoverageError> {
+    let points = || polylines.iter().flat_map(|line| line.as_ref());
+    validate(points(), centre, radius_m, sponge_radius_m, settings)?;
     let about_centre = |p: [f64; 2]| [p[0] - centre[0], p[1] - centre[1]];
-    let capsules: Vec<Capsule> = match polyline {
-        [] => Vec::new(),
-        &[point] => vec![Capsule::new(about_centre(point), about_centre(point))],
-        _ => polyline
-            .windows(2)
-            .map(|ends| Capsule::new(about_centre(ends[0]), about_centre(ends[1])))
-            .collect(),
-    };
+    let mut capsules: Vec<Capsule> = Vec::new();
+    for line in polylines {
+        match line.as_ref() {
+            [] => {}
+            &[point] => capsules.push(Capsule::new(about_centre(point), about_centre(point))),
+            line => capsules.extend(
+                line.windows(2)
+                    .map(|ends| Capsule::new(about_centre(ends[0]), about_centre(ends[1]))),
+            ),
+        }
+    }
     let uncovered = Raster::new(&capsules, radius_m, sponge_radius_m, settings.cell_m).uncovered();
     Ok(as_fractions(&uncovered, std::f64::consts::PI * radius_m * radius_m))
 }
@@ -121,15 +140,15 @@ fn as_fractions(uncovered: &Uncovered, disc_area: f64) -> Coverage {
     }
 }
 
-fn validate(
-    polyline: &[[f64; 2]],
+fn validate<'a>(
+    mut points: impl Iterator<Item = &'a [f64; 2]>,
     centre: [f64; 2],
     radius_m: f64,
     sponge_radius_m: f64,
     settings: &CoverageSettings,
 ) -> Result<(), CoverageError> {
     let finite = |p: &[f64; 2]| p.iter().all(|c| c.is_finite());
-    if let Some(index) = polyline.iter().position(|p| !finite(p)) {
+    if let Some(index) = points.position(|p| !finite(p)) {
         return Err(CoverageError::PathNotFinite { index });
     }
     if !finite(&centre) {
