@@ -1,0 +1,8 @@
+//! The arm as a physical system: rigid-body dynamics, a plant, control laws, and what a planned wash becomes under them.
+//!
+//! Conventions (units, frames, joint order) are those of [`platewash_kinematics`]. Torques are in N·m, positive along the
+//! joint's axis, and act on the link behind the joint.
+
+pub mod dynamics;
+
+pub use dynamics::{DynamicsError, DynamicsModel, Energy, RigidBody};
