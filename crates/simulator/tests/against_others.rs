@@ -1,4 +1,4 @@
-//! Dynamics against values made with Pinocchio and MuJoCo (`fixtures/generate.py`), on the IRB 120 with and without a tool
+//! Dynamics against values made with Pinocchio and MuJoCo (`fixtures/generate_dynamics.py`), on the IRB 120 with and without a tool
 //! and on generated arms with oblique axes and rotated fixed joints everywhere. The fixtures hold a few states each; the
 //! test of the Python package draws 10 000 from the same generator.
 #![allow(clippy::unwrap_used, missing_docs)]

@@ -32,12 +32,25 @@ impl DynamicsModel {
     /// \[N·m\]: M(q) q̈ = τ − C(q, q̇) q̇ − g(q).
     #[must_use]
     pub fn forward_dynamics(&self, q: &JointVector, qd: &JointVector, torque: &JointVector) -> JointVector {
+        self.forward_dynamics_with(q, qd, torque, &JointVector::zeros())
+    }
+
+    /// The same with an inertia `own` \[kg·m²\], not negative, that each joint alone has to turn: (M(q) + diag(own)) q̈ =
+    /// τ − C(q, q̇) q̇ − g(q). A rotor behind a gear is one; a step of implicit friction has the form, too.
+    #[must_use]
+    pub fn forward_dynamics_with(
+        &self,
+        q: &JointVector,
+        qd: &JointVector,
+        torque: &JointVector,
+        own: &JointVector,
+    ) -> JointVector {
         let sweep = self.sweep(q);
         let (mut inertias, mut biases, mut joints) = outwards(&sweep, qd);
         for i in (0..AXES).rev() {
             let (axis, drift) = (joints[i].axis, joints[i].drift);
             let across: SpatialVector = inertias[i] * axis;
-            let stiffness = axis.dot(&across);
+            let stiffness = axis.dot(&across) + own[i];
             let share = across / stiffness;
             let free = (torque[i] - axis.dot(&biases[i])) / stiffness;
             joints[i].share = share;

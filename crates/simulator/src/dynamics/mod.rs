@@ -14,6 +14,7 @@
 //! | axes and inertias in base axes | `sweep.rs` |
 //! | mass matrix | `crba.rs` |
 //! | forward dynamics | `aba.rs` |
+//! | torques of a force on the tool | `push.rs` |
 //! | kinetic and potential energy | `energy.rs` |
 //! | the largest inertia that each joint meets | `largest.rs` |
 
@@ -24,6 +25,7 @@ mod energy;
 mod largest;
 pub mod model;
 mod physical;
+mod push;
 mod rnea;
 mod sweep;
 mod tool;

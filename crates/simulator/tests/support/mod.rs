@@ -24,7 +24,7 @@ pub struct Tool {
     pub radius_m: f64,
 }
 
-/// A state and what is known about it; units as in `fixtures/generate.py`.
+/// A state and what is known about it; units as in `fixtures/generate_dynamics.py`.
 #[derive(Deserialize)]
 pub struct Reference {
     pub q: [f64; AXES],
