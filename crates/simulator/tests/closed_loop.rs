@@ -5,6 +5,7 @@ use platewash_kinematics::{JointVector, RobotModel};
 use platewash_planner::scenario::{ControlLawName, ControlSection, Integrator};
 use platewash_planner::trajectory::JointState;
 use platewash_simulator::control::{self, ControlError, Reference};
+use platewash_simulator::dynamics::spread;
 use platewash_simulator::{Command, ControlLaw, DynamicsModel, Plant, PlantState};
 use proptest::prelude::*;
 
@@ -18,6 +19,11 @@ fn plant() -> (RobotModel, Plant) {
     let robot = RobotModel::irb120().unwrap();
     let plant = Plant::ideal(DynamicsModel::new(&robot, None).unwrap(), Integrator::SemiImplicitEuler);
     (robot, plant)
+}
+
+/// Configurations all over the limits.
+fn everywhere(robot: &RobotModel) -> Vec<JointVector> {
+    spread(robot.limits(), 64).collect()
 }
 
 fn still(q: JointVector) -> Reference {
@@ -67,7 +73,7 @@ proptest! {
     ) {
         let (robot, plant) = plant();
         let section = ControlSection { frequency_rad_s: frequency, damping_ratio: damping, ..ControlSection::default() };
-        let made = control::law(law, &section, &plant, robot.limits(), 1);
+        let made = control::law(law, &section, &plant, robot.limits(), &everywhere(&robot), 1);
         let Ok(mut made) = made else { return Ok(()) };
         let (q, target) = (within(&robot, from), within(&robot, target));
         let qd = JointVector::from(speeds).component_mul(&robot.limits().velocity);
@@ -89,7 +95,7 @@ fn unstable_settings_are_refused_with_their_limits() {
             ..ControlSection::default()
         };
         let refusal = |section: &ControlSection| {
-            control::law(law, section, &plant, robot.limits(), 1)
+            control::law(law, section, &plant, robot.limits(), &everywhere(&robot), 1)
                 .map(|_| ())
                 .unwrap_err()
         };
@@ -109,8 +115,17 @@ fn unstable_settings_are_refused_with_their_limits() {
         );
         assert!(rate > 1000.0 && frequency < 2000.0);
         // The limits are limits: within them it holds, a percent beyond it does not.
-        let holds =
-            |frequency: f64, rate: f64| control::law(law, &section(frequency, rate), &plant, robot.limits(), 1).is_ok();
+        let holds = |frequency: f64, rate: f64| {
+            control::law(
+                law,
+                &section(frequency, rate),
+                &plant,
+                robot.limits(),
+                &everywhere(&robot),
+                1,
+            )
+            .is_ok()
+        };
         assert!(
             holds(2000.0, rate * 1.001) && !holds(2000.0, rate * 0.99),
             "{law:?} {rate}"
@@ -131,9 +146,16 @@ fn gains_that_never_hold_are_refused() {
         ..ControlSection::default()
     };
     let refusal = |section: &ControlSection| {
-        control::law(ControlLawName::Pd, section, &plant, robot.limits(), 1)
-            .map(|_| ())
-            .unwrap_err()
+        control::law(
+            ControlLawName::Pd,
+            section,
+            &plant,
+            robot.limits(),
+            &everywhere(&robot),
+            1,
+        )
+        .map(|_| ())
+        .unwrap_err()
     };
     let error = refusal(&outright(20.0, 0.0));
     assert!(
@@ -184,7 +206,15 @@ fn computed_torque_is_a_second_order_system() {
         frequency_rad_s: 10.0,
         ..ControlSection::default()
     };
-    let mut law = control::law(ControlLawName::ComputedTorque, &section, &plant, robot.limits(), 1).unwrap();
+    let mut law = control::law(
+        ControlLawName::ComputedTorque,
+        &section,
+        &plant,
+        robot.limits(),
+        &everywhere(&robot),
+        1,
+    )
+    .unwrap();
     let target = JointVector::new(0.1, -0.2, 0.3, 0.2, 0.4, -0.5);
     let mut state = PlantState::at_rest(JointVector::zeros());
     let reference = still(target);

@@ -72,7 +72,9 @@ pub fn kinematic(name: ControlLawName, section: &ControlSection) -> Kinematic {
     }
 }
 
-/// The law `name` with the settings of `section` on a plant, whose model it knows.
+/// The law `name` with the settings of `section` on a plant, whose model it knows. `limits` bound the configurations from
+/// which gains are scaled; the sampled loop must be stable about each of `configurations` \[rad\], with `substeps` steps of
+/// integration a sample.
 ///
 /// # Errors
 /// [`ControlError`]: a setting that makes no sense, or a torque law that is not stable at its rate, with the limit.
@@ -81,6 +83,7 @@ pub fn law<'a>(
     section: &ControlSection,
     plant: &'a Plant,
     limits: &JointLimits,
+    configurations: &[JointVector],
     substeps: usize,
 ) -> Result<Box<dyn ControlLaw + 'a>, ControlError> {
     if name.is_kinematic() {
@@ -99,8 +102,8 @@ pub fn law<'a>(
         integrator: plant.integrator,
         substeps: substeps.max(1),
     };
-    check(&stability, section.rate_hz, model, limits)
-        .map_err(|q| unstable(name, section, &stability, q, (model, limits)))?;
+    check(&stability, section.rate_hz, model, configurations)
+        .map_err(|q| unstable(name, section, &stability, q, (model, configurations)))?;
     Ok(match name {
         ControlLawName::ComputedTorque => Box::new(ComputedTorque {
             model,
@@ -149,10 +152,10 @@ fn unstable(
     section: &ControlSection,
     stability: &Stability,
     q: JointVector,
-    (model, limits): (&DynamicsModel, &JointLimits),
+    (model, configurations): (&DynamicsModel, &[JointVector]),
 ) -> ControlError {
     let rate_hz = section.rate_hz;
-    let holds = |law: &Stability, rate: f64| check(law, rate, model, limits).is_ok();
+    let holds = |law: &Stability, rate: f64| check(law, rate, model, configurations).is_ok();
     let outright = section.joint_kp.is_some() && section.joint_kd.is_some();
     // Gains go with ω² and ω.
     let slower = |share: f64| Stability {

@@ -6,13 +6,10 @@
 //! lie within the unit circle, and certainly if ‖Aⁿ‖ < 1 for some n, which repeated squaring finds.
 
 use super::Gains;
-use crate::dynamics::{DynamicsModel, MassMatrix, spread};
+use crate::dynamics::{DynamicsModel, MassMatrix};
 use nalgebra::SMatrix;
-use platewash_kinematics::{JointLimits, JointVector};
+use platewash_kinematics::JointVector;
 use platewash_planner::scenario::Integrator;
-
-/// Configurations at which the loop is looked at.
-const CONFIGURATIONS: u32 = 64;
 
 /// Squarings: n up to 2²⁴ samples.
 const SQUARINGS: u32 = 24;
@@ -44,18 +41,18 @@ pub struct Stability {
 /// x = (δq, δq̇).
 type Transition = SMatrix<f64, 12, 12>;
 
-/// Whether the loop, sampled at `rate_hz`, is stable at configurations spread over the limits; if not, the first at which it
-/// is not \[rad\].
+/// Whether the loop, sampled at `rate_hz`, is stable at all `configurations` \[rad\]; if not, the first at which it is not.
 ///
 /// # Errors
 /// The configuration. Also where a gain is 0, because the joint then never comes back.
-pub fn check(law: &Stability, rate_hz: f64, model: &DynamicsModel, limits: &JointLimits) -> Result<(), JointVector> {
-    for q in spread(limits, CONFIGURATIONS) {
-        if !law.is_stable(&model.mass_matrix(&q), 1.0 / rate_hz) {
-            return Err(q);
-        }
-    }
-    Ok(())
+pub fn check(
+    law: &Stability,
+    rate_hz: f64,
+    model: &DynamicsModel,
+    configurations: &[JointVector],
+) -> Result<(), JointVector> {
+    let fails = |q: &&JointVector| !law.is_stable(&model.mass_matrix(q), 1.0 / rate_hz);
+    configurations.iter().find(fails).map_or(Ok(()), |q| Err(*q))
 }
 
 impl Stability {

@@ -13,11 +13,12 @@
 //! | root mean square, 95 %, largest | `statistics.rs` |
 //! | errors of joints and tip | `tracking.rs` |
 //! | torques, work, power | `effort.rs` |
-//! | contact, coverage and verdict of a plate | `washing.rs`, `contact.rs` |
+//! | contact, coverage and verdict of a plate | `washing.rs`, `contact.rs`, `cause.rs` |
 //! | the tool's mass against the arm's payload | `payload.rs` |
 //! | all of it | `report.rs` |
 //! | many frequencies and dampings | `tune.rs` |
 
+mod cause;
 mod contact;
 mod csv;
 mod effort;
@@ -33,6 +34,7 @@ mod tracking;
 mod tune;
 mod washing;
 
+pub use cause::Cause;
 pub use csv::{HEADER, table};
 pub use effort::{Effort, JointEffort};
 pub use error::SimulationError;
@@ -44,4 +46,4 @@ pub use setup::Setup;
 pub use statistics::Spread;
 pub use tracking::{SegmentTracking, Tracking};
 pub use tune::{TuneOutcome, TuneRow, tune};
-pub use washing::{Cause, PlateOutcome, PlateVerdict};
+pub use washing::{PlateOutcome, PlateVerdict};

@@ -17,6 +17,9 @@ pub const MAX_SAMPLES: usize = 2_000_000;
 /// Most steps of integration.
 pub const MAX_STEPS: usize = 50_000_000;
 
+/// Configurations along a plan about which the sampled loop is checked, at most.
+const STABLE_AT: usize = 64;
+
 /// Positions \[rad\] and speeds \[rad/s\] beyond this are divergence, not motion.
 const LARGEST: f64 = 1e6;
 
@@ -43,7 +46,17 @@ pub fn simulate(plan: &Plan, robot: &RobotModel, setup: &Setup) -> Result<Execut
         Some(Plant::new(model, robot.limits(), &setup.plant))
     };
     let mut law: Box<dyn ControlLaw + '_> = match &plant {
-        Some(plant) => control::law(setup.law, &setup.control, plant, robot.limits(), setup.plant.substeps)?,
+        Some(plant) => {
+            let along = along(&motion);
+            control::law(
+                setup.law,
+                &setup.control,
+                plant,
+                robot.limits(),
+                &along,
+                setup.plant.substeps,
+            )?
+        }
         None => Box::new(control::kinematic(setup.law, &setup.control)),
     };
     let run = Run {
@@ -192,6 +205,12 @@ impl Run<'_> {
             is_cut: held != *torque,
         }
     }
+}
+
+/// Configurations along the motion \[rad\], at which the loop must be stable.
+fn along(motion: &Trajectory) -> Vec<JointVector> {
+    let stride = motion.positions().len().div_ceil(STABLE_AT).max(1);
+    motion.positions().iter().step_by(stride).copied().collect()
 }
 
 fn check_arm(plan: &Plan, robot: &RobotModel) -> Result<(), SimulationError> {

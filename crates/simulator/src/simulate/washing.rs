@@ -2,9 +2,11 @@
 //!
 //! The planned and the executed motion are measured alike: the tip seen from above at every sample of the plate's wash, with
 //! the planner's own raster; a sponge tilted by τ counts as a disc of radius s cos τ, τ the largest tilt of that wash. The
-//! executed sponge sweeps only where it touches ([`Touch`]). These are measurements, not bounds: between samples the tip is
+//! executed sponge sweeps only where it touches ([`Touch`]). Without a tool body the whole sponge counts wherever the flange
+//! passes, as in the report of the paper's job. These are measurements, not bounds: between samples the tip is
 //! taken to move straight.
 
+use super::cause::Cause;
 use super::contact::{Contact, Touch};
 use super::{Execution, Sample, SimulationError};
 use platewash_kinematics::rotation::Rigid;
@@ -14,7 +16,6 @@ use platewash_planner::layout::Plate;
 use platewash_planner::plan::Plan;
 use platewash_planner::tool_path::SegmentKind;
 use serde::Serialize;
-use std::fmt;
 
 /// As fine as the planner's own report: the proven error is about a tenth of a percent.
 const RASTER: CoverageSettings = CoverageSettings { cell_m: 2e-4 };
@@ -30,49 +31,6 @@ pub enum PlateVerdict {
     Washed,
     /// Not so.
     NotWashed,
-}
-
-/// Why less is swept than planned, or why a plate is not washed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(tag = "cause", rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Cause {
-    /// There is no tool body: the flange hovers.
-    NoTool,
-    /// The tip lifts off: it is farther above the plate than the sponge is compressed.
-    Lifted {
-        /// Share of the wash's samples.
-        share: f64,
-        /// Height of the tip, at most \[m\].
-        most_m: f64,
-        /// When \[s\].
-        t_s: f64,
-    },
-    /// The arm sinks: the tip is deeper below the surface than the sponge is high, where in truth the plate would stop it.
-    Pressed {
-        /// Share of the wash's samples.
-        share: f64,
-        /// Depth of the tip, at most \[m\].
-        most_m: f64,
-        /// When \[s\].
-        t_s: f64,
-    },
-    /// The tip strays sideways from its path by more than a tenth of the sponge's radius.
-    Strayed {
-        /// Root mean square of the horizontal distance \[m\].
-        rms_m: f64,
-        /// At most \[m\].
-        most_m: f64,
-        /// When \[s\].
-        t_s: f64,
-    },
-    /// Less is surely swept than the scenario requires.
-    Coverage {
-        /// What is surely swept.
-        at_least: f64,
-        /// What is required.
-        required: f64,
-    },
 }
 
 /// What was washed of a plate.
@@ -192,7 +150,8 @@ impl Wash<'_> {
 
     fn swept(&self, track: &[Tip], touches: &[Touch]) -> Result<Coverage, CoverageError> {
         let plate = self.plate;
-        let radius = self.plan.tool.sponge_radius_m * least_cosine(track);
+        let cosine = if self.has_tool() { least_cosine(track) } else { 1.0 };
+        let radius = self.plan.tool.sponge_radius_m * cosine;
         let strokes = if radius > 0.0 {
             strokes(track, touches)
         } else {
@@ -277,38 +236,4 @@ fn strokes(track: &[Tip], touches: &[Touch]) -> Vec<Vec<[f64; 2]>> {
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     let (dx, dy) = (a[0] - b[0], a[1] - b[1]);
     (dx * dx + dy * dy).sqrt()
-}
-
-impl fmt::Display for Cause {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (percent, mm) = (|share: f64| 100.0 * share, |length: f64| 1e3 * length);
-        match *self {
-            Self::NoTool => write!(f, "there is no tool body: the flange hovers"),
-            Self::Lifted { share, most_m, t_s } => write!(
-                f,
-                "contact is lost for {:.1} % of the wash: the tip lifts by up to {:.1} mm (at {t_s:.3} s)",
-                percent(share),
-                mm(most_m)
-            ),
-            Self::Pressed { share, most_m, t_s } => write!(
-                f,
-                "the arm sinks for {:.1} % of the wash: the tip is up to {:.1} mm below the surface (at {t_s:.3} s), deeper than \
-                 the sponge is high",
-                percent(share),
-                mm(most_m)
-            ),
-            Self::Strayed { rms_m, most_m, t_s } => write!(
-                f,
-                "the tip strays sideways by {:.1} mm rms, {:.1} mm at most (at {t_s:.3} s)",
-                mm(rms_m),
-                mm(most_m)
-            ),
-            Self::Coverage { at_least, required } => write!(
-                f,
-                "{:.2} % is surely swept, {:.2} % is required",
-                percent(at_least),
-                percent(required)
-            ),
-        }
-    }
 }
