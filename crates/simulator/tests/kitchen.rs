@@ -8,7 +8,7 @@ use platewash_planner::plan::Plan;
 use platewash_planner::scenario::{ControlLawName, Integrator, Scenario};
 use platewash_planner::tool_path::SegmentKind;
 use platewash_simulator::simulate::{Cause, PayloadVerdict, PlateVerdict, SimulationVerdict};
-use platewash_simulator::{Execution, Setup, SimulationError, SimulationReport, simulate, tune};
+use platewash_simulator::{ControlError, Execution, Setup, SimulationError, SimulationReport, simulate, tune};
 use std::sync::OnceLock;
 
 fn kitchen() -> &'static (RobotModel, Plan) {
@@ -378,6 +378,19 @@ fn plans_and_settings_that_make_no_sense_are_refused() {
         "{message}"
     );
     let mut paper = setup.clone();
-    (paper.law, paper.control.kp, paper.control.dt_s) = (ControlLawName::Paper, 1e6, 0.01);
-    assert!(matches!(refusal(plan, &paper), SimulationError::Divergence { .. }));
+    paper.law = ControlLawName::Paper;
+    for (kp, kd, dt_s) in [
+        (1e6, 0.1, 0.01),
+        (0.0, 0.1, 0.01),
+        (20.0, 1.5, 0.01),
+        (f64::NAN, 0.1, 0.01),
+    ] {
+        (paper.control.kp, paper.control.kd, paper.control.dt_s) = (kp, kd, dt_s);
+        let error = refusal(plan, &paper);
+        assert!(
+            matches!(error, SimulationError::Control(ControlError::UnstablePaper { .. })),
+            "{error}"
+        );
+    }
+    assert!(refusal(plan, &paper).to_string().contains("180"), "the limit is named");
 }

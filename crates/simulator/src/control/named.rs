@@ -27,6 +27,21 @@ pub enum ControlError {
         /// What it is.
         found: f64,
     },
+    /// The paper's law is not stable.
+    #[error(
+        "control.law = \"paper\" is not stable with kp = {kp}, kd = {kd}, dt_s = {dt_s}: kd must lie between −1 and 1 and kp \
+         between 0 and 2 (1 − kd) / dt_s = {kp_limit}"
+    )]
+    UnstablePaper {
+        /// Kp \[1/s\].
+        kp: f64,
+        /// Kd.
+        kd: f64,
+        /// Time step \[s\].
+        dt_s: f64,
+        /// Kp must be below this \[1/s\].
+        kp_limit: f64,
+    },
     /// The sampled loop is not stable.
     #[error(
         "control.law = \"{}\" is not stable sampled at {rate_hz} Hz (linearised about {}): {}",
@@ -63,13 +78,21 @@ fn remedy(rate: Option<f64>, frequency: Option<f64>) -> String {
     }
 }
 
-/// A law without a plant: `exact`, otherwise the paper's.
-#[must_use]
-pub fn kinematic(name: ControlLawName, section: &ControlSection) -> Kinematic {
-    match name {
-        ControlLawName::Exact => Kinematic(Box::new(ExactLaw)),
-        _ => Kinematic(Box::new(PaperLaw::new(section.kp, section.kd, section.dt_s))),
+/// A law without a plant: `exact`, otherwise the paper's, whose error obeys e_{k+1} = (1 − Kp dt − Kd) e_k + Kd e_{k−1} about a
+/// constant target and is stable if and only if |Kd| < 1 and 0 < Kp dt < 2 (1 − Kd) (Jury's criterion).
+///
+/// # Errors
+/// [`ControlError::UnstablePaper`].
+pub fn kinematic(name: ControlLawName, section: &ControlSection) -> Result<Kinematic, ControlError> {
+    if name == ControlLawName::Exact {
+        return Ok(Kinematic(Box::new(ExactLaw)));
     }
+    let ControlSection { kp, kd, dt_s, .. } = *section;
+    let kp_limit = 2.0 * (1.0 - kd) / dt_s;
+    if kd.abs() < 1.0 && kp > 0.0 && dt_s > 0.0 && kp < kp_limit {
+        return Ok(Kinematic(Box::new(PaperLaw::new(kp, kd, dt_s))));
+    }
+    Err(ControlError::UnstablePaper { kp, kd, dt_s, kp_limit })
 }
 
 /// The law `name` with the settings of `section` on a plant, whose model it knows. `limits` bound the configurations from
@@ -87,7 +110,7 @@ pub fn law<'a>(
     substeps: usize,
 ) -> Result<Box<dyn ControlLaw + 'a>, ControlError> {
     if name.is_kinematic() {
-        return Ok(Box::new(kinematic(name, section)));
+        return Ok(Box::new(kinematic(name, section)?));
     }
     settings(section)?;
     let (model, feed_forward) = (&plant.model, section.feed_forward);

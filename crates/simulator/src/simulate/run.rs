@@ -57,7 +57,7 @@ pub fn simulate(plan: &Plan, robot: &RobotModel, setup: &Setup) -> Result<Execut
                 setup.plant.substeps,
             )?
         }
-        None => Box::new(control::kinematic(setup.law, &setup.control)),
+        None => Box::new(control::kinematic(setup.law, &setup.control)?),
     };
     let run = Run {
         motion: &motion,
