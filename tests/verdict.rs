@@ -128,7 +128,7 @@ fn too_little_coverage_is_not_washed() {
 #[test]
 fn a_control_law_that_diverges_is_an_error() {
     let mut scenario = good();
-    scenario.control.law = ControlLawName::Paper;
+    scenario.control.law = Some(ControlLawName::Paper);
     (scenario.control.kp, scenario.control.dt_s) = (1e6, 10.0);
     let Err(PlanError::Tracking(error)) = Job::run(&scenario) else {
         panic!("it diverges")

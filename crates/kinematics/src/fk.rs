@@ -39,6 +39,12 @@ impl Frame {
         self.body
     }
 
+    /// `T_body_frame`: where it is on the folded joint frame of its body.
+    #[must_use]
+    pub fn on_body(&self) -> &Rigid {
+        &self.offset
+    }
+
     /// A frame fixed to this one, at `T_this_new`.
     #[must_use]
     pub fn offset(&self, relative: &Rigid) -> Self {

@@ -146,8 +146,9 @@ impl RobotModel {
         (centre.into(), off_axis + rest + frame.offset.translation.norm())
     }
 
-    /// `F_i = T_{i−1}_i` at q = 0 between folded joint frames.
-    pub(crate) fn folded(&self) -> &[Rigid; AXES] {
+    /// `F_i = T_{i−1}_i` at q = 0 between folded joint frames: `T_base_i = T_base_{i−1} · F_i · Rot_z(q_i)`.
+    #[must_use]
+    pub fn folded(&self) -> &[Rigid; AXES] {
         &self.folded
     }
 }

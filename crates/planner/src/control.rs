@@ -65,12 +65,23 @@ impl ControlLaw for ExactLaw {
     }
 }
 
-/// The law that a scenario names.
-#[must_use]
-pub fn law(section: &ControlSection) -> Box<dyn ControlLaw> {
-    match section.law {
-        ControlLawName::Paper => Box::new(PaperLaw::new(section.kp, section.kd, section.dt_s)),
-        ControlLawName::Exact => Box::new(ExactLaw),
+/// A law that drives torques where one that moves positions is needed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "\"{}\" drives the torques of a plant; following waypoints, as the paper's program does, needs \"paper\" or \"exact\"",
+    .0.name()
+)]
+pub struct NotKinematic(pub ControlLawName);
+
+/// The law that a section names; the paper's where it names none.
+///
+/// # Errors
+/// [`NotKinematic`] for a law that drives torques.
+pub fn law(section: &ControlSection) -> Result<Box<dyn ControlLaw>, NotKinematic> {
+    match section.law.unwrap_or(ControlLawName::Paper) {
+        ControlLawName::Paper => Ok(Box::new(PaperLaw::new(section.kp, section.kd, section.dt_s))),
+        ControlLawName::Exact => Ok(Box::new(ExactLaw)),
+        torque => Err(NotKinematic(torque)),
     }
 }
 

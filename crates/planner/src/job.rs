@@ -1,7 +1,7 @@
 //! The whole job, stage after stage: scenario → arm → layout → tool path → joint path and execution → report.
 
 use crate::clearance::{ClearanceError, ClearanceModel};
-use crate::control;
+use crate::control::{self, NotKinematic};
 use crate::coverage::CoverageError;
 use crate::cycle::CycleError;
 use crate::layout::{self, Layout, LayoutError, Plate, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing};
@@ -35,6 +35,9 @@ pub enum PlanError {
     /// A waypoint or configuration is not finite.
     #[error("inverse kinematics: {0}")]
     Ik(IkError),
+    /// The control law moves no waypoints.
+    #[error("control.law: {0}")]
+    Law(NotKinematic),
     /// The control law does not stay finite.
     #[error(transparent)]
     Tracking(#[from] TrackingError),
@@ -56,6 +59,12 @@ pub enum PlanError {
 impl From<LayoutError> for PlanError {
     fn from(error: LayoutError) -> Self {
         Self::Layout(error)
+    }
+}
+
+impl From<NotKinematic> for PlanError {
+    fn from(error: NotKinematic) -> Self {
+        Self::Law(error)
     }
 }
 
@@ -214,7 +223,7 @@ impl Job {
         let start = start(scenario, &robot)?;
         let tool_path = ToolPath::new(scenario, &layout);
         let solver = IkSolver::new(&robot, robot::tip_frame(&robot, &scenario.tool), ik_settings(scenario))?;
-        let mut law = control::law(&scenario.control);
+        let mut law = control::law(&scenario.control)?;
         let steps = tracking::follow(&robot, &solver, &tool_path, scenario.ik.seed, law.as_mut(), &start)?;
         let motion = |of: fn(&Step) -> JointVector| {
             let positions = std::iter::once(start).chain(steps.iter().map(of)).collect();

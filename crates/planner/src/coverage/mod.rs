@@ -106,8 +106,27 @@ pub fn coverage(
     sponge_radius_m: f64,
     settings: &CoverageSettings,
 ) -> Result<Coverage, CoverageError> {
-    validate(polyline, centre, radius_m, sponge_radius_m, settings)?;
-    let capsules = capsules(polyline, centre);
+    coverage_of_strokes(&[polyline], centre, radius_m, sponge_radius_m, settings)
+}
+
+/// The same for several polylines, between which the sponge does not touch: the union of what each one sweeps.
+///
+/// # Errors
+///
+/// As [`coverage`]; the index of a point counts all polylines one after the other.
+pub fn coverage_of_strokes<P: AsRef<[[f64; 2]]>>(
+    polylines: &[P],
+    centre: [f64; 2],
+    radius_m: f64,
+    sponge_radius_m: f64,
+    settings: &CoverageSettings,
+) -> Result<Coverage, CoverageError> {
+    let points = polylines.iter().flat_map(|line| line.as_ref());
+    validate(points, centre, radius_m, sponge_radius_m, settings)?;
+    let capsules: Vec<Capsule> = polylines
+        .iter()
+        .flat_map(|line| capsules(line.as_ref(), centre))
+        .collect();
     let uncovered = Raster::new(&capsules, radius_m, sponge_radius_m, settings.cell_m).uncovered();
     Ok(as_fractions(&uncovered, std::f64::consts::PI * radius_m * radius_m))
 }
@@ -134,8 +153,8 @@ fn as_fractions(uncovered: &Uncovered, disc_area: f64) -> Coverage {
     }
 }
 
-fn validate(
-    polyline: &[[f64; 2]],
+fn validate<'a>(
+    points: impl Iterator<Item = &'a [f64; 2]>,
     centre: [f64; 2],
     radius_m: f64,
     sponge_radius_m: f64,
@@ -147,7 +166,7 @@ fn validate(
         ("sponge_radius_m", sponge_radius_m),
         ("cell_m", cell_m),
     ];
-    check_lengths(polyline, centre, &lengths)?;
+    check_lengths(points, centre, &lengths)?;
     let smallest_m = SMALLEST_CELL * radius_m;
     if cell_m < smallest_m {
         Err(CoverageError::CellTooSmall { cell_m, smallest_m })
@@ -157,13 +176,13 @@ fn validate(
 }
 
 /// Refuses points that are not finite and lengths that are not greater than zero.
-fn check_lengths(
-    polyline: &[[f64; 2]],
+fn check_lengths<'a>(
+    mut points: impl Iterator<Item = &'a [f64; 2]>,
     centre: [f64; 2],
     lengths: &[(&'static str, f64)],
 ) -> Result<(), CoverageError> {
     let finite = |p: &[f64; 2]| p.iter().all(|c| c.is_finite());
-    if let Some(index) = polyline.iter().position(|p| !finite(p)) {
+    if let Some(index) = points.position(|p| !finite(p)) {
         return Err(CoverageError::PathNotFinite { index });
     }
     if !finite(&centre) {

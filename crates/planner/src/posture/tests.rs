@@ -20,6 +20,10 @@ const TOOL: ToolSection = ToolSection {
     radius_m: 0.02,
     sponge_radius_m: 0.025,
     sponge_height_m: 0.025,
+    sponge_compression_m: 0.005,
+    mass_kg: 0.3,
+    com_m: None,
+    inertia_kg_m2: None,
 };
 const RADIUS_M: f64 = 0.12385;
 const HOME: JointVector = JointVector::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);

@@ -75,6 +75,11 @@ mod tests {
         (full.robot.urdf, full.robot.srdf) = (Some("a".into()), Some("b".into()));
         full.robot.package_path = vec!["c".into()];
         full.robot.home_deg = Some([0.0; 6]);
+        full.robot.payload_kg = Some(3.0);
+        (full.tool.com_m, full.tool.inertia_kg_m2) = (Some(0.1), Some([0.0; 6]));
+        full.control.law = Some(super::super::ControlLawName::Pd);
+        (full.control.joint_kp, full.control.joint_kd) = (Some([0.0; 6]), Some([0.0; 6]));
+        full.plant.torque_limit_n_m = Some([1.0; 6]);
         let layout = &mut full.layout;
         layout.region = Some(super::super::RegionName::Text);
         (layout.x_m, layout.y_m) = (Some([0.0, 1.0]), Some([0.0, 1.0]));

@@ -125,6 +125,12 @@ pub const KEYS: &[Key] = &[
         "Joint positions at the end, within the arm's limits; without it, those at the start (certified).",
     ),
     key(
+        "robot.payload_kg",
+        "kg",
+        NumberAbove(0.0, 1e6),
+        "Rated payload, against which the tool's mass is checked; without it, 3 kg for the built-in arm, unknown for others.",
+    ),
+    key(
         "tool.length_m",
         "m",
         Number(0.0, 2.0),
@@ -142,6 +148,31 @@ pub const KEYS: &[Key] = &[
         "m",
         NumberAbove(0.0, 1.0),
         "Height of the sponge; with a tool body, below its length.",
+    ),
+    key(
+        "tool.sponge_compression_m",
+        "m",
+        Number(0.0, 1.0),
+        "How far the sponge is pressed in while it washes: the tip may lift as far and still touch. An assumption.",
+    ),
+    key(
+        "tool.mass_kg",
+        "kg",
+        Number(0.0, 1e4),
+        "Mass of the tool body (none where length_m is 0): an assumption.",
+    ),
+    key(
+        "tool.com_m",
+        "m",
+        Number(-10.0, 10.0),
+        "Distance of the tool's centre of mass from the flange, along its axis; without it, half its length.",
+    ),
+    key(
+        "tool.inertia_kg_m2",
+        "kg·m²",
+        Joints(-1e4, 1e4),
+        "Inertia of the tool about its centre of mass: ixx, ixy, ixz, iyy, iyz, izz, z along the tool; without it, that of a \
+         uniform cylinder.",
     ),
     key(
         "layout.count",
@@ -337,8 +368,9 @@ pub const KEYS: &[Key] = &[
     key(
         "control.law",
         "",
-        Word(&["paper", "exact"]),
-        "How the arm follows: the paper's law, or exactly.",
+        Word(&["paper", "exact", "pd", "pd_gravity", "computed_torque"]),
+        "How the arm follows: the paper's law or exactly, without a plant; or a law that gives torques (certified). Without it, \
+         \"paper\" for the paper's program, \"computed_torque\" for a certified job.",
     ),
     key(
         "control.kp",
@@ -353,6 +385,78 @@ pub const KEYS: &[Key] = &[
         "Derivative gain of the paper's law.",
     ),
     key("control.dt_s", "s", Number(1e-6, 10.0), "Time between waypoints."),
+    key(
+        "control.rate_hz",
+        "Hz",
+        Number(1.0, 1e5),
+        "Samples of a torque law; its torque is held between them.",
+    ),
+    key(
+        "control.frequency_rad_s",
+        "rad/s",
+        NumberAbove(0.0, 1e5),
+        "Natural frequency ω of a torque law: kp = M ω², M each joint's largest inertia, or 1 for computed torque.",
+    ),
+    key(
+        "control.damping_ratio",
+        "",
+        Number(0.0, 100.0),
+        "Damping ratio ζ of a torque law: kd = 2 ζ ω M.",
+    ),
+    key(
+        "control.joint_kp",
+        "N·m/rad",
+        Joints(0.0, 1e9),
+        "Proportional gains of a torque law in place of those; in 1/s² for computed torque.",
+    ),
+    key(
+        "control.joint_kd",
+        "N·m·s/rad",
+        Joints(0.0, 1e9),
+        "Derivative gains of a torque law in place of those; in 1/s for computed torque.",
+    ),
+    key(
+        "control.feed_forward",
+        "",
+        Word(&["none", "velocity"]),
+        "What a torque law takes from the commanded motion besides positions; computed torque takes accelerations with speeds.",
+    ),
+    key(
+        "plant.integrator",
+        "",
+        Word(&["semi_implicit_euler", "rk4"]),
+        "How the motion is integrated: speeds then positions, or the classical fourth-order scheme.",
+    ),
+    key(
+        "plant.substeps",
+        "",
+        Integer(1, 1000),
+        "Steps of integration to a sample of the law.",
+    ),
+    key(
+        "plant.viscous_friction_n_m_s",
+        "N·m·s/rad",
+        Joints(0.0, 1e6),
+        "Friction torque per joint speed: off by default, as none is published.",
+    ),
+    key(
+        "plant.coulomb_friction_n_m",
+        "N·m",
+        Joints(0.0, 1e6),
+        "Friction torque against any motion: off by default, as none is published.",
+    ),
+    key(
+        "plant.torque_limit_n_m",
+        "N·m",
+        JointsAbove(0.0, 1e6),
+        "Largest joint torques; without it, those of the arm's description, where an effort of 0 means unknown, not a limit.",
+    ),
+    key(
+        "plant.contact_force_n",
+        "N",
+        Number(0.0, 1e4),
+        "Force of a plate on the sponge while it washes, along the plate's normal: off by default.",
+    ),
 ];
 
 impl Domain {

@@ -3,6 +3,7 @@
 use super::keys::{Domain, KEYS};
 use super::shipped::SHIPPED;
 use super::{OrderRule, Problem, Program, Scenario, ScenarioError};
+use crate::control::NotKinematic;
 use platewash_kinematics::urdf::file::{self, FileError};
 use std::path::Path;
 use toml::Spanned;
@@ -119,7 +120,26 @@ impl Scenario {
                     .into(),
             );
         }
+        self.check_control()?;
         self.check_waypoints()
+    }
+}
+
+impl Scenario {
+    /// Gains come in pairs, and the paper's program needs a law without a plant.
+    fn check_control(&self) -> Result<(), Problem> {
+        let control = &self.control;
+        let conflict = |keys: &str, detail: String| {
+            let keys = keys.to_owned();
+            Err(Problem::Conflict { keys, detail })
+        };
+        if control.joint_kp.is_some() != control.joint_kd.is_some() {
+            return conflict("control.joint_kp", "give both joint_kp and joint_kd, or neither".into());
+        }
+        if self.job.program == Program::Paper && !self.law().is_kinematic() {
+            return conflict("control.law", NotKinematic(self.law()).to_string());
+        }
+        Ok(())
     }
 }
 

@@ -3,16 +3,20 @@
 //! [`keys`] is the one table of keys, units, ranges and meanings: it checks files and makes
 //! `docs/scenario.md`. The defaults are those of the types here.
 
+mod control;
 mod document;
 mod error;
 pub mod keys;
 mod load;
 mod paths;
+mod plant;
 mod shipped;
 mod work;
 
+pub use control::{ControlLawName, ControlSection, FeedForward};
 pub use document::reference;
 pub use error::{Problem, ScenarioError};
+pub use plant::{Integrator, PlantSection};
 pub use shipped::{SHIPPED, ShippedScenario};
 pub use work::{MAX_PLATE_CHECKS, MAX_WAYPOINTS};
 
@@ -49,6 +53,8 @@ pub struct Scenario {
     pub limits: LimitsSection,
     /// How the arm follows.
     pub control: ControlSection,
+    /// The arm as a physical system.
+    pub plant: PlantSection,
 }
 
 /// `[job]`.
@@ -119,6 +125,9 @@ pub struct RobotSection {
     /// Joint positions at the end \[deg\]; by default those at the start. [`Program::Certified`] only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub home_deg: Option<[f64; 6]>,
+    /// Rated payload \[kg\]; without it, that of the built-in arm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub payload_kg: Option<f64>,
 }
 
 /// Arms that are built in.
@@ -141,6 +150,17 @@ pub struct ToolSection {
     pub sponge_radius_m: f64,
     /// Height of the sponge \[m\].
     pub sponge_height_m: f64,
+    /// How far the sponge is pressed in while it washes \[m\]: the tip may lift as far and still touch. An assumption.
+    pub sponge_compression_m: f64,
+    /// Mass of the tool body \[kg\]: an assumption.
+    pub mass_kg: f64,
+    /// Distance of its centre of mass from the flange along its axis \[m\]; without it, half its length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub com_m: Option<f64>,
+    /// Its inertia about the centre of mass, ixx, ixy, ixz, iyy, iyz, izz with z along it \[kg·m²\]; without it, that of a
+    /// uniform cylinder.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inertia_kg_m2: Option<[f64; 6]>,
 }
 
 /// `[layout]`.
@@ -313,30 +333,6 @@ pub struct LimitsSection {
     pub tip_acceleration_m_s2: f64,
 }
 
-/// `[control]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct ControlSection {
-    /// The law.
-    pub law: ControlLawName,
-    /// Proportional gain of the paper's law \[1/s\].
-    pub kp: f64,
-    /// Derivative gain of the paper's law.
-    pub kd: f64,
-    /// Time between waypoints \[s\].
-    pub dt_s: f64,
-}
-
-/// Control laws by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ControlLawName {
-    /// The paper's law, to the letter.
-    Paper,
-    /// The commanded configuration is taken at once.
-    Exact,
-}
-
 impl Scenario {
     /// Joint positions at the start and at the end \[rad\].
     #[must_use]
@@ -356,6 +352,15 @@ impl Scenario {
         } else {
             asked
         }
+    }
+
+    /// The control law: the one stated, otherwise the paper's for the paper's program and computed torque for a certified job.
+    #[must_use]
+    pub fn law(&self) -> ControlLawName {
+        self.control.law.unwrap_or(match self.job.program {
+            Program::Paper => ControlLawName::Paper,
+            Program::Certified => ControlLawName::ComputedTorque,
+        })
     }
 
     /// The arc round the base.
@@ -386,6 +391,7 @@ impl Default for Scenario {
             transition: TransitionSection::default(),
             limits: LimitsSection::default(),
             control: ControlSection::default(),
+            plant: PlantSection::default(),
         }
     }
 }
@@ -411,6 +417,7 @@ impl Default for RobotSection {
             tool_frame: ToolFrame::Tool0,
             start_deg: [0.0; 6],
             home_deg: None,
+            payload_kg: None,
         }
     }
 }
@@ -422,6 +429,10 @@ impl Default for ToolSection {
             radius_m: 0.02,
             sponge_radius_m: 0.025,
             sponge_height_m: 0.025,
+            sponge_compression_m: 0.005,
+            mass_kg: 0.3,
+            com_m: None,
+            inertia_kg_m2: None,
         }
     }
 }
@@ -493,17 +504,6 @@ impl Default for LimitsSection {
             joint_acceleration_rad_s2: [4.0, 4.0, 4.0, 5.0, 5.0, 6.0],
             tip_speed_m_s: 1.0,
             tip_acceleration_m_s2: 8.0,
-        }
-    }
-}
-
-impl Default for ControlSection {
-    fn default() -> Self {
-        Self {
-            law: ControlLawName::Paper,
-            kp: 20.0,
-            kd: 0.1,
-            dt_s: 0.01,
         }
     }
 }

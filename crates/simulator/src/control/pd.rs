@@ -1,0 +1,21 @@
+//! Proportional–derivative control of independent joints.
+
+use super::{Command, ControlLaw, Gains, Reference, errors};
+use crate::plant::PlantState;
+use platewash_planner::scenario::FeedForward;
+
+/// τ = Kp e + Kd ė with e = q_d − q. Nothing holds the arm up: where it rests, Kp e = g(q).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pd {
+    /// Gains \[N·m/rad, N·m·s/rad\].
+    pub gains: Gains,
+    /// Whether ė is that of the error or of the arm alone.
+    pub feed_forward: FeedForward,
+}
+
+impl ControlLaw for Pd {
+    fn command(&mut self, reference: &Reference, state: &PlantState) -> Command {
+        let (position, speed) = errors(&reference.now, state, self.feed_forward);
+        Command::Torque(self.gains.kp.component_mul(&position) + self.gains.kd.component_mul(&speed))
+    }
+}

@@ -1,0 +1,221 @@
+//! Whether a sampled torque law is stable, linearised about rest.
+//!
+//! About a configuration that the arm shall hold, with gravity's slope left out, x = (δq, δq̇) obeys
+//! M δq̈ = −D δq̇ + u, u = −K x held over the sampling time T, K = (Kp, Kd) or M (Kp, Kd) for computed torque, D friction.
+//! Over a sample the integrator's own steps are a matrix, x ← A x. The loop is stable if and only if the eigenvalues of A
+//! lie within the unit circle, and certainly if ‖Aⁿ‖ < 1 for some n, which repeated squaring finds.
+
+use super::Gains;
+use crate::dynamics::{DynamicsModel, MassMatrix};
+use nalgebra::SMatrix;
+use platewash_kinematics::JointVector;
+use platewash_planner::scenario::Integrator;
+
+/// Squarings: n up to 2²⁴ samples.
+const SQUARINGS: u32 = 24;
+
+/// What the gains multiply.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Loop {
+    /// Torques: `pd` and `pd_gravity`.
+    Torque,
+    /// Accelerations: `computed_torque`.
+    Acceleration,
+}
+
+/// A sampled law on a plant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stability {
+    /// What the gains multiply.
+    pub of: Loop,
+    /// The gains.
+    pub gains: Gains,
+    /// Friction per speed at rest \[N·m·s/rad\].
+    pub friction: JointVector,
+    /// How the plant is integrated.
+    pub integrator: Integrator,
+    /// Steps of integration to a sample.
+    pub substeps: usize,
+}
+
+/// x = (δq, δq̇).
+type Transition = SMatrix<f64, 12, 12>;
+
+/// Whether the loop, sampled at `rate_hz`, is stable at all `configurations` \[rad\]; if not, the first at which it is not.
+///
+/// # Errors
+/// The configuration. Also where a gain is 0, because the joint then never comes back.
+pub fn check(
+    law: &Stability,
+    rate_hz: f64,
+    model: &DynamicsModel,
+    configurations: &[JointVector],
+) -> Result<(), JointVector> {
+    let fails = |q: &&JointVector| !law.is_stable(&model.mass_matrix(q), 1.0 / rate_hz);
+    configurations.iter().find(fails).map_or(Ok(()), |q| Err(*q))
+}
+
+impl Stability {
+    /// Whether the loop is stable with the mass matrix `mass` and the sampling time `period_s`.
+    #[must_use]
+    pub fn is_stable(&self, mass: &MassMatrix, period_s: f64) -> bool {
+        self.transition(mass, period_s).is_some_and(contracts)
+    }
+
+    /// A; `None` where the mass matrix is not positive definite.
+    fn transition(&self, mass: &MassMatrix, period_s: f64) -> Option<Transition> {
+        let h = period_s / self.substeps as f64;
+        let friction = MassMatrix::from_diagonal(&self.friction);
+        let felt = match self.integrator {
+            Integrator::SemiImplicitEuler => mass + friction * h,
+            Integrator::Rk4 => *mass,
+        };
+        let inverse = felt.cholesky()?.inverse();
+        let gain = |k: &JointVector| match self.of {
+            Loop::Torque => inverse * MassMatrix::from_diagonal(k),
+            Loop::Acceleration => inverse * mass * MassMatrix::from_diagonal(k),
+        };
+        let damping = inverse * friction;
+        let (step, input) = match self.integrator {
+            Integrator::SemiImplicitEuler => euler(&damping, h),
+            Integrator::Rk4 => rk4(&damping, h),
+        };
+        // The torque is that of the sample's first state, whatever the arm does until the next one.
+        let (passed, forced) = repeated(step, input, self.substeps);
+        let mut feedback = Transition::zeros();
+        feedback.fixed_view_mut::<6, 6>(6, 0).copy_from(&-gain(&self.gains.kp));
+        feedback.fixed_view_mut::<6, 6>(6, 6).copy_from(&-gain(&self.gains.kd));
+        Some(passed + forced * feedback)
+    }
+}
+
+/// What `count` steps under the same input make of state and input, by doubling.
+fn repeated(mut step: Transition, mut input: Transition, mut count: usize) -> (Transition, Transition) {
+    let (mut passed, mut forced) = (Transition::identity(), Transition::zeros());
+    while count > 0 {
+        if count % 2 == 1 {
+            forced = step * forced + input;
+            passed = step * passed;
+        }
+        input += step * input;
+        step *= step;
+        count /= 2;
+    }
+    (passed, forced)
+}
+
+/// One step of semi-implicit Euler: what it makes of the state, and of an acceleration in rows 6 to 11.
+fn euler(damping: &MassMatrix, h: f64) -> (Transition, Transition) {
+    let speed = MassMatrix::identity() - damping * h;
+    let mut step = Transition::identity();
+    step.fixed_view_mut::<6, 6>(0, 6).copy_from(&(speed * h));
+    step.fixed_view_mut::<6, 6>(6, 6).copy_from(&speed);
+    let mut input = Transition::zeros();
+    input.fixed_view_mut::<6, 6>(0, 6).fill_diagonal(h * h);
+    input.fixed_view_mut::<6, 6>(6, 6).fill_diagonal(h);
+    (step, input)
+}
+
+/// The same for Runge–Kutta: Σ (hF)ᵏ/k! up to k = 4 of ẋ = F x + G u.
+fn rk4(damping: &MassMatrix, h: f64) -> (Transition, Transition) {
+    let mut rate = Transition::zeros();
+    rate.fixed_view_mut::<6, 6>(0, 6).fill_diagonal(h);
+    rate.fixed_view_mut::<6, 6>(6, 6).copy_from(&(-damping * h));
+    let mut forced = Transition::zeros();
+    forced.fixed_view_mut::<6, 6>(6, 6).fill_diagonal(h);
+    let one = Transition::identity();
+    let sum = one + rate / 2.0 * (one + rate / 3.0 * (one + rate / 4.0));
+    (one + rate * sum, sum * forced)
+}
+
+/// Whether some power of the matrix is smaller than 1.
+fn contracts(mut power: Transition) -> bool {
+    for _ in 0..=SQUARINGS {
+        let size = power.norm();
+        if size < 1.0 {
+            return true;
+        }
+        if !size.is_finite() {
+            return false;
+        }
+        power *= power;
+    }
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_kinematics::RobotModel;
+
+    fn law(kp: f64, kd: f64, integrator: Integrator) -> Stability {
+        Stability {
+            of: Loop::Acceleration,
+            gains: Gains {
+                kp: JointVector::repeat(kp),
+                kd: JointVector::repeat(kd),
+            },
+            friction: JointVector::zeros(),
+            integrator,
+            substeps: 1,
+        }
+    }
+
+    /// A double integrator under semi-implicit Euler is stable if and only if 4 − 2 T kd − T² kp > 0 and kd, kp > 0 (Jury's
+    /// criterion on z² − (2 − T kd − T² kp) z + 1 − T kd).
+    #[test]
+    fn the_limit_is_jurys() {
+        let mass =
+            RobotModel::irb120().map(|r| DynamicsModel::new(&r, None).unwrap().mass_matrix(&JointVector::zeros()));
+        let mass = mass.unwrap();
+        let stable = |kp: f64, kd: f64| law(kp, kd, Integrator::SemiImplicitEuler).is_stable(&mass, 1e-3);
+        // ζ = 1: 4 − 4x − x² = 0 at x = T ω = 2√2 − 2.
+        let limit = (8f64.sqrt() - 2.0) * 1e3;
+        for (share, expected) in [(0.999, true), (1.001, false)] {
+            let w = limit * share;
+            assert_eq!(stable(w * w, 2.0 * w), expected);
+        }
+        assert!(!stable(900.0, 0.0) && !stable(0.0, 60.0) && !stable(-1.0, 60.0) && !stable(f64::NAN, 60.0));
+        assert!(stable(900.0, 1e-2));
+    }
+
+    /// Exact sampling of a double integrator, which Runge–Kutta is: z² − (2 − T kd − T² kp/2) z + 1 − T kd + T² kp/2.
+    #[test]
+    fn runge_kutta_samples_exactly() {
+        let mass = MassMatrix::identity();
+        let stable = |kp: f64, kd: f64| law(kp, kd, Integrator::Rk4).is_stable(&mass, 1e-3);
+        assert!(stable(900.0, 0.451) && !stable(900.0, 0.449), "T kd = T² kp/2");
+        assert!(stable(100.0, 1999.0) && !stable(100.0, 2001.0), "T kd = 2");
+    }
+
+    #[test]
+    fn doubling_is_repeating() {
+        let (step, input) = euler(&(MassMatrix::identity() * 3.0), 0.01);
+        for count in 0..20 {
+            let (mut passed, mut forced) = (Transition::identity(), Transition::zeros());
+            for _ in 0..count {
+                passed = step * passed;
+                forced = step * forced + input;
+            }
+            let (fast, pushed) = repeated(step, input, count);
+            assert!(
+                (fast - passed).amax() < 1e-14 && (pushed - forced).amax() < 1e-14,
+                "{count}"
+            );
+        }
+    }
+
+    #[test]
+    fn substeps_are_the_finer_integration_of_the_same_torque() {
+        let mass = MassMatrix::identity();
+        let fine = |kd: f64| {
+            Stability {
+                substeps: 1000,
+                ..law(900.0, kd, Integrator::SemiImplicitEuler)
+            }
+            .is_stable(&mass, 1e-3)
+        };
+        // Towards Runge–Kutta's limit of 0.45.
+        assert!(fine(0.452) && !fine(0.448));
+    }
+}

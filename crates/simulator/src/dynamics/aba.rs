@@ -1,0 +1,123 @@
+//! Forward dynamics: the articulated-body algorithm (Featherstone 2008, §7.3), in one common frame.
+//!
+//! Spatial vectors are (angular, linear). With S the joint's motion, v_i = v_{i−1} + S_i q̇_i and c_i = v_i × S_i q̇_i,
+//!
+//! - outwards: Iᴬ_i = I_i, p_i = v_i ×* I_i v_i;
+//! - inwards: U = Iᴬ S, D = Sᵀ U, u = τ − Sᵀ p; Iᴬ_{i−1} += Iᴬ − U Uᵀ/D, p_{i−1} += p + (Iᴬ − U Uᵀ/D) c + U u/D;
+//! - outwards: a' = a_{i−1} + c, q̈ = (u − Uᵀ a')/D, a_i = a' + S q̈, with a_0 = −g.
+
+use super::model::DynamicsModel;
+use super::sweep::{Spatial, Sweep};
+use nalgebra::{Matrix6, Vector3, Vector6};
+use platewash_kinematics::{AXES, JointVector};
+
+/// (angular, linear) in the common frame.
+type SpatialVector = Vector6<f64>;
+
+/// What the inward pass leaves of a joint for the outward one.
+#[derive(Clone, Copy)]
+struct Joint {
+    /// S.
+    axis: SpatialVector,
+    /// c.
+    drift: SpatialVector,
+    /// U / D.
+    share: SpatialVector,
+    /// u / D.
+    free: f64,
+}
+
+impl DynamicsModel {
+    /// Accelerations q̈ \[rad/s²\] of the arm at positions `q` \[rad\] and speeds `qd` \[rad/s\] under the torques `torque`
+    /// \[N·m\]: M(q) q̈ = τ − C(q, q̇) q̇ − g(q).
+    #[must_use]
+    pub fn forward_dynamics(&self, q: &JointVector, qd: &JointVector, torque: &JointVector) -> JointVector {
+        self.forward_dynamics_with(q, qd, torque, &JointVector::zeros())
+    }
+
+    /// The same with an inertia `own` \[kg·m²\], not negative, that each joint alone has to turn: (M(q) + diag(own)) q̈ =
+    /// τ − C(q, q̇) q̇ − g(q). A rotor behind a gear is one; a step of implicit friction has the form, too.
+    #[must_use]
+    pub fn forward_dynamics_with(
+        &self,
+        q: &JointVector,
+        qd: &JointVector,
+        torque: &JointVector,
+        own: &JointVector,
+    ) -> JointVector {
+        let sweep = self.sweep(q);
+        let (mut inertias, mut biases, mut joints) = outwards(&sweep, qd);
+        for i in (0..AXES).rev() {
+            let (axis, drift) = (joints[i].axis, joints[i].drift);
+            let across: SpatialVector = inertias[i] * axis;
+            let stiffness = axis.dot(&across) + own[i];
+            let share = across / stiffness;
+            let free = (torque[i] - axis.dot(&biases[i])) / stiffness;
+            joints[i].share = share;
+            joints[i].free = free;
+            if let Some(before) = i.checked_sub(1) {
+                let left = inertias[i] - across * share.transpose();
+                let passed = biases[i] + left * drift + across * free;
+                inertias[before] += left;
+                biases[before] += passed;
+            }
+        }
+        let mut acceleration = spatial(&Vector3::zeros(), &-self.gravity);
+        JointVector::from_fn(|i, _| {
+            let joint = &joints[i];
+            acceleration += joint.drift;
+            let qdd = joint.free - joint.share.dot(&acceleration);
+            acceleration += joint.axis * qdd;
+            qdd
+        })
+    }
+}
+
+/// Inertias, bias wrenches and joints of the moving arm.
+#[inline(always)]
+fn outwards(sweep: &Sweep, qd: &JointVector) -> ([Matrix6<f64>; AXES], [SpatialVector; AXES], [Joint; AXES]) {
+    let still = Joint {
+        axis: SpatialVector::zeros(),
+        drift: SpatialVector::zeros(),
+        share: SpatialVector::zeros(),
+        free: 0.0,
+    };
+    let (mut inertias, mut biases, mut joints) =
+        ([Matrix6::zeros(); AXES], [SpatialVector::zeros(); AXES], [still; AXES]);
+    let (mut w, mut v) = (Vector3::zeros(), Vector3::zeros());
+    for i in 0..AXES {
+        let (axis, moment) = (sweep.axes[i], sweep.moments[i]);
+        let (turn, slide) = (axis * qd[i], moment * qd[i]);
+        w += turn;
+        v += slide;
+        let body = &sweep.bodies[i];
+        let (spin, momentum) = body.times(&w, &v);
+        joints[i].axis = spatial(&axis, &moment);
+        joints[i].drift = spatial(&w.cross(&turn), &(w.cross(&slide) + v.cross(&turn)));
+        inertias[i] = matrix(body);
+        biases[i] = spatial(&(w.cross(&spin) + v.cross(&momentum)), &w.cross(&momentum));
+    }
+    (inertias, biases, joints)
+}
+
+#[inline(always)]
+fn spatial(angular: &Vector3<f64>, linear: &Vector3<f64>) -> SpatialVector {
+    SpatialVector::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
+}
+
+/// The 6 × 6 spatial inertia \[I, \[h\]×; −\[h\]×, m 1\].
+#[inline(always)]
+fn matrix(body: &Spatial) -> Matrix6<f64> {
+    let (m, i) = (body.mass, &body.inertia);
+    let [x, y, z] = body.first_moment.into();
+    #[rustfmt::skip]
+    let matrix = Matrix6::new(
+        i.m11, i.m12, i.m13, 0.0,  -z,   y,
+        i.m21, i.m22, i.m23,   z, 0.0,  -x,
+        i.m31, i.m32, i.m33,  -y,   x, 0.0,
+          0.0,     z,    -y,   m, 0.0, 0.0,
+           -z,   0.0,     x, 0.0,   m, 0.0,
+            y,    -x,   0.0, 0.0, 0.0,   m,
+    );
+    matrix
+}

@@ -1,0 +1,172 @@
+//! The arm's bodies, joint by joint: what every algorithm here works on.
+//!
+//! Body i is everything that joint i moves and joint i + 1 does not, in the folded frame of joint i (z along its axis, origin
+//! on it). A body whose inertia about its own joint's axis is above zero moves only if kinetic energy does: by induction from
+//! joint 1, ½ q̇ᵀ M q̇ = 0 then implies q̇ = 0, so that M is positive definite in every configuration.
+
+use super::body::RigidBody;
+use super::physical::{self, Unphysical};
+use nalgebra::{Matrix3, Vector3};
+use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::{AXES, Link, RobotModel};
+
+/// Standard gravity as rigid-body codes round it \[m/s²\].
+pub const STANDARD_GRAVITY_M_S2: f64 = 9.81;
+
+/// Why an arm has no dynamics.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DynamicsError {
+    /// A link that moves states no mass.
+    #[error("link '{link}' states no <inertial>: its mass, centre of mass and inertia are needed for dynamics")]
+    Missing {
+        /// The link.
+        link: String,
+    },
+    /// A link that cannot exist.
+    #[error("link '{link}': {cause}")]
+    Link {
+        /// The link.
+        link: String,
+        /// Why.
+        cause: Unphysical,
+    },
+    /// A tool that cannot exist.
+    #[error("tool: {cause}; see tool.mass_kg, tool.com_m and tool.inertia_kg_m2")]
+    Tool {
+        /// Why.
+        cause: Unphysical,
+    },
+    /// A joint that nothing resists.
+    #[error(
+        "link '{link}': no inertia about the axis of joint '{joint}', which could then be accelerated without torque"
+    )]
+    NoInertia {
+        /// The joint.
+        joint: String,
+        /// The link that it moves.
+        link: String,
+    },
+    /// Gravity that is not finite.
+    #[error("gravity must be finite; found {found:?} m/s²")]
+    Gravity {
+        /// What was found.
+        found: [f64; 3],
+    },
+}
+
+/// The dynamics of an arm, with or without a tool. Immutable once built.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DynamicsModel {
+    /// `F_i = T_{i−1}_i` at q = 0.
+    pub(super) folded: [Rigid; AXES],
+    pub(super) bodies: [Body; AXES],
+    /// Acceleration of free fall, base frame \[m/s²\].
+    pub(super) gravity: Vector3<f64>,
+}
+
+/// A body in its joint's frame, in the forms that the algorithms use.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Body {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Centre of mass \[m\].
+    pub com: Vector3<f64>,
+    /// h = m c \[kg·m\].
+    pub first_moment: Vector3<f64>,
+    /// Inertia about the centre of mass \[kg·m²\].
+    pub about_com: Matrix3<f64>,
+    /// Inertia about the joint frame's origin \[kg·m²\].
+    pub about_origin: Matrix3<f64>,
+}
+
+impl DynamicsModel {
+    /// The dynamics of `robot` that holds `tool`, a body in the mounting frame ([`RobotModel::mounting_frame`]), with gravity
+    /// along −z of the base.
+    ///
+    /// Links behind a joint need mass: those that a joint moves and those with a collision shape. Frames without either
+    /// weigh nothing. The base does not move; its mass does not matter.
+    ///
+    /// # Errors
+    /// [`DynamicsError`], naming the link.
+    pub fn new(robot: &RobotModel, tool: Option<&RigidBody>) -> Result<Self, DynamicsError> {
+        let mut bodies = [RigidBody::none(); AXES];
+        for link in robot.links() {
+            if let (Some(body), Some(part)) = (behind_joint(link), mass_of(robot, link)?) {
+                bodies[body] = bodies[body].with(&part.in_frame(link.frame.on_body()));
+            }
+        }
+        if let Some(tool) = tool {
+            physical::check(tool).map_err(|cause| DynamicsError::Tool { cause })?;
+            bodies[AXES - 1] = bodies[AXES - 1].with(&tool.in_frame(robot.mounting_frame().on_body()));
+        }
+        for (body, joint) in bodies.iter().zip(robot.joints()) {
+            if body.inertia_about_origin().m33.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
+                return Err(DynamicsError::NoInertia {
+                    joint: joint.name.clone(),
+                    link: joint.child.clone(),
+                });
+            }
+        }
+        Ok(Self {
+            folded: *robot.folded(),
+            bodies: bodies.map(|body| Body::new(&body)),
+            gravity: Vector3::new(0.0, 0.0, -STANDARD_GRAVITY_M_S2),
+        })
+    }
+
+    /// The same arm under another gravity, the acceleration of free fall in the base frame \[m/s²\].
+    ///
+    /// # Errors
+    /// [`DynamicsError::Gravity`] when it is not finite.
+    pub fn with_gravity(mut self, gravity_m_s2: Vector3<f64>) -> Result<Self, DynamicsError> {
+        if !gravity_m_s2.iter().all(|v| v.is_finite()) {
+            let found = gravity_m_s2.into();
+            return Err(DynamicsError::Gravity { found });
+        }
+        self.gravity = gravity_m_s2;
+        Ok(self)
+    }
+
+    /// Mass of everything that moves \[kg\].
+    #[must_use]
+    pub fn moving_mass_kg(&self) -> f64 {
+        self.bodies.iter().map(|body| body.mass).sum()
+    }
+}
+
+impl Body {
+    fn new(body: &RigidBody) -> Self {
+        Self {
+            mass: body.mass_kg,
+            com: body.com_m,
+            first_moment: body.com_m * body.mass_kg,
+            about_com: body.inertia_kg_m2,
+            about_origin: body.inertia_about_origin(),
+        }
+    }
+}
+
+/// Index of the body that a link belongs to, 0 for what joint 1 moves; `None` for the base.
+fn behind_joint(link: &Link) -> Option<usize> {
+    link.frame.body().checked_sub(1)
+}
+
+/// The mass properties of a link, in its frame; `None` for the base and for a pure frame.
+fn mass_of(robot: &RobotModel, link: &Link) -> Result<Option<RigidBody>, DynamicsError> {
+    let Some(body) = behind_joint(link) else {
+        return Ok(None);
+    };
+    let name = || link.name.clone();
+    let Some(inertial) = &link.inertial else {
+        let is_needed = robot.joints()[body].child == link.name || !link.collision.is_empty();
+        return if is_needed {
+            Err(DynamicsError::Missing { link: name() })
+        } else {
+            Ok(None)
+        };
+    };
+    let part = RigidBody::from(inertial);
+    physical::check(&part).map_err(|cause| DynamicsError::Link { link: name(), cause })?;
+    Ok(Some(part))
+}

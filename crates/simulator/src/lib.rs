@@ -1,0 +1,14 @@
+//! The arm as a physical system: rigid-body dynamics, a plant, control laws, and what a planned wash becomes under them.
+//!
+//! Conventions (units, frames, joint order) are those of [`platewash_kinematics`]. Torques are in N·m, positive along the
+//! joint's axis, and act on the link behind the joint.
+
+pub mod control;
+pub mod dynamics;
+pub mod plant;
+pub mod simulate;
+
+pub use control::{Command, ControlError, ControlLaw, Gains};
+pub use dynamics::{DynamicsError, DynamicsModel, Energy, RigidBody};
+pub use plant::{Plant, PlantState};
+pub use simulate::{Execution, Setup, SimulationError, SimulationReport, simulate, tune};

@@ -1,0 +1,49 @@
+//! A plan under a control law: what the arm does, and what of the wash is left.
+//!
+//! [`simulate`] runs a plan sample by sample and gives an [`Execution`]; [`SimulationReport::new`] judges it. Both are pure:
+//! the same plan, arm and setup give the same bytes.
+//!
+//! | concept | file |
+//! | --- | --- |
+//! | law, gains, plant; their checks | `setup.rs` |
+//! | the loop of samples | `run.rs` |
+//! | segments of a plan in time | `schedule.rs` |
+//! | the executed motion, sample by sample | `execution.rs` |
+//! | it as CSV | `csv.rs` |
+//! | root mean square, 95 %, largest | `statistics.rs` |
+//! | errors of joints and tip | `tracking.rs` |
+//! | torques, work, power | `effort.rs` |
+//! | contact, coverage and verdict of a plate | `washing.rs`, `contact.rs`, `cause.rs` |
+//! | the tool's mass against the arm's payload | `payload.rs` |
+//! | all of it | `report.rs` |
+//! | many frequencies and dampings | `tune.rs` |
+
+mod cause;
+mod contact;
+mod csv;
+mod effort;
+mod error;
+mod execution;
+mod payload;
+mod report;
+mod run;
+mod schedule;
+mod setup;
+mod statistics;
+mod tracking;
+mod tune;
+mod washing;
+
+pub use cause::Cause;
+pub use csv::{HEADER, table};
+pub use effort::{Effort, JointEffort};
+pub use error::SimulationError;
+pub use execution::{Execution, Sample};
+pub use payload::{PayloadCheck, PayloadVerdict};
+pub use report::{SimulationReport, SimulationVerdict};
+pub use run::{MAX_SAMPLES, MAX_STEPS, simulate};
+pub use setup::Setup;
+pub use statistics::Spread;
+pub use tracking::{SegmentTracking, Tracking};
+pub use tune::{TuneOutcome, TuneRow, tune};
+pub use washing::{PlateOutcome, PlateVerdict};

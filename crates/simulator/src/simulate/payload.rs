@@ -1,0 +1,54 @@
+//! The tool's mass against the arm's rated payload.
+
+use crate::dynamics::RigidBody;
+use platewash_kinematics::RobotModel;
+use platewash_kinematics::model::IRB120_URDF;
+use platewash_planner::plan::Plan;
+use serde::Serialize;
+
+/// Rated payload of the ABB IRB 120 \[kg\] (ABB's data sheet).
+pub const IRB120_PAYLOAD_KG: f64 = 3.0;
+
+/// Whether the arm may carry its tool.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PayloadVerdict {
+    /// The tool weighs no more than the rated payload.
+    Within,
+    /// It weighs more.
+    Exceeded,
+    /// No payload is known for this arm: give `robot.payload_kg`.
+    Unknown,
+}
+
+/// The tool's mass against the arm's rated payload.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PayloadCheck {
+    /// Mass of the tool \[kg\].
+    pub tool_kg: f64,
+    /// Rated payload \[kg\], where known.
+    pub rated_kg: Option<f64>,
+    /// What follows.
+    pub verdict: PayloadVerdict,
+}
+
+impl PayloadCheck {
+    /// Of a plan: the payload that its scenario states, otherwise 3 kg for the built-in IRB 120.
+    #[must_use]
+    pub fn of(plan: &Plan, robot: &RobotModel) -> Self {
+        let is_built_in = robot.sha256() == platewash_kinematics::sha256_hex(IRB120_URDF.as_bytes());
+        let built_in = is_built_in.then_some(IRB120_PAYLOAD_KG);
+        let rated_kg = plan.scenario.robot.payload_kg.or(built_in);
+        let tool_kg = RigidBody::tool(&plan.tool).map_or(0.0, |tool| tool.mass_kg);
+        let verdict = match rated_kg {
+            Some(rated) if tool_kg <= rated => PayloadVerdict::Within,
+            Some(_) => PayloadVerdict::Exceeded,
+            None => PayloadVerdict::Unknown,
+        };
+        Self {
+            tool_kg,
+            rated_kg,
+            verdict,
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! What came of a plan under a law.
+
+use super::contact::Contact;
+use super::effort::Effort;
+use super::payload::{PayloadCheck, PayloadVerdict};
+use super::tracking::{self, SegmentTracking, Tracking};
+use super::washing::{self, PlateOutcome, PlateVerdict};
+use super::{Execution, Setup, SimulationError};
+use platewash_kinematics::RobotModel;
+use platewash_planner::plan::Plan;
+use platewash_planner::scenario::ControlLawName;
+use serde::Serialize;
+
+/// Whether the wash survives its controller.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SimulationVerdict {
+    /// Every plate is washed, and the arm may carry its tool as far as is known.
+    Washed,
+    /// Not so.
+    NotWashed,
+}
+
+/// What came of a plan under a law. Lengths in metres, angles in radians, times in seconds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SimulationReport {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Its seed.
+    pub seed: u64,
+    /// Name of the arm.
+    pub robot: String,
+    /// The law.
+    pub law: ControlLawName,
+    /// Whether the wash survives.
+    pub verdict: SimulationVerdict,
+    /// The first line.
+    pub headline: String,
+    /// Duration of the execution \[s\].
+    pub duration_s: f64,
+    /// Samples.
+    pub samples: usize,
+    /// Time between them \[s\].
+    pub period_s: f64,
+    /// One entry a plate, in the order of washing.
+    pub plates: Vec<PlateOutcome>,
+    /// Errors over the whole execution.
+    pub tracking: Tracking,
+    /// Errors segment by segment.
+    pub segments: Vec<SegmentTracking>,
+    /// Torques, work and power; none under a kinematic law.
+    pub effort: Option<Effort>,
+    /// The tool's mass against the arm's payload.
+    pub payload: PayloadCheck,
+    /// What was assumed, as nothing is published or measured.
+    pub assumptions: Vec<String>,
+}
+
+impl SimulationReport {
+    /// Judges an execution of `plan` by [`super::simulate`] with the same arm and setup.
+    ///
+    /// # Errors
+    /// [`SimulationError::Coverage`] for plates or sponges that make no sense.
+    pub fn new(plan: &Plan, robot: &RobotModel, setup: &Setup, execution: &Execution) -> Result<Self, SimulationError> {
+        let contact = Contact::new(plan, robot);
+        let tip_errors = tracking::tip_errors(execution, robot, contact.tip());
+        let plates = washing::plates(plan, robot, execution)?;
+        let payload = PayloadCheck::of(plan, robot);
+        let washed = plates.iter().filter(|p| p.verdict == PlateVerdict::Washed).count();
+        let may_carry = payload.verdict != PayloadVerdict::Exceeded;
+        let verdict = if washed == plan.plates.len() && may_carry {
+            SimulationVerdict::Washed
+        } else {
+            SimulationVerdict::NotWashed
+        };
+        let tracking = tracking::tracking(&execution.samples, &tip_errors);
+        Ok(Self {
+            scenario: plan.scenario.name.clone(),
+            seed: plan.scenario.seed,
+            robot: robot.name().to_owned(),
+            law: setup.law,
+            verdict,
+            headline: format!(
+                "{washed} of {} plates washed under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
+                plan.plates.len(),
+                setup.law.name(),
+                1e3 * tracking.tip_m.rms,
+                1e3 * tracking.tip_m.max
+            ),
+            duration_s: execution.samples.last().map_or(0.0, |sample| sample.t_s),
+            samples: execution.samples.len(),
+            period_s: execution.period_s,
+            plates,
+            tracking,
+            segments: tracking::by_segment(execution, &plan.segments, &tip_errors),
+            effort: Effort::of(execution),
+            payload,
+            assumptions: assumptions(plan, setup),
+        })
+    }
+}
+
+fn assumptions(plan: &Plan, setup: &Setup) -> Vec<String> {
+    let tool = &plan.tool;
+    if setup.law.is_kinematic() {
+        return vec!["there is no plant: the law moves positions".to_owned()];
+    }
+    let mut all =
+        vec!["the law knows masses and inertias exactly, and measures positions and speeds exactly".to_owned()];
+    if tool.length_m > 0.0 {
+        all.push(format!(
+            "the tool weighs {} kg and its sponge is pressed in by {} mm",
+            tool.mass_kg,
+            1e3 * tool.sponge_compression_m
+        ));
+    }
+    let plant = &setup.plant;
+    let none = |values: &[f64]| values.iter().all(|v| *v == 0.0);
+    if none(&plant.viscous_friction_n_m_s) && none(&plant.coulomb_friction_n_m) {
+        all.push("there is no friction in the joints".to_owned());
+    } else {
+        all.push("friction is as plant.viscous_friction_n_m_s and plant.coulomb_friction_n_m state".to_owned());
+    }
+    if plant.contact_force_n == 0.0 {
+        all.push("the plate does not push back".to_owned());
+    } else {
+        all.push(format!(
+            "the plate pushes with a constant {} N wherever the sponge touches",
+            plant.contact_force_n
+        ));
+    }
+    if plant.torque_limit_n_m.is_some() {
+        all.push("torque limits are as plant.torque_limit_n_m states".to_owned());
+    }
+    all
+}

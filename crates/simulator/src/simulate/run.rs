@@ -1,0 +1,254 @@
+//! The loop of samples: reference, law, plant.
+
+use super::contact::Contact;
+use super::schedule::Schedule;
+use super::{Execution, Sample, Setup, SimulationError};
+use crate::control::{self, Command, ControlLaw, Reference};
+use crate::dynamics::{DynamicsModel, RigidBody};
+use crate::plant::{Plant, PlantState};
+use platewash_kinematics::{JointVector, RobotModel};
+use platewash_planner::plan::Plan;
+use platewash_planner::tool_path::SegmentKind;
+use platewash_planner::trajectory::{JointState, Trajectory};
+
+/// Most samples of an execution, some 500 MB.
+pub const MAX_SAMPLES: usize = 2_000_000;
+
+/// Most steps of integration.
+pub const MAX_STEPS: usize = 50_000_000;
+
+/// Configurations along a plan about which the sampled loop is checked, at most.
+const STABLE_AT: usize = 64;
+
+/// Positions \[rad\] and speeds \[rad/s\] beyond this are divergence, not motion.
+const LARGEST: f64 = 1e6;
+
+/// Runs a plan on its arm: sampled law, torque held between samples, plant.
+///
+/// The arm starts on the path, at its speed. The law knows the plant's rigid bodies exactly, tool included, but neither
+/// friction nor contact. Under a kinematic law there is no plant.
+///
+/// # Errors
+/// [`SimulationError`]: a plan that is no motion or for another arm, settings that make no sense, an arm without dynamics, a
+/// law that cannot be stable, or an arm that leaves all bounds.
+pub fn simulate(plan: &Plan, robot: &RobotModel, setup: &Setup) -> Result<Execution, SimulationError> {
+    check_arm(plan, robot)?;
+    setup.check()?;
+    let knots = &plan.knots;
+    let motion = Trajectory::from_knots(knots.t_s.clone(), knots.q_rad.clone(), knots.qd_rad_s.clone())?;
+    let schedule = Schedule::new(plan, setup.period_s())?;
+    let count = samples(&motion, setup)?;
+    let tool = RigidBody::tool(&plan.tool);
+    let plant = if setup.law.is_kinematic() {
+        None
+    } else {
+        let model = DynamicsModel::new(robot, tool.as_ref())?;
+        Some(Plant::new(model, robot.limits(), &setup.plant))
+    };
+    let mut law: Box<dyn ControlLaw + '_> = match &plant {
+        Some(plant) => {
+            let along = along(&motion);
+            control::law(
+                setup.law,
+                &setup.control,
+                plant,
+                robot.limits(),
+                &along,
+                setup.plant.substeps,
+            )?
+        }
+        None => Box::new(control::kinematic(setup.law, &setup.control)?),
+    };
+    let run = Run {
+        motion: &motion,
+        plant: plant.as_ref(),
+        contact: Contact::new(plan, robot),
+        force_n: setup.plant.contact_force_n,
+        substeps: setup.plant.substeps,
+        period_s: setup.period_s(),
+    };
+    run.carry_out(law.as_mut(), schedule, count)
+}
+
+/// What does not change from sample to sample.
+struct Run<'a> {
+    motion: &'a Trajectory,
+    plant: Option<&'a Plant>,
+    contact: Contact<'a>,
+    force_n: f64,
+    substeps: usize,
+    period_s: f64,
+}
+
+/// What a command comes to over one sample.
+struct Outcome {
+    state: PlantState,
+    qdd: JointVector,
+    torque: JointVector,
+    /// Whether a limit cut the torque.
+    is_cut: bool,
+}
+
+impl Run<'_> {
+    fn carry_out(
+        &self,
+        law: &mut dyn ControlLaw,
+        mut schedule: Schedule<'_>,
+        count: usize,
+    ) -> Result<Execution, SimulationError> {
+        let mut reference = Reference {
+            now: self.asked(0),
+            next: self.asked(1),
+        };
+        let mut state = PlantState {
+            q: reference.now.q,
+            qd: reference.now.qd,
+        };
+        let mut samples = Vec::with_capacity(count);
+        let (mut segment, mut saturated) = (schedule.at(0.0), 0);
+        law.begin_segment();
+        for k in 0..count {
+            let t_s = self.time(k);
+            let towards = schedule.at(self.time(k + 1));
+            // The paper's program begins with its first waypoint, which ends the way there from the start.
+            if towards != segment && schedule.segment(segment).kind != SegmentKind::Depart {
+                law.begin_segment();
+            }
+            let outcome = match law.command(&reference, &state) {
+                Command::Position(q) => self.moved(&state, q),
+                Command::Torque(torque) => self.driven(&state, &torque, schedule.washed_plate(segment)),
+            };
+            samples.push(Sample {
+                t_s,
+                segment,
+                commanded: reference.now.q,
+                state,
+                qdd: outcome.qdd,
+                torque: outcome.torque,
+            });
+            saturated += usize::from(outcome.is_cut);
+            state = outcome.state;
+            check_bounded(self.time(k + 1), &state)?;
+            segment = towards;
+            reference = Reference {
+                now: reference.next,
+                next: self.asked(k + 2),
+            };
+        }
+        Ok(Execution {
+            period_s: self.period_s,
+            samples,
+            limits: self.plant.map(|plant| plant.limits),
+            saturated,
+        })
+    }
+
+    fn time(&self, sample: usize) -> f64 {
+        sample as f64 * self.period_s
+    }
+
+    /// What the plan asks for; after its end, to stay there.
+    fn asked(&self, sample: usize) -> JointState {
+        let still = JointVector::zeros();
+        let t = self.time(sample);
+        let end = self.motion.duration_s();
+        let asked = self.motion.at(t).unwrap_or(JointState {
+            q: still,
+            qd: still,
+            qdd: still,
+        });
+        if t > end {
+            JointState {
+                qd: still,
+                qdd: still,
+                ..asked
+            }
+        } else {
+            asked
+        }
+    }
+
+    /// The arm is put where the law says.
+    fn moved(&self, state: &PlantState, q: JointVector) -> Outcome {
+        let qd = (q - state.q) / self.period_s;
+        Outcome {
+            state: PlantState { q, qd },
+            qdd: (qd - state.qd) / self.period_s,
+            torque: JointVector::zeros(),
+            is_cut: false,
+        }
+    }
+
+    /// The arm moves under a torque, with its sponge on `plate` if on any.
+    fn driven(&self, state: &PlantState, torque: &JointVector, plate: Option<usize>) -> Outcome {
+        let Some(plant) = self.plant else {
+            return self.moved(state, state.q);
+        };
+        let held = plant.limits.cut(torque);
+        let h = self.period_s / self.substeps as f64;
+        let (mut now, mut first) = (*state, None);
+        for _ in 0..self.substeps {
+            let pushed = match plate {
+                Some(plate) if self.force_n > 0.0 => {
+                    held + self.contact.push(&plant.model, &now.q, plate, self.force_n)
+                }
+                _ => held,
+            };
+            let (next, qdd) = plant.step(&now, &pushed, h);
+            first.get_or_insert(qdd);
+            now = next;
+        }
+        Outcome {
+            state: now,
+            qdd: first.unwrap_or_default(),
+            torque: held,
+            is_cut: held != *torque,
+        }
+    }
+}
+
+/// Configurations along the motion \[rad\], at which the loop must be stable.
+fn along(motion: &Trajectory) -> Vec<JointVector> {
+    let stride = motion.positions().len().div_ceil(STABLE_AT).max(1);
+    motion.positions().iter().step_by(stride).copied().collect()
+}
+
+fn check_arm(plan: &Plan, robot: &RobotModel) -> Result<(), SimulationError> {
+    if plan.robot.urdf_sha256 == robot.sha256() {
+        return Ok(());
+    }
+    Err(SimulationError::OtherArm {
+        planned: plan.robot.urdf_sha256.clone(),
+        given: robot.sha256().to_owned(),
+    })
+}
+
+/// Samples from 0 s to the plan's end, which is the last one or lies less than a period before it.
+fn samples(motion: &Trajectory, setup: &Setup) -> Result<usize, SimulationError> {
+    let (duration_s, period_s, substeps) = (motion.duration_s(), setup.period_s(), setup.plant.substeps);
+    // A last period shorter than a millionth is rounding, not a sample.
+    let count = (duration_s / period_s - 1e-6).ceil().max(0.0) + 1.0;
+    if count <= MAX_SAMPLES as f64 && count * substeps as f64 <= MAX_STEPS as f64 {
+        return Ok(count as usize);
+    }
+    Err(SimulationError::TooLong {
+        duration_s,
+        rate_hz: 1.0 / period_s,
+        substeps,
+    })
+}
+
+fn check_bounded(t_s: f64, state: &PlantState) -> Result<(), SimulationError> {
+    // A range holds no NaN.
+    let bounds = -LARGEST..=LARGEST;
+    let stray = (0..6).find(|&j| !(bounds.contains(&state.q[j]) && bounds.contains(&state.qd[j])));
+    match stray {
+        Some(joint) => Err(SimulationError::Divergence {
+            t_s,
+            joint,
+            position_rad: state.q[joint],
+            speed_rad_s: state.qd[joint],
+        }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,79 @@
+//! Many frequencies and dampings: the trade-off between tip error, torque and coverage.
+
+use super::{Setup, SimulationError, SimulationReport, SimulationVerdict, simulate};
+use platewash_kinematics::{AXES, RobotModel};
+use platewash_planner::plan::Plan;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// What a setting came to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TuneOutcome {
+    /// Whether the wash survives.
+    pub verdict: SimulationVerdict,
+    /// Tip error over the whole execution, root mean square \[m\].
+    pub tip_rms_m: f64,
+    /// The same, at most \[m\].
+    pub tip_max_m: f64,
+    /// Largest torque of each joint \[N·m\].
+    pub torque_max_n_m: [f64; AXES],
+    /// Work of all motors \[J\].
+    pub work_j: f64,
+    /// Least share of a plate swept; `None` where the plan washes none.
+    pub least_coverage: Option<f64>,
+}
+
+/// One setting.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TuneRow {
+    /// Natural frequency \[rad/s\].
+    pub frequency_rad_s: f64,
+    /// Damping ratio.
+    pub damping_ratio: f64,
+    /// What came of it, or why it was refused.
+    pub outcome: Result<TuneOutcome, SimulationError>,
+}
+
+/// Simulates a plan with every pair of a frequency \[rad/s\] and a damping ratio, gains given outright being left out; rows
+/// in the order of the frequencies, then of the dampings. On rayon's current thread pool; the answer does not depend on it.
+#[must_use]
+pub fn tune(
+    plan: &Plan,
+    robot: &RobotModel,
+    setup: &Setup,
+    frequencies_rad_s: &[f64],
+    damping_ratios: &[f64],
+) -> Vec<TuneRow> {
+    let pairs: Vec<_> = frequencies_rad_s
+        .iter()
+        .flat_map(|&frequency| damping_ratios.iter().map(move |&damping| (frequency, damping)))
+        .collect();
+    let row = |&(frequency_rad_s, damping_ratio): &(f64, f64)| {
+        let mut setup = setup.clone();
+        let control = &mut setup.control;
+        (control.joint_kp, control.joint_kd) = (None, None);
+        (control.frequency_rad_s, control.damping_ratio) = (frequency_rad_s, damping_ratio);
+        TuneRow {
+            frequency_rad_s,
+            damping_ratio,
+            outcome: outcome(plan, robot, &setup),
+        }
+    };
+    pairs.par_iter().map(row).collect()
+}
+
+fn outcome(plan: &Plan, robot: &RobotModel, setup: &Setup) -> Result<TuneOutcome, SimulationError> {
+    let execution = simulate(plan, robot, setup)?;
+    let report = SimulationReport::new(plan, robot, setup, &execution)?;
+    let coverages = report.plates.iter().map(|plate| plate.executed.fraction);
+    Ok(TuneOutcome {
+        verdict: report.verdict,
+        tip_rms_m: report.tracking.tip_m.rms,
+        tip_max_m: report.tracking.tip_m.max,
+        torque_max_n_m: report
+            .effort
+            .map_or([0.0; AXES], |effort| effort.joints.map(|joint| joint.torque_n_m.max)),
+        work_j: report.effort.map_or(0.0, |effort| effort.work_j),
+        least_coverage: coverages.min_by(f64::total_cmp),
+    })
+}

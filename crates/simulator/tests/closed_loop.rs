@@ -1,0 +1,270 @@
+//! From anywhere within the limits, at up to half the speed limits, every law that is not refused stays bounded and settles.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use platewash_kinematics::{JointVector, RobotModel};
+use platewash_planner::scenario::{ControlLawName, ControlSection, Integrator};
+use platewash_planner::trajectory::JointState;
+use platewash_simulator::control::{self, ControlError, Reference};
+use platewash_simulator::dynamics::spread;
+use platewash_simulator::{Command, ControlLaw, DynamicsModel, Plant, PlantState};
+use proptest::prelude::*;
+
+const LAWS: [ControlLawName; 3] = [
+    ControlLawName::Pd,
+    ControlLawName::PdGravity,
+    ControlLawName::ComputedTorque,
+];
+
+fn plant() -> (RobotModel, Plant) {
+    let robot = RobotModel::irb120().unwrap();
+    let plant = Plant::ideal(DynamicsModel::new(&robot, None).unwrap(), Integrator::SemiImplicitEuler);
+    (robot, plant)
+}
+
+/// Configurations all over the limits.
+fn everywhere(robot: &RobotModel) -> Vec<JointVector> {
+    spread(robot.limits(), 64).collect()
+}
+
+fn still(q: JointVector) -> Reference {
+    let zero = JointVector::zeros();
+    let now = JointState { q, qd: zero, qdd: zero };
+    Reference { now, next: now }
+}
+
+/// The state after `seconds` at 1 kHz.
+fn run(
+    law: &mut dyn ControlLaw,
+    plant: &Plant,
+    target: JointVector,
+    mut state: PlantState,
+    seconds: f64,
+) -> PlantState {
+    let reference = still(target);
+    for _ in 0..(seconds * 1e3) as usize {
+        match law.command(&reference, &state) {
+            Command::Torque(torque) => state = plant.step(&state, &torque, 1e-3).0,
+            Command::Position(q) => state = PlantState::at_rest(q),
+        }
+        assert!(state.q.amax() < 1e3 && state.qd.amax() < 1e4, "{state:?}");
+    }
+    state
+}
+
+/// A place within a range, by a share.
+fn within(robot: &RobotModel, shares: [f64; 6]) -> JointVector {
+    JointVector::from_fn(|j, _| {
+        let [least, most] = robot.limits().sampling_range(j);
+        least + (most - least) * shares[j]
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn loops_stay_bounded_and_settle(
+        law in prop::sample::select(LAWS.to_vec()),
+        from in prop::array::uniform6(0.0..1.0f64),
+        target in prop::array::uniform6(0.0..1.0f64),
+        speeds in prop::array::uniform6(-0.5..0.5f64),
+        frequency in 5.0..80.0f64,
+        damping in 0.7..1.5f64,
+    ) {
+        let (robot, plant) = plant();
+        let section = ControlSection { frequency_rad_s: frequency, damping_ratio: damping, ..ControlSection::default() };
+        let made = control::law(law, &section, &plant, robot.limits(), &everywhere(&robot), 1);
+        let Ok(mut made) = made else {
+            // Few are refused: independent joints with high gains, whose wrist has much less inertia in some configurations.
+            prop_assert!(law != ControlLawName::ComputedTorque && frequency * damping > 30.0, "{law:?} {frequency} {damping}");
+            return Ok(());
+        };
+        let (q, target) = (within(&robot, from), within(&robot, target));
+        let qd = JointVector::from(speeds).component_mul(&robot.limits().velocity);
+        let end = run(made.as_mut(), &plant, target, PlantState { q, qd }, 5.0);
+        prop_assert!(end.qd.amax() < 0.05, "{law:?} at {frequency} rad/s still moves: {}", end.qd);
+        if law != ControlLawName::Pd {
+            prop_assert!((end.q - target).amax() < 0.05, "{law:?} at {frequency} rad/s is off: {}", end.q - target);
+        }
+    }
+}
+
+proptest! {
+    /// The paper's law, stepped at its own 0.01 s for 5 s, settles or is refused; it is refused where its error grows.
+    #[test]
+    fn the_papers_law_settles_or_is_refused(
+        from in prop::array::uniform6(0.0..1.0f64),
+        target in prop::array::uniform6(0.0..1.0f64),
+        kp in 2.0..400.0f64,
+        kd in -1.2..1.2f64,
+    ) {
+        let (robot, _) = plant();
+        let section = ControlSection { kp, kd, ..ControlSection::default() };
+        let (q, target) = (within(&robot, from), within(&robot, target));
+        let mut free = platewash_planner::control::PaperLaw::new(kp, kd, 0.01);
+        let grown = (0..2000).fold(q, |q, _| platewash_planner::control::ControlLaw::step(&mut free, &target, &q)) - target;
+        // Joint 6 alone may have 14 rad to go.
+        let is_bounded = grown.iter().all(|v| v.is_finite() && v.abs() < 50.0);
+        let has_moved_in = grown.iter().zip(&(q - target)).all(|(now, before)| now.is_finite() && now.abs() < 0.9 * before.abs());
+        match control::kinematic(ControlLawName::Paper, &section) {
+            Ok(_) => prop_assert!(is_bounded, "accepted and grows: {}", grown),
+            Err(_) => prop_assert!(!has_moved_in, "refused and settles: {}", grown),
+        }
+        let paper = ControlSection::default();
+        let mut law = control::kinematic(ControlLawName::Paper, &paper).unwrap();
+        let reference = still(target);
+        let end = (0..500).fold(PlantState::at_rest(q), |state, _| match law.command(&reference, &state) {
+            Command::Position(q) => PlantState::at_rest(q),
+            Command::Torque(_) => state,
+        });
+        prop_assert!((end.q - target).amax() < 1e-6);
+    }
+}
+
+#[test]
+fn unstable_settings_are_refused_with_their_limits() {
+    let (robot, plant) = plant();
+    for law in LAWS {
+        let section = |frequency: f64, rate: f64| ControlSection {
+            frequency_rad_s: frequency,
+            rate_hz: rate,
+            ..ControlSection::default()
+        };
+        let refusal = |section: &ControlSection| {
+            control::law(law, section, &plant, robot.limits(), &everywhere(&robot), 1)
+                .map(|_| ())
+                .unwrap_err()
+        };
+        let error = refusal(&section(2000.0, 1000.0));
+        let ControlError::Unstable {
+            least_rate_hz: Some(rate),
+            highest_frequency_rad_s: Some(frequency),
+            ..
+        } = error
+        else {
+            panic!("{error}");
+        };
+        let message = error.to_string();
+        assert!(
+            message.contains(&format!("{rate:.0} Hz")) && message.contains("frequency_rad_s"),
+            "{message}"
+        );
+        assert!(rate > 1000.0 && frequency < 2000.0);
+        // The limits are limits: within them it holds, a percent beyond it does not.
+        let holds = |frequency: f64, rate: f64| {
+            control::law(
+                law,
+                &section(frequency, rate),
+                &plant,
+                robot.limits(),
+                &everywhere(&robot),
+                1,
+            )
+            .is_ok()
+        };
+        assert!(
+            holds(2000.0, rate * 1.001) && !holds(2000.0, rate * 0.99),
+            "{law:?} {rate}"
+        );
+        assert!(
+            holds(frequency * 0.999, 1000.0) && !holds(frequency * 1.01, 1000.0),
+            "{law:?} {frequency}"
+        );
+    }
+}
+
+#[test]
+fn gains_that_never_hold_are_refused() {
+    let (robot, plant) = plant();
+    let outright = |kp: f64, kd: f64| ControlSection {
+        joint_kp: Some([kp; 6]),
+        joint_kd: Some([kd; 6]),
+        ..ControlSection::default()
+    };
+    let refusal = |section: &ControlSection| {
+        control::law(
+            ControlLawName::Pd,
+            section,
+            &plant,
+            robot.limits(),
+            &everywhere(&robot),
+            1,
+        )
+        .map(|_| ())
+        .unwrap_err()
+    };
+    let error = refusal(&outright(20.0, 0.0));
+    assert!(
+        matches!(
+            error,
+            ControlError::Unstable {
+                least_rate_hz: None,
+                highest_frequency_rad_s: None,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    assert!(error.to_string().contains("above 0"), "{error}");
+    for bad in [f64::NAN, -1.0, f64::INFINITY] {
+        assert!(matches!(
+            refusal(&outright(bad, 1.0)),
+            ControlError::Setting { key: "joint_kp", .. }
+        ));
+        let section = ControlSection {
+            frequency_rad_s: bad,
+            ..ControlSection::default()
+        };
+        assert!(matches!(
+            refusal(&section),
+            ControlError::Setting {
+                key: "frequency_rad_s",
+                ..
+            }
+        ));
+        let section = ControlSection {
+            rate_hz: bad,
+            ..ControlSection::default()
+        };
+        assert!(matches!(
+            refusal(&section),
+            ControlError::Setting { key: "rate_hz", .. }
+        ));
+    }
+}
+
+/// Computed torque on a plant that the law knows is a double integrator: e(t) = e₀ (1 + ω t) exp(−ω t) from rest with ζ = 1.
+#[test]
+fn computed_torque_is_a_second_order_system() {
+    let (robot, plant) = plant();
+    let section = ControlSection {
+        rate_hz: 1e4,
+        frequency_rad_s: 10.0,
+        ..ControlSection::default()
+    };
+    let mut law = control::law(
+        ControlLawName::ComputedTorque,
+        &section,
+        &plant,
+        robot.limits(),
+        &everywhere(&robot),
+        1,
+    )
+    .unwrap();
+    let target = JointVector::new(0.1, -0.2, 0.3, 0.2, 0.4, -0.5);
+    let mut state = PlantState::at_rest(JointVector::zeros());
+    let reference = still(target);
+    for _ in 0..2000 {
+        let Command::Torque(torque) = law.command(&reference, &state) else {
+            panic!("a torque")
+        };
+        state = plant.step(&state, &torque, 1e-4).0;
+    }
+    // t = 0.2 s, ω t = 2.
+    let left = 3.0 * (-2f64).exp();
+    assert!(
+        (target - state.q - target * left).amax() < 2e-3,
+        "{}",
+        (target - state.q).component_div(&target)
+    );
+}
