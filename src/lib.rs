@@ -27,6 +27,7 @@ extern crate self as platewash;
 
 pub use platewash_kinematics as kinematics;
 pub use platewash_planner as planner;
+pub use platewash_simulator as simulator;
 
 pub use platewash_kinematics::ik::{IkError, IkFailure, IkSettings, IkSolution, IkSolver};
 pub use platewash_kinematics::{Axes, Frame, Jacobian, JointLimits, JointVector, Pose, RobotModel, ToolFrame};
@@ -42,6 +43,7 @@ pub use platewash_planner::reproduce::{Reproduction, reproduce};
 pub use platewash_planner::scenario::Scenario;
 pub use platewash_planner::tool_path::ToolPath;
 pub use platewash_planner::trajectory::Trajectory;
+pub use platewash_simulator::{Execution, Setup, SimulationError, SimulationReport, SimulationVerdict, simulate, tune};
 
 /// The example in the README, run as a test.
 #[cfg(doctest)]

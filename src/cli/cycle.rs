@@ -4,10 +4,13 @@ use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::plan::{self, PlanArguments};
 use super::progress::Progress;
-use super::{output, run};
+use super::{output, run, simulate};
 use platewash::planner::certificate;
 use platewash::planner::cycle::CycleReport;
-use platewash::{Cycle, Scenario};
+use platewash::simulator::simulate::table;
+use platewash::{Cycle, Scenario, Setup, SimulationReport, SimulationVerdict, Verdict};
+use serde::Serialize;
+use std::fmt;
 
 /// Plans the cycle and writes the plan and its CSV; nothing is proved.
 pub fn plan(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -> Result<ExitCode, Failure> {
@@ -25,25 +28,78 @@ pub fn plan(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -
     Ok(ExitCode::SUCCESS)
 }
 
-/// Plans the cycle, proves it, and writes plan, CSV, certificate and report.
+/// What `run` says of a certified job: the proof of the plan, and what a controlled arm makes of it.
+#[derive(Debug, Serialize)]
+struct RunReport {
+    #[serde(flatten)]
+    cycle: CycleReport,
+    simulation: Simulated,
+}
+
+/// What came of the simulation.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Simulated {
+    /// An execution, judged.
+    Done(Box<SimulationReport>),
+    /// None: the arm's dynamics are not known, or the law was refused.
+    Refused { refused: String },
+}
+
+impl Simulated {
+    /// Whether an execution fails to wash. None at all is no failure of the plan.
+    fn fails(&self) -> bool {
+        matches!(self, Self::Done(report) if report.verdict == SimulationVerdict::NotWashed)
+    }
+}
+
+impl fmt::Display for RunReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}\n\n", self.cycle)?;
+        match &self.simulation {
+            Simulated::Done(report) => report.fmt(f),
+            Simulated::Refused { refused } => writeln!(f, "NOT SIMULATED: {refused}"),
+        }
+    }
+}
+
+/// Plans the cycle, proves it, simulates it, and writes plan, both motions, certificate and report.
 pub fn run(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let cycle = carry_out(options, scenario)?;
     let plan = cycle.to_plan()?;
     let certificate = certificate::verify(&plan, &cycle.robot).map_err(Failure::internal)?;
-    let report = CycleReport::new(&cycle, certificate);
     let folder = plan::folder(options);
-    let text = report.to_string();
-    let files = vec![
+    let mut files = vec![
         (folder.join("plan.json"), plan.to_json()?),
         (plan::csv_file(options, arguments), csv(&cycle, arguments)?),
-        (folder.join("certificate.json"), output::json(&report.certificate)?),
-        (folder.join("report.json"), output::json(&report)?),
-        (folder.join("report.txt"), text.clone()),
+        (folder.join("certificate.json"), output::json(&certificate)?),
     ];
+    let simulation = match simulate::carry_out(&plan, &cycle.robot, &Setup::of(&plan)) {
+        Ok((execution, report)) => {
+            let dt_s = arguments.dt.unwrap_or(scenario.control.dt_s);
+            let executed = table(&execution, &plan, &cycle.robot, dt_s)?;
+            files.push((folder.join("executed.csv"), executed));
+            Simulated::Done(Box::new(report))
+        }
+        Err(error) => Simulated::Refused {
+            refused: error.to_string(),
+        },
+    };
+    let report = RunReport {
+        cycle: CycleReport::new(&cycle, certificate),
+        simulation,
+    };
+    let text = report.to_string();
+    files.push((folder.join("report.json"), output::json(&report)?));
+    files.push((folder.join("report.txt"), text.clone()));
     output::write_files(&files)?;
     output::print_either(options.json, &report, || text)?;
     plan::name_files(options, &files);
-    Ok(run::exit_code(report.verdict, scenario.job.on_failure))
+    let verdict = match report.cycle.verdict {
+        Verdict::Washed if report.simulation.fails() => Verdict::NotVerified,
+        verdict => verdict,
+    };
+    Ok(run::exit_code(verdict, scenario.job.on_failure))
 }
 
 fn carry_out(options: &Options, scenario: &Scenario) -> Result<Cycle, Failure> {

@@ -11,11 +11,14 @@ mod layout;
 mod options;
 mod output;
 mod plan;
+mod plan_file;
 mod progress;
 mod reproduce;
 mod robot;
 mod run;
+mod simulate;
 mod sweep;
+mod tune;
 mod validate;
 mod verify;
 
@@ -54,6 +57,10 @@ enum Verb {
     Validate,
     /// Judge a plan file: what is proved about it, and what is not.
     Verify(verify::VerifyArguments),
+    /// Simulate a plan file under a control law: tracking, torque, and what is really washed.
+    Simulate(simulate::SimulateArguments),
+    /// Simulate a plan file at many frequencies and dampings of a control law.
+    Tune(tune::TuneArguments),
     /// Forward kinematics of one or many configurations, with clearances.
     Fk(fk::FkArguments),
     /// Inverse kinematics of one pose.
@@ -115,6 +122,8 @@ fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode, Failure> {
         Verb::Plan(arguments) => plan::run(options, &arguments),
         Verb::Validate => validate::run(options),
         Verb::Verify(arguments) => verify::run(options, &arguments),
+        Verb::Simulate(arguments) => simulate::run(options, &arguments),
+        Verb::Tune(arguments) => tune::run(options, &arguments),
         Verb::Fk(arguments) => fk::run(options, &arguments),
         Verb::Ik(arguments) => ik::run(options, &arguments),
         Verb::Robot => robot::run(options),

@@ -11,4 +11,4 @@ pub mod simulate;
 pub use control::{Command, ControlError, ControlLaw, Gains};
 pub use dynamics::{DynamicsError, DynamicsModel, Energy, RigidBody};
 pub use plant::{Plant, PlantState};
-pub use simulate::{Execution, Setup, SimulationError, SimulationReport, simulate, tune};
+pub use simulate::{Execution, Setup, SimulationError, SimulationReport, SimulationVerdict, simulate, tune};

@@ -45,7 +45,7 @@ pub fn raster(
     cells: usize,
 ) -> Result<CoverageRaster, CoverageError> {
     check_lengths(
-        polyline,
+        polyline.iter(),
         centre,
         &[("radius_m", radius_m), ("sponge_radius_m", sponge_radius_m)],
     )?;

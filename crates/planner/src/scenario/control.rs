@@ -48,6 +48,21 @@ pub enum ControlLawName {
 }
 
 impl ControlLawName {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Paper,
+        Self::Exact,
+        Self::Pd,
+        Self::PdGravity,
+        Self::ComputedTorque,
+    ];
+
+    /// The law of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|law| law.name() == name)
+    }
+
     /// The word used in files.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -16,6 +16,7 @@
 //! | contact, coverage and verdict of a plate | `washing.rs`, `contact.rs`, `cause.rs` |
 //! | the tool's mass against the arm's payload | `payload.rs` |
 //! | all of it | `report.rs` |
+//! | it as text | `text.rs` |
 //! | many frequencies and dampings | `tune.rs` |
 
 mod cause;
@@ -30,6 +31,7 @@ mod run;
 mod schedule;
 mod setup;
 mod statistics;
+mod text;
 mod tracking;
 mod tune;
 mod washing;

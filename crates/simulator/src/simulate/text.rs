@@ -1,0 +1,125 @@
+//! The report as a person reads it.
+
+use super::payload::PayloadVerdict;
+use super::{Effort, PlateVerdict, SimulationReport, SimulationVerdict, Tracking};
+use std::fmt::{self, Display, Formatter};
+
+impl Display for SimulationReport {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let verdict = match self.verdict {
+            SimulationVerdict::Washed => "WASHED",
+            SimulationVerdict::NotWashed => "NOT WASHED",
+        };
+        writeln!(f, "{verdict}: {}", self.headline)?;
+        let rate = 1.0 / self.period_s;
+        writeln!(
+            f,
+            "simulated: {:.2} s in {} samples at {rate:.0} Hz\n",
+            self.duration_s, self.samples
+        )?;
+        plates(self, f)?;
+        tracking(self, f)?;
+        if let Some(effort) = &self.effort {
+            joints(effort, &self.tracking, f)?;
+        }
+        payload(self, f)?;
+        for assumption in &self.assumptions {
+            writeln!(f, "assumed: {assumption}")?;
+        }
+        Ok(())
+    }
+}
+
+fn plates(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(
+        f,
+        "{:<10} {:>10} {:>11} {:>12} {:>10}  verdict",
+        "plate", "planned %", "executed %", "in contact %", "tilt °"
+    )?;
+    for plate in &report.plates {
+        let contact = 100.0 * plate.in_contact as f64 / plate.samples.max(1) as f64;
+        let verdict = match plate.verdict {
+            PlateVerdict::Washed => "washed",
+            PlateVerdict::NotWashed => "not washed",
+        };
+        writeln!(
+            f,
+            "{:<10} {:>10.2} {:>11.2} {contact:>12.1} {:>10.2}  {verdict}",
+            plate.plate,
+            100.0 * plate.planned.fraction,
+            100.0 * plate.executed.fraction,
+            plate.tilt_rad.to_degrees()
+        )?;
+        for cause in &plate.causes {
+            writeln!(f, "           {cause}")?;
+        }
+    }
+    writeln!(f)
+}
+
+fn tracking(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(f, "{:<22} {:>9} {:>9} {:>9}", "tip error, mm", "rms", "95 %", "largest")?;
+    let mut row = |name: &str, tracking: &Tracking| {
+        let tip = &tracking.tip_m;
+        let [rms, p95, max] = [tip.rms, tip.p95, tip.max].map(|length| 1e3 * length);
+        writeln!(f, "{name:<22} {rms:>9.3} {p95:>9.3} {max:>9.3}")
+    };
+    for segment in &report.segments {
+        row(
+            &format!("{}, plate {}", segment.kind.name(), segment.plate),
+            &segment.tracking,
+        )?;
+    }
+    row("all", &report.tracking)?;
+    writeln!(f)
+}
+
+fn joints(effort: &Effort, tracking: &Tracking, f: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(
+        f,
+        "{:<6} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9} {:>9} {:>9}",
+        "joint", "rms mrad", "max mrad", "rms N·m", "max N·m", "of limit", "work J", "braking J", "power W"
+    )?;
+    for (k, (joint, error)) in effort.joints.iter().zip(&tracking.joints_rad).enumerate() {
+        let share = joint
+            .share_of_limit
+            .map_or_else(|| "unknown".to_owned(), |share| format!("{:.1} %", 100.0 * share));
+        writeln!(
+            f,
+            "{:<6} {:>10.3} {:>10.3} {:>10.3} {:>10.3} {share:>10} {:>9.2} {:>9.2} {:>9.2}",
+            k + 1,
+            1e3 * error.rms,
+            1e3 * error.max,
+            joint.torque_n_m.rms,
+            joint.torque_n_m.max,
+            joint.work_j,
+            joint.braking_j,
+            joint.power_w
+        )?;
+    }
+    let saturated = match effort.saturated_share {
+        share if share > 0.0 => format!("; torque limits cut in at {:.2} % of the samples", 100.0 * share),
+        _ => String::new(),
+    };
+    writeln!(f, "work of all motors {:.1} J{saturated}\n", effort.work_j)
+}
+
+fn payload(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
+    let payload = &report.payload;
+    let rated = |verdict: &str| {
+        let rated = payload.rated_kg.unwrap_or_default();
+        format!(
+            "the tool weighs {} kg, {verdict} the rated payload of {rated} kg",
+            payload.tool_kg
+        )
+    };
+    let line = match payload.verdict {
+        PayloadVerdict::Within => rated("within"),
+        PayloadVerdict::Exceeded => rated("above"),
+        PayloadVerdict::Unknown => format!(
+            "the tool weighs {} kg; no payload is known for this arm: give robot.payload_kg",
+            payload.tool_kg
+        ),
+    };
+    writeln!(f, "payload: {line}")
+}
