@@ -101,8 +101,6 @@ pub struct Edit {
     /// Which of the good plans is edited.
     pub of: usize,
     pub expected: Expected,
-    /// A promise that is not proved though the sampler finds nothing, and why that is as it should be.
-    pub open: Option<(PromiseName, &'static str)>,
     apply: Box<Apply>,
 }
 
@@ -128,33 +126,30 @@ impl Edits {
         what: impl Into<String>,
         expected: Expected,
         apply: impl Fn(&mut Plan, &mut Pcg64) + Send + Sync + 'static,
-    ) -> &mut Edit {
+    ) {
         let what = format!("{}, {}", kind.words(), what.into());
         assert!(self.0.iter().all(|edit| edit.what != what), "{what}: twice");
-        let index = self.0.len();
         self.0.push(Edit {
             kind,
             of: stream(PLANS, &what).random_range(0..2),
             what,
             expected,
-            open: None,
             apply: Box::new(apply),
         });
-        &mut self.0[index]
     }
 
     /// An edit after which the plan still passes.
-    pub fn harmless(&mut self, kind: Kind, what: &str, apply: fn(&mut Plan)) -> &mut Edit {
-        self.add(kind, what, Expected::Harmless, move |p, _| apply(p))
+    pub fn harmless(&mut self, kind: Kind, what: &str, apply: fn(&mut Plan)) {
+        self.add(kind, what, Expected::Harmless, move |p, _| apply(p));
     }
 
     /// An edit that leaves all statements right.
-    pub fn sampled(&mut self, kind: Kind, what: &str, apply: fn(&mut Plan)) -> &mut Edit {
-        self.add(kind, what, Expected::Sampled, move |p, _| apply(p))
+    pub fn sampled(&mut self, kind: Kind, what: &str, apply: fn(&mut Plan)) {
+        self.add(kind, what, Expected::Sampled, move |p, _| apply(p));
     }
 
     /// An edit that breaks promises by name.
-    pub fn fails(&mut self, kind: Kind, what: &str, names: &[PromiseName], apply: fn(&mut Plan)) -> &mut Edit {
-        self.add(kind, what, Expected::Fails(names.to_vec()), move |p, _| apply(p))
+    pub fn fails(&mut self, kind: Kind, what: &str, names: &[PromiseName], apply: fn(&mut Plan)) {
+        self.add(kind, what, Expected::Fails(names.to_vec()), move |p, _| apply(p));
     }
 }

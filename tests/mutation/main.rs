@@ -27,7 +27,7 @@ use rayon::prelude::*;
 #[test]
 fn the_plans_are_good() {
     for good in good() {
-        let complaints = judge::complaints_unedited(&good.plan, good);
+        let complaints = judge::complaints_unedited(good);
         assert!(complaints.is_empty(), "{complaints:#?}");
     }
 }

@@ -5,7 +5,7 @@ use crate::edit::{Edits, Kind};
 use platewash::planner::scenario::{OnFailure, OrderRule};
 
 pub fn add(edits: &mut Edits) {
-    let mut words = |what, apply| _ = edits.harmless(Kind::Words, what, apply);
+    let mut words = |what, apply| edits.harmless(Kind::Words, what, apply);
     words("name", |p| p.scenario.name = "renamed".into());
     words("seed", |p| p.scenario.seed += 1);
     words("headline", |p| p.summary.headline.push('!'));
@@ -27,7 +27,7 @@ pub fn add(edits: &mut Edits) {
     words("the plate of the return in the tool path", |p| {
         p.tool_path.last_mut().unwrap().plate = p.order[1]
     });
-    let mut rounding = |what, apply| _ = edits.harmless(Kind::Rounding, what, apply);
+    let mut rounding = |what, apply| edits.harmless(Kind::Rounding, what, apply);
     rounding("positions", |p| {
         p.knots.q_rad.iter_mut().for_each(|q| q.apply(|v| *v = rounded(*v)))
     });

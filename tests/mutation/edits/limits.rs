@@ -16,7 +16,7 @@ pub fn add(edits: &mut Edits) {
 
 /// What is stated and not asked for changes nothing but the promise that names it.
 fn stated(edits: &mut Edits) {
-    let mut fails = |what, apply| _ = edits.fails(Kind::LimitsStated, what, &[Limits], apply);
+    let mut fails = |what, apply| edits.fails(Kind::LimitsStated, what, &[Limits], apply);
     fails("a joint's range", |p| p.limits.upper_rad[2] = None);
     fails("a joint's lowest position", |p| p.limits.lower_rad[0] = Some(-7.0));
     fails("a joint's speed", |p| p.limits.velocity_rad_s[4] *= 2.0);

@@ -27,7 +27,7 @@ pub fn add(edits: &mut Edits) {
 }
 
 fn alone(edits: &mut Edits) {
-    let mut fails = |what, names: &[_], apply| _ = edits.fails(Kind::Plates, what, names, apply);
+    let mut fails = |what, names: &[_], apply| edits.fails(Kind::Plates, what, names, apply);
     fails("one onto another", &[ToolPath, PlatesApart, Coverage], |p| {
         let [a, b] = [p.plates[0], p.plates[1]];
         (p.plates[0].x_m, p.plates[0].y_m) = (b.x_m + 0.3 * (a.x_m - b.x_m), b.y_m + 0.3 * (a.y_m - b.y_m));
@@ -47,7 +47,7 @@ fn alone(edits: &mut Edits) {
 }
 
 fn number(edits: &mut Edits) {
-    let mut fails = |what, names: &[_], apply| _ = edits.fails(Kind::Plates, what, names, apply);
+    let mut fails = |what, names: &[_], apply| edits.fails(Kind::Plates, what, names, apply);
     fails(
         "one doubled",
         &[Plates, ClearancePairs, EveryPlateOnce, PlatesApart, Coverage],

@@ -4,7 +4,7 @@ use super::{nth, within};
 use crate::edit::{Edits, Kind};
 use platewash::Plan;
 use platewash::planner::certificate::PromiseName::{
-    Clearance, EveryPlateOnce, LineDeviation, RestAtContact, Segments, StrokeDeviation,
+    EveryPlateOnce, LineDeviation, RestAtContact, Segments, StrokeDeviation,
 };
 use platewash::planner::tool_path::SegmentKind::{Approach, Retreat, Transition, Wash};
 
@@ -15,7 +15,7 @@ pub fn add(edits: &mut Edits) {
 }
 
 fn list(edits: &mut Edits) {
-    let mut fails = |what, apply| _ = edits.fails(Kind::Segments, what, &[Segments], apply);
+    let mut fails = |what, apply| edits.fails(Kind::Segments, what, &[Segments], apply);
     fails("the first dropped", |p| _ = p.segments.remove(0));
     fails("a transition dropped", |p| _ = p.segments.remove(nth(p, Transition, 1)));
     fails("a transition dropped, the next longer", |p| {
@@ -54,7 +54,7 @@ fn cut(plan: &mut Plan, segment: usize, by: isize) {
 }
 
 fn boundaries(edits: &mut Edits) {
-    let mut fails = |what, names: &[_], apply| _ = edits.fails(Kind::Segments, what, names, apply);
+    let mut fails = |what, names: &[_], apply| edits.fails(Kind::Segments, what, names, apply);
     fails("an end off its knot", &[Segments], |p| p.segments[2].t_end_s += 1e-9);
     fails("a gap", &[Segments], |p| p.segments[5].t_start_s += 1e-9);
     fails("an end far away", &[Segments], |p| {
@@ -73,7 +73,7 @@ fn boundaries(edits: &mut Edits) {
         let knots = within(p, nth(p, Retreat, 0)).len();
         cut(p, nth(p, Wash, 0), isize::try_from(knots).unwrap());
     });
-    fails("a retreat ends half-way", &[Clearance, LineDeviation], |p| {
+    fails("a retreat ends half-way", &[LineDeviation], |p| {
         let half = within(p, nth(p, Retreat, 1)).len() / 2;
         cut(p, nth(p, Retreat, 1), -isize::try_from(half).unwrap());
     });
@@ -92,7 +92,7 @@ fn boundaries(edits: &mut Edits) {
 }
 
 fn order(edits: &mut Edits) {
-    let mut fails = |what, names: &[_], apply| _ = edits.fails(Kind::Order, what, names, apply);
+    let mut fails = |what, names: &[_], apply| edits.fails(Kind::Order, what, names, apply);
     fails("two exchanged", &[Segments], |p| p.order.swap(0, 1));
     fails("reversed", &[Segments], |p| p.order.reverse());
     fails("one twice", &[Segments, EveryPlateOnce], |p| p.order[1] = p.order[0]);

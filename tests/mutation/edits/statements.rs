@@ -5,7 +5,7 @@ use platewash::planner::certificate::PromiseName::{Arm, ClearancePairs, HomeToHo
 use platewash::planner::scenario::{OrderRule, Program};
 
 pub fn add(edits: &mut Edits) {
-    let mut fails = |what, names: &[_], apply| _ = edits.fails(Kind::Statements, what, names, apply);
+    let mut fails = |what, names: &[_], apply| edits.fails(Kind::Statements, what, names, apply);
     fails("the arm's name", &[Arm], |p| p.robot.name.push(' '));
     fails("the arm's description", &[Arm], |p| {
         p.robot.urdf_sha256 = "0".repeat(64)
@@ -45,7 +45,7 @@ pub fn add(edits: &mut Edits) {
     fails("a pair of others", &[ClearancePairs], |p| {
         p.clearance_pairs[3][0] = "link_9".into()
     });
-    let mut homes = |what, apply| _ = edits.fails(Kind::Home, what, &[HomeToHome], apply);
+    let mut homes = |what, apply| edits.fails(Kind::Home, what, &[HomeToHome], apply);
     homes("stated", |p| p.home_rad[1][3] += 1e-6);
     homes("asked", |p| p.scenario.robot.start_deg[5] += 1e-5);
     homes("asked and stated", |p| {

@@ -29,7 +29,7 @@ fn stroke(plan: &mut Plan, n: usize) -> &mut Stroke {
 }
 
 fn list(edits: &mut Edits) {
-    let mut fails = |what, names: &[_], apply| _ = edits.fails(Kind::ToolPath, what, names, apply);
+    let mut fails = |what, names: &[_], apply| edits.fails(Kind::ToolPath, what, names, apply);
     fails("one dropped", &[Segments], |p| _ = p.tool_path.remove(4));
     fails("one doubled", &[Segments], |p| {
         p.tool_path.insert(4, p.tool_path[4].clone())
@@ -60,7 +60,7 @@ fn strokes(edits: &mut Edits) {
             stroke(p, 0).radius_m -= size
         });
     }
-    let mut fails = |what, apply| _ = edits.fails(Kind::ToolPath, what, &[ToolPath, StrokeDeviation], apply);
+    let mut fails = |what, apply| edits.fails(Kind::ToolPath, what, &[ToolPath, StrokeDeviation], apply);
     fails("a smaller stroke", |p| stroke(p, 3).radius_m -= 1e-3);
     fails("fewer turns", |p| stroke(p, 1).turns -= 1.0);
     fails("a little fewer turns", |p| stroke(p, 1).turns -= 0.01);
@@ -110,7 +110,7 @@ fn lines(edits: &mut Edits) {
             other => panic!("{other:?}"),
         }
     }
-    let mut fails = |what, names: &[_], apply| _ = edits.fails(Kind::ToolPath, what, names, apply);
+    let mut fails = |what, names: &[_], apply| edits.fails(Kind::ToolPath, what, names, apply);
     fails("a line shorter", &[ToolPath, LineDeviation], |p| *line(p).1 -= 5e-3);
     fails("a line a hair longer", &[ToolPath], |p| *line(p).1 += 1e-5);
     fails("a line that leans", &[ToolPath, LineDeviation], |p| {
@@ -123,7 +123,7 @@ fn lines(edits: &mut Edits) {
 
 /// The scenario asks for another path, and the plan states it: the motion is no longer the one asked for.
 fn consistent(edits: &mut Edits) {
-    let mut fails = |what, names: &[_], apply| _ = edits.fails(Kind::ToolPath, what, names, apply);
+    let mut fails = |what, names: &[_], apply| edits.fails(Kind::ToolPath, what, names, apply);
     fails("a smaller stroke, asked alone", &[ToolPath], |p| {
         p.scenario.wash.path_radius_m -= 0.01
     });

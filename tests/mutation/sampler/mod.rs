@@ -20,6 +20,7 @@ pub use schedule::is_sound;
 
 use clearance::Distances;
 use curve::Curve;
+use hermite::Piece;
 use moments::{Arm, Moment};
 use platewash::planner::certificate::PromiseName;
 use platewash::planner::tool_path::{Segment, SegmentKind};
@@ -48,8 +49,7 @@ impl<'a> Sampler<'a> {
     /// times \[s\] are looked at besides its own.
     pub fn measure(&self, plan: &Plan, also_at: &[f64]) -> Findings {
         let (pieces, is_sound) = (pieces(&plan.knots), is_sound(plan));
-        let arm = Arm::new(self.robot, plan.scenario.tool.length_m);
-        let moments = moments::all(&arm, plan, &pieces, is_sound, also_at);
+        let moments = self.moments(plan, &pieces, is_sound, also_at);
         let mut findings = Findings::default();
         places::ends(plan, &mut findings);
         places::apart(plan, &mut findings);
@@ -64,6 +64,16 @@ impl<'a> Sampler<'a> {
         }
         findings
     }
+
+    /// Whether no more can be proved of the coverage than too little, with the segments sound.
+    pub fn least_coverage_is_short(&self, plan: &Plan) -> bool {
+        places::least_coverage_is_short(plan, &self.moments(plan, &pieces(&plan.knots), true, &[]))
+    }
+
+    fn moments(&self, plan: &Plan, pieces: &[Piece], is_sound: bool, also_at: &[f64]) -> Vec<Moment> {
+        let arm = Arm::new(self.robot, plan.scenario.tool.length_m);
+        moments::all(&arm, plan, pieces, is_sound, also_at)
+    }
 }
 
 /// Whether the tip follows its declared curves.
@@ -71,7 +81,7 @@ fn deviations(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
     let at_plates = |(_, s): &(usize, &Segment)| schedule::is_at_plate(s.kind);
     for (i, segment) in plan.tool_path.iter().enumerate().filter(at_plates) {
         let Some(curve) = Curve::new(segment) else { continue };
-        let here = moments.iter().filter(|m| m.place.is_some_and(|p| p.index == i));
+        let here = moments.iter().filter(|m| m.stage == Some(i));
         let path: Vec<_> = here.map(|m| m.tip).collect();
         let (name, tolerance) = match segment.kind {
             SegmentKind::Wash => (PromiseName::StrokeDeviation, STROKE_M),

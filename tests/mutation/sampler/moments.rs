@@ -11,7 +11,7 @@ use platewash::{JointVector, Plan, RobotModel, ToolFrame};
 const DELTA_S: f64 = 2e-5;
 
 /// What positions of the tip are right to \[m\]: rounding.
-const PLACE_M: f64 = 1e-15;
+const PLACE_M: f64 = 2e-15;
 
 /// Time between samples of long pieces \[s\], and samples of a piece at least and at most.
 const STEP_S: f64 = 0.01;
@@ -23,13 +23,6 @@ pub struct Arm<'a> {
     robot: &'a RobotModel,
     mount: Frame,
     length_m: f64,
-}
-
-/// Where the segments do not say what a moment is for, none has a segment.
-#[derive(Clone, Copy)]
-pub struct Place {
-    pub index: usize,
-    pub segment: PlanSegment,
 }
 
 /// A moment of a motion.
@@ -44,7 +37,15 @@ pub struct Moment {
     pub speed: f64,
     /// The same for the acceleration \[m/s²\].
     pub acceleration: f64,
-    pub place: Option<Place>,
+    /// Index of its segment; none where the segments do not say what a moment is for.
+    pub stage: Option<usize>,
+}
+
+impl Moment {
+    /// Its segment.
+    pub fn segment(&self, plan: &Plan) -> Option<PlanSegment> {
+        self.stage.map(|i| plan.segments[i])
+    }
 }
 
 impl<'a> Arm<'a> {
@@ -60,7 +61,7 @@ impl<'a> Arm<'a> {
         [mount.translation + axis * self.length_m, axis]
     }
 
-    fn moment(&self, piece: &Piece, k: usize, u: f64, place: Option<Place>) -> Moment {
+    fn moment(&self, piece: &Piece, k: usize, u: f64, stage: Option<usize>) -> Moment {
         let delta = (piece.length_s / 8.0).min(DELTA_S);
         let middle = u.clamp(delta, piece.length_s - delta);
         let at = |u: f64| self.tip(&piece.position(u));
@@ -74,7 +75,7 @@ impl<'a> Arm<'a> {
             axis,
             speed: ((after - before).norm() - 2.0 * PLACE_M) / (2.0 * delta),
             acceleration: bend / (delta * delta),
-            place,
+            stage,
         }
     }
 }
@@ -83,16 +84,12 @@ impl<'a> Arm<'a> {
 pub fn all(arm: &Arm<'_>, plan: &Plan, pieces: &[Piece], is_sound: bool, also_at: &[f64]) -> Vec<Moment> {
     let mut all = Vec::with_capacity(6 * pieces.len());
     for (k, piece) in pieces.iter().enumerate() {
-        let place = is_sound.then(|| {
-            let index = schedule::segment_of(plan, piece);
-            let segment = plan.segments[index];
-            Place { index, segment }
-        });
+        let stage = is_sound.then(|| schedule::segment_of(plan, piece));
         let mut times = within(piece, also_at);
         let count = (LEAST + (piece.length_s / STEP_S) as usize).min(MOST);
         times.extend((0..count).map(|j| piece.length_s * j as f64 / (count - 1) as f64));
         times.sort_by(f64::total_cmp);
-        all.extend(times.into_iter().map(|u| arm.moment(piece, k, u, place)));
+        all.extend(times.into_iter().map(|u| arm.moment(piece, k, u, stage)));
     }
     all
 }

@@ -19,7 +19,7 @@ const THERE: f64 = 2e-9;
 const SHARE: f64 = 4e-3;
 
 /// What tilt and height must exceed their limits by, as a part of them.
-const EXACT: f64 = 1e-8;
+const EXACT: f64 = 2e-9;
 
 /// The base's bounds in the plane of the plates, from its drawing \[m\].
 const BASE_X_M: [f64; 2] = [-0.2115, 0.0905];
@@ -73,7 +73,7 @@ pub fn apart(plan: &Plan, findings: &mut Findings) {
 pub fn poses(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
     let most = plan.scenario.wash.tilt_max_deg.to_radians();
     for m in moments {
-        let Some(segment) = m.place.map(|p| p.segment).filter(|s| is_at_plate(s.kind)) else {
+        let Some(segment) = m.segment(plan).filter(|s| is_at_plate(s.kind)) else {
             continue;
         };
         let tilt = m.axis.xy().norm().atan2(-m.axis.z);
@@ -89,13 +89,33 @@ pub fn poses(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
 /// The share that even the whole face of the sponge, held flat, sweeps.
 pub fn coverage(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
     let required = plan.scenario.job.required_coverage;
-    for (i, plate) in plan.plates.iter().enumerate() {
-        let washes = |m: &&Moment| {
-            let segment = m.place.map(|p| p.segment);
-            segment.is_some_and(|s| s.kind == SegmentKind::Wash && s.plate == i)
-        };
-        let path: Vec<_> = moments.iter().filter(washes).map(|m| [m.tip.x, m.tip.y]).collect();
-        let share = swept::share(plate, &path, plan.scenario.tool.sponge_radius_m);
+    let sponge_m = plan.scenario.tool.sponge_radius_m;
+    for plate in 0..plan.plates.len() {
+        let share = share(plan, &washing(plan, moments, plate), plate, sponge_m);
         findings.at_least(PromiseName::Coverage, share, required, SHARE);
     }
+}
+
+/// Whether the sponge might sweep too little of a plate if it were always tilted as much as it is where it is tilted most.
+pub fn least_coverage_is_short(plan: &Plan, moments: &[Moment]) -> bool {
+    let sponge_m = plan.scenario.tool.sponge_radius_m;
+    (0..plan.plates.len()).any(|plate| {
+        let washing = washing(plan, moments, plate);
+        let cosine = washing.iter().map(|m| -m.axis.z).fold(1.0, f64::min).max(0.0);
+        share(plan, &washing, plate, sponge_m * cosine) < plan.scenario.job.required_coverage + SHARE
+    })
+}
+
+/// The moments at which a plate is washed.
+fn washing<'a>(plan: &Plan, moments: &'a [Moment], plate: usize) -> Vec<&'a Moment> {
+    let washes = |m: &&Moment| {
+        m.segment(plan)
+            .is_some_and(|s| s.kind == SegmentKind::Wash && s.plate == plate)
+    };
+    moments.iter().filter(washes).collect()
+}
+
+fn share(plan: &Plan, washing: &[&Moment], plate: usize, within_m: f64) -> f64 {
+    let path: Vec<_> = washing.iter().map(|m| [m.tip.x, m.tip.y]).collect();
+    swept::share(&plan.plates[plate], &path, within_m)
 }

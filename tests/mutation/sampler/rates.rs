@@ -8,11 +8,11 @@ use platewash::planner::tool_path::SegmentKind;
 use platewash::{JointVector, Plan, RobotModel};
 
 /// What a value must exceed its limit by to count as broken, as a part of the limit, and \[rad\].
-const EXACT: f64 = 1e-8;
+const EXACT: f64 = 2e-9;
 const MARGIN_RAD: f64 = 1e-9;
 
 /// What differences of the tip are right to, as a part of the limit.
-const DIFFERENCE: f64 = 1e-7;
+const DIFFERENCE: f64 = 2e-9;
 
 pub fn joints(plan: &Plan, robot: &RobotModel, pieces: &[Piece], moments: &[Moment], findings: &mut Findings) {
     let limits = robot.limits();
@@ -36,7 +36,7 @@ pub fn joints(plan: &Plan, robot: &RobotModel, pieces: &[Piece], moments: &[Mome
 pub fn tip(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
     let (limits, wash) = (&plan.scenario.limits, &plan.scenario.wash);
     for m in moments {
-        let washes = m.place.is_some_and(|p| p.segment.kind == SegmentKind::Wash);
+        let washes = m.segment(plan).is_some_and(|s| s.kind == SegmentKind::Wash);
         let [(speed, v), (acceleration, a)] = if washes {
             [
                 (PromiseName::WashSpeed, wash.speed_m_s),
