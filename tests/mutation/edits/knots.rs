@@ -136,7 +136,7 @@ fn dropped(edits: &mut Edits) {
 }
 
 /// Adds a knot on the motion, at a share of the piece after a knot.
-fn split(plan: &mut Plan, knot: usize, share: f64) {
+pub fn split(plan: &mut Plan, knot: usize, share: f64) {
     let piece = pieces(&plan.knots)[knot];
     let u = share * piece.length_s;
     let knots = &mut plan.knots;

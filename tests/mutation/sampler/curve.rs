@@ -126,8 +126,8 @@ impl Curve {
     pub fn deviation(&self, path: &[Vector3<f64>], tolerance_m: f64) -> f64 {
         let ends = [(path[0], 0.0), (path[path.len() - 1], self.end())];
         let mut worst = ends.iter().map(|(p, t)| (p - self.at(*t)).norm()).fold(0.0, f64::max);
-        let (mut theta, mut passed) = (0.0, self.at(0.0));
-        let mut least = 0.0_f64;
+        let (mut theta, mut least) = (0.0, 0.0);
+        let (mut passed, mut passed_off) = (self.at(0.0), 0.0_f64);
         for p in path {
             theta = self.nearest(p, theta);
             let near = self.at(theta);
@@ -138,10 +138,11 @@ impl Curve {
             let rate = ((self.at(theta + step) - self.at(theta - step)) / (2.0 * step)).norm();
             let (first, last) = (theta - reach / rate, theta + reach / rate);
             if last < least {
-                worst = worst.max((p - passed).norm());
+                // The best is half-way.
+                worst = worst.max((0.5 * (near - passed).norm()).hypot(off.max(passed_off)));
             }
             if first > least {
-                (least, passed) = (first, self.at(first));
+                (least, passed, passed_off) = (first, near, off);
             }
         }
         worst
