@@ -1,7 +1,7 @@
 //! A certified job: the whole cycle, from home to home, planned before anything moves.
 //!
 //! scenario → arm → layout → order → per plate: stroke, posture, timing → crossings → one trajectory. Nothing here judges the
-//! result: that is the certificate's, which shares none of it.
+//! result: that is the certificate's, which uses none of it.
 
 mod arm;
 mod assemble;
