@@ -6,6 +6,7 @@ mod files;
 mod golden;
 mod limits;
 mod scenarios;
+mod simulate;
 mod verbs;
 mod verify;
 
