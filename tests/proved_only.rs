@@ -77,10 +77,18 @@ fn a_body_without_a_shape_keeps_clear_of_nothing() {
 fn a_sponge_in_the_air_does_not_wash() {
     let mut scenario = one_plate();
     scenario.wash.height_m = 0.01;
-    let Ok(cycle) = Cycle::plan(&scenario) else {
-        return; // Refused even earlier.
-    };
-    let certificate = certificate::verify(&cycle.to_plan().unwrap(), &cycle.robot).unwrap();
+    let error = Cycle::plan(&scenario).unwrap_err().to_string();
+    assert!(error.contains("wash.height_m must be 0"), "{error}");
+    // Nor is a plan proved whose tip is above its plates, all of it stated so.
+    scenario.wash.height_m = 0.0;
+    let (cycle, _) = judged(&scenario);
+    let mut plan = cycle.to_plan().unwrap();
+    plan.scenario.layout.plate_height_m -= 0.01;
+    plan.plates[0].z_m -= 0.01;
+    plan.scenario.wash.height_m = 0.01;
+    let certificate = certificate::verify(&sealed(plan), &cycle.robot).unwrap();
+    assert_eq!(status(&certificate, PromiseName::ToolPath), Status::Pass);
+    assert_eq!(status(&certificate, PromiseName::StrokeDeviation), Status::Pass);
     assert_eq!(status(&certificate, PromiseName::ContactHeight), Status::Fail);
 }
 

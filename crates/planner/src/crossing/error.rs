@@ -13,7 +13,7 @@ pub enum CrossingError {
     /// No route is free.
     #[error(
         "no free way from {} to {}: direct, raised, arc and {nodes} sampled configurations all fail{}",
-        name(.from), name(.to), first(.blocked.as_ref())
+        name(.from), name(.to), first(.blocked.as_deref())
     )]
     NoWay {
         /// The plate it leaves; `None` for home.
@@ -92,7 +92,7 @@ fn name(end: &Option<usize>) -> String {
     end.map_or_else(|| "home".to_owned(), |plate| format!("plate {plate}"))
 }
 
-fn first(blocked: Option<&Box<Blocked>>) -> String {
+fn first(blocked: Option<&Blocked>) -> String {
     blocked.map_or_else(String::new, |blocked| format!("; on the direct way {blocked}"))
 }
 

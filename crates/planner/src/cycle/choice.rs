@@ -16,11 +16,12 @@ const MOST_LAYOUTS: usize = 200;
 /// can be washed whole.
 ///
 /// # Errors
-/// [`PlanError::Layout`], or [`CycleError::NoneWashable`] when no layout drawn will do.
+/// [`PlanError::Layout`], [`PlanError::Scenario`] for too much work, or [`CycleError::NoneWashable`] when no layout drawn will do.
 pub(super) fn place(scenario: &Scenario, robot: &RobotModel) -> Result<Layout, PlanError> {
     if !scenario.layout.only_washable || scenario.layout.positions_m.is_some() {
         return Ok(job::place_plates(scenario, robot)?);
     }
+    scenario.check_work()?;
     let mut rng = random::stream(scenario.seed, "layout");
     let mut last = None;
     for _ in 0..MOST_LAYOUTS {

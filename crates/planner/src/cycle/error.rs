@@ -33,6 +33,12 @@ pub enum CycleError {
         "tool.length_m is 0: a certified job needs a tool; the paper's program (job.program = \"paper\") hovers without one"
     )]
     NoTool,
+    /// The tip washes above the plates or below their surface.
+    #[error("wash.height_m must be 0 in a certified job, whose sponge touches the plates; found {height_m}")]
+    NoContact {
+        /// Height asked for \[m\].
+        height_m: f64,
+    },
     /// The collision model could not be made.
     #[error("clearance: {0}")]
     Clearance(ClearanceError),
@@ -63,7 +69,7 @@ pub enum CycleError {
         /// Height of the line \[m\].
         lift_m: f64,
         /// Why.
-        error: IkPathError,
+        error: Box<IkPathError>,
     },
     /// The line over a plate is no path.
     #[error(transparent)]

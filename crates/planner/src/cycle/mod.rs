@@ -7,6 +7,7 @@ mod arm;
 mod assemble;
 mod choice;
 mod error;
+mod infeasible;
 mod report;
 mod stages;
 mod tour;
@@ -15,6 +16,7 @@ mod unwashable;
 mod visit;
 
 pub use error::CycleError;
+pub use infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport};
 pub use report::CycleReport;
 pub use tour::{EXACT_UP_TO, Optimality, TravelTimes};
 pub use unwashable::{Elsewhere, UnwashablePlate};

@@ -44,6 +44,10 @@ impl<'a> Stages<'a> {
         if scenario.tool.length_m <= 0.0 {
             return Err(CycleError::NoTool);
         }
+        let height_m = scenario.wash.height_m;
+        if height_m != 0.0 {
+            return Err(CycleError::NoContact { height_m });
+        }
         let homes = scenario.homes();
         if let Some(violation) = robot.limits().violation(&homes[1]) {
             return Err(CycleError::Home(violation));
@@ -68,7 +72,7 @@ impl<'a> Stages<'a> {
             ),
             crossing: of_tip(limits.tip_speed_m_s, limits.tip_acceleration_m_s2),
             posture: PostureSettings {
-                tilt_max_rad: wash.tilt_max_deg.to_radians(),
+                tilt_max_rad: scenario.tilt_max_rad(),
                 clearance_m: wash.clearance_m,
             },
             homes,

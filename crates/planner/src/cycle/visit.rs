@@ -109,7 +109,12 @@ fn line(
     let over = |h: &f64| arm.cell.tip_pose(foot + Vector3::z() * *h, tilt_rad);
     let poses: Vec<_> = heights.iter().map(over).collect();
     let path = arm.solver.solve_path(&poses, q);
-    let mut configurations = path.map_err(|error| CycleError::Line { plate, lift_m, error })?.q;
+    let line = |error| CycleError::Line {
+        plate,
+        lift_m,
+        error: Box::new(error),
+    };
+    let mut configurations = path.map_err(line)?.q;
     // To the bit where the wash begins or ends.
     configurations[0] = *q;
     Ok(Terminal::line(plate, heights, configurations)?)

@@ -4,6 +4,7 @@ use crate::clearance::PairClearance;
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::analytic::{AnalyticError, OutOfReach, Rejection};
 use platewash_kinematics::ik::{IkCause, IkError};
+use serde::Serialize;
 use std::fmt;
 
 /// Why a contact point cannot be washed at a tilt in a configuration of the arm.
@@ -49,7 +50,8 @@ pub enum Obstacle {
 }
 
 /// The kinds of [`Obstacle`], for counting.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Filter {
     /// [`Obstacle::Reach`] and [`Obstacle::Unsolved`].
