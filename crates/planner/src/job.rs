@@ -1,103 +1,20 @@
 //! The whole job, stage after stage: scenario → arm → layout → tool path → joint path and execution → report.
 
-use crate::clearance::{ClearanceError, ClearanceModel};
-use crate::control::{self, NotKinematic};
-use crate::coverage::CoverageError;
-use crate::cycle::CycleError;
-use crate::layout::{self, Layout, LayoutError, Plate, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing};
-use crate::random;
+pub use crate::error::PlanError;
+pub use crate::place::place_plates;
+
+use crate::clearance::ClearanceModel;
+use crate::control;
+use crate::layout::{self, Layout, Plate, Region};
+use crate::place::{region, spacing, start};
 use crate::report::JobReport;
-use crate::robot::{self, RobotError};
-use crate::scenario::{IkMethod, LayoutSection, Scenario, ScenarioError};
+use crate::robot;
+use crate::scenario::{IkMethod, Scenario};
 use crate::tool_path::ToolPath;
-use crate::tracking::{self, Step, TrackingError};
+use crate::tracking::{self, Step};
 use crate::trajectory::Trajectory;
-use platewash_kinematics::ik::{AnalyticStarts, IkError, IkSettings, IkSettingsError, IkSolver};
+use platewash_kinematics::ik::{AnalyticStarts, IkSettings, IkSolver};
 use platewash_kinematics::{JointVector, RobotModel};
-use rand_pcg::Pcg64;
-
-/// Why a job could not be carried out; one variant a stage.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PlanError {
-    /// The scenario was refused.
-    #[error(transparent)]
-    Scenario(#[from] ScenarioError),
-    /// The arm could not be made.
-    #[error(transparent)]
-    Robot(#[from] RobotError),
-    /// The plates could not be placed.
-    #[error("layout: {0}")]
-    Layout(LayoutError),
-    /// An inverse-kinematics setting is out of range.
-    #[error(transparent)]
-    IkSettings(#[from] IkSettingsError),
-    /// A waypoint or configuration is not finite.
-    #[error("inverse kinematics: {0}")]
-    Ik(IkError),
-    /// The control law moves no waypoints.
-    #[error("control.law: {0}")]
-    Law(NotKinematic),
-    /// The control law does not stay finite.
-    #[error(transparent)]
-    Tracking(#[from] TrackingError),
-    /// The collision model could not be made.
-    #[error("clearance: {0}")]
-    Clearance(ClearanceError),
-    /// Coverage could not be measured.
-    #[error("coverage: {0}")]
-    Coverage(CoverageError),
-    /// The cycle of a certified job could not be planned.
-    #[error(transparent)]
-    Cycle(#[from] CycleError),
-    /// The caller asked to stop.
-    #[error("stopped before the end")]
-    Stopped,
-}
-
-// The messages above hold those of their causes, which are therefore not told again as sources.
-impl From<LayoutError> for PlanError {
-    fn from(error: LayoutError) -> Self {
-        Self::Layout(error)
-    }
-}
-
-impl From<NotKinematic> for PlanError {
-    fn from(error: NotKinematic) -> Self {
-        Self::Law(error)
-    }
-}
-
-impl From<IkError> for PlanError {
-    fn from(error: IkError) -> Self {
-        Self::Ik(error)
-    }
-}
-
-impl From<ClearanceError> for PlanError {
-    fn from(error: ClearanceError) -> Self {
-        Self::Clearance(error)
-    }
-}
-
-impl From<CoverageError> for PlanError {
-    fn from(error: CoverageError) -> Self {
-        Self::Coverage(error)
-    }
-}
-
-impl PlanError {
-    /// Whether the input was fine but asks for what cannot be done (exit code 3), as opposed to bad input.
-    #[must_use]
-    pub fn is_infeasible(&self) -> bool {
-        use LayoutError::{EmptyRegion, NoRoom};
-        match self {
-            Self::Layout(NoRoom { .. } | EmptyRegion { .. }) => true,
-            Self::Cycle(error) => error.is_infeasible(),
-            _ => false,
-        }
-    }
-}
 
 /// A job planned and followed, before it is judged.
 #[derive(Debug, Clone)]
@@ -118,40 +35,6 @@ pub struct Job {
     pub executed: Trajectory,
 }
 
-/// Places the plates of a scenario: sampled from the seed's own stream, or as given and checked.
-///
-/// # Errors
-/// [`LayoutError`].
-pub fn place_plates(scenario: &Scenario, robot: &RobotModel) -> Result<Layout, LayoutError> {
-    draw_plates(scenario, robot, &mut random::stream(scenario.seed, "layout"))
-}
-
-/// The same from a stream of the caller's, so that one layout after the other can be drawn.
-pub(crate) fn draw_plates(scenario: &Scenario, robot: &RobotModel, rng: &mut Pcg64) -> Result<Layout, LayoutError> {
-    let section = &scenario.layout;
-    let spacing = spacing(section);
-    let geometry = PlateGeometry {
-        radius_m: section.plate_radius_m,
-        height_m: section.plate_height_m,
-        thickness_m: section.plate_thickness_m,
-    };
-    let base = robot::base_footprint(robot);
-    let region = region(section);
-    match (&section.positions_m, region) {
-        (Some(positions), region) => layout::check_explicit(positions, region.as_ref(), &spacing, &geometry, &base),
-        (None, region) => {
-            let request = SampleRequest {
-                region: region.unwrap_or(Region::PAPER_APPENDIX),
-                spacing,
-                count: section.count,
-                geometry,
-                base,
-            };
-            layout::sample(&request, &SampleSettings::default(), rng)
-        }
-    }
-}
-
 /// Checks a scenario without running it: the arm loads, the start lies within its limits, and the plates have room in
 /// principle (given ones are placed; for sampled ones the region is not empty).
 ///
@@ -170,36 +53,6 @@ pub fn check(scenario: &Scenario) -> Result<(RobotModel, Vec<layout::Finding>), 
     let region = region(&scenario.layout).unwrap_or(Region::PAPER_APPENDIX);
     layout::Sampler::new(&region, &spacing(&scenario.layout))?;
     Ok((robot, Vec::new()))
-}
-
-/// The start configuration \[rad\], within the limits.
-pub(crate) fn start(scenario: &Scenario, robot: &RobotModel) -> Result<JointVector, RobotError> {
-    let [start, _] = scenario.homes();
-    match robot.limits().violation(&start) {
-        Some(violation) => Err(RobotError::Start(violation)),
-        None => Ok(start),
-    }
-}
-
-fn spacing(section: &LayoutSection) -> Spacing {
-    Spacing {
-        min_distance_m: section.min_distance_m,
-        base_radius_m: section.base_radius_m,
-    }
-}
-
-/// The region that a section states; `None` when it states none (explicit positions only).
-fn region(section: &LayoutSection) -> Option<Region> {
-    if let Some(named) = section.region {
-        return Some(named.region());
-    }
-    let around = section.rho_m.map(|[_, most]| [-most, most]);
-    Some(Region {
-        x_m: section.x_m.or(around)?,
-        y_m: section.y_m.or(around)?,
-        rho_m: section.rho_m,
-        azimuth_deg: section.azimuth_deg,
-    })
 }
 
 impl Job {

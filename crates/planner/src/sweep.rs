@@ -2,7 +2,7 @@
 
 use crate::certificate::{self, Certificate, PromiseName};
 use crate::cycle::Cycle;
-use crate::job::PlanError;
+use crate::error::PlanError;
 use crate::robot;
 use crate::scenario::Scenario;
 use rayon::prelude::*;

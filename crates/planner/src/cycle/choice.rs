@@ -2,8 +2,9 @@
 
 use super::stages::Stages;
 use super::{CycleError, visit};
-use crate::job::{self, PlanError};
+use crate::error::PlanError;
 use crate::layout::Layout;
+use crate::place;
 use crate::posture;
 use crate::random;
 use crate::scenario::Scenario;
@@ -19,13 +20,13 @@ const MOST_LAYOUTS: usize = 200;
 /// [`PlanError::Layout`], [`PlanError::Scenario`] for too much work, or [`CycleError::NoneWashable`] when no layout drawn will do.
 pub(super) fn place(scenario: &Scenario, robot: &RobotModel) -> Result<Layout, PlanError> {
     if !scenario.layout.only_washable || scenario.layout.positions_m.is_some() {
-        return Ok(job::place_plates(scenario, robot)?);
+        return Ok(place::place_plates(scenario, robot)?);
     }
     scenario.check_work()?;
     let mut rng = random::stream(scenario.seed, "layout");
     let mut last = None;
     for _ in 0..MOST_LAYOUTS {
-        let layout = job::draw_plates(scenario, robot, &mut rng)?;
+        let layout = place::draw_plates(scenario, robot, &mut rng)?;
         let stages = Stages::new(scenario, robot, &layout.plates)?;
         match stages.first_unwashable()? {
             None => return Ok(layout),

@@ -2,7 +2,7 @@
 
 use super::{CycleError, Elsewhere, UnwashablePlate};
 use crate::crossing::CrossingError;
-use crate::job::PlanError;
+use crate::error::PlanError;
 use crate::posture::washable::Cause;
 use crate::posture::{Filter, Obstacle};
 use crate::report::Verdict;

@@ -22,8 +22,9 @@ pub use tour::{EXACT_UP_TO, Optimality, TravelTimes};
 pub use unwashable::{Elsewhere, UnwashablePlate};
 
 use crate::crossing::Route;
-use crate::job::{self, PlanError};
+use crate::error::PlanError;
 use crate::layout::{Layout, Plate};
+use crate::place;
 use crate::plan::{Plan, PlanFileError, PlanParts, PlanSegment, Summary};
 use crate::posture::How;
 use crate::robot;
@@ -110,7 +111,7 @@ impl Cycle {
     /// # Errors
     /// [`PlanError::Robot`] and [`PlanError::Cycle`].
     pub fn check(scenario: &Scenario, robot: &RobotModel, plates: &[Plate]) -> Result<(), PlanError> {
-        job::start(scenario, robot)?;
+        place::start(scenario, robot)?;
         Ok(Stages::new(scenario, robot, plates)?.check_homes()?)
     }
 
@@ -120,7 +121,7 @@ impl Cycle {
     /// As [`Cycle::plan`].
     pub fn on(scenario: &Scenario, robot: RobotModel, layout: Layout) -> Result<Self, PlanError> {
         scenario.check_work()?;
-        job::start(scenario, &robot)?;
+        place::start(scenario, &robot)?;
         let stages = Stages::new(scenario, &robot, &layout.plates)?;
         let planned = stages.carry_out()?;
         let names = stages.clearance.pair_names();

@@ -8,7 +8,8 @@ pub use motion::{MotionReport, Violation, ViolationKind};
 pub use plate::{ClosestApproach, PlateReport, Unreached};
 
 use crate::clearance::ClearanceModel;
-use crate::job::{Job, PlanError};
+use crate::error::PlanError;
+use crate::job::Job;
 use crate::layout;
 use crate::plan::Summary;
 use crate::robot;

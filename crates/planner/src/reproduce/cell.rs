@@ -2,8 +2,10 @@
 
 use crate::clearance::ClearanceModel;
 use crate::coverage::{Coverage, CoverageError, CoverageSettings, coverage};
-use crate::job::{self, Job, PlanError};
+use crate::error::PlanError;
+use crate::job::{self, Job};
 use crate::layout::{Finding, Plate};
+use crate::place;
 use crate::random;
 use crate::robot;
 use crate::scenario::Scenario;
@@ -102,7 +104,7 @@ impl Bench {
     pub fn measure(&self, seed: u64, region: &str, k: usize) -> Result<LayoutSample, PlanError> {
         let mut scenario = self.scenario.clone();
         scenario.seed = random::stream(seed, &format!("reproduce/layout/{region}/{k}")).next_u64();
-        let layout = job::place_plates(&scenario, &self.robot)?;
+        let layout = place::place_plates(&scenario, &self.robot)?;
         let any = |is: fn(&Finding) -> bool| layout.findings.iter().any(is);
         let mut sample = LayoutSample {
             plates_overlap: any(|f| matches!(f, Finding::PlatesOverlap { .. })),
@@ -229,7 +231,7 @@ fn by_sponge(
 pub(super) fn ideal_coverage(scenario: &Scenario) -> Result<[Coverage; SPONGES_MM.len()], PlanError> {
     let mut single = scenario.clone();
     single.layout.positions_m = Some(vec![[0.3, 0.0]]);
-    let layout = job::place_plates(&single, &robot::load(&single.robot)?)?;
+    let layout = place::place_plates(&single, &robot::load(&single.robot)?)?;
     let path = ToolPath::new(&single, &layout);
     let spiral: Vec<_> = path
         .segments

@@ -17,7 +17,7 @@ mod table;
 
 pub use law::FrequencyResponse;
 
-use crate::job::PlanError;
+use crate::error::PlanError;
 use crate::scenario::{RegionName, Scenario};
 use rayon::prelude::*;
 use serde::Serialize;

@@ -3,7 +3,7 @@
 use super::Row;
 use super::cell::{self, LayoutSample, SPONGES_MM};
 use super::statistics::{Estimate, batch_means, percentile};
-use crate::job::PlanError;
+use crate::error::PlanError;
 use crate::scenario::Scenario;
 
 /// One row of the table.

@@ -3,7 +3,7 @@
 use super::rows::row;
 use super::statistics::binomial_percent;
 use super::{REGIONS, ReproduceSettings, Row};
-use crate::job::PlanError;
+use crate::error::PlanError;
 use crate::layout::{Attempt, Sampler, Spacing};
 use crate::random;
 use crate::scenario::Scenario;

@@ -1,0 +1,94 @@
+//! Why a job could not be carried out, whatever its program.
+
+use crate::clearance::ClearanceError;
+use crate::control::NotKinematic;
+use crate::coverage::CoverageError;
+use crate::cycle::CycleError;
+use crate::layout::LayoutError;
+use crate::robot::RobotError;
+use crate::scenario::ScenarioError;
+use crate::tracking::TrackingError;
+use platewash_kinematics::ik::{IkError, IkSettingsError};
+
+/// Why a job could not be carried out; one variant a stage.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// The scenario was refused.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// The arm could not be made.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+    /// The plates could not be placed.
+    #[error("layout: {0}")]
+    Layout(LayoutError),
+    /// An inverse-kinematics setting is out of range.
+    #[error(transparent)]
+    IkSettings(#[from] IkSettingsError),
+    /// A waypoint or configuration is not finite.
+    #[error("inverse kinematics: {0}")]
+    Ik(IkError),
+    /// The control law moves no waypoints.
+    #[error("control.law: {0}")]
+    Law(NotKinematic),
+    /// The control law does not stay finite.
+    #[error(transparent)]
+    Tracking(#[from] TrackingError),
+    /// The collision model could not be made.
+    #[error("clearance: {0}")]
+    Clearance(ClearanceError),
+    /// Coverage could not be measured.
+    #[error("coverage: {0}")]
+    Coverage(CoverageError),
+    /// The cycle of a certified job could not be planned.
+    #[error(transparent)]
+    Cycle(#[from] CycleError),
+    /// The caller asked to stop.
+    #[error("stopped before the end")]
+    Stopped,
+}
+
+// The messages above hold those of their causes, which are therefore not told again as sources.
+impl From<LayoutError> for PlanError {
+    fn from(error: LayoutError) -> Self {
+        Self::Layout(error)
+    }
+}
+
+impl From<NotKinematic> for PlanError {
+    fn from(error: NotKinematic) -> Self {
+        Self::Law(error)
+    }
+}
+
+impl From<IkError> for PlanError {
+    fn from(error: IkError) -> Self {
+        Self::Ik(error)
+    }
+}
+
+impl From<ClearanceError> for PlanError {
+    fn from(error: ClearanceError) -> Self {
+        Self::Clearance(error)
+    }
+}
+
+impl From<CoverageError> for PlanError {
+    fn from(error: CoverageError) -> Self {
+        Self::Coverage(error)
+    }
+}
+
+impl PlanError {
+    /// Whether the input was fine but asks for what cannot be done (exit code 3), as opposed to bad input.
+    #[must_use]
+    pub fn is_infeasible(&self) -> bool {
+        use LayoutError::{EmptyRegion, NoRoom};
+        match self {
+            Self::Layout(NoRoom { .. } | EmptyRegion { .. }) => true,
+            Self::Cycle(error) => error.is_infeasible(),
+            _ => false,
+        }
+    }
+}
