@@ -4,9 +4,9 @@ use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::plan::{self, PlanArguments};
 use super::progress::Progress;
-use super::{output, run, simulate};
+use super::{output, results, run, simulate};
 use platewash::planner::certificate;
-use platewash::planner::cycle::CycleReport;
+use platewash::planner::cycle::{CycleReport, InfeasibleReport};
 use platewash::simulator::simulate::table;
 use platewash::{Cycle, Scenario, Setup, SimulationReport, SimulationVerdict, Verdict};
 use serde::Serialize;
@@ -14,13 +14,16 @@ use std::fmt;
 
 /// Plans the cycle and writes the plan and its CSV; nothing is proved.
 pub fn plan(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -> Result<ExitCode, Failure> {
-    let cycle = carry_out(options, scenario)?;
+    let cycle = match carry_out(options, scenario, arguments)? {
+        Outcome::Planned(cycle) => cycle,
+        Outcome::Infeasible(report) => return infeasible(options, scenario, &report),
+    };
     let plan = cycle.to_plan()?;
     let files = vec![
         (plan::folder(options).join("plan.json"), plan.to_json()?),
         (plan::csv_file(options, arguments), csv(&cycle, arguments)?),
     ];
-    output::write_files(&files)?;
+    results::write(&plan::folder(options), &files)?;
     output::print_either(options.json, &plan.summary, || {
         format!("{}\nnot proved yet: platewash verify\n", plan.summary.headline)
     })?;
@@ -65,7 +68,10 @@ impl fmt::Display for RunReport {
 
 /// Plans the cycle, proves it, simulates it, and writes plan, both motions, certificate and report.
 pub fn run(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -> Result<ExitCode, Failure> {
-    let cycle = carry_out(options, scenario)?;
+    let cycle = match carry_out(options, scenario, arguments)? {
+        Outcome::Planned(cycle) => cycle,
+        Outcome::Infeasible(report) => return infeasible(options, scenario, &report),
+    };
     let plan = cycle.to_plan()?;
     let certificate = certificate::verify(&plan, &cycle.robot).map_err(Failure::internal)?;
     let folder = plan::folder(options);
@@ -89,10 +95,10 @@ pub fn run(options: &Options, scenario: &Scenario, arguments: &PlanArguments) ->
         cycle: CycleReport::new(&cycle, certificate),
         simulation,
     };
-    let text = report.to_string();
+    let text = output::text(&report);
     files.push((folder.join("report.json"), output::json(&report)?));
     files.push((folder.join("report.txt"), text.clone()));
-    output::write_files(&files)?;
+    results::write(&folder, &files)?;
     output::print_either(options.json, &report, || text)?;
     plan::name_files(options, &files);
     let verdict = match report.cycle.verdict {
@@ -102,11 +108,39 @@ pub fn run(options: &Options, scenario: &Scenario, arguments: &PlanArguments) ->
     Ok(run::exit_code(verdict, scenario.job.on_failure))
 }
 
-fn carry_out(options: &Options, scenario: &Scenario) -> Result<Cycle, Failure> {
+/// What came of planning.
+enum Outcome {
+    Planned(Box<Cycle>),
+    Infeasible(InfeasibleReport),
+}
+
+fn carry_out(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -> Result<Outcome, Failure> {
+    plan::check_rows(scenario, scenario.duration_at_least(), arguments)?;
     let _progress = Progress::new(options.quiet, "planning");
-    let cycle = Cycle::plan(scenario)?;
-    tracing::info!("planned {} knots", cycle.motion.times().len());
-    Ok(cycle)
+    match Cycle::plan(scenario) {
+        Ok(cycle) => {
+            tracing::info!("planned {} knots", cycle.motion.times().len());
+            Ok(Outcome::Planned(Box::new(cycle)))
+        }
+        Err(error) => match InfeasibleReport::new(scenario, &error) {
+            Some(report) => Ok(Outcome::Infeasible(report)),
+            None => Err(options.failure(error)),
+        },
+    }
+}
+
+/// Reports a job that cannot be done, in place of what earlier calls left.
+fn infeasible(options: &Options, scenario: &Scenario, report: &InfeasibleReport) -> Result<ExitCode, Failure> {
+    let folder = plan::folder(options);
+    let text = output::text(report);
+    let files = vec![
+        (folder.join("report.json"), output::json(report)?),
+        (folder.join("report.txt"), text.clone()),
+    ];
+    results::write(&folder, &files)?;
+    output::print_either(options.json, report, || text)?;
+    plan::name_files(options, &files);
+    Ok(run::exit_code(report.verdict, scenario.job.on_failure))
 }
 
 fn csv(cycle: &Cycle, arguments: &PlanArguments) -> Result<String, Failure> {

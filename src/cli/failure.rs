@@ -1,5 +1,6 @@
 //! What goes wrong, as a message and an exit code.
 
+use super::output;
 use platewash::PlanError;
 use platewash::planner::csv::CsvError;
 use platewash::planner::plan::PlanFileError;
@@ -58,7 +59,8 @@ impl Failure {
     /// Prints the message; the exit code.
     pub fn report(&self) -> ExitCode {
         // Nothing is left to do when standard error is closed.
-        let _ = writeln!(std::io::stderr(), "error: {:#}", self.error);
+        let message = output::text(&format_args!("error: {:#}", self.error));
+        let _ = writeln!(std::io::stderr(), "{message}");
         ExitCode::from(self.code)
     }
 }

@@ -14,6 +14,7 @@ mod plan;
 mod plan_file;
 mod progress;
 mod reproduce;
+mod results;
 mod robot;
 mod run;
 mod simulate;
@@ -48,10 +49,16 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Verb {
     /// Run a scenario to the end: plan, CSV and report (the default).
+    ///
+    /// Owns plan.json, trajectory.csv, executed.csv, certificate.json, report.json and report.txt in the output folder: those
+    /// that it does not write are removed. A job that cannot be done leaves report.json and report.txt, which say why.
     Run(run::RunArguments),
     /// Place the plates of a scenario and say what is wrong with them.
     Layout,
     /// Plan a scenario and write the plan file and its CSV.
+    ///
+    /// Owns the files of run in the output folder: those that it does not write are removed. A job that cannot be done leaves
+    /// report.json and report.txt, which say why.
     Plan(plan::PlanArguments),
     /// Check a scenario without running it.
     Validate,

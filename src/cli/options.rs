@@ -4,8 +4,8 @@ use super::failure::Failure;
 use anyhow::{Context, anyhow, ensure};
 use clap::Args;
 use platewash::planner::robot;
-use platewash::planner::scenario::SHIPPED;
-use platewash::{RobotModel, Scenario};
+use platewash::planner::scenario::{SHIPPED, ScenarioError};
+use platewash::{PlanError, RobotModel, Scenario};
 use rayon::ThreadPool;
 use std::path::PathBuf;
 
@@ -78,8 +78,7 @@ impl Options {
 
     /// The scenario with what the options override.
     pub fn scenario(&self) -> Result<Scenario, Failure> {
-        let name = self.scenario.as_deref().unwrap_or(SHIPPED[0].name);
-        let mut scenario = Scenario::load(name)?;
+        let mut scenario = Scenario::load(self.scenario_name())?;
         if let Some(seed) = self.seed {
             scenario.seed = seed;
         }
@@ -88,8 +87,40 @@ impl Options {
             scenario.robot.srdf.clone_from(&self.srdf);
             scenario.robot.package_path.clone_from(&self.package_path);
         }
-        scenario.validate()?;
+        scenario.validate().map_err(|error| self.of_file(error))?;
         Ok(scenario)
+    }
+
+    /// A planner's error; one of the scenario with the file that was given in place of the scenario's own name.
+    pub fn failure(&self, error: PlanError) -> Failure {
+        match error {
+            PlanError::Scenario(error) => self.of_file(error).into(),
+            other => other.into(),
+        }
+    }
+
+    /// Refuses a scenario and a seed where the plan file states both.
+    pub fn refuse_scenario_and_seed(&self) -> Result<(), Failure> {
+        for (given, name) in [(self.scenario.is_some(), "--scenario"), (self.seed.is_some(), "--seed")] {
+            if given {
+                return Err(Failure::input(anyhow!(
+                    "{name}: the plan file states scenario and seed; leave it out"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn scenario_name(&self) -> &str {
+        self.scenario.as_deref().unwrap_or(SHIPPED[0].name)
+    }
+
+    /// The error with the file that was given in place of the scenario's own name.
+    fn of_file(&self, error: ScenarioError) -> ScenarioError {
+        ScenarioError {
+            source_name: self.scenario_name().to_owned(),
+            ..error
+        }
     }
 
     /// The arm of the scenario, or of the options.

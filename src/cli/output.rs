@@ -4,6 +4,7 @@ use super::failure::Failure;
 use anyhow::Context;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 use std::path::{Component, Path, PathBuf};
 use tempfile::NamedTempFile;
@@ -19,32 +20,65 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// A value as indented JSON with a final newline. NaN and infinity become `null`.
+/// A value as indented JSON with a final newline. NaN and infinity become `null`; control characters are escaped, those too
+/// that JSON itself allows.
 pub fn json(value: &impl Serialize) -> Result<String, Failure> {
-    let mut text = serde_json::to_string_pretty(value).map_err(Failure::internal)?;
+    let text = serde_json::to_string_pretty(value).map_err(Failure::internal)?;
+    let mut text = escaped(&text, |c| format!("\\u{:04x}", u32::from(c)));
     text.push('\n');
     Ok(text)
 }
 
+/// A value as text without control characters but new lines, so that a terminal obeys no name out of a file.
+pub fn text(value: &impl Display) -> String {
+    escaped(&value.to_string(), |c| c.escape_default().to_string())
+}
+
+fn escaped(text: &str, escape: impl Fn(char) -> String) -> String {
+    let mut all = String::with_capacity(text.len());
+    for c in text.chars() {
+        if c.is_control() && c != '\n' {
+            all.push_str(&escape(c));
+        } else {
+            all.push(c);
+        }
+    }
+    all
+}
+
 /// Prints a value as JSON, or as text.
 pub fn print_either(as_json: bool, value: &impl Serialize, text: impl FnOnce() -> String) -> Result<(), Failure> {
-    if as_json { print(&json(value)?) } else { print(&text()) }
+    if as_json {
+        print(&json(value)?)
+    } else {
+        print(&self::text(&text()))
+    }
 }
 
 /// A message on standard error.
 pub fn message(quiet: bool, text: &str) {
     if !quiet {
         // Nothing is left to do when standard error is closed.
-        let _ = writeln!(std::io::stderr(), "{text}");
+        let _ = writeln!(std::io::stderr(), "{}", self::text(&text));
     }
 }
 
 /// Writes all files or none: each goes to a temporary file beside its place, and they are renamed once all are complete.
 pub fn write_files(files: &[(PathBuf, String)]) -> Result<(), Failure> {
+    replace(files, &[])
+}
+
+/// The same in place of `stale` files, which go just before.
+pub fn replace(files: &[(PathBuf, String)], stale: &[PathBuf]) -> Result<(), Failure> {
     refuse_one_place_for_two(files).map_err(Failure::input)?;
     let mut complete = Vec::new();
     for (path, text) in files {
         complete.push((stage(path, text).map_err(Failure::input)?, path));
+    }
+    for path in stale {
+        std::fs::remove_file(path)
+            .with_context(|| format!("{}: is of an earlier call and cannot be removed", path.display()))
+            .map_err(Failure::input)?;
     }
     for (staged, path) in complete {
         let renamed = staged.persist(path);
@@ -96,7 +130,7 @@ fn refuse_one_place_for_two(files: &[(PathBuf, String)]) -> anyhow::Result<()> {
 }
 
 /// Where a file will be, links followed but for its own name, whether its folders exist yet or not.
-fn place(path: &Path) -> std::io::Result<PathBuf> {
+pub fn place(path: &Path) -> std::io::Result<PathBuf> {
     let absolute = std::path::absolute(path)?;
     let mut place = PathBuf::new();
     for part in absolute.components() {
@@ -108,4 +142,18 @@ fn place(path: &Path) -> std::io::Result<PathBuf> {
         }
     }
     Ok(place)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_control_character_but_a_new_line_leaves() {
+        let name = "a\u{1b}[31m\u{7f}\u{9b}2J\t\r\n\u{e9}";
+        assert_eq!(text(&name), "a\\u{1b}[31m\\u{7f}\\u{9b}2J\\t\\r\n\u{e9}");
+        let written = json(&name).unwrap();
+        assert!(!written.trim_end().contains(char::is_control), "{written:?}");
+        assert_eq!(serde_json::from_str::<String>(&written).unwrap(), name);
+    }
 }

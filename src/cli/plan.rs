@@ -3,7 +3,7 @@
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::progress::Progress;
-use super::{cycle, output, run};
+use super::{cycle, output, results, run};
 use anyhow::{Context, anyhow, ensure};
 use clap::Args;
 use platewash::planner::plan::PlanSegment;
@@ -37,7 +37,7 @@ pub fn run(options: &Options, arguments: &PlanArguments) -> Result<ExitCode, Fai
     }
     let (job, report) = carry_out(options, &scenario)?;
     let files = files(options, &job, &report, arguments)?;
-    output::write_files(&files)?;
+    results::write(&folder(options), &files)?;
     let summary = report.summary();
     output::print_either(options.json, &summary, || {
         let [reached, asked] = summary.waypoints_reached;
@@ -56,7 +56,7 @@ pub fn carry_out(options: &Options, scenario: &Scenario) -> Result<(Job, JobRepo
     let _progress = Progress::new(options.quiet, "planning");
     let robot = robot::load(&scenario.robot)?;
     let layout = job::place_plates(scenario, &robot).map_err(PlanError::from)?;
-    let job = Job::on(scenario, robot, layout)?;
+    let job = Job::on(scenario, robot, layout).map_err(|error| options.failure(error))?;
     tracing::info!(
         "planned {} waypoints on {} plates",
         job.tool_path.len(),
@@ -102,15 +102,29 @@ pub fn motion_csv(
     arguments: &PlanArguments,
 ) -> Result<String, Failure> {
     let tip = robot::tip_frame(robot, &scenario.tool);
-    let dt_s = arguments.dt.unwrap_or(scenario.control.dt_s);
-    let duration_s = motion.duration_s();
-    if duration_s / dt_s > MAX_ROWS {
-        return Err(Failure::input(anyhow!(
-            "--dt: a time step of {dt_s} s gives more than {MAX_ROWS} rows for {duration_s} s of motion; give at least {:e} s",
-            duration_s / MAX_ROWS
-        )));
-    }
+    let dt_s = check_rows(scenario, motion.duration_s(), arguments)?;
     Ok(csv::table(motion, segments, robot, &tip, dt_s)?)
+}
+
+/// The time step of the CSV \[s\], if `duration_s` of motion, or more, gives not too many rows.
+pub fn check_rows(scenario: &Scenario, duration_s: f64, arguments: &PlanArguments) -> Result<f64, Failure> {
+    let (key, dt_s) = match arguments.dt {
+        Some(dt_s) => ("--dt", dt_s),
+        None => ("control.dt_s", scenario.control.dt_s),
+    };
+    if duration_s / dt_s <= MAX_ROWS {
+        return Ok(dt_s);
+    }
+    let least = duration_s / MAX_ROWS;
+    let instead = if arguments.dt.is_some() {
+        ""
+    } else {
+        ", there or as --dt"
+    };
+    Err(Failure::input(anyhow!(
+        "{key}: a time step of {dt_s} s gives more than {MAX_ROWS} rows of CSV for {duration_s:.1} s of motion; give at least \
+         {least:e} s{instead}"
+    )))
 }
 
 fn time_step(text: &str) -> anyhow::Result<f64> {

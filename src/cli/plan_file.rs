@@ -26,6 +26,7 @@ pub struct PlanFile {
 impl PlanFile {
     /// Reads a plan and finds its arm.
     pub fn read(options: &Options, path: &Path) -> Result<Self, Failure> {
+        options.refuse_scenario_and_seed()?;
         let text = file::read_text(path, MAX_BYTES).map_err(|e| refused(path, format_args!("cannot be read: {e}")))?;
         let plan = Plan::from_json(&text).map_err(|e| refused(path, e))?;
         let given = options.urdf.as_ref().map(|urdf| RobotSection {

@@ -3,7 +3,7 @@
 use super::failure::{self, ExitCode, Failure};
 use super::options::Options;
 use super::plan::{self, PlanArguments};
-use super::{cycle, output};
+use super::{cycle, output, results};
 use clap::Args;
 use platewash::Verdict;
 use platewash::planner::scenario::{OnFailure, Program};
@@ -23,14 +23,14 @@ pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Fail
     }
     let (job, report) = plan::carry_out(options, &scenario)?;
     let folder = plan::folder(options);
-    let text = report.to_string();
+    let text = output::text(&report);
     let mut files = plan::files(options, &job, &report, &arguments.plan)?;
     let segments = platewash::planner::plan::segments(&job);
     let executed = plan::motion_csv(&scenario, &job.robot, &job.executed, &segments, &arguments.plan)?;
     files.push((folder.join("executed.csv"), executed));
     files.push((folder.join("report.json"), output::json(&report)?));
     files.push((folder.join("report.txt"), text.clone()));
-    output::write_files(&files)?;
+    results::write(&folder, &files)?;
     output::print_either(options.json, &report, || text)?;
     plan::name_files(options, &files);
     Ok(exit_code(report.verdict, scenario.job.on_failure))

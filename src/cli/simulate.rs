@@ -71,7 +71,7 @@ pub fn run(options: &Options, arguments: &SimulateArguments) -> Result<ExitCode,
     let dt_s = arguments.dt.unwrap_or(file.plan.scenario.control.dt_s);
     let csv = simulator::simulate::table(&execution, &file.plan, &file.robot, dt_s)?;
     let folder = plan::folder(options);
-    let text = report.to_string();
+    let text = output::text(&report);
     let files = vec![
         (folder.join("executed.csv"), csv),
         (folder.join("simulation.json"), output::json(&report)?),

@@ -6,8 +6,10 @@ use super::output;
 use super::progress::Progress;
 use anyhow::{Context, ensure};
 use clap::Args;
+use platewash::Scenario;
 use platewash::planner::scenario::{OnFailure, Program};
 use platewash::planner::sweep::{self, SweepOutcome, SweepRow};
+use std::io::IsTerminal;
 use std::ops::RangeInclusive;
 
 /// Most layouts of one call.
@@ -21,8 +23,13 @@ pub struct SweepArguments {
     pub seeds: RangeInclusive<u64>,
 }
 
-/// Plans and proves a layout a seed; prints a table (CSV) or JSON, and with `--out` writes `sweep.csv` there.
+/// Plans and proves a layout a seed; prints a table (CSV), each row as soon as it is done, or JSON, and with `--out` writes `sweep.csv` there.
 pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Failure> {
+    if options.seed.is_some() {
+        return Err(Failure::input(anyhow::anyhow!(
+            "--seed: sweep plans one layout for each of --seeds; leave it out"
+        )));
+    }
     let scenario = options.scenario()?;
     if scenario.job.program != Program::Certified {
         return Err(Failure::input(anyhow::anyhow!(
@@ -30,27 +37,50 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Fa
             scenario.name
         )));
     }
-    let rows = {
-        let _progress = Progress::new(options.quiet, "planning and proving");
-        sweep::sweep(&scenario, arguments.seeds.clone())?
-    };
+    let rows = rows(options, &scenario, arguments)?;
     if let Some(folder) = &options.out {
         output::write_files(&[(folder.join("sweep.csv"), sweep::csv(&rows))])?;
     }
-    output::print_either(options.json, &rows, || sweep::csv(&rows))?;
+    if options.json {
+        output::print(&output::json(&rows)?)?;
+    }
     let count = |outcome| rows.iter().filter(|row: &&SweepRow| row.outcome == outcome).count();
-    let [proved, not_proved, infeasible] =
-        [SweepOutcome::Proved, SweepOutcome::NotProved, SweepOutcome::Infeasible].map(count);
+    let [proved, not_proved, infeasible, failed] = [
+        SweepOutcome::Proved,
+        SweepOutcome::NotProved,
+        SweepOutcome::Infeasible,
+        SweepOutcome::Error,
+    ]
+    .map(count);
     let total = rows.len();
     output::message(
         options.quiet,
-        &format!("{proved} of {total} proved, {not_proved} planned but not proved, {infeasible} infeasible"),
+        &format!(
+            "{proved} of {total} proved, {not_proved} planned but not proved, {infeasible} infeasible, {failed} with an error"
+        ),
     );
     Ok(ExitCode::from(match scenario.job.on_failure {
-        OnFailure::Fail if infeasible > 0 => INFEASIBLE,
+        OnFailure::Fail if infeasible + failed > 0 => INFEASIBLE,
         OnFailure::Fail if not_proved > 0 => NOT_VERIFIED,
         _ => 0,
     }))
+}
+
+/// The rows; as text they are printed one by one, in the order of the seeds, as JSON in the end.
+fn rows(options: &Options, scenario: &Scenario, arguments: &SweepArguments) -> Result<Vec<SweepRow>, Failure> {
+    let shows_rows = !options.json && std::io::stdout().is_terminal();
+    let _progress = Progress::new(options.quiet || shows_rows, "planning and proving");
+    let (mut printed, mut header) = (Ok(()), Some(sweep::HEADER));
+    let mut print = |row: &SweepRow| {
+        if !options.json && printed.is_ok() {
+            let line = header.take().unwrap_or_default().to_owned() + &row.csv_line();
+            printed = output::print(&output::text(&line));
+        }
+    };
+    let rows = sweep::sweep_each(scenario, arguments.seeds.clone(), &mut print);
+    let rows = rows.map_err(|error| options.failure(error))?;
+    printed?;
+    Ok(rows)
 }
 
 fn seeds(text: &str) -> anyhow::Result<RangeInclusive<u64>> {

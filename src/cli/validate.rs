@@ -4,8 +4,9 @@ use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
 use platewash::planner::layout::{Finding, LayoutError};
+use platewash::planner::scenario::Program;
 use platewash::planner::{job, robot};
-use platewash::{Layout, PlanError, Scenario};
+use platewash::{Cycle, Layout, PlanError, Scenario};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -35,7 +36,14 @@ pub fn run(options: &Options) -> Result<ExitCode, Failure> {
         None
     };
     let (robot, findings) = job::check(&scenario)?;
-    scenario.check_work()?;
+    scenario.check_work().map_err(|error| options.failure(error.into()))?;
+    if scenario.job.program == Program::Certified {
+        // What depends on where plates lie is known where they do.
+        let drawn_anew = scenario.layout.only_washable && scenario.layout.positions_m.is_none();
+        let layout = job::place_plates(&scenario, &robot).ok().filter(|_| !drawn_anew);
+        let plates = layout.as_ref().map_or(&[][..], |layout| &layout.plates);
+        Cycle::check(&scenario, &robot, plates)?;
+    }
     let answer = Answer {
         valid: true,
         scenario: scenario.name,

@@ -81,8 +81,7 @@ fn the_same_seed_gives_the_same_bytes_and_another_seed_another_layout() {
     };
     for scenario in ["paper-appendix", "kitchen-rim"] {
         let first = run(scenario, "7", "1");
-        let files = if scenario == "kitchen-rim" { 6 } else { 5 };
-        assert_eq!(first.len(), files);
+        assert_eq!(first.len(), if scenario == "kitchen-rim" { 6 } else { 5 });
         assert_eq!(first, run(scenario, "7", "2"));
         assert_eq!(first, run(scenario, "7", "8"));
         assert_ne!(first, run(scenario, "8", "1"));

@@ -4,8 +4,11 @@
 mod arms;
 mod files;
 mod golden;
+mod ignored;
+mod infeasible;
 mod limits;
 mod scenarios;
+mod simulate;
 mod verbs;
 mod verify;
 
@@ -94,5 +97,17 @@ fn scenario(folder: &Path, from: &str, to: &str) -> PathBuf {
     assert!(text.contains(from), "no '{from}' in the shipped scenario");
     let path = folder.join("case.toml");
     std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
+    path
+}
+
+/// The kitchen with some fragments replaced (each must take effect).
+fn kitchen(folder: &Path, changes: &[(&str, &str)]) -> PathBuf {
+    let mut text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/kitchen.toml")).unwrap();
+    for (from, to) in changes {
+        assert!(text.contains(from), "no '{from}' in the kitchen");
+        text = text.replacen(from, to, 1);
+    }
+    let path = folder.join("case.toml");
+    std::fs::write(&path, text).unwrap();
     path
 }

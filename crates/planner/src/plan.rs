@@ -317,13 +317,15 @@ impl Plan {
     /// The hash that belongs to the contents.
     ///
     /// # Errors
-    /// [`PlanFileError::Unwritable`].
+    /// [`PlanFileError::Unwritable`] for contents that could not be read back: a number that is not finite.
     pub fn seal(&self) -> Result<String, PlanFileError> {
         let open = Self {
             hash: None,
             ..self.clone()
         };
         let canonical = serde_json_canonicalizer::to_vec(&open).map_err(unwritable)?;
+        // What is not finite is written as `null`.
+        serde_json::from_slice::<Self>(&canonical).map_err(unwritable)?;
         Ok(sha256_hex(&canonical))
     }
 

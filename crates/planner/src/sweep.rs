@@ -3,11 +3,13 @@
 use crate::certificate::{self, Certificate, PromiseName};
 use crate::cycle::Cycle;
 use crate::job::PlanError;
+use crate::robot;
 use crate::scenario::Scenario;
 use rayon::prelude::*;
 use serde::Serialize;
-use std::fmt::Write;
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
+use std::sync::{Mutex, PoisonError};
 
 /// How one layout ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
@@ -19,6 +21,21 @@ pub enum SweepOutcome {
     NotProved,
     /// The layout cannot be washed, or no way was found.
     Infeasible,
+    /// The numbers of this seed cannot be computed with.
+    Error,
+}
+
+impl SweepOutcome {
+    /// Its name, as in the table.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Proved => "proved",
+            Self::NotProved => "not_proved",
+            Self::Infeasible => "infeasible",
+            Self::Error => "error",
+        }
+    }
 }
 
 /// One layout.
@@ -43,33 +60,80 @@ pub struct SweepRow {
 /// Plans and proves the scenario with every seed, in order; threads are rayon's, and the answer depends on none of them.
 ///
 /// # Errors
-/// [`PlanError`] for a scenario that is wrong for every seed; one that only cannot be carried out is a row.
+/// [`PlanError`] for a scenario that is wrong for every seed; what goes wrong with one is a row.
 pub fn sweep(scenario: &Scenario, seeds: RangeInclusive<u64>) -> Result<Vec<SweepRow>, PlanError> {
-    scenario.validate()?;
-    let all: Vec<u64> = seeds.collect();
-    all.into_par_iter().map(|seed| row(scenario, seed)).collect()
+    sweep_each(scenario, seeds, &mut |_| ())
 }
 
-fn row(scenario: &Scenario, seed: u64) -> Result<SweepRow, PlanError> {
+/// The same; `done` is told each row in the order of the seeds, as soon as it and those before it are done.
+///
+/// # Errors
+/// As [`sweep`].
+pub fn sweep_each(
+    scenario: &Scenario,
+    seeds: RangeInclusive<u64>,
+    done: &mut (dyn FnMut(&SweepRow) + Send),
+) -> Result<Vec<SweepRow>, PlanError> {
+    scenario.validate()?;
+    scenario.check_work()?;
+    match Cycle::check(scenario, &robot::load(&scenario.robot)?, &[]) {
+        Err(error) if !error.is_infeasible() => return Err(error),
+        _ => (),
+    }
+    let in_order = Mutex::new(InOrder {
+        rows: Vec::new(),
+        waiting: BTreeMap::new(),
+        done,
+    });
+    // A bridge hands the seeds out one after the other, so that the first rows are done first.
+    seeds.enumerate().par_bridge().for_each(|(place, seed)| {
+        let row = row(scenario, seed);
+        in_order.lock().unwrap_or_else(PoisonError::into_inner).add(place, row);
+    });
+    Ok(in_order.into_inner().unwrap_or_else(PoisonError::into_inner).rows)
+}
+
+/// Rows that come in any order, told and kept in that of the seeds.
+struct InOrder<'a> {
+    rows: Vec<SweepRow>,
+    waiting: BTreeMap<usize, SweepRow>,
+    done: &'a mut (dyn FnMut(&SweepRow) + Send),
+}
+
+impl InOrder<'_> {
+    fn add(&mut self, place: usize, row: SweepRow) {
+        self.waiting.insert(place, row);
+        while let Some(row) = self.waiting.remove(&self.rows.len()) {
+            (self.done)(&row);
+            self.rows.push(row);
+        }
+    }
+}
+
+fn row(scenario: &Scenario, seed: u64) -> SweepRow {
     let scenario = Scenario {
         seed,
         ..scenario.clone()
     };
     let cycle = match Cycle::plan(&scenario) {
         Ok(cycle) => cycle,
-        Err(error) if error.is_infeasible() => {
-            return Ok(SweepRow::nothing(seed, SweepOutcome::Infeasible, error.to_string()));
+        Err(error) => {
+            let outcome = if error.is_infeasible() {
+                SweepOutcome::Infeasible
+            } else {
+                SweepOutcome::Error
+            };
+            return SweepRow::nothing(seed, outcome, error.to_string());
         }
-        Err(error) => return Err(error),
     };
     let proof = cycle
         .to_plan()
         .map_err(|e| e.to_string())
         .and_then(|plan| certificate::verify(&plan, &cycle.robot).map_err(|e| e.to_string()));
-    Ok(match proof {
+    match proof {
         Ok(certificate) => SweepRow::planned(seed, &cycle, &certificate),
         Err(reason) => SweepRow::nothing(seed, SweepOutcome::NotProved, reason),
-    })
+    }
 }
 
 impl SweepRow {
@@ -104,23 +168,50 @@ impl SweepRow {
     }
 }
 
+/// The first line of the table.
+pub const HEADER: &str = "seed,outcome,duration_s,crossings_s,coverage,clearance_m,reason\n";
+
+impl SweepRow {
+    /// The row as a line of CSV.
+    #[must_use]
+    pub fn csv_line(&self) -> String {
+        let number = |v: Option<f64>| v.map(|v| v.to_string()).unwrap_or_default();
+        let reason = self.reason.as_deref().unwrap_or_default().replace('"', "\"\"");
+        let numbers = [self.duration_s, self.crossings_s, self.coverage, self.clearance_m]
+            .map(number)
+            .join(",");
+        format!("{},{},{numbers},\"{reason}\"\n", self.seed, self.outcome.name())
+    }
+}
+
 /// Rows as CSV, with a header.
 #[must_use]
 pub fn csv(rows: &[SweepRow]) -> String {
-    let mut text = String::from("seed,outcome,duration_s,crossings_s,coverage,clearance_m,reason\n");
-    for row in rows {
-        let number = |v: Option<f64>| v.map(|v| v.to_string()).unwrap_or_default();
-        let outcome = match row.outcome {
-            SweepOutcome::Proved => "proved",
-            SweepOutcome::NotProved => "not_proved",
-            SweepOutcome::Infeasible => "infeasible",
+    let lines = rows.iter().map(SweepRow::csv_line);
+    std::iter::once(HEADER.to_owned()).chain(lines).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_told_in_the_order_of_the_seeds_whichever_is_done_first() {
+        let mut told = Vec::new();
+        let mut tell = |row: &SweepRow| told.push(row.seed);
+        let mut in_order = InOrder {
+            rows: Vec::new(),
+            waiting: BTreeMap::new(),
+            done: &mut tell,
         };
-        let reason = row.reason.as_deref().unwrap_or_default().replace('"', "\"\"");
-        let numbers = [row.duration_s, row.crossings_s, row.coverage, row.clearance_m]
-            .map(number)
-            .join(",");
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{},{outcome},{numbers},\"{reason}\"", row.seed);
+        let row = |seed| SweepRow::nothing(seed, SweepOutcome::Error, "a \"b\"".to_owned());
+        in_order.add(2, row(12));
+        assert!(in_order.rows.is_empty());
+        in_order.add(0, row(10));
+        assert_eq!(in_order.rows.len(), 1);
+        in_order.add(1, row(11));
+        assert_eq!(in_order.rows.len(), 3);
+        assert_eq!(told, [10, 11, 12]);
+        assert_eq!(row(7).csv_line(), "7,error,,,,,\"a \"\"b\"\"\"\n");
     }
-    text
 }

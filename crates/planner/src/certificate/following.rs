@@ -2,8 +2,8 @@
 //!
 //! To every moment belongs a parameter θ(t) that starts at 0, never falls and ends at the curve's end; between two moments a
 //! and b it runs evenly. The deviation e(t) = p(t) − c(θ(t)) then keeps
-//! ‖e‖ ≤ max(‖e(a)‖, ‖e(b)‖) + h²/8 · sup ‖p̈‖ + Δθ²/8 · sup ‖c″‖. Which θ is chosen at a moment (the nearest point's)
-//! decides how tight this is, and nothing else.
+//! ‖e‖ ≤ max(‖e(a)‖, ‖e(b)‖) + h²/8 · sup ‖p̈‖ + Δθ²/8 · sup ‖c″‖. Which θ is chosen at a moment (the nearest point's;
+//! where these run back, half-way between the greatest so far and the least to come) decides how tight this is, and nothing else.
 
 use super::curve::Curve;
 use super::piece::Piece;
@@ -19,29 +19,46 @@ struct Leg<'a> {
 
 /// Bounds how far the tip leaves a curve during some pieces.
 pub(super) fn follow(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve, watch: &mut Watch) {
-    let mut theta = Vec::with_capacity(pieces.len());
-    let (mut last, end) = (0.0, curve.end());
-    for (i, piece) in pieces.iter().enumerate() {
-        let stretch = arm.stretch(piece);
-        let next = if i + 1 == pieces.len() {
-            end
-        } else {
-            curve.nearest(&stretch.ends[1].position, last, [last, end])
-        };
-        let leg = Leg {
-            stretch,
-            theta: [last, next],
-        };
-        for (k, time_s) in stretch.times().into_iter().enumerate() {
-            watch.see(deviation(curve, &leg, k), time_s, &stretch.ends[k]);
+    let theta = in_order(nearest(arm, pieces, curve));
+    let leg = |i: usize| Leg {
+        stretch: arm.stretch(&pieces[i]),
+        theta: [theta[i], theta[i + 1]],
+    };
+    for leg in (0..pieces.len()).map(leg) {
+        for (k, time_s) in leg.stretch.times().into_iter().enumerate() {
+            watch.see(deviation(curve, &leg, k), time_s, &leg.stretch.ends[k]);
         }
-        theta.push(leg.theta);
-        last = next;
     }
-    for (piece, theta) in pieces.iter().zip(theta) {
-        let stretch = arm.stretch(piece);
-        refine(arm, curve, &Leg { stretch, theta }, watch, 0);
+    (0..pieces.len()).for_each(|i| refine(arm, curve, &leg(i), watch, 0));
+}
+
+/// θ of the points nearest to the tip, at the first knot and behind every piece; where the curve begins and ends at the ends.
+fn nearest(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve) -> Vec<f64> {
+    let mut theta = vec![0.0];
+    for (i, piece) in pieces.iter().enumerate() {
+        let there = arm.at(piece, piece.length_s).position;
+        theta.push(if i + 1 == pieces.len() {
+            curve.end()
+        } else {
+            curve.nearest(&there, theta[i], [0.0, curve.end()])
+        });
     }
+    theta
+}
+
+/// The sequence that never falls and is nowhere farther from the given one than need be: half-way between the greatest value so far
+/// and the least one to come. Where the tip runs back a little, half of that is its deviation, and not all of it.
+fn in_order(mut values: Vec<f64>) -> Vec<f64> {
+    let mut to_come = values.clone();
+    for i in (1..to_come.len()).rev() {
+        to_come[i - 1] = to_come[i - 1].min(to_come[i]);
+    }
+    let mut so_far = f64::NEG_INFINITY;
+    for (value, to_come) in values.iter_mut().zip(to_come) {
+        so_far = so_far.max(*value);
+        *value = 0.5 * (so_far + to_come);
+    }
+    values
 }
 
 fn refine(arm: &Arm<'_>, curve: &Curve, leg: &Leg<'_>, watch: &mut Watch, depth: u32) {
@@ -77,4 +94,36 @@ fn refine(arm: &Arm<'_>, curve: &Curve, leg: &Leg<'_>, watch: &mut Watch, depth:
 /// Deviation at an end of a leg \[m\].
 fn deviation(curve: &Curve, leg: &Leg<'_>, end: usize) -> f64 {
     (leg.stretch.ends[end].position - curve.at(leg.theta[end])[0]).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_order;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Of two values of which the later is less, one must move by half of their difference: no sequence that never falls
+        /// is nearer than by the greatest such half.
+        #[test]
+        fn the_order_costs_half_the_greatest_fall(values in prop::collection::vec(-3.0..3.0f64, 1..40)) {
+            let ordered = in_order(values.clone());
+            prop_assert!(ordered.is_sorted());
+            let moved = values.iter().zip(&ordered).map(|(v, o)| (v - o).abs()).fold(0.0, f64::max);
+            let falls = (0..values.len()).flat_map(|i| values[i..].iter().map(move |later| (i, later)));
+            let fall = falls.map(|(i, later)| values[i] - later).fold(0.0, f64::max);
+            prop_assert!((moved - 0.5 * fall).abs() < 1e-12, "{moved} {fall}");
+        }
+
+        #[test]
+        fn what_is_in_order_stays(mut values in prop::collection::vec(-3.0..3.0f64, 1..40)) {
+            values.sort_by(f64::total_cmp);
+            prop_assert_eq!(in_order(values.clone()), values);
+        }
+    }
+
+    #[test]
+    fn nothing_and_no_number_are_no_trouble() {
+        assert!(in_order(Vec::new()).is_empty());
+        assert_eq!(in_order(vec![0.0, f64::NAN, 1.0]).len(), 3);
+    }
 }

@@ -1,7 +1,7 @@
 //! The certificate of a plan: what it promises, judged from the plan file and the arm's description alone.
 //!
 //! Nothing here knows how a plan came about: the tool path is evaluated from its definition, the motion from its knots. With
-//! the planner it shares forward kinematics, distances between parts, the definition of a stroke and the raster of coverage, no more.
+//! the planner it shares definitions: forward kinematics, bodies, pairs and distances, limits, the stroke, the raster of coverage.
 //! Every bound holds for the whole motion, not for samples; `docs/certificate.md` says how and on what assumptions.
 //!
 //! | what | file |

@@ -15,15 +15,19 @@
 
 mod arc;
 mod blend;
+mod error;
 mod route;
 mod sampled;
 mod terminal;
 #[cfg(test)]
 mod tests;
+mod too_near;
 
 pub use arc::PaperArc;
-pub use route::{Crossing, CrossingError, Route, Scene, Stage, plan};
+pub use error::{Blocked, CrossingError};
+pub use route::{Crossing, Route, Scene, Stage, plan};
 pub use terminal::{Terminal, TerminalError};
+pub use too_near::{RESERVE_M, TooNear};
 
 /// Joint motion between neighbouring configurations that are looked at, at most \[rad\].
 pub const STEP_RAD: f64 = 0.02;

@@ -2,9 +2,9 @@
 
 use super::blend::{Contact, quintic};
 use super::sampled;
-use super::{PaperArc, STEP_RAD, Terminal};
+use super::{Blocked, CrossingError, PaperArc, STEP_RAD, Terminal, TooNear};
 use crate::joint_path::{Ends, JointPath, JointPathError};
-use crate::timing::{self, MotionLimits, Timed, TimingError};
+use crate::timing::{self, MotionLimits, Timed};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use rand_pcg::Pcg64;
 use serde::Serialize;
@@ -38,6 +38,8 @@ pub struct Scene<'a> {
     pub tip: &'a Frame,
     /// Whether a configuration \[rad\] keeps its clearance.
     pub keeps_clear: &'a dyn Fn(&JointVector, Stage) -> bool,
+    /// The bodies that are too near where it does not; only asked to say so.
+    pub too_near: &'a dyn Fn(&JointVector, Stage) -> Option<TooNear>,
     /// Limits of the motion.
     pub limits: &'a MotionLimits,
     /// The paper's arc, where it is a candidate.
@@ -80,43 +82,6 @@ pub struct Crossing {
     pub free: [f64; 2],
 }
 
-/// Why there is no crossing.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CrossingError {
-    /// No route is free.
-    #[error("no free way from {} to {}: direct, raised, arc and {nodes} sampled configurations all fail", name(.from), name(.to))]
-    NoWay {
-        /// The plate it leaves; `None` for home.
-        from: Option<usize>,
-        /// The plate it leads to; `None` for home.
-        to: Option<usize>,
-        /// Configurations sampled.
-        nodes: usize,
-    },
-    /// The line over a plate is not free.
-    #[error("the line over plate {plate} is not clear at {height_m:.3} m")]
-    Line {
-        /// The plate.
-        plate: usize,
-        /// Height on the line \[m\].
-        height_m: f64,
-    },
-    /// Home is not free.
-    #[error("the arm is not clear at home")]
-    Home,
-    /// A path that cannot be splined.
-    #[error(transparent)]
-    Path(#[from] JointPathError),
-    /// A path that cannot be timed.
-    #[error(transparent)]
-    Timing(#[from] TimingError),
-}
-
-fn name(end: &Option<usize>) -> String {
-    end.map_or_else(|| "home".to_owned(), |plate| format!("plate {plate}"))
-}
-
 /// Plans a crossing; `rng` is used by [`Route::Sampled`] only.
 ///
 /// # Errors
@@ -125,33 +90,45 @@ pub fn plan(scene: &Scene<'_>, from: &Terminal, to: &Terminal, rng: &mut Pcg64) 
     for end in [from, to] {
         check_terminal(scene, end)?;
     }
-    let mut best: Option<Crossing> = None;
-    let blends = direct(from, to).map(|way| (Route::Direct, way));
-    for (route, way) in blends {
-        consider(scene, from, to, route, &way, &mut best)?;
+    let mut search = Search {
+        scene,
+        ends: [from, to],
+        best: None,
+        blocked: None,
+    };
+    for way in direct(from, to) {
+        search.consider(Route::Direct, &way)?;
     }
-    if best.is_none() {
+    if search.best.is_none() {
         for way in raised(scene.robot, from, to) {
-            consider(scene, from, to, Route::Raised, &way, &mut best)?;
+            search.consider(Route::Raised, &way)?;
         }
     }
-    if best.is_none()
+    if search.best.is_none()
         && let Some(way) = scene.arc.and_then(|arc| arc.way(from, to))
     {
-        consider(scene, from, to, Route::Arc, &way, &mut best)?;
+        search.consider(Route::Arc, &way)?;
     }
-    if let Some(best) = best {
+    if let Some(best) = search.best {
         return Ok(best);
     }
     let found = sampled::way(scene, from.top(), to.top(), rng);
     if let Ok(way) = &found {
-        consider(scene, from, to, Route::Sampled, way, &mut best)?;
+        search.consider(Route::Sampled, way)?;
     }
-    best.ok_or(CrossingError::NoWay {
+    let Search { best, blocked, .. } = search;
+    best.ok_or_else(|| CrossingError::NoWay {
         from: from.plate(),
         to: to.plate(),
         nodes: found.err().unwrap_or(0),
+        blocked: blocked.and_then(|q| what_blocks(scene, &q)).map(Box::new),
     })
+}
+
+/// What keeps the arm from a configuration \[rad\] of a free part.
+fn what_blocks(scene: &Scene<'_>, q: &JointVector) -> Option<Blocked> {
+    let too_near = || (scene.too_near)(q, Stage::Free).map(Blocked::TooNear);
+    scene.robot.limits().violation(q).map(Blocked::Limit).or_else(too_near)
 }
 
 /// Configurations between two tops, both left out, with the parameter counted from the first top \[m\], and its
@@ -163,26 +140,33 @@ pub(super) struct Way {
     pub length: f64,
 }
 
-/// Times the way if it is free, and keeps it if it is the fastest so far.
-fn consider(
-    scene: &Scene<'_>,
-    from: &Terminal,
-    to: &Terminal,
-    route: Route,
-    way: &Way,
-    best: &mut Option<Crossing>,
-) -> Result<(), CrossingError> {
-    let path = whole(from, to, way)?;
-    let free = [from.height_m(), from.height_m() + way.length];
-    if !is_free(scene, &path, free) {
-        return Ok(());
+/// Candidates between two ends, one after the other.
+struct Search<'a> {
+    scene: &'a Scene<'a>,
+    ends: [&'a Terminal; 2],
+    /// The fastest so far.
+    best: Option<Crossing>,
+    /// Where the first candidate that is not free ends \[rad\].
+    blocked: Option<JointVector>,
+}
+
+impl Search<'_> {
+    /// Times the way if it is free, and keeps it if it is the fastest so far.
+    fn consider(&mut self, route: Route, way: &Way) -> Result<(), CrossingError> {
+        let (scene, [from, to]) = (self.scene, self.ends);
+        let path = whole(from, to, way)?;
+        let free = [from.height_m(), from.height_m() + way.length];
+        if let Some(q) = blocked(scene, &path, free) {
+            self.blocked.get_or_insert(q);
+            return Ok(());
+        }
+        let timed = timing::time_optimal(&path, scene.robot, scene.tip, scene.limits)?;
+        let faster = |best: &Crossing| timed.motion.duration_s() < best.timed.motion.duration_s();
+        if self.best.as_ref().is_none_or(faster) {
+            self.best = Some(Crossing { route, timed, free });
+        }
+        Ok(())
     }
-    let timed = timing::time_optimal(&path, scene.robot, scene.tip, scene.limits)?;
-    let faster = |best: &Crossing| timed.motion.duration_s() < best.timed.motion.duration_s();
-    if best.as_ref().is_none_or(faster) {
-        *best = Some(Crossing { route, timed, free });
-    }
-    Ok(())
 }
 
 fn check_terminal(scene: &Scene<'_>, end: &Terminal) -> Result<(), CrossingError> {
@@ -192,14 +176,18 @@ fn check_terminal(scene: &Scene<'_>, end: &Terminal) -> Result<(), CrossingError
         _ => Stage::Free,
     };
     let blocked = (0..heights.len()).find(|&k| !(scene.keeps_clear)(&configurations[k], stage(k)));
-    match (blocked, end.plate()) {
-        (None, _) => Ok(()),
-        (Some(_), None) => Err(CrossingError::Home),
-        (Some(k), Some(plate)) => Err(CrossingError::Line {
+    let Some(k) = blocked else {
+        return Ok(());
+    };
+    let too_near = (scene.too_near)(&configurations[k], stage(k)).map(Box::new);
+    Err(match end.plate() {
+        None => CrossingError::Home { too_near },
+        Some(plate) => CrossingError::Line {
             plate,
             height_m: heights[k],
-        }),
-    }
+            too_near,
+        },
+    })
 }
 
 /// Line, way and line as one spline.
@@ -218,22 +206,20 @@ pub(super) fn whole(from: &Terminal, to: &Terminal, way: &Way) -> Result<JointPa
     JointPath::through(u, q, Ends::Clamped(slopes))
 }
 
-/// Whether the arm keeps its limits and clearances on the free part of a path.
-fn is_free(scene: &Scene<'_>, path: &JointPath, [from, to]: [f64; 2]) -> bool {
+/// The first configuration \[rad\] on the free part of a path at which the arm does not keep its limits or clearances.
+fn blocked(scene: &Scene<'_>, path: &JointPath, [from, to]: [f64; 2]) -> Option<JointVector> {
     let limits = scene.robot.limits();
     let steps = |a: f64, b: f64| ((path.at(b).q - path.at(a).q).amax() / STEP_RAD).ceil().max(1.0);
     let knots = path.parameters();
     let within = |ends: &&[f64]| (from..to).contains(&((ends[0] + ends[1]) * 0.5));
     let spans = knots.windows(2).filter(within);
-    let mut places = spans.flat_map(|ends| {
+    let places = spans.flat_map(|ends| {
         let (a, b) = (ends[0], ends[1]);
         let count = steps(a, b);
         (1..=count as usize).map(move |k| a + (b - a) * (k as f64 / count))
     });
-    places.all(|u| {
-        let q = path.at(u).q;
-        limits.contain(&q) && (scene.keeps_clear)(&q, Stage::Free)
-    })
+    let free = |q: &JointVector| limits.contain(q) && (scene.keeps_clear)(q, Stage::Free);
+    places.map(|u| path.at(u).q).find(|q| !free(q))
 }
 
 /// Direct ways, one a pace.

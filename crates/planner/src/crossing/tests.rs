@@ -59,6 +59,7 @@ fn plan_among(
         robot: &set.robot,
         tip: &set.tip,
         keeps_clear,
+        too_near: &|_, _| None,
         limits: &set.limits,
         arc: arc.as_ref(),
     };

@@ -1,6 +1,6 @@
 //! The arm as the stages of a cycle use it: postures by the tilt policy, and what is clear.
 
-use crate::crossing::Stage;
+use crate::crossing::{Stage, TooNear};
 use crate::posture::{Cell, TiltPolicy};
 use nalgebra::Vector3;
 use platewash_kinematics::ik::{IkSettings, IkSettingsError, IkSolver};
@@ -46,6 +46,15 @@ impl<'a> Arm<'a> {
         match stage {
             Stage::Line { .. } => self.cell.clearance.keeps_washing(q, required_m),
             Stage::Free => self.cell.clearance.keeps(q, required_m),
+        }
+    }
+
+    /// The two bodies that [`Arm::keeps_clear`] finds too near, with the reserve of crossings on top of the clearance asked
+    /// for \[m\].
+    pub fn too_near(&self, q: &JointVector, stage: Stage, asked_m: f64) -> Option<TooNear> {
+        match stage {
+            Stage::Line { .. } => TooNear::on_line(self.cell.clearance, q, asked_m),
+            Stage::Free => TooNear::free(self.cell.clearance, q, asked_m),
         }
     }
 }

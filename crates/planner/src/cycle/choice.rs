@@ -1,10 +1,10 @@
 //! Layouts of which every plate can be washed whole, for scenarios that ask for them.
 
-use super::arm::Arm;
-use super::{CycleError, Stages, visit};
+use super::stages::Stages;
+use super::{CycleError, visit};
 use crate::job::{self, PlanError};
 use crate::layout::Layout;
-use crate::posture::{self, Cell};
+use crate::posture;
 use crate::random;
 use crate::scenario::Scenario;
 use platewash_kinematics::RobotModel;
@@ -16,11 +16,12 @@ const MOST_LAYOUTS: usize = 200;
 /// can be washed whole.
 ///
 /// # Errors
-/// [`PlanError::Layout`], or [`CycleError::NoneWashable`] when no layout drawn will do.
+/// [`PlanError::Layout`], [`PlanError::Scenario`] for too much work, or [`CycleError::NoneWashable`] when no layout drawn will do.
 pub(super) fn place(scenario: &Scenario, robot: &RobotModel) -> Result<Layout, PlanError> {
     if !scenario.layout.only_washable || scenario.layout.positions_m.is_some() {
         return Ok(job::place_plates(scenario, robot)?);
     }
+    scenario.check_work()?;
     let mut rng = random::stream(scenario.seed, "layout");
     let mut last = None;
     for _ in 0..MOST_LAYOUTS {
@@ -41,9 +42,7 @@ pub(super) fn place(scenario: &Scenario, robot: &RobotModel) -> Result<Layout, P
 impl Stages<'_> {
     /// What stands in the way on the first plate that cannot be washed whole.
     fn first_unwashable(&self) -> Result<Option<String>, CycleError> {
-        let cell =
-            Cell::new(self.robot, &self.scenario.tool, &self.clearance, self.plates).map_err(CycleError::Cell)?;
-        let arm = Arm::new(cell, self.posture.tilt_max_rad)?;
+        let arm = self.arm()?;
         let home = self.robot.fk(&self.homes[0]).rigid(&arm.cell.tip).translation;
         let stop = self.plates.iter().enumerate().find_map(|(plate, place)| {
             let centre = visit::centre(place, self.scenario);

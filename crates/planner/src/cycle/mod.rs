@@ -1,116 +1,38 @@
 //! A certified job: the whole cycle, from home to home, planned before anything moves.
 //!
 //! scenario → arm → layout → order → per plate: stroke, posture, timing → crossings → one trajectory. Nothing here judges the
-//! result: that is the certificate's, which shares none of it.
+//! result: that is the certificate's, which uses none of it.
 
 mod arm;
 mod assemble;
 mod choice;
+mod error;
+mod infeasible;
 mod report;
+mod stages;
 mod tour;
 mod travel;
 mod unwashable;
 mod visit;
 
+pub use error::CycleError;
+pub use infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport};
 pub use report::CycleReport;
 pub use tour::{EXACT_UP_TO, Optimality, TravelTimes};
-pub use unwashable::UnwashablePlate;
+pub use unwashable::{Elsewhere, UnwashablePlate};
 
-use crate::clearance::{ClearanceError, ClearanceModel};
-use crate::crossing::{self, Crossing, CrossingError, PaperArc, Route, Scene, Stage, Terminal, TerminalError};
+use crate::crossing::Route;
 use crate::job::{self, PlanError};
-use crate::joint_path::JointPathError;
 use crate::layout::{Layout, Plate};
 use crate::plan::{Plan, PlanFileError, PlanParts, PlanSegment, Summary};
-use crate::posture::{self, Cell, How, PostureError, PostureSettings};
-use crate::scenario::{OrderRule, Scenario};
-use crate::timing::{MotionLimits, TimingError, TipLimits};
+use crate::posture::How;
+use crate::robot;
+use crate::scenario::Scenario;
 use crate::tool_path::Segment;
-use crate::trajectory::{KnotError, Trajectory};
-use crate::{random, robot};
-use arm::Arm;
-use assemble::Assembled;
-use nalgebra::Vector3;
-use platewash_kinematics::ik::{IkPathError, IkSettingsError};
-use platewash_kinematics::{JointVector, LimitViolation, RobotModel};
+use crate::trajectory::Trajectory;
+use platewash_kinematics::RobotModel;
 use serde::Serialize;
-use visit::Visit;
-
-/// What crossings keep beyond the clearance asked for, because they are looked at in steps \[m\].
-const RESERVE_M: f64 = 1e-3;
-
-/// Why a cycle could not be planned.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CycleError {
-    /// The end configuration lies outside the joint limits.
-    #[error(
-        "robot.home_deg: joint {} at {:.4}° is beyond its limit of {:.4}°",
-        .0.joint + 1, .0.position_rad.to_degrees(), .0.limit_rad.to_degrees()
-    )]
-    Home(LimitViolation),
-    /// A certified job needs a tool that touches the plates.
-    #[error(
-        "tool.length_m is 0: a certified job needs a tool; the paper's program (job.program = \"paper\") hovers without one"
-    )]
-    NoTool,
-    /// The collision model could not be made.
-    #[error("clearance: {0}")]
-    Clearance(ClearanceError),
-    /// An inverse-kinematics setting is out of range.
-    #[error(transparent)]
-    IkSettings(#[from] IkSettingsError),
-    /// The arm does not suit the posture planner.
-    #[error(transparent)]
-    Cell(PostureError),
-    /// A plate cannot be washed whole.
-    #[error("{0}")]
-    Unwashable(Box<UnwashablePlate>),
-    /// No layout drawn can be washed whole.
-    #[error(
-        "none of {layouts} layouts drawn can be washed whole, as layout.only_washable asks; of the last one, {last}"
-    )]
-    NoneWashable {
-        /// Layouts drawn.
-        layouts: usize,
-        /// What stands in the way in the last one.
-        last: String,
-    },
-    /// The arm cannot follow the line over a plate.
-    #[error("the line over plate {plate}: {error}")]
-    Line {
-        /// The plate.
-        plate: usize,
-        /// Why.
-        error: IkPathError,
-    },
-    /// The line over a plate is no path.
-    #[error(transparent)]
-    Terminal(#[from] TerminalError),
-    /// There is no way between two plates, or from or to home.
-    #[error(transparent)]
-    Crossing(#[from] CrossingError),
-    /// A path that cannot be splined.
-    #[error(transparent)]
-    Path(#[from] JointPathError),
-    /// A path that cannot be timed.
-    #[error(transparent)]
-    Timing(#[from] TimingError),
-    /// Motions that don't fit together.
-    #[error(transparent)]
-    Knots(#[from] KnotError),
-}
-
-impl CycleError {
-    /// Whether the input was fine but asks for what cannot be done (exit code 3).
-    #[must_use]
-    pub fn is_infeasible(&self) -> bool {
-        matches!(
-            self,
-            Self::Unwashable(_) | Self::NoneWashable { .. } | Self::Line { .. } | Self::Crossing(_)
-        )
-    }
-}
+use stages::Stages;
 
 /// How a plate is washed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -177,8 +99,19 @@ impl Cycle {
     pub fn plan(scenario: &Scenario) -> Result<Self, PlanError> {
         scenario.validate()?;
         let robot = robot::load(&scenario.robot)?;
+        Self::check(scenario, &robot, &[])?;
         let layout = choice::place(scenario, &robot)?;
         Self::on(scenario, robot, layout)
+    }
+
+    /// Refuses what can be known to fail before any posture is planned: an end configuration beyond its limits or too near
+    /// something, a tool without length. `plates` are those known by now.
+    ///
+    /// # Errors
+    /// [`PlanError::Robot`] and [`PlanError::Cycle`].
+    pub fn check(scenario: &Scenario, robot: &RobotModel, plates: &[Plate]) -> Result<(), PlanError> {
+        job::start(scenario, robot)?;
+        Ok(Stages::new(scenario, robot, plates)?.check_homes()?)
     }
 
     /// Plans the cycle of a scenario on plates that were placed before.
@@ -229,166 +162,5 @@ impl Cycle {
                 waypoints_reached: [0, 0],
             },
         })
-    }
-}
-
-/// What the stages share.
-struct Stages<'a> {
-    scenario: &'a Scenario,
-    robot: &'a RobotModel,
-    plates: &'a [Plate],
-    clearance: ClearanceModel,
-    /// Limits while washing, and elsewhere.
-    washing: MotionLimits,
-    crossing: MotionLimits,
-    posture: PostureSettings,
-    /// Configurations at the start and at the end \[rad\].
-    homes: [JointVector; 2],
-}
-
-/// What the stages make.
-struct Planned {
-    order: Vec<usize>,
-    tour: TourSummary,
-    visits: Vec<VisitSummary>,
-    crossings: Vec<CrossingSummary>,
-    whole: Assembled,
-}
-
-impl<'a> Stages<'a> {
-    fn new(scenario: &'a Scenario, robot: &'a RobotModel, plates: &'a [Plate]) -> Result<Self, CycleError> {
-        if scenario.tool.length_m <= 0.0 {
-            return Err(CycleError::NoTool);
-        }
-        let homes = scenario.homes();
-        if let Some(violation) = robot.limits().violation(&homes[1]) {
-            return Err(CycleError::Home(violation));
-        }
-        let (wash, limits) = (&scenario.wash, &scenario.limits);
-        let of_tip = |speed_m_s, acceleration_m_s2| MotionLimits {
-            velocity: robot.limits().velocity,
-            acceleration: limits.joint_acceleration_rad_s2.into(),
-            tip: Some(TipLimits {
-                speed_m_s,
-                acceleration_m_s2,
-            }),
-        };
-        Ok(Self {
-            scenario,
-            robot,
-            plates,
-            clearance: ClearanceModel::new(robot, &scenario.tool, plates).map_err(CycleError::Clearance)?,
-            washing: of_tip(
-                wash.speed_m_s.min(limits.tip_speed_m_s),
-                wash.acceleration_m_s2.min(limits.tip_acceleration_m_s2),
-            ),
-            crossing: of_tip(limits.tip_speed_m_s, limits.tip_acceleration_m_s2),
-            posture: PostureSettings {
-                tilt_max_rad: scenario.tilt_max_rad(),
-                clearance_m: wash.clearance_m,
-            },
-            homes,
-        })
-    }
-
-    fn carry_out(&self) -> Result<Planned, CycleError> {
-        let cell =
-            Cell::new(self.robot, &self.scenario.tool, &self.clearance, self.plates).map_err(CycleError::Cell)?;
-        let arm = Arm::new(cell, self.posture.tilt_max_rad)?;
-        let (order, tour) = self.order(&arm);
-        let visits = self.visits(&arm, &order)?;
-        let crossings = self.crossings(&arm, &visits)?;
-        let duration = |motion: &Trajectory| motion.duration_s();
-        Ok(Planned {
-            tour,
-            visits: visits
-                .iter()
-                .map(|visit| VisitSummary {
-                    plate: visit.plate,
-                    posture: visit.washing.how,
-                    wash_s: duration(&visit.wash.motion),
-                })
-                .collect(),
-            crossings: crossings
-                .iter()
-                .map(|crossing| CrossingSummary {
-                    route: crossing.route,
-                    duration_s: duration(&crossing.timed.motion),
-                })
-                .collect(),
-            whole: assemble::assemble(&visits, &crossings)?,
-            order,
-        })
-    }
-
-    fn order(&self, arm: &Arm<'_>) -> (Vec<usize>, TourSummary) {
-        let times = travel::times(self.scenario, arm, self.plates, &self.homes, &self.crossing);
-        let nearest = times.nearest_next();
-        let nearest_next_s = times.of(&nearest);
-        let (order, optimality) = match self.scenario.job.order {
-            OrderRule::Given => ((0..self.plates.len()).collect(), None),
-            OrderRule::Nearest => (nearest, None),
-            OrderRule::Fastest => {
-                let (order, optimality) = times.best();
-                (order, Some(optimality))
-            }
-        };
-        let tour = TourSummary {
-            travel_s: times.of(&order),
-            nearest_next_s,
-            optimality,
-        };
-        (order, tour)
-    }
-
-    fn visits(&self, arm: &Arm<'_>, order: &[usize]) -> Result<Vec<Visit>, CycleError> {
-        let home = self.robot.fk(&self.homes[1]).rigid(&arm.cell.tip).translation;
-        let mut visits: Vec<Visit> = Vec::with_capacity(order.len());
-        for (k, &plate) in order.iter().enumerate() {
-            let centre = visit::centre(&self.plates[plate], self.scenario);
-            let towards = order
-                .get(k + 1)
-                .map_or(home, |&next| visit::centre(&self.plates[next], self.scenario));
-            let stroke = visit::stroke(self.scenario, &centre, &towards);
-            let near = visits.last().and_then(|v| v.washing.q.last()).unwrap_or(&self.homes[0]);
-            let washing = posture::washing(&arm.cell, &stroke, centre, plate, &self.posture, near)
-                .map_err(|error| self.unwashable(arm, plate, (centre, &stroke), near, error))
-                .map_err(|plate| CycleError::Unwashable(Box::new(plate)))?;
-            visits.push(visit::plan(
-                self.scenario,
-                arm,
-                plate,
-                (centre, stroke),
-                washing,
-                &self.washing,
-            )?);
-        }
-        Ok(visits)
-    }
-
-    fn crossings(&self, arm: &Arm<'_>, visits: &[Visit]) -> Result<Vec<Crossing>, CycleError> {
-        let required = self.scenario.wash.clearance_m + RESERVE_M;
-        let keeps_clear = |q: &JointVector, stage: Stage| arm.keeps_clear(q, stage, required);
-        let pose = |p: Vector3<f64>| arm.pose(p);
-        let arc = PaperArc {
-            arc: self.scenario.arc(),
-            solver: &arm.solver,
-            pose: &pose,
-        };
-        let scene = Scene {
-            robot: self.robot,
-            tip: &arm.cell.tip,
-            keeps_clear: &keeps_clear,
-            limits: &self.crossing,
-            arc: Some(&arc),
-        };
-        let mut rng = random::stream(self.scenario.seed, "crossing");
-        let [start, end] = self.homes.map(Terminal::home);
-        let leaving = std::iter::once(&start).chain(visits.iter().map(|v| &v.exit));
-        let entering = visits.iter().map(|v| &v.entry).chain(std::iter::once(&end));
-        leaving
-            .zip(entering)
-            .map(|(from, to)| Ok(crossing::plan(&scene, from, to, &mut rng)?))
-            .collect()
     }
 }

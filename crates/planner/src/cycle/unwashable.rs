@@ -1,12 +1,16 @@
 //! A plate that cannot be washed whole: which part of it, why, and where it could be.
 
-use super::Stages;
 use super::arm::Arm;
-use crate::posture::PostureError;
-use crate::posture::washable::{self, Cause, Move, Washable};
+use super::stages::Stages;
+use super::{CycleError, visit};
+use crate::crossing::Terminal;
+use crate::posture::elsewhere::{Move, SEARCHED_M};
+use crate::posture::washable::{self, Cause, Washable};
+use crate::posture::{self, PostureError};
 use crate::stroke::Stroke;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use platewash_kinematics::JointVector;
+use serde::Serialize;
 use std::fmt;
 
 /// What is known of a plate that cannot be washed whole.
@@ -22,8 +26,21 @@ pub struct UnwashablePlate {
     pub share: Option<f64>,
     /// What keeps the rest from being washed, the most frequent first.
     pub causes: Vec<Cause>,
-    /// The nearest centre at which it can be washed whole, for a plate whose position was given \[m\].
+    /// The nearest centre found at which it can be washed whole, and the arm gets there and away \[m\]; on a grid of a
+    /// millimetre, so that what is printed is what was tried.
     pub nearest_m: Option<[f64; 2]>,
+    /// How that was looked for.
+    pub elsewhere: Elsewhere,
+}
+
+/// How another place for a plate was looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Elsewhere {
+    /// On rings up to this distance from where it lies \[m\].
+    Within(f64),
+    /// Not at all: plates that are sampled are not moved.
+    Sampled,
 }
 
 impl Stages<'_> {
@@ -41,8 +58,11 @@ impl Stages<'_> {
             Ok(Washable::Part { share, causes }) => (Some(share), causes),
             _ => (None, Vec::new()),
         };
-        let given = self.scenario.layout.positions_m.is_some();
-        let elsewhere = Move {
+        let elsewhere = match self.scenario.layout.positions_m {
+            Some(_) => Elsewhere::Within(SEARCHED_M),
+            None => Elsewhere::Sampled,
+        };
+        let place = Move {
             robot: self.robot,
             tool: &self.scenario.tool,
             plates: self.plates,
@@ -52,7 +72,11 @@ impl Stages<'_> {
             settings: &self.posture,
             near,
         };
-        let nearest = given.then(|| elsewhere.nearest_washable().ok().flatten()).flatten();
+        let mut holds = |centre: &Vector2<f64>| self.washes_at(plate, centre).unwrap_or(false);
+        let nearest = match elsewhere {
+            Elsewhere::Within(_) => place.nearest_washable(&mut holds).ok().flatten(),
+            Elsewhere::Sampled => None,
+        };
         UnwashablePlate {
             plate,
             centre_m: [centre.x, centre.y],
@@ -60,7 +84,46 @@ impl Stages<'_> {
             share,
             causes,
             nearest_m: nearest.map(Into::into),
+            elsewhere,
         }
+    }
+
+    /// Whether the job would wash plate number `plate` with its centre there \[m\]: planned as the job is, up to the
+    /// crossings to it and from it. Other plates that cannot be washed are left out.
+    fn washes_at(&self, plate: usize, centre: &Vector2<f64>) -> Result<bool, CycleError> {
+        let mut plates = self.plates.to_vec();
+        (plates[plate].x_m, plates[plate].y_m) = (centre.x, centre.y);
+        let moved = Stages::new(self.scenario, self.robot, &plates)?;
+        moved.check_homes()?;
+        let arm = moved.arm()?;
+        let (order, _) = moved.order(&arm);
+        let mut near = moved.homes[0];
+        let (mut lines, mut at): (Vec<[Terminal; 2]>, _) = (Vec::new(), None);
+        for k in 0..order.len() {
+            let (centre, stroke) = moved.stroke(&arm, &order, k);
+            let washing = match posture::washing(&arm.cell, &stroke, centre, order[k], &moved.posture, &near) {
+                Ok(washing) => washing,
+                Err(_) if order[k] != plate => continue,
+                Err(_) => return Ok(false),
+            };
+            near = washing.q.last().copied().unwrap_or(near);
+            if order[k] == plate {
+                at = Some(lines.len());
+            }
+            lines.push(visit::lines(
+                self.scenario,
+                &arm,
+                order[k],
+                (centre, &stroke),
+                &washing,
+            )?);
+        }
+        let [start, end] = moved.homes.map(Terminal::home);
+        let leaving = std::iter::once(&start).chain(lines.iter().map(|[_, exit]| exit));
+        let entering = lines.iter().map(|[entry, _]| entry).chain(std::iter::once(&end));
+        let beside = |k: usize| at.is_some_and(|at| k == at || k == at + 1);
+        moved.crossings(&arm, leaving, entering, beside)?;
+        Ok(true)
     }
 }
 
@@ -73,16 +136,16 @@ impl fmt::Display for UnwashablePlate {
             None => write!(f, ": {}", self.error)?,
         }
         for cause in &self.causes {
-            let [near, far] = cause.from_axis_m;
-            let (share, least) = (100.0 * cause.share, &cause.least);
-            write!(
-                f,
-                "; {share:.1} %, {near:.3} to {far:.3} m from axis 1, cannot ({least})"
-            )?;
+            write!(f, "; {cause}")?;
         }
-        match self.nearest_m {
-            Some([x, y]) => write!(f, "; the nearest position where it can is about ({x:.3}, {y:.3}) m"),
-            None => Ok(()),
+        match (self.nearest_m, self.elsewhere) {
+            (Some([x, y]), _) => write!(f, "; the nearest position found where it can is ({x:.3}, {y:.3}) m"),
+            (None, Elsewhere::Within(most_m)) => {
+                write!(f, "; no position where it can was found within {most_m} m of it")
+            }
+            (None, Elsewhere::Sampled) => f.write_str(
+                "; plates are sampled, so that no other position was looked for: another seed or layout.only_washable may do",
+            ),
         }
     }
 }

@@ -66,12 +66,7 @@ pub(super) fn plan(
         Ends::Clamped(washing.end_slopes),
     )?;
     let wash = timing::time_optimal(&path, arm.cell.robot, &arm.cell.tip, limits)?;
-    let last = washing.q.len() - 1;
-    let lift = scenario.wash.lift_m;
-    let entry = line(arm, plate, centre, (washing.tilt_rad[0], &washing.q[0]), lift)?;
-    let end = stroke.at(stroke.end()).position;
-    let foot = centre + Vector3::new(end.x, end.y, 0.0);
-    let exit = line(arm, plate, foot, (washing.tilt_rad[last], &washing.q[last]), lift)?;
+    let [entry, exit] = lines(scenario, arm, plate, (centre, &stroke), &washing)?;
     Ok(Visit {
         plate,
         centre,
@@ -81,6 +76,24 @@ pub(super) fn plan(
         entry,
         exit,
     })
+}
+
+/// The lines over the beginning and the end of a stroke.
+pub(super) fn lines(
+    scenario: &Scenario,
+    arm: &Arm<'_>,
+    plate: usize,
+    (centre, stroke): (Vector3<f64>, &Stroke),
+    washing: &Washing,
+) -> Result<[Terminal; 2], CycleError> {
+    let last = washing.q.len() - 1;
+    let lift = scenario.wash.lift_m;
+    let end = stroke.at(stroke.end()).position;
+    let foot = centre + Vector3::new(end.x, end.y, 0.0);
+    Ok([
+        line(arm, plate, centre, (washing.tilt_rad[0], &washing.q[0]), lift)?,
+        line(arm, plate, foot, (washing.tilt_rad[last], &washing.q[last]), lift)?,
+    ])
 }
 
 /// The line over a contact point, with the tool turned as it is there.
@@ -96,7 +109,12 @@ fn line(
     let over = |h: &f64| arm.cell.tip_pose(foot + Vector3::z() * *h, tilt_rad);
     let poses: Vec<_> = heights.iter().map(over).collect();
     let path = arm.solver.solve_path(&poses, q);
-    let mut configurations = path.map_err(|error| CycleError::Line { plate, error })?.q;
+    let line = |error| CycleError::Line {
+        plate,
+        lift_m,
+        error: Box::new(error),
+    };
+    let mut configurations = path.map_err(line)?.q;
     // To the bit where the wash begins or ends.
     configurations[0] = *q;
     Ok(Terminal::line(plate, heights, configurations)?)

@@ -23,6 +23,7 @@
 //! points nothing is proved here. Where nothing answers, the error names contact points and what stands in the way there.
 
 mod cell;
+pub mod elsewhere;
 mod error;
 pub mod exhaustive;
 mod inverse;

@@ -4,6 +4,8 @@ use crate::clearance::PairClearance;
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::analytic::{AnalyticError, OutOfReach, Rejection};
 use platewash_kinematics::ik::{IkCause, IkError};
+use serde::Serialize;
+use std::fmt;
 
 /// Why a contact point cannot be washed at a tilt in a configuration of the arm.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -48,7 +50,8 @@ pub enum Obstacle {
 }
 
 /// The kinds of [`Obstacle`], for counting.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Filter {
     /// [`Obstacle::Reach`] and [`Obstacle::Unsolved`].
@@ -86,6 +89,49 @@ impl Obstacle {
             Self::Clearance { pair, required_m } => required_m - pair.distance_m,
             Self::Jump { by_rad, .. } => *by_rad,
             Self::NotFinite => f64::INFINITY,
+        }
+    }
+}
+
+impl Obstacle {
+    /// In words where this is the greatest of many like it: "by up to", rounded up to what is printed.
+    pub(super) fn fmt_worst(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mm = |m: f64| (1e4 * m).ceil() / 10.0;
+        let degrees = |rad: f64| (100.0 * rad.to_degrees()).ceil() / 100.0;
+        match self {
+            Self::Reach(miss) => write!(f, "out of reach by up to {:.1} mm", mm(miss.by_m)),
+            Self::Limit(violation) => write!(
+                f,
+                "joint {} is up to {:.2}° beyond its limit of {:.2}°",
+                violation.joint + 1,
+                degrees(self.shortfall()),
+                violation.limit_rad.to_degrees()
+            ),
+            Self::Unsolved {
+                cause,
+                position_error_m,
+            } => write!(
+                f,
+                "inverse kinematics: {cause}, up to {:.1} mm off",
+                mm(*position_error_m)
+            ),
+            Self::Clearance { pair, required_m } => write!(
+                f,
+                "{} is up to {:.1} mm too near {}, of {:.1} mm that must be kept",
+                pair.a,
+                mm(required_m - pair.distance_m),
+                pair.b,
+                1e3 * required_m
+            ),
+            Self::Jump { joint, by_rad } => {
+                write!(
+                    f,
+                    "joint {} would have to jump by up to {:.1}°",
+                    joint + 1,
+                    by_rad.to_degrees()
+                )
+            }
+            Self::NotFinite => f.write_str("not finite"),
         }
     }
 }

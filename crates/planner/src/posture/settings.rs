@@ -18,11 +18,17 @@ pub const LARGEST_TILT_RAD: f64 = 0.9 * FRAC_PI_2;
 /// Lengths beyond this are no plates \[m\].
 const LARGEST_M: f64 = 10.0;
 
+/// The least outer radius of a stroke \[m\].
+pub(crate) const LEAST_RADIUS_M: f64 = 1e-4;
+
+/// The fewest turns of a stroke.
+pub(crate) const LEAST_TURNS: f64 = 0.25;
+
 /// The most turns of a stroke.
-const MOST_TURNS: f64 = 200.0;
+pub(crate) const MOST_TURNS: f64 = 200.0;
 
 /// The longest stroke \[m\]; it bounds time and memory.
-const LONGEST_M: f64 = 100.0;
+pub(crate) const LONGEST_M: f64 = 100.0;
 
 /// What a posture must keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,8 +58,8 @@ impl PostureSettings {
 
 /// Refuses a stroke, a centre or a configuration that is none.
 pub(super) fn check_input(stroke: &Stroke, centre: &Vector3<f64>, near: &JointVector) -> Result<(), PostureError> {
-    within("stroke.radius_m", stroke.radius_m, [1e-4, LARGEST_M])?;
-    within("stroke.turns", stroke.turns, [0.25, MOST_TURNS])?;
+    within("stroke.radius_m", stroke.radius_m, [LEAST_RADIUS_M, LARGEST_M])?;
+    within("stroke.turns", stroke.turns, [LEAST_TURNS, MOST_TURNS])?;
     within("stroke.start_angle_rad", stroke.start_angle_rad, [-1e3, 1e3])?;
     // A spiral of mean radius R/2, and a ring.
     let length = PI * stroke.radius_m * (stroke.turns + 2.0);

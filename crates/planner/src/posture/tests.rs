@@ -1,6 +1,7 @@
+use super::elsewhere::{Move, on_grid};
 use super::exhaustive::posture_anywhere;
 use super::task::{Profile, Task};
-use super::washable::{Cause, Move, Washable, washable};
+use super::washable::{Cause, Washable, washable};
 use super::washing::{by_search, policies};
 use super::*;
 use crate::clearance::{ClearanceModel, PairClearance};
@@ -8,7 +9,7 @@ use crate::layout::Plate;
 use crate::scenario::ToolSection;
 use crate::stroke::Stroke;
 use crate::trig::sin_cos;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use platewash_kinematics::{JointVector, RobotModel, rotation::Rigid};
 use proptest::prelude::*;
 
@@ -295,14 +296,23 @@ fn a_failure_is_the_arms_own() {
                 panic!("{rho} {azimuth}: washable");
             };
             assert!(0.4 < share && share < 1.0, "{share}");
-            let filters: Vec<_> = causes.iter().map(|cause| cause.least.filter()).collect();
+            let filters: Vec<_> = causes.iter().map(|cause| cause.worst.filter()).collect();
             assert!(expected.iter().all(|filter| filters.contains(filter)), "{causes:?}");
             for Cause {
                 from_axis_m: [least, most],
                 share,
-                ..
+                worst,
             } in causes
             {
+                // The largest shortfall, not the least, which lies at the edge of what can be washed.
+                let of_kind = ends.iter().flat_map(|end| &end.reasons);
+                let of_kind = of_kind.filter(|reason| reason.least.filter() == worst.filter());
+                assert!(of_kind.clone().next().is_none() || worst.shortfall() > 0.0);
+                if expected == [Filter::Reach, Filter::Reach] {
+                    for reason in of_kind {
+                        assert!(reason.least.shortfall() <= worst.shortfall() + 1e-12, "{worst}");
+                    }
+                }
                 assert!(least <= most && rho - 0.146 <= least && most <= rho + 0.146 && share > 0.0);
             }
         });
@@ -325,7 +335,7 @@ fn a_better_position_is_near_and_does() {
             settings: &settings,
             near: &HOME,
         };
-        let found = search.nearest_washable().unwrap().unwrap();
+        let found = search.nearest_washable(&mut |_| true).unwrap().unwrap();
         let moved = [
             Plate {
                 x_m: found.x,
@@ -334,10 +344,48 @@ fn a_better_position_is_near_and_does() {
             },
             plates[1],
         ];
-        assert!((centre(&moved[0]) - centre(&plates[0])).norm() <= furthest, "{found}");
+        assert!(
+            (centre(&moved[0]) - centre(&plates[0])).norm() <= furthest + 2e-3,
+            "{found}"
+        );
+        assert_eq!(found, on_grid(&found));
+        let printed: [f64; 2] = [found.x, found.y].map(|at| format!("{at:.3}").parse().unwrap());
+        assert_eq!(printed, [found.x, found.y], "to the bit");
         within(&TOOL, &moved, |cell| {
             let washing = washing(cell, &stroke, centre(&moved[0]), 0, &settings, &HOME).unwrap();
             check(cell, &stroke, 0, &settings, &washing);
         });
     }
+}
+
+/// A place that the caller refuses is no answer: the next one is, further out, and none is where all are refused.
+#[test]
+fn a_better_position_is_one_that_the_caller_accepts() {
+    let robot = RobotModel::irb120().unwrap();
+    let (stroke, settings) = (stroke(RADIUS_M), settings(15.0));
+    let plates = [plate_at(0.56, -40.0)];
+    let search = Move {
+        robot: &robot,
+        tool: &TOOL,
+        plates: &plates,
+        plate: 0,
+        stroke: &stroke,
+        height_m: 0.0,
+        settings: &settings,
+        near: &HOME,
+    };
+    let mut asked = Vec::new();
+    let third = |place: &Vector2<f64>| {
+        asked.push(*place);
+        asked.len() == 3
+    };
+    let found = search.nearest_washable(&mut { third }).unwrap().unwrap();
+    assert_eq!((asked.len(), asked[2]), (3, found));
+    let mut count = 0;
+    let none = |_: &Vector2<f64>| {
+        count += 1;
+        false
+    };
+    assert_eq!(search.nearest_washable(&mut { none }).unwrap(), None);
+    assert!(0 < count && count <= elsewhere::MOST_CHECKS, "{count}");
 }

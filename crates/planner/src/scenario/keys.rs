@@ -134,7 +134,7 @@ pub const KEYS: &[Key] = &[
         "tool.length_m",
         "m",
         Number(0.0, 2.0),
-        "From the flange to the sponge's far face, along the flange's normal; 0 means no tool body.",
+        "From the flange to the sponge's far face, along the flange's normal; 0 means no tool body; above 0 in a certified job.",
     ),
     key("tool.radius_m", "m", NumberAbove(0.0, 1.0), "Radius of the handle."),
     key(
@@ -184,7 +184,7 @@ pub const KEYS: &[Key] = &[
         "layout.plate_radius_m",
         "m",
         NumberAbove(0.0, 10.0),
-        "Radius of a plate.",
+        "Radius of a plate; above 0.000001 in a certified job.",
     ),
     key(
         "layout.plate_height_m",
@@ -196,7 +196,7 @@ pub const KEYS: &[Key] = &[
         "layout.plate_thickness_m",
         "m",
         NumberAbove(0.0, 1.0),
-        "Thickness of a plate, downwards from its washing surface.",
+        "Thickness of a plate, downwards from its washing surface; above 0.000001 in a certified job.",
     ),
     key(
         "layout.region",
@@ -249,12 +249,17 @@ pub const KEYS: &[Key] = &[
         "Plate centres, in place of sampling: as many plates as are listed.",
     ),
     key("wash.points", "", Integer(2, 100_000), "Waypoints of the spiral."),
-    key("wash.turns", "", NumberAbove(0.0, 1000.0), "Turns of the spiral."),
+    key(
+        "wash.turns",
+        "",
+        NumberAbove(0.0, 1000.0),
+        "Turns of the spiral; from 0.25 to 200 in a certified job.",
+    ),
     key(
         "wash.path_radius_m",
         "m",
         NumberAbove(0.0, 10.0),
-        "Outer radius of the spiral.",
+        "Outer radius of the spiral; in a certified job at least 0.0001, and π · path_radius_m · (turns + 2) at most 100 m.",
     ),
     key(
         "wash.height_m",
@@ -272,7 +277,8 @@ pub const KEYS: &[Key] = &[
         "wash.clearance_m",
         "m",
         Number(0.0, 1.0),
-        "Least clearance that counts as free; at 0 only contact is a violation.",
+        "Least clearance that counts as free; at 0 only contact is a violation. In a certified job the planner keeps 0.5 mm more \
+         while washing, and 1 mm more at home, on the lines over plates and between them, because it looks in steps.",
     ),
     key(
         "wash.tilt_max_deg",
@@ -284,19 +290,20 @@ pub const KEYS: &[Key] = &[
         "wash.speed_m_s",
         "m/s",
         NumberAbove(0.0, 10.0),
-        "Largest speed of the tip while it washes (certified).",
+        "Largest speed of the tip while it washes (certified); at least 0.000001.",
     ),
     key(
         "wash.acceleration_m_s2",
         "m/s²",
         NumberAbove(0.0, 1000.0),
-        "Largest acceleration of the tip while it washes (certified).",
+        "Largest acceleration of the tip while it washes (certified); at least 0.000001.",
     ),
     key(
         "wash.lift_m",
         "m",
         NumberAbove(0.0, 1.0),
-        "How far the tip approaches and retreats along the plate's normal (certified).",
+        "How far the tip approaches and retreats along the plate's normal (certified): more than clearance_m and 1 mm, so that a \
+         tilted sponge too is clear of the plate.",
     ),
     key(
         "ik.method",
@@ -351,19 +358,19 @@ pub const KEYS: &[Key] = &[
         "limits.joint_acceleration_rad_s2",
         "rad/s²",
         JointsAbove(0.0, 1e6),
-        "Joint acceleration limits: an assumption, as the manufacturer publishes none.",
+        "Joint acceleration limits, at least 0.001 in a certified job: an assumption, as the manufacturer publishes none.",
     ),
     key(
         "limits.tip_speed_m_s",
         "m/s",
         NumberAbove(0.0, 100.0),
-        "Largest speed of the tip anywhere (certified): an assumption.",
+        "Largest speed of the tip anywhere (certified), at least 0.000001: an assumption.",
     ),
     key(
         "limits.tip_acceleration_m_s2",
         "m/s²",
         NumberAbove(0.0, 1e4),
-        "Largest acceleration of the tip anywhere (certified): an assumption.",
+        "Largest acceleration of the tip anywhere (certified), at least 0.000001: an assumption.",
     ),
     key(
         "control.law",

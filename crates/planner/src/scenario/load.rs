@@ -121,6 +121,7 @@ impl Scenario {
             );
         }
         self.check_control()?;
+        self.check_certified()?;
         self.check_waypoints()
     }
 }

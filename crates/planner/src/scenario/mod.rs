@@ -3,6 +3,7 @@
 //! [`keys`] is the one table of keys, units, ranges and meanings: it checks files and makes
 //! `docs/scenario.md`. The defaults are those of the types here.
 
+mod certified;
 mod control;
 mod document;
 mod error;
@@ -18,7 +19,7 @@ pub use document::reference;
 pub use error::{Problem, ScenarioError};
 pub use plant::{Integrator, PlantSection};
 pub use shipped::{SHIPPED, ShippedScenario};
-pub use work::{MAX_PLATE_CHECKS, MAX_WAYPOINTS};
+pub use work::{MAX_PLATE_CHECKS, MAX_STROKE_CHECKS, MAX_WAYPOINTS};
 
 use crate::layout::Region;
 use crate::transition::Arc;

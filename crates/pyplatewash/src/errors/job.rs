@@ -82,6 +82,7 @@ pub fn layout(py: Python<'_>, error: &LayoutError) -> PyErr {
 fn cycle(py: Python<'_>, error: &CycleError) -> PyErr {
     let mut fields = vec![("stage", any(py, "cycle"))];
     match error {
+        CycleError::NoContact { .. } => return input(py, "wash.height_m", &error.to_string()),
         CycleError::NoTool => return input(py, "tool.length_m", &error.to_string()),
         CycleError::Unwashable(plate) => {
             fields.extend([("cause", any(py, "unwashable")), ("plate", any(py, plate.plate))]);

@@ -1,0 +1,114 @@
+//! Why there is no crossing.
+
+use super::TooNear;
+use crate::joint_path::JointPathError;
+use crate::timing::TimingError;
+use platewash_kinematics::LimitViolation;
+use std::fmt;
+
+/// Why there is no crossing.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CrossingError {
+    /// No route is free.
+    #[error(
+        "no free way from {} to {}: direct, raised, arc and {nodes} sampled configurations all fail{}",
+        name(.from), name(.to), first(.blocked.as_deref())
+    )]
+    NoWay {
+        /// The plate it leaves; `None` for home.
+        from: Option<usize>,
+        /// The plate it leads to; `None` for home.
+        to: Option<usize>,
+        /// Configurations sampled.
+        nodes: usize,
+        /// Where the first of the direct ways ends.
+        blocked: Option<Box<Blocked>>,
+    },
+    /// The line over a plate is not free.
+    #[error("the line over plate {plate} is not clear at {height_m:.3} m{}", line(.too_near.as_deref()))]
+    Line {
+        /// The plate.
+        plate: usize,
+        /// Height on the line \[m\].
+        height_m: f64,
+        /// The bodies that are too near there.
+        too_near: Option<Box<TooNear>>,
+    },
+    /// Home is not free.
+    #[error("the arm is not clear at home{}", colon(.too_near.as_deref()))]
+    Home {
+        /// The bodies that are too near there.
+        too_near: Option<Box<TooNear>>,
+    },
+    /// A path that cannot be splined.
+    #[error(transparent)]
+    Path(#[from] JointPathError),
+    /// A path that cannot be timed.
+    #[error("{0}; the keys of [limits] decide it")]
+    Timing(TimingError),
+}
+
+/// What ends a way.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Blocked {
+    /// A joint would be beyond its limit.
+    Limit(LimitViolation),
+    /// Two bodies would be too near.
+    TooNear(TooNear),
+}
+
+impl CrossingError {
+    /// Whether there is no way, as opposed to numbers with which none can be computed.
+    #[must_use]
+    pub fn is_infeasible(&self) -> bool {
+        matches!(self, Self::NoWay { .. } | Self::Line { .. } | Self::Home { .. })
+    }
+}
+
+// The message above holds that of its cause, which is therefore not told again as a source.
+impl From<TimingError> for CrossingError {
+    fn from(error: TimingError) -> Self {
+        Self::Timing(error)
+    }
+}
+
+impl fmt::Display for Blocked {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Limit(v) => write!(
+                f,
+                "joint {} would be at {:.2}°, beyond its limit of {:.2}°",
+                v.joint + 1,
+                v.position_rad.to_degrees(),
+                v.limit_rad.to_degrees()
+            ),
+            Self::TooNear(too_near) => too_near.fmt(f),
+        }
+    }
+}
+
+fn name(end: &Option<usize>) -> String {
+    end.map_or_else(|| "home".to_owned(), |plate| format!("plate {plate}"))
+}
+
+fn first(blocked: Option<&Blocked>) -> String {
+    blocked.map_or_else(String::new, |blocked| format!("; on the direct way {blocked}"))
+}
+
+fn colon(too_near: Option<&TooNear>) -> String {
+    too_near.map_or_else(String::new, |too_near| format!(": {too_near}"))
+}
+
+/// With a hint where it is the lift that decides: at the top of the line the sponge must be clear of the plates.
+fn line(too_near: Option<&TooNear>) -> String {
+    let touches = |too_near: &&TooNear| {
+        let names = [&too_near.pair.a, &too_near.pair.b];
+        names.iter().any(|n| *n == "sponge") && names.iter().any(|n| n.starts_with("plate "))
+    };
+    let hint = too_near.filter(touches).map_or(
+        "",
+        |_| "; at its top, wash.lift_m, also a tilted sponge must be as far off: give a larger wash.lift_m",
+    );
+    colon(too_near) + hint
+}

@@ -1,0 +1,108 @@
+//! Why a cycle could not be planned.
+
+use super::UnwashablePlate;
+use crate::clearance::ClearanceError;
+use crate::crossing::{CrossingError, TerminalError, TooNear};
+use crate::joint_path::JointPathError;
+use crate::posture::PostureError;
+use crate::timing::TimingError;
+use crate::trajectory::KnotError;
+use platewash_kinematics::LimitViolation;
+use platewash_kinematics::ik::{IkPathError, IkSettingsError};
+
+/// Why a cycle could not be planned.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CycleError {
+    /// The end configuration lies outside the joint limits.
+    #[error(
+        "robot.home_deg: joint {} at {:.4}° is beyond its limit of {:.4}°",
+        .0.joint + 1, .0.position_rad.to_degrees(), .0.limit_rad.to_degrees()
+    )]
+    Home(LimitViolation),
+    /// At an end configuration the arm is too near something.
+    #[error("{key}: the arm is not clear at home: {too_near}")]
+    HomeNotClear {
+        /// The key that states the configuration.
+        key: &'static str,
+        /// The bodies.
+        too_near: Box<TooNear>,
+    },
+    /// A certified job needs a tool that touches the plates.
+    #[error(
+        "tool.length_m is 0: a certified job needs a tool; the paper's program (job.program = \"paper\") hovers without one"
+    )]
+    NoTool,
+    /// The tip washes above the plates or below their surface.
+    #[error("wash.height_m must be 0 in a certified job, whose sponge touches the plates; found {height_m}")]
+    NoContact {
+        /// Height asked for \[m\].
+        height_m: f64,
+    },
+    /// The collision model could not be made.
+    #[error("clearance: {0}")]
+    Clearance(ClearanceError),
+    /// An inverse-kinematics setting is out of range.
+    #[error(transparent)]
+    IkSettings(#[from] IkSettingsError),
+    /// The arm does not suit the posture planner.
+    #[error(transparent)]
+    Cell(PostureError),
+    /// A plate cannot be washed whole.
+    #[error("{0}")]
+    Unwashable(Box<UnwashablePlate>),
+    /// No layout drawn can be washed whole.
+    #[error(
+        "none of {layouts} layouts drawn can be washed whole, as layout.only_washable asks; of the last one, {last}"
+    )]
+    NoneWashable {
+        /// Layouts drawn.
+        layouts: usize,
+        /// What stands in the way in the last one.
+        last: String,
+    },
+    /// The arm cannot follow the line over a plate.
+    #[error("the arm cannot follow the line over plate {plate} up to wash.lift_m = {lift_m}: {error}")]
+    Line {
+        /// The plate.
+        plate: usize,
+        /// Height of the line \[m\].
+        lift_m: f64,
+        /// Why.
+        error: Box<IkPathError>,
+    },
+    /// The line over a plate is no path.
+    #[error(transparent)]
+    Terminal(#[from] TerminalError),
+    /// There is no way between two plates, or from or to home.
+    #[error(transparent)]
+    Crossing(#[from] CrossingError),
+    /// A path that cannot be splined.
+    #[error(transparent)]
+    Path(#[from] JointPathError),
+    /// A path that cannot be timed.
+    #[error("{0}; wash.speed_m_s, wash.acceleration_m_s2 and the keys of [limits] decide it")]
+    Timing(TimingError),
+    /// Motions that don't fit together.
+    #[error(transparent)]
+    Knots(#[from] KnotError),
+}
+
+impl CycleError {
+    /// Whether the input was fine but asks for what cannot be done (exit code 3).
+    #[must_use]
+    pub fn is_infeasible(&self) -> bool {
+        match self {
+            Self::HomeNotClear { .. } | Self::Unwashable(_) | Self::NoneWashable { .. } | Self::Line { .. } => true,
+            Self::Crossing(error) => error.is_infeasible(),
+            _ => false,
+        }
+    }
+}
+
+// The message above holds that of its cause, which is therefore not told again as a source.
+impl From<TimingError> for CycleError {
+    fn from(error: TimingError) -> Self {
+        Self::Timing(error)
+    }
+}

@@ -1,0 +1,164 @@
+//! Where else a plate could lie to be washed whole.
+
+use super::task::{Task, overlap};
+use super::washing::by_policy;
+use super::{Cell, PostureError, PostureSettings};
+use crate::clearance::ClearanceModel;
+use crate::layout::Plate;
+use crate::robot::base_footprint;
+use crate::scenario::ToolSection;
+use crate::stroke::Stroke;
+use crate::trig::sin_cos;
+use nalgebra::{Vector2, Vector3};
+use platewash_kinematics::{JointVector, RobotModel};
+use std::f64::consts::TAU;
+
+/// Distance of the rings on which other positions are tried \[m\].
+pub const RING_M: f64 = 0.02;
+
+/// Rings tried.
+pub const RINGS: u32 = 30;
+
+/// How far from where a plate lies another place is looked for \[m\].
+pub const SEARCHED_M: f64 = 0.6;
+
+/// Places of the grid in a metre.
+const PER_METRE: f64 = 1000.0;
+
+/// Grid of the answers, so that they can be printed in full \[m\].
+pub const GRID_M: f64 = 1.0 / PER_METRE;
+
+/// Positions tried on a ring.
+const DIRECTIONS: u32 = 24;
+
+/// Halvings between a ring and the one within it.
+const HALVINGS: u32 = 6;
+
+/// Steps outwards from the least distance that suits, tried until one holds on the grid \[m\].
+const FURTHER_M: [f64; 7] = [0.0, 1e-3, 2e-3, 3e-3, 5e-3, 9e-3, 17e-3];
+
+/// Times that the caller's check is asked, at most: it may plan a whole job.
+pub const MOST_CHECKS: usize = 32;
+
+/// Where to look for a better position of a plate.
+#[derive(Debug, Clone, Copy)]
+pub struct Move<'a> {
+    /// The arm.
+    pub robot: &'a RobotModel,
+    /// Its tool.
+    pub tool: &'a ToolSection,
+    /// All plates.
+    pub plates: &'a [Plate],
+    /// Index of the one to move.
+    pub plate: usize,
+    /// The stroke on it.
+    pub stroke: &'a Stroke,
+    /// Height of the tip above its washing surface \[m\].
+    pub height_m: f64,
+    /// What a posture must keep.
+    pub settings: &'a PostureSettings,
+    /// The configuration it starts not far from \[rad\].
+    pub near: &'a JointVector,
+}
+
+impl Move<'_> {
+    /// The nearest centre (x, y) on the grid of [`GRID_M`] \[m\] at which the plate can be washed whole by a policy of tilts,
+    /// overlaps neither another plate nor the base, and `holds` agrees; `None` within [`SEARCHED_M`] of where it lies. Tried in 24
+    /// directions on growing rings, halved towards where it lies, put on the grid, and stepped further out until the place on the
+    /// grid itself passes: right to about a tenth of its distance. `holds` is asked [`MOST_CHECKS`] times at most.
+    ///
+    /// # Errors
+    /// [`PostureError`] for numbers out of range, and for an arm of which no clearance model can be made.
+    pub fn nearest_washable(
+        &self,
+        holds: &mut dyn FnMut(&Vector2<f64>) -> bool,
+    ) -> Result<Option<Vector2<f64>>, PostureError> {
+        let count = self.plates.len();
+        let missing = PostureError::Plate {
+            plate: self.plate,
+            count,
+        };
+        let here = self.plates.get(self.plate).ok_or(missing)?;
+        let here = Vector2::new(here.x_m, here.y_m);
+        let at_rest = on_grid(&here);
+        if self.suits(&at_rest)? && holds(&at_rest) {
+            return Ok(Some(at_rest));
+        }
+        let mut checks = 1;
+        for ring in 1..=RINGS {
+            for (distance, away) in self.on_ring(&here, ring)? {
+                for further in FURTHER_M {
+                    let place = on_grid(&(here + away * (distance + further)));
+                    if !self.suits(&place)? {
+                        continue;
+                    }
+                    if checks == MOST_CHECKS {
+                        return Ok(None);
+                    }
+                    checks += 1;
+                    if holds(&place) {
+                        return Ok(Some(place));
+                    }
+                }
+            }
+        }
+        Ok(None)
+    }
+
+    /// Directions in which a place on the ring suits, and the least distance there that does \[m\]; the nearest first.
+    fn on_ring(&self, here: &Vector2<f64>, ring: u32) -> Result<Vec<(f64, Vector2<f64>)>, PostureError> {
+        let mut found = Vec::new();
+        for k in 0..DIRECTIONS {
+            let (s, c) = sin_cos(TAU * f64::from(k) / f64::from(DIRECTIONS));
+            let away = Vector2::new(c, s);
+            if self.suits(&(here + away * (RING_M * f64::from(ring))))? {
+                found.push((self.halve(here, &away, ring)?, away));
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(found)
+    }
+
+    /// The least distance from `here` in a direction that suits, between a ring that does and the one within it \[m\].
+    fn halve(&self, here: &Vector2<f64>, away: &Vector2<f64>, ring: u32) -> Result<f64, PostureError> {
+        let [mut bad, mut good] = [ring - 1, ring].map(|ring| RING_M * f64::from(ring));
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (bad + good);
+            if self.suits(&(here + away * middle))? {
+                good = middle;
+            } else {
+                bad = middle;
+            }
+        }
+        Ok(good)
+    }
+
+    /// Whether the plate can be washed whole with its centre there, and has room there.
+    fn suits(&self, centre: &Vector2<f64>) -> Result<bool, PostureError> {
+        let mut plates = self.plates.to_vec();
+        (plates[self.plate].x_m, plates[self.plate].y_m) = (centre.x, centre.y);
+        let moved = plates[self.plate];
+        let others = plates.iter().enumerate().filter(|(i, _)| *i != self.plate);
+        if others.into_iter().any(|(_, other)| overlap(&moved, other)) || self.meets_base(&moved) {
+            return Ok(false);
+        }
+        let clearance = ClearanceModel::new(self.robot, self.tool, &plates)?;
+        let cell = Cell::new(self.robot, self.tool, &clearance, &plates)?;
+        let centre = Vector3::new(centre.x, centre.y, moved.z_m + self.height_m);
+        let task = Task::new(&cell, self.stroke, centre, self.plate, self.settings, self.near)?;
+        Ok(by_policy(&task, self.settings, self.near).is_some())
+    }
+
+    fn meets_base(&self, plate: &Plate) -> bool {
+        let foot = base_footprint(self.robot);
+        let beside = |[least, most]: [f64; 2], at: f64| (least - at).max(at - most).max(0.0);
+        let (dx, dy) = (beside(foot.x_m, plate.x_m), beside(foot.y_m, plate.y_m));
+        dx * dx + dy * dy < plate.radius_m * plate.radius_m
+    }
+}
+
+/// The nearest place of the grid; what three decimals print is it to the bit.
+pub(super) fn on_grid(place: &Vector2<f64>) -> Vector2<f64> {
+    // Adding 0 makes −0 into 0.
+    place.map(|at| (at * PER_METRE).round() / PER_METRE + 0.0)
+}

@@ -1,0 +1,38 @@
+//! The files of `run` and `plan`: they own their names in the output folder, so that no proof of an earlier call stays beside
+//! a new result.
+
+use super::failure::Failure;
+use super::output;
+use anyhow::Context;
+use std::path::{Path, PathBuf};
+
+/// Names in the output folder that belong to `run` and `plan`.
+pub const OWNED: [&str; 6] = [
+    "plan.json",
+    "trajectory.csv",
+    "executed.csv",
+    "certificate.json",
+    "report.json",
+    "report.txt",
+];
+
+/// Writes the files of one call, and removes from the folder those of [`OWNED`] that it does not write. All or nothing, as
+/// [`output::write_files`].
+pub fn write(folder: &Path, files: &[(PathBuf, String)]) -> Result<(), Failure> {
+    let stale = stale(folder, files).map_err(Failure::input)?;
+    output::replace(files, &stale)
+}
+
+fn stale(folder: &Path, files: &[(PathBuf, String)]) -> anyhow::Result<Vec<PathBuf>> {
+    let place = |path: &Path| output::place(path).with_context(|| format!("{}: cannot be written", path.display()));
+    let written: Vec<_> = files.iter().map(|(path, _)| place(path)).collect::<Result<_, _>>()?;
+    let mut stale = Vec::new();
+    for path in OWNED.map(|name| folder.join(name)) {
+        // A folder of that name is none of ours.
+        let is_file = std::fs::symlink_metadata(&path).is_ok_and(|found| !found.is_dir());
+        if is_file && !written.contains(&place(&path)?) {
+            stale.push(path);
+        }
+    }
+    Ok(stale)
+}

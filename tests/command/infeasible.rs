@@ -1,0 +1,246 @@
+//! Certified jobs that cannot be done: what is said, written and removed.
+
+use super::*;
+
+fn plan(dir: &Path, file: &Path) -> Ran {
+    platewash(dir, &["plan", "--scenario", file.to_str().unwrap(), "--out", "o"])
+}
+
+fn at(x: f64, y: f64) -> String {
+    format!("positions_m = [[{x}, {y}]]")
+}
+
+#[test]
+fn an_infeasible_job_is_reported_with_its_cause_and_a_place_that_will_do() {
+    let folder = folder();
+    let dir = folder.path();
+    let far = [("region = \"appendix\"", "positions_m = [[0.8, 0.0]]")];
+    let file = kitchen(dir, &far);
+    let run = ["run", "--scenario", file.to_str().unwrap()];
+    let ran = platewash(dir, &run);
+    assert_eq!(ran.code, 3, "{}", ran.stderr);
+    assert!(
+        ran.stdout.starts_with("INFEASIBLE: plate 0 at (0.800, 0.000) m"),
+        "{}",
+        ran.stdout
+    );
+    assert_eq!(names(&dir.join("out")), ["report.json", "report.txt"]);
+    assert_eq!(std::fs::read_to_string(dir.join("out/report.txt")).unwrap(), ran.stdout);
+    let ran = platewash(dir, &[&run[..], &["--json"]].concat());
+    let value: Value = serde_json::from_str(&ran.stdout).unwrap();
+    assert_eq!(value["verdict"], "infeasible");
+    let plate = &value["plates"][0];
+    assert_eq!(plate["plate"], 0);
+    assert_eq!(plate["washable_share"], 0.0);
+    // The largest shortfall: the stroke's far side lies 0.2 m and more beyond the reach of 0.635 m.
+    assert!(plate["causes"][0]["shortfall_m"].as_f64().unwrap() > 0.2, "{plate}");
+    assert_eq!(plate["causes"][0]["kind"], "reach");
+    assert!(value["reason"].as_str().unwrap().contains("by up to"));
+    let written = std::fs::read_to_string(dir.join("out/report.json")).unwrap();
+    assert_eq!(serde_json::from_str::<Value>(&written).unwrap(), value);
+    let [x, y] = [0, 1].map(|k| plate["nearest_m"][k].as_f64().unwrap());
+    assert!(
+        value["reason"]
+            .as_str()
+            .unwrap()
+            .contains(&format!("({x:.3}, {y:.3}) m"))
+    );
+    plan(dir, &kitchen(dir, &[("region = \"appendix\"", &at(x, y))])).done();
+    kitchen(dir, &[far[0], ("on_failure = \"fail\"", "on_failure = \"report\"")]);
+    let ran = platewash(dir, &run).done();
+    assert!(ran.stdout.starts_with("INFEASIBLE"), "{}", ran.stdout);
+}
+
+/// Places whose suggestions failed again when typed in, or left the job failing on a line or at home.
+#[test]
+fn a_suggested_place_holds_when_typed_in() {
+    let folder = folder();
+    let dir = folder.path();
+    let cases = [
+        (0.475, 0.194, 0.145, 0.1, 0.0, 15.0),
+        (-0.386, 0.185, 0.1, 0.25, 0.0, 15.0),
+        (-0.063, 0.508, 0.145, 0.03, 0.0, 15.0),
+        (-0.516, 0.22, 0.1, 0.25, 0.0, 30.0),
+        (-0.004, -0.194, 0.1, 0.1, 0.0, 15.0),
+        (0.015, 0.236, 0.145, 0.1, 0.0, 30.0),
+        (-0.1, 0.604, 0.1, 0.1, 0.01, 30.0),
+        (-0.149, 0.526, 0.145, 0.25, 0.01, 30.0),
+    ];
+    for (x, y, radius, height, clearance, tilt) in cases {
+        let case = |x: f64, y: f64| {
+            kitchen(
+                dir,
+                &[
+                    ("region = \"appendix\"", &at(x, y)),
+                    ("plate_radius_m = 0.145", &format!("plate_radius_m = {radius}")),
+                    (
+                        "path_radius_m = 0.12385",
+                        &format!("path_radius_m = {}", radius - 0.021),
+                    ),
+                    ("plate_height_m = 0.03", &format!("plate_height_m = {height}")),
+                    ("clearance_m = 0.01", &format!("clearance_m = {clearance}")),
+                    ("tilt_max_deg = 15", &format!("tilt_max_deg = {tilt}")),
+                    ("overlap = \"fail\"", "overlap = \"report\""),
+                ],
+            )
+        };
+        let file = case(x, y);
+        let ran = platewash(
+            dir,
+            &["plan", "--json", "--scenario", file.to_str().unwrap(), "--out", "o"],
+        );
+        assert_eq!(ran.code, 3, "{}", ran.stderr);
+        let value: Value = serde_json::from_str(&ran.stdout).unwrap();
+        let nearest = &value["plates"][0]["nearest_m"];
+        let Some([x, y]) = nearest.as_array().map(|_| [0, 1].map(|k| nearest[k].as_f64().unwrap())) else {
+            panic!("{}", value["reason"]);
+        };
+        plan(dir, &case(x, y)).done();
+    }
+}
+
+#[test]
+fn that_no_place_was_found_is_said_plainly() {
+    let folder = folder();
+    let dir = folder.path();
+    let large = [
+        ("plate_radius_m = 0.145", "plate_radius_m = 0.6"),
+        ("path_radius_m = 0.12385", "path_radius_m = 0.55"),
+        ("start_deg = [0, 0, 0, 0, 90, 0]", "start_deg = [0, -30, 0, 0, 0, 0]"),
+    ];
+    let given = [&large[..], &[("region = \"appendix\"", "positions_m = [[0.9, 0.0]]")]].concat();
+    let ran = plan(dir, &kitchen(dir, &given));
+    assert_eq!(ran.code, 3);
+    assert!(
+        ran.stdout.contains("no position where it can was found within 0.6 m"),
+        "{}",
+        ran.stdout
+    );
+    let sampled = [
+        &large[..],
+        &[
+            ("region = \"appendix\"", "rho_m = [0.8, 0.9]"),
+            ("count = 4", "count = 1"),
+        ],
+    ]
+    .concat();
+    let ran = plan(dir, &kitchen(dir, &sampled));
+    assert_eq!(ran.code, 3);
+    assert!(
+        ran.stdout.contains("plates are sampled") && ran.stdout.contains("layout.only_washable"),
+        "{}",
+        ran.stdout
+    );
+}
+
+#[test]
+fn nothing_of_an_earlier_call_stays_beside_a_new_result() {
+    let folder = folder();
+    let dir = folder.path();
+    let out = dir.join("out");
+    std::fs::create_dir_all(&out).unwrap();
+    for name in [
+        "plan.json",
+        "certificate.json",
+        "report.txt",
+        "executed.csv",
+        "mine.txt",
+    ] {
+        std::fs::write(out.join(name), "PROVED").unwrap();
+    }
+    let far = kitchen(dir, &[("region = \"appendix\"", "positions_m = [[0.8, 0.0]]")]);
+    assert_eq!(platewash(dir, &["run", "--scenario", far.to_str().unwrap()]).code, 3);
+    assert_eq!(names(&out), ["mine.txt", "report.json", "report.txt"]);
+    assert!(
+        std::fs::read_to_string(out.join("report.txt"))
+            .unwrap()
+            .starts_with("INFEASIBLE")
+    );
+    platewash(dir, &["plan", "--scenario", "paper-text", "--csv", "out/executed.csv"]).done();
+    assert_eq!(names(&out), ["executed.csv", "mine.txt", "plan.json"]);
+    // Bad input removes nothing.
+    platewash(dir, &["run", "--scenario", "nowhere.toml"]).refused(2, &["nowhere.toml"]);
+    assert_eq!(names(&out), ["executed.csv", "mine.txt", "plan.json"]);
+}
+
+#[test]
+fn what_is_too_near_at_home_and_over_a_plate_is_named() {
+    let folder = folder();
+    let dir = folder.path();
+    let start = "start_deg = [0, 0, 0, 0, 90, 0]";
+    let down = kitchen(dir, &[(start, "start_deg = [0, 90, 60, 0, 90, 0]")]);
+    platewash(dir, &["validate", "--scenario", down.to_str().unwrap()]).refused(
+        3,
+        &[
+            "robot.start_deg",
+            "handle",
+            "11.00 mm must be kept",
+            "wash.clearance_m",
+            "1.00 mm in reserve",
+        ],
+    );
+    let ran = plan(dir, &down);
+    assert!(
+        ran.code == 3 && ran.stdout.contains("robot.start_deg"),
+        "{}",
+        ran.stdout
+    );
+    let ran = plan(dir, &kitchen(dir, &[("lift_m = 0.03 ", "lift_m = 0.005 ")]));
+    assert_eq!(ran.code, 3);
+    for part in [
+        "the line over plate",
+        "sponge is 5.00 mm from plate",
+        "wash.lift_m",
+        "11.00 mm",
+    ] {
+        assert!(ran.stdout.contains(part), "no {part} in {}", ran.stdout);
+    }
+}
+
+#[test]
+fn validate_finds_what_run_refuses_before_planning() {
+    let folder = folder();
+    let dir = folder.path();
+    let start = "start_deg = [0, 0, 0, 0, 90, 0]";
+    let home = format!("{start}\nhome_deg = [170, 0, 0, 0, 90, 0]");
+    let cases: [(&str, &str, &[&str]); 9] = [
+        (
+            "plate_thickness_m = 0.02",
+            "plate_thickness_m = 1e-9",
+            &["layout.plate_thickness_m"],
+        ),
+        ("turns = 3.5", "turns = 0.1", &["wash.turns", "from 0.25 to 200"]),
+        ("turns = 3.5", "turns = 1000", &["wash.turns", "from 0.25 to 200"]),
+        (
+            "path_radius_m = 0.12385",
+            "path_radius_m = 1e-6",
+            &["wash.path_radius_m", "0.0001"],
+        ),
+        (
+            "path_radius_m = 0.12385",
+            "path_radius_m = 10",
+            &["wash.path_radius_m", "100 m"],
+        ),
+        ("length_m = 0.15", "length_m = 0", &["tool.length_m"]),
+        ("speed_m_s = 0.25", "speed_m_s = 1e-300", &["wash.speed_m_s"]),
+        ("tip_speed_m_s = 1.0", "tip_speed_m_s = 1e-9", &["limits.tip_speed_m_s"]),
+        (start, &home, &["robot.home_deg", "joint 1"]),
+    ];
+    for (from, to, fragments) in cases {
+        let file = kitchen(dir, &[(from, to)]);
+        for verb in ["validate", "run"] {
+            platewash(dir, &[verb, "--scenario", file.to_str().unwrap()]).refused(2, fragments);
+        }
+        assert_eq!(names(dir), ["case.toml"]);
+    }
+    // Too long a table is said before anything is planned, by the key at fault.
+    let slow = kitchen(dir, &[("speed_m_s = 0.25", "speed_m_s = 1e-6")]);
+    let slow = slow.to_str().unwrap();
+    platewash(dir, &["run", "--scenario", slow]).refused(2, &["control.dt_s", "1000000 rows", "as --dt"]);
+    platewash(dir, &["run", "--scenario", slow, "--dt", "0.1"]).refused(2, &["--dt: a time step of 0.1 s"]);
+    // The file is named, not the scenario's own name.
+    let many: Vec<_> = (0..1000).map(|k| format!("[{}, 0.3]", f64::from(k) * 1e-3)).collect();
+    let many = format!("positions_m = [{}]", many.join(", "));
+    let file = kitchen(dir, &[("region = \"appendix\"", &many)]);
+    platewash(dir, &["validate", "--scenario", file.to_str().unwrap()]).refused(2, &["case.toml", "wash.turns"]);
+}

@@ -1,0 +1,155 @@
+//! A single edit of a good plan, and what is known of it beforehand.
+
+use platewash::Plan;
+use platewash::planner::certificate::PromiseName;
+use platewash::planner::random::stream;
+use rand::RngExt;
+use rand_pcg::Pcg64;
+
+/// Seeds of the streams that choose the plan and the details of an edit, by its name: no edit depends on the others.
+const PLANS: u64 = 1;
+const DETAILS: u64 = 2;
+
+/// What is edited; a line of the summary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    KnotMoved,
+    KnotSpeed,
+    KnotOrder,
+    KnotDropped,
+    KnotAdded,
+    Time,
+    Detour,
+    Segments,
+    ToolPath,
+    Plates,
+    Order,
+    Tool,
+    LimitsStated,
+    LimitsAsked,
+    Statements,
+    Home,
+    Words,
+    Rounding,
+}
+
+impl Kind {
+    pub const ALL: [Self; 18] = [
+        Self::KnotMoved,
+        Self::KnotSpeed,
+        Self::KnotOrder,
+        Self::KnotDropped,
+        Self::KnotAdded,
+        Self::Time,
+        Self::Detour,
+        Self::Segments,
+        Self::ToolPath,
+        Self::Plates,
+        Self::Order,
+        Self::Tool,
+        Self::LimitsStated,
+        Self::LimitsAsked,
+        Self::Statements,
+        Self::Home,
+        Self::Words,
+        Self::Rounding,
+    ];
+
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::KnotMoved => "a knot moved",
+            Self::KnotSpeed => "a knot's speed",
+            Self::KnotOrder => "knots exchanged",
+            Self::KnotDropped => "knots dropped",
+            Self::KnotAdded => "a knot added",
+            Self::Time => "time",
+            Self::Detour => "a detour",
+            Self::Segments => "segments",
+            Self::ToolPath => "tool path",
+            Self::Plates => "plates",
+            Self::Order => "order",
+            Self::Tool => "tool",
+            Self::LimitsStated => "limits stated",
+            Self::LimitsAsked => "limits asked",
+            Self::Statements => "other statements",
+            Self::Home => "home",
+            Self::Words => "words",
+            Self::Rounding => "rounding",
+        }
+    }
+}
+
+/// What must come of an edited plan.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Expected {
+    /// It passes, and the sampler finds nothing.
+    Harmless,
+    /// Of the promises about statements these fail and no others; of those about numbers these, and whatever the sampler
+    /// finds.
+    Fails(Vec<PromiseName>),
+    /// No statement is wrong; the sampler says what is broken, if anything.
+    Sampled,
+}
+
+/// What an edit does to a plan; what is left open is drawn at random.
+type Apply = dyn Fn(&mut Plan, &mut Pcg64) + Send + Sync;
+
+/// An edit.
+pub struct Edit {
+    pub kind: Kind,
+    pub what: String,
+    /// Which of the good plans is edited.
+    pub of: usize,
+    pub expected: Expected,
+    apply: Box<Apply>,
+}
+
+impl Edit {
+    /// The edited plan, sealed again. Random edits draw from a stream of their own.
+    pub fn apply(&self, good: &Plan) -> Plan {
+        let mut plan = good.clone();
+        (self.apply)(&mut plan, &mut stream(DETAILS, &self.what));
+        assert!(plan != *good, "{}: changes nothing", self.what);
+        plan.hash = Some(plan.seal().unwrap());
+        plan
+    }
+}
+
+/// A growing list.
+#[derive(Default)]
+pub struct Edits(pub Vec<Edit>);
+
+impl Edits {
+    pub fn add(
+        &mut self,
+        kind: Kind,
+        what: impl Into<String>,
+        expected: Expected,
+        apply: impl Fn(&mut Plan, &mut Pcg64) + Send + Sync + 'static,
+    ) {
+        let what = format!("{}, {}", kind.words(), what.into());
+        assert!(self.0.iter().all(|edit| edit.what != what), "{what}: twice");
+        self.0.push(Edit {
+            kind,
+            of: stream(PLANS, &what).random_range(0..2),
+            what,
+            expected,
+            apply: Box::new(apply),
+        });
+    }
+
+    /// An edit after which the plan still passes.
+    pub fn harmless(&mut self, kind: Kind, what: &str, apply: fn(&mut Plan)) {
+        self.add(kind, what, Expected::Harmless, move |p, _| apply(p));
+    }
+
+    /// An edit that leaves all statements right.
+    pub fn sampled(&mut self, kind: Kind, what: &str, apply: fn(&mut Plan)) {
+        self.add(kind, what, Expected::Sampled, move |p, _| apply(p));
+    }
+
+    /// An edit that breaks promises by name.
+    pub fn fails(&mut self, kind: Kind, what: &str, names: &[PromiseName], apply: fn(&mut Plan)) {
+        self.add(kind, what, Expected::Fails(names.to_vec()), move |p, _| apply(p));
+    }
+}

@@ -1,0 +1,48 @@
+//! What promises nothing, and what is too small to break anything.
+
+use super::retime;
+use crate::edit::{Edits, Kind};
+use platewash::planner::scenario::{OnFailure, OrderRule};
+
+pub fn add(edits: &mut Edits) {
+    let mut words = |what, apply| edits.harmless(Kind::Words, what, apply);
+    words("name", |p| p.scenario.name = "renamed".into());
+    words("seed", |p| p.scenario.seed += 1);
+    words("headline", |p| p.summary.headline.push('!'));
+    words("summary", |p| {
+        (p.summary.plates_washed, p.summary.duration_s) = (0, 0.0)
+    });
+    words("rule of the order", |p| p.scenario.job.order = OrderRule::Given);
+    words("what failure leads to", |p| {
+        p.scenario.job.on_failure = OnFailure::Report
+    });
+    words("spacing of plates that are drawn", |p| {
+        p.scenario.layout.min_distance_m = 0.31
+    });
+    words("waypoints of the paper's program", |p| p.scenario.wash.points += 1);
+    words("control", |p| p.scenario.control.dt_s *= 2.0);
+    words("the plate of the return", |p| {
+        p.segments.last_mut().unwrap().plate = p.order[0]
+    });
+    words("the plate of the return in the tool path", |p| {
+        p.tool_path.last_mut().unwrap().plate = p.order[1]
+    });
+    let mut rounding = |what, apply| edits.harmless(Kind::Rounding, what, apply);
+    rounding("positions", |p| {
+        p.knots.q_rad.iter_mut().for_each(|q| q.apply(|v| *v = rounded(*v)))
+    });
+    rounding("speeds", |p| {
+        p.knots.qd_rad_s.iter_mut().for_each(|v| v.apply(|v| *v = rounded(*v)))
+    });
+    rounding("times", |p| retime(p, |_, t| rounded(t)));
+    rounding("places of plates", |p| {
+        p.plates
+            .iter_mut()
+            .for_each(|plate| (plate.x_m, plate.y_m) = (rounded(plate.x_m), rounded(plate.y_m)));
+    });
+}
+
+/// To 13 decimals.
+fn rounded(value: f64) -> f64 {
+    (value * 1e13).round() / 1e13
+}

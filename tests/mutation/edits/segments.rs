@@ -1,0 +1,103 @@
+//! Segments in time dropped, doubled, renamed and cut elsewhere; the order.
+
+use super::{nth, within};
+use crate::edit::{Edits, Kind};
+use platewash::Plan;
+use platewash::planner::certificate::PromiseName::{
+    EveryPlateOnce, LineDeviation, RestAtContact, Segments, StrokeDeviation,
+};
+use platewash::planner::tool_path::SegmentKind::{Approach, Retreat, Transition, Wash};
+
+pub fn add(edits: &mut Edits) {
+    list(edits);
+    boundaries(edits);
+    order(edits);
+}
+
+fn list(edits: &mut Edits) {
+    let mut fails = |what, apply| edits.fails(Kind::Segments, what, &[Segments], apply);
+    fails("the first dropped", |p| _ = p.segments.remove(0));
+    fails("a transition dropped", |p| _ = p.segments.remove(nth(p, Transition, 1)));
+    fails("a transition dropped, the next longer", |p| {
+        let gone = p.segments.remove(nth(p, Transition, 1));
+        let next = p.segments.iter().position(|s| s.t_start_s == gone.t_end_s).unwrap();
+        p.segments[next].t_start_s = gone.t_start_s;
+    });
+    fails("the last dropped", |p| _ = p.segments.pop());
+    fails("all dropped", |p| p.segments.clear());
+    fails("one doubled", |p| p.segments.insert(2, p.segments[2]));
+    fails("two exchanged", |p| p.segments.swap(2, 3));
+    fails("a transition named wash", |p| {
+        let i = nth(p, Transition, 0);
+        p.segments[i].kind = Wash;
+    });
+    fails("a wash named retreat", |p| {
+        let i = nth(p, Wash, 2);
+        p.segments[i].kind = Retreat;
+    });
+    fails("another plate", |p| {
+        let i = nth(p, Wash, 2);
+        p.segments[i].plate = p.order[0];
+    });
+    fails("a plate that is none", |p| {
+        let i = nth(p, Approach, 1);
+        p.segments[i].plate = 9;
+    });
+}
+
+/// Ends a segment, and begins the next, some knots later or earlier.
+fn cut(plan: &mut Plan, segment: usize, by: isize) {
+    let knot = within(plan, segment).end.checked_add_signed(by).unwrap();
+    let time = plan.knots.t_s[knot];
+    plan.segments[segment].t_end_s = time;
+    plan.segments[segment + 1].t_start_s = time;
+}
+
+fn boundaries(edits: &mut Edits) {
+    let mut fails = |what, names: &[_], apply| edits.fails(Kind::Segments, what, names, apply);
+    fails("an end off its knot", &[Segments], |p| p.segments[2].t_end_s += 1e-9);
+    fails("a gap", &[Segments], |p| p.segments[5].t_start_s += 1e-9);
+    fails("an end far away", &[Segments], |p| {
+        p.segments.last_mut().unwrap().t_end_s = 1e300
+    });
+    fails("a wash begins a knot late", &[RestAtContact], |p| {
+        cut(p, nth(p, Approach, 1), 1)
+    });
+    fails("a wash begins a knot early", &[RestAtContact], |p| {
+        cut(p, nth(p, Approach, 1), -1)
+    });
+    fails("a wash ends early", &[RestAtContact, StrokeDeviation], |p| {
+        cut(p, nth(p, Wash, 0), -30)
+    });
+    fails("a wash takes in the retreat", &[RestAtContact, StrokeDeviation], |p| {
+        let knots = within(p, nth(p, Retreat, 0)).len();
+        cut(p, nth(p, Wash, 0), isize::try_from(knots).unwrap());
+    });
+    fails("a retreat ends half-way", &[LineDeviation], |p| {
+        let half = within(p, nth(p, Retreat, 1)).len() / 2;
+        cut(p, nth(p, Retreat, 1), -isize::try_from(half).unwrap());
+    });
+    fails("a retreat takes in some of the transition", &[LineDeviation], |p| {
+        cut(p, nth(p, Retreat, 1), 20)
+    });
+    fails("an approach begins late", &[LineDeviation], |p| {
+        cut(p, nth(p, Transition, 0), 6)
+    });
+    edits.sampled(Kind::Segments, "an approach begins a knot late", |p| {
+        cut(p, nth(p, Transition, 0), 1)
+    });
+    edits.sampled(Kind::Segments, "a retreat ends a knot late", |p| {
+        cut(p, nth(p, Retreat, 0), 1)
+    });
+}
+
+fn order(edits: &mut Edits) {
+    let mut fails = |what, names: &[_], apply| edits.fails(Kind::Order, what, names, apply);
+    fails("two exchanged", &[Segments], |p| p.order.swap(0, 1));
+    fails("reversed", &[Segments], |p| p.order.reverse());
+    fails("one twice", &[Segments, EveryPlateOnce], |p| p.order[1] = p.order[0]);
+    fails("one too many", &[Segments, EveryPlateOnce], |p| p.order.push(0));
+    fails("no such plate", &[Segments, EveryPlateOnce], |p| p.order[3] = 7);
+    fails("one missing", &[Segments, EveryPlateOnce], |p| _ = p.order.pop());
+    fails("none", &[Segments, EveryPlateOnce], |p| p.order.clear());
+}

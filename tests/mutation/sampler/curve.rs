@@ -1,0 +1,150 @@
+//! The declared curves from their definition, and whether a path follows one: the whole of it, in order.
+
+use nalgebra::Vector3;
+use platewash::planner::tool_path::{Segment, SegmentKind, Shape};
+use std::f64::consts::TAU;
+
+/// β, the last part of a spiral \[rad\].
+const BLEND_RAD: f64 = 1.0;
+
+/// (√5 − 1) / 2.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// How far around the last parameter the next one is looked for \[rad\].
+const WINDOW_RAD: f64 = 0.8;
+
+/// A curve of the declared tool path, base frame.
+pub enum Curve {
+    /// θ is the length from the first point \[m\].
+    Line {
+        from: Vector3<f64>,
+        along: Vector3<f64>,
+        length_m: f64,
+    },
+    /// θ is the angle from the start \[rad\].
+    Stroke {
+        centre: Vector3<f64>,
+        radius_m: f64,
+        spiral_rad: f64,
+        start_rad: f64,
+        end_rad: f64,
+    },
+}
+
+impl Curve {
+    /// What a segment declares, in the direction of its motion; `None` for free motion.
+    pub fn new(segment: &Segment) -> Option<Self> {
+        match &segment.shape {
+            Shape::Line {
+                foot_m,
+                normal,
+                height_m,
+            } => {
+                let (foot, up) = (Vector3::from(*foot_m), Vector3::from(*normal));
+                let down = segment.kind == SegmentKind::Approach;
+                Some(Self::Line {
+                    from: if down { foot + up * *height_m } else { foot },
+                    along: if down { -up } else { up },
+                    length_m: *height_m,
+                })
+            }
+            Shape::Stroke { centre_m, stroke, .. } => {
+                let spiral_rad = TAU * stroke.turns;
+                Some(Self::Stroke {
+                    centre: Vector3::from(*centre_m),
+                    radius_m: stroke.radius_m,
+                    spiral_rad,
+                    start_rad: stroke.start_angle_rad,
+                    end_rad: spiral_rad + if stroke.closing_ring { TAU } else { 0.0 },
+                })
+            }
+            _ => None,
+        }
+    }
+
+    /// The last θ.
+    fn end(&self) -> f64 {
+        match self {
+            Self::Line { length_m, .. } => *length_m,
+            Self::Stroke { end_rad, .. } => *end_rad,
+        }
+    }
+
+    /// The point at θ \[m\].
+    pub fn at(&self, theta: f64) -> Vector3<f64> {
+        match self {
+            Self::Line { from, along, .. } => from + along * theta,
+            Self::Stroke {
+                centre,
+                radius_m,
+                spiral_rad,
+                start_rad,
+                ..
+            } => {
+                let rate = radius_m / (spiral_rad - 0.5 * BLEND_RAD);
+                let straight = spiral_rad - BLEND_RAD;
+                let x = ((theta - straight) / BLEND_RAD).clamp(0.0, 1.0);
+                let slowed = x - 2.5 * x.powi(4) + 3.0 * x.powi(5) - x.powi(6);
+                let r = rate * (theta.min(straight) + BLEND_RAD * slowed);
+                let angle = start_rad + theta;
+                centre + Vector3::new(r * angle.cos(), r * angle.sin(), 0.0)
+            }
+        }
+    }
+
+    /// θ of the point nearest to `p`, near θ = `around`.
+    fn nearest(&self, p: &Vector3<f64>, around: f64) -> f64 {
+        if let Self::Line { from, along, length_m } = self {
+            return (p - from).dot(along).clamp(0.0, *length_m);
+        }
+        // Golden section: no derivative is needed.
+        let off = |theta: f64| (p - self.at(theta)).norm_squared();
+        let clamp = |theta: f64| theta.clamp(0.0, self.end());
+        let (mut least, mut most) = (clamp(around - WINDOW_RAD), clamp(around + WINDOW_RAD));
+        let inner = |least: f64, most: f64| (most - least) * GOLDEN;
+        let mut at = [most - inner(least, most), least + inner(least, most)];
+        let mut offs = at.map(off);
+        while most - least > 1e-8 {
+            if offs[0] < offs[1] {
+                most = at[1];
+                at = [most - inner(least, most), at[0]];
+                offs = [off(at[0]), offs[0]];
+            } else {
+                least = at[0];
+                at = [at[1], least + inner(least, most)];
+                offs = [offs[1], off(at[1])];
+            }
+        }
+        0.5 * (least + most)
+    }
+
+    /// How far `path` leaves the curve at least, whatever parameter that never falls from 0 to the end is assigned to its points;
+    /// exact up to the bend of the curve within `tolerance_m` \[m\].
+    ///
+    /// The parameters that lie within the tolerance of a point are an interval about the nearest one. A path within the tolerance
+    /// has a parameter in each interval and none before one that it has passed.
+    pub fn deviation(&self, path: &[Vector3<f64>], tolerance_m: f64) -> f64 {
+        let ends = [(path[0], 0.0), (path[path.len() - 1], self.end())];
+        let mut worst = ends.iter().map(|(p, t)| (p - self.at(*t)).norm()).fold(0.0, f64::max);
+        let (mut theta, mut least) = (0.0, 0.0);
+        let (mut passed, mut passed_off) = (self.at(0.0), 0.0_f64);
+        for p in path {
+            theta = self.nearest(p, theta);
+            let near = self.at(theta);
+            let off = (p - near).norm();
+            worst = worst.max(off);
+            let reach = (tolerance_m * tolerance_m - off * off).max(0.0).sqrt();
+            let step = 1e-6;
+            let rate = ((self.at(theta + step) - self.at(theta - step)) / (2.0 * step)).norm();
+            let (first, last) = (theta - reach / rate, theta + reach / rate);
+            if last < least {
+                // The best is half-way.
+                worst = worst.max((0.5 * (near - passed).norm()).hypot(off.max(passed_off)));
+            }
+            if first > least {
+                (least, passed, passed_off) = (first, near, off);
+            }
+        }
+        worst
+    }
+}

@@ -1,0 +1,97 @@
+//! The promises about numbers, measured on dense samples of a plan: an opinion of its own on what is broken.
+//!
+//! With the certificate it shares forward kinematics and the distances at single configurations, no more. What it finds is
+//! a lower bound of how bad things are: a promise that it finds broken is broken.
+
+mod clearance;
+mod curve;
+mod findings;
+mod hermite;
+mod moments;
+mod places;
+mod rates;
+mod schedule;
+mod swept;
+mod tests;
+
+pub use findings::{Findings, Found};
+pub use hermite::pieces;
+pub use schedule::is_sound;
+
+use clearance::Distances;
+use curve::Curve;
+use hermite::Piece;
+use moments::{Arm, Moment};
+use platewash::planner::certificate::PromiseName;
+use platewash::planner::tool_path::{Segment, SegmentKind};
+use platewash::{Plan, RobotModel};
+
+/// Distance of the tip from its stroke and from a plate's normal that every certified plan keeps \[m\].
+const STROKE_M: f64 = 2e-4;
+const LINE_M: f64 = 1e-3;
+
+/// What deviations are right to, as a part of them.
+const DEVIATION: f64 = 1e-6;
+
+/// Samples plans that come of one plan by edits.
+pub struct Sampler<'a> {
+    robot: &'a RobotModel,
+    distances: Distances<'a>,
+}
+
+impl<'a> Sampler<'a> {
+    pub fn new(origin: &'a Plan, robot: &'a RobotModel) -> Self {
+        let distances = Distances::new(origin, robot);
+        Self { robot, distances }
+    }
+
+    /// The worst of every promise that can be judged: without sound segments those that hold everywhere. Moments at some
+    /// times \[s\] are looked at besides its own.
+    pub fn measure(&self, plan: &Plan, also_at: &[f64]) -> Findings {
+        let (pieces, is_sound) = (pieces(&plan.knots), is_sound(plan));
+        let moments = self.moments(plan, &pieces, is_sound, also_at);
+        let mut findings = Findings::default();
+        places::ends(plan, &mut findings);
+        places::apart(plan, &mut findings);
+        rates::joints(plan, self.robot, &pieces, &moments, &mut findings);
+        rates::tip(plan, &moments, &mut findings);
+        self.distances.look(plan, &pieces, is_sound, also_at, &mut findings);
+        if is_sound {
+            places::contacts(plan, &mut findings);
+            places::poses(plan, &moments, &mut findings);
+            places::coverage(plan, &moments, &mut findings);
+            deviations(plan, &moments, &mut findings);
+        }
+        findings
+    }
+
+    /// Whether no more can be proved of the coverage than too little, with the segments sound.
+    pub fn least_coverage_is_short(&self, plan: &Plan) -> bool {
+        places::least_coverage_is_short(plan, &self.moments(plan, &pieces(&plan.knots), true, &[]))
+    }
+
+    fn moments(&self, plan: &Plan, pieces: &[Piece], is_sound: bool, also_at: &[f64]) -> Vec<Moment> {
+        let arm = Arm::new(self.robot, plan.scenario.tool.length_m);
+        moments::all(&arm, plan, pieces, is_sound, also_at)
+    }
+}
+
+/// Whether the tip follows its declared curves.
+fn deviations(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
+    let at_plates = |(_, s): &(usize, &Segment)| schedule::is_at_plate(s.kind);
+    for (i, segment) in plan.tool_path.iter().enumerate().filter(at_plates) {
+        let Some(curve) = Curve::new(segment) else { continue };
+        let here = moments.iter().filter(|m| m.stage == Some(i));
+        let path: Vec<_> = here.map(|m| m.tip).collect();
+        let (name, tolerance) = match segment.kind {
+            SegmentKind::Wash => (PromiseName::StrokeDeviation, STROKE_M),
+            _ => (PromiseName::LineDeviation, LINE_M),
+        };
+        findings.at_most(
+            name,
+            curve.deviation(&path, tolerance),
+            tolerance,
+            DEVIATION * tolerance,
+        );
+    }
+}

@@ -1,0 +1,103 @@
+//! The moments at which a motion is looked at, with speed and acceleration of the tip from differences.
+
+use super::hermite::Piece;
+use super::schedule;
+use nalgebra::Vector3;
+use platewash::kinematics::Frame;
+use platewash::planner::plan::PlanSegment;
+use platewash::{JointVector, Plan, RobotModel, ToolFrame};
+
+/// Half a difference in time \[s\].
+const DELTA_S: f64 = 2e-5;
+
+/// What positions of the tip are right to \[m\]: rounding.
+const PLACE_M: f64 = 2e-15;
+
+/// Time between samples of long pieces \[s\], and samples of a piece at least and at most.
+const STEP_S: f64 = 0.01;
+const LEAST: usize = 5;
+const MOST: usize = 60;
+
+/// The tip on the arm.
+pub struct Arm<'a> {
+    robot: &'a RobotModel,
+    mount: Frame,
+    length_m: f64,
+}
+
+/// A moment of a motion.
+pub struct Moment {
+    pub piece: usize,
+    /// Time since the piece began \[s\].
+    pub u: f64,
+    pub tip: Vector3<f64>,
+    /// z of the tool.
+    pub axis: Vector3<f64>,
+    /// The mean speed about here is no less \[m/s\].
+    pub speed: f64,
+    /// The same for the acceleration \[m/s²\].
+    pub acceleration: f64,
+    /// Index of its segment; none where the segments do not say what a moment is for.
+    pub stage: Option<usize>,
+}
+
+impl Moment {
+    /// Its segment.
+    pub fn segment(&self, plan: &Plan) -> Option<PlanSegment> {
+        self.stage.map(|i| plan.segments[i])
+    }
+}
+
+impl<'a> Arm<'a> {
+    pub fn new(robot: &'a RobotModel, length_m: f64) -> Self {
+        let mount = robot.tool_frame(ToolFrame::Tool0).unwrap();
+        Self { robot, mount, length_m }
+    }
+
+    /// Position and z axis of the tip, base frame.
+    pub fn tip(&self, q: &JointVector) -> [Vector3<f64>; 2] {
+        let mount = self.robot.fk(q).rigid(&self.mount);
+        let axis: Vector3<f64> = mount.rotation.column(2).into_owned();
+        [mount.translation + axis * self.length_m, axis]
+    }
+
+    fn moment(&self, piece: &Piece, k: usize, u: f64, stage: Option<usize>) -> Moment {
+        let delta = (piece.length_s / 8.0).min(DELTA_S);
+        let middle = u.clamp(delta, piece.length_s - delta);
+        let at = |u: f64| self.tip(&piece.position(u));
+        let [before, there, after] = [middle - delta, middle, middle + delta].map(|u| at(u)[0]);
+        let [tip, axis] = at(u);
+        let bend = (after - there * 2.0 + before).norm() - 4.0 * PLACE_M;
+        Moment {
+            piece: k,
+            u,
+            tip,
+            axis,
+            speed: ((after - before).norm() - 2.0 * PLACE_M) / (2.0 * delta),
+            acceleration: bend / (delta * delta),
+            stage,
+        }
+    }
+}
+
+/// Moments of all pieces in time order, both ends of each included, and those at some times \[s\] besides.
+pub fn all(arm: &Arm<'_>, plan: &Plan, pieces: &[Piece], is_sound: bool, also_at: &[f64]) -> Vec<Moment> {
+    let mut all = Vec::with_capacity(6 * pieces.len());
+    for (k, piece) in pieces.iter().enumerate() {
+        let stage = is_sound.then(|| schedule::segment_of(plan, piece));
+        let mut times = within(piece, also_at);
+        let count = (LEAST + (piece.length_s / STEP_S) as usize).min(MOST);
+        times.extend((0..count).map(|j| piece.length_s * j as f64 / (count - 1) as f64));
+        times.sort_by(f64::total_cmp);
+        all.extend(times.into_iter().map(|u| arm.moment(piece, k, u, stage)));
+    }
+    all
+}
+
+/// Those of some times \[s\] that lie within a piece, since it began.
+pub fn within(piece: &Piece, times: &[f64]) -> Vec<f64> {
+    const NEAR_S: f64 = 1e-9;
+    let since = times.iter().map(|t| t - piece.start_s);
+    let inside = since.filter(|u| *u >= -NEAR_S && *u <= piece.length_s + NEAR_S);
+    inside.map(|u| u.clamp(0.0, piece.length_s)).collect()
+}

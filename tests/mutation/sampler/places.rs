@@ -1,0 +1,124 @@
+//! Where things are: the arm at its ends and at the plates, the tool over them, the plates themselves.
+
+use super::findings::Findings;
+use super::moments::Moment;
+use super::schedule::is_at_plate;
+use super::swept;
+use platewash::planner::certificate::PromiseName;
+use platewash::planner::scenario::Overlap;
+use platewash::planner::tool_path::SegmentKind;
+use platewash::{JointVector, Plan};
+
+/// Height over a plate that every certified plan keeps \[m\].
+const HEIGHT_M: f64 = 2e-4;
+
+/// What joint positions and speeds at rest must be right to \[rad\], \[rad/s\].
+const THERE: f64 = 2e-9;
+
+/// What the raster's shares are right to.
+const SHARE: f64 = 4e-3;
+
+/// What tilt and height must exceed their limits by, as a part of them.
+const EXACT: f64 = 2e-9;
+
+/// The base's bounds in the plane of the plates, from its drawing \[m\].
+const BASE_X_M: [f64; 2] = [-0.2115, 0.0905];
+const BASE_Y_M: [f64; 2] = [-0.0905, 0.0905];
+
+/// From home to home, at rest.
+pub fn ends(plan: &Plan, findings: &mut Findings) {
+    let start = plan.scenario.robot.start_deg;
+    let homes = [start, plan.scenario.robot.home_deg.unwrap_or(start)];
+    let last = plan.knots.t_s.len() - 1;
+    for (i, (home, knot)) in homes.into_iter().zip([0, last]).enumerate() {
+        let home = JointVector::from(home).map(f64::to_radians);
+        let off = (plan.knots.q_rad[knot] - home).amax();
+        let stated = (plan.home_rad[i] - home).amax();
+        let moving = plan.knots.qd_rad_s[knot].amax();
+        findings.at_most(PromiseName::HomeToHome, off.max(stated).max(moving), 0.0, THERE);
+    }
+}
+
+/// At rest at both ends of every wash.
+pub fn contacts(plan: &Plan, findings: &mut Findings) {
+    for segment in plan.segments.iter().filter(|s| s.kind == SegmentKind::Wash) {
+        for time in [segment.t_start_s, segment.t_end_s] {
+            let knot = plan.knots.t_s.iter().position(|t| *t == time).unwrap();
+            let moving = plan.knots.qd_rad_s[knot].amax();
+            findings.at_most(PromiseName::RestAtContact, moving, 0.0, THERE);
+        }
+    }
+}
+
+/// No plate over another or over the base, unless that shall only be told.
+pub fn apart(plan: &Plan, findings: &mut Findings) {
+    if plan.scenario.layout.overlap == Overlap::Report {
+        return;
+    }
+    for (i, a) in plan.plates.iter().enumerate() {
+        for b in &plan.plates[i + 1..] {
+            let gap = (a.x_m - b.x_m).hypot(a.y_m - b.y_m) - a.radius_m - b.radius_m;
+            findings.at_least(PromiseName::PlatesApart, gap, 0.0, 1e-9);
+        }
+        let [x, y] = [
+            a.x_m.clamp(BASE_X_M[0], BASE_X_M[1]),
+            a.y_m.clamp(BASE_Y_M[0], BASE_Y_M[1]),
+        ];
+        let gap = (a.x_m - x).hypot(a.y_m - y) - a.radius_m;
+        findings.at_least(PromiseName::PlatesApart, gap, 0.0, 1e-9);
+    }
+}
+
+/// Tilt at the plates, height over them while washing.
+pub fn poses(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
+    let asked = plan.scenario.wash.tilt_max_deg.to_radians();
+    let tool = &plan.scenario.tool;
+    // Beyond this the rim of the sponge would have to go through the plate.
+    let gives_way = (tool.sponge_height_m / tool.sponge_radius_m).min(1.0).asin();
+    let most = asked.min(gives_way);
+    for m in moments {
+        let Some(segment) = m.segment(plan).filter(|s| is_at_plate(s.kind)) else {
+            continue;
+        };
+        let tilt = m.axis.xy().norm().atan2(-m.axis.z);
+        findings.at_most(PromiseName::Tilt, tilt, most, EXACT * most + 2e-8);
+        if let (SegmentKind::Wash, Some(plate)) = (segment.kind, plan.plates.get(segment.plate)) {
+            let off = (m.tip.z - plate.z_m).abs();
+            findings.at_most(PromiseName::ContactHeight, off, HEIGHT_M, EXACT * HEIGHT_M);
+        }
+    }
+}
+
+/// The share that even the whole face of the sponge, held flat, sweeps.
+pub fn coverage(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
+    let required = plan.scenario.job.required_coverage;
+    let sponge_m = plan.scenario.tool.sponge_radius_m;
+    for plate in 0..plan.plates.len() {
+        let share = share(plan, &washing(plan, moments, plate), plate, sponge_m);
+        findings.at_least(PromiseName::Coverage, share, required, SHARE);
+    }
+}
+
+/// Whether the sponge might sweep too little of a plate if it were always tilted as much as it is where it is tilted most.
+pub fn least_coverage_is_short(plan: &Plan, moments: &[Moment]) -> bool {
+    let sponge_m = plan.scenario.tool.sponge_radius_m;
+    (0..plan.plates.len()).any(|plate| {
+        let washing = washing(plan, moments, plate);
+        let cosine = washing.iter().map(|m| -m.axis.z).fold(1.0, f64::min).max(0.0);
+        share(plan, &washing, plate, sponge_m * cosine) < plan.scenario.job.required_coverage + SHARE
+    })
+}
+
+/// The moments at which a plate is washed.
+fn washing<'a>(plan: &Plan, moments: &'a [Moment], plate: usize) -> Vec<&'a Moment> {
+    let washes = |m: &&Moment| {
+        m.segment(plan)
+            .is_some_and(|s| s.kind == SegmentKind::Wash && s.plate == plate)
+    };
+    moments.iter().filter(washes).collect()
+}
+
+fn share(plan: &Plan, washing: &[&Moment], plate: usize, within_m: f64) -> f64 {
+    let path: Vec<_> = washing.iter().map(|m| [m.tip.x, m.tip.y]).collect();
+    swept::share(&plan.plates[plate], &path, within_m)
+}
