@@ -5,6 +5,7 @@ import pickle
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -100,7 +101,8 @@ def test_tool_and_gravity_count() -> None:
     push = ROBOT.jacobian(q, tool=pw.Tool(length_m=0.2)).T @ weight
     np.testing.assert_allclose(light.gravity_torque(q) - bare.gravity_torque(q), push, atol=1e-9)
     assert not pw.DynamicsModel(ROBOT, gravity_m_s2=(0.0, 0.0, 0.0)).gravity_torque(q).any()
-    for bad in ({"mass_kg": -1.0}, {"mass_kg": np.nan}, {"inertia_kg_m2": (1.0, 0.0, 0.0, 1.0, 0.0, 3.0)}, {"com_m": np.inf}):
+    wrong: list[dict[str, Any]] = [{"mass_kg": -1.0}, {"mass_kg": np.nan}, {"inertia_kg_m2": (1.0, 0.0, 0.0, 1.0, 0.0, 3.0)}, {"com_m": np.inf}]
+    for bad in wrong:
         with pytest.raises(pw.InputError, match="tool"):
             pw.DynamicsModel(ROBOT, pw.Tool(length_m=0.2, **bad))
     with pytest.raises(pw.InputError, match="gravity"):
