@@ -43,7 +43,10 @@ pub use platewash_planner::reproduce::{Reproduction, reproduce};
 pub use platewash_planner::scenario::Scenario;
 pub use platewash_planner::tool_path::ToolPath;
 pub use platewash_planner::trajectory::Trajectory;
-pub use platewash_simulator::{Execution, Setup, SimulationError, SimulationReport, SimulationVerdict, simulate, tune};
+pub use platewash_simulator::{
+    DynamicsError, DynamicsModel, Energy, Execution, Setup, SimulationError, SimulationReport, SimulationVerdict,
+    simulate, tune,
+};
 
 /// The example in the README, run as a test.
 #[cfg(doctest)]

@@ -18,12 +18,15 @@ from ._core import (
     Certificate,
     ClearanceModel,
     Cycle,
+    DynamicsModel,
+    Execution,
     IkSolution,
     Job,
     Layout,
     Plan,
     Robot,
     Scenario,
+    Setup,
     Trajectory,
     coverage,
     coverage_raster,
@@ -32,11 +35,14 @@ from ._core import (
     plan,
     reproduce,
     run_command,
+    simulate,
     sweep,
     transition_waypoints,
+    tune,
     verify,
 )
 from ._errors import (
+    DynamicsError,
     IkError,
     IkPathError,
     InputError,
@@ -48,10 +54,11 @@ from ._errors import (
     PlatewashError,
     ScenarioError,
     ShapeError,
+    SimulationError,
     UrdfError,
     VerifyError,
 )
-from ._records import CoverageRaster, IkBatch, IkBranches, Record
+from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record
 from ._values import Coverage, IkSettings, Plate, Spiral, Stroke, Tool
 
 __version__: str = _version("pyplatewash")
@@ -62,6 +69,10 @@ __all__ = [
     "Coverage",
     "CoverageRaster",
     "Cycle",
+    "DynamicsError",
+    "DynamicsModel",
+    "Energy",
+    "Execution",
     "IkBatch",
     "IkBranches",
     "IkError",
@@ -83,7 +94,9 @@ __all__ = [
     "Robot",
     "Scenario",
     "ScenarioError",
+    "Setup",
     "ShapeError",
+    "SimulationError",
     "Spiral",
     "Stroke",
     "Tool",
@@ -97,7 +110,9 @@ __all__ = [
     "plan",
     "reproduce",
     "run_command",
+    "simulate",
     "sweep",
     "transition_waypoints",
+    "tune",
     "verify",
 ]

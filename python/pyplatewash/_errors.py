@@ -134,5 +134,37 @@ class VerifyError(InputError):
     """A plan says nothing that could be judged. A plan that breaks its promises is no error."""
 
 
+class DynamicsError(InputError):
+    """An arm has no dynamics: a link states no mass, or one that no body can have."""
+
+    #: The link at fault.
+    link: str | None = None
+    #: The joint that nothing resists, for a link without inertia about it.
+    joint: str | None = None
+
+
+class SimulationError(PlatewashError):
+    """A plan could not be simulated."""
+
+    #: ``"other_arm"``, ``"plan"``, ``"setting"``, ``"too_long"``, ``"unstable"``, ``"diverged"`` or ``"coverage"``.
+    cause: str
+    #: The key of the scenario at fault.
+    key: str | None = None
+    #: Segment of the plan at fault.
+    segment: int | None = None
+    #: The plate that it names.
+    plate: int | None = None
+    #: Joint that diverges, 0 for joint 1.
+    joint: int | None = None
+    #: When it does [s].
+    t_s: float | None = None
+    #: A configuration about which the sampled loop is not stable, shape (6,) [rad].
+    q: npt.NDArray[np.float64] | None = None
+    #: The least rate at which these gains are stable [Hz], where there is one.
+    least_rate_hz: float | None = None
+    #: The highest frequency that is stable at this rate with this damping [rad/s], where there is one.
+    highest_frequency_rad_s: float | None = None
+
+
 class InternalError(PlatewashError):
     """A fault in platewash itself; please report it."""

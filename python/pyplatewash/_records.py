@@ -131,6 +131,21 @@ class IkBranches(_ArrayFields):
 
 
 @dataclass(frozen=True, eq=False)
+class Energy(_ArrayFields):
+    """Energy of the moving arm: numbers for one state, arrays of shape (N,) for many."""
+
+    #: Half of qd M(q) qd [J].
+    kinetic_j: float | npt.NDArray[np.float64]
+    #: That of the weights, zero at the height of the base [J].
+    potential_j: float | npt.NDArray[np.float64]
+
+    @property
+    def total_j(self) -> float | npt.NDArray[np.float64]:
+        """Both together [J]."""
+        return self.kinetic_j + self.potential_j
+
+
+@dataclass(frozen=True, eq=False)
 class CoverageRaster(_ArrayFields):
     """The swept part of a disc as a square raster: show it with ``imshow(raster.state, origin="lower", extent=raster.extent)``."""
 

@@ -19,7 +19,7 @@ class Tool:
     The tip is the centre of the sponge's far face.
 
     >>> Tool(length_m=0.15)
-    Tool(length_m=0.15, radius_m=0.02, sponge_radius_m=0.025, sponge_height_m=0.025)
+    Tool(length_m=0.15, radius_m=0.02, sponge_radius_m=0.025, sponge_height_m=0.025, sponge_compression_m=0.005, mass_kg=0.3, com_m=None, inertia_kg_m2=None)
     """
 
     #: From the flange to the sponge's far face [m]; 0 for no tool body.
@@ -30,6 +30,14 @@ class Tool:
     sponge_radius_m: float = 0.025
     #: Height of the sponge [m].
     sponge_height_m: float = 0.025
+    #: How far the sponge is pressed in while it washes [m]: the tip may lift as far and still touch. An assumption.
+    sponge_compression_m: float = 0.005
+    #: Mass [kg], none where the length is 0: an assumption.
+    mass_kg: float = 0.3
+    #: Distance of the centre of mass from the flange, along the handle [m]; without it, half the length.
+    com_m: float | None = None
+    #: Inertia about the centre of mass, ixx, ixy, ixz, iyy, iyz, izz, z along the handle [kg m^2]; without it, a uniform cylinder's.
+    inertia_kg_m2: tuple[float, float, float, float, float, float] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

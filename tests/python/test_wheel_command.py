@@ -54,6 +54,8 @@ def test_exit_codes_come_back_from_the_call(capfd: pytest.CaptureFixture[str]) -
 LONG = {
     "reproduce": "pw.reproduce(layouts=10_000, draws=1_000_000)",
     "sweep": "pw.sweep('kitchen', range(1, 1_000_000))",
+    "tune": "pw.tune(pw.plan('kitchen'), np.linspace(5, 60, 100), np.linspace(0.7, 1.5, 100))",
+    "simulate": "pw.simulate(pw.plan('kitchen'), pw.Setup('computed_torque', plant={'substeps': 1000}))",
     "batch": "far = np.tile(np.eye(4), (400_000, 1, 1)); far[:, :3, 3] = 0.9; pw.Robot.irb120().ik_batch(far)",
 }
 INTERRUPTED = """

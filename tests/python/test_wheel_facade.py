@@ -16,6 +16,7 @@ import pyplatewash as pw
 PYTHON = {
     "kinematics": None,  # a module of Rust's; its nouns are at the top
     "planner": None,
+    "simulator": None,
     "cli": "run_command",
     "Axes": "Robot.jacobian",  # axes="base" or "local"
     "Certificate": "Certificate",
@@ -23,6 +24,10 @@ PYTHON = {
     "Coverage": "Coverage",
     "Cycle": "Cycle",
     "CycleReport": "Cycle.report",
+    "DynamicsError": "DynamicsError",
+    "DynamicsModel": "DynamicsModel",
+    "Energy": "Energy",
+    "Execution": "Execution",
     "Frame": "Robot.fk",  # frames go by name
     "IkError": "IkError",
     "IkFailure": "IkError",
@@ -45,6 +50,10 @@ PYTHON = {
     "Reproduction": "reproduce",
     "RobotModel": "Robot",
     "Scenario": "Scenario",
+    "Setup": "Setup",
+    "SimulationError": "SimulationError",
+    "SimulationReport": "Execution.report",
+    "SimulationVerdict": "Execution.report",
     "ToolFrame": "Robot.fk",
     "ToolPath": "Plan.tool_path",
     "Trajectory": "Trajectory",
@@ -52,6 +61,8 @@ PYTHON = {
     "VerifyError": "VerifyError",
     "coverage": "coverage",
     "reproduce": "reproduce",
+    "simulate": "simulate",
+    "tune": "tune",
 }
 
 
@@ -94,7 +105,7 @@ def users(root: Path) -> list[Path]:
     """Everything in Python that uses the wheel."""
     tests = sorted((root / "tests" / "python").glob("test_wheel_*.py"))
     examples = sorted((root / "examples" / "python").glob("*.py"))
-    assert len(tests) >= 6 and len(examples) >= 3
+    assert len(tests) >= 7 and len(examples) >= 3
     return tests + examples
 
 

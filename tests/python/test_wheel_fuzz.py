@@ -12,6 +12,8 @@ from hypothesis.extra import numpy as hnp
 import pyplatewash as pw
 
 ROBOT = pw.Robot.irb120()
+DYNAMICS = pw.DynamicsModel(ROBOT)
+PLAN = pw.plan("paper-appendix")
 NUMBERS = st.floats(allow_nan=True, allow_infinity=True) | st.integers(-(2**80), 2**80) | st.sampled_from([1e308, -1e308, 5e-324])
 SHAPES = hnp.array_shapes(min_dims=0, max_dims=4, min_side=0, max_side=7) | st.sampled_from([(6,), (3, 6), (0, 6), (4, 4), (2, 4, 4), (5, 2)])
 DTYPES = st.one_of(
@@ -61,6 +63,23 @@ CALLS = {
     "smallest": lambda a, b, c: pw.ClearanceModel(ROBOT).smallest(a, b),
     "model": lambda a, b, c: pw.ClearanceModel(ROBOT, a, b),
     "tool": lambda a, b, c: ROBOT.fk([0.0] * 6, tool=pw.Tool(length_m=a, radius_m=b)),
+    "dynamics": lambda a, b, c: pw.DynamicsModel(ROBOT, a, gravity_m_s2=b),
+    "tool with mass": lambda a, b, c: pw.DynamicsModel(ROBOT, pw.Tool(length_m=0.1, mass_kg=a, com_m=b, inertia_kg_m2=c)),
+    "inverse dynamics": lambda a, b, c: DYNAMICS.inverse_dynamics(a, b, c),
+    "inverse dynamics of anything": lambda a, b, c: DYNAMICS.inverse_dynamics(a, [0.0] * 6, a),
+    "forward dynamics": lambda a, b, c: DYNAMICS.forward_dynamics(a, a, [0.0] * 6),
+    "mass matrix": lambda a, b, c: DYNAMICS.mass_matrix(a),
+    "gravity torque": lambda a, b, c: DYNAMICS.gravity_torque(a),
+    "coriolis torque": lambda a, b, c: DYNAMICS.coriolis_torque(a, b),
+    "bias torque": lambda a, b, c: DYNAMICS.bias_torque(a, b),
+    "energy": lambda a, b, c: DYNAMICS.energy(a, b),
+    "setup": lambda a, b, c: pw.Setup(a, control=b, plant=c),
+    "setup of numbers": lambda a, b, c: pw.Setup("pd", control={"rate_hz": a, "joint_kp": b, "joint_kd": c}, plant={"substeps": a}),
+    "simulate": lambda a, b, c: pw.simulate(PLAN, a, b),
+    "simulate anything": lambda a, b, c: pw.simulate(a, b, c),
+    "executed csv": lambda a, b, c: pw.simulate(PLAN).to_csv(a),
+    "tune": lambda a, b, c: pw.tune(PLAN, a, b, pw.Setup("pd")),
+    "tune anything": lambda a, b, c: pw.tune(PLAN, a, b, c),
     "coverage": lambda a, b, c: pw.coverage(a, b, 0.1, 0.02),
     "coverage of lengths": lambda a, b, c: pw.coverage([[0.0, 0.0]], [0, 0], a, b, cell_m=0.01),
     "raster": lambda a, b, c: pw.coverage_raster(a, b, 0.1, 0.02, cells=9),

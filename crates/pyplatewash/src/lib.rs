@@ -11,6 +11,7 @@ mod command;
 mod coverage;
 mod curves;
 mod cycle;
+mod dynamics;
 mod errors;
 mod job;
 mod layout;
@@ -19,6 +20,7 @@ mod pose;
 mod reproduce;
 mod robot;
 mod scenario;
+mod simulation;
 mod tool;
 mod trajectory;
 mod value;
@@ -42,6 +44,8 @@ mod _core {
     #[pymodule_export]
     use crate::cycle::{CycleObject, plan, sweep};
     #[pymodule_export]
+    use crate::dynamics::DynamicsObject;
+    #[pymodule_export]
     use crate::job::JobObject;
     #[pymodule_export]
     use crate::layout::{LayoutObject, place_plates};
@@ -53,6 +57,8 @@ mod _core {
     use crate::robot::{IkSolutionRecord, Robot};
     #[pymodule_export]
     use crate::scenario::ScenarioObject;
+    #[pymodule_export]
+    use crate::simulation::{ExecutionObject, SetupObject, simulate, tune};
     #[pymodule_export]
     use crate::trajectory::TrajectoryObject;
 }

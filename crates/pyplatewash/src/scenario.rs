@@ -228,6 +228,12 @@ impl ScenarioObject {
         self.section(py, "control")
     }
 
+    /// What the arm is as a physical system.
+    #[getter]
+    fn plant<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "plant")
+    }
+
     fn __repr__(&self) -> String {
         format!("Scenario('{}', seed={})", self.inner.name, self.inner.seed)
     }

@@ -8,6 +8,9 @@ use pyo3::prelude::*;
 /// Largest length that is believed \[m\].
 const LARGEST_M: f64 = 100.0;
 
+/// Largest mass that is believed \[kg\], and largest entry of an inertia \[kg·m²\].
+const LARGEST_KG: f64 = 1e4;
+
 /// Fields of Python's `Tool`.
 #[derive(Debug, FromPyObject)]
 pub struct ToolFields {
@@ -15,6 +18,10 @@ pub struct ToolFields {
     radius_m: f64,
     sponge_radius_m: f64,
     sponge_height_m: f64,
+    sponge_compression_m: f64,
+    mass_kg: f64,
+    com_m: Option<f64>,
+    inertia_kg_m2: Option<[f64; 6]>,
 }
 
 impl ToolFields {
@@ -36,13 +43,15 @@ impl ToolFields {
     /// The tool.
     ///
     /// # Errors
-    /// `InputError` for a length that makes no sense.
+    /// `InputError` for a number that makes no sense.
     pub fn section(&self, py: Python<'_>) -> PyResult<ToolSection> {
         let lengths = [
             ("tool.length_m", self.length_m),
             ("tool.radius_m", self.radius_m),
             ("tool.sponge_radius_m", self.sponge_radius_m),
             ("tool.sponge_height_m", self.sponge_height_m),
+            ("tool.sponge_compression_m", self.sponge_compression_m),
+            ("tool.com_m", self.com_m.map_or(0.0, f64::abs)),
         ];
         for (name, length_m) in lengths {
             check_length(py, name, length_m)?;
@@ -54,12 +63,32 @@ impl ToolFields {
             );
             return Err(errors::input(py, "tool.sponge_height_m", &problem));
         }
+        self.check_masses(py)?;
         Ok(ToolSection {
             length_m: self.length_m,
             radius_m: self.radius_m,
             sponge_radius_m: self.sponge_radius_m,
             sponge_height_m: self.sponge_height_m,
+            sponge_compression_m: self.sponge_compression_m,
+            mass_kg: self.mass_kg,
+            com_m: self.com_m,
+            inertia_kg_m2: self.inertia_kg_m2,
         })
+    }
+
+    fn check_masses(&self, py: Python<'_>) -> PyResult<()> {
+        if !(0.0..=LARGEST_KG).contains(&self.mass_kg) {
+            let problem = format!("must be from 0 to {LARGEST_KG} kg; found {}", self.mass_kg);
+            return Err(errors::input(py, "tool.mass_kg", &problem));
+        }
+        let mut entries = self.inertia_kg_m2.iter().flatten();
+        match entries.find(|entry| !(-LARGEST_KG..=LARGEST_KG).contains(*entry)) {
+            None => Ok(()),
+            Some(found) => {
+                let problem = format!("must be within ±{LARGEST_KG} kg·m²; found {found}");
+                Err(errors::input(py, "tool.inertia_kg_m2", &problem))
+            }
+        }
     }
 }
 

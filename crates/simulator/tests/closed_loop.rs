@@ -1,6 +1,7 @@
 //! From anywhere within the limits, at up to half the speed limits, every law that is not refused stays bounded and settles.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+use nalgebra::Matrix6;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_planner::scenario::{ControlLawName, ControlSection, Integrator};
 use platewash_planner::trajectory::JointState;
@@ -8,6 +9,7 @@ use platewash_simulator::control::{self, ControlError, Reference};
 use platewash_simulator::dynamics::spread;
 use platewash_simulator::{Command, ControlLaw, DynamicsModel, Plant, PlantState};
 use proptest::prelude::*;
+use std::sync::OnceLock;
 
 const LAWS: [ControlLawName; 3] = [
     ControlLawName::Pd,
@@ -21,9 +23,27 @@ fn plant() -> (RobotModel, Plant) {
     (robot, plant)
 }
 
-/// Configurations all over the limits.
+/// Configurations at which some loop of independent joints is nearest to instability, and some all over the limits.
+///
+/// Gains go with D, each joint's largest inertia, so that a loop is fastest where the largest eigenvalue of M⁻¹ D is.
 fn everywhere(robot: &RobotModel) -> Vec<JointVector> {
-    spread(robot.limits(), 64).collect()
+    static FOUND: OnceLock<Vec<JointVector>> = OnceLock::new();
+    let find = || {
+        let (_, plant) = plant();
+        let scale = Matrix6::from_diagonal(&plant.model.largest_inertias(robot.limits()).map(f64::sqrt));
+        let fastest = |q: &JointVector| {
+            let inverse = plant.model.mass_matrix(q).try_inverse().unwrap();
+            (scale * inverse * scale).symmetric_eigenvalues().max()
+        };
+        let mut all: Vec<_> = spread(robot.limits(), 1 << 14).map(|q| (fastest(&q), q)).collect();
+        all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        all.into_iter()
+            .map(|(_, q)| q)
+            .take(32)
+            .chain(spread(robot.limits(), 32))
+            .collect()
+    };
+    FOUND.get_or_init(find).clone()
 }
 
 fn still(q: JointVector) -> Reference {
@@ -59,37 +79,91 @@ fn within(robot: &RobotModel, shares: [f64; 6]) -> JointVector {
     })
 }
 
+/// Where a loop starts, where it shall go, and its settings.
+#[derive(Debug, Clone)]
+struct Case {
+    from: [f64; 6],
+    target: [f64; 6],
+    speeds: [f64; 6],
+    frequency: f64,
+    damping: f64,
+}
+
+fn cases() -> impl Strategy<Value = Case> {
+    let shares = || prop::array::uniform6(0.0..1.0f64);
+    let speeds = prop::array::uniform6(-0.5..0.5f64);
+    (shares(), shares(), speeds, 5.0..80.0f64, 0.7..1.5f64).prop_map(|(from, target, speeds, frequency, damping)| {
+        Case {
+            from,
+            target,
+            speeds,
+            frequency,
+            damping,
+        }
+    })
+}
+
+/// The law stays bounded for 5 s at least and settles, or is refused.
+fn settles(law: ControlLawName, case: &Case) -> Result<(), TestCaseError> {
+    let (robot, plant) = plant();
+    let (frequency, damping) = (case.frequency, case.damping);
+    let section = ControlSection {
+        frequency_rad_s: frequency,
+        damping_ratio: damping,
+        ..ControlSection::default()
+    };
+    let Ok(mut made) = control::law(law, &section, &plant, robot.limits(), &everywhere(&robot), 1) else {
+        // Few are refused: independent joints with high gains, whose wrist has much less inertia in some configurations.
+        prop_assert!(
+            law != ControlLawName::ComputedTorque && frequency * damping > 30.0,
+            "{law:?} {frequency} {damping}"
+        );
+        return Ok(());
+    };
+    let (q, target) = (within(&robot, case.from), within(&robot, case.target));
+    let qd = JointVector::from(case.speeds).component_mul(&robot.limits().velocity);
+    let mut end = run(made.as_mut(), &plant, target, PlantState { q, qd }, 5.0);
+    if law == ControlLawName::Pd && end.qd.amax() >= 0.05 {
+        // A loop that is hardly stiffer than gravity's slope takes its time.
+        end = run(made.as_mut(), &plant, target, end, 25.0);
+    }
+    prop_assert!(
+        end.qd.amax() < 0.05,
+        "{law:?} at {frequency} rad/s still moves: {}",
+        end.qd
+    );
+    if law != ControlLawName::Pd {
+        prop_assert!(
+            (end.q - target).amax() < 0.05,
+            "{law:?} at {frequency} rad/s is off: {}",
+            end.q - target
+        );
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
-    fn loops_stay_bounded_and_settle(
-        law in prop::sample::select(LAWS.to_vec()),
-        from in prop::array::uniform6(0.0..1.0f64),
-        target in prop::array::uniform6(0.0..1.0f64),
-        speeds in prop::array::uniform6(-0.5..0.5f64),
-        frequency in 5.0..80.0f64,
-        damping in 0.7..1.5f64,
-    ) {
-        let (robot, plant) = plant();
-        let section = ControlSection { frequency_rad_s: frequency, damping_ratio: damping, ..ControlSection::default() };
-        let made = control::law(law, &section, &plant, robot.limits(), &everywhere(&robot), 1);
-        let Ok(mut made) = made else {
-            // Few are refused: independent joints with high gains, whose wrist has much less inertia in some configurations.
-            prop_assert!(law != ControlLawName::ComputedTorque && frequency * damping > 30.0, "{law:?} {frequency} {damping}");
-            return Ok(());
-        };
-        let (q, target) = (within(&robot, from), within(&robot, target));
-        let qd = JointVector::from(speeds).component_mul(&robot.limits().velocity);
-        let end = run(made.as_mut(), &plant, target, PlantState { q, qd }, 5.0);
-        prop_assert!(end.qd.amax() < 0.05, "{law:?} at {frequency} rad/s still moves: {}", end.qd);
-        if law != ControlLawName::Pd {
-            prop_assert!((end.q - target).amax() < 0.05, "{law:?} at {frequency} rad/s is off: {}", end.q - target);
-        }
+    fn pd_stays_bounded_and_settles(case in cases()) {
+        settles(ControlLawName::Pd, &case)?;
+    }
+
+    #[test]
+    fn pd_with_gravity_stays_bounded_and_settles(case in cases()) {
+        settles(ControlLawName::PdGravity, &case)?;
+    }
+
+    #[test]
+    fn computed_torque_stays_bounded_and_settles(case in cases()) {
+        settles(ControlLawName::ComputedTorque, &case)?;
     }
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
     /// The paper's law, stepped at its own 0.01 s for 5 s, settles or is refused; it is refused where its error grows.
     #[test]
     fn the_papers_law_settles_or_is_refused(
@@ -103,12 +177,15 @@ proptest! {
         let (q, target) = (within(&robot, from), within(&robot, target));
         let mut free = platewash_planner::control::PaperLaw::new(kp, kd, 0.01);
         let grown = (0..2000).fold(q, |q, _| platewash_planner::control::ControlLaw::step(&mut free, &target, &q)) - target;
+        // Within 2 % of the limit neither growth nor decay shows in 20 s.
+        let limit = 2.0 * (1.0 - kd) / 0.01;
+        let is_marginal = (kd.abs() - 1.0).abs() < 0.02 || (kp - limit).abs() < 0.02 * limit.abs();
         // Joint 6 alone may have 14 rad to go.
         let is_bounded = grown.iter().all(|v| v.is_finite() && v.abs() < 50.0);
         let has_moved_in = grown.iter().zip(&(q - target)).all(|(now, before)| now.is_finite() && now.abs() < 0.9 * before.abs());
         match control::kinematic(ControlLawName::Paper, &section) {
             Ok(_) => prop_assert!(is_bounded, "accepted and grows: {}", grown),
-            Err(_) => prop_assert!(!has_moved_in, "refused and settles: {}", grown),
+            Err(_) => prop_assert!(!has_moved_in || is_marginal, "refused and settles: {}", grown),
         }
         let paper = ControlSection::default();
         let mut law = control::kinematic(ControlLawName::Paper, &paper).unwrap();

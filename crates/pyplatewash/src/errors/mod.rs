@@ -5,9 +5,11 @@
 
 mod inverse;
 mod job;
+mod simulation;
 
 pub use inverse::{cause, ik, ik_path};
 pub use job::{plan, scenario, verify};
+pub use simulation::{dynamics, simulation};
 
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;

@@ -1,0 +1,199 @@
+//! `Execution`: what the arm did, sample by sample, and its report.
+
+use super::{Question, Refused, SetupObject};
+use crate::arrays;
+use crate::errors;
+use crate::plan::PlanObject;
+use crate::robot::Robot;
+use crate::value::to_record;
+use crate::work::patiently;
+use numpy::{PyArray1, PyArrayDyn};
+use platewash::simulator::simulate::{Sample, table};
+use platewash::{Execution, JointVector, Plan, RobotModel, Setup, SimulationReport};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use std::sync::Arc;
+
+/// A plan executed under a control law; the samples are N. Immutable.
+///
+/// The arm starts on the path, at its speed. The same plan, arm and setup give the same bits.
+#[pyclass(frozen, module = "pyplatewash", name = "Execution")]
+pub struct ExecutionObject {
+    inner: Arc<Done>,
+    arguments: (Py<PlanObject>, Py<SetupObject>, Option<Py<Robot>>),
+}
+
+/// An execution and what it is one of.
+struct Done {
+    plan: Plan,
+    robot: Arc<RobotModel>,
+    setup: Setup,
+    execution: Execution,
+}
+
+impl ExecutionObject {
+    fn samples(&self) -> &[Sample] {
+        &self.inner.execution.samples
+    }
+
+    fn rows<'py>(&self, py: Python<'py>, of: impl Fn(&Sample) -> JointVector) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        arrays::joint_rows(py, &self.samples().iter().map(of).collect::<Vec<_>>())
+    }
+}
+
+#[pymethods]
+impl ExecutionObject {
+    /// Under which law, with which gains and on which plant.
+    #[getter]
+    fn setup(&self, py: Python<'_>) -> Py<SetupObject> {
+        self.arguments.1.clone_ref(py)
+    }
+
+    /// Time between samples [s].
+    #[getter]
+    fn period_s(&self) -> f64 {
+        self.inner.execution.period_s
+    }
+
+    /// Times of the samples, shape (N,) [s].
+    #[getter]
+    fn t_s<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        arrays::line(py, self.samples().iter().map(|s| s.t_s).collect())
+    }
+
+    /// Index of the plan's segment at each sample, shape (N,).
+    #[getter]
+    fn segment<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        arrays::line(py, self.samples().iter().map(|s| s.segment as i64).collect())
+    }
+
+    /// Positions that the plan asks for, shape (N, 6) [rad].
+    #[getter]
+    fn commanded_rad<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.rows(py, |s| s.commanded)
+    }
+
+    /// Positions, shape (N, 6) [rad].
+    #[getter]
+    fn q_rad<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.rows(py, |s| s.state.q)
+    }
+
+    /// Speeds, shape (N, 6) [rad/s].
+    #[getter]
+    fn qd_rad_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.rows(py, |s| s.state.qd)
+    }
+
+    /// Accelerations over the step that follows each sample, shape (N, 6) [rad/s²].
+    #[getter]
+    fn qdd_rad_s2<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.rows(py, |s| s.qdd)
+    }
+
+    /// Torques held until the next sample, within the limits, shape (N, 6) [N·m]; zeros under `"paper"` and `"exact"`.
+    #[getter]
+    fn torque_n_m<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.rows(py, |s| s.torque)
+    }
+
+    /// Torque limits [N·m], None for a joint without; None under a law without a plant.
+    #[getter]
+    fn torque_limit_n_m(&self) -> Option<[Option<f64>; 6]> {
+        self.inner.execution.limits.map(|limits| limits.0)
+    }
+
+    /// Samples at which a torque limit cut what the law asked for.
+    #[getter]
+    fn saturated(&self) -> usize {
+        self.inner.execution.saturated
+    }
+
+    /// Judges the execution: errors, torques, contact, coverage and a verdict a plate. A record; its text is the report that the
+    /// command prints.
+    ///
+    /// Raises SimulationError for plates or sponges that make no sense.
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let done = self.inner.clone();
+        let report = patiently(py, move |_| {
+            SimulationReport::new(&done.plan, &done.robot, &done.setup, &done.execution)
+        })?;
+        let report = report.map_err(|e| errors::simulation(py, &e))?;
+        to_record(py, &report, Some(report.to_string()))
+    }
+
+    /// The executed motion as CSV text, every `dt_s` [s], by default the scenario's.
+    #[pyo3(signature = (dt_s=None))]
+    fn to_csv(&self, py: Python<'_>, dt_s: Option<f64>) -> PyResult<String> {
+        let done = &self.inner;
+        let dt_s = dt_s.unwrap_or(done.plan.scenario.control.dt_s);
+        table(&done.execution, &done.plan, &done.robot, dt_s).map_err(|e| errors::input(py, "dt_s", &e.to_string()))
+    }
+
+    fn __len__(&self) -> usize {
+        self.samples().len()
+    }
+
+    fn __repr__(&self) -> String {
+        let done = &self.inner;
+        let (name, law) = (&done.plan.scenario.name, done.setup.law.name());
+        format!(
+            "Execution('{name}' under {law}, {} samples, {:.2} s)",
+            self.samples().len(),
+            self.samples().last().map_or(0.0, |sample| sample.t_s)
+        )
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        let (a, b) = (&self.inner, &other.inner);
+        (&a.plan, &a.setup, &a.execution) == (&b.plan, &b.setup, &b.execution)
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        // The same plan on the same arm under the same setup is the same execution, to the bit.
+        let simulate = slf.py().import("pyplatewash")?.getattr("simulate")?;
+        Ok((simulate, (&slf.get().arguments).into_pyobject(slf.py())?))
+    }
+}
+
+/// Runs a plan under a control law, by default that of its scenario, on its arm, by default the built-in one that it names.
+///
+/// Raises SimulationError for a plan that is no motion or for another arm, a law that is not stable with the limit that was
+/// passed, or an arm that leaves all bounds; DynamicsError for an arm without dynamics; VerifyError for a plan whose arm
+/// must be given.
+#[pyfunction]
+#[pyo3(signature = (plan, setup=None, robot=None))]
+pub fn simulate(
+    py: Python<'_>,
+    plan: &Bound<'_, PlanObject>,
+    setup: Option<&Bound<'_, SetupObject>>,
+    robot: Option<&Bound<'_, Robot>>,
+) -> PyResult<ExecutionObject> {
+    let question = Question::new(plan.get(), setup, robot);
+    let setup = match setup {
+        Some(setup) => setup.clone().unbind(),
+        None => Py::new(py, SetupObject::from(question.setup.clone()))?,
+    };
+    let done = patiently(py, move |_| {
+        let robot = question.arm()?;
+        let Question { plan, setup, .. } = question;
+        let execution = platewash::simulate(&plan, &robot, &setup).map_err(Refused::Simulation)?;
+        Ok::<_, Refused>(Done {
+            plan,
+            robot,
+            setup,
+            execution,
+        })
+    })?;
+    let inner = Arc::new(done.map_err(|e| e.raised(py))?);
+    let arguments = (plan.clone().unbind(), setup, robot.map(|robot| robot.clone().unbind()));
+    Ok(ExecutionObject { inner, arguments })
+}

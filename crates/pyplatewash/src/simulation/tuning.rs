@@ -1,0 +1,103 @@
+//! Many frequencies and dampings of a law.
+
+use super::{Question, Refused, SetupObject};
+use crate::arrays::{Count, Numbers, Wanted};
+use crate::errors;
+use crate::plan::{PlanObject, records};
+use crate::robot::Robot;
+use crate::work::patiently;
+use platewash::simulator::simulate::{TuneOutcome, TuneRow};
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// Most settings of one call.
+const MOST_SETTINGS: usize = 10_000;
+
+const NUMBERS: Wanted = Wanted {
+    item: &[],
+    count: Count::Stack,
+};
+
+/// One setting.
+#[derive(Debug, Serialize)]
+struct Row {
+    frequency_rad_s: f64,
+    damping_ratio: f64,
+    #[serde(flatten)]
+    outcome: Outcome,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Outcome {
+    Simulated(TuneOutcome),
+    Refused { verdict: &'static str, reason: String },
+}
+
+impl From<TuneRow> for Row {
+    fn from(row: TuneRow) -> Self {
+        Self {
+            frequency_rad_s: row.frequency_rad_s,
+            damping_ratio: row.damping_ratio,
+            outcome: match row.outcome {
+                Ok(outcome) => Outcome::Simulated(outcome),
+                Err(error) => Outcome::Refused {
+                    verdict: "refused",
+                    reason: error.to_string(),
+                },
+            },
+        }
+    }
+}
+
+/// Simulates a plan with every pair of a frequency, shape (F,) [rad/s], and a damping ratio, shape (D,), gains given outright
+/// being left out. One record a pair, in the order of the frequencies, then of the dampings: `frequency_rad_s`,
+/// `damping_ratio`, `verdict` (`"washed"`, `"not_washed"`, `"refused"`), `tip_rms_m`, `tip_max_m`, `torque_max_n_m`, `work_j` and
+/// `least_coverage`, or `reason` for what is refused. Works on all processors.
+///
+/// Raises InputError for a law without a plant, and what `simulate` raises for a plan whose arm must be given.
+#[pyfunction]
+#[pyo3(signature = (plan, frequencies_rad_s, damping_ratios=None, setup=None, robot=None))]
+pub fn tune<'py>(
+    py: Python<'py>,
+    plan: &Bound<'py, PlanObject>,
+    frequencies_rad_s: &Bound<'py, PyAny>,
+    damping_ratios: Option<&Bound<'py, PyAny>>,
+    setup: Option<&Bound<'py, SetupObject>>,
+    robot: Option<&Bound<'py, Robot>>,
+) -> PyResult<Bound<'py, PyList>> {
+    let frequencies = numbers("frequencies_rad_s", frequencies_rad_s)?;
+    let dampings = damping_ratios.map_or_else(|| Ok(vec![1.0]), |given| numbers("damping_ratios", given))?;
+    let question = Question::new(plan.get(), setup, robot);
+    if question.setup.law.is_kinematic() {
+        let law = question.setup.law.name();
+        let problem =
+            format!("law \"{law}\" has no frequency to tune: use \"pd\", \"pd_gravity\" or \"computed_torque\"");
+        return Err(errors::input(py, "setup", &problem));
+    }
+    let settings = frequencies.len().saturating_mul(dampings.len());
+    if settings > MOST_SETTINGS {
+        let problem = format!("{settings} settings; at most {MOST_SETTINGS} at a time");
+        return Err(errors::input(py, "frequencies_rad_s", &problem));
+    }
+    let rows = patiently(py, move |cancel| {
+        let robot = question.arm()?;
+        let pairs: Vec<_> = frequencies
+            .iter()
+            .flat_map(|f| dampings.iter().map(move |d| [*f, *d]))
+            .collect();
+        let row = |&[frequency, damping]: &[f64; 2]| match cancel.is_asked() {
+            true => Vec::new(),
+            false => platewash::tune(&question.plan, &robot, &question.setup, &[frequency], &[damping]),
+        };
+        let rows: Vec<Vec<TuneRow>> = pairs.par_iter().map(row).collect();
+        Ok::<Vec<Row>, Refused>(rows.into_iter().flatten().map(Row::from).collect())
+    })?;
+    records(py, &rows.map_err(|e| e.raised(py))?)
+}
+
+fn numbers(name: &'static str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    Ok(Numbers::read(name, value, NUMBERS)?.values()?.to_vec())
+}
