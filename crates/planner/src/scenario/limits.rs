@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 pub struct LimitsSection {
     /// Joint acceleration limits \[rad/s²\]: an assumption, as the manufacturer publishes none.
     pub joint_acceleration_rad_s2: [f64; 6],
-    /// Largest speed of the tip anywhere \[m/s\]: an assumption. [`Program::Certified`] only.
+    /// Largest speed of the tip anywhere \[m/s\]: an assumption. [`Program::Certified`](super::Program::Certified) only.
     pub tip_speed_m_s: f64,
-    /// Largest acceleration of the tip anywhere \[m/s²\]: an assumption. [`Program::Certified`] only.
+    /// Largest acceleration of the tip anywhere \[m/s²\]: an assumption. [`Program::Certified`](super::Program::Certified) only.
     pub tip_acceleration_m_s2: f64,
 }
 

@@ -24,7 +24,7 @@ pub struct RobotSection {
     pub tool_frame: ToolFrame,
     /// Joint positions at the start \[deg\].
     pub start_deg: [f64; 6],
-    /// Joint positions at the end \[deg\]; by default those at the start. [`Program::Certified`] only.
+    /// Joint positions at the end \[deg\]; by default those at the start. [`Program::Certified`](super::Program::Certified) only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub home_deg: Option<[f64; 6]>,
     /// Rated payload \[kg\]; without it, that of the built-in arm.

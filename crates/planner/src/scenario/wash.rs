@@ -18,7 +18,7 @@ pub struct WashSection {
     pub closing_ring: bool,
     /// Least clearance that counts as free \[m\].
     pub clearance_m: f64,
-    /// Largest angle of the tool from the plate's normal \[deg\]. This key and those below: [`Program::Certified`] only.
+    /// Largest angle of the tool from the plate's normal \[deg\]. This key and those below: [`Program::Certified`](super::Program::Certified) only.
     pub tilt_max_deg: f64,
     /// Largest speed of the tip along the path \[m/s\].
     pub speed_m_s: f64,
