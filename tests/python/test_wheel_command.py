@@ -1,10 +1,12 @@
 """The command of the wheel is the Rust program; Ctrl-C and other threads get their turn while Rust works."""
 
 import json
+import signal
 import subprocess
 import sys
 import sysconfig
 import threading
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -31,15 +33,19 @@ def run(*command: str | Path, cwd: Path) -> tuple[int, str, str]:
     return done.returncode, done.stdout, done.stderr
 
 
+def command(platewash: Path, which: str) -> list[str]:
+    """How one calls the command: of Rust, of the wheel by its script, of the wheel as a module."""
+    script = Path(sysconfig.get_path("scripts")) / ("platewash.exe" if sys.platform == "win32" else "platewash")
+    return {"rust": [str(platewash)], "script": [str(script)], "module": [sys.executable, "-m", "pyplatewash"]}[which]
+
+
 @pytest.mark.parametrize("line", LINES)
 def test_the_wheels_command_is_the_rust_one(platewash: Path, tmp_path: Path, line: str) -> None:
-    script = Path(sysconfig.get_path("scripts")) / ("platewash.exe" if sys.platform == "win32" else "platewash")
     folders = [tmp_path / name for name in ("rust", "script", "module")]
     answers = []
-    commands = [[str(platewash)], [str(script)], [sys.executable, "-m", "pyplatewash"]]
-    for folder, command in zip(folders, commands, strict=True):
+    for folder in folders:
         folder.mkdir()
-        answers.append(run(*command, *line.split(), cwd=folder))
+        answers.append(run(*command(platewash, folder.name), *line.split(), cwd=folder))
     assert answers[0] == answers[1] == answers[2]
     written = [{file.relative_to(folder): file.read_bytes() for file in folder.rglob("*") if file.is_file()} for folder in folders]
     assert written[0] == written[1] == written[2]
@@ -70,12 +76,64 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for another process")
+def heed_ctrl_c() -> None:
+    """For ``preexec_fn``: the child heeds Ctrl-C, even where these tests were started to ignore it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+@pytest.fixture
+def started_in_the_background() -> Iterator[None]:
+    """What a shell does to a job in its background, and nohup: this process, and whatever it starts, ignores Ctrl-C."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+no_sigint = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for another process")
+
+
+def ends_at_ctrl_c(call: str, folder: Path) -> None:
+    line = [sys.executable, "-c", INTERRUPTED.format(call=call)]
+    done = subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=300, check=False, preexec_fn=heed_ctrl_c)
+    assert done.stdout == "interrupted\n", done.stderr
+
+
+@no_sigint
 @pytest.mark.parametrize("call", LONG.values(), ids=LONG.keys())
 def test_ctrl_c_ends_long_work(call: str, tmp_path: Path) -> None:
-    program = INTERRUPTED.format(call=call)
-    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False)
-    assert done.stdout == "interrupted\n", done.stderr
+    ends_at_ctrl_c(call, tmp_path)
+
+
+@no_sigint
+@pytest.mark.usefixtures("started_in_the_background")
+def test_ctrl_c_ends_long_work_when_the_tests_run_in_the_background(tmp_path: Path) -> None:
+    ends_at_ctrl_c(LONG["sweep"], tmp_path)
+
+
+def swept(command: list[str], last: int, folder: Path, preexec: Callable[[], None] | None) -> tuple[int, list[str]]:
+    """Exit code and seeds of a sweep from seed 1 that gets SIGINT after its first row."""
+    line = [*command, "sweep", "--scenario", "kitchen", "--seeds", f"1..{last}", "--threads", "1", "--quiet"]
+    with subprocess.Popen(line, cwd=folder, stdout=subprocess.PIPE, text=True, preexec_fn=preexec) as child:
+        assert child.stdout is not None
+        rows = [child.stdout.readline(), child.stdout.readline()]
+        child.send_signal(signal.SIGINT)
+        rows += child.stdout.readlines()
+    return child.returncode, [row.split(",")[0] for row in rows[1:]]
+
+
+@no_sigint
+@pytest.mark.parametrize("which", ["rust", "module"])
+def test_ctrl_c_ends_the_command(platewash: Path, which: str, tmp_path: Path) -> None:
+    code, _ = swept(command(platewash, which), 100_000, tmp_path, heed_ctrl_c)
+    assert code == -signal.SIGINT
+
+
+@no_sigint
+@pytest.mark.usefixtures("started_in_the_background")
+@pytest.mark.parametrize("which", ["rust", "module"])
+def test_a_command_started_in_the_background_ignores_ctrl_c(platewash: Path, which: str, tmp_path: Path) -> None:
+    code, seeds = swept(command(platewash, which), 4, tmp_path, None)
+    assert (code, seeds) == (0, [str(seed) for seed in range(1, 5)])
 
 
 def test_other_threads_run_while_rust_works() -> None:
