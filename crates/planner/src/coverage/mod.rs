@@ -1,5 +1,6 @@
 //! How much of a plate the sponge sweeps.
 
+mod columns;
 mod disc;
 mod picture;
 mod raster;
@@ -33,7 +34,8 @@ impl Default for CoverageSettings {
 /// The swept part of a disc, as fractions of the disc's area, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Coverage {
-    /// Best estimate: the smallest cells count as swept when their middle is.
+    /// Best estimate: of the smallest cells that remain undecided, the swept share of eight columns of each counts, so that
+    /// the sponge's edge and the plate's rim are both where they are, even in the same cell.
     pub fraction: f64,
     /// The true value is not below this.
     pub lower: f64,
@@ -146,10 +148,14 @@ fn capsules(polyline: &[[f64; 2]], centre: [f64; 2]) -> Vec<Capsule> {
 
 fn as_fractions(uncovered: &Uncovered, disc_area: f64) -> Coverage {
     let covered = |uncovered_area: f64, rounding: f64| (1.0 - uncovered_area / disc_area + rounding).clamp(0.0, 1.0);
+    let (lower, upper) = (
+        covered(uncovered.at_most, -ROUNDING),
+        covered(uncovered.at_least, ROUNDING),
+    );
     Coverage {
-        fraction: covered(uncovered.by_middle, 0.0),
-        lower: covered(uncovered.at_most, -ROUNDING),
-        upper: covered(uncovered.at_least, ROUNDING),
+        fraction: covered(uncovered.estimate, 0.0).clamp(lower, upper),
+        lower,
+        upper,
     }
 }
 

@@ -1,5 +1,6 @@
 //! The quadtree that decides, cell by cell, what is swept.
 
+use super::columns::swept_share;
 use super::disc::area_of_rectangle_in_disc;
 
 /// The axis of a capsule: a segment, which may be a point.
@@ -35,6 +36,41 @@ impl Capsule {
         let (dx, dy) = (x - t * self.along[0], y - t * self.along[1]);
         dx * dx + dy * dy
     }
+
+    /// The y within `reach` of the axis on the line at the given x, from and to: those of both ends' discs and of the
+    /// rectangle between them, which together are convex.
+    pub(super) fn section(&self, x: f64, reach: f64) -> Option<[f64; 2]> {
+        let [ax, ay] = self.start;
+        let [ux, uy] = self.along;
+        let disc = |cx: f64, cy: f64| {
+            let left = reach * reach - (x - cx) * (x - cx);
+            (left >= 0.0).then(|| [cy - left.sqrt(), cy + left.sqrt()])
+        };
+        let parts = [disc(ax, ay), disc(ax + ux, ay + uy), self.beside_axis(x, reach)];
+        let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        parts.into_iter().flatten().reduce(both)
+    }
+
+    /// The y on the line at the given x whose nearest point of the axis is none of its ends', and within `reach`.
+    fn beside_axis(&self, x: f64, reach: f64) -> Option<[f64; 2]> {
+        let [ux, uy] = self.along;
+        let (length_squared, x) = (ux * ux + uy * uy, x - self.start[0]);
+        // Along the axis 0 ≤ ux x + uy y ≤ |u|², across it |ux y − uy x| ≤ reach |u|.
+        let width = reach * length_squared.sqrt();
+        let along = solutions(uy, ux * x, [0.0, length_squared])?;
+        let across = solutions(ux, -uy * x, [-width, width])?;
+        let y = [along[0].max(across[0]), along[1].min(across[1])];
+        (y[0] <= y[1] && y[0].is_finite() && y[1].is_finite()).then(|| y.map(|y| self.start[1] + y))
+    }
+}
+
+/// The y with least ≤ slope · y + offset ≤ most; all where the slope is zero and the offset fits.
+fn solutions(slope: f64, offset: f64, [least, most]: [f64; 2]) -> Option<[f64; 2]> {
+    if slope == 0.0 {
+        return (least <= offset && offset <= most).then_some([f64::NEG_INFINITY, f64::INFINITY]);
+    }
+    let [a, b] = [least, most].map(|end| (end - offset) / slope);
+    Some([a.min(b), a.max(b)])
 }
 
 /// Area of the disc that is not swept, in the square of the unit of the lengths.
@@ -44,8 +80,8 @@ pub(super) struct Uncovered {
     pub(super) at_least: f64,
     /// Proven upper bound.
     pub(super) at_most: f64,
-    /// Estimate: undecided cells count by their middle.
-    pub(super) by_middle: f64,
+    /// Estimate: undecided cells count by the swept share of their columns.
+    pub(super) estimate: f64,
 }
 
 /// The state of a recursion over square cells about the disc's centre.
@@ -57,6 +93,8 @@ pub(super) struct Raster<'a> {
     cell: f64,
     /// The capsules that reach the current cell, after those that reach the cells around it.
     near: Vec<u32>,
+    /// Room for the sections of a column.
+    sections: Vec<[f64; 2]>,
     uncovered: Uncovered,
 }
 
@@ -70,6 +108,7 @@ impl<'a> Raster<'a> {
             sponge_radius,
             cell,
             near,
+            sections: Vec::new(),
             uncovered: Uncovered::default(),
         }
     }
@@ -95,10 +134,8 @@ impl<'a> Raster<'a> {
         let half_diagonal = half * std::f64::consts::SQRT_2;
         let (within, reach) = (self.sponge_radius - half_diagonal, self.sponge_radius + half_diagonal);
         let last = self.near.len();
-        let mut nearest_squared = f64::INFINITY;
         for k in first..last {
             let squared = self.capsules[self.near[k] as usize].distance_squared(middle);
-            nearest_squared = nearest_squared.min(squared);
             if within > 0.0 && squared <= within * within {
                 self.near.truncate(last);
                 return;
@@ -110,8 +147,7 @@ impl<'a> Raster<'a> {
         if self.near.len() == last {
             self.add_uncovered(self.area_in_disc(middle, half));
         } else if depth == 0 {
-            let area = self.area_in_disc(middle, half);
-            self.add_undecided(area, nearest_squared <= self.sponge_radius * self.sponge_radius);
+            self.add_undecided(middle, half, last);
         } else {
             let quarter = 0.5 * half;
             for (x, y) in [
@@ -129,14 +165,17 @@ impl<'a> Raster<'a> {
     fn add_uncovered(&mut self, area: f64) {
         self.uncovered.at_least += area;
         self.uncovered.at_most += area;
-        self.uncovered.by_middle += area;
+        self.uncovered.estimate += area;
     }
 
-    fn add_undecided(&mut self, area: f64, middle_is_covered: bool) {
+    /// Adds a smallest cell that the capsules of `near[first..]` reach but none of them covers.
+    fn add_undecided(&mut self, middle: [f64; 2], half: f64, first: usize) {
+        let area = self.area_in_disc(middle, half);
+        let near = self.near[first..].iter().map(|&k| &self.capsules[k as usize]);
+        let cell = middle.map(|c| [c - half, c + half]);
+        let share = swept_share(cell, self.radius, near, self.sponge_radius, &mut self.sections);
         self.uncovered.at_most += area;
-        if !middle_is_covered {
-            self.uncovered.by_middle += area;
-        }
+        self.uncovered.estimate += area * (1.0 - share);
     }
 
     fn is_outside_disc(&self, [x, y]: [f64; 2], half: f64) -> bool {

@@ -66,6 +66,32 @@ fn a_centred_stamp_covers_the_square_of_the_ratio() {
     }
 }
 
+/// Where the sponge's edge runs along the plate's rim, both cut the same cells.
+#[test]
+fn a_stamp_that_meets_the_rim_is_estimated_as_closely_as_any() {
+    assert_brackets(swept(&[[0.0, 0.0]], PLATE, PLATE), 1.0, 1e-12);
+    for short_m in [1e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3] {
+        let ratio = (PLATE - short_m) / PLATE;
+        assert_brackets(swept(&[[0.0, 0.0]], PLATE, PLATE - short_m), ratio * ratio, 2e-5);
+    }
+    // A ring whose outer edge is the rim, of chords that leave their arc by less than a micrometre: all but the middle.
+    let (s, n) = (0.05, 2000);
+    let at = |i: usize| {
+        let (sin, cos) = sin_cos(2.0 * PI * i as f64 / n as f64);
+        [(PLATE - s) * cos, (PLATE - s) * sin]
+    };
+    let ring: Vec<_> = (0..=n).map(at).collect();
+    let left = (PLATE - 2.0 * s) / PLATE;
+    assert_brackets(swept(&ring, PLATE, s), 1.0 - left * left, 2e-5);
+}
+
+#[test]
+fn a_centred_stamp_is_estimated_to_a_few_parts_in_a_hundred_thousand() {
+    for s in [0.01, 0.025, 0.05, 0.0725, 0.1, 0.12, 0.14] {
+        assert_brackets(swept(&[[0.0, 0.0]], PLATE, s), (s / PLATE) * (s / PLATE), 5e-5);
+    }
+}
+
 #[test]
 fn a_large_stamp_covers_all() {
     let all = swept(&[[0.02, 0.0]], PLATE, 0.2);
