@@ -13,6 +13,7 @@ use crate::tool_path::{Segment, SegmentKind, Shape};
 use crate::trig::atan2;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
+use std::f64::consts::TAU;
 
 /// Distance of the samples on a line \[m\].
 const LINE_STEP_M: f64 = 2e-3;
@@ -37,7 +38,8 @@ pub(super) fn centre(plate: &Plate, scenario: &Scenario) -> Vector3<f64> {
     Vector3::new(plate.x_m, plate.y_m, plate.z_m + scenario.wash.height_m)
 }
 
-/// The stroke on a plate that ends in the direction of `towards` \[m\].
+/// The stroke on a plate that ends in the direction of `towards` \[m\]; it leaves the centre at an angle within a turn of 0,
+/// whatever its turns.
 pub(super) fn stroke(scenario: &Scenario, centre: &Vector3<f64>, towards: &Vector3<f64>) -> Stroke {
     let wash = &scenario.wash;
     let way = towards - centre;
@@ -47,7 +49,7 @@ pub(super) fn stroke(scenario: &Scenario, centre: &Vector3<f64>, towards: &Vecto
         start_angle_rad: 0.0,
         closing_ring: wash.closing_ring,
     };
-    stroke.start_angle_rad = atan2(way.y, way.x) - stroke.end() % std::f64::consts::TAU;
+    stroke.start_angle_rad = (atan2(way.y, way.x) - stroke.end() % TAU) % TAU;
     stroke
 }
 
@@ -156,6 +158,32 @@ impl Visit {
             plate: self.plate,
             shape,
             waypoints: Vec::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Whole turns among them, whose remainder rounds to nothing or to nearly a turn.
+        #[test]
+        fn a_stroke_of_any_turns_begins_within_a_turn_of_0_and_ends_towards_the_next_place(
+            turns in prop_oneof![0.25..200.0f64, (1..200u32).prop_map(f64::from), (5..4000u32).prop_map(|n| 0.05 * f64::from(n))],
+            half_turns in -1.0..1.0f64,
+            closing_ring in any::<bool>(),
+        ) {
+            let mut scenario = Scenario::load("kitchen").unwrap();
+            (scenario.wash.turns, scenario.wash.closing_ring) = (turns, closing_ring);
+            let centre = Vector3::new(0.3, 0.1, 0.03);
+            let (s, c) = crate::trig::sin_cos(0.5 * TAU * half_turns);
+            let towards = Vector3::new(c, s, 0.0);
+            let stroke = stroke(&scenario, &centre, &(centre + towards));
+            prop_assert!(stroke.start_angle_rad.abs() < TAU, "{}", stroke.start_angle_rad);
+            let end = stroke.at(stroke.end()).position.normalize();
+            prop_assert!((end - towards.xy()).norm() < 1e-9, "{end} {towards}");
         }
     }
 }
