@@ -28,6 +28,39 @@ fn the_shipped_scenarios_are_proved() {
     }
 }
 
+/// The angle at which a stroke leaves the centre is judged within a turn of 0, whatever remains of its turns.
+#[test]
+fn the_tool_path_of_any_number_of_turns_is_that_of_the_scenario() {
+    for turns in [2.7, 3.9, 4.85, 30.0] {
+        let mut scenario = Scenario::load("kitchen").unwrap();
+        scenario.wash.turns = turns;
+        for seed in if turns < 10.0 { 1..=3 } else { 1..=1 } {
+            scenario.seed = seed;
+            let cycle = Cycle::plan(&scenario).unwrap();
+            let certificate = certificate::verify(&cycle.to_plan().unwrap(), &cycle.robot).unwrap();
+            let broken: Vec<_> = certificate.broken().collect();
+            assert!(broken.is_empty(), "{turns} turns, seed {seed}: {broken:?}");
+        }
+    }
+}
+
+/// As many as may be asked for: what a proof may take grows with the motion.
+#[test]
+fn a_wash_of_many_turns_is_proved() {
+    let mut scenario = Scenario::load("kitchen").unwrap();
+    scenario.wash.turns = 125.0;
+    let cycle = Cycle::plan(&scenario).unwrap();
+    let certificate = certificate::verify(&cycle.to_plan().unwrap(), &cycle.robot).unwrap();
+    let broken: Vec<_> = certificate.broken().collect();
+    assert!(broken.is_empty(), "{broken:?}");
+    // The knots grow with the turns and not faster: 4 plates of 125 turns, some 500 a turn at most.
+    assert!(
+        cycle.motion.times().len() < 4 * 125 * 500,
+        "{} knots",
+        cycle.motion.times().len()
+    );
+}
+
 /// The paper's own spacing and base radius, with everything else done properly; plates that overlap are a finding.
 #[test]
 fn the_papers_spacing_is_washed_too() {

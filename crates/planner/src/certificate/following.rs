@@ -19,6 +19,7 @@ struct Leg<'a> {
 
 /// Bounds how far the tip leaves a curve during some pieces.
 pub(super) fn follow(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve, watch: &mut Watch) {
+    watch.allow_for(pieces.len());
     let theta = in_order(nearest(arm, pieces, curve));
     let leg = |i: usize| Leg {
         stretch: arm.stretch(&pieces[i]),

@@ -206,6 +206,7 @@ fn observe(
     curvature: &impl Fn(&Stretch<'_>) -> f64,
 ) {
     let pieces = || stages.iter().flat_map(|pieces| pieces.iter());
+    watch.allow_for(pieces().count());
     pieces().for_each(|piece| watch.see_ends(&arm.stretch(piece), value));
     pieces().for_each(|piece| watch.refine(arm, &arm.stretch(piece), value, curvature));
 }
