@@ -150,6 +150,7 @@ impl<'a> Stages<'a> {
     }
 
     fn visits(&self, arm: &Arm<'_>, order: &[usize]) -> Result<Vec<Visit>, CycleError> {
+        self.check_unblocked(arm, order)?;
         let mut visits: Vec<Visit> = Vec::with_capacity(order.len());
         for (k, &plate) in order.iter().enumerate() {
             let (centre, stroke) = self.stroke(arm, order, k);
@@ -167,6 +168,24 @@ impl<'a> Stages<'a> {
             )?);
         }
         Ok(visits)
+    }
+
+    /// Refuses at once a plate of which a few points tell that it cannot be washed, before others are searched for minutes.
+    fn check_unblocked(&self, arm: &Arm<'_>, order: &[usize]) -> Result<(), CycleError> {
+        let near = &self.homes[0];
+        for (k, &plate) in order.iter().enumerate() {
+            let (centre, stroke) = self.stroke(arm, order, k);
+            let blocked = posture::is_blocked(&arm.cell, &stroke, centre, plate, &self.posture, near);
+            if !blocked.unwrap_or(false) {
+                continue;
+            }
+            // A tilt between those of the search may still do.
+            if let Err(error) = posture::washing(&arm.cell, &stroke, centre, plate, &self.posture, near) {
+                let plate = self.unwashable(arm, plate, (centre, &stroke), near, error);
+                return Err(CycleError::Unwashable(Box::new(plate)));
+            }
+        }
+        Ok(())
     }
 
     /// Centre \[m\] and stroke of the `k`-th plate of an order.

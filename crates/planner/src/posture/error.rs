@@ -139,8 +139,7 @@ pub(super) fn no_tilt(task: &Task<'_>, graph: &Graph, plate: usize, layer: usize
     let mut here = *start;
     let (mut dead, mut at_layer) = (Vec::new(), here);
     for k in graph.surveyed() {
-        let vertices = graph.layer(task, k, None, &here);
-        match vertices.iter().flatten().next() {
+        match graph.first(task, k, &here) {
             Some(vertex) => here.q = vertex.q,
             None => dead.push((k, here)),
         }
@@ -173,7 +172,7 @@ pub(super) fn between(task: &Task<'_>, plate: usize, stop: Stop) -> PostureError
 }
 
 /// What stands in the way of every tilt of a layer.
-fn dead_end(task: &Task<'_>, graph: &Graph, layer: usize, near: &Start) -> DeadEnd {
+pub(super) fn dead_end(task: &Task<'_>, graph: &Graph, layer: usize, near: &Start) -> DeadEnd {
     let theta = graph.theta[layer];
     let position_m = task.samples.at(theta);
     let obstacle = |&tilt: &f64| {

@@ -18,10 +18,13 @@
 //! 2. `search`: the cheapest path through a graph of tilts along the stroke, near the policy where that will do, smoothed
 //!    (`spline`) as far as it stays within what will do.
 //!
+//! Before the second, a few points of the last turn tell (`blocked`) whether it can find anything at all.
+//!
 //! Each is tried on every branch of the arm, elbow up in front first. Whatever answers has been checked for limits and steps at
 //! every contact point, and for clearance at every one but those within 4 mm behind one with 8 mm to spare. Between the
 //! points nothing is proved here. Where nothing answers, the error names contact points and what stands in the way there.
 
+mod blocked;
 mod cell;
 pub mod elsewhere;
 mod error;
@@ -39,6 +42,7 @@ mod tests;
 pub mod washable;
 mod washing;
 
+pub(crate) use blocked::is_blocked;
 pub use cell::Cell;
 pub use error::{DeadEnd, MOST_DEAD_ENDS, PostureError, Reason};
 pub use obstacle::{Filter, Obstacle};

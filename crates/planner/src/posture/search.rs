@@ -18,6 +18,7 @@ use super::policy::{GENTLE_TILT_RAD, TiltPolicy};
 use super::samples::Samples;
 use super::settings::PostureSettings;
 use super::task::{Task, check_step};
+use nalgebra::Vector3;
 use platewash_kinematics::{AXES, JointVector};
 
 /// Distance of neighbouring layers along the stroke, at most \[m\].
@@ -26,8 +27,8 @@ pub(super) const SPACING_M: f64 = 5e-3;
 /// Difference of neighbouring tilts, at most \[rad\]: 2°. With the spacing it bounds how fast the tilt changes.
 pub(super) const TILT_STEP_RAD: f64 = std::f64::consts::PI / 90.0;
 
-/// The most layers that a survey looks at.
-const MOST_SURVEYED: usize = 2000;
+/// The most layers that a survey looks at: every one of a stroke of 3 m, so that a share is known to a fraction of a percent.
+const MOST_SURVEYED: usize = 600;
 
 /// This far from its limits a joint costs nothing more \[rad\].
 const AMPLE_MARGIN_RAD: f64 = 0.2;
@@ -66,12 +67,16 @@ pub(super) struct Vertex {
     /// Cost of being here, and of the best way here \[rad\].
     own: f64,
     total: f64,
-    /// Index of the tilt before it.
-    from: usize,
+    /// Index of the tilt before it; there are fewer than a hundred.
+    from: u16,
 }
 
 /// Vertices of a layer, by tilt.
 type Layer = Vec<Option<Vertex>>;
+
+/// What the way back needs of a layer: of every vertex the index of the tilt before it. Of a long stroke it is a small part of
+/// what the vertices are.
+type Trail = Vec<Option<u16>>;
 
 impl Graph {
     pub fn new(task: &Task<'_>, settings: &PostureSettings) -> Self {
@@ -101,18 +106,22 @@ impl Graph {
     /// # Errors
     /// The index of the first layer that no path reaches.
     pub fn cheapest(&self, task: &Task<'_>, start: &Start) -> Result<GraphPath, usize> {
-        let mut layers: Vec<Layer> = Vec::with_capacity(self.theta.len());
+        let mut trails: Vec<Trail> = Vec::with_capacity(self.theta.len());
+        let (mut first, mut last): (Layer, Option<Layer>) = (Layer::new(), None);
         for k in 0..self.theta.len() {
-            let mut layer = self.layer(task, k, layers.last(), start);
-            if let Some(before) = layers.last() {
-                self.connect(before, &mut layer);
+            let mut layer = self.layer(task, k, last.as_ref(), start);
+            match &last {
+                Some(before) => self.connect(before, &mut layer),
+                None => first.clone_from(&layer),
             }
             if layer.iter().all(Option::is_none) {
                 return Err(k);
             }
-            layers.push(layer);
+            trails.push(layer.iter().map(|slot| slot.map(|vertex| vertex.from)).collect());
+            last = Some(layer);
         }
-        self.trace(&layers).ok_or(self.theta.len() - 1)
+        self.trace(&trails, &first, &last.unwrap_or_default())
+            .ok_or(self.theta.len() - 1)
     }
 
     /// The vertices of a layer, each continued from its neighbours in the layer before or from the tilt below.
@@ -135,6 +144,24 @@ impl Graph {
             layer.push(q.and_then(|q| self.vertex(task, q, off)));
         }
         layer
+    }
+
+    /// The vertex of least tilt of a layer that no other precedes.
+    pub fn first(&self, task: &Task<'_>, k: usize, start: &Start) -> Option<Vertex> {
+        let contact = task.samples.at(self.theta[k]);
+        self.tilts.iter().find_map(|&tilt| {
+            let target = task.cell.tip_rigid(&contact, tilt);
+            let q = task.cell.inverse.continuing(&target, start).ok()?;
+            self.vertex(task, q, 0.0)
+        })
+    }
+
+    /// The tilts, those near to what a contact point prefers first \[rad\].
+    pub fn likeliest_first(&self, task: &Task<'_>, contact: &Vector3<f64>) -> Vec<f64> {
+        let preferred = self.preferred.tilt(task.cell.seen(contact).r);
+        let mut tilts = self.tilts.clone();
+        tilts.sort_by(|a, b| (a - preferred).abs().total_cmp(&(b - preferred).abs()));
+        tilts
     }
 
     /// A vertex at `q`, if it is clear; `off` is how many steps of 2° its tilt is off the preferred one.
@@ -176,34 +203,35 @@ impl Graph {
                     best = Some((total, i));
                 }
             }
-            *slot = best.map(|(total, from)| Vertex { total, from, ..*vertex });
+            *slot = best.map(|(total, from)| Vertex {
+                total,
+                from: from as u16,
+                ..*vertex
+            });
         }
     }
 
-    /// Back from the cheapest vertex of the last layer.
-    fn trace(&self, layers: &[Layer]) -> Option<GraphPath> {
+    /// Back from the cheapest vertex of the last layer to the first.
+    fn trace(&self, trails: &[Trail], first: &Layer, last: &Layer) -> Option<GraphPath> {
         let cost = |slot: &Option<Vertex>| slot.map_or(f64::INFINITY, |vertex| vertex.total);
-        let last = layers.last()?;
         let mut j = (0..last.len()).min_by(|&a, &b| cost(&last[a]).total_cmp(&cost(&last[b])))?;
-        let mut path = GraphPath {
-            tilt: Vec::with_capacity(layers.len()),
-            ranges: Vec::with_capacity(layers.len()),
-            first: JointVector::zeros(),
-        };
-        for layer in layers.iter().rev() {
-            let vertex = layer[j]?;
-            path.tilt.push(j);
-            path.ranges.push(self.range(layer, j));
-            path.first = vertex.q;
-            j = vertex.from;
+        let (mut tilt, mut ranges) = (Vec::with_capacity(trails.len()), Vec::with_capacity(trails.len()));
+        for (k, trail) in trails.iter().enumerate().rev() {
+            let from = trail[j]?;
+            tilt.push(j);
+            ranges.push(self.range(trail, j));
+            if k > 0 {
+                j = usize::from(from);
+            }
         }
-        path.tilt.reverse();
-        path.ranges.reverse();
-        Some(path)
+        tilt.reverse();
+        ranges.reverse();
+        let first = first[j]?.q;
+        Some(GraphPath { tilt, ranges, first })
     }
 
     /// The tilts around index `j` that will do without a gap \[rad\].
-    fn range(&self, layer: &Layer, j: usize) -> [f64; 2] {
+    fn range(&self, layer: &Trail, j: usize) -> [f64; 2] {
         let least = layer[..j].iter().rposition(Option::is_none).map_or(0, |gap| gap + 1);
         let most = layer[j..]
             .iter()

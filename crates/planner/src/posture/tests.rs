@@ -1,8 +1,9 @@
 use super::elsewhere::{Move, on_grid};
 use super::exhaustive::posture_anywhere;
+use super::search::Graph;
 use super::task::{Profile, Task};
 use super::washable::{Cause, Washable, washable};
-use super::washing::{by_search, policies};
+use super::washing::{by_search, policies, search_starts};
 use super::*;
 use crate::clearance::{ClearanceModel, PairClearance};
 use crate::layout::Plate;
@@ -190,6 +191,24 @@ proptest! {
         });
     }
 
+    /// What the last turn alone tells is what the whole search finds, on every branch.
+    #[test]
+    fn what_is_known_before_the_search_is_what_the_search_finds(
+        places in prop::collection::vec((0.2..0.62f64, -170.0..170.0f64), 1..3),
+        tilt in prop::sample::select(vec![0.0, 5.0, 15.0]),
+        radius in 0.03..0.08f64,
+    ) {
+        let plates: Vec<_> = places.iter().map(|&(rho, azimuth)| plate_at(rho, azimuth)).collect();
+        let (stroke, settings) = (Stroke { turns: 1.5, ..stroke(radius) }, settings(tilt));
+        within(&TOOL, &plates, |cell| {
+            let task = Task::new(cell, &stroke, centre(&plates[0]), 0, &settings, &HOME).unwrap();
+            let graph = Graph::new(&task, &settings);
+            let known = is_blocked(cell, &stroke, centre(&plates[0]), 0, &settings, &HOME).unwrap();
+            let found = search_starts(&task, &graph, &HOME).iter().any(|start| graph.cheapest(&task, start).is_ok());
+            assert!(!(known && found), "{places:?}");
+        });
+    }
+
     /// The search alone, without the policies, keeps the same promises.
     #[test]
     fn the_search_washes_what_the_policies_wash(rho in 0.27..0.48f64, azimuth in -90.0..90.0f64) {
@@ -266,6 +285,28 @@ proptest! {
             assert!((slope - difference).amax() < 1e-7, "{slope} {difference}");
         });
     }
+}
+
+/// However long the stroke and however many the tilts: a few points of the last turn tell, and the search is not begun.
+#[test]
+fn a_long_stroke_out_of_reach_is_refused_before_it_is_searched() {
+    let plates = [plate_at(0.62, 20.0)];
+    let stroke = Stroke {
+        turns: 100.0,
+        ..stroke(RADIUS_M)
+    };
+    within(&TOOL, &plates, |cell| {
+        let failed = washing(cell, &stroke, centre(&plates[0]), 0, &settings(60.0), &HOME);
+        let Err(PostureError::NoTilt { dead, tried, ends, .. }) = &failed else {
+            panic!("{failed:?}");
+        };
+        assert!(0 < *dead && *dead < *tried && *tried < 100, "{dead} of {tried}");
+        let turn = stroke.end() - std::f64::consts::TAU;
+        assert!(
+            ends.iter().all(|end| end.theta > turn - 0.1 && !end.reasons.is_empty()),
+            "{ends:?}"
+        );
+    });
 }
 
 /// Plates too near, too far or behind are refused for what stands in the way, and where no other branch of the arm would do the

@@ -90,8 +90,7 @@ fn survey(task: &Task<'_>, graph: &Graph, start: &Start) -> Vec<Unwashed> {
     let mut here = *start;
     let mut unwashed = Vec::new();
     for k in graph.surveyed() {
-        let vertices = graph.layer(task, k, None, &here);
-        if let Some(vertex) = vertices.iter().flatten().next() {
+        if let Some(vertex) = graph.first(task, k, &here) {
             here.q = vertex.q;
             continue;
         }

@@ -1,5 +1,6 @@
 //! How a plate is washed: the policies in turn, then the search.
 
+use super::blocked::blocked;
 use super::inverse::{Start, merge_starts};
 use super::policy::GENTLE_TILT_RAD;
 use super::search::{Graph, GraphPath};
@@ -117,6 +118,9 @@ pub(super) fn by_search(
     near: &JointVector,
 ) -> Result<Washing, PostureError> {
     let graph = Graph::new(task, settings);
+    if let Some(error) = blocked(task, &graph, plate, near) {
+        return Err(error);
+    }
     let starts = search_starts(task, &graph, near);
     let mut furthest: Option<(usize, Start)> = None;
     let mut between = None;
