@@ -242,7 +242,7 @@ fn a_mesh_that_is_missing() {
             "link 'link_6'",
             "package://support/part.stl",
             &looked_in,
-            "--package-path",
+            "package path",
         ] {
             assert!(message.contains(word), "no '{word}' in: {message}");
         }

@@ -119,7 +119,7 @@ pub enum UrdfError {
         found: String,
     },
     /// A mesh that cannot be found.
-    #[error("link '{link}': mesh '{file}' not found; looked in {}; give its package's folder with --package-path", list(.searched))]
+    #[error("link '{link}': mesh '{file}' not found; looked in {}; give its package's folder as package path", list(.searched))]
     MeshNotFound {
         link: String,
         file: String,

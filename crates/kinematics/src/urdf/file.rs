@@ -13,6 +13,10 @@ pub enum FileError {
     System {
         /// The system's words.
         detail: String,
+        /// What kind of fault it is.
+        kind: std::io::ErrorKind,
+        /// The system's number for it, where it has one.
+        code: Option<i32>,
     },
     /// A folder, pipe, socket or device.
     #[error("not a regular file")]
@@ -64,6 +68,8 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
 fn system(error: &std::io::Error) -> FileError {
     FileError::System {
         detail: error.to_string(),
+        kind: error.kind(),
+        code: error.raw_os_error(),
     }
 }
 
