@@ -140,23 +140,28 @@ impl Trajectory {
         self.t_s.last().copied().unwrap_or(0.0)
     }
 
-    /// State at time `t` \[s\], clamped to the motion; `None` for an empty motion or NaN.
+    /// State at time `t` \[s\]; `None` for an empty motion or NaN. Before the first knot and after the last one the arm rests
+    /// there: speeds and accelerations are zero.
     #[must_use]
     pub fn at(&self, t: f64) -> Option<JointState> {
-        if t.is_nan() || self.t_s.is_empty() {
+        if t.is_nan() {
             return None;
         }
+        let still = JointVector::zeros();
         let after = self.t_s.partition_point(|&knot| knot <= t);
         let k = after.saturating_sub(1).min(self.t_s.len().saturating_sub(2));
-        let Some(cubic) = self.cubic(k) else {
-            let still = JointVector::zeros();
-            return Some(JointState {
-                q: self.q_rad[0],
+        let mut state = match self.cubic(k) {
+            Some(cubic) => cubic.at((t - self.t_s[k]).clamp(0.0, cubic.h)),
+            None => JointState {
+                q: *self.q_rad.first()?,
                 qd: still,
                 qdd: still,
-            });
+            },
         };
-        Some(cubic.at((t - self.t_s[k]).clamp(0.0, cubic.h)))
+        if !(0.0..=self.duration_s()).contains(&t) {
+            (state.qd, state.qdd) = (still, still);
+        }
+        Some(state)
     }
 
     /// Extremes of every segment, in time order.
@@ -318,5 +323,26 @@ mod tests {
         assert_eq!(two.at(-1.0).map(|s| s.q), Some(JointVector::zeros()));
         assert_eq!(two.at(9.0).map(|s| s.q), Some(JointVector::repeat(1.0)));
         assert_eq!(two.at(f64::NAN), None);
+    }
+
+    #[test]
+    fn outside_its_time_the_arm_rests_at_the_nearer_end() {
+        let knot = |q, qd| (JointVector::repeat(q), JointVector::repeat(qd));
+        let [(q0, v0), (q1, v1)] = [knot(0.2, 1.0), knot(0.9, -2.0)];
+        let motion = Trajectory::from_knots(vec![0.0, 0.5], vec![q0, q1], vec![v0, v1]).unwrap();
+        let still = JointVector::zeros();
+        for (t, q) in [
+            (-1e-12, q0),
+            (-3.0, q0),
+            (0.5 + 1e-12, q1),
+            (9.0, q1),
+            (f64::INFINITY, q1),
+        ] {
+            let outside = motion.at(t).unwrap();
+            assert!((outside.q - q).amax() < 1e-14, "at {t} s");
+            assert_eq!((outside.qd, outside.qdd), (still, still), "at {t} s");
+        }
+        assert_eq!(motion.at(0.0).map(|s| s.qd), Some(v0));
+        assert!((motion.at(0.5).unwrap().qd - v1).amax() < 1e-12);
     }
 }

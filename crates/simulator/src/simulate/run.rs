@@ -150,22 +150,11 @@ impl Run<'_> {
     /// What the plan asks for; after its end, to stay there.
     fn asked(&self, sample: usize) -> JointState {
         let still = JointVector::zeros();
-        let t = self.time(sample);
-        let end = self.motion.duration_s();
-        let asked = self.motion.at(t).unwrap_or(JointState {
+        self.motion.at(self.time(sample)).unwrap_or(JointState {
             q: still,
             qd: still,
             qdd: still,
-        });
-        if t > end {
-            JointState {
-                qd: still,
-                qdd: still,
-                ..asked
-            }
-        } else {
-            asked
-        }
+        })
     }
 
     /// The arm is put where the law says.
