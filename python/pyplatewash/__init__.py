@@ -1,6 +1,7 @@
 """Plan, check and report the washing of plates by an ABB IRB 120 or another six-axis arm.
 
-Everything is SI and radians. A pose is a 4 x 4 matrix ``T_base_frame`` that maps the frame's coordinates to the base's;
+Arguments and answers are SI and radians, and names say so where they can: ``length_m``, ``q_rad``. Scenario files state angles in
+degrees, under names that end in ``_deg``. A pose is a 4 x 4 matrix ``T_base_frame`` that maps the frame's coordinates to the base's;
 joint vectors have shape (6,), many of them (N, 6), from the base to the tip. Anything array-like is accepted.
 
 >>> import pyplatewash as pw
@@ -43,12 +44,14 @@ from ._core import (
 )
 from ._errors import (
     DynamicsError,
+    FileError,
     IkError,
     IkPathError,
     InputError,
     InputTypeError,
     InternalError,
     LayoutError,
+    NoKeyError,
     PlanError,
     PlanFileError,
     PlatewashError,
@@ -73,6 +76,7 @@ __all__ = [
     "DynamicsModel",
     "Energy",
     "Execution",
+    "FileError",
     "IkBatch",
     "IkBranches",
     "IkError",
@@ -85,6 +89,7 @@ __all__ = [
     "Job",
     "Layout",
     "LayoutError",
+    "NoKeyError",
     "Plan",
     "PlanError",
     "PlanFileError",

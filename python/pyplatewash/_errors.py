@@ -9,12 +9,20 @@ import numpy.typing as npt
 
 
 class PlatewashError(Exception):
-    """Base of every exception of this package. ``str(error)`` says where and why in one sentence."""
+    """Base of every exception of this package. ``str(error)`` says where and why in one sentence.
+
+    Each is also what Python's users expect: a ``ValueError``, a ``TypeError``, an ``OSError`` or a ``KeyError``. A call that does
+    not fit a function's signature never gets here: that is Python's own ``TypeError``.
+    """
 
     def __init__(self, message: str = "", **fields: Any) -> None:
         super().__init__(message)
         for name, value in fields.items():
             setattr(self, name, value)
+
+    def __str__(self) -> str:
+        # Not that of OSError or KeyError, which say less.
+        return str(self.args[0]) if self.args else ""
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_restore, (type(self), str(self), dict(self.__dict__)))
@@ -47,6 +55,21 @@ class InputTypeError(PlatewashError, TypeError):
     argument: str | None = None
 
 
+class NoKeyError(InputError, KeyError):
+    """A scenario or record has no such key; the message names those that there are."""
+
+
+class FileError(InputError, OSError):
+    """The system does not give or take a file; where it is missing, the exception is a ``FileNotFoundError``, too."""
+
+    #: The file.
+    filename: str | None = None
+    #: The system's number for the fault, where it has one.
+    errno: int | None = None
+    #: The message.
+    strerror: str | None = None
+
+
 class UrdfError(InputError):
     """A description of an arm was refused; the message names the joint, link or line at fault."""
 
@@ -68,6 +91,30 @@ class ScenarioError(InputError):
 
 class PlanFileError(InputError):
     """A plan file cannot be read or written."""
+
+
+class UrdfAccessError(UrdfError, FileError):
+    """The file of an arm cannot be read."""
+
+
+class UrdfNotFoundError(UrdfAccessError, FileNotFoundError):
+    """The file of an arm is not there."""
+
+
+class ScenarioAccessError(ScenarioError, FileError):
+    """The file of a scenario cannot be read."""
+
+
+class ScenarioNotFoundError(ScenarioAccessError, FileNotFoundError):
+    """There is no scenario of that name, and no such file."""
+
+
+class PlanAccessError(PlanFileError, FileError):
+    """A plan file cannot be read or written."""
+
+
+class PlanNotFoundError(PlanAccessError, FileNotFoundError):
+    """A plan file is not there, or the folder that it shall be written to."""
 
 
 class LayoutError(PlatewashError):
@@ -131,7 +178,7 @@ class PlanError(PlatewashError):
 
 
 class VerifyError(InputError):
-    """A plan says nothing that could be judged. A plan that breaks its promises is no error."""
+    """A plan says nothing that could be judged, or its arm must be given. A plan that breaks its promises is no error."""
 
 
 class DynamicsError(InputError):

@@ -9,6 +9,8 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from ._errors import InputTypeError, NoKeyError
+
 
 class Record(Mapping[str, Any]):
     """A read-only dictionary whose keys are attributes too, all the way down: ``report.plates[0].reached``.
@@ -19,11 +21,17 @@ class Record(Mapping[str, Any]):
     __slots__ = ("_data", "_text")
 
     def __init__(self, data: Mapping[str, Any], text: str | None = None) -> None:
+        if not isinstance(data, Mapping):
+            raise InputTypeError(f"data: a dictionary is needed; found a value of type {type(data).__name__}", argument="data")
         object.__setattr__(self, "_data", dict(data))
         object.__setattr__(self, "_text", text)
 
     def __getitem__(self, key: str) -> Any:
-        return _wrapped(self._data[key])
+        try:
+            return _wrapped(self._data[key])
+        except (KeyError, TypeError):
+            keys = ", ".join(map(str, self._data))
+            raise NoKeyError(f"key: one of {keys} is needed; found {key!r:.60}", argument="key") from None
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
@@ -31,7 +39,7 @@ class Record(Mapping[str, Any]):
         try:
             return self[name]
         except KeyError:
-            keys = ", ".join(self._data)
+            keys = ", ".join(map(str, self._data))
             raise AttributeError(f"no key '{name}'; there are: {keys}") from None
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -102,7 +110,8 @@ class IkBatch(_ArrayFields):
     position_error_m: npt.NDArray[np.float64]
     #: Angles from the targets, shape (N,) [rad].
     orientation_error_rad: npt.NDArray[np.float64]
-    #: Why, by row, for those that are not solved.
+    #: Why, by row, for those that are not solved: ``IkError.cause``, ``"target"`` for a row that is no pose (``Robot.ik`` says why), or
+    #: ``"seed"`` for one whose seed is not finite; those have NaN in place of numbers.
     causes: dict[int, str]
 
     def __len__(self) -> int:

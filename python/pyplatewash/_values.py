@@ -1,4 +1,4 @@
-"""Plain data: immutable, compared by value, printed in full, copied and pickled as any dataclass."""
+"""Plain data: immutable, compared by value, printed in full, copied and pickled as any dataclass, checked when it is made."""
 
 from __future__ import annotations
 
@@ -39,6 +39,9 @@ class Tool:
     #: Inertia about the centre of mass, ixx, ixy, ixz, iyy, iyz, izz, z along the handle [kg m^2]; without it, a uniform cylinder's.
     inertia_kg_m2: tuple[float, float, float, float, float, float] | None = None
 
+    def __post_init__(self) -> None:
+        _core._check("tool", self)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Plate:
@@ -54,6 +57,9 @@ class Plate:
     radius_m: float = 0.145
     #: Thickness [m].
     thickness_m: float = 0.02
+
+    def __post_init__(self) -> None:
+        _core._check("plate", self)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,6 +84,9 @@ class IkSettings:
     random_restarts: int = 0
     #: Seed of the random restarts.
     random_seed: int = 0
+
+    def __post_init__(self) -> None:
+        _core._check("ik_settings", self)
 
 
 @dataclass(frozen=True)
@@ -109,9 +118,12 @@ class Spiral:
     #: Whether a full circle at the outer radius follows.
     closing_ring: bool = False
 
+    def __post_init__(self) -> None:
+        _core._check("spiral", self)
+
     def waypoints(self, centre: npt.ArrayLike = (0.0, 0.0)) -> Floats:
         """Waypoints about ``centre``, shape (2,) [m]: shape (N, 2) [m]."""
-        return _core._spiral(self.points, self.turns, self.radius_m, self.closing_ring, centre)
+        return _core._spiral(self, centre)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -132,6 +144,9 @@ class Stroke:
     #: Whether a full circle at the outer radius follows.
     closing_ring: bool = True
 
+    def __post_init__(self) -> None:
+        _core._check("stroke", self)
+
     def sample(self, chord_error_m: float = 1e-5) -> tuple[Floats, Floats]:
         """Angles, shape (N,) [rad], and points, shape (N, 2) [m], whose chords leave the curve by at most ``chord_error_m``."""
-        return _core._stroke(self.radius_m, self.turns, self.start_angle_rad, self.closing_ring, chord_error_m)
+        return _core._stroke(self, chord_error_m)

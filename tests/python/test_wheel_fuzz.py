@@ -49,7 +49,7 @@ FINITE: dict[str, Any] = {"max_examples": 300, "derandomize": True, "database": 
 CALLS = {
     "fk": lambda a, b, c: ROBOT.fk(a, b if isinstance(b, str) else None, tool=c),
     "fk of anything": lambda a, b, c: ROBOT.fk(a),
-    "jacobian": lambda a, b, c: ROBOT.jacobian(a, axes=b if b else "base"),
+    "jacobian": lambda a, b, c: ROBOT.jacobian(a, axes="base" if b is None else b),
     "manipulability": lambda a, b, c: ROBOT.manipulability(a),
     "limit_margins": lambda a, b, c: ROBOT.limit_margins(a),
     "ik": lambda a, b, c: ROBOT.ik(a, b, settings=c if c is not None else None),
@@ -94,7 +94,7 @@ CALLS = {
     "urdf": lambda a, b, c: pw.Robot.from_urdf(a, srdf=b),
     "plan file": lambda a, b, c: pw.Plan.from_json(a),
     "verify": lambda a, b, c: pw.verify(a, b),
-    "reproduce": lambda a, b, c: pw.reproduce(a, b, c) if not all(isinstance(v, int) and 0 < v < 2**63 for v in (a, b)) else None,
+    "reproduce": lambda a, b, c: pw.reproduce(a, b, c) if not all(v is None or isinstance(v, int) and 0 < v for v in (a, b)) else None,
 }
 
 
@@ -105,7 +105,7 @@ def test_no_call_does_worse_than_an_exception(call: Any) -> None:
     def check(a: Any, b: Any, c: Any) -> None:
         try:
             call(a, b, c)
-        except (pw.PlatewashError, TypeError, ValueError, OverflowError) as error:
+        except pw.PlatewashError as error:
             assert not isinstance(error, pw.InternalError), error
             assert str(error).strip()
 
@@ -142,5 +142,5 @@ def test_what_contains_itself_ends() -> None:
     endless.append(endless)
     with pytest.raises(pw.InputError, match="nested too deep"):
         pw.Scenario.from_dict({"name": endless})
-    with pytest.raises((TypeError, ValueError, RecursionError)):
+    with pytest.raises(pw.InputTypeError, match="q"):
         ROBOT.fk(endless)

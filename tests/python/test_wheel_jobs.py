@@ -156,6 +156,50 @@ def test_trajectories_are_their_knots(job: pw.Job) -> None:
         pw.Trajectory.through(np.zeros((3, 6)), 0.0)
 
 
+def test_outside_its_time_a_motion_rests_at_its_end(cycle: pw.Cycle, job: pw.Job) -> None:
+    moving = pw.Trajectory([0.0, 0.5], [[0.2] * 6, [0.9] * 6], [[1.0] * 6, [-2.0] * 6])
+    for motion in (cycle.motion, job.planned, moving):
+        outside = [-9.0, -1e-9, motion.duration_s + 1e-9, motion.duration_s + 9.0]
+        q, qd, qdd = motion.at(outside)
+        np.testing.assert_allclose(q, motion.q_rad[[0, 0, -1, -1]], rtol=0, atol=1e-12)
+        assert not qd.any() and not qdd.any()
+        np.testing.assert_allclose(motion.at([0.0, motion.duration_s])[1], motion.qd_rad_s[[0, -1]], atol=1e-9)
+
+
+def test_a_plan_knows_its_arm_and_a_file_asks_for_it(tmp_path: Path) -> None:
+    builtin = pw.Robot.irb120()
+    (tmp_path / "own.urdf").write_text(builtin.urdf + "<!-- mine -->")
+    (tmp_path / "own.srdf").write_text(builtin.srdf or "")
+    files = {"urdf": tmp_path / "own.urdf", "srdf": tmp_path / "own.srdf"}
+    own = pw.Robot.load(files["urdf"], srdf=files["srdf"])
+    scenario = pw.Scenario.load("kitchen").replace(robot=files, layout={"count": 1})
+    cycle = pw.Cycle.plan(scenario)
+    plans = [pw.plan(scenario), cycle.to_plan(), pickle.loads(pickle.dumps(cycle)).to_plan()]
+    paper = pw.Scenario.load("paper-appendix").replace(robot=files)
+    assert pw.Job.run(paper).plan().robot == own == pw.plan(paper).robot
+    for file in files.values():
+        file.unlink()  # A plan that knows its arm needs no file of it, a pickled one neither.
+    plans += [pickle.loads(pickle.dumps(plan)) for plan in plans]
+    law = pw.Setup()
+    for plan in plans:
+        assert plan.robot == own != builtin
+        assert plan.verify().proved and pw.verify(plan).proved
+    rows = pw.tune(plans[-1], [20.0], setup=law)
+    assert rows[0].verdict == "washed"
+    execution = pw.simulate(plans[0], law)
+    assert pickle.loads(pickle.dumps(execution)) == execution
+    plans[0].save(tmp_path / "plan.json")
+    loaded = pw.Plan.load(tmp_path / "plan.json")
+    assert loaded == plans[0] and loaded.robot is None and pickle.loads(pickle.dumps(loaded)).robot is None
+    for call in (loaded.verify, lambda: pw.verify(tmp_path / "plan.json"), lambda: pw.simulate(loaded), lambda: pw.tune(loaded, [20.0])):
+        with pytest.raises(pw.VerifyError, match=r"robot: the plan is for the arm of .*own\.urdf.*give the arm as robot=Robot\.load") as caught:
+            call()
+        assert caught.value.argument == "robot"
+    assert loaded.verify(own).proved and pw.verify(tmp_path / "plan.json", robot=own).proved
+    assert pw.simulate(loaded, law, robot=own) == execution
+    assert pw.plan("kitchen").robot == builtin == pw.Plan.from_json(pw.plan("kitchen").to_json()).robot
+
+
 def test_clearance_in_a_stack_is_clearance_one_by_one(cycle: pw.Cycle) -> None:
     model = pw.ClearanceModel(pw.Robot.irb120(), pw.Tool(length_m=0.15), cycle.layout.plates)
     q = cycle.motion.at(np.linspace(0, cycle.motion.duration_s, 40))[0]

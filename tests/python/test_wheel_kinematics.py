@@ -4,6 +4,7 @@
 # (Pinocchio is compiled; its names are hidden from pyright.)
 import copy
 import pickle
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -104,13 +105,48 @@ def test_nan_goes_through_fk_and_is_refused_by_ik(robot: pw.Robot) -> None:
     assert np.isnan(robot.fk([np.nan] * 6)[:3]).all()
     target = robot.fk([0.1] * 6)
     for bad in (np.full((4, 4), np.nan), np.full((4, 4), np.inf), np.zeros((4, 4)), 2 * target, np.diag([1.0, 1, -1, 1])):
-        for call in (lambda: robot.ik(bad), lambda: robot.ik_batch([bad]), lambda: robot.ik_path([bad])):
+        for call in (lambda: robot.ik(bad), lambda: robot.ik_all(bad), lambda: robot.ik_path([bad])):
             with pytest.raises(pw.InputError):
                 call()
+        assert robot.ik_batch([bad]).causes == {0: "target"}
     with pytest.raises(pw.InputError, match="joint 3"):
         robot.ik(target, [0, 0, np.nan, 0, 0, 0])
-    with pytest.raises(pw.InputError, match="row 1"):
-        robot.ik_batch([target, target], [[0.0] * 6, [np.inf] * 6])
+    with pytest.raises(pw.InputError, match="seeds: joint 3: a finite number is needed; found NaN"):
+        robot.ik_batch([target], [0, 0, np.nan, 0, 0, 0])
+
+
+@pytest.mark.parametrize("place", [0, 5, 511, 512, 1299])
+def test_a_row_that_is_no_pose_costs_no_other_row(robot: pw.Robot, place: int) -> None:
+    q = configurations(robot, 1300)
+    targets, seeds = robot.fk(q), np.clip(q + 1e-3, robot.lower, robot.upper)
+    whole = robot.ik_batch(targets, seeds)
+    targets[place, 0, 0] = np.nan
+    seeds[place - 1, 3] = np.inf
+    batch = robot.ik_batch(targets, seeds)
+    other = np.ones(1300, bool)
+    other[[place, place - 1]] = False
+    assert batch.causes == {place: "target", (place - 1) % 1300: "seed"}
+    assert whole.solved.all() and (batch.solved == other).all()
+    np.testing.assert_array_equal(batch.q[other], whole.q[other])
+    assert np.isnan(batch.q[~other]).all() and np.isnan(batch.position_error_m[~other]).all()
+    assert (batch.iterations[~other] == 0).all()
+
+
+def test_a_rounded_pose_stands_for_the_nearest_one(robot: pw.Robot) -> None:
+    exact = robot.fk(configurations(robot, 500))
+    rounded = exact.round(6)
+    off = np.abs(np.swapaxes(rounded[:, :3, :3], 1, 2) @ rounded[:, :3, :3] - np.eye(3)).max(axis=(1, 2))
+    assert off.max() > 1e-6  # Such poses are no rotations to one part in a million.
+    u, _, vt = np.linalg.svd(rounded[:, :3, :3])
+    nearest = rounded.copy()
+    nearest[:, :3, :3] = u @ vt
+    for k in range(0, 500, 25):
+        branches, wanted = robot.ik_all(rounded[k]), robot.ik_all(nearest[k])
+        assert len(branches) == len(wanted) > 0
+        np.testing.assert_allclose(robot.fk(branches.q), np.broadcast_to(nearest[k], (len(branches), 4, 4)), atol=1e-9)
+    assert robot.ik_batch(rounded, np.zeros(6)).solved.all()
+    with pytest.raises(pw.InputError, match=r"target: .*columns are [1-9]\.\de-[34] from orthonormal, and up to 1e-5 .*np\.linalg\.svd"):
+        robot.ik(exact[0].round(3) + np.array([[3e-4, 0, 0, 0]] + 3 * [[0.0] * 4]))
 
 
 def test_ik_answers_within_tolerance_and_limits(robot: pw.Robot) -> None:
@@ -199,7 +235,10 @@ def test_other_arms_load_and_broken_ones_are_named(irb120_urdf: Path, fixtures: 
     text = irb120_urdf.read_text()
     robot = pw.Robot.from_urdf(text)
     assert pw.Robot.load(irb120_urdf).sha256 == robot.sha256 == pw.Robot.irb120().sha256
-    assert robot.urdf == text
+    assert robot.urdf == text and robot.srdf is None
+    disabled = re.findall(r'<disable_collisions link1="(\w+)" link2="(\w+)"', pw.Robot.irb120().srdf or "")
+    assert ("base_link", "link_1") in disabled
+    assert pw.Robot.from_urdf(text, srdf=pw.Robot.irb120().srdf) == pw.Robot.irb120()
     assert robot != pw.Robot.irb120()  # The built-in one comes with its SRDF.
     with pytest.raises(pw.UrdfError, match="joint_3"):
         pw.Robot.from_urdf(text.replace('<joint name="joint_3" type="revolute"', '<joint name="joint_3" type="prismatic"'))

@@ -3,15 +3,17 @@
 //! A contiguous array of doubles is read where it lies. Anything else that NumPy makes an array of real numbers from (lists,
 //! integers, strides, other byte orders) is copied once. Wrong shapes are answered with the shape found and the shapes wanted.
 
+use crate::argument;
 use crate::errors;
 use numpy::{
-    Element, PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn,
+    Element, PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArray,
     PyUntypedArrayMethods,
 };
 use platewash::JointVector;
+use pyo3::PyTypeInfo;
 use pyo3::intern;
 use pyo3::prelude::*;
-use pyo3::types::PyString;
+use pyo3::types::{PyFloat, PyInt, PyList, PyString, PyTuple};
 
 /// Shapes that an argument may have, as words for a message.
 #[derive(Debug, Clone, Copy)]
@@ -59,6 +61,9 @@ impl Wanted {
     }
 }
 
+/// Deepest nesting of lists in which masked values are looked for: no argument has more axes.
+const DEEPEST: usize = 4;
+
 /// The doubles of an argument, with their shape checked.
 pub struct Numbers<'py> {
     array: PyReadonlyArrayDyn<'py, f64>,
@@ -71,9 +76,10 @@ impl<'py> Numbers<'py> {
     ///
     /// # Errors
     /// `ShapeError`, `InputTypeError` for what holds no real numbers, or whatever a foreign object raises itself.
-    pub fn read(name: &'static str, value: &Bound<'py, PyAny>, wanted: Wanted) -> PyResult<Self> {
+    pub fn read(name: &str, value: &Bound<'py, PyAny>, wanted: Wanted) -> PyResult<Self> {
+        let plain = value.get_type().is(PyUntypedArray::type_object(value.py()));
         let array = match value.cast::<PyArrayDyn<f64>>() {
-            Ok(array) if array.is_c_contiguous() && array.is_aligned() => array.clone(),
+            Ok(array) if plain && array.is_c_contiguous() && array.is_aligned() => array.clone(),
             _ => convert(name, value)?,
         };
         let Some(stacked) = wanted.items(array.shape()) else {
@@ -133,7 +139,7 @@ pub const MANY_POSES: Wanted = Wanted {
 ///
 /// # Errors
 /// As [`Numbers::read`].
-pub fn joint_vector(name: &'static str, value: &Bound<'_, PyAny>) -> PyResult<JointVector> {
+pub fn joint_vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<JointVector> {
     let numbers = Numbers::read(name, value, ONE_JOINTS)?;
     Ok(JointVector::from_column_slice(numbers.values()?))
 }
@@ -142,7 +148,7 @@ pub fn joint_vector(name: &'static str, value: &Bound<'_, PyAny>) -> PyResult<Jo
 ///
 /// # Errors
 /// As [`Numbers::read`].
-pub fn fixed<const N: usize>(name: &'static str, value: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
+pub fn fixed<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
     let wanted = Wanted {
         item: const { &[N] },
         count: Count::One,
@@ -157,7 +163,7 @@ pub fn fixed<const N: usize>(name: &'static str, value: &Bound<'_, PyAny>) -> Py
 ///
 /// # Errors
 /// As [`Numbers::read`].
-pub fn rows<const N: usize>(name: &'static str, value: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; N]>> {
+pub fn rows<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; N]>> {
     let wanted = Wanted {
         item: const { &[N] },
         count: Count::Stack,
@@ -168,8 +174,9 @@ pub fn rows<const N: usize>(name: &'static str, value: &Bound<'_, PyAny>) -> PyR
 }
 
 /// What NumPy makes of a value, as contiguous doubles.
-fn convert<'py>(name: &'static str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+fn convert<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let py = value.py();
+    nothing_masked(name, value, 0)?;
     let numpy = py.import(intern!(py, "numpy"))?;
     let array = numpy
         .call_method1(intern!(py, "asarray"), (value,))
@@ -187,6 +194,22 @@ fn convert<'py>(name: &'static str, value: &Bound<'py, PyAny>) -> PyResult<Bound
         .call_method1(intern!(py, "require"), wanted)
         .map_err(|e| errors::not_numbers(py, name, &e))?;
     Ok(array.cast_into()?)
+}
+
+/// Refuses masked values, in an array or in lists of arrays: NumPy would read what lies under the mask.
+fn nothing_masked(name: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<()> {
+    if value.is_exact_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>() {
+        return Ok(());
+    }
+    if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
+        return match depth < DEEPEST {
+            true => value
+                .try_iter()?
+                .try_for_each(|item| nothing_masked(name, &item?, depth + 1)),
+            false => Ok(()),
+        };
+    }
+    argument::unmasked(name, value)
 }
 
 /// A new array of zeros of the given shape.

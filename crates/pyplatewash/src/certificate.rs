@@ -1,5 +1,6 @@
 //! `Certificate`: what is proved about a plan.
 
+use crate::argument;
 use crate::errors;
 use crate::plan::{PlanObject, records};
 use crate::robot::Robot;
@@ -118,25 +119,28 @@ impl CertificateObject {
 
     /// Restores a pickled certificate.
     #[classmethod]
-    fn _restore(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str) -> PyResult<Self> {
-        let inner = serde_json::from_str(text).map_err(|e| errors::input(py, "text", &e.to_string()))?;
+    fn _restore(_class: &Bound<'_, PyType>, py: Python<'_>, text: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let text = argument::text("text", text, "a pickled certificate")?;
+        let inner = serde_json::from_str(&text).map_err(|e| errors::input(py, "text", &e.to_string()))?;
         Ok(Self { inner })
     }
 }
 
-/// Judges a plan for an arm, by default the built-in one that it names: what it promises holds for the whole motion, or is
-/// broken, or is not proved. Nothing but the plan and the arm is looked at.
+/// Judges a plan, or the plan file of that path, for an arm, by default the one that it was made for: what it promises holds for
+/// the whole motion, or is broken, or is not proved. Nothing but the plan and the arm is looked at.
 ///
-/// Raises VerifyError for a plan that says nothing that could be judged; one that breaks its promises is no error.
+/// Raises VerifyError for a plan that says nothing that could be judged, or whose file names an arm that must be given; a plan
+/// that breaks its promises is no error.
 #[pyfunction]
 #[pyo3(signature = (plan, robot=None))]
 pub fn verify(
     py: Python<'_>,
-    plan: &Bound<'_, PlanObject>,
-    robot: Option<&Bound<'_, Robot>>,
+    plan: &Bound<'_, PyAny>,
+    robot: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<CertificateObject> {
+    let plan = PlanObject::given("plan", plan)?;
+    let robot = plan.get().arm(Robot::given(robot)?);
     let plan = plan.get().inner().clone();
-    let robot = robot.map(|robot| robot.get().model().clone());
     let judged = patiently(py, move |_| match robot {
         Some(robot) => certificate::verify(&plan, &robot),
         None => certificate::verify(&plan, &certificate::arm(&plan, None)?),

@@ -1,5 +1,6 @@
 //! `ClearanceModel`: smallest distances between bodies.
 
+use crate::argument::{self, ANY_COUNT, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
 use crate::errors;
 use crate::robot::Robot;
@@ -29,6 +30,13 @@ fn finite(py: Python<'_>, q: &[JointVector]) -> PyResult<()> {
     }
 }
 
+/// Indices of plates.
+fn indices(working: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<usize>> {
+    let index = |name: &str, value: &Bound<'_, PyAny>| argument::count(name, value, ANY_COUNT);
+    let read = |working| argument::each("working", working, "a list of plate indices", index);
+    Ok(working.map(read).transpose()?.unwrap_or_default())
+}
+
 fn record<'py>(py: Python<'py>, pair: &PairClearance) -> PyResult<Bound<'py, PyAny>> {
     let text = format!("{} – {}: {:.1} mm", pair.a, pair.b, 1e3 * pair.distance_m);
     to_record(py, pair, Some(text))
@@ -45,24 +53,28 @@ impl ClearanceObject {
 #[pymethods]
 impl ClearanceObject {
     #[new]
-    #[pyo3(signature = (robot, tool=None, plates=Vec::new()))]
+    #[pyo3(signature = (robot, tool=None, plates=None), text_signature = "(robot, tool=None, plates=())")]
     fn new(
         py: Python<'_>,
-        robot: Bound<'_, Robot>,
+        robot: &Bound<'_, PyAny>,
         tool: Option<Bound<'_, PyAny>>,
-        plates: Vec<Bound<'_, PyAny>>,
+        plates: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
+        let robot = argument::object::<Robot>("robot", robot, ROBOT)?;
+        let read = |name: &str, plate: &Bound<'_, PyAny>| {
+            Ok((PlateFields::of(name, plate)?.plate(py)?, plate.clone().unbind()))
+        };
+        let plates = plates.map(|plates| argument::each("plates", plates, "a list of Plates", read));
+        let (made, plates): (Vec<_>, Vec<_>) = plates.transpose()?.unwrap_or_default().into_iter().unzip();
         let section = match &tool {
             Some(tool) => ToolFields::of(tool)?.section(py)?,
             None => ToolSection::default(),
         };
-        let made = plates.iter().map(|plate| PlateFields::of(plate)?.plate(py));
-        let made = made.collect::<PyResult<Vec<_>>>()?;
         let model = robot.get().model().clone();
         let inner = alone(py, || ClearanceModel::new(&model, &section, &made))?;
         let inner = inner.map_err(|e| errors::input(py, "robot", &e.to_string()))?;
         let arguments = (
-            robot.unbind(),
+            robot.clone().unbind(),
             tool.map(Bound::unbind),
             PyTuple::new(py, plates)?.unbind(),
         );
@@ -114,29 +126,30 @@ impl ClearanceObject {
 
     /// The smallest distance at `q`, shape (6,): a record with the bodies `a` and `b`, `distance_m` and `place_m`. The sponge
     /// may touch the plates in `working`. None when there is nothing to check.
-    #[pyo3(signature = (q, working=Vec::new()))]
+    #[pyo3(signature = (q, working=None), text_signature = "($self, q, working=())")]
     fn smallest<'py>(
         &self,
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
-        working: Vec<usize>,
+        working: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let q = Self::one(q)?;
+        let (q, working) = (Self::one(q)?, indices(working)?);
         let found = alone(py, || self.inner.smallest(&q, &working))?;
         found.map(|pair| record(py, &pair)).transpose()
     }
 
     /// All pairs nearer than `required_m` or in contact at `q`, shape (6,), nearest first. The sponge may touch the plates in
     /// `working`.
-    #[pyo3(signature = (q, required_m=0.0, working=Vec::new()))]
+    #[pyo3(signature = (q, required_m=None, working=None), text_signature = "($self, q, required_m=0.0, working=())")]
     fn too_near<'py>(
         &self,
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
-        required_m: f64,
-        working: Vec<usize>,
+        required_m: Option<&Bound<'py, PyAny>>,
+        working: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyList>> {
-        let q = Self::one(q)?;
+        let (q, working) = (Self::one(q)?, indices(working)?);
+        let required_m = required_m.map_or(Ok(0.0), |given| argument::number("required_m", given))?;
         let found = alone(py, || self.inner.too_near(&q, &working, required_m))?;
         let list = PyList::empty(py);
         for pair in &found {

@@ -1,5 +1,6 @@
 //! Generators of the tip's curves: spiral, stroke, transition, cubic.
 
+use crate::argument;
 use crate::arrays;
 use crate::errors;
 use nalgebra::Vector3;
@@ -12,31 +13,27 @@ use platewash::planner::transition::{self, Arc};
 use pyo3::prelude::*;
 
 /// Most points of a curve.
-const MOST_POINTS: usize = 10_000_000;
+const MOST_POINTS: u64 = 10_000_000;
 /// Most turns of a spiral.
 const MOST_TURNS: f64 = 1000.0;
+/// Largest length that is believed \[m\].
+const LARGEST_M: f64 = 100.0;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
-fn points(py: Python<'_>, name: &str, count: usize) -> PyResult<()> {
-    if (2..=MOST_POINTS).contains(&count) {
-        return Ok(());
-    }
-    Err(errors::input(
-        py,
-        name,
-        &format!("must be from 2 to {MOST_POINTS}; found {count}"),
-    ))
+fn points(name: &str, count: &Bound<'_, PyAny>) -> PyResult<usize> {
+    argument::count(name, count, [2, MOST_POINTS])
 }
 
-fn within(py: Python<'_>, name: &str, value: f64, [least, most]: [f64; 2]) -> PyResult<()> {
-    if (least..=most).contains(&value) {
-        return Ok(());
+fn within(name: &str, value: &Bound<'_, PyAny>, [least, most]: [f64; 2]) -> PyResult<f64> {
+    let found = argument::number(name, value)?;
+    if (least..=most).contains(&found) {
+        return Ok(found);
     }
-    Err(errors::input(
-        py,
+    Err(argument::wrong_value(
         name,
-        &format!("must be from {least} to {most}; found {value}"),
+        value,
+        &format!("a number from {least} to {most}"),
     ))
 }
 
@@ -47,56 +44,68 @@ fn finite(py: Python<'_>, name: &str, values: &[f64]) -> PyResult<()> {
     }
 }
 
-/// Waypoints of the paper's spiral, shape (N, 2); see `Spiral`.
-#[pyfunction]
-pub fn _spiral<'py>(
-    py: Python<'py>,
-    count: usize,
-    turns: f64,
-    radius_m: f64,
-    closing_ring: bool,
-    centre: &Bound<'py, PyAny>,
-) -> PyResult<Array<'py>> {
-    points(py, "points", count)?;
-    within(py, "turns", turns, [1e-3, MOST_TURNS])?;
-    within(py, "radius_m", radius_m, [0.0, 100.0])?;
-    let centre = arrays::fixed::<2>("centre", centre)?;
-    finite(py, "centre", &centre)?;
-    let spiral = Spiral {
-        points: count,
-        turns,
-        radius_m,
-        closing_ring,
-    };
-    let all = spiral.waypoints(centre);
-    arrays::array(py, &[all.len(), 2], all.as_flattened())
+/// The spiral of Python's `Spiral`, field by field.
+///
+/// # Errors
+/// `InputTypeError`, `InputError`.
+pub fn spiral_of(value: &Bound<'_, PyAny>) -> PyResult<Spiral> {
+    let at = |field| ("spiral", field);
+    let whole = ("spiral", "a Spiral");
+    Ok(Spiral {
+        points: argument::field(whole, value, at("points"), points)?,
+        turns: argument::field(whole, value, at("turns"), |name, value| {
+            within(name, value, [1e-3, MOST_TURNS])
+        })?,
+        radius_m: argument::field(whole, value, at("radius_m"), |name, value| {
+            within(name, value, [0.0, LARGEST_M])
+        })?,
+        closing_ring: argument::field(whole, value, at("closing_ring"), argument::flag)?,
+    })
 }
 
-fn stroke(py: Python<'_>, radius_m: f64, turns: f64, start_angle_rad: f64, closing_ring: bool) -> PyResult<Stroke> {
-    within(py, "radius_m", radius_m, [1e-6, 100.0])?;
-    within(py, "turns", turns, [0.25, MOST_TURNS])?;
-    within(py, "start_angle_rad", start_angle_rad, [-1e3, 1e3])?;
+/// The stroke of Python's `Stroke`, field by field.
+///
+/// # Errors
+/// `InputTypeError`, `InputError`.
+pub fn stroke_of(value: &Bound<'_, PyAny>) -> PyResult<Stroke> {
+    let number = |field, range| {
+        argument::field(("stroke", "a Stroke"), value, ("stroke", field), |name, value| {
+            within(name, value, range)
+        })
+    };
     Ok(Stroke {
-        radius_m,
-        turns,
-        start_angle_rad,
-        closing_ring,
+        radius_m: number("radius_m", [1e-6, LARGEST_M])?,
+        turns: number("turns", [0.25, MOST_TURNS])?,
+        start_angle_rad: number("start_angle_rad", [-1e3, 1e3])?,
+        closing_ring: argument::field(
+            ("stroke", "a Stroke"),
+            value,
+            ("stroke", "closing_ring"),
+            argument::flag,
+        )?,
     })
+}
+
+/// Waypoints of the paper's spiral, shape (N, 2); see `Spiral`.
+#[pyfunction]
+pub fn _spiral<'py>(py: Python<'py>, spiral: &Bound<'py, PyAny>, centre: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
+    let spiral = spiral_of(spiral)?;
+    let centre = arrays::fixed::<2>("centre", centre)?;
+    finite(py, "centre", &centre)?;
+    let all = spiral.waypoints(centre);
+    arrays::array(py, &[all.len(), 2], all.as_flattened())
 }
 
 /// Points of a stroke whose chords leave it by at most `chord_error_m`: parameters (N,), points (N, 2); see `Stroke`.
 #[pyfunction]
 pub fn _stroke<'py>(
     py: Python<'py>,
-    radius_m: f64,
-    turns: f64,
-    start_angle_rad: f64,
-    closing_ring: bool,
-    chord_error_m: f64,
+    stroke: &Bound<'py, PyAny>,
+    chord_error_m: &Bound<'py, PyAny>,
 ) -> PyResult<(Array<'py>, Array<'py>)> {
-    let stroke = stroke(py, radius_m, turns, start_angle_rad, closing_ring)?;
-    within(py, "chord_error_m", chord_error_m, [1e-8 * radius_m, radius_m])?;
-    let theta = stroke.parameters(chord_error_m);
+    let stroke = stroke_of(stroke)?;
+    let range = [1e-8 * stroke.radius_m, stroke.radius_m];
+    let theta = stroke.parameters(within("chord_error_m", chord_error_m, range)?);
     let all: Vec<f64> = theta
         .iter()
         .flat_map(|&t| <[f64; 2]>::from(stroke.at(t).position))
@@ -110,18 +119,21 @@ pub fn _stroke<'py>(
 /// Waypoints from `start` to `end`, shape (3,) [m]: up to an arc round the base at `radius_m` and `height_m`, the shorter way
 /// round, and down; shape (points + 2, 3).
 #[pyfunction]
-#[pyo3(signature = (start, end, *, points=5, radius_m=0.35, height_m=0.25))]
+#[pyo3(
+    signature = (start, end, *, points=None, radius_m=None, height_m=None),
+    text_signature = "(start, end, *, points=5, radius_m=0.35, height_m=0.25)"
+)]
 pub fn transition_waypoints<'py>(
     py: Python<'py>,
     start: &Bound<'py, PyAny>,
     end: &Bound<'py, PyAny>,
-    points: usize,
-    radius_m: f64,
-    height_m: f64,
+    points: Option<&Bound<'py, PyAny>>,
+    radius_m: Option<&Bound<'py, PyAny>>,
+    height_m: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Array<'py>> {
-    self::points(py, "points", points)?;
-    within(py, "radius_m", radius_m, [0.0, 100.0])?;
-    within(py, "height_m", height_m, [-100.0, 100.0])?;
+    let points = points.map_or(Ok(5), |given| self::points("points", given))?;
+    let radius_m = radius_m.map_or(Ok(0.35), |given| within("radius_m", given, [0.0, LARGEST_M]))?;
+    let height_m = height_m.map_or(Ok(0.25), |given| within("height_m", given, [-LARGEST_M, LARGEST_M]))?;
     let (start, end) = (arrays::fixed::<3>("start", start)?, arrays::fixed::<3>("end", end)?);
     finite(py, "start", &start)?;
     finite(py, "end", &end)?;
@@ -140,25 +152,23 @@ pub fn transition_waypoints<'py>(
 /// `"zero_velocity"` stops at every waypoint, as MATLAB's `cubicpolytraj` does by default; `"c2_spline"` is the clamped cubic
 /// spline, at rest at both ends only.
 #[pyfunction]
-#[pyo3(signature = (waypoints, samples, interpolation="zero_velocity"))]
+#[pyo3(
+    signature = (waypoints, samples, interpolation=None),
+    text_signature = "(waypoints, samples, interpolation='zero_velocity')"
+)]
 pub fn cubic_samples<'py>(
     py: Python<'py>,
     waypoints: &Bound<'py, PyAny>,
-    samples: usize,
-    interpolation: &str,
+    samples: &Bound<'py, PyAny>,
+    interpolation: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Array<'py>> {
-    points(py, "samples", samples)?;
-    let interpolation = match interpolation {
-        "zero_velocity" => Interpolation::ZeroVelocity,
-        "c2_spline" => Interpolation::C2Spline,
-        _ => {
-            return Err(errors::input(
-                py,
-                "interpolation",
-                "must be \"zero_velocity\" or \"c2_spline\"",
-            ));
-        }
-    };
+    let samples = points("samples", samples)?;
+    let words = [
+        ("zero_velocity", Interpolation::ZeroVelocity),
+        ("c2_spline", Interpolation::C2Spline),
+    ];
+    let read = |given| argument::word("interpolation", given, &words);
+    let interpolation = interpolation.map_or(Ok(Interpolation::ZeroVelocity), read)?;
     let waypoints = arrays::rows::<3>("waypoints", waypoints)?;
     finite(py, "waypoints", waypoints.as_flattened())?;
     if waypoints.len() < 2 {

@@ -1,9 +1,11 @@
 //! `Cycle`: a certified job, and the calls that lead to a plan.
 
+use crate::argument;
 use crate::errors;
 use crate::layout::LayoutObject;
 use crate::plan::{PlanObject, file_error, records};
-use crate::scenario::{ScenarioArgument, ScenarioObject};
+use crate::robot::Robot;
+use crate::scenario::{self, ScenarioObject};
 use crate::trajectory::TrajectoryObject;
 use crate::value::to_record;
 use crate::work::patiently;
@@ -12,7 +14,7 @@ use platewash::planner::plan::PlanFileError;
 use platewash::planner::scenario::Program;
 use platewash::planner::sweep::SweepRow;
 use platewash::planner::{csv, robot};
-use platewash::{Cycle, CycleReport, Job, Plan, PlanError, Scenario};
+use platewash::{Cycle, CycleReport, Job, Plan, PlanError, RobotModel, Scenario};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple, PyType};
 use rayon::prelude::*;
@@ -22,29 +24,31 @@ use std::sync::Arc;
 #[pyclass(frozen, module = "pyplatewash", name = "Cycle")]
 pub struct CycleObject {
     inner: Arc<Cycle>,
+    robot: Py<Robot>,
 }
 
 #[pymethods]
 impl CycleObject {
     /// Plans the cycle of a scenario (or the shipped name or file of one), on a layout that was made before if one is given.
     ///
-    /// Raises ScenarioError, LayoutError or PlanError.
+    /// Raises InputError for the paper's program, which is `Job.run`'s; ScenarioError, LayoutError or PlanError.
     #[classmethod]
     #[pyo3(signature = (scenario, layout=None))]
     fn plan(
         _class: &Bound<'_, PyType>,
         py: Python<'_>,
-        scenario: ScenarioArgument<'_>,
-        layout: Option<&Bound<'_, LayoutObject>>,
+        scenario: &Bound<'_, PyAny>,
+        layout: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let scenario = scenario.resolve(py)?;
-        let layout = layout.map(|layout| layout.get().inner().clone());
+        let (scenario, layout) = (scenario::given(scenario)?, LayoutObject::given(layout)?);
+        scenario::of_program(py, &scenario, Program::Certified)?;
         let planned = patiently(py, move |_| match layout {
             None => Cycle::plan(&scenario),
             Some(layout) => Cycle::on(&scenario, robot::load(&scenario.robot)?, layout),
         })?;
         let inner = Arc::new(planned.map_err(|e| errors::plan(py, &e))?);
-        Ok(Self { inner })
+        let robot = Robot::of_section(py, &inner.scenario.robot, &inner.robot)?;
+        Ok(Self { inner, robot })
     }
 
     /// What was asked.
@@ -97,7 +101,8 @@ impl CycleObject {
 
     /// The plan file's contents, sealed. Nothing is proved: see `verify`.
     fn to_plan(&self, py: Python<'_>) -> PyResult<PlanObject> {
-        Ok(self.inner.to_plan().map_err(|e| file_error(py, &e))?.into())
+        let plan = self.inner.to_plan().map_err(|e| file_error(py, &e))?;
+        Ok(PlanObject::new(plan, Some(self.robot.clone_ref(py))))
     }
 
     /// Proves the cycle and sums it up. A record; its text is the report that the command prints.
@@ -111,8 +116,9 @@ impl CycleObject {
 
     /// The motion as CSV text, every `dt_s` [s], by default the scenario's.
     #[pyo3(signature = (dt_s=None))]
-    fn to_csv(&self, py: Python<'_>, dt_s: Option<f64>) -> PyResult<String> {
+    fn to_csv(&self, py: Python<'_>, dt_s: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
         let cycle = &self.inner;
+        let dt_s = dt_s.map(|dt_s| argument::number("dt_s", dt_s)).transpose()?;
         let tip = robot::tip_frame(&cycle.robot, &cycle.scenario.tool);
         let dt_s = dt_s.unwrap_or(cycle.scenario.control.dt_s);
         let table = csv::table(&cycle.motion, &cycle.segments, &cycle.robot, &tip, dt_s);
@@ -147,14 +153,17 @@ impl CycleObject {
     }
 }
 
-/// Plans a scenario by the program that it names.
-fn planned(scenario: &Scenario) -> Result<Result<Plan, PlanFileError>, PlanError> {
+/// Plans a scenario by the program that it names; with its arm.
+fn planned(scenario: &Scenario) -> Result<(Result<Plan, PlanFileError>, RobotModel), PlanError> {
     match scenario.job.program {
-        Program::Certified => Ok(Cycle::plan(scenario)?.to_plan()),
+        Program::Certified => {
+            let cycle = Cycle::plan(scenario)?;
+            Ok((cycle.to_plan(), cycle.robot))
+        }
         Program::Paper => {
             let job = Job::run(scenario)?;
             let report = job.report()?;
-            Ok(Plan::new(&job, &report))
+            Ok((Plan::new(&job, &report), job.robot))
         }
     }
 }
@@ -166,29 +175,30 @@ fn planned(scenario: &Scenario) -> Result<Result<Plan, PlanFileError>, PlanError
 /// `Plan.summary`.
 #[pyfunction]
 #[pyo3(signature = (scenario, *, seed=None))]
-pub fn plan(py: Python<'_>, scenario: ScenarioArgument<'_>, seed: Option<u64>) -> PyResult<PlanObject> {
-    let mut scenario = scenario.resolve(py)?;
-    scenario.seed = seed.unwrap_or(scenario.seed);
-    let plan = patiently(py, move |_| planned(&scenario))?.map_err(|e| errors::plan(py, &e))?;
-    Ok(plan.map_err(|e| file_error(py, &e))?.into())
+pub fn plan(py: Python<'_>, scenario: &Bound<'_, PyAny>, seed: Option<&Bound<'_, PyAny>>) -> PyResult<PlanObject> {
+    let mut scenario = scenario::given(scenario)?;
+    if let Some(seed) = seed {
+        scenario.seed = argument::seed("seed", seed)?;
+    }
+    let section = scenario.robot.clone();
+    let (plan, model) = patiently(py, move |_| planned(&scenario))?.map_err(|e| errors::plan(py, &e))?;
+    let robot = Robot::of_section(py, &section, &model)?;
+    Ok(PlanObject::new(plan.map_err(|e| file_error(py, &e))?, Some(robot)))
 }
 
 /// Plans and proves a certified scenario once a seed: one record a seed with `seed`, `outcome` (`"proved"`, `"not_proved"`,
 /// `"infeasible"`), `duration_s`, `crossings_s`, `coverage`, `clearance_m` and `reason`. Works on all processors.
 ///
-/// Raises ScenarioError or PlanError for a scenario that is wrong for every seed.
+/// Raises InputError for a scenario of the paper's program; ScenarioError or PlanError for one that is wrong for every seed.
 #[pyfunction]
 pub fn sweep<'py>(
     py: Python<'py>,
-    scenario: ScenarioArgument<'_>,
+    scenario: &Bound<'_, PyAny>,
     seeds: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyList>> {
-    let scenario = scenario.resolve(py)?;
-    if scenario.job.program != Program::Certified {
-        let problem = format!("\"{}\" is no certified job: see reproduce", scenario.name);
-        return Err(errors::input(py, "scenario", &problem));
-    }
-    let seeds: Vec<u64> = seeds.try_iter()?.map(|seed| seed?.extract()).collect::<PyResult<_>>()?;
+    let scenario = scenario::given(scenario)?;
+    scenario::of_program(py, &scenario, Program::Certified)?;
+    let seeds = argument::each("seeds", seeds, "a list of seeds", argument::seed)?;
     let rows = patiently(py, move |cancel| {
         let one = |&seed: &u64| match cancel.is_asked() {
             true => Err(PlanError::Stopped),

@@ -1,5 +1,6 @@
 //! `DynamicsModel`: rigid-body dynamics, one state at a time or in batches.
 
+use crate::argument::{self, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
 use crate::errors;
 use crate::robot::Robot;
@@ -112,11 +113,12 @@ impl DynamicsObject {
     #[new]
     #[pyo3(signature = (robot, tool=None, *, gravity_m_s2=None))]
     fn new(
-        robot: Bound<'_, Robot>,
+        robot: &Bound<'_, PyAny>,
         tool: Option<Bound<'_, PyAny>>,
         gravity_m_s2: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let py = robot.py();
+        let robot = argument::object::<Robot>("robot", robot, ROBOT)?;
         let section = tool
             .as_ref()
             .map(|tool| ToolFields::of(tool)?.section(py))
@@ -130,7 +132,7 @@ impl DynamicsObject {
         let inner = model.and_then(|model| model.with_gravity(Vector3::from(gravity)));
         Ok(Self {
             inner: inner.map_err(|e| errors::dynamics(py, &e))?,
-            arguments: (robot.unbind(), tool.map(Bound::unbind), gravity),
+            arguments: (robot.clone().unbind(), tool.map(Bound::unbind), gravity),
         })
     }
 
@@ -249,7 +251,7 @@ impl DynamicsObject {
     #[classmethod]
     fn _restore(
         _class: &Bound<'_, PyType>,
-        robot: Bound<'_, Robot>,
+        robot: &Bound<'_, PyAny>,
         tool: Option<Bound<'_, PyAny>>,
         gravity_m_s2: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {

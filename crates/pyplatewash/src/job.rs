@@ -1,14 +1,17 @@
 //! `Job`: the paper's program, planned and followed.
 
+use crate::argument;
 use crate::arrays;
 use crate::errors;
 use crate::layout::LayoutObject;
 use crate::plan::{PlanObject, file_error};
-use crate::scenario::{ScenarioArgument, ScenarioObject};
+use crate::robot::Robot;
+use crate::scenario::{self, ScenarioObject};
 use crate::trajectory::TrajectoryObject;
 use crate::value::to_record;
 use crate::work::patiently;
 use numpy::{PyArray1, PyArrayDyn};
+use platewash::planner::scenario::Program;
 use platewash::planner::{plan, robot};
 use platewash::{Job, JointVector, Layout, Plan, Scenario};
 use pyo3::prelude::*;
@@ -21,6 +24,7 @@ use std::sync::Arc;
 #[pyclass(frozen, module = "pyplatewash", name = "Job")]
 pub struct JobObject {
     inner: Arc<Job>,
+    robot: Py<Robot>,
 }
 
 /// Plans and follows, on plates that were placed before if there are any.
@@ -46,18 +50,22 @@ impl JobObject {
 impl JobObject {
     /// Plans and follows a scenario (or the shipped name or file of one), on a layout that was made before if one is given.
     ///
-    /// Raises ScenarioError, LayoutError or PlanError. A job that does not wash is no error: see `report`.
+    /// Raises InputError for a certified job, which is `Cycle.plan`'s; ScenarioError, LayoutError or PlanError. A job that does not
+    /// wash is no error: see `report`.
     #[classmethod]
     #[pyo3(name = "run", signature = (scenario, layout=None))]
     fn start(
         _class: &Bound<'_, PyType>,
         py: Python<'_>,
-        scenario: ScenarioArgument<'_>,
-        layout: Option<&Bound<'_, LayoutObject>>,
+        scenario: &Bound<'_, PyAny>,
+        layout: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let layout = layout.map(|layout| layout.get().inner().clone());
-        let job = run(py, scenario.resolve(py)?, layout)?;
-        Ok(Self { inner: Arc::new(job) })
+        let (scenario, layout) = (scenario::given(scenario)?, LayoutObject::given(layout)?);
+        scenario::of_program(py, &scenario, Program::Paper)?;
+        let job = run(py, scenario, layout)?;
+        let robot = Robot::of_section(py, &job.scenario.robot, &job.robot)?;
+        let inner = Arc::new(job);
+        Ok(Self { inner, robot })
     }
 
     /// What was asked.
@@ -166,14 +174,22 @@ impl JobObject {
     fn plan(&self, py: Python<'_>) -> PyResult<PlanObject> {
         let job = self.inner.clone();
         let report = patiently(py, move |_| job.report())?.map_err(|e| errors::plan(py, &e))?;
-        Ok(Plan::new(&self.inner, &report).map_err(|e| file_error(py, &e))?.into())
+        let plan = Plan::new(&self.inner, &report).map_err(|e| file_error(py, &e))?;
+        Ok(PlanObject::new(plan, Some(self.robot.clone_ref(py))))
     }
 
     /// A motion as CSV text, the planned one or with `executed=True` the executed one, every `dt_s` [s], by default the
     /// scenario's.
-    #[pyo3(signature = (dt_s=None, *, executed=false))]
-    fn to_csv(&self, py: Python<'_>, dt_s: Option<f64>, executed: bool) -> PyResult<String> {
+    #[pyo3(signature = (dt_s=None, *, executed=None), text_signature = "($self, dt_s=None, *, executed=False)")]
+    fn to_csv(
+        &self,
+        py: Python<'_>,
+        dt_s: Option<&Bound<'_, PyAny>>,
+        executed: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<String> {
         let job = &self.inner;
+        let dt_s = dt_s.map(|dt_s| argument::number("dt_s", dt_s)).transpose()?;
+        let executed = executed.map_or(Ok(false), |executed| argument::flag("executed", executed))?;
         let motion = if executed { &job.executed } else { &job.planned };
         let tip = robot::tip_frame(&job.robot, &job.scenario.tool);
         let dt_s = dt_s.unwrap_or(job.scenario.control.dt_s);

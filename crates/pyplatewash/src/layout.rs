@@ -1,8 +1,9 @@
 //! `Layout`: where the plates lie.
 
+use crate::argument;
 use crate::arrays;
 use crate::errors;
-use crate::scenario::ScenarioArgument;
+use crate::scenario;
 use crate::value::to_record;
 use crate::work::patiently;
 use numpy::PyArrayDyn;
@@ -28,6 +29,15 @@ impl From<Layout> for LayoutObject {
 }
 
 impl LayoutObject {
+    /// The layout of the argument called `layout`, if it is given.
+    ///
+    /// # Errors
+    /// `InputTypeError` for what is no layout.
+    pub fn given(value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Layout>> {
+        let found = argument::maybe::<Self>("layout", value, "a Layout, as place_plates gives it,")?;
+        Ok(found.map(|layout| layout.get().inner.clone()))
+    }
+
     /// The layout.
     #[must_use]
     pub fn inner(&self) -> &Layout {
@@ -110,8 +120,9 @@ impl LayoutObject {
 
     /// Restores a pickled layout.
     #[classmethod]
-    fn _restore(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str) -> PyResult<Self> {
-        let inner = serde_json::from_str(text).map_err(|e| errors::input(py, "text", &e.to_string()))?;
+    fn _restore(_class: &Bound<'_, PyType>, py: Python<'_>, text: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let text = argument::text("text", text, "a pickled layout")?;
+        let inner = serde_json::from_str(&text).map_err(|e| errors::input(py, "text", &e.to_string()))?;
         Ok(Self { inner })
     }
 }
@@ -120,8 +131,8 @@ impl LayoutObject {
 ///
 /// Raises LayoutError when they have no room.
 #[pyfunction]
-pub fn place_plates(py: Python<'_>, scenario: ScenarioArgument<'_>) -> PyResult<LayoutObject> {
-    let scenario = scenario.resolve(py)?;
+pub fn place_plates(py: Python<'_>, scenario: &Bound<'_, PyAny>) -> PyResult<LayoutObject> {
+    let scenario = scenario::given(scenario)?;
     let placed = patiently(py, move |_| {
         let robot = robot::load(&scenario.robot)?;
         job::place_plates(&scenario, &robot).map_err(PlanError::from)

@@ -1,9 +1,10 @@
 //! The Python wheel of platewash: the same nouns, NumPy in and out.
 //!
-//! This crate holds no logic of its own. It turns array-likes into slices and back (`arrays`), errors into exceptions
+//! This crate holds no logic of its own. It reads arguments (`argument`), turns array-likes into slices and back (`arrays`), errors into exceptions
 //! (`errors`), and data into dictionaries (`value`), and works without the interpreter lock (`work`). What is plain data on
 //! Python's side (`Tool`, `Plate`, settings, records) are Python dataclasses in `python/pyplatewash`.
 
+mod argument;
 mod arrays;
 mod certificate;
 mod clearance;
@@ -59,6 +60,8 @@ mod _core {
     use crate::scenario::ScenarioObject;
     #[pymodule_export]
     use crate::simulation::{ExecutionObject, SetupObject, simulate, tune};
+    #[pymodule_export]
+    use crate::tool::_check;
     #[pymodule_export]
     use crate::trajectory::TrajectoryObject;
 }

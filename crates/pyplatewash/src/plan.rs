@@ -1,7 +1,8 @@
 //! `Plan`: the plan file.
 
+use crate::argument;
 use crate::certificate::{self, CertificateObject};
-use crate::errors;
+use crate::errors::{self, FileOf, SystemWord};
 use crate::layout::plates;
 use crate::robot::Robot;
 use crate::scenario::ScenarioObject;
@@ -9,27 +10,30 @@ use crate::trajectory::TrajectoryObject;
 use crate::value::{to_python, to_record};
 use platewash::kinematics::urdf::file;
 use platewash::planner::plan::PlanFileError;
-use platewash::{Plan, Trajectory};
+use platewash::planner::trajectory::KnotError;
+use platewash::{Plan, RobotModel, Trajectory};
 use pyo3::prelude::*;
-use pyo3::types::{PyList, PyTuple, PyType};
+use pyo3::types::{PyList, PyString, PyTuple, PyType};
 use serde::Serialize;
-use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Longest plan file that is read \[bytes\].
 const MAX_BYTES: u64 = 1 << 30;
 
 /// A plan: everything that a verifier needs besides the URDF, sealed with a hash. Immutable.
+///
+/// A plan that was made in this process knows its arm (`robot`), so that `verify`, `simulate` and `tune` need no other; a pickle takes
+/// the arm along. A plan file holds no arm: a plan that is read from one knows the built-in arm only.
 #[pyclass(frozen, eq, module = "pyplatewash", name = "Plan")]
-#[derive(PartialEq)]
 pub struct PlanObject {
     inner: Plan,
+    robot: Option<Py<Robot>>,
 }
 
-impl From<Plan> for PlanObject {
-    fn from(mut inner: Plan) -> Self {
-        // Waypoints are no part of the file: a plan and what is read back from its file are equal.
-        inner.tool_path.iter_mut().for_each(|segment| segment.waypoints.clear());
-        Self { inner }
+impl PartialEq for PlanObject {
+    /// A plan is what its file says.
+    fn eq(&self, other: &Self) -> bool {
+        self.inner == other.inner
     }
 }
 
@@ -39,10 +43,50 @@ pub fn file_error(py: Python<'_>, error: &PlanFileError) -> PyErr {
 }
 
 impl PlanObject {
+    /// A plan, with its arm where that is at hand.
+    #[must_use]
+    pub fn new(mut inner: Plan, robot: Option<Py<Robot>>) -> Self {
+        // Waypoints are no part of the file: a plan and what is read back from its file are equal.
+        inner.tool_path.iter_mut().for_each(|segment| segment.waypoints.clear());
+        Self { inner, robot }
+    }
+
+    /// The plan of an argument: a plan, or the path of a plan file.
+    ///
+    /// # Errors
+    /// `InputTypeError`; `PlanFileError` for a file that is no plan.
+    pub fn given<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, Self>> {
+        if let Ok(plan) = value.cast::<Self>() {
+            return Ok(plan.clone());
+        }
+        const NEEDED: &str = "a Plan or the path of a plan file";
+        if !(value.is_instance_of::<PyString>() || value.hasattr("__fspath__")?) {
+            return Err(argument::wrong_type(name, value, NEEDED));
+        }
+        Bound::new(value.py(), Self::read(name, value)?)
+    }
+
+    fn read(name: &str, path: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let (py, path) = (path.py(), argument::path(name, path)?);
+        let text = file::read_text(&path, MAX_BYTES).map_err(|e| errors::unread(py, FileOf::Plan, &path, &e))?;
+        let plan = Plan::from_json(&text).map_err(|e| {
+            let message = format!("{}: {e}", path.display());
+            errors::named(py, "PlanFileError", &message)
+        })?;
+        Ok(Self::new(plan, None))
+    }
+
     /// The plan.
     #[must_use]
     pub fn inner(&self) -> &Plan {
         &self.inner
+    }
+
+    /// The arm to judge the plan with: the one given, else its own; `None` leaves the built-in one.
+    #[must_use]
+    pub fn arm(&self, given: Option<&Bound<'_, Robot>>) -> Option<Arc<RobotModel>> {
+        let given = given.map(|robot| robot.get().model().clone());
+        given.or_else(|| self.robot.as_ref().map(|robot| robot.get().model().clone()))
     }
 }
 
@@ -64,24 +108,53 @@ impl PlanObject {
     ///
     /// Raises PlanFileError.
     #[classmethod]
-    fn from_json(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str) -> PyResult<Self> {
-        Ok(Plan::from_json(text).map_err(|e| file_error(py, &e))?.into())
+    fn from_json(_class: &Bound<'_, PyType>, py: Python<'_>, text: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let text = argument::text("text", text, "a plan file's text")?;
+        Ok(Self::new(Plan::from_json(&text).map_err(|e| file_error(py, &e))?, None))
+    }
+
+    /// Restores a pickled plan with its arm.
+    #[classmethod]
+    fn _restore(
+        class: &Bound<'_, PyType>,
+        py: Python<'_>,
+        text: &Bound<'_, PyAny>,
+        robot: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let Self { inner, .. } = Self::from_json(class, py, text)?;
+        let robot = Robot::given(robot)?.map(|robot| robot.clone().unbind());
+        Ok(Self { inner, robot })
     }
 
     /// A plan from its file. The hash is not checked: see `is_sealed`.
     ///
-    /// Raises PlanFileError.
+    /// Raises PlanFileError; for a file that cannot be read it is a FileError, too.
     #[classmethod]
-    fn load(class: &Bound<'_, PyType>, py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let unreadable = |e: file::FileError| {
-            errors::named(py, "PlanFileError", &format!("{}: cannot be read: {e}", path.display()))
-        };
-        Self::from_json(class, py, &file::read_text(&path, MAX_BYTES).map_err(unreadable)?)
+    fn load(_class: &Bound<'_, PyType>, path: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Self::read("path", path)
     }
 
     /// Writes the plan file.
-    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        Ok(std::fs::write(path, self.to_json(py)?)?)
+    ///
+    /// Raises PlanFileError, which is a FileError, too.
+    fn save(&self, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<()> {
+        let path = argument::path("path", path)?;
+        std::fs::write(&path, self.to_json(py)?).map_err(|e| {
+            let filename = path.display().to_string();
+            let message = format!("{filename}: cannot be written: {e}");
+            errors::system_file(py, FileOf::Plan, SystemWord::from(&e), &filename, &message)
+        })
+    }
+
+    /// The arm that the plan was made for, where it is known; None for a plan from a file that names another arm than the built-in
+    /// one.
+    #[getter]
+    fn robot(&self, py: Python<'_>) -> PyResult<Option<Py<Robot>>> {
+        match (&self.robot, &self.inner.scenario.robot.urdf) {
+            (Some(robot), _) => Ok(Some(robot.clone_ref(py))),
+            (None, Some(_)) => Ok(None),
+            (None, None) => Robot::built_in(py).map(Some),
+        }
     }
 
     /// The plan file's text: canonical JSON, one line.
@@ -154,12 +227,16 @@ impl PlanObject {
     fn trajectory(&self, py: Python<'_>) -> PyResult<TrajectoryObject> {
         let knots = &self.inner.knots;
         let motion = Trajectory::from_knots(knots.t_s.clone(), knots.q_rad.clone(), knots.qd_rad_s.clone());
-        Ok(motion.map_err(|e| errors::input(py, "knots", &e.to_string()))?.into())
+        let motion = motion.map_err(|e| match e {
+            KnotError::Count { .. } => errors::keyed(py, "knots", &e.to_string()),
+            _ => errors::input(py, "knots", &e.to_string()),
+        });
+        Ok(motion?.into())
     }
 
     /// The certificate of the plan: see `pyplatewash.verify`.
     #[pyo3(signature = (robot=None))]
-    fn verify(slf: &Bound<'_, Self>, py: Python<'_>, robot: Option<&Bound<'_, Robot>>) -> PyResult<CertificateObject> {
+    fn verify(slf: &Bound<'_, Self>, py: Python<'_>, robot: Option<&Bound<'_, PyAny>>) -> PyResult<CertificateObject> {
         certificate::verify(py, slf, robot)
     }
 
@@ -179,7 +256,8 @@ impl PlanObject {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let text = slf.get().to_json(slf.py())?;
-        Ok((slf.get_type().getattr("from_json")?, (text,).into_pyobject(slf.py())?))
+        let (py, plan) = (slf.py(), slf.get());
+        let arguments = (plan.to_json(py)?, plan.robot.as_ref().map(|robot| robot.clone_ref(py)));
+        Ok((slf.get_type().getattr("_restore")?, arguments.into_pyobject(py)?))
     }
 }

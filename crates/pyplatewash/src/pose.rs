@@ -4,8 +4,17 @@ use crate::errors::Input;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use platewash::Pose;
 
-/// Entries of a rotation matrix may be this far from orthonormal.
-const ORTHONORMAL: f64 = 1e-6;
+/// Entries of RᵀR − I may be this large: entries of R that are rounded to six decimals come to 2e-6. What is that near a rotation
+/// stands for the nearest one.
+const ROUNDED: f64 = 1e-5;
+
+/// Entries that small need no nearest rotation: they are below the tolerance of any solver.
+const EXACT: f64 = 1e-7;
+
+/// Stands for a matrix that is no pose.
+const NO_POSE: Quaternion<f64> = Quaternion {
+    coords: nalgebra::Vector4::new(f64::NAN, f64::NAN, f64::NAN, f64::NAN),
+};
 
 /// A pose `T_base_frame` from a 4 × 4 matrix, row by row.
 ///
@@ -18,24 +27,14 @@ pub fn pose(matrix: &[f64]) -> Result<Pose, Input> {
     Ok(scaled(m, multiple(m)?))
 }
 
-/// The same of many, into `poses` in place of what was there; `room` is scratch.
+/// The same of many, into `poses` in place of what was there; `room` is scratch. A matrix that is no pose becomes one of NaN.
 ///
 /// Roots and divisions wait for each other within one pose, but not from pose to pose: they have a loop of their own.
-///
-/// # Errors
-/// The first matrix that is no pose, and what is wrong with it.
-pub fn poses(
-    matrices: &[[f64; 16]],
-    room: &mut Vec<Quaternion<f64>>,
-    poses: &mut Vec<Pose>,
-) -> Result<(), (usize, Input)> {
+pub fn poses(matrices: &[[f64; 16]], room: &mut Vec<Quaternion<f64>>, poses: &mut Vec<Pose>) {
     room.clear();
-    for (k, matrix) in matrices.iter().enumerate() {
-        room.push(multiple(matrix).map_err(|e| (k, e))?);
-    }
+    room.extend(matrices.iter().map(|matrix| multiple(matrix).unwrap_or(NO_POSE)));
     poses.clear();
     poses.extend(matrices.iter().zip(room).map(|(matrix, q)| scaled(matrix, *q)));
-    Ok(())
 }
 
 /// A pose with a matrix's translation and a multiple of its quaternion.
@@ -54,13 +53,13 @@ fn multiple(m: &[f64; 16]) -> Result<Quaternion<f64>, Input> {
         return Err(Input(format!("the last row must be (0, 0, 0, 1); found {row:?}")));
     }
     let rows = [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]];
-    if !surely_rotation(&rows) {
-        rotation_or_why(&rows)?;
+    if surely_rotation(&rows) {
+        return Ok(quaternion(&rows));
     }
-    Ok(quaternion(&rows))
+    Ok(quaternion(&nearest_rotation(&rows)?))
 }
 
-/// Whether three rows are a rotation to well within [`ORTHONORMAL`]: two unit rows at right angles, and their product.
+/// Whether three rows are a rotation to within [`EXACT`]: two unit rows at right angles, and their product.
 fn surely_rotation(&[a, b, c, d, e, f, g, h, i]: &[f64; 9]) -> bool {
     let off = [
         a * a + b * b + c * c - 1.0,
@@ -71,22 +70,29 @@ fn surely_rotation(&[a, b, c, d, e, f, g, h, i]: &[f64; 9]) -> bool {
         a * e - b * d - i,
     ];
     // Not a comparison with the largest: NaN must not pass.
-    off.iter().all(|off| off.abs() < 0.1 * ORTHONORMAL)
+    off.iter().all(|off| off.abs() < EXACT)
 }
 
-/// Refuses three rows that are no rotation.
-fn rotation_or_why(rows: &[f64; 9]) -> Result<(), Input> {
-    let rotation = Matrix3::from_row_slice(rows);
-    let off = (rotation.tr_mul(&rotation) - Matrix3::identity()).amax();
-    if off > ORTHONORMAL {
+/// The rotation nearest to three rows that are nearly one, in the sum of squares: the orthogonal factor of the polar decomposition,
+/// by the iteration R ← R (3 I − RᵀR) / 2, which squares the error (Björck and Bowie, SIAM J. Numer. Anal. 8, 1971).
+fn nearest_rotation(rows: &[f64; 9]) -> Result<[f64; 9], Input> {
+    let mut rotation = Matrix3::from_row_slice(rows);
+    let gram = |r: &Matrix3<f64>| r.tr_mul(r);
+    let off = (gram(&rotation) - Matrix3::identity()).amax();
+    if off > ROUNDED {
         return Err(Input(format!(
-            "the upper left 3 × 3 must be a rotation; its columns are {off:.1e} from orthonormal"
+            "the upper left 3 × 3 must be a rotation; its columns are {off:.1e} from orthonormal, and up to {ROUNDED:.0e} is taken for \
+             rounding: give more digits, or its nearest rotation, U @ Vt of U, s, Vt = np.linalg.svd(target[:3, :3])"
         )));
     }
     if rotation.determinant() < 0.0 {
         return Err(Input("the upper left 3 × 3 is a reflection, no rotation".to_owned()));
     }
-    Ok(())
+    for _ in 0..2 {
+        rotation *= (Matrix3::identity() * 3.0 - gram(&rotation)) * 0.5;
+    }
+    let [x, y, z] = rotation.transpose().data.0;
+    Ok([x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]])
 }
 
 /// A multiple of the quaternion of a rotation: of the four rows of `4 q qᵀ`, which the entries of the matrix add up to, the one with the

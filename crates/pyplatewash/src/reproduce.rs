@@ -1,5 +1,6 @@
 //! The paper's program re-measured.
 
+use crate::argument;
 use crate::errors;
 use crate::value::to_record;
 use crate::work::patiently;
@@ -8,25 +9,27 @@ use pyo3::prelude::*;
 use std::ops::ControlFlow;
 
 /// Most layouts a region, as of the command.
-const MOST_LAYOUTS: usize = 10_000;
+const MOST_LAYOUTS: u64 = 10_000;
 /// Most layouts begun a dead-end rate, as of the command.
-const MOST_DRAWS: usize = 1_000_000;
+const MOST_DRAWS: u64 = 1_000_000;
 
 /// Measures what the paper's program does, over `layouts` layouts in each of its two regions and `draws` layouts begun for
 /// each dead-end rate. A record whose `rows` hold `key`, `group`, `quantity`, `unit`, `paper`, `measured` and
 /// `half_width_95`; its text is the table. The answer does not depend on the number of threads.
 #[pyfunction]
-#[pyo3(signature = (layouts=400, draws=20_000, seed=1))]
-pub fn reproduce(py: Python<'_>, layouts: usize, draws: usize, seed: u64) -> PyResult<Bound<'_, PyAny>> {
-    for (name, value, most) in [("layouts", layouts, MOST_LAYOUTS), ("draws", draws, MOST_DRAWS)] {
-        if !(1..=most).contains(&value) {
-            return Err(errors::input(
-                py,
-                name,
-                &format!("must be from 1 to {most}; found {value}"),
-            ));
-        }
-    }
+#[pyo3(
+    signature = (layouts=None, draws=None, seed=None),
+    text_signature = "(layouts=400, draws=20000, seed=1)"
+)]
+pub fn reproduce<'py>(
+    py: Python<'py>,
+    layouts: Option<&Bound<'py, PyAny>>,
+    draws: Option<&Bound<'py, PyAny>>,
+    seed: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let layouts = layouts.map_or(Ok(400), |given| argument::count("layouts", given, [1, MOST_LAYOUTS]))?;
+    let draws = draws.map_or(Ok(20_000), |given| argument::count("draws", given, [1, MOST_DRAWS]))?;
+    let seed = seed.map_or(Ok(1), |given| argument::seed("seed", given))?;
     let settings = ReproduceSettings { layouts, draws, seed };
     let measured = patiently(py, move |cancel| {
         let go_on = |_, _| {

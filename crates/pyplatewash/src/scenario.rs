@@ -1,14 +1,16 @@
 //! `Scenario`: a job in full.
 
+use crate::argument;
 use crate::errors;
 use crate::value::{from_mapping, to_python, to_record};
 use crate::work::patiently;
 use platewash::Scenario;
 use platewash::planner::job;
-use platewash::planner::scenario::SHIPPED;
+use platewash::planner::scenario::{Program, SHIPPED};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 use serde_json::{Map, Value};
+use std::path::PathBuf;
 
 /// A job in full: what a scenario file states, with defaults filled in. Immutable; `replace` makes another one.
 ///
@@ -82,9 +84,11 @@ fn without_nulls(value: Value) -> Value {
 impl ScenarioObject {
     /// A shipped scenario by name (see `Scenario.shipped()`), or a TOML file; paths in a file are relative to its folder.
     ///
-    /// Raises ScenarioError with the line, the key, what was expected and what was found.
+    /// Raises ScenarioError with the line, the key, what was expected and what was found; where there is no such name or file, it is
+    /// a FileError, too.
     #[classmethod]
-    fn load(_class: &Bound<'_, PyType>, py: Python<'_>, name_or_file: std::path::PathBuf) -> PyResult<Self> {
+    fn load(_class: &Bound<'_, PyType>, py: Python<'_>, name_or_file: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let name_or_file = argument::path("name_or_file", name_or_file)?;
         let Some(name) = name_or_file.to_str() else {
             return Err(errors::input(py, "name_or_file", "is not valid Unicode"));
         };
@@ -96,9 +100,18 @@ impl ScenarioObject {
     ///
     /// Raises ScenarioError.
     #[classmethod]
-    #[pyo3(signature = (text, source="text"))]
-    fn parse(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str, source: &str) -> PyResult<Self> {
-        let inner = Scenario::parse(text, source).map_err(|e| errors::scenario(py, &e))?;
+    #[pyo3(signature = (text, source=None), text_signature = "(text, source='text')")]
+    fn parse(
+        _class: &Bound<'_, PyType>,
+        py: Python<'_>,
+        text: &Bound<'_, PyAny>,
+        source: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let text = argument::text("text", text, "TOML text")?;
+        let source = source.map(|source| argument::text("source", source, "a name for messages"));
+        let source = source.transpose()?;
+        let inner =
+            Scenario::parse(&text, source.as_deref().unwrap_or("text")).map_err(|e| errors::scenario(py, &e))?;
         Ok(Self { inner })
     }
 
@@ -107,7 +120,7 @@ impl ScenarioObject {
     /// Raises ScenarioError with the key, what was expected and what was found.
     #[classmethod]
     fn from_dict(_class: &Bound<'_, PyType>, py: Python<'_>, table: &Bound<'_, PyAny>) -> PyResult<Self> {
-        Self::checked(py, from_mapping("scenario", table)?)
+        Self::checked(py, from_mapping("table", table)?)
     }
 
     /// Names of the scenarios that come with the package; the first is the default.
@@ -165,12 +178,17 @@ impl ScenarioObject {
         self.inner.seed
     }
 
-    fn __getitem__<'py>(&self, py: Python<'py>, key: &str) -> PyResult<Bound<'py, PyAny>> {
+    fn __getitem__<'py>(&self, py: Python<'py>, key: &Bound<'_, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let table = self.table(py)?;
-        match table.get(key) {
+        let key = argument::text("key", key, "a key")?;
+        match table.get(&key) {
             Some(Value::Object(section)) => to_record(py, section, None),
             Some(plain) => to_python(py, plain),
-            None => Err(pyo3::exceptions::PyKeyError::new_err(key.to_owned())),
+            None => Err(errors::no_key(
+                py,
+                &key,
+                &table.keys().map(String::as_str).collect::<Vec<_>>(),
+            )),
         }
     }
 
@@ -253,24 +271,39 @@ impl ScenarioObject {
     }
 }
 
-/// A scenario, or the name or file of one.
-#[derive(FromPyObject)]
-pub enum ScenarioArgument<'py> {
-    /// A scenario.
-    Object(Bound<'py, ScenarioObject>),
-    /// A name or file.
-    Name(std::path::PathBuf),
+/// The scenario of the argument called `scenario`: a scenario, or the name or file of one.
+///
+/// # Errors
+/// `InputTypeError` for anything else, `ScenarioError`.
+pub fn given(value: &Bound<'_, PyAny>) -> PyResult<Scenario> {
+    if let Ok(object) = value.cast::<ScenarioObject>() {
+        return Ok(object.get().inner.clone());
+    }
+    const NEEDED: &str = "a Scenario, the name of a shipped one or the path of a file";
+    let path: PathBuf = value
+        .extract()
+        .map_err(|e| argument::refused("scenario", value, NEEDED, e))?;
+    Scenario::load(&path.to_string_lossy()).map_err(|e| errors::scenario(value.py(), &e))
 }
 
-impl ScenarioArgument<'_> {
-    /// The scenario.
-    ///
-    /// # Errors
-    /// `ScenarioError`.
-    pub fn resolve(&self, py: Python<'_>) -> PyResult<Scenario> {
-        match self {
-            Self::Object(object) => Ok(object.get().inner.clone()),
-            Self::Name(name) => Scenario::load(&name.to_string_lossy()).map_err(|e| errors::scenario(py, &e)),
-        }
+/// Refuses a scenario of the other program than the one that a call runs.
+///
+/// # Errors
+/// `InputError` that names the call for that program.
+pub fn of_program(py: Python<'_>, scenario: &Scenario, wanted: Program) -> PyResult<()> {
+    let name = &scenario.name;
+    if scenario.job.program == wanted {
+        return Ok(());
     }
+    let problem = match wanted {
+        Program::Certified => format!(
+            "\"{name}\" has job.program = \"paper\", the paper's program: Job.run runs it, plan takes either kind; \
+             a certified job is needed here, such as \"kitchen\""
+        ),
+        Program::Paper => format!(
+            "\"{name}\" has job.program = \"certified\": Cycle.plan plans it, plan takes either kind; the paper's program is \
+             needed here, such as \"paper-appendix\""
+        ),
+    };
+    Err(errors::input(py, "scenario", &problem))
 }

@@ -1,6 +1,10 @@
-//! Plain data of Python's side, read field by field: the tool, plates, curves.
+//! Plain data of Python's side, read field by field: the tool and plates.
 
+use crate::argument::{self, TOOL};
+use crate::arrays;
+use crate::curves;
 use crate::errors;
+use crate::robot;
 use platewash::Plate;
 use platewash::planner::scenario::ToolSection;
 use pyo3::prelude::*;
@@ -12,7 +16,7 @@ const LARGEST_M: f64 = 100.0;
 const LARGEST_KG: f64 = 1e4;
 
 /// Fields of Python's `Tool`.
-#[derive(Debug, FromPyObject)]
+#[derive(Debug)]
 pub struct ToolFields {
     length_m: f64,
     radius_m: f64,
@@ -28,16 +32,25 @@ impl ToolFields {
     /// The fields of the argument called `tool`.
     ///
     /// # Errors
-    /// `InputTypeError` for what is no `Tool`.
+    /// `InputTypeError` for what is no `Tool`, or a field of a wrong type.
     pub fn of(value: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let wrong = |e: PyErr| {
-            errors::wrong_type(
-                value.py(),
-                "tool",
-                &format!("a Tool is needed: {}", e.value(value.py())),
-            )
-        };
-        value.extract().map_err(wrong)
+        let number = |field| argument::field(("tool", TOOL), value, ("tool", field), argument::number);
+        let com_m = argument::field(("tool", TOOL), value, ("tool", "com_m"), |name, value| {
+            (!value.is_none()).then(|| argument::number(name, value)).transpose()
+        });
+        let inertia_kg_m2 = argument::field(("tool", TOOL), value, ("tool", "inertia_kg_m2"), |name, value| {
+            (!value.is_none()).then(|| arrays::fixed::<6>(name, value)).transpose()
+        });
+        Ok(Self {
+            length_m: number("length_m")?,
+            radius_m: number("radius_m")?,
+            sponge_radius_m: number("sponge_radius_m")?,
+            sponge_height_m: number("sponge_height_m")?,
+            sponge_compression_m: number("sponge_compression_m")?,
+            mass_kg: number("mass_kg")?,
+            com_m: com_m?,
+            inertia_kg_m2: inertia_kg_m2?,
+        })
     }
 
     /// The tool.
@@ -93,7 +106,7 @@ impl ToolFields {
 }
 
 /// Fields of Python's `Plate`.
-#[derive(Debug, FromPyObject)]
+#[derive(Debug)]
 pub struct PlateFields {
     x_m: f64,
     y_m: f64,
@@ -103,19 +116,19 @@ pub struct PlateFields {
 }
 
 impl PlateFields {
-    /// The fields of one of the `plates`.
+    /// The fields of the plate called `name`.
     ///
     /// # Errors
-    /// `InputTypeError` for what is no `Plate`.
-    pub fn of(value: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let wrong = |e: PyErr| {
-            errors::wrong_type(
-                value.py(),
-                "plates",
-                &format!("Plates are needed: {}", e.value(value.py())),
-            )
-        };
-        value.extract().map_err(wrong)
+    /// `InputTypeError` for what is no `Plate`, or a field of a wrong type.
+    pub fn of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let number = |field| argument::field((name, "a Plate"), value, ("plate", field), argument::number);
+        Ok(Self {
+            x_m: number("x_m")?,
+            y_m: number("y_m")?,
+            z_m: number("z_m")?,
+            radius_m: number("radius_m")?,
+            thickness_m: number("thickness_m")?,
+        })
     }
 
     /// The plate.
@@ -149,6 +162,21 @@ impl PlateFields {
             radius_m: self.radius_m,
             thickness_m: self.thickness_m,
         })
+    }
+}
+
+/// Checks one of Python's plain values when it is made, field by field; `kind` is its class in lower case.
+///
+/// Raises InputTypeError for a field of a wrong type, InputError for one out of its range.
+#[pyfunction]
+pub fn _check(py: Python<'_>, kind: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+    match kind {
+        "tool" => ToolFields::of(value)?.section(py).map(|_| ()),
+        "plate" => PlateFields::of("plate", value)?.plate(py).map(|_| ()),
+        "ik_settings" => robot::settings(value).map(|_| ()),
+        "spiral" => curves::spiral_of(value).map(|_| ()),
+        "stroke" => curves::stroke_of(value).map(|_| ()),
+        _ => Err(errors::internal(py, "no such kind of value")),
     }
 }
 

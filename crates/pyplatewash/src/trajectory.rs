@@ -1,5 +1,6 @@
 //! `Trajectory`: joint motion over time.
 
+use crate::argument;
 use crate::arrays::{self, Count, MANY_JOINTS, Numbers, Wanted};
 use crate::errors;
 use crate::work::released;
@@ -40,8 +41,21 @@ impl From<Trajectory> for TrajectoryObject {
 }
 
 fn knots(py: Python<'_>, t_s: Vec<f64>, q: &[JointVector], qd: &[JointVector]) -> PyResult<Trajectory> {
-    Trajectory::from_knots(t_s, q.to_vec(), qd.to_vec())
-        .map_err(|e: KnotError| errors::input(py, "knots", &e.to_string()))
+    for (name, found) in [("q_rad", q.len()), ("qd_rad_s", qd.len())] {
+        if found != t_s.len() {
+            let wanted = [format!("({}, 6), a row for each of t_s,", t_s.len())];
+            return Err(errors::shape(py, name, &[found, 6], &wanted));
+        }
+    }
+    let finite = |all: &[JointVector], knot: usize| all[knot].iter().all(|v| v.is_finite());
+    Trajectory::from_knots(t_s, q.to_vec(), qd.to_vec()).map_err(|e: KnotError| {
+        let name = match e {
+            KnotError::NotFinite { knot } if !finite(q, knot) => "q_rad",
+            KnotError::NotFinite { knot } if !finite(qd, knot) => "qd_rad_s",
+            _ => "t_s",
+        };
+        errors::input(py, name, &e.to_string())
+    })
 }
 
 #[pymethods]
@@ -64,7 +78,8 @@ impl TrajectoryObject {
 
     /// A motion through positions, shape (N, 6) [rad], at equal time steps [s]: speeds are central differences, zero at both ends.
     #[staticmethod]
-    fn through(py: Python<'_>, q_rad: &Bound<'_, PyAny>, dt_s: f64) -> PyResult<Self> {
+    fn through(py: Python<'_>, q_rad: &Bound<'_, PyAny>, dt_s: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let dt_s = argument::number("dt_s", dt_s)?;
         let q = Numbers::read("q_rad", q_rad, MANY_JOINTS)?;
         if !(dt_s.is_finite() && dt_s > 0.0) {
             return Err(errors::input(
@@ -103,7 +118,7 @@ impl TrajectoryObject {
     }
 
     /// Positions [rad], speeds [rad/s] and accelerations [rad/s²] at a time (shape (6,) each) or at times, shape (N,)
-    /// (shape (N, 6) each) [s]; times outside the motion count as its ends.
+    /// (shape (N, 6) each) [s]. Outside the motion the arm rests at its nearer end: speeds and accelerations are zero.
     fn at<'py>(&self, py: Python<'py>, t_s: &Bound<'py, PyAny>) -> PyResult<States<'py>> {
         let times = Numbers::read("t_s", t_s, TIMES)?;
         let values = times.values()?;

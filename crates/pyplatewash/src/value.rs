@@ -1,5 +1,6 @@
 //! Data as plain Python objects and back, by way of JSON's types.
 
+use crate::argument;
 use crate::errors;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -69,16 +70,9 @@ pub fn from_mapping(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Map<String
         _ => Err(errors::wrong_type(
             value.py(),
             name,
-            &format!("a dictionary is needed; found {}", type_name(value)),
+            &format!("a dictionary is needed; found {}", argument::shown(value)),
         )),
     }
-}
-
-fn type_name(value: &Bound<'_, PyAny>) -> String {
-    value
-        .get_type()
-        .name()
-        .map_or_else(|_| "an unnameable type".to_owned(), |name| name.to_string())
 }
 
 fn from_python(name: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
@@ -124,6 +118,7 @@ fn from_python(name: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<V
     if value.hasattr(intern!(py, "__dataclass_fields__"))? {
         return from_python(name, &value.getattr(intern!(py, "__dict__"))?, depth + 1);
     }
+    argument::unmasked(name, value)?;
     // NumPy's numbers and arrays.
     if value.hasattr(intern!(py, "tolist"))? {
         let list = value.call_method0(intern!(py, "tolist"))?;
@@ -132,7 +127,10 @@ fn from_python(name: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<V
     Err(errors::wrong_type(
         py,
         name,
-        &format!("no value of type {} is understood", type_name(value)),
+        &format!(
+            "a number, a text, a list or a dictionary is needed; found {}",
+            argument::shown(value)
+        ),
     ))
 }
 
@@ -141,11 +139,11 @@ fn object(name: &str, mapping: &Bound<'_, PyMapping>, depth: usize) -> PyResult<
     for item in mapping.items()?.iter() {
         let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
         let Ok(key) = key.extract::<String>() else {
-            let found = type_name(&key);
+            let found = argument::shown(&key);
             return Err(errors::wrong_type(
                 mapping.py(),
                 name,
-                &format!("keys must be strings; found {found}"),
+                &format!("a string is needed as a key; found {found}"),
             ));
         };
         let inside = if name.is_empty() {

@@ -1,6 +1,6 @@
 //! Scenarios that are refused, and jobs that cannot be carried out.
 
-use super::{any, input, named, raise};
+use super::{FileOf, SystemWord, any, input, keyed, named, raise, system_file};
 use crate::arrays;
 use platewash::planner::crossing::CrossingError;
 use platewash::planner::cycle::CycleError;
@@ -12,6 +12,14 @@ use pyo3::prelude::*;
 
 /// A refused scenario.
 pub fn scenario(py: Python<'_>, error: &ScenarioError) -> PyErr {
+    let unread = match &error.problem {
+        Problem::NotFound { .. } => Some(SystemWord::NotFound),
+        Problem::Unreadable { .. } => Some(SystemWord::Refused(None)),
+        _ => None,
+    };
+    if let Some(word) = unread {
+        return system_file(py, FileOf::Scenario, word, &error.source_name, &error.to_string());
+    }
     let (key, expected, found) = match &error.problem {
         Problem::Value { key, expected, found } => (any(py, key), any(py, expected), any(py, found)),
         Problem::UnknownKey { key, .. } => (any(py, key), None, None),
@@ -82,8 +90,8 @@ pub fn layout(py: Python<'_>, error: &LayoutError) -> PyErr {
 fn cycle(py: Python<'_>, error: &CycleError) -> PyErr {
     let mut fields = vec![("stage", any(py, "cycle"))];
     match error {
-        CycleError::NoContact { .. } => return input(py, "wash.height_m", &error.to_string()),
-        CycleError::NoTool => return input(py, "tool.length_m", &error.to_string()),
+        CycleError::NoContact { .. } => return keyed(py, "wash.height_m", &error.to_string()),
+        CycleError::NoTool => return keyed(py, "tool.length_m", &error.to_string()),
         CycleError::Unwashable(plate) => {
             fields.extend([("cause", any(py, "unwashable")), ("plate", any(py, plate.plate))]);
             fields.push(("share", plate.share.and_then(|share| any(py, share))));
@@ -108,5 +116,12 @@ fn cycle(py: Python<'_>, error: &CycleError) -> PyErr {
 
 /// A plan that cannot be judged.
 pub fn verify(py: Python<'_>, error: &VerifyError) -> PyErr {
-    named(py, "VerifyError", &error.to_string())
+    let VerifyError::NoDescription { file } = error else {
+        return named(py, "VerifyError", &error.to_string());
+    };
+    let message = format!(
+        "robot: the plan is for the arm of \"{file}\", which a plan file names but does not hold; give the arm as \
+         robot=Robot.load(...)"
+    );
+    raise(py, "VerifyError", &message, &[("argument", any(py, "robot"))])
 }

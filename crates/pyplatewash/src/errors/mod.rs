@@ -3,10 +3,12 @@
 //! The classes are Python's (`python/pyplatewash/_errors.py`), so that they pickle and can be subclassed; here they are given
 //! their fields.
 
+mod file;
 mod inverse;
 mod job;
 mod simulation;
 
+pub use file::{FileOf, SystemWord, system_file, unread};
 pub use inverse::{cause, ik, ik_path};
 pub use job::{plan, scenario, verify};
 pub use simulation::{dynamics, simulation};
@@ -47,6 +49,11 @@ fn any<'py, T: IntoPyObject<'py>>(py: Python<'py>, value: T) -> Option<Bound<'py
 pub fn input(py: Python<'_>, argument: &str, problem: &str) -> PyErr {
     let fields = [("argument", any(py, argument))];
     raise(py, "InputError", &format!("{argument}: {problem}"), &fields)
+}
+
+/// The same where the message already begins with the argument's name.
+pub fn keyed(py: Python<'_>, argument: &str, message: &str) -> PyErr {
+    raise(py, "InputError", message, &[("argument", any(py, argument))])
 }
 
 /// An argument of the wrong shape.
@@ -97,6 +104,13 @@ pub fn not_numbers(py: Python<'_>, argument: &str, error: &PyErr) -> PyErr {
 /// An exception of the given class without fields.
 pub fn named(py: Python<'_>, class: &'static str, message: &str) -> PyErr {
     raise(py, class, message, &[])
+}
+
+/// A key that is not there.
+pub fn no_key(py: Python<'_>, key: &str, known: &[&str]) -> PyErr {
+    let fields = [("argument", any(py, "key"))];
+    let message = format!("key: one of {} is needed; found '{key}'", known.join(", "));
+    raise(py, "NoKeyError", &message, &fields)
 }
 
 /// Something that must not happen.

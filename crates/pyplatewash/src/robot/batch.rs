@@ -1,7 +1,6 @@
 //! Inverse kinematics of many targets, straight into NumPy's arrays.
 
-use super::inverse::no_pose;
-use super::rows::{Desk, Problems, Refused, Rows, Seeds};
+use super::rows::{Desk, Problems, Rows, Seeds};
 use crate::arrays::{self, JOINTS, MANY_POSES, Numbers};
 use crate::errors;
 use crate::work::released;
@@ -40,7 +39,7 @@ pub fn solve<'py>(
     let given = seeds.map(|seeds| Numbers::read("seeds", seeds, JOINTS)).transpose()?;
     let seeds = match &given {
         None => Seeds::One(JointVector::zeros()),
-        Some(one) if one.stacked.is_none() => Seeds::One(one.joints()?[0]),
+        Some(one) if one.stacked.is_none() => Seeds::One(finite(py, one.joints()?[0])?),
         Some(each) if each.stacked == Some(n) => Seeds::Each(each.joints()?),
         Some(other) => {
             let found = other.stacked.unwrap_or(0);
@@ -102,7 +101,7 @@ fn fill<'py>(py: Python<'py>, columns: &Columns<'py>, problems: &Problems<'_>) -
                 .collect()
         })?;
         for causes in done {
-            for (row, cause) in causes.map_err(|refused| error(py, refused))? {
+            for (row, cause) in causes.map_err(|e| errors::internal(py, &e.to_string()))? {
                 all.set_item(row, cause)?;
             }
         }
@@ -114,10 +113,13 @@ fn fill<'py>(py: Python<'py>, columns: &Columns<'py>, problems: &Problems<'_>) -
     Ok(all)
 }
 
-fn error(py: Python<'_>, refused: Refused) -> PyErr {
-    match refused {
-        Refused::Pose(row, problem) => no_pose(py, (row, problem)),
-        Refused::Seed(row, problem) => errors::input(py, "seeds", &format!("in row {row}: {problem}")),
-        Refused::Internal(problem) => errors::internal(py, &problem),
+/// A seed for all targets must be one.
+fn finite(py: Python<'_>, seed: JointVector) -> PyResult<JointVector> {
+    match seed.iter().position(|v| !v.is_finite()) {
+        None => Ok(seed),
+        Some(joint) => {
+            let problem = format!("joint {}: a finite number is needed; found {}", joint + 1, seed[joint]);
+            Err(errors::input(py, "seeds", &problem))
+        }
     }
 }

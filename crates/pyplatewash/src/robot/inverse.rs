@@ -6,7 +6,8 @@ use crate::errors::{self, Input};
 use crate::pose;
 use crate::work::{alone, patiently, released};
 use numpy::PyArrayDyn;
-use platewash::kinematics::ik::analytic::Label;
+use platewash::kinematics::ik::AllBranchesError;
+use platewash::kinematics::ik::analytic::{AnalyticError, Label};
 use platewash::{IkSolver, JointVector, Pose};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -33,7 +34,7 @@ fn poses(matrices: &[[f64; 16]]) -> Result<Vec<Pose>, (usize, Input)> {
 }
 
 /// A target that is no pose.
-pub fn no_pose(py: Python<'_>, (k, e): (usize, Input)) -> PyErr {
+fn no_pose(py: Python<'_>, (k, e): (usize, Input)) -> PyErr {
     errors::input(py, "targets", &format!("in pose {k}: {e}"))
 }
 
@@ -60,7 +61,7 @@ pub fn all<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (to, previous) = (target(to)?, seed(previous, "previous")?);
     let answer = alone(py, || solver.solve_all(&to, &previous))?;
-    let answer = answer.map_err(|e| errors::input(py, "ik_all", &e.to_string()))?;
+    let answer = answer.map_err(|e| no_branches(py, &e))?;
     let name = |label: Label| {
         let words = [
             format!("{:?}", label.shoulder),
@@ -76,6 +77,17 @@ pub fn all<'py>(
     }
     let class = BRANCHES.import(py, "pyplatewash._records", "IkBranches")?;
     class.call1((arrays::joint_rows(py, &q)?, labels, rejections))
+}
+
+/// Names the argument for which there are no branches.
+fn no_branches(py: Python<'_>, error: &AllBranchesError) -> PyErr {
+    let argument = match error {
+        AllBranchesError::NotAnalytic(_) => "robot",
+        AllBranchesError::Frame => "frame",
+        AllBranchesError::Input(AnalyticError::Start { .. }) => "previous",
+        _ => "target",
+    };
+    errors::input(py, argument, &error.to_string())
 }
 
 /// See `Robot.ik_path`.

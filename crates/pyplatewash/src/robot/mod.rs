@@ -7,19 +7,20 @@ mod rows;
 mod settings;
 mod source;
 
+use crate::argument::{self, ROBOT};
 use crate::arrays;
 use crate::errors;
 use crate::tool::ToolFields;
 use numpy::PyArrayDyn;
+use platewash::planner::scenario::RobotSection;
 use platewash::{Axes, Frame, RobotModel, ToolFrame};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use settings::Solvers;
 use source::Source;
-use std::path::PathBuf;
 use std::sync::Arc;
 
-pub use settings::IkSolutionRecord;
+pub use settings::{IkSolutionRecord, settings};
 
 /// A six-axis arm. Immutable.
 ///
@@ -53,7 +54,37 @@ impl Robot {
         &self.model
     }
 
-    fn frame(&self, py: Python<'_>, name: Option<&str>, tool: Option<&Bound<'_, PyAny>>) -> PyResult<Frame> {
+    /// The built-in arm.
+    ///
+    /// # Errors
+    /// None in practice.
+    pub fn built_in(py: Python<'_>) -> PyResult<Py<Self>> {
+        let model = RobotModel::irb120().map_err(|e| errors::internal(py, &e.to_string()))?;
+        Py::new(py, Self::new(model, Source::BuiltIn))
+    }
+
+    /// The arm of the argument called `robot`, if it is given.
+    ///
+    /// # Errors
+    /// `InputTypeError` for what is no arm.
+    pub fn given<'a, 'py>(value: Option<&'a Bound<'py, PyAny>>) -> PyResult<Option<&'a Bound<'py, Self>>> {
+        argument::maybe("robot", value, ROBOT)
+    }
+
+    /// The arm of a scenario, which was made of that section's files just now.
+    ///
+    /// # Errors
+    /// `UrdfError` for files that can no longer be read.
+    pub fn of_section(py: Python<'_>, section: &RobotSection, model: &RobotModel) -> PyResult<Py<Self>> {
+        Py::new(py, Self::new(model.clone(), Source::of(py, section)?))
+    }
+
+    fn frame(
+        &self,
+        py: Python<'_>,
+        name: Option<&Bound<'_, PyAny>>,
+        tool: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Frame> {
         match (name, tool) {
             (None, None) => Ok(self.mount),
             (None, Some(tool)) => Ok(platewash::planner::robot::tip_frame(
@@ -66,8 +97,9 @@ impl Robot {
                 "give either a frame or a tool, whose tip is meant",
             )),
             (Some(name), None) => {
+                let name = argument::text("frame", name, "a frame's name")?;
                 let known = ToolFrame::ALL.into_iter().find(|f| f.name() == name);
-                let frame = known.map_or_else(|| self.model.frame(name), |known| self.model.tool_frame(known));
+                let frame = known.map_or_else(|| self.model.frame(&name), |known| self.model.tool_frame(known));
                 frame.map_err(|e| errors::input(py, "frame", &e.to_string()))
             }
         }
@@ -78,43 +110,51 @@ impl Robot {
 impl Robot {
     /// The built-in ABB IRB 120.
     #[classmethod]
-    fn irb120(_class: &Bound<'_, PyType>, py: Python<'_>) -> PyResult<Self> {
-        let model = RobotModel::irb120().map_err(|e| errors::internal(py, &e.to_string()))?;
-        Ok(Self::new(model, Source::BuiltIn))
+    fn irb120(_class: &Bound<'_, PyType>, py: Python<'_>) -> PyResult<Py<Self>> {
+        Self::built_in(py)
     }
 
     /// An arm from expanded URDF text (no xacro) with six revolute axes in series.
     ///
-    /// `srdf` is SRDF text with the pairs of links that need no collision check. `package_path` lists folders in which
+    /// `srdf` is SRDF text with the pairs of links that need no collision check. `package_path` is a folder, or a list of them, in which
     /// `package://` meshes are looked up, `folder` is the one that relative mesh names start from.
     ///
     /// Raises UrdfError, naming the joint or link at fault.
     #[classmethod]
-    #[pyo3(signature = (text, *, srdf=None, package_path=Vec::new(), folder=None))]
+    #[pyo3(signature = (text, *, srdf=None, package_path=None, folder=None))]
     fn from_urdf(
         _class: &Bound<'_, PyType>,
         py: Python<'_>,
-        text: String,
-        srdf: Option<String>,
-        package_path: Vec<PathBuf>,
-        folder: Option<PathBuf>,
+        text: &Bound<'_, PyAny>,
+        srdf: Option<&Bound<'_, PyAny>>,
+        package_path: Option<&Bound<'_, PyAny>>,
+        folder: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let source = Source::described(text, srdf, package_path, folder);
+        let source = Source::described(
+            argument::text("text", text, "URDF text")?,
+            srdf.map(|srdf| argument::text("srdf", srdf, "SRDF text")).transpose()?,
+            argument::paths("package_path", package_path)?,
+            folder.map(|folder| argument::path("folder", folder)).transpose()?,
+        );
         Ok(Self::new(source.load(py)?, source))
     }
 
-    /// An arm from an expanded URDF file, with an SRDF file if given; meshes are looked up beside it and in `package_path`.
+    /// An arm from an expanded URDF file, with an SRDF file if given; meshes are looked up beside it and in `package_path`, a
+    /// folder or a list of them.
     ///
-    /// Raises UrdfError, naming the joint or link at fault.
+    /// Raises UrdfError, naming the joint or link at fault; for a file that cannot be read it is a FileError, too.
     #[classmethod]
-    #[pyo3(signature = (urdf, *, srdf=None, package_path=Vec::new()))]
+    #[pyo3(signature = (urdf, *, srdf=None, package_path=None))]
     fn load(
         _class: &Bound<'_, PyType>,
         py: Python<'_>,
-        urdf: PathBuf,
-        srdf: Option<PathBuf>,
-        package_path: Vec<PathBuf>,
+        urdf: &Bound<'_, PyAny>,
+        srdf: Option<&Bound<'_, PyAny>>,
+        package_path: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
+        let urdf = argument::path("urdf", urdf)?;
+        let srdf = srdf.map(|srdf| argument::path("srdf", srdf)).transpose()?;
+        let package_path = argument::paths("package_path", package_path)?;
         let source = Source::files(py, &urdf, srdf.as_deref(), package_path)?;
         Ok(Self::new(source.load(py)?, source))
     }
@@ -135,6 +175,12 @@ impl Robot {
     #[getter]
     fn urdf(&self) -> &str {
         self.source.urdf()
+    }
+
+    /// SRDF text with the pairs of links that need no collision check, None for an arm without.
+    #[getter]
+    fn srdf(&self) -> Option<&str> {
+        self.source.srdf()
     }
 
     /// Names of the six joints, from the base to the tip.
@@ -184,7 +230,7 @@ impl Robot {
         &self,
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
-        frame: Option<&str>,
+        frame: Option<&Bound<'_, PyAny>>,
         tool: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         forward::fk(self, py, q, &self.frame(py, frame, tool)?)
@@ -194,20 +240,17 @@ impl Robot {
     ///
     /// Rows 0-2 are the velocity of the frame's origin [m/s per rad/s], rows 3-5 the angular velocity, in the axes of the base
     /// (`axes="base"`) or of the frame (`axes="local"`).
-    #[pyo3(signature = (q, frame=None, *, tool=None, axes="base"))]
+    #[pyo3(signature = (q, frame=None, *, tool=None, axes=None), text_signature = "($self, q, frame=None, *, tool=None, axes='base')")]
     fn jacobian<'py>(
         &self,
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
-        frame: Option<&str>,
+        frame: Option<&Bound<'_, PyAny>>,
         tool: Option<&Bound<'_, PyAny>>,
-        axes: &str,
+        axes: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let axes = match axes {
-            "base" => Axes::Base,
-            "local" => Axes::Local,
-            _ => return Err(errors::input(py, "axes", "must be \"base\" or \"local\"")),
-        };
+        let words = [("base", Axes::Base), ("local", Axes::Local)];
+        let axes = axes.map_or(Ok(Axes::Base), |axes| argument::word("axes", axes, &words))?;
         forward::jacobian(self, py, q, &self.frame(py, frame, tool)?, axes)
     }
 
@@ -217,7 +260,7 @@ impl Robot {
         &self,
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
-        frame: Option<&str>,
+        frame: Option<&Bound<'_, PyAny>>,
         tool: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         forward::manipulability(self, py, q, &self.frame(py, frame, tool)?)
@@ -233,7 +276,7 @@ impl Robot {
         py: Python<'_>,
         target: &Bound<'_, PyAny>,
         seed: Option<&Bound<'_, PyAny>>,
-        frame: Option<&str>,
+        frame: Option<&Bound<'_, PyAny>>,
         tool: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<IkSolutionRecord> {
@@ -251,7 +294,7 @@ impl Robot {
         py: Python<'py>,
         target: &Bound<'py, PyAny>,
         previous: Option<&Bound<'py, PyAny>>,
-        frame: Option<&str>,
+        frame: Option<&Bound<'_, PyAny>>,
         tool: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let frame = self.frame(py, frame, tool)?;
@@ -268,7 +311,7 @@ impl Robot {
         py: Python<'py>,
         targets: &Bound<'py, PyAny>,
         seed: Option<&Bound<'py, PyAny>>,
-        frame: Option<&str>,
+        frame: Option<&Bound<'_, PyAny>>,
         tool: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
@@ -278,15 +321,16 @@ impl Robot {
 
     /// Solves many targets, shape (N, 4, 4), each from its own seed, shape (N, 6), or all from one, shape (6,).
     ///
-    /// Nothing is raised for a target that is not solved: `answer.solved` says which are, and `answer.q` holds the best
-    /// configuration found for the others. Targets near their seeds are solved several at a time, on all processors.
+    /// Nothing is raised for a target that is not solved: `answer.solved` says which are, `answer.causes` why the others are not, and
+    /// `answer.q` holds the best configuration found for those. A row that is no pose has the cause `"target"`, one whose seed is
+    /// not finite `"seed"`, and both NaN in `answer.q`. Targets near their seeds are solved several at a time, on all processors.
     #[pyo3(signature = (targets, seeds=None, frame=None, *, tool=None, settings=None))]
     fn ik_batch<'py>(
         &self,
         py: Python<'py>,
         targets: &Bound<'py, PyAny>,
         seeds: Option<&Bound<'py, PyAny>>,
-        frame: Option<&str>,
+        frame: Option<&Bound<'_, PyAny>>,
         tool: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
@@ -325,10 +369,10 @@ impl Robot {
     fn _restore(
         class: &Bound<'_, PyType>,
         py: Python<'_>,
-        text: String,
-        srdf: Option<String>,
-        package_path: Vec<PathBuf>,
-        folder: Option<PathBuf>,
+        text: &Bound<'_, PyAny>,
+        srdf: Option<&Bound<'_, PyAny>>,
+        package_path: Option<&Bound<'_, PyAny>>,
+        folder: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         Self::from_urdf(class, py, text, srdf, package_path, folder)
     }

@@ -1,9 +1,9 @@
 //! Neighbouring rows of a batch of inverse kinematics: the problems, a thread's desk, and the places for the answers.
 
-use crate::errors::{self, Input};
+use crate::errors;
 use crate::pose;
 use nalgebra::Quaternion;
-use platewash::kinematics::batch::{self, Path};
+use platewash::kinematics::batch::{self, BatchError, Path};
 use platewash::{IkError, IkSolution, IkSolver, JointVector, Pose};
 
 /// Rows to a unit of work: their poses and answers stay in a processor's cache.
@@ -11,16 +11,6 @@ const CHUNK: usize = 512;
 
 /// Rows that are not solved, with the word for the cause.
 pub type Causes = Vec<(usize, &'static str)>;
-
-/// A row that cannot be worked on.
-pub enum Refused {
-    /// The target is no pose.
-    Pose(usize, Input),
-    /// The seed is no configuration.
-    Seed(usize, IkError),
-    /// Something that must not happen.
-    Internal(String),
-}
 
 /// Seeds of a batch.
 #[derive(Clone, Copy)]
@@ -131,38 +121,42 @@ impl<'a> Rows<'a> {
     /// Solves these rows, a unit of work.
     ///
     /// # Errors
-    /// The first row that cannot be worked on.
-    pub fn solve(&mut self, desk: &mut Desk, problems: &Problems<'_>) -> Result<Causes, Refused> {
+    /// What must not happen, in words.
+    pub fn solve(&mut self, desk: &mut Desk, problems: &Problems<'_>) -> Result<Causes, BatchError> {
         let (first, n) = (self.first, self.q.len());
         let matrices = &problems.matrices[first..first + n];
-        pose::poses(matrices, &mut desk.room, &mut desk.targets).map_err(|(k, e)| Refused::Pose(first + k, e))?;
+        pose::poses(matrices, &mut desk.room, &mut desk.targets);
         let seeds = match problems.seeds {
             Seeds::One(_) => &desk.seeds[..n],
             Seeds::Each(seeds) => &seeds[first..first + n],
         };
         let answers = &mut desk.answers[..n];
-        batch::solve_into(problems.solver, &desk.targets, seeds, answers, Path::Detected)
-            .map_err(|e| Refused::Internal(e.to_string()))?;
+        batch::solve_into(problems.solver, &desk.targets, seeds, answers, Path::Detected)?;
         let mut causes = Causes::new();
         for (k, answer) in answers.iter().enumerate() {
-            if let Err(IkError::NotSolved(failure)) = answer {
-                causes.push((first + k, errors::cause(&failure.cause).0));
+            if let Some(cause) = self.put(k, answer) {
+                causes.push((first + k, cause));
             }
-            self.put(k, answer)?;
         }
         Ok(causes)
     }
 
-    fn put(&mut self, k: usize, answer: &Result<IkSolution, IkError>) -> Result<(), Refused> {
-        self.solved[k] = answer.is_ok();
-        let (q, iterations, position, orientation) = match answer {
-            Ok(s) => (s.q, s.iterations, s.position_error_m, s.orientation_error_rad),
-            Err(IkError::NotSolved(f)) => (f.q, f.iterations, f.position_error_m, f.orientation_error_rad),
-            Err(other) => return Err(Refused::Seed(self.first + k, other.clone())),
+    /// Writes an answer down; the word for why it is none.
+    fn put(&mut self, k: usize, answer: &Result<IkSolution, IkError>) -> Option<&'static str> {
+        let not_a_number = JointVector::repeat(f64::NAN);
+        let (q, iterations, [position, orientation], cause) = match answer {
+            Ok(s) => (s.q, s.iterations, [s.position_error_m, s.orientation_error_rad], None),
+            Err(IkError::NotSolved(f)) => {
+                let missed = [f.position_error_m, f.orientation_error_rad];
+                (f.q, f.iterations, missed, Some(errors::cause(&f.cause).0))
+            }
+            Err(IkError::Seed { .. }) => (not_a_number, 0, [f64::NAN; 2], Some("seed")),
+            Err(_) => (not_a_number, 0, [f64::NAN; 2], Some("target")),
         };
+        self.solved[k] = answer.is_ok();
         self.q[k] = q;
         self.iterations[k] = iterations as i64;
         (self.position_error_m[k], self.orientation_error_rad[k]) = (position, orientation);
-        Ok(())
+        cause
     }
 }

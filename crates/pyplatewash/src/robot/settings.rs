@@ -1,6 +1,7 @@
 //! Settings of the inverse kinematics, and solvers that are kept between calls.
 
 use super::Robot;
+use crate::argument;
 use crate::arrays;
 use crate::errors;
 use numpy::PyArrayDyn;
@@ -13,12 +14,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Solvers that are kept; each holds a list of starts that costs some 100 µs to make.
 const KEPT: usize = 8;
 
+/// Most iterations and restarts: more than anybody waits for.
+const MOST_COUNT: u64 = 1_000_000_000;
+
 /// The solvers used last, the latest at the end.
 #[derive(Debug, Default)]
 pub struct Solvers(Mutex<Vec<Arc<IkSolver<'static>>>>);
 
 /// Fields of Python's `IkSettings`.
-#[derive(Debug, FromPyObject)]
+#[derive(Debug)]
 struct Fields {
     position_tolerance_m: f64,
     orientation_tolerance_rad: f64,
@@ -29,6 +33,49 @@ struct Fields {
     listed_starts: usize,
     random_restarts: usize,
     random_seed: u64,
+}
+
+impl Fields {
+    fn of(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let at = |field| (("settings", "an IkSettings"), value, ("settings", field));
+        let number = |field| {
+            let (whole, value, place) = at(field);
+            argument::field(whole, value, place, argument::number)
+        };
+        let count = |field, least| {
+            let (whole, value, place) = at(field);
+            argument::field(whole, value, place, |name, value| {
+                argument::count(name, value, [least, MOST_COUNT])
+            })
+        };
+        let (whole, value, place) = at("analytic_starts");
+        let analytic_starts = argument::field(whole, value, place, argument::flag)?;
+        let (whole, value, place) = at("random_seed");
+        Ok(Self {
+            position_tolerance_m: number("position_tolerance_m")?,
+            orientation_tolerance_rad: number("orientation_tolerance_rad")?,
+            max_iterations: count("max_iterations", 1)?,
+            max_qp_iterations: count("max_qp_iterations", 0)?,
+            step_bound_rad: number("step_bound_rad")?,
+            analytic_starts,
+            listed_starts: count("listed_starts", 0)?,
+            random_restarts: count("random_restarts", 0)?,
+            random_seed: argument::field(whole, value, place, argument::seed)?,
+        })
+    }
+}
+
+/// The settings of the argument called `settings`.
+///
+/// # Errors
+/// `InputTypeError` for what is no `IkSettings`, or a field of a wrong type; `InputError` for one out of its range.
+pub fn settings(value: &Bound<'_, PyAny>) -> PyResult<IkSettings> {
+    let settings = IkSettings::from(Fields::of(value)?);
+    settings.validate().map_err(|e| {
+        let problem = format!("must be {}; found {}", e.expected, e.found);
+        errors::input(value.py(), &format!("settings.{}", e.name), &problem)
+    })?;
+    Ok(settings)
 }
 
 impl From<Fields> for IkSettings {
@@ -65,10 +112,7 @@ impl Robot {
     ) -> PyResult<Arc<IkSolver<'static>>> {
         let settings = match settings {
             None => IkSettings::default(),
-            Some(given) => given
-                .extract::<Fields>()
-                .map_err(|e| errors::wrong_type(py, "settings", &format!("IkSettings are needed: {}", e.value(py))))?
-                .into(),
+            Some(given) => self::settings(given)?,
         };
         let mut kept = self.solvers.0.lock().unwrap_or_else(PoisonError::into_inner);
         let same = |s: &Arc<IkSolver<'static>>| *s.frame() == frame && *s.settings() == settings;
@@ -135,19 +179,19 @@ impl IkSolutionRecord {
     #[new]
     fn new(
         q: &Bound<'_, PyAny>,
-        iterations: usize,
-        method: String,
-        start: String,
-        position_error_m: f64,
-        orientation_error_rad: f64,
+        iterations: &Bound<'_, PyAny>,
+        method: &Bound<'_, PyAny>,
+        start: &Bound<'_, PyAny>,
+        position_error_m: &Bound<'_, PyAny>,
+        orientation_error_rad: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {
         Ok(Self {
             q: arrays::fixed("q", q)?,
-            iterations,
-            method,
-            start,
-            position_error_m,
-            orientation_error_rad,
+            iterations: argument::count("iterations", iterations, argument::ANY_COUNT)?,
+            method: argument::text("method", method, "a text")?,
+            start: argument::text("start", start, "a text")?,
+            position_error_m: argument::number("position_error_m", position_error_m)?,
+            orientation_error_rad: argument::number("orientation_error_rad", orientation_error_rad)?,
         })
     }
 

@@ -1,10 +1,11 @@
 //! Where an arm's description comes from: enough to make the arm again in another process.
 
-use crate::errors;
+use crate::errors::{self, FileOf};
 use platewash::RobotModel;
 use platewash::kinematics::DisabledPairs;
-use platewash::kinematics::model::IRB120_URDF;
+use platewash::kinematics::model::{IRB120_SRDF, IRB120_URDF};
 use platewash::kinematics::urdf::{MAX_BYTES, MeshSource, file};
+use platewash::planner::scenario::RobotSection;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use std::path::{Path, PathBuf};
@@ -44,8 +45,7 @@ impl Source {
     /// `UrdfError` for a file that cannot be read.
     pub fn files(py: Python<'_>, urdf: &Path, srdf: Option<&Path>, package_path: Vec<PathBuf>) -> PyResult<Self> {
         let read = |path: &Path| {
-            file::read_text(path, MAX_BYTES as u64)
-                .map_err(|e| errors::named(py, "UrdfError", &format!("{}: cannot be read: {e}", path.display())))
+            file::read_text(path, MAX_BYTES as u64).map_err(|e| errors::unread(py, FileOf::Urdf, path, &e))
         };
         // A path without folder is in the working folder, which may be another one when the arm is restored.
         let folder = std::path::absolute(urdf)
@@ -57,6 +57,25 @@ impl Source {
             package_path,
             folder,
         ))
+    }
+
+    /// The arm of a scenario: its files, or the built-in one.
+    ///
+    /// # Errors
+    /// As [`Source::files`].
+    pub fn of(py: Python<'_>, section: &RobotSection) -> PyResult<Self> {
+        match &section.urdf {
+            None => Ok(Self::BuiltIn),
+            Some(urdf) => Self::files(py, urdf, section.srdf.as_deref(), section.package_path.clone()),
+        }
+    }
+
+    /// The SRDF text, if there is one.
+    pub fn srdf(&self) -> Option<&str> {
+        match self {
+            Self::BuiltIn => Some(IRB120_SRDF),
+            Self::Described(description) => description.srdf.as_deref(),
+        }
     }
 
     /// The URDF text.

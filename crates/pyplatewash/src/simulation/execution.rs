@@ -1,6 +1,7 @@
 //! `Execution`: what the arm did, sample by sample, and its report.
 
 use super::{Question, Refused, SetupObject};
+use crate::argument;
 use crate::arrays;
 use crate::errors;
 use crate::plan::PlanObject;
@@ -124,8 +125,9 @@ impl ExecutionObject {
 
     /// The executed motion as CSV text, every `dt_s` [s], by default the scenario's.
     #[pyo3(signature = (dt_s=None))]
-    fn to_csv(&self, py: Python<'_>, dt_s: Option<f64>) -> PyResult<String> {
+    fn to_csv(&self, py: Python<'_>, dt_s: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
         let done = &self.inner;
+        let dt_s = dt_s.map(|dt_s| argument::number("dt_s", dt_s)).transpose()?;
         let dt_s = dt_s.unwrap_or(done.plan.scenario.control.dt_s);
         table(&done.execution, &done.plan, &done.robot, dt_s).map_err(|e| errors::input(py, "dt_s", &e.to_string()))
     }
@@ -164,7 +166,8 @@ impl ExecutionObject {
     }
 }
 
-/// Runs a plan under a control law, by default that of its scenario, on its arm, by default the built-in one that it names.
+/// Runs a plan, or the plan file of that path, under a control law, by default that of its scenario, on an arm, by default the one
+/// that it was made for.
 ///
 /// Raises SimulationError for a plan that is no motion or for another arm, a law that is not stable with the limit that was
 /// passed, or an arm that leaves all bounds; DynamicsError for an arm without dynamics; VerifyError for a plan whose arm
@@ -173,10 +176,12 @@ impl ExecutionObject {
 #[pyo3(signature = (plan, setup=None, robot=None))]
 pub fn simulate(
     py: Python<'_>,
-    plan: &Bound<'_, PlanObject>,
-    setup: Option<&Bound<'_, SetupObject>>,
-    robot: Option<&Bound<'_, Robot>>,
+    plan: &Bound<'_, PyAny>,
+    setup: Option<&Bound<'_, PyAny>>,
+    robot: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<ExecutionObject> {
+    let plan = PlanObject::given("plan", plan)?;
+    let (setup, robot) = (SetupObject::given(setup)?, Robot::given(robot)?);
     let question = Question::new(plan.get(), setup, robot);
     let setup = match setup {
         Some(setup) => setup.clone().unbind(),
@@ -194,6 +199,6 @@ pub fn simulate(
         })
     })?;
     let inner = Arc::new(done.map_err(|e| e.raised(py))?);
-    let arguments = (plan.clone().unbind(), setup, robot.map(|robot| robot.clone().unbind()));
+    let arguments = (plan.unbind(), setup, robot.map(|robot| robot.clone().unbind()));
     Ok(ExecutionObject { inner, arguments })
 }

@@ -16,7 +16,7 @@ use platewash::{Plan, RobotModel, Setup, SimulationError, VerifyError};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// What is simulated: a plan, its arm (`None` for the built-in one that the plan names) and the setup.
+/// What is simulated: a plan, its arm (`None` for the built-in one, where the plan names no other) and the setup.
 struct Question {
     plan: Plan,
     robot: Option<Arc<RobotModel>>,
@@ -42,13 +42,13 @@ impl Refused {
 
 impl Question {
     fn new(plan: &PlanObject, setup: Option<&Bound<'_, SetupObject>>, robot: Option<&Bound<'_, Robot>>) -> Self {
-        let plan = plan.inner().clone();
+        let (robot, plan) = (plan.arm(robot), plan.inner().clone());
         Self {
             setup: setup.map_or_else(
                 || setup::without_law(Setup::of(&plan)),
                 |setup| setup.get().inner().clone(),
             ),
-            robot: robot.map(|robot| robot.get().model().clone()),
+            robot,
             plan,
         }
     }

@@ -1,5 +1,6 @@
 //! `Setup`: under which law, with which gains and on which plant.
 
+use crate::argument;
 use crate::errors;
 use crate::plan::PlanObject;
 use crate::value::{from_mapping, to_python, to_record};
@@ -36,6 +37,14 @@ impl From<Setup> for SetupObject {
 }
 
 impl SetupObject {
+    /// The setup of the argument called `setup`, if it is given.
+    ///
+    /// # Errors
+    /// `InputTypeError` for what is no setup.
+    pub fn given<'a, 'py>(value: Option<&'a Bound<'py, PyAny>>) -> PyResult<Option<&'a Bound<'py, Self>>> {
+        argument::maybe("setup", value, "a Setup")
+    }
+
     /// The setup.
     #[must_use]
     pub fn inner(&self) -> &Setup {
@@ -43,15 +52,12 @@ impl SetupObject {
     }
 
     /// From tables of plain values, checked as a scenario file's sections would be.
-    fn checked(py: Python<'_>, law: &str, control: Map<String, Value>, plant: Map<String, Value>) -> PyResult<Self> {
-        let Some(name) = ControlLawName::named(law) else {
-            let names = ControlLawName::ALL.map(|law| format!("\"{}\"", law.name())).join(", ");
-            return Err(errors::input(
-                py,
-                "law",
-                &format!("must be one of {names}; found {law:?}"),
-            ));
-        };
+    fn checked(
+        py: Python<'_>,
+        law: ControlLawName,
+        control: Map<String, Value>,
+        plant: Map<String, Value>,
+    ) -> PyResult<Self> {
         if control.contains_key("law") {
             return Err(errors::input(py, "control.law", "is given as law, beside control"));
         }
@@ -67,11 +73,7 @@ impl SetupObject {
             e.line = None;
             errors::scenario(py, &e)
         })?;
-        let inner = Setup {
-            law: name,
-            control,
-            plant,
-        };
+        let inner = Setup { law, control, plant };
         Ok(Self { inner })
     }
 }
@@ -84,6 +86,11 @@ fn table(py: Python<'_>, section: &impl Serialize) -> PyResult<Map<String, Value
     }
 }
 
+/// The law of the argument called `law`.
+fn named(law: &Bound<'_, PyAny>) -> PyResult<ControlLawName> {
+    argument::word("law", law, &ControlLawName::ALL.map(|law| (law.name(), law)))
+}
+
 fn given(name: &str, section: Option<&Bound<'_, PyAny>>) -> PyResult<Map<String, Value>> {
     section.map_or_else(|| Ok(Map::new()), |section| from_mapping(name, section))
 }
@@ -91,21 +98,26 @@ fn given(name: &str, section: Option<&Bound<'_, PyAny>>) -> PyResult<Map<String,
 #[pymethods]
 impl SetupObject {
     #[new]
-    #[pyo3(signature = (law="computed_torque", *, control=None, plant=None))]
+    #[pyo3(
+        signature = (law=None, *, control=None, plant=None),
+        text_signature = "(law='computed_torque', *, control=None, plant=None)"
+    )]
     fn new(
         py: Python<'_>,
-        law: &str,
+        law: Option<&Bound<'_, PyAny>>,
         control: Option<&Bound<'_, PyAny>>,
         plant: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
+        let law = law.map_or(Ok(ControlLawName::ComputedTorque), named)?;
         Self::checked(py, law, given("control", control)?, given("plant", plant)?)
     }
 
-    /// What the scenario of a plan states.
+    /// What the scenario of a plan, or of the plan file of that path, states.
     #[classmethod]
-    fn of(_class: &Bound<'_, PyType>, plan: &Bound<'_, PlanObject>) -> Self {
+    fn of(_class: &Bound<'_, PyType>, plan: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let plan = PlanObject::given("plan", plan)?;
         let inner = without_law(Setup::of(plan.get().inner()));
-        Self { inner }
+        Ok(Self { inner })
     }
 
     /// The same setup with other values: `replace(law="pd", control={"frequency_rad_s": 15.0})`. Keys of a section that are not
@@ -116,14 +128,14 @@ impl SetupObject {
     fn replace(
         &self,
         py: Python<'_>,
-        law: Option<&str>,
+        law: Option<&Bound<'_, PyAny>>,
         control: Option<&Bound<'_, PyAny>>,
         plant: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let (mut new_control, mut new_plant) = (table(py, &self.inner.control)?, table(py, &self.inner.plant)?);
         new_control.extend(given("control", control)?);
         new_plant.extend(given("plant", plant)?);
-        Self::checked(py, law.unwrap_or(self.inner.law.name()), new_control, new_plant)
+        Self::checked(py, law.map_or(Ok(self.inner.law), named)?, new_control, new_plant)
     }
 
     /// The law.
@@ -191,10 +203,10 @@ impl SetupObject {
     fn _restore(
         _class: &Bound<'_, PyType>,
         py: Python<'_>,
-        law: &str,
+        law: &Bound<'_, PyAny>,
         control: &Bound<'_, PyAny>,
         plant: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {
-        Self::new(py, law, Some(control), Some(plant))
+        Self::new(py, Some(law), Some(control), Some(plant))
     }
 }

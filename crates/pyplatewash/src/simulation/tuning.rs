@@ -52,7 +52,7 @@ impl From<TuneRow> for Row {
     }
 }
 
-/// Simulates a plan with every pair of a frequency, shape (F,) [rad/s], and a damping ratio, shape (D,), gains given outright
+/// Simulates a plan, or the plan file of that path, with every pair of a frequency, shape (F,) [rad/s], and a damping ratio, shape (D,), gains given outright
 /// being left out. One record a pair, in the order of the frequencies, then of the dampings: `frequency_rad_s`,
 /// `damping_ratio`, `verdict` (`"washed"`, `"not_washed"`, `"refused"`), `tip_rms_m`, `tip_max_m`, `torque_max_n_m`, `work_j` and
 /// `least_coverage`, or `reason` for what is refused. Works on all processors.
@@ -62,12 +62,14 @@ impl From<TuneRow> for Row {
 #[pyo3(signature = (plan, frequencies_rad_s, damping_ratios=None, setup=None, robot=None))]
 pub fn tune<'py>(
     py: Python<'py>,
-    plan: &Bound<'py, PlanObject>,
+    plan: &Bound<'py, PyAny>,
     frequencies_rad_s: &Bound<'py, PyAny>,
     damping_ratios: Option<&Bound<'py, PyAny>>,
-    setup: Option<&Bound<'py, SetupObject>>,
-    robot: Option<&Bound<'py, Robot>>,
+    setup: Option<&Bound<'py, PyAny>>,
+    robot: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyList>> {
+    let plan = PlanObject::given("plan", plan)?;
+    let (setup, robot) = (SetupObject::given(setup)?, Robot::given(robot)?);
     let frequencies = numbers("frequencies_rad_s", frequencies_rad_s)?;
     let dampings = damping_ratios.map_or_else(|| Ok(vec![1.0]), |given| numbers("damping_ratios", given))?;
     let question = Question::new(plan.get(), setup, robot);
