@@ -24,7 +24,7 @@ pub struct IkSolver<'a> {
     pub(super) robot: Cow<'a, RobotModel>,
     frame: Frame,
     pub(super) settings: IkSettings,
-    starts: Starts,
+    pub(super) starts: Starts,
     analytic: Option<AnalyticArm>,
 }
 
@@ -285,7 +285,7 @@ impl<'a> IkSolver<'a> {
     }
 
     /// Whether the target lies beyond [`RobotModel::reach_bound`]: then no start can help.
-    fn beyond_reach(&self, target: &Rigid) -> bool {
+    pub(super) fn beyond_reach(&self, target: &Rigid) -> bool {
         let (centre, bound) = self.robot.reach_bound(&self.frame);
         (target.translation - centre.coords).norm() > bound + self.settings.position_tolerance_m
     }

@@ -15,6 +15,7 @@
 //! | --- | --- |
 //! | [`IkSolver::solve`] | one configuration for one pose, by the cascade below |
 //! | [`IkSolver::solve_all`] | every branch and wrap within the limits, and why each other branch is none (arms that [`analytic`] recognises) |
+//! | [`IkSolver::spread`] | several configurations for one pose, by descents from many starts; no proof that there are no others ([`spread`]) |
 //! | [`IkSolver::solve_path`] | one configuration per waypoint, without jumps, or where and why not ([`path`]) |
 //! | [`batch::solve`](crate::batch::solve) | `solve` for many poses, each from a seed of its own; warm ones four at a time ([`crate::batch`]) |
 //! | [`IkSolver::solve_generalized`] | one configuration for a pose with freedom, bounds on the motion and clearance rows ([`generalized`]) |
@@ -57,6 +58,7 @@ mod linear;
 pub mod path;
 pub mod qp;
 mod settings;
+pub mod spread;
 pub mod starts;
 mod task;
 

@@ -33,16 +33,24 @@ impl Starts {
         }
     }
 
+    /// All of them, with the frame's pose at each.
+    pub fn entries(&self) -> &[(JointVector, Rigid)] {
+        &self.entries
+    }
+
     /// The `count` starts nearest to the target, nearest first (ties by position in the list).
     pub fn nearest(&self, target: &Rigid, count: usize) -> Vec<JointVector> {
-        let distance = |pose: &Rigid| {
-            let chord = (pose.rotation - target.rotation).norm_squared();
-            (pose.translation - target.translation).norm_squared() + ROTATION_WEIGHT * chord
-        };
-        let mut ranked: Vec<_> = self.entries.iter().map(|(q, pose)| (distance(pose), q)).collect();
+        let ranked = self.entries.iter().map(|(q, pose)| (distance(pose, target), q));
+        let mut ranked: Vec<_> = ranked.collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
         ranked.into_iter().take(count).map(|(_, q)| *q).collect()
     }
+}
+
+/// How far a pose is from the target: squared metres, and a weighted squared chord.
+pub(super) fn distance(pose: &Rigid, target: &Rigid) -> f64 {
+    let chord = (pose.rotation - target.rotation).norm_squared();
+    (pose.translation - target.translation).norm_squared() + ROTATION_WEIGHT * chord
 }
 
 /// Point `k` of the sequence within the arm's limits \[rad\].
