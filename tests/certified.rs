@@ -2,10 +2,12 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash::planner::certificate::{self, CertificateVerdict, PromiseName};
-use platewash::planner::cycle::CycleError;
+use platewash::planner::cycle::{Activity, CycleError};
+use platewash::planner::job::Infeasibility;
 use platewash::planner::scenario::{OrderRule, Overlap};
 use platewash::planner::sweep::{SweepOutcome, sweep};
 use platewash::{Cycle, PlanError, Scenario};
+use std::sync::Mutex;
 
 /// A layout of its own per seed, each proved with the figures that the scenarios promise.
 #[test]
@@ -110,6 +112,61 @@ fn a_plate_out_of_reach_is_named_with_the_nearest_place_that_will_do() {
     let [x, y] = plate.nearest_m.unwrap();
     assert!((x - 0.1_f64).hypot(y - 0.56) < 0.12);
     Cycle::plan(&explicit(&[[0.40, 0.0], [x, y]])).unwrap();
+}
+
+/// Whoever waits is told what is tried: postures, what is in the way, other places and jobs there.
+#[test]
+fn an_infeasible_job_says_what_it_is_trying() {
+    let heard = Mutex::new(Vec::new());
+    let listener = |activity: &Activity| heard.lock().unwrap().push(*activity);
+    let scenario = explicit(&[[0.40, 0.0], [0.1, 0.56]]);
+    let error = Cycle::plan_telling(&scenario, &listener).unwrap_err();
+    assert_eq!(
+        error,
+        Cycle::plan(&scenario).unwrap_err(),
+        "who listens changes nothing"
+    );
+    let heard = heard.into_inner().unwrap();
+    let place = |wanted: &dyn Fn(&Activity) -> bool| heard.iter().position(wanted).unwrap();
+    let posture = place(&|a| matches!(a, Activity::Posture { plate: 1, .. }));
+    let cause = place(&|a| matches!(a, Activity::Cause { plate: 1 }));
+    let first = place(&|a| matches!(a, Activity::Elsewhere { plate: 1, ring: 1, .. }));
+    let trial = place(&|a| matches!(a, Activity::Trial { plate: 1, .. }));
+    assert!(posture < cause && cause < first && first < trial, "{heard:?}");
+    assert!(
+        heard[first]
+            .to_string()
+            .contains("another place for plate 1: 0.02 m away"),
+        "{}",
+        heard[first]
+    );
+}
+
+/// A line that is not clear is that of the posture taken; out of reach is out of reach.
+#[test]
+fn what_is_known_to_be_impossible_is_told_from_what_was_not_found() {
+    let mut low = explicit(&[[0.40, 0.0]]);
+    low.wash.lift_m = 0.005;
+    let error = Cycle::plan(&low).unwrap_err();
+    assert_eq!(error.infeasibility(), Some(Infeasibility::NotFound), "{error}");
+    let error = Cycle::plan(&explicit(&[[0.8, 0.0]])).unwrap_err();
+    assert_eq!(error.infeasibility(), Some(Infeasibility::Proved), "{error}");
+}
+
+/// Where no tilt at all is allowed, or next to none, the plan keeps to that.
+#[test]
+fn the_smallest_of_tilts_is_kept() {
+    for tilt_max_deg in [0.0, 0.01, 0.5] {
+        let mut scenario = explicit(&[[0.40, 0.0]]);
+        scenario.wash.tilt_max_deg = tilt_max_deg;
+        let cycle = Cycle::plan(&scenario).unwrap();
+        let certificate = certificate::verify(&cycle.to_plan().unwrap(), &cycle.robot).unwrap();
+        assert_eq!(
+            certificate.verdict,
+            CertificateVerdict::Pass,
+            "{tilt_max_deg}°: {certificate}"
+        );
+    }
 }
 
 #[test]

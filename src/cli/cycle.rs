@@ -116,8 +116,8 @@ enum Outcome {
 
 fn carry_out(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -> Result<Outcome, Failure> {
     plan::check_rows(scenario, scenario.duration_at_least(), arguments)?;
-    let _progress = Progress::new(options.quiet, "planning");
-    match Cycle::plan(scenario) {
+    let progress = Progress::new(options.quiet, "planning");
+    match Cycle::plan_telling(scenario, &|activity| progress.say("planning", activity)) {
         Ok(cycle) => {
             tracing::info!("planned {} knots", cycle.motion.times().len());
             Ok(Outcome::Planned(Box::new(cycle)))
@@ -129,7 +129,7 @@ fn carry_out(options: &Options, scenario: &Scenario, arguments: &PlanArguments) 
     }
 }
 
-/// Reports a job that cannot be done, in place of what earlier calls left.
+/// Reports a job of which no plan came, in place of what earlier calls left.
 fn infeasible(options: &Options, scenario: &Scenario, report: &InfeasibleReport) -> Result<ExitCode, Failure> {
     let folder = plan::folder(options);
     let text = output::text(report);

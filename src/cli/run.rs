@@ -40,7 +40,7 @@ pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Fail
 pub fn exit_code(verdict: Verdict, on_failure: OnFailure) -> ExitCode {
     ExitCode::from(match (on_failure, verdict) {
         (OnFailure::Report, _) | (_, Verdict::Washed) => 0,
-        (OnFailure::Fail, Verdict::Infeasible) => failure::INFEASIBLE,
+        (OnFailure::Fail, Verdict::Infeasible | Verdict::NotFound) => failure::INFEASIBLE,
         (OnFailure::Fail, Verdict::NotVerified) => failure::NOT_VERIFIED,
     })
 }

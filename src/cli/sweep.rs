@@ -45,10 +45,11 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Fa
         output::print(&output::json(&rows)?)?;
     }
     let count = |outcome| rows.iter().filter(|row: &&SweepRow| row.outcome == outcome).count();
-    let [proved, not_proved, infeasible, failed] = [
+    let [proved, not_proved, infeasible, not_found, failed] = [
         SweepOutcome::Proved,
         SweepOutcome::NotProved,
         SweepOutcome::Infeasible,
+        SweepOutcome::NotFound,
         SweepOutcome::Error,
     ]
     .map(count);
@@ -56,11 +57,11 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Fa
     output::message(
         options.quiet,
         &format!(
-            "{proved} of {total} proved, {not_proved} planned but not proved, {infeasible} infeasible, {failed} with an error"
+            "{proved} of {total} proved, {not_proved} planned but not proved, {infeasible} infeasible, {not_found} not found, {failed} with an error"
         ),
     );
     Ok(ExitCode::from(match scenario.job.on_failure {
-        OnFailure::Fail if infeasible + failed > 0 => INFEASIBLE,
+        OnFailure::Fail if infeasible + not_found + failed > 0 => INFEASIBLE,
         OnFailure::Fail if not_proved > 0 => NOT_VERIFIED,
         _ => 0,
     }))

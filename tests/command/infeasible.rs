@@ -29,6 +29,7 @@ fn an_infeasible_job_is_reported_with_its_cause_and_a_place_that_will_do() {
     let ran = platewash(dir, &[&run[..], &["--json"]].concat());
     let value: Value = serde_json::from_str(&ran.stdout).unwrap();
     assert_eq!(value["verdict"], "infeasible");
+    assert_eq!(value["plates"][0]["conclusion"], "beyond_reach");
     let plate = &value["plates"][0];
     assert_eq!(plate["plate"], 0);
     assert_eq!(plate["washable_share"], 0.0);

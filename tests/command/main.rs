@@ -7,6 +7,7 @@ mod golden;
 mod ignored;
 mod infeasible;
 mod limits;
+mod other_arms;
 mod scenarios;
 mod simulate;
 mod verbs;

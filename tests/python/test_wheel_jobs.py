@@ -65,6 +65,20 @@ def test_a_plate_out_of_reach_is_named_with_what_could_be_done() -> None:
     assert pw.plan(moved).verify().proved
 
 
+def test_what_was_only_not_found_is_told_from_what_cannot_be(root: Path) -> None:
+    arm = root / "crates" / "kinematics" / "tests" / "fixtures" / "ur5_lengths.urdf"
+    cell = pw.Scenario.load("kitchen").replace(
+        robot={"urdf": str(arm), "start_deg": [0.0, -90.0, 90.0, -90.0, -90.0, 0.0]},
+        layout={"region": None, "count": 1, "plate_radius_m": 0.11, "plate_height_m": 0.1},
+        wash={"path_radius_m": 0.09, "turns": 3.0},
+    )
+    for x_m, cause in [(0.95, "not_found"), (2.0, "unwashable")]:
+        with pytest.raises(pw.PlanError) as caught:
+            pw.plan(cell.replace(layout={"positions_m": [[x_m, 0.0]]}))
+        assert (caught.value.cause, caught.value.plate) == (cause, 0), caught.value
+        assert ("cannot" in str(caught.value)) == (cause == "unwashable"), caught.value
+
+
 def test_eight_threads_plan_what_one_does() -> None:
     seeds = list(range(1, 9))
     alone = [pw.plan("kitchen", seed=seed).hash for seed in seeds]

@@ -80,15 +80,30 @@ impl From<CoverageError> for PlanError {
     }
 }
 
+/// What is known of a job whose input was fine and for which there is no plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Infeasibility {
+    /// It cannot be done: a bound or a complete search proves it.
+    Proved,
+    /// No way to do it was found; there may be one.
+    NotFound,
+}
+
 impl PlanError {
-    /// Whether the input was fine but asks for what cannot be done (exit code 3), as opposed to bad input.
+    /// Whether the input was fine but no plan came of it (exit code 3), as opposed to bad input.
     #[must_use]
     pub fn is_infeasible(&self) -> bool {
+        self.infeasibility().is_some()
+    }
+
+    /// Whether the job cannot be done, or no way to do it was found; `None` for bad input.
+    #[must_use]
+    pub fn infeasibility(&self) -> Option<Infeasibility> {
         use LayoutError::{EmptyRegion, NoRoom};
         match self {
-            Self::Layout(NoRoom { .. } | EmptyRegion { .. }) => true,
-            Self::Cycle(error) => error.is_infeasible(),
-            _ => false,
+            Self::Layout(NoRoom { .. } | EmptyRegion { .. }) => Some(Infeasibility::Proved),
+            Self::Cycle(error) => error.infeasibility(),
+            _ => None,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The whole job, stage after stage: scenario → arm → layout → tool path → joint path and execution → report.
 
-pub use crate::error::PlanError;
+pub use crate::error::{Infeasibility, PlanError};
 pub use crate::place::place_plates;
 
 use crate::clearance::ClearanceModel;

@@ -2,7 +2,7 @@
 
 use crate::certificate::{self, Certificate, PromiseName};
 use crate::cycle::Cycle;
-use crate::error::PlanError;
+use crate::error::{Infeasibility, PlanError};
 use crate::robot;
 use crate::scenario::Scenario;
 use rayon::prelude::*;
@@ -19,8 +19,10 @@ pub enum SweepOutcome {
     Proved,
     /// Planned, but a promise is broken or not proved.
     NotProved,
-    /// The layout cannot be washed, or no way was found.
+    /// The layout cannot be washed.
     Infeasible,
+    /// No way to wash the layout was found; there may be one.
+    NotFound,
     /// The numbers of this seed cannot be computed with.
     Error,
 }
@@ -33,6 +35,7 @@ impl SweepOutcome {
             Self::Proved => "proved",
             Self::NotProved => "not_proved",
             Self::Infeasible => "infeasible",
+            Self::NotFound => "not_found",
             Self::Error => "error",
         }
     }
@@ -118,10 +121,10 @@ fn row(scenario: &Scenario, seed: u64) -> SweepRow {
     let cycle = match Cycle::plan(&scenario) {
         Ok(cycle) => cycle,
         Err(error) => {
-            let outcome = if error.is_infeasible() {
-                SweepOutcome::Infeasible
-            } else {
-                SweepOutcome::Error
+            let outcome = match error.infeasibility() {
+                Some(Infeasibility::Proved) => SweepOutcome::Infeasible,
+                Some(Infeasibility::NotFound) => SweepOutcome::NotFound,
+                None => SweepOutcome::Error,
             };
             return SweepRow::nothing(seed, outcome, error.to_string());
         }

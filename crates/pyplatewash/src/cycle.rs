@@ -187,7 +187,7 @@ pub fn plan(py: Python<'_>, scenario: &Bound<'_, PyAny>, seed: Option<&Bound<'_,
 }
 
 /// Plans and proves a certified scenario once a seed: one record a seed with `seed`, `outcome` (`"proved"`, `"not_proved"`,
-/// `"infeasible"`), `duration_s`, `crossings_s`, `coverage`, `clearance_m` and `reason`. Works on all processors.
+/// `"infeasible"`, `"not_found"`, `"error"`), `duration_s`, `crossings_s`, `coverage`, `clearance_m` and `reason`. Works on all processors.
 ///
 /// Raises InputError for a scenario of the paper's program; ScenarioError or PlanError for one that is wrong for every seed.
 #[pyfunction]

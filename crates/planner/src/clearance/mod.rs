@@ -122,6 +122,26 @@ impl ClearanceModel {
         Ok(model)
     }
 
+    /// The same arm and tool among plates that lie elsewhere, as many as before: which pairs are checked does not depend on where
+    /// plates lie, and the arm's bodies need not be made again.
+    #[must_use]
+    pub fn among(&self, plates: &[Plate]) -> Self {
+        let mut model = self.clone();
+        model.lay(plates);
+        model
+    }
+
+    /// [`ClearanceModel::among`] in place.
+    pub fn lay(&mut self, plates: &[Plate]) {
+        for body in &mut self.bodies {
+            if let BodyKind::Plate(index) = body.kind
+                && let Some(plate) = plates.get(index)
+            {
+                *body = plate_body(index, plate);
+            }
+        }
+    }
+
     /// Names of the pairs that are checked.
     #[must_use]
     pub fn pair_names(&self) -> Vec<(&str, &str)> {

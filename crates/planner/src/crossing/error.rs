@@ -12,7 +12,7 @@ use std::fmt;
 pub enum CrossingError {
     /// No route is free.
     #[error(
-        "no free way from {} to {}: direct, raised, arc and {nodes} sampled configurations all fail{}",
+        "no free way from {} to {} was found: direct, raised, arc and {nodes} sampled configurations all fail{}",
         name(.from), name(.to), first(.blocked.as_deref())
     )]
     NoWay {

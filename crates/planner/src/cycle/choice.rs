@@ -1,5 +1,6 @@
 //! Layouts of which every plate can be washed whole, for scenarios that ask for them.
 
+use super::activity::{Activity, Listener};
 use super::stages::Stages;
 use super::{CycleError, visit};
 use crate::error::PlanError;
@@ -18,14 +19,16 @@ const MOST_LAYOUTS: usize = 200;
 ///
 /// # Errors
 /// [`PlanError::Layout`], [`PlanError::Scenario`] for too much work, or [`CycleError::NoneWashable`] when no layout drawn will do.
-pub(super) fn place(scenario: &Scenario, robot: &RobotModel) -> Result<Layout, PlanError> {
+pub(super) fn place(scenario: &Scenario, robot: &RobotModel, listener: Listener<'_>) -> Result<Layout, PlanError> {
     if !scenario.layout.only_washable || scenario.layout.positions_m.is_some() {
         return Ok(place::place_plates(scenario, robot)?);
     }
     scenario.check_work()?;
     let mut rng = random::stream(scenario.seed, "layout");
     let mut last = None;
-    for _ in 0..MOST_LAYOUTS {
+    for drawn in 1..=MOST_LAYOUTS {
+        let most = MOST_LAYOUTS;
+        listener(&Activity::Layout { drawn, most });
         let layout = place::draw_plates(scenario, robot, &mut rng)?;
         let stages = Stages::new(scenario, robot, &layout.plates)?;
         match stages.first_unwashable()? {

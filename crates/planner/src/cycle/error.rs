@@ -3,9 +3,12 @@
 use super::UnwashablePlate;
 use crate::clearance::ClearanceError;
 use crate::crossing::{CrossingError, TerminalError, TooNear};
+use crate::error::Infeasibility;
 use crate::joint_path::JointPathError;
 use crate::posture::PostureError;
+use crate::posture::settings::TILT_RESERVE_RAD;
 use crate::timing::TimingError;
+use crate::tool_path::SegmentKind;
 use crate::trajectory::KnotError;
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::{IkPathError, IkSettingsError};
@@ -48,12 +51,12 @@ pub enum CycleError {
     /// The arm does not suit the posture planner.
     #[error(transparent)]
     Cell(PostureError),
-    /// A plate cannot be washed whole.
+    /// A plate cannot be washed whole, or no way to was found.
     #[error("{0}")]
     Unwashable(Box<UnwashablePlate>),
-    /// No layout drawn can be washed whole.
+    /// Of no layout drawn was a way found to wash it whole.
     #[error(
-        "none of {layouts} layouts drawn can be washed whole, as layout.only_washable asks; of the last one, {last}"
+        "of none of {layouts} layouts drawn was a way found to wash it whole, as layout.only_washable asks; of the last one, {last}"
     )]
     NoneWashable {
         /// Layouts drawn.
@@ -61,8 +64,8 @@ pub enum CycleError {
         /// What stands in the way in the last one.
         last: String,
     },
-    /// The arm cannot follow the line over a plate.
-    #[error("the arm cannot follow the line over plate {plate} up to wash.lift_m = {lift_m}: {error}")]
+    /// From the posture found on a plate, the arm does not follow the line over it.
+    #[error("no way was found for the arm to follow the line over plate {plate} up to wash.lift_m = {lift_m}: {error}")]
     Line {
         /// The plate.
         plate: usize,
@@ -70,6 +73,22 @@ pub enum CycleError {
         lift_m: f64,
         /// Why.
         error: Box<IkPathError>,
+    },
+    /// The tool would tilt too far between the points that were solved.
+    #[error(
+        "plate {plate}: in the motion found, the tool tilts by up to {:.4}° during its {}; wash.tilt_max_deg and the sponge allow \
+         {:.4}°, and {:.4}° of it are needed as room: allow more",
+        tilt_rad.to_degrees(), kind.name(), most_rad.to_degrees(), TILT_RESERVE_RAD.to_degrees()
+    )]
+    Tilt {
+        /// The plate.
+        plate: usize,
+        /// The stage of the motion.
+        kind: SegmentKind,
+        /// The largest tilt seen \[rad\].
+        tilt_rad: f64,
+        /// What is allowed \[rad\].
+        most_rad: f64,
     },
     /// The line over a plate is no path.
     #[error(transparent)]
@@ -89,13 +108,23 @@ pub enum CycleError {
 }
 
 impl CycleError {
-    /// Whether the input was fine but asks for what cannot be done (exit code 3).
+    /// Whether the input was fine but no plan came of it (exit code 3).
     #[must_use]
     pub fn is_infeasible(&self) -> bool {
+        self.infeasibility().is_some()
+    }
+
+    /// Whether the job cannot be done, or no way to do it was found; `None` for bad input.
+    #[must_use]
+    pub fn infeasibility(&self) -> Option<Infeasibility> {
         match self {
-            Self::HomeNotClear { .. } | Self::Unwashable(_) | Self::NoneWashable { .. } | Self::Line { .. } => true,
-            Self::Crossing(error) => error.is_infeasible(),
-            _ => false,
+            Self::HomeNotClear { .. } | Self::Crossing(CrossingError::Home { .. }) => Some(Infeasibility::Proved),
+            Self::Unwashable(plate) if plate.conclusion.is_proved() => Some(Infeasibility::Proved),
+            Self::Unwashable(_) | Self::NoneWashable { .. } | Self::Line { .. } | Self::Tilt { .. } => {
+                Some(Infeasibility::NotFound)
+            }
+            Self::Crossing(error) => error.is_infeasible().then_some(Infeasibility::NotFound),
+            _ => None,
         }
     }
 }

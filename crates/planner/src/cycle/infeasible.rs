@@ -1,23 +1,23 @@
-//! What is reported of a job that cannot be done: why, and what of each plate concerned.
+//! What is reported of a job that cannot be done, or that no way was found to do: why, and what of each plate concerned.
 
 use super::{CycleError, Elsewhere, UnwashablePlate};
 use crate::crossing::CrossingError;
-use crate::error::PlanError;
+use crate::error::{Infeasibility, PlanError};
 use crate::posture::washable::Cause;
-use crate::posture::{Filter, Obstacle};
+use crate::posture::{Conclusion, Filter, Obstacle};
 use crate::report::Verdict;
 use crate::scenario::Scenario;
 use serde::Serialize;
 use std::fmt;
 
-/// A certified job that cannot be done. Lengths in metres, angles in radians.
+/// A certified job of which no plan came. Lengths in metres, angles in radians.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct InfeasibleReport {
     /// Name of the scenario.
     pub scenario: String,
     /// Its seed.
     pub seed: u64,
-    /// Always [`Verdict::Infeasible`].
+    /// [`Verdict::Infeasible`] where the job cannot be done, [`Verdict::NotFound`] where no way was found to do it.
     pub verdict: Verdict,
     /// The first line.
     pub headline: String,
@@ -34,8 +34,10 @@ pub struct InfeasiblePlate {
     pub plate: usize,
     /// Its centre \[m\], where it cannot be washed whole.
     pub centre_m: Option<[f64; 2]>,
-    /// Share of its stroke that can be washed.
+    /// Share of its stroke for which a posture was found.
     pub washable_share: Option<f64>,
+    /// Whether the rest is known to be beyond the arm, and by what; `None` where the plate itself can be washed.
+    pub conclusion: Option<Conclusion>,
     /// What keeps the rest from being washed.
     pub causes: Vec<InfeasiblePart>,
     /// The nearest centre found at which it can be washed \[m\].
@@ -44,7 +46,7 @@ pub struct InfeasiblePlate {
     pub elsewhere: Option<Elsewhere>,
 }
 
-/// A part of a stroke that cannot be washed.
+/// A part of a stroke for which no posture was found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct InfeasiblePart {
     /// Share of the stroke.
@@ -66,11 +68,15 @@ impl InfeasibleReport {
     #[must_use]
     pub fn new(scenario: &Scenario, error: &PlanError) -> Option<Self> {
         let reason = error.to_string();
-        error.is_infeasible().then(|| Self {
+        let (verdict, word) = match error.infeasibility()? {
+            Infeasibility::Proved => (Verdict::Infeasible, "INFEASIBLE"),
+            Infeasibility::NotFound => (Verdict::NotFound, "NOT FOUND"),
+        };
+        Some(Self {
             scenario: scenario.name.clone(),
             seed: scenario.seed,
-            verdict: Verdict::Infeasible,
-            headline: format!("INFEASIBLE: {reason}"),
+            verdict,
+            headline: format!("{word}: {reason}"),
             reason,
             plates: plates(error),
         })
@@ -90,7 +96,9 @@ fn plates(error: &PlanError) -> Vec<InfeasiblePlate> {
     };
     match error {
         CycleError::Unwashable(plate) => vec![InfeasiblePlate::from(&**plate)],
-        CycleError::Line { plate, .. } | CycleError::Crossing(CrossingError::Line { plate, .. }) => {
+        CycleError::Line { plate, .. }
+        | CycleError::Tilt { plate, .. }
+        | CycleError::Crossing(CrossingError::Line { plate, .. }) => {
             vec![InfeasiblePlate::reached_in_vain(*plate)]
         }
         CycleError::Crossing(CrossingError::NoWay { from, to, .. }) => {
@@ -108,6 +116,7 @@ impl InfeasiblePlate {
             plate,
             centre_m: None,
             washable_share: None,
+            conclusion: None,
             causes: Vec::new(),
             nearest_m: None,
             elsewhere: None,
@@ -121,15 +130,20 @@ impl From<&UnwashablePlate> for InfeasiblePlate {
             plate: plate.plate,
             centre_m: Some(plate.centre_m),
             washable_share: plate.share,
-            causes: plate.causes.iter().map(InfeasiblePart::from).collect(),
+            conclusion: Some(plate.conclusion),
+            causes: plate
+                .causes
+                .iter()
+                .map(|cause| InfeasiblePart::new(cause, plate.conclusion))
+                .collect(),
             nearest_m: plate.nearest_m,
             elsewhere: Some(plate.elsewhere),
         }
     }
 }
 
-impl From<&Cause> for InfeasiblePart {
-    fn from(cause: &Cause) -> Self {
+impl InfeasiblePart {
+    fn new(cause: &Cause, conclusion: Conclusion) -> Self {
         let shortfall = cause.worst.shortfall();
         let (shortfall_m, shortfall_rad) = match cause.worst {
             Obstacle::Limit(_) | Obstacle::Jump { .. } => (None, Some(shortfall)),
@@ -142,7 +156,7 @@ impl From<&Cause> for InfeasiblePart {
             kind: cause.worst.filter(),
             shortfall_m,
             shortfall_rad,
-            cause: cause.to_string(),
+            cause: cause.words(conclusion),
         }
     }
 }

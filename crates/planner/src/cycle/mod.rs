@@ -3,6 +3,7 @@
 //! scenario → arm → layout → order → per plate: stroke, posture, timing → crossings → one trajectory. Nothing here judges the
 //! result: that is the certificate's, which uses none of it.
 
+mod activity;
 mod arm;
 mod assemble;
 mod choice;
@@ -10,11 +11,13 @@ mod error;
 mod infeasible;
 mod report;
 mod stages;
+mod tilt;
 mod tour;
 mod travel;
 mod unwashable;
 mod visit;
 
+pub use activity::{Activity, Listener};
 pub use error::CycleError;
 pub use infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport};
 pub use report::CycleReport;
@@ -98,11 +101,19 @@ impl Cycle {
     /// # Errors
     /// [`PlanError`], one variant a stage.
     pub fn plan(scenario: &Scenario) -> Result<Self, PlanError> {
+        Self::plan_telling(scenario, activity::NOBODY)
+    }
+
+    /// The same; the listener hears what planning is busy with.
+    ///
+    /// # Errors
+    /// As [`Cycle::plan`].
+    pub fn plan_telling(scenario: &Scenario, listener: Listener<'_>) -> Result<Self, PlanError> {
         scenario.validate()?;
         let robot = robot::load(&scenario.robot)?;
         Self::check(scenario, &robot, &[])?;
-        let layout = choice::place(scenario, &robot)?;
-        Self::on(scenario, robot, layout)
+        let layout = choice::place(scenario, &robot, listener)?;
+        Self::on_telling(scenario, robot, layout, listener)
     }
 
     /// Refuses what can be known to fail before any posture is planned: an end configuration beyond its limits or too near
@@ -120,9 +131,18 @@ impl Cycle {
     /// # Errors
     /// As [`Cycle::plan`].
     pub fn on(scenario: &Scenario, robot: RobotModel, layout: Layout) -> Result<Self, PlanError> {
+        Self::on_telling(scenario, robot, layout, activity::NOBODY)
+    }
+
+    fn on_telling(
+        scenario: &Scenario,
+        robot: RobotModel,
+        layout: Layout,
+        listener: Listener<'_>,
+    ) -> Result<Self, PlanError> {
         scenario.check_work()?;
         place::start(scenario, &robot)?;
-        let stages = Stages::new(scenario, &robot, &layout.plates)?;
+        let stages = Stages::new(scenario, &robot, &layout.plates)?.telling(listener);
         let planned = stages.carry_out()?;
         let names = stages.clearance.pair_names();
         let clearance_pairs = names.iter().map(|(a, b)| [(*a).to_owned(), (*b).to_owned()]).collect();

@@ -1,9 +1,10 @@
 //! The stages of a cycle, one after the other.
 
+use super::activity::{Activity, Listener, NOBODY};
 use super::arm::Arm;
 use super::assemble::{self, Assembled};
 use super::visit::{self, Visit};
-use super::{CrossingSummary, CycleError, TourSummary, VisitSummary, travel};
+use super::{CrossingSummary, CycleError, TourSummary, VisitSummary, tilt, travel};
 use crate::clearance::ClearanceModel;
 use crate::crossing::{self, Crossing, PaperArc, RESERVE_M, Scene, Stage, Terminal, TooNear};
 use crate::layout::Plate;
@@ -28,6 +29,8 @@ pub(super) struct Stages<'a> {
     pub posture: PostureSettings,
     /// Configurations at the start and at the end \[rad\].
     pub homes: [JointVector; 2],
+    /// Hears what is being done.
+    pub listener: Listener<'a>,
 }
 
 /// What the stages make.
@@ -76,7 +79,31 @@ impl<'a> Stages<'a> {
                 clearance_m: wash.clearance_m,
             },
             homes,
+            listener: NOBODY,
         })
+    }
+
+    /// The same with a listener.
+    pub fn telling(self, listener: Listener<'a>) -> Self {
+        Self { listener, ..self }
+    }
+
+    /// The same among as many plates that lie elsewhere; nobody listens.
+    pub fn among<'b>(&self, plates: &'b [Plate]) -> Stages<'b>
+    where
+        'a: 'b,
+    {
+        Stages {
+            plates,
+            clearance: self.clearance.among(plates),
+            listener: NOBODY,
+            scenario: self.scenario,
+            robot: self.robot,
+            washing: self.washing,
+            crossing: self.crossing,
+            posture: self.posture,
+            homes: self.homes,
+        }
     }
 
     /// The arm among the plates.
@@ -107,6 +134,8 @@ impl<'a> Stages<'a> {
         let entering = visits.iter().map(|v| &v.entry).chain(std::iter::once(&end));
         let crossings = self.crossings(&arm, leaving, entering, |_| true)?;
         let duration = |motion: &Trajectory| motion.duration_s();
+        let whole = assemble::assemble(&visits, &crossings)?;
+        tilt::check(&whole, self.robot, &arm.cell.tip, self.posture.tilt_max_rad)?;
         Ok(Planned {
             tour,
             visits: visits
@@ -124,7 +153,7 @@ impl<'a> Stages<'a> {
                     duration_s: duration(&crossing.timed.motion),
                 })
                 .collect(),
-            whole: assemble::assemble(&visits, &crossings)?,
+            whole,
             order,
         })
     }
@@ -153,6 +182,8 @@ impl<'a> Stages<'a> {
         self.check_unblocked(arm, order)?;
         let mut visits: Vec<Visit> = Vec::with_capacity(order.len());
         for (k, &plate) in order.iter().enumerate() {
+            let (turn, of) = (k + 1, order.len());
+            (self.listener)(&Activity::Posture { plate, turn, of });
             let (centre, stroke) = self.stroke(arm, order, k);
             let near = visits.last().and_then(|v| v.washing.q.last()).unwrap_or(&self.homes[0]);
             let washing = posture::washing(&arm.cell, &stroke, centre, plate, &self.posture, near)
@@ -179,6 +210,8 @@ impl<'a> Stages<'a> {
             if !blocked.unwrap_or(false) {
                 continue;
             }
+            let (turn, of) = (k + 1, order.len());
+            (self.listener)(&Activity::Posture { plate, turn, of });
             // A tilt between those of the search may still do.
             if let Err(error) = posture::washing(&arm.cell, &stroke, centre, plate, &self.posture, near) {
                 let plate = self.unwashable(arm, plate, (centre, &stroke), near, error);
@@ -225,8 +258,10 @@ impl<'a> Stages<'a> {
             arc: Some(&arc),
         };
         let pairs = leaving.zip(entering).enumerate().filter(|(k, _)| wanted(*k));
+        let of = self.plates.len() + 1;
         pairs
             .map(|(k, (from, to))| {
+                (self.listener)(&Activity::Crossing { turn: k + 1, of });
                 let mut rng = random::stream(self.scenario.seed, &format!("crossing {k}"));
                 Ok(crossing::plan(&scene, from, to, &mut rng)?)
             })

@@ -1,19 +1,21 @@
-//! A plate that cannot be washed whole: which part of it, why, and where it could be.
+//! A plate for which no way was found to wash it whole: which part of it, why, whether that is known, and where it could be washed.
 
+use super::activity::Activity;
 use super::arm::Arm;
 use super::stages::Stages;
 use super::{CycleError, visit};
 use crate::crossing::Terminal;
 use crate::posture::elsewhere::{Move, SEARCHED_M};
+use crate::posture::elsewhere::{RING_M, RINGS};
 use crate::posture::washable::{self, Cause, Washable};
-use crate::posture::{self, PostureError};
+use crate::posture::{self, Conclusion, PostureError};
 use crate::stroke::Stroke;
 use nalgebra::{Vector2, Vector3};
 use platewash_kinematics::JointVector;
 use serde::Serialize;
 use std::fmt;
 
-/// What is known of a plate that cannot be washed whole.
+/// What is known of a plate that cannot be washed whole, or for which no way to was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnwashablePlate {
     /// The plate.
@@ -22,7 +24,9 @@ pub struct UnwashablePlate {
     pub centre_m: [f64; 2],
     /// Where the planning of its posture ended.
     pub error: PostureError,
-    /// Share of the stroke that can be washed, point by point.
+    /// Whether it is known that it cannot be.
+    pub conclusion: Conclusion,
+    /// Share of the stroke for which a posture was found, point by point.
     pub share: Option<f64>,
     /// What keeps the rest from being washed, the most frequent first.
     pub causes: Vec<Cause>,
@@ -53,10 +57,15 @@ impl Stages<'_> {
         near: &JointVector,
         error: PostureError,
     ) -> UnwashablePlate {
-        let part = washable::washable(&arm.cell, stroke, centre, plate, &self.posture, near);
-        let (share, causes) = match part {
-            Ok(Washable::Part { share, causes }) => (Some(share), causes),
-            _ => (None, Vec::new()),
+        (self.listener)(&Activity::Cause { plate });
+        let part = washable::washable_part(&arm.cell, stroke, centre, plate, &self.posture, near);
+        let (share, causes, conclusion) = match part {
+            Ok(Washable::Part {
+                share,
+                causes,
+                conclusion,
+            }) => (Some(share), causes, conclusion),
+            _ => (None, Vec::new(), Conclusion::NotFound),
         };
         let elsewhere = match self.scenario.layout.positions_m {
             Some(_) => Elsewhere::Within(SEARCHED_M),
@@ -72,15 +81,29 @@ impl Stages<'_> {
             settings: &self.posture,
             near,
         };
-        let mut holds = |centre: &Vector2<f64>| self.washes_at(plate, centre).unwrap_or(false);
+        let mut holds = |centre: &Vector2<f64>| {
+            let centre_m = (*centre).into();
+            (self.listener)(&Activity::Trial { plate, centre_m });
+            self.washes_at(plate, centre).unwrap_or(false)
+        };
+        let tell = |ring: u32| {
+            let (of, away_m) = (RINGS, RING_M * f64::from(ring));
+            (self.listener)(&Activity::Elsewhere {
+                plate,
+                ring,
+                of,
+                away_m,
+            });
+        };
         let nearest = match elsewhere {
-            Elsewhere::Within(_) => place.nearest_washable(&mut holds).ok().flatten(),
+            Elsewhere::Within(_) => place.nearest_washable_telling(&mut holds, &tell).ok().flatten(),
             Elsewhere::Sampled => None,
         };
         UnwashablePlate {
             plate,
             centre_m: [centre.x, centre.y],
             error,
+            conclusion,
             share,
             causes,
             nearest_m: nearest.map(Into::into),
@@ -93,7 +116,7 @@ impl Stages<'_> {
     fn washes_at(&self, plate: usize, centre: &Vector2<f64>) -> Result<bool, CycleError> {
         let mut plates = self.plates.to_vec();
         (plates[plate].x_m, plates[plate].y_m) = (centre.x, centre.y);
-        let moved = Stages::new(self.scenario, self.robot, &plates)?;
+        let moved = self.among(&plates);
         moved.check_homes()?;
         let arm = moved.arm()?;
         let (order, _) = moved.order(&arm);
@@ -129,14 +152,26 @@ impl Stages<'_> {
 
 impl fmt::Display for UnwashablePlate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y] = self.centre_m;
-        write!(f, "plate {} at ({x:.3}, {y:.3}) m cannot be washed whole", self.plate)?;
-        match self.share {
-            Some(share) => write!(f, ": {:.1} % of its stroke can", 100.0 * share)?,
-            None => write!(f, ": {}", self.error)?,
+        let ([x, y], plate) = (self.centre_m, self.plate);
+        let percent = self.share.map(|share| 100.0 * share);
+        match (self.conclusion.is_proved(), percent) {
+            (true, Some(percent)) => write!(
+                f,
+                "plate {plate} at ({x:.3}, {y:.3}) m cannot be washed whole: {percent:.1} % of its stroke can"
+            )?,
+            (false, Some(percent)) => write!(
+                f,
+                "no way to wash plate {plate} at ({x:.3}, {y:.3}) m whole was found, which does not prove that there is none: \
+                 a posture was found for {percent:.1} % of its stroke"
+            )?,
+            (_, None) => write!(
+                f,
+                "no way to wash plate {plate} at ({x:.3}, {y:.3}) m whole was found, which does not prove that there is none: {}",
+                self.error
+            )?,
         }
         for cause in &self.causes {
-            write!(f, "; {cause}")?;
+            write!(f, "; {}", cause.words(self.conclusion))?;
         }
         match (self.nearest_m, self.elsewhere) {
             (Some([x, y]), _) => write!(f, "; the nearest position found where it can is ({x:.3}, {y:.3}) m"),

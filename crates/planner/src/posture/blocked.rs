@@ -6,7 +6,7 @@
 
 use super::Cell;
 use super::error::{self, PostureError};
-use super::inverse::{Inverse, Start};
+use super::inverse::{Start, Width};
 use super::search::Graph;
 use super::settings::PostureSettings;
 use super::task::Task;
@@ -55,7 +55,7 @@ pub(super) fn blocked(task: &Task<'_>, graph: &Graph, plate: usize, near: &Joint
 
 /// The layers to look at; none where not every branch of the arm is known.
 fn last_turn(task: &Task<'_>, graph: &Graph) -> Vec<usize> {
-    if !matches!(task.cell.inverse, Inverse::Analytic { .. }) {
+    if !task.cell.inverse.knows_all_branches() {
         return Vec::new();
     }
     let stroke = &task.samples.stroke;
@@ -83,7 +83,7 @@ fn at(task: &Task<'_>, graph: &Graph, layer: usize, near: &JointVector) -> bool 
     let contact = task.samples.at(graph.theta[layer]);
     let will_do = |tilt: f64| {
         let target = task.cell.tip_rigid(&contact, tilt);
-        let starts = task.cell.inverse.starts(&target, near).unwrap_or_default();
+        let starts = task.cell.inverse.starts(&target, near, Width::Near).unwrap_or_default();
         starts.iter().any(|start| task.check_clear(&start.q).is_ok())
     };
     !graph.likeliest_first(task, &contact).into_iter().any(will_do)

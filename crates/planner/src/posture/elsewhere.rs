@@ -1,5 +1,6 @@
 //! Where else a plate could lie to be washed whole.
 
+use super::inverse::Width;
 use super::task::{Task, overlap};
 use super::washing::by_policy;
 use super::{Cell, PostureError, PostureSettings};
@@ -73,6 +74,18 @@ impl Move<'_> {
         &self,
         holds: &mut dyn FnMut(&Vector2<f64>) -> bool,
     ) -> Result<Option<Vector2<f64>>, PostureError> {
+        self.nearest_washable_telling(holds, &|_| ())
+    }
+
+    /// The same; `tell` hears of each ring before it is tried, from 1 to [`RINGS`].
+    ///
+    /// # Errors
+    /// As [`Move::nearest_washable`].
+    pub fn nearest_washable_telling(
+        &self,
+        holds: &mut dyn FnMut(&Vector2<f64>) -> bool,
+        tell: &dyn Fn(u32),
+    ) -> Result<Option<Vector2<f64>>, PostureError> {
         let count = self.plates.len();
         let missing = PostureError::Plate {
             plate: self.plate,
@@ -80,16 +93,22 @@ impl Move<'_> {
         };
         let here = self.plates.get(self.plate).ok_or(missing)?;
         let here = Vector2::new(here.x_m, here.y_m);
+        let mut trial = Trial {
+            place: self,
+            plates: self.plates.to_vec(),
+            clearance: ClearanceModel::new(self.robot, self.tool, self.plates)?,
+        };
         let at_rest = on_grid(&here);
-        if self.suits(&at_rest)? && holds(&at_rest) {
+        if trial.suits(&at_rest)? && holds(&at_rest) {
             return Ok(Some(at_rest));
         }
         let mut checks = 1;
         for ring in 1..=RINGS {
-            for (distance, away) in self.on_ring(&here, ring)? {
+            tell(ring);
+            for (distance, away) in trial.on_ring(&here, ring)? {
                 for further in FURTHER_M {
                     let place = on_grid(&(here + away * (distance + further)));
-                    if !self.suits(&place)? {
+                    if !trial.suits(&place)? {
                         continue;
                     }
                     if checks == MOST_CHECKS {
@@ -105,8 +124,24 @@ impl Move<'_> {
         Ok(None)
     }
 
+    fn meets_base(&self, plate: &Plate) -> bool {
+        let foot = base_footprint(self.robot);
+        let beside = |[least, most]: [f64; 2], at: f64| (least - at).max(at - most).max(0.0);
+        let (dx, dy) = (beside(foot.x_m, plate.x_m), beside(foot.y_m, plate.y_m));
+        dx * dx + dy * dy < plate.radius_m * plate.radius_m
+    }
+}
+
+/// One place after the other, with the plate moved there.
+struct Trial<'a> {
+    place: &'a Move<'a>,
+    plates: Vec<Plate>,
+    clearance: ClearanceModel,
+}
+
+impl Trial<'_> {
     /// Directions in which a place on the ring suits, and the least distance there that does \[m\]; the nearest first.
-    fn on_ring(&self, here: &Vector2<f64>, ring: u32) -> Result<Vec<(f64, Vector2<f64>)>, PostureError> {
+    fn on_ring(&mut self, here: &Vector2<f64>, ring: u32) -> Result<Vec<(f64, Vector2<f64>)>, PostureError> {
         let mut found = Vec::new();
         for k in 0..DIRECTIONS {
             let (s, c) = sin_cos(TAU * f64::from(k) / f64::from(DIRECTIONS));
@@ -120,7 +155,7 @@ impl Move<'_> {
     }
 
     /// The least distance from `here` in a direction that suits, between a ring that does and the one within it \[m\].
-    fn halve(&self, here: &Vector2<f64>, away: &Vector2<f64>, ring: u32) -> Result<f64, PostureError> {
+    fn halve(&mut self, here: &Vector2<f64>, away: &Vector2<f64>, ring: u32) -> Result<f64, PostureError> {
         let [mut bad, mut good] = [ring - 1, ring].map(|ring| RING_M * f64::from(ring));
         for _ in 0..HALVINGS {
             let middle = 0.5 * (bad + good);
@@ -134,26 +169,28 @@ impl Move<'_> {
     }
 
     /// Whether the plate can be washed whole with its centre there, and has room there.
-    fn suits(&self, centre: &Vector2<f64>) -> Result<bool, PostureError> {
-        let mut plates = self.plates.to_vec();
-        (plates[self.plate].x_m, plates[self.plate].y_m) = (centre.x, centre.y);
-        let moved = plates[self.plate];
-        let others = plates.iter().enumerate().filter(|(i, _)| *i != self.plate);
-        if others.into_iter().any(|(_, other)| overlap(&moved, other)) || self.meets_base(&moved) {
+    fn suits(&mut self, centre: &Vector2<f64>) -> Result<bool, PostureError> {
+        let Move {
+            robot,
+            tool,
+            plate,
+            stroke,
+            height_m,
+            settings,
+            near,
+            ..
+        } = *self.place;
+        (self.plates[plate].x_m, self.plates[plate].y_m) = (centre.x, centre.y);
+        let moved = self.plates[plate];
+        let mut others = self.plates.iter().enumerate().filter(|(i, _)| *i != plate);
+        if others.any(|(_, other)| overlap(&moved, other)) || self.place.meets_base(&moved) {
             return Ok(false);
         }
-        let clearance = ClearanceModel::new(self.robot, self.tool, &plates)?;
-        let cell = Cell::new(self.robot, self.tool, &clearance, &plates)?;
-        let centre = Vector3::new(centre.x, centre.y, moved.z_m + self.height_m);
-        let task = Task::new(&cell, self.stroke, centre, self.plate, self.settings, self.near)?;
-        Ok(by_policy(&task, self.settings, self.near).is_some())
-    }
-
-    fn meets_base(&self, plate: &Plate) -> bool {
-        let foot = base_footprint(self.robot);
-        let beside = |[least, most]: [f64; 2], at: f64| (least - at).max(at - most).max(0.0);
-        let (dx, dy) = (beside(foot.x_m, plate.x_m), beside(foot.y_m, plate.y_m));
-        dx * dx + dy * dy < plate.radius_m * plate.radius_m
+        self.clearance.lay(&self.plates);
+        let cell = Cell::new(robot, tool, &self.clearance, &self.plates)?;
+        let centre = Vector3::new(centre.x, centre.y, moved.z_m + height_m);
+        let task = Task::new(&cell, stroke, centre, plate, settings, near)?;
+        Ok(by_policy(&task, settings, near, Width::Near).is_some())
     }
 }
 

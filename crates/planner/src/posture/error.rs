@@ -59,8 +59,8 @@ pub enum PostureError {
     /// No clearance model can be made of the arm.
     #[error(transparent)]
     Clearance(#[from] ClearanceError),
-    /// At some contact points no tilt within the limit is reachable, within the joint limits and clear.
-    #[error("plate {plate}: no tilt will do at {dead} of {tried} points of the stroke; {}", at(.ends))]
+    /// At some contact points no tilt within the limit was found reachable, within the joint limits and clear.
+    #[error("plate {plate}: no tilt was found at {dead} of {tried} points of the stroke; {}", at(.ends))]
     NoTilt {
         /// Index of the plate.
         plate: usize,
@@ -71,8 +71,8 @@ pub enum PostureError {
         /// Those points, at most [`MOST_DEAD_ENDS`] of them, evenly chosen.
         ends: Vec<DeadEnd>,
     },
-    /// Every contact point has a tilt, but no continuous sequence of them exists within the joint steps and tilt rate allowed.
-    #[error("plate {plate}: the tilts that will do don't connect; {}", at(std::slice::from_ref(.end)))]
+    /// Every contact point has a tilt, but no continuous sequence of them was found within the joint steps and tilt rate allowed.
+    #[error("plate {plate}: no way was found that connects the tilts that will do; {}", at(std::slice::from_ref(.end)))]
     Disconnected {
         /// Index of the plate.
         plate: usize,
@@ -139,8 +139,8 @@ pub(super) fn no_tilt(task: &Task<'_>, graph: &Graph, plate: usize, layer: usize
     let mut here = *start;
     let (mut dead, mut at_layer) = (Vec::new(), here);
     for k in graph.surveyed() {
-        match graph.first(task, k, &here) {
-            Some(vertex) => here.q = vertex.q,
+        match graph.least_tilt(task, k, &here) {
+            Some(q) => here.q = q,
             None => dead.push((k, here)),
         }
         if k < layer {

@@ -4,6 +4,7 @@
 //! takes: tilts out of the arm's plane are tried too, and neighbouring points are not looked at. Yaw about the tool's
 //! axis is left out where it changes nothing but joint 6: with the tool along axis 6.
 
+use super::inverse::Width;
 use super::task::Task;
 use super::{Cell, PostureError, PostureSettings};
 use crate::stroke::Stroke;
@@ -31,7 +32,7 @@ pub struct Found {
 /// The posture of least tilt at which the point at `theta` \[rad\] of the stroke can be washed, if there is one. Arguments as
 /// for [`super::washing`].
 ///
-/// On arms without named branches the numeric solver is asked from `near` alone.
+/// On arms without named branches only those are tried that a search finds.
 ///
 /// # Errors
 /// [`PostureError`] for numbers out of range.
@@ -44,7 +45,13 @@ pub fn posture_anywhere(
     near: &JointVector,
 ) -> Result<Option<Found>, PostureError> {
     let task = Task::new(cell, stroke, centre, plate, settings, near)?;
-    let contact = task.samples.at(theta.clamp(0.0, stroke.end()));
+    Ok(anywhere(&task, theta.clamp(0.0, stroke.end()), settings, near))
+}
+
+/// [`posture_anywhere`] of a task.
+pub(super) fn anywhere(task: &Task<'_>, theta: f64, settings: &PostureSettings, near: &JointVector) -> Option<Found> {
+    let cell = task.cell;
+    let contact = task.samples.at(theta);
     let out = cell.seen(&contact).out;
     let steps = (settings.tilt_max_rad / TILT_STEP_RAD).ceil();
     for k in 0..=steps as u32 {
@@ -59,15 +66,15 @@ pub fn posture_anywhere(
             let (s, c) = sin_cos(azimuth_rad);
             let lean = (out * c + Vector3::z().cross(&out) * s) * tilt_rad;
             let target = cell.tip_leaning(&contact, &lean);
-            let starts = cell.inverse.starts(&target, near).unwrap_or_default();
+            let starts = cell.inverse.starts(&target, near, Width::Near).unwrap_or_default();
             if let Some(start) = starts.iter().find(|start| task.check_clear(&start.q).is_ok()) {
-                return Ok(Some(Found {
+                return Some(Found {
                     tilt_rad,
                     azimuth_rad,
                     q: start.q,
-                }));
+                });
             }
         }
     }
-    Ok(None)
+    None
 }

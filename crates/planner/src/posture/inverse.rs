@@ -10,8 +10,14 @@ use std::f64::consts::PI;
 /// How exactly the numeric solver meets a pose \[m and rad\].
 const TOLERANCE: f64 = 1e-9;
 
-/// Configurations this near to each other start the same path \[rad\].
+/// Configurations on one named branch this near to each other start the same path \[rad\].
 const SAME_START_RAD: f64 = 0.5 * PI;
+
+/// The same where branches have no names \[rad\].
+const SAME_UNNAMED_RAD: f64 = 0.5;
+
+/// Starts of the numeric solver's list that are tried for all branches of a pose.
+const LISTED: usize = 96;
 
 /// A configuration to start from, and the branch to stay on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,8 +38,17 @@ pub(super) enum Inverse<'a> {
         tip: Frame,
         limits: &'a JointLimits,
     },
-    /// By iteration.
+    /// By iteration, from where a path stands.
     Numeric(Box<IkSolver<'a>>),
+}
+
+/// How widely configurations to start from are looked for, where that is a search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Width {
+    /// From a configuration nearby, turned towards the target, and its mirrored branches.
+    Near,
+    /// From the solver's list of starts too.
+    Everywhere,
 }
 
 impl<'a> Inverse<'a> {
@@ -48,6 +63,8 @@ impl<'a> Inverse<'a> {
         let settings = IkSettings {
             position_tolerance_m: TOLERANCE,
             orientation_tolerance_rad: TOLERANCE,
+            // A path goes on from where it is; an answer from anywhere else would be a jump.
+            listed_starts: 0,
             ..IkSettings::default()
         };
         Ok(Self::Numeric(Box::new(IkSolver::new(robot, tip, settings)?)))
@@ -90,16 +107,32 @@ impl<'a> Inverse<'a> {
         best.map_err(|rejection| rejection.map_or(Obstacle::NotFinite, Obstacle::from))
     }
 
+    /// Whether [`Inverse::starts`] knows every branch of the arm.
+    pub fn knows_all_branches(&self) -> bool {
+        matches!(self, Self::Analytic { .. })
+    }
+
     /// The configurations for `target` within the limits, one a branch, nearest to `near` \[rad\]: with shoulder in front and elbow
-    /// up first (there the arm stays above what lies around it), then the nearest.
+    /// up first (there the arm stays above what lies around it), then the nearest. In closed form these are all there are;
+    /// otherwise those that a search of the given width finds, the nearest first.
     ///
     /// # Errors
     /// As [`Inverse::continuing`], when there is none.
-    pub fn starts(&self, target: &Rigid, near: &JointVector) -> Result<Vec<Start>, Obstacle> {
+    pub fn starts(&self, target: &Rigid, near: &JointVector, width: Width) -> Result<Vec<Start>, Obstacle> {
         let anywhere = Start { q: *near, sides: None };
-        let Self::Analytic { arm, tip, limits } = self else {
-            let q = self.continuing(target, &anywhere)?;
-            return Ok(vec![Start { q, sides: None }]);
+        let (arm, tip, limits) = match self {
+            Self::Analytic { arm, tip, limits } => (arm, tip, limits),
+            Self::Numeric(solver) => {
+                let listed = match width {
+                    Width::Near => 0,
+                    Width::Everywhere => LISTED,
+                };
+                let found = solver.spread(&Pose::from(target), near, listed)?;
+                if found.is_empty() {
+                    self.continuing(target, &anywhere)?;
+                }
+                return Ok(found.into_iter().map(|q| Start { q, sides: None }).collect());
+            }
         };
         let body = AnalyticArm::body_target(tip, target).ok_or(Obstacle::NotFinite)?;
         let all = arm.solve_all(&body, near, limits)?;
@@ -127,7 +160,12 @@ pub(super) fn merge_starts(starts: &mut Vec<Start>, more: Vec<Start>) {
     for start in more {
         let same = |other: &Start| {
             let turned = (start.q - other.q).map(|d| (d - 2.0 * PI * (d / (2.0 * PI)).round()).abs());
-            start.sides == other.sides && turned.amax() < SAME_START_RAD
+            let near = if start.sides.is_some() {
+                SAME_START_RAD
+            } else {
+                SAME_UNNAMED_RAD
+            };
+            start.sides == other.sides && turned.amax() < near
         };
         if !starts.iter().any(same) {
             starts.push(start);

@@ -20,12 +20,15 @@
 //!
 //! Before the second, a few points of the last turn tell (`blocked`) whether it can find anything at all.
 //!
-//! Each is tried on every branch of the arm, elbow up in front first. Whatever answers has been checked for limits and steps at
+//! Each is tried on every branch of the arm, elbow up in front first; on arms without a closed form, on every branch that a
+//! search finds ([`platewash_kinematics::ik::spread`]). Whatever answers has been checked for limits and steps at
 //! every contact point, and for clearance at every one but those within 4 mm behind one with 8 mm to spare. Between the
-//! points nothing is proved here. Where nothing answers, the error names contact points and what stands in the way there.
+//! points nothing is proved here. Where nothing answers, the error names contact points and what stands in the way there;
+//! [`Conclusion`] tells whether there is no posture or none was found.
 
 mod blocked;
 mod cell;
+mod conclusion;
 pub mod elsewhere;
 mod error;
 pub mod exhaustive;
@@ -44,6 +47,7 @@ mod washing;
 
 pub(crate) use blocked::is_blocked;
 pub use cell::Cell;
+pub use conclusion::Conclusion;
 pub use error::{DeadEnd, MOST_DEAD_ENDS, PostureError, Reason};
 pub use obstacle::{Filter, Obstacle};
 pub use policy::TiltPolicy;

@@ -146,22 +146,23 @@ impl Graph {
         layer
     }
 
-    /// The vertex of least tilt of a layer that no other precedes.
-    pub fn first(&self, task: &Task<'_>, k: usize, start: &Start) -> Option<Vertex> {
-        let contact = task.samples.at(self.theta[k]);
-        self.tilts.iter().find_map(|&tilt| {
-            let target = task.cell.tip_rigid(&contact, tilt);
-            let q = task.cell.inverse.continuing(&target, start).ok()?;
-            self.vertex(task, q, 0.0)
-        })
-    }
-
     /// The tilts, those near to what a contact point prefers first \[rad\].
     pub fn likeliest_first(&self, task: &Task<'_>, contact: &Vector3<f64>) -> Vec<f64> {
         let preferred = self.preferred.tilt(task.cell.seen(contact).r);
         let mut tilts = self.tilts.clone();
         tilts.sort_by(|a, b| (a - preferred).abs().total_cmp(&(b - preferred).abs()));
         tilts
+    }
+
+    /// The configuration of the least of a layer's tilts that will do, continued from `start`.
+    pub fn least_tilt(&self, task: &Task<'_>, k: usize, start: &Start) -> Option<JointVector> {
+        let contact = task.samples.at(self.theta[k]);
+        let (inverse, clearance) = (&task.cell.inverse, task.cell.clearance);
+        let at = |&tilt: &f64| {
+            let q = inverse.continuing(&task.cell.tip_rigid(&contact, tilt), start).ok()?;
+            clearance.keeps_washing(&q, task.required_m).then_some(q)
+        };
+        self.tilts.iter().find_map(at)
     }
 
     /// A vertex at `q`, if it is clear; `off` is how many steps of 2° its tilt is off the preferred one.

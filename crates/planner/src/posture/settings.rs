@@ -9,6 +9,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Added to the clearance asked for, so that the motion between the points checked keeps it too \[m\].
 pub const RESERVE_M: f64 = 5e-4;
 
+/// What the largest tilt planned stays below the largest allowed \[rad\], 0.057°: between the points solved, the joints follow
+/// curves through them and then cubics, which turn the tool a little further.
+pub const TILT_RESERVE_RAD: f64 = 1e-3;
+
 /// How far the chord between neighbouring contact points may leave the stroke \[m\].
 pub const CHORD_ERROR_M: f64 = 2e-5;
 
@@ -44,6 +48,13 @@ impl PostureSettings {
     #[must_use]
     pub fn required_m(&self) -> f64 {
         self.clearance_m + RESERVE_M
+    }
+
+    /// The largest tilt at the points that are solved \[rad\]: [`TILT_RESERVE_RAD`] less than allowed, or half of what is allowed
+    /// where that is more.
+    #[must_use]
+    pub fn planned_tilt_rad(&self) -> f64 {
+        (self.tilt_max_rad - TILT_RESERVE_RAD).max(0.5 * self.tilt_max_rad)
     }
 
     /// Refuses settings out of their range, NaN included.

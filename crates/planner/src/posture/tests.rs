@@ -1,5 +1,6 @@
 use super::elsewhere::{Move, on_grid};
 use super::exhaustive::posture_anywhere;
+use super::inverse::Width;
 use super::search::Graph;
 use super::task::{Profile, Task};
 use super::washable::{Cause, Washable, washable};
@@ -15,6 +16,7 @@ use platewash_kinematics::{JointVector, RobotModel, rotation::Rigid};
 use proptest::prelude::*;
 
 mod input;
+mod other_arms;
 mod scale;
 
 const TOOL: ToolSection = ToolSection {
@@ -274,7 +276,7 @@ proptest! {
             let tilts = task.tilts(&profile);
             let k = (share * tilts.len() as f64) as usize;
             let first = cell.tip_rigid(&task.samples.contact[0], tilts[0]);
-            let start = cell.inverse.starts(&first, &HOME).unwrap()[0];
+            let start = cell.inverse.starts(&first, &HOME, Width::Near).unwrap()[0];
             let at = |theta: f64| {
                 let contact = task.samples.at(theta);
                 cell.inverse.continuing(&task.cell.tip_rigid(&contact, task.tilt(&profile, &contact, 0.0)), &start).unwrap()
@@ -333,9 +335,19 @@ fn a_failure_is_the_arms_own() {
             };
             let feasible = ends.iter().filter(anywhere).count() as f64 / ends.len() as f64;
             assert!(feasible <= elsewhere, "{rho} {azimuth}: {feasible}");
-            let Washable::Part { share, causes } = washable(cell, &stroke, at, 0, &settings, &HOME).unwrap() else {
+            let Washable::Part {
+                share,
+                causes,
+                conclusion,
+            } = washable(cell, &stroke, at, 0, &settings, &HOME).unwrap()
+            else {
                 panic!("{rho} {azimuth}: washable");
             };
+            // Where nothing would do anywhere on the way, that is known.
+            assert!(
+                conclusion.is_proved() || elsewhere > 0.0,
+                "{rho} {azimuth}: {conclusion:?}"
+            );
             assert!(0.4 < share && share < 1.0, "{share}");
             let filters: Vec<_> = causes.iter().map(|cause| cause.worst.filter()).collect();
             assert!(expected.iter().all(|filter| filters.contains(filter)), "{causes:?}");

@@ -1,7 +1,8 @@
 //! Whether a plate can be washed whole where it lies; if not, which part of it not, and why.
 
+use super::conclusion::{Conclusion, conclude};
 use super::error::{Reason, reasons};
-use super::inverse::Start;
+use super::inverse::{Start, Width};
 use super::obstacle::Obstacle;
 use super::search::Graph;
 use super::task::Task;
@@ -20,11 +21,13 @@ pub enum Washable {
     Whole,
     /// Not all of it.
     Part {
-        /// Share of the stroke that can be washed on the best branch of the arm.
+        /// Share of the stroke for which a posture was found, on the best branch of the arm.
         share: f64,
         /// What stands in the way of the rest, the most frequent first. Where several filters leave no tilt together, each
         /// is counted.
         causes: Vec<Cause>,
+        /// Whether the rest cannot be washed, or was only not found to be.
+        conclusion: Conclusion,
     },
 }
 
@@ -39,14 +42,31 @@ pub struct Cause {
     pub worst: Obstacle,
 }
 
-impl fmt::Display for Cause {
-    /// The part in percent, where it lies, and by how much it is missed at most, rounded up.
+/// A [`Cause`] in words: the part in percent, where it lies, and by how much it is missed at most, rounded up.
+struct Words<'a>(&'a Cause, Conclusion);
+
+impl fmt::Display for Words<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [near, far] = self.from_axis_m;
-        let share = 100.0 * self.share;
-        write!(f, "{share:.1} %, {near:.3} to {far:.3} m from axis 1, cannot (")?;
-        self.worst.fmt_worst(f)?;
+        let Self(cause, conclusion) = self;
+        let [near, far] = cause.from_axis_m;
+        let share = 100.0 * cause.share;
+        let verdict = if conclusion.is_proved() {
+            "cannot"
+        } else {
+            "no posture found"
+        };
+        write!(f, "{share:.1} %, {near:.3} to {far:.3} m from axis 1, {verdict} (")?;
+        cause.worst.fmt_worst(f)?;
         f.write_str(")")
+    }
+}
+
+impl Cause {
+    /// It in words: the part in percent, where it lies, that it cannot be washed or was not found to be, and by how much it is
+    /// missed at most, rounded up.
+    #[must_use]
+    pub fn words(&self, conclusion: Conclusion) -> String {
+        Words(self, conclusion).to_string()
     }
 }
 
@@ -63,51 +83,81 @@ pub fn washable(
     near: &JointVector,
 ) -> Result<Washable, PostureError> {
     let task = Task::new(cell, stroke, centre, plate, settings, near)?;
-    if by_policy(&task, settings, near).is_some() {
+    if by_policy(&task, settings, near, Width::Everywhere).is_some() {
         return Ok(Washable::Whole);
     }
-    let graph = Graph::new(&task, settings);
-    let anywhere = Start { q: *near, sides: None };
-    let mut starts = search_starts(&task, &graph, near);
-    starts.push(anywhere);
-    let surveys = starts.iter().map(|start| survey(&task, &graph, start));
-    let best = surveys.min_by_key(Vec::len).unwrap_or_default();
-    if best.is_empty() {
-        return Ok(Washable::Whole);
-    }
-    let tried = graph.surveyed().len() as f64;
-    Ok(Washable::Part {
-        share: 1.0 - best.len() as f64 / tried,
-        causes: causes(best, tried),
-    })
+    Ok(part(&task, settings, near))
 }
 
-/// A contact point that cannot be washed: its distance from axis 1 \[m\], and what stands in the way.
-type Unwashed = (f64, Vec<Reason>);
+/// What of a plate can be washed that no policy of tilts washes. Arguments as for [`super::washing`].
+///
+/// # Errors
+/// [`PostureError`] for numbers out of range.
+pub(crate) fn washable_part(
+    cell: &Cell<'_>,
+    stroke: &Stroke,
+    centre: Vector3<f64>,
+    plate: usize,
+    settings: &PostureSettings,
+    near: &JointVector,
+) -> Result<Washable, PostureError> {
+    let task = Task::new(cell, stroke, centre, plate, settings, near)?;
+    Ok(part(&task, settings, near))
+}
 
-/// The layers of a graph without a vertex on the branch of `start`.
-fn survey(task: &Task<'_>, graph: &Graph, start: &Start) -> Vec<Unwashed> {
+fn part(task: &Task<'_>, settings: &PostureSettings, near: &JointVector) -> Washable {
+    let graph = Graph::new(task, settings);
+    let anywhere = Start { q: *near, sides: None };
+    let mut starts = search_starts(task, &graph, near);
+    starts.push(anywhere);
+    let mut best: Option<Vec<Unwashed>> = None;
+    for start in &starts {
+        let fewer_than = best.as_ref().map_or(usize::MAX, Vec::len);
+        best = survey(task, &graph, start, fewer_than).or(best);
+    }
+    let best = best.unwrap_or_default();
+    if best.is_empty() {
+        return Washable::Whole;
+    }
+    let tried = graph.surveyed().len() as f64;
+    let dead: Vec<f64> = best.iter().map(|(k, _)| graph.theta[*k]).collect();
+    let conclusion = conclude(task, &dead, settings, near);
+    let why = |(k, here): &Unwashed| {
+        let contact = task.samples.at(graph.theta[*k]);
+        let obstacle = |&tilt: &f64| task.posture(&task.cell.tip_rigid(&contact, tilt), here).err();
+        let reasons = reasons(graph.tilts.iter().filter_map(obstacle));
+        (task.cell.seen(&contact).r, reasons)
+    };
+    Washable::Part {
+        share: 1.0 - best.len() as f64 / tried,
+        causes: causes(best.iter().map(why), tried),
+        conclusion,
+    }
+}
+
+/// A layer without a vertex, and where the arm was before.
+type Unwashed = (usize, Start);
+
+/// The layers of a graph without a vertex on the branch of `start`; `None` as soon as they are not fewer than asked.
+fn survey(task: &Task<'_>, graph: &Graph, start: &Start, fewer_than: usize) -> Option<Vec<Unwashed>> {
     let mut here = *start;
     let mut unwashed = Vec::new();
     for k in graph.surveyed() {
-        if let Some(vertex) = graph.first(task, k, &here) {
-            here.q = vertex.q;
-            continue;
+        match graph.least_tilt(task, k, &here) {
+            Some(q) => here.q = q,
+            None => unwashed.push((k, here)),
         }
-        let contact = task.samples.at(graph.theta[k]);
-        let obstacle = |&tilt: &f64| task.posture(&task.cell.tip_rigid(&contact, tilt), &here).err();
-        let reasons = reasons(graph.tilts.iter().filter_map(obstacle));
-        unwashed.push((task.cell.seen(&contact).r, reasons));
+        if unwashed.len() >= fewer_than {
+            return None;
+        }
     }
-    unwashed
+    Some(unwashed)
 }
 
-/// Points gathered by what stands in their way.
-fn causes(unwashed: Vec<Unwashed>, tried: f64) -> Vec<Cause> {
+/// Points, each with its distance from axis 1 \[m\], gathered by what stands in their way.
+fn causes(unwashed: impl Iterator<Item = (f64, Vec<Reason>)>, tried: f64) -> Vec<Cause> {
     let mut found: Vec<Cause> = Vec::new();
-    let each = unwashed
-        .into_iter()
-        .flat_map(|(r, reasons)| reasons.into_iter().map(move |reason| (r, reason.least)));
+    let each = unwashed.flat_map(|(r, reasons)| reasons.into_iter().map(move |reason| (r, reason.least)));
     for (r, obstacle) in each {
         match found.iter_mut().find(|cause| cause.worst.filter() == obstacle.filter()) {
             Some(cause) => {

@@ -1,7 +1,7 @@
 //! How a plate is washed: the policies in turn, then the search.
 
 use super::blocked::blocked;
-use super::inverse::{Start, merge_starts};
+use super::inverse::{Start, Width, merge_starts};
 use super::policy::GENTLE_TILT_RAD;
 use super::search::{Graph, GraphPath};
 use super::spline::{TiltSpline, smoothed};
@@ -77,7 +77,7 @@ pub fn washing(
     near: &JointVector,
 ) -> Result<Washing, PostureError> {
     let task = Task::new(cell, stroke, centre, plate, settings, near)?;
-    match by_policy(&task, settings, near) {
+    match by_policy(&task, settings, near, Width::Everywhere) {
         Some(washing) => Ok(washing),
         None => by_search(&task, plate, settings, near),
     }
@@ -93,21 +93,53 @@ pub(super) fn policies(task: &Task<'_>, settings: &PostureSettings) -> Vec<TiltP
     let (centre, radius) = (task.samples.centre, task.samples.stroke.radius_m);
     let both = |&tilt: &f64| {
         let sloping = TiltPolicy::sloping(tilt, task.cell.seen(&centre).r, radius);
-        [sloping, TiltPolicy::upright(tilt)]
+        [sloping, TiltPolicy::upright(tilt)].map(|policy| within(policy, task, settings))
     };
     amplitudes.iter().flat_map(both).collect()
 }
 
-/// The washing by the first policy that will do.
-pub(super) fn by_policy(task: &Task<'_>, settings: &PostureSettings, near: &JointVector) -> Option<Washing> {
-    policies(task, settings).into_iter().find_map(|policy| {
-        let profile = Profile::Policy(policy);
-        let tilts = task.tilts(&profile);
-        let first = task.cell.tip_rigid(&task.samples.contact[0], tilts[0]);
-        let starts = task.cell.inverse.starts(&first, near).unwrap_or_default();
-        let q = starts.iter().find_map(|start| task.follow(&tilts, start).ok())?;
-        Some(finish(task, &profile, tilts, q, How::Policy(policy)))
+/// The policy, with less amplitude where on this stroke it would come nearer to the largest tilt than what follows may need.
+fn within(policy: TiltPolicy, task: &Task<'_>, settings: &PostureSettings) -> TiltPolicy {
+    let most = settings.planned_tilt_rad();
+    let tilt = |point: &Vector3<f64>| policy.tilt(task.cell.seen(point).r).abs();
+    let keeps = task.samples.contact.iter().all(|point| tilt(point) <= most);
+    TiltPolicy {
+        tilt_rad: if keeps {
+            policy.tilt_rad
+        } else {
+            policy.tilt_rad.min(most)
+        },
+        ..policy
+    }
+}
+
+/// The washing by the first policy that will do. Where branches are searched for, at most as widely as `widest`: first on
+/// those that are found from nearby.
+pub(super) fn by_policy(
+    task: &Task<'_>,
+    settings: &PostureSettings,
+    near: &JointVector,
+    widest: Width,
+) -> Option<Washing> {
+    let all = policies(task, settings);
+    let with = |width| all.iter().find_map(|policy| with_policy(task, policy, near, width));
+    with(Width::Near).or_else(|| {
+        let more = widest == Width::Everywhere && !task.cell.inverse.knows_all_branches();
+        more.then(|| with(Width::Everywhere)).flatten()
     })
+}
+
+/// The washing by one policy, on the first branch that will do.
+fn with_policy(task: &Task<'_>, policy: &TiltPolicy, near: &JointVector, width: Width) -> Option<Washing> {
+    let profile = Profile::Policy(*policy);
+    let tilts = task.tilts(&profile);
+    if !may_do(task, &tilts, near) {
+        return None;
+    }
+    let first = task.cell.tip_rigid(&task.samples.contact[0], tilts[0]);
+    let starts = task.cell.inverse.starts(&first, near, width).unwrap_or_default();
+    let q = starts.iter().find_map(|start| task.follow(&tilts, start).ok())?;
+    Some(finish(task, &profile, tilts, q, How::Policy(*policy)))
 }
 
 /// The washing by the cheapest path through the graph of tilts.
@@ -126,7 +158,7 @@ pub(super) fn by_search(
     let mut between = None;
     for start in starts {
         match graph.cheapest(task, &start) {
-            Ok(path) => match smooth(task, &graph, &path, &start) {
+            Ok(path) => match smooth(task, &graph, &path, &start, settings) {
                 Ok(washing) => return Ok(washing),
                 Err(stop) => between = between.or(Some(stop)),
             },
@@ -144,21 +176,66 @@ pub(super) fn by_search(
     })
 }
 
+/// Whether some branch reaches the contact points nearest to axis 1 and farthest from it, where every branch is known: it spares
+/// the way there.
+fn may_do(task: &Task<'_>, tilts: &[f64], near: &JointVector) -> bool {
+    let inverse = &task.cell.inverse;
+    if !inverse.knows_all_branches() {
+        return true;
+    }
+    let contact = &task.samples.contact;
+    let mut extremes = [(0, f64::INFINITY), (0, f64::NEG_INFINITY)];
+    for (k, point) in contact.iter().enumerate() {
+        let r = task.cell.distance(point);
+        if r < extremes[0].1 {
+            extremes[0] = (k, r);
+        }
+        if r > extremes[1].1 {
+            extremes[1] = (k, r);
+        }
+    }
+    let reached = |k: usize| {
+        let target = task.cell.tip_rigid(&contact[k], tilts[k]);
+        inverse.starts(&target, near, Width::Near).is_ok()
+    };
+    extremes.iter().all(|(k, _)| reached(*k))
+}
+
 /// The branches on which some tilt reaches the first contact point, those of the smallest tilts first.
 pub(super) fn search_starts(task: &Task<'_>, graph: &Graph, near: &JointVector) -> Vec<Start> {
     let mut tilts = graph.tilts.clone();
     tilts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let inverse = &task.cell.inverse;
+    if !inverse.knows_all_branches() {
+        // A search for branches costs too much to be made at each.
+        tilts = [tilts.first(), graph.tilts.first(), graph.tilts.last()]
+            .into_iter()
+            .flatten()
+            .copied()
+            .collect();
+    }
     let mut starts = Vec::new();
     for tilt in tilts {
         let target = task.cell.tip_rigid(&task.samples.contact[0], tilt);
-        merge_starts(&mut starts, task.cell.inverse.starts(&target, near).unwrap_or_default());
+        let found = inverse.starts(&target, near, Width::Everywhere);
+        merge_starts(&mut starts, found.unwrap_or_default());
     }
     starts
 }
 
 /// The path's tilts, as smooth as they can be and still do.
-fn smooth(task: &Task<'_>, graph: &Graph, path: &GraphPath, start: &Start) -> Result<Washing, Stop> {
-    let rough: Vec<f64> = path.tilt.iter().map(|&j| graph.tilts[j]).collect();
+fn smooth(
+    task: &Task<'_>,
+    graph: &Graph,
+    path: &GraphPath,
+    start: &Start,
+    settings: &PostureSettings,
+) -> Result<Washing, Stop> {
+    // A spline stays between its control values: where those keep within what is planned, so do its tilts.
+    let most = settings.planned_tilt_rad();
+    let planned = |tilt: f64| tilt.clamp(-most, most);
+    let rough: Vec<f64> = path.tilt.iter().map(|&j| planned(graph.tilts[j])).collect();
+    let ranges: Vec<_> = path.ranges.iter().map(|range| range.map(planned)).collect();
     let start = Start {
         q: path.first,
         ..*start
@@ -166,7 +243,7 @@ fn smooth(task: &Task<'_>, graph: &Graph, path: &GraphPath, start: &Start) -> Re
     let mut last_stop = None;
     for smoothing in SMOOTHING {
         let profile = Profile::Spline(TiltSpline {
-            control_rad: smoothed(&rough, &path.ranges, smoothing),
+            control_rad: smoothed(&rough, &ranges, smoothing),
             spacing_m: graph.spacing_m,
         });
         let tilts = task.tilts(&profile);

@@ -24,8 +24,10 @@ use serde::Serialize;
 pub enum Verdict {
     /// Every plate is washed and every limit kept.
     Washed,
-    /// The plan itself fails: a waypoint out of reach, or too little clearance.
+    /// The job cannot be done, or the plan itself fails: a waypoint out of reach, or too little clearance.
     Infeasible,
+    /// No way to do the job was found; there may be one.
+    NotFound,
     /// The plan would do, but its execution fails: coverage, limits or clearance.
     NotVerified,
 }

@@ -93,7 +93,12 @@ fn cycle(py: Python<'_>, error: &CycleError) -> PyErr {
         CycleError::NoContact { .. } => return keyed(py, "wash.height_m", &error.to_string()),
         CycleError::NoTool => return keyed(py, "tool.length_m", &error.to_string()),
         CycleError::Unwashable(plate) => {
-            fields.extend([("cause", any(py, "unwashable")), ("plate", any(py, plate.plate))]);
+            let cause = if plate.conclusion.is_proved() {
+                "unwashable"
+            } else {
+                "not_found"
+            };
+            fields.extend([("cause", any(py, cause)), ("plate", any(py, plate.plate))]);
             fields.push(("share", plate.share.and_then(|share| any(py, share))));
             let nearest = plate.nearest_m.and_then(|at| arrays::array(py, &[2], &at).ok());
             fields.push(("nearest_m", nearest.map(Bound::into_any)));
@@ -106,6 +111,7 @@ fn cycle(py: Python<'_>, error: &CycleError) -> PyErr {
         CycleError::Crossing(CrossingError::Line { plate, .. }) => {
             fields.extend([("cause", any(py, "line")), ("plate", any(py, *plate))]);
         }
+        CycleError::Tilt { plate, .. } => fields.extend([("cause", any(py, "tilt")), ("plate", any(py, *plate))]),
         CycleError::Home(violation) => {
             fields.extend([("cause", any(py, "home")), ("joint", any(py, violation.joint))]);
         }

@@ -1,0 +1,105 @@
+//! Certified jobs of other arms: washed, or what is known of why not.
+
+use super::*;
+
+const UR5: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/crates/kinematics/tests/fixtures/ur5_lengths.urdf"
+);
+const KR5: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/crates/kinematics/tests/fixtures/kr5_lengths.urdf"
+);
+
+/// A cell with plates of 220 mm.
+fn cell(dir: &Path, start_deg: &str, positions_m: &str, plate_height_m: f64) -> PathBuf {
+    let text = format!(
+        r#"
+name = "cell"
+seed = 1
+[job]
+program = "certified"
+on_failure = "fail"
+[robot]
+start_deg = {start_deg}
+[tool]
+length_m = 0.15
+[layout]
+positions_m = {positions_m}
+plate_radius_m = 0.11
+plate_height_m = {plate_height_m}
+[wash]
+turns = 3
+path_radius_m = 0.09
+height_m = 0
+closing_ring = true
+clearance_m = 0.01
+"#
+    );
+    let path = dir.join("cell.toml");
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+const UR5_START: &str = "[0, -90, 90, -90, -90, 0]";
+
+fn run(dir: &Path, verb: &str, file: &Path, urdf: &str) -> Ran {
+    let file = file.to_str().unwrap();
+    platewash(dir, &[verb, "--scenario", file, "--urdf", urdf, "--out", "o", "--json"])
+}
+
+/// The tilt search of the first plate goes up to the limit; the motion between its points went 0.0026° beyond.
+#[test]
+fn the_largest_tilt_is_kept_by_an_arm_that_needs_all_of_it() {
+    let folder = folder();
+    let dir = folder.path();
+    for positions in ["[[0.55, 0.0]]", "[[0.55, 0.0], [0.1, 0.55], [0.1, -0.55]]"] {
+        let file = cell(dir, "[0, -90, 90, 0, 90, 0]", positions, 0.2);
+        let report = run(dir, "run", &file, KR5).done().json();
+        assert_eq!(report["verdict"], "washed", "{}", report["headline"]);
+    }
+}
+
+/// The same place, seen from axis 1: it was washed at −150° and denied at 180°.
+#[test]
+fn a_place_is_not_denied_because_it_lies_behind_the_start() {
+    let folder = folder();
+    let dir = folder.path();
+    for positions in ["[[-0.4408, -0.2545]]", "[[-0.509, 0.0]]"] {
+        let file = cell(dir, UR5_START, positions, 0.1);
+        let report = run(dir, "run", &file, UR5).done().json();
+        assert_eq!(report["verdict"], "washed", "{}", report["headline"]);
+    }
+}
+
+#[test]
+fn what_was_only_not_found_is_not_said_to_be_impossible() {
+    let folder = folder();
+    let dir = folder.path();
+    let file = cell(dir, UR5_START, "[[0.95, 0.0]]", 0.1);
+    let ran = run(dir, "plan", &file, UR5);
+    assert_eq!(ran.code, 3, "{}", ran.stderr);
+    let report = ran.json();
+    assert_eq!(report["verdict"], "not_found");
+    assert_eq!(report["plates"][0]["conclusion"], "not_found");
+    let headline = report["headline"].as_str().unwrap();
+    assert!(
+        headline.starts_with("NOT FOUND: no way to wash plate 0 at (0.950, 0.000) m whole was found"),
+        "{headline}"
+    );
+    assert!(!headline.contains("cannot"), "{headline}");
+    // Farther away than the links are long together, it is known.
+    let file = cell(dir, UR5_START, "[[2.0, 0.0]]", 0.1);
+    let ran = run(dir, "plan", &file, UR5);
+    assert_eq!(ran.code, 3, "{}", ran.stderr);
+    let report = ran.json();
+    assert_eq!(
+        (&report["verdict"], &report["plates"][0]["conclusion"]),
+        (&"infeasible".into(), &"beyond_reach".into())
+    );
+    assert!(
+        report["headline"].as_str().unwrap().contains("cannot be washed whole"),
+        "{}",
+        report["headline"]
+    );
+}
