@@ -5,6 +5,7 @@ use platewash::planner::certificate::{self, CertificateVerdict, PromiseName, Sta
 use platewash::planner::cycle::CycleReport;
 use platewash::planner::robot;
 use platewash::planner::scenario::Overlap;
+use platewash::planner::sweep;
 use platewash::{Certificate, Cycle, Plan, RobotModel, Scenario};
 use std::path::Path;
 
@@ -141,6 +142,92 @@ fn overlap_that_is_only_reported_is_exempt_and_no_pass() {
     let apart = certificate.promise(PromiseName::PlatesApart).unwrap();
     assert_eq!((apart.status, apart.discrepancies.len()), (Status::Exempt, 1));
     assert_eq!(certificate.verdict, CertificateVerdict::Pass);
+    // Each wash sweeps half of the other plate.
+    let swept = certificate.promise(PromiseName::EveryPlateOnce).unwrap();
+    assert_eq!((swept.status, swept.discrepancies.len()), (Status::Exempt, 2));
+}
+
+#[test]
+fn an_exemption_is_in_the_first_line_and_in_the_data() {
+    let mut scenario = one_plate();
+    scenario.layout.positions_m = Some(vec![[0.36, -0.1], [0.36, 0.11]]);
+    scenario.layout.overlap = Overlap::Report;
+    let (cycle, certificate) = judged(&scenario);
+    let apart = "plates apart, gap between plate 0 and plate 1 -80.0 mm";
+    for (line, verdict) in [
+        (certificate.to_string(), "CERTIFIED"),
+        (CycleReport::new(&cycle, certificate.clone()).headline, "PROVED"),
+    ] {
+        let line = line.lines().next().unwrap();
+        assert!(
+            line.starts_with(&format!("{verdict} BUT FOR every plate once")),
+            "{line}"
+        );
+        assert!(
+            line.contains(apart) && line.contains("waived by layout.overlap = \"report\""),
+            "{line}"
+        );
+    }
+    assert_eq!(
+        certificate.exempt,
+        [PromiseName::EveryPlateOnce, PromiseName::PlatesApart]
+    );
+    let data = serde_json::to_value(&certificate).unwrap();
+    assert_eq!(data["exempt"], serde_json::json!(["every_plate_once", "plates_apart"]));
+    assert!(data["headline"].as_str().unwrap().starts_with("CERTIFIED BUT FOR"));
+    let rows = sweep::sweep(&scenario, 1..=1).unwrap();
+    assert_eq!(rows[0].outcome.name(), "proved");
+    assert!(rows[0].reason.as_ref().unwrap().contains(apart), "{:?}", rows[0].reason);
+    // Nothing of the kind where nothing is waived.
+    let certificate = judged(&one_plate()).1;
+    assert!(certificate.exempt.is_empty() && certificate.headline.starts_with("CERTIFIED: kitchen, "));
+}
+
+/// Everything is swept, every line of the motion is kept, and each plate is washed twice.
+#[test]
+fn a_wash_that_sweeps_the_neighbour_too_is_not_every_plate_once() {
+    let mut scenario = one_plate();
+    scenario.layout.positions_m = Some(vec![[0.36, -0.06], [0.36, 0.06]]);
+    (scenario.layout.plate_radius_m, scenario.layout.min_distance_m) = (0.05, 0.1);
+    (scenario.wash.path_radius_m, scenario.wash.turns) = (0.15, 4.5);
+    let (cycle, certificate) = judged(&scenario);
+    let broken: Vec<_> = certificate.broken().map(|promise| promise.name).collect();
+    assert_eq!(broken, [PromiseName::EveryPlateOnce], "{certificate}");
+    let promise = certificate.promise(PromiseName::EveryPlateOnce).unwrap();
+    let named: Vec<_> = promise.discrepancies.iter().map(|d| d.what.as_str()).collect();
+    assert_eq!(
+        named,
+        ["plate 1 while plate 0 is washed", "plate 0 while plate 1 is washed"]
+    );
+    for swept in &certificate.coverage {
+        // 150 mm of path and 25 mm of sponge, less 50 mm of plate.
+        assert!((swept.beyond_rim_seen_m - 0.125).abs() < 1e-4, "{swept:?}");
+        assert_eq!(swept.touches.len(), 1);
+    }
+    let headline = CycleReport::new(&cycle, certificate).headline;
+    assert!(
+        headline.starts_with("NOT PROVED") && headline.ends_with("every plate once"),
+        "{headline}"
+    );
+}
+
+/// The rims of neighbours are run over where the stroke ends at the rim; that is what such a job is, and it is named.
+#[test]
+fn a_neighbours_rim_may_be_touched_and_is_named() {
+    let mut scenario = Scenario::load("kitchen-rim").unwrap();
+    scenario.layout.positions_m = Some(vec![[0.3, -0.15], [0.3, 0.15]]);
+    let (_, certificate) = judged(&scenario);
+    assert_eq!(certificate.verdict, CertificateVerdict::Pass, "{certificate}");
+    for (swept, other) in certificate
+        .coverage
+        .iter()
+        .zip([1, 0].map(|i| certificate.coverage[i].plate))
+    {
+        // 25 mm beyond the rim and a gap of 10 mm.
+        let touched = &swept.touches[0];
+        assert_eq!((swept.touches.len(), touched.plate), (1, other));
+        assert!((touched.depth_m - 0.015).abs() < 2e-4, "{touched:?}");
+    }
 }
 
 #[test]
@@ -165,19 +252,34 @@ fn the_headline_says_no_more_than_is_covered() {
     assert!(
         report
             .headline
-            .starts_with(&format!("PROVED: 1 plates washed by at least {share:.1} %")),
+            .starts_with(&format!("PROVED: 1 plate washed by at least {share:.1} %")),
         "{}",
         report.headline
     );
     scenario.job.required_coverage = 0.99;
     let (cycle, certificate) = judged(&scenario);
     let report = CycleReport::new(&cycle, certificate);
-    assert!(report.headline.starts_with("NOT PROVED"), "{}", report.headline);
+    assert!(
+        report.headline.starts_with("NOT PROVED: a plan for 1 plate in"),
+        "{}",
+        report.headline
+    );
     assert!(
         report.headline.ends_with("does not keep coverage"),
         "{}",
         report.headline
     );
+}
+
+/// A sponge of 10 mm on a stroke for one of 25 mm: six tenths of the plate are swept, and no plate is washed.
+#[test]
+fn a_summary_counts_only_plates_that_are_swept() {
+    let mut scenario = one_plate();
+    let summary = |scenario: &Scenario| Cycle::plan(scenario).unwrap().to_plan().unwrap().summary;
+    assert_eq!(summary(&scenario).plates_washed, 1);
+    assert!(summary(&scenario).headline.starts_with("1 plate in "));
+    scenario.tool.sponge_radius_m = 0.01;
+    assert_eq!(summary(&scenario).plates_washed, 0);
 }
 
 #[test]
@@ -209,6 +311,134 @@ fn a_plan_with_a_key_too_many_is_no_plan() {
     let edited = text.replacen("{", "{\"bogus\":1,", 1);
     let error = Plan::from_json(&edited).unwrap_err().to_string();
     assert!(error.contains("bogus"), "{error}");
+}
+
+/// A plan of one plate, as data.
+fn as_data() -> serde_json::Value {
+    let (cycle, _) = judged(&one_plate());
+    serde_json::to_value(cycle.to_plan().unwrap()).unwrap()
+}
+
+/// What reading says of a plan after a change.
+fn refusal(data: &serde_json::Value, change: impl FnOnce(&mut serde_json::Value)) -> String {
+    let mut data = data.clone();
+    change(&mut data);
+    Plan::from_json(&data.to_string()).unwrap_err().to_string()
+}
+
+#[test]
+fn keys_that_no_plan_has_are_refused_wherever_they_are() {
+    let data = as_data();
+    // Free, line and stroke.
+    for segment in 0..3 {
+        let said = refusal(&data, |plan| plan["tool_path"][segment]["sponge"] = "none".into());
+        assert!(
+            said.contains(&format!("unknown key 'tool_path[{segment}].sponge'")),
+            "{said}"
+        );
+    }
+    for (place, key) in [
+        ("/plates/0", "colour"),
+        ("/scenario/wash", "soap"),
+        ("/knots", "qdd"),
+        ("/summary", "praise"),
+    ] {
+        let said = refusal(&data, |plan| plan.pointer_mut(place).unwrap()[key] = 1.into());
+        assert!(said.contains(key), "{said}");
+    }
+}
+
+#[test]
+fn keys_that_are_missing_are_not_filled_in() {
+    let data = as_data();
+    let sections = data["scenario"].as_object().unwrap();
+    for (section, keys) in sections {
+        let drop = |plan: &mut serde_json::Value| _ = plan["scenario"].as_object_mut().unwrap().remove(section);
+        assert!(refusal(&data, drop).contains(&format!("'scenario.{section}' is missing")));
+        for key in keys.as_object().into_iter().flat_map(|keys| keys.keys()) {
+            let drop =
+                |plan: &mut serde_json::Value| _ = plan["scenario"][section].as_object_mut().unwrap().remove(key);
+            let mut without = data.clone();
+            drop(&mut without);
+            match Plan::from_json(&without.to_string()) {
+                Err(e) => assert!(
+                    e.to_string()
+                        .contains(&format!("'scenario.{section}.{key}' is missing")),
+                    "{e}"
+                ),
+                // What is optional may be left out; that is another plan.
+                Ok(plan) => assert!(
+                    ["positions_m", "region"].contains(&key.as_str()) && !plan.is_sealed(),
+                    "{key}"
+                ),
+            }
+        }
+    }
+    let said = refusal(&data, |plan| {
+        plan["scenario"]["tool"]["com_m"] = serde_json::Value::Null
+    });
+    assert!(
+        said.contains("'scenario.tool.com_m' is null; expected left out"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_key_that_is_stated_twice_is_refused() {
+    let text = as_data().to_string();
+    for (once, twice) in [
+        ("\"shape\":\"stroke\"", "\"shape\":\"free\",\"shape\":\"stroke\""),
+        ("\"turns\":3.5", "\"turns\":9.5,\"turns\":3.5"),
+        ("\"order\":[0]", "\"order\":[0],\"order\":[0]"),
+    ] {
+        let edited = text.replacen(once, twice, 1);
+        assert_ne!(edited, text);
+        let said = Plan::from_json(&edited).unwrap_err().to_string();
+        assert!(said.contains("twice") || said.contains("duplicate field"), "{said}");
+    }
+}
+
+/// White space, the order of keys and the way a number is written are not contents.
+#[test]
+fn a_plan_written_otherwise_is_the_same_plan() {
+    let data = as_data();
+    let plan = Plan::from_json(&serde_json::to_string_pretty(&data).unwrap()).unwrap();
+    assert!(plan.is_sealed());
+    let text = plan.to_json().unwrap();
+    let edited = text.replacen("\"clearance_m\":0.01", "\"clearance_m\":1.00e-2", 1) + "\n";
+    assert_ne!(edited, text);
+    assert_eq!(Plan::from_json(&edited).unwrap(), plan);
+}
+
+/// JSON's numbers are doubles: from 2⁵³ on two whole numbers are one.
+#[test]
+fn seeds_and_indices_that_json_cannot_tell_apart_have_no_hash() {
+    const ABOVE: u64 = 1 << 53;
+    let (cycle, _) = judged(&one_plate());
+    let plan = cycle.to_plan().unwrap();
+    let with = |seed: u64| {
+        let mut plan = plan.clone();
+        plan.scenario.seed = seed;
+        plan
+    };
+    assert!(with(ABOVE - 1).seal().is_ok());
+    assert!(with(ABOVE + 1).seal().is_err());
+    for seed in [ABOVE, ABOVE + 1, u64::MAX] {
+        let error = with(seed).scenario.validate().unwrap_err().to_string();
+        let expected = format!("seed must be a whole number from 0 to 9007199254740991 (2^53 − 1); found {seed}");
+        assert!(error.contains(&expected), "{error}");
+        let verified = certificate::verify(&with(seed), &cycle.robot).unwrap_err().to_string();
+        assert!(verified.contains(&expected), "{verified}");
+    }
+    let text = plan.to_json().unwrap();
+    let said = Plan::from_json(&text.replacen("\"seed\":1,", "\"seed\":9007199254740993,", 1));
+    let said = said.unwrap_err().to_string();
+    assert!(
+        said.contains("'scenario.seed' is 9007199254740993; expected a whole number from 0 to"),
+        "{said}"
+    );
+    let error = sweep::sweep(&one_plate(), ABOVE..=ABOVE).unwrap_err().to_string();
+    assert!(error.contains("9007199254740991"), "{error}");
 }
 
 #[test]

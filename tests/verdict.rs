@@ -40,7 +40,7 @@ fn judged(change: impl FnOnce(&mut Scenario)) -> JobReport {
 #[test]
 fn a_plate_that_is_covered_clear_and_touched_is_washed() {
     let report = judged(|_| ());
-    assert_eq!(report.headline, "WASHED: 1 of 1 plates, every limit kept.");
+    assert_eq!(report.headline, "WASHED: 1 of 1 plate, every limit kept.");
     assert_eq!(report.verdict, Verdict::Washed);
     let plate = &report.plates[0];
     assert!(plate.washed && plate.executed_coverage.lower > 0.995 && plate.in_contact == plate.waypoints);
@@ -77,10 +77,7 @@ fn a_hovering_flange_washes_nothing() {
 fn limits_that_are_broken_are_named_with_their_time() {
     let report = judged(|s| s.control.dt_s = 0.1);
     assert_eq!(report.verdict, Verdict::NotVerified);
-    assert_eq!(
-        report.headline,
-        "NOT WASHED: 1 of 1 plates washed; joint limits broken."
-    );
+    assert_eq!(report.headline, "NOT WASHED: 1 of 1 plate washed; joint limits broken.");
     let worst = &report.executed.violations[0];
     assert_eq!(
         (worst.kind, worst.who.as_str()),
@@ -95,7 +92,7 @@ fn too_little_clearance_names_every_pair() {
     assert_eq!(report.verdict, Verdict::Infeasible);
     assert_eq!(
         report.headline,
-        "NOT WASHED: 0 of 1 plates washed; too little clearance."
+        "NOT WASHED: 0 of 1 plate washed; too little clearance."
     );
     let mut pairs: Vec<_> = report.planned.violations.iter().map(|v| v.who.as_str()).collect();
     pairs.dedup();

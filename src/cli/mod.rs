@@ -63,6 +63,9 @@ enum Verb {
     /// Check a scenario without running it.
     Validate,
     /// Judge a plan file: what is proved about it, and what is not.
+    ///
+    /// Exit code 0 where it is certified, 4 where it is not. What the scenario waives (layout.overlap = "report") is no failure, so that the
+    /// code is 0: the first line then says CERTIFIED BUT FOR and what, and JSON lists it as `exempt`.
     Verify(verify::VerifyArguments),
     /// Simulate a plan file under a control law: tracking, torque, and what is really washed.
     Simulate(simulate::SimulateArguments),

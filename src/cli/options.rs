@@ -4,7 +4,7 @@ use super::failure::Failure;
 use anyhow::{Context, anyhow, ensure};
 use clap::Args;
 use platewash::planner::robot;
-use platewash::planner::scenario::{SHIPPED, ScenarioError};
+use platewash::planner::scenario::{MAX_SEED, SHIPPED, ScenarioError};
 use platewash::{PlanError, RobotModel, Scenario};
 use rayon::ThreadPool;
 use std::path::PathBuf;
@@ -18,7 +18,7 @@ pub struct Options {
     /// Scenario: a file, or a shipped name (kitchen, kitchen-roomy, kitchen-rim, paper-appendix, paper-text) [default: kitchen]
     #[arg(long, global = true, value_name = "FILE|NAME")]
     pub scenario: Option<String>,
-    /// Seed in place of the scenario's, from 0 to 2^63 − 1
+    /// Seed in place of the scenario's, from 0 to 2^53 − 1
     #[arg(long, global = true, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
     /// Folder for files that are written
@@ -129,11 +129,10 @@ impl Options {
     }
 }
 
-/// A seed as a scenario may state one: TOML knows no larger integers.
-fn seed(text: &str) -> anyhow::Result<u64> {
-    const MOST: u64 = i64::MAX as u64;
-    let expected = || format!("must be a whole number from 0 to {MOST} (2^63 − 1)");
+/// A seed as a scenario may state one.
+pub fn seed(text: &str) -> anyhow::Result<u64> {
+    let expected = || format!("must be a whole number from 0 to {MAX_SEED} (2^53 − 1)");
     let seed = text.parse().with_context(expected)?;
-    ensure!(seed <= MOST, expected());
+    ensure!(seed <= MAX_SEED, expected());
     Ok(seed)
 }

@@ -8,6 +8,7 @@ use anyhow::{Context, anyhow, ensure};
 use clap::Args;
 use platewash::planner::plan::PlanSegment;
 use platewash::planner::scenario::Program;
+use platewash::planner::words::counted;
 use platewash::planner::{csv, job, plan, robot};
 use platewash::{Job, JobReport, Plan, PlanError, RobotModel, Scenario, Trajectory};
 use std::path::PathBuf;
@@ -58,9 +59,9 @@ pub fn carry_out(options: &Options, scenario: &Scenario) -> Result<(Job, JobRepo
     let layout = job::place_plates(scenario, &robot).map_err(PlanError::from)?;
     let job = Job::on(scenario, robot, layout).map_err(|error| options.failure(error))?;
     tracing::info!(
-        "planned {} waypoints on {} plates",
+        "planned {} waypoints on {}",
         job.tool_path.len(),
-        job.layout.plates.len()
+        counted(job.layout.plates.len(), "plate")
     );
     let report = job.report()?;
     tracing::info!("checked {} violations", report.executed.violations.len());

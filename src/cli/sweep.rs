@@ -1,13 +1,13 @@
 //! `platewash sweep`: many layouts of one scenario, each planned and proved.
 
 use super::failure::{ExitCode, Failure, INFEASIBLE, NOT_VERIFIED};
-use super::options::Options;
+use super::options::{self, Options};
 use super::output;
 use super::progress::Progress;
 use anyhow::{Context, ensure};
 use clap::Args;
 use platewash::Scenario;
-use platewash::planner::scenario::{OnFailure, Program};
+use platewash::planner::scenario::{MAX_SEED, OnFailure, Program};
 use platewash::planner::sweep::{self, SweepOutcome, SweepRow};
 use std::io::IsTerminal;
 use std::ops::RangeInclusive;
@@ -19,7 +19,7 @@ const MOST_LAYOUTS: u64 = 100_000;
 #[derive(Debug, Args)]
 pub struct SweepArguments {
     /// Seeds, both ends included, e.g. 1..200
-    #[arg(long, value_name = "FIRST..LAST", value_parser = seeds)]
+    #[arg(long, value_name = "FIRST..LAST", value_parser = seeds, allow_hyphen_values = true)]
     pub seeds: RangeInclusive<u64>,
 }
 
@@ -85,13 +85,13 @@ fn rows(options: &Options, scenario: &Scenario, arguments: &SweepArguments) -> R
 }
 
 fn seeds(text: &str) -> anyhow::Result<RangeInclusive<u64>> {
-    let expected = "must be FIRST..LAST, two whole numbers, the first at most the last";
-    let (first, last) = text.split_once("..").context(expected)?;
-    let (first, last): (u64, u64) = (
-        first.trim().parse().context(expected)?,
-        last.trim().parse().context(expected)?,
-    );
-    ensure!(first <= last, expected);
+    let expected = || {
+        format!("must be FIRST..LAST, two whole numbers from 0 to {MAX_SEED} (2^53 − 1), the first at most the last")
+    };
+    let (first, last) = text.split_once("..").with_context(expected)?;
+    let end = |text: &str| options::seed(text.trim()).with_context(expected);
+    let (first, last) = (end(first)?, end(last)?);
+    ensure!(first <= last, expected());
     ensure!(last - first < MOST_LAYOUTS, "at most {MOST_LAYOUTS} layouts at a time");
     Ok(first..=last)
 }

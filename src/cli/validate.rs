@@ -5,6 +5,7 @@ use super::options::Options;
 use super::output;
 use platewash::planner::layout::{Finding, LayoutError};
 use platewash::planner::scenario::Program;
+use platewash::planner::words::counted;
 use platewash::planner::{job, robot};
 use platewash::{Cycle, Layout, PlanError, Scenario};
 use serde::Serialize;
@@ -71,7 +72,7 @@ fn sampling(scenario: &Scenario) -> Result<Sampling, Failure> {
 
 fn outcome(placed: &Result<Layout, LayoutError>) -> String {
     match placed {
-        Ok(layout) => format!("a layout of {} plates was found", layout.plates.len()),
+        Ok(layout) => format!("a layout of {} was found", counted(layout.plates.len(), "plate")),
         Err(error) => format!("{error}; another seed may do better"),
     }
 }

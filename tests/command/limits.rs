@@ -32,6 +32,33 @@ fn work_without_end_is_refused() {
     assert_eq!(names(dir), ["case.toml"]);
 }
 
+/// JSON's numbers are doubles: above 2⁵³ − 1 two seeds could have one plan file.
+#[test]
+fn seeds_that_a_plan_file_cannot_tell_apart_are_refused_wherever_they_are_given() {
+    let folder = folder();
+    let dir = folder.path();
+    let largest = "9007199254740991 (2^53 − 1)";
+    platewash(dir, &["layout", "--seed", "9007199254740991"]).done();
+    for seed in ["9007199254740992", "9007199254740993", "-1", "18446744073709551616"] {
+        platewash(dir, &["layout", "--seed", seed]).refused(2, &["--seed", "from 0 to", largest]);
+        let seeds = format!("{seed}..{seed}");
+        platewash(dir, &["sweep", "--seeds", &seeds]).refused(2, &["--seeds", "FIRST..LAST", largest]);
+        std::fs::write(
+            dir.join("case.toml"),
+            format!("seed = {seed}\n[layout]\nregion = \"text\"\n"),
+        )
+        .unwrap();
+        platewash(dir, &["layout", "--scenario", "case.toml"]).refused(2, &["case.toml"]);
+    }
+    std::fs::write(
+        dir.join("case.toml"),
+        "seed = 9007199254740992\n[layout]\nregion = \"text\"\n",
+    )
+    .unwrap();
+    let told = ["case.toml", "line 1", "seed must be", largest, "found 9007199254740992"];
+    platewash(dir, &["layout", "--scenario", "case.toml"]).refused(2, &told);
+}
+
 #[test]
 fn more_configurations_than_a_hundred_thousand_are_refused() {
     let folder = folder();

@@ -34,7 +34,7 @@ fn bad_scenarios_are_refused_with_line_key_expected_and_found() {
         (
             "seed = 1",
             "seed = -1",
-            &["seed", "from 0 to 9223372036854775807", "found -1"],
+            &["seed", "from 0 to 9007199254740991", "found -1"],
         ),
         (
             "name = \"paper-appendix\"",

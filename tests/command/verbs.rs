@@ -176,7 +176,7 @@ fn bad_usage_is_exit_code_2_and_help_is_0() {
     let dir = folder.path();
     platewash(dir, &["fly"]).refused(2, &["fly"]);
     for seed in ["-1", "9223372036854775808", "99999999999999999999", "one"] {
-        let range = "from 0 to 9223372036854775807";
+        let range = "from 0 to 9007199254740991";
         platewash(dir, &["run", "--seed", seed]).refused(2, &["--seed", seed, range]);
     }
     platewash(dir, &["run", "--threads", "0"]).refused(2, &["--threads"]);

@@ -27,6 +27,77 @@ fn a_plan_of_the_papers_program_is_judged_and_not_certified() {
     assert_eq!(status("coverage"), "not_proved");
 }
 
+/// Two plates 80 mm into each other, which is only to be reported.
+const OVERLAPPING: &str = "name = \"overlapping\"
+[tool]
+length_m = 0.15
+[robot]
+start_deg = [0, 0, 0, 0, 90, 0]
+[layout]
+positions_m = [[0.36, -0.1], [0.36, 0.11]]
+overlap = \"report\"
+[wash]
+turns = 3.5
+path_radius_m = 0.12385
+height_m = 0
+closing_ring = true
+clearance_m = 0.01
+";
+
+#[test]
+fn what_is_waived_is_in_the_first_line_and_in_the_data_and_is_no_failure() {
+    let folder = folder();
+    let dir = folder.path();
+    std::fs::write(dir.join("case.toml"), OVERLAPPING).unwrap();
+    let waived = "plates apart, gap between plate 0 and plate 1 -80.0 mm (waived by layout.overlap = \"report\")";
+    let ran = platewash(dir, &["run", "--scenario", "case.toml", "--quiet"]).done();
+    let first = ran.stdout.lines().next().unwrap();
+    assert!(first.starts_with("PROVED BUT FOR every plate once"), "{first}");
+    assert!(first.contains(waived), "{first}");
+    let ran = platewash(dir, &["verify", "out/plan.json"]).done();
+    let first = ran.stdout.lines().next().unwrap();
+    assert!(first.starts_with("CERTIFIED BUT FOR every plate once"), "{first}");
+    assert!(first.contains(waived), "{first}");
+    let certificate = platewash(dir, &["verify", "out/plan.json", "--json"]).done().json();
+    assert_eq!(
+        certificate["exempt"],
+        serde_json::json!(["every_plate_once", "plates_apart"])
+    );
+    let written: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(dir.join("out/certificate.json")).unwrap()).unwrap();
+    assert_eq!(written, certificate);
+    // The help says what the exit code says of it.
+    let help = platewash(dir, &["verify", "--help"]).done().stdout;
+    assert!(help.contains("exempt") && help.contains("code 0"), "{help}");
+}
+
+/// What is added to a plan or left out of it is refused, not passed over.
+#[test]
+fn a_plan_with_other_contents_is_no_plan() {
+    let folder = folder();
+    let dir = folder.path();
+    platewash(dir, &["plan", "--quiet"]).done();
+    let text = std::fs::read_to_string(dir.join("out/plan.json")).unwrap();
+    for (from, to, told) in [
+        (
+            "\"shape\":\"stroke\"",
+            "\"shape\":\"stroke\",\"soap\":1",
+            "unknown key 'tool_path[2].soap'",
+        ),
+        (
+            "\"shape\":\"line\"",
+            "\"shape\":\"line\",\"soap\":1",
+            "unknown key 'tool_path[1].soap'",
+        ),
+        ("\"points\":55,", "", "'scenario.wash.points' is missing"),
+    ] {
+        let edited = text.replacen(from, to, 1);
+        assert_ne!(edited, text);
+        std::fs::write(dir.join("edited.json"), edited).unwrap();
+        platewash(dir, &["verify", "edited.json"]).refused(2, &["edited.json", told]);
+    }
+}
+
 #[test]
 fn what_is_no_plan_is_refused() {
     let folder = folder();

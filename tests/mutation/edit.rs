@@ -1,7 +1,7 @@
 //! A single edit of a good plan, and what is known of it beforehand.
 
 use platewash::Plan;
-use platewash::planner::certificate::PromiseName;
+use platewash::planner::certificate::{self, PromiseName};
 use platewash::planner::random::stream;
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -105,11 +105,15 @@ pub struct Edit {
 }
 
 impl Edit {
-    /// The edited plan, sealed again. Random edits draw from a stream of their own.
+    /// The edited plan, with the summary that follows from it unless that is what was edited, sealed again. Random edits draw from a
+    /// stream of their own.
     pub fn apply(&self, good: &Plan) -> Plan {
         let mut plan = good.clone();
         (self.apply)(&mut plan, &mut stream(DETAILS, &self.what));
         assert!(plan != *good, "{}: changes nothing", self.what);
+        if plan.summary == good.summary {
+            plan.summary = certificate::summary(&plan, crate::good::good()[0].robot);
+        }
         plan.hash = Some(plan.seal().unwrap());
         plan
     }

@@ -36,7 +36,8 @@ def test_the_kitchen_is_proved(cycle: pw.Cycle) -> None:
     assert certificate.proved and certificate.verdict == "pass" and certificate.broken == []
     assert {p.status for p in certificate.promises} == {"pass"}
     assert certificate == pw.verify(plan, pw.Robot.irb120())
-    assert str(certificate).startswith("CERTIFIED")
+    assert str(certificate).startswith(f"{certificate.headline}\n") and certificate.headline.startswith("CERTIFIED: kitchen")
+    assert certificate.exempt == []
     report = cycle.report()
     assert report.verdict == "washed" and str(report).startswith("PROVED")
     assert len(report.visits) == len(cycle.order) == len(plan.plates) == 4
@@ -288,3 +289,35 @@ def test_copies_and_pickles_are_equal(cycle: pw.Cycle, job: pw.Job) -> None:
     for thing in things:
         assert pickle.loads(pickle.dumps(thing)) == thing == copy.copy(thing) == copy.deepcopy(thing)
         assert thing != 3 and type(thing).__name__ in repr(thing)
+
+
+def test_seeds_are_whole_numbers_that_a_plan_file_can_tell_apart() -> None:
+    largest = 2**53 - 1
+    scenario = pw.Scenario.load("kitchen")
+    assert scenario.replace(seed=largest).seed == largest
+    expected = rf"seed must be a whole number from 0 to {largest} \(2\^53 − 1\); found {largest + 1}"
+    with pytest.raises(pw.ScenarioError, match=expected):
+        scenario.replace(seed=largest + 1)
+    with pytest.raises(pw.ScenarioError, match=expected):
+        pw.plan(scenario, seed=largest + 1)
+    with pytest.raises(pw.ScenarioError, match=str(largest)):
+        pw.sweep(scenario, [1, largest + 1])
+
+
+def test_what_is_waived_is_said_first() -> None:
+    layout = {"positions_m": [[0.36, -0.1], [0.36, 0.11]], "overlap": "report"}
+    certificate = pw.verify(pw.plan(pw.Scenario.load("kitchen").replace(layout=layout)))
+    assert certificate.proved and certificate.exempt == ["every_plate_once", "plates_apart"]
+    assert str(certificate).startswith("CERTIFIED BUT FOR every plate once, ")
+
+
+def test_a_plan_file_is_read_strictly() -> None:
+    plan = pw.plan("kitchen")
+    table = plan.to_dict()
+    assert pw.Plan.from_json(json.dumps(table)) == plan
+    table["tool_path"][2]["soap"] = 1
+    with pytest.raises(pw.PlanFileError, match=r"unknown key 'tool_path\[2\]\.soap'"):
+        pw.Plan.from_json(json.dumps(table))
+    del table["tool_path"][2]["soap"], table["scenario"]["wash"]["turns"]
+    with pytest.raises(pw.PlanFileError, match=r"'scenario\.wash\.turns' is missing"):
+        pw.Plan.from_json(json.dumps(table))

@@ -31,5 +31,6 @@ pub mod tool_path;
 pub mod tracking;
 pub mod trajectory;
 pub mod transition;
+pub mod words;
 
 pub(crate) use platewash_kinematics::trig;

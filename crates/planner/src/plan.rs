@@ -1,5 +1,7 @@
 //! The plan file: everything that a verifier needs besides the URDF, sealed with a hash.
 
+mod contents;
+
 use crate::job::Job;
 use crate::layout::Plate;
 use crate::report::JobReport;
@@ -222,13 +224,26 @@ pub struct Knots {
     pub qd_rad_s: Vec<JointVector>,
 }
 
-/// What a reader wants to know first.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+impl Knots {
+    /// No knots at all.
+    fn none() -> Self {
+        Self {
+            t_s: Vec::new(),
+            q_rad: Vec::new(),
+            qd_rad_s: Vec::new(),
+        }
+    }
+}
+
+/// What a reader wants to know first. Of a certified job it follows from the rest of the plan ([`crate::certificate::summary`]), and the
+/// certificate judges it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Summary {
     /// The report's first line.
     pub headline: String,
-    /// Plates that count as washed.
+    /// Plates that count as washed: of a certified job those that the stroke sweeps to the share required, with the sponge tilted as
+    /// much as it may be or, where that is not enough, as much as it is at the knots.
     pub plates_washed: usize,
     /// Duration \[s\].
     pub duration_s: f64,
@@ -251,6 +266,28 @@ pub enum PlanFileError {
     Unreadable {
         /// The parser's words, with line and column.
         detail: String,
+    },
+    /// A key that no plan has.
+    #[error("unknown key '{key}': a plan states what this program knows and nothing else")]
+    UnknownKey {
+        /// Its place, e.g. `tool_path[2].extra`.
+        key: String,
+    },
+    /// A key that is left out. Nothing is filled in: the hash is that of what the file says.
+    #[error("'{key}' is missing: a plan states every value, defaults too; plan the scenario again")]
+    MissingKey {
+        /// Its place, e.g. `scenario.wash.turns`.
+        key: String,
+    },
+    /// A value that says something else than what would be read.
+    #[error("'{key}' is {found}; expected {read}")]
+    Inexact {
+        /// Its place.
+        key: String,
+        /// What the file says.
+        found: String,
+        /// What a plan file would say.
+        read: String,
     },
     /// Another format.
     #[error("plan format must be \"{FORMAT}\"; found \"{found}\"")]
@@ -284,8 +321,16 @@ impl Plan {
     /// # Errors
     /// [`PlanFileError::Unwritable`].
     pub fn sealed(parts: PlanParts<'_>) -> Result<Self, PlanFileError> {
+        let mut plan = Self::open(parts);
+        plan.hash = Some(plan.seal()?);
+        Ok(plan)
+    }
+
+    /// The plan of some parts, without a hash.
+    #[must_use]
+    pub fn open(parts: PlanParts<'_>) -> Self {
         let PlanParts { scenario, robot, .. } = parts;
-        let mut plan = Self {
+        Self {
             format: FORMAT.to_owned(),
             hash: None,
             scenario: portable(scenario),
@@ -309,9 +354,7 @@ impl Plan {
                 qd_rad_s: parts.motion.speeds().to_vec(),
             },
             summary: parts.summary,
-        };
-        plan.hash = Some(plan.seal()?);
-        Ok(plan)
+        }
     }
 
     /// The hash that belongs to the contents.
@@ -319,14 +362,35 @@ impl Plan {
     /// # Errors
     /// [`PlanFileError::Unwritable`] for contents that could not be read back: a number that is not finite.
     pub fn seal(&self) -> Result<String, PlanFileError> {
-        let open = Self {
+        let mut open = Self {
             hash: None,
             ..self.clone()
         };
+        // Waypoints are no part of the file.
+        open.tool_path.iter_mut().for_each(|segment| segment.waypoints.clear());
         let canonical = serde_json_canonicalizer::to_vec(&open).map_err(unwritable)?;
-        // What is not finite is written as `null`.
-        serde_json::from_slice::<Self>(&canonical).map_err(unwritable)?;
+        open.check_readable()?;
         Ok(sha256_hex(&canonical))
+    }
+
+    /// Refuses contents that would be read back as others.
+    fn check_readable(mut self) -> Result<(), PlanFileError> {
+        let refuse = |detail: &str| {
+            let detail = detail.to_owned();
+            Err(PlanFileError::Unwritable { detail })
+        };
+        // Almost all numbers are here, and all of one kind.
+        let Knots { t_s, q_rad, qd_rad_s } = std::mem::replace(&mut self.knots, Knots::none());
+        let mut numbers = t_s.iter().chain(q_rad.iter().chain(&qd_rad_s).flatten());
+        if !numbers.all(|number| number.is_finite()) {
+            return refuse("a number of the knots is not finite");
+        }
+        // What is not finite is written as `null`, and a whole number of more than 53 bits as its neighbour.
+        let rest = serde_json_canonicalizer::to_vec(&self).map_err(unwritable)?;
+        if serde_json::from_slice::<Self>(&rest).map_err(unwritable)? != self {
+            return refuse("a whole number is above 2^53 − 1, the largest that JSON says exactly");
+        }
+        Ok(())
     }
 
     /// Whether the stored hash is that of the contents.
@@ -343,7 +407,8 @@ impl Plan {
         serde_json_canonicalizer::to_string(self).map_err(unwritable)
     }
 
-    /// Reads a plan file's text. The hash is not checked here: see [`Plan::is_sealed`].
+    /// Reads a plan file's text: every key once, none unknown, none left out, so that what is read is all that the file says and the
+    /// hash of the one is that of the other. The hash is not checked here: see [`Plan::is_sealed`].
     ///
     /// # Errors
     /// [`PlanFileError`] for anything but a plan of this format.
@@ -352,6 +417,7 @@ impl Plan {
         if plan.format != FORMAT {
             return Err(PlanFileError::Format { found: plan.format });
         }
+        contents::check(text, &plan)?;
         Ok(plan)
     }
 }

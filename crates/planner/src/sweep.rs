@@ -1,10 +1,10 @@
 //! Many layouts of one scenario, each planned and proved.
 
-use crate::certificate::{self, Certificate, PromiseName};
+use crate::certificate::{self, Certificate, CertificateVerdict, PromiseName, headline};
 use crate::cycle::Cycle;
 use crate::error::{Infeasibility, PlanError};
 use crate::robot;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, ScenarioError, check_seed};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -56,7 +56,8 @@ pub struct SweepRow {
     pub coverage: Option<f64>,
     /// Smallest clearance of all pairs but the sponge and the plates while it works, guaranteed \[m\].
     pub clearance_m: Option<f64>,
-    /// Where nothing was planned: why. Where something is not proved: the promises.
+    /// Where nothing was planned: why. Where something is not proved: the promises. Where it is proved but for what the scenario waives:
+    /// that.
     pub reason: Option<String>,
 }
 
@@ -77,6 +78,12 @@ pub fn sweep_each(
     seeds: RangeInclusive<u64>,
     done: &mut (dyn FnMut(&SweepRow) + Send),
 ) -> Result<Vec<SweepRow>, PlanError> {
+    let seed_error = |problem| ScenarioError {
+        source_name: scenario.name.clone(),
+        line: None,
+        problem,
+    };
+    check_seed("the last of the seeds", *seeds.end()).map_err(seed_error)?;
     scenario.validate()?;
     scenario.check_work()?;
     match Cycle::check(scenario, &robot::load(&scenario.robot)?, &[]) {
@@ -153,20 +160,20 @@ impl SweepRow {
     }
 
     fn planned(seed: u64, cycle: &Cycle, certificate: &Certificate) -> Self {
-        let broken: Vec<_> = certificate.broken().map(|promise| promise.name.words()).collect();
+        let waived = headline::but_for(certificate);
+        let waived = Some(waived.trim()).filter(|waived| !waived.is_empty());
         let bound = |name| certificate.promise(name)?.measure?.bound;
         Self {
             seed,
-            outcome: if broken.is_empty() {
-                SweepOutcome::Proved
-            } else {
-                SweepOutcome::NotProved
+            outcome: match certificate.verdict {
+                CertificateVerdict::Pass => SweepOutcome::Proved,
+                CertificateVerdict::Fail => SweepOutcome::NotProved,
             },
             duration_s: Some(cycle.motion.duration_s()),
             crossings_s: Some(cycle.crossings.iter().map(|c| c.duration_s).sum()),
             coverage: bound(PromiseName::Coverage),
             clearance_m: bound(PromiseName::Clearance),
-            reason: (!broken.is_empty()).then(|| broken.join(", ")),
+            reason: headline::not_kept(certificate).or(waived.map(str::to_owned)),
         }
     }
 }

@@ -35,7 +35,19 @@ impl CertificateObject {
         }
     }
 
-    /// Whether every promise holds and the plan is as it was sealed.
+    /// The first line: the verdict, what the scenario waives, what is not kept.
+    #[getter]
+    fn headline(&self) -> &str {
+        &self.inner.headline
+    }
+
+    /// The names of the promises that do not hold and that the scenario waives (`layout.overlap = "report"`).
+    #[getter]
+    fn exempt<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.inner.exempt)
+    }
+
+    /// Whether every promise holds, but for those that are `exempt`, and the plan is as it was sealed.
     #[getter]
     fn proved(&self) -> bool {
         self.inner.verdict == CertificateVerdict::Pass

@@ -13,6 +13,7 @@ use platewash::planner::certificate;
 use platewash::planner::plan::PlanFileError;
 use platewash::planner::scenario::Program;
 use platewash::planner::sweep::SweepRow;
+use platewash::planner::words::counted;
 use platewash::planner::{csv, robot};
 use platewash::{Cycle, CycleReport, Job, Plan, PlanError, RobotModel, Scenario};
 use pyo3::prelude::*;
@@ -126,11 +127,8 @@ impl CycleObject {
     }
 
     fn __repr__(&self) -> String {
-        let (name, plates) = (&self.inner.scenario.name, self.inner.order.len());
-        format!(
-            "Cycle('{name}', {plates} plates, {:.2} s)",
-            self.inner.motion.duration_s()
-        )
+        let (name, plates) = (&self.inner.scenario.name, counted(self.inner.order.len(), "plate"));
+        format!("Cycle('{name}', {plates}, {:.2} s)", self.inner.motion.duration_s())
     }
 
     fn __eq__(&self, other: &Self) -> bool {

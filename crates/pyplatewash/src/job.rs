@@ -12,6 +12,7 @@ use crate::value::to_record;
 use crate::work::patiently;
 use numpy::{PyArray1, PyArrayDyn};
 use platewash::planner::scenario::Program;
+use platewash::planner::words::counted;
 use platewash::planner::{plan, robot};
 use platewash::{Job, JointVector, Layout, Plan, Scenario};
 use pyo3::prelude::*;
@@ -202,11 +203,9 @@ impl JobObject {
     }
 
     fn __repr__(&self) -> String {
-        let (plates, steps) = (self.inner.layout.plates.len(), self.inner.steps.len());
-        format!(
-            "Job('{}', {plates} plates, {steps} waypoints)",
-            self.inner.scenario.name
-        )
+        let plates = counted(self.inner.layout.plates.len(), "plate");
+        let steps = counted(self.inner.steps.len(), "waypoint");
+        format!("Job('{}', {plates}, {steps})", self.inner.scenario.name)
     }
 
     fn __eq__(&self, other: &Self) -> bool {

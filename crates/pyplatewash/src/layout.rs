@@ -7,6 +7,7 @@ use crate::scenario;
 use crate::value::to_record;
 use crate::work::patiently;
 use numpy::PyArrayDyn;
+use platewash::planner::words::counted;
 use platewash::planner::{job, robot};
 use platewash::{Layout, PlanError, Plate};
 use pyo3::prelude::*;
@@ -100,8 +101,8 @@ impl LayoutObject {
     }
 
     fn __repr__(&self) -> String {
-        let findings = self.inner.findings.len();
-        format!("Layout({} plates, {findings} findings)", self.inner.plates.len())
+        let plates = counted(self.inner.plates.len(), "plate");
+        format!("Layout({plates}, {})", counted(self.inner.findings.len(), "finding"))
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {

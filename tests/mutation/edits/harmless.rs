@@ -8,10 +8,6 @@ pub fn add(edits: &mut Edits) {
     let mut words = |what, apply| edits.harmless(Kind::Words, what, apply);
     words("name", |p| p.scenario.name = "renamed".into());
     words("seed", |p| p.scenario.seed += 1);
-    words("headline", |p| p.summary.headline.push('!'));
-    words("summary", |p| {
-        (p.summary.plates_washed, p.summary.duration_s) = (0, 0.0)
-    });
     words("rule of the order", |p| p.scenario.job.order = OrderRule::Given);
     words("what failure leads to", |p| {
         p.scenario.job.on_failure = OnFailure::Report

@@ -1,7 +1,7 @@
-//! The arm, tolerances, pairs and homes.
+//! The arm, tolerances, pairs, summary and homes.
 
 use crate::edit::{Edits, Kind};
-use platewash::planner::certificate::PromiseName::{Arm, ClearancePairs, HomeToHome, Tolerances};
+use platewash::planner::certificate::PromiseName::{Arm, ClearancePairs, HomeToHome, Summary, Tolerances};
 use platewash::planner::scenario::{OrderRule, Program};
 
 pub fn add(edits: &mut Edits) {
@@ -45,6 +45,15 @@ pub fn add(edits: &mut Edits) {
     fails("a pair of others", &[ClearancePairs], |p| {
         p.clearance_pairs[3][0] = "link_9".into()
     });
+    let mut words = |what, apply| edits.fails(Kind::Words, what, &[Summary], apply);
+    words("the headline", |p| p.summary.headline.push('!'));
+    words("another headline", |p| {
+        p.summary.headline = "9 plates sterilised in 1 s, PROVED".into()
+    });
+    words("no plate washed", |p| p.summary.plates_washed = 0);
+    words("a plate washed more", |p| p.summary.plates_washed += 1);
+    words("another duration", |p| p.summary.duration_s -= 1.0);
+    words("waypoints", |p| p.summary.waypoints_reached = [1, 1]);
     let mut homes = |what, apply| edits.fails(Kind::Home, what, &[HomeToHome], apply);
     homes("stated", |p| p.home_rad[1][3] += 1e-6);
     homes("asked", |p| p.scenario.robot.start_deg[5] += 1e-5);

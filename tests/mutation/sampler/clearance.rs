@@ -1,5 +1,6 @@
 //! Distances of all pairs at single configurations.
 
+use super::LINE_M;
 use super::findings::Findings;
 use super::hermite::{Piece, pieces};
 use super::moments::within;
@@ -40,16 +41,17 @@ impl<'a> Distances<'a> {
         let model = ClearanceModel::new(self.robot, &plan.scenario.tool, &plan.plates).unwrap();
         let same_bodies = plan.scenario.tool == self.origin.scenario.tool && plan.plates == self.origin.plates;
         let names = model.pair_names();
-        let may_touch: Vec<_> = names
+        // The plate of each pair of the sponge and a plate.
+        let touching: Vec<Option<usize>> = names
             .iter()
-            .map(|(a, b)| *a == "sponge" && b.starts_with("plate"))
+            .map(|(a, b)| b.strip_prefix("plate ").filter(|_| *a == "sponge")?.parse().ok())
             .collect();
         let limit = plan.scenario.wash.clearance_m;
         let mut look = |q: &JointVector, segment: Option<usize>| {
             let known = self.known.get(&key(q)).filter(|_| same_bodies);
             let found = known.cloned().unwrap_or_else(|| all(&model, q));
-            let working = segment.is_none_or(|i| is_at_plate(plan.segments[i].kind));
-            let counts = found.iter().zip(&may_touch).filter(|(_, may)| !(**may && working));
+            let may = |plate: usize| segment.is_none_or(|i| may_touch(plan, i, plate));
+            let counts = found.iter().zip(&touching).filter(|(_, plate)| !plate.is_some_and(may));
             let least = counts.map(|(d, _)| *d).fold(f64::INFINITY, f64::min);
             findings.at_least(PromiseName::Clearance, least, limit, DISTANCE_M);
         };
@@ -74,6 +76,19 @@ impl<'a> Distances<'a> {
         };
         pieces.iter().enumerate().map(|(k, piece)| !known(k, piece)).collect()
     }
+}
+
+/// Whether the sponge may touch a plate during a segment: the one that it works on, or one that no part of it is farther from than
+/// the clearance wherever on its own stroke it is.
+fn may_touch(plan: &Plan, segment: usize, plate: usize) -> bool {
+    let (segment, tool, wash) = (&plan.segments[segment], &plan.scenario.tool, &plan.scenario.wash);
+    let Some(own) = plan.plates.get(segment.plate).filter(|_| is_at_plate(segment.kind)) else {
+        return false;
+    };
+    let other = &plan.plates[plate];
+    let sponge_m = tool.sponge_radius_m.hypot(tool.sponge_height_m);
+    let reach_m = wash.path_radius_m + LINE_M + sponge_m + wash.clearance_m;
+    segment.plate == plate || (own.x_m - other.x_m).hypot(own.y_m - other.y_m) - other.radius_m <= reach_m
 }
 
 fn key(q: &JointVector) -> [u64; 6] {

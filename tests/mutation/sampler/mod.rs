@@ -60,6 +60,7 @@ impl<'a> Sampler<'a> {
             places::contacts(plan, &mut findings);
             places::poses(plan, &moments, &mut findings);
             places::coverage(plan, &moments, &mut findings);
+            places::reach(plan, &moments, &mut findings);
             deviations(plan, &moments, &mut findings);
         }
         findings

@@ -1,5 +1,6 @@
 //! Where things are: the arm at its ends and at the plates, the tool over them, the plates themselves.
 
+use super::STROKE_M;
 use super::findings::Findings;
 use super::moments::Moment;
 use super::schedule::is_at_plate;
@@ -96,6 +97,18 @@ pub fn coverage(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
     for plate in 0..plan.plates.len() {
         let share = share(plan, &washing(plan, moments, plate), plate, sponge_m);
         findings.at_least(PromiseName::Coverage, share, required, SHARE);
+    }
+}
+
+/// How far the sponge gets beyond the rim of the plate that it washes.
+pub fn reach(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
+    let (sponge_m, path_m) = (plan.scenario.tool.sponge_radius_m, plan.scenario.wash.path_radius_m);
+    for (i, plate) in plan.plates.iter().enumerate() {
+        for m in washing(plan, moments, i) {
+            let beyond = (m.tip.x - plate.x_m).hypot(m.tip.y - plate.y_m) + sponge_m - plate.radius_m;
+            let limit = path_m + sponge_m - plate.radius_m + STROKE_M;
+            findings.at_most(PromiseName::Reach, beyond, limit, EXACT);
+        }
     }
 }
 

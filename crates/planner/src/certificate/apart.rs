@@ -1,14 +1,12 @@
 //! Plates keep apart from each other and from the base.
 
+use super::neighbours::{TOUCHING_M, gap};
 use super::promise::{Discrepancy, Promise, PromiseName, Status};
-use crate::layout::Plate;
 use crate::plan::Plan;
 use crate::robot;
 use crate::scenario::Overlap;
+use crate::words::millimetres;
 use platewash_kinematics::RobotModel;
-
-/// Plates that overlap by less than this touch: the rounding of their places \[m\].
-const TOUCHING_M: f64 = 1e-9;
 
 /// Promises that no two plates overlap and that none lies over the base's footprint; findings alone where the scenario
 /// only wants to be told.
@@ -23,7 +21,7 @@ pub(super) fn promise(plan: &Plan, robot: &RobotModel) -> Promise {
         if gap < -TOUCHING_M {
             wrong.push(Discrepancy::new(
                 format!("gap between plate {i} and the base"),
-                format!("{gap} m"),
+                millimetres(gap),
                 "none below 0",
             ));
         }
@@ -33,7 +31,7 @@ pub(super) fn promise(plan: &Plan, robot: &RobotModel) -> Promise {
             let gap = gap(&plates[a], &plates[b]);
             if gap < -TOUCHING_M {
                 let what = format!("gap between plate {a} and plate {b}");
-                wrong.push(Discrepancy::new(what, format!("{gap} m"), "none below 0"));
+                wrong.push(Discrepancy::new(what, millimetres(gap), "none below 0"));
             }
         }
     }
@@ -42,10 +40,4 @@ pub(super) fn promise(plan: &Plan, robot: &RobotModel) -> Promise {
         promise.status = Status::Exempt;
     }
     promise
-}
-
-/// Distance between the rims of two plates of the same height, negative where they overlap \[m\].
-fn gap(a: &Plate, b: &Plate) -> f64 {
-    let (dx, dy) = (a.x_m - b.x_m, a.y_m - b.y_m);
-    (dx * dx + dy * dy).sqrt() - a.radius_m - b.radius_m
 }

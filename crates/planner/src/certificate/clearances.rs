@@ -1,16 +1,18 @@
 //! Clearance of every pair over the whole motion.
 //!
 //! Every pair keeps the scenario's clearance, always, but for the sponge and the plates. While it approaches, washes or leaves a
-//! plate, the sponge may touch plates: the one that it works on, and over whose rim it runs a neighbour. Otherwise it keeps clear
-//! of all.
+//! plate, the sponge may touch that plate, and over its rim a neighbour within reach: how far it reaches is a promise of its own. Of all
+//! other plates it keeps clear, and at all other times of all.
 
 use super::clear::{FINE_M, Found, Goal, Search};
+use super::neighbours;
 use super::promise::{Measure, Promise, PromiseName, Sense, Status, Unit, Worst};
-use super::schedule::{Schedule, is_at_plate};
+use super::schedule::{Schedule, Stage, is_at_plate};
 use super::timeline::Timeline;
 use crate::clearance::ClearanceModel;
 use crate::clearance::motion::{PairKind, PartPair};
 use crate::plan::Plan;
+use crate::tool_path::SegmentKind;
 use platewash_kinematics::RobotModel;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -30,7 +32,7 @@ const LOOKS_A_PIECE: usize = 8;
 pub enum PairRule {
     /// The scenario's clearance.
     Clearance,
-    /// Nothing: the sponge and a plate, while it works on any.
+    /// Nothing: the sponge and a plate, while it works on that plate or on one from which it is within reach.
     Exempt,
 }
 
@@ -41,6 +43,9 @@ pub struct PairBound {
     pub pair: [String; 2],
     /// What they must keep.
     pub rule: PairRule,
+    /// The plates on which the sponge works meanwhile, of a pair that is exempt.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub working_on: Vec<usize>,
     /// What came of it.
     pub status: Status,
     /// The distance is never below this \[m\], errors included.
@@ -62,6 +67,7 @@ struct Task {
     pair: usize,
     rule: PairRule,
     during: Option<Vec<Range<usize>>>,
+    working_on: Vec<usize>,
 }
 
 /// Judges every pair: one line for each rule that a pair is under.
@@ -122,6 +128,7 @@ fn line((a, b): (&str, &str), task: &Task, found: Option<Found>, limit_m: f64) -
     PairBound {
         pair: [a.to_owned(), b.to_owned()],
         rule: task.rule,
+        working_on: task.working_on.clone(),
         status,
         at_least_m: found.map(|f| f.at_least_m).filter(|b| b.is_finite()),
         seen_m: measured.map(|f| f.seen_m),
@@ -180,38 +187,51 @@ fn tasks(plan: &Plan, model: &ClearanceModel, schedule: Option<&Schedule>) -> Ve
     let mut tasks = Vec::new();
     let whole = 0..plan.knots.t_s.len().saturating_sub(1);
     for pair in 0..model.pair_count() {
-        let PairKind::SpongeAndPlate(_) = model.pair_kind(pair) else {
+        let PairKind::SpongeAndPlate(plate) = model.pair_kind(pair) else {
             let during = Some(vec![whole.clone()]);
             tasks.push(Task {
                 pair,
                 rule: PairRule::Clearance,
                 during,
+                working_on: Vec::new(),
             });
             continue;
         };
-        let during = |rule| schedule.map(|schedule| phases(schedule, rule));
         for rule in [PairRule::Clearance, PairRule::Exempt] {
-            let during = during(rule);
-            if during.as_ref().is_none_or(|d| !d.is_empty()) {
-                tasks.push(Task { pair, rule, during });
+            let rule_at = |stage: &Stage| rule_at(plan, stage, plate);
+            let during = schedule.map(|schedule| phases(schedule, |stage| rule_at(stage) == rule));
+            if during.as_ref().is_some_and(Vec::is_empty) {
+                continue;
             }
+            let stages = schedule.map_or(&[][..], |schedule| &schedule.stages);
+            let washes = stages.iter().filter(|stage| stage.kind == SegmentKind::Wash);
+            let exempt = washes.filter(|stage| rule == PairRule::Exempt && rule_at(stage) == rule);
+            let working_on = exempt.map(|stage| stage.plate).collect();
+            tasks.push(Task {
+                pair,
+                rule,
+                during,
+                working_on,
+            });
         }
     }
     tasks
 }
 
-/// The pieces during which the sponge is under a rule with the plates; neighbours joined.
-fn phases(schedule: &Schedule, rule: PairRule) -> Vec<Range<usize>> {
+/// What the sponge must keep from a plate during a stage.
+fn rule_at(plan: &Plan, stage: &Stage, plate: usize) -> PairRule {
+    let may_touch = stage.plate == plate || neighbours::is_within_reach(plan, stage.plate, plate);
+    if is_at_plate(stage.kind) && may_touch {
+        PairRule::Exempt
+    } else {
+        PairRule::Clearance
+    }
+}
+
+/// The pieces of some stages; neighbours joined.
+fn phases(schedule: &Schedule, counts: impl Fn(&Stage) -> bool) -> Vec<Range<usize>> {
     let mut phases: Vec<Range<usize>> = Vec::new();
-    for stage in &schedule.stages {
-        let found = if is_at_plate(stage.kind) {
-            PairRule::Exempt
-        } else {
-            PairRule::Clearance
-        };
-        if found != rule {
-            continue;
-        }
+    for stage in schedule.stages.iter().filter(|stage| counts(stage)) {
         match phases.last_mut() {
             Some(last) if last.end == stage.pieces.start => last.end = stage.pieces.end,
             _ => phases.push(stage.pieces.clone()),

@@ -5,6 +5,7 @@ use crate::coverage::CoverageError;
 use crate::robot::RobotError;
 use crate::scenario::ScenarioError;
 use crate::trajectory::KnotError;
+use crate::words::counted;
 
 /// Why a plan cannot be judged at all; a plan that breaks its promises is no error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -50,7 +51,7 @@ pub enum VerifyError {
         most: usize,
     },
     /// More segments than any job on that many plates has.
-    #[error("{found} segments for {plates} plates; there are {most} at most")]
+    #[error("{found} segments for {}; there are {most} at most", counted(*.plates, "plate"))]
     TooManySegments {
         /// Segments found, in time or in the tool path.
         found: usize,

@@ -7,11 +7,12 @@
 //! | what | file |
 //! | --- | --- |
 //! | promises and their outcome; as a table | `promise.rs`, `table.rs` |
-//! | what the plan states | `statements.rs`, `schedule.rs`, `home.rs`, `apart.rs` |
+//! | what the plan states | `statements.rs`, `schedule.rs`, `home.rs`, `apart.rs`, `summary.rs` |
 //! | the motion: cubics, groups of them | `piece.rs`, `timeline.rs` |
 //! | joints | `joints.rs` |
 //! | the tip: derivatives, halving, speed, tilt, height | `tip.rs`, `watch.rs`, `tips.rs` |
 //! | the declared curves, following them, sweeping the plate | `curve.rs`, `following.rs`, `sweep.rs` |
+//! | beyond the rim: what may be touched there, how far it is | `neighbours.rs`, `reach.rs` |
 //! | clearance: one pair, all pairs | `clear.rs`, `clearances.rs` |
 
 mod apart;
@@ -20,12 +21,16 @@ mod clearances;
 mod curve;
 mod error;
 mod following;
+pub(crate) mod headline;
 mod home;
 mod joints;
+mod neighbours;
 mod piece;
 mod promise;
+mod reach;
 mod schedule;
 mod statements;
+mod summary;
 mod sweep;
 mod table;
 #[cfg(test)]
@@ -37,7 +42,9 @@ mod watch;
 
 pub use clearances::{PairBound, PairRule};
 pub use error::VerifyError;
+pub use neighbours::Touched;
 pub use promise::{Discrepancy, Measure, Promise, PromiseName, Sense, Status, Unit, Worst};
+pub use summary::summary;
 pub use sweep::PlateCoverage;
 
 use crate::clearance::ClearanceModel;
@@ -66,7 +73,8 @@ const DEVIATION_RESOLUTION: f64 = 0.02;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CertificateVerdict {
-    /// Every promise holds, and the plan is as it was sealed.
+    /// Every promise holds, and the plan is as it was sealed. [`Certificate::exempt`] names those that hold only because the scenario
+    /// waives them.
     Pass,
     /// A promise is broken or not proved, or the hash is not that of the contents.
     Fail,
@@ -88,6 +96,10 @@ pub struct HashFinding {
 pub struct Certificate {
     /// Pass, or fail.
     pub verdict: CertificateVerdict,
+    /// The first line in words: the verdict, what it waives, and what is not kept.
+    pub headline: String,
+    /// The promises that do not hold and that the scenario waives: [`Status::Exempt`].
+    pub exempt: Vec<PromiseName>,
     /// Name of the scenario.
     pub scenario: String,
     /// Duration of the motion \[s\].
@@ -150,7 +162,7 @@ pub fn verify(plan: &Plan, robot: &RobotModel) -> Result<Certificate, VerifyErro
     let schedule = schedule.as_ref();
     let arm = Arm::new(robot, &scenario.tool);
     let tips = Tips::new(&arm, plan, &limits, &pieces, schedule);
-    let coverage = schedule.map_or(Ok(Vec::new()), |s| sweeps(&arm, plan, &limits, (&pieces, s), &tips))?;
+    let mut coverage = schedule.map_or(Ok(Vec::new()), |s| sweeps(&arm, plan, &limits, (&pieces, s), &tips))?;
     let clearance = clearances::judge(plan, robot, &model, &timeline, schedule);
 
     let mut promises = statements::promises(plan, robot, &model);
@@ -163,24 +175,41 @@ pub fn verify(plan: &Plan, robot: &RobotModel) -> Result<Certificate, VerifyErro
     promises.push(apart::promise(plan, robot));
     promises.extend(joints::promises(&pieces, &limits, schedule));
     promises.extend(tips.promises(&limits, &pieces, schedule));
-    promises.extend(deviations(&arm, plan, &pieces, schedule));
+    let deviations = deviations(&arm, plan, &pieces, schedule);
+    let follows = |p: &Promise| p.name == PromiseName::ToolPath && p.status == Status::Pass;
+    // A deviation is one from the declared stroke: it tells of the plate where that is the stroke asked for.
+    let deviation_m = deviations[0].measure.and_then(|m| m.bound);
+    reach::settle(
+        plan,
+        &mut coverage,
+        deviation_m.filter(|_| promises.iter().any(follows)),
+    );
+    promises.extend(deviations);
     promises.push(clearances::promise(limits.clearance_m, &clearance));
+    promises.push(reach::promise(&coverage));
     promises.push(coverage_promise(&coverage, plan, &limits, schedule));
+    let proved = reach::washed(&coverage, &limits, &promises);
+    promises.push(summary::promise(plan, robot, proved));
     let hash = hash(plan);
     let sound = hash.status == Status::Pass && promises.iter().all(|p| p.status.is_kept());
-    Ok(Certificate {
+    let exempt = promises.iter().filter(|p| p.status == Status::Exempt);
+    let mut certificate = Certificate {
         verdict: if sound {
             CertificateVerdict::Pass
         } else {
             CertificateVerdict::Fail
         },
+        headline: String::new(),
+        exempt: exempt.map(|p| p.name).collect(),
         scenario: scenario.name.clone(),
         duration_s: plan.knots.t_s.last().copied().unwrap_or(0.0),
         hash,
         promises,
         coverage,
         clearance,
-    })
+    };
+    certificate.headline = headline::headline(&certificate);
+    Ok(certificate)
 }
 
 fn hash(plan: &Plan) -> HashFinding {
@@ -285,9 +314,21 @@ fn sweeps(
             (plate, stage.plate),
             sponge,
             limits.coverage,
+            plan.scenario.wash.path_radius_m + PATH_TOLERANCE_M,
         )?);
     }
     Ok(all)
+}
+
+/// The swept share of a plate against what is required.
+fn coverage_measure(swept: &PlateCoverage, limits: &PlanLimits) -> Measure {
+    Measure {
+        bound: Some(swept.at_least),
+        seen: swept.at_most,
+        limit: limits.coverage,
+        sense: Sense::AtLeast,
+        unit: Unit::Share,
+    }
 }
 
 fn coverage_promise(
@@ -301,13 +342,10 @@ fn coverage_promise(
         return Promise::not_judged(PromiseName::Coverage);
     };
     let all_washed = (0..plan.plates.len()).all(|i| coverage.iter().any(|c| c.plate == i));
-    let measure = Measure {
-        bound: Some(if all_washed { worst.at_least } else { 0.0 }),
-        seen: worst.at_most,
-        limit: limits.coverage,
-        sense: Sense::AtLeast,
-        unit: Unit::Share,
-    };
+    let mut measure = coverage_measure(worst, limits);
+    if !all_washed {
+        measure.bound = Some(0.0);
+    }
     let place = Worst {
         plate: Some(worst.plate),
         ..Worst::default()

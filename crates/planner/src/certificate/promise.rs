@@ -46,7 +46,7 @@ pub enum PromiseName {
     Segments,
     /// The tool path is the one that the scenario asks for on these plates.
     ToolPath,
-    /// Every plate is washed once and the order says so.
+    /// Every plate is washed once and the order says so; while another one is washed no more than its rim is swept.
     EveryPlateOnce,
     /// The motion starts and ends at rest in the scenario's home positions.
     HomeToHome,
@@ -78,8 +78,12 @@ pub enum PromiseName {
     LineDeviation,
     /// Clearance of every pair.
     Clearance,
+    /// How far the sponge reaches beyond the rim of the plate that it washes.
+    Reach,
     /// Share of each plate that the sponge sweeps.
     Coverage,
+    /// The plan's summary says what follows from the plan, and counts no plate as washed that is not proved to be.
+    Summary,
 }
 
 impl PromiseName {
@@ -111,7 +115,9 @@ impl PromiseName {
             Self::StrokeDeviation => "stroke deviation",
             Self::LineDeviation => "line deviation",
             Self::Clearance => "clearance",
+            Self::Reach => "reach beyond rim",
             Self::Coverage => "coverage",
+            Self::Summary => "summary",
         }
     }
 }

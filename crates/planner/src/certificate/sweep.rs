@@ -4,6 +4,7 @@
 //! moments the tip leaves the chord by at most h²/8 · sup ‖p̈‖; less the greatest of these, the disc sweeps at least what it
 //! would along the polyline.
 
+use super::neighbours::{Touched, norm};
 use super::piece::Piece;
 use super::tip::{Arm, Stretch};
 use crate::coverage::{CoverageError, CoverageSettings, coverage};
@@ -20,7 +21,7 @@ const MOST_HALVINGS: u32 = 6;
 const CELLS_M: [f64; 2] = [1e-3, 2.5e-4];
 
 /// The swept share of a plate.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PlateCoverage {
     /// Index of the plate.
     pub plate: usize,
@@ -31,9 +32,21 @@ pub struct PlateCoverage {
     pub at_most: Option<f64>,
     /// Least cos τ while washing, proved.
     pub cos_tilt: f64,
+    /// How far the sponge reaches beyond the rim while it washes, at most, negative where it stays within it \[m\]; `None` where nothing
+    /// is proved.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beyond_rim_m: Option<f64>,
+    /// How far it was seen to reach \[m\].
+    pub beyond_rim_seen_m: f64,
+    /// How far it may reach \[m\].
+    pub beyond_rim_allowed_m: f64,
+    /// The neighbours that it may touch there.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub touches: Vec<Touched>,
 }
 
-/// What the sponge of radius `sponge_m` sweeps of a plate during some pieces, with cos τ never below `cos_tilt`.
+/// What the sponge of radius `sponge_m` sweeps of a plate during some pieces, with cos τ never below `cos_tilt`. The tip should keep
+/// `within_m` of the centre: where it does, that is proved.
 ///
 /// # Errors
 /// [`CoverageError`] for lengths that make no sense.
@@ -43,10 +56,15 @@ pub(super) fn sweep(
     (plate, index): (&Plate, usize),
     (sponge_m, cos_tilt): (f64, f64),
     required: f64,
+    within_m: f64,
 ) -> Result<PlateCoverage, CoverageError> {
     let mut line = Polyline {
         points: Vec::new(),
         off_m: 0.0,
+        centre: [plate.x_m, plate.y_m],
+        seen_m: 0.0,
+        within_m: 0.0,
+        allowed_m: within_m,
     };
     for (i, piece) in pieces.iter().enumerate() {
         let stretch = arm.stretch(piece);
@@ -73,6 +91,10 @@ pub(super) fn sweep(
         at_least: 0.0,
         at_most: None,
         cos_tilt,
+        beyond_rim_m: Some(line.within_m + sponge_m - plate.radius_m).filter(|reach| reach.is_finite()),
+        beyond_rim_seen_m: line.seen_m + sponge_m - plate.radius_m,
+        beyond_rim_allowed_m: 0.0,
+        touches: Vec::new(),
     };
     if shrunk > 0.0 {
         swept.at_least = share(shrunk, CELLS_M[0])?.lower;
@@ -91,13 +113,25 @@ struct Polyline {
     points: Vec<[f64; 2]>,
     /// The tip is never farther from it \[m\].
     off_m: f64,
+    centre: [f64; 2],
+    /// Largest distance of a moment from the centre \[m\].
+    seen_m: f64,
+    /// The tip is never farther from the centre \[m\].
+    within_m: f64,
+    /// How far it may be \[m\].
+    allowed_m: f64,
 }
 
 impl Polyline {
     /// Adds a stretch whose first end is there already.
     fn add(&mut self, arm: &Arm<'_>, stretch: &Stretch<'_>, depth: u32) {
         let off_m = stretch.sag(arm.derivatives(stretch).second());
-        let halves = if off_m > CHORD_M && depth < MOST_HALVINGS {
+        let far_m = [0, 1]
+            .map(|end| self.off_centre_m(stretch, end))
+            .into_iter()
+            .fold(0.0, f64::max);
+        let undecided = far_m <= self.allowed_m && far_m + off_m > self.allowed_m;
+        let halves = if (off_m > CHORD_M || undecided) && depth < MOST_HALVINGS {
             arm.halves(stretch)
         } else {
             None
@@ -110,7 +144,20 @@ impl Polyline {
         } else {
             self.off_m.max(off_m)
         };
+        // ‖f‖ ≤ max(‖f(a)‖, ‖f(b)‖) + h²/8 · sup ‖f″‖ for f from the centre to the tip.
+        self.seen_m = self.seen_m.max(far_m);
+        self.within_m = if off_m.is_nan() {
+            f64::INFINITY
+        } else {
+            self.within_m.max(far_m + off_m)
+        };
         self.points.push(flat(stretch, 1));
+    }
+
+    /// Distance of an end of a stretch from the centre, seen from above \[m\].
+    fn off_centre_m(&self, stretch: &Stretch<'_>, end: usize) -> f64 {
+        let [x, y] = flat(stretch, end);
+        norm(x - self.centre[0], y - self.centre[1])
     }
 }
 

@@ -1,20 +1,12 @@
 //! A certificate as a table to read.
 
-use super::{Certificate, CertificateVerdict, Measure, PairBound, PairRule, Promise, Sense, Status, Unit, Worst};
+use super::{Certificate, Measure, PairBound, PairRule, PlateCoverage, Promise, Sense, Status, Unit, Worst};
+use crate::words::millimetres;
 use std::fmt;
 
 impl fmt::Display for Certificate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let verdict = match self.verdict {
-            CertificateVerdict::Pass => "CERTIFIED",
-            CertificateVerdict::Fail => "NOT CERTIFIED",
-        };
-        writeln!(
-            f,
-            "{verdict}: {}, {:.3} s",
-            self.scenario.escape_debug(),
-            self.duration_s
-        )?;
+        writeln!(f, "{}", self.headline)?;
         let hash = match (self.hash.status, &self.hash.stated) {
             (Status::Pass, _) => "is that of the contents",
             (_, Some(_)) => "is NOT that of the contents: the plan was changed after it was sealed",
@@ -31,13 +23,7 @@ impl fmt::Display for Certificate {
         }
         writeln!(f, "\ncoverage, at least")?;
         for plate in &self.coverage {
-            let percent = 100.0 * plate.at_least;
-            let tilt = crate::trig::acos(plate.cos_tilt.clamp(0.0, 1.0)).to_degrees();
-            writeln!(
-                f,
-                "  plate {:<4} {percent:>8.3} %  with the tool at most {tilt:.2}° from the normal",
-                plate.plate
-            )?;
+            plate_row(f, plate)?;
         }
         writeln!(f, "\nclearance, at least")?;
         self.clearance.iter().try_for_each(|pair| pair_row(f, pair))
@@ -59,6 +45,28 @@ fn row(f: &mut fmt::Formatter<'_>, promise: &Promise) -> fmt::Result {
         writeln!(f, "  found: {:.4} {unit}", seen * scale)?;
     }
     promise.discrepancies.iter().try_for_each(|d| writeln!(f, "  - {d}"))
+}
+
+fn plate_row(f: &mut fmt::Formatter<'_>, plate: &PlateCoverage) -> fmt::Result {
+    let percent = 100.0 * plate.at_least;
+    let tilt = crate::trig::acos(plate.cos_tilt.clamp(0.0, 1.0)).to_degrees();
+    let reach = plate
+        .beyond_rim_m
+        .map_or("nobody knows how far".to_owned(), millimetres);
+    let allowed = millimetres(plate.beyond_rim_allowed_m);
+    writeln!(
+        f,
+        "  plate {:<4} {percent:>8.3} %  with the tool at most {tilt:.2}° from the normal, {reach} beyond the rim (allowed {allowed})",
+        plate.plate
+    )?;
+    plate.touches.iter().try_for_each(|touched| {
+        let depth = millimetres(touched.depth_m);
+        writeln!(
+            f,
+            "             there it may touch plate {}, up to {depth} over its rim",
+            touched.plate
+        )
+    })
 }
 
 fn numbers(measure: &Measure) -> (String, String, &'static str) {
@@ -109,7 +117,13 @@ fn place(worst: &Worst) -> String {
 fn pair_row(f: &mut fmt::Formatter<'_>, line: &PairBound) -> fmt::Result {
     let pair = format!("{} – {}", line.pair[0], line.pair[1]);
     if line.rule == PairRule::Exempt {
-        return writeln!(f, "  {pair:<26} exempt while the sponge works on a plate");
+        let plates: Vec<_> = line.working_on.iter().map(usize::to_string).collect();
+        let noun = if plates.len() == 1 { "plate" } else { "plates" };
+        return writeln!(
+            f,
+            "  {pair:<26} exempt while the sponge works on {noun} {}",
+            plates.join(", ")
+        );
     }
     let mm = |v: Option<f64>| v.map_or("none".to_owned(), |v| format!("{:.2}", 1e3 * v));
     let time = line.time_s.map_or(String::new(), |t| format!("at {t:.3} s"));

@@ -24,6 +24,7 @@ pub use report::CycleReport;
 pub use tour::{EXACT_UP_TO, Optimality, TravelTimes};
 pub use unwashable::{Elsewhere, UnwashablePlate};
 
+use crate::certificate;
 use crate::crossing::Route;
 use crate::error::PlanError;
 use crate::layout::{Layout, Plate};
@@ -166,8 +167,7 @@ impl Cycle {
     /// # Errors
     /// [`PlanFileError::Unwritable`].
     pub fn to_plan(&self) -> Result<Plan, PlanFileError> {
-        let duration_s = self.motion.duration_s();
-        Plan::sealed(PlanParts {
+        let mut plan = Plan::open(PlanParts {
             scenario: &self.scenario,
             robot: &self.robot,
             plates: &self.layout.plates,
@@ -176,12 +176,10 @@ impl Cycle {
             segments: self.segments.clone(),
             motion: &self.motion,
             clearance_pairs: self.clearance_pairs.clone(),
-            summary: Summary {
-                headline: format!("{} plates in {duration_s:.2} s, from home to home", self.order.len()),
-                plates_washed: self.order.len(),
-                duration_s,
-                waypoints_reached: [0, 0],
-            },
-        })
+            summary: Summary::default(),
+        });
+        plan.summary = certificate::summary(&plan, &self.robot);
+        plan.hash = Some(plan.seal()?);
+        Ok(plan)
     }
 }

@@ -1,9 +1,10 @@
 //! What a cycle came to, with its certificate: for people and as data.
 
 use super::{CrossingSummary, Cycle, TourSummary, VisitSummary};
-use crate::certificate::{Certificate, CertificateVerdict};
+use crate::certificate::{Certificate, CertificateVerdict, headline};
 use crate::layout;
 use crate::report::Verdict;
+use crate::words::counted;
 use platewash_kinematics::{AXES, JointVector};
 use serde::Serialize;
 use std::fmt;
@@ -19,7 +20,7 @@ pub struct CycleReport {
     pub robot: String,
     /// How it ended.
     pub verdict: Verdict,
-    /// The first line: whether it washes, and whether that is proved.
+    /// The first line: whether it washes, whether that is proved, and what the scenario waives.
     pub headline: String,
     /// Duration \[s\].
     pub duration_s: f64,
@@ -67,21 +68,17 @@ impl CycleReport {
 /// Share of a plate from which on it counts as washed whole in words.
 const WHOLE: f64 = 0.995;
 
-/// The first line: what is proved, or which promises are not.
+/// The first line: what is proved and what is waived, or which promises are not kept.
 fn headline(plates: usize, duration_s: f64, certificate: &Certificate) -> String {
     let covered = certificate
         .coverage
         .iter()
         .map(|plate| plate.at_least)
         .fold(1.0, f64::min);
-    let broken: Vec<_> = certificate.broken().map(|promise| promise.name.words()).collect();
-    if certificate.verdict == CertificateVerdict::Fail {
-        let what = if broken.is_empty() {
-            "the hash".to_owned()
-        } else {
-            broken.join(", ")
-        };
-        return format!("NOT PROVED: a plan for {plates} plates in {duration_s:.2} s does not keep {what}");
+    let plates = counted(plates, "plate");
+    let waived = headline::but_for(certificate);
+    if let Some(what) = headline::not_kept(certificate) {
+        return format!("NOT PROVED{waived}: a plan for {plates} in {duration_s:.2} s does not keep {what}");
     }
     // Rounded down: no more is said than is proved.
     let share = if covered >= WHOLE {
@@ -89,7 +86,7 @@ fn headline(plates: usize, duration_s: f64, certificate: &Certificate) -> String
     } else {
         format!("washed by at least {:.1} %", (1000.0 * covered).floor() / 10.0)
     };
-    format!("PROVED: {plates} plates {share}, from home to home in {duration_s:.2} s")
+    format!("PROVED{waived}: {plates} {share}, from home to home in {duration_s:.2} s")
 }
 
 fn largest_jerk(cycle: &Cycle) -> JointVector {

@@ -1,5 +1,6 @@
 //! Why a layout could not be made.
 
+use crate::words::counted;
 use thiserror::Error;
 
 /// What is wrong with one number of the request.
@@ -98,9 +99,9 @@ pub enum LayoutError {
 
 fn verdict(count: usize, upper_bound: Option<usize>) -> String {
     if upper_bound.is_some_and(|bound| count > bound) {
-        format!("{count} plates cannot fit")
+        format!("{} cannot fit", counted(count, "plate"))
     } else {
-        format!("no layout of {count} plates found")
+        format!("no layout of {} found", counted(count, "plate"))
     }
 }
 

@@ -5,6 +5,7 @@ use super::{
     ViolationKind,
 };
 use crate::coverage::Coverage;
+use crate::words::part_of;
 use platewash_kinematics::JointVector;
 use std::fmt::{self, Display, Formatter};
 
@@ -21,9 +22,9 @@ pub(super) fn headline(
     required_coverage: f64,
 ) -> String {
     let washed = plates.iter().filter(|p| p.washed).count();
-    let total = plates.len();
+    let washed = part_of(washed, plates.len(), "plate");
     if verdict == Verdict::Washed {
-        return format!("WASHED: {washed} of {total} plates, every limit kept.");
+        return format!("WASHED: {washed}, every limit kept.");
     }
     let mut reasons = Vec::new();
     let asked: usize = plates.iter().map(|p| p.waypoints).sum();
@@ -53,7 +54,7 @@ pub(super) fn headline(
     if all().any(|v| v.kind != ViolationKind::Clearance) {
         reasons.push("joint limits broken".to_owned());
     }
-    format!("NOT WASHED: {washed} of {total} plates washed; {}.", reasons.join(", "))
+    format!("NOT WASHED: {washed} washed; {}.", reasons.join(", "))
 }
 
 impl Display for JobReport {

@@ -1,5 +1,7 @@
 //! The one table of scenario keys: unit, range, meaning.
 
+use super::MAX_SEED;
+
 /// What values a key takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Domain {
@@ -59,8 +61,8 @@ pub const KEYS: &[Key] = &[
     key(
         "seed",
         "",
-        Integer(0, i64::MAX),
-        "Seed of every random stream; the same seed gives the same bytes.",
+        Integer(0, MAX_SEED as i64),
+        "Seed of every random stream; the same seed gives the same bytes. Larger ones are no JSON numbers of their own.",
     ),
     key(
         "job.program",
@@ -479,7 +481,9 @@ impl Domain {
                 quoted.join(" or ")
             }
             Bool => "true or false".to_owned(),
-            Integer(least, i64::MAX) => format!("a whole number from {least} to {} (2^63 − 1)", i64::MAX),
+            Integer(least, most) if *most == MAX_SEED as i64 => {
+                format!("a whole number from {least} to {most} (2^53 − 1)")
+            }
             Integer(least, most) => format!("a whole number from {least} to {most}"),
             Number(least, most) => format!("a number from {least} to {most}"),
             NumberAbove(above, most) => format!("a number above {above}, up to {most}"),

@@ -2,7 +2,7 @@
 
 use super::keys::{Domain, KEYS};
 use super::shipped::SHIPPED;
-use super::{OrderRule, Problem, Program, Scenario, ScenarioError};
+use super::{MAX_SEED, OrderRule, Problem, Program, Scenario, ScenarioError};
 use crate::control::NotKinematic;
 use platewash_kinematics::urdf::file::{self, FileError};
 use std::path::Path;
@@ -63,6 +63,8 @@ impl Scenario {
     /// As [`Scenario::load`], without a line.
     pub fn validate(&self) -> Result<(), ScenarioError> {
         let syntax = |detail: String| error(&self.name, None, Problem::Syntax { detail });
+        // TOML does not know the upper half of this type.
+        check_seed("seed", self.seed).map_err(|problem| error(&self.name, None, problem))?;
         let text = toml::to_string(self).map_err(|e| syntax(e.to_string()))?;
         Self::parse(&text, &self.name)
             .map(|_| ())
@@ -142,6 +144,18 @@ impl Scenario {
         }
         Ok(())
     }
+}
+
+/// Refuses a seed above [`MAX_SEED`], by the name of whatever states it.
+pub(crate) fn check_seed(key: &str, seed: u64) -> Result<(), Problem> {
+    if seed <= MAX_SEED {
+        return Ok(());
+    }
+    Err(Problem::Value {
+        key: key.to_owned(),
+        expected: format!("a whole number from 0 to {MAX_SEED} (2^53 − 1)"),
+        found: seed.to_string(),
+    })
 }
 
 fn unread(error: FileError) -> Problem {

@@ -29,6 +29,7 @@ pub use ik::{IkMethod, IkSection, IkSeed};
 pub use job::{JobSection, OnFailure, OrderRule, Program};
 pub use layout::{LayoutSection, Overlap, RegionName};
 pub use limits::LimitsSection;
+pub(crate) use load::check_seed;
 pub use plant::{Integrator, PlantSection};
 pub use robot::{BuiltInArm, RobotSection};
 pub use shipped::{SHIPPED, ShippedScenario};
@@ -40,6 +41,10 @@ pub use work::{MAX_PLATE_CHECKS, MAX_STROKE_CHECKS, MAX_WAYPOINTS};
 use crate::transition::Arc;
 use platewash_kinematics::JointVector;
 use serde::{Deserialize, Serialize};
+
+/// The largest seed: up to here every whole number is a JSON number of its own (RFC 8785 writes them all as doubles), so that no two
+/// seeds are the same text in a plan file.
+pub const MAX_SEED: u64 = (1 << 53) - 1;
 
 /// A job in full: what a scenario file states, with defaults filled in. Ranges are checked by
 /// [`Scenario::parse`] and [`Scenario::validate`].

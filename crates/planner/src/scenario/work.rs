@@ -4,6 +4,7 @@ use super::load::error;
 use super::{Problem, Program, Scenario, ScenarioError};
 use crate::posture::settings::CHORD_ERROR_M;
 use crate::spiral::Spiral;
+use crate::words::counted;
 
 /// Most waypoints of a job: tens of seconds of planning.
 pub const MAX_WAYPOINTS: usize = 200_000;
@@ -66,8 +67,9 @@ impl Scenario {
             return Ok(());
         }
         let detail = format!(
-            "{plates} plates and up to {points} {called} are too much work: their product must be at most {most}; \
-             give fewer plates or {called}"
+            "{} and up to {points} {called} are too much work: their product must be at most {most}; give fewer plates or \
+             {called}",
+            counted(plates, "plate")
         );
         let problem = conflict(keys, detail);
         Err(error(&self.name, None, problem))
@@ -83,8 +85,8 @@ impl Scenario {
             found => Err(conflict(
                 "wash.points, transition.samples",
                 format!(
-                    "{} plates would have up to {found} waypoints; at most {MAX_WAYPOINTS} are planned",
-                    self.plates()
+                    "{} would have up to {found} waypoints; at most {MAX_WAYPOINTS} are planned",
+                    counted(self.plates(), "plate")
                 ),
             )),
         }

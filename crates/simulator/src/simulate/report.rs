@@ -9,6 +9,7 @@ use super::{Execution, Setup, SimulationError};
 use platewash_kinematics::RobotModel;
 use platewash_planner::plan::Plan;
 use platewash_planner::scenario::ControlLawName;
+use platewash_planner::words::part_of;
 use serde::Serialize;
 
 /// Whether the wash survives its controller.
@@ -81,8 +82,8 @@ impl SimulationReport {
             law: setup.law,
             verdict,
             headline: format!(
-                "{washed} of {} plates washed under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
-                plan.plates.len(),
+                "{} washed under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
+                part_of(washed, plan.plates.len(), "plate"),
                 setup.law.name(),
                 1e3 * tracking.tip_m.rms,
                 1e3 * tracking.tip_m.max

@@ -1,5 +1,6 @@
 //! A small planner for tests: inverse kinematics along the declared path, straight joint motions between, slow timing.
 
+use crate::certificate::summary;
 use crate::clearance::ClearanceModel;
 use crate::layout::Plate;
 use crate::plan::{Plan, PlanParts, PlanSegment, Summary};
@@ -69,7 +70,15 @@ pub fn irb120() -> RobotModel {
     RobotModel::irb120().unwrap()
 }
 
-/// Sealed again, as whoever edits a plan would.
+/// With the summary that follows from it, unless that was edited too, and sealed again, as whoever edits a plan would.
+pub fn restated(mut plan: Plan) -> Plan {
+    if plan.summary == good().summary {
+        plan.summary = summary(&plan, &irb120());
+    }
+    resealed(plan)
+}
+
+/// Sealed again.
 pub fn resealed(mut plan: Plan) -> Plan {
     plan.hash = Some(plan.seal().unwrap());
     plan
@@ -243,7 +252,7 @@ impl<'a> Maker<'a> {
             .into_iter()
             .map(|(a, b)| [a.to_owned(), b.to_owned()])
             .collect();
-        Plan::sealed(PlanParts {
+        let mut plan = Plan::open(PlanParts {
             scenario: &self.recipe.scenario,
             robot: &self.robot,
             plates: &self.plates,
@@ -252,14 +261,10 @@ impl<'a> Maker<'a> {
             segments,
             motion: &motion,
             clearance_pairs: pairs,
-            summary: Summary {
-                headline: "made by hand".into(),
-                plates_washed: self.plates.len(),
-                duration_s: motion.duration_s(),
-                waypoints_reached: [0, 0],
-            },
-        })
-        .unwrap()
+            summary: Summary::default(),
+        });
+        plan.summary = summary(&plan, &self.robot);
+        resealed(plan)
     }
 }
 
