@@ -1,22 +1,23 @@
 //! `platewash run` and `plan` of a certified job.
 
+use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
-use super::plan::{self, PlanArguments};
+use super::plan::{self, PlanArguments, Planned};
 use super::progress::Progress;
-use super::{output, results, run, simulate};
-use platewash::planner::certificate;
+use super::run::RunArguments;
+use super::{output, results, simulate};
+use platewash::planner::certificate::{self, PairsShown};
 use platewash::planner::cycle::{CycleReport, InfeasibleReport};
 use platewash::simulator::simulate::table;
-use platewash::{Cycle, Scenario, Setup, SimulationReport, SimulationVerdict, Verdict};
+use platewash::{Cycle, Scenario, Setup, SimulationReport, SimulationVerdict};
 use serde::Serialize;
-use std::fmt;
 
 /// Plans the cycle and writes the plan and its CSV; nothing is proved.
 pub fn plan(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -> Result<ExitCode, Failure> {
-    let cycle = match carry_out(options, scenario, arguments)? {
-        Outcome::Planned(cycle) => cycle,
-        Outcome::Infeasible(report) => return infeasible(options, scenario, &report),
+    let cycle = match carry_out(options, scenario)? {
+        Cycled::Planned(cycle) => cycle,
+        Cycled::Infeasible(report) => return plan::infeasible(options, scenario, &report),
     };
     let plan = cycle.to_plan()?;
     let files = vec![
@@ -24,11 +25,17 @@ pub fn plan(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -
         (plan::csv_file(options, arguments), csv(&cycle, arguments)?),
     ];
     results::write(&plan::folder(options), &files)?;
-    output::print_either(options.json, &plan.summary, || {
-        format!("{}\nnot proved yet: platewash verify\n", plan.summary.headline)
+    output::print_either(options.json, &Planned::of(&plan.summary), || {
+        format!("{}\nplatewash verify proves it\n", plan::first_line(&plan.summary))
     })?;
     plan::name_files(options, &files);
     Ok(ExitCode::SUCCESS)
+}
+
+/// What came of planning.
+enum Cycled {
+    Planned(Box<Cycle>),
+    Infeasible(InfeasibleReport),
 }
 
 /// What `run` says of a certified job: the proof of the plan, and what a controlled arm makes of it.
@@ -50,29 +57,54 @@ enum Simulated {
 }
 
 impl Simulated {
-    /// Whether an execution fails to wash. None at all is no failure of the plan.
-    fn fails(&self) -> bool {
-        matches!(self, Self::Done(report) if report.verdict == SimulationVerdict::NotWashed)
+    /// What the first line adds to what is proved: that nothing was simulated, or that the simulation fails.
+    fn first_line(&self) -> Option<String> {
+        match self {
+            Self::Done(report) if report.verdict == SimulationVerdict::Washed => None,
+            Self::Done(report) => Some(format!("NOT WASHED under {}", report.law.name())),
+            Self::Refused { .. } => Some("NOT SIMULATED".to_owned()),
+        }
     }
-}
 
-impl fmt::Display for RunReport {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}\n\n", self.cycle)?;
-        match &self.simulation {
-            Simulated::Done(report) => report.fmt(f),
-            Simulated::Refused { refused } => writeln!(f, "NOT SIMULATED: {refused}"),
+    /// No simulation at all is no failure of the plan.
+    fn outcome(&self) -> Outcome {
+        match self {
+            Self::Done(report) if report.verdict != SimulationVerdict::Washed => Outcome::NotVerified,
+            _ => Outcome::Good,
         }
     }
 }
 
+impl RunReport {
+    fn new(mut cycle: CycleReport, simulation: Simulated) -> Self {
+        if let Some(more) = simulation.first_line() {
+            cycle.headline = format!("{}; {more}", cycle.headline);
+        }
+        Self { cycle, simulation }
+    }
+
+    fn text(&self, pairs: PairsShown) -> String {
+        let simulation = match &self.simulation {
+            Simulated::Done(report) => report.to_string(),
+            Simulated::Refused { refused } => format!("NOT SIMULATED: {refused}\n"),
+        };
+        output::text(&format_args!("{}\n\n{simulation}", self.cycle.text(pairs)))
+    }
+}
+
 /// Plans the cycle, proves it, simulates it, and writes plan, both motions, certificate and report.
-pub fn run(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -> Result<ExitCode, Failure> {
-    let cycle = match carry_out(options, scenario, arguments)? {
-        Outcome::Planned(cycle) => cycle,
-        Outcome::Infeasible(report) => return infeasible(options, scenario, &report),
+pub fn run(options: &Options, scenario: &Scenario, arguments: &RunArguments) -> Result<ExitCode, Failure> {
+    let pairs = arguments.pairs();
+    let arguments = &arguments.plan;
+    let cycle = match carry_out(options, scenario)? {
+        Cycled::Planned(cycle) => cycle,
+        Cycled::Infeasible(report) => return plan::infeasible(options, scenario, &report),
     };
     let plan = cycle.to_plan()?;
+    let setup = Setup::of(&plan);
+    let dt_s = arguments
+        .time_step
+        .of(scenario, simulate::lasts_at_most_s(&plan, &setup))?;
     let certificate = certificate::verify(&plan, &cycle.robot).map_err(Failure::internal)?;
     let folder = plan::folder(options);
     let mut files = vec![
@@ -80,9 +112,8 @@ pub fn run(options: &Options, scenario: &Scenario, arguments: &PlanArguments) ->
         (plan::csv_file(options, arguments), csv(&cycle, arguments)?),
         (folder.join("certificate.json"), output::json(&certificate)?),
     ];
-    let simulation = match simulate::carry_out(&plan, &cycle.robot, &Setup::of(&plan)) {
+    let simulation = match simulate::carry_out(&plan, &cycle.robot, &setup) {
         Ok((execution, report)) => {
-            let dt_s = arguments.dt.unwrap_or(scenario.control.dt_s);
             let executed = table(&execution, &plan, &cycle.robot, dt_s)?;
             files.push((folder.join("executed.csv"), executed));
             Simulated::Done(Box::new(report))
@@ -91,56 +122,31 @@ pub fn run(options: &Options, scenario: &Scenario, arguments: &PlanArguments) ->
             refused: error.to_string(),
         },
     };
-    let report = RunReport {
-        cycle: CycleReport::new(&cycle, certificate),
-        simulation,
-    };
-    let text = output::text(&report);
+    let report = RunReport::new(CycleReport::new(&cycle, certificate), simulation);
+    let text = report.text(pairs);
     files.push((folder.join("report.json"), output::json(&report)?));
     files.push((folder.join("report.txt"), text.clone()));
     results::write(&folder, &files)?;
     output::print_either(options.json, &report, || text)?;
     plan::name_files(options, &files);
-    let verdict = match report.cycle.verdict {
-        Verdict::Washed if report.simulation.fails() => Verdict::NotVerified,
-        verdict => verdict,
-    };
-    Ok(run::exit_code(verdict, scenario.job.on_failure))
+    // The worse of the two.
+    let outcome = Outcome::from(report.cycle.verdict).max(report.simulation.outcome());
+    Ok(outcome.job(scenario.job.on_failure))
 }
 
-/// What came of planning.
-enum Outcome {
-    Planned(Box<Cycle>),
-    Infeasible(InfeasibleReport),
-}
-
-fn carry_out(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -> Result<Outcome, Failure> {
-    plan::check_rows(scenario, scenario.duration_at_least(), arguments)?;
+fn carry_out(options: &Options, scenario: &Scenario) -> Result<Cycled, Failure> {
+    let robot = options.arm(scenario)?;
     let progress = Progress::new(options.quiet, "planning");
-    match Cycle::plan_telling(scenario, &|activity| progress.say("planning", activity)) {
+    match Cycle::with_arm(scenario, robot, &|activity| progress.say("planning", activity)) {
         Ok(cycle) => {
             tracing::info!("planned {} knots", cycle.motion.times().len());
-            Ok(Outcome::Planned(Box::new(cycle)))
+            Ok(Cycled::Planned(Box::new(cycle)))
         }
         Err(error) => match InfeasibleReport::new(scenario, &error) {
-            Some(report) => Ok(Outcome::Infeasible(report)),
+            Some(report) => Ok(Cycled::Infeasible(report)),
             None => Err(options.failure(error)),
         },
     }
-}
-
-/// Reports a job of which no plan came, in place of what earlier calls left.
-fn infeasible(options: &Options, scenario: &Scenario, report: &InfeasibleReport) -> Result<ExitCode, Failure> {
-    let folder = plan::folder(options);
-    let text = output::text(report);
-    let files = vec![
-        (folder.join("report.json"), output::json(report)?),
-        (folder.join("report.txt"), text.clone()),
-    ];
-    results::write(&folder, &files)?;
-    output::print_either(options.json, report, || text)?;
-    plan::name_files(options, &files);
-    Ok(run::exit_code(report.verdict, scenario.job.on_failure))
 }
 
 fn csv(cycle: &Cycle, arguments: &PlanArguments) -> Result<String, Failure> {

@@ -3,7 +3,8 @@
 use super::angles::JointArguments;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
-use super::{output, robot};
+use super::output::{self, Reader};
+use super::robot;
 use clap::Args;
 use platewash::kinematics::jacobian::manipulability;
 use platewash::planner::job;
@@ -74,7 +75,7 @@ impl From<&Pose> for FramePose {
 pub fn run(options: &Options, arguments: &FkArguments) -> Result<ExitCode, Failure> {
     let configurations = arguments.joints.configurations(arguments.file.as_ref())?;
     let scenario = options.scenario()?;
-    let robot = platewash::planner::robot::load(&scenario.robot)?;
+    let robot = options.arm(&scenario)?;
     let clearance = if options.scenario.is_some() {
         let layout = job::place_plates(&scenario, &robot).map_err(PlanError::from)?;
         ClearanceModel::new(&robot, &scenario.tool, &layout.plates)
@@ -82,16 +83,21 @@ pub fn run(options: &Options, arguments: &FkArguments) -> Result<ExitCode, Failu
         ClearanceModel::new(&robot, &robot::bare(), &[])
     };
     let clearance = clearance.map_err(PlanError::from)?;
-    let answer = Answer {
-        robot: robot.name().to_owned(),
-        configurations: configurations
-            .iter()
-            .map(|q| configuration(&robot, &clearance, q))
-            .collect(),
-    };
-    output::print_either(options.json, &answer, || {
-        answer.configurations.iter().map(text).collect()
-    })?;
+    let mut answers = configurations.iter().map(|q| configuration(&robot, &clearance, q));
+    if options.json {
+        let answer = Answer {
+            robot: robot.name().to_owned(),
+            configurations: answers.collect(),
+        };
+        output::print(&output::json(&answer)?)?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    // One by one, as long as anybody reads them.
+    for answer in &mut answers {
+        if output::print(&output::text(&text(&answer)))? == Reader::Gone {
+            break;
+        }
+    }
     Ok(ExitCode::SUCCESS)
 }
 

@@ -1,7 +1,8 @@
 //! `platewash ik`: a configuration for one pose.
 
 use super::angles::{Unit, joints};
-use super::failure::{self, ExitCode, Failure};
+use super::exit::Outcome;
+use super::failure::{ExitCode, Failure};
 use super::fk::{FramePose, both_units};
 use super::options::Options;
 use super::output;
@@ -89,7 +90,7 @@ pub fn run(options: &Options, arguments: &IkArguments) -> Result<ExitCode, Failu
         )));
     }
     let scenario = options.scenario()?;
-    let arm = robot::load(&scenario.robot)?;
+    let arm = options.arm(&scenario)?;
     // The default scenario states poses as the paper does; a bare `ik` means ROS-Industrial's tool0.
     let stated = match options.scenario {
         Some(_) => scenario.robot.tool_frame,
@@ -111,7 +112,12 @@ pub fn run(options: &Options, arguments: &IkArguments) -> Result<ExitCode, Failu
     let solver = IkSolver::new(&arm, frame, settings).map_err(Failure::input)?;
     let answer = answer(&solver, &target, &seed, name)?;
     output::print_either(options.json, &answer, || text(&answer, &arm))?;
-    Ok(ExitCode::from(if answer.solved { 0 } else { failure::INFEASIBLE }))
+    let outcome = if answer.solved {
+        Outcome::Good
+    } else {
+        Outcome::Infeasible
+    };
+    Ok(outcome.answer())
 }
 
 fn answer(solver: &IkSolver<'_>, target: &Pose, seed: &JointVector, name: &str) -> Result<Answer, Failure> {

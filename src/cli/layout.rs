@@ -3,15 +3,15 @@
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
+use platewash::PlanError;
 use platewash::planner::job;
 use platewash::planner::layout::{Layout, LayoutSource};
-use platewash::{PlanError, planner::robot};
 use std::fmt::Write;
 
 /// Places the plates; with `--out`, writes `layout.json`.
 pub fn run(options: &Options) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
-    let robot = robot::load(&scenario.robot)?;
+    let robot = options.arm(&scenario)?;
     let layout = job::place_plates(&scenario, &robot).map_err(PlanError::from)?;
     if let Some(folder) = &options.out {
         let file = folder.join("layout.json");

@@ -4,6 +4,7 @@
 
 mod angles;
 mod cycle;
+mod exit;
 mod failure;
 mod fk;
 mod ik;
@@ -19,6 +20,7 @@ mod robot;
 mod run;
 mod simulate;
 mod sweep;
+mod time_step;
 mod tune;
 mod validate;
 mod verify;

@@ -1,10 +1,11 @@
 //! Options that every verb takes.
 
 use super::failure::Failure;
+use super::output;
 use anyhow::{Context, anyhow, ensure};
 use clap::Args;
 use platewash::planner::robot;
-use platewash::planner::scenario::{MAX_SEED, SHIPPED, ScenarioError};
+use platewash::planner::scenario::{MAX_SEED, SHIPPED, ScenarioError, UnitNote};
 use platewash::{PlanError, RobotModel, Scenario};
 use rayon::ThreadPool;
 use std::path::PathBuf;
@@ -88,7 +89,22 @@ impl Options {
             scenario.robot.package_path.clone_from(&self.package_path);
         }
         scenario.validate().map_err(|error| self.of_file(error))?;
+        self.warn(&scenario.notes());
         Ok(scenario)
+    }
+
+    /// The arm of a scenario.
+    pub fn arm(&self, scenario: &Scenario) -> Result<RobotModel, Failure> {
+        let robot = robot::load(&scenario.robot)?;
+        self.warn(UnitNote::of_arm(&robot).as_slice());
+        Ok(robot)
+    }
+
+    /// Says on standard error what was probably meant in another unit.
+    pub fn warn(&self, notes: &[UnitNote]) {
+        for note in notes {
+            output::message(self.quiet, &format!("warning: {note}"));
+        }
     }
 
     /// A planner's error; one of the scenario with the file that was given in place of the scenario's own name.
@@ -125,7 +141,7 @@ impl Options {
 
     /// The arm of the scenario, or of the options.
     pub fn robot(&self) -> Result<RobotModel, Failure> {
-        Ok(robot::load(&self.scenario()?.robot)?)
+        self.arm(&self.scenario()?)
     }
 }
 

@@ -9,14 +9,24 @@ use std::io::{ErrorKind, Write};
 use std::path::{Component, Path, PathBuf};
 use tempfile::NamedTempFile;
 
+/// Whether anybody still reads standard output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reader {
+    /// As far as is known.
+    There,
+    /// It has closed its end: whatever else is printed goes nowhere.
+    Gone,
+}
+
 /// Prints to standard output; a reader that has gone away is no error.
-pub fn print(text: &str) -> Result<(), Failure> {
+pub fn print(text: &str) -> Result<Reader, Failure> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::internal(
+        Ok(()) => Ok(Reader::There),
+        Err(e) if e.kind() == ErrorKind::BrokenPipe => Ok(Reader::Gone),
+        Err(e) => Err(Failure::internal(
             anyhow::Error::new(e).context("standard output cannot be written"),
         )),
-        _ => Ok(()),
     }
 }
 
@@ -47,7 +57,7 @@ fn escaped(text: &str, escape: impl Fn(char) -> String) -> String {
 }
 
 /// Prints a value as JSON, or as text.
-pub fn print_either(as_json: bool, value: &impl Serialize, text: impl FnOnce() -> String) -> Result<(), Failure> {
+pub fn print_either(as_json: bool, value: &impl Serialize, text: impl FnOnce() -> String) -> Result<Reader, Failure> {
     if as_json {
         print(&json(value)?)
     } else {
@@ -70,7 +80,7 @@ pub fn write_files(files: &[(PathBuf, String)]) -> Result<(), Failure> {
 
 /// The same in place of `stale` files, which go just before.
 pub fn replace(files: &[(PathBuf, String)], stale: &[PathBuf]) -> Result<(), Failure> {
-    refuse_one_place_for_two(files).map_err(Failure::input)?;
+    refuse_one_place_for_two(files.iter().map(|(path, _)| path)).map_err(Failure::input)?;
     let mut complete = Vec::new();
     for (path, text) in files {
         complete.push((stage(path, text).map_err(Failure::input)?, path));
@@ -89,15 +99,59 @@ pub fn replace(files: &[(PathBuf, String)], stale: &[PathBuf]) -> Result<(), Fai
     Ok(())
 }
 
-fn stage(path: &Path, text: &str) -> anyhow::Result<NamedTempFile> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
+/// Refuses, before any work, files that could not be written after it. Nothing is left behind.
+pub fn check_places(files: &[PathBuf]) -> Result<(), Failure> {
+    let check = || {
+        refuse_one_place_for_two(files.iter())?;
+        files.iter().try_for_each(|path| refuse_place(path))
     };
-    std::fs::create_dir_all(folder).with_context(|| format!("{}: folder cannot be made", folder.display()))?;
+    check().map_err(Failure::input)
+}
+
+/// Refuses a file whose folder can neither be written nor made.
+fn refuse_place(path: &Path) -> anyhow::Result<()> {
+    refuse_folder(path)?;
+    let folder = folder_of(path);
+    let place = place(folder).with_context(|| format!("{}: cannot be written", path.display()))?;
+    // A link that leads nowhere does not exist, but stands in the way.
+    let stands = |place: &&Path| std::fs::symlink_metadata(place).is_ok();
+    let Some(nearest) = place.ancestors().find(stands) else {
+        return Ok(());
+    };
+    let cannot = || format!("{}: cannot be written", path.display());
+    if !nearest.is_dir() {
+        anyhow::bail!("{}: {} is no folder", cannot(), nearest.display());
+    }
+    // Rights are many things; a file that is made and goes again asks for all of them.
+    let made = temporary().tempfile_in(nearest).map(drop);
+    made.map_err(|error| {
+        anyhow::anyhow!(
+            "{}: no file can be made in {}: {}",
+            cannot(),
+            nearest.display(),
+            error.kind()
+        )
+    })
+}
+
+fn refuse_folder(path: &Path) -> anyhow::Result<()> {
     if path.is_dir() {
         anyhow::bail!("{}: cannot be written: it is a folder", path.display());
     }
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+fn stage(path: &Path, text: &str) -> anyhow::Result<NamedTempFile> {
+    let folder = folder_of(path);
+    std::fs::create_dir_all(folder).with_context(|| format!("{}: folder cannot be made", folder.display()))?;
+    refuse_folder(path)?;
     let cannot = || format!("{}: cannot be written", path.display());
     let mut staged = temporary().tempfile_in(folder).with_context(cannot)?;
     staged.write_all(text.as_bytes()).with_context(cannot)?;
@@ -114,9 +168,9 @@ fn temporary() -> tempfile::Builder<'static, 'static> {
 }
 
 /// No file may take the place of another one of the same run.
-fn refuse_one_place_for_two(files: &[(PathBuf, String)]) -> anyhow::Result<()> {
+fn refuse_one_place_for_two<'a>(files: impl Iterator<Item = &'a PathBuf>) -> anyhow::Result<()> {
     let mut taken = BTreeMap::new();
-    for (path, _) in files {
+    for path in files {
         let place = place(path).with_context(|| format!("{}: cannot be written", path.display()))?;
         if let Some(first) = taken.insert(place, path) {
             anyhow::bail!(

@@ -1,20 +1,20 @@
 //! `platewash plan`: the plan file and its CSV.
 
+use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::progress::Progress;
-use super::{cycle, output, results, run};
-use anyhow::{Context, anyhow, ensure};
+use super::time_step::TimeStep;
+use super::{cycle, output, results};
 use clap::Args;
-use platewash::planner::plan::PlanSegment;
+use platewash::planner::cycle::InfeasibleReport;
+use platewash::planner::plan::{PlanSegment, Summary};
 use platewash::planner::scenario::Program;
 use platewash::planner::words::counted;
 use platewash::planner::{csv, job, plan, robot};
 use platewash::{Job, JobReport, Plan, PlanError, RobotModel, Scenario, Trajectory};
+use serde::Serialize;
 use std::path::PathBuf;
-
-/// Most rows of a CSV file: some 300 megabytes.
-const MAX_ROWS: f64 = 1e6;
 
 /// Folder that is written to without `--out`.
 const DEFAULT_FOLDER: &str = "out";
@@ -25,39 +25,93 @@ pub struct PlanArguments {
     /// File for the planned motion's CSV [default: trajectory.csv in the output folder]
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
-    /// Time step of the CSV files in seconds [default: the scenario's control.dt_s]
-    #[arg(long, value_name = "S", value_parser = time_step, allow_negative_numbers = true)]
-    pub dt: Option<f64>,
+    #[command(flatten)]
+    pub time_step: TimeStep,
 }
 
 /// Plans the scenario and writes the plan and its CSV.
 pub fn run(options: &Options, arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
+    results::check_places(&folder(options), &["plan.json"], &csv_file(options, arguments))?;
     if scenario.job.program == Program::Certified {
         return cycle::plan(options, &scenario, arguments);
     }
-    let (job, report) = carry_out(options, &scenario)?;
+    let (job, report) = match carry_out(options, &scenario)? {
+        Followed::Judged(both) => *both,
+        Followed::Infeasible(report) => return infeasible(options, &scenario, &report),
+    };
     let files = files(options, &job, &report, arguments)?;
     results::write(&folder(options), &files)?;
     let summary = report.summary();
-    output::print_either(options.json, &summary, || {
+    output::print_either(options.json, &Planned::of(&summary), || {
         let [reached, asked] = summary.waypoints_reached;
         let line = format!(
             "{reached} of {asked} waypoints reached, {:.2} s of motion",
             summary.duration_s
         );
-        format!("{}\n{line}\n", summary.headline)
+        format!("{}\n{line}\n", first_line(&summary))
     })?;
     name_files(options, &files);
-    Ok(run::exit_code(report.verdict, scenario.job.on_failure))
+    Ok(Outcome::from(report.verdict).job(scenario.job.on_failure))
+}
+
+/// What `plan` says of a plan: its summary, and that it proves nothing.
+#[derive(Debug, Serialize)]
+pub struct Planned<'a> {
+    /// Always false: proving is for `run` and `verify`.
+    proved: bool,
+    #[serde(flatten)]
+    summary: &'a Summary,
+}
+
+impl<'a> Planned<'a> {
+    /// Of a plan's summary.
+    pub fn of(summary: &'a Summary) -> Self {
+        Self { proved: false, summary }
+    }
+}
+
+/// The first line of what `plan` says.
+pub fn first_line(summary: &Summary) -> String {
+    format!("planned, not proved: {}", summary.headline)
+}
+
+/// What came of the paper's program.
+pub enum Followed {
+    /// A motion, judged.
+    Judged(Box<(Job, JobReport)>),
+    /// Nothing: the plates have no place.
+    Infeasible(InfeasibleReport),
+}
+
+/// Reports a job that cannot be done, in place of what earlier calls left.
+pub fn infeasible(options: &Options, scenario: &Scenario, report: &InfeasibleReport) -> Result<ExitCode, Failure> {
+    let folder = folder(options);
+    let text = output::text(report);
+    let files = vec![
+        (folder.join("report.json"), output::json(report)?),
+        (folder.join("report.txt"), text.clone()),
+    ];
+    results::write(&folder, &files)?;
+    output::print_either(options.json, report, || text)?;
+    name_files(options, &files);
+    Ok(Outcome::from(report.verdict).job(scenario.job.on_failure))
 }
 
 /// Plans, follows and judges a scenario that is not too much work, with a sign of life.
-pub fn carry_out(options: &Options, scenario: &Scenario) -> Result<(Job, JobReport), Failure> {
+pub fn carry_out(options: &Options, scenario: &Scenario) -> Result<Followed, Failure> {
     let _progress = Progress::new(options.quiet, "planning");
-    let robot = robot::load(&scenario.robot)?;
-    let layout = job::place_plates(scenario, &robot).map_err(PlanError::from)?;
-    let job = Job::on(scenario, robot, layout).map_err(|error| options.failure(error))?;
+    let robot = options.arm(scenario)?;
+    let placed = job::place_plates(scenario, &robot).map_err(PlanError::from);
+    let job = match placed.and_then(|layout| Job::on(scenario, robot, layout)) {
+        Ok(job) => job,
+        Err(error) => {
+            return match InfeasibleReport::new(scenario, &error) {
+                Some(report) => Ok(Followed::Infeasible(report)),
+                None => Err(options.failure(error)),
+            };
+        }
+    };
     tracing::info!(
         "planned {} waypoints on {}",
         job.tool_path.len(),
@@ -65,7 +119,7 @@ pub fn carry_out(options: &Options, scenario: &Scenario) -> Result<(Job, JobRepo
     );
     let report = job.report()?;
     tracing::info!("checked {} violations", report.executed.violations.len());
-    Ok((job, report))
+    Ok(Followed::Judged(Box::new((job, report))))
 }
 
 /// Where files go.
@@ -103,36 +157,8 @@ pub fn motion_csv(
     arguments: &PlanArguments,
 ) -> Result<String, Failure> {
     let tip = robot::tip_frame(robot, &scenario.tool);
-    let dt_s = check_rows(scenario, motion.duration_s(), arguments)?;
+    let dt_s = arguments.time_step.of(scenario, motion.duration_s())?;
     Ok(csv::table(motion, segments, robot, &tip, dt_s)?)
-}
-
-/// The time step of the CSV \[s\], if `duration_s` of motion, or more, gives not too many rows.
-pub fn check_rows(scenario: &Scenario, duration_s: f64, arguments: &PlanArguments) -> Result<f64, Failure> {
-    let (key, dt_s) = match arguments.dt {
-        Some(dt_s) => ("--dt", dt_s),
-        None => ("control.dt_s", scenario.control.dt_s),
-    };
-    if duration_s / dt_s <= MAX_ROWS {
-        return Ok(dt_s);
-    }
-    let least = duration_s / MAX_ROWS;
-    let instead = if arguments.dt.is_some() {
-        ""
-    } else {
-        ", there or as --dt"
-    };
-    Err(Failure::input(anyhow!(
-        "{key}: a time step of {dt_s} s gives more than {MAX_ROWS} rows of CSV for {duration_s:.1} s of motion; give at least \
-         {least:e} s{instead}"
-    )))
-}
-
-fn time_step(text: &str) -> anyhow::Result<f64> {
-    let expected = "must be a positive number of seconds";
-    let dt_s: f64 = text.parse().context(expected)?;
-    ensure!(dt_s.is_finite() && dt_s > 0.0, expected);
-    Ok(dt_s)
 }
 
 /// Says what was written.

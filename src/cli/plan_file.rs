@@ -4,8 +4,8 @@ use super::failure::Failure;
 use super::options::Options;
 use anyhow::anyhow;
 use platewash::kinematics::urdf::file;
-use platewash::planner::certificate;
-use platewash::planner::scenario::RobotSection;
+use platewash::planner::certificate::{self, VerifyError};
+use platewash::planner::scenario::{RobotSection, UnitNote};
 use platewash::{Plan, RobotModel};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -35,7 +35,15 @@ impl PlanFile {
             package_path: options.package_path.clone(),
             ..plan.scenario.robot.clone()
         });
-        let robot = certificate::arm(&plan, given.as_ref()).map_err(|e| refused(path, e))?;
+        let robot = certificate::arm(&plan, given.as_ref()).map_err(|error| match error {
+            VerifyError::NoDescription { file } => refused(
+                path,
+                format_args!("the plan is for the arm of \"{file}\": give that description as --urdf FILE"),
+            ),
+            other => refused(path, other),
+        })?;
+        options.warn(&plan.scenario.notes());
+        options.warn(UnitNote::of_arm(&robot).as_slice());
         let path = path.to_owned();
         Ok(Self { path, plan, robot })
     }

@@ -48,6 +48,11 @@ pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode
         draws: arguments.draws,
         seed: options.seed.unwrap_or(ReproduceSettings::default().seed),
     };
+    let places = options
+        .out
+        .as_ref()
+        .map(|folder| ["reproduce.json", "reproduce.txt"].map(|name| folder.join(name)));
+    output::check_places(places.as_ref().map_or(&[][..], |places| places))?;
     let progress = Progress::new(options.quiet, "measuring dead ends");
     let result = reproduce(&settings, &|done, total| {
         progress.note(done, total);
@@ -55,11 +60,8 @@ pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode
     });
     drop(progress);
     let result = result?;
-    if let Some(folder) = &options.out {
-        let files = [
-            (folder.join("reproduce.json"), output::json(&result)?),
-            (folder.join("reproduce.txt"), result.to_string()),
-        ];
+    if let Some([json, text]) = places {
+        let files = [(json, output::json(&result)?), (text, result.to_string())];
         output::write_files(&files)?;
         output::message(
             options.quiet,

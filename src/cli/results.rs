@@ -23,6 +23,13 @@ pub fn write(folder: &Path, files: &[(PathBuf, String)]) -> Result<(), Failure> 
     output::replace(files, &stale)
 }
 
+/// Refuses, before any work, a folder in which `names` of [`OWNED`] cannot be written, and a CSV that cannot be where it is asked
+/// for.
+pub fn check_places(folder: &Path, names: &[&str], csv: &Path) -> Result<(), Failure> {
+    let named = names.iter().map(|name| folder.join(name));
+    output::check_places(&named.chain([csv.to_owned()]).collect::<Vec<_>>())
+}
+
 fn stale(folder: &Path, files: &[(PathBuf, String)]) -> anyhow::Result<Vec<PathBuf>> {
     let place = |path: &Path| output::place(path).with_context(|| format!("{}: cannot be written", path.display()));
     let written: Vec<_> = files.iter().map(|(path, _)| place(path)).collect::<Result<_, _>>()?;

@@ -1,28 +1,50 @@
 //! `platewash run`: a scenario to the end.
 
-use super::failure::{self, ExitCode, Failure};
+use super::exit::Outcome;
+use super::failure::{ExitCode, Failure};
 use super::options::Options;
-use super::plan::{self, PlanArguments};
+use super::plan::{self, Followed, PlanArguments};
 use super::{cycle, output, results};
 use clap::Args;
-use platewash::Verdict;
-use platewash::planner::scenario::{OnFailure, Program};
+use platewash::planner::certificate::PairsShown;
+use platewash::planner::scenario::Program;
 
 /// Arguments of `run`.
 #[derive(Debug, Args, Default)]
 pub struct RunArguments {
     #[command(flatten)]
     pub plan: PlanArguments,
+    /// Name every pair of bodies in the report, not the ten tightest alone
+    #[arg(long)]
+    pub all_pairs: bool,
+}
+
+impl RunArguments {
+    /// The pairs that the report names.
+    pub fn pairs(&self) -> PairsShown {
+        pairs(self.all_pairs)
+    }
+}
+
+/// The pairs that a table names, as `--all-pairs` says.
+pub fn pairs(all: bool) -> PairsShown {
+    if all { PairsShown::All } else { PairsShown::Tightest }
 }
 
 /// Plans, follows and judges the scenario; writes the plan, both motions and the report.
 pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
-    if scenario.job.program == Program::Certified {
-        return cycle::run(options, &scenario, &arguments.plan);
-    }
-    let (job, report) = plan::carry_out(options, &scenario)?;
     let folder = plan::folder(options);
+    let csv = plan::csv_file(options, &arguments.plan);
+    let names = results::OWNED.into_iter().filter(|name| *name != "trajectory.csv");
+    results::check_places(&folder, &names.collect::<Vec<_>>(), &csv)?;
+    if scenario.job.program == Program::Certified {
+        return cycle::run(options, &scenario, arguments);
+    }
+    let (job, report) = match plan::carry_out(options, &scenario)? {
+        Followed::Judged(both) => *both,
+        Followed::Infeasible(report) => return plan::infeasible(options, &scenario, &report),
+    };
     let text = output::text(&report);
     let mut files = plan::files(options, &job, &report, &arguments.plan)?;
     let segments = platewash::planner::plan::segments(&job);
@@ -33,14 +55,5 @@ pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Fail
     results::write(&folder, &files)?;
     output::print_either(options.json, &report, || text)?;
     plan::name_files(options, &files);
-    Ok(exit_code(report.verdict, scenario.job.on_failure))
-}
-
-/// The exit code of a finished job.
-pub fn exit_code(verdict: Verdict, on_failure: OnFailure) -> ExitCode {
-    ExitCode::from(match (on_failure, verdict) {
-        (OnFailure::Report, _) | (_, Verdict::Washed) => 0,
-        (OnFailure::Fail, Verdict::Infeasible | Verdict::NotFound) => failure::INFEASIBLE,
-        (OnFailure::Fail, Verdict::NotVerified) => failure::NOT_VERIFIED,
-    })
+    Ok(Outcome::from(report.verdict).job(scenario.job.on_failure))
 }

@@ -1,17 +1,21 @@
 //! `platewash simulate`: a plan under a control law, and what is left of the wash.
 
-use super::failure::{self, ExitCode, Failure};
+use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::plan_file::PlanFile;
 use super::progress::Progress;
-use super::{output, plan};
+use super::time_step::TimeStep;
+use super::{exit, output, plan};
 use anyhow::{Context, ensure};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use platewash::planner::scenario::ControlLawName;
-use platewash::simulator::{self, Execution, Setup, SimulationError, SimulationVerdict};
+use platewash::simulator::{self, Execution, Setup, SimulationError};
 use platewash::{Plan, RobotModel, SimulationReport};
 use std::path::PathBuf;
+
+/// What is written.
+const FILES: [&str; 3] = ["executed.csv", "simulation.json", "simulation.txt"];
 
 /// Arguments of `simulate`.
 #[derive(Debug, Args)]
@@ -27,9 +31,8 @@ pub struct SimulateArguments {
     /// Damping ratio [default: the scenario's control.damping_ratio]
     #[arg(long, value_name = "RATIO", value_parser = positive, allow_negative_numbers = true)]
     pub damping: Option<f64>,
-    /// Time step of the CSV file in seconds [default: the scenario's control.dt_s]
-    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
-    pub dt: Option<f64>,
+    #[command(flatten)]
+    pub time_step: TimeStep,
 }
 
 /// The control law, where it is not the scenario's.
@@ -55,6 +58,9 @@ impl LawArguments {
 
 /// Simulates a plan file, judges the execution, and writes it as CSV and the report.
 pub fn run(options: &Options, arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
+    let folder = plan::folder(options);
+    let places = FILES.map(|name| folder.join(name));
+    output::check_places(&places)?;
     let file = PlanFile::read(options, &arguments.plan)?;
     let mut setup = arguments.law.setup(&file.plan);
     let control = &mut setup.control;
@@ -64,23 +70,25 @@ pub fn run(options: &Options, arguments: &SimulateArguments) -> Result<ExitCode,
     }
     control.frequency_rad_s = arguments.frequency.unwrap_or(control.frequency_rad_s);
     control.damping_ratio = arguments.damping.unwrap_or(control.damping_ratio);
+    let scenario = &file.plan.scenario;
+    let dt_s = arguments.time_step.of(scenario, lasts_at_most_s(&file.plan, &setup))?;
     let (execution, report) = {
         let _progress = Progress::new(options.quiet, "simulating");
         carry_out(&file.plan, &file.robot, &setup).map_err(|e| file.refused(e))?
     };
-    let dt_s = arguments.dt.unwrap_or(file.plan.scenario.control.dt_s);
     let csv = simulator::simulate::table(&execution, &file.plan, &file.robot, dt_s)?;
-    let folder = plan::folder(options);
     let text = output::text(&report);
-    let files = vec![
-        (folder.join("executed.csv"), csv),
-        (folder.join("simulation.json"), output::json(&report)?),
-        (folder.join("simulation.txt"), text.clone()),
-    ];
+    let texts = [csv, output::json(&report)?, text.clone()];
+    let files: Vec<_> = places.into_iter().zip(texts).collect();
     output::write_files(&files)?;
     output::print_either(options.json, &report, || text)?;
     plan::name_files(options, &files);
-    Ok(exit_code(report.verdict))
+    Ok(exit::simulated([report.verdict], scenario.job.on_failure))
+}
+
+/// How long an execution of a plan lasts at most \[s\]: its last sample may come a period after the plan's end.
+pub fn lasts_at_most_s(plan: &Plan, setup: &Setup) -> f64 {
+    plan.knots.t_s.last().copied().unwrap_or(0.0) + setup.period_s()
 }
 
 /// Simulates and judges a plan.
@@ -92,13 +100,6 @@ pub fn carry_out(
     let execution = simulator::simulate(plan, robot, setup)?;
     let report = SimulationReport::new(plan, robot, setup, &execution)?;
     Ok((execution, report))
-}
-
-fn exit_code(verdict: SimulationVerdict) -> ExitCode {
-    match verdict {
-        SimulationVerdict::Washed => ExitCode::SUCCESS,
-        SimulationVerdict::NotWashed => ExitCode::from(failure::NOT_VERIFIED),
-    }
 }
 
 fn laws() -> impl TypedValueParser<Value = ControlLawName> {

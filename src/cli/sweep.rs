@@ -1,16 +1,17 @@
 //! `platewash sweep`: many layouts of one scenario, each planned and proved.
 
-use super::failure::{ExitCode, Failure, INFEASIBLE, NOT_VERIFIED};
+use super::exit::Outcome;
+use super::failure::{ExitCode, Failure};
 use super::options::{self, Options};
-use super::output;
+use super::output::{self, Reader};
 use super::progress::Progress;
 use anyhow::{Context, ensure};
 use clap::Args;
 use platewash::Scenario;
-use platewash::planner::scenario::{MAX_SEED, OnFailure, Program};
+use platewash::planner::scenario::{MAX_SEED, Program};
 use platewash::planner::sweep::{self, SweepOutcome, SweepRow};
 use std::io::IsTerminal;
-use std::ops::RangeInclusive;
+use std::ops::{ControlFlow, RangeInclusive};
 
 /// Most layouts of one call.
 const MOST_LAYOUTS: u64 = 100_000;
@@ -37,9 +38,16 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Fa
             scenario.name
         )));
     }
-    let rows = rows(options, &scenario, arguments)?;
-    if let Some(folder) = &options.out {
-        output::write_files(&[(folder.join("sweep.csv"), sweep::csv(&rows))])?;
+    let table = options.out.as_ref().map(|folder| folder.join("sweep.csv"));
+    output::check_places(table.as_slice())?;
+    options.arm(&scenario)?;
+    let (rows, reader) = rows(options, &scenario, arguments)?;
+    if table.is_none() && reader == Reader::Gone {
+        // Nobody wants the other rows, nor a verdict about them.
+        return Ok(ExitCode::SUCCESS);
+    }
+    if let Some(table) = table {
+        output::write_files(&[(table, sweep::csv(&rows))])?;
     }
     if options.json {
         output::print(&output::json(&rows)?)?;
@@ -60,28 +68,40 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Fa
             "{proved} of {total} proved, {not_proved} planned but not proved, {infeasible} infeasible, {not_found} not found, {failed} with an error"
         ),
     );
-    Ok(ExitCode::from(match scenario.job.on_failure {
-        OnFailure::Fail if infeasible + not_found + failed > 0 => INFEASIBLE,
-        OnFailure::Fail if not_proved > 0 => NOT_VERIFIED,
-        _ => 0,
-    }))
+    let outcome = if infeasible + not_found + failed > 0 {
+        Outcome::Infeasible
+    } else if not_proved > 0 {
+        Outcome::NotVerified
+    } else {
+        Outcome::Good
+    };
+    Ok(outcome.job(scenario.job.on_failure))
 }
 
-/// The rows; as text they are printed one by one, in the order of the seeds, as JSON in the end.
-fn rows(options: &Options, scenario: &Scenario, arguments: &SweepArguments) -> Result<Vec<SweepRow>, Failure> {
+/// The rows; as text they are printed one by one, in the order of the seeds, as JSON in the end. Where nothing is written to a
+/// file, the rows end when the reader of standard output leaves.
+fn rows(
+    options: &Options,
+    scenario: &Scenario,
+    arguments: &SweepArguments,
+) -> Result<(Vec<SweepRow>, Reader), Failure> {
     let shows_rows = !options.json && std::io::stdout().is_terminal();
     let _progress = Progress::new(options.quiet || shows_rows, "planning and proving");
-    let (mut printed, mut header) = (Ok(()), Some(sweep::HEADER));
+    let (mut printed, mut header) = (Ok(Reader::There), Some(sweep::HEADER));
     let mut print = |row: &SweepRow| {
-        if !options.json && printed.is_ok() {
+        if !options.json && matches!(printed, Ok(Reader::There)) {
             let line = header.take().unwrap_or_default().to_owned() + &row.csv_line();
             printed = output::print(&output::text(&line));
+        }
+        match printed {
+            Ok(Reader::There) => ControlFlow::Continue(()),
+            Ok(Reader::Gone) if options.out.is_some() => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
         }
     };
     let rows = sweep::sweep_each(scenario, arguments.seeds.clone(), &mut print);
     let rows = rows.map_err(|error| options.failure(error))?;
-    printed?;
-    Ok(rows)
+    Ok((rows, printed?))
 }
 
 fn seeds(text: &str) -> anyhow::Result<RangeInclusive<u64>> {

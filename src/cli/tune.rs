@@ -2,10 +2,10 @@
 
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
-use super::output;
 use super::plan_file::PlanFile;
 use super::progress::Progress;
 use super::simulate::{LawArguments, positive};
+use super::{exit, output};
 use anyhow::ensure;
 use clap::Args;
 use platewash::Plan;
@@ -50,6 +50,16 @@ enum Outcome {
     Refused(String),
 }
 
+impl Row {
+    /// What came of the simulation; `None` where it was refused.
+    fn verdict(&self) -> Option<SimulationVerdict> {
+        match &self.outcome {
+            Outcome::Simulated(outcome) => Some(outcome.verdict),
+            Outcome::Refused(_) => None,
+        }
+    }
+}
+
 impl From<TuneRow> for Row {
     fn from(row: TuneRow) -> Self {
         Self {
@@ -66,6 +76,8 @@ impl From<TuneRow> for Row {
 /// Simulates a plan file at every pair of a frequency and a damping; prints the trade-off, with `--out` writes `tune.csv` too.
 pub fn run(options: &Options, arguments: &TuneArguments) -> Result<ExitCode, Failure> {
     check(arguments).map_err(Failure::input)?;
+    let table = options.out.as_ref().map(|folder| folder.join("tune.csv"));
+    output::check_places(table.as_slice())?;
     let file = PlanFile::read(options, &arguments.plan)?;
     let setup = arguments.law.setup(&file.plan);
     if setup.law.is_kinematic() {
@@ -85,11 +97,18 @@ pub fn run(options: &Options, arguments: &TuneArguments) -> Result<ExitCode, Fai
         );
         rows.into_iter().map(Row::from).collect()
     };
-    if let Some(folder) = &options.out {
-        output::write_files(&[(folder.join("tune.csv"), csv(&rows))])?;
+    if let Some(table) = table {
+        output::write_files(&[(table, csv(&rows))])?;
     }
     output::print_either(options.json, &rows, || text(&file.plan, &setup, &rows))?;
-    Ok(ExitCode::SUCCESS)
+    let verdicts: Vec<_> = rows.iter().filter_map(Row::verdict).collect();
+    if verdicts.is_empty() {
+        return Err(file.refused(format_args!(
+            "none of {} settings can be simulated; the table says why",
+            rows.len()
+        )));
+    }
+    Ok(exit::simulated(verdicts, file.plan.scenario.job.on_failure))
 }
 
 fn check(arguments: &TuneArguments) -> anyhow::Result<()> {
@@ -164,5 +183,6 @@ fn verdict(outcome: &TuneOutcome) -> &'static str {
     match outcome.verdict {
         SimulationVerdict::Washed => "washed",
         SimulationVerdict::NotWashed => "not washed",
+        SimulationVerdict::Altered => "altered",
     }
 }

@@ -1,13 +1,14 @@
 //! `platewash validate`: a scenario checked, not run.
 
+use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
+use platewash::planner::job;
 use platewash::planner::layout::{Finding, LayoutError};
-use platewash::planner::scenario::Program;
+use platewash::planner::scenario::{Overlap, Program, UnitNote};
 use platewash::planner::words::counted;
-use platewash::planner::{job, robot};
-use platewash::{Cycle, Layout, PlanError, Scenario};
+use platewash::{Cycle, Layout, PlanError, RobotModel, Scenario};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -15,7 +16,12 @@ struct Answer {
     valid: bool,
     scenario: String,
     robot: String,
+    /// What is to be said about the plates.
     findings: Vec<Finding>,
+    /// Those of them for which no plan can be proved.
+    unprovable: Vec<Finding>,
+    /// What was probably meant in another unit.
+    notes: Vec<UnitNote>,
     /// What the seed gives, for plates that are sampled.
     sampling: Option<Sampling>,
 }
@@ -31,12 +37,14 @@ struct Sampling {
 /// Checks the scenario, its arm and its plates: given ones are looked over, sampled ones placed with the scenario's seed.
 pub fn run(options: &Options) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
+    let arm = options.arm(&scenario)?;
     let sampling = if scenario.layout.positions_m.is_none() {
-        Some(sampling(&scenario)?)
+        Some(sampling(&scenario, &arm)?)
     } else {
         None
     };
-    let (robot, findings) = job::check(&scenario)?;
+    let (robot, mut findings) = job::check(&scenario)?;
+    let mut unprovable = Vec::new();
     scenario.check_work().map_err(|error| options.failure(error.into()))?;
     if scenario.job.program == Program::Certified {
         // What depends on where plates lie is known where they do.
@@ -44,22 +52,42 @@ pub fn run(options: &Options) -> Result<ExitCode, Failure> {
         let layout = job::place_plates(&scenario, &robot).ok().filter(|_| !drawn_anew);
         let plates = layout.as_ref().map_or(&[][..], |layout| &layout.plates);
         Cycle::check(&scenario, &robot, plates)?;
+        if let Some(layout) = layout {
+            findings = layout.findings;
+        }
+        unprovable = findings
+            .iter()
+            .filter(|f| breaks_the_proof(f, &scenario))
+            .cloned()
+            .collect();
     }
+    let outcome = if unprovable.is_empty() {
+        Outcome::Good
+    } else {
+        Outcome::NotVerified
+    };
     let answer = Answer {
-        valid: true,
+        valid: outcome == Outcome::Good,
+        notes: scenario.notes().into_iter().chain(UnitNote::of_arm(&robot)).collect(),
         scenario: scenario.name,
         robot: robot.name().to_owned(),
+        unprovable,
         findings,
         sampling,
     };
     output::print_either(options.json, &answer, || text(&answer))?;
-    Ok(ExitCode::SUCCESS)
+    Ok(outcome.answer())
+}
+
+/// Whether a certificate fails for a finding, whatever is planned.
+fn breaks_the_proof(finding: &Finding, scenario: &Scenario) -> bool {
+    scenario.layout.overlap == Overlap::Fail
+        && matches!(finding, Finding::PlatesOverlap { .. } | Finding::OverlapsBase { .. })
 }
 
 /// Places the plates as `run` does. That another seed may do better is part of the answer; that none can is an error.
-fn sampling(scenario: &Scenario) -> Result<Sampling, Failure> {
-    let robot = robot::load(&scenario.robot)?;
-    let placed = job::place_plates(scenario, &robot);
+fn sampling(scenario: &Scenario, robot: &RobotModel) -> Result<Sampling, Failure> {
+    let placed = job::place_plates(scenario, robot);
     if let Some(proven) = placed.as_ref().err().filter(|e| e.is_proven()) {
         return Err(PlanError::from(proven.clone()).into());
     }
@@ -81,8 +109,14 @@ fn text(answer: &Answer) -> String {
     let findings: String = answer.findings.iter().map(|f| format!("  - {f}\n")).collect();
     let sampling = answer.sampling.as_ref();
     let sampling = sampling.map_or_else(String::new, |s| format!("seed {}: {}\n", s.seed, s.outcome));
+    let verdict = match &answer.unprovable[..] {
+        [] => "valid".to_owned(),
+        [first, ..] => {
+            format!("NOT VALID, {first} and layout.overlap = \"fail\": no plan for these plates can be proved")
+        }
+    };
     format!(
-        "{}: valid (robot {})\n{sampling}{findings}",
+        "{}: {verdict} (robot {})\n{sampling}{findings}",
         answer.scenario, answer.robot
     )
 }

@@ -2,14 +2,18 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 mod arms;
+mod exit_codes;
 mod files;
 mod golden;
 mod ignored;
 mod infeasible;
 mod limits;
 mod other_arms;
+mod reader;
+mod remedies;
 mod scenarios;
 mod simulate;
+mod units;
 mod verbs;
 mod verify;
 

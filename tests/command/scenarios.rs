@@ -151,29 +151,48 @@ fn bad_scenarios_are_refused_with_line_key_expected_and_found() {
 fn layouts_that_cannot_be_end_soon_with_a_bound() {
     let folder = folder();
     let dir = folder.path();
-    let case = |from: &str, to: &str| {
+    let case = |from: &str, to: &str, fragments: &[&str]| {
         let file = scenario(dir, from, to);
-        platewash(dir, &["run", "--scenario", file.to_str().unwrap()])
+        let run = ["run", "--scenario", file.to_str().unwrap()];
+        // Its scenario asks for a report; one that asks for failure gets it.
+        let ran = platewash(dir, &run).done();
+        assert!(ran.stdout.starts_with("INFEASIBLE: "), "{}", ran.stdout);
+        for fragment in fragments {
+            assert!(ran.stdout.contains(fragment), "no {fragment} in {}", ran.stdout);
+        }
+        let text = std::fs::read_to_string(&file).unwrap();
+        std::fs::write(&file, text.replace("on_failure = \"report\"", "on_failure = \"fail\"")).unwrap();
+        let failed = platewash(dir, &run);
+        assert_eq!((failed.code, &failed.stdout), (3, &ran.stdout));
     };
-    case("count = 4", "count = 1000").refused(
-        3,
+    case(
+        "count = 4",
+        "count = 1000",
         &[
             "1000 plates cannot fit",
             "best of 100 random layouts held 5",
             "more than 8",
         ],
     );
-    case("count = 4", "count = 7").refused(
-        3,
+    case(
+        "count = 4",
+        "count = 7",
         &[
             "no layout of 7 plates",
             "best of 1001 random layouts held 5",
             "more than 8",
         ],
     );
-    let thin = "rho_m = [0.3, 0.3000000001]";
-    case("region = \"appendix\"", thin).refused(3, &["rho_m", "too thin"]);
-    let under = "x_m = [0.0, 0.1]\ny_m = [-0.1, 0.1]";
-    case("region = \"appendix\"", under).refused(3, &["base_radius_m"]);
-    assert_eq!(names(dir), ["case.toml"]);
+    case(
+        "region = \"appendix\"",
+        "rho_m = [0.3, 0.3000000001]",
+        &["rho_m", "too thin"],
+    );
+    case(
+        "region = \"appendix\"",
+        "x_m = [0.0, 0.1]\ny_m = [-0.1, 0.1]",
+        &["base_radius_m"],
+    );
+    assert_eq!(names(dir), ["case.toml", "out"]);
+    assert_eq!(names(&dir.join("out")), ["report.json", "report.txt"]);
 }

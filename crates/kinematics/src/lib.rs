@@ -26,6 +26,7 @@
 //! | inverse kinematics | [`ik`] |
 //! | many configurations at once | [`batch`] |
 //! | trigonometry, the same on every machine | [`trig`] |
+//! | numbers in sentences | [`words`] |
 //!
 //! # Example
 //!
@@ -55,6 +56,7 @@ pub mod srdf;
 pub mod tool_frame;
 pub mod trig;
 pub mod urdf;
+pub mod words;
 
 pub use fingerprint::sha256_hex;
 pub use fk::{BodyPoses, Frame};

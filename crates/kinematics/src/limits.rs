@@ -1,7 +1,9 @@
 //! Joint limits, margins and violations.
 
+use crate::words::angles_told_apart;
 use crate::{AXES, JointVector};
 use serde::Serialize;
+use std::fmt;
 
 /// Position, speed and effort limits of the six joints, in joint order.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -25,6 +27,21 @@ pub struct LimitViolation {
     pub position_rad: f64,
     /// The limit that is broken \[rad\].
     pub limit_rad: f64,
+}
+
+/// Decimals of an angle in degrees, where they tell the two apart.
+const DECIMALS: usize = 2;
+
+impl fmt::Display for LimitViolation {
+    /// The joint, where it is and its limit, in degrees that differ.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [position, limit] = angles_told_apart(self.position_rad, self.limit_rad, DECIMALS);
+        write!(
+            f,
+            "joint {} at {position} is beyond its limit of {limit}",
+            self.joint + 1
+        )
+    }
 }
 
 impl JointLimits {

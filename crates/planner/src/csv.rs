@@ -2,6 +2,7 @@
 
 use crate::plan::PlanSegment;
 use crate::trajectory::Trajectory;
+use platewash_kinematics::words::rounded_up;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use std::fmt::Write;
 
@@ -13,13 +14,45 @@ pub const MAX_ROWS: usize = 1_000_000;
 #[non_exhaustive]
 pub enum CsvError {
     /// A time step that makes no sense.
-    #[error("the CSV's time step must be positive and give at most {MAX_ROWS} rows; found {dt_s} s for {duration_s} s")]
+    #[error("{}", step(*.dt_s, *.duration_s))]
     Step {
         /// The step \[s\].
         dt_s: f64,
         /// The motion's duration \[s\].
         duration_s: f64,
     },
+}
+
+fn step(dt_s: f64, duration_s: f64) -> String {
+    if dt_s > 0.0 {
+        let least = least_step_s(duration_s);
+        format!(
+            "a time step of {dt_s} s gives more than {MAX_ROWS} rows of CSV for {duration_s:.2} s of motion; give at least {least} s"
+        )
+    } else {
+        format!("the CSV's time step must be positive; found {dt_s} s")
+    }
+}
+
+/// Significant digits of a time step that is suggested.
+const STEP_DIGITS: usize = 3;
+
+/// A time step \[s\] with which a motion of `duration_s` or less gives no more than [`MAX_ROWS`] rows: the least one of
+/// three digits, but for a row or two of rounding.
+#[must_use]
+pub fn least_step_s(duration_s: f64) -> f64 {
+    rounded_up(duration_s / (MAX_ROWS - 2) as f64, STEP_DIGITS)
+}
+
+/// Refuses a time step that is not positive or gives more than [`MAX_ROWS`] rows for a motion of `duration_s`.
+///
+/// # Errors
+/// [`CsvError::Step`] with a step that is accepted.
+pub fn check_step(duration_s: f64, dt_s: f64) -> Result<(), CsvError> {
+    if dt_s > 0.0 && (duration_s / dt_s).ceil() < MAX_ROWS as f64 {
+        return Ok(());
+    }
+    Err(CsvError::Step { dt_s, duration_s })
 }
 
 /// The header line.
@@ -40,11 +73,9 @@ pub fn table(
     dt_s: f64,
 ) -> Result<String, CsvError> {
     let duration_s = motion.duration_s();
+    check_step(duration_s, dt_s)?;
     // A last step shorter than a millionth of dt is rounding, not a row.
     let whole = (duration_s / dt_s - 1e-6).ceil();
-    if !(dt_s > 0.0 && whole < MAX_ROWS as f64) {
-        return Err(CsvError::Step { dt_s, duration_s });
-    }
     let times = (0..whole.max(0.0) as usize)
         .map(|k| k as f64 * dt_s)
         .chain([duration_s]);
@@ -72,5 +103,29 @@ pub fn table(
 fn push(text: &mut String, row: &JointVector) {
     for value in row.iter() {
         let _ = write!(text, ",{value}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// What is suggested is accepted when it is typed in, and hardly anything less is.
+        #[test]
+        fn a_suggested_time_step_is_accepted(mantissa in 1.0..10.0_f64, exponent in -3..12_i32, share in 1e-9..0.9_f64) {
+            let duration_s = mantissa * 10_f64.powi(exponent);
+            let refused = check_step(duration_s, share * least_step_s(duration_s)).unwrap_err().to_string();
+            let suggested = refused.rsplit("at least ").next().and_then(|s| s.strip_suffix(" s")).unwrap();
+            prop_assert_eq!(check_step(duration_s, suggested.parse().unwrap()), Ok(()), "{}", refused);
+        }
+    }
+
+    #[test]
+    fn a_time_step_that_is_none_is_refused_as_such() {
+        for dt_s in [0.0, -1.0, f64::NAN] {
+            assert!(check_step(1.0, dt_s).unwrap_err().to_string().contains("positive"));
+        }
     }
 }

@@ -44,10 +44,7 @@ pub enum RobotError {
         error: SrdfError,
     },
     /// The start configuration lies outside the joint limits.
-    #[error(
-        "robot.start_deg: joint {} at {:.4}° is beyond its limit of {:.4}°",
-        .0.joint + 1, .0.position_rad.to_degrees(), .0.limit_rad.to_degrees()
-    )]
+    #[error("robot.start_deg: {0}")]
     Start(LimitViolation),
 }
 

@@ -8,7 +8,7 @@ use crate::scenario::{Scenario, ScenarioError, check_seed};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::ops::RangeInclusive;
+use std::ops::{ControlFlow, RangeInclusive};
 use std::sync::{Mutex, PoisonError};
 
 /// How one layout ended.
@@ -66,17 +66,18 @@ pub struct SweepRow {
 /// # Errors
 /// [`PlanError`] for a scenario that is wrong for every seed; what goes wrong with one is a row.
 pub fn sweep(scenario: &Scenario, seeds: RangeInclusive<u64>) -> Result<Vec<SweepRow>, PlanError> {
-    sweep_each(scenario, seeds, &mut |_| ())
+    sweep_each(scenario, seeds, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The same; `done` is told each row in the order of the seeds, as soon as it and those before it are done.
+/// The same; `done` is told each row in the order of the seeds, as soon as it and those before it are done. Where it breaks,
+/// no further layout is begun, and the rows that it was told are the answer.
 ///
 /// # Errors
 /// As [`sweep`].
 pub fn sweep_each(
     scenario: &Scenario,
     seeds: RangeInclusive<u64>,
-    done: &mut (dyn FnMut(&SweepRow) + Send),
+    done: &mut (dyn FnMut(&SweepRow) -> ControlFlow<()> + Send),
 ) -> Result<Vec<SweepRow>, PlanError> {
     let seed_error = |problem| ScenarioError {
         source_name: scenario.name.clone(),
@@ -93,12 +94,15 @@ pub fn sweep_each(
     let in_order = Mutex::new(InOrder {
         rows: Vec::new(),
         waiting: BTreeMap::new(),
+        flow: ControlFlow::Continue(()),
         done,
     });
-    // A bridge hands the seeds out one after the other, so that the first rows are done first.
-    seeds.enumerate().par_bridge().for_each(|(place, seed)| {
+    let locked = || in_order.lock().unwrap_or_else(PoisonError::into_inner);
+    // A bridge hands the seeds out one after the other, so that the first rows are done first. That somebody broke off is no
+    // error: the rows up to there are kept.
+    let _: Option<()> = seeds.enumerate().par_bridge().try_for_each(|(place, seed)| {
         let row = row(scenario, seed);
-        in_order.lock().unwrap_or_else(PoisonError::into_inner).add(place, row);
+        locked().add(place, row).continue_value()
     });
     Ok(in_order.into_inner().unwrap_or_else(PoisonError::into_inner).rows)
 }
@@ -107,16 +111,22 @@ pub fn sweep_each(
 struct InOrder<'a> {
     rows: Vec<SweepRow>,
     waiting: BTreeMap<usize, SweepRow>,
-    done: &'a mut (dyn FnMut(&SweepRow) + Send),
+    /// Whether somebody still wants rows.
+    flow: ControlFlow<()>,
+    done: &'a mut (dyn FnMut(&SweepRow) -> ControlFlow<()> + Send),
 }
 
 impl InOrder<'_> {
-    fn add(&mut self, place: usize, row: SweepRow) {
+    fn add(&mut self, place: usize, row: SweepRow) -> ControlFlow<()> {
         self.waiting.insert(place, row);
-        while let Some(row) = self.waiting.remove(&self.rows.len()) {
-            (self.done)(&row);
+        while self.flow.is_continue() {
+            let Some(row) = self.waiting.remove(&self.rows.len()) else {
+                break;
+            };
+            self.flow = (self.done)(&row);
             self.rows.push(row);
         }
+        self.flow
     }
 }
 
@@ -208,20 +218,41 @@ mod tests {
     #[test]
     fn rows_are_told_in_the_order_of_the_seeds_whichever_is_done_first() {
         let mut told = Vec::new();
-        let mut tell = |row: &SweepRow| told.push(row.seed);
+        let mut tell = |row: &SweepRow| {
+            told.push(row.seed);
+            ControlFlow::Continue(())
+        };
         let mut in_order = InOrder {
             rows: Vec::new(),
             waiting: BTreeMap::new(),
+            flow: ControlFlow::Continue(()),
             done: &mut tell,
         };
         let row = |seed| SweepRow::nothing(seed, SweepOutcome::Error, "a \"b\"".to_owned());
-        in_order.add(2, row(12));
+        assert!(in_order.add(2, row(12)).is_continue());
         assert!(in_order.rows.is_empty());
-        in_order.add(0, row(10));
+        assert!(in_order.add(0, row(10)).is_continue());
         assert_eq!(in_order.rows.len(), 1);
-        in_order.add(1, row(11));
+        assert!(in_order.add(1, row(11)).is_continue());
         assert_eq!(in_order.rows.len(), 3);
         assert_eq!(told, [10, 11, 12]);
         assert_eq!(row(7).csv_line(), "7,error,,,,,\"a \"\"b\"\"\"\n");
+    }
+
+    /// Of more seeds than could ever be planned.
+    #[test]
+    fn nothing_more_is_planned_once_nobody_wants_rows() {
+        let mut told = Vec::new();
+        let mut tell = |row: &SweepRow| {
+            told.push(row.seed);
+            if told.len() < 2 {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        };
+        let rows = sweep_each(&Scenario::load("kitchen").unwrap(), 1..=u64::from(u32::MAX), &mut tell).unwrap();
+        assert_eq!(told, [1, 2]);
+        assert_eq!(rows.iter().map(|row| row.seed).collect::<Vec<_>>(), [1, 2]);
     }
 }

@@ -23,9 +23,6 @@ const BUDGET: usize = 4_000_000;
 const LEAST_BUDGET: usize = 2_000;
 const MOST_BUDGET: usize = 400_000;
 
-/// What each pair may look at more for every piece of the motion, so that a long one can be proved as well as a short one.
-const LOOKS_A_PIECE: usize = 8;
-
 /// What a pair must keep, during some part of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -80,8 +77,7 @@ pub(super) fn judge(
 ) -> Vec<PairBound> {
     let limit_m = plan.scenario.wash.clearance_m;
     let tasks = tasks(plan, model, schedule);
-    let pieces = plan.knots.t_s.len().saturating_sub(1);
-    let budget = (BUDGET / tasks.len().max(1)).clamp(LEAST_BUDGET, MOST_BUDGET) + LOOKS_A_PIECE * pieces;
+    let budget = (BUDGET / tasks.len().max(1)).clamp(LEAST_BUDGET, MOST_BUDGET);
     let search = |task: &Task, parts: &[PartPair<'_>], enough_m: Option<f64>| {
         let during = task.during.as_deref().unwrap_or_default();
         Search::run(

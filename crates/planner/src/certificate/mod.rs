@@ -46,6 +46,7 @@ pub use neighbours::Touched;
 pub use promise::{Discrepancy, Measure, Promise, PromiseName, Sense, Status, Unit, Worst};
 pub use summary::summary;
 pub use sweep::PlateCoverage;
+pub use table::{CertificateTable, PairsShown};
 
 use crate::clearance::ClearanceModel;
 use crate::layout::{MAX_PLATES, Plate};

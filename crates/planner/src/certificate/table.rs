@@ -2,10 +2,57 @@
 
 use super::{Certificate, Measure, PairBound, PairRule, PlateCoverage, Promise, Sense, Status, Unit, Worst};
 use crate::words::millimetres;
+use platewash_kinematics::words::told_apart;
 use std::fmt;
 
-impl fmt::Display for Certificate {
+/// Pairs that a table lists where it is not asked for all.
+const TIGHTEST: usize = 10;
+
+/// Which pairs a table lists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PairsShown {
+    /// The ten that come nearest, those that do not keep clear first of all.
+    #[default]
+    Tightest,
+    /// All.
+    All,
+}
+
+/// A certificate as a table of promises, coverage and clearance; see [`Certificate::table`].
+#[derive(Debug, Clone, Copy)]
+pub struct CertificateTable<'a> {
+    certificate: &'a Certificate,
+    pairs: PairsShown,
+}
+
+impl Certificate {
+    /// The certificate as a table to read.
+    #[must_use]
+    pub fn table(&self, pairs: PairsShown) -> CertificateTable<'_> {
+        CertificateTable {
+            certificate: self,
+            pairs,
+        }
+    }
+}
+
+impl fmt::Display for CertificateTable<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.certificate.head(f)?;
+        pairs(f, &self.certificate.clearance, self.pairs)
+    }
+}
+
+impl fmt::Display for Certificate {
+    /// The table with the tightest pairs.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.table(PairsShown::default()).fmt(f)
+    }
+}
+
+impl Certificate {
+    /// All of the table but the pairs.
+    fn head(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.headline)?;
         let hash = match (self.hash.status, &self.hash.stated) {
             (Status::Pass, _) => "is that of the contents",
@@ -25,9 +72,47 @@ impl fmt::Display for Certificate {
         for plate in &self.coverage {
             plate_row(f, plate)?;
         }
-        writeln!(f, "\nclearance, at least")?;
-        self.clearance.iter().try_for_each(|pair| pair_row(f, pair))
+        Ok(())
     }
+}
+
+/// The pairs: those that must keep clear, the nearest first, where not all are listed; those that need not, after them.
+fn pairs(f: &mut fmt::Formatter<'_>, all: &[PairBound], shown: PairsShown) -> fmt::Result {
+    let judged = || all.iter().filter(|line| line.rule != PairRule::Exempt);
+    if shown == PairsShown::All || judged().count() <= TIGHTEST {
+        writeln!(f, "\nclearance, at least")?;
+        return all.iter().try_for_each(|line| pair_row(f, line));
+    }
+    let mut nearest: Vec<_> = judged().collect();
+    let rank = |line: &PairBound| (line.status.is_kept(), line.at_least_m.unwrap_or(f64::NEG_INFINITY));
+    nearest.sort_by(|a, b| {
+        let ((a_kept, a), (b_kept, b)) = (rank(a), rank(b));
+        a_kept.cmp(&b_kept).then(a.total_cmp(&b))
+    });
+    let (tightest, rest) = nearest.split_at(TIGHTEST);
+    writeln!(
+        f,
+        "\nclearance, at least: the {TIGHTEST} tightest of {} pairs",
+        nearest.len()
+    )?;
+    tightest.iter().try_for_each(|line| pair_row(f, line))?;
+    let broken = rest.iter().filter(|line| !line.status.is_kept()).count();
+    if broken > 0 {
+        writeln!(
+            f,
+            "  {broken} of the {} other pairs do not keep clear either",
+            rest.len()
+        )?;
+    } else if let Some(at_least) = rest.first().and_then(|line| line.at_least_m) {
+        writeln!(
+            f,
+            "  {} other pairs, never nearer than {:.2} mm",
+            rest.len(),
+            1e3 * at_least
+        )?;
+    }
+    let exempt = all.iter().filter(|line| line.rule == PairRule::Exempt);
+    exempt.into_iter().try_for_each(|line| pair_row(f, line))
 }
 
 fn row(f: &mut fmt::Formatter<'_>, promise: &Promise) -> fmt::Result {
@@ -42,7 +127,12 @@ fn row(f: &mut fmt::Formatter<'_>, promise: &Promise) -> fmt::Result {
     }
     if let (Some(Measure { seen: Some(seen), .. }), true) = (&promise.measure, promise.status != Status::Pass) {
         let (scale, unit) = promise.measure.as_ref().map_or((1.0, ""), |m| scale(m.unit));
-        writeln!(f, "  found: {:.4} {unit}", seen * scale)?;
+        let [seen, _] = told_apart(
+            seen * scale,
+            promise.measure.as_ref().map_or(0.0, |m| m.limit * scale),
+            4,
+        );
+        writeln!(f, "  found: {seen} {unit}")?;
     }
     promise.discrepancies.iter().try_for_each(|d| writeln!(f, "  - {d}"))
 }
@@ -76,8 +166,16 @@ fn numbers(measure: &Measure) -> (String, String, &'static str) {
         Sense::AtLeast => "≥",
         Sense::Above => ">",
     };
-    let bound = measure.bound.map_or("none".to_owned(), |b| format!("{:.4}", b * scale));
-    (bound, format!("{sign} {:.4}", measure.limit * scale), unit)
+    let limit = measure.limit * scale;
+    let told = measure.bound.map(|bound| {
+        if measure.keeps(bound) {
+            [bound * scale, limit].map(|v| format!("{v:.4}"))
+        } else {
+            told_apart(bound * scale, limit, 4)
+        }
+    });
+    let [bound, limit] = told.unwrap_or_else(|| ["none".to_owned(), format!("{limit:.4}")]);
+    (bound, format!("{sign} {limit}"), unit)
 }
 
 /// Factor and unit in which people read a quantity.

@@ -76,13 +76,7 @@ impl From<TimingError> for CrossingError {
 impl fmt::Display for Blocked {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Limit(v) => write!(
-                f,
-                "joint {} would be at {:.2}°, beyond its limit of {:.2}°",
-                v.joint + 1,
-                v.position_rad.to_degrees(),
-                v.limit_rad.to_degrees()
-            ),
+            Self::Limit(violation) => violation.fmt(f),
             Self::TooNear(too_near) => too_near.fmt(f),
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::clearance::{ClearanceModel, PairClearance};
 use platewash_kinematics::JointVector;
+use platewash_kinematics::words::told_apart;
 use std::fmt;
 
 /// What crossings and the rests at home keep beyond `wash.clearance_m`, because they are looked at in steps \[m\].
@@ -36,15 +37,15 @@ impl fmt::Display for TooNear {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let PairClearance { a, b, distance_m, .. } = &self.pair;
         let mm = |m: f64| 1e3 * m;
-        let required = mm(self.asked_m + RESERVE_M);
+        let [distance, required] = told_apart(mm(*distance_m), mm(self.asked_m + RESERVE_M), 2);
         if *distance_m > 0.0 {
-            write!(f, "{a} is {:.2} mm from {b}", mm(*distance_m))?;
+            write!(f, "{a} is {distance} mm from {b}")?;
         } else {
             write!(f, "{a} touches {b}")?;
         }
         write!(
             f,
-            "; {required:.2} mm must be kept, wash.clearance_m and {:.2} mm in reserve",
+            "; {required} mm must be kept, wash.clearance_m and {:.2} mm in reserve",
             mm(RESERVE_M)
         )
     }

@@ -18,10 +18,7 @@ use platewash_kinematics::ik::{IkPathError, IkSettingsError};
 #[non_exhaustive]
 pub enum CycleError {
     /// The end configuration lies outside the joint limits.
-    #[error(
-        "robot.home_deg: joint {} at {:.4}° is beyond its limit of {:.4}°",
-        .0.joint + 1, .0.position_rad.to_degrees(), .0.limit_rad.to_degrees()
-    )]
+    #[error("robot.home_deg: {0}")]
     Home(LimitViolation),
     /// At an end configuration the arm is too near something.
     #[error("{key}: the arm is not clear at home: {too_near}")]

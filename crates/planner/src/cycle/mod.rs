@@ -20,7 +20,7 @@ mod visit;
 pub use activity::{Activity, Listener};
 pub use error::CycleError;
 pub use infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport};
-pub use report::CycleReport;
+pub use report::{CycleReport, CycleText};
 pub use tour::{EXACT_UP_TO, Optimality, TravelTimes};
 pub use unwashable::{Elsewhere, UnwashablePlate};
 
@@ -111,7 +111,14 @@ impl Cycle {
     /// As [`Cycle::plan`].
     pub fn plan_telling(scenario: &Scenario, listener: Listener<'_>) -> Result<Self, PlanError> {
         scenario.validate()?;
-        let robot = robot::load(&scenario.robot)?;
+        Self::with_arm(scenario, robot::load(&scenario.robot)?, listener)
+    }
+
+    /// The same with the scenario's arm, loaded before.
+    ///
+    /// # Errors
+    /// As [`Cycle::plan`].
+    pub fn with_arm(scenario: &Scenario, robot: RobotModel, listener: Listener<'_>) -> Result<Self, PlanError> {
         Self::check(scenario, &robot, &[])?;
         let layout = choice::place(scenario, &robot, listener)?;
         Self::on_telling(scenario, robot, layout, listener)

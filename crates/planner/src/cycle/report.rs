@@ -1,7 +1,7 @@
 //! What a cycle came to, with its certificate: for people and as data.
 
 use super::{CrossingSummary, Cycle, TourSummary, VisitSummary};
-use crate::certificate::{Certificate, CertificateVerdict, headline};
+use crate::certificate::{Certificate, CertificateVerdict, PairsShown, headline};
 use crate::layout;
 use crate::report::Verdict;
 use crate::words::counted;
@@ -94,8 +94,36 @@ fn largest_jerk(cycle: &Cycle) -> JointVector {
     jerks.fold(JointVector::zeros(), |largest, jerk| largest.sup(&jerk))
 }
 
-impl fmt::Display for CycleReport {
+/// A report as a person reads it; see [`CycleReport::text`].
+#[derive(Debug, Clone, Copy)]
+pub struct CycleText<'a> {
+    report: &'a CycleReport,
+    pairs: PairsShown,
+}
+
+impl fmt::Display for CycleText<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.report.cycle(f)?;
+        self.report.certificate.table(self.pairs).fmt(f)
+    }
+}
+
+impl fmt::Display for CycleReport {
+    /// With the tightest pairs of the certificate.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.text(PairsShown::default()).fmt(f)
+    }
+}
+
+impl CycleReport {
+    /// The report as a person reads it, with these pairs of the certificate.
+    #[must_use]
+    pub fn text(&self, pairs: PairsShown) -> CycleText<'_> {
+        CycleText { report: self, pairs }
+    }
+
+    /// What is said of the cycle, the certificate apart.
+    fn cycle(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.headline)?;
         writeln!(
             f,
@@ -135,7 +163,6 @@ impl fmt::Display for CycleReport {
             f,
             "largest jerk between knots, not promised: {} rad/s³\n",
             jerk.join(", ")
-        )?;
-        write!(f, "{}", self.certificate)
+        )
     }
 }

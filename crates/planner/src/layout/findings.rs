@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use platewash_kinematics::words::{not_as_zero, told_apart};
+
 use super::{BaseFootprint, Plate, Region, Spacing};
 
 /// Something that a layout breaks. Plates are named by index, from 0; lengths are in metres, positions in the base frame.
@@ -67,27 +69,37 @@ impl fmt::Display for Finding {
                 b,
                 distance_m,
                 required_m,
-            } => write!(
-                f,
-                "plate {a} and plate {b} are {:.1} mm apart; the spacing rule wants more than {:.1} mm",
-                mm(distance_m),
-                mm(required_m)
-            ),
+            } => {
+                let [distance, required] = told_apart(mm(distance_m), mm(required_m), 1);
+                write!(
+                    f,
+                    "plate {a} and plate {b} are {distance} mm apart; the spacing rule wants more than {required} mm"
+                )
+            }
             Self::TooCloseToBase {
                 plate,
                 distance_m,
                 required_m,
-            } => write!(
-                f,
-                "plate {plate} is {:.1} mm from the base axis; the spacing rule wants more than {:.1} mm",
-                mm(distance_m),
-                mm(required_m)
-            ),
+            } => {
+                let [distance, required] = told_apart(mm(distance_m), mm(required_m), 1);
+                write!(
+                    f,
+                    "plate {plate} is {distance} mm from the base axis; the spacing rule wants more than {required} mm"
+                )
+            }
             Self::PlatesOverlap { a, b, overlap_m } => {
-                write!(f, "plate {a} and plate {b} overlap by {:.1} mm", mm(overlap_m))
+                write!(
+                    f,
+                    "plate {a} and plate {b} overlap by {} mm",
+                    not_as_zero(mm(overlap_m), 1)
+                )
             }
             Self::OverlapsBase { plate, overlap_m } => {
-                write!(f, "plate {plate} overlaps the robot's base by {:.1} mm", mm(overlap_m))
+                write!(
+                    f,
+                    "plate {plate} overlaps the robot's base by {} mm",
+                    not_as_zero(mm(overlap_m), 1)
+                )
             }
             Self::LeavesRegion { plate, x_m, y_m } => {
                 write!(

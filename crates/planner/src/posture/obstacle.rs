@@ -4,6 +4,7 @@ use crate::clearance::PairClearance;
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::analytic::{AnalyticError, OutOfReach, Rejection};
 use platewash_kinematics::ik::{IkCause, IkError};
+use platewash_kinematics::words::{not_as_zero, told_apart};
 use serde::Serialize;
 use std::fmt;
 
@@ -12,12 +13,12 @@ use std::fmt;
 #[non_exhaustive]
 pub enum Obstacle {
     /// The wrist cannot be where it must.
-    #[error("out of reach by {:.1} mm", 1e3 * .0.by_m)]
+    #[error("out of reach by {} mm", not_as_zero(1e3 * .0.by_m, 1))]
     Reach(OutOfReach),
     /// A joint would be beyond its limit.
     #[error(
-        "joint {} is {:.2}° beyond its limit of {:.2}°",
-        .0.joint + 1, (.0.position_rad - .0.limit_rad).abs().to_degrees(), .0.limit_rad.to_degrees()
+        "joint {} is {}° beyond its limit of {:.2}°",
+        .0.joint + 1, not_as_zero((.0.position_rad - .0.limit_rad).abs().to_degrees(), 2), .0.limit_rad.to_degrees()
     )]
     Limit(LimitViolation),
     /// The numeric inverse kinematics found nothing.
@@ -29,7 +30,11 @@ pub enum Obstacle {
         position_error_m: f64,
     },
     /// Two bodies are too near.
-    #[error("{} is {:.1} mm from {}; {:.1} mm must be kept", pair.a, 1e3 * pair.distance_m, pair.b, 1e3 * required_m)]
+    #[error(
+        "{} is {} mm from {}; {} mm must be kept",
+        pair.a, told_apart(1e3 * pair.distance_m, 1e3 * required_m, 1)[0],
+        pair.b, told_apart(1e3 * pair.distance_m, 1e3 * required_m, 1)[1]
+    )]
     Clearance {
         /// The bodies.
         pair: PairClearance,

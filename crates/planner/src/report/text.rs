@@ -7,10 +7,14 @@ use super::{
 use crate::coverage::Coverage;
 use crate::words::part_of;
 use platewash_kinematics::JointVector;
+use platewash_kinematics::words::{angles_told_apart, rounded, told_apart};
 use std::fmt::{self, Display, Formatter};
 
 /// Violations listed one by one for a motion before the rest is only counted.
 const LISTED_VIOLATIONS: usize = 12;
+
+/// Significant digits of what the scenario states.
+const SHOWN_DIGITS: usize = 6;
 
 /// The first line: whether the job washes, and the main reasons if not.
 pub(super) fn headline(
@@ -91,7 +95,8 @@ impl Display for JobReport {
 
 impl JobReport {
     fn plates(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let (sponge, wanted) = (1e3 * self.sponge_radius_m, 100.0 * self.coverage_required);
+        let shown = |value: f64| rounded(value, SHOWN_DIGITS);
+        let (sponge, wanted) = (shown(1e3 * self.sponge_radius_m), shown(100.0 * self.coverage_required));
         writeln!(
             f,
             "\nPlates, in the order of washing (coverage by a sponge of radius {sponge} mm; {wanted} % wanted)"
@@ -242,24 +247,20 @@ impl Display for Violation {
         let (worst, limit) = (self.worst, self.limit);
         match self.kind {
             ViolationKind::Position => {
-                write!(
-                    f,
-                    "{} position {:.2}° beyond {:.2}°",
-                    self.who,
-                    worst.to_degrees(),
-                    limit.to_degrees()
-                )
+                let [worst, limit] = angles_told_apart(worst, limit, 2);
+                write!(f, "{} position {worst} beyond {limit}", self.who)
             }
-            ViolationKind::Speed => write!(f, "{} speed {worst:.2} rad/s of {limit:.2}", self.who),
-            ViolationKind::Acceleration => write!(f, "{} acceleration {worst:.0} rad/s² of {limit:.1}", self.who),
+            ViolationKind::Speed => {
+                let [worst, limit] = told_apart(worst, limit, 2);
+                write!(f, "{} speed {worst} rad/s of {limit}", self.who)
+            }
+            ViolationKind::Acceleration => {
+                let [worst, limit] = told_apart(worst, limit, 1);
+                write!(f, "{} acceleration {worst} rad/s² of {limit}", self.who)
+            }
             ViolationKind::Clearance => {
-                write!(
-                    f,
-                    "{} clearance {:.1} mm of {:.1} mm",
-                    self.who,
-                    1e3 * worst,
-                    1e3 * limit
-                )
+                let [worst, limit] = told_apart(1e3 * worst, 1e3 * limit, 1);
+                write!(f, "{} clearance {worst} mm of {limit} mm", self.who)
             }
         }?;
         write!(f, ", t = {:.2} … {:.2} s", self.t_start_s, self.t_end_s)

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// The least and the greatest time step \[s\], of waypoints and of tables.
+pub const TIME_STEPS_S: [f64; 2] = [1e-6, 10.0];
+
 /// `[control]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]

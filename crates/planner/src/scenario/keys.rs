@@ -53,6 +53,7 @@ const fn key(path: &'static str, unit: &'static str, domain: Domain, meaning: &'
     }
 }
 
+use super::control::TIME_STEPS_S;
 use Domain::{Bool, Integer, Joints, JointsAbove, Number, NumberAbove, Path, Paths, Points, Range, Text, Word};
 
 /// Every key, in the order of the reference.
@@ -393,7 +394,12 @@ pub const KEYS: &[Key] = &[
         Number(0.0, 1e6),
         "Derivative gain of the paper's law.",
     ),
-    key("control.dt_s", "s", Number(1e-6, 10.0), "Time between waypoints."),
+    key(
+        "control.dt_s",
+        "s",
+        Number(TIME_STEPS_S[0], TIME_STEPS_S[1]),
+        "Time between waypoints.",
+    ),
     key(
         "control.rate_hz",
         "Hz",

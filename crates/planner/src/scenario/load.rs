@@ -1,13 +1,17 @@
 //! From a file or a shipped name to a checked [`Scenario`].
 
-use super::keys::{Domain, KEYS};
+use super::keys::{Domain, KEYS, Key};
 use super::shipped::SHIPPED;
 use super::{MAX_SEED, OrderRule, Problem, Program, Scenario, ScenarioError};
 use crate::control::NotKinematic;
 use platewash_kinematics::urdf::file::{self, FileError};
+use platewash_kinematics::words::rounded;
 use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+
+/// Significant digits of a length that is suggested.
+const METRE_DIGITS: usize = 6;
 
 /// Longest file that is read \[bytes\].
 const MAX_BYTES: u64 = 1 << 20;
@@ -175,7 +179,7 @@ fn check_table(table: &DeTable<'_>, prefix: &str) -> Result<(), Misfit> {
         let inside = format!("{path}.");
         let is_section = KEYS.iter().any(|k| k.path.starts_with(&inside));
         match (KEYS.iter().find(|k| k.path == path), value.get_ref()) {
-            (Some(key), _) => check_value(key.domain, &path, value)?,
+            (Some(key), _) => check_value(key, value)?,
             (None, DeValue::Table(section)) if is_section => check_table(section, &inside)?,
             (None, found) if is_section => {
                 let found = describe(found);
@@ -208,14 +212,14 @@ fn unknown(key: String) -> Problem {
     }
 }
 
-fn check_value(domain: Domain, key: &str, value: &Spanned<DeValue<'_>>) -> Result<(), Misfit> {
-    if fits(domain, value.get_ref()) {
+fn check_value(key: &Key, value: &Spanned<DeValue<'_>>) -> Result<(), Misfit> {
+    if fits(key.domain, value.get_ref()) {
         return Ok(());
     }
     let problem = Problem::Value {
-        key: key.to_owned(),
-        expected: domain.describe(),
-        found: describe(value.get_ref()),
+        key: key.path.to_owned(),
+        expected: key.domain.describe(),
+        found: describe(value.get_ref()) + &in_millimetres(key, value.get_ref()),
     };
     Err((value.span().start, problem))
 }
@@ -243,6 +247,22 @@ fn fits(domain: Domain, value: &DeValue<'_>) -> bool {
             };
             (1..=1000).contains(&points.len()) && points.iter().all(fine)
         }),
+    }
+}
+
+/// What is said of a length that fits where it was meant in millimetres.
+fn in_millimetres(key: &Key, value: &DeValue<'_>) -> String {
+    let meant = number(value).map(|v| rounded(1e-3 * v, METRE_DIGITS));
+    let fits = |metres: f64| match key.domain {
+        Domain::Number(least, most) => (least..=most).contains(&metres),
+        Domain::NumberAbove(above, most) => metres > above && metres <= most,
+        _ => false,
+    };
+    match meant {
+        Some(metres) if key.unit == "m" && fits(metres) => {
+            format!(" (metres are expected; {metres} if millimetres were meant)")
+        }
+        _ => String::new(),
     }
 }
 
@@ -331,6 +351,29 @@ mod tests {
             let message = Scenario::parse(text, "case").unwrap_err().to_string();
             assert!(!message.contains(char::is_control), "{message:?}");
             assert!(message.contains("\\u{"), "{message:?}");
+        }
+    }
+
+    #[test]
+    fn lengths_in_millimetres_are_refused_with_their_metres() {
+        let refused = |line: &str| Scenario::parse(line, "case").unwrap_err().to_string();
+        for (line, metres) in [
+            (
+                "layout.plate_radius_m = 145",
+                "; found 145 (metres are expected; 0.145 if",
+            ),
+            ("tool.length_m = 150.5", "; found 150.5 (metres are expected; 0.1505 if"),
+        ] {
+            let message = refused(line);
+            assert!(message.contains(metres), "{message}");
+        }
+        for line in [
+            "layout.plate_radius_m = -0.145",
+            "layout.plate_radius_m = 1e300",
+            "wash.turns = -1",
+        ] {
+            let message = refused(line);
+            assert!(!message.contains("millimetres"), "{message}");
         }
     }
 

@@ -19,10 +19,11 @@ mod robot;
 mod shipped;
 mod tool;
 mod transition;
+mod units;
 mod wash;
 mod work;
 
-pub use control::{ControlLawName, ControlSection, FeedForward};
+pub use control::{ControlLawName, ControlSection, FeedForward, TIME_STEPS_S};
 pub use document::reference;
 pub use error::{Problem, ScenarioError};
 pub use ik::{IkMethod, IkSection, IkSeed};
@@ -35,6 +36,7 @@ pub use robot::{BuiltInArm, RobotSection};
 pub use shipped::{SHIPPED, ShippedScenario};
 pub use tool::ToolSection;
 pub use transition::{Interpolation, TransitionSection};
+pub use units::UnitNote;
 pub use wash::WashSection;
 pub use work::{MAX_PLATE_CHECKS, MAX_STROKE_CHECKS, MAX_WAYPOINTS};
 

@@ -22,14 +22,14 @@ pub enum TimingError {
         samples: usize,
     },
     /// The path is so steep, so slow or so finely sampled that its time cannot be computed.
-    #[error("no time can be computed at the path's parameter {u}: the numbers leave the range of a double")]
+    #[error("no time can be computed at the path's parameter {u:.6}: the numbers leave the range of a double")]
     Range {
         /// Where, as the path's parameter.
         u: f64,
     },
     /// Cubics in time would leave the path by more than allowed with as many knots as may be.
     #[error(
-        "at the path's parameter {u} the motion leaves the path by {error_rad:.1e} rad with {knots} knots; \
+        "at the path's parameter {u:.6} the motion leaves the path by {error_rad:.1e} rad with {knots} knots; \
          at most {allowed_rad:.1e} rad is allowed"
     )]
     PathError {

@@ -3,6 +3,7 @@
 use super::{ComputedTorque, ControlLaw, Gains, Kinematic, Loop, Pd, PdGravity, Stability, check};
 use crate::dynamics::DynamicsModel;
 use crate::plant::Plant;
+use platewash_kinematics::words::{rounded, rounded_down, rounded_up};
 use platewash_kinematics::{JointLimits, JointVector};
 use platewash_planner::control::{ExactLaw, PaperLaw};
 use platewash_planner::scenario::{ControlLawName, ControlSection};
@@ -30,7 +31,7 @@ pub enum ControlError {
     /// The paper's law is not stable.
     #[error(
         "control.law = \"paper\" is not stable with kp = {kp}, kd = {kd}, dt_s = {dt_s}: kd must lie between −1 and 1 and kp \
-         between 0 and 2 (1 − kd) / dt_s = {kp_limit}"
+         be above 0 and below 2 (1 − kd) / dt_s = {}", rounded(*.kp_limit, DIGITS)
     )]
     UnstablePaper {
         /// Kp \[1/s\].
@@ -62,18 +63,24 @@ pub enum ControlError {
     },
 }
 
+/// Significant digits of what is suggested.
+const DIGITS: usize = 5;
+
 fn degrees(q: &JointVector) -> String {
     let all: Vec<_> = q.iter().map(|v| format!("{:.0}", v.to_degrees())).collect();
     format!("({})°", all.join(", "))
 }
 
 fn remedy(rate: Option<f64>, frequency: Option<f64>) -> String {
+    // Rounded towards what is stable: what is suggested holds when it is typed in.
+    let rate = rate.map(|rate| rounded_up(rate, DIGITS));
+    let frequency = frequency.map(|frequency| rounded_down(frequency, DIGITS));
     match (rate, frequency) {
-        (Some(rate), Some(frequency)) => format!(
-            "these gains need at least {rate:.0} Hz, and at this rate frequency_rad_s must be at most {frequency:.1}"
-        ),
-        (Some(rate), None) => format!("these gains need at least {rate:.0} Hz"),
-        (None, Some(frequency)) => format!("at this rate frequency_rad_s must be at most {frequency:.1}"),
+        (Some(rate), Some(frequency)) => {
+            format!("these gains need at least {rate} Hz, and at this rate frequency_rad_s must be at most {frequency}")
+        }
+        (Some(rate), None) => format!("these gains need at least {rate} Hz"),
+        (None, Some(frequency)) => format!("at this rate frequency_rad_s must be at most {frequency}"),
         (None, None) => "no rate up to 1 MHz would do: every kp and kd must be above 0".to_owned(),
     }
 }

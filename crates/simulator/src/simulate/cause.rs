@@ -1,5 +1,6 @@
 //! Why a plate is not washed, or less of it than planned.
 
+use platewash_kinematics::words::told_apart;
 use serde::Serialize;
 use std::fmt;
 
@@ -70,12 +71,10 @@ impl fmt::Display for Cause {
                 mm(rms_m),
                 mm(most_m)
             ),
-            Self::Coverage { at_least, required } => write!(
-                f,
-                "{:.2} % is surely swept, {:.2} % is required",
-                percent(at_least),
-                percent(required)
-            ),
+            Self::Coverage { at_least, required } => {
+                let [swept, required] = told_apart(percent(at_least), percent(required), 2);
+                write!(f, "{swept} % is surely swept, {required} % is required")
+            }
         }
     }
 }

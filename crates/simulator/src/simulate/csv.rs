@@ -2,7 +2,7 @@
 
 use super::Execution;
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_planner::csv::{self, CsvError, MAX_ROWS};
+use platewash_planner::csv::{self, CsvError};
 use platewash_planner::plan::Plan;
 use platewash_planner::robot;
 use std::fmt::Write;
@@ -14,14 +14,11 @@ pub const HEADER: &str = ",tau1_n_m,tau2_n_m,tau3_n_m,tau4_n_m,tau5_n_m,tau6_n_m
 /// held from then on. Numbers are the shortest that read back exactly.
 ///
 /// # Errors
-/// [`CsvError::Step`] for a time step that is not positive or gives more than [`MAX_ROWS`] rows.
+/// [`CsvError::Step`] for a time step that is not positive or gives more than [`csv::MAX_ROWS`] rows.
 pub fn table(execution: &Execution, plan: &Plan, robot: &RobotModel, dt_s: f64) -> Result<String, CsvError> {
     let samples = &execution.samples;
     let duration_s = samples.last().map_or(0.0, |sample| sample.t_s);
-    let rows = (duration_s / dt_s).ceil();
-    if !(dt_s > 0.0 && rows < MAX_ROWS as f64) {
-        return Err(CsvError::Step { dt_s, duration_s });
-    }
+    csv::check_step(duration_s, dt_s)?;
     let tip = robot::tip_frame(robot, &plan.tool);
     let stride = (dt_s / execution.period_s).max(1.0);
     let mut text = format!("{}{HEADER}\n", csv::HEADER);

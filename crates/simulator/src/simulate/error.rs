@@ -2,8 +2,29 @@
 
 use crate::control::ControlError;
 use crate::dynamics::DynamicsError;
+use platewash_kinematics::words::{rounded_down, rounded_up};
 use platewash_planner::coverage::CoverageError;
 use platewash_planner::trajectory::KnotError;
+
+/// Significant digits of a rate or period that is suggested.
+const DIGITS: usize = 3;
+
+/// Periods of an execution that is not too much work, but for two of rounding.
+fn most_periods(substeps: usize) -> f64 {
+    super::MAX_SAMPLES
+        .min(super::MAX_STEPS / substeps.max(1))
+        .saturating_sub(3) as f64
+}
+
+/// A rate \[Hz\] at which so much motion is not too much work.
+fn highest_rate(duration_s: f64, substeps: usize) -> f64 {
+    rounded_down(most_periods(substeps) / duration_s, DIGITS)
+}
+
+/// A period \[s\] with which it is not.
+fn shortest_period(duration_s: f64, substeps: usize) -> f64 {
+    rounded_up(duration_s / most_periods(substeps), DIGITS)
+}
 
 /// Why a plan could not be simulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -50,10 +71,10 @@ pub enum SimulationError {
     },
     /// So much work that it would not end soon.
     #[error(
-        "{duration_s} s at {rate_hz} Hz with {substeps} steps a sample are too much work: at most {} samples and {} steps; lower \
-         control.rate_hz or plant.substeps",
-        super::MAX_SAMPLES,
-        super::MAX_STEPS
+        "{duration_s:.2} s at {rate_hz} Hz with {substeps} steps a sample are too much work: at most {} samples and {} steps; \
+         with as many steps a sample, control.rate_hz must be at most {} (for laws without a plant: control.dt_s at least {})",
+        super::MAX_SAMPLES, super::MAX_STEPS,
+        highest_rate(*.duration_s, *.substeps), shortest_period(*.duration_s, *.substeps)
     )]
     TooLong {
         /// Duration of the plan \[s\].
@@ -71,7 +92,7 @@ pub enum SimulationError {
     Control(#[from] ControlError),
     /// The arm leaves all bounds.
     #[error(
-        "the arm diverges: joint {} is at {position_rad:e} rad, moving at {speed_rad_s:e} rad/s, after {t_s} s; raise \
+        "the arm diverges: joint {} is at {position_rad:.3e} rad, moving at {speed_rad_s:.3e} rad/s, after {t_s:.4} s; raise \
          control.rate_hz or plant.substeps, or lower the gains", .joint + 1
     )]
     Divergence {

@@ -7,6 +7,7 @@ use super::tracking::{self, SegmentTracking, Tracking};
 use super::washing::{self, PlateOutcome, PlateVerdict};
 use super::{Execution, Setup, SimulationError};
 use platewash_kinematics::RobotModel;
+use platewash_kinematics::words::rounded;
 use platewash_planner::plan::Plan;
 use platewash_planner::scenario::ControlLawName;
 use platewash_planner::words::part_of;
@@ -20,6 +21,23 @@ pub enum SimulationVerdict {
     Washed,
     /// Not so.
     NotWashed,
+    /// The plan's hash is not that of its contents: whatever was simulated is not the plan that was sealed.
+    Altered,
+}
+
+/// Whether a plan is as it was sealed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Seal {
+    /// Its hash is that of its contents.
+    Whole,
+    /// It is not, or there is none.
+    Broken,
+}
+
+impl Seal {
+    pub(super) fn of(plan: &Plan) -> Self {
+        if plan.is_sealed() { Self::Whole } else { Self::Broken }
+    }
 }
 
 /// What came of a plan under a law. Lengths in metres, angles in radians, times in seconds.
@@ -33,7 +51,7 @@ pub struct SimulationReport {
     pub robot: String,
     /// The law.
     pub law: ControlLawName,
-    /// Whether the wash survives.
+    /// Whether the wash survives, and the plan is the one that was sealed.
     pub verdict: SimulationVerdict,
     /// The first line.
     pub headline: String,
@@ -63,16 +81,27 @@ impl SimulationReport {
     /// # Errors
     /// [`SimulationError::Coverage`] for plates or sponges that make no sense.
     pub fn new(plan: &Plan, robot: &RobotModel, setup: &Setup, execution: &Execution) -> Result<Self, SimulationError> {
+        Self::judge(plan, robot, setup, execution, Seal::of(plan))
+    }
+
+    /// The same where it is known whether the plan is as it was sealed.
+    pub(super) fn judge(
+        plan: &Plan,
+        robot: &RobotModel,
+        setup: &Setup,
+        execution: &Execution,
+        seal: Seal,
+    ) -> Result<Self, SimulationError> {
         let contact = Contact::new(plan, robot);
         let tip_errors = tracking::tip_errors(execution, robot, contact.tip());
         let plates = washing::plates(plan, robot, execution)?;
         let payload = PayloadCheck::of(plan, robot);
         let washed = plates.iter().filter(|p| p.verdict == PlateVerdict::Washed).count();
         let may_carry = payload.verdict != PayloadVerdict::Exceeded;
-        let verdict = if washed == plan.plates.len() && may_carry {
-            SimulationVerdict::Washed
-        } else {
-            SimulationVerdict::NotWashed
+        let verdict = match seal {
+            Seal::Broken => SimulationVerdict::Altered,
+            Seal::Whole if washed == plan.plates.len() && may_carry => SimulationVerdict::Washed,
+            Seal::Whole => SimulationVerdict::NotWashed,
         };
         let tracking = tracking::tracking(&execution.samples, &tip_errors);
         Ok(Self {
@@ -101,6 +130,14 @@ impl SimulationReport {
     }
 }
 
+/// Significant digits of what the scenario states.
+const SHOWN_DIGITS: usize = 6;
+
+/// What the scenario states, as people read it.
+pub(super) fn shown(value: f64) -> f64 {
+    rounded(value, SHOWN_DIGITS)
+}
+
 fn assumptions(plan: &Plan, setup: &Setup) -> Vec<String> {
     let tool = &plan.tool;
     if setup.law.is_kinematic() {
@@ -111,8 +148,8 @@ fn assumptions(plan: &Plan, setup: &Setup) -> Vec<String> {
     if tool.length_m > 0.0 {
         all.push(format!(
             "the tool weighs {} kg and its sponge is pressed in by {} mm",
-            tool.mass_kg,
-            1e3 * tool.sponge_compression_m
+            shown(tool.mass_kg),
+            shown(1e3 * tool.sponge_compression_m)
         ));
     }
     let plant = &setup.plant;
@@ -127,7 +164,7 @@ fn assumptions(plan: &Plan, setup: &Setup) -> Vec<String> {
     } else {
         all.push(format!(
             "the plate pushes with a constant {} N wherever the sponge touches",
-            plant.contact_force_n
+            shown(plant.contact_force_n)
         ));
     }
     if plant.torque_limit_n_m.is_some() {

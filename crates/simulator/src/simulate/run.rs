@@ -6,6 +6,7 @@ use super::{Execution, Sample, Setup, SimulationError};
 use crate::control::{self, Command, ControlLaw, Reference};
 use crate::dynamics::{DynamicsModel, RigidBody};
 use crate::plant::{Plant, PlantState};
+use platewash_kinematics::words::rounded;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_planner::plan::Plan;
 use platewash_planner::tool_path::SegmentKind;
@@ -19,6 +20,9 @@ pub const MAX_STEPS: usize = 50_000_000;
 
 /// Configurations along a plan about which the sampled loop is checked, at most.
 const STABLE_AT: usize = 64;
+
+/// Significant digits of a rate in messages.
+const RATE_DIGITS: usize = 6;
 
 /// Positions \[rad\] and speeds \[rad/s\] beyond this are divergence, not motion.
 const LARGEST: f64 = 1e6;
@@ -214,7 +218,10 @@ fn check_arm(plan: &Plan, robot: &RobotModel) -> Result<(), SimulationError> {
 
 /// Samples from 0 s to the plan's end, which is the last one or lies less than a period before it.
 fn samples(motion: &Trajectory, setup: &Setup) -> Result<usize, SimulationError> {
-    let (duration_s, period_s, substeps) = (motion.duration_s(), setup.period_s(), setup.plant.substeps);
+    count(motion.duration_s(), setup.period_s(), setup.plant.substeps)
+}
+
+fn count(duration_s: f64, period_s: f64, substeps: usize) -> Result<usize, SimulationError> {
     // A last period shorter than a millionth is rounding, not a sample.
     let count = (duration_s / period_s - 1e-6).ceil().max(0.0) + 1.0;
     if count <= MAX_SAMPLES as f64 && count * substeps as f64 <= MAX_STEPS as f64 {
@@ -222,7 +229,7 @@ fn samples(motion: &Trajectory, setup: &Setup) -> Result<usize, SimulationError>
     }
     Err(SimulationError::TooLong {
         duration_s,
-        rate_hz: 1.0 / period_s,
+        rate_hz: rounded(1.0 / period_s, RATE_DIGITS),
         substeps,
     })
 }
@@ -239,5 +246,28 @@ fn check_bounded(t_s: f64, state: &PlantState) -> Result<(), SimulationError> {
             speed_rad_s: state.qd[joint],
         }),
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// The rate and the period that a refusal suggests are accepted when they are typed in.
+        #[test]
+        fn a_suggested_rate_is_accepted(mantissa in 1.0..10.0_f64, exponent in 0..6_i32, substeps in 1_usize..1000) {
+            let duration_s = mantissa * 10_f64.powi(exponent);
+            let refused = count(duration_s, duration_s * 1e-9, substeps).unwrap_err().to_string();
+            let number = |before: &str| -> f64 {
+                let rest = refused.split(before).nth(1).unwrap();
+                rest.split([' ', ')']).next().unwrap().parse().unwrap()
+            };
+            for period_s in [1.0 / number("rate_hz must be at most "), number("dt_s at least ")] {
+                prop_assert!(count(duration_s, period_s, substeps).is_ok(), "{}", refused);
+                prop_assert!(count(duration_s, 0.9 * period_s, substeps).is_err(), "{}", refused);
+            }
+        }
     }
 }

@@ -1,7 +1,9 @@
 //! The report as a person reads it.
 
 use super::payload::PayloadVerdict;
+use super::report::shown;
 use super::{Effort, PlateVerdict, SimulationReport, SimulationVerdict, Tracking};
+use platewash_kinematics::words::told_apart;
 use std::fmt::{self, Display, Formatter};
 
 impl Display for SimulationReport {
@@ -9,6 +11,7 @@ impl Display for SimulationReport {
         let verdict = match self.verdict {
             SimulationVerdict::Washed => "WASHED",
             SimulationVerdict::NotWashed => "NOT WASHED",
+            SimulationVerdict::Altered => "ALTERED, the hash is not that of the contents",
         };
         writeln!(f, "{verdict}: {}", self.headline)?;
         let rate = 1.0 / self.period_s;
@@ -107,18 +110,15 @@ fn joints(effort: &Effort, tracking: &Tracking, f: &mut Formatter<'_>) -> fmt::R
 fn payload(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
     let payload = &report.payload;
     let rated = |verdict: &str| {
-        let rated = payload.rated_kg.unwrap_or_default();
-        format!(
-            "the tool weighs {} kg, {verdict} the rated payload of {rated} kg",
-            payload.tool_kg
-        )
+        let [tool, rated] = told_apart(payload.tool_kg, payload.rated_kg.unwrap_or_default(), 2);
+        format!("the tool weighs {tool} kg, {verdict} the rated payload of {rated} kg")
     };
     let line = match payload.verdict {
         PayloadVerdict::Within => rated("within"),
         PayloadVerdict::Exceeded => rated("above"),
         PayloadVerdict::Unknown => format!(
             "the tool weighs {} kg; no payload is known for this arm: give robot.payload_kg",
-            payload.tool_kg
+            shown(payload.tool_kg)
         ),
     };
     writeln!(f, "payload: {line}")

@@ -1,5 +1,6 @@
 //! Many frequencies and dampings: the trade-off between tip error, torque and coverage.
 
+use super::report::Seal;
 use super::{Setup, SimulationError, SimulationReport, SimulationVerdict, simulate};
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_planner::plan::Plan;
@@ -48,6 +49,7 @@ pub fn tune(
         .iter()
         .flat_map(|&frequency| damping_ratios.iter().map(move |&damping| (frequency, damping)))
         .collect();
+    let seal = Seal::of(plan);
     let row = |&(frequency_rad_s, damping_ratio): &(f64, f64)| {
         let mut setup = setup.clone();
         let control = &mut setup.control;
@@ -56,15 +58,15 @@ pub fn tune(
         TuneRow {
             frequency_rad_s,
             damping_ratio,
-            outcome: outcome(plan, robot, &setup),
+            outcome: outcome(plan, robot, &setup, seal),
         }
     };
     pairs.par_iter().map(row).collect()
 }
 
-fn outcome(plan: &Plan, robot: &RobotModel, setup: &Setup) -> Result<TuneOutcome, SimulationError> {
+fn outcome(plan: &Plan, robot: &RobotModel, setup: &Setup, seal: Seal) -> Result<TuneOutcome, SimulationError> {
     let execution = simulate(plan, robot, setup)?;
-    let report = SimulationReport::new(plan, robot, setup, &execution)?;
+    let report = SimulationReport::judge(plan, robot, setup, &execution, seal)?;
     let coverages = report.plates.iter().map(|plate| plate.executed.fraction);
     Ok(TuneOutcome {
         verdict: report.verdict,

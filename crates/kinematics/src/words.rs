@@ -1,0 +1,119 @@
+//! Numbers in sentences: as many digits as the sentence needs, and no more.
+//!
+//! A message that compares two numbers shows that they differ; one that suggests a number is right when that number is typed in.
+
+/// Decimals of a double below 10 beyond which nothing is told any more.
+const MOST_DECIMALS: usize = 17;
+
+/// Two numbers with `decimals` decimals, or with as many more as they need to read differently where they differ.
+#[must_use]
+pub fn told_apart(a: f64, b: f64, decimals: usize) -> [String; 2] {
+    let told = |digits: usize| [a, b].map(|v| format!("{v:.digits$}"));
+    let differ = |[a, b]: &[String; 2]| a != b;
+    if a == b || a.is_nan() || b.is_nan() {
+        return told(decimals);
+    }
+    let enough = (decimals..=MOST_DECIMALS).map(told).find(differ);
+    // The shortest decimals that read back exactly: those of different numbers differ.
+    enough.unwrap_or_else(|| [a, b].map(|v| format!("{v:e}")))
+}
+
+/// A number with `decimals` decimals, or with as many more as show that it is not zero where it is not.
+#[must_use]
+pub fn not_as_zero(value: f64, decimals: usize) -> String {
+    let [told, _] = told_apart(value.abs(), 0.0, decimals);
+    if value < 0.0 { format!("-{told}") } else { told }
+}
+
+/// Two angles \[rad\] in degrees, told apart as [`told_apart`] does, each with its unit; in radians where their degrees round to
+/// the same number.
+#[must_use]
+pub fn angles_told_apart(a_rad: f64, b_rad: f64, decimals: usize) -> [String; 2] {
+    let (a, b) = (a_rad.to_degrees(), b_rad.to_degrees());
+    if a == b && a_rad != b_rad {
+        return told_apart(a_rad, b_rad, decimals).map(|v| format!("{v} rad"));
+    }
+    told_apart(a, b, decimals).map(|v| format!("{v}°"))
+}
+
+/// A number to at most `digits` significant digits, without zeros that say nothing.
+#[must_use]
+pub fn rounded(value: f64, digits: usize) -> f64 {
+    decimal(&format!("{value:.*e}", digits.saturating_sub(1)), value)
+}
+
+/// The least number of at most `digits` significant digits that is not below a positive `value`.
+#[must_use]
+pub fn rounded_up(value: f64, digits: usize) -> f64 {
+    let near = rounded(value, digits);
+    if near >= value {
+        return near;
+    }
+    rounded(near + unit(near, digits), digits)
+}
+
+/// The greatest number of at most `digits` significant digits that is not above a positive `value`.
+#[must_use]
+pub fn rounded_down(value: f64, digits: usize) -> f64 {
+    let near = rounded(value, digits);
+    if near <= value {
+        return near;
+    }
+    rounded(near - unit(value, digits), digits)
+}
+
+/// What the last of `digits` significant digits of a positive number is worth.
+fn unit(value: f64, digits: usize) -> f64 {
+    let text = format!("{value:e}");
+    let exponent = text.split('e').nth(1).and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
+    let last = exponent + 1 - i32::try_from(digits.max(1)).unwrap_or(1);
+    decimal(&format!("1e{last}"), 0.0)
+}
+
+/// The number nearest to a decimal.
+fn decimal(text: &str, otherwise: f64) -> f64 {
+    text.parse().unwrap_or(otherwise)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn as_many_digits_as_needed_and_no_more() {
+        assert_eq!(told_apart(-90.000_02, -90.0, 2), ["-90.00002", "-90.00000"]);
+        assert_eq!(told_apart(12.0, 70.0, 1), ["12.0", "70.0"]);
+        assert_eq!(told_apart(1e-300, 0.0, 2), ["1e-300", "0e0"]);
+        assert_eq!(not_as_zero(-1.2e-7, 2), "-0.0000001");
+        assert_eq!(not_as_zero(0.0, 1), "0.0");
+        assert_eq!(rounded(25.499_999_999_999_996, 6).to_string(), "25.5");
+        assert_eq!(rounded_up(4.268_001e-5, 3), 4.27e-5);
+        assert_eq!(rounded_up(9.991, 3), 10.0);
+        assert_eq!(rounded_down(60.000_000_000_000_01, 6), 60.0);
+        assert_eq!(rounded_down(9.999_6, 4), 9.999);
+    }
+
+    proptest! {
+        #[test]
+        fn numbers_that_differ_read_differently(a in -1e3..1e3_f64, steps in 0_u64..4, decimals in 0_usize..6) {
+            let b = f64::from_bits(a.to_bits() + steps);
+            let [told_a, told_b] = told_apart(a, b, decimals);
+            prop_assert_eq!(told_a == told_b, a == b, "{} {}", told_a, told_b);
+            let [told_a, told_b] = angles_told_apart(a, b, decimals);
+            prop_assert_eq!(told_a == told_b, a == b, "{} {}", told_a, told_b);
+        }
+
+        #[test]
+        fn rounding_keeps_its_side_and_its_digits(mantissa in 1.0..10.0_f64, exponent in -30..30_i32, digits in 1_usize..9) {
+            let value = mantissa * 10_f64.powi(exponent);
+            let step = 1.001 * 10_f64.powi(exponent + 2 - digits as i32);
+            for (side, rounded) in [(1.0, rounded_up(value, digits)), (-1.0, rounded_down(value, digits))] {
+                prop_assert!(side * (rounded - value) >= 0.0 && (rounded - value).abs() <= step, "{value} {rounded}");
+                let text = format!("{rounded:e}");
+                let told = text.split('e').next().unwrap_or_default().replace('.', "");
+                prop_assert!(told.len() <= digits, "{value}: {text}");
+            }
+        }
+    }
+}

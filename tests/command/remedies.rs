@@ -1,0 +1,200 @@
+//! Messages whose remedy is accepted, and numbers that can be read.
+
+use super::*;
+
+#[test]
+fn a_suggested_time_step_suits_the_motion_planned() {
+    let folder = folder();
+    let dir = folder.path();
+    platewash(dir, &["plan", "--quiet"]).done();
+    let plan: Value = serde_json::from_str(&std::fs::read_to_string(dir.join("out/plan.json")).unwrap()).unwrap();
+    let duration_s = plan["summary"]["duration_s"].as_f64().unwrap();
+    for verb in [&["run"][..], &["plan"], &["simulate", "out/plan.json"]] {
+        let asked = |dt: &str| platewash(dir, &[verb, &["--dt", dt, "--out", "o"]].concat());
+        let ran = asked("1e-6");
+        ran.refused(2, &["--dt", "give at least"]);
+        let suggested = ran.stderr.split("at least ").nth(1).unwrap().split(' ').next().unwrap();
+        let rows = duration_s / suggested.parse::<f64>().unwrap();
+        assert!(
+            (0.98e6..1e6).contains(&rows),
+            "{verb:?}: {suggested} s gives {rows} rows"
+        );
+        for dt in ["1e-9", "1e9"] {
+            asked(dt).refused(2, &["--dt", dt, "from 0.000001 to 10"]);
+        }
+    }
+    assert_eq!(names(dir), ["out"]);
+}
+
+/// Each of these is refused for another reason too, later.
+#[test]
+fn a_place_that_cannot_be_written_is_noticed_before_any_work() {
+    let folder = folder();
+    let dir = folder.path();
+    std::fs::write(dir.join("taken"), "a file").unwrap();
+    platewash(dir, &["plan", "--quiet"]).done();
+    let slow = kitchen(dir, &[("speed_m_s = 0.25", "speed_m_s = 1e-6")]);
+    let slow = slow.to_str().unwrap();
+    let cases: [&[&str]; 6] = [
+        &["run", "--scenario", slow],
+        &["plan", "--scenario", slow],
+        &["simulate", "out/plan.json", "--frequency", "5000"],
+        &["tune", "out/plan.json", "--law", "paper"],
+        &["sweep", "--seeds", "1..2"],
+        &["reproduce", "--layouts", "10000", "--draws", "1000000"],
+    ];
+    for line in cases {
+        for place in ["taken", "taken/below", "/proc/platewash"] {
+            let ran = platewash(dir, &[line, &["--out", place]].concat());
+            ran.refused(2, &[place, "cannot be written"]);
+        }
+    }
+    let csv = ["run", "--scenario", slow, "--csv", "taken/motion.csv"];
+    platewash(dir, &csv).refused(2, &["taken/motion.csv"]);
+    assert_eq!(names(dir), ["case.toml", "out", "taken"], "nothing is left behind");
+}
+
+#[test]
+fn a_plan_for_another_arm_asks_for_the_option_that_gives_it() {
+    let folder = folder();
+    let dir = folder.path();
+    std::fs::write(dir.join("mine.urdf"), platewash::kinematics::model::IRB120_URDF).unwrap();
+    platewash(dir, &["plan", "--urdf", "mine.urdf", "--quiet"]).done();
+    for verb in ["verify", "simulate", "tune"] {
+        platewash(dir, &[verb, "out/plan.json"]).refused(2, &["\"mine.urdf\"", "--urdf"]);
+    }
+    platewash(dir, &["verify", "out/plan.json", "--urdf", "mine.urdf"]).done();
+}
+
+#[test]
+fn a_joint_and_its_limit_read_differently() {
+    let folder = folder();
+    let dir = folder.path();
+    let start = "start_deg = [0, 0, 0, 0, 90, 0]";
+    for changed in [
+        "start_deg = [0, 0, 70.000000000001, 0, 90, 0]".to_owned(),
+        format!("{start}\nhome_deg = [0, 0, 70.000000000001, 0, 90, 0]"),
+    ] {
+        let file = kitchen(dir, &[(start, &changed)]);
+        let ran = platewash(dir, &["validate", "--scenario", file.to_str().unwrap()]);
+        ran.refused(2, &["joint 3 at 70.0", "is beyond its limit of "]);
+        let told: Vec<_> = ran
+            .stderr
+            .split('°')
+            .map(|part| part.rsplit(' ').next().unwrap())
+            .collect();
+        assert_ne!(told[0], told[1], "{}", ran.stderr);
+    }
+}
+
+#[test]
+fn the_first_line_says_what_was_not_simulated_or_fails_there() {
+    let folder = folder();
+    let dir = folder.path();
+    for (law, says) in [
+        ("law = \"pd\"\nfrequency_rad_s = 5000", "; NOT SIMULATED"),
+        ("law = \"pd\"\nfrequency_rad_s = 15", "; NOT WASHED under pd"),
+    ] {
+        let file = kitchen(dir, &[("[job]", &format!("[control]\n{law}\n[job]"))]);
+        let ran = platewash(dir, &["run", "--scenario", file.to_str().unwrap()]);
+        let first = ran.stdout.lines().next().unwrap();
+        assert!(first.starts_with("PROVED: ") && first.ends_with(says), "{first}");
+        let report = std::fs::read_to_string(dir.join("out/report.json")).unwrap();
+        let report: Value = serde_json::from_str(&report).unwrap();
+        assert_eq!(report["headline"], first);
+    }
+}
+
+/// Significant digits of the longest number in a text, hashes apart.
+fn longest_number(text: &str) -> (usize, String) {
+    let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '.'));
+    let numbers =
+        words.filter(|word| word.contains('.') && !word.contains(|c: char| c.is_ascii_alphabetic() && c != 'e'));
+    let digits = |number: &str| {
+        let mantissa = number.split('e').next().unwrap_or_default().replace('.', "");
+        mantissa.trim_matches('0').len()
+    };
+    let longest = numbers.max_by_key(|number| digits(number)).unwrap_or_default();
+    (digits(longest), longest.to_owned())
+}
+
+#[test]
+fn no_sentence_holds_a_raw_float() {
+    assert_eq!(
+        longest_number("42.67915879140517 s at 0.001 Hz, 9f0.8, 10000000000000").0,
+        16
+    );
+    let folder = folder();
+    let dir = folder.path();
+    // Lengths that are no round number in millimetres.
+    let sponge = [
+        (
+            "sponge_radius_m = 0.025",
+            "sponge_radius_m = 0.0249\nmass_kg = 0.30000000000000004",
+        ),
+        (
+            "sponge_height_m = 0.025",
+            "sponge_height_m = 0.0247\nsponge_compression_m = 0.0041",
+        ),
+    ];
+    let file = kitchen(dir, &sponge);
+    let file = file.to_str().unwrap();
+    platewash(dir, &["plan", "--scenario", file]);
+    std::fs::rename(dir.join("case.toml"), dir.join("sponge.toml")).unwrap();
+    let paper = scenario(dir, "sponge_radius_m = 0.025 ", "sponge_radius_m = 0.0271 ");
+    let lines: [&[&str]; 9] = [
+        &["run", "--scenario", "sponge.toml"],
+        &["run", "--scenario", paper.to_str().unwrap(), "--out", "paper"],
+        &["validate", "--scenario", "sponge.toml"],
+        &["verify", "out/plan.json", "--all-pairs"],
+        &["simulate", "out/plan.json"],
+        &["simulate", "out/plan.json", "--rate", "1e9"],
+        &["simulate", "out/plan.json", "--law", "pd", "--frequency", "5000"],
+        &["tune", "out/plan.json", "--frequencies", "10,5000"],
+        &["plan", "--dt", "1e-6"],
+    ];
+    for line in lines {
+        let ran = platewash(dir, line);
+        for text in [&ran.stdout, &ran.stderr] {
+            let (digits, number) = longest_number(text);
+            assert!(digits <= 10, "{line:?}: {number} in {text}");
+        }
+    }
+}
+
+#[test]
+fn the_ten_tightest_pairs_are_named_and_all_on_request() {
+    let folder = folder();
+    let dir = folder.path();
+    let rows = |text: &str| -> Vec<f64> {
+        let rows = text
+            .lines()
+            .filter(|line| line.contains(" – ") && line.contains(" mm  pass"));
+        let distance = |line: &str| {
+            line.split(" mm")
+                .next()
+                .unwrap()
+                .rsplit(' ')
+                .next()
+                .unwrap()
+                .parse()
+                .unwrap()
+        };
+        rows.map(distance).collect()
+    };
+    let report = platewash(dir, &["run", "--json"]).done().json();
+    let pairs = report["certificate"]["clearance"].as_array().unwrap();
+    let judged = pairs.iter().filter(|pair| pair["rule"] == "clearance").count();
+    assert!(judged > 50, "{judged}");
+    for line in [&["run"][..], &["verify", "out/plan.json"]] {
+        let text = platewash(dir, line).done().stdout;
+        let tightest = rows(&text);
+        assert_eq!(tightest.len(), 10, "{text}");
+        assert!(tightest.is_sorted(), "{tightest:?}");
+        assert!(text.contains(&format!("the 10 tightest of {judged} pairs")), "{text}");
+        let all = rows(&platewash(dir, &[line, &["--all-pairs"]].concat()).done().stdout);
+        assert_eq!(all.len(), judged);
+        let nearer = all.iter().filter(|distance| **distance < tightest[9]).count();
+        assert!(nearer < 10, "{nearer} pairs are nearer than the tenth");
+    }
+}
