@@ -16,6 +16,7 @@ mod dynamics;
 mod errors;
 mod job;
 mod layout;
+mod notes;
 mod plan;
 mod pose;
 mod reproduce;

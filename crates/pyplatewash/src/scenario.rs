@@ -2,6 +2,7 @@
 
 use crate::argument;
 use crate::errors;
+use crate::notes::warn;
 use crate::value::{from_mapping, to_python, to_record};
 use crate::work::patiently;
 use platewash::Scenario;
@@ -62,6 +63,12 @@ impl ScenarioObject {
             e.line = None;
             errors::scenario(py, &e)
         })?;
+        Self::warned(py, inner)
+    }
+
+    /// The object of a scenario, after warnings of what was probably meant in another unit.
+    fn warned(py: Python<'_>, inner: Scenario) -> PyResult<Self> {
+        warn(py, &inner.notes())?;
         Ok(Self { inner })
     }
 }
@@ -93,7 +100,7 @@ impl ScenarioObject {
             return Err(errors::input(py, "name_or_file", "is not valid Unicode"));
         };
         let loaded = Scenario::load(name).map_err(|e| errors::scenario(py, &e))?;
-        Ok(Self { inner: loaded })
+        Self::warned(py, loaded)
     }
 
     /// A scenario from TOML text; `source` is its name in messages.
@@ -112,7 +119,7 @@ impl ScenarioObject {
         let source = source.transpose()?;
         let inner =
             Scenario::parse(&text, source.as_deref().unwrap_or("text")).map_err(|e| errors::scenario(py, &e))?;
-        Ok(Self { inner })
+        Self::warned(py, inner)
     }
 
     /// A scenario from a dictionary as `to_dict` gives it; what is missing is default, None counts as missing.
@@ -164,6 +171,12 @@ impl ScenarioObject {
         let scenario = self.inner.clone();
         let (_, findings) = patiently(py, move |_| job::check(&scenario))?.map_err(|e| errors::plan(py, &e))?;
         to_python(py, &findings)
+    }
+
+    /// What was probably meant in another unit: a home in radians. Each is also a `UserWarning` when the scenario is made.
+    #[getter]
+    fn notes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.inner.notes())
     }
 
     /// Name, for reports.
@@ -283,7 +296,9 @@ pub fn given(value: &Bound<'_, PyAny>) -> PyResult<Scenario> {
     let path: PathBuf = value
         .extract()
         .map_err(|e| argument::refused("scenario", value, NEEDED, e))?;
-    Scenario::load(&path.to_string_lossy()).map_err(|e| errors::scenario(value.py(), &e))
+    let scenario = Scenario::load(&path.to_string_lossy()).map_err(|e| errors::scenario(value.py(), &e))?;
+    warn(value.py(), &scenario.notes())?;
+    Ok(scenario)
 }
 
 /// Refuses a scenario of the other program than the one that a call runs.

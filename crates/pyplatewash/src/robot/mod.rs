@@ -10,9 +10,10 @@ mod source;
 use crate::argument::{self, ROBOT};
 use crate::arrays;
 use crate::errors;
+use crate::notes::warn;
 use crate::tool::ToolFields;
 use numpy::PyArrayDyn;
-use platewash::planner::scenario::RobotSection;
+use platewash::planner::scenario::{RobotSection, UnitNote};
 use platewash::{Axes, Frame, RobotModel, ToolFrame};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -156,7 +157,9 @@ impl Robot {
         let srdf = srdf.map(|srdf| argument::path("srdf", srdf)).transpose()?;
         let package_path = argument::paths("package_path", package_path)?;
         let source = Source::files(py, &urdf, srdf.as_deref(), package_path)?;
-        Ok(Self::new(source.load(py)?, source))
+        let model = source.load(py)?;
+        warn(py, UnitNote::of_arm(&model).as_slice())?;
+        Ok(Self::new(model, source))
     }
 
     /// Name in the description.
