@@ -458,7 +458,8 @@ fn portable(scenario: &Scenario) -> Scenario {
     let robot = &mut portable.robot;
     for path in [&mut robot.urdf, &mut robot.srdf].into_iter().flatten() {
         if let Some(name) = path.file_name() {
-            *path = name.into();
+            // As text, which is what is read back.
+            *path = name.to_string_lossy().into_owned().into();
         }
     }
     robot.package_path.clear();
