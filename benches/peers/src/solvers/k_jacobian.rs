@@ -1,16 +1,16 @@
 //! The crate `k`: Newton steps on the Jacobian, restarted from random configurations.
 
 use super::Solver;
-use crate::Tolerance;
-use crate::problems::{Problems, configuration};
 use k::nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use k::{InverseKinematicsSolver, JacobianIkSolver, SerialChain};
 use platewash_kinematics::{AXES, JointVector, Pose, RobotModel};
+use platewash_problems::Tolerance;
+use platewash_problems::problems::{Problems, configuration};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use std::error::Error;
 
-const URDF: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../urdf/irb120.urdf");
+const URDF: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../urdf/irb120.urdf");
 /// Full Newton steps: with less, the solver needs more of them and solves no more targets here.
 const GAIN: f64 = 1.0;
 /// Steps from one start.

@@ -2,7 +2,7 @@
 
 use crate::Tolerance;
 use crate::problems::{Problems, Seeds};
-use crate::solvers::Solver;
+use crate::solver::Solver;
 use platewash_kinematics::rotation::{Rigid, rotation_vector};
 use platewash_kinematics::{JointVector, Pose, RobotModel, ToolFrame, ToolFrameError};
 
@@ -28,6 +28,20 @@ impl Score {
     /// # Errors
     /// An arm without `tool0`.
     pub fn of(solver: &mut dyn Solver, problems: &Problems, robot: &RobotModel) -> Result<Self, ToolFrameError> {
+        let mut answers = Vec::with_capacity(problems.targets.len());
+        problems.run(solver, |_, answer| answers.push(answer));
+        Self::of_answers(answers, problems, robot)
+    }
+
+    /// Checks the answers to the workload's targets, in their order.
+    ///
+    /// # Errors
+    /// An arm without `tool0`.
+    pub fn of_answers(
+        answers: impl IntoIterator<Item = Option<JointVector>>,
+        problems: &Problems,
+        robot: &RobotModel,
+    ) -> Result<Self, ToolFrameError> {
         let tool0 = robot.tool_frame(ToolFrame::Tool0)?;
         let mut score = Self {
             count: problems.targets.len(),
@@ -37,15 +51,10 @@ impl Score {
         };
         let path = matches!(problems.seeds, Seeds::LastAnswer(_));
         let mut last: Option<JointVector> = None;
-        problems.run(solver, |target, answer| {
-            let Some(q) = answer else { return };
-            if robot.limits().contain(&q)
-                && reached(
-                    &problems.targets[target],
-                    &robot.fk(&q).rigid(&tool0),
-                    problems.tolerance,
-                )
-            {
+        for (target, answer) in problems.targets.iter().zip(answers) {
+            let Some(q) = answer else { continue };
+            let found = robot.fk(&q).rigid(&tool0);
+            if robot.limits().contain(&q) && reached(target, &found, problems.tolerance) {
                 score.solved += 1;
             } else {
                 score.wrong += 1;
@@ -54,7 +63,7 @@ impl Score {
                 let step = (q - last).amax();
                 score.largest_step_rad = Some(score.largest_step_rad.map_or(step, |s| s.max(step)));
             }
-        });
+        }
         Ok(score)
     }
 

@@ -1,7 +1,7 @@
 //! Our own, with the settings that users get.
 
-use super::Solver;
 use crate::problems::Problems;
+use crate::solver::{Solver, Solvers};
 use platewash_kinematics::ik::analytic::AnalyticArm;
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::rotation::Rigid;
@@ -15,6 +15,33 @@ fn solver<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<IkSolver<'a>
         ..IkSettings::default()
     };
     Ok(IkSolver::new(robot, robot.tool_frame(ToolFrame::Tool0)?, settings)?)
+}
+
+/// For a spiral: the whole path, then each point from the last answer.
+///
+/// # Errors
+/// An arm without `tool0`.
+pub fn warm<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a>, Box<dyn Error>> {
+    Ok(vec![
+        Box::new(Path::new(robot, problems)?),
+        Box::new(Solve::new(robot, problems)?),
+    ])
+}
+
+/// For poses that have nothing to do with each other.
+///
+/// # Errors
+/// An arm without `tool0`.
+pub fn cold<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a>, Box<dyn Error>> {
+    Ok(vec![Box::new(Solve::new(robot, problems)?)])
+}
+
+/// The closed form alone, asked for the branch nearest to the start.
+///
+/// # Errors
+/// An arm without a closed form.
+pub fn nearest<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a>, Box<dyn Error>> {
+    Ok(vec![Box::new(Nearest::new(robot, problems)?)])
 }
 
 /// `platewash_kinematics::ik::IkSolver::solve`: damped least squares, QP and analytic starts.

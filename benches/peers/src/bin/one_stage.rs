@@ -4,9 +4,9 @@
 //!     valgrind --tool=callgrind target/release/one_stage verify 1
 //!     valgrind --tool=callgrind target/release/one_stage verify 2
 //!
-//! The words are those of the benchmark `cycle`.
+//! The words are those of the benchmark `job`.
 
-use platewash_benches::stages::{Stage, Stages};
+use platewash_problems::stages::{Stage, Stages};
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -3,13 +3,13 @@
 
 use crate::edges::Case;
 use crate::plain_fk::PlainArm;
-use crate::score::errors;
 use crate::solvers::{IkGeo, Opw, nearest_within};
-use crate::{ANALYTIC, NUMERIC, Tolerance};
 use platewash_kinematics::ik::analytic::AnalyticArm;
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{AXES, Frame, JointVector, Pose, RobotModel, ToolFrame};
+use platewash_problems::score::errors;
+use platewash_problems::{ANALYTIC, NUMERIC, Tolerance};
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -14,9 +14,10 @@
 //! `cold` calls [`one_case`] for each of its cases, by which callgrind can tell them apart.
 #![allow(clippy::print_stdout)]
 
-use platewash_benches::problems::{Problems, THROUGH_M};
-use platewash_benches::solvers::{Nearest, Path, Solve, Solver};
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_problems::ours::{Nearest, Path, Solve};
+use platewash_problems::problems::{Problems, Seeds, THROUGH_M};
+use platewash_problems::solver::Solver;
 use std::error::Error;
 use std::hint::black_box;
 
@@ -48,7 +49,6 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn run(solver: &mut dyn Solver, problems: &Problems, count: usize) -> usize {
-    use platewash_benches::problems::Seeds;
     let mut last = problems.start();
     let mut solved = 0;
     for target in 0..count.min(problems.targets.len()) {

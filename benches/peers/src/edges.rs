@@ -1,9 +1,9 @@
 //! Poses for the judged run: anywhere, and where solvers go wrong.
 
 use crate::plain_fk::PlainArm;
-use crate::problems::configuration;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector4};
 use platewash_kinematics::{AXES, JointVector, Pose, RobotModel};
+use platewash_problems::problems::configuration;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 use std::f64::consts::{PI, TAU};

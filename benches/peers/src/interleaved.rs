@@ -2,10 +2,10 @@
 //! over the rounds, of each time and of each ratio to the first solver in the same round. The spread over the
 //! targets comes from one more pass in which each is timed alone.
 
-use crate::problems::Problems;
-use crate::score::Score;
-use crate::solvers::Solver;
 use platewash_kinematics::{RobotModel, ToolFrameError};
+use platewash_problems::problems::Problems;
+use platewash_problems::score::Score;
+use platewash_problems::solver::Solver;
 use std::fmt::Write;
 use std::hint::black_box;
 use std::time::Instant;

@@ -1,8 +1,9 @@
 //! Dynamics, a step of the plant, and the whole kitchen under its law, on one core.
 //!
-//!     cargo bench -p platewash-benches --bench simulator
+//!     cargo bench --bench simulator
 //!
-//! The kitchen lasts 42.68 s: divided by the times of `kitchen executed`, it is the factor over real time. Nobody else simulates such a job in Rust; MuJoCo and Pinocchio are measured from Python.
+//! The kitchen lasts 42.68 s: divided by the times of `kitchen executed`, it is the factor over real time. Nobody else
+//! simulates such a job in Rust; MuJoCo and Pinocchio are measured from Python.
 #![allow(missing_docs)]
 
 use criterion::{Criterion, Throughput};
@@ -98,6 +99,8 @@ fn kitchen(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
+    // One thread, whatever the machine has.
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
     let mut criterion = Criterion::default().configure_from_args();
     dynamics(&mut criterion)?;
     kitchen(&mut criterion)?;

@@ -1,17 +1,41 @@
-//! Time-optimal timing of joint paths.
+//! The certified job on one core: `kitchen`, stage by stage and whole, and the timing of smooth paths of two lengths.
 //!
-//!     cargo bench -p platewash-benches --bench timing
+//!     cargo bench --bench job
 #![allow(missing_docs)]
 
 use criterion::{BenchmarkId, Criterion};
 use platewash_kinematics::{JointVector, RobotModel, ToolFrame, trig};
 use platewash_planner::joint_path::{Ends, JointPath};
 use platewash_planner::timing::{MotionLimits, TipLimits, time_optimal};
+use platewash_problems::stages::{Stage, Stages};
 use std::error::Error;
 use std::hint::black_box;
+use std::time::Duration;
 
 fn main() -> Result<(), Box<dyn Error>> {
+    // One thread, whatever the machine has.
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
     let mut criterion = Criterion::default().configure_from_args();
+    stages(&mut criterion)?;
+    timing(&mut criterion)?;
+    criterion.final_summary();
+    Ok(())
+}
+
+fn stages(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
+    let stages = Stages::new("kitchen")?;
+    let mut group = criterion.benchmark_group("kitchen");
+    group.sample_size(20).measurement_time(Duration::from_secs(4));
+    for (stage, name) in Stage::ALL {
+        // Beforehand once, so that an error ends the benchmark.
+        stages.run(stage)?;
+        group.bench_function(name, |b| b.iter(|| stages.run(stage)));
+    }
+    group.finish();
+    Ok(())
+}
+
+fn timing(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
     let robot = RobotModel::irb120()?;
     let tip = robot.tool_frame(ToolFrame::Flange)?;
     let joints = MotionLimits {
@@ -38,7 +62,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     group.finish();
-    criterion.final_summary();
     Ok(())
 }
 

@@ -1,19 +1,15 @@
-//! What the benchmarks share: workloads, the solvers under comparison, their score and an interleaved timing.
+//! What the benchmarks measure: inverse-kinematics problems with the solvers of this project, and the stages of the
+//! certified job. The benchmarks at the root and those beside the peers (`benches/peers`) measure these same problems.
 //!
 //! A time says little without what it bought, so every solver's answers are checked by platewash's own
 //! forward kinematics, to the same tolerances and the joint limits, and the share that passes stands beside
-//! its time. On a shared machine absolute times drift; the ratios come from rounds in which all solvers take
-//! turns ([`interleaved`]).
+//! its time ([`score`]).
 
-pub mod edges;
-pub mod interleaved;
-pub mod judged;
-pub mod plain_fk;
+pub mod ours;
 pub mod problems;
 pub mod score;
-pub mod solvers;
+pub mod solver;
 pub mod stages;
-pub mod tilts;
 
 /// Largest accepted distance from a target, the same for every solver.
 #[derive(Debug, Clone, Copy, PartialEq)]

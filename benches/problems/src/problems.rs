@@ -1,6 +1,6 @@
 //! Inverse-kinematics workloads: poses of `tool0` and the configurations to start from.
 
-use crate::solvers::Solver;
+use crate::solver::Solver;
 use crate::{ANALYTIC, NUMERIC, Tolerance};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
@@ -24,6 +24,8 @@ const HEIGHT_M: f64 = 0.08;
 const TURNS: f64 = 3.0;
 /// Seed of the random workloads.
 const STREAM: u64 = 120;
+/// Seed of those that start near an answer.
+const NEAR_STREAM: u64 = 5;
 
 /// Poses to reach, and from where.
 #[derive(Debug, Clone)]
@@ -98,6 +100,26 @@ impl Problems {
         Ok(Self {
             tolerance: ANALYTIC,
             ..Self::random(robot, MANY)?
+        })
+    }
+
+    /// Near: poses of random configurations within the limits, each from a start that is at most 0.01 rad from its
+    /// configuration, joint by joint.
+    ///
+    /// # Errors
+    /// None unless the arm was changed: it has a `tool0`.
+    pub fn near(robot: &RobotModel, count: usize) -> Result<Self, Box<dyn Error>> {
+        let mut rng = Pcg64::seed_from_u64(NEAR_STREAM);
+        let tool0 = robot.tool_frame(ToolFrame::Tool0)?;
+        let q = configurations(robot, count, &mut rng);
+        let mut near = |q: &JointVector| {
+            let moved = q.map(|angle| angle + 0.02 * (rng.random::<f64>() - 0.5));
+            robot.limits().clamp(&moved)
+        };
+        Ok(Self {
+            targets: q.iter().map(|q| robot.pose(q, &tool0)).collect(),
+            seeds: Seeds::Given(q.iter().map(&mut near).collect()),
+            tolerance: NUMERIC,
         })
     }
 

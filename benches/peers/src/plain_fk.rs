@@ -60,9 +60,9 @@ impl PlainArm {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problems::configurations;
-    use crate::score::errors;
     use platewash_kinematics::{RobotModel, ToolFrame};
+    use platewash_problems::problems::configurations;
+    use platewash_problems::score::errors;
     use rand::SeedableRng;
     use rand_pcg::Pcg64;
 
