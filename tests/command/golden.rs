@@ -1,6 +1,7 @@
 //! The bytes of what the command writes, to the last digit: the same in every build and on every machine.
 //!
-//! `tests/golden/outputs.json` holds the SHA-256 of every file. These tests compare it with a debug build's output,
+//! `tests/golden/outputs.json` holds the SHA-256 of every file. These tests compare it with the output of the build under test
+//! (of `cargo test`: a debug build; in `cargo xtask test`: a build with the checks of a debug build),
 //! `tests/python/test_release_writes_the_same.py` with a release build's. Where a change is meant to change what is planned:
 //!
 //!     cargo test --test command golden -- --ignored      writes it
@@ -51,7 +52,7 @@ fn write() {
 }
 
 #[test]
-fn a_debug_build_writes_the_committed_bytes() {
+fn the_build_under_test_writes_the_committed_bytes() {
     let committed: Hashes = serde_json::from_str(&std::fs::read_to_string(file()).unwrap()).unwrap();
     assert_eq!(committed, hashes());
 }

@@ -1,4 +1,4 @@
-"""The release build writes the bytes that the debug build writes (tests/command/golden.rs has the other half)."""
+"""The release build writes the bytes that the build under test writes (tests/command/golden.rs has the other half)."""
 
 import hashlib
 import json

@@ -1,10 +1,12 @@
 //! The project's own chores.
 //!
 //!     cargo xtask test [--only lint|rust|python]    every test there is, or one part of them
-//!     cargo xtask bench [ARGUMENTS]                 the benchmarks; arguments go to criterion
+//!     cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 //!     cargo xtask docs                              writes the pages that are made from the program
 
+mod benches;
 mod python;
+mod sources;
 mod step;
 mod suite;
 mod wheel;
@@ -15,7 +17,7 @@ use suite::Part;
 
 const USAGE: &str = "\
 cargo xtask test [--only lint|rust|python]    every test there is, or one part of them
-cargo xtask bench [ARGUMENTS]                 the benchmarks; arguments go to criterion
+cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 cargo xtask docs                              writes the pages that are made from the program";
 
 /// What to do.
@@ -38,7 +40,7 @@ fn main() -> ExitCode {
     };
     let done = match chore {
         Chore::Test(only) => suite::run(only),
-        Chore::Bench(arguments) => suite::bench(&arguments),
+        Chore::Bench(arguments) => benches::run(&arguments),
         Chore::Docs => suite::docs(),
         Chore::Help => {
             println!("{USAGE}");

@@ -23,9 +23,13 @@ pub fn tests() -> Result<()> {
     let command = target()
         .join("release")
         .join(format!("platewash{}", std::env::consts::EXE_SUFFIX));
-    Step::program("Python tests", python, &["-m", "pytest", "tests/python"])
-        .with("PLATEWASH_BIN", command)
-        .run()
+    Step::program(
+        "Python tests",
+        python,
+        &["-m", "pytest", "tests/python", "--durations=10"],
+    )
+    .with("PLATEWASH_BIN", command)
+    .run()
 }
 
 /// The interpreter of the virtual environment, made anew when the interpreter or the requirements changed.

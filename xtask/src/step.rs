@@ -3,7 +3,7 @@
 use anyhow::{Context, Result, bail};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
 use std::time::Instant;
 
 /// The repository.
@@ -45,19 +45,29 @@ impl Step {
     }
 
     /// Runs the command; fails unless it succeeds.
-    pub fn run(mut self) -> Result<()> {
+    pub fn run(self) -> Result<()> {
+        self.output_to(Stdio::inherit()).map(drop)
+    }
+
+    /// Runs the command; fails unless it succeeds. Its standard output is not shown but returned.
+    pub fn output(self) -> Result<String> {
+        self.output_to(Stdio::piped())
+    }
+
+    fn output_to(mut self, stdout: Stdio) -> Result<String> {
         let line = self.line();
         println!("\n==> {}: {line}", self.title);
         let start = Instant::now();
-        let status = self
-            .command
-            .status()
+        let child = self.command.stdout(stdout).spawn();
+        let output = child
+            .and_then(Child::wait_with_output)
             .with_context(|| format!("{}: cannot start {line}", self.title))?;
-        if !status.success() {
-            bail!("{}: `{line}` ended with {status}", self.title);
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        if !output.status.success() {
+            bail!("{}: `{line}` ended with {}\n{text}", self.title, output.status);
         }
         println!("    {} passed in {:.1} s", self.title, start.elapsed().as_secs_f64());
-        Ok(())
+        Ok(text)
     }
 
     /// The command as one would type it.

@@ -1,14 +1,17 @@
 //! Everything that must pass, in order.
 
 use crate::step::Step;
-use crate::{python, wheel};
+use crate::{benches, python, wheel};
 use anyhow::{Result, bail};
 use std::time::Instant;
 
-/// The crates under test: all but the benchmarks, which alone need the solvers that others wrote.
-const CRATES: [&str; 3] = ["--workspace", "--exclude", "platewash-benches"];
-/// The same without the Python extension, whose tests are Python's.
-const RUST_CRATES: [&str; 2] = ["--exclude", "pyplatewash"];
+/// The crates under test, all but the peers' benchmarks, which alone need the solvers that others wrote.
+///
+/// Every step names these same crates and the release profile, so that all steps have other people's crates built with the same
+/// features and settings: once, for the checks of clippy and the documentation, and once for all that runs.
+const CRATES: [&str; 4] = ["--release", "--workspace", "--exclude", "platewash-benches"];
+/// With these settings, the project's own crates have the checks of a debug build in the release profile.
+const CHECKED: [&str; 2] = ["--config", ".cargo/checked.toml"];
 /// With this, pyo3 asks no interpreter: the parts in Rust need none.
 const NO_PYTHON: (&str, &str) = ("PYO3_NO_PYTHON", "1");
 
@@ -41,12 +44,13 @@ impl Part {
 /// Runs the whole suite or one part of it, up to the first failure.
 pub fn run(only: Option<Part>) -> Result<()> {
     let start = Instant::now();
-    let steps: [(Part, Check); 8] = [
+    let steps: [(Part, Check); 9] = [
         (Part::Lint, format),
         (Part::Lint, clippy),
-        (Part::Rust, tests),
         (Part::Lint, documentation),
-        (Part::Python, release),
+        (Part::Rust, tests),
+        (Part::Rust, benches::once),
+        (Part::Python, if only.is_none() { release } else { release_alone }),
         (Part::Python, wheel::install),
         (Part::Python, wheel::package),
         (Part::Python, python::tests),
@@ -58,16 +62,6 @@ pub fn run(only: Option<Part>) -> Result<()> {
     }
     println!("\nAll {passed} steps passed in {:.0} s.", start.elapsed().as_secs_f64());
     Ok(())
-}
-
-/// Runs the benchmarks.
-pub fn bench(arguments: &[String]) -> Result<()> {
-    let arguments = arguments.iter().map(String::as_str);
-    let line: Vec<&str> = ["bench", "-p", "platewash-benches", "--"]
-        .into_iter()
-        .chain(arguments)
-        .collect();
-    Step::cargo("benchmarks", &line).run()
 }
 
 /// Writes the pages that are made from the program: their tests write before they compare.
@@ -89,21 +83,40 @@ fn clippy() -> Result<()> {
     Step::cargo("clippy", &line).with(NO_PYTHON.0, NO_PYTHON.1).run()
 }
 
-fn tests() -> Result<()> {
-    Step::cargo("tests", &[&["test"], &CRATES[..], &RUST_CRATES[..]].concat()).run()
-}
-
 fn documentation() -> Result<()> {
-    Step::cargo(
-        "documentation",
-        &[&["doc"], &CRATES[..], &RUST_CRATES[..], &["--no-deps"]].concat(),
-    )
-    .with("RUSTDOCFLAGS", "-D warnings")
-    .run()
+    let line = [&["doc"], &CRATES[..], &["--no-deps"]].concat();
+    Step::cargo("documentation", &line)
+        .with("RUSTDOCFLAGS", "-D warnings")
+        .with(NO_PYTHON.0, NO_PYTHON.1)
+        .run()
 }
 
+fn tests() -> Result<()> {
+    let line = [&["test"], &CRATES[..], &CHECKED[..]].concat();
+    Step::cargo("tests", &line).with(NO_PYTHON.0, NO_PYTHON.1).run()
+}
+
+/// The release build of the command, after the tests and the benchmarks: of the crates of others, nothing is left to build.
 fn release() -> Result<()> {
-    // Named beside it, the extension has the command's dependencies built as it needs them, too: once for both.
+    let messages = command().output()?;
+    let compiled = compiled_anew(&messages);
+    if !compiled.is_empty() {
+        bail!(
+            "built again for the command: {}\n(the tests or the benchmarks ask other features of these crates, or of what they \
+             use: ask for them in Cargo.toml's [workspace.dependencies], too)",
+            compiled.join(", ")
+        );
+    }
+    Ok(())
+}
+
+/// The release build of the command, before anything else is built.
+fn release_alone() -> Result<()> {
+    command().output().map(drop)
+}
+
+fn command() -> Step {
+    // Named beside it, the extension has the command's dependencies built with the features that it needs, too.
     let line = [
         "build",
         "--release",
@@ -113,6 +126,56 @@ fn release() -> Result<()> {
         "pyplatewash",
         "--bin",
         "platewash",
+        "--message-format",
+        "json-render-diagnostics",
     ];
-    Step::cargo("release build", &line).run()
+    Step::cargo("release build", &line)
+}
+
+/// The crates of others that a build had to compile, by cargo's messages.
+fn compiled_anew(messages: &str) -> Vec<&str> {
+    let of_others = |line: &&str| line.contains(r#""package_id":"registry+"#) && line.contains(r#""fresh":false"#);
+    let of_others = messages.lines().filter(of_others);
+    of_others
+        .filter_map(|line| line.split_once('#')?.1.split('"').next())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::step::root;
+
+    /// A library that the file does not name would be tested without the checks.
+    #[test]
+    fn the_checked_settings_name_every_library_of_the_project() {
+        let checked = std::fs::read_to_string(root().join(super::CHECKED[1])).unwrap();
+        let folders = std::fs::read_dir(root().join("crates"))
+            .unwrap()
+            .map(|entry| entry.unwrap().path());
+        let libraries = folders.filter(|folder| folder.is_dir() && !folder.ends_with("pyplatewash"));
+        let mut named = 0;
+        for folder in libraries.chain([root()]) {
+            let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+            let name = manifest.lines().find_map(|line| line.strip_prefix("name = ")).unwrap();
+            let section = format!("[profile.release.package.{}]", name.trim_matches('"'));
+            let settings = "\ndebug-assertions = true\noverflow-checks = true\n";
+            assert!(
+                checked.contains(&format!("{section}{settings}")),
+                "no {section} in: {checked}"
+            );
+            named += 1;
+        }
+        assert_eq!(checked.matches("[profile.release.package.").count(), named);
+    }
+
+    #[test]
+    fn crates_that_are_built_twice_are_named() {
+        let messages = [
+            r#"{"reason":"compiler-artifact","package_id":"registry+https://index#nalgebra@0.35.0","fresh":true}"#,
+            r#"{"reason":"compiler-artifact","package_id":"registry+https://index#serde@1.0.229","fresh":false}"#,
+            r#"{"reason":"compiler-artifact","package_id":"path+file:///here#platewash@0.1.0","fresh":false}"#,
+            r#"{"reason":"build-finished","success":true}"#,
+        ];
+        assert_eq!(super::compiled_anew(&messages.join("\n")), ["serde@1.0.229"]);
+    }
 }

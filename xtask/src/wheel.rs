@@ -1,11 +1,10 @@
 //! The Python wheel: built from the checkout for the tests, and from its source package outside of it.
 
-use crate::python;
 use crate::step::{Step, root, target};
+use crate::{python, sources};
 use anyhow::{Context, Result, bail};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 /// Largest wheel \[bytes\].
 const LARGEST: u64 = 6_000_000;
@@ -21,6 +20,9 @@ pub fn install() -> Result<()> {
 }
 
 /// Makes the source package, from it, outside the checkout, the wheel, and runs the README's example with nothing else.
+///
+/// The package holds, byte for byte, what the wheel of the checkout was compiled from: that is looked at first. Its files
+/// are older than that wheel, so that cargo takes what it compiled there instead of compiling the same text again.
 pub fn package() -> Result<()> {
     let tests = python::environment()?;
     let folder = emptied(target().join("package"))?;
@@ -30,10 +32,11 @@ pub fn package() -> Result<()> {
     let outside = emptied(outside())?;
     let line = ["-m", "tarfile", "-e", &text(&package), &text(&outside)];
     Step::program("source package unpacked", &tests, &line).run()?;
-    touch(&outside)?;
     let name = package.file_name().unwrap_or_default().to_string_lossy();
     let source = outside.join(name.trim_end_matches(".tar.gz"));
-    let done = build("wheel from it", &tests, &source).and_then(|wheel| fresh(&wheel));
+    let done = sources::all_in(&source)
+        .and_then(|()| build("wheel from it", &tests, &source))
+        .and_then(|wheel| fresh(&wheel));
     emptied(outside)?;
     done
 }
@@ -43,21 +46,6 @@ fn outside() -> PathBuf {
     let mut hasher = DefaultHasher::new();
     root().hash(&mut hasher);
     std::env::temp_dir().join(format!("platewash-source-{:016x}", hasher.finish()))
-}
-
-/// Makes all files new: those of a source package are old, and cargo would take what it built before for theirs.
-fn touch(folder: &Path) -> Result<()> {
-    for entry in std::fs::read_dir(folder).with_context(|| folder.display().to_string())? {
-        let path = entry?.path();
-        if path.is_dir() {
-            touch(&path)?;
-        } else {
-            let file = std::fs::File::options().append(true).open(&path);
-            let touched = file.and_then(|file| file.set_modified(SystemTime::now()));
-            touched.with_context(|| path.display().to_string())?;
-        }
-    }
-    Ok(())
 }
 
 /// The wheel of a project folder.

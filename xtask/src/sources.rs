@@ -1,0 +1,64 @@
+//! What the wheel is compiled from, by cargo's own account.
+
+use crate::step::{root, target};
+use anyhow::{Context, Result, bail};
+use std::path::{Path, PathBuf};
+
+/// Fails unless a folder holds, byte for byte, every file of the checkout that the extension was compiled from.
+pub fn all_in(folder: &Path) -> Result<()> {
+    let account = target().join("release").join(account());
+    let text = std::fs::read_to_string(&account).with_context(|| account.display().to_string())?;
+    let files = compiled_from(&text, &root())?;
+    for file in &files {
+        let read = |place: &Path| {
+            std::fs::read(place.join(file)).with_context(|| format!("{} in {}", file.display(), place.display()))
+        };
+        if read(folder)? != read(&root())? {
+            bail!("{} is another file in {}", file.display(), folder.display());
+        }
+    }
+    println!("    {} source files are the checkout's", files.len());
+    Ok(())
+}
+
+/// The file beside the extension in which cargo says what it was compiled from.
+fn account() -> String {
+    format!("{}_core.d", std::env::consts::DLL_PREFIX)
+}
+
+/// The files of `root`, relative to it, that an account names: `target: file file …`, with spaces in names escaped.
+fn compiled_from(account: &str, root: &Path) -> Result<Vec<PathBuf>> {
+    let unescaped = |name: &str| PathBuf::from(name.replace('\u{0}', " "));
+    let account = account.replace("\\ ", "\u{0}");
+    let Some((_, files)) = account.trim().split_once(": ") else {
+        bail!("no list of files in: {account}");
+    };
+    let files = files.split(' ').filter(|name| !name.is_empty()).map(unescaped);
+    let files: Vec<PathBuf> = files
+        .filter_map(|file| Some(file.strip_prefix(root).ok()?.to_owned()))
+        .collect();
+    if files.is_empty() {
+        bail!("no file of {} in: {account}", root.display());
+    }
+    Ok(files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_account_names_files_of_the_checkout() {
+        let account =
+            "/here/a\\ b/target/lib_core.so: /here/a\\ b/src/lib.rs /elsewhere/x.rs /here/a\\ b/urdf/arm.urdf\n";
+        let files = compiled_from(account, Path::new("/here/a b")).unwrap();
+        assert_eq!(files, [PathBuf::from("src/lib.rs"), PathBuf::from("urdf/arm.urdf")]);
+    }
+
+    #[test]
+    fn an_account_of_nothing_is_an_error() {
+        for account in ["", "lib_core.so:", "lib_core.so: /elsewhere/x.rs"] {
+            assert!(compiled_from(account, Path::new("/here")).is_err(), "{account}");
+        }
+    }
+}
