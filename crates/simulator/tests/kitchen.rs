@@ -267,8 +267,12 @@ fn payloads_are_checked() {
     let (robot, plan) = kitchen();
     let mut heavy = plan.clone();
     heavy.tool.mass_kg = 3.5;
+    // What is edited and not sealed again is judged as altered, whatever else.
     let setup = Setup::of(&heavy);
     let execution = simulate(&heavy, robot, &setup).unwrap();
+    let report = SimulationReport::new(&heavy, robot, &setup, &execution).unwrap();
+    assert_eq!(report.verdict, SimulationVerdict::Altered);
+    heavy.hash = Some(heavy.seal().unwrap());
     let report = SimulationReport::new(&heavy, robot, &setup, &execution).unwrap();
     assert_eq!(report.payload.verdict, PayloadVerdict::Exceeded);
     assert_eq!(report.verdict, SimulationVerdict::NotWashed);
