@@ -3,7 +3,7 @@
 use super::{Problem, Program, Scenario};
 use crate::posture::settings::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS};
 use crate::stroke::Stroke;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Plates thinner or smaller than this are none to the certificate \[m\].
 const LEAST_PLATE_M: f64 = 1e-6;
@@ -24,18 +24,6 @@ impl Scenario {
             start_angle_rad: 0.0,
             closing_ring: self.wash.closing_ring,
         }
-    }
-
-    /// Lower bound on the duration of a certified job \[s\]: each stroke at the tip's largest speed v, and from rest to rest at its
-    /// largest acceleration a, `max(L / v, 2 √(L / a))`, of a length `L ≥ R Θ / 2` of the spiral and `2 π R` of the ring.
-    #[must_use]
-    pub fn duration_at_least(&self) -> f64 {
-        let (wash, limits) = (&self.wash, &self.limits);
-        let ring = if wash.closing_ring { TAU } else { 0.0 };
-        let length = wash.path_radius_m * (PI * wash.turns + ring);
-        let speed = wash.speed_m_s.min(limits.tip_speed_m_s);
-        let acceleration = wash.acceleration_m_s2.min(limits.tip_acceleration_m_s2);
-        self.plates() as f64 * (length / speed).max(2.0 * (length / acceleration).sqrt())
     }
 
     /// Refuses what no certified job can be planned or proved with, by its key.
@@ -127,23 +115,6 @@ mod tests {
             let mut paper = Scenario::load("paper-text").unwrap();
             change(&mut paper);
             assert!(paper.validate().is_ok(), "{key}");
-        }
-    }
-
-    /// Against the stroke itself, measured by its chords.
-    #[test]
-    fn the_bound_on_the_duration_is_one() {
-        for (turns, closing_ring) in [(0.25, false), (3.5, true), (40.0, false)] {
-            let mut scenario = Scenario::load("kitchen").unwrap();
-            (scenario.wash.turns, scenario.wash.closing_ring) = (turns, closing_ring);
-            let stroke = scenario.stroke();
-            let points: Vec<_> = stroke.parameters(1e-6).iter().map(|t| stroke.at(*t).position).collect();
-            let length: f64 = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
-            let bound = scenario.duration_at_least();
-            let four = 4.0 * (length / 0.25).max(2.0 * (length / 4.0).sqrt());
-            assert!(bound < four * 1.001, "{bound} of {four}");
-            // Along less than a turn the way outwards, which the bound leaves out, is most of it.
-            assert!(turns < 1.0 || 0.9 * four < bound, "{bound} of {four}");
         }
     }
 }
