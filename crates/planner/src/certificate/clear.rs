@@ -13,7 +13,7 @@ use std::ops::Range;
 
 /// How near to the least distance found a bound must come where it can \[m\]; below the error of the distances there is
 /// no point.
-const FLOOR_M: f64 = 1.5 * ITERATIVE_ERROR_M;
+const FLOOR_M: f64 = 15.0 * ITERATIVE_ERROR_M;
 
 /// How near to the least distance found the bound of the nearest pair comes \[m\].
 pub(super) const FINE_M: f64 = 1e-4;

@@ -1,5 +1,6 @@
-//! Distance between two placed parts.
+//! Distance between two placed parts: quickly, and between bounds.
 
+use super::bracket::Bracket;
 use super::part::{Core, Extent, Placed};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::details::closest_points_segment_segment;
@@ -17,10 +18,27 @@ pub(super) struct Separation {
     pub normal: [f64; 3],
 }
 
+/// The distance between two parts, and what it is not below \[m\] but for the rounding of closed forms and support functions. Where
+/// the cores meet, that is what the radii around them make it.
+pub(super) fn bracketed(a: &Placed<'_>, b: &Placed<'_>) -> (Separation, f64) {
+    let mut found = separation(a, b);
+    let normal = Vector::from_array(found.normal);
+    if a.is_exact_with(b) || normal == Vector::ZERO {
+        let at_least = found.distance;
+        return (found, at_least);
+    }
+    let radii = a.radius + b.radius;
+    let bracket = Bracket::new(a, b, normal, found.distance + radii);
+    found.distance = found.distance.min(bracket.at_most - radii);
+    found.normal = bracket.normal.to_array();
+    (found, bracket.at_least.max(0.0) - radii)
+}
+
 /// Nearest points of two cores, base frame; equal when the cores meet.
 type Nearest = (Vector, Vector);
 
-/// The distance between two parts; NaN poses give NaN (never a distance of 0).
+/// The distance between two parts, quickly: it may be too great by some hundredths of a millimetre (see `bracket.rs`). NaN poses give
+/// NaN (never a distance of 0).
 pub(super) fn separation(a: &Placed<'_>, b: &Placed<'_>) -> Separation {
     if !(a.pose.translation.is_finite() && b.pose.translation.is_finite()) {
         return Separation {

@@ -4,11 +4,14 @@
 //!
 //! # Accuracy
 //!
-//! Distances between spheres, capsules and the floor are closed forms, right to rounding (1e-12 m). The others
-//! come from an iterative routine (GJK) whose answer is right to [`ITERATIVE_ERROR_M`]; the tests hold it to that
-//! against closed forms, and against an independent library. Bodies that overlap have a distance ≤ 0; how far they
-//! overlap is only a lower bound of the penetration depth.
+//! Distances between spheres and over the floor are closed forms, right to rounding (1e-12 m). The others are proposed by a routine of
+//! their own (for capsules a closed form too, for solids GJK) and held between two bounds, the gap along a direction and the distance of two
+//! points, no more than [`ITERATIVE_ERROR_M`] apart; what is proved uses the lower one. Tests hold them against closed forms,
+//! another method and an independent library. Yes-or-no questions of the planner ([`ClearanceModel::keeps`]) take the proposal,
+//! which may be too great by some hundredths of a millimetre. Bodies that overlap have a distance ≤ 0; how far they overlap is only
+//! a lower bound of the penetration depth.
 
+mod bracket;
 mod distance;
 pub(crate) mod lever;
 pub(crate) mod motion;
@@ -18,7 +21,7 @@ mod washing;
 
 use crate::layout::Plate;
 use crate::scenario::ToolSection;
-use distance::{Separation, separation};
+use distance::{Separation, bracketed, separation};
 use nalgebra::{Point3, Vector3};
 use part::{Part, Placed};
 use platewash_kinematics::rotation::Rigid;
@@ -26,8 +29,8 @@ use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
-/// Largest error of a distance that comes from the iterative routine \[m\].
-pub const ITERATIVE_ERROR_M: f64 = 2e-5;
+/// How far apart the bounds of a distance between solids are that is stated \[m\].
+pub const ITERATIVE_ERROR_M: f64 = bracket::ERROR_M;
 
 /// Something that must not be touched or must not touch.
 #[derive(Debug, Clone)]
@@ -156,7 +159,7 @@ impl ClearanceModel {
         let all = self.pairs.iter().map(|&(a, b)| {
             let least = self
                 .part_pairs(a, b)
-                .map(|(p, r)| separation(&placed[a][p], &placed[b][r]));
+                .map(|(p, r)| bracketed(&placed[a][p], &placed[b][r]).0);
             self.describe(a, b, nearest(least))
         });
         all.collect()
@@ -181,7 +184,7 @@ impl ClearanceModel {
             if best.as_ref().is_some_and(|(.., s)| at_least >= s.distance) {
                 break;
             }
-            let found = separation(&placed[a][p], &placed[b][r]);
+            let found = bracketed(&placed[a][p], &placed[b][r]).0;
             if best.as_ref().is_none_or(|(.., s)| found.distance < s.distance) {
                 best = Some((a, b, found));
             }
@@ -198,7 +201,7 @@ impl ClearanceModel {
         let near = pairs.map(|&(a, b)| {
             let candidates = self.part_pairs(a, b).map(|(p, r)| (&placed[a][p], &placed[b][r]));
             let candidates = candidates.filter(|(p, r)| p.sphere_gap(r) <= required_m);
-            self.describe(a, b, nearest(candidates.map(|(p, r)| separation(p, r))))
+            self.describe(a, b, nearest(candidates.map(|(p, r)| bracketed(p, r).0)))
         });
         let mut near: Vec<_> = near.filter(|pair| !is_clear(pair.distance_m, required_m)).collect();
         near.sort_by(|x, y| x.distance_m.total_cmp(&y.distance_m));

@@ -11,11 +11,11 @@
 //!
 //! Nothing here allocates.
 
-use super::distance::separation;
+use super::distance::bracketed;
 use super::lever::{self, Levers};
 use super::part::Part;
 use super::part::Placed;
-use super::{BodyKind, ClearanceModel, ITERATIVE_ERROR_M};
+use super::{BodyKind, ClearanceModel};
 use parry3d_f64::math::Vector;
 use platewash_kinematics::{BodyPoses, JointVector};
 use std::ops::Range;
@@ -48,7 +48,7 @@ pub(crate) struct PartPair<'a> {
 pub(crate) struct Measured {
     /// What was found \[m\]; ≤ 0 when they touch or overlap.
     pub distance_m: f64,
-    /// What the true distance is not below \[m\].
+    /// What the true distance is not below \[m\]: the gap along `normal` where the parts do not overlap, whatever a routine says.
     pub at_least_m: f64,
     /// Half-way between the nearest points \[m\], base frame.
     pub place_m: [f64; 3],
@@ -105,16 +105,11 @@ impl<'a> PartPair<'a> {
     /// The distance.
     pub fn measure(&self, poses: &BodyPoses) -> Measured {
         let (fixed, moving) = (self.fixed.place(poses), self.moving.place(poses));
-        let found = separation(&fixed, &moving);
+        let (found, at_least) = bracketed(&fixed, &moving);
         let normal = fixed.pose.rotation.inverse() * Vector::from_array(found.normal);
-        let error = if self.fixed.is_exact_with(self.moving) {
-            ROUNDING_M
-        } else {
-            ITERATIVE_ERROR_M
-        };
         Measured {
             distance_m: found.distance,
-            at_least_m: found.distance - error,
+            at_least_m: at_least - ROUNDING_M,
             place_m: found.place,
             normal: normal.to_array(),
         }
@@ -146,6 +141,7 @@ impl<'a> PartPair<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::clearance::ITERATIVE_ERROR_M;
     use crate::layout::Plate;
     use crate::scenario::ToolSection;
     use platewash_kinematics::RobotModel;

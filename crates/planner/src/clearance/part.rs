@@ -180,16 +180,6 @@ impl Part {
         Levers::from_fn(|i, _| if i < body { levers[i] + self.bounding } else { 0.0 })
     }
 
-    /// Whether the distance to another part is right to rounding: over the floor and between two spheres. Between segments
-    /// the closed form takes nearly parallel ones for parallel, which costs more the shorter they are.
-    pub fn is_exact_with(&self, other: &Self) -> bool {
-        let is_sphere = |core: &Core| matches!(core, Core::Segment(half) if *half == 0.0);
-        match (&self.core, &other.core) {
-            (Core::Floor, _) | (_, Core::Floor) => true,
-            (a, b) => is_sphere(a) && is_sphere(b),
-        }
-    }
-
     /// [`Placed::sphere_gap`] without placing the parts.
     pub fn sphere_gap(&self, other: &Self, poses: &BodyPoses) -> f64 {
         let centre = |part: &Self| poses.rigid(&part.frame).translation;
@@ -217,6 +207,16 @@ impl Part {
 }
 
 impl Placed<'_> {
+    /// Whether the distance to another part is right to rounding: over the floor and between two spheres. Between segments
+    /// the closed form takes nearly parallel ones for parallel, which costs more the shorter they are.
+    pub fn is_exact_with(&self, other: &Self) -> bool {
+        let is_sphere = |core: &Core| matches!(core, Core::Segment(half) if *half == 0.0);
+        match (self.core, other.core) {
+            (Core::Floor, _) | (_, Core::Floor) => true,
+            (a, b) => is_sphere(a) && is_sphere(b),
+        }
+    }
+
     /// How far the part reaches along a unit direction from the base frame's origin \[m\].
     pub fn support(&self, direction: Vector) -> f64 {
         let local = self.pose.rotation.inverse() * direction;
@@ -234,6 +234,26 @@ impl Placed<'_> {
             Core::Floor => f64::INFINITY,
         };
         self.pose.translation.dot(direction) + beyond
+    }
+
+    /// The point of the core that is farthest along a direction, base frame; that of the floor is not defined.
+    pub fn extreme(&self, direction: Vector) -> Vector {
+        let local = self.pose.rotation.inverse() * direction;
+        let point = match self.core {
+            Core::Segment(half) => Vector::new(0.0, 0.0, half.copysign(local.z)),
+            Core::Solid(_, Extent::Vertices(vertices)) => {
+                let farthest = vertices.iter().max_by(|v, w| v.dot(local).total_cmp(&w.dot(local)));
+                farthest.copied().unwrap_or(Vector::ZERO)
+            }
+            // The cylinder lies along y in its own frame.
+            Core::Solid(_, Extent::Cylinder(radius, half)) => {
+                let across = (local.x * local.x + local.z * local.z).sqrt();
+                let out = if across > 0.0 { radius / across } else { 0.0 };
+                Vector::new(local.x * out, half.copysign(local.y), local.z * out)
+            }
+            Core::Floor => Vector::ZERO,
+        };
+        self.pose * point
     }
 
     /// The core segment's ends, base frame.

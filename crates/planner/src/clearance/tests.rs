@@ -3,6 +3,8 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use platewash_kinematics::geometry::Shape;
 use proptest::prelude::*;
 
+mod bounds;
+
 fn iso() -> impl Strategy<Value = Isometry3<f64>> {
     (prop::array::uniform3(-1.0..1.0f64), prop::array::uniform3(-3.0..3.0f64))
         .prop_map(|(t, r)| Isometry3::from_parts(Translation3::from(t), UnitQuaternion::from_scaled_axis(r.into())))
@@ -13,9 +15,14 @@ fn part(shape: &Shape, pose: &Isometry3<f64>) -> Part {
 }
 
 fn gap(a: &Part, b: &Part) -> Separation {
-    let robot = RobotModel::irb120().unwrap();
-    let poses = robot.fk(&JointVector::zeros());
-    separation(&a.place(&poses), &b.place(&poses))
+    bounds(a, b).0
+}
+
+/// The distance as it is stated, and what it is not below.
+fn bounds(a: &Part, b: &Part) -> (Separation, f64) {
+    static ARM: std::sync::LazyLock<RobotModel> = std::sync::LazyLock::new(|| RobotModel::irb120().unwrap());
+    let poses = ARM.fk(&JointVector::zeros());
+    bracketed(&a.place(&poses), &b.place(&poses))
 }
 
 fn distance(a: (&Shape, &Isometry3<f64>), b: (&Shape, &Isometry3<f64>)) -> f64 {
