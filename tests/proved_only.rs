@@ -99,7 +99,7 @@ fn a_flat_sponge_is_tilted_no_more_than_it_gives_way() {
     scenario.tool.sponge_radius_m = 0.1;
     scenario.tool.sponge_height_m = 0.02;
     scenario.wash.path_radius_m = 0.05;
-    let most = (0.02f64 / 0.1).asin();
+    let most = (0.02f64 / 0.1).atan();
     assert!((scenario.tilt_max_rad() - most).abs() < 1e-12);
     let (_, certificate) = judged(&scenario);
     let tilt = certificate.promise(PromiseName::Tilt).unwrap();
@@ -473,4 +473,15 @@ fn another_mesh_is_another_arm() {
     let (small, large) = (arm(0.05), arm(0.06));
     assert_ne!(small.sha256(), large.sha256());
     assert_eq!(small.sha256(), arm(0.05).sha256());
+}
+
+/// The tilted rim is down while the arm still moves: no faster than it washes, however slowly that is.
+#[test]
+fn the_sponge_comes_down_and_leaves_no_faster_than_it_washes() {
+    let mut scenario = one_plate();
+    scenario.wash.speed_m_s = 0.06;
+    let (_, certificate) = judged(&scenario);
+    assert_eq!(certificate.verdict, CertificateVerdict::Pass, "{certificate}");
+    let measure = certificate.promise(PromiseName::ContactSpeed).unwrap().measure.unwrap();
+    assert!(measure.limit == 0.06 && measure.seen.unwrap() > 0.01, "{measure:?}");
 }

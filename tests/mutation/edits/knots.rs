@@ -4,7 +4,7 @@ use super::{middle, nth, some_knot, within};
 use crate::edit::{Edits, Expected, Kind};
 use crate::sampler::pieces;
 use platewash::Plan;
-use platewash::planner::certificate::PromiseName::{HomeToHome, RestAtContact, Segments};
+use platewash::planner::certificate::PromiseName::{HomeToHome, RestAtWashEnds, Segments};
 use platewash::planner::tool_path::SegmentKind::{self, Approach, Depart, Retreat, Return, Transition, Wash};
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -65,11 +65,11 @@ fn speeds(edits: &mut Edits) {
             });
         }
     }
-    edits.fails(Kind::KnotSpeed, "where a wash begins", &[RestAtContact], |p| {
+    edits.fails(Kind::KnotSpeed, "where a wash begins", &[RestAtWashEnds], |p| {
         let knot = within(p, nth(p, Wash, 1)).start - 1;
         p.knots.qd_rad_s[knot][3] = 1e-6;
     });
-    edits.fails(Kind::KnotSpeed, "where a wash ends", &[RestAtContact], |p| {
+    edits.fails(Kind::KnotSpeed, "where a wash ends", &[RestAtWashEnds], |p| {
         let knot = within(p, nth(p, Wash, 2)).end;
         p.knots.qd_rad_s[knot][0] = -1e-3;
     });

@@ -4,7 +4,8 @@ use crate::edit::{Edits, Expected, Kind};
 use crate::good::good;
 use platewash::Plan;
 use platewash::planner::certificate::PromiseName::{
-    self, Clearance, Coverage, JointAcceleration, Limits, Tilt, TipAcceleration, TipSpeed, WashAcceleration, WashSpeed,
+    self, Clearance, ContactSpeed, Coverage, JointAcceleration, Limits, Tilt, TipAcceleration, TipSpeed,
+    WashAcceleration, WashSpeed,
 };
 use platewash::planner::plan::PlanLimits;
 use platewash::planner::scenario::Scenario;
@@ -33,7 +34,7 @@ fn stated(edits: &mut Edits) {
 type Change = fn(&mut Scenario);
 
 /// Numbers that the motion does not keep, and numbers that it keeps.
-const ASKED: [(&str, Option<PromiseName>, Change); 16] = [
+const ASKED: [(&str, Option<PromiseName>, Change); 17] = [
     ("a slower joint", Some(JointAcceleration), |s| {
         s.limits.joint_acceleration_rad_s2[2] = 3.9
     }),
@@ -45,6 +46,9 @@ const ASKED: [(&str, Option<PromiseName>, Change); 16] = [
         s.limits.tip_acceleration_m_s2 = 3.0
     }),
     ("slower washing", Some(WashSpeed), |s| s.wash.speed_m_s = 0.249),
+    ("washing slower than it lifts off", Some(ContactSpeed), |s| {
+        s.wash.speed_m_s = 0.03
+    }),
     ("smoother washing", Some(WashAcceleration), |s| {
         s.wash.acceleration_m_s2 = 2.0
     }),

@@ -4,7 +4,7 @@ use super::{nth, within};
 use crate::edit::{Edits, Kind};
 use platewash::Plan;
 use platewash::planner::certificate::PromiseName::{
-    EveryPlateOnce, LineDeviation, RestAtContact, Segments, StrokeDeviation,
+    EveryPlateOnce, LineDeviation, RestAtWashEnds, Segments, StrokeDeviation,
 };
 use platewash::planner::tool_path::SegmentKind::{Approach, Retreat, Transition, Wash};
 
@@ -60,16 +60,16 @@ fn boundaries(edits: &mut Edits) {
     fails("an end far away", &[Segments], |p| {
         p.segments.last_mut().unwrap().t_end_s = 1e300
     });
-    fails("a wash begins a knot late", &[RestAtContact], |p| {
+    fails("a wash begins a knot late", &[RestAtWashEnds], |p| {
         cut(p, nth(p, Approach, 1), 1)
     });
-    fails("a wash begins a knot early", &[RestAtContact], |p| {
+    fails("a wash begins a knot early", &[RestAtWashEnds], |p| {
         cut(p, nth(p, Approach, 1), -1)
     });
-    fails("a wash ends early", &[RestAtContact, StrokeDeviation], |p| {
+    fails("a wash ends early", &[RestAtWashEnds, StrokeDeviation], |p| {
         cut(p, nth(p, Wash, 0), -30)
     });
-    fails("a wash takes in the retreat", &[RestAtContact, StrokeDeviation], |p| {
+    fails("a wash takes in the retreat", &[RestAtWashEnds, StrokeDeviation], |p| {
         let knots = within(p, nth(p, Retreat, 0)).len();
         cut(p, nth(p, Wash, 0), isize::try_from(knots).unwrap());
     });

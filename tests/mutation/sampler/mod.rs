@@ -58,6 +58,8 @@ impl<'a> Sampler<'a> {
         self.distances.look(plan, &pieces, is_sound, also_at, &mut findings);
         if is_sound {
             places::contacts(plan, &mut findings);
+            let arm = Arm::new(self.robot, plan.scenario.tool.length_m);
+            places::touches(plan, &arm, &pieces, &moments, &mut findings);
             places::poses(plan, &moments, &mut findings);
             places::coverage(plan, &moments, &mut findings);
             places::reach(plan, &moments, &mut findings);

@@ -61,6 +61,24 @@ impl<'a> Arm<'a> {
         [mount.translation + axis * self.length_m, axis]
     }
 
+    /// Height of the lowest point of a sponge's rim, and how fast it moves: no less than the mean over a moment during which it is at or
+    /// below a height \[m\]; `None` where it is not.
+    pub fn touch(&self, piece: &Piece, u: f64, (radius_m, below_m): (f64, f64)) -> Option<f64> {
+        let delta = (piece.length_s / 8.0).min(DELTA_S);
+        let middle = u.clamp(delta, piece.length_s - delta);
+        let mounts =
+            [middle - delta, middle, middle + delta].map(|u| self.robot.fk(&piece.position(u)).rigid(&self.mount));
+        let axis: Vector3<f64> = mounts[1].rotation.column(2).into_owned();
+        // Down along the rim's plane, without a difference of nearly equal numbers where the tool is upright.
+        let steepest = Vector3::new(axis.x * axis.z, axis.y * axis.z, -axis.xy().norm_squared());
+        let out = steepest.try_normalize(0.0).map_or(steepest, |d| d * radius_m);
+        // A point of the tool, which moves with it.
+        let carried = mounts[1].rotation.transpose() * out + Vector3::z() * self.length_m;
+        let [before, _, after] = mounts.map(|mount| mount.translation + mount.rotation * carried);
+        let touches = before.z.max(after.z) <= below_m;
+        touches.then(|| ((after - before).norm() - 2.0 * PLACE_M) / (2.0 * delta))
+    }
+
     fn moment(&self, piece: &Piece, k: usize, u: f64, stage: Option<usize>) -> Moment {
         let delta = (piece.length_s / 8.0).min(DELTA_S);
         let middle = u.clamp(delta, piece.length_s - delta);

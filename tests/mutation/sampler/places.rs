@@ -2,7 +2,8 @@
 
 use super::STROKE_M;
 use super::findings::Findings;
-use super::moments::Moment;
+use super::hermite::Piece;
+use super::moments::{Arm, Moment};
 use super::schedule::is_at_plate;
 use super::swept;
 use platewash::planner::certificate::PromiseName;
@@ -46,7 +47,26 @@ pub fn contacts(plan: &Plan, findings: &mut Findings) {
         for time in [segment.t_start_s, segment.t_end_s] {
             let knot = plan.knots.t_s.iter().position(|t| *t == time).unwrap();
             let moving = plan.knots.qd_rad_s[knot].amax();
-            findings.at_most(PromiseName::RestAtContact, moving, 0.0, THERE);
+            findings.at_most(PromiseName::RestAtWashEnds, moving, 0.0, THERE);
+        }
+    }
+}
+
+/// The sponge's lowest point while it comes down and while it leaves: no faster than the tip washes wherever it touches.
+pub fn touches(plan: &Plan, arm: &Arm<'_>, pieces: &[Piece], moments: &[Moment], findings: &mut Findings) {
+    let scenario = &plan.scenario;
+    let most = scenario.wash.speed_m_s.min(scenario.limits.tip_speed_m_s);
+    for m in moments {
+        let lines = [SegmentKind::Approach, SegmentKind::Retreat];
+        let Some(segment) = m.segment(plan).filter(|s| lines.contains(&s.kind)) else {
+            continue;
+        };
+        let Some(plate) = plan.plates.get(segment.plate) else {
+            continue;
+        };
+        let sponge = (scenario.tool.sponge_radius_m, plate.z_m);
+        if let Some(speed) = arm.touch(&pieces[m.piece], m.u, sponge) {
+            findings.at_most(PromiseName::ContactSpeed, speed, most, EXACT * most);
         }
     }
 }
@@ -74,9 +94,8 @@ pub fn apart(plan: &Plan, findings: &mut Findings) {
 pub fn poses(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
     let asked = plan.scenario.wash.tilt_max_deg.to_radians();
     let tool = &plan.scenario.tool;
-    // Beyond this the rim of the sponge would have to go through the plate.
-    let gives_way = (tool.sponge_height_m / tool.sponge_radius_m).min(1.0).asin();
-    let most = asked.min(gives_way);
+    // Beyond this the rim where the handle holds the sponge would have to go through the plate.
+    let most = asked.min((tool.sponge_height_m / tool.sponge_radius_m).atan());
     for m in moments {
         let Some(segment) = m.segment(plan).filter(|s| is_at_plate(s.kind)) else {
             continue;

@@ -1,4 +1,4 @@
-//! From home to home, and at rest wherever the sponge comes down or leaves.
+//! From home to home, and at rest where a wash begins and where it ends.
 
 use super::promise::{Discrepancy, Promise, PromiseName};
 use super::schedule::Schedule;
@@ -43,7 +43,7 @@ pub(super) fn home_to_home(plan: &Plan) -> Promise {
 }
 
 /// The arm rests where a wash begins and where it ends.
-pub(super) fn rest_at_contact(plan: &Plan, schedule: &Schedule) -> Promise {
+pub(super) fn rest_at_wash_ends(plan: &Plan, schedule: &Schedule) -> Promise {
     let mut wrong = Vec::new();
     for stage in schedule.stages.iter().filter(|s| s.kind == SegmentKind::Wash) {
         for knot in [stage.pieces.start, stage.pieces.end] {
@@ -57,7 +57,7 @@ pub(super) fn rest_at_contact(plan: &Plan, schedule: &Schedule) -> Promise {
             }
         }
     }
-    Promise::stated(PromiseName::RestAtContact, wrong)
+    Promise::stated(PromiseName::RestAtWashEnds, wrong)
 }
 
 fn list(q: &JointVector) -> String {

@@ -1,4 +1,5 @@
-//! Joint positions, speeds and accelerations against the arm's and the scenario's limits: exact, piece by piece.
+//! Joint positions, speeds and accelerations against the arm's and the scenario's limits: piece by piece, exact but for the
+//! rounding that the bounds include.
 
 use super::piece::Piece;
 use super::promise::{Measure, Promise, PromiseName, Sense, Unit, Worst};
@@ -9,10 +10,20 @@ use platewash_kinematics::{AXES, JointVector};
 /// The worst joint so far: by its margin for positions, by its share of the limit for speeds and accelerations.
 struct Extreme {
     badness: f64,
-    value: f64,
+    /// What is proved.
+    bound: f64,
+    /// What the joint certainly attains: the bound less its rounding, twice.
+    attained: f64,
     limit: f64,
     joint: usize,
     piece: usize,
+}
+
+impl Extreme {
+    /// Whether it is worse than the worst so far. NaN is worse than anything.
+    fn is_worse_than(&self, worst: Option<&Self>) -> bool {
+        worst.is_none_or(|w| self.badness > w.badness || self.badness.is_nan())
+    }
 }
 
 /// The three promises, in the order position, speed, acceleration.
@@ -22,26 +33,33 @@ pub(super) fn promises(pieces: &[Piece], limits: &PlanLimits, schedule: Option<&
     let mut worst: [Option<Extreme>; 3] = [None, None, None];
     for (piece, cubic) in pieces.iter().enumerate() {
         let extent = cubic.extent([0.0, cubic.length_s]);
+        let rounding = cubic.rounding();
         for joint in 0..AXES {
             let above = limits.lower_rad[joint].map_or(f64::INFINITY, |least| extent.least[joint] - least);
             let below = limits.upper_rad[joint].map_or(f64::INFINITY, |most| most - extent.most[joint]);
             let margin = above.min(below);
             let (v, a) = (extent.speed[joint], extent.acceleration[joint]);
             let candidates = [
-                (-margin, margin, 0.0),
-                (v / speed[joint], v, speed[joint]),
-                (a / acceleration[joint], a, acceleration[joint]),
+                (-margin, margin, margin + 2.0 * rounding.position[joint], 0.0),
+                (v / speed[joint], v, v - 2.0 * rounding.speed[joint], speed[joint]),
+                (
+                    a / acceleration[joint],
+                    a,
+                    a - 2.0 * rounding.acceleration[joint],
+                    acceleration[joint],
+                ),
             ];
-            for (worst, (badness, value, limit)) in worst.iter_mut().zip(candidates) {
-                // NaN is worse than anything.
-                if worst.as_ref().is_none_or(|w| badness > w.badness || badness.is_nan()) {
-                    *worst = Some(Extreme {
-                        badness,
-                        value,
-                        limit,
-                        joint,
-                        piece,
-                    });
+            for (worst, (badness, bound, attained, limit)) in worst.iter_mut().zip(candidates) {
+                let found = Extreme {
+                    badness,
+                    bound,
+                    attained,
+                    limit,
+                    joint,
+                    piece,
+                };
+                if found.is_worse_than(worst.as_ref()) {
+                    *worst = Some(found);
                 }
             }
         }
@@ -75,13 +93,11 @@ fn promise(
         segment: schedule.and_then(|s| s.segment_of(extreme.piece)),
         ..Worst::default()
     };
-    // The extremes are attained: what is seen is the bound.
-    let value = Some(extreme.value).filter(|v| v.is_finite() || *v == f64::INFINITY && sense == Sense::AtLeast);
-    let limit = extreme.limit;
+    let number = |v: f64| Some(v).filter(|v| v.is_finite() || *v == f64::INFINITY && sense == Sense::AtLeast);
     let measure = Measure {
-        bound: value,
-        seen: value,
-        limit,
+        bound: number(extreme.bound),
+        seen: number(extreme.attained),
+        limit: extreme.limit,
         sense,
         unit,
     };
@@ -101,4 +117,47 @@ fn time_of(piece: &Piece, name: PromiseName, joint: usize) -> f64 {
         .into_iter()
         .max_by(|a, b| value(*a).total_cmp(&value(*b)));
     piece.start_s + worst.unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certificate::Status;
+
+    fn limits() -> PlanLimits {
+        let scenario = crate::scenario::Scenario::load("kitchen").unwrap();
+        PlanLimits::new(&scenario, &platewash_kinematics::RobotModel::irb120().unwrap())
+    }
+
+    fn judged(times: [f64; 2], q: [f64; 2], v: [f64; 2]) -> [Promise; 3] {
+        let joint_1 = |v: f64| JointVector::new(v, 0.0, 0.0, 0.0, 0.0, 0.0);
+        let piece = Piece::new(times, q.map(joint_1), v.map(joint_1));
+        promises(&[piece], &limits(), None)
+    }
+
+    /// Worked out in fractions, its knots say 16/3 rad/s², a third above the limit; in floating-point numbers they give 4 rad/s².
+    #[test]
+    fn a_piece_of_a_few_units_in_the_last_place_hides_no_acceleration() {
+        let times = [0.5, 0.500_000_000_000_000_7];
+        let (q, v) = (
+            [0.010_798_297_365_814_597, 0.010_798_297_365_816_13],
+            [2.299_479_166_666_667, 2.299_479_166_666_667_4],
+        );
+        let [_, _, acceleration] = judged(times, q, v);
+        let measure = acceleration.measure.unwrap();
+        assert_eq!(measure.limit, 4.0);
+        assert!(measure.bound.unwrap() > 16.0 / 3.0, "{measure:?}");
+        assert!(measure.seen.unwrap() < 16.0 / 3.0, "{measure:?}");
+        assert_eq!(acceleration.status, Status::NotProved);
+    }
+
+    #[test]
+    fn a_piece_of_the_planners_shortest_keeps_its_limits_to_the_rounding_that_is_allowed() {
+        let h = (40.0 + crate::timing::SHORTEST_PIECE_S) - 40.0;
+        let (v0, v1) = (2.0, 2.0 + 3.999_998 * h);
+        let [_, _, acceleration] = judged([40.0, 40.0 + h], [1.0, 1.0 + 0.5 * (v0 + v1) * h], [v0, v1]);
+        assert_eq!(acceleration.status, Status::Pass, "{acceleration:?}");
+        let [_, _, acceleration] = judged([40.0, 40.0 + h], [1.0, 1.0 + 0.5 * (v0 + v1) * h], [v0, v1 + h]);
+        assert_eq!(acceleration.status, Status::Fail, "{acceleration:?}");
+    }
 }

@@ -11,6 +11,7 @@
 //! | the motion: cubics, groups of them | `piece.rs`, `timeline.rs` |
 //! | joints | `joints.rs` |
 //! | the tip: derivatives, halving, speed, tilt, height | `tip.rs`, `watch.rs`, `tips.rs` |
+//! | the sponge's rim where it comes down and leaves | `contact.rs` |
 //! | the declared curves, following them, sweeping the plate | `curve.rs`, `following.rs`, `sweep.rs` |
 //! | beyond the rim: what may be touched there, how far it is | `neighbours.rs`, `reach.rs` |
 //! | clearance: one pair, all pairs | `clear.rs`, `clearances.rs` |
@@ -18,6 +19,7 @@
 mod apart;
 mod clear;
 mod clearances;
+mod contact;
 mod curve;
 mod error;
 mod following;
@@ -170,12 +172,13 @@ pub fn verify(plan: &Plan, robot: &RobotModel) -> Result<Certificate, VerifyErro
     promises.push(Promise::stated(PromiseName::Segments, gaps));
     promises.push(home::home_to_home(plan));
     promises.push(match schedule {
-        Some(schedule) => home::rest_at_contact(plan, schedule),
-        None => Promise::not_judged(PromiseName::RestAtContact),
+        Some(schedule) => home::rest_at_wash_ends(plan, schedule),
+        None => Promise::not_judged(PromiseName::RestAtWashEnds),
     });
     promises.push(apart::promise(plan, robot));
     promises.extend(joints::promises(&pieces, &limits, schedule));
     promises.extend(tips.promises(&limits, &pieces, schedule));
+    promises.push(contact::promise(&arm, plan, &limits, &pieces, schedule));
     let deviations = deviations(&arm, plan, &pieces, schedule);
     let follows = |p: &Promise| p.name == PromiseName::ToolPath && p.status == Status::Pass;
     // A deviation is one from the declared stroke: it tells of the plate where that is the stroke asked for.

@@ -50,8 +50,9 @@ pub enum PromiseName {
     EveryPlateOnce,
     /// The motion starts and ends at rest in the scenario's home positions.
     HomeToHome,
-    /// The arm rests wherever it comes down on a plate or leaves it.
-    RestAtContact,
+    /// The arm rests where a wash begins and where it ends. A tilted sponge touches before and after: see
+    /// [`PromiseName::ContactSpeed`].
+    RestAtWashEnds,
     /// No plate overlaps another or the base.
     PlatesApart,
     /// Joint positions, as the margin to the nearest limit.
@@ -72,6 +73,8 @@ pub enum PromiseName {
     Tilt,
     /// Height of the tip over or under the plate while it washes.
     ContactHeight,
+    /// Speed of the sponge's rim, at every point at or below the plate's face, while it comes down and while it leaves.
+    ContactSpeed,
     /// Distance of the tip from the stroke while it washes, the whole of it in order.
     StrokeDeviation,
     /// Distance of the tip from the plate's normal while it approaches and retreats.
@@ -101,7 +104,7 @@ impl PromiseName {
             Self::ToolPath => "tool path",
             Self::EveryPlateOnce => "every plate once",
             Self::HomeToHome => "home to home",
-            Self::RestAtContact => "rest at contact",
+            Self::RestAtWashEnds => "rest at wash ends",
             Self::PlatesApart => "plates apart",
             Self::JointPosition => "joint position",
             Self::JointSpeed => "joint speed",
@@ -112,6 +115,7 @@ impl PromiseName {
             Self::WashAcceleration => "wash acceleration",
             Self::Tilt => "tilt",
             Self::ContactHeight => "contact height",
+            Self::ContactSpeed => "contact speed",
             Self::StrokeDeviation => "stroke deviation",
             Self::LineDeviation => "line deviation",
             Self::Clearance => "clearance",

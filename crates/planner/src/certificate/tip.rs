@@ -32,6 +32,8 @@ pub(super) struct Moment {
     pub speed: Vector3<f64>,
     /// \[m/s²\]
     pub acceleration: Vector3<f64>,
+    /// ω: how fast the tool turns \[rad/s\].
+    pub turning: Vector3<f64>,
     levers: Levers,
 }
 
@@ -80,6 +82,7 @@ impl<'a> Arm<'a> {
             axis: tip.rotation.column(2).into_owned(),
             speed,
             acceleration,
+            turning,
             levers,
         }
     }
@@ -166,6 +169,17 @@ impl Derivatives {
         d2.sum() + d1.sum() * d1.sum()
     }
 
+    /// The same of its third one \[1/s³\].
+    pub fn third_of_axis(&self) -> f64 {
+        let [d1, d2, d3] = self.rates.map(|d| d.sum());
+        d3 + 3.0 * d1 * d2 + d1 * d1 * d1
+    }
+
+    /// By how much the tip's acceleration may be above what is computed, where those of the joints are by `joints` \[m/s²\].
+    pub fn rounding(&self, joints: &JointVector) -> f64 {
+        self.sum([joints])
+    }
+
     fn sum<const N: usize>(&self, rates: [&JointVector; N]) -> f64 {
         lever::tuples(&self.levers, 0, rates)
     }
@@ -200,6 +214,11 @@ mod tests {
             prop_assert!(third.norm() <= bounds.third() + 1e-3);
             prop_assert!(fourth.norm() <= bounds.fourth() + 1e-1);
             prop_assert!(axis.norm() <= bounds.second_of_axis() + 1e-4);
+            // A direction turns with the tool: its first derivative is ω × itself.
+            let turned = |m: &Moment| m.turning.cross(&m.axis);
+            prop_assert!(((after.axis - before.axis) / (2.0 * h) - turned(&here)).norm() < 1e-6);
+            let third = (turned(&after) - turned(&here) * 2.0 + turned(&before)) / (h * h);
+            prop_assert!(third.norm() <= bounds.third_of_axis() + 1e-2);
         }
     }
 }

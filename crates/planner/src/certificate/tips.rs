@@ -54,14 +54,14 @@ impl Tips {
         let sine = crate::trig::sin(limits.tilt_rad + TILT_ROUNDING_RAD);
         for (i, stage) in schedule.stages.iter().enumerate().filter(|(_, s)| is_at_plate(s.kind)) {
             let mut watch = Watch::new(sine, TILT_RESOLUTION);
-            let bend = |s: &Stretch<'_>| arm.derivatives(s).second_of_axis();
+            let bend = |s: &Stretch<'_>| s.sag(arm.derivatives(s).second_of_axis());
             observe(arm, &mut watch, &[of(stage)], &sine_of_tilt, &bend);
             tips.tilt.push((i, watch));
             if let (SegmentKind::Wash, Some(plate)) = (stage.kind, plan.plates.get(stage.plate)) {
                 // The sponge touches where the tip is in the plane of the plate, wherever the stroke is declared.
                 let height = plate.z_m;
                 let mut watch = Watch::new(crate::plan::PATH_TOLERANCE_M, HEIGHT_RESOLUTION_M);
-                let bend = |s: &Stretch<'_>| arm.derivatives(s).second();
+                let bend = |s: &Stretch<'_>| s.sag(arm.derivatives(s).second());
                 observe(arm, &mut watch, &[of(stage)], &|m| (m.position.z - height).abs(), &bend);
                 tips.height.push((i, watch));
             }
@@ -192,9 +192,13 @@ pub(super) fn cosine(sine: f64) -> f64 {
 }
 
 fn watch_rates(arm: &Arm<'_>, [speed, acceleration]: &mut [Watch; 2], stages: &[&[Piece]]) {
-    observe(arm, speed, stages, &|m| m.speed.norm(), &|s| arm.derivatives(s).third());
+    observe(arm, speed, stages, &|m| m.speed.norm(), &|s| {
+        s.sag(arm.derivatives(s).third())
+    });
+    // In short pieces the joints' accelerations at the ends round by more than other things do.
     observe(arm, acceleration, stages, &|m| m.acceleration.norm(), &|s| {
-        arm.derivatives(s).fourth()
+        let derivatives = arm.derivatives(s);
+        s.sag(derivatives.fourth()) + derivatives.rounding(&s.piece.rounding().acceleration)
     });
 }
 
@@ -203,10 +207,10 @@ fn observe(
     watch: &mut Watch,
     stages: &[&[Piece]],
     value: &impl Fn(&Moment) -> f64,
-    curvature: &impl Fn(&Stretch<'_>) -> f64,
+    beyond: &impl Fn(&Stretch<'_>) -> f64,
 ) {
     let pieces = || stages.iter().flat_map(|pieces| pieces.iter());
     watch.allow_for(pieces().count());
     pieces().for_each(|piece| watch.see_ends(&arm.stretch(piece), value));
-    pieces().for_each(|piece| watch.refine(arm, &arm.stretch(piece), value, curvature));
+    pieces().for_each(|piece| watch.refine(arm, &arm.stretch(piece), value, beyond));
 }

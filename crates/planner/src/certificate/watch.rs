@@ -112,16 +112,16 @@ impl Watch {
         }
     }
 
-    /// Bounds a stretch whose ends were seen: `value` of a moment, and the bound of its second derivative (in the sense of
-    /// [`super::tip`]) over a stretch.
+    /// Bounds a stretch whose ends were seen: `value` of a moment, and what it may be above the greater of both ends within a
+    /// stretch (by its second derivative in the sense of [`super::tip`], and by rounding where that matters).
     pub fn refine(
         &mut self,
         arm: &Arm<'_>,
         stretch: &Stretch<'_>,
         value: &impl Fn(&Moment) -> f64,
-        curvature: &impl Fn(&Stretch<'_>) -> f64,
+        beyond: &impl Fn(&Stretch<'_>) -> f64,
     ) {
-        self.halve(arm, stretch, (value, curvature), 0);
+        self.halve(arm, stretch, (value, beyond), 0);
     }
 
     fn halve(
@@ -131,10 +131,10 @@ impl Watch {
         quantity: (&impl Fn(&Moment) -> f64, &impl Fn(&Stretch<'_>) -> f64),
         depth: u32,
     ) {
-        let (value, curvature) = quantity;
+        let (value, beyond) = quantity;
         let [from, to] = stretch.ends.each_ref().map(value);
         let greater = if from > to || from.is_nan() { from } else { to };
-        let bound = greater + stretch.sag(curvature(stretch));
+        let bound = greater + beyond(stretch);
         if self.accepts(bound) || !self.may_split(depth) {
             return self.take(bound);
         }

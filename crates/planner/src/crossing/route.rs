@@ -4,8 +4,8 @@ use super::blend::{Contact, quintic};
 use super::sampled;
 use super::{Blocked, CrossingError, PaperArc, STEP_RAD, Terminal, TooNear};
 use crate::joint_path::{Ends, JointPath, JointPathError};
-use crate::timing::{self, MotionLimits, Timed};
-use platewash_kinematics::{Frame, JointVector, RobotModel};
+use crate::timing::{self, MotionLimits, Slow, Timed};
+use platewash_kinematics::{Axes, Frame, JointVector, RobotModel};
 use rand_pcg::Pcg64;
 use serde::Serialize;
 use std::fmt;
@@ -160,13 +160,29 @@ impl Search<'_> {
             self.blocked.get_or_insert(q);
             return Ok(());
         }
-        let timed = timing::time_optimal(&path, scene.robot, scene.tip, scene.limits)?;
+        let end = free[1] + to.height_m();
+        let slow: Vec<_> = from.slow_from(0.0).into_iter().chain(to.slow_until(end)).collect();
+        let mut timed = timing::time_optimal(&path, scene.robot, scene.tip, scene.limits)?;
+        if slow.iter().any(|slow| is_too_fast(scene, &timed, slow)) {
+            timed = timing::time_optimal_slowed(&path, scene.robot, scene.tip, scene.limits, &slow)?;
+        }
         let faster = |best: &Crossing| timed.motion.duration_s() < best.timed.motion.duration_s();
         if self.best.as_ref().is_none_or(faster) {
             self.best = Some(Crossing { route, timed, free });
         }
         Ok(())
     }
+}
+
+/// Whether the tip is faster than it may be at a knot of a stretch that shall be slow.
+fn is_too_fast(scene: &Scene<'_>, timed: &Timed, slow: &Slow) -> bool {
+    let (positions, speeds) = (timed.motion.positions(), timed.motion.speeds());
+    let tip_speed = |k: usize| {
+        let jacobian = scene.robot.fk(&positions[k]).jacobian(scene.tip, Axes::Base);
+        (jacobian.fixed_rows::<3>(0) * speeds[k]).norm()
+    };
+    let within = |k: &usize| (slow.u[0]..=slow.u[1]).contains(&timed.parameters[*k]);
+    (0..positions.len()).filter(within).any(|k| tip_speed(k) > slow.most)
 }
 
 fn check_terminal(scene: &Scene<'_>, end: &Terminal) -> Result<(), CrossingError> {

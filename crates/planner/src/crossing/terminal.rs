@@ -2,6 +2,7 @@
 
 use super::blend::Contact;
 use crate::joint_path::{Ends, JointPath, JointPathError};
+use crate::timing::Slow;
 use platewash_kinematics::JointVector;
 
 /// Home, or a plate with the line along its normal: configurations from where the arm rests to where it is free.
@@ -14,6 +15,8 @@ pub struct Terminal {
     /// By the height, at the lower and the upper end \[rad/m\]; the second one twice at the upper end.
     slopes: Option<[JointVector; 3]>,
     plate: Option<usize>,
+    /// Up to a height \[m\] the tip is no faster than that \[m/s\].
+    slow: Option<[f64; 2]>,
 }
 
 /// A line that is no terminal.
@@ -35,6 +38,7 @@ impl Terminal {
             q: vec![q],
             slopes: None,
             plate: None,
+            slow: None,
         }
     }
 
@@ -51,6 +55,30 @@ impl Terminal {
             q,
             slopes: Some([low.first, top.first, top.second]),
             plate: Some(plate),
+            slow: None,
+        })
+    }
+
+    /// The same, with the tip no faster than `speed_m_s` up to `height_m` above the place of rest.
+    #[must_use]
+    pub fn no_faster(mut self, height_m: f64, speed_m_s: f64) -> Self {
+        self.slow = Some([height_m, speed_m_s]);
+        self
+    }
+
+    /// Where a path that leaves from here is slow: its parameter is the height.
+    pub(super) fn slow_from(&self, u: f64) -> Option<Slow> {
+        self.slow.map(|[height_m, most]| Slow {
+            u: [u, u + height_m],
+            most,
+        })
+    }
+
+    /// The same for a path that ends here.
+    pub(super) fn slow_until(&self, u: f64) -> Option<Slow> {
+        self.slow.map(|[height_m, most]| Slow {
+            u: [u - height_m, u],
+            most,
         })
     }
 

@@ -10,13 +10,16 @@ use crate::scenario::Scenario;
 use crate::stroke::Stroke;
 use crate::timing::{self, MotionLimits, Timed};
 use crate::tool_path::{Segment, SegmentKind, Shape};
-use crate::trig::atan2;
+use crate::trig::{atan2, sin};
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
 use std::f64::consts::TAU;
 
 /// Distance of the samples on a line \[m\].
 const LINE_STEP_M: f64 = 2e-3;
+
+/// The share of the speed limit of washing at which the sponge touches at most: the rest is for what its rim adds to the tip.
+const TOUCHING: f64 = 0.99;
 
 /// A plate with all that is done on it.
 pub(super) struct Visit {
@@ -89,23 +92,23 @@ pub(super) fn lines(
     washing: &Washing,
 ) -> Result<[Terminal; 2], CycleError> {
     let last = washing.q.len() - 1;
-    let lift = scenario.wash.lift_m;
     let end = stroke.at(stroke.end()).position;
     let foot = centre + Vector3::new(end.x, end.y, 0.0);
     Ok([
-        line(arm, plate, centre, (washing.tilt_rad[0], &washing.q[0]), lift)?,
-        line(arm, plate, foot, (washing.tilt_rad[last], &washing.q[last]), lift)?,
+        line(scenario, arm, plate, centre, (washing.tilt_rad[0], &washing.q[0]))?,
+        line(scenario, arm, plate, foot, (washing.tilt_rad[last], &washing.q[last]))?,
     ])
 }
 
 /// The line over a contact point, with the tool turned as it is there.
 fn line(
+    scenario: &Scenario,
     arm: &Arm<'_>,
     plate: usize,
     foot: Vector3<f64>,
     (tilt_rad, q): (f64, &JointVector),
-    lift_m: f64,
 ) -> Result<Terminal, CycleError> {
+    let lift_m = scenario.wash.lift_m;
     let steps = (lift_m / LINE_STEP_M).ceil().max(4.0);
     let heights: Vec<f64> = (0..=steps as usize).map(|k| lift_m * (k as f64 / steps)).collect();
     let over = |h: &f64| arm.cell.tip_pose(foot + Vector3::z() * *h, tilt_rad);
@@ -119,7 +122,10 @@ fn line(
     let mut configurations = path.map_err(line)?.q;
     // To the bit where the wash begins or ends.
     configurations[0] = *q;
-    Ok(Terminal::line(plate, heights, configurations)?)
+    // The tilted rim touches up to there, and a sample more; what touches is no faster than while it washes.
+    let touches_m = scenario.tool.sponge_radius_m * sin(tilt_rad).abs() + LINE_STEP_M;
+    let slow_m_s = TOUCHING * scenario.wash.speed_m_s.min(scenario.limits.tip_speed_m_s);
+    Ok(Terminal::line(plate, heights, configurations)?.no_faster(touches_m, slow_m_s))
 }
 
 impl Visit {

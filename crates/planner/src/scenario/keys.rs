@@ -287,13 +287,13 @@ pub const KEYS: &[Key] = &[
         "wash.tilt_max_deg",
         "deg",
         Number(0.0, 60.0),
-        "Largest angle of the tool from the plate's normal while it washes (certified).",
+        "Largest angle of the tool from the plate's normal at a plate (certified), and never above atan(sponge_height_m / sponge_radius_m).",
     ),
     key(
         "wash.speed_m_s",
         "m/s",
         NumberAbove(0.0, 10.0),
-        "Largest speed of the tip while it washes (certified); at least 0.000001.",
+        "Largest speed of the tip while it washes, and of the sponge's rim where it touches before and after (certified); at least 0.000001.",
     ),
     key(
         "wash.acceleration_m_s2",

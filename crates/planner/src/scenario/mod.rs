@@ -87,17 +87,16 @@ impl Scenario {
         [start, self.robot.home_deg.unwrap_or(start)].map(|deg| JointVector::from(deg).map(f64::to_radians))
     }
 
-    /// Largest angle of the tool from a plate's normal \[rad\]: `wash.tilt_max_deg`, and no more than the sponge gives way by its
-    /// height `h` over its radius `s`, `asin(h / s)`. Beyond that its rim would have to go through the plate.
+    /// Largest angle of the tool from a plate's normal \[rad\]: `wash.tilt_max_deg`, and no more than the sponge allows.
+    ///
+    /// The free sponge is a cylinder of height `h` and radius `s`, tilted by τ about the middle of its far face, which is in the
+    /// plate's plane. The middle of its near face is at the height `h cos τ`, and the lowest point of the rim there `s sin τ` below:
+    /// it is above the plate while `tan τ < h / s`. Beyond `atan(h / s)` the rim, and with it what holds the sponge, would have to
+    /// go through the plate.
     #[must_use]
     pub fn tilt_max_rad(&self) -> f64 {
         let asked = self.wash.tilt_max_deg.to_radians();
-        let gives_way = self.tool.sponge_height_m / self.tool.sponge_radius_m;
-        if gives_way < 1.0 {
-            asked.min(crate::trig::asin(gives_way))
-        } else {
-            asked
-        }
+        asked.min(crate::trig::atan2(self.tool.sponge_height_m, self.tool.sponge_radius_m))
     }
 
     /// The control law: the one stated, otherwise the paper's for the paper's program and computed torque for a certified job.

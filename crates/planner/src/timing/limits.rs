@@ -23,6 +23,15 @@ pub struct TipLimits {
     pub acceleration_m_s2: f64,
 }
 
+/// A stretch of a path on which its parameter moves slowly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slow {
+    /// From one value of the parameter to another, both included.
+    pub u: [f64; 2],
+    /// Largest speed of the parameter at a knot there, per second; positive.
+    pub most: f64,
+}
+
 /// A limit by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]

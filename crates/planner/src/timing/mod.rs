@@ -31,7 +31,7 @@ mod tests;
 mod tip;
 
 pub use error::TimingError;
-pub use limits::{Limit, MotionLimits, TipLimits};
+pub use limits::{Limit, MotionLimits, Slow, TipLimits};
 pub use refine::{LONGEST_PIECE_S, PATH_ERROR_RAD};
 pub use rounds::SHORTEST_PIECE_S;
 
@@ -77,6 +77,20 @@ pub fn time_optimal(
     tip: &Frame,
     limits: &MotionLimits,
 ) -> Result<Timed, TimingError> {
+    time_optimal_slowed(path, robot, tip, limits, &[])
+}
+
+/// [`time_optimal`], with stretches of the path on which its parameter moves no faster than they say at any knot.
+///
+/// # Errors
+/// As [`time_optimal`].
+pub fn time_optimal_slowed(
+    path: &JointPath,
+    robot: &RobotModel,
+    tip: &Frame,
+    limits: &MotionLimits,
+    slow: &[Slow],
+) -> Result<Timed, TimingError> {
     limits.check()?;
     let still = path.positions().iter().all(|q| *q == path.positions()[0]);
     if still && path.slopes().iter().all(|m| m.amax() == 0.0) {
@@ -85,5 +99,5 @@ pub fn time_optimal(
         });
     }
     let tip = limits.tip.map(|_| TipModel::new(robot, tip));
-    Rounds::new(Grid::of(path, tip)?, limits).run()
+    Rounds::new(Grid::of(path, tip)?, limits, slow).run()
 }

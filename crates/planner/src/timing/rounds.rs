@@ -6,7 +6,7 @@ use super::error::TimingError;
 use super::grid::{Grid, PathKnot};
 use super::hermite::Piece;
 use super::interval::Interval;
-use super::limits::MotionLimits;
+use super::limits::{MotionLimits, Slow};
 use super::passes::Passes;
 use super::refine::{self, Course};
 use crate::trajectory::Trajectory;
@@ -35,6 +35,8 @@ pub(super) struct Rounds<'a> {
     samples: usize,
     /// What is aimed at: the limits less the margin.
     limits: MotionLimits,
+    /// Where the parameter moves slowly.
+    slow: Vec<Slow>,
     intervals: Vec<Interval>,
     /// By what each interval's speed is lowered.
     slowed: Vec<f64>,
@@ -48,12 +50,13 @@ pub(super) struct Rounds<'a> {
 
 impl<'a> Rounds<'a> {
     /// Before the first round.
-    pub fn new(grid: Grid<'a>, limits: &MotionLimits) -> Self {
+    pub fn new(grid: Grid<'a>, limits: &MotionLimits, slow: &[Slow]) -> Self {
         let samples = grid.knots().len();
         let mut rounds = Self {
             grid,
             samples,
             limits: limits.times(1.0 - MARGIN),
+            slow: slow.to_vec(),
             intervals: Vec::new(),
             slowed: vec![1.0; samples - 1],
             most: Vec::new(),
@@ -116,7 +119,11 @@ impl<'a> Rounds<'a> {
             let around = k.saturating_sub(1)..(k + 1).min(last);
             let slowed = self.slowed[around.clone()].iter().fold(1.0, |a: f64, &b| a.max(b));
             let width = self.intervals[around].iter().fold(f64::INFINITY, |a, i| a.min(i.width));
-            let fastest = (fastest(knot, &self.limits) / slowed).min(width / SHORTEST_PIECE_S);
+            let here = self.slow.iter().filter(|s| s.u[0] <= knot.u && knot.u <= s.u[1]);
+            let slow = here.fold(f64::INFINITY, |most, s| most.min(s.most));
+            let fastest = (fastest(knot, &self.limits) / slowed)
+                .min(width / SHORTEST_PIECE_S)
+                .min(slow);
             let rests = (k == 0 || k == last) && knot.slope.amax() > 0.0;
             self.most.push(if rests { 0.0 } else { fastest * fastest });
         }

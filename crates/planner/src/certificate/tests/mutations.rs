@@ -299,7 +299,7 @@ fn a_knot_moved_is_seen_by_joints_and_by_the_path() {
     });
     breaks_at_least(&[JointPosition, JointSpeed], |p| p.knots.q_rad[40][4] += 3.0);
     breaks(&[HomeToHome], |p| p.knots.q_rad[0][5] += 1e-6);
-    breaks_at_least(&[RestAtContact], |p| {
+    breaks_at_least(&[RestAtWashEnds], |p| {
         let k = within(p, SegmentKind::Wash).start - 1;
         p.knots.qd_rad_s[k][0] = 1e-3;
     });
@@ -346,7 +346,7 @@ fn segments_are_complete_and_in_order() {
     breaks_at_least(&[Segments, EveryPlateOnce], |p| p.order[1] = 0);
     breaks_at_least(&[Segments, EveryPlateOnce], |p| p.order.push(7));
     // The boundary of a wash a knot later: the arm does not rest there and the line has not ended.
-    breaks_at_least(&[RestAtContact], |p| {
+    breaks_at_least(&[RestAtWashEnds], |p| {
         let (wash, knot) = (stage(p, SegmentKind::Wash), within(p, SegmentKind::Wash).start + 5);
         p.segments[wash].t_start_s = p.knots.t_s[knot];
         p.segments[wash - 1].t_end_s = p.knots.t_s[knot];
@@ -367,6 +367,92 @@ fn the_tilt_is_judged_against_the_scenario() {
     strict.scenario.wash.tilt_max_deg = 5.0;
     strict.limits.tilt_rad = 5.0_f64.to_radians();
     assert_eq!(broken(&judged(strict)), [Tilt]);
+}
+
+/// 6.04 mm high and 25 mm in radius: h/s is the sine of 13.98° and the tangent of 13.58°. At 13.78° the rim at the handle is 0.09 mm
+/// inside the plate.
+#[test]
+fn a_sponge_is_tilted_no_further_than_its_upper_rim_allows() {
+    let mut recipe = Recipe::arc(&[20.0]);
+    recipe.lean = 0.2405;
+    let tilt = |recipe: &Recipe| {
+        verify(&recipe.plan(), &irb120())
+            .unwrap()
+            .promise(Tilt)
+            .unwrap()
+            .clone()
+    };
+    let rim_m = |height_m: f64| height_m * recipe.lean.cos() - 0.025 * recipe.lean.sin();
+    for (height_m, status) in [(6.04e-3, Status::Fail), (6.14e-3, Status::Pass)] {
+        assert_eq!(rim_m(height_m) > 0.0, status == Status::Pass);
+        let mut recipe = recipe.clone();
+        recipe.scenario.tool.sponge_height_m = height_m;
+        assert_eq!(tilt(&recipe).status, status, "{height_m}");
+    }
+}
+
+/// The speed of the lowest point of the rim of a tool that leans forward by an angle, at the worst of many moments at which it is
+/// at or below the plate \[m/s\], from differences.
+fn touching_speed(plan: &Plan, lean: f64) -> f64 {
+    let robot = irb120();
+    let tip = crate::robot::tip_frame(&robot, &plan.tool);
+    let knots = plan.knots.clone();
+    let motion = crate::trajectory::Trajectory::from_knots(knots.t_s, knots.q_rad, knots.qd_rad_s).unwrap();
+    let place = |t: f64| robot.fk(&motion.at(t).unwrap().q).rigid(&tip).translation;
+    let lines = |s: &&crate::plan::PlanSegment| matches!(s.kind, SegmentKind::Approach | SegmentKind::Retreat);
+    let mut worst = 0.0f64;
+    for segment in plan.segments.iter().filter(lines) {
+        let (from, to) = (segment.t_start_s, segment.t_end_s);
+        for t in (1..4000).map(|k| from + (to - from) * f64::from(k) / 4000.0) {
+            let reach = plan.tool.sponge_radius_m * lean.sin();
+            if place(t).z - reach <= plan.plates[segment.plate].z_m - 1e-6 {
+                worst = worst.max((place(t + 1e-5) - place(t - 1e-5)).norm() / 2e-5);
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn a_tilted_rim_touches_in_motion_and_how_fast_is_said() {
+    let mut recipe = Recipe::arc(&[20.0]);
+    recipe.lean = 0.2;
+    let plan = recipe.plan();
+    let certificate = verify(&plan, &irb120()).unwrap();
+    assert_eq!(certificate.promise(RestAtWashEnds).unwrap().status, Status::Pass);
+    let touch = certificate.promise(ContactSpeed).unwrap();
+    let measure = touch.measure.unwrap();
+    let (bound, seen) = (measure.bound.unwrap(), measure.seen.unwrap());
+    let sampled = touching_speed(&plan, recipe.lean);
+    assert!(sampled > 0.03, "{sampled}");
+    assert!(
+        sampled <= bound && bound < sampled + 3e-3 && seen <= bound && seen > sampled - 3e-3,
+        "{sampled} {measure:?}"
+    );
+    assert_eq!(
+        (touch.status, measure.limit),
+        (Status::Pass, plan.limits.wash_speed_m_s)
+    );
+    // Where: as far below the tip as the rim reaches, which is at the plate's face.
+    let place = touch.worst.place_m.unwrap();
+    assert!((place[2] - plan.plates[0].z_m).abs() < 1e-3, "{place:?}");
+    assert_eq!(touch.worst.plate, Some(0));
+    assert!(certificate.to_string().contains("contact speed"));
+    // A tool that stands upright comes to rest where it touches.
+    let upright = verify(&good(), &irb120()).unwrap();
+    assert!(upright.promise(ContactSpeed).unwrap().measure.unwrap().bound.unwrap() < 5e-3);
+}
+
+#[test]
+fn a_sponge_that_lifts_off_faster_than_it_may_wash_is_refused() {
+    let mut recipe = Recipe::arc(&[20.0]);
+    recipe.lean = 0.2;
+    let mut plan = recipe.plan();
+    plan.scenario.wash.speed_m_s = 0.02;
+    plan.limits.wash_speed_m_s = 0.02;
+    let certificate = judged(plan);
+    assert_eq!(broken(&certificate), [WashSpeed, ContactSpeed], "{certificate}");
+    assert_eq!(certificate.promise(ContactSpeed).unwrap().status, Status::Fail);
 }
 
 #[test]
