@@ -8,6 +8,7 @@ use super::progress::Progress;
 use super::run::RunArguments;
 use super::{output, results, simulate};
 use platewash::planner::certificate::{self, PairsShown};
+use platewash::planner::csv::MotionTable;
 use platewash::planner::cycle::{CycleReport, InfeasibleReport};
 use platewash::simulator::simulate::table;
 use platewash::{Cycle, Scenario, Setup, SimulationReport, SimulationVerdict};
@@ -21,8 +22,8 @@ pub fn plan(options: &Options, scenario: &Scenario, arguments: &PlanArguments) -
     };
     let plan = cycle.to_plan()?;
     let files = vec![
-        (plan::folder(options).join("plan.json"), plan.to_json()?),
-        (plan::csv_file(options, arguments), csv(&cycle, arguments)?),
+        output::file(plan::folder(options).join("plan.json"), plan.to_json()?),
+        output::file(plan::csv_file(options, arguments), csv(&cycle, arguments)?),
     ];
     results::write(&plan::folder(options), &files)?;
     output::print_either(options.json, &Planned::of(&plan.summary), || {
@@ -107,27 +108,29 @@ pub fn run(options: &Options, scenario: &Scenario, arguments: &RunArguments) -> 
         .of(scenario, simulate::lasts_at_most_s(&plan, &setup))?;
     let certificate = certificate::verify(&plan, &cycle.robot).map_err(Failure::internal)?;
     let folder = plan::folder(options);
-    let mut files = vec![
-        (folder.join("plan.json"), plan.to_json()?),
-        (plan::csv_file(options, arguments), csv(&cycle, arguments)?),
-        (folder.join("certificate.json"), output::json(&certificate)?),
-    ];
-    let simulation = match simulate::carry_out(&plan, &cycle.robot, &setup) {
-        Ok((execution, report)) => {
-            let executed = table(&execution, &plan, &cycle.robot, dt_s)?;
-            files.push((folder.join("executed.csv"), executed));
-            Simulated::Done(Box::new(report))
+    let (execution, simulation) = match simulate::carry_out(&plan, &cycle.robot, &setup) {
+        Ok((execution, report)) => (Some(execution), Simulated::Done(Box::new(report))),
+        Err(error) => {
+            let refused = error.to_string();
+            (None, Simulated::Refused { refused })
         }
-        Err(error) => Simulated::Refused {
-            refused: error.to_string(),
-        },
     };
+    let proof = output::json(&certificate)?;
     let report = RunReport::new(CycleReport::new(&cycle, certificate), simulation);
     let text = report.text(pairs);
-    files.push((folder.join("report.json"), output::json(&report)?));
-    files.push((folder.join("report.txt"), text.clone()));
+    let mut files = vec![
+        output::file(folder.join("plan.json"), plan.to_json()?),
+        output::file(plan::csv_file(options, arguments), csv(&cycle, arguments)?),
+        output::file(folder.join("certificate.json"), proof),
+    ];
+    if let Some(execution) = &execution {
+        let executed = table(execution, &plan, &cycle.robot, dt_s)?;
+        files.push(output::file(folder.join("executed.csv"), executed));
+    }
+    files.push(output::file(folder.join("report.json"), output::json(&report)?));
+    files.push(output::file(folder.join("report.txt"), &text));
     results::write(&folder, &files)?;
-    output::print_either(options.json, &report, || text)?;
+    output::print_either(options.json, &report, || text.clone())?;
     plan::name_files(options, &files);
     // The worse of the two.
     let outcome = Outcome::from(report.cycle.verdict).max(report.simulation.outcome());
@@ -149,7 +152,7 @@ fn carry_out(options: &Options, scenario: &Scenario) -> Result<Cycled, Failure> 
     }
 }
 
-fn csv(cycle: &Cycle, arguments: &PlanArguments) -> Result<String, Failure> {
+fn csv<'a>(cycle: &'a Cycle, arguments: &PlanArguments) -> Result<MotionTable<'a>, Failure> {
     let scenario = &cycle.scenario;
     plan::motion_csv(scenario, &cycle.robot, &cycle.motion, &cycle.segments, arguments)
 }

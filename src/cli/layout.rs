@@ -15,7 +15,7 @@ pub fn run(options: &Options) -> Result<ExitCode, Failure> {
     let layout = job::place_plates(&scenario, &robot).map_err(PlanError::from)?;
     if let Some(folder) = &options.out {
         let file = folder.join("layout.json");
-        output::write_files(&[(file.clone(), output::json(&layout)?)])?;
+        output::write_files(&[output::file(file.clone(), output::json(&layout)?)])?;
         output::message(options.quiet, &format!("wrote {}", file.display()));
     }
     output::print_either(options.json, &layout, || text(&layout))?;

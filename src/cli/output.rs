@@ -5,7 +5,7 @@ use anyhow::Context;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Display;
-use std::io::{ErrorKind, Write};
+use std::io::{BufWriter, ErrorKind, IntoInnerError, Write};
 use std::path::{Component, Path, PathBuf};
 use tempfile::NamedTempFile;
 
@@ -73,17 +73,25 @@ pub fn message(quiet: bool, text: &str) {
     }
 }
 
+/// A file and what is to stand in it, which may be made while it is written.
+pub type File<'a> = (PathBuf, Box<dyn Display + 'a>);
+
+/// A file for [`write_files`].
+pub fn file<'a>(path: PathBuf, content: impl Display + 'a) -> File<'a> {
+    (path, Box::new(content))
+}
+
 /// Writes all files or none: each goes to a temporary file beside its place, and they are renamed once all are complete.
-pub fn write_files(files: &[(PathBuf, String)]) -> Result<(), Failure> {
+pub fn write_files(files: &[File<'_>]) -> Result<(), Failure> {
     replace(files, &[])
 }
 
 /// The same in place of `stale` files, which go just before.
-pub fn replace(files: &[(PathBuf, String)], stale: &[PathBuf]) -> Result<(), Failure> {
+pub fn replace(files: &[File<'_>], stale: &[PathBuf]) -> Result<(), Failure> {
     refuse_one_place_for_two(files.iter().map(|(path, _)| path)).map_err(Failure::input)?;
     let mut complete = Vec::new();
-    for (path, text) in files {
-        complete.push((stage(path, text).map_err(Failure::input)?, path));
+    for (path, content) in files {
+        complete.push((stage(path, content).map_err(Failure::input)?, path));
     }
     for path in stale {
         std::fs::remove_file(path)
@@ -148,14 +156,16 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-fn stage(path: &Path, text: &str) -> anyhow::Result<NamedTempFile> {
+fn stage(path: &Path, content: &dyn Display) -> anyhow::Result<NamedTempFile> {
     let folder = folder_of(path);
     std::fs::create_dir_all(folder).with_context(|| format!("{}: folder cannot be made", folder.display()))?;
     refuse_folder(path)?;
     let cannot = || format!("{}: cannot be written", path.display());
-    let mut staged = temporary().tempfile_in(folder).with_context(cannot)?;
-    staged.write_all(text.as_bytes()).with_context(cannot)?;
-    Ok(staged)
+    let staged = temporary().tempfile_in(folder).with_context(cannot)?;
+    let mut buffered = BufWriter::new(staged);
+    write!(buffered, "{content}").with_context(cannot)?;
+    let staged = buffered.into_inner().map_err(IntoInnerError::into_error);
+    staged.with_context(cannot)
 }
 
 /// Temporary files are private; results are for whom the system's mask allows.

@@ -3,10 +3,12 @@
 use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
+use super::output::File;
 use super::progress::Progress;
 use super::time_step::TimeStep;
 use super::{cycle, output, results};
 use clap::Args;
+use platewash::planner::csv::MotionTable;
 use platewash::planner::cycle::InfeasibleReport;
 use platewash::planner::plan::{PlanSegment, Summary};
 use platewash::planner::scenario::Program;
@@ -40,7 +42,8 @@ pub fn run(options: &Options, arguments: &PlanArguments) -> Result<ExitCode, Fai
         Followed::Judged(both) => *both,
         Followed::Infeasible(report) => return infeasible(options, &scenario, &report),
     };
-    let files = files(options, &job, &report, arguments)?;
+    let segments = plan::segments(&job);
+    let files = files(options, &job, &segments, &report, arguments)?;
     results::write(&folder(options), &files)?;
     let summary = report.summary();
     output::print_either(options.json, &Planned::of(&summary), || {
@@ -89,11 +92,11 @@ pub fn infeasible(options: &Options, scenario: &Scenario, report: &InfeasibleRep
     let folder = folder(options);
     let text = output::text(report);
     let files = vec![
-        (folder.join("report.json"), output::json(report)?),
-        (folder.join("report.txt"), text.clone()),
+        output::file(folder.join("report.json"), output::json(report)?),
+        output::file(folder.join("report.txt"), &text),
     ];
     results::write(&folder, &files)?;
-    output::print_either(options.json, report, || text)?;
+    output::print_either(options.json, report, || text.clone())?;
     name_files(options, &files);
     Ok(Outcome::from(report.verdict).job(scenario.job.on_failure))
 }
@@ -134,35 +137,36 @@ pub fn csv_file(options: &Options, arguments: &PlanArguments) -> PathBuf {
 }
 
 /// The plan file and the planned motion's CSV, not written yet.
-pub fn files(
+pub fn files<'a>(
     options: &Options,
-    job: &Job,
+    job: &'a Job,
+    segments: &'a [PlanSegment],
     report: &JobReport,
     arguments: &PlanArguments,
-) -> Result<Vec<(PathBuf, String)>, Failure> {
-    let segments = plan::segments(job);
-    let csv = motion_csv(&job.scenario, &job.robot, &job.planned, &segments, arguments)?;
+) -> Result<Vec<File<'a>>, Failure> {
+    let csv = motion_csv(&job.scenario, &job.robot, &job.planned, segments, arguments)?;
+    let plan = Plan::new(job, report)?.to_json()?;
     Ok(vec![
-        (folder(options).join("plan.json"), Plan::new(job, report)?.to_json()?),
-        (csv_file(options, arguments), csv),
+        output::file(folder(options).join("plan.json"), plan),
+        output::file(csv_file(options, arguments), csv),
     ])
 }
 
 /// A motion as CSV.
-pub fn motion_csv(
+pub fn motion_csv<'a>(
     scenario: &Scenario,
-    robot: &RobotModel,
-    motion: &Trajectory,
-    segments: &[PlanSegment],
+    robot: &'a RobotModel,
+    motion: &'a Trajectory,
+    segments: &'a [PlanSegment],
     arguments: &PlanArguments,
-) -> Result<String, Failure> {
+) -> Result<MotionTable<'a>, Failure> {
     let tip = robot::tip_frame(robot, &scenario.tool);
     let dt_s = arguments.time_step.of(scenario, motion.duration_s())?;
     Ok(csv::table(motion, segments, robot, &tip, dt_s)?)
 }
 
 /// Says what was written.
-pub fn name_files(options: &Options, files: &[(PathBuf, String)]) {
+pub fn name_files(options: &Options, files: &[File<'_>]) {
     let names: Vec<_> = files.iter().map(|(path, _)| path.display().to_string()).collect();
     output::message(options.quiet, &format!("wrote {}", names.join(", ")));
 }

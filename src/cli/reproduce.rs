@@ -61,7 +61,7 @@ pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode
     drop(progress);
     let result = result?;
     if let Some([json, text]) = places {
-        let files = [(json, output::json(&result)?), (text, result.to_string())];
+        let files = [output::file(json, output::json(&result)?), output::file(text, &result)];
         output::write_files(&files)?;
         output::message(
             options.quiet,

@@ -2,7 +2,7 @@
 //! a new result.
 
 use super::failure::Failure;
-use super::output;
+use super::output::{self, File};
 use anyhow::Context;
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ pub const OWNED: [&str; 6] = [
 
 /// Writes the files of one call, and removes from the folder those of [`OWNED`] that it does not write. All or nothing, as
 /// [`output::write_files`].
-pub fn write(folder: &Path, files: &[(PathBuf, String)]) -> Result<(), Failure> {
+pub fn write(folder: &Path, files: &[File<'_>]) -> Result<(), Failure> {
     let stale = stale(folder, files).map_err(Failure::input)?;
     output::replace(files, &stale)
 }
@@ -30,7 +30,7 @@ pub fn check_places(folder: &Path, names: &[&str], csv: &Path) -> Result<(), Fai
     output::check_places(&named.chain([csv.to_owned()]).collect::<Vec<_>>())
 }
 
-fn stale(folder: &Path, files: &[(PathBuf, String)]) -> anyhow::Result<Vec<PathBuf>> {
+fn stale(folder: &Path, files: &[File<'_>]) -> anyhow::Result<Vec<PathBuf>> {
     let place = |path: &Path| output::place(path).with_context(|| format!("{}: cannot be written", path.display()));
     let written: Vec<_> = files.iter().map(|(path, _)| place(path)).collect::<Result<_, _>>()?;
     let mut stale = Vec::new();

@@ -46,14 +46,14 @@ pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Fail
         Followed::Infeasible(report) => return plan::infeasible(options, &scenario, &report),
     };
     let text = output::text(&report);
-    let mut files = plan::files(options, &job, &report, &arguments.plan)?;
     let segments = platewash::planner::plan::segments(&job);
+    let mut files = plan::files(options, &job, &segments, &report, &arguments.plan)?;
     let executed = plan::motion_csv(&scenario, &job.robot, &job.executed, &segments, &arguments.plan)?;
-    files.push((folder.join("executed.csv"), executed));
-    files.push((folder.join("report.json"), output::json(&report)?));
-    files.push((folder.join("report.txt"), text.clone()));
+    files.push(output::file(folder.join("executed.csv"), executed));
+    files.push(output::file(folder.join("report.json"), output::json(&report)?));
+    files.push(output::file(folder.join("report.txt"), &text));
     results::write(&folder, &files)?;
-    output::print_either(options.json, &report, || text)?;
+    output::print_either(options.json, &report, || text.clone())?;
     plan::name_files(options, &files);
     Ok(Outcome::from(report.verdict).job(scenario.job.on_failure))
 }

@@ -12,6 +12,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use platewash::planner::scenario::ControlLawName;
 use platewash::simulator::{self, Execution, Setup, SimulationError};
 use platewash::{Plan, RobotModel, SimulationReport};
+use std::fmt::Display;
 use std::path::PathBuf;
 
 /// What is written.
@@ -78,10 +79,10 @@ pub fn run(options: &Options, arguments: &SimulateArguments) -> Result<ExitCode,
     };
     let csv = simulator::simulate::table(&execution, &file.plan, &file.robot, dt_s)?;
     let text = output::text(&report);
-    let texts = [csv, output::json(&report)?, text.clone()];
-    let files: Vec<_> = places.into_iter().zip(texts).collect();
+    let contents: [Box<dyn Display + '_>; 3] = [Box::new(csv), Box::new(output::json(&report)?), Box::new(&text)];
+    let files: Vec<_> = places.into_iter().zip(contents).collect();
     output::write_files(&files)?;
-    output::print_either(options.json, &report, || text)?;
+    output::print_either(options.json, &report, || text.clone())?;
     plan::name_files(options, &files);
     Ok(exit::simulated([report.verdict], scenario.job.on_failure))
 }

@@ -47,7 +47,7 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Fa
         return Ok(ExitCode::SUCCESS);
     }
     if let Some(table) = table {
-        output::write_files(&[(table, sweep::csv(&rows))])?;
+        output::write_files(&[output::file(table, sweep::csv(&rows))])?;
     }
     if options.json {
         output::print(&output::json(&rows)?)?;

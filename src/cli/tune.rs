@@ -98,7 +98,7 @@ pub fn run(options: &Options, arguments: &TuneArguments) -> Result<ExitCode, Fai
         rows.into_iter().map(Row::from).collect()
     };
     if let Some(table) = table {
-        output::write_files(&[(table, csv(&rows))])?;
+        output::write_files(&[output::file(table, csv(&rows))])?;
     }
     output::print_either(options.json, &rows, || text(&file.plan, &setup, &rows))?;
     let verdicts: Vec<_> = rows.iter().filter_map(Row::verdict).collect();

@@ -2,9 +2,10 @@
 
 use crate::plan::PlanSegment;
 use crate::trajectory::Trajectory;
+use nalgebra::Vector3;
 use platewash_kinematics::words::rounded_up;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
-use std::fmt::Write;
+use std::fmt;
 
 /// Most rows that are written.
 pub const MAX_ROWS: usize = 1_000_000;
@@ -65,45 +66,81 @@ qdd1_rad_s2,qdd2_rad_s2,qdd3_rad_s2,qdd4_rad_s2,qdd5_rad_s2,qdd6_rad_s2,tip_x_m,
 ///
 /// # Errors
 /// [`CsvError::Step`].
-pub fn table(
-    motion: &Trajectory,
-    segments: &[PlanSegment],
-    robot: &RobotModel,
+pub fn table<'a>(
+    motion: &'a Trajectory,
+    segments: &'a [PlanSegment],
+    robot: &'a RobotModel,
     tip: &Frame,
     dt_s: f64,
-) -> Result<String, CsvError> {
-    let duration_s = motion.duration_s();
-    check_step(duration_s, dt_s)?;
-    // A last step shorter than a millionth of dt is rounding, not a row.
-    let whole = (duration_s / dt_s - 1e-6).ceil();
-    let times = (0..whole.max(0.0) as usize)
-        .map(|k| k as f64 * dt_s)
-        .chain([duration_s]);
-    let mut text = String::from(HEADER);
-    text.push('\n');
-    for t in times {
-        let Some(state) = motion.at(t) else { continue };
-        // Times that are a knot's up to rounding belong to the segment that the knot ends.
-        let part = segments
-            .iter()
-            .find(|s| t <= s.t_end_s + 1e-6 * dt_s)
-            .or(segments.last());
-        let (kind, plate) = part.map_or(("", String::new()), |s| (s.kind.name(), s.plate.to_string()));
-        // Writing to a String cannot fail.
-        let _ = write!(text, "{t},{kind},{plate}");
-        for row in [&state.q, &state.qd, &state.qdd] {
-            push(&mut text, row);
-        }
-        let at = robot.fk(&state.q).rigid(tip).translation;
-        let _ = writeln!(text, ",{},{},{}", at.x, at.y, at.z);
-    }
-    Ok(text)
+) -> Result<MotionTable<'a>, CsvError> {
+    check_step(motion.duration_s(), dt_s)?;
+    Ok(MotionTable {
+        motion,
+        segments,
+        robot,
+        tip: *tip,
+        dt_s,
+    })
 }
 
-fn push(text: &mut String, row: &JointVector) {
-    for value in row.iter() {
-        let _ = write!(text, ",{value}");
+/// A motion as CSV, made row by row while it is written: [`table`].
+#[derive(Debug, Clone)]
+pub struct MotionTable<'a> {
+    motion: &'a Trajectory,
+    segments: &'a [PlanSegment],
+    robot: &'a RobotModel,
+    tip: Frame,
+    dt_s: f64,
+}
+
+impl fmt::Display for MotionTable<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let duration_s = self.motion.duration_s();
+        // A last step shorter than a millionth of dt is rounding, not a row.
+        let whole = (duration_s / self.dt_s - 1e-6).ceil();
+        let times = (0..whole.max(0.0) as usize).map(|k| k as f64 * self.dt_s);
+        writeln!(f, "{HEADER}")?;
+        for t in times.chain([duration_s]) {
+            let Some(state) = self.motion.at(t) else { continue };
+            // Times that are a knot's up to rounding belong to the segment that the knot ends.
+            let is_over = |s: &&PlanSegment| t <= s.t_end_s + 1e-6 * self.dt_s;
+            let segment = self.segments.iter().find(is_over).or(self.segments.last());
+            let at = self.robot.fk(&state.q).rigid(&self.tip).translation;
+            write_row(f, t, segment, [&state.q, &state.qd, &state.qdd], &at)?;
+            writeln!(f)?;
+        }
+        Ok(())
     }
+}
+
+/// Writes the columns of [`HEADER`]: time \[s\], segment, joint positions, speeds and accelerations \[rad, rad/s, rad/s²\], and the
+/// tip \[m\].
+///
+/// # Errors
+/// That of the writer.
+pub fn write_row(
+    f: &mut fmt::Formatter<'_>,
+    t_s: f64,
+    segment: Option<&PlanSegment>,
+    motion: [&JointVector; 3],
+    tip: &Vector3<f64>,
+) -> fmt::Result {
+    match segment {
+        Some(segment) => write!(f, "{t_s},{},{}", segment.kind.name(), segment.plate)?,
+        None => write!(f, "{t_s},,")?,
+    }
+    for joints in motion {
+        write_joints(f, joints)?;
+    }
+    write!(f, ",{},{},{}", tip.x, tip.y, tip.z)
+}
+
+/// Writes a number a joint, each behind a comma.
+///
+/// # Errors
+/// That of the writer.
+pub fn write_joints(f: &mut fmt::Formatter<'_>, joints: &JointVector) -> fmt::Result {
+    joints.iter().try_for_each(|value| write!(f, ",{value}"))
 }
 
 #[cfg(test)]

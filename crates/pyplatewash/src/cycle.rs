@@ -123,7 +123,9 @@ impl CycleObject {
         let tip = robot::tip_frame(&cycle.robot, &cycle.scenario.tool);
         let dt_s = dt_s.unwrap_or(cycle.scenario.control.dt_s);
         let table = csv::table(&cycle.motion, &cycle.segments, &cycle.robot, &tip, dt_s);
-        table.map_err(|e| errors::input(py, "dt_s", &e.to_string()))
+        table
+            .map(|table| table.to_string())
+            .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
     }
 
     fn __repr__(&self) -> String {

@@ -194,8 +194,11 @@ impl JobObject {
         let motion = if executed { &job.executed } else { &job.planned };
         let tip = robot::tip_frame(&job.robot, &job.scenario.tool);
         let dt_s = dt_s.unwrap_or(job.scenario.control.dt_s);
-        let table = platewash::planner::csv::table(motion, &plan::segments(job), &job.robot, &tip, dt_s);
-        table.map_err(|e| errors::input(py, "dt_s", &e.to_string()))
+        let segments = plan::segments(job);
+        let table = platewash::planner::csv::table(motion, &segments, &job.robot, &tip, dt_s);
+        table
+            .map(|table| table.to_string())
+            .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
     }
 
     fn __len__(&self) -> usize {

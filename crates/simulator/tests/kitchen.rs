@@ -221,7 +221,7 @@ fn exact_is_exact() {
 fn the_csv_has_the_plans_columns_and_torque() {
     let (robot, plan) = kitchen();
     let (execution, _) = judged(&under(ControlLawName::ComputedTorque, 30.0));
-    let text = simulate::table(&execution, plan, robot, 0.1).unwrap();
+    let text = simulate::table(&execution, plan, robot, 0.1).unwrap().to_string();
     let header = text.lines().next().unwrap();
     assert!(header.starts_with(platewash_planner::csv::HEADER) && header.ends_with("tau6_n_m"));
     let columns = header.split(',').count();

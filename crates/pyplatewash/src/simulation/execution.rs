@@ -129,7 +129,10 @@ impl ExecutionObject {
         let done = &self.inner;
         let dt_s = dt_s.map(|dt_s| argument::number("dt_s", dt_s)).transpose()?;
         let dt_s = dt_s.unwrap_or(done.plan.scenario.control.dt_s);
-        table(&done.execution, &done.plan, &done.robot, dt_s).map_err(|e| errors::input(py, "dt_s", &e.to_string()))
+        let table = table(&done.execution, &done.plan, &done.robot, dt_s);
+        table
+            .map(|table| table.to_string())
+            .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
     }
 
     fn __len__(&self) -> usize {

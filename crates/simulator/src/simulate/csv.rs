@@ -1,11 +1,11 @@
 //! The executed motion as CSV.
 
 use super::Execution;
-use platewash_kinematics::{JointVector, RobotModel};
+use platewash_kinematics::RobotModel;
 use platewash_planner::csv::{self, CsvError};
 use platewash_planner::plan::Plan;
 use platewash_planner::robot;
-use std::fmt::Write;
+use std::fmt;
 
 /// What stands in the header behind the plan's columns ([`csv::HEADER`]).
 pub const HEADER: &str = ",tau1_n_m,tau2_n_m,tau3_n_m,tau4_n_m,tau5_n_m,tau6_n_m";
@@ -15,37 +15,49 @@ pub const HEADER: &str = ",tau1_n_m,tau2_n_m,tau3_n_m,tau4_n_m,tau5_n_m,tau6_n_m
 ///
 /// # Errors
 /// [`CsvError::Step`] for a time step that is not positive or gives more than [`csv::MAX_ROWS`] rows.
-pub fn table(execution: &Execution, plan: &Plan, robot: &RobotModel, dt_s: f64) -> Result<String, CsvError> {
-    let samples = &execution.samples;
-    let duration_s = samples.last().map_or(0.0, |sample| sample.t_s);
-    csv::check_step(duration_s, dt_s)?;
-    let tip = robot::tip_frame(robot, &plan.tool);
-    let stride = (dt_s / execution.period_s).max(1.0);
-    let mut text = format!("{}{HEADER}\n", csv::HEADER);
-    let last = samples.len().saturating_sub(1);
-    let mut next = 0.0;
-    for (k, sample) in samples.iter().enumerate() {
-        if k != last && (k as f64) + 0.5 < next {
-            continue;
-        }
-        next += stride;
-        let segment = plan.segments.get(sample.segment);
-        let (kind, plate) = segment.map_or(("", String::new()), |s| (s.kind.name(), s.plate.to_string()));
-        // Writing to a String cannot fail.
-        let _ = write!(text, "{},{kind},{plate}", sample.t_s);
-        for row in [&sample.state.q, &sample.state.qd, &sample.qdd] {
-            push(&mut text, row);
-        }
-        let at = robot.fk(&sample.state.q).rigid(&tip).translation;
-        let _ = write!(text, ",{},{},{}", at.x, at.y, at.z);
-        push(&mut text, &sample.torque);
-        text.push('\n');
-    }
-    Ok(text)
+pub fn table<'a>(
+    execution: &'a Execution,
+    plan: &'a Plan,
+    robot: &'a RobotModel,
+    dt_s: f64,
+) -> Result<ExecutedTable<'a>, CsvError> {
+    csv::check_step(execution.samples.last().map_or(0.0, |sample| sample.t_s), dt_s)?;
+    Ok(ExecutedTable {
+        execution,
+        plan,
+        robot,
+        dt_s,
+    })
 }
 
-fn push(text: &mut String, row: &JointVector) {
-    for value in row.iter() {
-        let _ = write!(text, ",{value}");
+/// An executed motion as CSV, made row by row while it is written: [`table`].
+#[derive(Debug, Clone)]
+pub struct ExecutedTable<'a> {
+    execution: &'a Execution,
+    plan: &'a Plan,
+    robot: &'a RobotModel,
+    dt_s: f64,
+}
+
+impl fmt::Display for ExecutedTable<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let samples = &self.execution.samples;
+        let tip = robot::tip_frame(self.robot, &self.plan.tool);
+        let stride = (self.dt_s / self.execution.period_s).max(1.0);
+        let last = samples.len().saturating_sub(1);
+        writeln!(f, "{}{HEADER}", csv::HEADER)?;
+        let mut next = 0.0;
+        for (k, sample) in samples.iter().enumerate() {
+            if k != last && (k as f64) + 0.5 < next {
+                continue;
+            }
+            next += stride;
+            let at = self.robot.fk(&sample.state.q).rigid(&tip).translation;
+            let motion = [&sample.state.q, &sample.state.qd, &sample.qdd];
+            csv::write_row(f, sample.t_s, self.plan.segments.get(sample.segment), motion, &at)?;
+            csv::write_joints(f, &sample.torque)?;
+            writeln!(f)?;
+        }
+        Ok(())
     }
 }
