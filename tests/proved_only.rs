@@ -88,7 +88,11 @@ fn a_sponge_in_the_air_does_not_wash() {
     plan.plates[0].z_m -= 0.01;
     plan.scenario.wash.height_m = 0.01;
     let certificate = certificate::verify(&sealed(plan), &cycle.robot).unwrap();
-    assert_eq!(status(&certificate, PromiseName::ToolPath), Status::Pass);
+    let asked = &certificate.promise(PromiseName::ToolPath).unwrap().discrepancies;
+    assert_eq!(
+        asked.iter().map(|d| d.what.as_str()).collect::<Vec<_>>(),
+        ["scenario.wash.height_m"]
+    );
     assert_eq!(status(&certificate, PromiseName::StrokeDeviation), Status::Pass);
     assert_eq!(status(&certificate, PromiseName::ContactHeight), Status::Fail);
 }
@@ -175,6 +179,24 @@ fn an_exemption_is_in_the_first_line_and_in_the_data() {
     let data = serde_json::to_value(&certificate).unwrap();
     assert_eq!(data["exempt"], serde_json::json!(["every_plate_once", "plates_apart"]));
     assert!(data["headline"].as_str().unwrap().starts_with("CERTIFIED BUT FOR"));
+    // Where something else is not kept, that comes first: nothing is proved "but for" both.
+    let mut plan = cycle.to_plan().unwrap();
+    plan.summary.headline = "washed twice".into();
+    let unkept = certificate::verify(&sealed(plan), &cycle.robot).unwrap();
+    for (line, verdict) in [
+        (unkept.headline.clone(), "NOT CERTIFIED: kitchen, "),
+        (
+            CycleReport::new(&cycle, unkept).headline,
+            "NOT PROVED: a plan for 2 plates in ",
+        ),
+    ] {
+        let (broken, waived) = line.split_once("; waived by layout.overlap = \"report\": ").unwrap();
+        assert!(broken.starts_with(verdict) && broken.ends_with(" summary"), "{line}");
+        assert!(
+            waived.starts_with("every plate once, ") && waived.contains(apart),
+            "{line}"
+        );
+    }
     let rows = sweep::sweep(&scenario, 1..=1).unwrap();
     assert_eq!(rows[0].outcome.name(), "proved");
     assert!(rows[0].reason.as_ref().unwrap().contains(apart), "{:?}", rows[0].reason);
@@ -256,6 +278,15 @@ fn the_headline_says_no_more_than_is_covered() {
         "{}",
         report.headline
     );
+    let (cycle, mut certificate) = judged(&one_plate());
+    assert!(
+        CycleReport::new(&cycle, certificate.clone())
+            .headline
+            .contains("1 plate washed whole,")
+    );
+    certificate.coverage[0].at_least = 0.9996;
+    let nearly = CycleReport::new(&cycle, certificate).headline;
+    assert!(nearly.contains("1 plate washed by at least 99.9 %,"), "{nearly}");
     scenario.job.required_coverage = 0.99;
     let (cycle, certificate) = judged(&scenario);
     let report = CycleReport::new(&cycle, certificate);

@@ -62,6 +62,28 @@ pub fn rounded_down(value: f64, digits: usize) -> f64 {
     rounded(near - unit(value, digits), digits)
 }
 
+/// The least number of `decimals` decimals that is not below `value`: what is told as "at most".
+#[must_use]
+pub fn decimals_up(value: f64, decimals: usize) -> String {
+    let near = format!("{value:.decimals$}");
+    let read = decimal(&near, value);
+    if read >= value || !value.is_finite() {
+        return near;
+    }
+    format!("{:.decimals$}", read + decimal(&format!("1e-{decimals}"), 0.0))
+}
+
+/// The greatest number of `decimals` decimals that is not above `value`: what is told as "at least".
+#[must_use]
+pub fn decimals_down(value: f64, decimals: usize) -> String {
+    let near = format!("{value:.decimals$}");
+    let read = decimal(&near, value);
+    if read <= value || !value.is_finite() {
+        return near;
+    }
+    format!("{:.decimals$}", read - decimal(&format!("1e-{decimals}"), 0.0))
+}
+
 /// What the last of `digits` significant digits of a positive number is worth.
 fn unit(value: f64, digits: usize) -> f64 {
     let text = format!("{value:e}");
@@ -92,6 +114,24 @@ mod tests {
         assert_eq!(rounded_up(9.991, 3), 10.0);
         assert_eq!(rounded_down(60.000_000_000_000_01, 6), 60.0);
         assert_eq!(rounded_down(9.999_6, 4), 9.999);
+    }
+
+    #[test]
+    fn decimals_are_rounded_towards_safety() {
+        assert_eq!(
+            [decimals_down(19.298_64, 2), decimals_up(19.298_64, 2)],
+            ["19.29", "19.30"]
+        );
+        assert_eq!(
+            [decimals_down(99.999_999_999, 3), decimals_up(13.9, 2)],
+            ["99.999", "13.90"]
+        );
+        assert_eq!([decimals_down(-1.01, 1), decimals_up(-1.01, 1)], ["-1.1", "-1.0"]);
+        assert_eq!([decimals_down(0.25, 4), decimals_up(0.25, 4)], ["0.2500", "0.2500"]);
+        assert_eq!(
+            [decimals_down(f64::INFINITY, 1), decimals_up(f64::NAN, 1)],
+            ["inf", "NaN"]
+        );
     }
 
     proptest! {

@@ -9,6 +9,7 @@ use crate::robot;
 use crate::scenario::{Scenario, ToolSection};
 use crate::tool_path::{Segment, SegmentKind};
 use crate::trajectory::Trajectory;
+use crate::words::printable;
 use platewash_kinematics::{AXES, JointVector, RobotModel, sha256_hex};
 use serde::{Deserialize, Serialize};
 
@@ -262,7 +263,7 @@ pub enum PlanFileError {
         detail: String,
     },
     /// Not a plan file.
-    #[error("not a plan file: {detail}")]
+    #[error("not a plan file: {}", printable(.detail))]
     Unreadable {
         /// The parser's words, with line and column.
         detail: String,
@@ -290,7 +291,7 @@ pub enum PlanFileError {
         read: String,
     },
     /// Another format.
-    #[error("plan format must be \"{FORMAT}\"; found \"{found}\"")]
+    #[error("plan format must be \"{FORMAT}\"; found \"{}\"", printable(.found))]
     Format {
         /// The format found.
         found: String,

@@ -19,6 +19,19 @@ pub fn millimetres(length_m: f64) -> String {
     format!("{:.1} mm", 1e3 * length_m)
 }
 
+/// Text out of a file with control characters written out, so that no terminal obeys them and no line is added to a message.
+#[must_use]
+pub fn printable(text: &str) -> String {
+    let written = |c: char| {
+        if c.is_control() {
+            c.escape_default().to_string()
+        } else {
+            c.to_string()
+        }
+    };
+    text.chars().map(written).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,13 +2,12 @@
 
 use super::retime;
 use crate::edit::{Edits, Kind};
-use platewash::planner::scenario::{OnFailure, OrderRule};
+use platewash::planner::scenario::OnFailure;
 
 pub fn add(edits: &mut Edits) {
     let mut words = |what, apply| edits.harmless(Kind::Words, what, apply);
     words("name", |p| p.scenario.name = "renamed".into());
     words("seed", |p| p.scenario.seed += 1);
-    words("rule of the order", |p| p.scenario.job.order = OrderRule::Given);
     words("what failure leads to", |p| {
         p.scenario.job.on_failure = OnFailure::Report
     });
@@ -17,12 +16,6 @@ pub fn add(edits: &mut Edits) {
     });
     words("waypoints of the paper's program", |p| p.scenario.wash.points += 1);
     words("control", |p| p.scenario.control.dt_s *= 2.0);
-    words("the plate of the return", |p| {
-        p.segments.last_mut().unwrap().plate = p.order[0]
-    });
-    words("the plate of the return in the tool path", |p| {
-        p.tool_path.last_mut().unwrap().plate = p.order[1]
-    });
     let mut rounding = |what, apply| edits.harmless(Kind::Rounding, what, apply);
     rounding("positions", |p| {
         p.knots.q_rad.iter_mut().for_each(|q| q.apply(|v| *v = rounded(*v)))

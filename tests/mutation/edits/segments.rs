@@ -6,6 +6,7 @@ use platewash::Plan;
 use platewash::planner::certificate::PromiseName::{
     EveryPlateOnce, LineDeviation, RestAtWashEnds, Segments, StrokeDeviation,
 };
+use platewash::planner::scenario::OrderRule;
 use platewash::planner::tool_path::SegmentKind::{Approach, Retreat, Transition, Wash};
 
 pub fn add(edits: &mut Edits) {
@@ -24,6 +25,12 @@ fn list(edits: &mut Edits) {
         p.segments[next].t_start_s = gone.t_start_s;
     });
     fails("the last dropped", |p| _ = p.segments.pop());
+    fails("the plate of the return", |p| {
+        p.segments.last_mut().unwrap().plate = p.order[0]
+    });
+    fails("the plate of the return in the tool path", |p| {
+        p.tool_path.last_mut().unwrap().plate = p.order[1]
+    });
     fails("all dropped", |p| p.segments.clear());
     fails("one doubled", |p| p.segments.insert(2, p.segments[2]));
     fails("two exchanged", |p| p.segments.swap(2, 3));
@@ -99,5 +106,8 @@ fn order(edits: &mut Edits) {
     fails("one too many", &[Segments, EveryPlateOnce], |p| p.order.push(0));
     fails("no such plate", &[Segments, EveryPlateOnce], |p| p.order[3] = 7);
     fails("one missing", &[Segments, EveryPlateOnce], |p| _ = p.order.pop());
+    fails("another than is given", &[EveryPlateOnce], |p| {
+        p.scenario.job.order = OrderRule::Given
+    });
     fails("none", &[Segments, EveryPlateOnce], |p| p.order.clear());
 }

@@ -153,10 +153,11 @@ fn consistent(edits: &mut Edits) {
     edits.sampled(Kind::ToolPath, "a lift a hair higher, asked and stated", |p| {
         restate(p, |p| p.scenario.wash.lift_m += 1e-5);
     });
-    edits.sampled(Kind::ToolPath, "a hair off the plates, asked and stated", |p| {
+    let mut off = |what, apply| edits.fails(Kind::ToolPath, what, &[ToolPath], apply);
+    off("a hair off the plates, asked and stated", |p| {
         restate(p, |p| p.scenario.wash.height_m += 1e-5);
     });
-    edits.sampled(Kind::ToolPath, "off the plates, asked and stated", |p| {
+    off("off the plates, asked and stated", |p| {
         restate(p, |p| p.scenario.wash.height_m += 3e-4);
     });
 }

@@ -19,7 +19,7 @@ fn follows(list: &[(SegmentKind, usize)], order: &[usize]) -> bool {
         && list.iter().enumerate().all(|(i, (kind, plate))| {
             let expected = match (i, i % 4) {
                 (0, _) => SegmentKind::Depart,
-                (i, _) if i == last => return *kind == SegmentKind::Return,
+                (i, _) if i == last => return *kind == SegmentKind::Return && order.last() == Some(plate),
                 (_, 0) => SegmentKind::Transition,
                 (_, 1) => SegmentKind::Approach,
                 (_, 2) => SegmentKind::Wash,

@@ -176,6 +176,7 @@ pub(super) fn promise(limit_m: f64, lines: &[PairBound]) -> Promise {
             ..Worst::default()
         }),
         discrepancies: Vec::new(),
+        more_discrepancies: 0,
     }
 }
 

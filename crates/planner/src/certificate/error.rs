@@ -5,7 +5,8 @@ use crate::coverage::CoverageError;
 use crate::robot::RobotError;
 use crate::scenario::ScenarioError;
 use crate::trajectory::KnotError;
-use crate::words::counted;
+use crate::words::{counted, printable};
+use platewash_kinematics::words::told_apart;
 
 /// Why a plan cannot be judged at all; a plan that breaks its promises is no error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -15,7 +16,7 @@ pub enum VerifyError {
     #[error(transparent)]
     Robot(#[from] RobotError),
     /// The plan is about an arm that is not built in, and none was given.
-    #[error("the plan is for the arm of \"{file}\"; give its description")]
+    #[error("the plan is for the arm of \"{}\"; give its description", printable(.file))]
     NoDescription {
         /// File name of the description.
         file: String,
@@ -27,13 +28,23 @@ pub enum VerifyError {
     #[error("{0}")]
     Knots(KnotError),
     /// Fewer than two knots.
-    #[error("{found} knots; a motion has at least 2")]
+    #[error("{}; a motion has at least 2", counted(*.found, "knot"))]
     NoMotion {
         /// Knots found.
         found: usize,
     },
+    /// A piece of the motion is so short that its cubic cannot be computed.
+    #[error("the piece from knot {piece} to knot {} lasts {length_s:.3e} s; the shortest that can be judged lasts {least_s:e} s", .piece + 1)]
+    TooShort {
+        /// Index of the piece, and of the knot that it starts from.
+        piece: usize,
+        /// How long it lasts \[s\].
+        length_s: f64,
+        /// How long it must last \[s\].
+        least_s: f64,
+    },
     /// A joint turns so far that its sine means nothing any more.
-    #[error("joint {} gets to {position_rad:e} rad; no more than ±{most_rad} rad can be judged", .joint + 1)]
+    #[error("joint {} gets to {} rad; no more than ±{most_rad} rad can be judged", .joint + 1, far(*.position_rad, *.most_rad))]
     TurnsTooFar {
         /// Joint index, 0 for joint 1.
         joint: usize,
@@ -72,6 +83,16 @@ pub enum VerifyError {
     /// Coverage cannot be measured.
     #[error("coverage: {0}")]
     Coverage(CoverageError),
+}
+
+/// An angle \[rad\] beyond a limit, as many digits as tell them apart.
+fn far(position_rad: f64, most_rad: f64) -> String {
+    const WRITTEN_OUT: f64 = 1e6;
+    if position_rad < WRITTEN_OUT {
+        let [far, _] = told_apart(position_rad, most_rad, 1);
+        return far;
+    }
+    format!("{position_rad:.3e}")
 }
 
 // The messages above hold those of their causes, which are therefore not told again as sources.

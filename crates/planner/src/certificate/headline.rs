@@ -1,44 +1,52 @@
 //! The certificate's verdict in one line.
 
 use super::{Certificate, CertificateVerdict, Promise, Status};
+use crate::words::counted;
 
-/// The first line: certified or not, what is waived, for which scenario, and what is not kept.
+/// The first line: certified or not, for which scenario, what is not kept, and what is waived.
 pub(super) fn headline(certificate: &Certificate) -> String {
-    let verdict = match certificate.verdict {
-        CertificateVerdict::Pass => "CERTIFIED",
-        CertificateVerdict::Fail => "NOT CERTIFIED",
-    };
     let (scenario, duration_s) = (certificate.scenario.escape_debug(), certificate.duration_s);
-    let waived = but_for(certificate);
-    let broken = not_kept(certificate).map_or_else(String::new, |broken| format!("; not kept: {broken}"));
-    format!("{verdict}{waived}: {scenario}, {duration_s:.3} s{broken}")
+    match not_kept(certificate) {
+        None => format!("CERTIFIED{}: {scenario}, {duration_s:.3} s", but_for(certificate)),
+        Some(broken) => format!(
+            "NOT CERTIFIED: {scenario}, {duration_s:.3} s; not kept: {broken}{}",
+            and_waived(certificate)
+        ),
+    }
 }
 
-/// What a verdict must not be read without: the promises that are waived, by whom, and the first case of each.
+/// What a verdict that passes must not be read without: the promises that are waived, by whom, and the first case of each.
 #[must_use]
 pub(crate) fn but_for(certificate: &Certificate) -> String {
-    let exempt = certificate.promises.iter().filter(|p| p.status == Status::Exempt);
-    let each: Vec<_> = exempt.map(waived).collect();
-    if each.is_empty() {
-        return String::new();
-    }
-    format!(" BUT FOR {} (waived by layout.overlap = \"report\")", each.join("; "))
+    waived(certificate).map_or_else(String::new, |waived| {
+        format!(" BUT FOR {waived} (waived by layout.overlap = \"report\")")
+    })
 }
 
-fn waived(promise: &Promise) -> String {
+/// The same at the end of a verdict that fails, where "but for" would read as if the rest were kept.
+#[must_use]
+pub(crate) fn and_waived(certificate: &Certificate) -> String {
+    waived(certificate).map_or_else(String::new, |waived| {
+        format!("; waived by layout.overlap = \"report\": {waived}")
+    })
+}
+
+fn waived(certificate: &Certificate) -> Option<String> {
+    let exempt = certificate.promises.iter().filter(|p| p.status == Status::Exempt);
+    let each: Vec<_> = exempt.map(cases).collect();
+    (!each.is_empty()).then(|| each.join("; "))
+}
+
+/// A promise with the first case against it, and how many more there are.
+fn cases(promise: &Promise) -> String {
     let name = promise.name.words();
-    match &promise.discrepancies[..] {
-        [] => name.to_owned(),
-        [first] => format!("{name}, {} {}", first.what, first.stated),
-        [first, others @ ..] => {
-            let cases = if others.len() == 1 { "case" } else { "cases" };
-            format!(
-                "{name}, {} {} and {} more {cases}",
-                first.what,
-                first.stated,
-                others.len()
-            )
-        }
+    let Some((first, others)) = promise.discrepancies.split_first() else {
+        return name.to_owned();
+    };
+    let first = format!("{name}, {} {}", first.what, first.stated);
+    match others.len() + promise.more_discrepancies {
+        0 => first,
+        more => format!("{first} and {}", counted(more, "more case")),
     }
 }
 

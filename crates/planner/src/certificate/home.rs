@@ -50,7 +50,7 @@ pub(super) fn rest_at_wash_ends(plan: &Plan, schedule: &Schedule) -> Promise {
             let qd = plan.knots.qd_rad_s[knot];
             if qd.amax() > THERE {
                 wrong.push(Discrepancy::new(
-                    format!("speeds at {} s", plan.knots.t_s[knot]),
+                    format!("speeds at {:.4} s", plan.knots.t_s[knot]),
                     list(&qd),
                     "rest",
                 ));

@@ -69,6 +69,10 @@ use watch::Watch;
 /// How far joints may turn for their sines to be right (see [`platewash_kinematics::trig`]) \[rad\].
 const MOST_TURN_RAD: f64 = 1e4;
 
+/// The shortest piece whose cubic can be computed \[s\]. A joint that keeps within [`MOST_TURN_RAD`] is no faster than some 10⁵ rad over
+/// the piece's length, and what is divided by its cube stays below 10¹⁰⁰, whose squares are numbers.
+const SHORTEST_S: f64 = 1e-30;
+
 /// How far a bound of a deviation may be above the worst one found, as a part of the tolerance.
 const DEVIATION_RESOLUTION: f64 = 0.02;
 
@@ -152,6 +156,7 @@ pub fn verify(plan: &Plan, robot: &RobotModel) -> Result<Certificate, VerifyErro
     check_sizes(plan)?;
     plan.scenario.validate()?;
     let pieces = piece::pieces(&plan.knots)?;
+    check_lengths(&pieces)?;
     let timeline = Timeline::new(&pieces);
     check_turns(&pieces, &timeline, plan.knots.t_s.len())?;
     let scenario = &plan.scenario;
@@ -248,6 +253,18 @@ fn check_sizes(plan: &Plan) -> Result<(), VerifyError> {
     };
     match plan.plates.iter().position(|p| !fits(p)) {
         Some(plate) => Err(VerifyError::NoPlate { plate }),
+        None => Ok(()),
+    }
+}
+
+/// Time divides, squared and cubed.
+fn check_lengths(pieces: &[Piece]) -> Result<(), VerifyError> {
+    match pieces.iter().position(|piece| piece.length_s < SHORTEST_S) {
+        Some(piece) => Err(VerifyError::TooShort {
+            piece,
+            length_s: pieces[piece].length_s,
+            least_s: SHORTEST_S,
+        }),
         None => Ok(()),
     }
 }

@@ -230,6 +230,14 @@ pub struct Promise {
     /// What does not agree, for promises about statements.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub discrepancies: Vec<Discrepancy>,
+    /// How many more there are, beyond those listed.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub more_discrepancies: usize,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // as serde asks for it
+fn is_none(count: &usize) -> bool {
+    *count == 0
 }
 
 /// Discrepancies that one promise lists; more would help nobody.
@@ -258,6 +266,7 @@ impl Promise {
         } else {
             Status::Fail
         };
+        let more_discrepancies = discrepancies.len().saturating_sub(MOST_DISCREPANCIES);
         discrepancies.truncate(MOST_DISCREPANCIES);
         Self {
             name,
@@ -265,6 +274,7 @@ impl Promise {
             measure: None,
             worst: Worst::default(),
             discrepancies,
+            more_discrepancies,
         }
     }
 
@@ -283,6 +293,7 @@ impl Promise {
             measure: Some(measure),
             worst,
             discrepancies: Vec::new(),
+            more_discrepancies: 0,
         }
     }
 
@@ -294,6 +305,7 @@ impl Promise {
             measure: None,
             worst: Worst::default(),
             discrepancies: Vec::new(),
+            more_discrepancies: 0,
         }
     }
 }

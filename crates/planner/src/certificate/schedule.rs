@@ -7,6 +7,7 @@ use super::piece::Piece;
 use super::promise::Discrepancy;
 use crate::plan::Plan;
 use crate::tool_path::SegmentKind;
+use crate::words::counted;
 use std::ops::Range;
 
 /// The segments by their pieces, in time order.
@@ -105,14 +106,13 @@ fn kinds(plan: &Plan) -> Vec<Discrepancy> {
         ("tool_path", plan.tool_path.iter().map(|s| (s.kind, s.plate)).collect()),
     ] {
         if found.len() != expected.len() {
-            let asked = format!("{} for {} plates", expected.len(), plan.order.len());
+            let asked = format!("{} for {}", expected.len(), counted(plan.order.len(), "plate"));
             wrong.push(Discrepancy::new(format!("length of {list}"), found.len(), asked));
         }
-        // A return leads to no plate; whichever it names is right.
-        let differ = |(found, expected): (&(SegmentKind, usize), &(SegmentKind, usize))| {
-            found.0 != expected.0 || (found.1 != expected.1 && found.0 != SegmentKind::Return)
-        };
-        let first = found.iter().zip(&expected).position(differ);
+        let first = found
+            .iter()
+            .zip(&expected)
+            .position(|(found, expected)| found != expected);
         if let Some(i) = first {
             let say = |(kind, plate): (SegmentKind, usize)| format!("{} of plate {plate}", kind.name());
             wrong.push(Discrepancy::new(

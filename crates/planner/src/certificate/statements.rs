@@ -7,9 +7,10 @@ use super::neighbours;
 use super::promise::{Discrepancy, Promise, PromiseName, Status};
 use crate::clearance::ClearanceModel;
 use crate::plan::{Plan, PlanLimits, TipPose, Tolerances};
-use crate::scenario::{Overlap, Program};
+use crate::scenario::{OrderRule, Overlap, Program};
 use crate::stroke::Stroke;
 use crate::tool_path::{Segment, SegmentKind, Shape};
+use crate::words::millimetres;
 use platewash_kinematics::{AXES, RobotModel};
 use serde::Serialize;
 use serde_json::Value;
@@ -80,6 +81,14 @@ fn plates(plan: &Plan) -> Vec<Discrepancy> {
                 wrong.push(Discrepancy::new(format!("plates[{i}].{field}"), stated, expected));
             }
         }
+        let underside_m = plate.z_m - plate.thickness_m;
+        if underside_m < -PLACE_M {
+            wrong.push(Discrepancy::new(
+                format!("height of the underside of plate {i} over the floor"),
+                millimetres(underside_m),
+                "none below 0",
+            ));
+        }
         let given = section.positions_m.as_ref().and_then(|all| all.get(i));
         if let Some(given) = given.filter(|given| **given != [plate.x_m, plate.y_m]) {
             let stated = format!("{:?}", [plate.x_m, plate.y_m]);
@@ -148,6 +157,10 @@ fn washed_once(plan: &Plan) -> Vec<Discrepancy> {
             Some(times) => *times += 1,
             None => wrong.push(Discrepancy::new(format!("order[{i}]"), plate, "the index of a plate")),
         }
+        if plan.scenario.job.order == OrderRule::Given && plate != i {
+            let asked = format!("{i}, as job.order = \"given\" asks");
+            wrong.push(Discrepancy::new(format!("order[{i}]"), plate, asked));
+        }
     }
     let times = washed.iter().enumerate().filter(|(_, times)| **times != 1);
     wrong.extend(
@@ -157,9 +170,11 @@ fn washed_once(plan: &Plan) -> Vec<Discrepancy> {
 }
 
 /// Each segment's shape against the scenario and its plate. The angle at which a stroke leaves the centre is free,
-/// within a turn.
+/// within a turn. The scenario must ask for a sponge that touches.
 fn tool_path(plan: &Plan) -> Vec<Discrepancy> {
-    let mut wrong = Vec::new();
+    let off = plan.scenario.height_off_contact_m();
+    let off = off.map(|height_m| Discrepancy::new("scenario.wash.height_m", height_m, "0, so that the sponge touches"));
+    let mut wrong: Vec<_> = off.into_iter().collect();
     let mut start_angle = 0.0;
     for (i, segment) in plan.tool_path.iter().enumerate() {
         if let Some(Segment {

@@ -1,8 +1,8 @@
 //! A certificate as a table to read.
 
 use super::{Certificate, Measure, PairBound, PairRule, PlateCoverage, Promise, Sense, Status, Unit, Worst};
-use crate::words::millimetres;
-use platewash_kinematics::words::told_apart;
+use crate::words::counted;
+use platewash_kinematics::words::{decimals_down, decimals_up, told_apart};
 use std::fmt;
 
 /// Pairs that a table lists where it is not asked for all.
@@ -98,17 +98,17 @@ fn pairs(f: &mut fmt::Formatter<'_>, all: &[PairBound], shown: PairsShown) -> fm
     tightest.iter().try_for_each(|line| pair_row(f, line))?;
     let broken = rest.iter().filter(|line| !line.status.is_kept()).count();
     if broken > 0 {
-        writeln!(
-            f,
-            "  {broken} of the {} other pairs do not keep clear either",
-            rest.len()
-        )?;
+        let (other, do_not) = (
+            counted(rest.len(), "other pair"),
+            if broken == 1 { "does" } else { "do" },
+        );
+        writeln!(f, "  {broken} of {other} {do_not} not keep clear either")?;
     } else if let Some(at_least) = rest.first().and_then(|line| line.at_least_m) {
         writeln!(
             f,
-            "  {} other pairs, never nearer than {:.2} mm",
-            rest.len(),
-            1e3 * at_least
+            "  {}, never nearer than {} mm",
+            counted(rest.len(), "other pair"),
+            decimals_down(1e3 * at_least, 2)
         )?;
     }
     let exempt = all.iter().filter(|line| line.rule == PairRule::Exempt);
@@ -134,26 +134,32 @@ fn row(f: &mut fmt::Formatter<'_>, promise: &Promise) -> fmt::Result {
         );
         writeln!(f, "  found: {seen} {unit}")?;
     }
-    promise.discrepancies.iter().try_for_each(|d| writeln!(f, "  - {d}"))
+    promise.discrepancies.iter().try_for_each(|d| writeln!(f, "  - {d}"))?;
+    match promise.more_discrepancies {
+        0 => Ok(()),
+        more => writeln!(f, "  … and {more} more"),
+    }
 }
 
 fn plate_row(f: &mut fmt::Formatter<'_>, plate: &PlateCoverage) -> fmt::Result {
-    let percent = 100.0 * plate.at_least;
+    let percent = decimals_down(100.0 * plate.at_least, 3);
     let tilt = crate::trig::acos(plate.cos_tilt.clamp(0.0, 1.0)).to_degrees();
+    let tilt = decimals_up(tilt, 2);
     let reach = plate
         .beyond_rim_m
-        .map_or("nobody knows how far".to_owned(), millimetres);
-    let allowed = millimetres(plate.beyond_rim_allowed_m);
+        .map_or("nobody knows how far beyond the rim".to_owned(), beyond_rim);
+    let allowed_m = plate.beyond_rim_allowed_m;
+    let allowed = format!("{:.2} mm {}", 1e3 * allowed_m.abs(), side(allowed_m));
     writeln!(
         f,
-        "  plate {:<4} {percent:>8.3} %  with the tool at most {tilt:.2}° from the normal, {reach} beyond the rim (allowed {allowed})",
+        "  plate {:<4} {percent:>8} %  with the tool at most {tilt}° from the normal, {reach} (allowed: {allowed})",
         plate.plate
     )?;
     plate.touches.iter().try_for_each(|touched| {
-        let depth = millimetres(touched.depth_m);
+        let depth = decimals_up(1e3 * touched.depth_m, 2);
         writeln!(
             f,
-            "             there it may touch plate {}, up to {depth} over its rim",
+            "             there it may touch plate {}, up to {depth} mm over its rim",
             touched.plate
         )
     })
@@ -169,13 +175,51 @@ fn numbers(measure: &Measure) -> (String, String, &'static str) {
     let limit = measure.limit * scale;
     let told = measure.bound.map(|bound| {
         if measure.keeps(bound) {
-            [bound * scale, limit].map(|v| format!("{v:.4}"))
+            [kept(bound * scale, limit, measure.sense), format!("{limit:.4}")]
         } else {
             told_apart(bound * scale, limit, 4)
         }
     });
     let [bound, limit] = told.unwrap_or_else(|| ["none".to_owned(), format!("{limit:.4}")]);
     (bound, format!("{sign} {limit}"), unit)
+}
+
+/// A bound that keeps its limit: no more is said than is proved, but where that would read as if the limit were not kept.
+fn kept(bound: f64, limit: f64, sense: Sense) -> String {
+    let as_read = |v: &str| v.parse::<f64>().unwrap_or(f64::NAN);
+    let limit = format!("{limit:.4}");
+    let (told, beyond) = match sense {
+        Sense::AtMost => {
+            let told = decimals_up(bound, 4);
+            let beyond = as_read(&told) > as_read(&limit);
+            (told, beyond)
+        }
+        Sense::AtLeast | Sense::Above => {
+            let told = decimals_down(bound, 4);
+            let beyond = as_read(&told) < as_read(&limit);
+            (told, beyond)
+        }
+    };
+    if beyond { limit } else { told }
+}
+
+/// A reach beyond a rim, at most; one that is negative ends within it.
+fn beyond_rim(reach_m: f64) -> String {
+    let reach_mm = 1e3 * reach_m;
+    let told = if reach_m < 0.0 {
+        decimals_down(-reach_mm, 2)
+    } else {
+        decimals_up(reach_mm, 2)
+    };
+    format!("{told} mm {}", side(reach_m))
+}
+
+fn side(reach_m: f64) -> &'static str {
+    if reach_m < 0.0 {
+        "inside the rim"
+    } else {
+        "beyond the rim"
+    }
 }
 
 /// Factor and unit in which people read a quantity.
@@ -223,7 +267,7 @@ fn pair_row(f: &mut fmt::Formatter<'_>, line: &PairBound) -> fmt::Result {
             plates.join(", ")
         );
     }
-    let mm = |v: Option<f64>| v.map_or("none".to_owned(), |v| format!("{:.2}", 1e3 * v));
+    let mm = |v: Option<f64>| v.map_or("none".to_owned(), |v| decimals_down(1e3 * v, 2));
     let time = line.time_s.map_or(String::new(), |t| format!("at {t:.3} s"));
     let (bound, status) = (mm(line.at_least_m), word(line.status));
     writeln!(f, "  {pair:<26} {bound:>9} mm  {status:<10} {time}")

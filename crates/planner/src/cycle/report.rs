@@ -65,10 +65,10 @@ impl CycleReport {
     }
 }
 
-/// Share of a plate from which on it counts as washed whole in words.
-const WHOLE: f64 = 0.995;
+/// Share of a plate from which on it counts as washed whole in words: nothing but rounding is missing.
+const WHOLE: f64 = 1.0 - 1e-9;
 
-/// The first line: what is proved and what is waived, or which promises are not kept.
+/// The first line: what is proved but for what is waived, or which promises are not kept, and what is waived besides.
 fn headline(plates: usize, duration_s: f64, certificate: &Certificate) -> String {
     let covered = certificate
         .coverage
@@ -76,10 +76,11 @@ fn headline(plates: usize, duration_s: f64, certificate: &Certificate) -> String
         .map(|plate| plate.at_least)
         .fold(1.0, f64::min);
     let plates = counted(plates, "plate");
-    let waived = headline::but_for(certificate);
     if let Some(what) = headline::not_kept(certificate) {
-        return format!("NOT PROVED{waived}: a plan for {plates} in {duration_s:.2} s does not keep {what}");
+        let waived = headline::and_waived(certificate);
+        return format!("NOT PROVED: a plan for {plates} in {duration_s:.2} s does not keep {what}{waived}");
     }
+    let waived = headline::but_for(certificate);
     // Rounded down: no more is said than is proved.
     let share = if covered >= WHOLE {
         "washed whole".to_owned()

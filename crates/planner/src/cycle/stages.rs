@@ -47,8 +47,7 @@ impl<'a> Stages<'a> {
         if scenario.tool.length_m <= 0.0 {
             return Err(CycleError::NoTool);
         }
-        let height_m = scenario.wash.height_m;
-        if height_m != 0.0 {
+        if let Some(height_m) = scenario.height_off_contact_m() {
             return Err(CycleError::NoContact { height_m });
         }
         let homes = scenario.homes();

@@ -26,6 +26,13 @@ impl Scenario {
         }
     }
 
+    /// The height of the tip over the plates while it washes \[m\], where that keeps a certified job's sponge from touching them: it must be 0.
+    #[must_use]
+    pub(crate) fn height_off_contact_m(&self) -> Option<f64> {
+        let height_m = self.wash.height_m;
+        (self.job.program == Program::Certified && height_m != 0.0).then_some(height_m)
+    }
+
     /// Refuses what no certified job can be planned or proved with, by its key.
     pub(super) fn check_certified(&self) -> Result<(), Problem> {
         if self.job.program != Program::Certified {

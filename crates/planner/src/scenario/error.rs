@@ -1,5 +1,7 @@
 //! Why a scenario was refused.
 
+use crate::words::printable;
+
 /// What is wrong with a scenario.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -15,7 +17,7 @@ pub enum Problem {
     #[error("is longer than {limit} bytes, the most that are read")]
     TooLarge { limit: u64 },
     /// Not TOML.
-    #[error("is not valid TOML: {detail}")]
+    #[error("is not valid TOML: {}", printable(.detail))]
     Syntax { detail: String },
     /// A key that does not exist.
     #[error("unknown key '{key}'{}", hint(.nearest.as_deref()))]
@@ -34,7 +36,7 @@ pub enum Problem {
 
 /// A scenario that was refused: where and why.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("scenario {source_name}{}: {problem}", line_text(*.line))]
+#[error("scenario {}{}: {problem}", printable(.source_name), line_text(*.line))]
 pub struct ScenarioError {
     /// The file or shipped name.
     pub source_name: String,

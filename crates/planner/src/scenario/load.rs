@@ -4,6 +4,7 @@ use super::keys::{Domain, KEYS, Key};
 use super::shipped::SHIPPED;
 use super::{MAX_SEED, OrderRule, Problem, Program, Scenario, ScenarioError};
 use crate::control::NotKinematic;
+use crate::words::printable;
 use platewash_kinematics::urdf::file::{self, FileError};
 use platewash_kinematics::words::rounded;
 use std::path::Path;
@@ -308,18 +309,6 @@ fn describe(value: &DeValue<'_>) -> String {
         }
         DeValue::Table(_) => "a section".to_owned(),
     }
-}
-
-/// The text with control characters written out, so that a terminal does not obey them.
-fn printable(text: &str) -> String {
-    let written = |c: char| {
-        if c.is_control() {
-            c.escape_default().to_string()
-        } else {
-            c.to_string()
-        }
-    };
-    text.chars().map(written).collect()
 }
 
 pub(super) fn error(source_name: &str, line: Option<usize>, problem: Problem) -> ScenarioError {

@@ -199,7 +199,9 @@ fn how_far_the_sponge_reaches_beyond_each_rim_is_shown_and_held() {
         assert!(swept.touches.is_empty());
     }
     assert!(
-        certificate.to_string().contains("3.0 mm beyond the rim"),
+        certificate
+            .to_string()
+            .contains("3.01 mm beyond the rim (allowed: 3.20 mm beyond the rim)"),
         "{certificate}"
     );
     // One knot moved outwards on the ring.
@@ -339,6 +341,10 @@ fn segments_are_complete_and_in_order() {
     breaks_at_least(&[Segments], |p| p.segments.insert(2, p.segments[2]));
     breaks_at_least(&[Segments], |p| p.segments[2].kind = SegmentKind::Transition);
     breaks_at_least(&[Segments], |p| p.segments[2].plate = 1);
+    breaks_at_least(&[Segments], |p| {
+        p.segments.last_mut().unwrap().plate = 1_000_000_000_000_000
+    });
+    breaks_at_least(&[Segments], |p| p.tool_path.last_mut().unwrap().plate = 0);
     breaks_at_least(&[Segments], |p| p.segments[2].t_end_s += 1e-6);
     breaks_at_least(&[Segments], |p| p.segments[4].t_start_s -= 1e-6);
     breaks_at_least(&[Segments], |p| p.segments.last_mut().unwrap().t_end_s = 1e300);
