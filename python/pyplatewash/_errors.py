@@ -120,7 +120,7 @@ class PlanNotFoundError(PlanAccessError, FileNotFoundError):
 class LayoutError(PlatewashError):
     """The plates could not be placed."""
 
-    #: ``"no_room"`` or ``"empty_region"``.
+    #: ``"no_room"`` (no arrangement holds so many), ``"not_found"`` (no layout was found; there may be one) or ``"empty_region"``.
     cause: str | None = None
     #: Plates asked for.
     count: int | None = None

@@ -10,7 +10,7 @@ use super::{output, results, simulate};
 use platewash::planner::certificate::{self, PairsShown};
 use platewash::planner::csv::MotionTable;
 use platewash::planner::cycle::{CycleReport, InfeasibleReport};
-use platewash::simulator::simulate::table;
+use platewash::simulator::simulate::{PlateVerdict, table};
 use platewash::{Cycle, Scenario, Setup, SimulationReport, SimulationVerdict};
 use serde::Serialize;
 
@@ -62,7 +62,16 @@ impl Simulated {
     fn first_line(&self) -> Option<String> {
         match self {
             Self::Done(report) if report.verdict == SimulationVerdict::Washed => None,
-            Self::Done(report) => Some(format!("NOT WASHED under {}", report.law.name())),
+            Self::Done(report) => {
+                let overload = report.payload.overload().map(|words| format!("OVERLOADED: {words}"));
+                let leaves_one = report
+                    .plates
+                    .iter()
+                    .any(|plate| plate.verdict == PlateVerdict::NotWashed);
+                let not_washed =
+                    (overload.is_none() || leaves_one).then(|| format!("NOT WASHED under {}", report.law.name()));
+                Some(overload.into_iter().chain(not_washed).collect::<Vec<_>>().join("; "))
+            }
             Self::Refused { .. } => Some("NOT SIMULATED".to_owned()),
         }
     }

@@ -52,7 +52,7 @@ pub fn simulated(verdicts: impl IntoIterator<Item = SimulationVerdict>, on_failu
     for verdict in verdicts {
         match verdict {
             SimulationVerdict::Washed => outcome = Outcome::Good,
-            SimulationVerdict::NotWashed => (),
+            SimulationVerdict::NotWashed | SimulationVerdict::Overloaded => (),
             SimulationVerdict::Altered => return Outcome::NotVerified.answer(),
         }
     }

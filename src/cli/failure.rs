@@ -56,6 +56,11 @@ impl Failure {
         }
     }
 
+    /// What the planner said, where it was the planner.
+    pub fn of_planner(&self) -> Option<&PlanError> {
+        self.error.downcast_ref()
+    }
+
     /// Prints the message; the exit code.
     pub fn report(&self) -> ExitCode {
         // Nothing is left to do when standard error is closed.

@@ -6,7 +6,9 @@ use super::options::Options;
 use super::output::{self, Reader};
 use super::robot;
 use clap::Args;
+use platewash::kinematics::LimitViolation;
 use platewash::kinematics::jacobian::manipulability;
+use platewash::kinematics::words::{fixed, not_as_zero};
 use platewash::planner::job;
 use platewash::{Axes, ClearanceModel, JointVector, PairClearance, PlanError, Pose, RobotModel, ToolFrame};
 use serde::Serialize;
@@ -35,6 +37,7 @@ struct Configuration {
     q_rad: JointVector,
     q_deg: JointVector,
     within_limits: bool,
+    beyond_limits: Vec<LimitViolation>,
     limit_margins_rad: JointVector,
     manipulability: f64,
     frames: BTreeMap<String, FramePose>,
@@ -118,6 +121,7 @@ fn configuration(robot: &RobotModel, clearance: &ClearanceModel, q: &JointVector
         q_rad: *q,
         q_deg: q.map(f64::to_degrees),
         within_limits: robot.limits().contain(q),
+        beyond_limits: robot.limits().violations(q),
         limit_margins_rad: robot.limits().margins(q),
         manipulability: manipulability(&poses.jacobian(&robot.mounting_frame(), Axes::Base)),
         frames,
@@ -128,23 +132,23 @@ fn configuration(robot: &RobotModel, clearance: &ClearanceModel, q: &JointVector
 fn text(c: &Configuration) -> String {
     let mut text = both_units(&c.q_rad);
     // Writing to a String cannot fail.
-    let _ = writeln!(
-        text,
-        "within limits: {}; manipulability {:.3e}",
-        if c.within_limits { "yes" } else { "NO" },
-        c.manipulability
-    );
+    let within = if c.within_limits { "yes" } else { "NO" };
+    let _ = writeln!(text, "within limits: {within}; manipulability {:.3e}", c.manipulability);
+    for beyond in &c.beyond_limits {
+        let by = not_as_zero((beyond.position_rad - beyond.limit_rad).abs().to_degrees(), 2);
+        let _ = writeln!(text, "  {beyond}, by {by}°");
+    }
     let _ = writeln!(
         text,
         "\n{:<14} {:>28}   {:>27}   {:>25}",
         "frame", "position, mm", "roll, pitch, yaw, deg", "rad"
     );
     for (name, pose) in &c.frames {
-        let [x, y, z] = pose.position_m.map(|v| 1e3 * v);
-        let ([r, p, w], [a, b, d]) = (pose.rpy_deg, pose.rpy_rad);
+        let [x, y, z] = pose.position_m.map(|v| fixed(1e3 * v, 3));
+        let ([r, p, w], [a, b, d]) = (pose.rpy_deg.map(|v| fixed(v, 4)), pose.rpy_rad.map(|v| fixed(v, 5)));
         let _ = writeln!(
             text,
-            "{name:<14} {x:>9.3} {y:>9.3} {z:>9.3} {r:>10.4} {p:>9.4} {w:>9.4} {a:>9.5} {b:>8.5} {d:>8.5}"
+            "{name:<14} {x:>9} {y:>9} {z:>9} {r:>10} {p:>9} {w:>9} {a:>9} {b:>8} {d:>8}"
         );
     }
     if let Some(least) = c.clearance.iter().min_by(|a, b| a.distance_m.total_cmp(&b.distance_m)) {
@@ -161,6 +165,9 @@ fn text(c: &Configuration) -> String {
 
 /// Joint positions in degrees and radians, two lines.
 pub fn both_units(q: &JointVector) -> String {
-    let line = |v: &JointVector, digits: usize| v.iter().map(|x| format!(" {x:>12.digits$}")).collect::<String>();
+    let line = |v: &JointVector, digits: usize| {
+        let all = v.iter().map(|x| format!(" {:>12}", fixed(*x, digits)));
+        all.collect::<String>()
+    };
     format!("q, deg {}\nq, rad {}\n", line(&q.map(f64::to_degrees), 6), line(q, 9))
 }

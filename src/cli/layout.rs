@@ -2,17 +2,22 @@
 
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
-use super::output;
+use super::{output, validate};
 use platewash::PlanError;
 use platewash::planner::job;
 use platewash::planner::layout::{Layout, LayoutSource};
+use platewash::planner::words::counted;
 use std::fmt::Write;
 
 /// Places the plates; with `--out`, writes `layout.json`.
 pub fn run(options: &Options) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
-    let layout = job::place_plates(&scenario, &robot).map_err(PlanError::from)?;
+    let placed = job::place_plates(&scenario, &robot).map_err(|error| Failure::from(PlanError::from(error)));
+    if let Err(failure) = &placed {
+        validate::answer_with_reason(options, &scenario, failure)?;
+    }
+    let layout = placed?;
     if let Some(folder) = &options.out {
         let file = folder.join("layout.json");
         output::write_files(&[output::file(file.clone(), output::json(&layout)?)])?;
@@ -24,7 +29,10 @@ pub fn run(options: &Options) -> Result<ExitCode, Failure> {
 
 fn text(layout: &Layout) -> String {
     let mut text = match layout.source {
-        LayoutSource::Sampled { restarts, draws } => format!("sampled, {restarts} restarts, {draws} draws\n"),
+        LayoutSource::Sampled { restarts, draws } => {
+            let (restarts, draws) = (counted(restarts as usize, "restart"), counted(draws as usize, "draw"));
+            format!("sampled, {restarts}, {draws}\n")
+        }
         LayoutSource::Explicit => "given\n".to_owned(),
     };
     // Writing to a String cannot fail.

@@ -52,8 +52,8 @@ struct Arguments {
 enum Verb {
     /// Run a scenario to the end: plan, CSV and report (the default).
     ///
-    /// Owns plan.json, trajectory.csv, executed.csv, certificate.json, report.json and report.txt in the output folder: those
-    /// that it does not write are removed. A job that cannot be done leaves report.json and report.txt, which say why.
+    /// Owns plan.json, trajectory.csv, executed.csv, certificate.json, report.json, report.txt and the files of simulate in the
+    /// output folder: those that it does not write are removed. A job that cannot be done leaves report.json and report.txt, which say why.
     Run(run::RunArguments),
     /// Place the plates of a scenario and say what is wrong with them.
     Layout,
@@ -70,6 +70,9 @@ enum Verb {
     /// code is 0: the first line then says CERTIFIED BUT FOR and what, and JSON lists it as `exempt`.
     Verify(verify::VerifyArguments),
     /// Simulate a plan file under a control law: tracking, torque, and what is really washed.
+    ///
+    /// Writes simulated.csv, simulation.json and simulation.txt to the output folder, and touches no other file there; the next run
+    /// or plan into that folder removes them.
     Simulate(simulate::SimulateArguments),
     /// Simulate a plan file at many frequencies and dampings of a control law.
     Tune(tune::TuneArguments),

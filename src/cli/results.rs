@@ -6,15 +6,21 @@ use super::output::{self, File};
 use anyhow::Context;
 use std::path::{Path, PathBuf};
 
-/// Names in the output folder that belong to `run` and `plan`.
-pub const OWNED: [&str; 6] = [
+/// Names in the output folder that belong to `run` and `plan`, those that `simulate` writes of a plan there included.
+pub const OWNED: [&str; 9] = [
     "plan.json",
     "trajectory.csv",
     "executed.csv",
     "certificate.json",
     "report.json",
     "report.txt",
+    "simulated.csv",
+    "simulation.json",
+    "simulation.txt",
 ];
+
+/// What `simulate` writes: the motion, and the report twice.
+pub const SIMULATED: [&str; 3] = ["simulated.csv", "simulation.json", "simulation.txt"];
 
 /// Writes the files of one call, and removes from the folder those of [`OWNED`] that it does not write. All or nothing, as
 /// [`output::write_files`].

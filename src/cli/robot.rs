@@ -1,5 +1,6 @@
 //! `platewash robot`: the arm as loaded.
 
+use super::angles::Unit;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
@@ -74,20 +75,55 @@ fn joint(robot: &RobotModel, i: usize) -> JointRow {
     }
 }
 
+/// A limit as a number of `decimals` decimals that is inside it when it is typed in: the nearest one, or the next one inwards.
+fn inwards(limit: f64, decimals: usize, unit: Unit, limit_rad: f64, end: End) -> String {
+    let nearest = format!("{limit:.decimals$}");
+    let inside = |text: &str| {
+        let typed_rad = text.parse().map_or(f64::NAN, |angle| unit.to_radians(angle));
+        match end {
+            End::Lower => typed_rad >= limit_rad,
+            End::Upper => typed_rad <= limit_rad,
+        }
+    };
+    if inside(&nearest) {
+        return nearest;
+    }
+    let step = format!("1e-{decimals}").parse().unwrap_or(0.0);
+    let nearest = nearest.parse().unwrap_or(limit);
+    match end {
+        End::Lower => format!("{:.decimals$}", nearest + step),
+        End::Upper => format!("{:.decimals$}", nearest - step),
+    }
+}
+
+/// An end of a joint's range.
+#[derive(Debug, Clone, Copy)]
+enum End {
+    Lower,
+    Upper,
+}
+
 fn text(answer: &Answer) -> String {
     let mut text = format!("{} (URDF SHA-256 {})\n\n", answer.name, answer.urdf_sha256);
     // Writing to a String cannot fail.
     let _ = writeln!(
         text,
-        "{:<12} {:>20} {:>22} {:>10} {:>9}  moves",
+        "{:<12} {:>23} {:>22} {:>10} {:>9}  moves",
         "joint", "limits, deg", "limits, rad", "deg/s", "rad/s"
     );
     for j in &answer.joints {
-        let degrees = format!("{:.2} … {:.2}", j.lower_deg, j.upper_deg);
-        let radians = format!("{:.5} … {:.5}", j.lower_rad, j.upper_rad);
+        let degrees = [
+            (j.lower_deg, j.lower_rad, End::Lower),
+            (j.upper_deg, j.upper_rad, End::Upper),
+        ]
+        .map(|(deg, rad, end)| inwards(deg, 4, Unit::Degrees, rad, end))
+        .join(" … ");
+        let radians = [(j.lower_rad, End::Lower), (j.upper_rad, End::Upper)]
+            .map(|(rad, end)| inwards(rad, 5, Unit::Radians, rad, end))
+            .join(" … ");
         let _ = writeln!(
             text,
-            "{:<12} {degrees:>20} {radians:>22} {:>10.1} {:>9.4}  {}",
+            "{:<12} {degrees:>23} {radians:>22} {:>10.1} {:>9.4}  {}",
             j.name, j.velocity_deg_s, j.velocity_rad_s, j.child
         );
     }

@@ -36,7 +36,8 @@ pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Fail
     let scenario = options.scenario()?;
     let folder = plan::folder(options);
     let csv = plan::csv_file(options, &arguments.plan);
-    let names = results::OWNED.into_iter().filter(|name| *name != "trajectory.csv");
+    let others = |name: &&str| *name != "trajectory.csv" && !results::SIMULATED.contains(name);
+    let names = results::OWNED.into_iter().filter(others);
     results::check_places(&folder, &names.collect::<Vec<_>>(), &csv)?;
     if scenario.job.program == Program::Certified {
         return cycle::run(options, &scenario, arguments);

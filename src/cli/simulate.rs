@@ -5,7 +5,7 @@ use super::options::Options;
 use super::plan_file::PlanFile;
 use super::progress::Progress;
 use super::time_step::TimeStep;
-use super::{exit, output, plan};
+use super::{exit, output, plan, results};
 use anyhow::{Context, ensure};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -14,9 +14,6 @@ use platewash::simulator::{self, Execution, Setup, SimulationError};
 use platewash::{Plan, RobotModel, SimulationReport};
 use std::fmt::Display;
 use std::path::PathBuf;
-
-/// What is written.
-const FILES: [&str; 3] = ["executed.csv", "simulation.json", "simulation.txt"];
 
 /// Arguments of `simulate`.
 #[derive(Debug, Args)]
@@ -60,7 +57,7 @@ impl LawArguments {
 /// Simulates a plan file, judges the execution, and writes it as CSV and the report.
 pub fn run(options: &Options, arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     let folder = plan::folder(options);
-    let places = FILES.map(|name| folder.join(name));
+    let places = results::SIMULATED.map(|name| folder.join(name));
     output::check_places(&places)?;
     let file = PlanFile::read(options, &arguments.plan)?;
     let mut setup = arguments.law.setup(&file.plan);

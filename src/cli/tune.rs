@@ -183,6 +183,7 @@ fn verdict(outcome: &TuneOutcome) -> &'static str {
     match outcome.verdict {
         SimulationVerdict::Washed => "washed",
         SimulationVerdict::NotWashed => "not washed",
+        SimulationVerdict::Overloaded => "overloaded",
         SimulationVerdict::Altered => "altered",
     }
 }

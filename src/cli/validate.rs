@@ -4,11 +4,13 @@ use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
+use platewash::planner::cycle::InfeasibleReport;
 use platewash::planner::job;
 use platewash::planner::layout::{Finding, LayoutError};
 use platewash::planner::scenario::{Overlap, Program, UnitNote};
 use platewash::planner::words::counted;
-use platewash::{Cycle, Layout, PlanError, RobotModel, Scenario};
+use platewash::simulator::simulate::PayloadCheck;
+use platewash::{Cycle, Layout, PlanError, Scenario};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -22,6 +24,8 @@ struct Answer {
     unprovable: Vec<Finding>,
     /// What was probably meant in another unit.
     notes: Vec<UnitNote>,
+    /// That the arm may not carry the tool, by what; `null` where it may, or no payload is known.
+    overload: Option<String>,
     /// What the seed gives, for plates that are sampled.
     sampling: Option<Sampling>,
 }
@@ -34,30 +38,60 @@ struct Sampling {
     outcome: String,
 }
 
+/// A scenario of which nothing can come.
+#[derive(Serialize)]
+struct NotValid {
+    valid: bool,
+    #[serde(flatten)]
+    why: InfeasibleReport,
+}
+
+/// With `--json`, gives what stands against a scenario (exit code 3) as an answer on standard output too.
+pub fn answer_with_reason(options: &Options, scenario: &Scenario, failure: &Failure) -> Result<(), Failure> {
+    let why = failure.of_planner().filter(|_| options.json);
+    if let Some(why) = why.and_then(|error| InfeasibleReport::new(scenario, error)) {
+        output::print(&output::json(&NotValid { valid: false, why })?)?;
+    }
+    Ok(())
+}
+
 /// Checks the scenario, its arm and its plates: given ones are looked over, sampled ones placed with the scenario's seed.
 pub fn run(options: &Options) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
-    let arm = options.arm(&scenario)?;
-    let sampling = if scenario.layout.positions_m.is_none() {
-        Some(sampling(&scenario, &arm)?)
-    } else {
-        None
-    };
-    let (robot, mut findings) = job::check(&scenario)?;
+    let checked = check(options, &scenario);
+    if let Err(failure) = &checked {
+        answer_with_reason(options, &scenario, failure)?;
+    }
+    checked
+}
+
+fn check(options: &Options, scenario: &Scenario) -> Result<ExitCode, Failure> {
+    let arm = options.arm(scenario)?;
+    let mut sampling = None;
+    // What depends on where plates lie is known where they do.
+    let drawn_anew = scenario.layout.only_washable && scenario.layout.positions_m.is_none();
+    let mut drawn = Vec::new();
+    if scenario.layout.positions_m.is_none() {
+        let placed = job::place_plates(scenario, &arm);
+        sampling = Some(Sampling::of(scenario, &placed)?);
+        drawn = placed.map(|layout| layout.findings).unwrap_or_default();
+    }
+    let (robot, mut findings) = job::check(scenario)?;
+    if !drawn_anew {
+        findings.extend(drawn);
+    }
     let mut unprovable = Vec::new();
     scenario.check_work().map_err(|error| options.failure(error.into()))?;
     if scenario.job.program == Program::Certified {
-        // What depends on where plates lie is known where they do.
-        let drawn_anew = scenario.layout.only_washable && scenario.layout.positions_m.is_none();
-        let layout = job::place_plates(&scenario, &robot).ok().filter(|_| !drawn_anew);
+        let layout = job::place_plates(scenario, &robot).ok().filter(|_| !drawn_anew);
         let plates = layout.as_ref().map_or(&[][..], |layout| &layout.plates);
-        Cycle::check(&scenario, &robot, plates)?;
+        Cycle::check(scenario, &robot, plates)?;
         if let Some(layout) = layout {
             findings = layout.findings;
         }
         unprovable = findings
             .iter()
-            .filter(|f| breaks_the_proof(f, &scenario))
+            .filter(|f| breaks_the_proof(f, scenario))
             .cloned()
             .collect();
     }
@@ -69,7 +103,8 @@ pub fn run(options: &Options) -> Result<ExitCode, Failure> {
     let answer = Answer {
         valid: outcome == Outcome::Good,
         notes: scenario.notes().into_iter().chain(UnitNote::of_arm(&robot)).collect(),
-        scenario: scenario.name,
+        overload: PayloadCheck::of(&scenario.tool, &scenario.robot, &robot).overload(),
+        scenario: scenario.name.clone(),
         robot: robot.name().to_owned(),
         unprovable,
         findings,
@@ -85,23 +120,24 @@ fn breaks_the_proof(finding: &Finding, scenario: &Scenario) -> bool {
         && matches!(finding, Finding::PlatesOverlap { .. } | Finding::OverlapsBase { .. })
 }
 
-/// Places the plates as `run` does. That another seed may do better is part of the answer; that none can is an error.
-fn sampling(scenario: &Scenario, robot: &RobotModel) -> Result<Sampling, Failure> {
-    let placed = job::place_plates(scenario, robot);
-    if let Some(proven) = placed.as_ref().err().filter(|e| e.is_proven()) {
-        return Err(PlanError::from(proven.clone()).into());
+impl Sampling {
+    /// What came of placing the plates as `run` does. That another seed may do better is part of the answer; that none can is an error.
+    fn of(scenario: &Scenario, placed: &Result<Layout, LayoutError>) -> Result<Self, Failure> {
+        if let Some(proven) = placed.as_ref().err().filter(|e| e.is_proven()) {
+            return Err(PlanError::from(proven.clone()).into());
+        }
+        Ok(Self {
+            seed: scenario.seed,
+            layout_found: placed.is_ok(),
+            outcome: outcome(placed),
+        })
     }
-    Ok(Sampling {
-        seed: scenario.seed,
-        layout_found: placed.is_ok(),
-        outcome: outcome(&placed),
-    })
 }
 
 fn outcome(placed: &Result<Layout, LayoutError>) -> String {
     match placed {
         Ok(layout) => format!("a layout of {} was found", counted(layout.plates.len(), "plate")),
-        Err(error) => format!("{error}; another seed may do better"),
+        Err(error) => error.to_string(),
     }
 }
 
@@ -115,8 +151,10 @@ fn text(answer: &Answer) -> String {
             format!("NOT VALID, {first} and layout.overlap = \"fail\": no plan for these plates can be proved")
         }
     };
+    let overload = answer.overload.as_ref();
+    let overload = overload.map_or_else(String::new, |words| format!("  - OVERLOADED: {words}\n"));
     format!(
-        "{}: {verdict} (robot {})\n{sampling}{findings}",
+        "{}: {verdict} (robot {})\n{sampling}{findings}{overload}",
         answer.scenario, answer.robot
     )
 }

@@ -7,6 +7,7 @@ use super::plan_file::PlanFile;
 use super::{output, run};
 use clap::Args;
 use platewash::planner::certificate::{self, CertificateVerdict};
+use platewash::planner::scenario::Program;
 use std::path::PathBuf;
 
 /// Arguments of `verify`.
@@ -25,7 +26,13 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, F
     let file = PlanFile::read(options, &arguments.plan)?;
     let certificate = certificate::verify(&file.plan, &file.robot).map_err(|e| file.refused(e))?;
     output::print_either(options.json, &certificate, || {
-        certificate.table(run::pairs(arguments.all_pairs)).to_string()
+        let table = certificate.table(run::pairs(arguments.all_pairs));
+        match file.plan.scenario.job.program {
+            Program::Certified => table.to_string(),
+            Program::Paper => {
+                format!("NOT CERTIFIED: the paper's program has no certificate; of what one says:\n{table}")
+            }
+        }
     })?;
     let outcome = match certificate.verdict {
         CertificateVerdict::Pass => Outcome::Good,

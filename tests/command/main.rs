@@ -1,6 +1,7 @@
 //! The command as a person or a script meets it: results, exit codes, messages, files.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
+mod answers;
 mod arms;
 mod exit_codes;
 mod files;

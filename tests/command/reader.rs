@@ -96,7 +96,7 @@ fn verbs_that_write_files_finish_them_and_end_with_their_verdict() {
     ];
     case(&tune, 4, &["tune.csv"]);
     std::fs::remove_dir_all(dir.join("o")).unwrap();
-    let simulated = ["executed.csv", "simulation.json", "simulation.txt"];
+    let simulated = ["simulated.csv", "simulation.json", "simulation.txt"];
     case(
         &["simulate", "plan.json", "--law", "pd", "--frequency", "15"],
         4,

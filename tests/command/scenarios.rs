@@ -151,12 +151,12 @@ fn bad_scenarios_are_refused_with_line_key_expected_and_found() {
 fn layouts_that_cannot_be_end_soon_with_a_bound() {
     let folder = folder();
     let dir = folder.path();
-    let case = |from: &str, to: &str, fragments: &[&str]| {
+    let case = |from: &str, to: &str, verdict: &str, fragments: &[&str]| {
         let file = scenario(dir, from, to);
         let run = ["run", "--scenario", file.to_str().unwrap()];
         // Its scenario asks for a report; one that asks for failure gets it.
         let ran = platewash(dir, &run).done();
-        assert!(ran.stdout.starts_with("INFEASIBLE: "), "{}", ran.stdout);
+        assert!(ran.stdout.starts_with(&format!("{verdict}: ")), "{}", ran.stdout);
         for fragment in fragments {
             assert!(ran.stdout.contains(fragment), "no {fragment} in {}", ran.stdout);
         }
@@ -168,6 +168,7 @@ fn layouts_that_cannot_be_end_soon_with_a_bound() {
     case(
         "count = 4",
         "count = 1000",
+        "INFEASIBLE",
         &[
             "1000 plates cannot fit",
             "best of 100 random layouts held 5",
@@ -177,20 +178,26 @@ fn layouts_that_cannot_be_end_soon_with_a_bound() {
     case(
         "count = 4",
         "count = 7",
+        "NOT FOUND",
         &[
             "no layout of 7 plates",
             "best of 1001 random layouts held 5",
             "more than 8",
+            "another seed",
+            "layout.min_distance_m",
+            "layout.positions_m",
         ],
     );
     case(
         "region = \"appendix\"",
         "rho_m = [0.3, 0.3000000001]",
+        "INFEASIBLE",
         &["rho_m", "too thin"],
     );
     case(
         "region = \"appendix\"",
         "x_m = [0.0, 0.1]\ny_m = [-0.1, 0.1]",
+        "INFEASIBLE",
         &["base_radius_m"],
     );
     assert_eq!(names(dir), ["case.toml", "out"]);

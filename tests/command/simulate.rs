@@ -22,7 +22,7 @@ fn the_kitchen_survives_computed_torque_and_not_pd() {
     );
     assert_eq!(
         names(&dir.join("ct")),
-        ["executed.csv", "simulation.json", "simulation.txt"]
+        ["simulated.csv", "simulation.json", "simulation.txt"]
     );
     assert_eq!(
         std::fs::read_to_string(dir.join("ct/simulation.txt")).unwrap(),
@@ -62,7 +62,7 @@ fn the_executed_motion_has_the_plans_columns_and_torques() {
         (text.lines().next().unwrap().to_owned(), text.lines().count())
     };
     let (planned, _) = header("trajectory.csv");
-    let (executed, lines) = header("executed.csv");
+    let (executed, lines) = header("simulated.csv");
     assert!(executed.starts_with(&planned), "{executed}");
     assert_eq!(executed.split(',').count(), planned.split(',').count() + 6);
     // 42.7 s in steps of a tenth, the end and the header.

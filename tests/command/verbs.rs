@@ -113,7 +113,13 @@ fn ik_inverts_fk_and_says_why_when_it_cannot() {
 fn robot_shows_limits_frames_and_pairs() {
     let folder = folder();
     let text = platewash(folder.path(), &["robot"]).done().stdout;
-    for expected in ["joint_6", "-400.00 … 400.00", "tool0", "base_link – link_3"] {
+    for expected in [
+        "joint_6",
+        "-400.0001 … 400.0001",
+        "-2.09439 … 2.09439",
+        "tool0",
+        "base_link – link_3",
+    ] {
         assert!(text.contains(expected), "no {expected} in {text}");
     }
     let value = platewash(folder.path(), &["robot", "--json"]).done().json();

@@ -9,7 +9,9 @@ fn a_plan_of_the_papers_program_is_judged_and_not_certified() {
     let ran = platewash(folder.path(), &["verify", "out/plan.json"]);
     assert_eq!(ran.code, 4, "{}", ran.stderr);
     assert!(
-        ran.stdout.starts_with("NOT CERTIFIED: paper-appendix"),
+        ran.stdout.starts_with(
+            "NOT CERTIFIED: the paper's program has no certificate; of what one says:\nNOT CERTIFIED: paper-appendix"
+        ),
         "{}",
         ran.stdout
     );

@@ -142,6 +142,9 @@ def test_plates_without_room_are_an_error_with_numbers() -> None:
     error = caught.value
     assert error.cause == "no_room" and error.most_placed is not None and error.upper_bound is not None
     assert error.most_placed < error.upper_bound < 200
+    with pytest.raises(pw.LayoutError, match="try another seed") as caught:
+        pw.place_plates(pw.Scenario.load("kitchen").replace(seed=5, layout={"count": 5}))
+    assert caught.value.cause == "not_found"
 
 
 def test_findings_come_with_words() -> None:

@@ -124,7 +124,7 @@ def test_an_execution_is_what_the_command_writes(platewash: Path, tmp_path: Path
     report = execution.report()
     # A plan's file knows no negative zeros, which equal the positive ones.
     read = pw.simulate(pw.Plan.load(tmp_path / "plan.json"))
-    assert read == execution and (tmp_path / "executed.csv").read_text() == read.to_csv()
+    assert read == execution and (tmp_path / "simulated.csv").read_text() == read.to_csv()
     assert (tmp_path / "simulation.txt").read_text() == str(report)
     assert report.verdict == "washed" and report.law == execution.setup.law == "computed_torque"
     n = len(execution)

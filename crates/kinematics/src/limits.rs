@@ -60,15 +60,23 @@ impl JointLimits {
     /// The first joint outside its limits (or NaN), if any.
     #[must_use]
     pub fn violation(&self, q: &JointVector) -> Option<LimitViolation> {
-        (0..AXES).find_map(|joint| {
-            let (position_rad, lower, upper) = (q[joint], self.lower[joint], self.upper[joint]);
-            let inside = lower <= position_rad && position_rad <= upper;
-            let limit_rad = if position_rad < lower { lower } else { upper };
-            (!inside).then_some(LimitViolation {
-                joint,
-                position_rad,
-                limit_rad,
-            })
+        (0..AXES).find_map(|joint| self.violation_of(joint, q))
+    }
+
+    /// Every joint outside its limits (or NaN), in joint order.
+    #[must_use]
+    pub fn violations(&self, q: &JointVector) -> Vec<LimitViolation> {
+        (0..AXES).filter_map(|joint| self.violation_of(joint, q)).collect()
+    }
+
+    fn violation_of(&self, joint: usize, q: &JointVector) -> Option<LimitViolation> {
+        let (position_rad, lower, upper) = (q[joint], self.lower[joint], self.upper[joint]);
+        let inside = lower <= position_rad && position_rad <= upper;
+        let limit_rad = if position_rad < lower { lower } else { upper };
+        (!inside).then_some(LimitViolation {
+            joint,
+            position_rad,
+            limit_rad,
         })
     }
 

@@ -25,6 +25,16 @@ pub fn not_as_zero(value: f64, decimals: usize) -> String {
     if value < 0.0 { format!("-{told}") } else { told }
 }
 
+/// A number with `decimals` decimals; what rounds to zero has no sign.
+#[must_use]
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let told = format!("{value:.decimals$}");
+    match told.strip_prefix('-') {
+        Some(zero) if zero.bytes().all(|digit| matches!(digit, b'0' | b'.')) => zero.to_owned(),
+        _ => told,
+    }
+}
+
 /// Two angles \[rad\] in degrees, told apart as [`told_apart`] does, each with its unit; in radians where their degrees round to
 /// the same number.
 #[must_use]
@@ -109,6 +119,10 @@ mod tests {
         assert_eq!(told_apart(1e-300, 0.0, 2), ["1e-300", "0e0"]);
         assert_eq!(not_as_zero(-1.2e-7, 2), "-0.0000001");
         assert_eq!(not_as_zero(0.0, 1), "0.0");
+        assert_eq!(
+            [-0.0, -4e-5, -6e-5, f64::NEG_INFINITY].map(|v| fixed(v, 4)),
+            ["0.0000", "0.0000", "-0.0001", "-inf"]
+        );
         assert_eq!(rounded(25.499_999_999_999_996, 6).to_string(), "25.5");
         assert_eq!(rounded_up(4.268_001e-5, 3), 4.27e-5);
         assert_eq!(rounded_up(9.991, 3), 10.0);

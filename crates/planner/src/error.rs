@@ -101,7 +101,11 @@ impl PlanError {
     pub fn infeasibility(&self) -> Option<Infeasibility> {
         use LayoutError::{EmptyRegion, NoRoom};
         match self {
-            Self::Layout(NoRoom { .. } | EmptyRegion { .. }) => Some(Infeasibility::Proved),
+            Self::Layout(error @ (NoRoom { .. } | EmptyRegion { .. })) => Some(if error.is_proven() {
+                Infeasibility::Proved
+            } else {
+                Infeasibility::NotFound
+            }),
             Self::Cycle(error) => error.infeasibility(),
             _ => None,
         }

@@ -81,7 +81,7 @@ pub enum TrackingError {
     },
     /// The control law drives a joint out of all bounds.
     #[error(
-        "the control law diverges: joint {} is at {position_rad:e} rad after waypoint {waypoint}; lower control.kp, control.kd \
+        "the control law diverges: joint {} is at {position_rad:.3e} rad after waypoint {waypoint}; lower control.kp, control.kd \
          or control.dt_s", .joint + 1
     )]
     Divergence {

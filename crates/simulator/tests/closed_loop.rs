@@ -223,7 +223,8 @@ fn unstable_settings_are_refused_with_their_limits() {
         };
         let message = error.to_string();
         assert!(
-            message.contains(&format!("{rate:.0} Hz")) && message.contains("frequency_rad_s"),
+            message.contains(&format!("{} Hz", platewash_kinematics::words::rounded_up(rate, 5)))
+                && message.contains("frequency_rad_s"),
             "{message}"
         );
         assert!(rate > 1000.0 && frequency < 2000.0);

@@ -275,7 +275,13 @@ fn payloads_are_checked() {
     heavy.hash = Some(heavy.seal().unwrap());
     let report = SimulationReport::new(&heavy, robot, &setup, &execution).unwrap();
     assert_eq!(report.payload.verdict, PayloadVerdict::Exceeded);
-    assert_eq!(report.verdict, SimulationVerdict::NotWashed);
+    assert_eq!(report.verdict, SimulationVerdict::Overloaded);
+    assert!(
+        report.headline.starts_with("tool 3.5 kg, rated 3 kg; 4 of 4 plates"),
+        "{}",
+        report.headline
+    );
+    assert!(report.to_string().starts_with("OVERLOADED: tool 3.5 kg"));
     heavy.scenario.robot.payload_kg = Some(5.0);
     let report = SimulationReport::new(&heavy, robot, &setup, &execution).unwrap();
     assert_eq!(report.payload.verdict, PayloadVerdict::Within);

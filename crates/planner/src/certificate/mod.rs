@@ -45,7 +45,7 @@ mod watch;
 pub use clearances::{PairBound, PairRule};
 pub use error::VerifyError;
 pub use neighbours::Touched;
-pub use promise::{Discrepancy, Measure, Promise, PromiseName, Sense, Status, Unit, Worst};
+pub use promise::{Discrepancy, Measure, Promise, PromiseName, Sense, Status, Unit, Worst, reaches};
 pub use summary::summary;
 pub use sweep::PlateCoverage;
 pub use table::{CertificateTable, PairsShown};

@@ -246,13 +246,20 @@ const MOST_DISCREPANCIES: usize = 20;
 /// By how much of it a limit may be exceeded: the rounding of everything that leads to a bound.
 pub(super) const ROUNDING: f64 = 1e-9;
 
+/// Whether a value is at least a limit, but for the rounding of what leads to it: as promises are judged, so that a simulation
+/// asks for no more than a certificate does. NaN is not.
+#[must_use]
+pub fn reaches(value: f64, limit: f64) -> bool {
+    value >= limit - ROUNDING * limit.abs().max(1e-3)
+}
+
 impl Measure {
     /// Whether a value is on the right side of the limit. NaN never is.
     pub(super) fn keeps(&self, value: f64) -> bool {
         let slack = ROUNDING * self.limit.abs().max(1e-3);
         match self.sense {
             Sense::AtMost => value <= self.limit + slack,
-            Sense::AtLeast => value >= self.limit - slack,
+            Sense::AtLeast => reaches(value, self.limit),
             Sense::Above => value > self.limit,
         }
     }

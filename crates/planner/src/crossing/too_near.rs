@@ -33,11 +33,26 @@ impl TooNear {
     }
 }
 
+/// Distances that differ by less than this are not told apart by their digits \[m\].
+const ALIKE_M: f64 = 1e-9;
+
+/// What is kept, before the reserve.
+const KEPT: &str = "wash.clearance_m and";
+
 impl fmt::Display for TooNear {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let PairClearance { a, b, distance_m, .. } = &self.pair;
         let mm = |m: f64| 1e3 * m;
         let [distance, required] = told_apart(mm(*distance_m), mm(self.asked_m + RESERVE_M), 2);
+        if *distance_m > 0.0 && self.asked_m + RESERVE_M - distance_m < ALIKE_M {
+            write!(f, "{a} is a little nearer to {b} than allowed")?;
+            return write!(
+                f,
+                "; {:.2} mm must be kept, {KEPT} {:.2} mm in reserve",
+                mm(self.asked_m + RESERVE_M),
+                mm(RESERVE_M)
+            );
+        }
         if *distance_m > 0.0 {
             write!(f, "{a} is {distance} mm from {b}")?;
         } else {
@@ -45,7 +60,7 @@ impl fmt::Display for TooNear {
         }
         write!(
             f,
-            "; {required} mm must be kept, wash.clearance_m and {:.2} mm in reserve",
+            "; {required} mm must be kept, {KEPT} {:.2} mm in reserve",
             mm(RESERVE_M)
         )
     }

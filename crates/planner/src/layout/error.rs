@@ -82,8 +82,8 @@ pub enum LayoutError {
     },
     /// Every random layout ran into a dead end; proven infeasible when `count` exceeds `upper_bound`.
     #[error(
-        "{}: the best of {layouts_tried} random layouts held {most_placed} before no room was left{}",
-        verdict(*.count, *.upper_bound), upper_bound_text(*.upper_bound)
+        "{}: the best of {layouts_tried} random layouts held {most_placed} before no room was left{}{}",
+        verdict(*.count, *.upper_bound), upper_bound_text(*.upper_bound), remedy(*.count, *.upper_bound)
     )]
     NoRoom {
         /// Plates asked for.
@@ -97,8 +97,21 @@ pub enum LayoutError {
     },
 }
 
+fn cannot_fit(count: usize, upper_bound: Option<usize>) -> bool {
+    upper_bound.is_some_and(|bound| count > bound)
+}
+
+/// What may do where a layout was only not found.
+fn remedy(count: usize, upper_bound: Option<usize>) -> &'static str {
+    if cannot_fit(count, upper_bound) {
+        ""
+    } else {
+        "; try another seed, a smaller layout.min_distance_m, or state the places as layout.positions_m"
+    }
+}
+
 fn verdict(count: usize, upper_bound: Option<usize>) -> String {
-    if upper_bound.is_some_and(|bound| count > bound) {
+    if cannot_fit(count, upper_bound) {
         format!("{} cannot fit", counted(count, "plate"))
     } else {
         format!("no layout of {} found", counted(count, "plate"))
@@ -120,7 +133,7 @@ impl LayoutError {
     #[must_use]
     pub fn is_proven(&self) -> bool {
         match self {
-            Self::NoRoom { count, upper_bound, .. } => upper_bound.is_some_and(|bound| *count > bound),
+            Self::NoRoom { count, upper_bound, .. } => cannot_fit(*count, *upper_bound),
             _ => true,
         }
     }

@@ -70,7 +70,10 @@ pub fn layout(py: Python<'_>, error: &LayoutError) -> PyErr {
             upper_bound,
             ..
         } => vec![
-            ("cause", any(py, "no_room")),
+            (
+                "cause",
+                any(py, if error.is_proven() { "no_room" } else { "not_found" }),
+            ),
             ("count", any(py, *count)),
             ("most_placed", any(py, *most_placed)),
             ("upper_bound", upper_bound.and_then(|v| any(py, v))),

@@ -8,8 +8,11 @@ use platewash_kinematics::{JointLimits, JointVector};
 use platewash_planner::control::{ExactLaw, PaperLaw};
 use platewash_planner::scenario::{ControlLawName, ControlSection};
 
-/// Highest rate that is tried while looking for one that is stable \[Hz\].
-const HIGHEST_RATE_HZ: f64 = 1e6;
+/// Highest rate that is tried while looking for one that is stable \[Hz\]: the highest that `control.rate_hz` may be.
+const HIGHEST_RATE_HZ: f64 = 1e5;
+
+/// Halvings of a frequency in search of one that is stable: to a part in 10¹².
+const MOST_HALVED: usize = 40;
 
 /// Halvings of an interval in search of a limit: to a part in 10⁴.
 const HALVINGS: u32 = 14;
@@ -55,7 +58,7 @@ pub enum ControlError {
         rate_hz: f64,
         /// A configuration at which it is unstable \[rad\].
         q: JointVector,
-        /// The least rate at which these gains are stable \[Hz\]; `None` where none up to 1 MHz is.
+        /// The least rate at which these gains are stable \[Hz\]; `None` where none that may be asked for is.
         least_rate_hz: Option<f64>,
         /// The highest frequency that is stable at this rate with this damping \[rad/s\]; `None` where gains are given
         /// outright or none is.
@@ -81,7 +84,20 @@ fn remedy(rate: Option<f64>, frequency: Option<f64>) -> String {
         }
         (Some(rate), None) => format!("these gains need at least {rate} Hz"),
         (None, Some(frequency)) => format!("at this rate frequency_rad_s must be at most {frequency}"),
-        (None, None) => "no rate up to 1 MHz would do: every kp and kd must be above 0".to_owned(),
+        (None, None) => {
+            "no rate that may be asked for would do: every kp and kd must be above 0 and not as large".to_owned()
+        }
+    }
+}
+
+impl ControlError {
+    /// The same without the suggestion of a rate above `highest_hz`, which would be refused.
+    #[must_use]
+    pub fn with_rates_up_to(mut self, highest_hz: f64) -> Self {
+        if let Self::Unstable { least_rate_hz, .. } = &mut self {
+            *least_rate_hz = least_rate_hz.filter(|rate| rounded_up(*rate, DIGITS) <= highest_hz);
+        }
+        self
     }
 }
 
@@ -198,17 +214,17 @@ fn unstable(
     let share = if outright {
         None
     } else {
-        boundary(0.0, 1.0, |share| share <= 0.0 || holds(&slower(share), rate_hz)).filter(|share| *share > 0.0)
+        let stable = |share: &f64| holds(&slower(*share), rate_hz);
+        let mut halves = std::iter::successors(Some(0.5), |share| Some(0.5 * share)).take(MOST_HALVED);
+        halves
+            .find(stable)
+            .and_then(|share| boundary(share, 2.0 * share, |share| stable(&share)))
     };
     let mut high = rate_hz;
-    while high <= HIGHEST_RATE_HZ && !holds(stability, high) {
-        high *= 2.0;
+    while high < HIGHEST_RATE_HZ && !holds(stability, high) {
+        high = (2.0 * high).min(HIGHEST_RATE_HZ);
     }
-    let least_rate_hz = if high <= HIGHEST_RATE_HZ {
-        boundary(high, 0.5 * high, |rate| holds(stability, rate))
-    } else {
-        None
-    };
+    let least_rate_hz = boundary(high, 0.5 * high, |rate| holds(stability, rate)).filter(|_| high <= HIGHEST_RATE_HZ);
     ControlError::Unstable {
         law,
         rate_hz,

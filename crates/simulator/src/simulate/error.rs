@@ -5,6 +5,7 @@ use crate::dynamics::DynamicsError;
 use platewash_kinematics::words::{rounded_down, rounded_up};
 use platewash_planner::coverage::CoverageError;
 use platewash_planner::trajectory::KnotError;
+use platewash_planner::words::counted;
 
 /// Significant digits of a rate or period that is suggested.
 const DIGITS: usize = 3;
@@ -17,7 +18,7 @@ fn most_periods(substeps: usize) -> f64 {
 }
 
 /// A rate \[Hz\] at which so much motion is not too much work.
-fn highest_rate(duration_s: f64, substeps: usize) -> f64 {
+pub(super) fn highest_rate(duration_s: f64, substeps: usize) -> f64 {
     rounded_down(most_periods(substeps) / duration_s, DIGITS)
 }
 
@@ -71,9 +72,9 @@ pub enum SimulationError {
     },
     /// So much work that it would not end soon.
     #[error(
-        "{duration_s:.2} s at {rate_hz} Hz with {substeps} steps a sample are too much work: at most {} samples and {} steps; \
+        "{duration_s:.2} s at {rate_hz} Hz with {} a sample are too much work: at most {} samples and {} steps; \
          with as many steps a sample, control.rate_hz must be at most {} (for laws without a plant: control.dt_s at least {})",
-        super::MAX_SAMPLES, super::MAX_STEPS,
+        counted(*.substeps, "step"), super::MAX_SAMPLES, super::MAX_STEPS,
         highest_rate(*.duration_s, *.substeps), shortest_period(*.duration_s, *.substeps)
     )]
     TooLong {

@@ -1,9 +1,11 @@
 //! The tool's mass against the arm's rated payload.
 
+use super::report::shown;
 use crate::dynamics::RigidBody;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::model::IRB120_URDF;
-use platewash_planner::plan::Plan;
+use platewash_kinematics::words::told_apart;
+use platewash_planner::scenario::{RobotSection, ToolSection};
 use serde::Serialize;
 
 /// Rated payload of the ABB IRB 120 \[kg\] (ABB's data sheet).
@@ -33,13 +35,13 @@ pub struct PayloadCheck {
 }
 
 impl PayloadCheck {
-    /// Of a plan: the payload that its scenario states, otherwise 3 kg for the built-in IRB 120.
+    /// Of a tool on an arm: the payload that the scenario states, otherwise 3 kg for the built-in IRB 120.
     #[must_use]
-    pub fn of(plan: &Plan, robot: &RobotModel) -> Self {
+    pub fn of(tool: &ToolSection, section: &RobotSection, robot: &RobotModel) -> Self {
         let is_built_in = robot.sha256() == platewash_kinematics::sha256_hex(IRB120_URDF.as_bytes());
         let built_in = is_built_in.then_some(IRB120_PAYLOAD_KG);
-        let rated_kg = plan.scenario.robot.payload_kg.or(built_in);
-        let tool_kg = RigidBody::tool(&plan.tool).map_or(0.0, |tool| tool.mass_kg);
+        let rated_kg = section.payload_kg.or(built_in);
+        let tool_kg = RigidBody::tool(tool).map_or(0.0, |tool| tool.mass_kg);
         let verdict = match rated_kg {
             Some(rated) if tool_kg <= rated => PayloadVerdict::Within,
             Some(_) => PayloadVerdict::Exceeded,
@@ -50,5 +52,17 @@ impl PayloadCheck {
             rated_kg,
             verdict,
         }
+    }
+
+    /// That the tool is too heavy, in words: `tool 5 kg, rated 3 kg`; `None` where it is not, or no payload is known.
+    #[must_use]
+    pub fn overload(&self) -> Option<String> {
+        let rated_kg = self.rated_kg.filter(|_| self.verdict == PayloadVerdict::Exceeded)?;
+        let mut told = [self.tool_kg, rated_kg].map(|mass| shown(mass).to_string());
+        if told[0] == told[1] {
+            told = told_apart(self.tool_kg, rated_kg, 0);
+        }
+        let [tool, rated] = told;
+        Some(format!("tool {tool} kg, rated {rated} kg"))
     }
 }

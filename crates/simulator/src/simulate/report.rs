@@ -19,8 +19,10 @@ use serde::Serialize;
 pub enum SimulationVerdict {
     /// Every plate is washed, and the arm may carry its tool as far as is known.
     Washed,
-    /// Not so.
+    /// Not so: a plate is not washed.
     NotWashed,
+    /// The arm may not carry its tool, whatever is washed with it.
+    Overloaded,
     /// The plan's hash is not that of its contents: whatever was simulated is not the plan that was sealed.
     Altered,
 }
@@ -95,12 +97,12 @@ impl SimulationReport {
         let contact = Contact::new(plan, robot);
         let tip_errors = tracking::tip_errors(execution, robot, contact.tip());
         let plates = washing::plates(plan, robot, execution)?;
-        let payload = PayloadCheck::of(plan, robot);
+        let payload = PayloadCheck::of(&plan.tool, &plan.scenario.robot, robot);
         let washed = plates.iter().filter(|p| p.verdict == PlateVerdict::Washed).count();
-        let may_carry = payload.verdict != PayloadVerdict::Exceeded;
         let verdict = match seal {
             Seal::Broken => SimulationVerdict::Altered,
-            Seal::Whole if washed == plan.plates.len() && may_carry => SimulationVerdict::Washed,
+            Seal::Whole if payload.verdict == PayloadVerdict::Exceeded => SimulationVerdict::Overloaded,
+            Seal::Whole if washed == plan.plates.len() => SimulationVerdict::Washed,
             Seal::Whole => SimulationVerdict::NotWashed,
         };
         let tracking = tracking::tracking(&execution.samples, &tip_errors);
@@ -111,7 +113,8 @@ impl SimulationReport {
             law: setup.law,
             verdict,
             headline: format!(
-                "{} washed under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
+                "{}{} washed under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
+                payload.overload().map_or_else(String::new, |words| words + "; "),
                 part_of(washed, plan.plates.len(), "plate"),
                 setup.law.name(),
                 1e3 * tracking.tip_m.rms,

@@ -1,6 +1,7 @@
 //! The loop of samples: reference, law, plant.
 
 use super::contact::Contact;
+use super::error::highest_rate;
 use super::schedule::Schedule;
 use super::{Execution, Sample, Setup, SimulationError};
 use crate::control::{self, Command, ControlLaw, Reference};
@@ -59,7 +60,8 @@ pub fn simulate(plan: &Plan, robot: &RobotModel, setup: &Setup) -> Result<Execut
                 robot.limits(),
                 &along,
                 setup.plant.substeps,
-            )?
+            )
+            .map_err(|error| error.with_rates_up_to(highest_rate(motion.duration_s(), setup.plant.substeps)))?
         }
         None => Box::new(control::kinematic(setup.law, &setup.control)?),
     };

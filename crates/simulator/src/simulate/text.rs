@@ -11,6 +11,7 @@ impl Display for SimulationReport {
         let verdict = match self.verdict {
             SimulationVerdict::Washed => "WASHED",
             SimulationVerdict::NotWashed => "NOT WASHED",
+            SimulationVerdict::Overloaded => "OVERLOADED",
             SimulationVerdict::Altered => "ALTERED, the hash is not that of the contents",
         };
         writeln!(f, "{verdict}: {}", self.headline)?;

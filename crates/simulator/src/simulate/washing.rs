@@ -11,6 +11,7 @@ use super::contact::{Contact, Touch};
 use super::{Execution, Sample, SimulationError};
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_planner::certificate;
 use platewash_planner::coverage::{Coverage, CoverageError, CoverageSettings, coverage_of_strokes};
 use platewash_planner::layout::Plate;
 use platewash_planner::plan::Plan;
@@ -176,7 +177,7 @@ impl Wash<'_> {
         }
         causes.extend(self.strayed());
         let required = self.plan.scenario.job.required_coverage;
-        if executed.lower < required {
+        if !certificate::reaches(executed.lower, required) {
             let at_least = executed.lower;
             causes.push(Cause::Coverage { at_least, required });
         }
