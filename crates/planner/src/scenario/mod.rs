@@ -9,6 +9,7 @@ mod document;
 mod error;
 mod ik;
 mod job;
+mod key;
 pub mod keys;
 mod layout;
 mod limits;
