@@ -181,6 +181,10 @@ fn encloses(promise: &Promise, found: &Found) -> bool {
     if follows.contains(&promise.name) && found.is_broken() {
         return true;
     }
+    // What is allowed depends on the tilt that is proved: the excess is what counts.
+    if promise.name == PromiseName::Reach {
+        return found.value - found.limit <= bound - measure.limit + found.slack + ROUNDING;
+    }
     match measure.sense {
         Sense::AtMost if found.limit <= 0.0 => found.value <= bound + found.slack + ROUNDING,
         Sense::AtMost => (found.value - found.slack) / found.limit <= bound / measure.limit + ROUNDING,

@@ -10,7 +10,7 @@ import pyplatewash as pw
 HOME = [0, -np.pi / 2, np.pi / 2, 0, 0.5, 0]
 
 
-def test_a_home_in_radians_is_warned_of():
+def test_a_home_in_radians_is_warned_of() -> None:
     kitchen = pw.Scenario.load("kitchen")
     with pytest.warns(UserWarning, match="robot.start_deg.*radians were probably meant") as caught:
         scenario = kitchen.replace(robot={"start_deg": HOME})
@@ -22,7 +22,7 @@ def test_a_home_in_radians_is_warned_of():
         pw.Scenario.parse(kitchen.to_toml().replace("[robot]", f"[robot]\nhome_deg = {list(map(float, HOME))}"))
 
 
-def test_homes_in_degrees_are_not_warned_of():
+def test_homes_in_degrees_are_not_warned_of() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         for name in pw.Scenario.shipped():

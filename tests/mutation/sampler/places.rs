@@ -1,11 +1,11 @@
 //! Where things are: the arm at its ends and at the plates, the tool over them, the plates themselves.
 
-use super::STROKE_M;
 use super::findings::Findings;
 use super::hermite::Piece;
 use super::moments::{Arm, Moment};
 use super::schedule::is_at_plate;
 use super::swept;
+use super::{LINE_M, STROKE_M};
 use platewash::planner::certificate::PromiseName;
 use platewash::planner::scenario::Overlap;
 use platewash::planner::tool_path::SegmentKind;
@@ -92,15 +92,12 @@ pub fn apart(plan: &Plan, findings: &mut Findings) {
 
 /// Tilt at the plates, height over them while washing.
 pub fn poses(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
-    let asked = plan.scenario.wash.tilt_max_deg.to_radians();
-    let tool = &plan.scenario.tool;
-    // Beyond this the rim where the handle holds the sponge would have to go through the plate.
-    let most = asked.min((tool.sponge_height_m / tool.sponge_radius_m).atan());
+    let most = most_tilt_rad(plan);
     for m in moments {
         let Some(segment) = m.segment(plan).filter(|s| is_at_plate(s.kind)) else {
             continue;
         };
-        let tilt = m.axis.xy().norm().atan2(-m.axis.z);
+        let tilt = tilt_rad(m);
         findings.at_most(PromiseName::Tilt, tilt, most, EXACT * most + 2e-8);
         if let (SegmentKind::Wash, Some(plate)) = (segment.kind, plan.plates.get(segment.plate)) {
             let off = (m.tip.z - plate.z_m).abs();
@@ -119,13 +116,31 @@ pub fn coverage(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
     }
 }
 
-/// How far the sponge gets beyond the rim of the plate that it washes.
+/// Angle of the tool from straight down \[rad\].
+fn tilt_rad(m: &Moment) -> f64 {
+    m.axis.xy().norm().atan2(-m.axis.z)
+}
+
+fn most_tilt_rad(plan: &Plan) -> f64 {
+    let tool = &plan.scenario.tool;
+    // Beyond this the rim where the handle holds the sponge would have to go through the plate.
+    let gives_way = (tool.sponge_height_m / tool.sponge_radius_m).atan();
+    plan.scenario.wash.tilt_max_deg.to_radians().min(gives_way)
+}
+
+/// How far the sponge gets beyond the rim of the plate that it works on, at the height of the plate's face, if it is always tilted as
+/// much as it is there where it is tilted most, and towards the outside.
 pub fn reach(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
     let (sponge_m, path_m) = (plan.scenario.tool.sponge_radius_m, plan.scenario.wash.path_radius_m);
+    let at = |m: &Moment| m.segment(plan).filter(|s| is_at_plate(s.kind)).map(|s| s.plate);
     for (i, plate) in plan.plates.iter().enumerate() {
-        for m in washing(plan, moments, i) {
-            let beyond = (m.tip.x - plate.x_m).hypot(m.tip.y - plate.y_m) + sponge_m - plate.radius_m;
-            let limit = path_m + sponge_m - plate.radius_m + STROKE_M;
+        let there: Vec<_> = moments.iter().filter(|m| at(m) == Some(i)).collect();
+        let tilt = there.iter().map(|m| tilt_rad(m)).fold(0.0, f64::max);
+        let wall_m = |tilt: f64| (sponge_m + LINE_M * tilt.sin()) / tilt.cos();
+        let limit = path_m + STROKE_M + wall_m(tilt.min(most_tilt_rad(plan))) - plate.radius_m;
+        for m in there {
+            let tip_m = (m.tip.x - plate.x_m).hypot(m.tip.y - plate.y_m);
+            let beyond = tip_m + wall_m(tilt) - plate.radius_m;
             findings.at_most(PromiseName::Reach, beyond, limit, EXACT);
         }
     }

@@ -5,9 +5,9 @@
 //!
 //! - The lowest of them is at H = p_z − s ‖a_xy‖, with p the tip and a the tool's axis. H ≥ min of its values at the ends of a stretch less
 //!   h²/8 (sup ‖p̈‖ + s sup ‖ä‖): H is the least of functions p_z + s d·a_xy, one for each horizontal direction d.
-//! - A point r on the rim moves at v + ω × r. All of them are within G, G² = ‖v‖² + 2 s ‖(v × ω)_⟂‖ + s² ‖ω‖², where ⟂ is the part across
-//!   the axis: v·(ω × r) = r·(v × ω), and r is across. Each is carried by the arm, so that over a stretch no point is faster than the greater
-//!   G at its ends plus h²/8 (sup ‖p⃛‖ + s sup ‖a⃛‖).
+//! - What is at or below the face, of the rim and of the side wall over it, is within ρ = s / cos τ of the tip, wherever the tip is at
+//!   the face or above it. Such a point r moves at v + ω × r, no faster than G, G² = ‖v‖² + 2 ρ ‖v × ω‖ + ρ² ‖ω‖²: v·(ω × r) = r·(v × ω).
+//!   Each is carried by the arm, so that over a stretch no point is faster than the greater G at its ends plus h²/8 (sup ‖p⃛‖ + ρ sup ‖a⃛‖).
 //!
 //! Stretches in which H stays above the face count for nothing; the others are halved like those of every quantity (`watch.rs`).
 
@@ -15,7 +15,7 @@ use super::piece::Piece;
 use super::promise::{Promise, PromiseName, Unit, Worst};
 use super::schedule::{Schedule, Stage};
 use super::tip::{Arm, Derivatives, Moment, Stretch};
-use super::tips;
+use super::tips::{self, Tips};
 use super::watch::Watch;
 use crate::plan::{Plan, PlanLimits};
 use crate::tool_path::SegmentKind;
@@ -32,6 +32,8 @@ const ROUNDING_M: f64 = 1e-9;
 struct Face {
     /// Radius of the sponge \[m\].
     radius_m: f64,
+    /// ρ \[m\].
+    reach_m: f64,
     /// Height of the tip at which an upright sponge meets the face \[m\]: that of the face, as the tip is the middle of the sponge's
     /// far face. A sponge that is compressed while it washes will meet it higher up by its compression.
     meets_m: f64,
@@ -50,19 +52,17 @@ impl Face {
         lower - stretch.sag(bounds.second() + self.radius_m * bounds.second_of_axis()) - ROUNDING_M
     }
 
-    /// G: what no point of the rim is faster than \[m/s\].
+    /// G: what no point that touches is faster than \[m/s\].
     fn fastest(&self, m: &Moment) -> f64 {
-        let (v, w, s) = (m.speed, m.turning, self.radius_m);
-        let along = v.cross(&w);
-        let across = along - m.axis * m.axis.dot(&along);
-        (v.norm_squared() + 2.0 * s * across.norm() + s * s * w.norm_squared()).sqrt()
+        let (v, w, r) = (m.speed, m.turning, self.reach_m);
+        (v.norm_squared() + 2.0 * r * v.cross(&w).norm() + r * r * w.norm_squared()).sqrt()
     }
 
-    /// What no point of the rim is faster than anywhere in a stretch \[m/s\].
+    /// What no point that touches is faster than anywhere in a stretch \[m/s\].
     fn at_most(&self, stretch: &Stretch<'_>, bounds: &Derivatives) -> f64 {
         let [from, to] = stretch.ends.each_ref().map(|m| self.fastest(m));
         let greater = if from > to || from.is_nan() { from } else { to };
-        greater + stretch.sag(bounds.third() + self.radius_m * bounds.third_of_axis())
+        greater + stretch.sag(bounds.third() + self.reach_m * bounds.third_of_axis())
     }
 
     /// The lowest point of the rim, from the tip \[m\]; the tip itself where all points are equally low.
@@ -90,28 +90,30 @@ pub(super) fn promise(
     arm: &Arm<'_>,
     plan: &Plan,
     limits: &PlanLimits,
-    pieces: &[Piece],
-    schedule: Option<&Schedule>,
+    (pieces, schedule): (&[Piece], Option<&Schedule>),
+    tips: &Tips,
 ) -> Promise {
     let Some(schedule) = schedule else {
         return Promise::not_judged(PromiseName::ContactSpeed);
     };
     let limit = limits.wash_speed_m_s;
     let mut watch = Watch::new(limit, RESOLUTION * limit);
-    let touching = |stage: &&Stage| matches!(stage.kind, SegmentKind::Approach | SegmentKind::Retreat);
-    let stages = || schedule.stages.iter().filter(touching);
+    let touching = |stage: &Stage| matches!(stage.kind, SegmentKind::Approach | SegmentKind::Retreat);
+    let stages = || schedule.stages.iter().enumerate().filter(|(_, stage)| touching(stage));
     // A plate that is not there is found elsewhere.
-    let face = |stage: &Stage| {
+    let radius_m = plan.scenario.tool.sponge_radius_m;
+    let face = |index: usize, stage: &Stage| {
         plan.plates.get(stage.plate).map(|plate| Face {
-            radius_m: plan.scenario.tool.sponge_radius_m,
+            radius_m,
+            reach_m: radius_m / tips.least_cosine_of(index),
             meets_m: plate.z_m,
         })
     };
-    watch.allow_for(stages().map(|stage| stage.pieces.len()).sum());
+    watch.allow_for(stages().map(|(_, stage)| stage.pieces.len()).sum());
     // Nothing that touches is fast: so it is until something is seen, and for good where nothing touches.
     watch.seen = 0.0;
     watch.take(0.0);
-    let over = || stages().filter_map(|stage| Some((face(stage)?, &pieces[stage.pieces.clone()])));
+    let over = || stages().filter_map(|(i, stage)| Some((face(i, stage)?, &pieces[stage.pieces.clone()])));
     for (face, pieces) in over() {
         look(arm, &face, pieces, &mut watch);
     }

@@ -61,6 +61,7 @@ use piece::Piece;
 use platewash_kinematics::{AXES, RobotModel};
 use schedule::Schedule;
 use serde::{Deserialize, Serialize};
+use sweep::Wash;
 use timeline::Timeline;
 use tip::Arm;
 use tips::Tips;
@@ -170,7 +171,7 @@ pub fn verify(plan: &Plan, robot: &RobotModel) -> Result<Certificate, VerifyErro
     let schedule = schedule.as_ref();
     let arm = Arm::new(robot, &scenario.tool);
     let tips = Tips::new(&arm, plan, &limits, &pieces, schedule);
-    let mut coverage = schedule.map_or(Ok(Vec::new()), |s| sweeps(&arm, plan, &limits, (&pieces, s), &tips))?;
+    let mut washes = schedule.map_or(Ok(Vec::new()), |s| sweeps(&arm, plan, &limits, (&pieces, s), &tips))?;
     let clearance = clearances::judge(plan, robot, &model, &timeline, schedule);
 
     let mut promises = statements::promises(plan, robot, &model);
@@ -183,16 +184,22 @@ pub fn verify(plan: &Plan, robot: &RobotModel) -> Result<Certificate, VerifyErro
     promises.push(apart::promise(plan, robot));
     promises.extend(joints::promises(&pieces, &limits, schedule));
     promises.extend(tips.promises(&limits, &pieces, schedule));
-    promises.push(contact::promise(&arm, plan, &limits, &pieces, schedule));
+    promises.push(contact::promise(&arm, plan, &limits, (&pieces, schedule), &tips));
     let deviations = deviations(&arm, plan, &pieces, schedule);
     let follows = |p: &Promise| p.name == PromiseName::ToolPath && p.status == Status::Pass;
-    // A deviation is one from the declared stroke: it tells of the plate where that is the stroke asked for.
-    let deviation_m = deviations[0].measure.and_then(|m| m.bound);
-    reach::settle(
-        plan,
-        &mut coverage,
-        deviation_m.filter(|_| promises.iter().any(follows)),
-    );
+    if let Some(schedule) = schedule {
+        // A deviation is one from the declared stroke: it tells of the plate where that is the stroke asked for.
+        let follows = promises.iter().any(follows);
+        let proved = reach::Proved {
+            arm: &arm,
+            pieces: &pieces,
+            schedule,
+            tips: &tips,
+            stroke_deviation_m: deviations[0].measure.and_then(|m| m.bound).filter(|_| follows),
+        };
+        reach::settle(plan, &mut washes, &proved);
+    }
+    let coverage: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
     promises.extend(deviations);
     promises.push(clearances::promise(limits.clearance_m, &clearance));
     promises.push(reach::promise(&coverage));
@@ -319,24 +326,23 @@ fn sweeps(
     limits: &PlanLimits,
     (pieces, schedule): (&[Piece], &Schedule),
     tips: &Tips,
-) -> Result<Vec<PlateCoverage>, VerifyError> {
+) -> Result<Vec<Wash>, VerifyError> {
     let mut all = Vec::new();
     for (i, stage) in schedule.stages.iter().enumerate() {
         let (SegmentKind::Wash, Some(plate)) = (stage.kind, plan.plates.get(stage.plate)) else {
             continue;
         };
-        let tilt = tips.tilt.iter().find(|(stage, _)| *stage == i);
-        let cosine = tilt.map_or(0.0, |(_, watch)| tips::cosine(watch.bound));
-        let sponge = (plan.scenario.tool.sponge_radius_m, cosine);
+        let sponge = (plan.scenario.tool.sponge_radius_m, tips.least_cosine_of(i));
         let pieces = &pieces[stage.pieces.clone()];
-        all.push(sweep::sweep(
-            arm,
-            pieces,
-            (plate, stage.plate),
-            sponge,
-            limits.coverage,
-            plan.scenario.wash.path_radius_m + PATH_TOLERANCE_M,
-        )?);
+        let within_m = plan.scenario.wash.path_radius_m + PATH_TOLERANCE_M;
+        let (swept, [tip_m, seen_m]) =
+            sweep::sweep(arm, pieces, (plate, stage.plate), sponge, limits.coverage, within_m)?;
+        all.push(Wash {
+            stage: i,
+            tip_m,
+            seen_m,
+            swept,
+        });
     }
     Ok(all)
 }

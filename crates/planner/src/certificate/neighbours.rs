@@ -1,12 +1,14 @@
 //! Which plates the sponge may touch while it works on one, and how far beyond that one's rim.
 //!
-//! The tip keeps within the stroke's radius R of the centre of its plate of radius r, so that a sponge of radius s reaches at most
-//! R + s − r beyond the rim. A neighbour may be touched there and nowhere else; and by no more than its rim: not so far that the tip
-//! is over it, nor the sponge over its centre.
+//! The tip keeps within the stroke's radius R of the centre of its plate of radius r. At the height of the plate's face a sponge of radius
+//! s, tilted by τ, reaches s / cos τ from the tip: upright it is its own radius, tilted its side wall lies as far out. (Below the face it
+//! reaches less far; above it, where no plate of that height is, farther.) So it reaches at most R + s / cos τ − r beyond the rim. A
+//! neighbour may be touched there and nowhere else; and by no more than its rim: not so far that the tip is over it, nor the sponge
+//! over its centre.
 
 use super::promise::Discrepancy;
 use crate::layout::Plate;
-use crate::plan::{LINE_TOLERANCE_M, PATH_TOLERANCE_M, Plan};
+use crate::plan::{LINE_TOLERANCE_M, Plan};
 use crate::words::millimetres;
 use serde::{Deserialize, Serialize};
 
@@ -22,9 +24,16 @@ pub struct Touched {
     pub depth_m: f64,
 }
 
-/// How far beyond the rim of a plate the sponge may reach while it washes it \[m\]: R + s − r and the tolerance of the stroke.
-pub(super) fn allowed_beyond_rim_m(plan: &Plan, plate: &Plate) -> f64 {
-    plan.scenario.wash.path_radius_m + plan.scenario.tool.sponge_radius_m - plate.radius_m + PATH_TOLERANCE_M
+/// How far beyond the rim of a plate the sponge reaches at the height of its face, at most, with the tip within `tip_m` of the plate's
+/// centre and cos τ not below `cos_tilt` \[m\]; infinite without a bound of the tilt. A tip below the face by d has the side wall at the
+/// face d tan τ farther out: other promises see to it that d is no more than the tolerance of the lines.
+pub(super) fn beyond_rim_m(plan: &Plan, plate: &Plate, tip_m: f64, cos_tilt: f64) -> f64 {
+    if cos_tilt > 0.0 {
+        let sine = (1.0 - cos_tilt * cos_tilt).max(0.0).sqrt();
+        tip_m + (plan.scenario.tool.sponge_radius_m + LINE_TOLERANCE_M * sine) / cos_tilt - plate.radius_m
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// The plates but one that a sponge reaches which gets `beyond_rim_m` beyond the rim of that one, in order.
@@ -63,10 +72,10 @@ pub(super) struct Swept {
 
 /// Plates of which more than the rim may be swept while another one is washed.
 pub(super) fn swept(plan: &Plan) -> Swept {
-    let sponge_m = plan.scenario.tool.sponge_radius_m;
+    let sponge_m = plan.scenario.tool.sponge_radius_m / crate::trig::cos(plan.scenario.tilt_max_rad());
     let mut swept = Swept::default();
     for (i, own) in plan.plates.iter().enumerate() {
-        let beyond_m = allowed_beyond_rim_m(plan, own) - PATH_TOLERANCE_M;
+        let beyond_m = plan.scenario.wash.path_radius_m + sponge_m - own.radius_m;
         for (j, other) in plan.plates.iter().enumerate().filter(|(j, _)| *j != i) {
             let (gap_m, most_m) = (gap(own, other), sponge_m.min(other.radius_m));
             let depth_m = (beyond_m - gap_m).min(2.0 * other.radius_m);

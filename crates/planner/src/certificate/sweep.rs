@@ -17,6 +17,9 @@ const CHORD_M: f64 = 5e-5;
 /// How often a piece is halved at most.
 const MOST_HALVINGS: u32 = 6;
 
+/// Halvings that any motion may have besides those of its pieces.
+const SPLITS: usize = 4096;
+
 /// Edges of the smallest cells, the second where the first do not suffice \[m\].
 const CELLS_M: [f64; 2] = [1e-3, 2.5e-4];
 
@@ -32,11 +35,11 @@ pub struct PlateCoverage {
     pub at_most: Option<f64>,
     /// Least cos τ while washing, proved.
     pub cos_tilt: f64,
-    /// How far the sponge reaches beyond the rim while it washes, at most, negative where it stays within it \[m\]; `None` where nothing
-    /// is proved.
+    /// How far the sponge reaches beyond the rim at the height of the plate's face while it comes down, washes and leaves, at most,
+    /// negative where it stays within it \[m\]; `None` where nothing is proved.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond_rim_m: Option<f64>,
-    /// How far it was seen to reach \[m\].
+    /// How far a sponge that is tilted as much would reach where the tip was seen \[m\].
     pub beyond_rim_seen_m: f64,
     /// How far it may reach \[m\].
     pub beyond_rim_allowed_m: f64,
@@ -45,8 +48,20 @@ pub struct PlateCoverage {
     pub touches: Vec<Touched>,
 }
 
-/// What the sponge of radius `sponge_m` sweeps of a plate during some pieces, with cos τ never below `cos_tilt`. The tip should keep
-/// `within_m` of the centre: where it does, that is proved.
+/// What came of one wash.
+#[derive(Debug)]
+pub(super) struct Wash {
+    /// The stage.
+    pub stage: usize,
+    /// The tip is never farther from the plate's centre, seen from above \[m\].
+    pub tip_m: f64,
+    /// How far it was seen to be \[m\].
+    pub seen_m: f64,
+    pub swept: PlateCoverage,
+}
+
+/// What the sponge of radius `sponge_m` sweeps of a plate during some pieces, with cos τ never below `cos_tilt`; and how far the tip is from
+/// the plate's centre at most, and was seen to be \[m\]. It should keep `within_m`: where it does, that is proved.
 ///
 /// # Errors
 /// [`CoverageError`] for lengths that make no sense.
@@ -57,22 +72,8 @@ pub(super) fn sweep(
     (sponge_m, cos_tilt): (f64, f64),
     required: f64,
     within_m: f64,
-) -> Result<PlateCoverage, CoverageError> {
-    let mut line = Polyline {
-        points: Vec::new(),
-        off_m: 0.0,
-        centre: [plate.x_m, plate.y_m],
-        seen_m: 0.0,
-        within_m: 0.0,
-        allowed_m: within_m,
-    };
-    for (i, piece) in pieces.iter().enumerate() {
-        let stretch = arm.stretch(piece);
-        if i == 0 {
-            line.points.push(flat(&stretch, 0));
-        }
-        line.add(arm, &stretch, 0);
-    }
+) -> Result<(PlateCoverage, [f64; 2]), CoverageError> {
+    let line = Polyline::new(arm, pieces, plate, within_m, MOST_HALVINGS);
     let share = |radius_m: f64, cell_m: f64| {
         let settings = CoverageSettings {
             cell_m: cell_m.max(1e-4 * plate.radius_m),
@@ -91,8 +92,8 @@ pub(super) fn sweep(
         at_least: 0.0,
         at_most: None,
         cos_tilt,
-        beyond_rim_m: Some(line.within_m + sponge_m - plate.radius_m).filter(|reach| reach.is_finite()),
-        beyond_rim_seen_m: line.seen_m + sponge_m - plate.radius_m,
+        beyond_rim_m: None,
+        beyond_rim_seen_m: 0.0,
         beyond_rim_allowed_m: 0.0,
         touches: Vec::new(),
     };
@@ -105,24 +106,49 @@ pub(super) fn sweep(
     if swept.at_least < required && line.off_m.is_finite() {
         swept.at_most = Some(share(sponge_m + line.off_m, CELLS_M[1])?.upper);
     }
-    Ok(swept)
+    Ok((swept, [line.within_m, line.seen_m]))
 }
 
 /// Moments of the tip, from above.
-struct Polyline {
+pub(super) struct Polyline {
     points: Vec<[f64; 2]>,
     /// The tip is never farther from it \[m\].
     off_m: f64,
     centre: [f64; 2],
     /// Largest distance of a moment from the centre \[m\].
-    seen_m: f64,
+    pub seen_m: f64,
     /// The tip is never farther from the centre \[m\].
-    within_m: f64,
+    pub within_m: f64,
     /// How far it may be \[m\].
     allowed_m: f64,
+    most_halvings: u32,
+    /// Halvings left.
+    splits: usize,
 }
 
 impl Polyline {
+    /// The tip during some pieces about a plate. It should keep `allowed_m` of the centre: where it does, that is proved.
+    pub fn new(arm: &Arm<'_>, pieces: &[Piece], plate: &Plate, allowed_m: f64, most_halvings: u32) -> Self {
+        let mut line = Self {
+            points: Vec::new(),
+            off_m: 0.0,
+            centre: [plate.x_m, plate.y_m],
+            seen_m: 0.0,
+            within_m: 0.0,
+            allowed_m,
+            most_halvings,
+            splits: SPLITS + (pieces.len() << MOST_HALVINGS),
+        };
+        for (i, piece) in pieces.iter().enumerate() {
+            let stretch = arm.stretch(piece);
+            if i == 0 {
+                line.points.push(flat(&stretch, 0));
+            }
+            line.add(arm, &stretch, 0);
+        }
+        line
+    }
+
     /// Adds a stretch whose first end is there already.
     fn add(&mut self, arm: &Arm<'_>, stretch: &Stretch<'_>, depth: u32) {
         let off_m = stretch.sag(arm.derivatives(stretch).second());
@@ -131,7 +157,8 @@ impl Polyline {
             .into_iter()
             .fold(0.0, f64::max);
         let undecided = far_m <= self.allowed_m && far_m + off_m > self.allowed_m;
-        let halves = if (off_m > CHORD_M || undecided) && depth < MOST_HALVINGS {
+        let halves = if (off_m > CHORD_M || undecided) && depth < self.most_halvings && self.splits > 0 {
+            self.splits -= 1;
             arm.halves(stretch)
         } else {
             None

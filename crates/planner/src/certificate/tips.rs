@@ -69,6 +69,12 @@ impl Tips {
         tips
     }
 
+    /// What cos τ is not below during a stage; 0 where nothing is known.
+    pub fn least_cosine_of(&self, stage: usize) -> f64 {
+        let tilt = self.tilt.iter().find(|(index, _)| *index == stage);
+        tilt.map_or(0.0, |(_, watch)| cosine(watch.bound))
+    }
+
     /// The promises about them.
     pub fn promises(&self, limits: &PlanLimits, pieces: &[Piece], schedule: Option<&Schedule>) -> Vec<Promise> {
         let [speed, acceleration] = &self.moving;
@@ -183,7 +189,7 @@ fn angle(sine: f64) -> f64 {
 }
 
 /// cos τ from a bound of sin τ; 0 where the bound says nothing.
-pub(super) fn cosine(sine: f64) -> f64 {
+fn cosine(sine: f64) -> f64 {
     if sine >= 0.0 {
         (1.0 - sine * sine).max(0.0).sqrt()
     } else {

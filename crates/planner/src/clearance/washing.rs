@@ -3,7 +3,7 @@
 //! While the sponge washes every pair keeps the margin, with one exception: the sponge and the plates. It lies on the one
 //! that it works on and runs over its rim by up to its radius, where a neighbour may lie.
 
-use super::{BodyKind, ClearanceModel, PairClearance, is_clear, nearest, separation};
+use super::{BodyKind, ClearanceModel, PairClearance, bracketed, is_clear, nearest, separation};
 use platewash_kinematics::JointVector;
 
 impl ClearanceModel {
@@ -26,9 +26,11 @@ impl ClearanceModel {
         let placed = self.place(q);
         let counting = self.pairs.iter().filter(|&&(a, b)| self.counts_washing(a, b));
         let too_near = counting.filter_map(|&(a, b)| {
-            let parts = self.part_pairs(a, b).map(|(p, r)| (&placed[a][p], &placed[b][r]));
-            let found = nearest(parts.map(|(p, r)| separation(p, r)));
-            (!is_clear(found.distance, required_m)).then_some((a, b, found))
+            let parts = || self.part_pairs(a, b).map(|(p, r)| (&placed[a][p], &placed[b][r]));
+            let found = nearest(parts().map(|(p, r)| separation(p, r)));
+            // Found quickly, named exactly.
+            let exactly = || nearest(parts().map(|(p, r)| bracketed(p, r).0));
+            (!is_clear(found.distance, required_m)).then(|| (a, b, exactly()))
         });
         let (a, b, found) = too_near.min_by(|x, y| x.2.distance.total_cmp(&y.2.distance))?;
         Some(self.describe(a, b, found))

@@ -153,7 +153,7 @@ fn as_fractions(uncovered: &Uncovered, disc_area: f64) -> Coverage {
         covered(uncovered.at_least, ROUNDING),
     );
     Coverage {
-        fraction: covered(uncovered.estimate, 0.0).clamp(lower, upper),
+        fraction: covered(uncovered.estimate, 0.0).max(lower).min(upper),
         lower,
         upper,
     }

@@ -30,6 +30,8 @@ const TOOL: ToolSection = ToolSection {
     inertia_kg_m2: None,
 };
 const RADIUS_M: f64 = 0.12385;
+/// What a distance that decides a quick answer may be wrong by \[m\].
+const QUICK_ERROR_M: f64 = 1e-4;
 const HOME: JointVector = JointVector::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
 
 fn stroke(radius_m: f64) -> Stroke {
@@ -228,7 +230,8 @@ proptest! {
         });
     }
 
-    /// The quick answer of the clearance model is that of all its distances.
+    /// The quick answer of the clearance model is that of all its distances, but where one is what is required to the quick routine's
+    /// error.
     #[test]
     fn the_quick_clearance_is_the_slow_one(q in prop::array::uniform6(-1.9..1.9f64), required in 0.0..0.05f64) {
         let plates = [plate_at(0.3, 10.0), plate_at(0.4, 60.0)];
@@ -236,6 +239,9 @@ proptest! {
             let q = JointVector::from(q);
             let near = |pair: &PairClearance| !(pair.distance_m > 0.0 && pair.distance_m >= required);
             let mut all = cell.clearance.all(&q);
+            if all.iter().any(|pair| (pair.distance_m - required).abs() <= QUICK_ERROR_M) {
+                return;
+            }
             assert_eq!(cell.clearance.keeps(&q, required), !all.iter().any(near));
             all.retain(|pair| !(pair.a == "sponge" && pair.b.starts_with("plate")) && near(pair));
             assert_eq!(cell.clearance.keeps_washing(&q, required), all.is_empty());
