@@ -4,12 +4,13 @@
 //! become defaults, and of a key that is stated twice the last one counts. The hash would then be that of other contents.
 
 use super::{Plan, PlanFileError};
+use crate::scenario::MAX_SEED;
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Number, Value};
 use std::fmt;
 
-/// The largest whole number that JSON says exactly (RFC 8785: numbers are doubles).
-const MOST_EXACT: u64 = (1 << 53) - 1;
+/// The largest whole number that JSON says exactly (RFC 8785: numbers are doubles), which bounds seeds for that reason.
+const MOST_EXACT: u64 = MAX_SEED;
 
 /// Longest value that a message repeats, in characters.
 const LONGEST: usize = 60;
