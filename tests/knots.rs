@@ -1,0 +1,67 @@
+//! The motions of the shipped scenarios, knot by knot: times, positions and speeds to the last bit.
+//!
+//! `tests/golden/knots.json` holds the first 16 digits of the SHA-256 of each motion. A change that only moves or renames code leaves
+//! it as it is. Where a change is meant to change what is planned:
+//!
+//!     cargo test --release --test knots -- --ignored      writes it
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use platewash::planner::scenario::{Program, SHIPPED};
+use platewash::{Cycle, Job, Scenario, Trajectory};
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// Seeds of each scenario.
+const SEEDS: std::ops::RangeInclusive<u64> = 1..=50;
+
+/// By scenario, a motion a seed.
+type Hashes = BTreeMap<String, Vec<String>>;
+
+fn file() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden/knots.json")
+}
+
+fn hashes() -> Hashes {
+    let of = |name: &str| {
+        let seeds: Vec<_> = SEEDS.collect();
+        seeds.into_par_iter().map(|seed| hash(&motion(name, seed))).collect()
+    };
+    SHIPPED.iter().map(|s| (s.name.to_owned(), of(s.name))).collect()
+}
+
+fn motion(name: &str, seed: u64) -> Trajectory {
+    let scenario = Scenario {
+        seed,
+        ..Scenario::load(name).unwrap()
+    };
+    match scenario.job.program {
+        Program::Certified => Cycle::plan(&scenario).unwrap().motion,
+        Program::Paper => Job::run(&scenario).unwrap().planned,
+    }
+}
+
+/// Of the bytes of t, then q, then q̇, little-endian.
+fn hash(motion: &Trajectory) -> String {
+    let joints = motion.positions().iter().chain(motion.speeds()).flatten();
+    let mut hash = Sha256::new();
+    for number in motion.times().iter().chain(joints) {
+        hash.update(number.to_le_bytes());
+    }
+    hash.finalize()[..8].iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[test]
+#[ignore = "writes the golden file"]
+fn write() {
+    std::fs::write(file(), serde_json::to_string_pretty(&hashes()).unwrap() + "\n").unwrap();
+}
+
+#[test]
+fn the_shipped_scenarios_move_as_committed() {
+    let committed: Hashes = serde_json::from_str(&std::fs::read_to_string(file()).unwrap()).unwrap();
+    let found = hashes();
+    assert!(found.values().all(|motions| motions.len() == 50) && found.len() == SHIPPED.len());
+    assert_eq!(committed, found);
+}
