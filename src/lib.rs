@@ -28,25 +28,26 @@ extern crate self as platewash;
 pub use platewash_kinematics as kinematics;
 pub use platewash_planner as planner;
 pub use platewash_simulator as simulator;
+pub use platewash_workcell as workcell;
 
 pub use platewash_kinematics::ik::{IkError, IkFailure, IkSettings, IkSolution, IkSolver};
 pub use platewash_kinematics::{Axes, Frame, Jacobian, JointLimits, JointVector, Pose, RobotModel, ToolFrame};
 pub use platewash_planner::certificate::{Certificate, Promise, VerifyError};
-pub use platewash_planner::clearance::{ClearanceModel, PairClearance};
-pub use platewash_planner::coverage::{Coverage, coverage};
 pub use platewash_planner::cycle::{Cycle, CycleReport};
 pub use platewash_planner::job::{Job, PlanError};
-pub use platewash_planner::layout::{Layout, Plate, Region};
 pub use platewash_planner::plan::Plan;
 pub use platewash_planner::report::{JobReport, Verdict};
 pub use platewash_planner::reproduce::{Reproduction, reproduce};
 pub use platewash_planner::scenario::Scenario;
 pub use platewash_planner::tool_path::ToolPath;
-pub use platewash_planner::trajectory::Trajectory;
 pub use platewash_simulator::{
     DynamicsError, DynamicsModel, Energy, Execution, Setup, SimulationError, SimulationReport, SimulationVerdict,
     simulate, tune,
 };
+pub use platewash_workcell::clearance::{ClearanceModel, PairClearance};
+pub use platewash_workcell::coverage::{Coverage, coverage};
+pub use platewash_workcell::layout::{Layout, Plate, Region};
+pub use platewash_workcell::trajectory::Trajectory;
 
 /// The example in the README, run as a test.
 #[cfg(doctest)]

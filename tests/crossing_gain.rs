@@ -3,13 +3,13 @@
 
 use nalgebra::Vector3;
 use platewash::kinematics::ik::{IkSettings, IkSolver};
-use platewash::planner::clearance::ClearanceModel;
 use platewash::planner::joint_path::{Ends, JointPath};
 use platewash::planner::posture::{Cell, TiltPolicy};
-use platewash::planner::robot::tip_frame;
 use platewash::planner::timing::{self, MotionLimits, TipLimits};
 use platewash::planner::tool_path::{Segment, SegmentKind, Shape};
-use platewash::planner::transition;
+use platewash::workcell::arc;
+use platewash::workcell::clearance::ClearanceModel;
+use platewash::workcell::tool::tip_frame;
 use platewash::{Cycle, Scenario};
 
 /// Samples of one straight stretch between two waypoints of the arc.
@@ -58,7 +58,7 @@ fn paper_s(cycle: &Cycle, scenario: &Scenario) -> f64 {
             .duration_s()
     };
     let crossing = |[from, to]: [Vector3<f64>; 2]| {
-        let points = transition::waypoints(from, to, &scenario.arc());
+        let points = arc::waypoints(from, to, &scenario.arc());
         points.windows(2).map(|ends| stretch(ends[0], ends[1])).sum::<f64>()
     };
     contacts(&cycle.tool_path).into_iter().map(crossing).sum()

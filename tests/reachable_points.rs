@@ -2,8 +2,10 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use platewash::planner::tool_path::{SegmentKind, tool_down};
-use platewash::planner::{job, robot};
+use platewash::planner::tool_path::SegmentKind;
+use platewash::planner::job;
+use platewash::workcell::tool;
+use platewash::workcell::tool::tool_down;
 use platewash::{IkError, IkSolver, JointVector, RobotModel, Scenario, ToolPath};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -97,7 +99,7 @@ fn wrists(r: &Matrix3<f64>) -> [[f64; 3]; 2] {
 fn every_reachable_spiral_point_of_a_thousand_layouts_is_solved() {
     let robot = RobotModel::irb120().unwrap();
     let mut scenario = Scenario::load("paper-appendix").unwrap();
-    let tip = robot::tip_frame(&robot, &scenario.tool);
+    let tip = tool::tip_frame(&robot, &scenario.tool);
     let solver = IkSolver::new(&robot, tip, job::ik_settings(&scenario)).unwrap();
     let (mut points, mut possible, mut solved, mut beyond) = (0, 0, 0, 0);
     for seed in 0..1000 {

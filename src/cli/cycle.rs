@@ -8,9 +8,9 @@ use super::progress::Progress;
 use super::run::RunArguments;
 use super::{output, results, simulate};
 use platewash::planner::certificate::{self, PairsShown};
-use platewash::planner::csv::MotionTable;
 use platewash::planner::cycle::{CycleReport, InfeasibleReport};
 use platewash::simulator::simulate::{PlateVerdict, table};
+use platewash::workcell::csv::MotionTable;
 use platewash::{Cycle, Scenario, Setup, SimulationReport, SimulationVerdict};
 use serde::Serialize;
 

@@ -2,10 +2,10 @@
 
 use super::output;
 use platewash::PlanError;
-use platewash::planner::csv::CsvError;
 use platewash::planner::plan::PlanFileError;
 use platewash::planner::robot::RobotError;
 use platewash::planner::scenario::ScenarioError;
+use platewash::workcell::csv::CsvError;
 use std::io::Write;
 
 /// Exit code of an internal error.

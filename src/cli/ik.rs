@@ -11,7 +11,8 @@ use clap::Args;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 use platewash::kinematics::ik::{AnalyticStarts, RandomRestarts};
 use platewash::kinematics::rotation::from_rpy;
-use platewash::planner::{job, robot};
+use platewash::planner::job;
+use platewash::workcell::tool;
 use platewash::{Frame, IkError, IkSettings, IkSolver, JointVector, Pose, RobotModel, Scenario, ToolFrame};
 use serde::Serialize;
 
@@ -179,7 +180,7 @@ fn text(answer: &Answer, arm: &RobotModel) -> String {
 fn frame(arm: &RobotModel, scenario: &Scenario, name: &str) -> anyhow::Result<Frame> {
     match ToolFrame::ALL.into_iter().find(|f| f.name() == name) {
         Some(known) => Ok(arm.tool_frame(known)?),
-        None if name == "tip" => Ok(robot::tip_frame(arm, &scenario.tool)),
+        None if name == "tip" => Ok(tool::tip_frame(arm, &scenario.tool)),
         None => Ok(arm.frame(name)?),
     }
 }

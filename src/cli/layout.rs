@@ -5,8 +5,8 @@ use super::options::Options;
 use super::{output, validate};
 use platewash::PlanError;
 use platewash::planner::job;
-use platewash::planner::layout::{Layout, LayoutSource};
-use platewash::planner::words::counted;
+use platewash::workcell::layout::{Layout, LayoutSource};
+use platewash::workcell::words::counted;
 use std::fmt::Write;
 
 /// Places the plates; with `--out`, writes `layout.json`.

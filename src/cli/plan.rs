@@ -8,12 +8,13 @@ use super::progress::Progress;
 use super::time_step::TimeStep;
 use super::{cycle, output, results};
 use clap::Args;
-use platewash::planner::csv::MotionTable;
 use platewash::planner::cycle::InfeasibleReport;
 use platewash::planner::plan::{PlanSegment, Summary};
 use platewash::planner::scenario::Program;
-use platewash::planner::words::counted;
-use platewash::planner::{csv, job, plan, robot};
+use platewash::planner::{job, plan};
+use platewash::workcell::csv::MotionTable;
+use platewash::workcell::words::counted;
+use platewash::workcell::{csv, tool};
 use platewash::{Job, JobReport, Plan, PlanError, RobotModel, Scenario, Trajectory};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -160,7 +161,7 @@ pub fn motion_csv<'a>(
     segments: &'a [PlanSegment],
     arguments: &PlanArguments,
 ) -> Result<MotionTable<'a>, Failure> {
-    let tip = robot::tip_frame(robot, &scenario.tool);
+    let tip = tool::tip_frame(robot, &scenario.tool);
     let dt_s = arguments.time_step.of(scenario, motion.duration_s())?;
     Ok(csv::table(motion, segments, robot, &tip, dt_s)?)
 }

@@ -53,8 +53,8 @@ pub fn run(options: &Options) -> Result<ExitCode, Failure> {
 }
 
 /// No tool body.
-pub fn bare() -> platewash::planner::scenario::ToolSection {
-    platewash::planner::scenario::ToolSection {
+pub fn bare() -> platewash::workcell::tool::Tool {
+    platewash::workcell::tool::Tool {
         length_m: 0.0,
         ..Default::default()
     }

@@ -4,8 +4,8 @@ use super::failure::Failure;
 use anyhow::{Context, anyhow, ensure};
 use clap::Args;
 use platewash::Scenario;
-use platewash::planner::csv::{CsvError, MAX_ROWS, check_step};
 use platewash::planner::scenario::TIME_STEPS_S;
+use platewash::workcell::csv::{CsvError, MAX_ROWS, check_step};
 
 /// `--dt`.
 #[derive(Debug, Args, Default)]

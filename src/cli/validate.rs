@@ -6,10 +6,10 @@ use super::options::Options;
 use super::output;
 use platewash::planner::cycle::InfeasibleReport;
 use platewash::planner::job;
-use platewash::planner::layout::{Finding, LayoutError};
 use platewash::planner::scenario::{Overlap, Program, UnitNote};
-use platewash::planner::words::counted;
 use platewash::simulator::simulate::PayloadCheck;
+use platewash::workcell::layout::{Finding, LayoutError};
+use platewash::workcell::words::counted;
 use platewash::{Cycle, Layout, PlanError, Scenario};
 use serde::Serialize;
 

@@ -2,7 +2,7 @@
 
 use platewash::Plan;
 use platewash::planner::certificate::{self, PromiseName};
-use platewash::planner::random::stream;
+use platewash::workcell::random::stream;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 

@@ -3,17 +3,18 @@
 use nalgebra::Vector3;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_planner::certificate;
-use platewash_planner::clearance::ClearanceModel;
 use platewash_planner::cycle::Cycle;
 use platewash_planner::job;
 use platewash_planner::joint_path::{Ends, JointPath};
-use platewash_planner::layout::Layout;
 use platewash_planner::plan::Plan;
 use platewash_planner::posture::{Cell, PostureSettings, Washing, washing};
 use platewash_planner::robot;
 use platewash_planner::scenario::Scenario;
-use platewash_planner::stroke::Stroke;
 use platewash_planner::timing::{self, MotionLimits, TipLimits};
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::layout::Layout;
+use platewash_workcell::stroke::Stroke;
+use platewash_workcell::tool;
 use std::error::Error;
 use std::hint::black_box;
 
@@ -102,7 +103,7 @@ impl Stages {
             Stage::Layout => drop(black_box(job::place_plates(&self.scenario, &self.robot)?)),
             Stage::Posture => drop(black_box(posture(&self.scenario, &self.robot, &self.layout)?)),
             Stage::Timing => {
-                let tip = robot::tip_frame(&self.robot, &self.scenario.tool);
+                let tip = tool::tip_frame(&self.robot, &self.scenario.tool);
                 drop(black_box(timing::time_optimal(
                     &self.path,
                     &self.robot,

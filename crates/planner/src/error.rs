@@ -1,14 +1,14 @@
 //! Why a job could not be carried out, whatever its program.
 
-use crate::clearance::ClearanceError;
 use crate::control::NotKinematic;
-use crate::coverage::CoverageError;
 use crate::cycle::CycleError;
-use crate::layout::LayoutError;
 use crate::robot::RobotError;
 use crate::scenario::ScenarioError;
 use crate::tracking::TrackingError;
 use platewash_kinematics::ik::{IkError, IkSettingsError};
+use platewash_workcell::clearance::ClearanceError;
+use platewash_workcell::coverage::CoverageError;
+use platewash_workcell::layout::LayoutError;
 
 /// Why a job could not be carried out; one variant a stage.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

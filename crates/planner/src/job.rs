@@ -3,18 +3,18 @@
 pub use crate::error::{Infeasibility, PlanError};
 pub use crate::place::place_plates;
 
-use crate::clearance::ClearanceModel;
 use crate::control;
-use crate::layout::{self, Layout, Plate, Region};
 use crate::place::{region, spacing, start};
 use crate::report::JobReport;
 use crate::robot;
 use crate::scenario::{IkMethod, Scenario};
 use crate::tool_path::ToolPath;
 use crate::tracking::{self, Step};
-use crate::trajectory::Trajectory;
 use platewash_kinematics::ik::{AnalyticStarts, IkSettings, IkSolver};
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::layout::{self, Layout, Plate, Region};
+use platewash_workcell::trajectory::Trajectory;
 
 /// A job planned and followed, before it is judged.
 #[derive(Debug, Clone)]
@@ -75,7 +75,11 @@ impl Job {
         scenario.check_work()?;
         let start = start(scenario, &robot)?;
         let tool_path = ToolPath::new(scenario, &layout);
-        let solver = IkSolver::new(&robot, robot::tip_frame(&robot, &scenario.tool), ik_settings(scenario))?;
+        let solver = IkSolver::new(
+            &robot,
+            platewash_workcell::tool::tip_frame(&robot, &scenario.tool),
+            ik_settings(scenario),
+        )?;
         let mut law = control::law(&scenario.control)?;
         let steps = tracking::follow(&robot, &solver, &tool_path, scenario.ik.seed, law.as_mut(), &start)?;
         let motion = |of: fn(&Step) -> JointVector| {

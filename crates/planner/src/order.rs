@@ -1,7 +1,7 @@
 //! The order in which plates are washed.
 
-use crate::layout::Plate;
 use crate::scenario::OrderRule;
+use platewash_workcell::layout::Plate;
 
 /// Order of the plates (indices).
 ///

@@ -1,10 +1,12 @@
 //! Where a scenario's plates lie and where its arm starts.
 
-use crate::layout::{self, Layout, LayoutError, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing};
-use crate::random;
-use crate::robot::{self, RobotError};
+use crate::robot::RobotError;
 use crate::scenario::{LayoutSection, Scenario};
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_workcell::layout::{
+    self, Layout, LayoutError, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing,
+};
+use platewash_workcell::random;
 use rand_pcg::Pcg64;
 
 /// Places the plates of a scenario: sampled from the seed's own stream, or as given and checked.
@@ -24,7 +26,7 @@ pub(crate) fn draw_plates(scenario: &Scenario, robot: &RobotModel, rng: &mut Pcg
         height_m: section.plate_height_m,
         thickness_m: section.plate_thickness_m,
     };
-    let base = robot::base_footprint(robot);
+    let base = layout::base_footprint(robot);
     let region = region(section);
     match (&section.positions_m, region) {
         (Some(positions), region) => layout::check_explicit(positions, region.as_ref(), &spacing, &geometry, &base),

@@ -3,14 +3,14 @@
 mod contents;
 
 use crate::job::Job;
-use crate::layout::Plate;
 use crate::report::JobReport;
-use crate::robot;
-use crate::scenario::{Scenario, ToolSection};
-use crate::tool_path::{Segment, SegmentKind};
-use crate::trajectory::Trajectory;
-use crate::words::printable;
+use crate::scenario::{Scenario, Tool};
+use crate::tool_path::Segment;
 use platewash_kinematics::{AXES, JointVector, RobotModel, sha256_hex};
+use platewash_workcell::layout::Plate;
+pub use platewash_workcell::segment::PlanSegment;
+use platewash_workcell::trajectory::Trajectory;
+use platewash_workcell::words::printable;
 use serde::{Deserialize, Serialize};
 
 /// The format that this version writes and reads.
@@ -65,7 +65,7 @@ pub struct Plan {
     /// Joint positions at the start and at the end \[rad\].
     pub home_rad: [JointVector; 2],
     /// What it holds.
-    pub tool: ToolSection,
+    pub tool: Tool,
     /// The plates.
     pub plates: Vec<Plate>,
     /// Plate indices in the order of washing.
@@ -109,9 +109,9 @@ pub struct TipPose {
 impl TipPose {
     /// The tip of a tool on an arm.
     #[must_use]
-    pub fn new(robot: &RobotModel, tool: &ToolSection) -> Self {
+    pub fn new(robot: &RobotModel, tool: &Tool) -> Self {
         let poses = robot.fk(&JointVector::zeros());
-        let tip = robot::tip_frame(robot, tool);
+        let tip = platewash_workcell::tool::tip_frame(robot, tool);
         let relative = poses.pose(&robot.last_link_frame()).inv_mul(&poses.pose(&tip));
         let q = relative.rotation.quaternion();
         Self {
@@ -197,20 +197,6 @@ impl PlanLimits {
             coverage: scenario.job.required_coverage,
         }
     }
-}
-
-/// A segment in time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PlanSegment {
-    /// What it is for.
-    pub kind: SegmentKind,
-    /// The plate washed, or the plate it leads to.
-    pub plate: usize,
-    /// Start \[s\].
-    pub t_start_s: f64,
-    /// End \[s\].
-    pub t_end_s: f64,
 }
 
 /// The knots of a motion.
@@ -435,7 +421,7 @@ pub fn segments(job: &Job) -> Vec<PlanSegment> {
         return Vec::new();
     };
     let mut all = vec![PlanSegment {
-        kind: SegmentKind::Depart,
+        kind: platewash_workcell::segment::SegmentKind::Depart,
         plate: first.plate,
         t_start_s: 0.0,
         t_end_s: job.time_of(0),

@@ -4,48 +4,15 @@
 //! the mounting frame (`tool0`). Washing, it points straight down.
 
 use crate::cubic;
-use crate::layout::{Layout, Plate};
 use crate::order::order;
 use crate::scenario::{Interpolation, Scenario};
 use crate::spiral::Spiral;
-use crate::stroke::Stroke;
-use crate::transition;
-use nalgebra::{UnitQuaternion, Vector3};
-use platewash_kinematics::Pose;
+use nalgebra::Vector3;
+use platewash_workcell::arc;
+use platewash_workcell::layout::{Layout, Plate};
+pub use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::stroke::Stroke;
 use serde::{Deserialize, Serialize};
-
-/// What a segment is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum SegmentKind {
-    /// From the start to the first approach, or to the first waypoint.
-    Depart,
-    /// Down to a plate along its normal.
-    Approach,
-    /// Washing a plate.
-    Wash,
-    /// Up from a plate along its normal.
-    Retreat,
-    /// From one plate to the next.
-    Transition,
-    /// From the last plate home.
-    Return,
-}
-
-impl SegmentKind {
-    /// The word used in files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Depart => "depart",
-            Self::Approach => "approach",
-            Self::Wash => "wash",
-            Self::Retreat => "retreat",
-            Self::Transition => "transition",
-            Self::Return => "return",
-        }
-    }
-}
 
 /// How the waypoints of a segment come about, as parameters (base frame, m).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -157,15 +124,6 @@ impl ToolPath {
     }
 }
 
-/// Pose of the tip at a position, pointing straight down: a half turn about y, which is what the paper's
-/// `eul2quat([0, pi/2, 0])` means for MATLAB's `tool0`.
-#[must_use]
-pub fn tool_down(position: Vector3<f64>) -> Pose {
-    // Exact, so that no joint sees the rounding of π: the quaternion (w, x, y, z) = (0, 0, 1, 0).
-    let half_turn = UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(0.0, 0.0, 1.0, 0.0));
-    Pose::from_parts(position.into(), half_turn)
-}
-
 fn spiral(scenario: &Scenario) -> Spiral {
     let wash = &scenario.wash;
     Spiral {
@@ -194,7 +152,7 @@ fn wash_segment(scenario: &Scenario, plate: &Plate, index: usize) -> Segment {
 
 fn transition_segment(scenario: &Scenario, from: Vector3<f64>, to: Vector3<f64>, plate: usize) -> Segment {
     let section = &scenario.transition;
-    let through = transition::waypoints(from, to, &scenario.arc());
+    let through = arc::waypoints(from, to, &scenario.arc());
     Segment {
         kind: SegmentKind::Transition,
         plate,

@@ -5,10 +5,11 @@
 
 use crate::control::ControlLaw;
 use crate::scenario::IkSeed;
-use crate::tool_path::{ToolPath, tool_down};
+use crate::tool_path::ToolPath;
 use nalgebra::Vector3;
 use platewash_kinematics::ik::{IkCause, IkError, IkSolver, Method};
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_workcell::tool::tool_down;
 use serde::Serialize;
 
 /// The inverse kinematics' answer at one waypoint.

@@ -12,10 +12,9 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_planner::joint_path::{Ends, JointPath};
-use platewash_planner::robot;
-use platewash_planner::scenario::ToolSection;
-use platewash_planner::stroke::Stroke;
+use platewash_planner::scenario::Tool;
 use platewash_planner::timing::{MotionLimits, TipLimits, time_optimal};
+use platewash_workcell::stroke::Stroke;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -45,11 +44,11 @@ fn the_fixture_is_current() {
 
 fn fixture() -> String {
     let robot = RobotModel::irb120().unwrap();
-    let tool = ToolSection {
+    let tool = Tool {
         length_m: 0.15,
-        ..ToolSection::default()
+        ..Tool::default()
     };
-    let tip = robot::tip_frame(&robot, &tool);
+    let tip = platewash_workcell::tool::tip_frame(&robot, &tool);
     let smooth = smooth();
     let wash = wash(&robot, &tip);
     let tip_limits = TipLimits {

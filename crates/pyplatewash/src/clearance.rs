@@ -8,7 +8,7 @@ use crate::tool::{PlateFields, ToolFields};
 use crate::value::to_record;
 use crate::work::{STRETCH, alone, released};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
-use platewash::planner::scenario::ToolSection;
+use platewash::workcell::tool::Tool;
 use platewash::{ClearanceModel, JointVector, PairClearance};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
@@ -68,7 +68,7 @@ impl ClearanceObject {
         let (made, plates): (Vec<_>, Vec<_>) = plates.transpose()?.unwrap_or_default().into_iter().unzip();
         let section = match &tool {
             Some(tool) => ToolFields::of(tool)?.section(py)?,
-            None => ToolSection::default(),
+            None => Tool::default(),
         };
         let model = robot.get().model().clone();
         let inner = alone(py, || ClearanceModel::new(&model, &section, &made))?;

@@ -8,8 +8,8 @@ use numpy::PyArrayDyn;
 use platewash::planner::cubic;
 use platewash::planner::scenario::Interpolation;
 use platewash::planner::spiral::Spiral;
-use platewash::planner::stroke::Stroke;
-use platewash::planner::transition::{self, Arc};
+use platewash::workcell::arc::{self, Arc};
+use platewash::workcell::stroke::Stroke;
 use pyo3::prelude::*;
 
 /// Most points of a curve.
@@ -142,7 +142,7 @@ pub fn transition_waypoints<'py>(
         radius_m,
         height_m,
     };
-    let all = transition::waypoints(start.into(), end.into(), &arc);
+    let all = arc::waypoints(start.into(), end.into(), &arc);
     vectors(py, &all)
 }
 

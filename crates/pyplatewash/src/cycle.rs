@@ -11,10 +11,11 @@ use crate::value::to_record;
 use crate::work::patiently;
 use platewash::planner::certificate;
 use platewash::planner::plan::PlanFileError;
+use platewash::planner::robot;
 use platewash::planner::scenario::Program;
 use platewash::planner::sweep::SweepRow;
-use platewash::planner::words::counted;
-use platewash::planner::{csv, robot};
+use platewash::workcell::words::counted;
+use platewash::workcell::{csv, tool};
 use platewash::{Cycle, CycleReport, Job, Plan, PlanError, RobotModel, Scenario};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple, PyType};
@@ -120,7 +121,7 @@ impl CycleObject {
     fn to_csv(&self, py: Python<'_>, dt_s: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
         let cycle = &self.inner;
         let dt_s = dt_s.map(|dt_s| argument::number("dt_s", dt_s)).transpose()?;
-        let tip = robot::tip_frame(&cycle.robot, &cycle.scenario.tool);
+        let tip = tool::tip_frame(&cycle.robot, &cycle.scenario.tool);
         let dt_s = dt_s.unwrap_or(cycle.scenario.control.dt_s);
         let table = csv::table(&cycle.motion, &cycle.segments, &cycle.robot, &tip, dt_s);
         table

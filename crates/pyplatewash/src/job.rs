@@ -12,8 +12,9 @@ use crate::value::to_record;
 use crate::work::patiently;
 use numpy::{PyArray1, PyArrayDyn};
 use platewash::planner::scenario::Program;
-use platewash::planner::words::counted;
 use platewash::planner::{plan, robot};
+use platewash::workcell::tool;
+use platewash::workcell::words::counted;
 use platewash::{Job, JointVector, Layout, Plan, Scenario};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -192,10 +193,10 @@ impl JobObject {
         let dt_s = dt_s.map(|dt_s| argument::number("dt_s", dt_s)).transpose()?;
         let executed = executed.map_or(Ok(false), |executed| argument::flag("executed", executed))?;
         let motion = if executed { &job.executed } else { &job.planned };
-        let tip = robot::tip_frame(&job.robot, &job.scenario.tool);
+        let tip = tool::tip_frame(&job.robot, &job.scenario.tool);
         let dt_s = dt_s.unwrap_or(job.scenario.control.dt_s);
         let segments = plan::segments(job);
-        let table = platewash::planner::csv::table(motion, &segments, &job.robot, &tip, dt_s);
+        let table = platewash::workcell::csv::table(motion, &segments, &job.robot, &tip, dt_s);
         table
             .map(|table| table.to_string())
             .map_err(|e| errors::input(py, "dt_s", &e.to_string()))

@@ -10,7 +10,7 @@ use crate::trajectory::TrajectoryObject;
 use crate::value::{to_python, to_record};
 use platewash::kinematics::urdf::file;
 use platewash::planner::plan::PlanFileError;
-use platewash::planner::trajectory::KnotError;
+use platewash::workcell::trajectory::KnotError;
 use platewash::{Plan, RobotModel, Trajectory};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyString, PyTuple, PyType};

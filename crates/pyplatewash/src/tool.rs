@@ -6,7 +6,7 @@ use crate::curves;
 use crate::errors;
 use crate::robot;
 use platewash::Plate;
-use platewash::planner::scenario::ToolSection;
+use platewash::workcell::tool::Tool;
 use pyo3::prelude::*;
 
 /// Largest length that is believed \[m\].
@@ -57,7 +57,7 @@ impl ToolFields {
     ///
     /// # Errors
     /// `InputError` for a number that makes no sense.
-    pub fn section(&self, py: Python<'_>) -> PyResult<ToolSection> {
+    pub fn section(&self, py: Python<'_>) -> PyResult<Tool> {
         let lengths = [
             ("tool.length_m", self.length_m),
             ("tool.radius_m", self.radius_m),
@@ -77,7 +77,7 @@ impl ToolFields {
             return Err(errors::input(py, "tool.sponge_height_m", &problem));
         }
         self.check_masses(py)?;
-        Ok(ToolSection {
+        Ok(Tool {
             length_m: self.length_m,
             radius_m: self.radius_m,
             sponge_radius_m: self.sponge_radius_m,

@@ -6,7 +6,7 @@ use crate::errors;
 use crate::work::released;
 use numpy::PyArrayDyn;
 use platewash::kinematics::JointVector;
-use platewash::planner::trajectory::{JointState, KnotError, SegmentExtremes, Trajectory};
+use platewash::workcell::trajectory::{JointState, KnotError, SegmentExtremes, Trajectory};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use rayon::prelude::*;

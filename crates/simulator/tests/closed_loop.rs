@@ -4,10 +4,10 @@
 use nalgebra::Matrix6;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_planner::scenario::{ControlLawName, ControlSection, Integrator};
-use platewash_planner::trajectory::JointState;
 use platewash_simulator::control::{self, ControlError, Reference};
 use platewash_simulator::dynamics::spread;
 use platewash_simulator::{Command, ControlLaw, DynamicsModel, Plant, PlantState};
+use platewash_workcell::trajectory::JointState;
 use proptest::prelude::*;
 use std::sync::OnceLock;
 

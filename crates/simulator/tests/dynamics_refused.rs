@@ -5,9 +5,9 @@ use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::model::IRB120_URDF;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{RobotModel, UrdfError};
-use platewash_planner::scenario::ToolSection;
 use platewash_simulator::dynamics::Unphysical;
 use platewash_simulator::{DynamicsError, DynamicsModel, RigidBody};
+use platewash_workcell::tool::Tool;
 
 fn edited(old: &str, new: &str) -> Result<RobotModel, UrdfError> {
     assert_eq!(IRB120_URDF.matches(old).count(), 1, "{old}");
@@ -90,28 +90,28 @@ fn a_point_on_the_last_axis_resists_nothing() {
 fn tools_are_checked_and_weigh_what_they_state() {
     let robot = RobotModel::irb120().unwrap();
     let bare = DynamicsModel::new(&robot, None).unwrap();
-    let tool = ToolSection {
+    let tool = Tool {
         length_m: 0.15,
         mass_kg: 0.3,
-        ..ToolSection::default()
+        ..Tool::default()
     };
     let held = DynamicsModel::new(&robot, RigidBody::tool(&tool).as_ref()).unwrap();
     assert!((held.moving_mass_kg() - bare.moving_mass_kg() - 0.3).abs() < 1e-12);
     assert_eq!(
-        RigidBody::tool(&ToolSection {
+        RigidBody::tool(&Tool {
             length_m: 0.0,
             ..tool.clone()
         }),
         None
     );
     assert_eq!(
-        RigidBody::tool(&ToolSection {
+        RigidBody::tool(&Tool {
             mass_kg: 0.0,
             ..tool.clone()
         }),
         None
     );
-    let odd = ToolSection {
+    let odd = Tool {
         inertia_kg_m2: Some([1.0, 0.0, 0.0, 0.1, 0.0, 0.1]),
         ..tool
     };

@@ -59,7 +59,7 @@ fn stroke(robot: &RobotModel, plan: &Plan, rho: f64) -> Plan {
         orientation_tolerance_rad: 1e-11,
         ..IkSettings::default()
     };
-    let tip = platewash_planner::robot::tip_frame(robot, &plan.tool);
+    let tip = platewash_workcell::tool::tip_frame(robot, &plan.tool);
     let solver = IkSolver::new(robot, tip, tight).unwrap();
     let rate = RADIUS_M / (TAU * TURNS);
     let (mut theta, mut q) = (0.0, vec![JointVector::new(0.0, 0.5, 0.0, 0.0, 1.0, 0.0)]);

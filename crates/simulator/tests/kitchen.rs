@@ -223,7 +223,7 @@ fn the_csv_has_the_plans_columns_and_torque() {
     let (execution, _) = judged(&under(ControlLawName::ComputedTorque, 30.0));
     let text = simulate::table(&execution, plan, robot, 0.1).unwrap().to_string();
     let header = text.lines().next().unwrap();
-    assert!(header.starts_with(platewash_planner::csv::HEADER) && header.ends_with("tau6_n_m"));
+    assert!(header.starts_with(platewash_workcell::csv::HEADER) && header.ends_with("tau6_n_m"));
     let columns = header.split(',').count();
     assert!(text.lines().all(|line| line.split(',').count() == columns));
     let times: Vec<f64> = text

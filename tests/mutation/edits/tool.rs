@@ -7,7 +7,7 @@ use platewash::planner::certificate::PromiseName::{
     Clearance, ContactHeight, Coverage, Limits, LineDeviation, StrokeDeviation, Tool,
 };
 use platewash::planner::plan::TipPose;
-use platewash::planner::scenario::ToolSection;
+use platewash::workcell::tool;
 
 pub fn add(edits: &mut Edits) {
     let mut fails = |what, names: &[_], apply| edits.fails(Kind::Tool, what, names, apply);
@@ -33,7 +33,7 @@ pub fn add(edits: &mut Edits) {
 
 /// The scenario asks for another tool, and the plan states it.
 fn both(edits: &mut Edits) {
-    type Change = fn(&mut ToolSection);
+    type Change = fn(&mut tool::Tool);
     let off = vec![ContactHeight, StrokeDeviation];
     let far = vec![ContactHeight, StrokeDeviation, LineDeviation];
     let cases: [(&str, Expected, Change); 12] = [
@@ -64,7 +64,7 @@ fn both(edits: &mut Edits) {
     }
 }
 
-fn restated(plan: &mut Plan, change: fn(&mut ToolSection)) {
+fn restated(plan: &mut Plan, change: fn(&mut tool::Tool)) {
     change(&mut plan.scenario.tool);
     plan.tool = plan.scenario.tool.clone();
     plan.tip = TipPose::new(good()[0].robot, &plan.tool);

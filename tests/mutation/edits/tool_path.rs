@@ -4,9 +4,9 @@ use super::nth;
 use crate::edit::{Edits, Expected, Kind};
 use platewash::Plan;
 use platewash::planner::certificate::PromiseName::{Coverage, LineDeviation, Segments, StrokeDeviation, ToolPath};
-use platewash::planner::stroke::Stroke;
 use platewash::planner::tool_path::SegmentKind::{self, Approach, Retreat, Transition, Wash};
 use platewash::planner::tool_path::Shape;
+use platewash::workcell::stroke::Stroke;
 
 pub fn add(edits: &mut Edits) {
     list(edits);

@@ -6,11 +6,11 @@
 //! nanoseconds that one choice took, the configurations in it, the travel of all joints \[rad\].
 
 use nalgebra::Vector3;
-use platewash_planner::clearance::ClearanceModel;
 use platewash_planner::cycle::Cycle;
 use platewash_planner::posture::{Cell, PostureSettings, washing};
 use platewash_planner::scenario::Scenario;
-use platewash_planner::stroke::Stroke;
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::stroke::Stroke;
 use serde_json::json;
 use std::error::Error;
 use std::io::{BufRead, Write};

@@ -3,17 +3,16 @@
 use super::neighbours::{TOUCHING_M, gap};
 use super::promise::{Discrepancy, Promise, PromiseName, Status};
 use crate::plan::Plan;
-use crate::robot;
 use crate::scenario::Overlap;
-use crate::words::millimetres;
 use platewash_kinematics::RobotModel;
+use platewash_workcell::words::millimetres;
 
 /// Promises that no two plates overlap and that none lies over the base's footprint; findings alone where the scenario
 /// only wants to be told.
 pub(super) fn promise(plan: &Plan, robot: &RobotModel) -> Promise {
     let plates = &plan.plates;
     let mut wrong = Vec::new();
-    let base = robot::base_footprint(robot);
+    let base = platewash_workcell::layout::base_footprint(robot);
     for (i, plate) in plates.iter().enumerate() {
         let beyond = |value: f64, [least, most]: [f64; 2]| (least - value).max(value - most).max(0.0);
         let (dx, dy) = (beyond(plate.x_m, base.x_m), beyond(plate.y_m, base.y_m));

@@ -1,13 +1,13 @@
 //! Clearance of one pair of bodies over stretches of time: branch and bound, the least bound first.
 //!
 //! An interval of time and a pair of parts has a lower bound of its distance: from its middle by what the joints can displace, or
-//! from its ends by what the parts can accelerate ([`crate::clearance::motion`]). The interval with the least bound is halved until
+//! from its ends by what the parts can accelerate ([`platewash_workcell::clearance::motion`]). The interval with the least bound is halved until
 //! that is good enough: the limit kept and the least distance found nearly reached.
 
 use super::timeline::{Interval, Timeline};
-use crate::clearance::ITERATIVE_ERROR_M;
-use crate::clearance::motion::PartPair;
 use platewash_kinematics::RobotModel;
+use platewash_workcell::clearance::ITERATIVE_ERROR_M;
+use platewash_workcell::clearance::motion::PartPair;
 use std::collections::BinaryHeap;
 use std::ops::Range;
 

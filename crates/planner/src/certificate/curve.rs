@@ -1,8 +1,8 @@
 //! The curves of a declared tool path that the tip must follow, by one parameter θ that never runs back.
 
-use crate::stroke::{BLEND_RAD, Stroke};
 use crate::tool_path::{Segment, SegmentKind, Shape};
 use nalgebra::Vector3;
+use platewash_workcell::stroke::{BLEND_RAD, Stroke};
 use std::f64::consts::TAU;
 
 /// Steps of Gauss–Newton that look for the nearest point; where they end matters for the bound, not for its validity.

@@ -1,12 +1,12 @@
 //! Why a plan cannot be judged at all.
 
-use crate::clearance::ClearanceError;
-use crate::coverage::CoverageError;
 use crate::robot::RobotError;
 use crate::scenario::ScenarioError;
-use crate::trajectory::KnotError;
-use crate::words::{counted, printable};
 use platewash_kinematics::words::told_apart;
+use platewash_workcell::clearance::ClearanceError;
+use platewash_workcell::coverage::CoverageError;
+use platewash_workcell::trajectory::KnotError;
+use platewash_workcell::words::{counted, printable};
 
 /// Why a plan cannot be judged at all; a plan that breaks its promises is no error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,7 +1,7 @@
 //! The certificate's verdict in one line.
 
 use super::{Certificate, CertificateVerdict, Promise, Status};
-use crate::words::counted;
+use platewash_workcell::words::counted;
 
 /// The first line: certified or not, for which scenario, what is not kept, and what is waived.
 pub(super) fn headline(certificate: &Certificate) -> String {

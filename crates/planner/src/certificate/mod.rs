@@ -50,8 +50,6 @@ pub use summary::summary;
 pub use sweep::PlateCoverage;
 pub use table::{CertificateTable, PairsShown};
 
-use crate::clearance::ClearanceModel;
-use crate::layout::{MAX_PLATES, Plate};
 use crate::plan::{LINE_TOLERANCE_M, PATH_TOLERANCE_M, Plan, PlanLimits};
 use crate::robot;
 use crate::scenario::RobotSection;
@@ -59,6 +57,8 @@ use crate::tool_path::SegmentKind;
 use curve::Curve;
 use piece::Piece;
 use platewash_kinematics::{AXES, RobotModel};
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::layout::{MAX_PLATES, Plate};
 use schedule::Schedule;
 use serde::{Deserialize, Serialize};
 use sweep::Wash;

@@ -7,9 +7,9 @@
 //! over its centre.
 
 use super::promise::Discrepancy;
-use crate::layout::Plate;
 use crate::plan::{LINE_TOLERANCE_M, Plan};
-use crate::words::millimetres;
+use platewash_workcell::layout::Plate;
+use platewash_workcell::words::millimetres;
 use serde::{Deserialize, Serialize};
 
 /// Plates that overlap by less than this touch: the rounding of their places \[m\].

@@ -14,8 +14,8 @@
 //! rad/s²: what such a piece does cannot be proved, and is not.
 
 use crate::plan::Knots;
-use crate::trajectory::{KnotError, Trajectory};
 use platewash_kinematics::{AXES, JointVector};
+use platewash_workcell::trajectory::{KnotError, Trajectory};
 
 /// `q(u) = c₀ + c₁u + c₂u² + c₃u³` for u in [0, length].
 #[derive(Debug, Clone)]

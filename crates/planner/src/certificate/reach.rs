@@ -8,9 +8,9 @@ use super::statements::PLACE_M;
 use super::sweep::{PlateCoverage, Polyline, Wash};
 use super::tip::Arm;
 use super::tips::Tips;
-use crate::layout::Plate;
 use crate::plan::{PATH_TOLERANCE_M, Plan, PlanLimits};
 use crate::tool_path::SegmentKind;
+use platewash_workcell::layout::Plate;
 
 /// How often a piece of an approach or a retreat is halved at most: pieces are long there.
 const LINE_HALVINGS: u32 = 12;

@@ -7,7 +7,7 @@ use super::piece::Piece;
 use super::promise::Discrepancy;
 use crate::plan::Plan;
 use crate::tool_path::SegmentKind;
-use crate::words::counted;
+use platewash_workcell::words::counted;
 use std::ops::Range;
 
 /// The segments by their pieces, in time order.

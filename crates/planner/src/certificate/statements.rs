@@ -5,13 +5,13 @@
 
 use super::neighbours;
 use super::promise::{Discrepancy, Promise, PromiseName, Status};
-use crate::clearance::ClearanceModel;
 use crate::plan::{Plan, PlanLimits, TipPose, Tolerances};
 use crate::scenario::{OrderRule, Overlap, Program};
-use crate::stroke::Stroke;
 use crate::tool_path::{Segment, SegmentKind, Shape};
-use crate::words::millimetres;
 use platewash_kinematics::{AXES, RobotModel};
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::stroke::Stroke;
+use platewash_workcell::words::millimetres;
 use serde::Serialize;
 use serde_json::Value;
 use std::f64::consts::TAU;

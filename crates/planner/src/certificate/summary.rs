@@ -2,14 +2,13 @@
 
 use super::promise::{Discrepancy, Promise, PromiseName};
 use super::statements::fields;
-use crate::coverage::{CoverageSettings, coverage};
 use crate::plan::{PATH_TOLERANCE_M, Plan, PlanSegment, Summary};
-use crate::robot;
 use crate::scenario::Program;
-use crate::stroke::Stroke;
 use crate::tool_path::SegmentKind;
-use crate::words::counted;
 use platewash_kinematics::RobotModel;
+use platewash_workcell::coverage::{CoverageSettings, coverage};
+use platewash_workcell::stroke::Stroke;
+use platewash_workcell::words::counted;
 
 /// How far the polyline may leave the stroke \[m\].
 const CHORD_M: f64 = 1e-4;
@@ -104,7 +103,7 @@ fn covers_whole(stroke: &Stroke, sponge_m: f64, plate_m: f64) -> bool {
 
 /// Largest angle of the tool from the plate's normal at the knots of a wash \[rad\].
 fn tilt_at_knots(plan: &Plan, robot: &RobotModel, wash: &PlanSegment) -> f64 {
-    let tip = robot::tip_frame(robot, &plan.scenario.tool);
+    let tip = platewash_workcell::tool::tip_frame(robot, &plan.scenario.tool);
     let during = |t: &f64| (wash.t_start_s..=wash.t_end_s).contains(t);
     let knots = plan.knots.t_s.iter().zip(&plan.knots.q_rad).filter(|(t, _)| during(t));
     let tilts = knots.map(|(_, q)| {

@@ -7,8 +7,8 @@
 use super::neighbours::{Touched, norm};
 use super::piece::Piece;
 use super::tip::{Arm, Stretch};
-use crate::coverage::{CoverageError, CoverageSettings, coverage};
-use crate::layout::Plate;
+use platewash_workcell::coverage::{CoverageError, CoverageSettings, coverage};
+use platewash_workcell::layout::Plate;
 use serde::{Deserialize, Serialize};
 
 /// How far the tip may leave the polyline \[m\], where halving helps.

@@ -1,8 +1,8 @@
 //! A certificate as a table to read.
 
 use super::{Certificate, Measure, PairBound, PairRule, PlateCoverage, Promise, Sense, Status, Unit, Worst};
-use crate::words::counted;
 use platewash_kinematics::words::{decimals_down, decimals_up, told_apart};
+use platewash_workcell::words::counted;
 use std::fmt;
 
 /// Pairs that a table lists where it is not asked for all.

@@ -3,15 +3,14 @@
 //! With p(q) the tip's position and J its Jacobian, v = J q̇ and
 //! a = J q̈ + Σ_j q̇_j (2 ω_j − q̇_j z_j) × J_j, ω_j = Σ_{i ≤ j} q̇_i z_i.
 //! For a vector f of time, ‖f(t)‖ ≤ max(‖f(a)‖, ‖f(b)‖) + h²/8 · sup ‖f″‖ on [a, b], h = b − a. The bounds of the derivatives of
-//! p(q(t)) follow from the chain rule (Faà di Bruno) with the levers of [`crate::clearance::lever`]; a cubic has no fourth
+//! p(q(t)) follow from the chain rule (Faà di Bruno) with the levers of [`platewash_workcell::clearance::lever`]; a cubic has no fourth
 //! derivative.
 
 use super::piece::Piece;
-use crate::clearance::lever::{self, Levers};
-use crate::robot;
-use crate::scenario::ToolSection;
 use nalgebra::Vector3;
 use platewash_kinematics::{AXES, Axes, Frame, JointVector, RobotModel};
+use platewash_workcell::clearance::lever::{self, Levers};
+use platewash_workcell::tool::Tool;
 
 /// The arm with its tip.
 #[derive(Debug)]
@@ -54,8 +53,8 @@ pub(super) struct Derivatives {
 }
 
 impl<'a> Arm<'a> {
-    pub fn new(robot: &'a RobotModel, tool: &ToolSection) -> Self {
-        let tip = robot::tip_frame(robot, tool);
+    pub fn new(robot: &'a RobotModel, tool: &Tool) -> Self {
+        let tip = platewash_workcell::tool::tip_frame(robot, tool);
         let zero = robot.fk(&JointVector::zeros());
         let greatest = lever::greatest(&zero, tip.body(), &zero.rigid(&tip).translation);
         Self { robot, tip, greatest }
@@ -200,7 +199,7 @@ mod tests {
             q in vector(1.5), step in vector(0.2), v in [vector(2.0), vector(2.0)], share in 0.05..0.95f64,
         ) {
             let robot = RobotModel::irb120().unwrap();
-            let arm = Arm::new(&robot, &ToolSection { length_m: 0.15, ..ToolSection::default() });
+            let arm = Arm::new(&robot, &Tool { length_m: 0.15, ..Tool::default() });
             let piece = Piece::new([0.0, 0.2], [q, q + step], v);
             let (u, h) = (0.2 * share, 1e-5);
             let [before, here, after] = [u - h, u, u + h].map(|u| arm.at(&piece, u));

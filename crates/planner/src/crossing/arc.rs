@@ -2,10 +2,10 @@
 
 use super::Terminal;
 use super::route::Way;
-use crate::transition::{self, Arc};
 use nalgebra::Vector3;
 use platewash_kinematics::Pose;
 use platewash_kinematics::ik::IkSolver;
+use platewash_workcell::arc::{self, Arc};
 
 /// The arc, and how its points become configurations.
 #[derive(Clone, Copy)]
@@ -23,7 +23,7 @@ impl PaperArc<'_> {
     pub(super) fn way(&self, from: &Terminal, to: &Terminal) -> Option<Way> {
         let tip = |q| self.solver.robot().fk(q).rigid(self.solver.frame()).translation;
         let (start, end) = (tip(from.top()), tip(to.top()));
-        let points = transition::waypoints(start, end, &self.arc);
+        let points = arc::waypoints(start, end, &self.arc);
         let inner = &points[1..points.len() - 1];
         let poses: Vec<Pose> = inner.iter().map(|&p| (self.pose)(p)).collect();
         let q = self.solver.solve_path(&poses, from.top()).ok()?.q;

@@ -1,12 +1,12 @@
 //! Crossings among made-up obstacles: each route is needed once, and is really free.
 
 use super::*;
-use crate::random;
 use crate::timing::MotionLimits;
-use crate::transition::Arc;
 use nalgebra::Vector3;
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
+use platewash_workcell::arc::Arc;
+use platewash_workcell::random;
 
 struct Set {
     robot: RobotModel,
@@ -26,7 +26,7 @@ fn set() -> Set {
 }
 
 fn down(place: Vector3<f64>) -> Pose {
-    crate::tool_path::tool_down(place)
+    platewash_workcell::tool::tool_down(place)
 }
 
 /// The line over a place on the circle of radius 0.38 m, with the tool straight down.

@@ -1,8 +1,8 @@
 //! Two bodies nearer than a crossing may bring them.
 
-use crate::clearance::{ClearanceModel, PairClearance};
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::told_apart;
+use platewash_workcell::clearance::{ClearanceModel, PairClearance};
 use std::fmt;
 
 /// What crossings and the rests at home keep beyond `wash.clearance_m`, because they are looked at in steps \[m\].
@@ -69,9 +69,9 @@ impl fmt::Display for TooNear {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::layout::Plate;
     use crate::scenario::Scenario;
     use platewash_kinematics::RobotModel;
+    use platewash_workcell::layout::Plate;
 
     /// A plate whose surface is `gap` below the floor of the sponge, under the tool that points straight down.
     #[test]
@@ -79,7 +79,10 @@ mod tests {
         let robot = RobotModel::irb120().unwrap();
         let tool = Scenario::load("kitchen").unwrap().tool;
         let q = JointVector::new(0.0, 0.0, 0.0, 0.0, 90.0_f64.to_radians(), 0.0);
-        let tip = robot.fk(&q).rigid(&crate::robot::tip_frame(&robot, &tool)).translation;
+        let tip = robot
+            .fk(&q)
+            .rigid(&platewash_workcell::tool::tip_frame(&robot, &tool))
+            .translation;
         for (gap, near) in [(0.0105, true), (0.0112, false)] {
             let plate = Plate {
                 x_m: tip.x,

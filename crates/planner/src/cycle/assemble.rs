@@ -6,7 +6,7 @@ use crate::crossing::Crossing;
 use crate::plan::PlanSegment;
 use crate::timing::Timed;
 use crate::tool_path::{Segment, SegmentKind, Shape};
-use crate::trajectory::Trajectory;
+use platewash_workcell::trajectory::Trajectory;
 
 /// The whole cycle in time.
 pub(super) struct Assembled {

@@ -4,12 +4,12 @@ use super::activity::{Activity, Listener};
 use super::stages::Stages;
 use super::{CycleError, visit};
 use crate::error::PlanError;
-use crate::layout::Layout;
 use crate::place;
 use crate::posture;
-use crate::random;
 use crate::scenario::Scenario;
 use platewash_kinematics::RobotModel;
+use platewash_workcell::layout::Layout;
+use platewash_workcell::random;
 
 /// Layouts drawn before it is given up.
 const MOST_LAYOUTS: usize = 200;

@@ -1,7 +1,6 @@
 //! Why a cycle could not be planned.
 
 use super::UnwashablePlate;
-use crate::clearance::ClearanceError;
 use crate::crossing::{CrossingError, TerminalError, TooNear};
 use crate::error::Infeasibility;
 use crate::joint_path::JointPathError;
@@ -9,9 +8,10 @@ use crate::posture::PostureError;
 use crate::posture::settings::TILT_RESERVE_RAD;
 use crate::timing::TimingError;
 use crate::tool_path::SegmentKind;
-use crate::trajectory::KnotError;
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::{IkPathError, IkSettingsError};
+use platewash_workcell::clearance::ClearanceError;
+use platewash_workcell::trajectory::KnotError;
 
 /// Why a cycle could not be planned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -27,15 +27,15 @@ pub use unwashable::{Elsewhere, UnwashablePlate};
 use crate::certificate;
 use crate::crossing::Route;
 use crate::error::PlanError;
-use crate::layout::{Layout, Plate};
 use crate::place;
 use crate::plan::{Plan, PlanFileError, PlanParts, PlanSegment, Summary};
 use crate::posture::How;
 use crate::robot;
 use crate::scenario::Scenario;
 use crate::tool_path::Segment;
-use crate::trajectory::Trajectory;
 use platewash_kinematics::RobotModel;
+use platewash_workcell::layout::{Layout, Plate};
+use platewash_workcell::trajectory::Trajectory;
 use serde::Serialize;
 use stages::Stages;
 

@@ -2,10 +2,10 @@
 
 use super::{CrossingSummary, Cycle, TourSummary, VisitSummary};
 use crate::certificate::{Certificate, CertificateVerdict, PairsShown, headline};
-use crate::layout;
 use crate::report::Verdict;
-use crate::words::counted;
 use platewash_kinematics::{AXES, JointVector};
+use platewash_workcell::layout;
+use platewash_workcell::words::counted;
 use serde::Serialize;
 use std::fmt;
 

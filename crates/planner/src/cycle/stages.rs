@@ -5,17 +5,17 @@ use super::arm::Arm;
 use super::assemble::{self, Assembled};
 use super::visit::{self, Visit};
 use super::{CrossingSummary, CycleError, TourSummary, VisitSummary, tilt, travel};
-use crate::clearance::ClearanceModel;
 use crate::crossing::{self, Crossing, PaperArc, RESERVE_M, Scene, Stage, Terminal, TooNear};
-use crate::layout::Plate;
 use crate::posture::{self, Cell, PostureSettings};
-use crate::random;
 use crate::scenario::{OrderRule, Scenario};
-use crate::stroke::Stroke;
 use crate::timing::{MotionLimits, TipLimits};
-use crate::trajectory::Trajectory;
 use nalgebra::Vector3;
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::layout::Plate;
+use platewash_workcell::random;
+use platewash_workcell::stroke::Stroke;
+use platewash_workcell::trajectory::Trajectory;
 
 /// What the stages share.
 pub(super) struct Stages<'a> {

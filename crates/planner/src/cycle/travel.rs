@@ -3,11 +3,11 @@
 use super::arm::Arm;
 use super::tour::TravelTimes;
 use super::visit;
-use crate::layout::Plate;
 use crate::scenario::Scenario;
 use crate::timing::MotionLimits;
 use nalgebra::Vector3;
 use platewash_kinematics::{AXES, JointVector};
+use platewash_workcell::layout::Plate;
 
 /// Times between homes and plates: a stroke ends towards where the arm goes next, and the next one begins at its centre. A
 /// contact point that the posture policy does not reach counts as the plate's centre, and that as home.

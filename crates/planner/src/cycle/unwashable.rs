@@ -9,9 +9,9 @@ use crate::posture::elsewhere::{Move, SEARCHED_M};
 use crate::posture::elsewhere::{RING_M, RINGS};
 use crate::posture::washable::{self, Cause, Washable};
 use crate::posture::{self, Conclusion, PostureError};
-use crate::stroke::Stroke;
 use nalgebra::{Vector2, Vector3};
 use platewash_kinematics::JointVector;
+use platewash_workcell::stroke::Stroke;
 use serde::Serialize;
 use std::fmt;
 

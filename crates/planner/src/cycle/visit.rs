@@ -4,15 +4,15 @@ use super::CycleError;
 use super::arm::Arm;
 use crate::crossing::Terminal;
 use crate::joint_path::{Ends, JointPath};
-use crate::layout::Plate;
 use crate::posture::Washing;
 use crate::scenario::Scenario;
-use crate::stroke::Stroke;
 use crate::timing::{self, MotionLimits, Timed};
 use crate::tool_path::{Segment, SegmentKind, Shape};
 use crate::trig::{atan2, sin};
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
+use platewash_workcell::layout::Plate;
+use platewash_workcell::stroke::Stroke;
 use std::f64::consts::TAU;
 
 /// Distance of the samples on a line \[m\].

@@ -10,10 +10,10 @@ use super::inverse::{Start, Width};
 use super::search::Graph;
 use super::settings::PostureSettings;
 use super::task::Task;
-use crate::stroke::Stroke;
 use crate::trig::atan2;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
+use platewash_workcell::stroke::Stroke;
 use std::f64::consts::TAU;
 
 /// Contact points looked at: even, so that the farthest from axis 1 and the nearest are among them.

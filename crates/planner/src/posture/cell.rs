@@ -2,14 +2,14 @@
 
 use super::PostureError;
 use super::inverse::Inverse;
-use crate::clearance::ClearanceModel;
-use crate::layout::Plate;
-use crate::robot::tip_frame;
-use crate::scenario::ToolSection;
 use crate::trig::sin_cos;
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::layout::Plate;
+use platewash_workcell::tool::Tool;
+use platewash_workcell::tool::tip_frame;
 
 /// A horizontal distance from axis 1 below which it has no direction \[m\].
 const ON_AXIS_M: f64 = 1e-9;
@@ -48,7 +48,7 @@ impl<'a> Cell<'a> {
     /// [`PostureError::Ik`], for a solver that refuses its settings.
     pub fn new(
         robot: &'a RobotModel,
-        tool: &ToolSection,
+        tool: &Tool,
         clearance: &'a ClearanceModel,
         plates: &'a [Plate],
     ) -> Result<Self, PostureError> {

@@ -4,14 +4,14 @@ use super::inverse::Width;
 use super::task::{Task, overlap};
 use super::washing::by_policy;
 use super::{Cell, PostureError, PostureSettings};
-use crate::clearance::ClearanceModel;
-use crate::layout::Plate;
-use crate::robot::base_footprint;
-use crate::scenario::ToolSection;
-use crate::stroke::Stroke;
 use crate::trig::sin_cos;
 use nalgebra::{Vector2, Vector3};
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::layout::Plate;
+use platewash_workcell::layout::base_footprint;
+use platewash_workcell::stroke::Stroke;
+use platewash_workcell::tool::Tool;
 use std::f64::consts::TAU;
 
 /// Distance of the rings on which other positions are tried \[m\].
@@ -47,7 +47,7 @@ pub struct Move<'a> {
     /// The arm.
     pub robot: &'a RobotModel,
     /// Its tool.
-    pub tool: &'a ToolSection,
+    pub tool: &'a Tool,
     /// All plates.
     pub plates: &'a [Plate],
     /// Index of the one to move.

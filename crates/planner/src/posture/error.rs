@@ -4,9 +4,9 @@ use super::inverse::Start;
 use super::obstacle::{Filter, Obstacle};
 use super::search::Graph;
 use super::task::{Stop, Task, check_step};
-use crate::clearance::ClearanceError;
 use nalgebra::Vector3;
 use platewash_kinematics::ik::IkSettingsError;
+use platewash_workcell::clearance::ClearanceError;
 use std::fmt;
 
 /// A contact point at which no tilt is left.

@@ -7,10 +7,10 @@
 use super::inverse::Width;
 use super::task::Task;
 use super::{Cell, PostureError, PostureSettings};
-use crate::stroke::Stroke;
 use crate::trig::sin_cos;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
+use platewash_workcell::stroke::Stroke;
 
 /// Difference of neighbouring tilts, at most \[rad\]: 1°.
 pub const TILT_STEP_RAD: f64 = std::f64::consts::PI / 180.0;

@@ -2,7 +2,7 @@
 //!
 //! # What is sought
 //!
-//! A configuration for each contact point of a [`Stroke`](crate::stroke::Stroke), such that the tip is exactly there, the tool within `tilt_max`
+//! A configuration for each contact point of a [`Stroke`](platewash_workcell::stroke::Stroke), such that the tip is exactly there, the tool within `tilt_max`
 //! of the plate's normal, the joints within their limits, the bodies clear of each other by the margin, and the joint path
 //! continuous, on one branch of the arm.
 //!

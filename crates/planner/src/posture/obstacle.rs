@@ -1,10 +1,10 @@
 //! What keeps the arm from a posture: the filters of a vertex, one a variant.
 
-use crate::clearance::PairClearance;
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::analytic::{AnalyticError, OutOfReach, Rejection};
 use platewash_kinematics::ik::{IkCause, IkError};
 use platewash_kinematics::words::{not_as_zero, told_apart};
+use platewash_workcell::clearance::PairClearance;
 use serde::Serialize;
 use std::fmt;
 

@@ -1,8 +1,8 @@
 //! The contact points of a stroke on a plate.
 
 use super::settings::CHORD_ERROR_M;
-use crate::stroke::Stroke;
 use nalgebra::Vector3;
+use platewash_workcell::stroke::Stroke;
 
 /// Contact points, densely along a stroke.
 #[derive(Debug, Clone)]

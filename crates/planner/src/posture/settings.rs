@@ -1,9 +1,9 @@
 //! What a posture must keep.
 
 use super::PostureError;
-use crate::stroke::Stroke;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
+use platewash_workcell::stroke::Stroke;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Added to the clearance asked for, so that the motion between the points checked keeps it too \[m\].

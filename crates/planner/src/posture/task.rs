@@ -8,11 +8,11 @@ use super::policy::TiltPolicy;
 use super::samples::Samples;
 use super::settings::{PostureSettings, check_input};
 use super::spline::TiltSpline;
-use crate::layout::Plate;
-use crate::stroke::Stroke;
 use nalgebra::{Vector3, Vector6};
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Axes, JointVector};
+use platewash_workcell::layout::Plate;
+use platewash_workcell::stroke::Stroke;
 
 /// The most that a joint may move per length of the stroke \[rad/m\]: 0.35 rad in 5 mm.
 pub(super) const JOINT_RATE: f64 = 70.0;

@@ -6,20 +6,20 @@ use super::task::{Profile, Task};
 use super::washable::{Cause, Washable, washable};
 use super::washing::{by_search, policies, search_starts};
 use super::*;
-use crate::clearance::{ClearanceModel, PairClearance};
-use crate::layout::Plate;
-use crate::scenario::ToolSection;
-use crate::stroke::Stroke;
 use crate::trig::sin_cos;
 use nalgebra::{Vector2, Vector3};
 use platewash_kinematics::{JointVector, RobotModel, rotation::Rigid};
+use platewash_workcell::clearance::{ClearanceModel, PairClearance};
+use platewash_workcell::layout::Plate;
+use platewash_workcell::stroke::Stroke;
+use platewash_workcell::tool::Tool;
 use proptest::prelude::*;
 
 mod input;
 mod other_arms;
 mod scale;
 
-const TOOL: ToolSection = ToolSection {
+const TOOL: Tool = Tool {
     length_m: 0.15,
     radius_m: 0.02,
     sponge_radius_m: 0.025,
@@ -66,7 +66,7 @@ fn settings(tilt_deg: f64) -> PostureSettings {
 }
 
 /// Does something in the cell of some plates.
-fn within<T>(tool: &ToolSection, plates: &[Plate], act: impl FnOnce(&Cell<'_>) -> T) -> T {
+fn within<T>(tool: &Tool, plates: &[Plate], act: impl FnOnce(&Cell<'_>) -> T) -> T {
     let robot = RobotModel::irb120().unwrap();
     let clearance = ClearanceModel::new(&robot, tool, plates).unwrap();
     act(&Cell::new(&robot, tool, &clearance, plates).unwrap())
@@ -179,7 +179,7 @@ proptest! {
         radius in 0.05..0.145f64,
     ) {
         let plates: Vec<_> = places.iter().map(|&(rho, azimuth)| plate_at(rho, azimuth)).collect();
-        let (tool, stroke, settings) = (ToolSection { length_m, ..TOOL }, stroke(radius), settings(tilt));
+        let (tool, stroke, settings) = (Tool { length_m, ..TOOL }, stroke(radius), settings(tilt));
         within(&tool, &plates, |cell| match washing(cell, &stroke, centre(&plates[0]), 0, &settings, &HOME) {
             Ok(washing) => check(cell, &stroke, 0, &settings, &washing),
             Err(PostureError::NoTilt { dead, tried, ends, .. }) => {

@@ -8,9 +8,9 @@ use super::search::Graph;
 use super::task::Task;
 use super::washing::{by_policy, search_starts};
 use super::{Cell, PostureError, PostureSettings};
-use crate::stroke::Stroke;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
+use platewash_workcell::stroke::Stroke;
 use std::fmt;
 
 /// What of a plate can be washed.

@@ -7,9 +7,9 @@ use super::search::{Graph, GraphPath};
 use super::spline::{TiltSpline, smoothed};
 use super::task::{Profile, Stop, Task};
 use super::{Cell, Obstacle, PostureError, PostureSettings, TiltPolicy, error};
-use crate::stroke::Stroke;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
+use platewash_workcell::stroke::Stroke;
 use serde::Serialize;
 use std::fmt;
 

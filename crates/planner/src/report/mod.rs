@@ -7,15 +7,14 @@ mod text;
 pub use motion::{MotionReport, Violation, ViolationKind};
 pub use plate::{ClosestApproach, PlateReport, Unreached};
 
-use crate::clearance::ClearanceModel;
 use crate::error::PlanError;
 use crate::job::Job;
-use crate::layout;
 use crate::plan::Summary;
-use crate::robot;
 use crate::scenario::Interpolation;
 use crate::tool_path::SegmentKind;
 use crate::tracking::Step;
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::layout;
 use serde::Serialize;
 
 /// How a job ended.
@@ -246,7 +245,7 @@ fn findings(job: &Job, plates: &[PlateReport]) -> Vec<JobFinding> {
 
 fn no_approach(job: &Job) -> Option<JobFinding> {
     let (start, first) = (job.planned.positions().first()?, job.steps.first()?);
-    let tip = robot::tip_frame(&job.robot, &job.scenario.tool);
+    let tip = platewash_workcell::tool::tip_frame(&job.robot, &job.scenario.tool);
     let tip = job.robot.fk(start).rigid(&tip).translation;
     let distance_m = (tip - first.target).norm();
     (distance_m > APPROACHED_M).then(|| JobFinding::NoApproach {

@@ -2,8 +2,8 @@
 
 use super::plate::{ClosestApproach, Nearness};
 use crate::job::Job;
-use crate::trajectory::{SegmentExtremes, Trajectory};
 use platewash_kinematics::{AXES, JointVector};
+use platewash_workcell::trajectory::{SegmentExtremes, Trajectory};
 use serde::Serialize;
 use std::collections::BTreeMap;
 

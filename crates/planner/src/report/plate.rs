@@ -1,13 +1,13 @@
 //! What happened on each plate.
 
-use crate::clearance::{ClearanceModel, PairClearance, is_clear};
-use crate::coverage::{Coverage, CoverageError, CoverageSettings, coverage};
 use crate::job::Job;
-use crate::layout::Plate;
 use crate::tool_path::SegmentKind;
 use crate::tracking::{IkOutcome, Step};
 use platewash_kinematics::JointVector;
 use platewash_kinematics::ik::IkCause;
+use platewash_workcell::clearance::{ClearanceModel, PairClearance, is_clear};
+use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage};
+use platewash_workcell::layout::Plate;
 use serde::Serialize;
 
 /// The nearest approach of two bodies, and when.

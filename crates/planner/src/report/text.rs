@@ -4,10 +4,10 @@ use super::{
     ClosestApproach, JobFinding, JobReport, MotionReport, PlateReport, TransitionReport, Unreached, Verdict, Violation,
     ViolationKind,
 };
-use crate::coverage::Coverage;
-use crate::words::part_of;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::{angles_told_apart, rounded, told_apart};
+use platewash_workcell::coverage::Coverage;
+use platewash_workcell::words::part_of;
 use std::fmt::{self, Display, Formatter};
 
 /// Violations listed one by one for a motion before the rest is only counted.

@@ -1,19 +1,20 @@
 //! One layout of the paper's cell, planned exactly and executed literally.
 
-use crate::clearance::ClearanceModel;
-use crate::coverage::{Coverage, CoverageError, CoverageSettings, coverage};
 use crate::error::PlanError;
 use crate::job::{self, Job};
-use crate::layout::{Finding, Plate};
 use crate::place;
-use crate::random;
 use crate::robot;
 use crate::scenario::Scenario;
-use crate::tool_path::{Segment, SegmentKind, ToolPath, tool_down};
+use crate::tool_path::{Segment, SegmentKind, ToolPath};
 use crate::tracking::Step;
 use nalgebra::Vector3;
 use platewash_kinematics::ik::IkSolver;
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage};
+use platewash_workcell::layout::{Finding, Plate};
+use platewash_workcell::random;
+use platewash_workcell::tool::tool_down;
 use rand::Rng;
 
 /// Sponge radii for which coverage is measured \[mm\].
@@ -125,7 +126,7 @@ impl Bench {
         clearance: &ClearanceModel,
         sample: &mut LayoutSample,
     ) -> Result<(), PlanError> {
-        let tip = robot::tip_frame(&self.robot, &self.scenario.tool);
+        let tip = platewash_workcell::tool::tip_frame(&self.robot, &self.scenario.tool);
         let solver = IkSolver::new(&self.robot, tip, job::ik_settings(&self.scenario))?;
         for segment in &path.segments {
             let counts = count(&solver, segment, clearance);

@@ -222,7 +222,7 @@ pub(super) fn coverage(samples: &[LayoutSample]) -> Result<Vec<Row>, PlanError> 
     let ideal = cell::ideal_coverage(&Scenario::load("paper-appendix")?)?;
     let mut rows = Vec::new();
     for (k, (sponge, ideal)) in SPONGES_MM.into_iter().zip(ideal).enumerate() {
-        let mean = |batch: &[LayoutSample], of: fn(&crate::coverage::Coverage) -> f64| {
+        let mean = |batch: &[LayoutSample], of: fn(&platewash_workcell::coverage::Coverage) -> f64| {
             let all: Vec<f64> = batch
                 .iter()
                 .flat_map(|s| &s.plates)

@@ -4,9 +4,9 @@ use super::rows::row;
 use super::statistics::binomial_percent;
 use super::{REGIONS, ReproduceSettings, Row};
 use crate::error::PlanError;
-use crate::layout::{Attempt, Sampler, Spacing};
-use crate::random;
 use crate::scenario::Scenario;
+use platewash_workcell::layout::{Attempt, Sampler, Spacing};
+use platewash_workcell::random;
 use rayon::prelude::*;
 
 /// Plates asked for, for each of which the rate is measured.

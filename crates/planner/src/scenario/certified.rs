@@ -2,7 +2,7 @@
 
 use super::{Problem, Program, Scenario};
 use crate::posture::settings::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS};
-use crate::stroke::Stroke;
+use platewash_workcell::stroke::Stroke;
 use std::f64::consts::PI;
 
 /// Plates thinner or smaller than this are none to the certificate \[m\].

@@ -1,6 +1,6 @@
 //! Why a scenario was refused.
 
-use crate::words::printable;
+use platewash_workcell::words::printable;
 
 /// What is wrong with a scenario.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,6 +1,6 @@
 //! The `[layout]` section: the plates and the rule by which they are placed.
 
-use crate::layout::Region;
+use platewash_workcell::layout::Region;
 use serde::{Deserialize, Serialize};
 
 /// `[layout]`.

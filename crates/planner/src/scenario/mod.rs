@@ -18,7 +18,6 @@ mod paths;
 mod plant;
 mod robot;
 mod shipped;
-mod tool;
 mod transition;
 mod units;
 mod wash;
@@ -33,16 +32,16 @@ pub use layout::{LayoutSection, Overlap, RegionName};
 pub use limits::LimitsSection;
 pub(crate) use load::check_seed;
 pub use plant::{Integrator, PlantSection};
+pub use platewash_workcell::tool::Tool;
 pub use robot::{BuiltInArm, RobotSection};
 pub use shipped::{SHIPPED, ShippedScenario};
-pub use tool::ToolSection;
 pub use transition::{Interpolation, TransitionSection};
 pub use units::UnitNote;
 pub use wash::WashSection;
 pub use work::{MAX_PLATE_CHECKS, MAX_STROKE_CHECKS, MAX_WAYPOINTS};
 
-use crate::transition::Arc;
 use platewash_kinematics::JointVector;
+use platewash_workcell::arc::Arc;
 use serde::{Deserialize, Serialize};
 
 /// The largest seed: up to here every whole number is a JSON number of its own (RFC 8785 writes them all as doubles), so that no two
@@ -63,7 +62,7 @@ pub struct Scenario {
     /// The arm.
     pub robot: RobotSection,
     /// What it holds.
-    pub tool: ToolSection,
+    pub tool: Tool,
     /// Where the plates lie.
     pub layout: LayoutSection,
     /// The path on a plate.
@@ -130,7 +129,7 @@ impl Default for Scenario {
             seed: 1,
             job: JobSection::default(),
             robot: RobotSection::default(),
-            tool: ToolSection::default(),
+            tool: Tool::default(),
             layout: LayoutSection::default(),
             wash: WashSection::default(),
             ik: IkSection::default(),

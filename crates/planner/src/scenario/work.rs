@@ -4,7 +4,7 @@ use super::load::error;
 use super::{Problem, Program, Scenario, ScenarioError};
 use crate::posture::settings::CHORD_ERROR_M;
 use crate::spiral::Spiral;
-use crate::words::counted;
+use platewash_workcell::words::counted;
 
 /// Most waypoints of a job: tens of seconds of planning.
 pub const MAX_WAYPOINTS: usize = 200_000;

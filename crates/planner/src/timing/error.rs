@@ -1,7 +1,7 @@
 //! Why a path could not be timed.
 
 use super::limits::Limit;
-use crate::trajectory::KnotError;
+use platewash_workcell::trajectory::KnotError;
 
 /// Why a path could not be timed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

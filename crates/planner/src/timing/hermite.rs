@@ -68,7 +68,7 @@ impl Piece {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trajectory::Trajectory;
+    use platewash_workcell::trajectory::Trajectory;
     use proptest::prelude::*;
 
     fn vector() -> impl Strategy<Value = JointVector> {

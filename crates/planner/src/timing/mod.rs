@@ -36,9 +36,9 @@ pub use refine::{LONGEST_PIECE_S, PATH_ERROR_RAD};
 pub use rounds::SHORTEST_PIECE_S;
 
 use crate::joint_path::JointPath;
-use crate::trajectory::Trajectory;
 use grid::Grid;
 use platewash_kinematics::{Frame, RobotModel};
+use platewash_workcell::trajectory::Trajectory;
 use rounds::Rounds;
 use tip::TipModel;
 

@@ -9,8 +9,8 @@ use super::interval::Interval;
 use super::limits::{MotionLimits, Slow};
 use super::passes::Passes;
 use super::refine::{self, Course};
-use crate::trajectory::Trajectory;
 use platewash_kinematics::{AXES, JointVector};
+use platewash_workcell::trajectory::Trajectory;
 
 /// The shortest piece of a motion \[s\]: in less, the rounding of positions and times would show in accelerations.
 pub const SHORTEST_PIECE_S: f64 = 1e-4;

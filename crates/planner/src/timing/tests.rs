@@ -2,23 +2,22 @@
 
 use super::*;
 use crate::joint_path::Ends;
-use crate::robot;
-use crate::scenario::ToolSection;
-use crate::stroke::Stroke;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{AXES, JointVector};
+use platewash_workcell::stroke::Stroke;
+use platewash_workcell::tool::Tool;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
 /// The IRB 120 and the tip of a tool 150 mm long.
 pub(super) fn arm() -> (RobotModel, Frame) {
     let robot = RobotModel::irb120().unwrap();
-    let tool = ToolSection {
+    let tool = Tool {
         length_m: 0.15,
-        ..ToolSection::default()
+        ..Tool::default()
     };
-    let tip = robot::tip_frame(&robot, &tool);
+    let tip = platewash_workcell::tool::tip_frame(&robot, &tool);
     (robot, tip)
 }
 

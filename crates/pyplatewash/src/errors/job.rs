@@ -4,9 +4,9 @@ use super::{FileOf, SystemWord, any, input, keyed, named, raise, system_file};
 use crate::arrays;
 use platewash::planner::crossing::CrossingError;
 use platewash::planner::cycle::CycleError;
-use platewash::planner::layout::LayoutError;
 use platewash::planner::scenario::{Problem, ScenarioError};
 use platewash::planner::tracking::TrackingError;
+use platewash::workcell::layout::LayoutError;
 use platewash::{PlanError, VerifyError};
 use pyo3::prelude::*;
 

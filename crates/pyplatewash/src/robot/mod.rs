@@ -88,7 +88,7 @@ impl Robot {
     ) -> PyResult<Frame> {
         match (name, tool) {
             (None, None) => Ok(self.mount),
-            (None, Some(tool)) => Ok(platewash::planner::robot::tip_frame(
+            (None, Some(tool)) => Ok(platewash::workcell::tool::tip_frame(
                 &self.model,
                 &ToolFields::of(tool)?.section(py)?,
             )),

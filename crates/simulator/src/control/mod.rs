@@ -29,7 +29,7 @@ pub use stability::{Loop, Stability, check};
 
 use crate::plant::PlantState;
 use platewash_kinematics::JointVector;
-use platewash_planner::trajectory::JointState;
+use platewash_workcell::trajectory::JointState;
 
 /// What is asked of the arm at a sample and at the next one.
 #[derive(Debug, Clone, Copy, PartialEq)]

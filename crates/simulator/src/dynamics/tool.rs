@@ -2,7 +2,7 @@
 
 use super::body::{RigidBody, symmetric};
 use nalgebra::{Matrix3, Vector3};
-use platewash_planner::scenario::ToolSection;
+use platewash_workcell::tool::Tool;
 
 impl RigidBody {
     /// The tool of a scenario in the mounting frame, z along the tool, origin at the flange; `None` without a tool body or
@@ -11,7 +11,7 @@ impl RigidBody {
     /// Unless the scenario says otherwise it is a uniform cylinder of the handle's radius r over the whole length l:
     /// c = l/2, I = m diag(3r² + l², 3r² + l², 6r²)/12.
     #[must_use]
-    pub fn tool(tool: &ToolSection) -> Option<Self> {
+    pub fn tool(tool: &Tool) -> Option<Self> {
         let (m, l, r) = (tool.mass_kg, tool.length_m, tool.radius_m);
         if l == 0.0 || m == 0.0 {
             return None;

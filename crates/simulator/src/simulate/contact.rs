@@ -4,10 +4,9 @@ use crate::dynamics::DynamicsModel;
 use nalgebra::Vector3;
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
-use platewash_planner::layout::Plate;
 use platewash_planner::plan::Plan;
-use platewash_planner::robot;
-use platewash_planner::scenario::ToolSection;
+use platewash_workcell::layout::Plate;
+use platewash_workcell::tool::Tool;
 
 /// How the sponge stands to the plate that it shall wash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,14 +23,14 @@ pub(super) enum Touch {
 #[derive(Debug, Clone)]
 pub(super) struct Contact<'a> {
     tip: Frame,
-    tool: &'a ToolSection,
+    tool: &'a Tool,
     plates: &'a [Plate],
 }
 
 impl<'a> Contact<'a> {
     pub fn new(plan: &'a Plan, robot: &RobotModel) -> Self {
         Self {
-            tip: robot::tip_frame(robot, &plan.tool),
+            tip: platewash_workcell::tool::tip_frame(robot, &plan.tool),
             tool: &plan.tool,
             plates: &plan.plates,
         }

@@ -3,9 +3,9 @@
 use crate::control::ControlError;
 use crate::dynamics::DynamicsError;
 use platewash_kinematics::words::{rounded_down, rounded_up};
-use platewash_planner::coverage::CoverageError;
-use platewash_planner::trajectory::KnotError;
-use platewash_planner::words::counted;
+use platewash_workcell::coverage::CoverageError;
+use platewash_workcell::trajectory::KnotError;
+use platewash_workcell::words::counted;
 
 /// Significant digits of a rate or period that is suggested.
 const DIGITS: usize = 3;

@@ -5,7 +5,7 @@ use crate::dynamics::RigidBody;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::model::IRB120_URDF;
 use platewash_kinematics::words::told_apart;
-use platewash_planner::scenario::{RobotSection, ToolSection};
+use platewash_planner::scenario::{RobotSection, Tool};
 use serde::Serialize;
 
 /// Rated payload of the ABB IRB 120 \[kg\] (ABB's data sheet).
@@ -37,7 +37,7 @@ pub struct PayloadCheck {
 impl PayloadCheck {
     /// Of a tool on an arm: the payload that the scenario states, otherwise 3 kg for the built-in IRB 120.
     #[must_use]
-    pub fn of(tool: &ToolSection, section: &RobotSection, robot: &RobotModel) -> Self {
+    pub fn of(tool: &Tool, section: &RobotSection, robot: &RobotModel) -> Self {
         let is_built_in = robot.sha256() == platewash_kinematics::sha256_hex(IRB120_URDF.as_bytes());
         let built_in = is_built_in.then_some(IRB120_PAYLOAD_KG);
         let rated_kg = section.payload_kg.or(built_in);

@@ -10,7 +10,7 @@ use platewash_kinematics::RobotModel;
 use platewash_kinematics::words::rounded;
 use platewash_planner::plan::Plan;
 use platewash_planner::scenario::ControlLawName;
-use platewash_planner::words::part_of;
+use platewash_workcell::words::part_of;
 use serde::Serialize;
 
 /// Whether the wash survives its controller.

@@ -11,7 +11,7 @@ use platewash_kinematics::words::rounded;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_planner::plan::Plan;
 use platewash_planner::tool_path::SegmentKind;
-use platewash_planner::trajectory::{JointState, Trajectory};
+use platewash_workcell::trajectory::{JointState, Trajectory};
 
 /// Most samples of an execution, some 500 MB.
 pub const MAX_SAMPLES: usize = 2_000_000;

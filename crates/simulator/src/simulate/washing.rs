@@ -12,10 +12,10 @@ use super::{Execution, Sample, SimulationError};
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_planner::certificate;
-use platewash_planner::coverage::{Coverage, CoverageError, CoverageSettings, coverage_of_strokes};
-use platewash_planner::layout::Plate;
 use platewash_planner::plan::Plan;
 use platewash_planner::tool_path::SegmentKind;
+use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage_of_strokes};
+use platewash_workcell::layout::Plate;
 use serde::Serialize;
 
 /// As fine as the planner's own report: the proven error is about a tenth of a percent.

@@ -3,8 +3,8 @@
 
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{AXES, RobotModel};
-use platewash_planner::scenario::ToolSection;
 use platewash_simulator::{DynamicsModel, RigidBody};
+use platewash_workcell::tool;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
@@ -56,11 +56,11 @@ pub fn fixture(name: &str) -> (Fixture, RobotModel, DynamicsModel) {
     let urdf = std::fs::read_to_string(folder().join(&fixture.urdf)).unwrap();
     let robot = RobotModel::from_urdf(&urdf, &MeshSource::none()).unwrap();
     let tool = fixture.tool.as_ref().and_then(|tool| {
-        RigidBody::tool(&ToolSection {
+        RigidBody::tool(&tool::Tool {
             mass_kg: tool.mass_kg,
             length_m: tool.length_m,
             radius_m: tool.radius_m,
-            ..ToolSection::default()
+            ..tool::Tool::default()
         })
     });
     let model = DynamicsModel::new(&robot, tool.as_ref()).unwrap();

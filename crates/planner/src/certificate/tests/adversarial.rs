@@ -2,9 +2,9 @@
 
 use super::made::{good, irb120, resealed};
 use crate::certificate::{CertificateVerdict, PromiseName, VerifyError, verify};
-use crate::layout::Plate;
 use crate::plan::Plan;
 use platewash_kinematics::JointVector;
+use platewash_workcell::layout::Plate;
 
 fn changed(change: impl FnOnce(&mut Plan)) -> Result<crate::certificate::Certificate, VerifyError> {
     let mut plan = good();

@@ -3,13 +3,12 @@
 
 use super::made::{Recipe, good, irb120};
 use crate::certificate::{Certificate, PairRule, PromiseName, verify};
-use crate::clearance::ClearanceModel;
 use crate::plan::Plan;
-use crate::robot;
-use crate::stroke::Stroke;
 use crate::tool_path::{SegmentKind, Shape};
-use crate::trajectory::Trajectory;
 use nalgebra::Vector3;
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::stroke::Stroke;
+use platewash_workcell::trajectory::Trajectory;
 
 struct Sampled {
     time: f64,
@@ -23,7 +22,7 @@ fn sampled(plan: &Plan, per_knot: usize) -> Vec<Sampled> {
     let robot = irb120();
     let knots = plan.knots.clone();
     let motion = Trajectory::from_knots(knots.t_s.clone(), knots.q_rad, knots.qd_rad_s).unwrap();
-    let frame = robot::tip_frame(&robot, &plan.tool);
+    let frame = platewash_workcell::tool::tip_frame(&robot, &plan.tool);
     let mut all = Vec::new();
     for ends in knots.t_s.windows(2) {
         for k in 0..per_knot {

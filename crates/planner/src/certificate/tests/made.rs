@@ -1,17 +1,17 @@
 //! A small planner for tests: inverse kinematics along the declared path, straight joint motions between, slow timing.
 
 use crate::certificate::summary;
-use crate::clearance::ClearanceModel;
-use crate::layout::Plate;
 use crate::plan::{Plan, PlanParts, PlanSegment, Summary};
-use crate::robot;
 use crate::scenario::Scenario;
-use crate::stroke::Stroke;
-use crate::tool_path::{Segment, SegmentKind, Shape, tool_down};
-use crate::trajectory::Trajectory;
+use crate::tool_path::{Segment, SegmentKind, Shape};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{JointVector, Pose, RobotModel};
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::layout::Plate;
+use platewash_workcell::stroke::Stroke;
+use platewash_workcell::tool::tool_down;
+use platewash_workcell::trajectory::Trajectory;
 use std::sync::OnceLock;
 
 /// Time between knots \[s\].
@@ -179,7 +179,7 @@ impl<'a> Maker<'a> {
     }
 
     fn solve(&self, places: &[Vector3<f64>], seed: &JointVector) -> Vec<JointVector> {
-        let tip = robot::tip_frame(&self.robot, &self.recipe.scenario.tool);
+        let tip = platewash_workcell::tool::tip_frame(&self.robot, &self.recipe.scenario.tool);
         let settings = IkSettings {
             position_tolerance_m: 1e-9,
             orientation_tolerance_rad: 1e-9,

@@ -67,7 +67,7 @@ fn harmless_edits_pass() {
     plan.scenario.name = "renamed".into();
     // A knot more, on the curve of the motion.
     let k = within(&plan, SegmentKind::Wash).start + 40;
-    let motion = crate::trajectory::Trajectory::from_knots(
+    let motion = platewash_workcell::trajectory::Trajectory::from_knots(
         plan.knots.t_s.clone(),
         plan.knots.q_rad.clone(),
         plan.knots.qd_rad_s.clone(),
@@ -270,7 +270,7 @@ fn plates_elsewhere_are_not_washed() {
 
 #[test]
 fn the_stroke_must_be_the_scenarios_and_be_followed() {
-    let edit = |p: &mut Plan, change: fn(&mut crate::stroke::Stroke)| {
+    let edit = |p: &mut Plan, change: fn(&mut platewash_workcell::stroke::Stroke)| {
         let wash = stage(p, SegmentKind::Wash);
         if let Shape::Stroke { stroke, .. } = &mut p.tool_path[wash].shape {
             change(stroke);
@@ -415,9 +415,10 @@ fn a_sponge_is_tilted_no_further_than_its_upper_rim_allows() {
 /// at or below the plate \[m/s\], from differences.
 fn touching_speed(plan: &Plan, lean: f64) -> f64 {
     let robot = irb120();
-    let tip = crate::robot::tip_frame(&robot, &plan.tool);
+    let tip = platewash_workcell::tool::tip_frame(&robot, &plan.tool);
     let knots = plan.knots.clone();
-    let motion = crate::trajectory::Trajectory::from_knots(knots.t_s, knots.q_rad, knots.qd_rad_s).unwrap();
+    let motion =
+        platewash_workcell::trajectory::Trajectory::from_knots(knots.t_s, knots.q_rad, knots.qd_rad_s).unwrap();
     let place = |t: f64| robot.fk(&motion.at(t).unwrap().q).rigid(&tip).translation;
     let lines = |s: &&crate::plan::PlanSegment| matches!(s.kind, SegmentKind::Approach | SegmentKind::Retreat);
     let mut worst = 0.0f64;

@@ -1,8 +1,10 @@
 //! Measurements, not run by default: `cargo test --release -p platewash-planner --lib posture -- --ignored --nocapture`.
 
 use super::*;
-use crate::layout::{BaseFootprint, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing, sample};
-use crate::random::stream;
+use platewash_workcell::layout::{
+    BaseFootprint, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing, sample,
+};
+use platewash_workcell::random::stream;
 use rand::RngExt;
 use std::time::{Duration, Instant};
 
@@ -106,7 +108,7 @@ impl Tally {
 fn single_plates() {
     for (name, handle_m, radius_m, tilt) in [("ring at 0.12385", 0.02, RADIUS_M, 15.0), ("rim", 0.015, 0.145, 30.0)] {
         let mut tally = Tally::default();
-        let tool = ToolSection {
+        let tool = Tool {
             radius_m: handle_m,
             ..TOOL
         };
@@ -173,7 +175,7 @@ fn anything() {
             plate_at(draw([0.2, 0.58]), draw([-175.0, 175.0])),
             plate_at(draw([0.25, 0.5]), draw([-175.0, 175.0])),
         ];
-        let tool = ToolSection {
+        let tool = Tool {
             length_m: draw([0.04, 0.25]),
             radius_m: draw([0.01, 0.025]),
             ..TOOL

@@ -1,11 +1,14 @@
-//! The `[tool]` section.
+//! What the arm holds.
 
+use nalgebra::{UnitQuaternion, Vector3};
+use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::{Frame, Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 
-/// `[tool]`.
+/// A handle along the z axis of the mounting frame, with a sponge at its end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct ToolSection {
+pub struct Tool {
     /// From the flange to the sponge's far face \[m\]; 0 for no tool body.
     pub length_m: f64,
     /// Radius of the handle \[m\].
@@ -27,7 +30,7 @@ pub struct ToolSection {
     pub inertia_kg_m2: Option<[f64; 6]>,
 }
 
-impl Default for ToolSection {
+impl Default for Tool {
     fn default() -> Self {
         Self {
             length_m: 0.0,
@@ -40,4 +43,22 @@ impl Default for ToolSection {
             inertia_kg_m2: None,
         }
     }
+}
+
+/// The frame at the centre of the sponge's far face, z leaving the tool; the mounting frame without a tool body.
+#[must_use]
+pub fn tip_frame(robot: &RobotModel, tool: &Tool) -> Frame {
+    robot.mounting_frame().offset(&Rigid {
+        translation: Vector3::new(0.0, 0.0, tool.length_m),
+        ..Rigid::identity()
+    })
+}
+
+/// Pose of the tip at a position, pointing straight down: a half turn about y, which is what the paper's
+/// `eul2quat([0, pi/2, 0])` means for MATLAB's `tool0`.
+#[must_use]
+pub fn tool_down(position: Vector3<f64>) -> Pose {
+    // Exact, so that no joint sees the rounding of π: the quaternion (w, x, y, z) = (0, 0, 1, 0).
+    let half_turn = UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(0.0, 0.0, 1.0, 0.0));
+    Pose::from_parts(position.into(), half_turn)
 }

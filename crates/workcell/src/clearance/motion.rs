@@ -25,7 +25,7 @@ const ROUNDING_M: f64 = 1e-9;
 
 /// What a pair is, for rules that depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum PairKind {
+pub enum PairKind {
     /// The sponge and a plate.
     SpongeAndPlate(usize),
     /// Any other.
@@ -34,7 +34,7 @@ pub(crate) enum PairKind {
 
 /// Two convex parts, the joints between them and their levers.
 #[derive(Debug, Clone)]
-pub(crate) struct PartPair<'a> {
+pub struct PartPair<'a> {
     fixed: &'a Part,
     moving: &'a Part,
     /// Indices of the joints that move one in the frame of the other.
@@ -45,7 +45,7 @@ pub(crate) struct PartPair<'a> {
 
 /// Distance of two parts at one configuration.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Measured {
+pub struct Measured {
     /// What was found \[m\]; ≤ 0 when they touch or overlap.
     pub distance_m: f64,
     /// What the true distance is not below \[m\]: the gap along `normal` where the parts do not overlap, whatever a routine says.
@@ -58,12 +58,12 @@ pub(crate) struct Measured {
 
 impl ClearanceModel {
     /// Number of pairs, in the order of [`ClearanceModel::pair_names`].
-    pub(crate) fn pair_count(&self) -> usize {
+    pub fn pair_count(&self) -> usize {
         self.pairs.len()
     }
 
     /// What a pair is.
-    pub(crate) fn pair_kind(&self, pair: usize) -> PairKind {
+    pub fn pair_kind(&self, pair: usize) -> PairKind {
         let (a, b) = self.pairs[pair];
         match (self.bodies[a].kind, self.bodies[b].kind) {
             (BodyKind::Sponge, BodyKind::Plate(i)) | (BodyKind::Plate(i), BodyKind::Sponge) => {
@@ -74,7 +74,7 @@ impl ClearanceModel {
     }
 
     /// The pairs of parts of a pair of bodies.
-    pub(crate) fn parts_of(&self, pair: usize) -> Vec<PartPair<'_>> {
+    pub fn parts_of(&self, pair: usize) -> Vec<PartPair<'_>> {
         let zero = self.robot.fk(&JointVector::zeros());
         let (a, b) = self.pairs[pair];
         self.part_pairs(a, b)
@@ -143,7 +143,7 @@ mod tests {
     use super::*;
     use crate::clearance::ITERATIVE_ERROR_M;
     use crate::layout::Plate;
-    use crate::scenario::ToolSection;
+    use crate::tool::Tool;
     use platewash_kinematics::RobotModel;
     use proptest::prelude::*;
 
@@ -157,7 +157,7 @@ mod tests {
         #[test]
         fn bounds_hold_between_moments(q in vector(1.5), v in vector(0.4), at in -1.0..1.0f64, n in prop::array::uniform3(-1.0..1.0f64)) {
             let robot = RobotModel::irb120().unwrap();
-            let tool = ToolSection { length_m: 0.15, ..ToolSection::default() };
+            let tool = Tool { length_m: 0.15, ..Tool::default() };
             let plate = Plate { x_m: 0.3, y_m: 0.1, z_m: 0.03, radius_m: 0.145, thickness_m: 0.02 };
             let model = ClearanceModel::new(&robot, &tool, &[plate]).unwrap();
             let poses = |t: f64| robot.fk(&(q + v * t));

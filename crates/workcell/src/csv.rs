@@ -1,6 +1,6 @@
 //! A motion as CSV, for spreadsheets and plots.
 
-use crate::plan::PlanSegment;
+use crate::segment::PlanSegment;
 use crate::trajectory::Trajectory;
 use nalgebra::Vector3;
 use platewash_kinematics::words::rounded_up;

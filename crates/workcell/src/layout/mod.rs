@@ -6,6 +6,7 @@ mod cells;
 mod discs;
 mod error;
 mod findings;
+mod footprint;
 mod packing;
 mod plate;
 mod region;
@@ -18,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 pub use error::{EmptyReason, InputProblem, LayoutError};
 pub use findings::Finding;
+pub use footprint::base_footprint;
 pub use packing::packing_bound;
 pub use plate::{BaseFootprint, Plate, PlateGeometry, Spacing};
 pub use region::Region;

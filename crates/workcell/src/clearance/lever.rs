@@ -8,12 +8,12 @@ use nalgebra::Vector3;
 use platewash_kinematics::{AXES, BodyPoses, JointVector};
 
 /// Bounds ρ of a point's distances from the six axes \[m\]; 0 for the joints that do not move it.
-pub(crate) type Levers = JointVector;
+pub type Levers = JointVector;
 
 /// Levers that hold in every configuration, for a point on `body` that is at `point` (base frame, m) in the configuration of
 /// `poses`: the distance from axis i to the origin of joint i + 1, which never changes, and the constant lengths from
 /// there on (triangle inequality).
-pub(crate) fn greatest(poses: &BodyPoses, body: usize, point: &Vector3<f64>) -> Levers {
+pub fn greatest(poses: &BodyPoses, body: usize, point: &Vector3<f64>) -> Levers {
     let origin = |i: usize| poses.bodies()[i].translation;
     let mut levers = Levers::zeros();
     let mut beyond = 0.0;
@@ -27,13 +27,13 @@ pub(crate) fn greatest(poses: &BodyPoses, body: usize, point: &Vector3<f64>) -> 
 }
 
 /// Levers at one configuration.
-pub(crate) fn at(poses: &BodyPoses, body: usize, point: &Vector3<f64>) -> Levers {
+pub fn at(poses: &BodyPoses, body: usize, point: &Vector3<f64>) -> Levers {
     Levers::from_fn(|i, _| if i < body { from_axis(poses, i + 1, point) } else { 0.0 })
 }
 
 /// Levers that hold while each joint i is within `drift[i]` \[rad\] of where they were `here`: the distance from axis j
 /// depends on the joints beyond j alone.
-pub(crate) fn within(here: &Levers, drift: &JointVector, greatest: &Levers) -> Levers {
+pub fn within(here: &Levers, drift: &JointVector, greatest: &Levers) -> Levers {
     let mut levers = *here;
     let mut moved = 0.0;
     for joint in (0..AXES).rev() {
@@ -44,14 +44,14 @@ pub(crate) fn within(here: &Levers, drift: &JointVector, greatest: &Levers) -> L
 }
 
 /// The joints from index `first` on alone: how a body moves in the frame of an earlier one.
-pub(crate) fn from(levers: &Levers, first: usize) -> Levers {
+pub fn from(levers: &Levers, first: usize) -> Levers {
     Levers::from_fn(|i, _| if i < first { 0.0 } else { levers[i] })
 }
 
 /// Σ ρ over all tuples of joints, one index from each of `rates`, of the outermost joint's lever times the product of the
 /// rates: Σ_m ρ_m (Π_r S_r,m − Π_r S_r,m−1) with the partial sums S_r,m = Σ_{i ≤ m} rate_r,i. Joints before `first` do
 /// not count.
-pub(crate) fn tuples<const N: usize>(levers: &Levers, first: usize, rates: [&JointVector; N]) -> f64 {
+pub fn tuples<const N: usize>(levers: &Levers, first: usize, rates: [&JointVector; N]) -> f64 {
     let mut sums = [0.0; N];
     let mut before = 0.0;
     let mut total = 0.0;

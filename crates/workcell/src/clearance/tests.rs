@@ -145,9 +145,9 @@ proptest! {
 }
 
 fn model() -> ClearanceModel {
-    let tool = ToolSection {
+    let tool = Tool {
         length_m: 0.15,
-        ..ToolSection::default()
+        ..Tool::default()
     };
     let plate = |x_m, y_m| Plate {
         x_m,
@@ -166,7 +166,7 @@ fn model() -> ClearanceModel {
 
 #[test]
 fn the_irb_120_checks_the_eight_self_pairs() {
-    let bare = ClearanceModel::new(&RobotModel::irb120().unwrap(), &ToolSection::default(), &[]).unwrap();
+    let bare = ClearanceModel::new(&RobotModel::irb120().unwrap(), &Tool::default(), &[]).unwrap();
     let pairs = bare.pair_names();
     let own: Vec<_> = pairs
         .iter()
@@ -198,7 +198,7 @@ fn without_a_list_neighbours_and_pairs_that_always_touch_are_left_out() {
         platewash_kinematics::model::IRB120_URDF,
         &platewash_kinematics::urdf::MeshSource::none(),
     );
-    let model = ClearanceModel::new(&robot.unwrap(), &ToolSection::default(), &[]).unwrap();
+    let model = ClearanceModel::new(&robot.unwrap(), &Tool::default(), &[]).unwrap();
     let pairs = model.pair_names();
     assert!(!pairs.contains(&("link_4", "link_6")), "these shapes always overlap");
     assert!(!pairs.contains(&("link_2", "link_3")), "neighbours");
@@ -235,7 +235,7 @@ fn the_sponge_may_touch_the_plate_it_works_on() {
         ..Rigid::identity()
     });
     let solver = platewash_kinematics::ik::IkSolver::new(&robot, tip, Default::default()).unwrap();
-    let down = crate::tool_path::tool_down(Vector3::new(0.35, 0.2, 0.029));
+    let down = crate::tool::tool_down(Vector3::new(0.35, 0.2, 0.029));
     let q = solver
         .solve(&down, &JointVector::new(0.5, 0.3, 0.2, 0.0, 1.0, 0.0))
         .unwrap()

@@ -13,14 +13,14 @@
 
 mod bracket;
 mod distance;
-pub(crate) mod lever;
-pub(crate) mod motion;
+pub mod lever;
+pub mod motion;
 mod pairs;
 mod part;
 mod washing;
 
 use crate::layout::Plate;
-use crate::scenario::ToolSection;
+use crate::tool::Tool;
 use distance::{Separation, bracketed, separation};
 use nalgebra::{Point3, Vector3};
 use part::{Part, Placed};
@@ -97,7 +97,7 @@ impl ClearanceModel {
     ///
     /// # Errors
     /// [`ClearanceError::FlatHull`] for a mesh without volume.
-    pub fn new(robot: &RobotModel, tool: &ToolSection, plates: &[Plate]) -> Result<Self, ClearanceError> {
+    pub fn new(robot: &RobotModel, tool: &Tool, plates: &[Plate]) -> Result<Self, ClearanceError> {
         let mut bodies = Vec::new();
         for link in robot.links().iter().filter(|link| !link.collision.is_empty()) {
             let parts = link
@@ -263,7 +263,7 @@ fn body(name: &str, kind: BodyKind, part: Part) -> Body {
 }
 
 /// Handle and sponge, cylinders along the z axis of the mounting frame.
-fn tool_bodies(robot: &RobotModel, tool: &ToolSection) -> Vec<Body> {
+fn tool_bodies(robot: &RobotModel, tool: &Tool) -> Vec<Body> {
     let handle_length = tool.length_m - tool.sponge_height_m;
     if tool.length_m <= 0.0 || handle_length <= 0.0 {
         return Vec::new();
