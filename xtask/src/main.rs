@@ -3,13 +3,21 @@
 //!     cargo xtask test [--only lint|rust|python]    every test there is, or one part of them
 //!     cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 //!     cargo xtask docs                              writes the pages that are made from the program
+//!     cargo xtask rules                             the rules of the code that no compiler checks, all of them
+//!     cargo xtask rings                             one of them: no modules that import each other in a ring
 
 mod benches;
+mod floors;
+mod map;
 mod python;
+mod rings;
+mod rules;
 mod sources;
 mod step;
 mod suite;
+mod tree;
 mod wheel;
+mod workspace;
 
 use anyhow::{Result, bail};
 use std::process::ExitCode;
@@ -18,7 +26,9 @@ use suite::Part;
 const USAGE: &str = "\
 cargo xtask test [--only lint|rust|python]    every test there is, or one part of them
 cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
-cargo xtask docs                              writes the pages that are made from the program";
+cargo xtask docs                              writes the pages that are made from the program
+cargo xtask rules                             the rules of the code that no compiler checks, all of them
+cargo xtask rings                             one of them: no modules that import each other in a ring";
 
 /// What to do.
 #[derive(Debug, PartialEq, Eq)]
@@ -26,6 +36,8 @@ enum Chore {
     Test(Option<Part>),
     Bench(Vec<String>),
     Docs,
+    Rules,
+    Rings,
     Help,
 }
 
@@ -42,6 +54,8 @@ fn main() -> ExitCode {
         Chore::Test(only) => suite::run(only),
         Chore::Bench(arguments) => benches::run(&arguments),
         Chore::Docs => suite::docs(),
+        Chore::Rules => rules::kept(),
+        Chore::Rings => rules::no_rings(),
         Chore::Help => {
             println!("{USAGE}");
             Ok(())
@@ -63,6 +77,8 @@ fn parse(arguments: &[String]) -> Result<Chore> {
         ["test", "--only", part] => Part::named(part).map(|part| Chore::Test(Some(part))),
         ["bench", ..] => Ok(Chore::Bench(arguments[1..].to_vec())),
         ["docs"] => Ok(Chore::Docs),
+        ["rules"] => Ok(Chore::Rules),
+        ["rings"] => Ok(Chore::Rings),
         [] | ["help" | "--help" | "-h"] => Ok(Chore::Help),
         _ => bail!("unknown arguments: {}", words.join(" ")),
     }
@@ -82,12 +98,14 @@ mod tests {
         assert_eq!(parsed("test --only python"), Some(Chore::Test(Some(Part::Python))));
         assert_eq!(parsed("bench ik_warm"), Some(Chore::Bench(vec!["ik_warm".to_owned()])));
         assert_eq!(parsed("docs"), Some(Chore::Docs));
+        assert_eq!(parsed("rules"), Some(Chore::Rules));
+        assert_eq!(parsed("rings"), Some(Chore::Rings));
         assert_eq!(parsed(""), Some(Chore::Help));
     }
 
     #[test]
     fn nonsense_is_refused() {
-        for line in ["tset", "test --only", "test --only ruby", "test now"] {
+        for line in ["tset", "test --only", "test --only ruby", "test now", "rings x"] {
             assert_eq!(parsed(line), None, "{line}");
         }
     }
