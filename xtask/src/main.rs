@@ -5,6 +5,7 @@
 //!     cargo xtask docs                              writes the pages that are made from the program
 //!     cargo xtask rules                             the rules of the code that no compiler checks, all of them
 //!     cargo xtask rings                             one of them: no modules that import each other in a ring
+//!     cargo xtask subjects REVISION                 whether the commits since then have first lines as they should be
 
 mod benches;
 mod floors;
@@ -14,6 +15,7 @@ mod rings;
 mod rules;
 mod sources;
 mod step;
+mod subjects;
 mod suite;
 mod tree;
 mod wheel;
@@ -28,7 +30,8 @@ cargo xtask test [--only lint|rust|python]    every test there is, or one part o
 cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 cargo xtask docs                              writes the pages that are made from the program
 cargo xtask rules                             the rules of the code that no compiler checks, all of them
-cargo xtask rings                             one of them: no modules that import each other in a ring";
+cargo xtask rings                             one of them: no modules that import each other in a ring
+cargo xtask subjects REVISION                 whether the commits since then have first lines as they should be";
 
 /// What to do.
 #[derive(Debug, PartialEq, Eq)]
@@ -38,6 +41,7 @@ enum Chore {
     Docs,
     Rules,
     Rings,
+    Subjects(String),
     Help,
 }
 
@@ -56,6 +60,7 @@ fn main() -> ExitCode {
         Chore::Docs => suite::docs(),
         Chore::Rules => rules::kept(),
         Chore::Rings => rules::no_rings(),
+        Chore::Subjects(revision) => subjects::since(&revision),
         Chore::Help => {
             println!("{USAGE}");
             Ok(())
@@ -79,6 +84,7 @@ fn parse(arguments: &[String]) -> Result<Chore> {
         ["docs"] => Ok(Chore::Docs),
         ["rules"] => Ok(Chore::Rules),
         ["rings"] => Ok(Chore::Rings),
+        ["subjects", revision] => Ok(Chore::Subjects(revision.to_owned())),
         [] | ["help" | "--help" | "-h"] => Ok(Chore::Help),
         _ => bail!("unknown arguments: {}", words.join(" ")),
     }
@@ -100,12 +106,20 @@ mod tests {
         assert_eq!(parsed("docs"), Some(Chore::Docs));
         assert_eq!(parsed("rules"), Some(Chore::Rules));
         assert_eq!(parsed("rings"), Some(Chore::Rings));
+        assert_eq!(parsed("subjects main"), Some(Chore::Subjects("main".to_owned())));
         assert_eq!(parsed(""), Some(Chore::Help));
     }
 
     #[test]
     fn nonsense_is_refused() {
-        for line in ["tset", "test --only", "test --only ruby", "test now", "rings x"] {
+        for line in [
+            "tset",
+            "test --only",
+            "test --only ruby",
+            "test now",
+            "subjects",
+            "rings x",
+        ] {
             assert_eq!(parsed(line), None, "{line}");
         }
     }
