@@ -58,7 +58,8 @@ pub fn environment() -> Result<PathBuf> {
     ];
     if let Err(error) = Step::program("Python packages", &python, &install).run() {
         bail!(
-            "{error:#}\n(a package that is not found may mean that {REQUIREMENTS} is for another Python than {version})"
+            "{error:#}\n(a package that is not found may mean that {REQUIREMENTS} is for another Python than {version}, \
+             or for other systems: Pinocchio and coal are not published for Windows)"
         );
     }
     std::fs::write(&stamp, wanted).with_context(|| stamp.display().to_string())?;
@@ -67,7 +68,9 @@ pub fn environment() -> Result<PathBuf> {
 
 /// The name of the interpreter that environments are made with.
 pub fn base() -> String {
-    std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned())
+    // On Windows, `python3` may be a stub that opens a shop.
+    let usual = if cfg!(windows) { "python" } else { "python3" };
+    std::env::var("PYTHON").unwrap_or_else(|_| usual.to_owned())
 }
 
 /// The interpreter's version, if it has what is needed.
