@@ -6,8 +6,8 @@
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput};
+use platewash::kinematics::batch;
 use platewash::{Axes, IkSettings, IkSolver, RobotModel, ToolFrame};
-use platewash_kinematics::batch;
 use platewash_problems::ours;
 use platewash_problems::problems::{AWAY_M, COUNT, Problems, Seeds, THROUGH_M, configurations};
 use platewash_problems::score::Score;
@@ -124,7 +124,7 @@ fn in_batches(criterion: &mut Criterion, robot: &RobotModel) -> Result<(), Box<d
         return Err("near problems have a start each".into());
     };
     let solver = IkSolver::new(robot, robot.tool_frame(ToolFrame::Tool0)?, IkSettings::default())?;
-    let mut answers = batch::solve(&solver, &problems.targets, starts, batch::Path::Detected)?;
+    let mut answers = batch::solve(&solver, &problems.targets, starts, batch::Backend::Detected)?;
     let found = answers.iter().map(|answer| answer.as_ref().ok().map(|answer| answer.q));
     let score = Score::of_answers(found, &problems, robot)?;
     let mut group = group(criterion, "ik_batch", BATCH);
@@ -135,7 +135,7 @@ fn in_batches(criterion: &mut Criterion, robot: &RobotModel) -> Result<(), Box<d
                 &problems.targets,
                 starts,
                 &mut answers,
-                batch::Path::Detected,
+                batch::Backend::Detected,
             ))
         });
     });

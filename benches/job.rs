@@ -4,9 +4,10 @@
 #![allow(missing_docs)]
 
 use criterion::{BenchmarkId, Criterion};
-use platewash_kinematics::{JointVector, RobotModel, ToolFrame, trig};
-use platewash_planner::joint_path::{Ends, JointPath};
-use platewash_planner::timing::{MotionLimits, TipLimits, time_optimal};
+use platewash::kinematics::trig;
+use platewash::planner::joint_path::{Ends, JointPath};
+use platewash::planner::timing::{MotionLimits, TipLimits, time_optimal};
+use platewash::{JointVector, RobotModel, ToolFrame};
 use platewash_problems::stages::{Stage, Stages};
 use std::error::Error;
 use std::hint::black_box;

@@ -7,11 +7,10 @@
 #![allow(missing_docs)]
 
 use criterion::{Criterion, Throughput};
-use platewash_kinematics::JointVector;
-use platewash_planner::cycle::Cycle;
-use platewash_planner::scenario::{ControlLawName, Integrator, Scenario};
-use platewash_simulator::dynamics::spread;
-use platewash_simulator::{DynamicsModel, Plant, PlantState, RigidBody, Setup, SimulationReport, simulate};
+use platewash::simulator::dynamics::spread;
+use platewash::simulator::{DynamicsModel, Plant, PlantState, RigidBody};
+use platewash::workcell::simulation::{ControlLawName, Integrator, SimulationSettings};
+use platewash::{JointVector, Scenario, SimulationReport, plan, simulate};
 use std::error::Error;
 use std::hint::black_box;
 use std::time::Duration;
@@ -23,10 +22,10 @@ const STATES: u32 = 256;
 const STEPS: u64 = 1000;
 
 fn dynamics(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
-    let cycle = Cycle::plan(&Scenario::load("kitchen")?)?;
-    let tool = RigidBody::tool(&cycle.scenario.tool);
-    let model = DynamicsModel::new(&cycle.robot, tool.as_ref())?;
-    let states: Vec<JointVector> = spread(cycle.robot.limits(), STATES).collect();
+    let job = Scenario::load("kitchen")?.job()?;
+    let tool = RigidBody::tool(&job.terms().workcell.tool);
+    let model = DynamicsModel::new(job.arm(), tool.as_ref())?;
+    let states: Vec<JointVector> = spread(job.arm().limits(), STATES).collect();
     let (qd, qdd) = (JointVector::repeat(0.5), JointVector::repeat(2.0));
     let mut group = criterion.benchmark_group("dynamics");
     group.throughput(Throughput::Elements(u64::from(STATES)));
@@ -72,8 +71,8 @@ fn dynamics(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
 }
 
 fn kitchen(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
-    let cycle = Cycle::plan(&Scenario::load("kitchen")?)?;
-    let plan = cycle.to_plan()?;
+    let job = Scenario::load("kitchen")?.job()?;
+    let (arm, plan) = (job.arm(), plan(&job)?.plan);
     let mut group = criterion.benchmark_group("kitchen executed");
     group.sample_size(10).measurement_time(Duration::from_secs(4));
     for law in [
@@ -81,18 +80,16 @@ fn kitchen(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
         ControlLawName::PdGravity,
         ControlLawName::ComputedTorque,
     ] {
-        let setup = Setup {
+        let settings = SimulationSettings {
             law,
-            ..Setup::of(&plan)
+            ..plan.job.simulation.clone()
         };
-        group.bench_function(law.name(), |b| {
-            b.iter(|| black_box(simulate(&plan, &cycle.robot, &setup)))
-        });
+        group.bench_function(law.name(), |b| b.iter(|| black_box(simulate(&plan, arm, &settings))));
     }
-    let setup = Setup::of(&plan);
-    let execution = simulate(&plan, &cycle.robot, &setup)?;
+    let settings = &plan.job.simulation;
+    let execution = simulate(&plan, arm, settings)?;
     group.bench_function("report with coverage", |b| {
-        b.iter(|| black_box(SimulationReport::new(&plan, &cycle.robot, &setup, &execution)));
+        b.iter(|| black_box(SimulationReport::new(&plan, arm, settings, &execution)));
     });
     group.finish();
     Ok(())

@@ -1,53 +1,62 @@
-//! platewash plans, checks and reports the washing of plates by an ABB IRB 120 or another six-axis arm.
+//! platewash plans, proves, simulates and reports the washing of plates by an ABB IRB 120 or another six-axis arm.
 //!
-//! This crate is a façade: it re-exports the nouns that users need and holds no logic of its own. Units are SI
-//! and radians, poses are `T_base_frame`; see the conventions in [`kinematics`].
+//! This crate is a façade: the nouns and verbs that users need stand at its root, the rest in a module a crate. Units are SI and
+//! radians; see the conventions in [`kinematics`].
 //!
 //! ```
-//! use platewash::{Job, Scenario};
+//! use platewash::{Scenario, plan, prove, simulate};
 //!
-//! let scenario = Scenario::load("paper-appendix")?;
-//! let job = Job::run(&scenario)?;
-//! let report = job.report()?;
-//! assert!(report.headline.starts_with("NOT WASHED")); // what the paper's program really does
-//! for plate in &report.plates {
-//!     let (reached, asked) = (plate.reached, plate.waypoints);
-//!     let swept = 100.0 * plate.executed_coverage.fraction;
-//!     assert!(reached <= asked && swept < 60.0);
-//! }
-//! # Ok::<(), platewash::PlanError>(())
+//! let job = Scenario::load("kitchen")?.job()?;
+//! let plan = plan(&job)?.plan;
+//! let certificate = prove(&plan, job.arm())?;
+//! assert!(certificate.headline.starts_with("CERTIFIED"));
+//! let execution = simulate(&plan, job.arm(), &plan.job.simulation)?;
+//! assert!(execution.samples.len() > 1000);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 #[cfg(feature = "command")]
 pub mod cli;
+mod report;
+mod sweep;
 
 // The command is written as a user of this library would write it.
 #[cfg(feature = "command")]
 extern crate self as platewash;
 
+pub use platewash_certificate as certificate;
 pub use platewash_kinematics as kinematics;
+pub use platewash_paper as paper;
 pub use platewash_planner as planner;
+pub use platewash_scenario as scenario;
 pub use platewash_simulator as simulator;
 pub use platewash_workcell as workcell;
 
+// The way through: a scenario states a job, a job is planned, a plan is proved and simulated.
+pub use platewash_certificate::{Certificate, Certified, Check, ProveError, Requirement, certify, prove};
+pub use platewash_planner::{PlanError, Planned, plan};
+pub use platewash_scenario::{Failure, Scenario, ScenarioError};
+pub use platewash_simulator::{Execution, SimulationError, SimulationReport, SimulationVerdict, simulate, tune};
+pub use report::{WashReport, WashText};
+pub use sweep::{SWEEP_HEADER, SweepOutcome, SweepRow, sweep, sweep_csv, sweep_each};
+
+// What they speak of.
 pub use platewash_kinematics::ik::{IkError, IkFailure, IkSettings, IkSolution, IkSolver};
-pub use platewash_kinematics::{Axes, Frame, Jacobian, JointLimits, JointVector, Pose, RobotModel, ToolFrame};
-pub use platewash_planner::certificate::{Certificate, Promise, VerifyError};
-pub use platewash_planner::cycle::{Cycle, CycleReport};
-pub use platewash_planner::job::{Job, PlanError};
-pub use platewash_planner::plan::Plan;
-pub use platewash_planner::report::{JobReport, Verdict};
-pub use platewash_planner::reproduce::{Reproduction, reproduce};
-pub use platewash_planner::scenario::Scenario;
-pub use platewash_planner::tool_path::ToolPath;
-pub use platewash_simulator::{
-    DynamicsError, DynamicsModel, Energy, Execution, Setup, SimulationError, SimulationReport, SimulationVerdict,
-    simulate, tune,
-};
+pub use platewash_kinematics::{Axes, Frame, Jacobian, JointVector, Pose, RobotModel, ToolFrame};
+pub use platewash_paper::{PaperJob, PaperReport, PaperRun};
+pub use platewash_simulator::{DynamicsError, DynamicsModel, Energy};
+pub use platewash_workcell::cancel::CancelToken;
 pub use platewash_workcell::clearance::{ClearanceModel, PairClearance};
 pub use platewash_workcell::coverage::{Coverage, coverage};
-pub use platewash_workcell::layout::{Layout, Plate, Region};
+pub use platewash_workcell::job::{JobTerms, WashJob};
+pub use platewash_workcell::layout::Layout;
+pub use platewash_workcell::plan::Plan;
+pub use platewash_workcell::plate::Plate;
+pub use platewash_workcell::surface::Surface;
+pub use platewash_workcell::tool::Tool;
 pub use platewash_workcell::trajectory::Trajectory;
+pub use platewash_workcell::verdict::Verdict;
+pub use platewash_workcell::workcell::Workcell;
 
 /// The example in the README, run as a test.
 #[cfg(doctest)]

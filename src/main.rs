@@ -1,5 +1,5 @@
 //! The `platewash` command.
 
 fn main() -> std::process::ExitCode {
-    platewash::cli::main(std::env::args_os()).into()
+    platewash::cli::program(std::env::args_os()).into()
 }

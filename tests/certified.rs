@@ -1,13 +1,25 @@
 //! Certified jobs: planned, proved, and refused with a reason.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
-use platewash::planner::certificate::{self, CertificateVerdict, PromiseName};
-use platewash::planner::cycle::{Activity, CycleError};
-use platewash::planner::job::Infeasibility;
-use platewash::planner::scenario::{OrderRule, Overlap};
-use platewash::planner::sweep::{SweepOutcome, sweep};
-use platewash::{Cycle, PlanError, Scenario};
+use platewash::certificate::{Certificate, Requirement};
+use platewash::planner::{Activity, Planned, Watch, plan_with};
+use platewash::scenario::RegionName;
+use platewash::workcell::cancel::CancelToken;
+use platewash::workcell::job::{OrderRule, Overlap};
+use platewash::workcell::verdict::Infeasibility;
+use platewash::{Failure, PlanError, Scenario, SweepOutcome, plan, prove, sweep};
 use std::sync::Mutex;
+
+fn planned(scenario: &Scenario) -> Result<Planned, Failure> {
+    Ok(plan(&scenario.job()?)?)
+}
+
+fn judged(scenario: &Scenario) -> (Planned, Certificate) {
+    let job = scenario.job().unwrap();
+    let planned = plan(&job).unwrap();
+    let certificate = prove(&planned.plan, job.arm()).unwrap();
+    (planned, certificate)
+}
 
 /// A layout of its own per seed, each proved with the figures that the scenarios promise.
 #[test]
@@ -30,16 +42,15 @@ fn the_shipped_scenarios_are_proved() {
     }
 }
 
-/// The angle at which a stroke leaves the centre is judged within a turn of 0, whatever remains of its turns.
+/// The angle at which a spiral leaves the centre is judged within a turn of 0, whatever remains of its turns.
 #[test]
-fn the_tool_path_of_any_number_of_turns_is_that_of_the_scenario() {
+fn a_wash_path_of_any_number_of_turns_is_proved() {
     for turns in [2.7, 3.9, 4.85, 30.0] {
         let mut scenario = Scenario::load("kitchen").unwrap();
         scenario.wash.turns = turns;
         for seed in if turns < 10.0 { 1..=3 } else { 1..=1 } {
             scenario.seed = seed;
-            let cycle = Cycle::plan(&scenario).unwrap();
-            let certificate = certificate::verify(&cycle.to_plan().unwrap(), &cycle.robot).unwrap();
+            let (_, certificate) = judged(&scenario);
             let broken: Vec<_> = certificate.broken().collect();
             assert!(broken.is_empty(), "{turns} turns, seed {seed}: {broken:?}");
         }
@@ -51,16 +62,12 @@ fn the_tool_path_of_any_number_of_turns_is_that_of_the_scenario() {
 fn a_wash_of_many_turns_is_proved() {
     let mut scenario = Scenario::load("kitchen").unwrap();
     scenario.wash.turns = 125.0;
-    let cycle = Cycle::plan(&scenario).unwrap();
-    let certificate = certificate::verify(&cycle.to_plan().unwrap(), &cycle.robot).unwrap();
+    let (planned, certificate) = judged(&scenario);
     let broken: Vec<_> = certificate.broken().collect();
     assert!(broken.is_empty(), "{broken:?}");
     // The knots grow with the turns and not faster: 4 plates of 125 turns, some 500 a turn at most.
-    assert!(
-        cycle.motion.times().len() < 4 * 125 * 500,
-        "{} knots",
-        cycle.motion.times().len()
-    );
+    let knots = planned.plan.knots.t_s.len();
+    assert!(knots < 4 * 125 * 500, "{knots} knots");
 }
 
 /// The paper's own spacing and base radius, with everything else done properly; plates that overlap are a finding.
@@ -70,17 +77,13 @@ fn the_papers_spacing_is_washed_too() {
     scenario.layout.min_distance_m = 0.28;
     scenario.layout.base_radius_m = 0.25;
     scenario.layout.overlap = Overlap::Report;
-    for region in ["text", "appendix"] {
-        scenario.layout.region = Some(if region == "text" {
-            platewash::planner::scenario::RegionName::Text
-        } else {
-            platewash::planner::scenario::RegionName::Appendix
-        });
+    for region in [RegionName::Text, RegionName::Appendix] {
+        scenario.layout.region = Some(region);
         for row in sweep(&scenario, 1..=6).unwrap() {
             assert_eq!(
                 row.outcome,
                 SweepOutcome::Proved,
-                "{region}, seed {}: {:?}",
+                "{region:?}, seed {}: {:?}",
                 row.seed,
                 row.reason
             );
@@ -97,9 +100,9 @@ fn explicit(positions: &[[f64; 2]]) -> Scenario {
 #[test]
 fn a_plate_out_of_reach_is_named_with_the_nearest_place_that_will_do() {
     let scenario = explicit(&[[0.40, 0.0], [0.1, 0.56]]);
-    let error = Cycle::plan(&scenario).unwrap_err();
-    assert!(error.is_infeasible());
-    let PlanError::Cycle(CycleError::Unwashable(plate)) = &error else {
+    let error = planned(&scenario).unwrap_err();
+    assert!(error.infeasibility().is_some());
+    let Failure::Plan(PlanError::Unwashable(plate)) = &error else {
         panic!("{error}");
     };
     assert_eq!(plate.plate, 1);
@@ -113,28 +116,29 @@ fn a_plate_out_of_reach_is_named_with_the_nearest_place_that_will_do() {
     // There it can be washed, and it is not far.
     let [x, y] = plate.nearest_m.unwrap();
     assert!((x - 0.1_f64).hypot(y - 0.56) < 0.12);
-    Cycle::plan(&explicit(&[[0.40, 0.0], [x, y]])).unwrap();
+    planned(&explicit(&[[0.40, 0.0], [x, y]])).unwrap();
 }
 
-/// Whoever waits is told what is tried: postures, what is in the way, other places and jobs there.
+/// Whoever waits is told what is tried: configurations, what is in the way, other places and jobs there.
 #[test]
 fn an_infeasible_job_says_what_it_is_trying() {
     let heard = Mutex::new(Vec::new());
-    let listener = |activity: &Activity| heard.lock().unwrap().push(*activity);
-    let scenario = explicit(&[[0.40, 0.0], [0.1, 0.56]]);
-    let error = Cycle::plan_telling(&scenario, &listener).unwrap_err();
-    assert_eq!(
-        error,
-        Cycle::plan(&scenario).unwrap_err(),
-        "who listens changes nothing"
-    );
+    let tell = |activity: &Activity| heard.lock().unwrap().push(*activity);
+    let job = explicit(&[[0.40, 0.0], [0.1, 0.56]]).job().unwrap();
+    let cancel = CancelToken::new();
+    let watch = Watch {
+        tell: &tell,
+        cancel: &cancel,
+    };
+    let error = plan_with(&job, &watch).unwrap_err();
+    assert_eq!(error, plan(&job).unwrap_err(), "who listens changes nothing");
     let heard = heard.into_inner().unwrap();
     let place = |wanted: &dyn Fn(&Activity) -> bool| heard.iter().position(wanted).unwrap();
-    let posture = place(&|a| matches!(a, Activity::Posture { plate: 1, .. }));
+    let wash = place(&|a| matches!(a, Activity::Wash { plate: 1, .. }));
     let cause = place(&|a| matches!(a, Activity::Cause { plate: 1 }));
-    let first = place(&|a| matches!(a, Activity::Elsewhere { plate: 1, ring: 1, .. }));
+    let first = place(&|a| matches!(a, Activity::Relocation { plate: 1, ring: 1, .. }));
     let trial = place(&|a| matches!(a, Activity::Trial { plate: 1, .. }));
-    assert!(posture < cause && cause < first && first < trial, "{heard:?}");
+    assert!(wash < cause && cause < first && first < trial, "{heard:?}");
     assert!(
         heard[first]
             .to_string()
@@ -144,14 +148,14 @@ fn an_infeasible_job_says_what_it_is_trying() {
     );
 }
 
-/// A line that is not clear is that of the posture taken; out of reach is out of reach.
+/// A line that is not clear is that of the configurations taken; out of reach is out of reach.
 #[test]
 fn what_is_known_to_be_impossible_is_told_from_what_was_not_found() {
     let mut low = explicit(&[[0.40, 0.0]]);
     low.wash.lift_m = 0.005;
-    let error = Cycle::plan(&low).unwrap_err();
+    let error = planned(&low).unwrap_err();
     assert_eq!(error.infeasibility(), Some(Infeasibility::NotFound), "{error}");
-    let error = Cycle::plan(&explicit(&[[0.8, 0.0]])).unwrap_err();
+    let error = planned(&explicit(&[[0.8, 0.0]])).unwrap_err();
     assert_eq!(error.infeasibility(), Some(Infeasibility::Proved), "{error}");
 }
 
@@ -161,37 +165,23 @@ fn the_smallest_of_tilts_is_kept() {
     for tilt_max_deg in [0.0, 0.01, 0.5] {
         let mut scenario = explicit(&[[0.40, 0.0]]);
         scenario.wash.tilt_max_deg = tilt_max_deg;
-        let cycle = Cycle::plan(&scenario).unwrap();
-        let certificate = certificate::verify(&cycle.to_plan().unwrap(), &cycle.robot).unwrap();
-        assert_eq!(
-            certificate.verdict,
-            CertificateVerdict::Pass,
-            "{tilt_max_deg}°: {certificate}"
-        );
+        let (_, certificate) = judged(&scenario);
+        assert!(certificate.passes(), "{tilt_max_deg}°: {certificate}");
     }
 }
 
 #[test]
 fn overlapping_plates_fail_the_certificate_unless_only_reported() {
     let mut scenario = explicit(&[[0.35, 0.10], [0.35, -0.15]]);
-    for (overlap, verdict) in [
-        (Overlap::Fail, CertificateVerdict::Fail),
-        (Overlap::Report, CertificateVerdict::Pass),
-    ] {
+    for (overlap, passes) in [(Overlap::Fail, false), (Overlap::Report, true)] {
         scenario.layout.overlap = overlap;
-        let cycle = Cycle::plan(&scenario).unwrap();
-        let certificate = certificate::verify(&cycle.to_plan().unwrap(), &cycle.robot).unwrap();
-        assert_eq!(certificate.verdict, verdict);
-        let broken: Vec<_> = certificate.broken().map(|p| p.name).collect();
-        let expected = [PromiseName::PlatesApart];
-        assert_eq!(broken, if overlap == Overlap::Fail { &expected[..] } else { &[] });
-        assert!(
-            !certificate
-                .promise(PromiseName::PlatesApart)
-                .unwrap()
-                .discrepancies
-                .is_empty()
-        );
+        let (_, certificate) = judged(&scenario);
+        assert_eq!(certificate.passes(), passes);
+        let broken: Vec<_> = certificate.broken().map(|check| check.requirement).collect();
+        let expected = [Requirement::PlatesApart];
+        assert_eq!(broken, if passes { &[] } else { &expected[..] });
+        let apart = certificate.check(Requirement::PlatesApart).unwrap();
+        assert!(!apart.discrepancies.is_empty());
     }
 }
 
@@ -212,9 +202,9 @@ fn layouts_are_drawn_until_they_can_be_washed_where_the_scenario_asks() {
     // Where nothing can be washed, it says so instead of drawing for ever.
     scenario.layout.rho_m = Some([0.61, 0.62]);
     scenario.layout.count = 1;
-    let error = Cycle::plan(&scenario).unwrap_err();
+    let error = planned(&scenario).unwrap_err();
     assert!(
-        error.is_infeasible() && error.to_string().contains("only_washable"),
+        error.infeasibility().is_some() && error.to_string().contains("only_washable"),
         "{error}"
     );
 }
@@ -226,13 +216,13 @@ fn the_best_order_is_no_slower_than_nearest_next() {
             seed,
             ..Scenario::load("kitchen").unwrap()
         };
-        let best = Cycle::plan(&scenario).unwrap().tour;
+        let best = planned(&scenario).unwrap().tour;
         assert!(best.travel_s <= best.nearest_next_s + 1e-12);
         scenario.job.order = OrderRule::Nearest;
-        let nearest = Cycle::plan(&scenario).unwrap();
+        let nearest = planned(&scenario).unwrap();
         assert_eq!(nearest.tour.travel_s, best.nearest_next_s);
         scenario.job.order = OrderRule::Given;
-        assert_eq!(Cycle::plan(&scenario).unwrap().order, [0, 1, 2, 3]);
+        assert_eq!(planned(&scenario).unwrap().plan.order, [0, 1, 2, 3]);
     }
 }
 
@@ -241,9 +231,9 @@ fn what_makes_no_sense_is_refused_by_name() {
     let refused = |change: fn(&mut Scenario), word: &str| {
         let mut scenario = Scenario::load("kitchen").unwrap();
         change(&mut scenario);
-        let error = Cycle::plan(&scenario).unwrap_err();
+        let error = planned(&scenario).unwrap_err();
         assert!(error.to_string().contains(word), "{error}");
-        error.is_infeasible()
+        error.infeasibility().is_some()
     };
     assert!(!refused(|s| s.tool.length_m = 0.0, "tool.length_m"));
     assert!(!refused(

@@ -6,8 +6,9 @@
 //!     cargo test --release --test knots -- --ignored      writes it
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use platewash::planner::scenario::{Program, SHIPPED};
-use platewash::{Cycle, Job, Scenario, Trajectory};
+use platewash::scenario::{Program, SHIPPED};
+use platewash::workcell::plan::Knots;
+use platewash::{Scenario, paper, plan};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -31,22 +32,22 @@ fn hashes() -> Hashes {
     SHIPPED.iter().map(|s| (s.name.to_owned(), of(s.name))).collect()
 }
 
-fn motion(name: &str, seed: u64) -> Trajectory {
+fn motion(name: &str, seed: u64) -> Knots {
     let scenario = Scenario {
         seed,
         ..Scenario::load(name).unwrap()
     };
     match scenario.job.program {
-        Program::Certified => Cycle::plan(&scenario).unwrap().motion,
-        Program::Paper => Job::run(&scenario).unwrap().planned,
+        Program::Certified => plan(&scenario.job().unwrap()).unwrap().plan.knots,
+        Program::Paper => Knots::from(&paper::run(&scenario.paper_job().unwrap()).unwrap().planned),
     }
 }
 
 /// Of the bytes of t, then q, then q̇, little-endian.
-fn hash(motion: &Trajectory) -> String {
-    let joints = motion.positions().iter().chain(motion.speeds()).flatten();
+fn hash(motion: &Knots) -> String {
+    let joints = motion.q_rad.iter().chain(&motion.qd_rad_s).flatten();
     let mut hash = Sha256::new();
-    for number in motion.times().iter().chain(joints) {
+    for number in motion.t_s.iter().chain(joints) {
         hash.update(number.to_le_bytes());
     }
     hash.finalize()[..8].iter().map(|byte| format!("{byte:02x}")).collect()

@@ -2,11 +2,10 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use platewash::planner::tool_path::SegmentKind;
-use platewash::planner::job;
-use platewash::workcell::tool;
+use platewash::paper::{PaperPart, ToolPath};
+use platewash::workcell::segment::SegmentKind;
 use platewash::workcell::tool::tool_down;
-use platewash::{IkError, IkSolver, JointVector, RobotModel, Scenario, ToolPath};
+use platewash::{IkError, IkSolver, JointVector, RobotModel, ToolFrame};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 fn rx(a: f64) -> Matrix3<f64> {
@@ -98,14 +97,14 @@ fn wrists(r: &Matrix3<f64>) -> [[f64; 3]; 2] {
 #[test]
 fn every_reachable_spiral_point_of_a_thousand_layouts_is_solved() {
     let robot = RobotModel::irb120().unwrap();
-    let mut scenario = Scenario::load("paper-appendix").unwrap();
-    let tip = tool::tip_frame(&robot, &scenario.tool);
-    let solver = IkSolver::new(&robot, tip, job::ik_settings(&scenario)).unwrap();
+    let settings = PaperPart::Appendix.settings();
+    // The paper holds no tool.
+    let tip = robot.tool_frame(ToolFrame::Tool0).unwrap();
+    let solver = IkSolver::new(&robot, tip, settings.ik_settings()).unwrap();
     let (mut points, mut possible, mut solved, mut beyond) = (0, 0, 0, 0);
     for seed in 0..1000 {
-        scenario.seed = seed;
-        let layout = job::place_plates(&scenario, &robot).unwrap();
-        let path = ToolPath::new(&scenario, &layout);
+        let layout = PaperPart::Appendix.draw(&robot, seed).unwrap();
+        let path = ToolPath::new(&settings, &layout.plates);
         let mut q = JointVector::zeros();
         for target in path
             .segments

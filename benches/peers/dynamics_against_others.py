@@ -81,8 +81,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rounds", type=int, default=41)
     rounds = parser.parse_args().rounds
-    robot, plan = pw.Robot.irb120(), pw.plan("kitchen")
-    section = plan.scenario.tool
+    scenario = pw.Scenario.load("kitchen")
+    robot, plan, section = pw.Robot.irb120(), pw.plan(scenario.job()).plan, scenario.tool
     tool = pw.Tool(**section.to_dict())
     q, qd, qdd = states(robot)
     with tempfile.TemporaryDirectory() as folder:
@@ -117,7 +117,7 @@ def main() -> None:
         "mj_step": other_steps.step,
     }
     measured = [{name: measure() for name, measure in columns.items()} for _ in range(rounds + 1)][1:]
-    report(measured, plan.summary.duration_s)
+    report(measured, plan.duration_s)
 
 
 def report(rounds: list[dict], duration_s: float) -> None:

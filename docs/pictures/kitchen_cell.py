@@ -1,4 +1,4 @@
-"""Draws kitchen-cell.svg: what the paper's program washes beside what a certified job washes.
+"""Draws kitchen-cell.svg: what the paper's program washes beside what a proved plan washes.
 
     platewash run --scenario paper-appendix --out paper
     platewash run --scenario kitchen --out kitchen
@@ -13,7 +13,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from paper_cell import line, page, panel  # noqa: E402
+from paper_cell import discs, line, page, panel  # noqa: E402
 
 
 def tip_paths(file):
@@ -40,14 +40,14 @@ def main(paper, kitchen, target):
     swept = {p["plate"]: f'{100 * p["executed_coverage"]["fraction"]:.0f} %' for p in reports[0]["plates"]}
     certificate = reports[1]["certificate"]
     proved = {p["plate"]: f'{100 * p["at_least"]:.0f} %' for p in certificate["coverage"]}
-    clearance = next(p for p in certificate["promises"] if p["name"] == "clearance")["measure"]["bound"]
-    left = panel("The paper's program", "as its control law executes it", plans[0]["plates"], executed, "#c2258f", swept)
+    clearance = next(c for c in certificate["checks"] if c["requirement"] == "clearance")["measure"]["bound"]
+    left = panel("The paper's program", "as its control law executes it", discs(plans[0]), executed, "#c2258f", swept)
     note = f'{reports[1]["duration_s"]:.1f} s from home to home, nothing nearer than {1e3 * clearance:.0f} mm'
-    ways = "\n".join(
+    transits = "\n".join(
         line(path[::8] + path[-1:], fill="none", stroke="#57606a", stroke_width=1.2, stroke_dasharray="5 4") for path in between
     )
-    right = panel("kitchen, proved", note, plans[1]["plates"], washed, "#0969da", proved) + ways
-    foot = "Share of each plate that a sponge of radius 25 mm sweeps (right: guaranteed at least), seen from above. Dashed: crossings."
+    right = panel("kitchen, proved", note, discs(plans[1]), washed, "#0969da", proved) + transits
+    foot = "Share of each plate that a sponge of radius 25 mm sweeps (right: guaranteed at least), seen from above. Dashed: transits."
     target.write_text(page(left, right, foot))
 
 

@@ -1,4 +1,4 @@
-"""Draws paper-cell.svg: the paper's cell from above, as planned and as executed.
+"""Draws paper-cell.svg: the paper's workcell from above, as planned and as executed.
 
     platewash run --scenario paper-appendix --out out
     python docs/pictures/paper_cell.py out docs/pictures/paper-cell.svg
@@ -17,6 +17,11 @@ X_MAX, Y_MAX = 0.48, 0.57  # robot coordinates of the top left corner, metres
 def pixel(x, y):
     """Robot x points up, robot y to the left: the cell seen from above, from behind the arm."""
     return (Y_MAX - y) * UNIT, TOP + (X_MAX - x) * UNIT
+
+
+def discs(plan):
+    """Centre and radius of each plate, metres."""
+    return [(*plate["pose"]["position_m"][:2], plate["surface"]["radius_m"]) for plate in plan["job"]["plates"]]
 
 
 def line(points, **style):
@@ -44,17 +49,17 @@ def panel(title, note, plates, paths, colour, labels):
     out.append(f'<rect x="{x0:.1f}" y="{y0:.1f}" width="{x1 - x0:.1f}" height="{y1 - y0:.1f}" rx="6" fill="#f08c3a"/>')
     cx, cy = pixel(-0.06, 0.0)
     out.append(text(cx, cy + 5, "IRB 120", 14, fill="#ffffff", text_anchor="middle"))
-    for p in plates:
-        out.append(circle(p["x_m"], p["y_m"], p["radius_m"], fill="#f6f8fa", stroke="#8c959f", stroke_width=1.5))
-    for number, p in enumerate(plates):
+    for plate in plates:
+        out.append(circle(*plate, fill="#f6f8fa", stroke="#8c959f", stroke_width=1.5))
+    for number, plate in enumerate(plates):
         clip = f'{title.split()[0].lower()}-{number}'
-        out.append(f'<clipPath id="{clip}">{circle(p["x_m"], p["y_m"], p["radius_m"])}</clipPath>')
+        out.append(f'<clipPath id="{clip}">{circle(*plate)}</clipPath>')
         band = line(paths[number], fill="none", stroke=colour, stroke_width=f"{0.05 * UNIT:.1f}", stroke_linecap="round",
                     stroke_linejoin="round", stroke_opacity=0.35)
         out.append(f'<g clip-path="url(#{clip})">{band}</g>')
         out.append(line(paths[number], fill="none", stroke=colour, stroke_width=1.6))
-    for number, p in enumerate(plates):
-        px, py = pixel(p["x_m"], p["y_m"])
+    for number, (x, y, _) in enumerate(plates):
+        px, py = pixel(x, y)
         out.append(text(px, py + 5, labels[number], 16, fill="#1b1f24", text_anchor="middle", font_weight="600",
                         paint_order="stroke", stroke="#ffffff", stroke_width=4))
     return "\n".join(out)
@@ -75,7 +80,7 @@ def page(left, right, foot):
 def main(folder, target):
     plan = json.loads((folder / "plan.json").read_text())
     report = json.loads((folder / "report.json").read_text())
-    plates = plan["plates"]
+    plates = discs(plan)
 
     def spirals(name):
         paths = {}
@@ -91,7 +96,7 @@ def main(folder, target):
     numbers = range(len(plates))
     left = panel("Commanded", "the spirals that the program asks for", plates, ideal, "#c2258f", {i: label[i][0] for i in numbers})
     right = panel("Executed", "what its control law makes of them", plates, executed, "#0969da", {i: label[i][1] for i in numbers})
-    foot = f"Paper's program, {plan['scenario']['name']}, seed {plan['scenario']['seed']}: share of each plate swept by a sponge of radius 25 mm, seen from above."
+    foot = f"Paper's program, {plan['provenance']['scenario']}, seed {plan['job']['seed']}: share of each plate swept by a sponge of radius 25 mm, seen from above."
     target.write_text(page(left, right, foot))
 
 

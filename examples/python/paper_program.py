@@ -10,7 +10,7 @@ Floats = npt.NDArray[np.float64]
 robot = pw.Robot.irb120()  # loadrobot("abbIrb120")
 scenario = pw.Scenario.load("paper-appendix")
 centres = pw.place_plates(scenario).centres  # the appendix's loop over rand
-spiral = pw.Spiral(points=55, turns=3, radius_m=0.145)  # linspace in angle and radius
+spiral = pw.PaperSpiral(points=55, turns=3, radius_m=0.145)  # linspace in angle and radius
 numeric = pw.IkSettings(analytic_starts=False)  # inverseKinematics("RigidBodyTree", robot)
 z, dt, kp, kd = 0.08, 0.01, 20.0, 0.1
 
@@ -27,7 +27,7 @@ def over(centre: Floats) -> Floats:
 
 
 def tool_path() -> list[Floats]:
-    """Spirals, nearest plate first, and the ways between them."""
+    """Spirals, nearest plate first, and the transits between them."""
     path: list[Floats] = []
     here, left = np.zeros(3), list(range(len(centres)))
     while left:
@@ -35,7 +35,7 @@ def tool_path() -> list[Floats]:
         left.remove(nearest)
         wash = over(centres[nearest])
         if path:
-            through = pw.transition_waypoints(here, wash[0], points=5, radius_m=0.35, height_m=0.25)
+            through = pw.transit_waypoints(here, wash[0], points=5, radius_m=0.35, height_m=0.25)
             path.append(pw.cubic_samples(through, 50, "zero_velocity"))  # cubicpolytraj
         path.append(wash)
         here = wash[-1]

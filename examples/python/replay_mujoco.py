@@ -10,7 +10,7 @@ import numpy as np
 import pyplatewash as pw
 
 robot = pw.Robot.irb120()
-plan = pw.plan("kitchen")
+plan = pw.plan(pw.Scenario.load("kitchen").job()).plan
 spec = mujoco.MjSpec.from_string(robot.urdf)
 for pair in ET.fromstring(robot.srdf or "<robot/>").iter("disable_collisions"):
     # MuJoCo reads no SRDF. The base is merged into the world when the model is compiled.
@@ -23,7 +23,7 @@ model = spec.compile()
 state = mujoco.MjData(model)
 last = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, "link_6")
 
-t = np.arange(0.0, plan.trajectory.duration_s, 0.01)
+t = np.arange(0.0, plan.duration_s, 0.01)
 q, _, _ = plan.trajectory.at(t)
 farthest, contacts = 0.0, 0
 for configuration in q:

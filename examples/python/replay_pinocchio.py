@@ -8,12 +8,12 @@ import pinocchio as pin
 import pyplatewash as pw
 
 robot = pw.Robot.irb120()
-plan = pw.plan("kitchen")
+plan = pw.plan(pw.Scenario.load("kitchen").job()).plan
 model = pin.buildModelFromXML(robot.urdf)
 data = model.createData()
 tool0 = model.getFrameId("tool0")
 
-t = np.arange(0.0, plan.trajectory.duration_s, 0.01)
+t = np.arange(0.0, plan.duration_s, 0.01)
 q, qd, qdd = plan.trajectory.at(t)
 farthest, torque = 0.0, np.zeros(6)
 for k in range(len(t)):

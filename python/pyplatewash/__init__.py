@@ -11,6 +11,13 @@ joint vectors have shape (6,), many of them (N, 6), from the base to the tip. An
 >>> target = robot.fk([0.1, 0.4, 0.1, 0.0, 1.0, 0.2])
 >>> robot.ik(target).q.round(6).tolist()
 [0.1, 0.4, 0.1, -0.0, 1.0, 0.2]
+
+A scenario states a job, a job is planned, a plan is proved and simulated:
+
+>>> job = pw.Scenario.load("kitchen").job()
+>>> plan = pw.plan(job).plan
+>>> pw.prove(plan).proved, pw.simulate(plan).report().verdict
+(True, 'washed')
 """
 
 from importlib.metadata import version as _version
@@ -18,29 +25,33 @@ from importlib.metadata import version as _version
 from ._core import (
     Certificate,
     ClearanceModel,
-    Cycle,
     DynamicsModel,
     Execution,
     IkSolution,
-    Job,
     Layout,
+    PaperJob,
+    PaperRun,
     Plan,
+    Planned,
     Robot,
     Scenario,
-    Setup,
+    SimulationSettings,
     Trajectory,
+    WashJob,
     coverage,
     coverage_raster,
     cubic_samples,
+    differences,
     place_plates,
     plan,
+    prove,
     reproduce,
     run_command,
+    run_paper,
     simulate,
     sweep,
-    transition_waypoints,
+    transit_waypoints,
     tune,
-    verify,
 )
 from ._errors import (
     DynamicsError,
@@ -55,14 +66,14 @@ from ._errors import (
     PlanError,
     PlanFileError,
     PlatewashError,
+    ProveError,
     ScenarioError,
     ShapeError,
     SimulationError,
     UrdfError,
-    VerifyError,
 )
 from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record
-from ._values import Coverage, IkSettings, Plate, Spiral, Stroke, Tool
+from ._values import Coverage, IkSettings, PaperSpiral, Plate, Tool, WashCurve
 
 __version__: str = _version("pyplatewash")
 
@@ -71,7 +82,6 @@ __all__ = [
     "ClearanceModel",
     "Coverage",
     "CoverageRaster",
-    "Cycle",
     "DynamicsError",
     "DynamicsModel",
     "Energy",
@@ -86,38 +96,43 @@ __all__ = [
     "InputError",
     "InputTypeError",
     "InternalError",
-    "Job",
     "Layout",
     "LayoutError",
     "NoKeyError",
+    "PaperJob",
+    "PaperRun",
+    "PaperSpiral",
     "Plan",
     "PlanError",
     "PlanFileError",
+    "Planned",
     "Plate",
     "PlatewashError",
+    "ProveError",
     "Record",
     "Robot",
     "Scenario",
     "ScenarioError",
-    "Setup",
     "ShapeError",
     "SimulationError",
-    "Spiral",
-    "Stroke",
+    "SimulationSettings",
     "Tool",
     "Trajectory",
     "UrdfError",
-    "VerifyError",
+    "WashCurve",
+    "WashJob",
     "coverage",
     "coverage_raster",
     "cubic_samples",
+    "differences",
     "place_plates",
     "plan",
+    "prove",
     "reproduce",
     "run_command",
+    "run_paper",
     "simulate",
     "sweep",
-    "transition_waypoints",
+    "transit_waypoints",
     "tune",
-    "verify",
 ]

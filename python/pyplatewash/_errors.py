@@ -161,7 +161,7 @@ class IkPathError(IkError):
 class PlanError(PlatewashError):
     """A job could not be carried out."""
 
-    #: Stage that failed.
+    #: Stage that failed: ``"robot"``, ``"job"``, ``"plan"``, ``"paper"``, ``"tracking"``, ``"ik"``, ``"clearance"`` or ``"coverage"``.
     stage: str | None = None
     #: Plate at fault.
     plate: int | None = None
@@ -170,16 +170,16 @@ class PlanError(PlatewashError):
     #: Joint at fault, 0 for joint 1.
     joint: int | None = None
     #: Why, in one word, where there is one: ``"unwashable"`` (it is known that a plate cannot be washed whole), ``"not_found"`` (no
-    #: way to wash it was found; there may be one), ``"line"``, ``"no_way"``, ``"tilt"`` (none was found), ``"home"``.
+    #: way to wash it was found; there may be one), ``"line"``, ``"no_transit"``, ``"tilt"`` (none was found), ``"home"``.
     cause: str | None = None
-    #: For a plate that cannot be washed whole, or was not found to be: the share of its stroke for which a posture was found.
+    #: For a plate that cannot be washed whole, or was not found to be: the share of its wash path for which configurations were found.
     share: float | None = None
     #: For such a plate whose position was given: the nearest centre at which it can be, shape (2,) [m].
     nearest_m: npt.NDArray[np.float64] | None = None
 
 
-class VerifyError(InputError):
-    """A plan says nothing that could be judged, or its arm must be given. A plan that breaks its promises is no error."""
+class ProveError(InputError):
+    """A plan says nothing that could be judged, or its arm must be given. A plan that breaks a requirement is no error."""
 
 
 class DynamicsError(InputError):

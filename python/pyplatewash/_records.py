@@ -98,7 +98,7 @@ class _ArrayFields:
 
 @dataclass(frozen=True, eq=False)
 class IkBatch(_ArrayFields):
-    """What ``Robot.ik_batch`` came to, row by row."""
+    """The answers of ``Robot.ik_batch``, row by row."""
 
     #: Configurations, shape (N, 6) [rad]; where not solved, the best one found.
     q: npt.NDArray[np.float64]
@@ -123,7 +123,7 @@ class IkBatch(_ArrayFields):
 
 @dataclass(frozen=True, eq=False)
 class IkBranches(_ArrayFields):
-    """What ``Robot.ik_all`` came to."""
+    """The answer of ``Robot.ik_all``."""
 
     #: Configurations, shape (K, 6) [rad], with all whole turns that the limits allow.
     q: npt.NDArray[np.float64]

@@ -45,7 +45,7 @@ class Tool:
 
 @dataclass(frozen=True, kw_only=True)
 class Plate:
-    """A plate: a cylinder from ``z_m - thickness_m`` up to ``z_m``, where the washing surface is. Base frame."""
+    """A level disc: a cylinder from ``z_m - thickness_m`` up to ``z_m``, where the face is that is washed. World frame."""
 
     #: Centre [m].
     x_m: float
@@ -102,10 +102,10 @@ class Coverage:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Spiral:
+class PaperSpiral:
     """The paper's spiral: waypoints equally spaced in angle, from the centre outwards.
 
-    >>> Spiral().waypoints((0.25, -0.25)).shape
+    >>> PaperSpiral().waypoints((0.25, -0.25)).shape
     (55, 2)
     """
 
@@ -119,18 +119,18 @@ class Spiral:
     closing_ring: bool = False
 
     def __post_init__(self) -> None:
-        _core._check("spiral", self)
+        _core._check("paper_spiral", self)
 
     def waypoints(self, centre: npt.ArrayLike = (0.0, 0.0)) -> Floats:
         """Waypoints about ``centre``, shape (2,) [m]: shape (N, 2) [m]."""
-        return _core._spiral(self, centre)
+        return _core._paper_spiral(self, centre)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stroke:
-    """A continuous spiral that runs tangentially into its closing ring: what a certified job follows.
+class WashCurve:
+    """A continuous spiral that runs tangentially into its closing ring: the curve of a wash path.
 
-    >>> theta, points = Stroke(radius_m=0.124, turns=3.5).sample(1e-5)
+    >>> theta, points = WashCurve(radius_m=0.124, turns=3.5).sample(1e-5)
     >>> points.shape == (len(theta), 2)
     True
     """
@@ -145,8 +145,8 @@ class Stroke:
     closing_ring: bool = True
 
     def __post_init__(self) -> None:
-        _core._check("stroke", self)
+        _core._check("wash_curve", self)
 
     def sample(self, chord_error_m: float = 1e-5) -> tuple[Floats, Floats]:
         """Angles, shape (N,) [rad], and points, shape (N, 2) [m], whose chords leave the curve by at most ``chord_error_m``."""
-        return _core._stroke(self, chord_error_m)
+        return _core._wash_curve(self, chord_error_m)

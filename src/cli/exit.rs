@@ -1,7 +1,7 @@
 //! The one rule by which verbs end; `docs/command.md` says it in words.
 
 use super::failure::{self, ExitCode};
-use platewash::planner::scenario::OnFailure;
+use platewash::scenario::OnFailure;
 use platewash::{SimulationVerdict, Verdict};
 
 /// How the work of a verb ended.
@@ -16,7 +16,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// The exit code of an answer to a question about a file or a pose: `validate`, `verify`, `ik`.
+    /// The exit code of an answer to a question about a file or a pose: `validate`, `verify`, `simulate`, `tune`, `ik`.
     pub fn answer(self) -> ExitCode {
         match self {
             Self::Good => ExitCode::SUCCESS,
@@ -25,8 +25,8 @@ impl Outcome {
         }
     }
 
-    /// The exit code of a job carried out: `run`, `plan`, `sweep`, `simulate`, `tune`. Its scenario says whether one that does
-    /// not wash fails or is only reported.
+    /// The exit code of a job carried out: `run`, `plan`, `sweep`. Its scenario says whether one that does not wash fails or is only
+    /// reported.
     pub fn job(self, on_failure: OnFailure) -> ExitCode {
         match on_failure {
             OnFailure::Report => ExitCode::SUCCESS,
@@ -45,16 +45,13 @@ impl From<Verdict> for Outcome {
     }
 }
 
-/// The exit code of simulations of a plan, of which the best is judged. A plan that was changed after it was sealed decides
-/// nothing about how it is judged.
-pub fn simulated(verdicts: impl IntoIterator<Item = SimulationVerdict>, on_failure: OnFailure) -> ExitCode {
-    let mut outcome = Outcome::NotVerified;
-    for verdict in verdicts {
+impl From<SimulationVerdict> for Outcome {
+    fn from(verdict: SimulationVerdict) -> Self {
         match verdict {
-            SimulationVerdict::Washed => outcome = Outcome::Good,
-            SimulationVerdict::NotWashed | SimulationVerdict::Overloaded => (),
-            SimulationVerdict::Altered => return Outcome::NotVerified.answer(),
+            SimulationVerdict::Washed => Self::Good,
+            SimulationVerdict::NotWashed | SimulationVerdict::Overloaded | SimulationVerdict::Altered => {
+                Self::NotVerified
+            }
         }
     }
-    outcome.job(on_failure)
 }

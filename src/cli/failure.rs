@@ -1,10 +1,8 @@
 //! What goes wrong, as a message and an exit code.
 
-use super::output;
-use platewash::PlanError;
-use platewash::planner::plan::PlanFileError;
-use platewash::planner::robot::RobotError;
-use platewash::planner::scenario::ScenarioError;
+use super::text::text;
+use platewash::scenario::ScenarioError;
+use platewash::workcell::cancel::Cancelled;
 use platewash::workcell::csv::CsvError;
 use std::io::Write;
 
@@ -16,6 +14,8 @@ pub const INPUT: u8 = 2;
 pub const INFEASIBLE: u8 = 3;
 /// Exit code of a job whose execution fails the checks.
 pub const NOT_VERIFIED: u8 = 4;
+/// Exit code of work that was given up: 128 and the number of the signal, as shells say it.
+pub const INTERRUPTED: u8 = 130;
 
 /// How the command ended: a number that a caller can read, which the standard library's type hides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,51 +32,75 @@ impl From<u8> for ExitCode {
     }
 }
 
-/// A message for standard error and an exit code.
+/// Why a verb ended without an answer.
 #[derive(Debug)]
-pub struct Failure {
-    code: u8,
-    error: anyhow::Error,
+pub enum Failure {
+    /// It was told to give up.
+    Interrupted,
+    /// Something is wrong: a message for standard error and an exit code.
+    Wrong {
+        /// The exit code.
+        code: u8,
+        /// The message.
+        error: anyhow::Error,
+    },
 }
 
 impl Failure {
     /// Bad usage or input.
     pub fn input(error: impl Into<anyhow::Error>) -> Self {
-        Self {
-            code: INPUT,
-            error: error.into(),
-        }
+        Self::with_code(INPUT, error)
     }
 
     /// Something that must not happen.
     pub fn internal(error: impl Into<anyhow::Error>) -> Self {
-        Self {
-            code: INTERNAL,
-            error: error.into(),
-        }
+        Self::with_code(INTERNAL, error)
     }
 
-    /// What the planner said, where it was the planner.
-    pub fn of_planner(&self) -> Option<&PlanError> {
-        self.error.downcast_ref()
+    fn with_code(code: u8, error: impl Into<anyhow::Error>) -> Self {
+        let error = error.into();
+        Self::Wrong { code, error }
+    }
+
+    /// Why a scenario could not be carried out, where that is it.
+    pub fn of_scenario(&self) -> Option<&platewash::Failure> {
+        match self {
+            Self::Interrupted => None,
+            Self::Wrong { error, .. } => error.downcast_ref(),
+        }
     }
 
     /// Prints the message; the exit code.
     pub fn report(&self) -> ExitCode {
+        let (code, message) = match self {
+            Self::Interrupted => (INTERRUPTED, "interrupted".to_owned()),
+            Self::Wrong { code, error } => (*code, text(&format_args!("error: {error:#}"))),
+        };
         // Nothing is left to do when standard error is closed.
-        let message = output::text(&format_args!("error: {:#}", self.error));
         let _ = writeln!(std::io::stderr(), "{message}");
-        ExitCode::from(self.code)
+        ExitCode::from(code)
     }
 }
 
-impl From<PlanError> for Failure {
-    fn from(error: PlanError) -> Self {
-        let code = if error.is_infeasible() { INFEASIBLE } else { INPUT };
-        Self {
-            code,
-            error: error.into(),
+impl From<platewash::Failure> for Failure {
+    fn from(error: platewash::Failure) -> Self {
+        use platewash::Failure::{File, Prove};
+        if error.is_cancelled() {
+            return Self::Interrupted;
         }
+        let code = match error {
+            _ if error.infeasibility().is_some() => INFEASIBLE,
+            // Of plans that were made here.
+            Prove(_) | File(_) => INTERNAL,
+            _ => INPUT,
+        };
+        Self::with_code(code, error)
+    }
+}
+
+impl From<Cancelled> for Failure {
+    fn from(_: Cancelled) -> Self {
+        Self::Interrupted
     }
 }
 
@@ -86,20 +110,8 @@ impl From<ScenarioError> for Failure {
     }
 }
 
-impl From<RobotError> for Failure {
-    fn from(error: RobotError) -> Self {
-        Self::input(error)
-    }
-}
-
 impl From<CsvError> for Failure {
     fn from(error: CsvError) -> Self {
         Self::input(error)
-    }
-}
-
-impl From<PlanFileError> for Failure {
-    fn from(error: PlanFileError) -> Self {
-        Self::internal(error)
     }
 }

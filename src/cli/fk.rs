@@ -9,8 +9,7 @@ use clap::Args;
 use platewash::kinematics::LimitViolation;
 use platewash::kinematics::jacobian::manipulability;
 use platewash::kinematics::words::{fixed, not_as_zero};
-use platewash::planner::job;
-use platewash::{Axes, ClearanceModel, JointVector, PairClearance, PlanError, Pose, RobotModel, ToolFrame};
+use platewash::{Axes, ClearanceModel, JointVector, PairClearance, Pose, RobotModel, ToolFrame};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -55,7 +54,7 @@ pub struct FramePose {
     pub quaternion_wxyz: [f64; 4],
     /// URDF's roll, pitch, yaw \[rad\].
     pub rpy_rad: [f64; 3],
-    /// The same \[deg\].
+    /// They \[deg\].
     pub rpy_deg: [f64; 3],
 }
 
@@ -80,12 +79,12 @@ pub fn run(options: &Options, arguments: &FkArguments) -> Result<ExitCode, Failu
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
     let clearance = if options.scenario.is_some() {
-        let layout = job::place_plates(&scenario, &robot).map_err(PlanError::from)?;
-        ClearanceModel::new(&robot, &scenario.tool, &layout.plates)
+        let layout = scenario.layout(&robot).map_err(platewash::Failure::from)?;
+        robot::clearance(&robot, scenario.tool.tool(), &layout.plates)
     } else {
-        ClearanceModel::new(&robot, &robot::bare(), &[])
+        robot::clearance(&robot, robot::bare(), &[])
     };
-    let clearance = clearance.map_err(PlanError::from)?;
+    let clearance = clearance.map_err(platewash::Failure::from)?;
     let mut answers = configurations.iter().map(|q| configuration(&robot, &clearance, q));
     if options.json {
         let answer = Answer {
@@ -97,7 +96,7 @@ pub fn run(options: &Options, arguments: &FkArguments) -> Result<ExitCode, Failu
     }
     // One by one, as long as anybody reads them.
     for answer in &mut answers {
-        if output::print(&output::text(&text(&answer)))? == Reader::Gone {
+        if output::print(&super::text::text(&text(&answer)))? == Reader::Gone {
             break;
         }
     }

@@ -11,8 +11,6 @@ use clap::Args;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 use platewash::kinematics::ik::{AnalyticStarts, RandomRestarts};
 use platewash::kinematics::rotation::from_rpy;
-use platewash::planner::job;
-use platewash::workcell::tool;
 use platewash::{Frame, IkError, IkSettings, IkSolver, JointVector, Pose, RobotModel, Scenario, ToolFrame};
 use serde::Serialize;
 
@@ -108,7 +106,9 @@ pub fn run(options: &Options, arguments: &IkArguments) -> Result<ExitCode, Failu
     let settings = IkSettings {
         random_restarts: (arguments.restarts > 0).then_some(restarts),
         analytic_starts: AnalyticStarts::Used,
-        ..job::ik_settings(&scenario)
+        position_tolerance_m: scenario.ik.position_tolerance_m,
+        orientation_tolerance_rad: scenario.ik.orientation_tolerance_rad,
+        ..IkSettings::default()
     };
     let solver = IkSolver::new(&arm, frame, settings).map_err(Failure::input)?;
     let answer = answer(&solver, &target, &seed, name)?;
@@ -180,7 +180,7 @@ fn text(answer: &Answer, arm: &RobotModel) -> String {
 fn frame(arm: &RobotModel, scenario: &Scenario, name: &str) -> anyhow::Result<Frame> {
     match ToolFrame::ALL.into_iter().find(|f| f.name() == name) {
         Some(known) => Ok(arm.tool_frame(known)?),
-        None if name == "tip" => Ok(tool::tip_frame(arm, &scenario.tool)),
+        None if name == "tip" => Ok(scenario.tool.tool().tip_frame(arm)),
         None => Ok(arm.frame(name)?),
     }
 }

@@ -2,9 +2,7 @@
 
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
-use super::{output, validate};
-use platewash::PlanError;
-use platewash::planner::job;
+use super::{infeasible, output};
 use platewash::workcell::layout::{Layout, LayoutSource};
 use platewash::workcell::words::counted;
 use std::fmt::Write;
@@ -13,14 +11,15 @@ use std::fmt::Write;
 pub fn run(options: &Options) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
-    let placed = job::place_plates(&scenario, &robot).map_err(|error| Failure::from(PlanError::from(error)));
+    let placed = scenario.layout(&robot).map_err(platewash::Failure::from);
+    let placed = placed.map_err(Failure::from);
     if let Err(failure) = &placed {
-        validate::answer_with_reason(options, &scenario, failure)?;
+        infeasible::answer(options, &scenario, failure)?;
     }
     let layout = placed?;
     if let Some(folder) = &options.out {
         let file = folder.join("layout.json");
-        output::write_files(&[output::file(file.clone(), output::json(&layout)?)])?;
+        output::write_files(&[output::file(file.clone(), output::json(&layout)?)], &options.cancel)?;
         output::message(options.quiet, &format!("wrote {}", file.display()));
     }
     output::print_either(options.json, &layout, || text(&layout))?;
@@ -41,12 +40,9 @@ fn text(layout: &Layout) -> String {
         "{:<6} {:>9} {:>9} {:>9} {:>9}",
         "plate", "x, m", "y, m", "z, m", "radius, m"
     );
-    for (i, p) in layout.plates.iter().enumerate() {
-        let _ = writeln!(
-            text,
-            "{i:<6} {:>9.4} {:>9.4} {:>9.4} {:>9.4}",
-            p.x_m, p.y_m, p.z_m, p.radius_m
-        );
+    for (i, plate) in layout.plates.iter().enumerate() {
+        let (at, radius_m) = (plate.centre(), plate.rim_m());
+        let _ = writeln!(text, "{i:<6} {:>9.4} {:>9.4} {:>9.4} {radius_m:>9.4}", at.x, at.y, at.z);
     }
     for finding in &layout.findings {
         let _ = writeln!(text, "  - {finding}");

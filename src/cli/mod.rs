@@ -1,16 +1,23 @@
 //! The command: arguments in, one file a verb, exit codes out.
 //!
-//! Exit codes: 0 done, 1 internal error, 2 bad usage or input, 3 infeasible, 4 verification failed.
+//! Exit codes: 0 done, 1 internal error, 2 bad usage or input, 3 infeasible, 4 verification failed, 130 interrupted.
 
+mod against;
 mod angles;
-mod cycle;
+mod execution;
 mod exit;
 mod failure;
 mod fk;
 mod ik;
+mod infeasible;
+mod interrupt;
+mod law;
 mod layout;
+mod motion;
 mod options;
 mod output;
+mod pairs;
+mod paper;
 mod plan;
 mod plan_file;
 mod progress;
@@ -20,14 +27,17 @@ mod robot;
 mod run;
 mod simulate;
 mod sweep;
+mod text;
 mod time_step;
 mod tune;
 mod validate;
 mod verify;
+mod wash;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use failure::{ExitCode, Failure};
 use options::Options;
+use platewash::CancelToken;
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
 
@@ -39,7 +49,7 @@ use std::io::{ErrorKind, Write};
 #[command(
     name = "platewash",
     version,
-    after_help = "Exit codes: 0 done, 1 internal error, 2 bad usage or input, 3 infeasible, 4 verification failed."
+    after_help = "Exit codes: 0 done, 1 internal error, 2 bad usage or input, 3 infeasible, 4 verification failed, 130 interrupted."
 )]
 struct Arguments {
     #[command(flatten)]
@@ -61,13 +71,16 @@ enum Verb {
     ///
     /// Owns the files of run in the output folder: those that it does not write are removed. A job that cannot be done leaves
     /// report.json and report.txt, which say why.
-    Plan(plan::PlanArguments),
+    Plan(motion::MotionArguments),
     /// Check a scenario without running it.
     Validate,
     /// Judge a plan file: what is proved about it, and what is not.
     ///
-    /// Exit code 0 where it is certified, 4 where it is not. What the scenario waives (layout.overlap = "report") is no failure, so that the
-    /// code is 0: the first line then says CERTIFIED BUT FOR and what, and JSON lists it as `exempt`.
+    /// Exit code 0 where it is certified, 4 where it is not. What the job waives (layout.overlap = "report") is no failure, so that the
+    /// code is 0: the first line then says CERTIFIED BUT FOR and what, and JSON lists it as `waived`.
+    ///
+    /// A certificate says that the plan does its own job. Whether that is the job of a scenario is for --against: exit code 4 where a
+    /// field differs, and the first line begins with OTHER JOB.
     Verify(verify::VerifyArguments),
     /// Simulate a plan file under a control law: tracking, torque, and what is really washed.
     ///
@@ -89,18 +102,28 @@ enum Verb {
 }
 
 /// Does what the arguments ask, the command's own name first, as the `platewash` program does: results on standard output,
-/// messages on standard error. The answer is the exit code.
+/// messages on standard error. The answer is the exit code. Ctrl-C is left to the caller.
 ///
 /// It may be called more than once in a process; of the settings for messages the first ones count. A panic is caught
 /// and is exit code 1.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    answer(arguments, CancelToken::new)
+}
+
+/// The `platewash` program: [`main`], and Ctrl-C tells long work to give up (exit code 130). A second one ends the process at once.
+pub fn program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    answer(arguments, interrupt::token)
+}
+
+/// Does what the arguments ask; `token` makes what tells long work to give up.
+fn answer(arguments: impl IntoIterator<Item = OsString>, token: fn() -> CancelToken) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let outcome = std::panic::catch_unwind(|| {
         let parsed = Arguments::command()
             .try_get_matches_from(arguments)
             .and_then(|m| Arguments::from_arg_matches(&m));
         match parsed {
-            Ok(arguments) => dispatch(arguments),
+            Ok(arguments) => dispatch(arguments, token),
             Err(e) => {
                 let code = u8::try_from(e.exit_code()).unwrap_or(failure::INPUT);
                 match e.print() {
@@ -124,10 +147,24 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     code
 }
 
-fn dispatch(arguments: Arguments) -> Result<ExitCode, Failure> {
-    let options = arguments.options;
+fn dispatch(arguments: Arguments, token: fn() -> CancelToken) -> Result<ExitCode, Failure> {
+    let mut options = arguments.options;
     let verb = arguments.verb.unwrap_or(Verb::Run(run::RunArguments::default()));
+    if verb.gives_up() {
+        options.cancel = token();
+    }
     options.set_up()?.install(|| carry_out(&options, verb))
+}
+
+impl Verb {
+    /// Whether it looks at the token that tells it to give up; others are done soon, and the system ends them.
+    fn gives_up(&self) -> bool {
+        match self {
+            Self::Run(_) | Self::Plan(_) | Self::Verify(_) | Self::Simulate(_) | Self::Tune(_) => true,
+            Self::Sweep(_) | Self::Reproduce(_) => true,
+            Self::Layout | Self::Validate | Self::Fk(_) | Self::Ik(_) | Self::Robot => false,
+        }
+    }
 }
 
 fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode, Failure> {

@@ -4,17 +4,18 @@ use super::failure::Failure;
 use super::output;
 use anyhow::{Context, anyhow, ensure};
 use clap::Args;
-use platewash::planner::robot;
-use platewash::planner::scenario::{MAX_SEED, SHIPPED, ScenarioError, UnitNote};
-use platewash::{PlanError, RobotModel, Scenario};
+use platewash::scenario::{SHIPPED, ScenarioError, UnitNote};
+use platewash::workcell::job::MAX_SEED;
+use platewash::{CancelToken, RobotModel, Scenario};
 use rayon::ThreadPool;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Stack of a worker thread: what a main thread usually has.
 const STACK_BYTES: usize = 8 << 20;
 
 /// Options that every verb takes.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub struct Options {
     /// Scenario: a file, or a shipped name (kitchen, kitchen-roomy, kitchen-rim, paper-appendix, paper-text) [default: kitchen]
     #[arg(long, global = true, value_name = "FILE|NAME")]
@@ -46,6 +47,9 @@ pub struct Options {
     /// Worker threads [default: one a processor]; results do not depend on it
     #[arg(long, global = true, value_name = "N")]
     pub threads: Option<usize>,
+    /// Tells long work to give up.
+    #[arg(skip)]
+    pub cancel: CancelToken,
 }
 
 impl Options {
@@ -94,10 +98,10 @@ impl Options {
     }
 
     /// The arm of a scenario.
-    pub fn arm(&self, scenario: &Scenario) -> Result<RobotModel, Failure> {
-        let robot = robot::load(&scenario.robot)?;
-        self.warn(UnitNote::of_arm(&robot).as_slice());
-        Ok(robot)
+    pub fn arm(&self, scenario: &Scenario) -> Result<Arc<RobotModel>, platewash::Failure> {
+        let arm = scenario.arm()?;
+        self.warn(UnitNote::of_arm(&arm).as_slice());
+        Ok(arm)
     }
 
     /// Says on standard error what was probably meant in another unit.
@@ -107,24 +111,22 @@ impl Options {
         }
     }
 
-    /// A planner's error; one of the scenario with the file that was given in place of the scenario's own name.
-    pub fn failure(&self, error: PlanError) -> Failure {
+    /// Why the scenario could not be carried out; what is wrong in it with the file that was given in place of its own name.
+    pub fn failure(&self, error: platewash::Failure) -> Failure {
         match error {
-            PlanError::Scenario(error) => self.of_file(error).into(),
+            platewash::Failure::Scenario(error) => self.of_file(error).into(),
             other => other.into(),
         }
     }
 
-    /// Refuses a scenario and a seed where the plan file states both.
-    pub fn refuse_scenario_and_seed(&self) -> Result<(), Failure> {
-        for (given, name) in [(self.scenario.is_some(), "--scenario"), (self.seed.is_some(), "--seed")] {
-            if given {
-                return Err(Failure::input(anyhow!(
-                    "{name}: the plan file states scenario and seed; leave it out"
-                )));
-            }
-        }
-        Ok(())
+    /// Refuses a scenario where a plan file is given.
+    pub fn refuse_scenario(&self) -> Result<(), Failure> {
+        refuse_beside_plan(self.scenario.is_some(), "--scenario")
+    }
+
+    /// Refuses a seed where a plan file is given.
+    pub fn refuse_seed(&self) -> Result<(), Failure> {
+        refuse_beside_plan(self.seed.is_some(), "--seed")
     }
 
     fn scenario_name(&self) -> &str {
@@ -138,10 +140,14 @@ impl Options {
             ..error
         }
     }
+}
 
-    /// The arm of the scenario, or of the options.
-    pub fn robot(&self) -> Result<RobotModel, Failure> {
-        self.arm(&self.scenario()?)
+fn refuse_beside_plan(given: bool, name: &str) -> Result<(), Failure> {
+    match given {
+        true => Err(Failure::input(anyhow!(
+            "{name}: the plan file states its job and its seed; leave it out (verify --against compares them with a scenario)"
+        ))),
+        false => Ok(()),
     }
 }
 

@@ -1,7 +1,9 @@
 //! Results: to standard output, and to files that appear whole or not at all.
 
 use super::failure::Failure;
+use super::text::{self, escaped};
 use anyhow::Context;
+use platewash::CancelToken;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -39,29 +41,12 @@ pub fn json(value: &impl Serialize) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// A value as text without control characters but new lines, so that a terminal obeys no name out of a file.
-pub fn text(value: &impl Display) -> String {
-    escaped(&value.to_string(), |c| c.escape_default().to_string())
-}
-
-fn escaped(text: &str, escape: impl Fn(char) -> String) -> String {
-    let mut all = String::with_capacity(text.len());
-    for c in text.chars() {
-        if c.is_control() && c != '\n' {
-            all.push_str(&escape(c));
-        } else {
-            all.push(c);
-        }
-    }
-    all
-}
-
 /// Prints a value as JSON, or as text.
 pub fn print_either(as_json: bool, value: &impl Serialize, text: impl FnOnce() -> String) -> Result<Reader, Failure> {
     if as_json {
         print(&json(value)?)
     } else {
-        print(&self::text(&text()))
+        print(&text::text(&text()))
     }
 }
 
@@ -69,7 +54,7 @@ pub fn print_either(as_json: bool, value: &impl Serialize, text: impl FnOnce() -
 pub fn message(quiet: bool, text: &str) {
     if !quiet {
         // Nothing is left to do when standard error is closed.
-        let _ = writeln!(std::io::stderr(), "{}", self::text(&text));
+        let _ = writeln!(std::io::stderr(), "{}", text::text(&text));
     }
 }
 
@@ -81,17 +66,19 @@ pub fn file<'a>(path: PathBuf, content: impl Display + 'a) -> File<'a> {
     (path, Box::new(content))
 }
 
-/// Writes all files or none: each goes to a temporary file beside its place, and they are renamed once all are complete.
-pub fn write_files(files: &[File<'_>]) -> Result<(), Failure> {
-    replace(files, &[])
+/// Writes all files or none: each goes to a temporary file beside its place, and they are renamed once all are complete. None where
+/// `cancel` says so before that.
+pub fn write_files(files: &[File<'_>], cancel: &CancelToken) -> Result<(), Failure> {
+    replace(files, &[], cancel)
 }
 
-/// The same in place of `stale` files, which go just before.
-pub fn replace(files: &[File<'_>], stale: &[PathBuf]) -> Result<(), Failure> {
+/// Writes all files or none in place of `stale` ones, which go just before.
+pub fn replace(files: &[File<'_>], stale: &[PathBuf], cancel: &CancelToken) -> Result<(), Failure> {
     refuse_one_place_for_two(files.iter().map(|(path, _)| path)).map_err(Failure::input)?;
     let mut complete = Vec::new();
     for (path, content) in files {
         complete.push((stage(path, content).map_err(Failure::input)?, path));
+        cancel.check()?;
     }
     for path in stale {
         std::fs::remove_file(path)
@@ -215,7 +202,7 @@ mod tests {
     #[test]
     fn no_control_character_but_a_new_line_leaves() {
         let name = "a\u{1b}[31m\u{7f}\u{9b}2J\t\r\n\u{e9}";
-        assert_eq!(text(&name), "a\\u{1b}[31m\\u{7f}\\u{9b}2J\\t\\r\n\u{e9}");
+        assert_eq!(text::text(&name), "a\\u{1b}[31m\\u{7f}\\u{9b}2J\\t\\r\n\u{e9}");
         let written = json(&name).unwrap();
         assert!(!written.trim_end().contains(char::is_control), "{written:?}");
         assert_eq!(serde_json::from_str::<String>(&written).unwrap(), name);

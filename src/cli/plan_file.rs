@@ -4,56 +4,119 @@ use super::failure::Failure;
 use super::options::Options;
 use anyhow::anyhow;
 use platewash::kinematics::urdf::file;
-use platewash::planner::certificate::{self, VerifyError};
-use platewash::planner::scenario::{RobotSection, UnitNote};
+use platewash::scenario::{UnitNote, load_description};
+use platewash::workcell::workcell::ArmId;
 use platewash::{Plan, RobotModel};
 use std::fmt::Display;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::Arc;
 
 /// Longest plan file that is read \[bytes\]: some million knots.
 const MAX_BYTES: u64 = 1 << 28;
 
-/// A plan that was read from a file.
+/// A plan that was read from a file, with its arm.
 #[derive(Debug)]
-pub struct PlanFile {
-    path: PathBuf,
+pub struct PlanFile<'a> {
+    path: &'a Path,
     /// The plan.
     pub plan: Plan,
-    /// The arm that it names: the built-in one, or that of `--urdf`.
-    pub robot: RobotModel,
+    /// The arm that it is for.
+    pub arm: Arc<RobotModel>,
 }
 
-impl PlanFile {
-    /// Reads a plan and finds its arm.
-    pub fn read(options: &Options, path: &Path) -> Result<Self, Failure> {
-        options.refuse_scenario_and_seed()?;
-        let text = file::read_text(path, MAX_BYTES).map_err(|e| refused(path, format_args!("cannot be read: {e}")))?;
-        let plan = Plan::from_json(&text).map_err(|e| refused(path, e))?;
-        let given = options.urdf.as_ref().map(|urdf| RobotSection {
-            urdf: Some(urdf.clone()),
-            srdf: options.srdf.clone(),
-            package_path: options.package_path.clone(),
-            ..plan.scenario.robot.clone()
-        });
-        let robot = certificate::arm(&plan, given.as_ref()).map_err(|error| match error {
-            VerifyError::NoDescription { file } => refused(
-                path,
-                format_args!("the plan is for the arm of \"{file}\": give that description as --urdf FILE"),
-            ),
-            other => refused(path, other),
-        })?;
-        options.warn(&plan.scenario.notes());
-        options.warn(UnitNote::of_arm(&robot).as_slice());
-        let path = path.to_owned();
-        Ok(Self { path, plan, robot })
+impl<'a> PlanFile<'a> {
+    /// Reads a plan that no scenario and no seed is given beside, and finds its arm.
+    pub fn read(options: &Options, path: &'a Path) -> Result<Self, Failure> {
+        options.refuse_scenario()?;
+        options.refuse_seed()?;
+        Self::with_arm(options, path, read(path)?, None)
+    }
+
+    /// A plan that was read, with its arm: that of `--urdf`, the one given besides, or the built-in one.
+    pub fn with_arm(
+        options: &Options,
+        path: &'a Path,
+        plan: Plan,
+        besides: Option<&Arc<RobotModel>>,
+    ) -> Result<Self, Failure> {
+        let arm = find_arm(options, &plan.job.workcell.arm, besides).map_err(|error| refused(path, error))?;
+        options.warn(UnitNote::of_arm(&arm).as_slice());
+        Ok(Self { path, plan, arm })
     }
 
     /// Something in the file that cannot be used.
     pub fn refused(&self, error: impl Display) -> Failure {
-        refused(&self.path, error)
+        refused(self.path, error)
     }
+
+    /// Why the plan could not be judged or simulated.
+    pub fn failure(&self, error: platewash::Failure) -> Failure {
+        if error.is_cancelled() {
+            return Failure::Interrupted;
+        }
+        self.refused(error)
+    }
+}
+
+/// The plan of a file.
+pub fn read(path: &Path) -> Result<Plan, Failure> {
+    let text = file::read_text(path, MAX_BYTES).map_err(|e| refused(path, format_args!("cannot be read: {e}")))?;
+    Plan::from_json(&text).map_err(|e| refused(path, e))
 }
 
 fn refused(path: &Path, error: impl Display) -> Failure {
     Failure::input(anyhow!("{}: {error}", path.display()))
+}
+
+/// The arm of a plan. A plan carries the hashes of its description and its SRDF alone.
+fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>) -> anyhow::Result<Arc<RobotModel>> {
+    if let Some(urdf) = &options.urdf {
+        let arm = load_description(urdf, options.srdf.as_deref(), &options.package_path)?;
+        refuse_other(wanted, &ArmId::of(&arm))?;
+        return Ok(Arc::new(arm));
+    }
+    let is_it = |arm: &&Arc<RobotModel>| is_one(wanted, &ArmId::of(arm));
+    if let Some(arm) = besides.filter(is_it) {
+        return Ok(arm.clone());
+    }
+    let built_in = Arc::new(RobotModel::irb120()?);
+    if is_it(&&built_in) {
+        return Ok(built_in);
+    }
+    let srdf = wanted.srdf_sha256.as_ref();
+    let srdf = srdf.map_or_else(String::new, |hash| {
+        format!(", and its SRDF (SHA-256 {hash}) as --srdf FILE")
+    });
+    Err(anyhow!(
+        "the plan is for the arm \"{}\" (URDF SHA-256 {}): give that description as --urdf FILE{srdf}",
+        wanted.name,
+        wanted.urdf_sha256
+    ))
+}
+
+fn is_one(wanted: &ArmId, given: &ArmId) -> bool {
+    (&wanted.urdf_sha256, &wanted.srdf_sha256) == (&given.urdf_sha256, &given.srdf_sha256)
+}
+
+/// Refuses an arm of another description or with another SRDF.
+fn refuse_other(wanted: &ArmId, given: &ArmId) -> anyhow::Result<()> {
+    if wanted.urdf_sha256 != given.urdf_sha256 {
+        return Err(anyhow!(
+            "the plan is for the arm \"{}\" (URDF SHA-256 {}); --urdf describes \"{}\" ({})",
+            wanted.name,
+            wanted.urdf_sha256,
+            given.name,
+            given.urdf_sha256
+        ));
+    }
+    match (&wanted.srdf_sha256, &given.srdf_sha256) {
+        (Some(wanted), None) => Err(anyhow!(
+            "the plan was made with an SRDF (SHA-256 {wanted}): give it as --srdf FILE"
+        )),
+        (None, Some(_)) => Err(anyhow!("the plan was made without an SRDF: leave out --srdf")),
+        (Some(wanted), Some(given)) if wanted != given => Err(anyhow!(
+            "the plan was made with the SRDF of SHA-256 {wanted}; that of --srdf is {given}"
+        )),
+        _ => Ok(()),
+    }
 }

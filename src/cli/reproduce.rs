@@ -6,7 +6,7 @@ use super::output;
 use super::progress::Progress;
 use anyhow::anyhow;
 use clap::Args;
-use platewash::planner::reproduce::{ReproduceSettings, reproduce};
+use platewash::paper::reproduce::{ReproduceSettings, reproduce};
 use std::ops::ControlFlow;
 
 /// Most layouts that are simulated in a region: minutes of work.
@@ -55,14 +55,19 @@ pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode
     output::check_places(places.as_ref().map_or(&[][..], |places| places))?;
     let progress = Progress::new(options.quiet, "measuring dead ends");
     let result = reproduce(&settings, &|done, total| {
-        progress.note(done, total);
-        ControlFlow::Continue(())
+        if done > 0 {
+            progress.note(done, total);
+        }
+        match options.cancel.check() {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        }
     });
     drop(progress);
-    let result = result?;
+    let result = result.map_err(platewash::Failure::from)?;
     if let Some([json, text]) = places {
         let files = [output::file(json, output::json(&result)?), output::file(text, &result)];
-        output::write_files(&files)?;
+        output::write_files(&files, &options.cancel)?;
         output::message(
             options.quiet,
             &format!("wrote {}, {}", files[0].0.display(), files[1].0.display()),

@@ -2,9 +2,18 @@
 //! a new result.
 
 use super::failure::Failure;
+use super::options::Options;
 use super::output::{self, File};
 use anyhow::Context;
 use std::path::{Path, PathBuf};
+
+/// Folder that is written to without `--out`.
+const DEFAULT_FOLDER: &str = "out";
+
+/// Where files go.
+pub fn folder(options: &Options) -> PathBuf {
+    options.out.clone().unwrap_or_else(|| PathBuf::from(DEFAULT_FOLDER))
+}
 
 /// Names in the output folder that belong to `run` and `plan`, those that `simulate` writes of a plan there included.
 pub const OWNED: [&str; 9] = [
@@ -24,14 +33,21 @@ pub const SIMULATED: [&str; 3] = ["simulated.csv", "simulation.json", "simulatio
 
 /// Writes the files of one call, and removes from the folder those of [`OWNED`] that it does not write. All or nothing, as
 /// [`output::write_files`].
-pub fn write(folder: &Path, files: &[File<'_>]) -> Result<(), Failure> {
-    let stale = stale(folder, files).map_err(Failure::input)?;
-    output::replace(files, &stale)
+pub fn write(options: &Options, files: &[File<'_>]) -> Result<(), Failure> {
+    let stale = stale(&folder(options), files).map_err(Failure::input)?;
+    output::replace(files, &stale, &options.cancel)
+}
+
+/// Says what was written.
+pub fn name(options: &Options, files: &[File<'_>]) {
+    let names: Vec<_> = files.iter().map(|(path, _)| path.display().to_string()).collect();
+    output::message(options.quiet, &format!("wrote {}", names.join(", ")));
 }
 
 /// Refuses, before any work, a folder in which `names` of [`OWNED`] cannot be written, and a CSV that cannot be where it is asked
 /// for.
-pub fn check_places(folder: &Path, names: &[&str], csv: &Path) -> Result<(), Failure> {
+pub fn check_places(options: &Options, names: &[&str], csv: &Path) -> Result<(), Failure> {
+    let folder = folder(options);
     let named = names.iter().map(|name| folder.join(name));
     output::check_places(&named.chain([csv.to_owned()]).collect::<Vec<_>>())
 }

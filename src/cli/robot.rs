@@ -5,7 +5,9 @@ use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
 use platewash::kinematics::AXES;
-use platewash::{ClearanceModel, PlanError, RobotModel};
+use platewash::workcell::clearance::ClearanceError;
+use platewash::workcell::tool::StraightTool;
+use platewash::{ClearanceModel, Plate, RobotModel, Tool, Workcell};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -34,8 +36,8 @@ struct JointRow {
 
 /// Shows joints, limits, frames and the pairs that are checked for clearance (the bare arm over the floor).
 pub fn run(options: &Options) -> Result<ExitCode, Failure> {
-    let robot = options.robot()?;
-    let clearance = ClearanceModel::new(&robot, &bare(), &[]).map_err(PlanError::from)?;
+    let robot = options.arm(&options.scenario()?)?;
+    let clearance = clearance(&robot, bare(), &[]).map_err(platewash::Failure::from)?;
     let answer = Answer {
         name: robot.name().to_owned(),
         urdf_sha256: robot.sha256().to_owned(),
@@ -53,11 +55,16 @@ pub fn run(options: &Options) -> Result<ExitCode, Failure> {
 }
 
 /// No tool body.
-pub fn bare() -> platewash::workcell::tool::Tool {
-    platewash::workcell::tool::Tool {
+pub fn bare() -> Tool {
+    Tool::from(StraightTool {
         length_m: 0.0,
-        ..Default::default()
-    }
+        ..StraightTool::default()
+    })
+}
+
+/// The clearances of an arm over the floor, with its tool, among plates.
+pub fn clearance(robot: &RobotModel, tool: Tool, plates: &[Plate]) -> Result<ClearanceModel, ClearanceError> {
+    ClearanceModel::new(robot, &Workcell::on_floor(robot, tool)?, plates)
 }
 
 fn joint(robot: &RobotModel, i: usize) -> JointRow {

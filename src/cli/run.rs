@@ -2,59 +2,164 @@
 
 use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
+use super::motion::MotionArguments;
 use super::options::Options;
-use super::plan::{self, Followed, PlanArguments};
-use super::{cycle, output, results};
+use super::pairs::PairArguments;
+use super::text::text;
+use super::{execution, infeasible, output, paper, results, wash};
 use clap::Args;
-use platewash::planner::certificate::PairsShown;
-use platewash::planner::scenario::Program;
+use platewash::certificate::{PairsShown, prove_with};
+use platewash::scenario::Program;
+use platewash::simulator::simulate::{PlateVerdict, table};
+use platewash::{
+    Execution, Plan, RobotModel, Scenario, SimulationError, SimulationReport, SimulationVerdict, WashReport,
+};
+use serde::Serialize;
 
 /// Arguments of `run`.
 #[derive(Debug, Args, Default)]
 pub struct RunArguments {
     #[command(flatten)]
-    pub plan: PlanArguments,
-    /// Name every pair of bodies in the report, not the ten tightest alone
-    #[arg(long)]
-    pub all_pairs: bool,
+    motion: MotionArguments,
+    #[command(flatten)]
+    pairs: PairArguments,
 }
 
-impl RunArguments {
-    /// The pairs that the report names.
-    pub fn pairs(&self) -> PairsShown {
-        pairs(self.all_pairs)
-    }
-}
-
-/// The pairs that a table names, as `--all-pairs` says.
-pub fn pairs(all: bool) -> PairsShown {
-    if all { PairsShown::All } else { PairsShown::Tightest }
-}
-
-/// Plans, follows and judges the scenario; writes the plan, both motions and the report.
+/// Plans and judges the scenario; writes the plan, both motions and the report.
 pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
-    let folder = plan::folder(options);
-    let csv = plan::csv_file(options, &arguments.plan);
     let others = |name: &&str| *name != "trajectory.csv" && !results::SIMULATED.contains(name);
     let names = results::OWNED.into_iter().filter(others);
-    results::check_places(&folder, &names.collect::<Vec<_>>(), &csv)?;
-    if scenario.job.program == Program::Certified {
-        return cycle::run(options, &scenario, arguments);
+    let csv = arguments.motion.csv_file(options);
+    results::check_places(options, &names.collect::<Vec<_>>(), &csv)?;
+    match scenario.job.program {
+        Program::Certified => run_washing(options, &scenario, arguments),
+        Program::Paper => run_paper(options, &scenario, &arguments.motion),
     }
-    let (job, report) = match plan::carry_out(options, &scenario)? {
-        Followed::Judged(both) => *both,
-        Followed::Infeasible(report) => return plan::infeasible(options, &scenario, &report),
+}
+
+fn run_paper(options: &Options, scenario: &Scenario, arguments: &MotionArguments) -> Result<ExitCode, Failure> {
+    let followed = match paper::follow(options, scenario) {
+        Ok(followed) => followed,
+        Err(failure) => return infeasible::end(options, scenario, failure),
     };
-    let text = output::text(&report);
-    let segments = platewash::planner::plan::segments(&job);
-    let mut files = plan::files(options, &job, &segments, &report, &arguments.plan)?;
-    let executed = plan::motion_csv(&scenario, &job.robot, &job.executed, &segments, &arguments.plan)?;
+    let folder = results::folder(options);
+    let (report, words) = (&followed.report, text(&followed.report));
+    let mut files = followed.files(options, scenario, arguments)?;
+    let executed = followed.executed(scenario, arguments)?;
     files.push(output::file(folder.join("executed.csv"), executed));
-    files.push(output::file(folder.join("report.json"), output::json(&report)?));
-    files.push(output::file(folder.join("report.txt"), &text));
-    results::write(&folder, &files)?;
-    output::print_either(options.json, &report, || text.clone())?;
-    plan::name_files(options, &files);
+    files.push(output::file(folder.join("report.json"), output::json(report)?));
+    files.push(output::file(folder.join("report.txt"), &words));
+    results::write(options, &files)?;
+    output::print_either(options.json, report, || words.clone())?;
+    results::name(options, &files);
     Ok(Outcome::from(report.verdict).job(scenario.job.on_failure))
+}
+
+/// Plans, proves and simulates; writes plan, both motions, certificate and report.
+fn run_washing(options: &Options, scenario: &Scenario, arguments: &RunArguments) -> Result<ExitCode, Failure> {
+    let washing = match wash::plan(options, scenario) {
+        Ok(washing) => washing,
+        Err(failure) => return infeasible::end(options, scenario, failure),
+    };
+    let (plan, arm) = (&washing.planned.plan, &washing.arm);
+    let time_step = &arguments.motion.time_step;
+    let lasts_s = execution::lasts_at_most_s(plan, &plan.job.simulation);
+    let dt_s = time_step.or(scenario.control.dt_s, lasts_s)?;
+    let certificate = prove_with(plan, arm, &options.cancel).map_err(platewash::Failure::from)?;
+    let (execution, simulation) = simulated(options, plan, arm)?;
+    let proof = output::json(&certificate)?;
+    let report = WashReport::new(&washing.planned, &washing.findings, certificate);
+    let report = RunReport::new(report, simulation);
+    let words = report.text(arguments.pairs.shown());
+    let folder = results::folder(options);
+    let mut files = washing.files(options, scenario, &arguments.motion)?;
+    files.push(output::file(folder.join("certificate.json"), proof));
+    if let Some(execution) = &execution {
+        let executed = table(execution, plan, arm, dt_s)?;
+        files.push(output::file(folder.join("executed.csv"), executed));
+    }
+    files.push(output::file(folder.join("report.json"), output::json(&report)?));
+    files.push(output::file(folder.join("report.txt"), &words));
+    results::write(options, &files)?;
+    output::print_either(options.json, &report, || words.clone())?;
+    results::name(options, &files);
+    // The worse of the two.
+    let outcome = Outcome::from(report.wash.verdict).max(report.simulation.outcome());
+    Ok(outcome.job(scenario.job.on_failure))
+}
+
+/// What `run` says of a washing: the proof of the plan, and what a controlled arm makes of it.
+#[derive(Debug, Serialize)]
+struct RunReport {
+    #[serde(flatten)]
+    wash: WashReport,
+    simulation: Simulated,
+}
+
+/// What the simulation says.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Simulated {
+    /// An execution, judged.
+    Done(Box<SimulationReport>),
+    /// None: the arm's dynamics are not known, or the law was refused.
+    Refused { refused: String },
+}
+
+/// Simulates a plan as it asks for itself.
+fn simulated(options: &Options, plan: &Plan, arm: &RobotModel) -> Result<(Option<Execution>, Simulated), Failure> {
+    match execution::carry_out(plan, arm, &plan.job.simulation, &options.cancel) {
+        Ok((execution, report)) => Ok((Some(execution), Simulated::Done(Box::new(report)))),
+        Err(SimulationError::Cancelled(cancelled)) => Err(cancelled.into()),
+        Err(error) => {
+            let refused = platewash::Failure::from(error).to_string();
+            Ok((None, Simulated::Refused { refused }))
+        }
+    }
+}
+
+impl Simulated {
+    /// What the first line adds to what is proved: that nothing was simulated, or that the simulation fails.
+    fn first_line(&self) -> Option<String> {
+        match self {
+            Self::Done(report) if report.verdict == SimulationVerdict::Washed => None,
+            Self::Done(report) => {
+                let overload = report.payload.overload().map(|words| format!("OVERLOADED: {words}"));
+                let leaves_one = report
+                    .plates
+                    .iter()
+                    .any(|plate| plate.verdict == PlateVerdict::NotWashed);
+                let not_washed =
+                    (overload.is_none() || leaves_one).then(|| format!("NOT WASHED under {}", report.law.name()));
+                Some(overload.into_iter().chain(not_washed).collect::<Vec<_>>().join("; "))
+            }
+            Self::Refused { .. } => Some("NOT SIMULATED".to_owned()),
+        }
+    }
+
+    /// No simulation at all is no failure of the plan.
+    fn outcome(&self) -> Outcome {
+        match self {
+            Self::Done(report) => Outcome::from(report.verdict),
+            Self::Refused { .. } => Outcome::Good,
+        }
+    }
+}
+
+impl RunReport {
+    fn new(mut wash: WashReport, simulation: Simulated) -> Self {
+        if let Some(more) = simulation.first_line() {
+            wash.headline = format!("{}; {more}", wash.headline);
+        }
+        Self { wash, simulation }
+    }
+
+    fn text(&self, pairs: PairsShown) -> String {
+        let simulation = match &self.simulation {
+            Simulated::Done(report) => report.to_string(),
+            Simulated::Refused { refused } => format!("NOT SIMULATED: {refused}\n"),
+        };
+        text(&format_args!("{}\n\n{simulation}", self.wash.text(pairs)))
+    }
 }

@@ -5,11 +5,12 @@ use super::failure::{ExitCode, Failure};
 use super::options::{self, Options};
 use super::output::{self, Reader};
 use super::progress::Progress;
+use super::text::text;
 use anyhow::{Context, ensure};
 use clap::Args;
-use platewash::Scenario;
-use platewash::planner::scenario::{MAX_SEED, Program};
-use platewash::planner::sweep::{self, SweepOutcome, SweepRow};
+use platewash::scenario::Program;
+use platewash::workcell::job::MAX_SEED;
+use platewash::{SWEEP_HEADER, Scenario, SweepOutcome, SweepRow, sweep_csv, sweep_each};
 use std::io::IsTerminal;
 use std::ops::{ControlFlow, RangeInclusive};
 
@@ -42,12 +43,13 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Fa
     output::check_places(table.as_slice())?;
     options.arm(&scenario)?;
     let (rows, reader) = rows(options, &scenario, arguments)?;
+    options.cancel.check()?;
     if table.is_none() && reader == Reader::Gone {
         // Nobody wants the other rows, nor a verdict about them.
         return Ok(ExitCode::SUCCESS);
     }
     if let Some(table) = table {
-        output::write_files(&[output::file(table, sweep::csv(&rows))])?;
+        output::write_files(&[output::file(table, sweep_csv(&rows))], &options.cancel)?;
     }
     if options.json {
         output::print(&output::json(&rows)?)?;
@@ -87,11 +89,11 @@ fn rows(
 ) -> Result<(Vec<SweepRow>, Reader), Failure> {
     let shows_rows = !options.json && std::io::stdout().is_terminal();
     let _progress = Progress::new(options.quiet || shows_rows, "planning and proving");
-    let (mut printed, mut header) = (Ok(Reader::There), Some(sweep::HEADER));
+    let (mut printed, mut header) = (Ok(Reader::There), Some(SWEEP_HEADER));
     let mut print = |row: &SweepRow| {
         if !options.json && matches!(printed, Ok(Reader::There)) {
             let line = header.take().unwrap_or_default().to_owned() + &row.csv_line();
-            printed = output::print(&output::text(&line));
+            printed = output::print(&text(&line));
         }
         match printed {
             Ok(Reader::There) => ControlFlow::Continue(()),
@@ -99,7 +101,7 @@ fn rows(
             _ => ControlFlow::Break(()),
         }
     };
-    let rows = sweep::sweep_each(scenario, arguments.seeds.clone(), &mut print);
+    let rows = sweep_each(scenario, arguments.seeds.clone(), &options.cancel, &mut print);
     let rows = rows.map_err(|error| options.failure(error))?;
     Ok((rows, printed?))
 }

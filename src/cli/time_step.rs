@@ -3,8 +3,7 @@
 use super::failure::Failure;
 use anyhow::{Context, anyhow, ensure};
 use clap::Args;
-use platewash::Scenario;
-use platewash::planner::scenario::TIME_STEPS_S;
+use platewash::scenario::TIME_STEPS_S;
 use platewash::workcell::csv::{CsvError, MAX_ROWS, check_step};
 
 /// `--dt`.
@@ -16,10 +15,10 @@ pub struct TimeStep {
 }
 
 impl TimeStep {
-    /// The time step \[s\], if it gives not too many rows for `duration_s` of motion; the step that is suggested otherwise is
-    /// accepted when it is typed in.
-    pub fn of(&self, scenario: &Scenario, duration_s: f64) -> Result<f64, Failure> {
-        let dt_s = self.dt.unwrap_or(scenario.control.dt_s);
+    /// The time step \[s\], by default the one that is stated, if it gives not too many rows for `duration_s` of motion; the step that
+    /// is suggested otherwise is accepted when it is typed in.
+    pub fn or(&self, stated_s: f64, duration_s: f64) -> Result<f64, Failure> {
+        let dt_s = self.dt.unwrap_or(stated_s);
         self.check(duration_s, dt_s).map_err(Failure::input)?;
         Ok(dt_s)
     }

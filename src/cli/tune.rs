@@ -1,16 +1,18 @@
 //! `platewash tune`: a control law at many frequencies and dampings, and what each buys.
 
+use super::exit;
 use super::failure::{ExitCode, Failure};
+use super::law::{LawArguments, positive};
 use super::options::Options;
+use super::output;
 use super::plan_file::PlanFile;
 use super::progress::Progress;
-use super::simulate::{LawArguments, positive};
-use super::{exit, output};
 use anyhow::ensure;
 use clap::Args;
 use platewash::Plan;
-use platewash::simulator::simulate::{TuneOutcome, TuneRow, tune};
-use platewash::simulator::{Setup, SimulationVerdict};
+use platewash::simulator::simulate::{TuneOutcome, TuneRow};
+use platewash::workcell::simulation::SimulationSettings;
+use platewash::{SimulationVerdict, tune};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -51,7 +53,7 @@ enum Outcome {
 }
 
 impl Row {
-    /// What came of the simulation; `None` where it was refused.
+    /// How the simulation ended; `None` where it was refused.
     fn verdict(&self) -> Option<SimulationVerdict> {
         match &self.outcome {
             Outcome::Simulated(outcome) => Some(outcome.verdict),
@@ -67,7 +69,7 @@ impl From<TuneRow> for Row {
             damping_ratio: row.damping_ratio,
             outcome: match row.outcome {
                 Ok(outcome) => Outcome::Simulated(outcome),
-                Err(error) => Outcome::Refused(error.to_string()),
+                Err(error) => Outcome::Refused(platewash::Failure::from(error).to_string()),
             },
         }
     }
@@ -79,36 +81,38 @@ pub fn run(options: &Options, arguments: &TuneArguments) -> Result<ExitCode, Fai
     let table = options.out.as_ref().map(|folder| folder.join("tune.csv"));
     output::check_places(table.as_slice())?;
     let file = PlanFile::read(options, &arguments.plan)?;
-    let setup = arguments.law.setup(&file.plan);
-    if setup.law.is_kinematic() {
+    let settings = arguments.law.settings(&file.plan);
+    if settings.law.is_kinematic() {
         return Err(file.refused(format_args!(
             "law \"{}\" has no frequency to tune: ask for --law pd, pd_gravity or computed_torque",
-            setup.law.name()
+            settings.law.name()
         )));
     }
     let rows: Vec<Row> = {
         let _progress = Progress::new(options.quiet, "simulating");
         let rows = tune(
             &file.plan,
-            &file.robot,
-            &setup,
+            &file.arm,
+            &settings,
             &arguments.frequencies,
             &arguments.dampings,
-        );
+            &options.cancel,
+        )?;
         rows.into_iter().map(Row::from).collect()
     };
     if let Some(table) = table {
-        output::write_files(&[output::file(table, csv(&rows))])?;
+        output::write_files(&[output::file(table, csv(&rows))], &options.cancel)?;
     }
-    output::print_either(options.json, &rows, || text(&file.plan, &setup, &rows))?;
-    let verdicts: Vec<_> = rows.iter().filter_map(Row::verdict).collect();
-    if verdicts.is_empty() {
-        return Err(file.refused(format_args!(
+    output::print_either(options.json, &rows, || text(&file.plan, &settings, &rows))?;
+    // The best of them.
+    let outcomes = rows.iter().filter_map(Row::verdict).map(exit::Outcome::from);
+    match outcomes.min() {
+        Some(best) => Ok(best.answer()),
+        None => Err(file.refused(format_args!(
             "none of {} settings can be simulated; the table says why",
             rows.len()
-        )));
+        ))),
     }
-    Ok(exit::simulated(verdicts, file.plan.scenario.job.on_failure))
 }
 
 fn check(arguments: &TuneArguments) -> anyhow::Result<()> {
@@ -120,8 +124,8 @@ fn check(arguments: &TuneArguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn text(plan: &Plan, setup: &Setup, rows: &[Row]) -> String {
-    let (name, law, rate) = (&plan.scenario.name, setup.law.name(), setup.control.rate_hz);
+fn text(plan: &Plan, settings: &SimulationSettings, rows: &[Row]) -> String {
+    let (name, law, rate) = (&plan.provenance.scenario, settings.law.name(), settings.control.rate_hz);
     let mut text = format!("{name} under {law}, {rate} samples a second\n\n");
     // Writing to a String cannot fail.
     let _ = writeln!(

@@ -3,14 +3,14 @@
 use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
-use super::output;
-use platewash::planner::cycle::InfeasibleReport;
-use platewash::planner::job;
-use platewash::planner::scenario::{Overlap, Program, UnitNote};
+use super::{infeasible, output};
+use platewash::planner;
+use platewash::scenario::{Program, UnitNote};
 use platewash::simulator::simulate::PayloadCheck;
+use platewash::workcell::job::Overlap;
 use platewash::workcell::layout::{Finding, LayoutError};
 use platewash::workcell::words::counted;
-use platewash::{Cycle, Layout, PlanError, Scenario};
+use platewash::{Layout, RobotModel, Scenario};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -38,29 +38,12 @@ struct Sampling {
     outcome: String,
 }
 
-/// A scenario of which nothing can come.
-#[derive(Serialize)]
-struct NotValid {
-    valid: bool,
-    #[serde(flatten)]
-    why: InfeasibleReport,
-}
-
-/// With `--json`, gives what stands against a scenario (exit code 3) as an answer on standard output too.
-pub fn answer_with_reason(options: &Options, scenario: &Scenario, failure: &Failure) -> Result<(), Failure> {
-    let why = failure.of_planner().filter(|_| options.json);
-    if let Some(why) = why.and_then(|error| InfeasibleReport::new(scenario, error)) {
-        output::print(&output::json(&NotValid { valid: false, why })?)?;
-    }
-    Ok(())
-}
-
 /// Checks the scenario, its arm and its plates: given ones are looked over, sampled ones placed with the scenario's seed.
 pub fn run(options: &Options) -> Result<ExitCode, Failure> {
     let scenario = options.scenario()?;
     let checked = check(options, &scenario);
     if let Err(failure) = &checked {
-        answer_with_reason(options, &scenario, failure)?;
+        infeasible::answer(options, &scenario, failure)?;
     }
     checked
 }
@@ -72,20 +55,19 @@ fn check(options: &Options, scenario: &Scenario) -> Result<ExitCode, Failure> {
     let drawn_anew = scenario.layout.only_washable && scenario.layout.positions_m.is_none();
     let mut drawn = Vec::new();
     if scenario.layout.positions_m.is_none() {
-        let placed = job::place_plates(scenario, &arm);
+        let placed = scenario.layout(&arm);
         sampling = Some(Sampling::of(scenario, &placed)?);
         drawn = placed.map(|layout| layout.findings).unwrap_or_default();
     }
-    let (robot, mut findings) = job::check(scenario)?;
+    let (robot, mut findings) = scenario.check().map_err(|error| options.failure(error))?;
     if !drawn_anew {
         findings.extend(drawn);
     }
     let mut unprovable = Vec::new();
     scenario.check_work().map_err(|error| options.failure(error.into()))?;
     if scenario.job.program == Program::Certified {
-        let layout = job::place_plates(scenario, &robot).ok().filter(|_| !drawn_anew);
-        let plates = layout.as_ref().map_or(&[][..], |layout| &layout.plates);
-        Cycle::check(scenario, &robot, plates)?;
+        let layout = scenario.layout(&robot).ok().filter(|_| !drawn_anew);
+        check_homes(scenario, &robot, layout.as_ref())?;
         if let Some(layout) = layout {
             findings = layout.findings;
         }
@@ -100,10 +82,11 @@ fn check(options: &Options, scenario: &Scenario) -> Result<ExitCode, Failure> {
     } else {
         Outcome::NotVerified
     };
+    let overload = PayloadCheck::new(&scenario.tool.tool(), scenario.robot.payload_kg, &robot).overload();
     let answer = Answer {
         valid: outcome == Outcome::Good,
         notes: scenario.notes().into_iter().chain(UnitNote::of_arm(&robot)).collect(),
-        overload: PayloadCheck::of(&scenario.tool, &scenario.robot, &robot).overload(),
+        overload,
         scenario: scenario.name.clone(),
         robot: robot.name().to_owned(),
         unprovable,
@@ -114,6 +97,13 @@ fn check(options: &Options, scenario: &Scenario) -> Result<ExitCode, Failure> {
     Ok(outcome.answer())
 }
 
+/// Refuses ends of the motion that are not clear of the plates, as far as these are known.
+fn check_homes(scenario: &Scenario, robot: &RobotModel, layout: Option<&Layout>) -> Result<(), platewash::Failure> {
+    let none = Layout::of(Vec::new());
+    let terms = scenario.terms(robot, layout.unwrap_or(&none))?;
+    Ok(planner::check(robot, &terms)?)
+}
+
 /// Whether a certificate fails for a finding, whatever is planned.
 fn breaks_the_proof(finding: &Finding, scenario: &Scenario) -> bool {
     scenario.layout.overlap == Overlap::Fail
@@ -121,10 +111,10 @@ fn breaks_the_proof(finding: &Finding, scenario: &Scenario) -> bool {
 }
 
 impl Sampling {
-    /// What came of placing the plates as `run` does. That another seed may do better is part of the answer; that none can is an error.
+    /// What placing the plates as `run` does gives. That another seed may do better is part of the answer; that none can is an error.
     fn of(scenario: &Scenario, placed: &Result<Layout, LayoutError>) -> Result<Self, Failure> {
         if let Some(proven) = placed.as_ref().err().filter(|e| e.is_proven()) {
-            return Err(PlanError::from(proven.clone()).into());
+            return Err(platewash::Failure::from(proven.clone()).into());
         }
         Ok(Self {
             seed: scenario.seed,
@@ -137,7 +127,7 @@ impl Sampling {
 fn outcome(placed: &Result<Layout, LayoutError>) -> String {
     match placed {
         Ok(layout) => format!("a layout of {} was found", counted(layout.plates.len(), "plate")),
-        Err(error) => error.to_string(),
+        Err(error) => platewash::Failure::from(error.clone()).to_string(),
     }
 }
 

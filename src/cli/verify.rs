@@ -1,13 +1,18 @@
-//! `platewash verify`: the certificate of a plan file.
+//! `platewash verify`: the certificate of a plan file, and whether its job is the one that a scenario asks for.
 
+use super::against::{Against, Asked};
 use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
-use super::plan_file::PlanFile;
-use super::{output, run};
+use super::output;
+use super::pairs::PairArguments;
+use super::plan_file::{self, PlanFile};
+use super::progress::Progress;
 use clap::Args;
-use platewash::planner::certificate::{self, CertificateVerdict};
-use platewash::planner::scenario::Program;
+use platewash::certificate::{HashFinding, PairsShown, Status, Verdict, prove_with};
+use platewash::workcell::plan::Process;
+use platewash::{Certificate, Plan};
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// Arguments of `verify`.
@@ -16,27 +21,123 @@ pub struct VerifyArguments {
     /// The plan file
     #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
-    /// Name every pair of bodies, not the ten tightest alone
-    #[arg(long)]
-    pub all_pairs: bool,
+    /// Scenario that the plan should be a plan of, a file or a shipped name: it is resolved again, with --seed or otherwise the
+    /// plan's seed, and every field of the job compared
+    #[arg(long, value_name = "FILE|NAME")]
+    pub against: Option<String>,
+    #[command(flatten)]
+    pub pairs: PairArguments,
 }
 
-/// Judges a plan file for the arm that it names: the built-in one, or that of `--urdf`.
+/// What is said of a plan.
+#[derive(Debug, Serialize)]
+struct Answer {
+    #[serde(flatten)]
+    judgement: Judgement,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    against: Option<Against>,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Judgement {
+    Washing(Box<Certificate>),
+    Paper(NoCertificate),
+}
+
+/// What is said of a run of the paper's program in place of a certificate.
+#[derive(Debug, Serialize)]
+struct NoCertificate {
+    verdict: Verdict,
+    headline: String,
+    process: Process,
+    scenario: String,
+    duration_s: f64,
+    hash: HashFinding,
+}
+
+/// Judges a plan file for the arm that it is for.
 pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, Failure> {
-    let file = PlanFile::read(options, &arguments.plan)?;
-    let certificate = certificate::verify(&file.plan, &file.robot).map_err(|e| file.refused(e))?;
-    output::print_either(options.json, &certificate, || {
-        let table = certificate.table(run::pairs(arguments.all_pairs));
-        match file.plan.scenario.job.program {
-            Program::Certified => table.to_string(),
-            Program::Paper => {
-                format!("NOT CERTIFIED: the paper's program has no certificate; of what one says:\n{table}")
-            }
+    options.refuse_scenario()?;
+    if arguments.against.is_none() {
+        options.refuse_seed()?;
+    }
+    let plan = plan_file::read(&arguments.plan)?;
+    let asked = arguments.against.as_ref();
+    let asked = asked
+        .map(|name| Asked::resolve(options, name, plan.job.seed))
+        .transpose()?;
+    let against = asked.as_ref().map(|asked| asked.compare(&plan.job));
+    let judgement = match plan.process {
+        Process::Paper => Judgement::Paper(NoCertificate::new(&plan)),
+        Process::Wash => {
+            let besides = asked.as_ref().map(|asked| &asked.arm);
+            let file = PlanFile::with_arm(options, &arguments.plan, plan, besides)?;
+            Judgement::Washing(Box::new(prove(options, &file)?))
         }
-    })?;
-    let outcome = match certificate.verdict {
-        CertificateVerdict::Pass => Outcome::Good,
-        CertificateVerdict::Fail => Outcome::NotVerified,
     };
-    Ok(outcome.answer())
+    let answer = Answer { judgement, against };
+    output::print_either(options.json, &answer, || answer.text(arguments.pairs.shown()))?;
+    Ok(answer.outcome().answer())
+}
+
+fn prove(options: &Options, file: &PlanFile<'_>) -> Result<Certificate, Failure> {
+    let _progress = Progress::new(options.quiet, "proving");
+    prove_with(&file.plan, &file.arm, &options.cancel).map_err(|error| file.failure(error.into()))
+}
+
+impl Answer {
+    fn outcome(&self) -> Outcome {
+        let passes = match &self.judgement {
+            Judgement::Washing(certificate) => certificate.passes(),
+            Judgement::Paper(_) => false,
+        };
+        if passes && self.against.as_ref().is_none_or(Against::agrees) {
+            Outcome::Good
+        } else {
+            Outcome::NotVerified
+        }
+    }
+
+    fn text(&self, pairs: PairsShown) -> String {
+        let first = self.against.as_ref().map_or_else(String::new, Against::first_words);
+        let judgement = match &self.judgement {
+            Judgement::Washing(certificate) => certificate.table(pairs).to_string(),
+            Judgement::Paper(no_certificate) => no_certificate.text(),
+        };
+        let against = self.against.as_ref();
+        let against = against.map_or_else(String::new, |against| format!("\n{against}"));
+        format!("{first}{judgement}{against}")
+    }
+}
+
+impl NoCertificate {
+    fn new(plan: &Plan) -> Self {
+        let (scenario, duration_s) = (&plan.provenance.scenario, plan.duration_s());
+        Self {
+            verdict: Verdict::Fail,
+            headline: format!("NOT CERTIFIED: {scenario}, {duration_s:.3} s; the paper's program has no certificate"),
+            process: plan.process,
+            scenario: scenario.clone(),
+            duration_s,
+            hash: HashFinding {
+                stated: plan.hash.clone(),
+                computed: plan.seal().ok(),
+                status: if plan.is_sealed() {
+                    Status::Proved
+                } else {
+                    Status::Violated
+                },
+            },
+        }
+    }
+
+    fn text(&self) -> String {
+        let hash = match (self.hash.status, &self.hash.stated) {
+            (Status::Proved, _) => "is that of the contents",
+            (_, Some(_)) => "is NOT that of the contents: the plan was changed after it was sealed",
+            (_, None) => "is missing",
+        };
+        format!("{}\nhash {hash}\n", self.headline)
+    }
 }

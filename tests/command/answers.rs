@@ -95,9 +95,13 @@ fn a_suggested_frequency_or_rate_is_accepted() {
     for frequency in ["99999", "1e9"] {
         let simulate = |frequency: &str| platewash(dir, &["simulate", "out/plan.json", "--frequency", frequency]);
         let refused = simulate(frequency);
-        refused.refused(2, &["not stable", "frequency_rad_s must be at most"]);
+        refused.refused(
+            2,
+            &["not stable", "control.frequency_rad_s", "frequency must be at most"],
+        );
         assert!(!refused.stderr.contains("need at least"), "{}", refused.stderr);
-        let most = refused.stderr.trim().rsplit(' ').next().unwrap();
+        let most = refused.stderr.split("must be at most ").nth(1).unwrap();
+        let most = most.split(' ').next().unwrap();
         assert_ne!(simulate(most).code, 2, "{most}");
     }
     platewash(dir, &["simulate", "out/plan.json", "--rate", "1e12"]).refused(2, &["with 1 step a sample"]);

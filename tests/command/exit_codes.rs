@@ -61,7 +61,7 @@ fn judge(dir: &Path, table: &[(&str, i32, &str)]) {
         assert!(ran.stdout.starts_with(begins), "{line}: {}", ran.stdout);
         assert_eq!(
             ran.stderr.matches("error:").count(),
-            usize::from(*code == 2),
+            usize::from(*code == 2 || begins.is_empty()),
             "{line}: {}",
             ran.stderr
         );
@@ -129,6 +129,12 @@ fn a_question_is_answered_by_its_exit_code_whatever_the_scenario_says() {
             ("verify kitchen/plan.json", 0, "CERTIFIED"),
             ("verify same/plan.json", 4, "NOT CERTIFIED"),
             ("verify paper-report/plan.json", 4, "NOT CERTIFIED"),
+            ("verify kitchen/plan.json --against kitchen", 0, "CERTIFIED"),
+            ("verify kitchen/plan.json --against pd.toml", 4, "OTHER JOB"),
+            ("verify pd/plan.json --against pd-report.toml", 0, "CERTIFIED"),
+            ("verify paper/plan.json --against paper.toml", 4, "NOT CERTIFIED"),
+            ("verify kitchen/plan.json --against full.toml", 3, ""),
+            ("verify kitchen/plan.json --against nowhere.toml", 2, ""),
             ("verify altered/plan.json", 4, "NOT CERTIFIED"),
             ("verify nowhere.json", 2, ""),
             ("layout --scenario kitchen", 0, "sampled"),
@@ -144,7 +150,7 @@ fn a_question_is_answered_by_its_exit_code_whatever_the_scenario_says() {
 }
 
 #[test]
-fn a_simulation_ends_as_its_job_and_an_altered_plan_never_well() {
+fn a_simulation_is_answered_by_its_exit_code_and_an_altered_plan_never_well() {
     let folder = folder();
     let dir = folder.path();
     conditions(dir);
@@ -155,16 +161,16 @@ fn a_simulation_ends_as_its_job_and_an_altered_plan_never_well() {
         &[
             ("simulate kitchen/plan.json", 0, "WASHED"),
             ("simulate pd/plan.json", 4, "NOT WASHED"),
-            ("simulate pd-report/plan.json", 0, "NOT WASHED"),
+            ("simulate pd-report/plan.json", 4, "NOT WASHED"),
             ("simulate paper/plan.json", 4, "NOT WASHED"),
-            ("simulate paper-report/plan.json", 0, "NOT WASHED"),
+            ("simulate paper-report/plan.json", 4, "NOT WASHED"),
             ("simulate altered/plan.json", 4, "ALTERED"),
             ("simulate altered-report/plan.json", 4, "ALTERED"),
             ("simulate kitchen/plan.json --frequency 5000", 2, ""),
             ("simulate nowhere.json", 2, ""),
             ("tune kitchen/plan.json --frequencies 30,5000 --dampings 1", 0, tuned),
             ("tune pd/plan.json --frequencies 15 --dampings 1", 4, tuned),
-            ("tune pd-report/plan.json --frequencies 15 --dampings 1", 0, tuned),
+            ("tune pd-report/plan.json --frequencies 15 --dampings 1", 4, tuned),
             ("tune altered/plan.json --frequencies 30 --dampings 1", 4, tuned),
             ("tune kitchen/plan.json --frequencies 5000,6000 --dampings 1", 2, tuned),
             ("tune nowhere.json", 2, ""),

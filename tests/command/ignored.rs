@@ -10,6 +10,8 @@ fn options_that_would_be_ignored_are_refused() {
         platewash(dir, &[verb, "p.json", "--scenario", "paper-text"]).refused(2, &["--scenario", "leave it out"]);
         platewash(dir, &[verb, "p.json", "--seed", "5"]).refused(2, &["--seed", "leave it out"]);
     }
+    let verify = ["verify", "p.json", "--against", "kitchen", "--scenario", "kitchen"];
+    platewash(dir, &verify).refused(2, &["--scenario", "leave it out"]);
     platewash(dir, &["sweep", "--seeds", "1..2", "--seed", "4"]).refused(2, &["--seed:", "leave it out"]);
 }
 
@@ -19,7 +21,7 @@ fn names_out_of_files_command_no_terminal() {
     let dir = folder.path();
     platewash(dir, &["plan", "--scenario", "kitchen", "--out", "."]).done();
     let text = std::fs::read_to_string(dir.join("plan.json")).unwrap();
-    let named = text.replacen("\"name\":\"kitchen\"", "\"name\":\"a\\u001b[31m\\u009b2J\"", 1);
+    let named = text.replacen("\"scenario\":\"kitchen\"", "\"scenario\":\"a\\u001b[31m\\u009b2J\"", 1);
     assert_ne!(named, text);
     std::fs::write(dir.join("plan.json"), named).unwrap();
     for arguments in [&["verify", "plan.json"][..], &["verify", "plan.json", "--json"]] {

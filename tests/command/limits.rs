@@ -74,7 +74,7 @@ fn devices_and_pipes_are_no_input() {
     let folder = folder();
     let dir = folder.path();
     assert!(Command::new("mkfifo").arg(dir.join("pipe")).status().unwrap().success());
-    std::fs::write(dir.join("arm.urdf"), platewash::kinematics::model::IRB120_URDF).unwrap();
+    std::fs::write(dir.join("arm.urdf"), platewash::kinematics::irb120::IRB120_URDF).unwrap();
     for file in ["/dev/zero", "pipe", "."] {
         let cases: [&[&str]; 4] = [
             &["run", "--scenario", file],

@@ -1,6 +1,7 @@
 //! The command as a person or a script meets it: results, exit codes, messages, files.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
+mod against;
 mod answers;
 mod arms;
 mod exit_codes;
@@ -8,6 +9,7 @@ mod files;
 mod golden;
 mod ignored;
 mod infeasible;
+mod interrupt;
 mod limits;
 mod other_arms;
 mod reader;

@@ -8,7 +8,8 @@ fn a_suggested_time_step_suits_the_motion_planned() {
     let dir = folder.path();
     platewash(dir, &["plan", "--quiet"]).done();
     let plan: Value = serde_json::from_str(&std::fs::read_to_string(dir.join("out/plan.json")).unwrap()).unwrap();
-    let duration_s = plan["summary"]["duration_s"].as_f64().unwrap();
+    let duration_s = plan["knots"]["t_s"].as_array().unwrap().last().unwrap();
+    let duration_s = duration_s.as_f64().unwrap();
     for verb in [&["run"][..], &["plan"], &["simulate", "out/plan.json"]] {
         let asked = |dt: &str| platewash(dir, &[verb, &["--dt", dt, "--out", "o"]].concat());
         let ran = asked("1e-6");
@@ -58,12 +59,29 @@ fn a_place_that_cannot_be_written_is_noticed_before_any_work() {
 fn a_plan_for_another_arm_asks_for_the_option_that_gives_it() {
     let folder = folder();
     let dir = folder.path();
-    std::fs::write(dir.join("mine.urdf"), platewash::kinematics::model::IRB120_URDF).unwrap();
+    let built_in = platewash::kinematics::irb120::IRB120_URDF;
+    std::fs::write(dir.join("same.urdf"), built_in).unwrap();
+    let mine = built_in.replacen("<robot name=\"", "<robot name=\"my_", 1);
+    std::fs::write(dir.join("mine.urdf"), mine).unwrap();
+    let srdf = platewash::kinematics::irb120::IRB120_SRDF.replacen("<robot name=\"", "<robot name=\"my_", 1);
+    std::fs::write(dir.join("a.srdf"), &srdf).unwrap();
+    std::fs::write(dir.join("b.srdf"), srdf + "<!-- another one -->\n").unwrap();
+    let name = "\"my_";
     platewash(dir, &["plan", "--urdf", "mine.urdf", "--quiet"]).done();
     for verb in ["verify", "simulate", "tune"] {
-        platewash(dir, &[verb, "out/plan.json"]).refused(2, &["\"mine.urdf\"", "--urdf"]);
+        platewash(dir, &[verb, "out/plan.json"]).refused(2, &["out/plan.json", name, "as --urdf FILE"]);
+        let other = [verb, "out/plan.json", "--urdf", "same.urdf"];
+        platewash(dir, &other).refused(2, &["out/plan.json", name, "--urdf describes \"irb120"]);
     }
-    platewash(dir, &["verify", "out/plan.json", "--urdf", "mine.urdf"]).done();
+    let verify = ["verify", "out/plan.json", "--urdf", "mine.urdf"];
+    platewash(dir, &verify).done();
+    let with = |srdf: &'static str| [&verify[..], &["--srdf", srdf]].concat();
+    platewash(dir, &with("a.srdf")).refused(2, &["without an SRDF", "leave out --srdf"]);
+    platewash(dir, &["plan", "--urdf", "mine.urdf", "--srdf", "a.srdf", "--quiet"]).done();
+    platewash(dir, &["verify", "out/plan.json"]).refused(2, &[name, "as --urdf FILE", "as --srdf FILE"]);
+    platewash(dir, &verify).refused(2, &["with an SRDF", "as --srdf FILE"]);
+    platewash(dir, &with("b.srdf")).refused(2, &["the SRDF of SHA-256", "that of --srdf is"]);
+    platewash(dir, &with("a.srdf")).done();
 }
 
 #[test]
@@ -169,7 +187,7 @@ fn the_ten_tightest_pairs_are_named_and_all_on_request() {
     let rows = |text: &str| -> Vec<f64> {
         let rows = text
             .lines()
-            .filter(|line| line.contains(" – ") && line.contains(" mm  pass"));
+            .filter(|line| line.contains(" – ") && line.contains(" mm  proved"));
         let distance = |line: &str| {
             line.split(" mm")
                 .next()

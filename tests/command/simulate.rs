@@ -97,8 +97,9 @@ fn a_plan_of_the_papers_program_is_simulated_under_its_law() {
     let folder = folder();
     let dir = folder.path();
     platewash(dir, &["plan", "--scenario", "paper-appendix", "--quiet"]).done();
-    // Its scenario asks for a report, not for a failure.
-    let report = platewash(dir, &["simulate", "out/plan.json", "--json"]).done().json();
+    let ran = platewash(dir, &["simulate", "out/plan.json", "--json"]);
+    assert_eq!(ran.code, 4, "{}", ran.stderr);
+    let report = ran.json();
     assert_eq!(report["verdict"], "not_washed");
     assert_eq!((&report["law"], &report["effort"]), (&"paper".into(), &().into()));
 }

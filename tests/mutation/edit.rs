@@ -1,7 +1,7 @@
 //! A single edit of a good plan, and what is known of it beforehand.
 
 use platewash::Plan;
-use platewash::planner::certificate::{self, PromiseName};
+use platewash::certificate::Requirement;
 use platewash::workcell::random::stream;
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -21,11 +21,12 @@ pub enum Kind {
     Time,
     Detour,
     Segments,
-    ToolPath,
+    WashPaths,
     Plates,
     Order,
     Tool,
-    LimitsStated,
+    Obstacles,
+    Exclusions,
     LimitsAsked,
     Statements,
     Home,
@@ -34,7 +35,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::KnotMoved,
         Self::KnotSpeed,
         Self::KnotOrder,
@@ -43,11 +44,12 @@ impl Kind {
         Self::Time,
         Self::Detour,
         Self::Segments,
-        Self::ToolPath,
+        Self::WashPaths,
         Self::Plates,
         Self::Order,
         Self::Tool,
-        Self::LimitsStated,
+        Self::Obstacles,
+        Self::Exclusions,
         Self::LimitsAsked,
         Self::Statements,
         Self::Home,
@@ -65,11 +67,12 @@ impl Kind {
             Self::Time => "time",
             Self::Detour => "a detour",
             Self::Segments => "segments",
-            Self::ToolPath => "tool path",
+            Self::WashPaths => "wash paths",
             Self::Plates => "plates",
             Self::Order => "order",
             Self::Tool => "tool",
-            Self::LimitsStated => "limits stated",
+            Self::Obstacles => "obstacles",
+            Self::Exclusions => "exclusions",
             Self::LimitsAsked => "limits asked",
             Self::Statements => "other statements",
             Self::Home => "home",
@@ -82,11 +85,13 @@ impl Kind {
 /// What must come of an edited plan.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Expected {
-    /// It passes, and the sampler finds nothing.
+    /// It passes, nothing is waived, and the sampler finds nothing.
     Harmless,
-    /// Of the promises about statements these fail and no others; of those about numbers these, and whatever the sampler
+    /// It passes, but for these, which the job waives.
+    Waived(Vec<Requirement>),
+    /// Of the requirements about statements these fail and no others; of those about numbers these, and whatever the sampler
     /// finds.
-    Fails(Vec<PromiseName>),
+    Fails(Vec<Requirement>),
     /// No statement is wrong; the sampler says what is broken, if anything.
     Sampled,
 }
@@ -105,15 +110,11 @@ pub struct Edit {
 }
 
 impl Edit {
-    /// The edited plan, with the summary that follows from it unless that is what was edited, sealed again. Random edits draw from a
-    /// stream of their own.
+    /// The edited plan, sealed again. Random edits draw from a stream of their own.
     pub fn apply(&self, good: &Plan) -> Plan {
         let mut plan = good.clone();
         (self.apply)(&mut plan, &mut stream(DETAILS, &self.what));
         assert!(plan != *good, "{}: changes nothing", self.what);
-        if plan.summary == good.summary {
-            plan.summary = certificate::summary(&plan, crate::good::good()[0].robot);
-        }
         plan.hash = Some(plan.seal().unwrap());
         plan
     }
@@ -152,8 +153,13 @@ impl Edits {
         self.add(kind, what, Expected::Sampled, move |p, _| apply(p));
     }
 
-    /// An edit that breaks promises by name.
-    pub fn fails(&mut self, kind: Kind, what: &str, names: &[PromiseName], apply: fn(&mut Plan)) {
+    /// An edit after which the plan passes but for what its job waives.
+    pub fn waives(&mut self, kind: Kind, what: &str, names: &[Requirement], apply: fn(&mut Plan)) {
+        self.add(kind, what, Expected::Waived(names.to_vec()), move |p, _| apply(p));
+    }
+
+    /// An edit that breaks requirements by name.
+    pub fn fails(&mut self, kind: Kind, what: &str, names: &[Requirement], apply: fn(&mut Plan)) {
         self.add(kind, what, Expected::Fails(names.to_vec()), move |p, _| apply(p));
     }
 }

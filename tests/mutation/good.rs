@@ -1,21 +1,23 @@
 //! The plans that are edited: two real jobs, planned once.
 
 use crate::sampler::Sampler;
-use platewash::planner::certificate::{PromiseName, verify};
-use platewash::{Cycle, Plan, RobotModel, Scenario};
+use platewash::certificate::{Requirement, prove};
+use platewash::{JobTerms, Plan, RobotModel, Scenario, plan};
 use std::sync::LazyLock;
 
 /// A plan, its arm, and who measures what comes of it.
 pub struct Good {
     pub plan: Plan,
+    /// What its scenario states, resolved without the plan.
+    pub terms: JobTerms,
     pub robot: &'static RobotModel,
     pub sampler: Sampler<'static>,
 }
 
 /// The shipped scenarios and the seeds of their layouts.
-const JOBS: [(&str, u64); 2] = [("kitchen", 1), ("kitchen-rim", 2)];
+pub const JOBS: [(&str, u64); 2] = [("kitchen", 1), ("kitchen-rim", 2)];
 
-static GOOD: LazyLock<[Good; 2]> = LazyLock::new(|| JOBS.map(|(name, seed)| planned(name, seed)));
+static GOOD: LazyLock<[Good; 2]> = LazyLock::new(|| JOBS.map(planned));
 
 /// Both plans.
 pub fn good() -> &'static [Good; 2] {
@@ -23,25 +25,30 @@ pub fn good() -> &'static [Good; 2] {
 }
 
 impl Good {
-    /// The names of all promises, in the order of the certificate.
-    pub fn names(&self) -> Vec<PromiseName> {
-        let certificate = verify(&self.plan, self.robot).unwrap();
-        certificate.promises.iter().map(|p| p.name).collect()
+    /// All requirements, in the order of the certificate.
+    pub fn requirements(&self) -> Vec<Requirement> {
+        let certificate = prove(&self.plan, self.robot).unwrap();
+        certificate.checks.iter().map(|check| check.requirement).collect()
     }
 }
 
-fn planned(name: &str, seed: u64) -> Good {
-    let scenario = Scenario {
+/// The scenario of a job.
+pub fn scenario((name, seed): (&str, u64)) -> Scenario {
+    Scenario {
         seed,
         ..Scenario::load(name).unwrap()
-    };
-    let cycle = Cycle::plan(&scenario).unwrap();
-    let plan = cycle.to_plan().unwrap();
+    }
+}
+
+fn planned(job: (&str, u64)) -> Good {
+    let plan = plan(&scenario(job).job().unwrap()).unwrap().plan;
+    let again = scenario(job).job().unwrap();
     // They live as long as the test runs.
-    let robot = Box::leak(Box::new(cycle.robot));
+    let robot = Box::leak(Box::new(again.arm().clone()));
     let origin = Box::leak(Box::new(plan.clone()));
     Good {
         plan,
+        terms: again.terms().clone(),
         robot,
         sampler: Sampler::new(origin, robot),
     }

@@ -4,31 +4,31 @@ use crate::edit::{Edit, Expected};
 use crate::good::Good;
 use crate::sampler::{Findings, Found, is_sound};
 use platewash::Plan;
-use platewash::planner::certificate::{self, Certificate, CertificateVerdict, Promise, PromiseName, Sense, Status};
+use platewash::certificate::{Certificate, Check, Requirement, Sense, Status, prove};
 
 /// Rounding of bounds, as a part of the limit or in SI.
 const ROUNDING: f64 = 2e-9;
 
-/// The promises that no number decides and no sample.
-pub const STATEMENTS: [PromiseName; 10] = [
-    PromiseName::Arm,
-    PromiseName::Tool,
-    PromiseName::Plates,
-    PromiseName::Limits,
-    PromiseName::Tolerances,
-    PromiseName::ClearancePairs,
-    PromiseName::Segments,
-    PromiseName::ToolPath,
-    PromiseName::EveryPlateOnce,
-    PromiseName::Summary,
+/// How much nearer or farther a waived pair may be between samples, and what distances are right to \[m\].
+const WAIVED_M: f64 = 5e-4;
+
+/// The requirements that no number decides and no sample.
+pub const STATEMENTS: [Requirement; 7] = [
+    Requirement::Arm,
+    Requirement::Tool,
+    Requirement::Plates,
+    Requirement::Exclusions,
+    Requirement::WashPaths,
+    Requirement::Segments,
+    Requirement::EveryPlateOnce,
 ];
 
 /// What came of an edit.
 pub struct Outcome {
-    /// Promises that the sampler found broken.
-    pub sampled: Vec<PromiseName>,
-    /// Promises that the certificate does not give.
-    pub refused: Vec<PromiseName>,
+    /// Requirements that the sampler found broken.
+    pub sampled: Vec<Requirement>,
+    /// Requirements that are not kept, by the certificate.
+    pub refused: Vec<Requirement>,
     /// Where certificate, sampler and expectation disagree.
     pub complaints: Vec<String>,
 }
@@ -36,7 +36,7 @@ pub struct Outcome {
 /// Edits a plan and judges it.
 pub fn judge(edit: &Edit, good: &Good) -> Outcome {
     let plan = edit.apply(&good.plan);
-    let certificate = certificate::verify(&plan, good.robot).unwrap();
+    let certificate = prove(&plan, good.robot).unwrap();
     hold(edit, &plan, &certificate, good)
 }
 
@@ -55,22 +55,25 @@ pub fn hold(edit: &Edit, plan: &Plan, certificate: &Certificate, good: &Good) ->
     };
     let mut complaints = Vec::new();
     case.statements(&mut complaints);
-    let promises = certificate.promises.iter();
-    promises.for_each(|promise| case.number(promise, &mut complaints));
+    let checks = certificate.checks.iter();
+    checks.for_each(|check| case.number(check, &mut complaints));
+    case.exclusions(&mut complaints);
     case.verdict(&mut complaints);
     let say = |complaint: String| format!("{} (plan {}): {complaint}", edit.what, edit.of);
     Outcome {
         sampled: findings.broken().map(|found| found.name).collect(),
-        refused: certificate.broken().map(|promise| promise.name).collect(),
+        refused: certificate.broken().map(|check| check.requirement).collect(),
         complaints: complaints.into_iter().map(say).collect(),
     }
 }
 
 /// The complaints about a plan as it is.
 pub fn complaints_unedited(good: &Good) -> Vec<String> {
-    let certificate = certificate::verify(&good.plan, good.robot).unwrap();
+    let certificate = prove(&good.plan, good.robot).unwrap();
     let findings = good.sampler.measure(&good.plan, &[]);
-    let refused = certificate.broken().map(|p| format!("{:?} refused", p.name));
+    let refused = certificate
+        .broken()
+        .map(|check| format!("{:?} refused", check.requirement));
     let sampled = findings.broken().map(|f| format!("{f:?}"));
     refused.chain(sampled).collect()
 }
@@ -85,26 +88,25 @@ struct Case<'a> {
 }
 
 impl Case<'_> {
-    fn named(&self) -> &[PromiseName] {
+    fn named(&self) -> &[Requirement] {
         match &self.edit.expected {
             Expected::Fails(names) => names,
             _ => &[],
         }
     }
 
-    /// The promises about statements that fail are those named; those about numbers that are named fail.
+    /// The requirements about statements that fail are those named; those about numbers that are named fail.
     fn statements(&self, complaints: &mut Vec<String>) {
-        for promise in &self.certificate.promises {
-            let (named, passes) = (self.named().contains(&promise.name), promise.status == Status::Pass);
-            if named && passes {
-                complaints.push(format!("MISSED {:?}, named beforehand", promise.name));
+        for check in &self.certificate.checks {
+            let (named, kept) = (self.named().contains(&check.requirement), check.status.is_kept());
+            if named && kept {
+                complaints.push(format!("MISSED {:?}, named beforehand", check.requirement));
             }
-            let overstated = promise.name == PromiseName::Summary && self.is_unwashed();
-            if !named && !passes && !overstated && STATEMENTS.contains(&promise.name) {
-                complaints.push(format!("{:?} fails: {:?}", promise.name, promise.discrepancies));
+            if !named && !kept && STATEMENTS.contains(&check.requirement) {
+                complaints.push(format!("{:?} fails: {:?}", check.requirement, check.discrepancies));
             }
         }
-        if self.is_sound == self.named().contains(&PromiseName::Segments) {
+        if self.is_sound == self.named().contains(&Requirement::Segments) {
             complaints.push(format!(
                 "the segments are {}sound",
                 if self.is_sound { "" } else { "un" }
@@ -112,81 +114,112 @@ impl Case<'_> {
         }
     }
 
-    /// Whether a plate is not proved to be washed, so that the summary counts one too many.
-    fn is_unwashed(&self) -> bool {
-        let washes = [PromiseName::Coverage, PromiseName::ContactHeight];
-        self.certificate.broken().any(|p| washes.contains(&p.name))
-    }
-
-    /// A promise about a number against its samples.
-    fn number(&self, promise: &Promise, complaints: &mut Vec<String>) {
-        if STATEMENTS.contains(&promise.name) {
+    /// A requirement about a number against its samples.
+    fn number(&self, check: &Check, complaints: &mut Vec<String>) {
+        if STATEMENTS.contains(&check.requirement) {
             return;
         }
-        let Some(found) = self.findings.of(promise.name) else {
+        let Some(found) = self.findings.of(check.requirement) else {
             // Nothing was measured: it rests on segments that are unsound, or does not occur.
-            if !self.is_sound && promise.status != Status::NotProved {
-                complaints.push(format!("{:?} is judged without segments", promise.name));
+            if !self.is_sound && check.status != Status::NotProved {
+                complaints.push(format!("{:?} is judged without segments", check.requirement));
             }
             return;
         };
-        match (found.is_broken(), promise.status) {
-            (true, Status::Pass) => complaints.push(format!("MISSED {found:?}")),
-            (true, _) | (false, Status::Pass) => {}
-            (false, _) => self.unfounded(promise, found, complaints),
+        match (found.is_broken(), check.status) {
+            (true, Status::Proved | Status::Waived) => complaints.push(format!("MISSED {found:?}")),
+            (true, _) | (false, Status::Proved) => {}
+            // What is waived is not measured.
+            (false, Status::Waived) => {}
+            (false, _) => self.unfounded(check, found, complaints),
         }
-        if !encloses(promise, found) {
-            complaints.push(format!("worse than proved: {found:?}, {:?}", promise.measure));
+        if !encloses(check, found) {
+            complaints.push(format!("worse than proved: {found:?}, {:?}", check.measure));
         }
     }
 
     /// What the certificate refuses though the sampler finds nothing.
-    fn unfounded(&self, promise: &Promise, found: &Found, complaints: &mut Vec<String>) {
+    fn unfounded(&self, check: &Check, found: &Found, complaints: &mut Vec<String>) {
         // Without segments nobody knows when the sponge may touch; a shape that is none has no deviation.
-        let rests_on_segments = promise.name == PromiseName::Clearance && !self.is_sound;
-        let open = rests_on_segments || self.named().contains(&promise.name) || self.is_hard_to_prove(promise);
-        if promise.status != Status::NotProved || !open {
-            complaints.push(format!("unfounded: {promise:?} but {found:?}"));
+        let rests_on_segments = check.requirement == Requirement::Clearance && !self.is_sound;
+        let open = rests_on_segments || self.named().contains(&check.requirement) || self.is_hard_to_prove(check);
+        if check.status != Status::NotProved || !open {
+            complaints.push(format!("unfounded: {check:?} but {found:?}"));
         }
     }
 
     /// Coverage is proved for the greatest tilt: with that the sponge may sweep too little.
-    fn is_hard_to_prove(&self, promise: &Promise) -> bool {
-        promise.name == PromiseName::Coverage && self.good.sampler.least_coverage_is_short(self.plan)
+    fn is_hard_to_prove(&self, check: &Check) -> bool {
+        check.requirement == Requirement::Coverage && self.good.sampler.least_coverage_is_short(self.plan)
     }
 
-    /// The verdict is what the promises make it.
+    /// Pairs that the job alone leaves out are named; where they are seen too near, that is said, and waived.
+    fn exclusions(&self, complaints: &mut Vec<String>) {
+        let check = self.certificate.check(Requirement::Exclusions).unwrap();
+        if self.named().contains(&check.requirement) {
+            return;
+        }
+        let stated = &self.plan.job.workcell.exclusions;
+        let rests_on = &self.certificate.rests_on;
+        let (own, others) = (&rests_on.workcell.exclusions, &rests_on.waived_pairs);
+        if !stated.iter().all(|e| own.contains(e) != others.contains(e)) || !own.iter().all(|e| stated.contains(e)) {
+            complaints.push(format!("left out: {stated:?}, told: {own:?}, {others:?}"));
+        }
+        let limit = self.plan.job.requirements.clearance_m;
+        let least = self.findings.least_waived_m().unwrap_or(f64::INFINITY);
+        match check.status {
+            Status::Proved if least < limit - WAIVED_M => {
+                complaints.push(format!("MISSED a waived pair at {least} m"));
+            }
+            Status::Waived if least > limit + WAIVED_M => {
+                complaints.push(format!("unfounded: {check:?} but {least} m"));
+            }
+            _ => {}
+        }
+    }
+
+    /// The verdict is what the checks make it.
     fn verdict(&self, complaints: &mut Vec<String>) {
         let refused = self.certificate.broken().count() > 0;
-        if refused != (self.certificate.verdict == CertificateVerdict::Fail) {
+        if refused == self.certificate.passes() {
             complaints.push(format!("verdict {:?}", self.certificate.verdict));
         }
-        if self.certificate.hash.status != Status::Pass {
+        if self.certificate.hash.status != Status::Proved {
             complaints.push("hash".to_owned());
         }
-        if self.edit.expected == Expected::Harmless && (refused || self.findings.broken().count() > 0) {
-            let names: Vec<_> = self.certificate.broken().map(|p| p.name).collect();
-            complaints.push(format!("not harmless: {names:?}"));
+        let waived = match &self.edit.expected {
+            Expected::Harmless => &[],
+            Expected::Waived(names) => &names[..],
+            _ => return,
+        };
+        if refused || self.findings.broken().count() > 0 || self.certificate.waived != waived {
+            let names: Vec<_> = self.certificate.broken().map(|check| check.requirement).collect();
+            complaints.push(format!(
+                "not harmless: {names:?}, waived: {:?}",
+                self.certificate.waived
+            ));
         }
     }
 }
 
 /// Whether what was measured is no worse than what is proved. Joints have limits of their own: shares of them count.
-fn encloses(promise: &Promise, found: &Found) -> bool {
-    let Some((bound, measure)) = promise.measure.and_then(|m| m.bound.map(|b| (b, m))) else {
+fn encloses(check: &Check, found: &Found) -> bool {
+    let Some((bound, measure)) = check.measure.and_then(|m| m.bound.map(|b| (b, m))) else {
         return true;
     };
     // How far a path is from its curve is measured in samples only as long as it follows the curve.
-    let follows = [PromiseName::StrokeDeviation, PromiseName::LineDeviation];
-    if follows.contains(&promise.name) && found.is_broken() {
+    let follows = [Requirement::PathDeviation, Requirement::LineDeviation];
+    if follows.contains(&check.requirement) && found.is_broken() {
         return true;
     }
     // What is allowed depends on the tilt that is proved: the excess is what counts.
-    if promise.name == PromiseName::Reach {
+    if check.requirement == Requirement::Reach {
         return found.value - found.limit <= bound - measure.limit + found.slack + ROUNDING;
     }
+    // One limit for all joints and all moments.
+    let is_one = found.limit <= 0.0 || check.requirement == Requirement::Tilt;
     match measure.sense {
-        Sense::AtMost if found.limit <= 0.0 => found.value <= bound + found.slack + ROUNDING,
+        Sense::AtMost if is_one => found.value <= bound + found.slack + ROUNDING,
         Sense::AtMost => (found.value - found.slack) / found.limit <= bound / measure.limit + ROUNDING,
         _ => found.value >= bound - found.slack - ROUNDING,
     }

@@ -1,18 +1,21 @@
 //! Edits after which there is no plan to judge: an error that says where, not a certificate.
 
 use crate::good::good;
-use platewash::planner::certificate::verify;
-use platewash::{Plan, VerifyError};
+use nalgebra::{Point3, UnitQuaternion};
+use platewash::certificate::prove;
+use platewash::kinematics::geometry::Shape;
+use platewash::workcell::plan::Process;
+use platewash::workcell::workcell::{Obstacle, ObstacleShape};
+use platewash::{Plan, Pose};
 
 #[track_caller]
-fn refused(word: &str, edit: fn(&mut Plan)) -> VerifyError {
+fn refused(word: &str, edit: fn(&mut Plan)) {
     let good = &good()[0];
     let mut plan = good.plan.clone();
     edit(&mut plan);
     plan.hash = Some(plan.seal().unwrap());
-    let error = verify(&plan, good.robot).unwrap_err();
-    assert!(error.to_string().contains(word), "{error}");
-    error
+    let error = prove(&plan, good.robot).unwrap_err().to_string();
+    assert!(error.contains(word), "{error}");
 }
 
 #[test]
@@ -29,10 +32,43 @@ fn what_is_no_plan_is_refused_with_its_place() {
         p.knots.qd_rad_s.clear();
     });
     refused("joint 3 gets to", |p| p.knots.q_rad[40][2] = 1e6);
-    refused("plate 2", |p| p.plates[2].radius_m = 0.0);
     refused("segments", |p| p.segments = vec![p.segments[2]; 200]);
-    refused("radius_m", |p| p.scenario.tool.radius_m = -0.01);
-    refused("clearance_m", |p| p.scenario.wash.clearance_m = -0.01);
+    refused("wash paths", |p| p.wash_paths = vec![p.wash_paths[2]; 200]);
+    refused("entries of the order", |p| p.order = vec![0; 200]);
+    refused("paper's program", |p| p.process = Process::Paper);
+}
+
+#[test]
+fn a_job_that_is_none_is_refused_with_its_place() {
+    refused("plate 2", |p| {
+        p.job.plates[2] = platewash::Plate::level_disc([0.3, 0.0, 0.03], 0.0, 0.02)
+    });
+    refused("plate 1 is tilted", |p| {
+        p.job.plates[1].pose.rotation = UnitQuaternion::from_euler_angles(1e-6, 0.0, 0.0);
+    });
+    refused("0 plates", |p| p.job.plates.clear());
+    refused("clearance_m", |p| p.job.requirements.clearance_m = -0.01);
+    refused("coverage", |p| p.job.requirements.coverage = 1.01);
+    refused("joint_acceleration_rad_s2", |p| {
+        p.job.limits.joint_acceleration_rad_s2[3] = 0.0
+    });
+    refused("sponge.radius_m", |p| p.job.workcell.tool.sponge.radius_m = 0.0);
+    refused("compression_m", |p| p.job.workcell.tool.sponge.compression_m = 0.1);
+    refused("\"handle\"", |p| {
+        p.job.workcell.tool.bodies[0].shape = Shape::Sphere { radius_m: -0.01 }
+    });
+    refused("mounted at the origin", |p| p.job.workcell.mount.translation.y = 1e-3);
+    refused("half-space", |p| p.job.workcell.obstacles[0].pose.translation.z = -0.1);
+    refused("\"sheet\"", |p| {
+        let corners = [[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0]];
+        p.job.workcell.obstacles.push(Obstacle {
+            name: "sheet".to_owned(),
+            shape: ObstacleShape::Convex(Shape::Hull {
+                points: corners.map(Point3::from).to_vec(),
+            }),
+            pose: Pose::translation(-0.5, 0.0, 0.5),
+        });
+    });
 }
 
 #[test]
@@ -41,7 +77,7 @@ fn what_is_no_number_is_refused() {
         let mut plan = good()[1].plan.clone();
         plan.knots.q_rad[100][1] = value;
         assert!(
-            verify(&plan, good()[1].robot)
+            prove(&plan, good()[1].robot)
                 .unwrap_err()
                 .to_string()
                 .contains("knot 100")

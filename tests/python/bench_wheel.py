@@ -22,6 +22,7 @@ import pytest
 import roboticstoolbox as rtb
 
 import pyplatewash as pw
+from wheel_plans import plan
 
 ROOT = Path(__file__).resolve().parents[2]
 TARGET = ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
@@ -185,4 +186,4 @@ def test_ik_peers_toolbox(benchmark: Any) -> None:
 
 @pytest.mark.benchmark(group="plan of the kitchen")
 def test_plan_ours(benchmark: Any, rust: Rust) -> None:
-    beside_rust(benchmark, rust, "plan", lambda: pw.plan("kitchen"))
+    beside_rust(benchmark, rust, "plan", lambda: plan("kitchen"))

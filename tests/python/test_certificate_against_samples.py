@@ -1,7 +1,7 @@
-"""No dense sample of a certified plan is worse than what its certificate proves.
+"""No dense sample of a proved plan is worse than what its certificate proves.
 
 The samples share nothing with the certificate: SciPy evaluates the knots, Pinocchio the arm, coal the distances, and the
-tool path is written down here once more from its definition.
+wash curve is written down here once more from its definition.
 """
 
 import json
@@ -35,11 +35,11 @@ def plan(run):
 
 
 @pytest.fixture(scope="module")
-def promises(run):
-    """Promises by name."""
+def checks(run):
+    """Checks by the name of their requirement."""
     certificate = run[1]
     assert certificate["verdict"] == "pass"
-    return {promise["name"]: promise for promise in certificate["promises"]}
+    return {check["requirement"]: check for check in certificate["checks"]}
 
 
 @pytest.fixture(scope="module")
@@ -56,11 +56,12 @@ def motion(plan):
 def tip(plan, irb120, motion):
     """Position, rotation, velocity and acceleration of the tip at every sample, base frame."""
     model, data = irb120.copy(), None
-    w, x, y, z = plan["tip"]["quaternion_wxyz"]
-    offset = pin.SE3(pin.Quaternion(w, x, y, z), np.array(plan["tip"]["position_m"]))
-    link = model.getFrameId(plan["tip"]["link"])
-    parent = model.frames[link]
-    frame = model.addFrame(pin.Frame("tip", parent.parentJoint, link, parent.placement * offset, pin.FrameType.OP_FRAME))
+    tip = plan["job"]["workcell"]["tool"]["tip"]
+    w, x, y, z = tip["quaternion_wxyz"]
+    offset = pin.SE3(pin.Quaternion(w, x, y, z), np.array(tip["position_m"]))
+    flange = model.getFrameId("tool0")
+    parent = model.frames[flange]
+    frame = model.addFrame(pin.Frame("tip", parent.parentJoint, flange, parent.placement * offset, pin.FrameType.OP_FRAME))
     data, world = model.createData(), pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
     rows = []
     for q, v, a in zip(*motion[1:]):
@@ -81,22 +82,21 @@ def kinds(plan, times):
     return names[index], index
 
 
-def bound(promises, name):
-    return promises[name]["measure"]["bound"]
+def bound(checks, name):
+    return checks[name]["measure"]["bound"]
 
 
-def test_joints_keep_their_bounds(plan, promises, motion):
+def test_joints_keep_their_bounds(plan, checks, irb120, motion):
     _, q, qd, qdd = motion
-    lower, upper = (np.array(plan["limits"][key], float) for key in ("lower_rad", "upper_rad"))
-    margin = np.minimum(q - lower, upper - q).min()
-    assert bound(promises, "joint_position") - 1e-9 <= margin <= bound(promises, "joint_position") + 0.01
+    margin = np.minimum(q - irb120.lowerPositionLimit, irb120.upperPositionLimit - q).min()
+    assert bound(checks, "joint_position") - 1e-9 <= margin <= bound(checks, "joint_position") + 0.01
     speed, acceleration = np.abs(qd).max(), np.abs(qdd).max()
-    assert np.all(np.abs(qd) <= np.array(plan["limits"]["velocity_rad_s"]) * (1 + 1e-9))
-    assert np.all(np.abs(qdd) <= np.array(plan["limits"]["acceleration_rad_s2"]) * (1 + 1e-6))
+    assert np.all(np.abs(qd) <= irb120.velocityLimit * (1 + 1e-9))
+    assert np.all(np.abs(qdd) <= np.array(plan["job"]["limits"]["joint_acceleration_rad_s2"]) * (1 + 1e-6))
     assert speed > 0.5 and acceleration > 3, "the motion moves"
 
 
-def test_the_tip_keeps_its_bounds(plan, promises, motion, tip):
+def test_the_tip_keeps_its_bounds(plan, checks, motion, tip):
     names, _ = kinds(plan, motion[0])
     washing = names == "wash"
     working = np.isin(names, ["approach", "wash", "retreat"])
@@ -108,30 +108,33 @@ def test_the_tip_keeps_its_bounds(plan, promises, motion, tip):
         "wash_acceleration": acceleration[washing],
         "tilt": np.arccos(np.clip(-tip[1][working][:, 2], -1, 1)),
     }.items():
-        proved = bound(promises, name)
+        proved = bound(checks, name)
         assert values.max() <= proved * (1 + 1e-6), name
         assert values.max() >= 0.9 * proved, f"{name}: the bound is far above what happens"
 
 
-def stroke(shape, theta):
-    """The spiral and ring from its definition in the plan, base frame [m]."""
+def wash_curve(plan, path, theta):
+    """The spiral and ring from its definition in the plan, world frame [m]."""
+    shape = path["curve"]
     radius, whole, blend = shape["radius_m"], 2 * np.pi * shape["turns"], 1.0
     rate = radius / (whole - blend / 2)
     x = np.clip((theta - (whole - blend)) / blend, 0, 1)
     r = np.where(theta <= whole - blend, rate * theta, rate * (whole - blend + blend * (x - x**4 * (2.5 - 3 * x + x * x))))
     angle = shape["start_angle_rad"] + theta
-    centre = np.array(shape["centre_m"])
+    centre = np.array(plan["job"]["plates"][path["plate"]]["pose"]["position_m"])
     return centre + np.stack([r * np.cos(angle), r * np.sin(angle), np.zeros_like(r)], axis=-1)
 
 
-def test_the_tip_follows_the_stroke(plan, promises, motion, tip):
+def test_the_tip_follows_the_wash_curve(plan, checks, motion, tip):
     _, index = kinds(plan, motion[0])
     worst = 0.0
-    for k, shape in enumerate(plan["tool_path"]):
-        if shape["kind"] != "wash":
+    paths = {path["plate"]: path for path in plan["wash_paths"]}
+    for k, segment in enumerate(plan["segments"]):
+        if segment["kind"] != "wash":
             continue
-        theta = np.linspace(0, 2 * np.pi * (shape["turns"] + shape["closing_ring"]), 60_000)
-        curve = stroke(shape, theta)
+        path = paths[segment["plate"]]
+        theta = np.linspace(0, 2 * np.pi * (path["curve"]["turns"] + path["curve"]["closing_ring"]), 60_000)
+        curve = wash_curve(plan, path, theta)
         step = np.linalg.norm(np.diff(curve, axis=0), axis=1).max()
         at = 0
         for p in tip[0][index == k]:
@@ -140,15 +143,17 @@ def test_the_tip_follows_the_stroke(plan, promises, motion, tip):
             distances = np.linalg.norm(curve[ahead] - p, axis=1)
             at += int(distances.argmin())
             worst = max(worst, distances.min())
-        assert at > 0.99 * len(theta), "the whole stroke is washed"
-    assert worst <= bound(promises, "stroke_deviation") + step / 2
-    assert worst <= plan["tolerances"]["path_m"]
+        assert at > 0.99 * len(theta), "the whole curve is washed"
+    assert worst <= bound(checks, "path_deviation") + step / 2
+    assert worst <= checks["path_deviation"]["measure"]["limit"] == 2e-4
 
 
-def test_nothing_comes_closer_than_proved(run, plan, promises, motion, irb120_urdf):
-    tool = Tool(*(plan["tool"][key] for key in ("length_m", "radius_m", "sponge_radius_m", "sponge_height_m")))
-    one = plan["plates"][0]
-    plates = Plates(one["radius_m"], one["z_m"], one["thickness_m"], tuple((p["x_m"], p["y_m"]) for p in plan["plates"]))
+def test_nothing_comes_closer_than_proved(run, plan, checks, motion, irb120_urdf):
+    held, lying = plan["job"]["workcell"]["tool"], plan["job"]["plates"]
+    handle = held["bodies"][0]["shape"]["cylinder"]["radius_m"]
+    tool = Tool(held["tip"]["position_m"][2], handle, held["sponge"]["radius_m"], held["sponge"]["height_m"])
+    centres = [plate["pose"]["position_m"] for plate in lying]
+    plates = Plates(lying[0]["surface"]["radius_m"], centres[0][2], lying[0]["thickness_m"], tuple((x, y) for x, y, _ in centres))
     reference, tree = Reference(bodies(irb120_urdf, tool, plates)), urdf_reader.Tree(irb120_urdf)
     joints = [joint.name for joint in tree.chain("link_6")]
     names, _ = kinds(plan, motion[0])
@@ -164,4 +169,4 @@ def test_nothing_comes_closer_than_proved(run, plan, promises, motion, irb120_ur
             sponge_on_plate = a == "sponge" and b.startswith("plate") and names[k] in ("approach", "wash", "retreat")
             if not sponge_on_plate:
                 assert reference.distance(a, b) >= proved - COAL_M, f"{a} and {b} at {motion[0][k]:.3f} s"
-    assert bound(promises, "clearance") >= 0.01
+    assert bound(checks, "clearance") >= 0.01

@@ -19,8 +19,27 @@ def reference(interpolation, points):
     return CubicSpline(times, points, bc_type="clamped")
 
 
+def over(plan, plate, settings):
+    """First and last point of the paper's spiral over a plate: its centre, and where its last turn ends."""
+    x, y, z = plan["job"]["plates"][plate]["pose"]["position_m"]
+    spiral = settings["spiral"]
+    angle = 2 * np.pi * spiral["turns"]
+    end = spiral["radius_m"] * np.array([np.cos(angle), np.sin(angle), 0.0])
+    centre = np.array([x, y, z + settings["height_m"]])
+    return centre, centre + end
+
+
+def waypoints(start, end, arc):
+    """Up to the arc round the base, the shorter way round, and down."""
+    first, last = (np.arctan2(p[1], p[0]) for p in (start, end))
+    turn = (last - first + np.pi) % (2 * np.pi) - np.pi
+    angles = first + turn * np.linspace(0.0, 1.0, arc["points"])
+    ring = [(arc["radius_m"] * np.cos(a), arc["radius_m"] * np.sin(a), arc["height_m"]) for a in angles]
+    return np.array([start, *ring, end])
+
+
 @pytest.mark.parametrize("interpolation", ["zero_velocity", "c2_spline"])
-def test_transitions_are_scipys_curves(platewash, tmp_path, interpolation):
+def test_transits_are_scipys_curves(platewash, tmp_path, interpolation):
     text = (ROOT / "scenarios/paper-appendix.toml").read_text()
     # Plates well within reach, so that the commanded tip is on its waypoint to the solver's tolerance.
     edited = text.replace('interpolation = "zero_velocity"', f'interpolation = "{interpolation}"')
@@ -32,19 +51,18 @@ def test_transitions_are_scipys_curves(platewash, tmp_path, interpolation):
     with open(tmp_path / "trajectory.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     tip = np.array([[float(row[f"tip_{axis}_m"]) for axis in "xyz"] for row in rows])
-    dt = plan["scenario"]["control"]["dt_s"]
+    dt, settings = plan["job"]["simulation"]["control"]["dt_s"], plan["job"]["planner"]["paper"]
+    assert settings["transit"] == {"interpolation": interpolation, "samples": 50}
     compared = 0
-    # The step from the start to the first waypoint has no tool path.
-    segments = [s for s in plan["segments"] if s["kind"] != "depart"]
-    for segment, path in zip(segments, plan["tool_path"], strict=True):
-        if segment["kind"] != "transition":
+    for before, segment in zip(plan["segments"], plan["segments"][1:]):
+        if segment["kind"] != "transit":
             continue
-        assert path["interpolation"] == interpolation
-        curve = reference(interpolation, np.array(path["through_m"]))
+        through = over(plan, before["plate"], settings)[-1], over(plan, segment["plate"], settings)[0]
+        curve = reference(interpolation, waypoints(*through, settings["arc"]))
         first = round(segment["t_start_s"] / dt) + 1
         last = round(segment["t_end_s"] / dt)
-        expected = curve(np.linspace(0.0, 1.0, path["samples"]))
-        assert last - first + 1 == path["samples"] == 50
+        expected = curve(np.linspace(0.0, 1.0, 50))
+        assert last - first + 1 == 50
         # Unreached waypoints (none here) would show as errors far beyond the solver's 1e-6 m.
         np.testing.assert_allclose(tip[first : last + 1], expected, atol=2e-6)
         compared += 1

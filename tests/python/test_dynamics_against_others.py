@@ -7,6 +7,7 @@ import pytest
 from conftest import ROOT
 
 import pyplatewash as pw
+from wheel_plans import plan
 
 sys.path.insert(0, str(ROOT / "crates" / "simulator" / "tests" / "fixtures"))
 
@@ -22,7 +23,7 @@ KD = np.array([40.0, 60.0, 30.0, 4.0, 2.5, 0.5])
 
 @pytest.fixture(scope="module")
 def kitchen():
-    return pw.plan("kitchen")
+    return plan("kitchen")
 
 
 def off(found: np.ndarray, wanted: np.ndarray) -> float:
@@ -64,16 +65,16 @@ def test_a_wrong_arm_would_be_noticed():
 
 @pytest.mark.parametrize("law", ["pd", "pd_gravity", "computed_torque"])
 def test_a_whole_wash_is_mujocos(kitchen, law):
-    setup = pw.Setup.of(kitchen).replace(law=law)
+    settings = pw.SimulationSettings.of(kitchen).replace(law=law)
     if law == "computed_torque":
-        frequency, damping = setup.control.frequency_rad_s, setup.control.damping_ratio
+        frequency, damping = settings.control.frequency_rad_s, settings.control.damping_ratio
         kp, kd = frequency**2, 2 * damping * frequency
     else:
         kp, kd = KP, KD
-        setup = setup.replace(control={"joint_kp": KP, "joint_kd": KD})
-    execution = pw.simulate(kitchen, setup)
-    theirs = mujoco_run.run(kitchen.to_dict(), law, kp, kd, setup.control.rate_hz)
-    tool = pw.Tool(length_m=kitchen.scenario.tool.length_m)
+        settings = settings.replace(control={"joint_kp": KP, "joint_kd": KD})
+    execution = pw.simulate(kitchen, settings=settings)
+    theirs = mujoco_run.run(kitchen.to_dict(), law, kp, kd, settings.control.rate_hz)
+    tool = pw.Tool(length_m=0.15)  # that of the kitchen
     robot = pw.Robot.irb120()
     ours = robot.fk(execution.q_rad, tool=tool)[:, :3, 3]
     assert ours.shape == theirs.shape

@@ -12,17 +12,20 @@ import numpy as np
 import pytest
 
 import pyplatewash as pw
+from wheel_plans import paper_run, planned
 
 ROBOT = pw.Robot.irb120()
 Q = np.array([0.1, 0.3, 0.1, 0.2, 1.0, 0.0])
-PLAN = pw.plan("paper-appendix")
+RUN = paper_run("paper-appendix")
+PLAN = RUN.plan()
+WASH = planned("kitchen")
 SECTION: dict[str, float] = {}
 
 # A good value for each argument, by its name; by the call's too, where the name alone does not say.
 GOOD: dict[str, Any] = {
     "q": Q, "qd": Q, "qdd": Q, "torque": Q, "seed": 1, "seeds": [1], "frame": "tool0", "tool": pw.Tool(length_m=0.15), "axes": "local",
     "target": ROBOT.fk(Q), "targets": ROBOT.fk(Q)[None], "previous": Q, "settings": pw.IkSettings(), "robot": ROBOT, "plates": [pw.Plate(x_m=0.3, y_m=0.0)],
-    "working": [0], "required_m": 0.01, "gravity_m_s2": [0.0, 0.0, -9.81], "plan": PLAN, "setup": pw.Setup("exact"), "law": "pd", "control": SECTION, "plant": SECTION,
+    "working": [0], "required_m": 0.01, "gravity_m_s2": [0.0, 0.0, -9.81], "plan": PLAN, "job": WASH.job, "payload_kg": 3.0, "law": "pd", "control": SECTION, "plant": SECTION,
     "frequencies_rad_s": [20.0], "damping_ratios": [1.0], "dt_s": 0.1, "executed": True, "t_s": [0.0, 1.0], "q_rad": np.zeros((2, 6)), "qd_rad_s": np.zeros((2, 6)),
     "polyline": [[0.0, 0.0], [0.1, 0.0]], "centre": [0.0, 0.0], "radius_m": 0.1, "sponge_radius_m": 0.02, "cell_m": 0.01, "cells": 9, "start": [0.3, 0.0, 0.1],
     "end": [0.0, 0.3, 0.1], "points": 5, "height_m": 0.25, "waypoints": np.eye(3), "samples": 20, "interpolation": "c2_spline", "scenario": "paper-appendix",
@@ -33,8 +36,8 @@ GOOD: dict[str, Any] = {
     "thickness_m": 0.02, "position_tolerance_m": 1e-6, "orientation_tolerance_rad": 1e-6, "max_iterations": 60, "max_qp_iterations": 30, "step_bound_rad": 0.7,
     "analytic_starts": True, "listed_starts": 4, "random_restarts": 0, "random_seed": 0, "data": {"a": 1},
     "Robot.from_urdf text": ROBOT.urdf, "Robot.from_urdf srdf": ROBOT.srdf, "Plan.from_json text": PLAN.to_json(), "Scenario.parse text": "name = 'x'\n[layout]\nregion = 'text'\n",
-    "Robot.ik seed": Q, "Robot.ik_path seed": Q, "Robot.ik_batch seeds": Q, "IkSolution start": "seed", "Cycle.plan scenario": "kitchen", "sweep scenario": "kitchen",
-    "Cycle.plan layout": pw.place_plates("kitchen"), "tune setup": pw.Setup("pd"), "Record.__getitem__ key": "a", "Record text": "words",
+    "Robot.ik seed": Q, "Robot.ik_path seed": Q, "Robot.ik_batch seeds": Q, "IkSolution start": "seed", "sweep scenario": "kitchen", "run_paper job": RUN.job, "prove plan": WASH.plan,
+    "simulate settings": pw.SimulationSettings("exact"), "tune settings": pw.SimulationSettings("pd"), "Record.__getitem__ key": "a", "Record text": "words",
 }  # fmt: skip
 # Classes of answers, which users are given: whoever makes one is trusted. Exceptions take any words.
 ANSWERS = {"Coverage", "CoverageRaster", "Energy", "IkBatch", "IkBranches"}
@@ -69,10 +72,11 @@ def public() -> Iterator[tuple[str, Callable[..., Any]]]:
 
 
 INSTANCES: dict[str, Callable[[], Any]] = {
-    "Robot": lambda: ROBOT, "Plan": lambda: PLAN, "Scenario": lambda: pw.Scenario.load("kitchen"), "Trajectory": lambda: PLAN.trajectory, "Setup": lambda: pw.Setup("pd"),
-    "Job": lambda: pw.Job.run("paper-appendix"), "Cycle": lambda: pw.Cycle.plan("kitchen"), "Certificate": PLAN.verify, "DynamicsModel": lambda: pw.DynamicsModel(ROBOT),
-    "ClearanceModel": lambda: pw.ClearanceModel(ROBOT, pw.Tool(length_m=0.15), [pw.Plate(x_m=0.3, y_m=0.0)]), "Execution": lambda: pw.simulate(PLAN), "Spiral": pw.Spiral,
-    "Stroke": lambda: pw.Stroke(radius_m=0.1, turns=3.0), "Record": lambda: pw.Record({"a": 1}), "Layout": lambda: pw.place_plates("kitchen"),
+    "Robot": lambda: ROBOT, "Plan": lambda: PLAN, "Scenario": lambda: pw.Scenario.load("kitchen"), "Trajectory": lambda: PLAN.trajectory, "SimulationSettings": lambda: pw.SimulationSettings("pd"),
+    "PaperJob": lambda: RUN.job, "PaperRun": lambda: RUN, "WashJob": lambda: WASH.job, "Planned": lambda: WASH, "Certificate": lambda: pw.prove(WASH.plan), "DynamicsModel": lambda: pw.DynamicsModel(ROBOT),
+    "ClearanceModel": lambda: pw.ClearanceModel(ROBOT, pw.Tool(length_m=0.15), [pw.Plate(x_m=0.3, y_m=0.0)]), "Execution": lambda: pw.simulate(PLAN), "PaperSpiral": pw.PaperSpiral,
+    "WashCurve": lambda: pw.WashCurve(radius_m=0.1, turns=3.0), "Record": lambda: pw.Record({"a": 1}), "Layout": lambda: pw.place_plates("kitchen"),
+    "Scenario.paper_job": lambda: pw.Scenario.load("paper-appendix"),
 }  # fmt: skip
 MADE: dict[str, Any] = {}
 
@@ -82,6 +86,7 @@ def bound(name: str, call: Callable[..., Any]) -> tuple[Callable[..., Any], list
     parameters = list(inspect.signature(call).parameters.values())
     if parameters and parameters[0].name == "self":
         owner, method = name.split(".")
+        owner = name if name in INSTANCES else owner
         if owner not in MADE:
             MADE[owner] = INSTANCES[owner]()
         call, parameters = getattr(MADE[owner], method), parameters[1:]
@@ -146,11 +151,13 @@ def test_a_bad_value_is_refused_by_the_arguments_name(name: str, capfd: pytest.C
 
 
 LISTED: list[tuple[Callable[[], Any], type[Exception], str]] = [
-    (lambda: pw.plan(3), TypeError, r"scenario: a Scenario, the name of a shipped one or the path of a file is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
-    (lambda: pw.plan("kitchen", seed=-1), ValueError, r"seed: an integer from 0 to 9007199254740991 is needed; found -1 \(int\)"),
-    (lambda: pw.plan("kitchen", seed=2**53), ValueError, "seed: an integer from 0 to 9007199254740991 is needed; found 9007199254740992"),
-    (lambda: pw.verify("nowhere.json"), FileNotFoundError, "nowhere.json: cannot be read"),
-    (lambda: pw.verify(3), TypeError, r"plan: a Plan or the path of a plan file is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    (lambda: pw.place_plates(3), TypeError, r"scenario: a Scenario, the name of a shipped one or the path of a file is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    (lambda: pw.plan("kitchen"), TypeError, r"job: a WashJob, as Scenario.job\(\) gives it, is needed; found 'kitchen' \(str\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    (lambda: pw.run_paper(WASH.job), TypeError, r"job: a PaperJob, as Scenario.paper_job\(\) gives it, is needed; found a value of type WashJob"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    (lambda: pw.reproduce(seed=-1), ValueError, r"seed: an integer from 0 to 9007199254740991 is needed; found -1 \(int\)"),
+    (lambda: pw.reproduce(seed=2**53), ValueError, "seed: an integer from 0 to 9007199254740991 is needed; found 9007199254740992"),
+    (lambda: pw.prove("nowhere.json"), FileNotFoundError, "nowhere.json: cannot be read"),
+    (lambda: pw.prove(3), TypeError, r"plan: a Plan or the path of a plan file is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     (lambda: ROBOT.fk(Q, 3), TypeError, r"frame: a frame's name is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     (lambda: pw.sweep("kitchen", 3), TypeError, r"seeds: a list of seeds is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     (lambda: pw.sweep("kitchen", [1, -2]), ValueError, r"seeds\[1\]: an integer from 0 to 9007199254740991 is needed; found -2"),
@@ -158,7 +165,7 @@ LISTED: list[tuple[Callable[[], Any], type[Exception], str]] = [
     (lambda: pw.IkSettings(step_bound_rad=9.0), ValueError, r"settings.step_bound_rad: must be in \(0, π\] rad; found 9"),
     (lambda: pw.Tool(length_m="0.15"), TypeError, r"tool.length_m: a number is needed; found '0.15' \(str\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     (lambda: pw.Tool(length_m=-1), ValueError, "tool.length_m: must be from 0 to 100 m; found -1"),
-    (lambda: pw.Stroke(radius_m=0.1, turns=0.1), ValueError, "stroke.turns: a number from 0.25 to 1000 is needed; found 0.1"),
+    (lambda: pw.WashCurve(radius_m=0.1, turns=0.1), ValueError, "curve.turns: a number from 0.25 to 1000 is needed; found 0.1"),
     (lambda: PLAN.save("/nowhere/a.json"), FileNotFoundError, "/nowhere/a.json: cannot be written"),
     (lambda: pw.Plan.load("/nowhere/a.json"), FileNotFoundError, "/nowhere/a.json: cannot be read"),
     (lambda: pw.Plan.load("/"), OSError, "/: cannot be read: not a regular file"),
@@ -166,9 +173,9 @@ LISTED: list[tuple[Callable[[], Any], type[Exception], str]] = [
     (lambda: pw.Robot.load("arm.urdf", srdf="none.srdf"), FileNotFoundError, "none.srdf: cannot be read"),
     (lambda: pw.Robot.load("arm.urdf", package_path=["a", 3]), TypeError, r"package_path\[1\]: a path is needed; found 3 \(int\)"),  # type: ignore[list-item]  # pyright: ignore[reportArgumentType]
     (lambda: pw.Scenario.load("ktchen"), FileNotFoundError, "ktchen: is neither a file nor a shipped scenario"),
-    (lambda: pw.plan("none.toml"), FileNotFoundError, "none.toml: is neither a file nor a shipped scenario"),
+    (lambda: pw.place_plates("none.toml"), FileNotFoundError, "none.toml: is neither a file nor a shipped scenario"),
     (lambda: pw.Scenario.load("kitchen")["nose"], KeyError, "one of .*wash.* is needed; found 'nose'"),
-    (lambda: PLAN.summary["nose"], KeyError, "one of .*headline.* is needed; found 'nose'"),
+    (lambda: PLAN.provenance["nose"], KeyError, "one of scenario, version is needed; found 'nose'"),
 ]  # fmt: skip
 
 
@@ -201,11 +208,12 @@ def test_a_package_path_is_a_folder_or_several() -> None:
 
 
 def test_a_plan_is_given_by_its_path_too() -> None:
-    PLAN.save("plan.json")
-    assert pw.verify("plan.json") == pw.verify(Path("plan.json")) == PLAN.verify()
-    assert pw.simulate("plan.json") == pw.simulate(PLAN)
-    assert pw.tune("plan.json", [20.0], setup=pw.Setup("pd")) == pw.tune(PLAN, [20.0], setup=pw.Setup("pd"))
-    assert pw.Setup.of("plan.json") == pw.Setup.of(PLAN)
+    plan, pd = WASH.plan, pw.SimulationSettings("pd")
+    plan.save("plan.json")
+    assert pw.prove("plan.json") == pw.prove(Path("plan.json")) == pw.prove(plan)
+    assert pw.simulate("plan.json") == pw.simulate(plan)
+    assert pw.tune("plan.json", [20.0], settings=pd) == pw.tune(plan, [20.0], settings=pd)
+    assert pw.SimulationSettings.of("plan.json") == pw.SimulationSettings.of(plan) == WASH.job.simulation
 
 
 @pytest.mark.parametrize("call", [lambda q: ROBOT.fk(q), lambda q: pw.Trajectory.through([q, q], 0.1), lambda q: pw.Scenario.load("kitchen").replace(robot={"home_deg": q})])
@@ -227,9 +235,9 @@ def test_what_a_callers_own_object_raises_is_passed_on() -> None:
 
 
 def test_each_program_names_the_call_of_the_other() -> None:
-    with pytest.raises(pw.InputError, match=r"scenario: \"paper-appendix\" has job.program = \"paper\".*Job\.run"):
-        pw.Cycle.plan("paper-appendix")
-    with pytest.raises(pw.InputError, match=r"scenario: \"kitchen\" has job.program = \"certified\".*Cycle\.plan"):
-        pw.Job.run("kitchen")
-    with pytest.raises(pw.InputError, match=r"Job\.run"):
+    with pytest.raises(pw.InputError, match=r"\"paper-appendix\" has job.program = \"paper\".*paper_job\(\).*run_paper"):
+        pw.Scenario.load("paper-appendix").job()
+    with pytest.raises(pw.InputError, match=r"\"kitchen\" has job.program = \"certified\".* job\(\).*plan plans"):
+        pw.Scenario.load("kitchen").paper_job()
+    with pytest.raises(pw.InputError, match="run_paper"):
         pw.sweep("paper-text", [1])

@@ -13,6 +13,7 @@ import pytest
 
 import pyplatewash as pw
 
+INTERRUPTED_CODE = 130
 LINES = [
     "--version",
     "--help",
@@ -57,22 +58,49 @@ def test_exit_codes_come_back_from_the_call(capfd: pytest.CaptureFixture[str]) -
     assert pw.run_command(["fk", "1"]) == 2
 
 
+# Work of several seconds: what it is done on, and the call.
+MANY = (
+    "centres = [[0.2 + 0.02 * i, -0.4 + 0.02 * k] for i in range(8) for k in range(41)]; "
+    "job = kitchen.replace(layout={'region': None, 'positions_m': centres, 'plate_radius_m': 0.008}, wash={'path_radius_m': 0.006, 'turns': 1.0}, "
+    "tool={'sponge_radius_m': 0.004, 'radius_m': 0.004}).job()"
+)
+DRAWN = (
+    "drawn = kitchen.replace(layout={'only_washable': True, 'count': 100, 'region': None, 'rho_m': [0.2, 0.6], 'plate_radius_m': 0.02, "
+    "'min_distance_m': 0.05}, wash={'path_radius_m': 0.015, 'turns': 1.0})"
+)
+EDGE = "edge = paper.replace(wash={'points': 50_000}, layout={'region': None, 'positions_m': [[0.4, -0.25], [0.3, 0.45]]}).paper_job()"
+NEAR = "near = pw.run_paper(paper.replace(wash={'points': 90_000}, layout={'region': None, 'positions_m': [[0.3, -0.25], [0.3, 0.25]]}).paper_job())"
 LONG = {
-    "reproduce": "pw.reproduce(layouts=10_000, draws=1_000_000)",
-    "sweep": "pw.sweep('kitchen', range(1, 1_000_000))",
-    "tune": "pw.tune(pw.plan('kitchen'), np.linspace(5, 60, 100), np.linspace(0.7, 1.5, 100))",
-    "simulate": "pw.simulate(pw.plan('kitchen'), pw.Setup('computed_torque', plant={'substeps': 1000}))",
-    "batch": "far = np.tile(np.eye(4), (400_000, 1, 1)); far[:, :3, 3] = 0.9; pw.Robot.irb120().ik_batch(far)",
+    "place": (DRAWN, "pw.place_plates(drawn)"),
+    "plan": (MANY, "pw.plan(job)"),
+    "prove": (MANY + "; plan = pw.plan(job).plan", "pw.prove(plan)"),
+    "simulate": ("slow = pw.SimulationSettings(plant={'substeps': 1000})", "pw.simulate(plan, settings=slow)"),
+    "tune": ("", "pw.tune(plan, np.linspace(5, 60, 100), np.linspace(0.7, 1.5, 100))"),
+    "sweep": ("", "pw.sweep(kitchen, range(1, 1_000_000))"),
+    "paper run": (EDGE, "pw.run_paper(edge)"),
+    "paper report": (NEAR, "near.report()"),
+    "reproduce": ("", "pw.reproduce(layouts=10_000, draws=1_000_000)"),
+    "batch": ("far = np.tile(np.eye(4), (400_000, 1, 1)); far[:, :3, 3] = 0.9", "pw.Robot.irb120().ik_batch(far)"),
 }
+# Seconds of processor time, all threads together, in which work that was given up must have ended.
+SOON_S = 2.0
 INTERRUPTED = """
-import os, signal, threading
+import os, signal, threading, time
 import numpy as np
 import pyplatewash as pw
-threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+
+kitchen, paper = pw.Scenario.load("kitchen"), pw.Scenario.load("paper-appendix")
+plan = pw.plan(kitchen.job()).plan
+{made}
+threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT)).start()
 try:
     {call}
 except KeyboardInterrupt:
-    print("interrupted")
+    begun, before = time.process_time(), -1.0
+    while (now := time.process_time() - begun) - before > 0.02 and now < {soon_s}:
+        before = now
+        time.sleep(0.2)
+    print("interrupted, and still at work" if now >= {soon_s} else "interrupted")
 """
 
 
@@ -92,22 +120,23 @@ def started_in_the_background() -> Iterator[None]:
 no_sigint = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for another process")
 
 
-def ends_at_ctrl_c(call: str, folder: Path) -> None:
-    line = [sys.executable, "-c", INTERRUPTED.format(call=call)]
+def ends_at_ctrl_c(work: str, folder: Path) -> None:
+    made, call = LONG[work]
+    line = [sys.executable, "-c", INTERRUPTED.format(made=made, call=call, soon_s=SOON_S)]
     done = subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=300, check=False, preexec_fn=heed_ctrl_c)
     assert done.stdout == "interrupted\n", done.stderr
 
 
 @no_sigint
-@pytest.mark.parametrize("call", LONG.values(), ids=LONG.keys())
-def test_ctrl_c_ends_long_work(call: str, tmp_path: Path) -> None:
-    ends_at_ctrl_c(call, tmp_path)
+@pytest.mark.parametrize("work", LONG)
+def test_ctrl_c_ends_long_work_and_its_threads(work: str, tmp_path: Path) -> None:
+    ends_at_ctrl_c(work, tmp_path)
 
 
 @no_sigint
 @pytest.mark.usefixtures("started_in_the_background")
 def test_ctrl_c_ends_long_work_when_the_tests_run_in_the_background(tmp_path: Path) -> None:
-    ends_at_ctrl_c(LONG["sweep"], tmp_path)
+    ends_at_ctrl_c("sweep", tmp_path)
 
 
 def swept(command: list[str], last: int, folder: Path, preexec: Callable[[], None] | None) -> tuple[int, list[str]]:
@@ -125,7 +154,7 @@ def swept(command: list[str], last: int, folder: Path, preexec: Callable[[], Non
 @pytest.mark.parametrize("which", ["rust", "module"])
 def test_ctrl_c_ends_the_command(platewash: Path, which: str, tmp_path: Path) -> None:
     code, _ = swept(command(platewash, which), 100_000, tmp_path, heed_ctrl_c)
-    assert code == -signal.SIGINT
+    assert code == INTERRUPTED_CODE
 
 
 @no_sigint

@@ -14,6 +14,7 @@ from nbclient import NotebookClient
 from readme_example import example
 
 import pyplatewash as pw
+from wheel_plans import paper_run, plan
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = sorted((ROOT / "examples" / "python").glob("*.py"))
@@ -30,7 +31,7 @@ def test_the_readmes_example_is_short_and_runs_as_printed() -> None:
     lines = [line for line in example().splitlines() if line.strip()]
     assert len(lines) < 12
     headline, verdict, coverage, *poses = printed(ROOT / "tests" / "python" / "readme_example.py").splitlines()
-    assert headline == pw.plan("kitchen", seed=7).summary.headline
+    assert headline == pw.prove(plan("kitchen", 7)).headline
     assert verdict == "proved for every moment"
     assert float(coverage.removeprefix("least coverage ").removesuffix("%")) > 99
     assert len(poses) == 3
@@ -49,14 +50,14 @@ def test_the_pages_blocks_run_from_top_to_bottom(page: str, tmp_path: Path, monk
         np.testing.assert_allclose(after["eul2quat"]([0.3, 0.2, 0.1]), [0.98334744, 0.0342708, 0.10602051, 0.14357218], atol=1e-8)
 
 
-def test_the_papers_program_call_by_call_is_the_papers_job() -> None:
+def test_the_papers_program_call_by_call_is_the_papers_run() -> None:
     source = next(path for path in EXAMPLES if path.stem == "paper_program")
     assert len(source.read_text().splitlines()) < 60
     after: dict[str, Any] = {"__name__": "example"}
     exec(compile(source.read_text(), source.name, "exec"), after)
-    job = pw.Job.run("paper-appendix")
-    assert after["reached"] == job.reached.sum()
-    np.testing.assert_allclose(after["executed"], job.executed_q, atol=1e-9)
+    run = paper_run("paper-appendix")
+    assert after["reached"] == run.reached.sum()
+    np.testing.assert_allclose(after["executed"], run.executed_q, atol=1e-9)
 
 
 @pytest.mark.parametrize("engine", ["pinocchio", "mujoco"])

@@ -14,20 +14,51 @@ import pyplatewash as pw
 
 # What each name of the façade is in Python; None with the reason where it is nothing.
 PYTHON = {
-    "kinematics": None,  # a module of Rust's; its nouns are at the top
+    # Modules of Rust's; their nouns are at the top.
+    "certificate": None,
+    "kinematics": None,
+    "paper": None,
     "planner": None,
+    "scenario": None,
     "simulator": None,
+    "workcell": None,
     "cli": "run_command",
-    "Axes": "Robot.jacobian",  # axes="base" or "local"
+    # The way through.
     "Certificate": "Certificate",
+    "Certified": "Certificate.proved",  # a proof is asked, not held in a type
+    "Check": "Certificate.checks",
+    "ProveError": "ProveError",
+    "Requirement": "Certificate.checks",
+    "certify": "prove",
+    "prove": "prove",
+    "PlanError": "PlanError",
+    "Planned": "Planned",
+    "plan": "plan",
+    "Failure": "PlatewashError",
+    "Scenario": "Scenario",
+    "ScenarioError": "ScenarioError",
+    "Execution": "Execution",
+    "SimulationError": "SimulationError",
+    "SimulationReport": "Execution.report",
+    "SimulationVerdict": "Execution.report",
+    "simulate": "simulate",
+    "tune": "tune",
+    "WashReport": "Planned.report",
+    "WashText": "Planned.report",
+    "SWEEP_HEADER": None,  # the columns are the records' keys
+    "SweepOutcome": "sweep",
+    "SweepRow": "sweep",
+    "sweep": "sweep",
+    "sweep_csv": None,  # pandas.DataFrame makes a table of the records
+    "sweep_each": "sweep",
+    # What they speak of.
+    "Axes": "Robot.jacobian",  # axes="base" or "local"
+    "CancelToken": None,  # Ctrl-C
     "ClearanceModel": "ClearanceModel",
     "Coverage": "Coverage",
-    "Cycle": "Cycle",
-    "CycleReport": "Cycle.report",
     "DynamicsError": "DynamicsError",
     "DynamicsModel": "DynamicsModel",
     "Energy": "Energy",
-    "Execution": "Execution",
     "Frame": "Robot.fk",  # frames go by name
     "IkError": "IkError",
     "IkFailure": "IkError",
@@ -35,34 +66,25 @@ PYTHON = {
     "IkSolution": "IkSolution",
     "IkSolver": "Robot.ik",
     "Jacobian": "Robot.jacobian",  # an array
-    "Job": "Job",
-    "JobReport": "Job.report",
-    "JointLimits": "Robot.lower",
+    "JobTerms": "WashJob.to_dict",
     "JointVector": None,  # an array of shape (6,)
     "Layout": "Layout",
     "PairClearance": "ClearanceModel.smallest",
+    "PaperJob": "PaperJob",
+    "PaperReport": "PaperRun.report",
+    "PaperRun": "PaperRun",
     "Plan": "Plan",
-    "PlanError": "PlanError",
     "Plate": "Plate",
     "Pose": None,  # an array of shape (4, 4)
-    "Promise": "Certificate.promises",
-    "Region": "Scenario.replace",  # layout={"x_m": ..., "y_m": ...}
-    "Reproduction": "reproduce",
     "RobotModel": "Robot",
-    "Scenario": "Scenario",
-    "Setup": "Setup",
-    "SimulationError": "SimulationError",
-    "SimulationReport": "Execution.report",
-    "SimulationVerdict": "Execution.report",
+    "Surface": "Plate",  # a level disc
+    "Tool": "Tool",
     "ToolFrame": "Robot.fk",
-    "ToolPath": "Plan.tool_path",
     "Trajectory": "Trajectory",
-    "Verdict": "Job.report",
-    "VerifyError": "VerifyError",
+    "Verdict": "Planned.report",
+    "WashJob": "WashJob",
+    "Workcell": "WashJob.workcell",
     "coverage": "coverage",
-    "reproduce": "reproduce",
-    "simulate": "simulate",
-    "tune": "tune",
 }
 
 

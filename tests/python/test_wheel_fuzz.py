@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import pyplatewash as pw
+from wheel_plans import paper_run
 
 ROBOT = pw.Robot.irb120()
 DYNAMICS = pw.DynamicsModel(ROBOT)
-PLAN = pw.plan("paper-appendix")
+PLAN = paper_run("paper-appendix").plan()
 NUMBERS = st.floats(allow_nan=True, allow_infinity=True) | st.integers(-(2**80), 2**80) | st.sampled_from([1e308, -1e308, 5e-324])
 SHAPES = hnp.array_shapes(min_dims=0, max_dims=4, min_side=0, max_side=7) | st.sampled_from([(6,), (3, 6), (0, 6), (4, 4), (2, 4, 4), (5, 2)])
 DTYPES = st.one_of(
@@ -73,19 +74,19 @@ CALLS = {
     "coriolis torque": lambda a, b, c: DYNAMICS.coriolis_torque(a, b),
     "bias torque": lambda a, b, c: DYNAMICS.bias_torque(a, b),
     "energy": lambda a, b, c: DYNAMICS.energy(a, b),
-    "setup": lambda a, b, c: pw.Setup(a, control=b, plant=c),
-    "setup of numbers": lambda a, b, c: pw.Setup("pd", control={"rate_hz": a, "joint_kp": b, "joint_kd": c}, plant={"substeps": a}),
+    "settings": lambda a, b, c: pw.SimulationSettings(a, control=b, plant=c),
+    "settings of numbers": lambda a, b, c: pw.SimulationSettings("pd", control={"rate_hz": a, "joint_kp": b, "joint_kd": c}, plant={"substeps": a}, payload_kg=b),
     "simulate": lambda a, b, c: pw.simulate(PLAN, a, b),
     "simulate anything": lambda a, b, c: pw.simulate(a, b, c),
     "executed csv": lambda a, b, c: pw.simulate(PLAN).to_csv(a),
-    "tune": lambda a, b, c: pw.tune(PLAN, a, b, pw.Setup("pd")),
+    "tune": lambda a, b, c: pw.tune(PLAN, a, b, settings=pw.SimulationSettings("pd")),
     "tune anything": lambda a, b, c: pw.tune(PLAN, a, b, c),
     "coverage": lambda a, b, c: pw.coverage(a, b, 0.1, 0.02),
     "coverage of lengths": lambda a, b, c: pw.coverage([[0.0, 0.0]], [0, 0], a, b, cell_m=0.01),
     "raster": lambda a, b, c: pw.coverage_raster(a, b, 0.1, 0.02, cells=9),
-    "spiral": lambda a, b, c: pw.Spiral(turns=a, radius_m=b).waypoints(c),
-    "stroke": lambda a, b, c: pw.Stroke(radius_m=a, turns=b, start_angle_rad=c).sample(1e-3),
-    "transition": lambda a, b, c: pw.transition_waypoints(a, b),
+    "spiral": lambda a, b, c: pw.PaperSpiral(turns=a, radius_m=b).waypoints(c),
+    "wash curve": lambda a, b, c: pw.WashCurve(radius_m=a, turns=b, start_angle_rad=c).sample(1e-3),
+    "transit": lambda a, b, c: pw.transit_waypoints(a, b),
     "cubic": lambda a, b, c: pw.cubic_samples(a, 20),
     "from_dict": lambda a, b, c: pw.Scenario.from_dict(a),
     "replace": lambda a, b, c: pw.Scenario.load("kitchen").replace(seed=a, layout=b, tool=c),
@@ -93,7 +94,12 @@ CALLS = {
     "parse": lambda a, b, c: pw.Scenario.parse(a),
     "urdf": lambda a, b, c: pw.Robot.from_urdf(a, srdf=b),
     "plan file": lambda a, b, c: pw.Plan.from_json(a),
-    "verify": lambda a, b, c: pw.verify(a, b),
+    "job": lambda a, b, c: pw.Scenario.load("kitchen").job(a),
+    "plan": lambda a, b, c: pw.plan(a),
+    "paper": lambda a, b, c: pw.run_paper(a),
+    "prove": lambda a, b, c: pw.prove(a, b),
+    "differences": lambda a, b, c: pw.differences(PLAN, a),
+    "plan csv": lambda a, b, c: PLAN.to_csv(a, b),
     "reproduce": lambda a, b, c: pw.reproduce(a, b, c) if not all(v is None or isinstance(v, int) and 0 < v for v in (a, b)) else None,
 }
 

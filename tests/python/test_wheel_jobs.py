@@ -4,6 +4,7 @@ import copy
 import json
 import pickle
 import subprocess
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -11,44 +12,51 @@ import numpy as np
 import pytest
 
 import pyplatewash as pw
+from wheel_plans import paper_run, plan, planned
 
 
 @pytest.fixture(scope="module")
-def cycle() -> pw.Cycle:
-    return pw.Cycle.plan("kitchen")
+def kitchen() -> pw.Planned:
+    return planned("kitchen")
 
 
 @pytest.fixture(scope="module")
-def job() -> pw.Job:
-    return pw.Job.run("paper-appendix")
+def run() -> pw.PaperRun:
+    return paper_run("paper-appendix")
 
 
-def test_plans_are_the_commands_to_the_byte(platewash: Path, tmp_path: Path) -> None:
-    for scenario in ("kitchen", "paper-appendix"):
+def test_plans_are_the_commands_to_the_byte(platewash: Path, tmp_path: Path, kitchen: pw.Planned, run: pw.PaperRun) -> None:
+    for scenario, plan in {"kitchen": kitchen.plan, "paper-appendix": run.plan()}.items():
         subprocess.run([platewash, "plan", "--quiet", "--scenario", scenario, "--out", tmp_path], check=True, capture_output=True)
-        assert (tmp_path / "plan.json").read_text() == pw.plan(scenario).to_json()
-        assert pw.Plan.load(tmp_path / "plan.json") == pw.plan(scenario)
+        assert (tmp_path / "plan.json").read_text() == plan.to_json()
+        assert (tmp_path / "trajectory.csv").read_text() == plan.to_csv()
+        assert pw.Plan.load(tmp_path / "plan.json") == plan
+    assert run.to_csv() == run.plan().to_csv() != run.to_csv(executed=True)
 
 
-def test_the_kitchen_is_proved(cycle: pw.Cycle) -> None:
-    plan = cycle.to_plan()
-    certificate = plan.verify()
+def test_the_kitchen_is_proved(kitchen: pw.Planned) -> None:
+    plan = kitchen.plan
+    certificate = pw.prove(plan)
     assert certificate.proved and certificate.verdict == "pass" and certificate.broken == []
-    assert {p.status for p in certificate.promises} == {"pass"}
-    assert certificate == pw.verify(plan, pw.Robot.irb120())
+    assert {check.status for check in certificate.checks} == {"proved"}
+    assert certificate == pw.prove(plan, pw.Robot.irb120())
     assert str(certificate).startswith(f"{certificate.headline}\n") and certificate.headline.startswith("CERTIFIED: kitchen")
-    assert certificate.exempt == []
-    report = cycle.report()
+    assert certificate.waived == [] and certificate.plates_washed == 4
+    assert certificate.rests_on.requirements == plan.job.requirements == kitchen.job.requirements
+    report = kitchen.report()
     assert report.verdict == "washed" and str(report).startswith("PROVED")
-    assert len(report.visits) == len(cycle.order) == len(plan.plates) == 4
+    assert len(report.visits) == len(plan.order) == len(plan.wash_paths) == len(plan.plates) == 4
+    assert [visit.plate for visit in kitchen.visits] == plan.order and len(kitchen.transits) == 5
+    assert kitchen.tour.travel_s <= kitchen.tour.nearest_next_s
+    np.testing.assert_array_equal(kitchen.largest_jerk_rad_s3, report.jerk_rad_s3)
 
 
-def test_a_changed_plan_is_found_out(cycle: pw.Cycle) -> None:
-    table = cycle.to_plan().to_dict()
+def test_a_changed_plan_is_found_out(kitchen: pw.Planned) -> None:
+    table = kitchen.plan.to_dict()
     table["knots"]["q_rad"][100][0] += 0.5
     changed = pw.Plan.from_json(json.dumps(table))
     assert not changed.is_sealed()
-    certificate = changed.verify()
+    certificate = pw.prove(changed)
     assert not certificate.proved and certificate.broken
     with pytest.raises(pw.PlanFileError):
         pw.Plan.from_json("{}")
@@ -59,11 +67,11 @@ def test_a_changed_plan_is_found_out(cycle: pw.Cycle) -> None:
 def test_a_plate_out_of_reach_is_named_with_what_could_be_done() -> None:
     scenario = pw.Scenario.load("kitchen").replace(layout={"region": None, "positions_m": [[0.7, 0.0]], "count": 1})
     with pytest.raises(pw.PlanError) as caught:
-        pw.plan(scenario)
+        plan(scenario)
     error = pickle.loads(pickle.dumps(caught.value))
     assert error.plate == 0 and error.cause == "unwashable" and 0 < error.share < 1
     moved = scenario.replace(layout={"positions_m": [error.nearest_m * 0.97]})
-    assert pw.plan(moved).verify().proved
+    assert pw.prove(plan(moved)).proved
 
 
 def test_what_was_only_not_found_is_told_from_what_cannot_be(root: Path) -> None:
@@ -75,39 +83,43 @@ def test_what_was_only_not_found_is_told_from_what_cannot_be(root: Path) -> None
     )
     for x_m, cause in [(0.95, "not_found"), (2.0, "unwashable")]:
         with pytest.raises(pw.PlanError) as caught:
-            pw.plan(cell.replace(layout={"positions_m": [[x_m, 0.0]]}))
+            plan(cell.replace(layout={"positions_m": [[x_m, 0.0]]}))
         assert (caught.value.cause, caught.value.plate) == (cause, 0), caught.value
         assert ("cannot" in str(caught.value)) == (cause == "unwashable"), caught.value
 
 
 def test_eight_threads_plan_what_one_does() -> None:
     seeds = list(range(1, 9))
-    alone = [pw.plan("kitchen", seed=seed).hash for seed in seeds]
+    alone = [plan("kitchen", seed).hash for seed in seeds]
     with ThreadPoolExecutor(8) as threads:
-        assert list(threads.map(lambda seed: pw.plan("kitchen", seed=seed).hash, seeds)) == alone
+        assert list(threads.map(lambda seed: plan("kitchen", seed).hash, seeds)) == alone
 
 
 def test_a_sweep_is_its_plans() -> None:
     rows = pw.sweep("kitchen", [3, 1])
     assert [row.seed for row in rows] == [3, 1] and {row.outcome for row in rows} == {"proved"}
-    assert rows[1].duration_s == pw.plan("kitchen", seed=1).summary.duration_s
+    assert rows[1].duration_s == plan("kitchen", 1).duration_s > rows[1].transits_s
     with pytest.raises(pw.InputError):
         pw.sweep("paper-text", [1])
 
 
-def test_the_papers_job_says_that_it_does_not_wash(job: pw.Job) -> None:
-    report = job.report()
+def test_the_papers_run_says_that_it_does_not_wash(run: pw.PaperRun) -> None:
+    report = run.report()
     assert report.headline.startswith("NOT WASHED") and str(report).startswith("NOT WASHED")
-    assert job.targets.shape == job.executed_tip.shape == (len(job), 3)
-    assert job.commanded_q.shape == job.executed_q.shape == (len(job), 6)
-    assert job.reached.sum() == sum(p.reached for p in report.plates) + report.transitions.reached
+    assert run.targets.shape == run.executed_tip.shape == (len(run), 3)
+    assert run.commanded_q.shape == run.executed_q.shape == (len(run), 6)
+    assert run.reached.sum() == sum(p.reached for p in report.plates) + report.transitions.reached
     for plate in report.plates:
-        mine = job.washing & (job.plate == plate.plate)
-        centre = job.layout.centres[plate.plate]
-        measured = pw.coverage(job.executed_tip[mine, :2], centre, 0.145, report.sponge_radius_m)
+        mine = run.washing & (run.plate == plate.plate)
+        centre = run.job.layout.centres[plate.plate]
+        measured = pw.coverage(run.executed_tip[mine, :2], centre, 0.145, report.sponge_radius_m)
         assert measured.fraction == pytest.approx(plate.executed_coverage.fraction, abs=2e-3)
-    np.testing.assert_array_equal(job.planned.q_rad[1:], job.commanded_q)
-    assert job.to_csv().count("\n") == len(job) + 2
+    np.testing.assert_array_equal(run.planned.q_rad[1:], run.commanded_q)
+    assert run.to_csv().count("\n") == len(run) + 2
+    plan = run.plan()
+    assert (plan.process, plan.wash_paths, plan.job.seed) == ("paper", [], run.job.seed)
+    with pytest.raises(pw.ProveError, match="the paper's program"):
+        pw.prove(plan)
 
 
 def test_scenarios_are_read_changed_and_refused(tmp_path: Path) -> None:
@@ -115,7 +127,8 @@ def test_scenarios_are_read_changed_and_refused(tmp_path: Path) -> None:
     assert "kitchen" in pw.Scenario.shipped()
     assert pw.Scenario.from_dict(scenario.to_dict()) == scenario == pw.Scenario.parse(scenario.to_toml())
     for section in scenario.to_dict():
-        assert getattr(scenario, section) == scenario[section]
+        assert section == "job" or getattr(scenario, section) == scenario[section]
+    assert scenario["job"].program == "paper"
     changed = scenario.replace(seed=3, tool=pw.Tool(length_m=0.1), layout={"count": np.int64(3)})
     assert (changed.seed, changed.tool.length_m, changed.layout.count) == (3, 0.1, 3)
     assert scenario.seed == 1 and len(pw.place_plates(changed)) == 3
@@ -142,7 +155,7 @@ def test_plates_without_room_are_an_error_with_numbers() -> None:
     error = caught.value
     assert error.cause == "no_room" and error.most_placed is not None and error.upper_bound is not None
     assert error.most_placed < error.upper_bound < 200
-    with pytest.raises(pw.LayoutError, match="try another seed") as caught:
+    with pytest.raises(pw.LayoutError, match=r"another seed, .*layout\.min_distance_m") as caught:
         pw.place_plates(pw.Scenario.load("kitchen").replace(seed=5, layout={"count": 5}))
     assert caught.value.cause == "not_found"
 
@@ -154,8 +167,8 @@ def test_findings_come_with_words() -> None:
     assert len(given.check()) == len(kinds)
 
 
-def test_trajectories_are_their_knots(job: pw.Job) -> None:
-    motion = job.planned
+def test_trajectories_are_their_knots(run: pw.PaperRun) -> None:
+    motion = run.planned
     q, qd, qdd = motion.at(motion.t_s)
     np.testing.assert_allclose(q, motion.q_rad, atol=1e-12)
     np.testing.assert_allclose(qd, motion.qd_rad_s, atol=1e-7)
@@ -174,9 +187,9 @@ def test_trajectories_are_their_knots(job: pw.Job) -> None:
         pw.Trajectory.through(np.zeros((3, 6)), 0.0)
 
 
-def test_outside_its_time_a_motion_rests_at_its_end(cycle: pw.Cycle, job: pw.Job) -> None:
+def test_outside_its_time_a_motion_rests_at_its_end(kitchen: pw.Planned, run: pw.PaperRun) -> None:
     moving = pw.Trajectory([0.0, 0.5], [[0.2] * 6, [0.9] * 6], [[1.0] * 6, [-2.0] * 6])
-    for motion in (cycle.motion, job.planned, moving):
+    for motion in (kitchen.plan.trajectory, run.planned, moving):
         outside = [-9.0, -1e-9, motion.duration_s + 1e-9, motion.duration_s + 9.0]
         q, qd, qdd = motion.at(outside)
         np.testing.assert_allclose(q, motion.q_rad[[0, 0, -1, -1]], rtol=0, atol=1e-12)
@@ -191,36 +204,77 @@ def test_a_plan_knows_its_arm_and_a_file_asks_for_it(tmp_path: Path) -> None:
     files = {"urdf": tmp_path / "own.urdf", "srdf": tmp_path / "own.srdf"}
     own = pw.Robot.load(files["urdf"], srdf=files["srdf"])
     scenario = pw.Scenario.load("kitchen").replace(robot=files, layout={"count": 1})
-    cycle = pw.Cycle.plan(scenario)
-    plans = [pw.plan(scenario), cycle.to_plan(), pickle.loads(pickle.dumps(cycle)).to_plan()]
-    paper = pw.Scenario.load("paper-appendix").replace(robot=files)
-    assert pw.Job.run(paper).plan().robot == own == pw.plan(paper).robot
+    job = scenario.job()
+    plans = [pw.plan(job).plan, pickle.loads(pickle.dumps(pw.plan(job))).plan]
+    paper = pw.Scenario.load("paper-appendix").replace(robot=files).paper_job()
+    assert pw.run_paper(paper).plan().robot == own == paper.robot == job.robot
     for file in files.values():
         file.unlink()  # A plan that knows its arm needs no file of it, a pickled one neither.
-    plans += [pickle.loads(pickle.dumps(plan)) for plan in plans]
-    law = pw.Setup()
+    plans += [pickle.loads(pickle.dumps(plan)) for plan in plans] + [pw.plan(pickle.loads(pickle.dumps(job))).plan]
+    settings = pw.SimulationSettings()
     for plan in plans:
-        assert plan.robot == own != builtin
-        assert plan.verify().proved and pw.verify(plan).proved
-    rows = pw.tune(plans[-1], [20.0], setup=law)
+        assert plan == plans[0] and plan.robot == own != builtin
+        assert pw.prove(plan).proved
+    rows = pw.tune(plans[-1], [20.0], settings=settings)
     assert rows[0].verdict == "washed"
-    execution = pw.simulate(plans[0], law)
+    execution = pw.simulate(plans[0], settings=settings)
     assert pickle.loads(pickle.dumps(execution)) == execution
     plans[0].save(tmp_path / "plan.json")
     loaded = pw.Plan.load(tmp_path / "plan.json")
     assert loaded == plans[0] and loaded.robot is None and pickle.loads(pickle.dumps(loaded)).robot is None
-    for call in (loaded.verify, lambda: pw.verify(tmp_path / "plan.json"), lambda: pw.simulate(loaded), lambda: pw.tune(loaded, [20.0])):
-        with pytest.raises(pw.VerifyError, match=r"robot: the plan is for the arm of .*own\.urdf.*give the arm as robot=Robot\.load") as caught:
+    calls: list[Callable[[], object]] = [lambda: pw.prove(loaded), lambda: pw.prove(tmp_path / "plan.json"), lambda: pw.simulate(loaded), lambda: pw.tune(loaded, [20.0]), loaded.to_csv]
+    for call in calls:
+        with pytest.raises(pw.ProveError, match=r"robot: the plan is for the arm \"irb120\" .*give the arm as robot=Robot\.load") as caught:
             call()
         assert caught.value.argument == "robot"
-    assert loaded.verify(own).proved and pw.verify(tmp_path / "plan.json", robot=own).proved
-    assert pw.simulate(loaded, law, robot=own) == execution
-    assert pw.plan("kitchen").robot == builtin == pw.Plan.from_json(pw.plan("kitchen").to_json()).robot
+    assert pw.prove(loaded, own).proved and pw.prove(tmp_path / "plan.json", robot=own).proved
+    assert pw.simulate(loaded, own, settings) == execution
+    assert loaded.to_csv(robot=own).count("\n") == plans[0].to_csv().count("\n") > 1000
+    other = pw.prove(loaded, builtin)
+    assert not other.proved and "arm" in [check.requirement for check in other.broken]
+    kitchen = pw.plan(pw.Scenario.load("kitchen").job()).plan
+    assert kitchen.robot == builtin == pw.Plan.from_json(kitchen.to_json()).robot
 
 
-def test_clearance_in_a_stack_is_clearance_one_by_one(cycle: pw.Cycle) -> None:
-    model = pw.ClearanceModel(pw.Robot.irb120(), pw.Tool(length_m=0.15), cycle.layout.plates)
-    q = cycle.motion.at(np.linspace(0, cycle.motion.duration_s, 40))[0]
+def test_jobs_are_what_their_scenario_asks_for() -> None:
+    scenario = pw.Scenario.load("kitchen")
+    job = scenario.job()
+    assert (job.name, job.seed, job.robot) == ("kitchen", 1, pw.Robot.irb120())
+    assert job.plates == job.layout.plates == pw.place_plates(scenario).plates
+    np.testing.assert_allclose(job.home_rad, np.radians([scenario.robot.start_deg] * 2), rtol=0, atol=1e-15)
+    assert job.requirements.coverage == scenario["job"].required_coverage
+    assert job.limits.tip_speed_m_s == scenario.limits.tip_speed_m_s
+    assert job.simulation.law == "computed_torque" and job.workcell.arm.name == "irb120"
+    other = pw.place_plates(scenario.replace(seed=2))
+    moved = scenario.job(other)
+    assert moved.plates == other.plates != job.plates and moved.layout == other
+    assert job.on_plates(other.plates).plates == other.plates and job.on_plates(job.plates).to_dict() == job.to_dict()
+    with pytest.raises(pw.InputError, match="plates"):
+        job.on_plates([])
+    paper = pw.Scenario.load("paper-appendix")
+    run = paper.paper_job()
+    assert (run.name, run.seed, run.layout) == ("paper-appendix", 1, pw.place_plates(paper))
+    assert not run.start_rad.any() and run.settings.spiral.points == paper.wash.points
+    assert paper.paper_job(other).layout == other
+
+
+def test_a_plan_of_another_job_is_told_field_by_field(kitchen: pw.Planned, tmp_path: Path) -> None:
+    scenario = pw.Scenario.load("kitchen")
+    kitchen.plan.save(tmp_path / "plan.json")
+    assert pw.differences(kitchen.plan, scenario.job()) == [] == pw.differences(tmp_path / "plan.json", kitchen.job)
+    asked = scenario.replace(wash={"clearance_m": 0.02}).job()
+    (one,) = pw.differences(kitchen.plan, asked)
+    assert (one.key, one.found, one.expected) == ("requirements.clearance_m", "0.01", "0.02")
+    assert str(one) == "requirements.clearance_m: 0.01; expected 0.02"
+    assert pw.prove(kitchen.plan).proved  # It does its job, which is not the one that was asked for.
+    moved = pw.differences(kitchen.plan, scenario.replace(seed=2).job())
+    assert {"seed", "plates[0].pose.position_m[0]"} <= {each.key for each in moved}
+    assert pw.differences(kitchen.plan, pw.Scenario.load("paper-appendix").paper_job())
+
+
+def test_clearance_in_a_stack_is_clearance_one_by_one(kitchen: pw.Planned) -> None:
+    model = pw.ClearanceModel(pw.Robot.irb120(), pw.Tool(length_m=0.15), kitchen.plan.plates)
+    q = kitchen.plan.trajectory.at(np.linspace(0, kitchen.plan.duration_s, 40))[0]
     distances = model.distances(q)
     assert distances.shape == (40, len(model.pairs))
     for k in (0, 13, 39):
@@ -239,7 +293,7 @@ def test_clearance_in_a_stack_is_clearance_one_by_one(cycle: pw.Cycle) -> None:
 
 
 def test_the_raster_keeps_the_bounds() -> None:
-    path = pw.Spiral(closing_ring=True).waypoints((0.1, 0.2))
+    path = pw.PaperSpiral(closing_ring=True).waypoints((0.1, 0.2))
     exact = pw.coverage(path, (0.1, 0.2), 0.145, 0.02)
     raster = pw.coverage_raster(path, (0.1, 0.2), 0.145, 0.02, cells=300)
     inside = (raster.x_m[None] - 0.1) ** 2 + (raster.y_m[:, None] - 0.2) ** 2 <= 0.145**2
@@ -252,19 +306,19 @@ def test_the_raster_keeps_the_bounds() -> None:
 
 
 def test_curves_are_what_they_say() -> None:
-    spiral = pw.Spiral().waypoints((0.25, -0.25))
+    spiral = pw.PaperSpiral().waypoints((0.25, -0.25))
     np.testing.assert_allclose(np.linalg.norm(spiral - (0.25, -0.25), axis=1), np.linspace(0, 0.145, 55), atol=1e-15)
-    through = pw.transition_waypoints((0.3, 0.0, 0.08), (0.0, 0.3, 0.08), radius_m=0.4, height_m=0.3)
+    through = pw.transit_waypoints((0.3, 0.0, 0.08), (0.0, 0.3, 0.08), radius_m=0.4, height_m=0.3)
     assert through.shape == (7, 3) and (through[1:6, 2] == 0.3).all()
     for kind in ("zero_velocity", "c2_spline"):
         curve = pw.cubic_samples(through, 61, kind)
         np.testing.assert_allclose(curve[::10], through, atol=1e-12)
-    theta, points = pw.Stroke(radius_m=0.12, turns=3.0).sample(1e-4)
+    theta, points = pw.WashCurve(radius_m=0.12, turns=3.0).sample(1e-4)
     assert (np.diff(theta) > 0).all() and np.linalg.norm(points[-1]) == pytest.approx(0.12)
     for call in (
-        lambda: pw.Spiral(points=10**12).waypoints(),
-        lambda: pw.Spiral(turns=np.inf).waypoints(),
-        lambda: pw.Stroke(radius_m=0.1, turns=3).sample(0.0),
+        lambda: pw.PaperSpiral(points=10**12).waypoints(),
+        lambda: pw.PaperSpiral(turns=np.inf).waypoints(),
+        lambda: pw.WashCurve(radius_m=0.1, turns=3).sample(0.0),
         lambda: pw.cubic_samples(np.zeros((2, 3)), 5, "quintic"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
         lambda: pw.cubic_samples(np.full((2, 3), np.nan), 5),
         lambda: pw.coverage(np.zeros((3, 2)), (0, 0), 0.1, 0.02, cell_m=1e-12),
@@ -285,9 +339,10 @@ def test_reproduce_is_the_commands(platewash: Path) -> None:
     assert str(ours).startswith("The paper's program, measured")
 
 
-def test_copies_and_pickles_are_equal(cycle: pw.Cycle, job: pw.Job) -> None:
-    plan = cycle.to_plan()
-    things = [cycle, job, plan, job.plan(), plan.verify(), cycle.scenario, cycle.layout, cycle.motion, job.report()]
+def test_copies_and_pickles_are_equal(kitchen: pw.Planned, run: pw.PaperRun) -> None:
+    plan = kitchen.plan
+    things = [kitchen, kitchen.job, plan, pw.prove(plan), kitchen.job.layout, plan.trajectory, plan.provenance]
+    things += [run, run.job, run.plan(), run.report(), pw.Scenario.load("kitchen"), kitchen.job.simulation]
     things += [pw.coverage_raster(np.zeros((3, 2)), (0, 0), 0.1, 0.02, cells=5), pw.Coverage(0.5, 0.4, 0.6)]
     for thing in things:
         assert pickle.loads(pickle.dumps(thing)) == thing == copy.copy(thing) == copy.deepcopy(thing)
@@ -302,25 +357,26 @@ def test_seeds_are_whole_numbers_that_a_plan_file_can_tell_apart() -> None:
     with pytest.raises(pw.ScenarioError, match=expected):
         scenario.replace(seed=largest + 1)
     with pytest.raises(pw.InputError, match=f"seed: .*{largest} is needed; found {largest + 1}"):
-        pw.plan(scenario, seed=largest + 1)
+        pw.reproduce(seed=largest + 1)
     with pytest.raises(pw.InputError, match=str(largest)):
         pw.sweep(scenario, [1, largest + 1])
 
 
 def test_what_is_waived_is_said_first() -> None:
     layout = {"positions_m": [[0.36, -0.1], [0.36, 0.11]], "overlap": "report"}
-    certificate = pw.verify(pw.plan(pw.Scenario.load("kitchen").replace(layout=layout)))
-    assert certificate.proved and certificate.exempt == ["every_plate_once", "plates_apart"]
+    certificate = pw.prove(plan(pw.Scenario.load("kitchen").replace(layout=layout)))
+    assert certificate.proved and certificate.waived == ["every_plate_once", "plates_apart"]
     assert str(certificate).startswith("CERTIFIED BUT FOR every plate once, ")
 
 
-def test_a_plan_file_is_read_strictly() -> None:
-    plan = pw.plan("kitchen")
-    table = plan.to_dict()
-    assert pw.Plan.from_json(json.dumps(table)) == plan
-    table["tool_path"][2]["soap"] = 1
-    with pytest.raises(pw.PlanFileError, match=r"unknown key 'tool_path\[2\]\.soap'"):
+def test_a_plan_file_is_read_strictly(kitchen: pw.Planned) -> None:
+    table = kitchen.plan.to_dict()
+    assert pw.Plan.from_json(json.dumps(table)) == kitchen.plan
+    table["wash_paths"][2]["soap"] = 1
+    with pytest.raises(pw.PlanFileError, match=r"wash_paths\[2\]\.soap|unknown field `soap`"):
         pw.Plan.from_json(json.dumps(table))
-    del table["tool_path"][2]["soap"], table["scenario"]["wash"]["turns"]
-    with pytest.raises(pw.PlanFileError, match=r"'scenario\.wash\.turns' is missing"):
+    del table["wash_paths"][2]["soap"], table["job"]["requirements"]["coverage"]
+    with pytest.raises(pw.PlanFileError, match="coverage"):
         pw.Plan.from_json(json.dumps(table))
+    with pytest.raises(pw.PlanFileError, match="platewash-plan/1.*plan its scenario again"):
+        pw.Plan.from_json('{"format": "platewash-plan/1"}')

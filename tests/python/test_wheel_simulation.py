@@ -12,9 +12,12 @@ import numpy.typing as npt
 import pytest
 
 import pyplatewash as pw
+from wheel_plans import paper_run
+from wheel_plans import plan as planned
 
 Floats = npt.NDArray[np.float64]
 ROBOT = pw.Robot.irb120()
+TOOL_M = 0.15  # that of the kitchen
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +27,7 @@ def model() -> pw.DynamicsModel:
 
 @pytest.fixture(scope="module")
 def plan() -> pw.Plan:
-    return pw.plan("kitchen")
+    return planned("kitchen")
 
 
 @pytest.fixture(scope="module")
@@ -126,25 +129,25 @@ def test_an_execution_is_what_the_command_writes(platewash: Path, tmp_path: Path
     read = pw.simulate(pw.Plan.load(tmp_path / "plan.json"))
     assert read == execution and (tmp_path / "simulated.csv").read_text() == read.to_csv()
     assert (tmp_path / "simulation.txt").read_text() == str(report)
-    assert report.verdict == "washed" and report.law == execution.setup.law == "computed_torque"
+    assert report.verdict == "washed" and report.law == execution.settings.law == "computed_torque"
     n = len(execution)
     assert execution.t_s.shape == execution.segment.shape == (n,) and execution.t_s[-1] == report.duration_s
     for rows in (execution.q_rad, execution.qd_rad_s, execution.qdd_rad_s2, execution.torque_n_m, execution.commanded_rad):
         assert rows.shape == (n, 6)
     asked = plan.trajectory.at(execution.t_s)[0]
     np.testing.assert_array_equal(execution.commanded_rad, asked)
-    off = np.linalg.norm(tips(plan, execution.q_rad) - tips(plan, asked), axis=1)
+    off = np.linalg.norm(tips(execution.q_rad) - tips(asked), axis=1)
     assert report.tracking.tip_m.rms == pytest.approx(np.sqrt(np.mean(off**2)), rel=1e-6)
     largest = np.abs(execution.torque_n_m).max(axis=0)
     np.testing.assert_allclose([joint.torque_n_m.max for joint in report.effort.joints], largest)
 
 
-def tips(plan: pw.Plan, q: Floats) -> Floats:
-    return ROBOT.fk(q, tool=pw.Tool(length_m=plan.scenario.tool.length_m))[:, :3, 3]
+def tips(q: Floats) -> Floats:
+    return ROBOT.fk(q, tool=pw.Tool(length_m=TOOL_M))[:, :3, 3]
 
 
 def test_each_step_is_the_plants(plan: pw.Plan, execution: pw.Execution) -> None:
-    model = pw.DynamicsModel(ROBOT, pw.Tool(length_m=plan.scenario.tool.length_m, mass_kg=plan.scenario.tool.mass_kg))
+    model = pw.DynamicsModel(ROBOT, pw.Tool(length_m=TOOL_M, mass_kg=plan.job.workcell.tool.mass.mass_kg))
     q, qd, qdd = execution.q_rad[:-1], execution.qd_rad_s[:-1], execution.qdd_rad_s2[:-1]
     np.testing.assert_allclose(model.forward_dynamics(q, qd, execution.torque_n_m[:-1]), qdd, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(execution.qd_rad_s[1:], qd + qdd * execution.period_s, rtol=1e-12, atol=1e-15)
@@ -153,73 +156,78 @@ def test_each_step_is_the_plants(plan: pw.Plan, execution: pw.Execution) -> None
 def test_laws_differ_as_they_should(plan: pw.Plan) -> None:
     rms = {}
     for law in ("pd", "pd_gravity", "computed_torque"):
-        setup = pw.Setup.of(plan).replace(law=law, control={"frequency_rad_s": 15.0})
-        report = pw.simulate(plan, setup).report()
+        settings = pw.SimulationSettings.of(plan).replace(law=law, control={"frequency_rad_s": 15.0})
+        report = pw.simulate(plan, settings=settings).report()
         rms[law] = report.tracking.tip_m.rms
         assert report.law == law and (report.verdict == "washed") == (law != "pd"), report.headline
     assert rms["pd"] > 10 * rms["pd_gravity"] > 100 * rms["computed_torque"]
 
 
-def test_setups_are_read_changed_and_refused(plan: pw.Plan) -> None:
-    setup = pw.Setup.of(plan)
-    assert setup == pw.Setup("computed_torque", control=setup.control, plant=setup.plant) == setup.replace()
-    other = setup.replace(law="pd", control={"rate_hz": 2000, "joint_kp": np.full(6, 300.0), "joint_kd": [9] * 6}, plant={"integrator": "rk4"})
+def test_settings_are_read_changed_and_refused(plan: pw.Plan) -> None:
+    settings = pw.SimulationSettings.of(plan)
+    assert settings == pw.SimulationSettings("computed_torque", control=settings.control, plant=settings.plant) == settings.replace()
+    other = settings.replace(law="pd", control={"rate_hz": 2000, "joint_kp": np.full(6, 300.0), "joint_kd": [9] * 6}, plant={"integrator": "rk4"})
     assert (other.law, other.period_s, other.plant.integrator, other.control.joint_kp) == ("pd", 5e-4, "rk4", [300.0] * 6)
-    assert other.replace(control={"joint_kp": None, "joint_kd": None}).control == setup.replace(control={"rate_hz": 2000}).control
-    assert setup.law == "computed_torque"
+    assert other.replace(control={"joint_kp": None, "joint_kd": None}).control == settings.replace(control={"rate_hz": 2000}).control
+    assert settings.law == "computed_torque"
     with pytest.raises(pw.InputError, match="pd_gravity"):
-        pw.Setup("pid")  # type: ignore[arg-type]
+        pw.SimulationSettings("pid")  # type: ignore[arg-type]
     with pytest.raises(pw.InputError, match="law"):
-        pw.Setup("pd", control={"law": "pd"})
+        pw.SimulationSettings("pd", control={"law": "pd"})
     with pytest.raises(pw.ScenarioError) as caught:
-        setup.replace(control={"frequency_rad_s": -1})
+        settings.replace(control={"frequency_rad_s": -1})
     assert caught.value.key == "control.frequency_rad_s" and caught.value.found == "-1"
     with pytest.raises(pw.ScenarioError, match="did you mean 'plant.substeps'"):
-        setup.replace(plant={"substep": 2})
+        settings.replace(plant={"substep": 2})
     with pytest.raises(pw.ScenarioError, match="joint_kd"):
-        setup.replace(control={"joint_kp": [1.0] * 6})
+        settings.replace(control={"joint_kp": [1.0] * 6})
+    rated = settings.replace(payload_kg=0.2)
+    assert settings.payload_kg is None and rated.payload_kg == rated.replace(law="pd").payload_kg == 0.2
+    assert pw.simulate(plan, settings=rated).report().verdict == "overloaded"
+    with pytest.raises(pw.ScenarioError, match="payload_kg"):
+        settings.replace(payload_kg=-1.0)
 
 
 def test_what_cannot_be_simulated_says_why(plan: pw.Plan) -> None:
-    setup = pw.Setup.of(plan)
+    settings = pw.SimulationSettings.of(plan)
     with pytest.raises(pw.SimulationError) as caught:
-        pw.simulate(plan, setup.replace(law="pd_gravity", control={"frequency_rad_s": 900.0}))
+        pw.simulate(plan, settings=settings.replace(law="pd_gravity", control={"frequency_rad_s": 900.0}))
     error = pickle.loads(pickle.dumps(caught.value))
     assert error.cause == "unstable" and error.q.shape == (6,)
     assert error.least_rate_hz > 1000 and error.highest_frequency_rad_s < 900
-    pw.simulate(plan, setup.replace(law="pd_gravity", control={"frequency_rad_s": 0.99 * error.highest_frequency_rad_s}))
+    pw.simulate(plan, settings=settings.replace(law="pd_gravity", control={"frequency_rad_s": 0.99 * error.highest_frequency_rad_s}))
     other = pw.Robot.from_urdf(ROBOT.urdf.replace("</robot>", "<!-- another one --></robot>"))
     with pytest.raises(pw.SimulationError) as caught:
         pw.simulate(plan, robot=other)
     assert caught.value.cause == "other_arm"
     with pytest.raises(pw.SimulationError) as caught:
-        pw.simulate(plan, setup.replace(plant={"substeps": 1000}, control={"rate_hz": 10000}))
+        pw.simulate(plan, settings=settings.replace(plant={"substeps": 1000}, control={"rate_hz": 10000}))
     assert caught.value.cause == "too_long"
     with pytest.raises(pw.InputError, match="dt_s"):
         pw.simulate(plan).to_csv(0.0)
 
 
 def test_a_tune_is_its_simulations(plan: pw.Plan) -> None:
-    setup = pw.Setup.of(plan).replace(law="pd_gravity")
-    rows = pw.tune(plan, [15.0, 900.0], [0.7, 1.0], setup)
+    settings = pw.SimulationSettings.of(plan).replace(law="pd_gravity")
+    rows = pw.tune(plan, [15.0, 900.0], [0.7, 1.0], settings=settings)
     assert [(row.frequency_rad_s, row.damping_ratio) for row in rows] == [(15, 0.7), (15, 1), (900, 0.7), (900, 1)]
     assert [row.verdict for row in rows[2:]] == ["refused"] * 2 and "Hz" in rows[2].reason
-    report = pw.simulate(plan, setup.replace(control={"frequency_rad_s": 15.0, "damping_ratio": 0.7})).report()
+    report = pw.simulate(plan, settings=settings.replace(control={"frequency_rad_s": 15.0, "damping_ratio": 0.7})).report()
     assert rows[0].tip_rms_m == report.tracking.tip_m.rms and rows[0].work_j == report.effort.work_j
     with pytest.raises(pw.InputError, match="no frequency"):
-        pw.tune(plan, [15.0], setup=setup.replace(law="exact"))
+        pw.tune(plan, [15.0], settings=settings.replace(law="exact"))
     with pytest.raises(pw.InputError, match="at most"):
         pw.tune(plan, np.ones(200), np.ones(200))
     assert pw.tune(plan, []) == []
 
 
 def test_all_of_it_pickles_copies_and_compares(model: pw.DynamicsModel, execution: pw.Execution) -> None:
-    for thing in (model, execution, execution.setup, execution.setup.replace(law="pd", plant={"torque_limit_n_m": [9.0] * 6}), model.energy([0.0] * 6, [1.0] * 6)):
+    for thing in (model, execution, execution.settings, execution.settings.replace(law="pd", plant={"torque_limit_n_m": [9.0] * 6}), model.energy([0.0] * 6, [1.0] * 6)):
         again = pickle.loads(pickle.dumps(thing))
         assert again == thing and copy.copy(thing) == copy.deepcopy(thing) == thing
         assert not thing == 3 and repr(thing) == repr(again)
     assert pw.DynamicsModel(ROBOT) != model
-    assert execution.setup != execution.setup.replace(law="pd")
+    assert execution.settings != execution.settings.replace(law="pd")
 
 
 def test_threads_simulate_what_one_does(plan: pw.Plan, execution: pw.Execution) -> None:
@@ -228,8 +236,8 @@ def test_threads_simulate_what_one_does(plan: pw.Plan, execution: pw.Execution) 
 
 
 def test_the_papers_job_runs_under_its_own_law() -> None:
-    plan = pw.plan("paper-appendix")
+    plan = paper_run("paper-appendix").plan()
     execution = pw.simulate(plan)
-    assert execution.setup.law == "paper" and execution.torque_limit_n_m is None and not execution.torque_n_m.any()
+    assert execution.settings.law == "paper" and execution.torque_limit_n_m is None and not execution.torque_n_m.any()
     report = execution.report()
     assert report.verdict == "not_washed" and report.effort is None and str(report).startswith("NOT WASHED")

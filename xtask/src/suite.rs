@@ -1,7 +1,7 @@
 //! Everything that must pass, in order.
 
 use crate::step::Step;
-use crate::{benches, python, wheel};
+use crate::{benches, python, rules, wheel};
 use anyhow::{Result, bail};
 use std::time::Instant;
 
@@ -21,7 +21,7 @@ type Check = fn() -> Result<()>;
 /// A part of the suite that can be run alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// Format, clippy and the documentation.
+    /// Format, clippy, the documentation and the rules that no compiler checks.
     Lint,
     /// The tests in Rust.
     Rust,
@@ -44,10 +44,11 @@ impl Part {
 /// Runs the whole suite or one part of it, up to the first failure.
 pub fn run(only: Option<Part>) -> Result<()> {
     let start = Instant::now();
-    let steps: [(Part, Check); 9] = [
+    let steps: [(Part, Check); 10] = [
         (Part::Lint, format),
         (Part::Lint, clippy),
         (Part::Lint, documentation),
+        (Part::Lint, rules::kept),
         (Part::Rust, tests),
         (Part::Rust, benches::once),
         (Part::Python, if only.is_none() { release } else { release_alone }),
@@ -68,7 +69,7 @@ pub fn run(only: Option<Part>) -> Result<()> {
 pub fn docs() -> Result<()> {
     Step::cargo(
         "pages",
-        &["test", "-p", "platewash-planner", "the_committed_page_is_current"],
+        &["test", "-p", "platewash-scenario", "the_committed_page_is_current"],
     )
     .with("PLATEWASH_WRITE_DOCS", "1")
     .run()

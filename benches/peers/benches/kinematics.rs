@@ -117,7 +117,14 @@ fn batch_table_here(robot: &RobotModel) -> Result<String, Box<dyn Error + Send +
         &mut [
             Box::new(|| {
                 timed(BATCH, || {
-                    let done = batch::fk_into(robot, &tool0, &q, &mut positions, &mut rotations, batch::Path::Detected);
+                    let done = batch::fk_into(
+                        robot,
+                        &tool0,
+                        &q,
+                        &mut positions,
+                        &mut rotations,
+                        batch::Backend::Detected,
+                    );
                     let _ = black_box(done);
                 })
             }),
@@ -138,14 +145,14 @@ fn batch_table_here(robot: &RobotModel) -> Result<String, Box<dyn Error + Send +
         ],
         1,
     );
-    let mut answers = batch::solve(&solver, targets, starts, batch::Path::Detected)?;
+    let mut answers = batch::solve(&solver, targets, starts, batch::Backend::Detected)?;
     let found = answers.iter().map(|answer| answer.as_ref().ok().map(|answer| answer.q));
     let solved = Score::of_answers(found, &problems, robot)?.solved;
     let inverse = interleaved::turns(
         &mut [
             Box::new(|| {
                 timed(BATCH, || {
-                    let done = batch::solve_into(&solver, targets, starts, &mut answers, batch::Path::Detected);
+                    let done = batch::solve_into(&solver, targets, starts, &mut answers, batch::Backend::Detected);
                     let _ = black_box(done);
                 })
             }),

@@ -1,20 +1,16 @@
 //! The stages of a certified job on one core, each with what the stages before it made.
 
-use nalgebra::Vector3;
-use platewash_kinematics::{JointVector, RobotModel};
-use platewash_planner::certificate;
-use platewash_planner::cycle::Cycle;
-use platewash_planner::job;
+use platewash_certificate::prove;
 use platewash_planner::joint_path::{Ends, JointPath};
-use platewash_planner::plan::Plan;
-use platewash_planner::posture::{Cell, PostureSettings, Washing, washing};
-use platewash_planner::robot;
-use platewash_planner::scenario::Scenario;
+use platewash_planner::plan;
+use platewash_planner::redundancy::{Task, Washing, washing};
+use platewash_planner::scene::Scene;
 use platewash_planner::timing::{self, MotionLimits, TipLimits};
+use platewash_scenario::Scenario;
 use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::layout::Layout;
-use platewash_workcell::stroke::Stroke;
-use platewash_workcell::tool;
+use platewash_workcell::job::WashJob;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::wash_path::{WashCurve, WashPath};
 use std::error::Error;
 use std::hint::black_box;
 
@@ -23,30 +19,30 @@ use std::hint::black_box;
 pub enum Stage {
     /// The plates are placed.
     Layout,
-    /// Tilt and branch along the stroke on one plate.
-    Posture,
-    /// The motion along one plate's stroke.
+    /// Tilt, yaw and branch along the wash path of one plate.
+    Redundancy,
+    /// The motion along one plate's wash path.
     Timing,
-    /// All stages of planning: from the scenario to the motion of the whole cycle.
+    /// All phases of planning: from the job to the motion from home to home, sealed.
     Plan,
-    /// The plan file's text, sealed.
+    /// The hash of a plan, and the text of its file.
     Seal,
     /// The text is read and checked.
     Read,
     /// The certificate.
-    Verify,
+    Prove,
 }
 
 impl Stage {
     /// All, in the order of the job, with the names that benchmarks give them.
     pub const ALL: [(Self, &'static str); 7] = [
         (Self::Layout, "layout"),
-        (Self::Posture, "posture of one plate"),
+        (Self::Redundancy, "configurations of one plate"),
         (Self::Timing, "timing of one wash"),
-        (Self::Plan, "plan, whole cycle"),
+        (Self::Plan, "plan, from home to home"),
         (Self::Seal, "seal and write"),
         (Self::Read, "read"),
-        (Self::Verify, "verify"),
+        (Self::Prove, "prove"),
     ];
 }
 
@@ -54,11 +50,9 @@ impl Stage {
 #[derive(Debug)]
 pub struct Stages {
     scenario: Scenario,
-    robot: RobotModel,
-    layout: Layout,
+    job: WashJob,
     path: JointPath,
     limits: MotionLimits,
-    cycle: Cycle,
     plan: Plan,
     text: String,
 }
@@ -70,26 +64,23 @@ impl Stages {
     /// Those of planning.
     pub fn new(scenario: &str) -> Result<Self, Box<dyn Error>> {
         let scenario = Scenario::load(scenario)?;
-        let robot = robot::load(&scenario.robot)?;
-        let layout = job::place_plates(&scenario, &robot)?;
-        let washed = posture(&scenario, &robot, &layout)?;
-        let cycle = Cycle::plan(&scenario)?;
-        let plan = cycle.to_plan()?;
+        let job = scenario.job()?;
+        let washed = first_plate(&job)?;
+        let plan = plan(&job)?.plan;
+        let terms = job.terms();
         Ok(Self {
             path: JointPath::through(washed.theta, washed.q, Ends::Clamped(washed.end_slopes))?,
             limits: MotionLimits {
-                velocity: robot.limits().velocity,
-                acceleration: JointVector::from(scenario.limits.joint_acceleration_rad_s2),
+                velocity: job.arm().limits().velocity,
+                acceleration: terms.limits.joint_acceleration_rad_s2.into(),
                 tip: Some(TipLimits {
-                    speed_m_s: scenario.wash.speed_m_s,
-                    acceleration_m_s2: scenario.wash.acceleration_m_s2,
+                    speed_m_s: terms.wash_speed_m_s(),
+                    acceleration_m_s2: terms.wash_acceleration_m_s2(),
                 }),
             },
             text: plan.to_json()?,
             scenario,
-            robot,
-            layout,
-            cycle,
+            job,
             plan,
         })
     }
@@ -99,43 +90,79 @@ impl Stages {
     /// # Errors
     /// Those of the stage.
     pub fn run(&self, stage: Stage) -> Result<(), Box<dyn Error>> {
+        let arm = self.job.arm();
         match stage {
-            Stage::Layout => drop(black_box(job::place_plates(&self.scenario, &self.robot)?)),
-            Stage::Posture => drop(black_box(posture(&self.scenario, &self.robot, &self.layout)?)),
+            Stage::Layout => drop(black_box(self.scenario.layout(arm)?)),
+            Stage::Redundancy => drop(black_box(first_plate(&self.job)?)),
             Stage::Timing => {
-                let tip = tool::tip_frame(&self.robot, &self.scenario.tool);
-                drop(black_box(timing::time_optimal(
-                    &self.path,
-                    &self.robot,
-                    &tip,
-                    &self.limits,
-                )?));
+                let tip = self.job.terms().workcell.tool.tip_frame(arm);
+                drop(black_box(timing::time_optimal(&self.path, arm, &tip, &self.limits)?));
             }
-            Stage::Plan => drop(black_box(Cycle::plan(&self.scenario)?)),
-            Stage::Seal => drop(black_box(self.cycle.to_plan()?.to_json()?)),
+            Stage::Plan => drop(black_box(plan(&self.job)?)),
+            Stage::Seal => drop(black_box((self.plan.seal()?, self.plan.to_json()?))),
             Stage::Read => drop(black_box(Plan::from_json(&self.text)?)),
-            Stage::Verify => drop(black_box(certificate::verify(&self.plan, &self.robot)?)),
+            Stage::Prove => drop(black_box(prove(&self.plan, arm)?)),
         }
         Ok(())
     }
 }
 
-/// The posture for washing the first plate.
-fn posture(scenario: &Scenario, robot: &RobotModel, layout: &Layout) -> Result<Washing, Box<dyn Error>> {
-    let clearance = ClearanceModel::new(robot, &scenario.tool, &layout.plates)?;
-    let cell = Cell::new(robot, &scenario.tool, &clearance, &layout.plates)?;
-    let plate = layout.plates.first().ok_or("there are no plates")?;
-    let stroke = Stroke {
-        radius_m: scenario.wash.path_radius_m,
-        turns: scenario.wash.turns,
-        start_angle_rad: 0.0,
-        closing_ring: true,
-    };
-    let settings = PostureSettings {
-        tilt_max_rad: scenario.wash.tilt_max_deg.to_radians(),
-        clearance_m: scenario.wash.clearance_m,
-    };
-    let centre = Vector3::new(plate.x_m, plate.y_m, plate.z_m);
-    let [home, _] = scenario.homes();
-    Ok(washing(&cell, &stroke, centre, 0, &settings, &home)?)
+/// The wash path of a plate whose spiral leaves the centre along x, by the settings of a job.
+///
+/// # Errors
+/// A job of the paper's program.
+pub fn wash_path(job: &WashJob, plate: usize) -> Result<WashPath, Box<dyn Error>> {
+    let terms = job.terms();
+    let settings = terms
+        .planner_settings()
+        .ok_or("the job is one of the paper's program")?;
+    Ok(WashPath {
+        plate,
+        curve: WashCurve {
+            radius_m: settings.path_radius_m,
+            turns: settings.turns,
+            start_angle_rad: 0.0,
+            closing_ring: settings.closing_ring,
+        },
+        lift_m: settings.lift_m,
+        cone_rad: terms.tilt_max_rad(),
+    })
+}
+
+/// The arm in the job's workcell, among its plates.
+///
+/// # Errors
+/// An arm with a shape that is none.
+pub fn surroundings(job: &WashJob) -> Result<ClearanceModel, Box<dyn Error>> {
+    let terms = job.terms();
+    Ok(ClearanceModel::new(job.arm(), &terms.workcell, &terms.plates)?)
+}
+
+/// The configurations for washing a plate along a path.
+///
+/// # Errors
+/// A plate that cannot be washed so.
+pub fn configurations(
+    job: &WashJob,
+    surroundings: &ClearanceModel,
+    path: &WashPath,
+) -> Result<Washing, Box<dyn Error>> {
+    let terms = job.terms();
+    let settings = terms
+        .planner_settings()
+        .ok_or("the job is one of the paper's program")?;
+    let scene = Scene::new(
+        job.arm(),
+        &terms.workcell.tool,
+        surroundings,
+        &terms.plates,
+        settings.reach,
+    )?;
+    let task = Task::new(&scene, path, terms.requirements.clearance_m, &terms.home_rad[0])?;
+    Ok(washing(&task)?)
+}
+
+/// Those for the first plate, from nothing.
+fn first_plate(job: &WashJob) -> Result<Washing, Box<dyn Error>> {
+    configurations(job, &surroundings(job)?, &wash_path(job, 0)?)
 }

@@ -2,9 +2,11 @@
 
 use crate::Pose;
 use nalgebra::{Point3, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// A convex shape in its own frame; lengths in metres.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Shape {
     /// A box centred at the origin.
     Box {

@@ -1,6 +1,7 @@
 //! Geometric Jacobian and manipulability.
 
-use crate::fk::{BodyPoses, Frame};
+use crate::fk::BodyPoses;
+use crate::frame::Frame;
 use nalgebra::Matrix6;
 
 /// Geometric Jacobian: maps joint speeds \[rad/s\] to the twist (linear m/s, angular rad/s) of a frame.

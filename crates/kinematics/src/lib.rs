@@ -17,7 +17,9 @@
 //! | --- | --- |
 //! | URDF text → [`RobotModel`], every malformation named | [`urdf`] |
 //! | collision pairs that may be ignored (SRDF) | [`srdf`] |
-//! | the immutable arm: joints, links, frames | [`model`] |
+//! | the immutable arm: joints and links | [`model`] |
+//! | the built-in arm | [`irb120`] |
+//! | frames on its links | [`frame`] |
 //! | joint limits and margins | [`limits`] |
 //! | collision shapes | [`geometry`] |
 //! | forward kinematics | [`fk`] |
@@ -25,7 +27,10 @@
 //! | tool frames by name | [`tool_frame`] |
 //! | inverse kinematics | [`ik`] |
 //! | many configurations at once | [`batch`] |
+//! | points spread evenly | [`halton`] |
+//! | rotations, folded transforms | [`rotation`] |
 //! | trigonometry, the same on every machine | [`trig`] |
+//! | SHA-256 of descriptions | [`fingerprint`] |
 //! | numbers in sentences | [`words`] |
 //!
 //! # Example
@@ -46,8 +51,11 @@
 pub mod batch;
 pub mod fingerprint;
 pub mod fk;
+pub mod frame;
 pub mod geometry;
+pub mod halton;
 pub mod ik;
+pub mod irb120;
 pub mod jacobian;
 pub mod limits;
 pub mod model;
@@ -59,7 +67,8 @@ pub mod urdf;
 pub mod words;
 
 pub use fingerprint::sha256_hex;
-pub use fk::{BodyPoses, Frame};
+pub use fk::BodyPoses;
+pub use frame::Frame;
 pub use jacobian::{Axes, Jacobian};
 pub use limits::{JointLimits, LimitViolation};
 pub use model::{Joint, Link, RobotModel};

@@ -1,11 +1,10 @@
 //! The immutable model of a six-axis arm.
 
-use crate::fk::Frame;
+use crate::frame::Frame;
 use crate::geometry::{Inertial, Primitive};
 use crate::limits::JointLimits;
 use crate::rotation::Rigid;
 use crate::srdf::DisabledPairs;
-use crate::urdf::{self, MeshSource, UrdfError};
 use crate::{AXES, SrdfError};
 use nalgebra::Point3;
 
@@ -31,23 +30,6 @@ pub struct Link {
     pub inertial: Option<Inertial>,
 }
 
-/// What went wrong while the embedded IRB 120 was read; never seen unless the sources were edited.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum EmbeddedModelError {
-    /// The URDF does not load.
-    #[error(transparent)]
-    Urdf(#[from] UrdfError),
-    /// The SRDF does not load.
-    #[error(transparent)]
-    Srdf(#[from] SrdfError),
-}
-
-/// Text of the embedded description of the ABB IRB 120.
-pub const IRB120_URDF: &str = include_str!("../../../urdf/irb120.urdf");
-/// Text of the embedded list of its link pairs that need no collision check.
-pub const IRB120_SRDF: &str = include_str!("../../../urdf/irb120.srdf");
-
 /// An arm with six revolute axes in series, as its URDF describes it. Immutable once built.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotModel {
@@ -62,24 +44,6 @@ pub struct RobotModel {
 }
 
 impl RobotModel {
-    /// The embedded ABB IRB 120, with its list of link pairs that may be ignored.
-    ///
-    /// # Errors
-    /// None in a released build: the embedded text is tested.
-    pub fn irb120() -> Result<Self, EmbeddedModelError> {
-        let model = Self::from_urdf(IRB120_URDF, &MeshSource::none())?;
-        let disabled = DisabledPairs::parse(IRB120_SRDF)?;
-        Ok(model.with_disabled_pairs(disabled)?)
-    }
-
-    /// A model from expanded URDF text; `meshes` says where `package://` and relative mesh files are.
-    ///
-    /// # Errors
-    /// [`UrdfError`], naming the joint or link at fault.
-    pub fn from_urdf(text: &str, meshes: &MeshSource) -> Result<Self, UrdfError> {
-        urdf::load(text, meshes)
-    }
-
     /// The same model with a list of link pairs that need no collision check.
     ///
     /// # Errors
@@ -131,6 +95,12 @@ impl RobotModel {
     #[must_use]
     pub fn disabled_pairs(&self) -> Option<&DisabledPairs> {
         self.disabled.as_ref()
+    }
+
+    /// SHA-256 of the SRDF that the list came from, in lower-case hexadecimal, where one was given.
+    #[must_use]
+    pub fn srdf_sha256(&self) -> Option<&str> {
+        self.disabled.as_ref().map(DisabledPairs::sha256)
     }
 
     /// Upper bound on the distance of `frame`'s origin from a fixed point, and that point in the base frame \[m\].

@@ -1,6 +1,7 @@
 //! Link pairs that need no collision check, read from an SRDF file (the `disable_collisions` elements that
 //! MoveIt's set-up assistant writes).
 
+use crate::sha256_hex;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,6 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct DisabledPairs {
     /// For the first link of each pair, the second ones.
     pairs: BTreeMap<String, BTreeSet<String>>,
+    /// SHA-256 of the text, lower-case hexadecimal.
+    sha256: String,
 }
 
 /// Why an SRDF file was refused.
@@ -77,10 +80,19 @@ impl DisabledPairs {
                     let found = "no element at all".to_owned();
                     return Err(SrdfError::NotARobot { found });
                 }
-                Event::Eof => return Ok(Self { pairs }),
+                Event::Eof => {
+                    let sha256 = sha256_hex(text.as_bytes());
+                    return Ok(Self { pairs, sha256 });
+                }
                 _ => {}
             }
         }
+    }
+
+    /// SHA-256 of the text that the list was read from, in lower-case hexadecimal.
+    #[must_use]
+    pub fn sha256(&self) -> &str {
+        &self.sha256
     }
 
     /// Whether the pair may be ignored, in either order.

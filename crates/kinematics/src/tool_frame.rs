@@ -1,6 +1,6 @@
 //! The frames in which tool poses are stated, by name.
 
-use crate::fk::Frame;
+use crate::frame::Frame;
 use crate::model::RobotModel;
 use crate::rotation::{Rigid, from_rpy};
 use nalgebra::Vector3;

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use nalgebra::{Matrix3, Vector3};
-use platewash_kinematics::batch::{self, BatchError, Path};
+use platewash_kinematics::batch::{self, Backend, BatchError};
 use platewash_kinematics::ik::{IkError, IkSettings, IkSolver, Start};
 use platewash_kinematics::rotation::{Rigid, from_rpy, rotation_vector};
 use platewash_kinematics::urdf::MeshSource;
@@ -11,7 +11,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-const PATHS: [Path; 2] = [Path::Detected, Path::Portable];
+const PATHS: [Backend; 2] = [Backend::Detected, Backend::Portable];
 const AGREED: f64 = 1e-12;
 
 fn irb120() -> RobotModel {
@@ -93,7 +93,7 @@ fn configurations(robot: &RobotModel, count: usize, seed: u64) -> Vec<JointVecto
 
 type Slices = (Vec<[f64; 3]>, Vec<[f64; 9]>);
 
-fn fk_slices(robot: &RobotModel, frame: &Frame, q: &[JointVector], path: Path) -> Slices {
+fn fk_slices(robot: &RobotModel, frame: &Frame, q: &[JointVector], path: Backend) -> Slices {
     let (mut p, mut r) = (vec![[f64::NAN; 3]; q.len()], vec![[f64::NAN; 9]; q.len()]);
     batch::fk_into(robot, frame, q, &mut p, &mut r, path).unwrap();
     (p, r)
@@ -141,7 +141,7 @@ fn poses_and_jacobians_are_those_of_one_at_a_time() {
 /// On a machine with AVX2 this compares two sets of instructions, elsewhere one with itself.
 #[test]
 fn the_paths_agree_also_far_beyond_the_limits() {
-    println!("AVX2 and FMA: {}", Path::Detected.is_vectorised());
+    println!("AVX2 and FMA: {}", Backend::Detected.is_vectorised());
     let robot = irb120();
     let frame = robot.frame("tool0").unwrap();
     let near = configurations(&robot, 20_000, 8);

@@ -555,7 +555,7 @@ fn other_structures_are_refused_by_name() {
         assert!(oblique || ([4, 6].contains(&k) && wrist), "arm_{k}: {refused}");
     }
     let edited = |old: &str, new: &str| {
-        let text = platewash_kinematics::model::IRB120_URDF;
+        let text = platewash_kinematics::irb120::IRB120_URDF;
         assert!(text.contains(old), "{old}");
         RobotModel::from_urdf(&text.replace(old, new), &MeshSource::none()).unwrap()
     };

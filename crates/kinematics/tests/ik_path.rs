@@ -125,7 +125,7 @@ fn a_path_out_of_reach_breaks_off_where_it_leaves() {
 
 #[test]
 fn a_limit_is_named() {
-    let text = platewash_kinematics::model::IRB120_URDF
+    let text = platewash_kinematics::irb120::IRB120_URDF
         .replace("lower=\"-2.87979\" upper=\"2.87979\"", "lower=\"-0.5\" upper=\"0.5\"");
     let robot = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
     assert_eq!(robot.limits().upper[0], 0.5);

@@ -4,7 +4,7 @@
 mod support;
 
 use platewash_kinematics::UrdfError;
-use platewash_kinematics::model::IRB120_URDF;
+use platewash_kinematics::irb120::IRB120_URDF;
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
 use support::{edited, joint, load, with_joint};

@@ -1,96 +1,138 @@
-//! Why a job could not be carried out, whatever its program.
+//! Why a job could not be planned.
 
-use crate::control::NotKinematic;
-use crate::cycle::CycleError;
-use crate::robot::RobotError;
-use crate::scenario::ScenarioError;
-use crate::tracking::TrackingError;
-use platewash_kinematics::ik::{IkError, IkSettingsError};
+use crate::joint_path::JointPathError;
+use crate::redundancy::RedundancyError;
+use crate::redundancy::settings::TILT_RESERVE_RAD;
+use crate::timing::TimingError;
+use crate::transit::{LiftLineError, TooNear, TransitError};
+use crate::unwashable::UnwashablePlate;
+use platewash_kinematics::LimitViolation;
+use platewash_kinematics::ik::{IkPathError, IkSettingsError};
+use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::clearance::ClearanceError;
-use platewash_workcell::coverage::CoverageError;
+use platewash_workcell::job::{End, JobError};
 use platewash_workcell::layout::LayoutError;
+use platewash_workcell::plan::PlanFileError;
+use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::KnotError;
+use platewash_workcell::verdict::Infeasibility;
+use platewash_workcell::words::millimetres;
 
-/// Why a job could not be carried out; one variant a stage.
+/// Why a job could not be planned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// The scenario was refused.
+    /// The job is one of the paper's program.
+    #[error("the job is one of the paper's program, which is not planned as a washing")]
+    PaperJob,
+    /// A setting with which nothing can be planned.
+    #[error("{name} must be in [{least}, {most}]; found {found}")]
+    Setting {
+        /// Its name in the planner's settings.
+        name: &'static str,
+        /// Least value.
+        least: f64,
+        /// Greatest value.
+        most: f64,
+        /// What was given.
+        found: f64,
+    },
+    /// The terms are no job.
     #[error(transparent)]
-    Scenario(#[from] ScenarioError),
-    /// The arm could not be made.
-    #[error(transparent)]
-    Robot(#[from] RobotError),
-    /// The plates could not be placed.
+    Job(#[from] JobError),
+    /// No layout could be drawn.
     #[error("layout: {0}")]
     Layout(LayoutError),
-    /// An inverse-kinematics setting is out of range.
-    #[error(transparent)]
-    IkSettings(#[from] IkSettingsError),
-    /// A waypoint or configuration is not finite.
-    #[error("inverse kinematics: {0}")]
-    Ik(IkError),
-    /// The control law moves no waypoints.
-    #[error("control.law: {0}")]
-    Law(NotKinematic),
-    /// The control law does not stay finite.
-    #[error(transparent)]
-    Tracking(#[from] TrackingError),
+    /// An end configuration lies outside the joint limits.
+    #[error("at the {end} of the motion: {violation}")]
+    Home {
+        /// Which end.
+        end: End,
+        /// Which joint, and by how much.
+        violation: LimitViolation,
+    },
+    /// At an end configuration the arm is too near something.
+    #[error("at the {end} of the motion the arm is not clear: {too_near}")]
+    HomeNotClear {
+        /// Which end.
+        end: End,
+        /// The bodies.
+        too_near: Box<TooNear>,
+    },
+    /// The arm holds nothing that could touch a plate.
+    #[error("the arm holds no tool; washing needs one that touches the plates")]
+    NoTool,
     /// The collision model could not be made.
     #[error("clearance: {0}")]
     Clearance(ClearanceError),
-    /// Coverage could not be measured.
-    #[error("coverage: {0}")]
-    Coverage(CoverageError),
-    /// The cycle of a certified job could not be planned.
+    /// The arm does not suit the inverse kinematics.
     #[error(transparent)]
-    Cycle(#[from] CycleError),
-    /// The caller asked to stop.
-    #[error("stopped before the end")]
-    Stopped,
-}
-
-// The messages above hold those of their causes, which are therefore not told again as sources.
-impl From<LayoutError> for PlanError {
-    fn from(error: LayoutError) -> Self {
-        Self::Layout(error)
-    }
-}
-
-impl From<NotKinematic> for PlanError {
-    fn from(error: NotKinematic) -> Self {
-        Self::Law(error)
-    }
-}
-
-impl From<IkError> for PlanError {
-    fn from(error: IkError) -> Self {
-        Self::Ik(error)
-    }
-}
-
-impl From<ClearanceError> for PlanError {
-    fn from(error: ClearanceError) -> Self {
-        Self::Clearance(error)
-    }
-}
-
-impl From<CoverageError> for PlanError {
-    fn from(error: CoverageError) -> Self {
-        Self::Coverage(error)
-    }
-}
-
-/// What is known of a job whose input was fine and for which there is no plan.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Infeasibility {
-    /// It cannot be done: a bound or a complete search proves it.
-    Proved,
-    /// No way to do it was found; there may be one.
-    NotFound,
+    IkSettings(#[from] IkSettingsError),
+    /// A plate cannot be washed whole, or no way to was found.
+    #[error("{0}")]
+    Unwashable(Box<UnwashablePlate>),
+    /// Of no layout drawn was a way found to wash it whole.
+    #[error("of none of {layouts} layouts drawn was a way found to wash it whole; of the last one, {last}")]
+    NoneWashable {
+        /// Layouts drawn.
+        layouts: usize,
+        /// What stands in the way in the last one.
+        last: Box<RedundancyError>,
+    },
+    /// From the configurations found on a plate, the arm does not follow the line over it.
+    #[error(
+        "no way was found for the arm to follow the line over plate {plate} up to the lift of {}: {error}",
+        millimetres(*.lift_m)
+    )]
+    Line {
+        /// The plate.
+        plate: usize,
+        /// Height of the line \[m\].
+        lift_m: f64,
+        /// Why.
+        error: Box<IkPathError>,
+    },
+    /// The tool would tilt too far between the points that were solved.
+    #[error(
+        "plate {plate}: in the motion found, the tool tilts by up to {:.4}° during its {}; the job and the sponge allow {:.4}°, and \
+         {:.4}° of it are needed as room: allow more",
+        tilt_rad.to_degrees(), kind.name(), most_rad.to_degrees(), TILT_RESERVE_RAD.to_degrees()
+    )]
+    Tilt {
+        /// The plate.
+        plate: usize,
+        /// The segment of the motion.
+        kind: SegmentKind,
+        /// The largest tilt seen \[rad\].
+        tilt_rad: f64,
+        /// What is allowed \[rad\].
+        most_rad: f64,
+    },
+    /// The line over a plate is no path.
+    #[error(transparent)]
+    LiftLine(#[from] LiftLineError),
+    /// There is no transit between two plates, or from or to home.
+    #[error(transparent)]
+    Transit(TransitError),
+    /// A path that cannot be splined.
+    #[error(transparent)]
+    Path(#[from] JointPathError),
+    /// A path that cannot be timed.
+    #[error(transparent)]
+    Timing(#[from] TimingError),
+    /// Motions that don't fit together.
+    #[error(transparent)]
+    Knots(#[from] KnotError),
+    /// The plan cannot be sealed.
+    #[error(transparent)]
+    Seal(#[from] PlanFileError),
+    /// Planning was given up.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 impl PlanError {
-    /// Whether the input was fine but no plan came of it (exit code 3), as opposed to bad input.
+    /// Whether the input was fine but no plan came of it.
     #[must_use]
     pub fn is_infeasible(&self) -> bool {
         self.infeasibility().is_some()
@@ -100,14 +142,39 @@ impl PlanError {
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
         use LayoutError::{EmptyRegion, NoRoom};
+        let found = |proved: bool| match proved {
+            true => Some(Infeasibility::Proved),
+            false => Some(Infeasibility::NotFound),
+        };
         match self {
-            Self::Layout(error @ (NoRoom { .. } | EmptyRegion { .. })) => Some(if error.is_proven() {
-                Infeasibility::Proved
-            } else {
-                Infeasibility::NotFound
-            }),
-            Self::Cycle(error) => error.infeasibility(),
+            Self::Layout(error @ (NoRoom { .. } | EmptyRegion { .. })) => found(error.is_proven()),
+            Self::HomeNotClear { .. } | Self::Transit(TransitError::Home { .. }) => found(true),
+            Self::Unwashable(plate) => found(plate.conclusion.is_proved()),
+            Self::NoneWashable { .. } | Self::Line { .. } | Self::Tilt { .. } => found(false),
+            Self::Transit(error) if error.is_infeasible() => found(false),
             _ => None,
+        }
+    }
+}
+
+// The messages above hold those of their causes, which are therefore not told again as sources.
+impl From<LayoutError> for PlanError {
+    fn from(error: LayoutError) -> Self {
+        Self::Layout(error)
+    }
+}
+
+impl From<ClearanceError> for PlanError {
+    fn from(error: ClearanceError) -> Self {
+        Self::Clearance(error)
+    }
+}
+
+impl From<TransitError> for PlanError {
+    fn from(error: TransitError) -> Self {
+        match error {
+            TransitError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            error => Self::Transit(error),
         }
     }
 }

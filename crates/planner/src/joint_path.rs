@@ -39,6 +39,16 @@ pub struct PathState {
     pub second: JointVector,
 }
 
+impl PathState {
+    /// The same place passed the other way: the parameter runs backwards.
+    pub(crate) fn reversed(self) -> Self {
+        Self {
+            first: -self.first,
+            ..self
+        }
+    }
+}
+
 /// Samples through which no path goes.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]

@@ -1,27 +1,32 @@
-//! The plate-washing job, from a scenario to a report.
+//! Plans the washing of plates: from a [`WashJob`](platewash_workcell::job::WashJob) to a
+//! [`Plan`](platewash_workcell::plan::Plan), from home to home, before anything moves.
+//!
+//! job → order → per plate: wash path, configurations, timing → transits → one motion. Nothing here judges the result: that is
+//! the certificate's, which uses none of it.
 //!
 //! Conventions (units, frames, order of twists) are those of [`platewash_kinematics`].
 
-pub mod certificate;
-pub mod control;
-pub mod crossing;
-pub mod cubic;
-pub mod cycle;
+mod activity;
 mod error;
-pub mod job;
+mod infeasible;
 pub mod joint_path;
-pub mod order;
-mod place;
-pub mod plan;
-pub mod posture;
-pub mod report;
-pub mod reproduce;
-pub mod robot;
-pub mod scenario;
-pub mod spiral;
-pub mod sweep;
+mod order;
+mod pipeline;
+mod planned;
+pub mod redundancy;
+pub mod scene;
 pub mod timing;
-pub mod tool_path;
-pub mod tracking;
+pub mod transit;
+mod unwashable;
+mod watch;
+
+pub use activity::Activity;
+pub use error::PlanError;
+pub use infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport};
+pub use order::{EXACT_UP_TO, Optimality};
+pub use pipeline::{check, draw_washable_layout, plan, plan_with};
+pub use planned::{Planned, TourSummary, TransitSummary, VisitSummary};
+pub use unwashable::{PlaceSearch, UnwashablePlate};
+pub use watch::{Listener, Watch};
 
 pub(crate) use platewash_kinematics::trig;

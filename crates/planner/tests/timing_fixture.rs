@@ -12,9 +12,9 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_planner::joint_path::{Ends, JointPath};
-use platewash_planner::scenario::Tool;
 use platewash_planner::timing::{MotionLimits, TipLimits, time_optimal};
-use platewash_workcell::stroke::Stroke;
+use platewash_workcell::fixtures::kitchen_tool;
+use platewash_workcell::wash_path::WashCurve;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -44,11 +44,7 @@ fn the_fixture_is_current() {
 
 fn fixture() -> String {
     let robot = RobotModel::irb120().unwrap();
-    let tool = Tool {
-        length_m: 0.15,
-        ..Tool::default()
-    };
-    let tip = platewash_workcell::tool::tip_frame(&robot, &tool);
+    let tip = kitchen_tool().tip_frame(&robot);
     let smooth = smooth();
     let wash = wash(&robot, &tip);
     let tip_limits = TipLimits {
@@ -125,7 +121,7 @@ fn fine(path: &JointPath) -> JointPath {
 
 /// The spiral and ring of a plate in front of the arm, tool straight down.
 fn wash(robot: &RobotModel, tip: &Frame) -> JointPath {
-    let stroke = Stroke {
+    let curve = WashCurve {
         radius_m: 0.124,
         turns: 3.5,
         start_angle_rad: 0.3,
@@ -133,10 +129,10 @@ fn wash(robot: &RobotModel, tip: &Frame) -> JointPath {
     };
     let solver = IkSolver::new(robot, *tip, IkSettings::default()).unwrap();
     let down = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), PI);
-    let u = stroke.parameters(3e-5);
+    let u = curve.parameters(3e-5);
     let mut seed = JointVector::new(0.0, 0.5, 0.3, 0.0, 0.7, 0.0);
     let q = u.iter().map(|&theta| {
-        let p = stroke.at(theta).position;
+        let p = curve.at(theta).position;
         let target = Isometry3::from_parts(Translation3::new(0.36 + p.x, p.y, 0.03), down);
         seed = solver.solve(&target, &seed).unwrap().q;
         seed

@@ -6,8 +6,8 @@
 //! input names a piece of work; the answer is a line with the seconds that it took.
 #![allow(clippy::print_stdout)]
 
-use platewash::kinematics::batch::{self, Path};
-use platewash::{Cycle, Frame, IkSettings, IkSolver, JointVector, Pose, RobotModel, Scenario, ToolFrame};
+use platewash::kinematics::batch::{self, Backend};
+use platewash::{Frame, IkSettings, IkSolver, JointVector, Pose, RobotModel, Scenario, ToolFrame, plan};
 use std::error::Error;
 use std::hint::black_box;
 use std::io::Write;
@@ -44,7 +44,7 @@ impl Work {
         let seeds = q.split_off(q.len() / 2);
         let robot = RobotModel::irb120()?;
         let tool0 = robot.tool_frame(ToolFrame::Tool0)?;
-        let targets = batch::fk(&robot, &tool0, &q, Path::Detected);
+        let targets = batch::fk(&robot, &tool0, &q, Backend::Detected);
         Ok(Self {
             robot,
             tool0,
@@ -62,7 +62,7 @@ impl Work {
         match name {
             "fk" => {
                 let mut matrices = vec![[0.0; 16]; self.q.len()];
-                batch::fk_matrices_into(&self.robot, &self.tool0, &self.q, &mut matrices, Path::Detected)?;
+                batch::fk_matrices_into(&self.robot, &self.tool0, &self.q, &mut matrices, Backend::Detected)?;
                 drop(black_box(matrices));
             }
             "fk one" => {
@@ -75,10 +75,15 @@ impl Work {
                 &solver,
                 &self.targets,
                 &self.seeds,
-                Path::Detected,
+                Backend::Detected,
             )?)),
-            "ik cold" => drop(black_box(batch::solve(&solver, &self.targets, &cold, Path::Detected)?)),
-            "plan" => drop(black_box(Cycle::plan(&Scenario::load("kitchen")?)?.to_plan()?)),
+            "ik cold" => drop(black_box(batch::solve(
+                &solver,
+                &self.targets,
+                &cold,
+                Backend::Detected,
+            )?)),
+            "plan" => drop(black_box(plan(&Scenario::load("kitchen")?.job()?)?)),
             other => return Err(format!("no work is called '{other}'").into()),
         }
         Ok(begun.elapsed().as_secs_f64())

@@ -2,12 +2,13 @@
 
 use crate::argument;
 use crate::errors;
-use crate::plan::{PlanObject, records};
+use crate::job::{PaperJobObject, WashJobObject};
+use crate::plan::PlanObject;
 use crate::robot::Robot;
-use crate::value::{to_python, to_record};
+use crate::value::{records, to_python, to_record};
 use crate::work::patiently;
-use platewash::Certificate;
-use platewash::planner::certificate::{self, CertificateVerdict, Promise};
+use platewash::certificate::{self, Verdict};
+use platewash::{Certificate, Check};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple, PyType};
 
@@ -30,8 +31,8 @@ impl CertificateObject {
     #[getter]
     fn verdict(&self) -> &'static str {
         match self.inner.verdict {
-            CertificateVerdict::Pass => "pass",
-            CertificateVerdict::Fail => "fail",
+            Verdict::Pass => "pass",
+            Verdict::Fail => "fail",
         }
     }
 
@@ -41,16 +42,16 @@ impl CertificateObject {
         &self.inner.headline
     }
 
-    /// The names of the promises that do not hold and that the scenario waives (`layout.overlap = "report"`).
+    /// The names of the requirements that are not kept and that the job waives (`layout.overlap = "report"`).
     #[getter]
-    fn exempt<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, &self.inner.exempt)
+    fn waived<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.inner.waived)
     }
 
-    /// Whether every promise holds, but for those that are `exempt`, and the plan is as it was sealed.
+    /// Whether every requirement is proved, but for those that are `waived`, and the plan is as it was sealed.
     #[getter]
     fn proved(&self) -> bool {
-        self.inner.verdict == CertificateVerdict::Pass
+        self.inner.passes()
     }
 
     /// Name of the scenario.
@@ -71,17 +72,30 @@ impl CertificateObject {
         to_record(py, &self.inner.hash, None)
     }
 
-    /// The promises, each with its `name`, `status` and measure.
+    /// The requirements one by one, each with its `requirement`, `status` (`"proved"`, `"violated"`, `"not_proved"`, `"waived"`) and
+    /// measure.
     #[getter]
-    fn promises<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        records(py, &self.inner.promises)
+    fn checks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        records(py, &self.inner.checks)
     }
 
-    /// The promises that are broken or not proved.
+    /// The checks of requirements that are violated or not proved.
     #[getter]
     fn broken<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let broken: Vec<&Promise> = self.inner.broken().collect();
+        let broken: Vec<&Check> = self.inner.broken().collect();
         records(py, &broken)
+    }
+
+    /// What the verdict rests on: the job's requirements, limits, plates, tool and world, and what is assumed.
+    #[getter]
+    fn rests_on<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_record(py, &self.inner.rests_on, None)
+    }
+
+    /// Number of plates that are proved to be washed.
+    #[getter]
+    fn plates_washed(&self) -> usize {
+        self.inner.plates_washed()
     }
 
     /// Coverage, plate by plate in the order of washing.
@@ -106,12 +120,11 @@ impl CertificateObject {
     }
 
     fn __repr__(&self) -> String {
-        let broken = self.inner.broken().count();
-        let promises = self.inner.promises.len();
+        let checks = self.inner.checks.len();
+        let kept = checks - self.inner.broken().count();
         format!(
-            "Certificate('{}', {} of {promises} promises hold)",
-            self.verdict(),
-            promises - broken
+            "Certificate('{}', {kept} of {checks} requirements kept)",
+            self.verdict()
         )
     }
 
@@ -138,24 +151,38 @@ impl CertificateObject {
     }
 }
 
-/// Judges a plan, or the plan file of that path, for an arm, by default the one that it was made for: what it promises holds for
-/// the whole motion, or is broken, or is not proved. Nothing but the plan and the arm is looked at.
+/// Judges a plan, or the plan file of that path, for an arm, by default the one that it was made for: what is required is proved
+/// for the whole motion, or violated, or not proved. Nothing but the plan and the arm is looked at.
 ///
-/// Raises VerifyError for a plan that says nothing that could be judged, or whose file names an arm that must be given; a plan
-/// that breaks its promises is no error.
+/// Raises ProveError for a plan that says nothing that could be judged, for a run of the paper's program, and for a plan whose file
+/// names an arm that must be given; a plan that breaks a requirement is no error.
 #[pyfunction]
 #[pyo3(signature = (plan, robot=None))]
-pub fn verify(
-    py: Python<'_>,
-    plan: &Bound<'_, PyAny>,
-    robot: Option<&Bound<'_, PyAny>>,
-) -> PyResult<CertificateObject> {
+pub fn prove(py: Python<'_>, plan: &Bound<'_, PyAny>, robot: Option<&Bound<'_, PyAny>>) -> PyResult<CertificateObject> {
     let plan = PlanObject::given("plan", plan)?;
-    let robot = plan.get().arm(Robot::given(robot)?);
+    let arm = plan.get().arm(py, Robot::given(robot)?)?;
     let plan = plan.get().inner().clone();
-    let judged = patiently(py, move |_| match robot {
-        Some(robot) => certificate::verify(&plan, &robot),
-        None => certificate::verify(&plan, &certificate::arm(&plan, None)?),
-    })?;
-    Ok(judged.map_err(|e| errors::verify(py, &e))?.into())
+    let judged = patiently(py, move |cancel| certificate::prove_with(&plan, &arm, cancel))?;
+    Ok(judged.map_err(|e| errors::failure(py, &e.into()))?.into())
+}
+
+/// Every field in which the job of a plan, or of the plan file of that path, is another one than was asked for: one record each with
+/// `key`, `found` (in the plan) and `expected` (in `job`), whose text says it in words. None where it is the job that was asked for:
+/// a certificate tells that a plan does its job, not whose job it is.
+#[pyfunction]
+pub fn differences<'py>(
+    py: Python<'py>,
+    plan: &Bound<'py, PyAny>,
+    job: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyList>> {
+    let plan = PlanObject::given("plan", plan)?;
+    let expected = match job.cast::<PaperJobObject>() {
+        Ok(job) => job.get().terms(py)?,
+        Err(_) => WashJobObject::given(job)?.get().inner().terms().clone(),
+    };
+    let list = PyList::empty(py);
+    for difference in certificate::differences(&plan.get().inner().job, &expected) {
+        list.append(to_record(py, &difference, Some(difference.to_string()))?)?;
+    }
+    Ok(list)
 }

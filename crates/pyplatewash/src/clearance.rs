@@ -3,18 +3,19 @@
 use crate::argument::{self, ANY_COUNT, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
 use crate::errors;
+use crate::made;
 use crate::robot::Robot;
 use crate::tool::{PlateFields, ToolFields};
 use crate::value::to_record;
 use crate::work::{STRETCH, alone, released};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
-use platewash::workcell::tool::Tool;
-use platewash::{ClearanceModel, JointVector, PairClearance};
+use platewash::workcell::tool::StraightTool;
+use platewash::{ClearanceModel, JointVector, PairClearance, Tool, Workcell};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 use rayon::prelude::*;
 
-/// The bodies and pairs of one cell: the arm, its tool, the floor and the plates.
+/// The bodies and pairs of one workcell: the arm, its tool, the floor and the plates.
 ///
 /// Without a tool there is no tool body. Distances are metres, ≤ 0 when two bodies touch.
 #[pyclass(frozen, module = "pyplatewash", name = "ClearanceModel")]
@@ -65,18 +66,21 @@ impl ClearanceObject {
             Ok((PlateFields::of(name, plate)?.plate(py)?, plate.clone().unbind()))
         };
         let plates = plates.map(|plates| argument::each("plates", plates, "a list of Plates", read));
-        let (made, plates): (Vec<_>, Vec<_>) = plates.transpose()?.unwrap_or_default().into_iter().unzip();
-        let section = match &tool {
-            Some(tool) => ToolFields::of(tool)?.section(py)?,
-            None => Tool::default(),
+        let (plates, given): (Vec<_>, Vec<_>) = plates.transpose()?.unwrap_or_default().into_iter().unzip();
+        let held = match &tool {
+            Some(tool) => ToolFields::of(tool)?.tool(py)?,
+            None => Tool::from(StraightTool::default()),
         };
         let model = robot.get().model().clone();
-        let inner = alone(py, || ClearanceModel::new(&model, &section, &made))?;
+        let inner = alone(py, || {
+            let workcell = Workcell::on_floor(&model, held)?;
+            ClearanceModel::new(&model, &workcell, &plates)
+        })?;
         let inner = inner.map_err(|e| errors::input(py, "robot", &e.to_string()))?;
         let arguments = (
             robot.clone().unbind(),
             tool.map(Bound::unbind),
-            PyTuple::new(py, plates)?.unbind(),
+            PyTuple::new(py, given)?.unbind(),
         );
         Ok(Self { inner, arguments })
     }
@@ -101,7 +105,7 @@ impl ClearanceObject {
         } else {
             &shape[1..]
         };
-        let distances = arrays::zeros::<f64>(py, shape);
+        let distances = made::zeros::<f64>(py, shape);
         if pairs == 0 {
             return Ok(distances);
         }

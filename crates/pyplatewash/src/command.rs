@@ -12,6 +12,16 @@ use std::path::PathBuf;
 /// 4 verification failed.
 #[pyfunction]
 pub fn run_command(py: Python<'_>, arguments: &Bound<'_, PyAny>) -> PyResult<u8> {
+    command(py, arguments, platewash::cli::main)
+}
+
+/// The same as a program of its own, which answers Ctrl-C: exit code 130.
+#[pyfunction]
+pub fn _program(py: Python<'_>, arguments: &Bound<'_, PyAny>) -> PyResult<u8> {
+    command(py, arguments, platewash::cli::program)
+}
+
+fn command(py: Python<'_>, arguments: &Bound<'_, PyAny>, run: fn(Vec<OsString>) -> u8) -> PyResult<u8> {
     const NEEDED: &str = "a list of strings";
     if arguments.is_instance_of::<PyString>() {
         return Err(argument::wrong_type("arguments", arguments, NEEDED));
@@ -20,5 +30,5 @@ pub fn run_command(py: Python<'_>, arguments: &Bound<'_, PyAny>) -> PyResult<u8>
     let arguments = arguments.into_iter().map(PathBuf::into_os_string);
     let line = std::iter::once(OsString::from("platewash")).chain(arguments);
     let line: Vec<OsString> = line.collect();
-    alone(py, move || platewash::cli::main(line))
+    alone(py, move || run(line))
 }

@@ -1,10 +1,11 @@
 //! How much of a plate the sponge sweeps: as a number, and as a picture.
 
 use crate::argument::{self, ANY_COUNT};
-use crate::arrays::{self, line};
+use crate::arrays;
 use crate::errors;
+use crate::made::{self, line};
 use crate::work::patiently;
-use platewash::workcell::coverage::{Cell, CoverageError, CoverageSettings, coverage, raster};
+use platewash::workcell::coverage::{CoverageError, CoverageSettings, RasterCell, coverage, raster};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
@@ -93,16 +94,16 @@ pub fn picture<'py>(
     );
     let made = patiently(py, move |_| raster(&polyline, centre, radius_m, sponge_radius_m, cells))?;
     let made = made.map_err(|e| wrong(py, &e))?;
-    let code = |cell: &Cell| match cell {
-        Cell::Outside => 0,
-        Cell::Missed => 1,
-        Cell::Partly => 2,
-        Cell::Swept => 3,
+    let code = |cell: &RasterCell| match cell {
+        RasterCell::Outside => 0,
+        RasterCell::Missed => 1,
+        RasterCell::Partly => 2,
+        RasterCell::Swept => 3,
     };
     let state: Vec<u8> = made.cells.iter().map(code).collect();
     let class = RASTER.import(py, "pyplatewash._records", "CoverageRaster")?;
     class.call1((
-        arrays::array(py, &[cells, cells], &state)?,
+        made::array(py, &[cells, cells], &state)?,
         line(py, made.x_m),
         line(py, made.y_m),
     ))

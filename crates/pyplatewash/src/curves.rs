@@ -1,15 +1,15 @@
-//! Generators of the tip's curves: spiral, stroke, transition, cubic.
+//! Generators of the tip's curves: wash curve, the paper's spiral, arc round the base, cubic.
 
 use crate::argument;
 use crate::arrays;
 use crate::errors;
+use crate::made;
 use nalgebra::Vector3;
 use numpy::PyArrayDyn;
-use platewash::planner::cubic;
-use platewash::planner::scenario::Interpolation;
-use platewash::planner::spiral::Spiral;
+use platewash::paper::PaperSpiral;
+use platewash::paper::cubic::{self, Interpolation};
 use platewash::workcell::arc::{self, Arc};
-use platewash::workcell::stroke::Stroke;
+use platewash::workcell::wash_path::WashCurve;
 use pyo3::prelude::*;
 
 /// Most points of a curve.
@@ -44,14 +44,14 @@ fn finite(py: Python<'_>, name: &str, values: &[f64]) -> PyResult<()> {
     }
 }
 
-/// The spiral of Python's `Spiral`, field by field.
+/// The spiral of Python's `PaperSpiral`, field by field.
 ///
 /// # Errors
 /// `InputTypeError`, `InputError`.
-pub fn spiral_of(value: &Bound<'_, PyAny>) -> PyResult<Spiral> {
+pub fn spiral_of(value: &Bound<'_, PyAny>) -> PyResult<PaperSpiral> {
     let at = |field| ("spiral", field);
-    let whole = ("spiral", "a Spiral");
-    Ok(Spiral {
+    let whole = ("spiral", "a PaperSpiral");
+    Ok(PaperSpiral {
         points: argument::field(whole, value, at("points"), points)?,
         turns: argument::field(whole, value, at("turns"), |name, value| {
             within(name, value, [1e-3, MOST_TURNS])
@@ -63,56 +63,60 @@ pub fn spiral_of(value: &Bound<'_, PyAny>) -> PyResult<Spiral> {
     })
 }
 
-/// The stroke of Python's `Stroke`, field by field.
+/// The curve of Python's `WashCurve`, field by field.
 ///
 /// # Errors
 /// `InputTypeError`, `InputError`.
-pub fn stroke_of(value: &Bound<'_, PyAny>) -> PyResult<Stroke> {
+pub fn curve_of(value: &Bound<'_, PyAny>) -> PyResult<WashCurve> {
     let number = |field, range| {
-        argument::field(("stroke", "a Stroke"), value, ("stroke", field), |name, value| {
+        argument::field(("curve", "a WashCurve"), value, ("curve", field), |name, value| {
             within(name, value, range)
         })
     };
-    Ok(Stroke {
+    Ok(WashCurve {
         radius_m: number("radius_m", [1e-6, LARGEST_M])?,
         turns: number("turns", [0.25, MOST_TURNS])?,
         start_angle_rad: number("start_angle_rad", [-1e3, 1e3])?,
         closing_ring: argument::field(
-            ("stroke", "a Stroke"),
+            ("curve", "a WashCurve"),
             value,
-            ("stroke", "closing_ring"),
+            ("curve", "closing_ring"),
             argument::flag,
         )?,
     })
 }
 
-/// Waypoints of the paper's spiral, shape (N, 2); see `Spiral`.
+/// Waypoints of the paper's spiral, shape (N, 2); see `PaperSpiral`.
 #[pyfunction]
-pub fn _spiral<'py>(py: Python<'py>, spiral: &Bound<'py, PyAny>, centre: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
+pub fn _paper_spiral<'py>(
+    py: Python<'py>,
+    spiral: &Bound<'py, PyAny>,
+    centre: &Bound<'py, PyAny>,
+) -> PyResult<Array<'py>> {
     let spiral = spiral_of(spiral)?;
     let centre = arrays::fixed::<2>("centre", centre)?;
     finite(py, "centre", &centre)?;
     let all = spiral.waypoints(centre);
-    arrays::array(py, &[all.len(), 2], all.as_flattened())
+    made::array(py, &[all.len(), 2], all.as_flattened())
 }
 
-/// Points of a stroke whose chords leave it by at most `chord_error_m`: parameters (N,), points (N, 2); see `Stroke`.
+/// Points of a wash curve whose chords leave it by at most `chord_error_m`: parameters (N,), points (N, 2); see `WashCurve`.
 #[pyfunction]
-pub fn _stroke<'py>(
+pub fn _wash_curve<'py>(
     py: Python<'py>,
-    stroke: &Bound<'py, PyAny>,
+    curve: &Bound<'py, PyAny>,
     chord_error_m: &Bound<'py, PyAny>,
 ) -> PyResult<(Array<'py>, Array<'py>)> {
-    let stroke = stroke_of(stroke)?;
-    let range = [1e-8 * stroke.radius_m, stroke.radius_m];
-    let theta = stroke.parameters(within("chord_error_m", chord_error_m, range)?);
+    let curve = curve_of(curve)?;
+    let range = [1e-8 * curve.radius_m, curve.radius_m];
+    let theta = curve.parameters(within("chord_error_m", chord_error_m, range)?);
     let all: Vec<f64> = theta
         .iter()
-        .flat_map(|&t| <[f64; 2]>::from(stroke.at(t).position))
+        .flat_map(|&t| <[f64; 2]>::from(curve.at(t).position))
         .collect();
     Ok((
-        arrays::array(py, &[theta.len()], &theta)?,
-        arrays::array(py, &[theta.len(), 2], &all)?,
+        made::array(py, &[theta.len()], &theta)?,
+        made::array(py, &[theta.len(), 2], &all)?,
     ))
 }
 
@@ -123,7 +127,7 @@ pub fn _stroke<'py>(
     signature = (start, end, *, points=None, radius_m=None, height_m=None),
     text_signature = "(start, end, *, points=5, radius_m=0.35, height_m=0.25)"
 )]
-pub fn transition_waypoints<'py>(
+pub fn transit_waypoints<'py>(
     py: Python<'py>,
     start: &Bound<'py, PyAny>,
     end: &Bound<'py, PyAny>,
@@ -179,5 +183,5 @@ pub fn cubic_samples<'py>(
 }
 
 fn vectors<'py>(py: Python<'py>, all: &[Vector3<f64>]) -> PyResult<Array<'py>> {
-    arrays::array(py, &[all.len(), 3], bytemuck::cast_slice(all))
+    made::array(py, &[all.len(), 3], bytemuck::cast_slice(all))
 }

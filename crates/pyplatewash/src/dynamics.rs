@@ -3,14 +3,15 @@
 use crate::argument::{self, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
 use crate::errors;
+use crate::made;
 use crate::robot::Robot;
 use crate::tool::ToolFields;
 use crate::work::{STRETCH, released};
 use nalgebra::Vector3;
 use numpy::PyArrayDyn;
+use platewash::simulator::RigidBody;
 use platewash::simulator::dynamics::STANDARD_GRAVITY_M_S2;
-use platewash::simulator::{Energy, RigidBody};
-use platewash::{DynamicsModel, JointVector};
+use platewash::{DynamicsModel, Energy, JointVector};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyTuple, PyType};
@@ -89,8 +90,8 @@ impl<'py, const K: usize> States<'py, K> {
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let all = self.each(py, of)?;
         match self.stacked {
-            None => arrays::array(py, &[6], bytemuck::cast_slice(&all)),
-            Some(_) => arrays::joint_rows(py, &all),
+            None => made::array(py, &[6], bytemuck::cast_slice(&all)),
+            Some(_) => made::joint_rows(py, &all),
         }
     }
 }
@@ -119,15 +120,12 @@ impl DynamicsObject {
     ) -> PyResult<Self> {
         let py = robot.py();
         let robot = argument::object::<Robot>("robot", robot, ROBOT)?;
-        let section = tool
-            .as_ref()
-            .map(|tool| ToolFields::of(tool)?.section(py))
-            .transpose()?;
+        let held = tool.as_ref().map(|tool| ToolFields::of(tool)?.tool(py)).transpose()?;
         let gravity = match gravity_m_s2 {
             Some(given) => arrays::fixed::<3>("gravity_m_s2", given)?,
             None => [0.0, 0.0, -STANDARD_GRAVITY_M_S2],
         };
-        let body = section.as_ref().and_then(RigidBody::tool);
+        let body = held.as_ref().and_then(RigidBody::tool);
         let model = DynamicsModel::new(robot.get().model(), body.as_ref());
         let inner = model.and_then(|model| model.with_gravity(Vector3::from(gravity)));
         Ok(Self {
@@ -173,8 +171,8 @@ impl DynamicsObject {
         // Symmetric, so that rows and columns are the same.
         let values = bytemuck::cast_slice(&all);
         match states.stacked {
-            None => arrays::array(py, &[6, 6], values),
-            Some(n) => arrays::array(py, &[n, 6, 6], values),
+            None => made::array(py, &[6, 6], values),
+            Some(n) => made::array(py, &[n, 6, 6], values),
         }
     }
 
@@ -217,7 +215,7 @@ impl DynamicsObject {
             (None, Some(one)) => class.call1((one.kinetic_j, one.potential_j)),
             _ => {
                 let (kinetic, potential) = all.iter().map(|e| (e.kinetic_j, e.potential_j)).unzip();
-                class.call1((arrays::line::<f64>(py, kinetic), arrays::line::<f64>(py, potential)))
+                class.call1((made::line::<f64>(py, kinetic), made::line::<f64>(py, potential)))
             }
         }
     }

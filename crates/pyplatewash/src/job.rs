@@ -1,221 +1,166 @@
-//! `Job`: the paper's program, planned and followed.
+//! `WashJob` and `PaperJob`: what is asked, resolved.
 
 use crate::argument;
-use crate::arrays;
 use crate::errors;
-use crate::layout::LayoutObject;
-use crate::plan::{PlanObject, file_error};
+use crate::layout::{LayoutObject, plates};
+use crate::made;
 use crate::robot::Robot;
-use crate::scenario::{self, ScenarioObject};
-use crate::trajectory::TrajectoryObject;
-use crate::value::to_record;
-use crate::work::patiently;
-use numpy::{PyArray1, PyArrayDyn};
-use platewash::planner::scenario::Program;
-use platewash::planner::{plan, robot};
-use platewash::workcell::tool;
+use crate::simulation::SettingsObject;
+use crate::tool::PlateFields;
+use crate::value::{to_python, to_record};
+use numpy::PyArrayDyn;
+use platewash::paper::PaperSettings;
+use platewash::workcell::job::{Limits, Requirements};
+use platewash::workcell::simulation::SimulationSettings;
 use platewash::workcell::words::counted;
-use platewash::{Job, JointVector, Layout, Plan, Scenario};
+use platewash::{Failure, JobTerms, JointVector, Layout, PaperJob, WashJob, Workcell};
 use pyo3::prelude::*;
-use pyo3::types::{PyTuple, PyType};
-use std::sync::Arc;
+use pyo3::types::{PyList, PyTuple, PyType};
+use serde::{Deserialize, Serialize};
 
-/// A job of the paper's program, planned and followed, before it is judged.
-///
-/// One step a waypoint; N is their number. See `report` for what it came to.
-#[pyclass(frozen, module = "pyplatewash", name = "Job")]
-pub struct JobObject {
-    inner: Arc<Job>,
+/// A washing that is asked for, resolved: the arm loaded, the plates placed, no default left. `Scenario.job` makes one, `plan` plans it.
+/// Immutable.
+#[pyclass(frozen, eq, module = "pyplatewash", name = "WashJob")]
+pub struct WashJobObject {
+    inner: WashJob,
+    layout: Layout,
     robot: Py<Robot>,
 }
 
-/// Plans and follows, on plates that were placed before if there are any.
-fn run(py: Python<'_>, scenario: Scenario, layout: Option<Layout>) -> PyResult<Job> {
-    let work = move || match layout {
-        None => Job::run(&scenario),
-        Some(layout) => Job::on(&scenario, robot::load(&scenario.robot)?, layout),
-    };
-    patiently(py, move |_| work())?.map_err(|e| errors::plan(py, &e))
+impl PartialEq for WashJobObject {
+    fn eq(&self, other: &Self) -> bool {
+        let (a, b) = (&self.inner, &other.inner);
+        (a.name(), a.terms(), &self.layout) == (b.name(), b.terms(), &other.layout)
+    }
 }
 
-impl JobObject {
-    fn positions<'py>(
-        &self,
-        py: Python<'py>,
-        of: fn(&Job) -> Vec<JointVector>,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        arrays::joint_rows(py, &of(&self.inner))
+/// What a pickled washing says; its arm is beside it.
+#[derive(Serialize, Deserialize)]
+struct PickledWash {
+    name: String,
+    terms: JobTerms,
+    layout: Layout,
+}
+
+impl WashJobObject {
+    /// A job on a layout.
+    #[must_use]
+    pub fn new(inner: WashJob, layout: Layout, robot: Py<Robot>) -> Self {
+        Self { inner, layout, robot }
+    }
+
+    /// The job of the argument called `job`.
+    ///
+    /// # Errors
+    /// `InputTypeError` for what is no job.
+    pub fn given<'a, 'py>(value: &'a Bound<'py, PyAny>) -> PyResult<&'a Bound<'py, Self>> {
+        argument::object("job", value, "a WashJob, as Scenario.job() gives it,")
+    }
+
+    /// The job.
+    #[must_use]
+    pub fn inner(&self) -> &WashJob {
+        &self.inner
+    }
+
+    /// The plates, and where they come from.
+    #[must_use]
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// The arm.
+    #[must_use]
+    pub fn robot(&self, py: Python<'_>) -> Py<Robot> {
+        self.robot.clone_ref(py)
     }
 }
 
 #[pymethods]
-impl JobObject {
-    /// Plans and follows a scenario (or the shipped name or file of one), on a layout that was made before if one is given.
-    ///
-    /// Raises InputError for a certified job, which is `Cycle.plan`'s; ScenarioError, LayoutError or PlanError. A job that does not
-    /// wash is no error: see `report`.
-    #[classmethod]
-    #[pyo3(name = "run", signature = (scenario, layout=None))]
-    fn start(
-        _class: &Bound<'_, PyType>,
-        py: Python<'_>,
-        scenario: &Bound<'_, PyAny>,
-        layout: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Self> {
-        let (scenario, layout) = (scenario::given(scenario)?, LayoutObject::given(layout)?);
-        scenario::of_program(py, &scenario, Program::Paper)?;
-        let job = run(py, scenario, layout)?;
-        let robot = Robot::of_section(py, &job.scenario.robot, &job.robot)?;
-        let inner = Arc::new(job);
-        Ok(Self { inner, robot })
+impl WashJobObject {
+    /// Name of the scenario.
+    #[getter]
+    fn name(&self) -> &str {
+        self.inner.name()
     }
 
-    /// What was asked.
+    /// Seed of every random stream.
     #[getter]
-    fn scenario(&self) -> ScenarioObject {
-        self.inner.scenario.clone().into()
+    fn seed(&self) -> u64 {
+        self.inner.terms().seed
+    }
+
+    /// The arm.
+    #[getter(robot)]
+    fn py_robot(&self, py: Python<'_>) -> Py<Robot> {
+        self.robot(py)
+    }
+
+    /// The plates, with what is to be said about them.
+    #[getter(layout)]
+    fn py_layout(&self) -> LayoutObject {
+        self.layout.clone().into()
     }
 
     /// The plates.
     #[getter]
-    fn layout(&self) -> LayoutObject {
-        self.inner.layout.clone().into()
+    fn plates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        plates(py, &self.inner.terms().plates)
     }
 
-    /// Plate indices in the order of washing.
+    /// Joint positions at the start and at the end, shape (2, 6) [rad].
     #[getter]
-    fn order(&self) -> Vec<usize> {
-        self.inner.tool_path.order.clone()
+    fn home_rad<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        made::joint_rows(py, &self.inner.terms().home_rad)
     }
 
-    /// The commanded motion, from the start configuration on.
+    /// The world: arm, tool, obstacles, pairs of bodies that need not keep clear of each other.
     #[getter]
-    fn planned(&self) -> TrajectoryObject {
-        self.inner.planned.clone().into()
+    fn workcell<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_record(py, &self.inner.terms().workcell, None)
     }
 
-    /// The motion that the control law makes of it.
+    /// What the washing must keep.
     #[getter]
-    fn executed(&self) -> TrajectoryObject {
-        self.inner.executed.clone().into()
+    fn requirements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_record(py, &self.inner.terms().requirements, None)
     }
 
-    /// Where the tip shall be, shape (N, 3) [m].
+    /// What joints and tip must not exceed, beyond the limits of the arm's description.
     #[getter]
-    fn targets<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let all: Vec<f64> = self
-            .inner
-            .steps
-            .iter()
-            .flat_map(|s| <[f64; 3]>::from(s.target))
-            .collect();
-        arrays::array(py, &[self.inner.steps.len(), 3], &all)
+    fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_record(py, &self.inner.terms().limits, None)
     }
 
-    /// Where the tip is after each step, shape (N, 3) [m].
+    /// How it is simulated, unless `simulate` is told otherwise.
     #[getter]
-    fn executed_tip<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let all: Vec<f64> = self
-            .inner
-            .steps
-            .iter()
-            .flat_map(|s| <[f64; 3]>::from(s.executed_tip))
-            .collect();
-        arrays::array(py, &[self.inner.steps.len(), 3], &all)
+    fn simulation(&self) -> SettingsObject {
+        self.inner.terms().simulation.clone().into()
     }
 
-    /// Configurations commanded, shape (N, 6) [rad].
-    #[getter]
-    fn commanded_q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.positions(py, |job| job.steps.iter().map(|s| s.commanded).collect())
+    /// The same job on other plates.
+    ///
+    /// Raises InputError for plates that are none.
+    fn on_plates(&self, py: Python<'_>, plates: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let read = |name: &str, plate: &Bound<'_, PyAny>| PlateFields::of(name, plate)?.plate(py);
+        let plates = argument::each("plates", plates, "a list of Plates", read)?;
+        let inner = self.inner.on_plates(plates.clone());
+        Ok(Self {
+            inner: inner.map_err(|e| errors::failure(py, &e.into()))?,
+            layout: Layout::of(plates),
+            robot: self.robot(py),
+        })
     }
 
-    /// Configurations after each step, shape (N, 6) [rad].
-    #[getter]
-    fn executed_q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.positions(py, |job| job.steps.iter().map(|s| s.executed).collect())
-    }
-
-    /// Whether the inverse kinematics solved each waypoint, shape (N,).
-    #[getter]
-    fn reached<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        arrays::line(py, self.inner.steps.iter().map(|s| s.reached()).collect())
-    }
-
-    /// Plate of each waypoint (the one washed, or the one a transition leads to), shape (N,).
-    #[getter]
-    fn plate<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        let segments = &self.inner.tool_path.segments;
-        arrays::line(
-            py,
-            self.inner
-                .steps
-                .iter()
-                .map(|s| segments[s.segment].plate as i64)
-                .collect(),
-        )
-    }
-
-    /// Whether each waypoint washes (as opposed to crossing over), shape (N,).
-    #[getter]
-    fn washing<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        let segments = &self.inner.tool_path.segments;
-        let washes = |segment: usize| segments[segment].kind.name() == "wash";
-        arrays::line(py, self.inner.steps.iter().map(|s| washes(s.segment)).collect())
-    }
-
-    /// Judges the job: what was reached, how near it came, what it covered. A record; its text is the report that the command
-    /// prints.
-    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let job = self.inner.clone();
-        let report = patiently(py, move |_| job.report())?.map_err(|e| errors::plan(py, &e))?;
-        to_record(py, &report, Some(report.to_string()))
-    }
-
-    /// The plan file of the commanded motion, sealed.
-    fn plan(&self, py: Python<'_>) -> PyResult<PlanObject> {
-        let job = self.inner.clone();
-        let report = patiently(py, move |_| job.report())?.map_err(|e| errors::plan(py, &e))?;
-        let plan = Plan::new(&self.inner, &report).map_err(|e| file_error(py, &e))?;
-        Ok(PlanObject::new(plan, Some(self.robot.clone_ref(py))))
-    }
-
-    /// A motion as CSV text, the planned one or with `executed=True` the executed one, every `dt_s` [s], by default the
-    /// scenario's.
-    #[pyo3(signature = (dt_s=None, *, executed=None), text_signature = "($self, dt_s=None, *, executed=False)")]
-    fn to_csv(
-        &self,
-        py: Python<'_>,
-        dt_s: Option<&Bound<'_, PyAny>>,
-        executed: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<String> {
-        let job = &self.inner;
-        let dt_s = dt_s.map(|dt_s| argument::number("dt_s", dt_s)).transpose()?;
-        let executed = executed.map_or(Ok(false), |executed| argument::flag("executed", executed))?;
-        let motion = if executed { &job.executed } else { &job.planned };
-        let tip = tool::tip_frame(&job.robot, &job.scenario.tool);
-        let dt_s = dt_s.unwrap_or(job.scenario.control.dt_s);
-        let segments = plan::segments(job);
-        let table = platewash::workcell::csv::table(motion, &segments, &job.robot, &tip, dt_s);
-        table
-            .map(|table| table.to_string())
-            .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
-    }
-
-    fn __len__(&self) -> usize {
-        self.inner.steps.len()
+    /// Everything but the arm as plain dictionaries and lists, as a plan file states it.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, self.inner.terms())
     }
 
     fn __repr__(&self) -> String {
-        let plates = counted(self.inner.layout.plates.len(), "plate");
-        let steps = counted(self.inner.steps.len(), "waypoint");
-        format!("Job('{}', {plates}, {steps})", self.inner.scenario.name)
-    }
-
-    fn __eq__(&self, other: &Self) -> bool {
-        let (a, b) = (&self.inner, &other.inner);
-        (&a.scenario, &a.layout, &a.steps) == (&b.scenario, &b.layout, &b.steps)
-            && (&a.planned, &a.executed) == (&b.planned, &b.executed)
+        let terms = self.inner.terms();
+        let plates = counted(terms.plates.len(), "plate");
+        format!("WashJob('{}', seed={}, {plates})", self.inner.name(), terms.seed)
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {
@@ -227,8 +172,216 @@ impl JobObject {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        // The same scenario on the same plates is the same job, to the bit.
-        let arguments = (slf.get().scenario(), slf.get().layout()).into_pyobject(slf.py())?;
-        Ok((slf.get_type().getattr("run")?, arguments))
+        let (py, job) = (slf.py(), slf.get());
+        let pickled = PickledWash {
+            name: job.inner.name().to_owned(),
+            terms: job.inner.terms().clone(),
+            layout: job.layout.clone(),
+        };
+        let text = serde_json::to_string(&pickled).map_err(|e| errors::internal(py, &e.to_string()))?;
+        Ok((
+            slf.get_type().getattr("_restore")?,
+            (text, job.robot(py)).into_pyobject(py)?,
+        ))
+    }
+
+    /// Restores a pickled job.
+    #[classmethod]
+    fn _restore(
+        _class: &Bound<'_, PyType>,
+        py: Python<'_>,
+        text: &Bound<'_, PyAny>,
+        robot: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let text = argument::text("text", text, "a pickled job")?;
+        let robot = argument::object::<Robot>("robot", robot, argument::ROBOT)?;
+        let pickled: PickledWash =
+            serde_json::from_str(&text).map_err(|e| errors::input(py, "text", &e.to_string()))?;
+        let job = WashJob::new(robot.get().model().clone(), pickled.terms);
+        Ok(Self {
+            inner: job.map_err(|e| errors::failure(py, &e.into()))?.named(&pickled.name),
+            layout: pickled.layout,
+            robot: robot.clone().unbind(),
+        })
+    }
+}
+
+/// A run of the paper's program that is asked for, resolved: `Scenario.paper_job` makes one, `run_paper` carries it out. Immutable.
+#[pyclass(frozen, eq, module = "pyplatewash", name = "PaperJob")]
+pub struct PaperJobObject {
+    inner: PaperJob,
+    robot: Py<Robot>,
+}
+
+impl PartialEq for PaperJobObject {
+    fn eq(&self, other: &Self) -> bool {
+        PickledPaper::from(&self.inner) == PickledPaper::from(&other.inner)
+    }
+}
+
+/// What a pickled run says; its arm is beside it.
+#[derive(PartialEq, Serialize, Deserialize)]
+struct PickledPaper {
+    name: String,
+    workcell: Workcell,
+    layout: Layout,
+    seed: u64,
+    start_rad: JointVector,
+    requirements: Requirements,
+    limits: Limits,
+    settings: PaperSettings,
+    simulation: SimulationSettings,
+}
+
+impl From<&PaperJob> for PickledPaper {
+    fn from(job: &PaperJob) -> Self {
+        Self {
+            name: job.name.clone(),
+            workcell: job.workcell.clone(),
+            layout: job.layout.clone(),
+            seed: job.seed,
+            start_rad: job.start_rad,
+            requirements: job.requirements,
+            limits: job.limits,
+            settings: job.settings,
+            simulation: job.simulation.clone(),
+        }
+    }
+}
+
+impl PaperJobObject {
+    /// A job with its arm.
+    #[must_use]
+    pub fn new(inner: PaperJob, robot: Py<Robot>) -> Self {
+        Self { inner, robot }
+    }
+
+    /// The job of the argument called `job`.
+    ///
+    /// # Errors
+    /// `InputTypeError` for what is no job of the paper's program.
+    pub fn given<'a, 'py>(value: &'a Bound<'py, PyAny>) -> PyResult<&'a Bound<'py, Self>> {
+        argument::object("job", value, "a PaperJob, as Scenario.paper_job() gives it,")
+    }
+
+    /// The job.
+    #[must_use]
+    pub fn inner(&self) -> &PaperJob {
+        &self.inner
+    }
+
+    /// The arm.
+    #[must_use]
+    pub fn robot(&self, py: Python<'_>) -> Py<Robot> {
+        self.robot.clone_ref(py)
+    }
+
+    /// The job as a plan file states it.
+    ///
+    /// # Errors
+    /// `PlanFileError` for a number that is not finite.
+    pub fn terms(&self, py: Python<'_>) -> PyResult<JobTerms> {
+        self.inner.terms().map_err(|e| errors::failure(py, &Failure::from(e)))
+    }
+}
+
+#[pymethods]
+impl PaperJobObject {
+    /// Name of the scenario.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.inner.name
+    }
+
+    /// The seed that the plates were drawn with.
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.inner.seed
+    }
+
+    /// The arm.
+    #[getter(robot)]
+    fn py_robot(&self, py: Python<'_>) -> Py<Robot> {
+        self.robot(py)
+    }
+
+    /// The plates, with what is to be said about them.
+    #[getter]
+    fn layout(&self) -> LayoutObject {
+        self.inner.layout.clone().into()
+    }
+
+    /// Joint positions at the start, shape (6,) [rad].
+    #[getter]
+    fn start_rad<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        made::array(py, &[6], self.inner.start_rad.as_slice())
+    }
+
+    /// Settings of the paper's program.
+    #[getter]
+    fn settings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_record(py, &self.inner.settings, None)
+    }
+
+    /// How the arm follows.
+    #[getter]
+    fn simulation(&self) -> SettingsObject {
+        self.inner.simulation.clone().into()
+    }
+
+    /// Everything but the arm as plain dictionaries and lists, as a plan file states it.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.terms(py)?)
+    }
+
+    fn __repr__(&self) -> String {
+        let plates = counted(self.inner.layout.plates.len(), "plate");
+        format!("PaperJob('{}', seed={}, {plates})", self.inner.name, self.inner.seed)
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (py, job) = (slf.py(), slf.get());
+        let text = serde_json::to_string(&PickledPaper::from(&job.inner));
+        let text = text.map_err(|e| errors::internal(py, &e.to_string()))?;
+        Ok((
+            slf.get_type().getattr("_restore")?,
+            (text, job.robot(py)).into_pyobject(py)?,
+        ))
+    }
+
+    /// Restores a pickled job.
+    #[classmethod]
+    fn _restore(
+        _class: &Bound<'_, PyType>,
+        py: Python<'_>,
+        text: &Bound<'_, PyAny>,
+        robot: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let text = argument::text("text", text, "a pickled job")?;
+        let robot = argument::object::<Robot>("robot", robot, argument::ROBOT)?;
+        let pickled: PickledPaper =
+            serde_json::from_str(&text).map_err(|e| errors::input(py, "text", &e.to_string()))?;
+        let inner = PaperJob {
+            name: pickled.name,
+            arm: robot.get().model().clone(),
+            workcell: pickled.workcell,
+            layout: pickled.layout,
+            seed: pickled.seed,
+            start_rad: pickled.start_rad,
+            requirements: pickled.requirements,
+            limits: pickled.limits,
+            settings: pickled.settings,
+            simulation: pickled.simulation,
+        };
+        let robot = robot.clone().unbind();
+        Ok(Self { inner, robot })
     }
 }

@@ -1,15 +1,12 @@
 //! `Layout`: where the plates lie.
 
 use crate::argument;
-use crate::arrays;
 use crate::errors;
-use crate::scenario;
+use crate::made;
 use crate::value::to_record;
-use crate::work::patiently;
 use numpy::PyArrayDyn;
-use platewash::planner::{job, robot};
 use platewash::workcell::words::counted;
-use platewash::{Layout, PlanError, Plate};
+use platewash::{Layout, Plate};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyList, PyTuple, PyType};
@@ -55,10 +52,11 @@ pub fn plates<'py>(py: Python<'py>, all: &[Plate]) -> PyResult<Bound<'py, PyList
     let list = PyList::empty(py);
     for plate in all {
         let fields = PyDict::new(py);
-        fields.set_item("x_m", plate.x_m)?;
-        fields.set_item("y_m", plate.y_m)?;
-        fields.set_item("z_m", plate.z_m)?;
-        fields.set_item("radius_m", plate.radius_m)?;
+        let centre = plate.centre();
+        fields.set_item("x_m", centre.x)?;
+        fields.set_item("y_m", centre.y)?;
+        fields.set_item("z_m", centre.z)?;
+        fields.set_item("radius_m", plate.rim_m())?;
         fields.set_item("thickness_m", plate.thickness_m)?;
         list.append(class.call((), Some(&fields))?)?;
     }
@@ -76,8 +74,8 @@ impl LayoutObject {
     /// Centres of the plates, shape (N, 2) [m].
     #[getter]
     fn centres<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let centres: Vec<f64> = self.inner.plates.iter().flat_map(|p| [p.x_m, p.y_m]).collect();
-        arrays::array(py, &[self.inner.plates.len(), 2], &centres)
+        let centres: Vec<f64> = self.inner.plates.iter().flat_map(Plate::centre_xy).collect();
+        made::array(py, &[self.inner.plates.len(), 2], &centres)
     }
 
     /// What is wrong with the plates: one record a finding, whose text says it in words.
@@ -126,17 +124,4 @@ impl LayoutObject {
         let inner = serde_json::from_str(&text).map_err(|e| errors::input(py, "text", &e.to_string()))?;
         Ok(Self { inner })
     }
-}
-
-/// Places the plates of a scenario: drawn from its seed's own stream, or as given and checked.
-///
-/// Raises LayoutError when they have no room.
-#[pyfunction]
-pub fn place_plates(py: Python<'_>, scenario: &Bound<'_, PyAny>) -> PyResult<LayoutObject> {
-    let scenario = scenario::given(scenario)?;
-    let placed = patiently(py, move |_| {
-        let robot = robot::load(&scenario.robot)?;
-        job::place_plates(&scenario, &robot).map_err(PlanError::from)
-    })?;
-    Ok(placed.map_err(|e| errors::plan(py, &e))?.into())
 }

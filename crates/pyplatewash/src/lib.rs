@@ -1,28 +1,32 @@
 //! The Python wheel of platewash: the same nouns, NumPy in and out.
 //!
-//! This crate holds no logic of its own. It reads arguments (`argument`), turns array-likes into slices and back (`arrays`), errors into exceptions
-//! (`errors`), and data into dictionaries (`value`), and works without the interpreter lock (`work`). What is plain data on
+//! This crate holds no logic of its own. It reads arguments (`argument`), turns array-likes into slices (`arrays`) and back (`made`), errors into
+//! exceptions (`errors`), and data into dictionaries (`value`), and works without the interpreter lock (`work`). What is plain data on
 //! Python's side (`Tool`, `Plate`, settings, records) are Python dataclasses in `python/pyplatewash`.
 
 mod argument;
 mod arrays;
 mod certificate;
+mod checks;
 mod clearance;
 mod command;
 mod coverage;
 mod curves;
-mod cycle;
 mod dynamics;
 mod errors;
 mod job;
 mod layout;
+mod made;
 mod notes;
+mod paper;
 mod plan;
+mod planned;
 mod pose;
 mod reproduce;
 mod robot;
 mod scenario;
 mod simulation;
+mod sweep;
 mod tool;
 mod trajectory;
 mod value;
@@ -34,35 +38,39 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = false)]
 mod _core {
     #[pymodule_export]
-    use crate::certificate::{CertificateObject, verify};
+    use crate::certificate::{CertificateObject, differences, prove};
+    #[pymodule_export]
+    use crate::checks::_check;
     #[pymodule_export]
     use crate::clearance::ClearanceObject;
     #[pymodule_export]
-    use crate::command::run_command;
+    use crate::command::{_program, run_command};
     #[pymodule_export]
     use crate::coverage::{measure, picture};
     #[pymodule_export]
-    use crate::curves::{_spiral, _stroke, cubic_samples, transition_waypoints};
-    #[pymodule_export]
-    use crate::cycle::{CycleObject, plan, sweep};
+    use crate::curves::{_paper_spiral, _wash_curve, cubic_samples, transit_waypoints};
     #[pymodule_export]
     use crate::dynamics::DynamicsObject;
     #[pymodule_export]
-    use crate::job::JobObject;
+    use crate::job::{PaperJobObject, WashJobObject};
     #[pymodule_export]
-    use crate::layout::{LayoutObject, place_plates};
+    use crate::layout::LayoutObject;
+    #[pymodule_export]
+    use crate::paper::{PaperRunObject, run_paper};
     #[pymodule_export]
     use crate::plan::PlanObject;
+    #[pymodule_export]
+    use crate::planned::{PlannedObject, plan};
     #[pymodule_export]
     use crate::reproduce::reproduce;
     #[pymodule_export]
     use crate::robot::{IkSolutionRecord, Robot};
     #[pymodule_export]
-    use crate::scenario::ScenarioObject;
+    use crate::scenario::{ScenarioObject, place_plates};
     #[pymodule_export]
-    use crate::simulation::{ExecutionObject, SetupObject, simulate, tune};
+    use crate::simulation::{ExecutionObject, SettingsObject, simulate, tune};
     #[pymodule_export]
-    use crate::tool::_check;
+    use crate::sweep::sweep;
     #[pymodule_export]
     use crate::trajectory::TrajectoryObject;
 }

@@ -1,6 +1,6 @@
 //! Values that were probably meant in another unit, as Python's warnings.
 
-use platewash::planner::scenario::UnitNote;
+use platewash::scenario::UnitNote;
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use std::ffi::CString;

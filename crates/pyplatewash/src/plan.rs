@@ -1,20 +1,19 @@
 //! `Plan`: the plan file.
 
 use crate::argument;
-use crate::certificate::{self, CertificateObject};
 use crate::errors::{self, FileOf, SystemWord};
 use crate::layout::plates;
 use crate::robot::Robot;
-use crate::scenario::ScenarioObject;
 use crate::trajectory::TrajectoryObject;
-use crate::value::{to_python, to_record};
+use crate::value::{records, to_python, to_record};
 use platewash::kinematics::urdf::file;
-use platewash::planner::plan::PlanFileError;
+use platewash::workcell::csv;
+use platewash::workcell::plan::PlanFileError;
 use platewash::workcell::trajectory::KnotError;
-use platewash::{Plan, RobotModel, Trajectory};
+use platewash::workcell::workcell::ArmId;
+use platewash::{Plan, RobotModel};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyString, PyTuple, PyType};
-use serde::Serialize;
 use std::sync::Arc;
 
 /// Longest plan file that is read \[bytes\].
@@ -22,7 +21,7 @@ const MAX_BYTES: u64 = 1 << 30;
 
 /// A plan: everything that a verifier needs besides the URDF, sealed with a hash. Immutable.
 ///
-/// A plan that was made in this process knows its arm (`robot`), so that `verify`, `simulate` and `tune` need no other; a pickle takes
+/// A plan that was made in this process knows its arm (`robot`), so that `prove`, `simulate` and `tune` need no other; a pickle takes
 /// the arm along. A plan file holds no arm: a plan that is read from one knows the built-in arm only.
 #[pyclass(frozen, eq, module = "pyplatewash", name = "Plan")]
 pub struct PlanObject {
@@ -45,9 +44,7 @@ pub fn file_error(py: Python<'_>, error: &PlanFileError) -> PyErr {
 impl PlanObject {
     /// A plan, with its arm where that is at hand.
     #[must_use]
-    pub fn new(mut inner: Plan, robot: Option<Py<Robot>>) -> Self {
-        // Waypoints are no part of the file: a plan and what is read back from its file are equal.
-        inner.tool_path.iter_mut().for_each(|segment| segment.waypoints.clear());
+    pub fn new(inner: Plan, robot: Option<Py<Robot>>) -> Self {
         Self { inner, robot }
     }
 
@@ -82,24 +79,29 @@ impl PlanObject {
         &self.inner
     }
 
-    /// The arm to judge the plan with: the one given, else its own; `None` leaves the built-in one.
-    #[must_use]
-    pub fn arm(&self, given: Option<&Bound<'_, Robot>>) -> Option<Arc<RobotModel>> {
-        let given = given.map(|robot| robot.get().model().clone());
-        given.or_else(|| self.robot.as_ref().map(|robot| robot.get().model().clone()))
+    /// The arm to judge the plan with: the one given, else its own.
+    ///
+    /// # Errors
+    /// `ProveError` for a plan from a file that names an arm which is not at hand.
+    pub fn arm(&self, py: Python<'_>, given: Option<&Bound<'_, Robot>>) -> PyResult<Arc<RobotModel>> {
+        if let Some(robot) = given {
+            return Ok(robot.get().model().clone());
+        }
+        match self.own_arm(py)? {
+            Some(robot) => Ok(robot.get().model().clone()),
+            None => Err(errors::arm_needed(py, &self.inner.job.workcell.arm)),
+        }
     }
-}
 
-/// Serialisable things as records.
-///
-/// # Errors
-/// Out of memory.
-pub fn records<'py, T: Serialize>(py: Python<'py>, all: &[T]) -> PyResult<Bound<'py, PyList>> {
-    let list = PyList::empty(py);
-    for one in all {
-        list.append(to_record(py, one, None)?)?;
+    /// The arm that the plan was made for, or the built-in one where that is it.
+    fn own_arm(&self, py: Python<'_>) -> PyResult<Option<Py<Robot>>> {
+        if let Some(robot) = &self.robot {
+            return Ok(Some(robot.clone_ref(py)));
+        }
+        let built_in = Robot::built_in(py)?;
+        let is_it = ArmId::of(built_in.get().model()) == self.inner.job.workcell.arm;
+        Ok(is_it.then_some(built_in))
     }
-    Ok(list)
 }
 
 #[pymethods]
@@ -150,11 +152,7 @@ impl PlanObject {
     /// one.
     #[getter]
     fn robot(&self, py: Python<'_>) -> PyResult<Option<Py<Robot>>> {
-        match (&self.robot, &self.inner.scenario.robot.urdf) {
-            (Some(robot), _) => Ok(Some(robot.clone_ref(py))),
-            (None, Some(_)) => Ok(None),
-            (None, None) => Robot::built_in(py).map(Some),
-        }
+        self.own_arm(py)
     }
 
     /// The plan file's text: canonical JSON, one line.
@@ -178,16 +176,28 @@ impl PlanObject {
         self.inner.is_sealed()
     }
 
-    /// The scenario, resolved, with its seed.
+    /// `"wash"`, or `"paper"` for a run of the paper's program, for which there is no certificate.
     #[getter]
-    fn scenario(&self) -> ScenarioObject {
-        self.inner.scenario.clone().into()
+    fn process(&self) -> String {
+        self.inner.process.to_string()
+    }
+
+    /// What is asked, resolved: `workcell`, `plates`, `requirements`, `limits`, `home_rad`, `planner`, `seed`, `simulation`.
+    #[getter]
+    fn job<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_record(py, &self.inner.job, None)
+    }
+
+    /// Where the plan comes from: `scenario`, `version`. Stated, never judged.
+    #[getter]
+    fn provenance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_record(py, &self.inner.provenance, None)
     }
 
     /// The plates.
     #[getter]
     fn plates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        plates(py, &self.inner.plates)
+        plates(py, &self.inner.job.plates)
     }
 
     /// Plate indices in the order of washing.
@@ -202,22 +212,16 @@ impl PlanObject {
         records(py, &self.inner.segments)
     }
 
-    /// What the tip must do, as parameters.
+    /// How each plate is washed, in the order of washing: `plate`, `curve`, `lift_m`, `cone_rad`; none for the paper's program.
     #[getter]
-    fn tool_path<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        records(py, &self.inner.tool_path)
+    fn wash_paths<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        records(py, &self.inner.wash_paths)
     }
 
-    /// Limits that hold for the motion.
+    /// Duration of the motion [s].
     #[getter]
-    fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        to_record(py, &self.inner.limits, None)
-    }
-
-    /// What a reader wants to know first: `headline`, `plates_washed`, `duration_s`, `waypoints_reached`.
-    #[getter]
-    fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        to_record(py, &self.inner.summary, Some(self.inner.summary.headline.clone()))
+    fn duration_s(&self) -> f64 {
+        self.inner.duration_s()
     }
 
     /// The motion.
@@ -225,25 +229,42 @@ impl PlanObject {
     /// Raises InputError for a file whose knots are no motion.
     #[getter]
     fn trajectory(&self, py: Python<'_>) -> PyResult<TrajectoryObject> {
-        let knots = &self.inner.knots;
-        let motion = Trajectory::from_knots(knots.t_s.clone(), knots.q_rad.clone(), knots.qd_rad_s.clone());
-        let motion = motion.map_err(|e| match e {
+        let motion = self.inner.knots.motion().map_err(|e| match e {
             KnotError::Count { .. } => errors::keyed(py, "knots", &e.to_string()),
             _ => errors::input(py, "knots", &e.to_string()),
         });
         Ok(motion?.into())
     }
 
-    /// The certificate of the plan: see `pyplatewash.verify`.
-    #[pyo3(signature = (robot=None))]
-    fn verify(slf: &Bound<'_, Self>, py: Python<'_>, robot: Option<&Bound<'_, PyAny>>) -> PyResult<CertificateObject> {
-        certificate::verify(py, slf, robot)
+    /// The motion as CSV text, every `dt_s` [s], by default the job's. `robot` is the arm, by default the one that the plan was made
+    /// for.
+    ///
+    /// Raises ProveError for a plan whose arm must be given.
+    #[pyo3(signature = (dt_s=None, robot=None))]
+    fn to_csv(
+        &self,
+        py: Python<'_>,
+        dt_s: Option<&Bound<'_, PyAny>>,
+        robot: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<String> {
+        let (plan, arm) = (&self.inner, self.arm(py, Robot::given(robot)?)?);
+        let dt_s = dt_s.map(|dt_s| argument::number("dt_s", dt_s)).transpose()?;
+        let dt_s = dt_s.unwrap_or(plan.job.simulation.control.dt_s);
+        let motion = plan
+            .knots
+            .motion()
+            .map_err(|e| errors::input(py, "knots", &e.to_string()))?;
+        let tip = plan.job.workcell.tool.tip_frame(&arm);
+        let table = csv::table(&motion, &plan.segments, &arm, &tip, dt_s);
+        table
+            .map(|table| table.to_string())
+            .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
     }
 
     fn __repr__(&self) -> String {
         let hash = self.inner.hash.as_deref().and_then(|h| h.get(..8)).unwrap_or("none");
-        let (name, seed) = (&self.inner.scenario.name, self.inner.scenario.seed);
-        let duration_s = self.inner.summary.duration_s;
+        let (name, seed) = (&self.inner.provenance.scenario, self.inner.job.seed);
+        let duration_s = self.inner.duration_s();
         format!("Plan('{name}', seed={seed}, {duration_s:.2} s, hash {hash}…)")
     }
 

@@ -4,7 +4,7 @@ use crate::argument;
 use crate::errors;
 use crate::value::to_record;
 use crate::work::patiently;
-use platewash::planner::reproduce::ReproduceSettings;
+use platewash::paper::reproduce::{ReproduceSettings, reproduce as measure};
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
 
@@ -33,14 +33,14 @@ pub fn reproduce<'py>(
     let settings = ReproduceSettings { layouts, draws, seed };
     let measured = patiently(py, move |cancel| {
         let go_on = |_, _| {
-            if cancel.is_asked() {
+            if cancel.is_cancelled() {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
         };
-        platewash::reproduce(&settings, &go_on)
+        measure(&settings, &go_on)
     })?;
-    let measured = measured.map_err(|e| errors::plan(py, &e))?;
+    let measured = measured.map_err(|e| errors::failure(py, &e.into()))?;
     to_record(py, &measured, Some(measured.to_string()))
 }

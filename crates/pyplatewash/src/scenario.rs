@@ -2,21 +2,26 @@
 
 use crate::argument;
 use crate::errors;
+use crate::job::{PaperJobObject, WashJobObject};
+use crate::layout::LayoutObject;
 use crate::notes::warn;
+use crate::robot::Robot;
 use crate::value::{from_mapping, to_python, to_record};
 use crate::work::patiently;
-use platewash::Scenario;
-use platewash::planner::job;
-use platewash::planner::scenario::{Program, SHIPPED};
+use platewash::planner::Watch;
+use platewash::scenario::{Program, SHIPPED};
+use platewash::{Failure, Layout, RobotModel, Scenario};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 use serde_json::{Map, Value};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A job in full: what a scenario file states, with defaults filled in. Immutable; `replace` makes another one.
 ///
-/// Keys, units and ranges are those of scenario files (docs/scenario.md). Sections are read as `scenario.wash.turns` or
-/// `scenario["wash"]["turns"]`.
+/// Keys, units and ranges are those of scenario files (docs/scenario.md). Sections are read as `scenario["wash"]["turns"]`, or, the
+/// section `job` apart, as `scenario.wash.turns`. `job()` is the washing that the scenario asks for, `paper_job()` the run of the
+/// paper's program.
 #[pyclass(frozen, eq, module = "pyplatewash", name = "Scenario")]
 #[derive(PartialEq)]
 pub struct ScenarioObject {
@@ -64,6 +69,11 @@ impl ScenarioObject {
             errors::scenario(py, &e)
         })?;
         Self::warned(py, inner)
+    }
+
+    /// The arm that was made of the scenario's files just now.
+    fn robot_of(&self, py: Python<'_>, arm: Arc<RobotModel>) -> PyResult<Py<Robot>> {
+        Robot::of_scenario(py, &self.inner, arm)
     }
 
     /// The object of a scenario, after warnings of what was probably meant in another unit.
@@ -166,11 +176,54 @@ impl ScenarioObject {
     /// Checks without running: the arm loads, the start is within its limits, plates have room in principle. The findings on
     /// plates that are given.
     ///
-    /// Raises PlanError, LayoutError or UrdfError as running would.
+    /// Raises PlanError or LayoutError as `job` and `plan` would.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let scenario = self.inner.clone();
-        let (_, findings) = patiently(py, move |_| job::check(&scenario))?.map_err(|e| errors::plan(py, &e))?;
+        let checked = patiently(py, move |_| scenario.check())?;
+        let (_, findings) = checked.map_err(|e| errors::failure(py, &e))?;
         to_python(py, &findings)
+    }
+
+    /// The washing that the scenario asks for, resolved: its arm loaded, its plates placed, or those of a layout that was made before.
+    ///
+    /// Raises InputError for a scenario of the paper's program; PlanError or LayoutError.
+    #[pyo3(signature = (layout=None))]
+    fn job(&self, py: Python<'_>, layout: Option<&Bound<'_, PyAny>>) -> PyResult<WashJobObject> {
+        of_program(py, &self.inner, Program::Certified)?;
+        let (scenario, layout) = (self.inner.clone(), LayoutObject::given(layout)?);
+        let resolved = patiently(py, move |cancel| {
+            let arm = scenario.arm()?;
+            let layout = match layout {
+                Some(layout) => layout,
+                None => scenario.place(&arm, &Watch::silent(cancel))?,
+            };
+            let job = scenario.job_on(&arm, &layout)?;
+            Ok::<_, Failure>((job, layout))
+        })?;
+        let (job, layout) = resolved.map_err(|e| errors::failure(py, &e))?;
+        let robot = self.robot_of(py, job.shared_arm())?;
+        Ok(WashJobObject::new(job, layout, robot))
+    }
+
+    /// The run of the paper's program that the scenario asks for, resolved: its arm loaded, its plates placed, or those of a layout
+    /// that was made before.
+    ///
+    /// Raises InputError for a scenario of the other program; PlanError or LayoutError.
+    #[pyo3(signature = (layout=None))]
+    fn paper_job(&self, py: Python<'_>, layout: Option<&Bound<'_, PyAny>>) -> PyResult<PaperJobObject> {
+        of_program(py, &self.inner, Program::Paper)?;
+        let (scenario, layout) = (self.inner.clone(), LayoutObject::given(layout)?);
+        let resolved = patiently(py, move |_| {
+            let arm = scenario.arm()?;
+            let layout = match layout {
+                Some(layout) => layout,
+                None => scenario.layout(&arm)?,
+            };
+            scenario.paper_job_on(&arm, layout)
+        })?;
+        let job = resolved.map_err(|e| errors::failure(py, &e))?;
+        let robot = self.robot_of(py, job.arm.clone())?;
+        Ok(PaperJobObject::new(job, robot))
     }
 
     /// What was probably meant in another unit: a home in radians. Each is also a `UserWarning` when the scenario is made.
@@ -205,12 +258,6 @@ impl ScenarioObject {
         }
     }
 
-    /// What counts as done.
-    #[getter]
-    fn job<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.section(py, "job")
-    }
-
     /// The arm.
     #[getter]
     fn robot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -241,7 +288,7 @@ impl ScenarioObject {
         self.section(py, "ik")
     }
 
-    /// The way between plates.
+    /// The transits between plates.
     #[getter]
     fn transition<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.section(py, "transition")
@@ -312,13 +359,27 @@ pub fn of_program(py: Python<'_>, scenario: &Scenario, wanted: Program) -> PyRes
     }
     let problem = match wanted {
         Program::Certified => format!(
-            "\"{name}\" has job.program = \"paper\", the paper's program: Job.run runs it, plan takes either kind; \
-             a certified job is needed here, such as \"kitchen\""
+            "\"{name}\" has job.program = \"paper\", the paper's program: paper_job() is its job, which run_paper carries out; a \
+             washing is needed here, such as \"kitchen\""
         ),
         Program::Paper => format!(
-            "\"{name}\" has job.program = \"certified\": Cycle.plan plans it, plan takes either kind; the paper's program is \
-             needed here, such as \"paper-appendix\""
+            "\"{name}\" has job.program = \"certified\", a washing: job() is its job, which plan plans; the paper's program is needed \
+             here, such as \"paper-appendix\""
         ),
     };
     Err(errors::input(py, "scenario", &problem))
+}
+
+/// Places the plates of a scenario: drawn from its seed's own stream, or as given and checked. Where `layout.only_washable` asks for
+/// it, layouts are drawn until every plate can be washed whole.
+///
+/// Raises LayoutError when they have no room.
+#[pyfunction]
+pub fn place_plates(py: Python<'_>, scenario: &Bound<'_, PyAny>) -> PyResult<LayoutObject> {
+    let scenario = given(scenario)?;
+    let placed = patiently(py, move |cancel| -> Result<Layout, Failure> {
+        let arm = scenario.arm()?;
+        scenario.place(&arm, &Watch::silent(cancel))
+    })?;
+    Ok(placed.map_err(|e| errors::failure(py, &e))?.into())
 }

@@ -2,11 +2,9 @@
 
 use crate::argument::{self, TOOL};
 use crate::arrays;
-use crate::curves;
 use crate::errors;
-use crate::robot;
-use platewash::Plate;
-use platewash::workcell::tool::Tool;
+use platewash::workcell::tool::StraightTool;
+use platewash::{Plate, Tool};
 use pyo3::prelude::*;
 
 /// Largest length that is believed \[m\].
@@ -57,7 +55,7 @@ impl ToolFields {
     ///
     /// # Errors
     /// `InputError` for a number that makes no sense.
-    pub fn section(&self, py: Python<'_>) -> PyResult<Tool> {
+    pub fn tool(&self, py: Python<'_>) -> PyResult<Tool> {
         let lengths = [
             ("tool.length_m", self.length_m),
             ("tool.radius_m", self.radius_m),
@@ -77,7 +75,7 @@ impl ToolFields {
             return Err(errors::input(py, "tool.sponge_height_m", &problem));
         }
         self.check_masses(py)?;
-        Ok(Tool {
+        Ok(Tool::from(StraightTool {
             length_m: self.length_m,
             radius_m: self.radius_m,
             sponge_radius_m: self.sponge_radius_m,
@@ -86,7 +84,7 @@ impl ToolFields {
             mass_kg: self.mass_kg,
             com_m: self.com_m,
             inertia_kg_m2: self.inertia_kg_m2,
-        })
+        }))
     }
 
     fn check_masses(&self, py: Python<'_>) -> PyResult<()> {
@@ -155,28 +153,11 @@ impl PlateFields {
         ] {
             check_length(py, name, length_m)?;
         }
-        Ok(Plate {
-            x_m: self.x_m,
-            y_m: self.y_m,
-            z_m: self.z_m,
-            radius_m: self.radius_m,
-            thickness_m: self.thickness_m,
-        })
-    }
-}
-
-/// Checks one of Python's plain values when it is made, field by field; `kind` is its class in lower case.
-///
-/// Raises InputTypeError for a field of a wrong type, InputError for one out of its range.
-#[pyfunction]
-pub fn _check(py: Python<'_>, kind: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
-    match kind {
-        "tool" => ToolFields::of(value)?.section(py).map(|_| ()),
-        "plate" => PlateFields::of("plate", value)?.plate(py).map(|_| ()),
-        "ik_settings" => robot::settings(value).map(|_| ()),
-        "spiral" => curves::spiral_of(value).map(|_| ()),
-        "stroke" => curves::stroke_of(value).map(|_| ()),
-        _ => Err(errors::internal(py, "no such kind of value")),
+        Ok(Plate::level_disc(
+            [self.x_m, self.y_m, self.z_m],
+            self.radius_m,
+            self.thickness_m,
+        ))
     }
 }
 

@@ -32,6 +32,18 @@ pub fn to_record<'py>(py: Python<'py>, value: &impl Serialize, text: Option<Stri
     class.call1((to_python(py, value)?, text))
 }
 
+/// Serialisable things as records.
+///
+/// # Errors
+/// As [`to_python`].
+pub fn records<'py, T: Serialize>(py: Python<'py>, all: &[T]) -> PyResult<Bound<'py, PyList>> {
+    let list = PyList::empty(py);
+    for one in all {
+        list.append(to_record(py, one, None)?)?;
+    }
+    Ok(list)
+}
+
 fn plain<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
     Ok(match value {
         Value::Null => py.None().into_bound(py),

@@ -1,10 +1,10 @@
 //! Work without the interpreter lock: threads that survive a fork, Ctrl-C, no panic.
 
 use crate::errors;
+use platewash::CancelToken;
 use pyo3::prelude::*;
 use rayon::ThreadPool;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -17,18 +17,6 @@ const STACK_BYTES: usize = 8 << 20;
 
 /// Items that a batch works on between two looks for signals: some ten milliseconds.
 pub const STRETCH: usize = 1 << 16;
-
-/// Tells work that nobody waits for its result any more.
-#[derive(Debug, Clone, Default)]
-pub struct Cancel(Arc<AtomicBool>);
-
-impl Cancel {
-    /// Whether to stop.
-    #[must_use]
-    pub fn is_asked(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
-}
 
 /// The pool of a process: a fork takes the memory along but not the threads.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
@@ -71,14 +59,17 @@ pub fn alone<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResu
     done.map_err(|panic| errors::internal(py, &panic_text(panic.as_ref())))
 }
 
-/// Runs work that may take long without the interpreter lock, looking for signals: Ctrl-C raises at once, and the work is
-/// told to stop.
+/// Runs work that may take long without the interpreter lock, looking for signals: Ctrl-C raises at once, and the work, for whose
+/// result nobody waits any more, is told to give up.
 ///
 /// # Errors
 /// What a signal handler raises (`KeyboardInterrupt`); `InternalError` in place of a panic.
-pub fn patiently<T: Send + 'static>(py: Python<'_>, work: impl FnOnce(&Cancel) -> T + Send + 'static) -> PyResult<T> {
+pub fn patiently<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(&CancelToken) -> T + Send + 'static,
+) -> PyResult<T> {
     let pool = pool(py)?;
-    let cancel = Cancel::default();
+    let cancel = CancelToken::new();
     let (answer, waiting) = channel();
     let heard = cancel.clone();
     let run = move || {
@@ -100,9 +91,7 @@ pub fn patiently<T: Send + 'static>(py: Python<'_>, work: impl FnOnce(&Cancel) -
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(errors::internal(py, "a thread ended without an answer"));
             }
-            Err(RecvTimeoutError::Timeout) => py
-                .check_signals()
-                .inspect_err(|_| cancel.0.store(true, Ordering::Relaxed))?,
+            Err(RecvTimeoutError::Timeout) => py.check_signals().inspect_err(|_| cancel.cancel())?,
         }
     }
 }

@@ -2,6 +2,13 @@
 //!
 //! Conventions (units, frames, joint order) are those of [`platewash_kinematics`]. Torques are in N·m, positive along the
 //! joint's axis, and act on the link behind the joint.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | M(q) q̈ + C(q, q̇) q̇ + g(q) = τ | [`dynamics`] |
+//! | the arm as torques move it | [`plant`] |
+//! | laws behind one trait | [`control`] |
+//! | a plan under a law, and the report of it | [`simulate`](mod@simulate) |
 
 pub mod control;
 pub mod dynamics;
@@ -11,4 +18,4 @@ pub mod simulate;
 pub use control::{Command, ControlError, ControlLaw, Gains};
 pub use dynamics::{DynamicsError, DynamicsModel, Energy, RigidBody};
 pub use plant::{Plant, PlantState};
-pub use simulate::{Execution, Setup, SimulationError, SimulationReport, SimulationVerdict, simulate, tune};
+pub use simulate::{Execution, SimulationError, SimulationReport, SimulationVerdict, simulate, simulate_with, tune};

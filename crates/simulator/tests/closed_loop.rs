@@ -3,11 +3,10 @@
 
 use nalgebra::Matrix6;
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_planner::scenario::{ControlLawName, ControlSection, Integrator};
-use platewash_simulator::control::{self, ControlError, Reference};
+use platewash_simulator::control::{self, ControlError, PaperLaw, Reference};
 use platewash_simulator::dynamics::spread;
 use platewash_simulator::{Command, ControlLaw, DynamicsModel, Plant, PlantState};
-use platewash_workcell::trajectory::JointState;
+use platewash_workcell::simulation::{ControlLawName, ControlSettings, Integrator};
 use proptest::prelude::*;
 use std::sync::OnceLock;
 
@@ -46,12 +45,6 @@ fn everywhere(robot: &RobotModel) -> Vec<JointVector> {
     FOUND.get_or_init(find).clone()
 }
 
-fn still(q: JointVector) -> Reference {
-    let zero = JointVector::zeros();
-    let now = JointState { q, qd: zero, qdd: zero };
-    Reference { now, next: now }
-}
-
 /// The state after `seconds` at 1 kHz.
 fn run(
     law: &mut dyn ControlLaw,
@@ -60,7 +53,7 @@ fn run(
     mut state: PlantState,
     seconds: f64,
 ) -> PlantState {
-    let reference = still(target);
+    let reference = Reference::towards(target);
     for _ in 0..(seconds * 1e3) as usize {
         match law.command(&reference, &state) {
             Command::Torque(torque) => state = plant.step(&state, &torque, 1e-3).0,
@@ -69,6 +62,14 @@ fn run(
         assert!(state.q.amax() < 1e3 && state.qd.amax() < 1e4, "{state:?}");
     }
     state
+}
+
+/// Where a law without a plant puts the arm next.
+fn stepped(law: &mut dyn ControlLaw, reference: &Reference, q: JointVector) -> JointVector {
+    match law.command(reference, &PlantState::at_rest(q)) {
+        Command::Position(q) => q,
+        Command::Torque(_) => JointVector::repeat(f64::NAN),
+    }
 }
 
 /// A place within a range, by a share.
@@ -107,12 +108,12 @@ fn cases() -> impl Strategy<Value = Case> {
 fn settles(law: ControlLawName, case: &Case) -> Result<(), TestCaseError> {
     let (robot, plant) = plant();
     let (frequency, damping) = (case.frequency, case.damping);
-    let section = ControlSection {
+    let settings = ControlSettings {
         frequency_rad_s: frequency,
         damping_ratio: damping,
-        ..ControlSection::default()
+        ..ControlSettings::default()
     };
-    let Ok(mut made) = control::law(law, &section, &plant, robot.limits(), &everywhere(&robot), 1) else {
+    let Ok(mut made) = control::law(law, &settings, &plant, robot.limits(), &everywhere(&robot), 1) else {
         // Few are refused: independent joints with high gains, whose wrist has much less inertia in some configurations.
         prop_assert!(
             law != ControlLawName::ComputedTorque && frequency * damping > 30.0,
@@ -173,28 +174,25 @@ proptest! {
         kd in -1.2..1.2f64,
     ) {
         let (robot, _) = plant();
-        let section = ControlSection { kp, kd, ..ControlSection::default() };
+        let settings = ControlSettings { kp, kd, ..ControlSettings::default() };
         let (q, target) = (within(&robot, from), within(&robot, target));
-        let mut free = platewash_planner::control::PaperLaw::new(kp, kd, 0.01);
-        let grown = (0..2000).fold(q, |q, _| platewash_planner::control::ControlLaw::step(&mut free, &target, &q)) - target;
+        let reference = Reference::towards(target);
+        let mut free = PaperLaw::new(kp, kd, 0.01);
+        let grown = (0..2000).fold(q, |q, _| stepped(&mut free, &reference, q)) - target;
         // Within 2 % of the limit neither growth nor decay shows in 20 s.
         let limit = 2.0 * (1.0 - kd) / 0.01;
         let is_marginal = (kd.abs() - 1.0).abs() < 0.02 || (kp - limit).abs() < 0.02 * limit.abs();
         // Joint 6 alone may have 14 rad to go.
         let is_bounded = grown.iter().all(|v| v.is_finite() && v.abs() < 50.0);
         let has_moved_in = grown.iter().zip(&(q - target)).all(|(now, before)| now.is_finite() && now.abs() < 0.9 * before.abs());
-        match control::kinematic(ControlLawName::Paper, &section) {
+        match control::stable_kinematic(ControlLawName::Paper, &settings) {
             Ok(_) => prop_assert!(is_bounded, "accepted and grows: {}", grown),
             Err(_) => prop_assert!(!has_moved_in || is_marginal, "refused and settles: {}", grown),
         }
-        let paper = ControlSection::default();
-        let mut law = control::kinematic(ControlLawName::Paper, &paper).unwrap();
-        let reference = still(target);
-        let end = (0..500).fold(PlantState::at_rest(q), |state, _| match law.command(&reference, &state) {
-            Command::Position(q) => PlantState::at_rest(q),
-            Command::Torque(_) => state,
-        });
-        prop_assert!((end.q - target).amax() < 1e-6);
+        let paper = ControlSettings::default();
+        let mut law = control::stable_kinematic(ControlLawName::Paper, &paper).unwrap();
+        let end = (0..500).fold(q, |q, _| stepped(law.as_mut(), &reference, q));
+        prop_assert!((end - target).amax() < 1e-6);
     }
 }
 
@@ -202,17 +200,17 @@ proptest! {
 fn unstable_settings_are_refused_with_their_limits() {
     let (robot, plant) = plant();
     for law in LAWS {
-        let section = |frequency: f64, rate: f64| ControlSection {
+        let settings = |frequency: f64, rate: f64| ControlSettings {
             frequency_rad_s: frequency,
             rate_hz: rate,
-            ..ControlSection::default()
+            ..ControlSettings::default()
         };
-        let refusal = |section: &ControlSection| {
-            control::law(law, section, &plant, robot.limits(), &everywhere(&robot), 1)
+        let refusal = |settings: &ControlSettings| {
+            control::law(law, settings, &plant, robot.limits(), &everywhere(&robot), 1)
                 .map(|_| ())
                 .unwrap_err()
         };
-        let error = refusal(&section(2000.0, 1000.0));
+        let error = refusal(&settings(2000.0, 1000.0));
         let ControlError::Unstable {
             least_rate_hz: Some(rate),
             highest_frequency_rad_s: Some(frequency),
@@ -224,7 +222,7 @@ fn unstable_settings_are_refused_with_their_limits() {
         let message = error.to_string();
         assert!(
             message.contains(&format!("{} Hz", platewash_kinematics::words::rounded_up(rate, 5)))
-                && message.contains("frequency_rad_s"),
+                && message.contains("the frequency must be at most"),
             "{message}"
         );
         assert!(rate > 1000.0 && frequency < 2000.0);
@@ -232,7 +230,7 @@ fn unstable_settings_are_refused_with_their_limits() {
         let holds = |frequency: f64, rate: f64| {
             control::law(
                 law,
-                &section(frequency, rate),
+                &settings(frequency, rate),
                 &plant,
                 robot.limits(),
                 &everywhere(&robot),
@@ -254,15 +252,15 @@ fn unstable_settings_are_refused_with_their_limits() {
 #[test]
 fn gains_that_never_hold_are_refused() {
     let (robot, plant) = plant();
-    let outright = |kp: f64, kd: f64| ControlSection {
+    let outright = |kp: f64, kd: f64| ControlSettings {
         joint_kp: Some([kp; 6]),
         joint_kd: Some([kd; 6]),
-        ..ControlSection::default()
+        ..ControlSettings::default()
     };
-    let refusal = |section: &ControlSection| {
+    let refusal = |settings: &ControlSettings| {
         control::law(
             ControlLawName::Pd,
-            section,
+            settings,
             &plant,
             robot.limits(),
             &everywhere(&robot),
@@ -287,42 +285,67 @@ fn gains_that_never_hold_are_refused() {
     for bad in [f64::NAN, -1.0, f64::INFINITY] {
         assert!(matches!(
             refusal(&outright(bad, 1.0)),
-            ControlError::Setting { key: "joint_kp", .. }
+            ControlError::Setting { name: "joint_kp", .. }
         ));
-        let section = ControlSection {
+        let settings = ControlSettings {
             frequency_rad_s: bad,
-            ..ControlSection::default()
+            ..ControlSettings::default()
         };
         assert!(matches!(
-            refusal(&section),
+            refusal(&settings),
             ControlError::Setting {
-                key: "frequency_rad_s",
+                name: "frequency_rad_s",
                 ..
             }
         ));
-        let section = ControlSection {
+        let settings = ControlSettings {
             rate_hz: bad,
-            ..ControlSection::default()
+            ..ControlSettings::default()
         };
         assert!(matches!(
-            refusal(&section),
-            ControlError::Setting { key: "rate_hz", .. }
+            refusal(&settings),
+            ControlError::Setting { name: "rate_hz", .. }
         ));
     }
+}
+
+/// The paper's program follows waypoints whatever its gains, and never with torques.
+#[test]
+fn a_law_for_waypoints_moves_positions() {
+    let unstable = ControlSettings {
+        kp: 1e6,
+        ..ControlSettings::default()
+    };
+    for law in ControlLawName::ALL {
+        let made = control::kinematic(law, &unstable).map(|_| ());
+        assert_eq!(made.is_ok(), law.is_kinematic(), "{law:?}");
+        if let Err(error) = made {
+            assert_eq!(error, ControlError::NotKinematic { law });
+            assert!(error.to_string().contains(law.name()), "{error}");
+        }
+    }
+    assert!(matches!(
+        control::stable_kinematic(ControlLawName::Paper, &unstable),
+        Err(ControlError::UnstablePaper { .. })
+    ));
+    let mut exact = control::stable_kinematic(ControlLawName::Exact, &unstable).unwrap();
+    let target = JointVector::new(0.1, -0.2, 0.3, 0.2, 0.4, -0.5);
+    let end = stepped(exact.as_mut(), &Reference::towards(target), JointVector::zeros());
+    assert_eq!(end, target);
 }
 
 /// Computed torque on a plant that the law knows is a double integrator: e(t) = e₀ (1 + ω t) exp(−ω t) from rest with ζ = 1.
 #[test]
 fn computed_torque_is_a_second_order_system() {
     let (robot, plant) = plant();
-    let section = ControlSection {
+    let settings = ControlSettings {
         rate_hz: 1e4,
         frequency_rad_s: 10.0,
-        ..ControlSection::default()
+        ..ControlSettings::default()
     };
     let mut law = control::law(
         ControlLawName::ComputedTorque,
-        &section,
+        &settings,
         &plant,
         robot.limits(),
         &everywhere(&robot),
@@ -331,7 +354,7 @@ fn computed_torque_is_a_second_order_system() {
     .unwrap();
     let target = JointVector::new(0.1, -0.2, 0.3, 0.2, 0.4, -0.5);
     let mut state = PlantState::at_rest(JointVector::zeros());
-    let reference = still(target);
+    let reference = Reference::towards(target);
     for _ in 0..2000 {
         let Command::Torque(torque) = law.command(&reference, &state) else {
             panic!("a torque")

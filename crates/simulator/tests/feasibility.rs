@@ -13,11 +13,12 @@
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{JointVector, RobotModel, trig};
-use platewash_planner::cycle::Cycle;
-use platewash_planner::plan::{Plan, PlanSegment};
-use platewash_planner::scenario::{ControlLawName, Scenario};
-use platewash_planner::tool_path::SegmentKind;
-use platewash_simulator::{DynamicsModel, RigidBody, Setup, SimulationReport, simulate};
+use platewash_simulator::simulate::PlateVerdict;
+use platewash_simulator::{DynamicsModel, RigidBody, SimulationReport, simulate};
+use platewash_workcell::fixtures::{kitchen_plate, kitchen_terms};
+use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
+use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::simulation::ControlLawName;
 use std::f64::consts::{PI, TAU};
 
 const RADIUS_M: f64 = 0.12;
@@ -31,17 +32,26 @@ const PD: [[f64; 3]; 3] = [[54.0, 68.0, 88.0], [15.7, 19.3, 24.1], [4.1, 5.0, 6.
 const PD_GRAVITY: [[f64; 3]; 3] = [[5.3, 4.8, 4.3], [1.4, 1.3, 1.2], [0.34, 0.32, 0.29]];
 const COMPUTED_TORQUE: [[f64; 3]; 3] = [[0.05; 3], [0.03; 3], [0.01; 3]];
 
-/// Some plan of the kitchen's arm and tool, whose motion is replaced.
+/// A plan of the kitchen's arm and tool, without its motion.
 fn frame() -> (RobotModel, Plan) {
-    let mut scenario = Scenario::load("kitchen").unwrap();
-    scenario.layout.region = None;
-    scenario.layout.positions_m = Some(vec![[0.36, 0.0]]);
-    let cycle = Cycle::plan(&scenario).unwrap();
-    let mut plan = cycle.to_plan().unwrap();
+    let robot = RobotModel::irb120().unwrap();
+    let mut terms = kitchen_terms(&robot, vec![kitchen_plate([0.36, 0.0])]);
     let moment = 0.3 * 0.15 * 0.15 / 12.0;
-    plan.tool.com_m = Some(0.09);
-    plan.tool.inertia_kg_m2 = Some([moment, 0.0, 0.0, moment, 0.0, moment]);
-    (cycle.robot, plan)
+    let mass = terms.workcell.tool.mass.as_mut().unwrap();
+    mass.com_m = [0.0, 0.0, 0.09];
+    mass.inertia_kg_m2 = [moment, 0.0, 0.0, moment, 0.0, moment];
+    let parts = PlanParts {
+        provenance: Provenance::of("feasibility"),
+        order: vec![0],
+        wash_paths: Vec::new(),
+        segments: Vec::new(),
+        knots: Knots {
+            t_s: Vec::new(),
+            q_rad: Vec::new(),
+            qd_rad_s: Vec::new(),
+        },
+    };
+    (robot, Plan::sealed(terms, parts).unwrap())
 }
 
 /// Tilt towards the base \[rad\] at a distance from axis 1 \[m\].
@@ -59,7 +69,7 @@ fn stroke(robot: &RobotModel, plan: &Plan, rho: f64) -> Plan {
         orientation_tolerance_rad: 1e-11,
         ..IkSettings::default()
     };
-    let tip = platewash_workcell::tool::tip_frame(robot, &plan.tool);
+    let tip = plan.job.workcell.tool.tip_frame(robot);
     let solver = IkSolver::new(robot, tip, tight).unwrap();
     let rate = RADIUS_M / (TAU * TURNS);
     let (mut theta, mut q) = (0.0, vec![JointVector::new(0.0, 0.5, 0.0, 0.0, 1.0, 0.0)]);
@@ -107,7 +117,7 @@ fn stroke(robot: &RobotModel, plan: &Plan, rho: f64) -> Plan {
 #[test]
 fn the_gains_are_those_of_the_table() {
     let (robot, plan) = frame();
-    let model = DynamicsModel::new(&robot, RigidBody::tool(&plan.tool).as_ref()).unwrap();
+    let model = DynamicsModel::new(&robot, RigidBody::tool(&plan.job.workcell.tool).as_ref()).unwrap();
     let kp = model.largest_inertias(robot.limits()) * 900.0;
     let stated = [1036.0, 1027.0, 222.0, 12.3, 9.8, 1.4];
     for (joint, stated) in stated.into_iter().enumerate() {
@@ -131,11 +141,11 @@ fn the_table_is_reproduced() {
     ] {
         for (frequency, row) in FREQUENCIES.into_iter().zip(table) {
             for (plan, stated) in strokes.iter().zip(row) {
-                let mut setup = Setup::of(plan);
-                setup.law = law;
-                setup.control.frequency_rad_s = frequency;
-                let execution = simulate(plan, &robot, &setup).unwrap();
-                let report = SimulationReport::new(plan, &robot, &setup, &execution).unwrap();
+                let mut settings = plan.job.simulation.clone();
+                settings.law = law;
+                settings.control.frequency_rad_s = frequency;
+                let execution = simulate(plan, &robot, &settings).unwrap();
+                let report = SimulationReport::new(plan, &robot, &settings, &execution).unwrap();
                 let found = 1e3 * report.segments[1].tracking.tip_m.rms;
                 println!("{} at {frequency} rad/s: {found:.3} mm, table {stated} mm", law.name());
                 let off = (found - stated).abs();
@@ -155,17 +165,14 @@ fn the_papers_gains_as_torque_gains_let_the_arm_collapse() {
     let (robot, plan) = frame();
     for rho in DISTANCES_M {
         let plan = stroke(&robot, &plan, rho);
-        let mut setup = Setup::of(&plan);
-        setup.law = ControlLawName::Pd;
-        (setup.control.joint_kp, setup.control.joint_kd) = (Some([20.0; 6]), Some([0.1; 6]));
-        let execution = simulate(&plan, &robot, &setup).unwrap();
-        let report = SimulationReport::new(&plan, &robot, &setup, &execution).unwrap();
+        let mut settings = plan.job.simulation.clone();
+        settings.law = ControlLawName::Pd;
+        (settings.control.joint_kp, settings.control.joint_kd) = (Some([20.0; 6]), Some([0.1; 6]));
+        let execution = simulate(&plan, &robot, &settings).unwrap();
+        let report = SimulationReport::new(&plan, &robot, &settings, &execution).unwrap();
         let rms = report.tracking.tip_m.rms;
         println!("Kp 20, Kd 0.1 at {rho} m: {rms:.3} m rms");
         assert!((0.25..0.6).contains(&rms), "{rms} m at {rho} m");
-        assert_eq!(
-            report.plates[0].verdict,
-            platewash_simulator::simulate::PlateVerdict::NotWashed
-        );
+        assert_eq!(report.plates[0].verdict, PlateVerdict::NotWashed);
     }
 }

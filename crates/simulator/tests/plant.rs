@@ -5,8 +5,8 @@ mod support;
 
 use nalgebra::Vector3;
 use platewash_kinematics::{Axes, JointVector, RobotModel};
-use platewash_planner::scenario::{Integrator, PlantSection};
 use platewash_simulator::{DynamicsModel, Plant, PlantState};
+use platewash_workcell::simulation::{Integrator, PlantSettings};
 use proptest::prelude::*;
 use support::fixture;
 
@@ -44,13 +44,13 @@ proptest! {
     #[test]
     fn friction_only_takes_energy(q in vector(1.5), qd in vector(2.0), coulomb in 0.0..5.0f64, viscous in 0.0..50.0f64) {
         let (robot, model) = irb120();
-        let section = PlantSection {
+        let settings = PlantSettings {
             coulomb_friction_n_m: [coulomb; 6],
             viscous_friction_n_m_s: [viscous; 6],
-            ..PlantSection::default()
+            ..PlantSettings::default()
         };
         let model = model.with_gravity(Vector3::zeros()).unwrap();
-        let plant = Plant::new(model, robot.limits(), &section);
+        let plant = Plant::new(model, robot.limits(), &settings);
         let mut state = PlantState { q, qd };
         let mut before = plant.model.energy(&state.q, &state.qd).kinetic_j;
         for _ in 0..500 {
@@ -85,8 +85,8 @@ proptest! {
     #[test]
     fn stiff_friction_stops_joints_and_never_turns_them_round(q in vector(1.5), qd in vector(3.0), coulomb in 1.0..1e4f64) {
         let (robot, model) = irb120();
-        let section = PlantSection { coulomb_friction_n_m: [coulomb; 6], ..PlantSection::default() };
-        let plant = Plant::new(model.with_gravity(Vector3::zeros()).unwrap(), robot.limits(), &section);
+        let settings = PlantSettings { coulomb_friction_n_m: [coulomb; 6], ..PlantSettings::default() };
+        let plant = Plant::new(model.with_gravity(Vector3::zeros()).unwrap(), robot.limits(), &settings);
         let mut state = PlantState { q, qd };
         for _ in 0..3000 {
             state = plant.step(&state, &JointVector::zeros(), 1e-3).0;
@@ -113,7 +113,7 @@ proptest! {
 #[test]
 fn limits_cut_and_are_shared() {
     let (robot, model) = irb120();
-    let free = Plant::new(model.clone(), robot.limits(), &PlantSection::default());
+    let free = Plant::new(model.clone(), robot.limits(), &PlantSettings::default());
     let torque = JointVector::repeat(-1e9);
     assert_eq!(
         free.limits.cut(&torque),
@@ -121,18 +121,18 @@ fn limits_cut_and_are_shared() {
         "an effort of 0 in the URDF is no limit"
     );
     assert_eq!(free.limits.shares(&torque), [None; 6]);
-    let section = PlantSection {
+    let settings = PlantSettings {
         torque_limit_n_m: Some([50.0, 40.0, 30.0, 20.0, 10.0, 5.0]),
-        ..PlantSection::default()
+        ..PlantSettings::default()
     };
-    let limited = Plant::new(model, robot.limits(), &section);
+    let limited = Plant::new(model, robot.limits(), &settings);
     assert_eq!(
         limited.limits.cut(&torque),
         JointVector::new(-50.0, -40.0, -30.0, -20.0, -10.0, -5.0)
     );
     assert_eq!(limited.limits.shares(&JointVector::repeat(10.0))[4], Some(1.0));
     let (_, described, model) = fixture("arm_1");
-    let known = Plant::new(model, described.limits(), &PlantSection::default());
+    let known = Plant::new(model, described.limits(), &PlantSettings::default());
     assert_eq!(known.limits.0, described.limits().effort, "known efforts are limits");
     assert!(known.limits.0.iter().all(Option::is_some));
 }

@@ -2,10 +2,12 @@
 
 use crate::trig::{atan2, sin_cos};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
 /// The arc round the base.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Arc {
     /// Waypoints on the arc, both ends included; at least 2.
     pub points: usize,

@@ -1,17 +1,41 @@
 //! The world in which plates are washed, and the words for it.
 //!
-//! Conventions (units, frames, order of twists) are those of [`platewash_kinematics`].
+//! Conventions (units, frames, order of twists) are those of [`platewash_kinematics`]; `docs/conventions.md` has the words.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | mount, arm, tool, obstacles, pairs that are left out | [`workcell`], [`tool`] |
+//! | plates, and where they lie | [`plate`], [`surface`], [`layout`] |
+//! | what is asked, resolved | [`job`], [`simulation`] |
+//! | how a plate is washed; the arc between plates | [`wash_path`], [`arc`] |
+//! | a motion, its stretches, it as CSV | [`trajectory`], [`segment`], [`csv`] |
+//! | the plan file | [`plan`] |
+//! | distances between bodies | [`clearance`] |
+//! | the share of a plate that is swept | [`coverage`] |
+//! | random streams; giving up; how a job ended; words of messages | [`random`], [`cancel`], [`verdict`], [`words`] |
 
 pub mod arc;
+pub mod cancel;
 pub mod clearance;
 pub mod coverage;
 pub mod csv;
+#[cfg(any(test, feature = "fixtures"))]
+pub mod fixtures;
+pub mod job;
 pub mod layout;
+mod on_floor;
+pub mod plan;
+pub mod plate;
+mod pose;
 pub mod random;
 pub mod segment;
-pub mod stroke;
+pub mod simulation;
+pub mod surface;
 pub mod tool;
 pub mod trajectory;
+pub mod verdict;
+pub mod wash_path;
 pub mod words;
+pub mod workcell;
 
 pub(crate) use platewash_kinematics::trig;

@@ -24,6 +24,6 @@ mod tests {
         let first = |seed, name| stream(seed, name).random::<u64>();
         assert_eq!(first(1, "layout"), first(1, "layout"));
         assert_ne!(first(1, "layout"), first(2, "layout"));
-        assert_ne!(first(1, "layout"), first(1, "transition"));
+        assert_ne!(first(1, "layout"), first(1, "crossing 0"));
     }
 }

@@ -15,7 +15,7 @@ pub enum SegmentKind {
     /// Up from a plate along its normal.
     Retreat,
     /// From one plate to the next.
-    Transition,
+    Transit,
     /// From the last plate home.
     Return,
 }
@@ -29,7 +29,7 @@ impl SegmentKind {
             Self::Approach => "approach",
             Self::Wash => "wash",
             Self::Retreat => "retreat",
-            Self::Transition => "transition",
+            Self::Transit => "transit",
             Self::Return => "return",
         }
     }

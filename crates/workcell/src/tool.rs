@@ -1,36 +1,93 @@
-//! What the arm holds.
+//! What the arm holds: a rigid chain of convex bodies behind its flange, a sponge at the end, and its mass.
+//!
+//! Poses are in the mounting frame (`tool0`): origin at the flange, z out of it.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use crate::pose;
+use crate::trig::atan2;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Frame, Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 
-/// A handle along the z axis of the mounting frame, with a sponge at its end.
+/// A tool.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Tool {
-    /// From the flange to the sponge's far face \[m\]; 0 for no tool body.
+    /// What is between the flange and the sponge; none where there is no tool at all.
+    pub bodies: Vec<ToolBody>,
+    /// The sponge; a body too, where there are others.
+    pub sponge: Sponge,
+    /// `T_flange_tip`: the centre of the sponge's far face, z leaving the tool; the mounting frame without a tool.
+    #[serde(with = "pose")]
+    pub tip: Pose,
+    /// Its mass, all bodies together; none weighs nothing.
+    pub mass: Option<ToolMass>,
+}
+
+/// A body of the tool.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ToolBody {
+    /// Its name, in messages.
+    pub name: String,
+    /// Its shape.
+    pub shape: Shape,
+    /// `T_flange_body`.
+    #[serde(with = "pose")]
+    pub pose: Pose,
+}
+
+/// A sponge: a cylinder of a height that gives way.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sponge {
+    /// Radius \[m\]; also decides coverage.
+    pub radius_m: f64,
+    /// Height, free \[m\].
+    pub height_m: f64,
+    /// How far it is pressed in while it washes \[m\]: the tip may lift as far and still touch. An assumption.
+    pub compression_m: f64,
+    /// `T_flange_sponge`: its middle, z along its axis.
+    #[serde(with = "pose")]
+    pub pose: Pose,
+}
+
+/// Mass properties of a tool.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ToolMass {
+    /// Mass \[kg\]: an assumption.
+    pub mass_kg: f64,
+    /// Centre of mass, mounting frame \[m\].
+    pub com_m: [f64; 3],
+    /// Inertia about it: ixx, ixy, ixz, iyy, iyz, izz \[kg·m²\].
+    pub inertia_kg_m2: [f64; 6],
+}
+
+/// A straight tool: a round handle along z with a sponge at its end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StraightTool {
+    /// From the flange to the sponge's far face \[m\]; 0 for no tool.
     pub length_m: f64,
     /// Radius of the handle \[m\].
     pub radius_m: f64,
-    /// Radius of the sponge \[m\]; also decides coverage.
+    /// Radius of the sponge \[m\].
     pub sponge_radius_m: f64,
     /// Height of the sponge \[m\].
     pub sponge_height_m: f64,
-    /// How far the sponge is pressed in while it washes \[m\]: the tip may lift as far and still touch. An assumption.
+    /// How far the sponge is pressed in while it washes \[m\].
     pub sponge_compression_m: f64,
-    /// Mass of the tool body \[kg\]: an assumption.
+    /// Mass \[kg\].
     pub mass_kg: f64,
-    /// Distance of its centre of mass from the flange along its axis \[m\]; without it, half its length.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Distance of the centre of mass from the flange \[m\]; without it, half the length.
     pub com_m: Option<f64>,
-    /// Its inertia about the centre of mass, ixx, ixy, ixz, iyy, iyz, izz with z along it \[kg·m²\]; without it, that of a
-    /// uniform cylinder.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Inertia about the centre of mass; without it, that of a uniform cylinder of the handle's radius over the whole length.
     pub inertia_kg_m2: Option<[f64; 6]>,
 }
 
-impl Default for Tool {
+impl Default for StraightTool {
+    /// No tool, and a sponge of 25 mm.
     fn default() -> Self {
         Self {
             length_m: 0.0,
@@ -45,13 +102,84 @@ impl Default for Tool {
     }
 }
 
-/// The frame at the centre of the sponge's far face, z leaving the tool; the mounting frame without a tool body.
-#[must_use]
-pub fn tip_frame(robot: &RobotModel, tool: &Tool) -> Frame {
-    robot.mounting_frame().offset(&Rigid {
-        translation: Vector3::new(0.0, 0.0, tool.length_m),
-        ..Rigid::identity()
-    })
+impl StraightTool {
+    fn mass(&self) -> Option<ToolMass> {
+        let (m, l, r) = (self.mass_kg, self.length_m, self.radius_m);
+        if l == 0.0 || m == 0.0 {
+            return None;
+        }
+        // c = l/2, I = m diag(3r² + l², 3r² + l², 6r²)/12.
+        let across = m * (3.0 * r * r + l * l) / 12.0;
+        let cylinder = [across, 0.0, 0.0, across, 0.0, 0.5 * m * r * r];
+        Some(ToolMass {
+            mass_kg: m,
+            com_m: [0.0, 0.0, self.com_m.unwrap_or(0.5 * l)],
+            inertia_kg_m2: self.inertia_kg_m2.unwrap_or(cylinder),
+        })
+    }
+}
+
+impl From<StraightTool> for Tool {
+    fn from(tool: StraightTool) -> Self {
+        let along = |z: f64| Pose::translation(0.0, 0.0, z);
+        let handle_m = tool.length_m - tool.sponge_height_m;
+        let handle = ToolBody {
+            name: "handle".to_owned(),
+            shape: Shape::Cylinder {
+                radius_m: tool.radius_m,
+                half_length_m: handle_m / 2.0,
+            },
+            pose: along(handle_m / 2.0),
+        };
+        let has_body = tool.length_m > 0.0 && handle_m > 0.0;
+        Self {
+            bodies: if has_body { vec![handle] } else { Vec::new() },
+            sponge: Sponge {
+                radius_m: tool.sponge_radius_m,
+                height_m: tool.sponge_height_m,
+                compression_m: tool.sponge_compression_m,
+                pose: along(handle_m + tool.sponge_height_m / 2.0),
+            },
+            tip: along(tool.length_m),
+            mass: tool.mass(),
+        }
+    }
+}
+
+impl Tool {
+    /// Whether there is a tool that can touch anything.
+    #[must_use]
+    pub fn is_present(&self) -> bool {
+        !self.bodies.is_empty()
+    }
+
+    /// The frame of the tip on an arm.
+    #[must_use]
+    pub fn tip_frame(&self, robot: &RobotModel) -> Frame {
+        robot.mounting_frame().offset(&Rigid::from(&self.tip))
+    }
+}
+
+impl Sponge {
+    /// Largest angle of the tool from a plate's normal that the sponge allows \[rad\].
+    ///
+    /// The free sponge is a cylinder of height `h` and radius `s`, tilted by τ about the middle of its far face, which is in the
+    /// plate's plane. The middle of its near face is at the height `h cos τ`, and the lowest point of the rim there `s sin τ` below:
+    /// it is above the plate while `tan τ < h / s`. Beyond `atan(h / s)` the rim, and with it what holds the sponge, would have to
+    /// go through the plate.
+    #[must_use]
+    pub fn greatest_tilt_rad(&self) -> f64 {
+        atan2(self.height_m, self.radius_m)
+    }
+
+    /// Its shape about its pose.
+    #[must_use]
+    pub fn shape(&self) -> Shape {
+        Shape::Cylinder {
+            radius_m: self.radius_m,
+            half_length_m: self.height_m / 2.0,
+        }
+    }
 }
 
 /// Pose of the tip at a position, pointing straight down: a half turn about y, which is what the paper's
@@ -59,6 +187,6 @@ pub fn tip_frame(robot: &RobotModel, tool: &Tool) -> Frame {
 #[must_use]
 pub fn tool_down(position: Vector3<f64>) -> Pose {
     // Exact, so that no joint sees the rounding of π: the quaternion (w, x, y, z) = (0, 0, 1, 0).
-    let half_turn = UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(0.0, 0.0, 1.0, 0.0));
+    let half_turn = UnitQuaternion::new_unchecked(Quaternion::new(0.0, 0.0, 1.0, 0.0));
     Pose::from_parts(position.into(), half_turn)
 }

@@ -5,7 +5,7 @@ use super::time::scale;
 use super::{knot_at, middle, nth, retime};
 use crate::edit::{Edits, Expected, Kind};
 use platewash::Plan;
-use platewash::planner::tool_path::SegmentKind::{self, Approach, Depart, Return, Transition, Wash};
+use platewash::workcell::segment::SegmentKind::{self, Approach, Depart, Return, Transit, Wash};
 
 /// How much slower the plan is made first, so that no speed and no acceleration matters.
 const SLOWER: f64 = 5.0;
@@ -13,9 +13,9 @@ const SLOWER: f64 = 5.0;
 pub fn add(edits: &mut Edits) {
     for (kind, n, joint, sizes) in [
         (Depart, 0, 1, [0.2, 0.3, 0.4]),
-        (Transition, 0, 1, [0.1, 0.2, 0.4]),
-        (Transition, 2, 1, [0.15, 0.3, 0.4]),
-        (Transition, 1, 4, [-1.0, 0.5, 1.0]),
+        (Transit, 0, 1, [0.1, 0.2, 0.4]),
+        (Transit, 2, 1, [0.15, 0.3, 0.4]),
+        (Transit, 1, 4, [-1.0, 0.5, 1.0]),
         (Return, 0, 3, [-0.6, 2.0, 3.0]),
         (Depart, 0, 5, [3.0, -6.9, 7.1]),
     ] {

@@ -1,21 +1,25 @@
-//! What promises nothing, and what is too small to break anything.
+//! What is never judged, and what is too small to break anything.
 
 use super::retime;
 use crate::edit::{Edits, Kind};
-use platewash::planner::scenario::OnFailure;
+use platewash::Plan;
+use platewash::workcell::job::{OrderRule, Planner, PlannerSettings};
+use platewash::workcell::simulation::ControlLawName;
 
 pub fn add(edits: &mut Edits) {
     let mut words = |what, apply| edits.harmless(Kind::Words, what, apply);
-    words("name", |p| p.scenario.name = "renamed".into());
-    words("seed", |p| p.scenario.seed += 1);
-    words("what failure leads to", |p| {
-        p.scenario.job.on_failure = OnFailure::Report
-    });
-    words("spacing of plates that are drawn", |p| {
-        p.scenario.layout.min_distance_m = 0.31
-    });
-    words("waypoints of the paper's program", |p| p.scenario.wash.points += 1);
-    words("control", |p| p.scenario.control.dt_s *= 2.0);
+    words("name of the scenario", |p| p.provenance.scenario = "renamed".into());
+    words("version", |p| p.provenance.version = "99.0.0".into());
+    words("seed", |p| p.job.seed += 1);
+    words("radius that was planned for", |p| settings(p).path_radius_m = 0.01);
+    words("turns that were planned for", |p| settings(p).turns = 9.0);
+    words("lift that was planned for", |p| settings(p).lift_m *= 2.0);
+    words("the rule of the order", |p| settings(p).order = OrderRule::Nearest);
+    words("the arc round the base", |p| settings(p).arc.height_m = 0.5);
+    words("where the upright tool leans", |p| settings(p).reach.far_m = 0.4);
+    words("law of the simulation", |p| p.job.simulation.law = ControlLawName::Pd);
+    words("gains", |p| p.job.simulation.control.kp *= 2.0);
+    words("payload", |p| p.job.simulation.payload_kg = Some(0.1));
     let mut rounding = |what, apply| edits.harmless(Kind::Rounding, what, apply);
     rounding("positions", |p| {
         p.knots.q_rad.iter_mut().for_each(|q| q.apply(|v| *v = rounded(*v)))
@@ -25,10 +29,21 @@ pub fn add(edits: &mut Edits) {
     });
     rounding("times", |p| retime(p, |_, t| rounded(t)));
     rounding("places of plates", |p| {
-        p.plates
-            .iter_mut()
-            .for_each(|plate| (plate.x_m, plate.y_m) = (rounded(plate.x_m), rounded(plate.y_m)));
+        let plates = p.job.plates.iter_mut();
+        plates.for_each(|plate| *plate = plate.moved_to(plate.centre_xy().map(rounded)));
     });
+    rounding("wash paths", |p| {
+        p.wash_paths
+            .iter_mut()
+            .for_each(|path| path.curve.start_angle_rad = rounded(path.curve.start_angle_rad))
+    });
+}
+
+fn settings(plan: &mut Plan) -> &mut PlannerSettings {
+    match &mut plan.job.planner {
+        Planner::Wash(settings) => settings,
+        Planner::Paper(_) => panic!("the plan is one of a washing"),
+    }
 }
 
 /// To 13 decimals.

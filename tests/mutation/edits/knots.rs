@@ -4,12 +4,12 @@ use super::{middle, nth, some_knot, within};
 use crate::edit::{Edits, Expected, Kind};
 use crate::sampler::pieces;
 use platewash::Plan;
-use platewash::planner::certificate::PromiseName::{HomeToHome, RestAtWashEnds, Segments};
-use platewash::planner::tool_path::SegmentKind::{self, Approach, Depart, Retreat, Return, Transition, Wash};
+use platewash::certificate::Requirement::{HomeToHome, RestAtWashEnds, Segments};
+use platewash::workcell::segment::SegmentKind::{self, Approach, Depart, Retreat, Return, Transit, Wash};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-const KINDS: [SegmentKind; 6] = [Depart, Approach, Wash, Retreat, Transition, Return];
+const KINDS: [SegmentKind; 6] = [Depart, Approach, Wash, Retreat, Transit, Return];
 
 pub fn add(edits: &mut Edits) {
     moved(edits);
@@ -34,7 +34,7 @@ fn moved(edits: &mut Edits) {
             });
         }
     }
-    for kind in [Depart, Transition, Return] {
+    for kind in [Depart, Transit, Return] {
         for size in [0.5, 2.0] {
             let what = format!("{} by {size} rad", kind.name());
             edits.add(Kind::KnotMoved, what, Expected::Sampled, move |p, random| {
@@ -85,7 +85,7 @@ fn exchange(plan: &mut Plan, a: usize, b: usize) {
 }
 
 fn exchanged(edits: &mut Edits) {
-    for kind in [Wash, Transition, Approach] {
+    for kind in [Wash, Transit, Approach] {
         let what = format!("neighbours, {}", kind.name());
         edits.add(Kind::KnotOrder, what, Expected::Sampled, move |p, random| {
             let knot = some_knot(p, kind, random);
@@ -115,7 +115,7 @@ fn dropped(edits: &mut Edits) {
     for (kind, count) in [
         (Depart, 1),
         (Wash, 1),
-        (Transition, 1),
+        (Transit, 1),
         (Retreat, 1),
         (Wash, 3),
         (Wash, 12),

@@ -1,19 +1,21 @@
 //! The edits, by what they touch.
 
+mod asked;
 mod detours;
+mod exclusions;
 mod harmless;
 mod knots;
-mod limits;
+mod obstacles;
 mod plates;
 mod segments;
 mod statements;
 mod time;
 mod tool;
-mod tool_path;
+mod wash_paths;
 
 use crate::edit::{Edit, Edits};
 use platewash::Plan;
-use platewash::planner::tool_path::SegmentKind;
+use platewash::workcell::segment::SegmentKind;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 use std::ops::Range;
@@ -25,16 +27,18 @@ pub fn all() -> Vec<Edit> {
     time::add(&mut edits);
     detours::add(&mut edits);
     segments::add(&mut edits);
-    tool_path::add(&mut edits);
+    wash_paths::add(&mut edits);
     plates::add(&mut edits);
     tool::add(&mut edits);
-    limits::add(&mut edits);
+    obstacles::add(&mut edits);
+    exclusions::add(&mut edits);
+    asked::add(&mut edits);
     statements::add(&mut edits);
     harmless::add(&mut edits);
     edits.0
 }
 
-/// Index of the nth segment of a kind; in a good plan the tool path counts the same.
+/// Index of the nth segment of a kind.
 fn nth(plan: &Plan, kind: SegmentKind, n: usize) -> usize {
     let all = plan.segments.iter().enumerate().filter(|(_, s)| s.kind == kind);
     all.map(|(i, _)| i).nth(n).unwrap()

@@ -1,180 +1,222 @@
-//! Plates moved, resized, doubled and removed, alone and together with the tool path and the scenario.
+//! Plates moved, turned, resized, doubled and removed, alone and together with what names them.
 
-use super::tool_path::restate;
 use crate::edit::{Edits, Expected, Kind};
-use platewash::Plan;
-use platewash::planner::certificate::PromiseName::{
-    ClearancePairs, ContactHeight, Coverage, EveryPlateOnce, LineDeviation, Plates, PlatesApart, Segments,
-    StrokeDeviation, ToolPath,
+use nalgebra::{UnitQuaternion, Vector3};
+use platewash::certificate::Requirement::{
+    ContactHeight, Coverage, EveryPlateOnce, LineDeviation, PathDeviation, Plates, PlatesApart, Reach, Segments,
+    WashPaths,
 };
-use platewash::planner::scenario::Overlap;
+use platewash::workcell::job::Overlap;
+use platewash::workcell::segment::SegmentKind::Depart;
+use platewash::{Plan, Plate, Surface};
 
 pub fn add(edits: &mut Edits) {
-    for (size, expected) in [
-        (1e-10, Expected::Harmless),
-        (1e-8, Expected::Fails(vec![ToolPath])),
-        (1e-3, Expected::Fails(vec![ToolPath])),
-        (3e-2, Expected::Fails(vec![ToolPath, Coverage])),
-    ] {
-        edits.add(Kind::Plates, format!("one by {size} m"), expected, move |p, _| {
-            p.plates[1].x_m += size
-        });
-    }
-    alone(edits);
+    moved(edits);
+    heights(edits);
+    turned(edits);
     number(edits);
     shapes(edits);
-    consistent(edits);
+    overlaps(edits);
+    renamed(edits);
 }
 
-fn alone(edits: &mut Edits) {
+fn shift(plan: &mut Plan, plate: usize, [dx, dy]: [f64; 2]) {
+    let [x, y] = plan.job.plates[plate].centre_xy();
+    plan.job.plates[plate] = plan.job.plates[plate].moved_to([x + dx, y + dy]);
+}
+
+/// The path is the plate's: it moves with it.
+fn moved(edits: &mut Edits) {
+    for (size_m, expected) in [
+        (1e-10, Expected::Harmless),
+        (1e-8, Expected::Harmless),
+        (1e-5, Expected::Sampled),
+        (1.5e-4, Expected::Sampled),
+        (3e-4, Expected::Fails(vec![PathDeviation])),
+        (3e-3, Expected::Fails(vec![PathDeviation, LineDeviation, Reach])),
+        (3e-2, Expected::Fails(vec![PathDeviation, Coverage])),
+    ] {
+        for (way, by) in [("x", [size_m, 0.0]), ("y", [0.0, -size_m])] {
+            let what = format!("one by {size_m} m along {way}");
+            edits.add(Kind::Plates, what, expected.clone(), move |p, _| shift(p, 1, by));
+        }
+    }
     let mut fails = |what, names: &[_], apply| edits.fails(Kind::Plates, what, names, apply);
-    fails("one onto another", &[ToolPath, PlatesApart, Coverage], |p| {
-        let [a, b] = [p.plates[0], p.plates[1]];
-        (p.plates[0].x_m, p.plates[0].y_m) = (b.x_m + 0.3 * (a.x_m - b.x_m), b.y_m + 0.3 * (a.y_m - b.y_m));
+    fails("one onto another", &[PlatesApart, Coverage, PathDeviation], |p| {
+        let [a, b] = [0, 1].map(|i| p.job.plates[i].centre_xy());
+        p.job.plates[0] = p.job.plates[0].moved_to([0, 1].map(|k| b[k] + 0.3 * (a[k] - b[k])));
     });
-    fails("one under the base", &[ToolPath, PlatesApart, Coverage], |p| {
-        (p.plates[2].x_m, p.plates[2].y_m) = (0.0, 0.1);
+    fails("one under the base", &[PlatesApart, Coverage, PathDeviation], |p| {
+        p.job.plates[2] = p.job.plates[2].moved_to([0.0, 0.1])
     });
-    fails("one far away", &[ToolPath, Coverage], |p| p.plates[2].y_m = 900.0);
-    fails("one raised", &[Plates, ToolPath, ContactHeight], |p| {
-        p.plates[3].z_m += 1e-3
+    fails("one far away", &[Coverage, PathDeviation], |p| {
+        shift(p, 2, [0.0, 900.0])
     });
-    fails("one raised a hair", &[Plates, ToolPath], |p| p.plates[3].z_m += 1e-5);
-    fails("one shrunk", &[Plates], |p| p.plates[0].radius_m -= 5e-3);
-    fails("one grown", &[Plates, Coverage], |p| p.plates[0].radius_m += 0.03);
-    fails("one thicker", &[Plates], |p| p.plates[0].thickness_m += 1e-9);
-    fails("two exchanged", &[ToolPath, Coverage], |p| p.plates.swap(0, 1));
+    fails("two exchanged", &[Coverage, PathDeviation], |p| p.job.plates.swap(0, 1));
+}
+
+fn heights(edits: &mut Edits) {
+    let raise = |p: &mut Plan, plate: usize, by: f64| p.job.plates[plate].pose.translation.z += by;
+    for size_m in [1e-9, 1e-5, -1e-5, 1.9e-4] {
+        let what = format!("one higher by {size_m} m");
+        edits.add(Kind::Plates, what, Expected::Sampled, move |p, _| raise(p, 3, size_m));
+    }
+    for size_m in [1e-3, -1e-3] {
+        let names = vec![ContactHeight, PathDeviation];
+        let what = format!("all higher by {size_m} m");
+        edits.add(Kind::Plates, what, Expected::Fails(names), move |p, _| {
+            (0..4).for_each(|plate| raise(p, plate, size_m))
+        });
+    }
+    edits.fails(Kind::Plates, "one in the floor", &[Plates], |p| {
+        p.job.plates[1].thickness_m = 0.0301
+    });
+    edits.fails(Kind::Plates, "all in the floor", &[Plates], |p| {
+        p.job.plates.iter_mut().for_each(|plate| plate.thickness_m = 0.05)
+    });
+    edits.harmless(Kind::Plates, "one on the floor", |p| p.job.plates[1].thickness_m = 0.03);
+}
+
+/// A round plate may be turned; its path turns with it.
+fn turned(edits: &mut Edits) {
+    fn turn(plan: &mut Plan, plate: usize, angle_rad: f64) {
+        plan.job.plates[plate].pose.rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle_rad);
+    }
+    edits.fails(Kind::Plates, "one turned, with its path", &[PathDeviation], |p| {
+        turn(p, 2, 0.3)
+    });
+    edits.sampled(Kind::Plates, "one turned by a hair, with its path", |p| {
+        turn(p, 2, 1e-6)
+    });
+    edits.harmless(Kind::Plates, "one turned, and its path back", |p| {
+        turn(p, 2, 0.3);
+        let path = p.wash_paths.iter_mut().find(|path| path.plate == 2).unwrap();
+        path.curve.start_angle_rad -= 0.3;
+    });
 }
 
 fn number(edits: &mut Edits) {
     let mut fails = |what, names: &[_], apply| edits.fails(Kind::Plates, what, names, apply);
-    fails(
-        "one doubled",
-        &[Plates, ClearancePairs, EveryPlateOnce, PlatesApart, Coverage],
-        |p| p.plates.push(p.plates[0]),
-    );
-    fails(
-        "one doubled, and asked for",
-        &[ClearancePairs, EveryPlateOnce, PlatesApart, Coverage],
-        |p| {
-            p.plates.push(p.plates[0]);
-            p.scenario.layout.count += 1;
-        },
-    );
-    fails(
-        "one more, out of the way",
-        &[Plates, ClearancePairs, EveryPlateOnce, Coverage],
-        |p| {
-            let mut plate = p.plates[0];
-            (plate.x_m, plate.y_m) = (-0.6, 0.0);
-            p.plates.push(plate);
-        },
-    );
-    fails(
-        "the last removed",
-        &[Plates, ClearancePairs, EveryPlateOnce, ToolPath],
-        |p| _ = p.plates.pop(),
-    );
-    fails("one never washed, asked for three", &[Segments, ClearancePairs], |p| {
+    fails("one doubled", &[EveryPlateOnce, PlatesApart, Coverage], |p| {
+        p.job.plates.push(p.job.plates[0])
+    });
+    fails("one more, out of the way", &[EveryPlateOnce, Coverage], |p| {
+        p.job.plates.push(p.job.plates[0].moved_to([-0.6, 0.0]))
+    });
+    let gone = [EveryPlateOnce, PathDeviation, LineDeviation];
+    fails("the last removed", &gone, |p| _ = p.job.plates.pop());
+    fails("one never washed, and not asked for", &[Segments], |p| {
         let gone = p.order.remove(0);
-        p.scenario.layout.count -= 1;
-        p.plates.remove(gone);
+        p.wash_paths.remove(0);
+        p.job.plates.remove(gone);
         p.order.iter_mut().for_each(|i| *i -= usize::from(*i > gone));
         let renamed = |i: usize| i.saturating_sub(usize::from(i > gone)).min(2);
-        p.tool_path.iter_mut().for_each(|s| s.plate = renamed(s.plate));
+        p.wash_paths.iter_mut().for_each(|w| w.plate = renamed(w.plate));
         p.segments.iter_mut().for_each(|s| s.plate = renamed(s.plate));
-        restate_rest(p);
     });
-    fails("asked for one more", &[Plates], |p| p.scenario.layout.count += 1);
-    fails("given places that are others", &[Plates], |p| {
-        give_places(p);
-        p.scenario.layout.positions_m.as_mut().unwrap()[1][0] += 1e-12;
+    edits.sampled(
+        Kind::Plates,
+        "one never washed, not asked for, on the way to the next",
+        |p| {
+            let gone = p.order.remove(0);
+            p.wash_paths.remove(0);
+            p.job.plates.remove(gone);
+            // What was done to it is part of the way.
+            let departs_s = p.segments[0].t_start_s;
+            p.segments.drain(0..4);
+            (p.segments[0].kind, p.segments[0].t_start_s) = (Depart, departs_s);
+            let plates = p.segments.iter_mut().map(|s| &mut s.plate);
+            let named = plates
+                .chain(&mut p.order)
+                .chain(p.wash_paths.iter_mut().map(|w| &mut w.plate));
+            named.for_each(|i| *i -= usize::from(*i > gone));
+        },
+    );
+}
+
+/// Plates of another shape.
+fn shapes(edits: &mut Edits) {
+    fn resize(plate: &mut Plate, radius_m: f64) {
+        plate.surface = Surface::Disc { radius_m };
+    }
+    for (what, by_m, expected) in [
+        ("one a hair smaller", -1e-9, Expected::Harmless),
+        ("one smaller", -5e-3, Expected::Harmless),
+        ("one a hair larger", 1e-9, Expected::Sampled),
+        ("one larger", 0.03, Expected::Fails(vec![Coverage])),
+    ] {
+        edits.add(Kind::Plates, what, expected, move |p, _| {
+            let radius_m = p.job.plates[0].rim_m() + by_m;
+            resize(&mut p.job.plates[0], radius_m);
+        });
+    }
+    for (what, radius_m, expected) in [
+        ("all smaller", 0.14, Expected::Harmless),
+        ("all larger", 0.15, Expected::Sampled),
+        ("all much larger", 0.2, Expected::Fails(vec![Coverage])),
+    ] {
+        edits.add(Kind::Plates, what, expected, move |p, _| {
+            p.job.plates.iter_mut().for_each(|plate| resize(plate, radius_m))
+        });
+    }
+    edits.fails(
+        Kind::Plates,
+        "all so small that neighbours are swept",
+        &[EveryPlateOnce],
+        |p| {
+            p.wash_paths.iter_mut().for_each(|w| w.curve.radius_m += 0.12);
+            p.job.plates.iter_mut().for_each(|plate| resize(plate, 0.1));
+        },
+    );
+    edits.harmless(Kind::Plates, "all thinner", |p| {
+        p.job.plates.iter_mut().for_each(|plate| plate.thickness_m = 0.01)
+    });
+    edits.harmless(Kind::Plates, "one a hair thicker", |p| {
+        p.job.plates[0].thickness_m += 1e-9
     });
 }
 
-/// The tool path without its first plate, as it would be.
-fn restate_rest(plan: &mut Plan) {
-    plan.tool_path.drain(0..4);
-    plan.tool_path[0].kind = platewash::planner::tool_path::SegmentKind::Depart;
-}
-
-/// The layout's places given in place of being drawn.
-fn give_places(plan: &mut Plan) {
-    plan.scenario.layout.region = None;
-    plan.scenario.layout.positions_m = Some(plan.plates.iter().map(|p| [p.x_m, p.y_m]).collect());
+fn overlaps(edits: &mut Edits) {
+    edits.harmless(Kind::Plates, "overlaps would only be told", |p| {
+        p.job.requirements.overlap = Overlap::Report
+    });
+    // A plate that is larger than it looks, and nobody asks for all of it.
+    fn grow(plan: &mut Plan) {
+        plan.job.requirements.coverage = 0.3;
+        let plates = plan.job.plates.iter_mut();
+        plates.for_each(|plate| plate.surface = Surface::Disc { radius_m: 0.154 });
+    }
+    edits.fails(Kind::Plates, "all grown into each other", &[PlatesApart], grow);
+    edits.waives(Kind::Plates, "all grown into each other, told", &[PlatesApart], |p| {
+        grow(p);
+        p.job.requirements.overlap = Overlap::Report;
+    });
 }
 
 /// Exchanges the names of plates 0 and 1 wherever one is named.
 fn rename(plan: &mut Plan) {
     let in_time = plan.segments.iter_mut().map(|s| &mut s.plate);
-    let in_space = plan.tool_path.iter_mut().map(|s| &mut s.plate);
+    let in_space = plan.wash_paths.iter_mut().map(|path| &mut path.plate);
     for plate in in_time.chain(in_space).chain(&mut plan.order) {
         *plate = [1, 0, 2, 3][*plate];
     }
 }
 
-/// All plates of another shape, as asked.
-fn shapes(edits: &mut Edits) {
-    let resize = |p: &mut Plan, radius_m: f64| {
-        p.scenario.layout.plate_radius_m = radius_m;
-        p.plates.iter_mut().for_each(|plate| plate.radius_m = radius_m);
-    };
-    edits.add(
-        Kind::Plates,
-        "all smaller, as asked",
-        Expected::Harmless,
-        move |p, _| resize(p, 0.14),
-    );
-    edits.add(
-        Kind::Plates,
-        "all much larger, as asked",
-        Expected::Fails(vec![Coverage]),
-        move |p, _| resize(p, 0.2),
-    );
-    edits.harmless(Kind::Plates, "all thinner, as asked", |p| {
-        p.scenario.layout.plate_thickness_m = 0.01;
-        p.plates.iter_mut().for_each(|plate| plate.thickness_m = 0.01);
-    });
-}
-
-fn consistent(edits: &mut Edits) {
-    edits.harmless(Kind::Plates, "places given as they are", give_places);
+fn renamed(edits: &mut Edits) {
     edits.harmless(Kind::Plates, "two renamed everywhere", |p| {
-        p.plates.swap(0, 1);
+        p.job.plates.swap(0, 1);
         rename(p);
     });
     edits.fails(
         Kind::Plates,
         "two exchanged in the order and the paths",
-        &[StrokeDeviation, LineDeviation],
-        |p| {
-            rename(p);
-            restate(p, |_| ());
-        },
+        &[PathDeviation, LineDeviation],
+        rename,
     );
-    edits.harmless(Kind::Plates, "overlaps would only be told", |p| {
-        p.scenario.layout.overlap = Overlap::Report
-    });
-    for (size, expected) in [
-        (1e-6, Expected::Sampled),
-        (1e-4, Expected::Sampled),
-        (1e-3, Expected::Fails(vec![StrokeDeviation])),
-    ] {
-        let what = format!("one by {size} m, with its path");
-        edits.add(Kind::Plates, what, expected, move |p, _| {
-            restate(p, |p| p.plates[2].y_m += size)
-        });
-    }
     edits.fails(
         Kind::Plates,
-        "all raised, with their paths, as asked",
-        &[StrokeDeviation, ContactHeight],
-        |p| {
-            p.scenario.layout.plate_height_m += 1e-3;
-            p.plates
-                .iter_mut()
-                .for_each(|plate| plate.z_m = p.scenario.layout.plate_height_m);
-            restate(p, |_| ());
-        },
+        "two exchanged in the order alone",
+        &[Segments, WashPaths],
+        |p| p.order.iter_mut().for_each(|i| *i = [1, 0, 2, 3][*i]),
     );
 }

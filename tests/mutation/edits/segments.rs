@@ -3,11 +3,10 @@
 use super::{nth, within};
 use crate::edit::{Edits, Kind};
 use platewash::Plan;
-use platewash::planner::certificate::PromiseName::{
-    EveryPlateOnce, LineDeviation, RestAtWashEnds, Segments, StrokeDeviation,
+use platewash::certificate::Requirement::{
+    EveryPlateOnce, LineDeviation, PathDeviation, RestAtWashEnds, Segments, WashPaths,
 };
-use platewash::planner::scenario::OrderRule;
-use platewash::planner::tool_path::SegmentKind::{Approach, Retreat, Transition, Wash};
+use platewash::workcell::segment::SegmentKind::{Approach, Retreat, Transit, Wash};
 
 pub fn add(edits: &mut Edits) {
     list(edits);
@@ -18,9 +17,9 @@ pub fn add(edits: &mut Edits) {
 fn list(edits: &mut Edits) {
     let mut fails = |what, apply| edits.fails(Kind::Segments, what, &[Segments], apply);
     fails("the first dropped", |p| _ = p.segments.remove(0));
-    fails("a transition dropped", |p| _ = p.segments.remove(nth(p, Transition, 1)));
-    fails("a transition dropped, the next longer", |p| {
-        let gone = p.segments.remove(nth(p, Transition, 1));
+    fails("a transit dropped", |p| _ = p.segments.remove(nth(p, Transit, 1)));
+    fails("a transit dropped, the next longer", |p| {
+        let gone = p.segments.remove(nth(p, Transit, 1));
         let next = p.segments.iter().position(|s| s.t_start_s == gone.t_end_s).unwrap();
         p.segments[next].t_start_s = gone.t_start_s;
     });
@@ -28,14 +27,11 @@ fn list(edits: &mut Edits) {
     fails("the plate of the return", |p| {
         p.segments.last_mut().unwrap().plate = p.order[0]
     });
-    fails("the plate of the return in the tool path", |p| {
-        p.tool_path.last_mut().unwrap().plate = p.order[1]
-    });
     fails("all dropped", |p| p.segments.clear());
     fails("one doubled", |p| p.segments.insert(2, p.segments[2]));
     fails("two exchanged", |p| p.segments.swap(2, 3));
-    fails("a transition named wash", |p| {
-        let i = nth(p, Transition, 0);
+    fails("a transit named wash", |p| {
+        let i = nth(p, Transit, 0);
         p.segments[i].kind = Wash;
     });
     fails("a wash named retreat", |p| {
@@ -73,10 +69,10 @@ fn boundaries(edits: &mut Edits) {
     fails("a wash begins a knot early", &[RestAtWashEnds], |p| {
         cut(p, nth(p, Approach, 1), -1)
     });
-    fails("a wash ends early", &[RestAtWashEnds, StrokeDeviation], |p| {
+    fails("a wash ends early", &[RestAtWashEnds, PathDeviation], |p| {
         cut(p, nth(p, Wash, 0), -30)
     });
-    fails("a wash takes in the retreat", &[RestAtWashEnds, StrokeDeviation], |p| {
+    fails("a wash takes in the retreat", &[RestAtWashEnds, PathDeviation], |p| {
         let knots = within(p, nth(p, Retreat, 0)).len();
         cut(p, nth(p, Wash, 0), isize::try_from(knots).unwrap());
     });
@@ -84,14 +80,14 @@ fn boundaries(edits: &mut Edits) {
         let half = within(p, nth(p, Retreat, 1)).len() / 2;
         cut(p, nth(p, Retreat, 1), -isize::try_from(half).unwrap());
     });
-    fails("a retreat takes in some of the transition", &[LineDeviation], |p| {
+    fails("a retreat takes in some of the transit", &[LineDeviation], |p| {
         cut(p, nth(p, Retreat, 1), 20)
     });
     fails("an approach begins late", &[LineDeviation], |p| {
-        cut(p, nth(p, Transition, 0), 6)
+        cut(p, nth(p, Transit, 0), 6)
     });
     edits.sampled(Kind::Segments, "an approach begins a knot late", |p| {
-        cut(p, nth(p, Transition, 0), 1)
+        cut(p, nth(p, Transit, 0), 1)
     });
     edits.sampled(Kind::Segments, "a retreat ends a knot late", |p| {
         cut(p, nth(p, Retreat, 0), 1)
@@ -100,14 +96,31 @@ fn boundaries(edits: &mut Edits) {
 
 fn order(edits: &mut Edits) {
     let mut fails = |what, names: &[_], apply| edits.fails(Kind::Order, what, names, apply);
-    fails("two exchanged", &[Segments], |p| p.order.swap(0, 1));
-    fails("reversed", &[Segments], |p| p.order.reverse());
-    fails("one twice", &[Segments, EveryPlateOnce], |p| p.order[1] = p.order[0]);
-    fails("one too many", &[Segments, EveryPlateOnce], |p| p.order.push(0));
-    fails("no such plate", &[Segments, EveryPlateOnce], |p| p.order[3] = 7);
-    fails("one missing", &[Segments, EveryPlateOnce], |p| _ = p.order.pop());
-    fails("another than is given", &[EveryPlateOnce], |p| {
-        p.scenario.job.order = OrderRule::Given
+    fails("two exchanged", &[Segments, WashPaths], |p| p.order.swap(0, 1));
+    fails("reversed", &[Segments, WashPaths], |p| p.order.reverse());
+    fails("one twice", &[Segments, WashPaths, EveryPlateOnce], |p| {
+        p.order[1] = p.order[0]
     });
-    fails("none", &[Segments, EveryPlateOnce], |p| p.order.clear());
+    fails("one too many", &[Segments, WashPaths, EveryPlateOnce], |p| {
+        p.order.push(0)
+    });
+    fails("no such plate", &[Segments, WashPaths, EveryPlateOnce], |p| {
+        p.order[3] = 7
+    });
+    fails("one missing", &[Segments, WashPaths, EveryPlateOnce], |p| {
+        _ = p.order.pop()
+    });
+    fails("none", &[Segments, WashPaths, EveryPlateOnce], |p| p.order.clear());
+    fails("another than is asked", &[EveryPlateOnce], |p| {
+        p.job.requirements.as_listed = true
+    });
+    edits.harmless(Kind::Order, "as listed, all renamed so", |p| {
+        let order = p.order.clone();
+        let listed = |plate: usize| order.iter().position(|i| *i == plate).unwrap();
+        p.job.plates = order.iter().map(|i| p.job.plates[*i]).collect();
+        p.segments.iter_mut().for_each(|s| s.plate = listed(s.plate));
+        p.wash_paths.iter_mut().for_each(|w| w.plate = listed(w.plate));
+        p.order.sort_unstable();
+        p.job.requirements.as_listed = true;
+    });
 }

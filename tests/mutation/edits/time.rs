@@ -3,8 +3,8 @@
 use super::{middle, nth, retime, within};
 use crate::edit::{Edits, Expected, Kind};
 use platewash::Plan;
-use platewash::planner::certificate::PromiseName::{JointAcceleration, WashSpeed};
-use platewash::planner::tool_path::SegmentKind::{self, Approach, Depart, Retreat, Transition, Wash};
+use platewash::certificate::Requirement::{JointAcceleration, WashSpeed};
+use platewash::workcell::segment::SegmentKind::{self, Approach, Depart, Retreat, Transit, Wash};
 use std::ops::Range;
 
 pub fn add(edits: &mut Edits) {
@@ -31,7 +31,7 @@ pub fn add(edits: &mut Edits) {
         (Wash, 0.999),
         (Wash, 0.9),
         (Wash, 0.2),
-        (Transition, 0.9),
+        (Transit, 0.9),
         (Approach, 0.5),
         (Wash, 1.5),
         (Depart, 3.0),
@@ -44,8 +44,8 @@ pub fn add(edits: &mut Edits) {
     }
     for (kind, factor) in [
         (Wash, 0.95),
-        (Transition, 0.9),
-        (Transition, 0.5),
+        (Transit, 0.9),
+        (Transit, 0.5),
         (Retreat, 0.7),
         (Depart, 1.3),
     ] {

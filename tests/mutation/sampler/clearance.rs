@@ -4,9 +4,10 @@ use super::LINE_M;
 use super::findings::Findings;
 use super::hermite::{Piece, pieces};
 use super::moments::within;
-use super::schedule::{is_at_plate, segment_of};
-use platewash::planner::certificate::PromiseName;
-use platewash::{ClearanceModel, JointVector, Plan, RobotModel};
+use super::schedule::{is_at_plate, path_of, segment_of};
+use platewash::certificate::Requirement;
+use platewash::workcell::workcell::{Exclusion, ExclusionReason, ObstacleShape};
+use platewash::{ClearanceModel, JointVector, Plan, RobotModel, Workcell};
 use std::collections::HashMap;
 
 /// What the distances of single configurations are right to \[m\].
@@ -26,7 +27,7 @@ pub struct Distances<'a> {
 
 impl<'a> Distances<'a> {
     pub fn new(origin: &'a Plan, robot: &'a RobotModel) -> Self {
-        let model = ClearanceModel::new(robot, &origin.scenario.tool, &origin.plates).unwrap();
+        let model = ClearanceModel::new(robot, &world(origin, origin, robot), &origin.job.plates).unwrap();
         let every_second = origin.knots.q_rad.iter().step_by(2);
         Self {
             robot,
@@ -38,22 +39,26 @@ impl<'a> Distances<'a> {
 
     /// At every second knot, at some times \[s\], and within pieces that the original plan does not have.
     pub fn look(&self, plan: &Plan, pieces: &[Piece], is_sound: bool, also_at: &[f64], findings: &mut Findings) {
-        let model = ClearanceModel::new(self.robot, &plan.scenario.tool, &plan.plates).unwrap();
-        let same_bodies = plan.scenario.tool == self.origin.scenario.tool && plan.plates == self.origin.plates;
-        let names = model.pair_names();
-        // The plate of each pair of the sponge and a plate.
-        let touching: Vec<Option<usize>> = names
-            .iter()
-            .map(|(a, b)| b.strip_prefix("plate ").filter(|_| *a == "sponge")?.parse().ok())
-            .collect();
-        let limit = plan.scenario.wash.clearance_m;
+        let (job, was) = (&plan.job, &self.origin.job);
+        let world = world(plan, self.origin, self.robot);
+        let model = ClearanceModel::new(self.robot, &world, &job.plates).unwrap();
+        let same_bodies = job.workcell.tool == was.workcell.tool
+            && job.workcell.obstacles == was.workcell.obstacles
+            && job.plates == was.plates;
+        let pairs: Vec<_> = model.pair_names().iter().map(|pair| Pair::new(plan, *pair)).collect();
+        let limit = job.requirements.clearance_m;
         let mut look = |q: &JointVector, segment: Option<usize>| {
             let known = self.known.get(&key(q)).filter(|_| same_bodies);
             let found = known.cloned().unwrap_or_else(|| all(&model, q));
             let may = |plate: usize| segment.is_none_or(|i| may_touch(plan, i, plate));
-            let counts = found.iter().zip(&touching).filter(|(_, plate)| !plate.is_some_and(may));
-            let least = counts.map(|(d, _)| *d).fold(f64::INFINITY, f64::min);
-            findings.at_least(PromiseName::Clearance, least, limit, DISTANCE_M);
+            let counts = found
+                .iter()
+                .zip(&pairs)
+                .filter(|(_, pair)| !pair.sponge_on.is_some_and(may));
+            let (waived, judged): (Vec<_>, Vec<_>) = counts.partition(|(_, pair)| pair.waived);
+            let least = judged.iter().map(|(d, _)| **d).fold(f64::INFINITY, f64::min);
+            findings.at_least(Requirement::Clearance, least, limit, DISTANCE_M);
+            waived.iter().for_each(|(d, _)| findings.waived(**d));
         };
         let changed = self.changed(pieces);
         let fine = changed.iter().filter(|c| **c).count() < MOST_FINE;
@@ -78,17 +83,64 @@ impl<'a> Distances<'a> {
     }
 }
 
+/// What is known of a pair.
+struct Pair {
+    /// The plate of a pair of the sponge and a plate.
+    sponge_on: Option<usize>,
+    /// Whether the job leaves it out.
+    waived: bool,
+}
+
+impl Pair {
+    fn new(plan: &Plan, (a, b): (&str, &str)) -> Self {
+        let plate = b.strip_prefix("plate ").filter(|_| a == "sponge");
+        let stated = plan.job.workcell.exclusions.iter();
+        let mut stated = stated.map(|e| e.pair.each_ref().map(String::as_str));
+        Self {
+            sponge_on: plate.and_then(|index| index.parse().ok()),
+            waived: stated.any(|pair| pair == [a, b] || pair == [b, a]),
+        }
+    }
+}
+
+/// The world of a plan with what need not keep clear, whatever the plan says: of links what its origin leaves out; the wrist and what
+/// it carries; what stands still; link 1 over the floor.
+fn world(plan: &Plan, origin: &Plan, robot: &RobotModel) -> Workcell {
+    let now = &plan.job.workcell;
+    let links: Vec<_> = robot.links().iter().map(|link| link.name.as_str()).collect();
+    let is_link = |name: &String| links.contains(&name.as_str());
+    let before = origin.job.workcell.exclusions.iter();
+    let of_links = before.filter(|e| e.pair.iter().all(is_link)).cloned();
+    let pair = |a: &str, b: &str| Exclusion {
+        pair: [a, b].map(str::to_owned),
+        reason: ExclusionReason::Srdf,
+    };
+    let carried = now.tool.bodies.iter().map(|body| body.name.as_str()).chain(["sponge"]);
+    let carried = carried.flat_map(|body| ["link_5", "link_6"].map(|link| pair(link, body)));
+    let still = now.obstacles.iter().map(|obstacle| pair("base_link", &obstacle.name));
+    let floors = now.obstacles.iter().filter(|o| o.shape == ObstacleShape::HalfSpace);
+    let floors = floors.map(|floor| pair("link_1", &floor.name));
+    Workcell {
+        exclusions: of_links.chain(carried).chain(still).chain(floors).collect(),
+        ..now.clone()
+    }
+}
+
 /// Whether the sponge may touch a plate during a segment: the one that it works on, or one that no part of it is farther from than
-/// the clearance wherever on its own stroke it is.
+/// the clearance wherever on its own path it is.
 fn may_touch(plan: &Plan, segment: usize, plate: usize) -> bool {
-    let (segment, tool, wash) = (&plan.segments[segment], &plan.scenario.tool, &plan.scenario.wash);
-    let Some(own) = plan.plates.get(segment.plate).filter(|_| is_at_plate(segment.kind)) else {
+    let (segment, job) = (&plan.segments[segment], &plan.job);
+    let Some(own) = job.plates.get(segment.plate).filter(|_| is_at_plate(segment.kind)) else {
         return false;
     };
-    let other = &plan.plates[plate];
-    let sponge_m = tool.sponge_radius_m.hypot(tool.sponge_height_m);
-    let reach_m = wash.path_radius_m + LINE_M + sponge_m + wash.clearance_m;
-    segment.plate == plate || (own.x_m - other.x_m).hypot(own.y_m - other.y_m) - other.radius_m <= reach_m
+    let Some(path) = path_of(plan, segment.plate) else {
+        return segment.plate == plate;
+    };
+    let (other, sponge) = (&job.plates[plate], &job.workcell.tool.sponge);
+    let sponge_m = sponge.radius_m.hypot(sponge.height_m);
+    let reach_m = path.curve.radius_m + LINE_M + sponge_m + job.requirements.clearance_m;
+    let ([x, y], [u, v]) = (own.centre_xy(), other.centre_xy());
+    segment.plate == plate || (x - u).hypot(y - v) - other.rim_m() <= reach_m
 }
 
 fn key(q: &JointVector) -> [u64; 6] {

@@ -1,7 +1,9 @@
-//! The declared curves from their definition, and whether a path follows one: the whole of it, in order.
+//! The stated curves from their definition, and whether a path follows one: the whole of it, in order.
 
 use nalgebra::Vector3;
-use platewash::planner::tool_path::{Segment, SegmentKind, Shape};
+use platewash::Plate;
+use platewash::workcell::segment::SegmentKind;
+use platewash::workcell::wash_path::WashPath;
 use std::f64::consts::TAU;
 
 /// β, the last part of a spiral \[rad\].
@@ -13,7 +15,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// How far around the last parameter the next one is looked for \[rad\].
 const WINDOW_RAD: f64 = 0.8;
 
-/// A curve of the declared tool path, base frame.
+/// A curve that the tip must follow, base frame.
 pub enum Curve {
     /// θ is the length from the first point \[m\].
     Line {
@@ -22,7 +24,7 @@ pub enum Curve {
         length_m: f64,
     },
     /// θ is the angle from the start \[rad\].
-    Stroke {
+    Wash {
         centre: Vector3<f64>,
         radius_m: f64,
         spiral_rad: f64,
@@ -32,32 +34,31 @@ pub enum Curve {
 }
 
 impl Curve {
-    /// What a segment declares, in the direction of its motion; `None` for free motion.
-    pub fn new(segment: &Segment) -> Option<Self> {
-        match &segment.shape {
-            Shape::Line {
-                foot_m,
-                normal,
-                height_m,
-            } => {
-                let (foot, up) = (Vector3::from(*foot_m), Vector3::from(*normal));
-                let down = segment.kind == SegmentKind::Approach;
-                Some(Self::Line {
-                    from: if down { foot + up * *height_m } else { foot },
-                    along: if down { -up } else { up },
-                    length_m: *height_m,
-                })
-            }
-            Shape::Stroke { centre_m, stroke, .. } => {
-                let spiral_rad = TAU * stroke.turns;
-                Some(Self::Stroke {
-                    centre: Vector3::from(*centre_m),
-                    radius_m: stroke.radius_m,
-                    spiral_rad,
-                    start_rad: stroke.start_angle_rad,
-                    end_rad: spiral_rad + if stroke.closing_ring { TAU } else { 0.0 },
-                })
-            }
+    /// What a wash path asks for on a level plate, in the direction of the motion; `None` for free motion.
+    pub fn new(plate: &Plate, path: &WashPath, kind: SegmentKind) -> Option<Self> {
+        let spiral_rad = TAU * path.curve.turns;
+        // The plate may be turned about its axis.
+        let x = plate.pose.rotation * Vector3::x();
+        let wash = Self::Wash {
+            centre: plate.centre(),
+            radius_m: path.curve.radius_m,
+            spiral_rad,
+            start_rad: x.y.atan2(x.x) + path.curve.start_angle_rad,
+            end_rad: spiral_rad + if path.curve.closing_ring { TAU } else { 0.0 },
+        };
+        let (up, length_m) = (Vector3::z(), path.lift_m);
+        match kind {
+            SegmentKind::Approach => Some(Self::Line {
+                from: wash.at(0.0) + up * length_m,
+                along: -up,
+                length_m,
+            }),
+            SegmentKind::Wash => Some(wash),
+            SegmentKind::Retreat => Some(Self::Line {
+                from: wash.at(wash.end()),
+                along: up,
+                length_m,
+            }),
             _ => None,
         }
     }
@@ -66,7 +67,7 @@ impl Curve {
     fn end(&self) -> f64 {
         match self {
             Self::Line { length_m, .. } => *length_m,
-            Self::Stroke { end_rad, .. } => *end_rad,
+            Self::Wash { end_rad, .. } => *end_rad,
         }
     }
 
@@ -74,7 +75,7 @@ impl Curve {
     pub fn at(&self, theta: f64) -> Vector3<f64> {
         match self {
             Self::Line { from, along, .. } => from + along * theta,
-            Self::Stroke {
+            Self::Wash {
                 centre,
                 radius_m,
                 spiral_rad,

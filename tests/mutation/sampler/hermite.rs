@@ -1,7 +1,7 @@
 //! Cubic Hermite pieces in the basis of Hermite, for the sampler alone.
 
 use platewash::JointVector;
-use platewash::planner::plan::Knots;
+use platewash::workcell::plan::Knots;
 
 /// Motion between two neighbouring knots.
 #[derive(Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
-//! The promises about numbers, measured on dense samples of a plan: an opinion of its own on what is broken.
+//! The requirements about numbers, measured on dense samples of a plan: an opinion of its own on what is broken.
 //!
 //! With the certificate it shares forward kinematics and the distances at single configurations, no more. What it finds is
-//! a lower bound of how bad things are: a promise that it finds broken is broken.
+//! a lower bound of how bad things are: a requirement that it finds broken is broken.
 
 mod clearance;
 mod curve;
@@ -22,12 +22,12 @@ use clearance::Distances;
 use curve::Curve;
 use hermite::Piece;
 use moments::{Arm, Moment};
-use platewash::planner::certificate::PromiseName;
-use platewash::planner::tool_path::{Segment, SegmentKind};
+use platewash::certificate::Requirement;
+use platewash::workcell::segment::SegmentKind;
 use platewash::{Plan, RobotModel};
 
-/// Distance of the tip from its stroke and from a plate's normal that every certified plan keeps \[m\].
-const STROKE_M: f64 = 2e-4;
+/// Distance of the tip from its wash path and from a plate's normal that every certified plan keeps \[m\].
+const PATH_M: f64 = 2e-4;
 const LINE_M: f64 = 1e-3;
 
 /// What deviations are right to, as a part of them.
@@ -45,7 +45,7 @@ impl<'a> Sampler<'a> {
         Self { robot, distances }
     }
 
-    /// The worst of every promise that can be judged: without sound segments those that hold everywhere. Moments at some
+    /// The worst of every requirement that can be judged: without sound segments those that hold everywhere. Moments at some
     /// times \[s\] are looked at besides its own.
     pub fn measure(&self, plan: &Plan, also_at: &[f64]) -> Findings {
         let (pieces, is_sound) = (pieces(&plan.knots), is_sound(plan));
@@ -58,7 +58,7 @@ impl<'a> Sampler<'a> {
         self.distances.look(plan, &pieces, is_sound, also_at, &mut findings);
         if is_sound {
             places::contacts(plan, &mut findings);
-            let arm = Arm::new(self.robot, plan.scenario.tool.length_m);
+            let arm = Arm::new(self.robot, &plan.job.workcell.tool);
             places::touches(plan, &arm, &pieces, &moments, &mut findings);
             places::poses(plan, &moments, &mut findings);
             places::coverage(plan, &moments, &mut findings);
@@ -74,27 +74,24 @@ impl<'a> Sampler<'a> {
     }
 
     fn moments(&self, plan: &Plan, pieces: &[Piece], is_sound: bool, also_at: &[f64]) -> Vec<Moment> {
-        let arm = Arm::new(self.robot, plan.scenario.tool.length_m);
+        let arm = Arm::new(self.robot, &plan.job.workcell.tool);
         moments::all(&arm, plan, pieces, is_sound, also_at)
     }
 }
 
-/// Whether the tip follows its declared curves.
+/// Whether the tip follows the curves stated.
 fn deviations(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
-    let at_plates = |(_, s): &(usize, &Segment)| schedule::is_at_plate(s.kind);
-    for (i, segment) in plan.tool_path.iter().enumerate().filter(at_plates) {
-        let Some(curve) = Curve::new(segment) else { continue };
+    for (i, segment) in plan.segments.iter().enumerate() {
+        let path = schedule::path_of(plan, segment.plate);
+        let curve = path.and_then(|path| Curve::new(&plan.job.plates[segment.plate], path, segment.kind));
+        let Some(curve) = curve else { continue };
         let here = moments.iter().filter(|m| m.stage == Some(i));
         let path: Vec<_> = here.map(|m| m.tip).collect();
         let (name, tolerance) = match segment.kind {
-            SegmentKind::Wash => (PromiseName::StrokeDeviation, STROKE_M),
-            _ => (PromiseName::LineDeviation, LINE_M),
+            SegmentKind::Wash => (Requirement::PathDeviation, PATH_M),
+            _ => (Requirement::LineDeviation, LINE_M),
         };
-        findings.at_most(
-            name,
-            curve.deviation(&path, tolerance),
-            tolerance,
-            DEVIATION * tolerance,
-        );
+        let (found, slack) = (curve.deviation(&path, tolerance), DEVIATION * tolerance);
+        findings.at_most(name, found, tolerance, slack);
     }
 }

@@ -4,8 +4,8 @@ use super::hermite::Piece;
 use super::schedule;
 use nalgebra::Vector3;
 use platewash::kinematics::Frame;
-use platewash::planner::plan::PlanSegment;
-use platewash::{JointVector, Plan, RobotModel, ToolFrame};
+use platewash::workcell::segment::PlanSegment;
+use platewash::{JointVector, Plan, RobotModel, Tool, ToolFrame};
 
 /// Half a difference in time \[s\].
 const DELTA_S: f64 = 2e-5;
@@ -22,7 +22,9 @@ const MOST: usize = 60;
 pub struct Arm<'a> {
     robot: &'a RobotModel,
     mount: Frame,
-    length_m: f64,
+    /// The tip in the mounting frame \[m\], and the way out of the tool there.
+    tip: Vector3<f64>,
+    axis: Vector3<f64>,
 }
 
 /// A moment of a motion.
@@ -49,16 +51,22 @@ impl Moment {
 }
 
 impl<'a> Arm<'a> {
-    pub fn new(robot: &'a RobotModel, length_m: f64) -> Self {
-        let mount = robot.tool_frame(ToolFrame::Tool0).unwrap();
-        Self { robot, mount, length_m }
+    pub fn new(robot: &'a RobotModel, tool: &Tool) -> Self {
+        Self {
+            robot,
+            mount: robot.tool_frame(ToolFrame::Tool0).unwrap(),
+            tip: tool.tip.translation.vector,
+            axis: tool.tip.rotation * Vector3::z(),
+        }
     }
 
     /// Position and z axis of the tip, base frame.
     pub fn tip(&self, q: &JointVector) -> [Vector3<f64>; 2] {
         let mount = self.robot.fk(q).rigid(&self.mount);
-        let axis: Vector3<f64> = mount.rotation.column(2).into_owned();
-        [mount.translation + axis * self.length_m, axis]
+        [
+            mount.translation + mount.rotation * self.tip,
+            mount.rotation * self.axis,
+        ]
     }
 
     /// Height of the lowest point of a sponge's rim, and how fast it moves: no less than the mean over a moment during which it is at or
@@ -68,12 +76,12 @@ impl<'a> Arm<'a> {
         let middle = u.clamp(delta, piece.length_s - delta);
         let mounts =
             [middle - delta, middle, middle + delta].map(|u| self.robot.fk(&piece.position(u)).rigid(&self.mount));
-        let axis: Vector3<f64> = mounts[1].rotation.column(2).into_owned();
+        let axis = mounts[1].rotation * self.axis;
         // Down along the rim's plane, without a difference of nearly equal numbers where the tool is upright.
         let steepest = Vector3::new(axis.x * axis.z, axis.y * axis.z, -axis.xy().norm_squared());
         let out = steepest.try_normalize(0.0).map_or(steepest, |d| d * radius_m);
         // A point of the tool, which moves with it.
-        let carried = mounts[1].rotation.transpose() * out + Vector3::z() * self.length_m;
+        let carried = mounts[1].rotation.transpose() * out + self.tip;
         let [before, _, after] = mounts.map(|mount| mount.translation + mount.rotation * carried);
         let touches = before.z.max(after.z) <= below_m;
         touches.then(|| ((after - before).norm() - 2.0 * PLACE_M) / (2.0 * delta))

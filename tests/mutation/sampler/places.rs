@@ -3,13 +3,13 @@
 use super::findings::Findings;
 use super::hermite::Piece;
 use super::moments::{Arm, Moment};
-use super::schedule::is_at_plate;
+use super::schedule::{is_at_plate, path_of, tilt_limit_rad};
 use super::swept;
-use super::{LINE_M, STROKE_M};
-use platewash::planner::certificate::PromiseName;
-use platewash::planner::scenario::Overlap;
-use platewash::planner::tool_path::SegmentKind;
-use platewash::{JointVector, Plan};
+use super::{LINE_M, PATH_M};
+use platewash::Plan;
+use platewash::certificate::Requirement;
+use platewash::workcell::job::Overlap;
+use platewash::workcell::segment::SegmentKind;
 
 /// Height over a plate that every certified plan keeps \[m\].
 const HEIGHT_M: f64 = 2e-4;
@@ -29,15 +29,11 @@ const BASE_Y_M: [f64; 2] = [-0.0905, 0.0905];
 
 /// From home to home, at rest.
 pub fn ends(plan: &Plan, findings: &mut Findings) {
-    let start = plan.scenario.robot.start_deg;
-    let homes = [start, plan.scenario.robot.home_deg.unwrap_or(start)];
     let last = plan.knots.t_s.len() - 1;
-    for (i, (home, knot)) in homes.into_iter().zip([0, last]).enumerate() {
-        let home = JointVector::from(home).map(f64::to_radians);
+    for (home, knot) in plan.job.home_rad.iter().zip([0, last]) {
         let off = (plan.knots.q_rad[knot] - home).amax();
-        let stated = (plan.home_rad[i] - home).amax();
         let moving = plan.knots.qd_rad_s[knot].amax();
-        findings.at_most(PromiseName::HomeToHome, off.max(stated).max(moving), 0.0, THERE);
+        findings.at_most(Requirement::HomeToHome, off.max(moving), 0.0, THERE);
     }
 }
 
@@ -47,72 +43,72 @@ pub fn contacts(plan: &Plan, findings: &mut Findings) {
         for time in [segment.t_start_s, segment.t_end_s] {
             let knot = plan.knots.t_s.iter().position(|t| *t == time).unwrap();
             let moving = plan.knots.qd_rad_s[knot].amax();
-            findings.at_most(PromiseName::RestAtWashEnds, moving, 0.0, THERE);
+            findings.at_most(Requirement::RestAtWashEnds, moving, 0.0, THERE);
         }
     }
 }
 
 /// The sponge's lowest point while it comes down and while it leaves: no faster than the tip washes wherever it touches.
 pub fn touches(plan: &Plan, arm: &Arm<'_>, pieces: &[Piece], moments: &[Moment], findings: &mut Findings) {
-    let scenario = &plan.scenario;
-    let most = scenario.wash.speed_m_s.min(scenario.limits.tip_speed_m_s);
+    let job = &plan.job;
+    let most = job.requirements.wash_speed_m_s.min(job.limits.tip_speed_m_s);
     for m in moments {
         let lines = [SegmentKind::Approach, SegmentKind::Retreat];
         let Some(segment) = m.segment(plan).filter(|s| lines.contains(&s.kind)) else {
             continue;
         };
-        let Some(plate) = plan.plates.get(segment.plate) else {
+        let Some(plate) = job.plates.get(segment.plate) else {
             continue;
         };
-        let sponge = (scenario.tool.sponge_radius_m, plate.z_m);
+        let sponge = (job.workcell.tool.sponge.radius_m, plate.centre().z);
         if let Some(speed) = arm.touch(&pieces[m.piece], m.u, sponge) {
-            findings.at_most(PromiseName::ContactSpeed, speed, most, EXACT * most);
+            findings.at_most(Requirement::ContactSpeed, speed, most, EXACT * most);
         }
     }
 }
 
 /// No plate over another or over the base, unless that shall only be told.
 pub fn apart(plan: &Plan, findings: &mut Findings) {
-    if plan.scenario.layout.overlap == Overlap::Report {
+    if plan.job.requirements.overlap == Overlap::Report {
         return;
     }
-    for (i, a) in plan.plates.iter().enumerate() {
-        for b in &plan.plates[i + 1..] {
-            let gap = (a.x_m - b.x_m).hypot(a.y_m - b.y_m) - a.radius_m - b.radius_m;
-            findings.at_least(PromiseName::PlatesApart, gap, 0.0, 1e-9);
+    let plates = &plan.job.plates;
+    for (i, a) in plates.iter().enumerate() {
+        let [x, y] = a.centre_xy();
+        for b in &plates[i + 1..] {
+            let [u, v] = b.centre_xy();
+            let gap = (x - u).hypot(y - v) - a.rim_m() - b.rim_m();
+            findings.at_least(Requirement::PlatesApart, gap, 0.0, 1e-9);
         }
-        let [x, y] = [
-            a.x_m.clamp(BASE_X_M[0], BASE_X_M[1]),
-            a.y_m.clamp(BASE_Y_M[0], BASE_Y_M[1]),
-        ];
-        let gap = (a.x_m - x).hypot(a.y_m - y) - a.radius_m;
-        findings.at_least(PromiseName::PlatesApart, gap, 0.0, 1e-9);
+        let [u, v] = [x.clamp(BASE_X_M[0], BASE_X_M[1]), y.clamp(BASE_Y_M[0], BASE_Y_M[1])];
+        let gap = (x - u).hypot(y - v) - a.rim_m();
+        findings.at_least(Requirement::PlatesApart, gap, 0.0, 1e-9);
     }
 }
 
 /// Tilt at the plates, height over them while washing.
 pub fn poses(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
-    let most = most_tilt_rad(plan);
+    let most = tilt_limit_rad(plan);
     for m in moments {
         let Some(segment) = m.segment(plan).filter(|s| is_at_plate(s.kind)) else {
             continue;
         };
         let tilt = tilt_rad(m);
-        findings.at_most(PromiseName::Tilt, tilt, most, EXACT * most + 2e-8);
-        if let (SegmentKind::Wash, Some(plate)) = (segment.kind, plan.plates.get(segment.plate)) {
-            let off = (m.tip.z - plate.z_m).abs();
-            findings.at_most(PromiseName::ContactHeight, off, HEIGHT_M, EXACT * HEIGHT_M);
+        findings.at_most(Requirement::Tilt, tilt, most, EXACT * most + 2e-8);
+        if let (SegmentKind::Wash, Some(plate)) = (segment.kind, plan.job.plates.get(segment.plate)) {
+            let off = (m.tip.z - plate.centre().z).abs();
+            findings.at_most(Requirement::ContactHeight, off, HEIGHT_M, EXACT * HEIGHT_M);
         }
     }
 }
 
 /// The share that even the whole face of the sponge, held flat, sweeps.
 pub fn coverage(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
-    let required = plan.scenario.job.required_coverage;
-    let sponge_m = plan.scenario.tool.sponge_radius_m;
-    for plate in 0..plan.plates.len() {
+    let required = plan.job.requirements.coverage;
+    let sponge_m = plan.job.workcell.tool.sponge.radius_m;
+    for plate in 0..plan.job.plates.len() {
         let share = share(plan, &washing(plan, moments, plate), plate, sponge_m);
-        findings.at_least(PromiseName::Coverage, share, required, SHARE);
+        findings.at_least(Requirement::Coverage, share, required, SHARE);
     }
 }
 
@@ -121,38 +117,33 @@ fn tilt_rad(m: &Moment) -> f64 {
     m.axis.xy().norm().atan2(-m.axis.z)
 }
 
-fn most_tilt_rad(plan: &Plan) -> f64 {
-    let tool = &plan.scenario.tool;
-    // Beyond this the rim where the handle holds the sponge would have to go through the plate.
-    let gives_way = (tool.sponge_height_m / tool.sponge_radius_m).atan();
-    plan.scenario.wash.tilt_max_deg.to_radians().min(gives_way)
-}
-
 /// How far the sponge gets beyond the rim of the plate that it works on, at the height of the plate's face, if it is always tilted as
 /// much as it is there where it is tilted most, and towards the outside.
 pub fn reach(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
-    let (sponge_m, path_m) = (plan.scenario.tool.sponge_radius_m, plan.scenario.wash.path_radius_m);
+    let sponge_m = plan.job.workcell.tool.sponge.radius_m;
     let at = |m: &Moment| m.segment(plan).filter(|s| is_at_plate(s.kind)).map(|s| s.plate);
-    for (i, plate) in plan.plates.iter().enumerate() {
+    for (i, plate) in plan.job.plates.iter().enumerate() {
+        let Some(path) = path_of(plan, i) else { continue };
+        let ([x, y], rim_m) = (plate.centre_xy(), plate.rim_m());
         let there: Vec<_> = moments.iter().filter(|m| at(m) == Some(i)).collect();
         let tilt = there.iter().map(|m| tilt_rad(m)).fold(0.0, f64::max);
         let wall_m = |tilt: f64| (sponge_m + LINE_M * tilt.sin()) / tilt.cos();
-        let limit = path_m + STROKE_M + wall_m(tilt.min(most_tilt_rad(plan))) - plate.radius_m;
+        let limit = path.curve.radius_m + PATH_M + wall_m(tilt.min(tilt_limit_rad(plan))) - rim_m;
         for m in there {
-            let tip_m = (m.tip.x - plate.x_m).hypot(m.tip.y - plate.y_m);
-            let beyond = tip_m + wall_m(tilt) - plate.radius_m;
-            findings.at_most(PromiseName::Reach, beyond, limit, EXACT);
+            let tip_m = (m.tip.x - x).hypot(m.tip.y - y);
+            let beyond = tip_m + wall_m(tilt) - rim_m;
+            findings.at_most(Requirement::Reach, beyond, limit, EXACT);
         }
     }
 }
 
 /// Whether the sponge might sweep too little of a plate if it were always tilted as much as it is where it is tilted most.
 pub fn least_coverage_is_short(plan: &Plan, moments: &[Moment]) -> bool {
-    let sponge_m = plan.scenario.tool.sponge_radius_m;
-    (0..plan.plates.len()).any(|plate| {
+    let sponge_m = plan.job.workcell.tool.sponge.radius_m;
+    (0..plan.job.plates.len()).any(|plate| {
         let washing = washing(plan, moments, plate);
         let cosine = washing.iter().map(|m| -m.axis.z).fold(1.0, f64::min).max(0.0);
-        share(plan, &washing, plate, sponge_m * cosine) < plan.scenario.job.required_coverage + SHARE
+        share(plan, &washing, plate, sponge_m * cosine) < plan.job.requirements.coverage + SHARE
     })
 }
 
@@ -167,5 +158,5 @@ fn washing<'a>(plan: &Plan, moments: &'a [Moment], plate: usize) -> Vec<&'a Mome
 
 fn share(plan: &Plan, washing: &[&Moment], plate: usize, within_m: f64) -> f64 {
     let path: Vec<_> = washing.iter().map(|m| [m.tip.x, m.tip.y]).collect();
-    swept::share(&plan.plates[plate], &path, within_m)
+    swept::share(&plan.job.plates[plate], &path, within_m)
 }

@@ -3,8 +3,8 @@
 use super::findings::Findings;
 use super::hermite::Piece;
 use super::moments::Moment;
-use platewash::planner::certificate::PromiseName;
-use platewash::planner::tool_path::SegmentKind;
+use platewash::certificate::Requirement;
+use platewash::workcell::segment::SegmentKind;
 use platewash::{JointVector, Plan, RobotModel};
 
 /// What a value must exceed its limit by to count as broken, as a part of the limit, and \[rad\].
@@ -16,15 +16,15 @@ const DIFFERENCE: f64 = 2e-9;
 
 pub fn joints(plan: &Plan, robot: &RobotModel, pieces: &[Piece], moments: &[Moment], findings: &mut Findings) {
     let limits = robot.limits();
-    let most = JointVector::from(plan.scenario.limits.joint_acceleration_rad_s2);
+    let most = JointVector::from(plan.job.limits.joint_acceleration_rad_s2);
     for m in moments {
         let piece = &pieces[m.piece];
         let (q, qd, qdd) = (piece.position(m.u), piece.speed(m.u), piece.acceleration(m.u));
         let margin = (q - limits.lower).min().min((limits.upper - q).min());
-        findings.at_least(PromiseName::JointPosition, margin, 0.0, MARGIN_RAD);
+        findings.at_least(Requirement::JointPosition, margin, 0.0, MARGIN_RAD);
         for (name, value, limit) in [
-            (PromiseName::JointSpeed, qd, &limits.velocity),
-            (PromiseName::JointAcceleration, qdd, &most),
+            (Requirement::JointSpeed, qd, &limits.velocity),
+            (Requirement::JointAcceleration, qdd, &most),
         ] {
             let share = value.abs().component_div(limit).imax();
             findings.at_most(name, value[share].abs(), limit[share], EXACT * limit[share]);
@@ -32,23 +32,23 @@ pub fn joints(plan: &Plan, robot: &RobotModel, pieces: &[Piece], moments: &[Mome
     }
 }
 
-/// While it washes against the limits of `[wash]`, otherwise against those of `[limits]`.
+/// While it washes against what washing must keep, otherwise against the limits of the tip anywhere.
 pub fn tip(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
-    let (limits, wash) = (&plan.scenario.limits, &plan.scenario.wash);
+    let (limits, wash) = (&plan.job.limits, &plan.job.requirements);
     for m in moments {
         let washes = m.segment(plan).is_some_and(|s| s.kind == SegmentKind::Wash);
         let [(speed, v), (acceleration, a)] = if washes {
             [
-                (PromiseName::WashSpeed, wash.speed_m_s.min(limits.tip_speed_m_s)),
+                (Requirement::WashSpeed, wash.wash_speed_m_s.min(limits.tip_speed_m_s)),
                 (
-                    PromiseName::WashAcceleration,
-                    wash.acceleration_m_s2.min(limits.tip_acceleration_m_s2),
+                    Requirement::WashAcceleration,
+                    wash.wash_acceleration_m_s2.min(limits.tip_acceleration_m_s2),
                 ),
             ]
         } else {
             [
-                (PromiseName::TipSpeed, limits.tip_speed_m_s),
-                (PromiseName::TipAcceleration, limits.tip_acceleration_m_s2),
+                (Requirement::TipSpeed, limits.tip_speed_m_s),
+                (Requirement::TipAcceleration, limits.tip_acceleration_m_s2),
             ]
         };
         findings.at_most(speed, m.speed, v, DIFFERENCE * v);

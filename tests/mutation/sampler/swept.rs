@@ -7,8 +7,8 @@ const STEP_M: f64 = 2.5e-3;
 
 /// Share of the plate's points that lie within a distance \[m\] of some point of a path.
 pub fn share(plate: &Plate, path: &[[f64; 2]], within_m: f64) -> f64 {
-    let side = (plate.radius_m / STEP_M).ceil() as i32;
-    let width = (2 * side + 1) as usize;
+    let side = (plate.rim_m() / STEP_M).ceil() as i32;
+    let (width, centre) = ((2 * side + 1) as usize, plate.centre_xy());
     let mut nearest = vec![f64::INFINITY; width * width];
     let mut last = [f64::INFINITY; 2];
     for p in path {
@@ -16,7 +16,7 @@ pub fn share(plate: &Plate, path: &[[f64; 2]], within_m: f64) -> f64 {
             continue;
         }
         last = *p;
-        let (x, y) = (p[0] - plate.x_m, p[1] - plate.y_m);
+        let (x, y) = (p[0] - centre[0], p[1] - centre[1]);
         let range = |c: f64| {
             let index = |v: f64| (v / STEP_M).clamp(-1e6, 1e6) as i32;
             (index(c - within_m) - 1).max(-side)..=(index(c + within_m) + 1).min(side)
@@ -33,7 +33,7 @@ pub fn share(plate: &Plate, path: &[[f64; 2]], within_m: f64) -> f64 {
     for i in -side..=side {
         for j in -side..=side {
             let (x, y) = (f64::from(i) * STEP_M, f64::from(j) * STEP_M);
-            if x.hypot(y) > plate.radius_m {
+            if x.hypot(y) > plate.rim_m() {
                 continue;
             }
             inside += 1;

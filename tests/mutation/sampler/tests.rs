@@ -4,23 +4,20 @@ use super::curve::Curve;
 use super::hermite::pieces;
 use super::swept;
 use crate::good::good;
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 use platewash::Plate;
-use platewash::planner::tool_path::{SegmentKind, Shape};
+use platewash::workcell::segment::SegmentKind;
 use std::f64::consts::PI;
 
-/// The curve of the first wash, points along it, and its stroke as the planner evaluates it.
+/// The curve of the first wash, on a plate that is turned by 1 rad, and points along it, as the planner evaluates them.
 fn washed() -> (Curve, Vec<Vector3<f64>>) {
     let plan = &good()[0].plan;
-    let segment = plan.tool_path.iter().find(|s| s.kind == SegmentKind::Wash).unwrap();
-    let Shape::Stroke { centre_m, stroke, .. } = &segment.shape else {
-        panic!("{segment:?}")
-    };
-    let place = |k: u32| {
-        let p = stroke.at(stroke.end() * f64::from(k) / 4000.0).position;
-        Vector3::from(*centre_m) + Vector3::new(p.x, p.y, 0.0)
-    };
-    (Curve::new(segment).unwrap(), (0..=4000).map(place).collect())
+    let path = &plan.wash_paths[0];
+    let mut plate = plan.job.plates[path.plate];
+    plate.pose.rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 1.0);
+    let place = |k: u32| path.contact(&plate, path.curve.end() * f64::from(k) / 4000.0);
+    let curve = Curve::new(&plate, path, SegmentKind::Wash).unwrap();
+    (curve, (0..=4000).map(place).collect())
 }
 
 #[test]
@@ -41,13 +38,13 @@ fn speeds_and_accelerations_are_derivatives_of_positions() {
 }
 
 #[test]
-fn a_path_on_its_stroke_does_not_leave_it() {
+fn a_path_on_its_wash_path_does_not_leave_it() {
     let (curve, path) = washed();
     assert!(curve.deviation(&path, 2e-4) < 1e-8);
 }
 
 #[test]
-fn a_path_beside_its_stroke_is_as_far_from_it() {
+fn a_path_beside_its_wash_path_is_as_far_from_it() {
     let (curve, mut path) = washed();
     path.iter_mut().for_each(|p| p.z += 1.5e-4);
     assert!((curve.deviation(&path, 2e-4) - 1.5e-4).abs() < 1e-8);
@@ -56,7 +53,7 @@ fn a_path_beside_its_stroke_is_as_far_from_it() {
 }
 
 #[test]
-fn a_path_that_runs_back_or_ends_early_leaves_its_stroke() {
+fn a_path_that_runs_back_or_ends_early_leaves_its_wash_path() {
     let (curve, mut path) = washed();
     assert!(curve.deviation(&path[..3990], 2e-4) > 1e-3);
     assert!(curve.deviation(&path[40..], 2e-4) > 1e-3);
@@ -66,13 +63,7 @@ fn a_path_that_runs_back_or_ends_early_leaves_its_stroke() {
 
 #[test]
 fn a_ring_sweeps_its_share() {
-    let plate = Plate {
-        x_m: 0.3,
-        y_m: -0.1,
-        z_m: 0.0,
-        radius_m: 0.1,
-        thickness_m: 0.02,
-    };
+    let plate = Plate::level_disc([0.3, -0.1, 0.0], 0.1, 0.02);
     let ring = |k: u32| {
         let angle = 2.0 * PI * f64::from(k) / 2000.0;
         [0.3 + 0.06 * angle.cos(), -0.1 + 0.06 * angle.sin()]
@@ -83,4 +74,23 @@ fn a_ring_sweeps_its_share() {
     assert!((swept::share(&plate, &path, 0.02) - expected).abs() < 4e-3);
     assert_eq!(swept::share(&plate, &[], 0.02), 0.0);
     assert_eq!(swept::share(&plate, &[[0.3, -0.1]], 0.2), 1.0);
+}
+
+#[test]
+fn lines_stand_over_the_ends_of_their_wash_path() {
+    let plan = &good()[0].plan;
+    let path = &plan.wash_paths[1];
+    let plate = &plan.job.plates[path.plate];
+    let [start, end] = path.feet(plate);
+    let up = Vector3::z() * path.lift_m;
+    let line = |kind, at: f64| Curve::new(plate, path, kind).unwrap().at(at);
+    for (found, expected) in [
+        (line(SegmentKind::Approach, 0.0), start + up),
+        (line(SegmentKind::Approach, path.lift_m), start),
+        (line(SegmentKind::Retreat, 0.0), end),
+        (line(SegmentKind::Retreat, path.lift_m), end + up),
+    ] {
+        assert!((found - expected).norm() < 1e-12, "{found} {expected}");
+    }
+    assert!(Curve::new(plate, path, SegmentKind::Transit).is_none());
 }

@@ -4,13 +4,13 @@
 //! The first line of standard input is the work as JSON: `plan`, the path of a plan of the built-in arm; `q`, `qd` and `qdd`, as
 //! many states; `steps` of 1 ms. Every further line asks for one round of `inverse`, `forward` (the third column as torques),
 //! `mass`, `step` (from the first state, without torque) or `kitchen`, and is answered by a line: the nanoseconds that one call, one
-//! step or the whole plan took, and the six numbers that the last of them came to.
+//! step or the whole plan took, and the six numbers of the last result.
 
 use nalgebra::Vector6;
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_planner::plan::Plan;
-use platewash_planner::scenario::Integrator;
-use platewash_simulator::{DynamicsModel, Plant, PlantState, RigidBody, Setup, simulate};
+use platewash_simulator::{DynamicsModel, Plant, PlantState, RigidBody, simulate};
+use platewash_workcell::plan::Plan;
+use platewash_workcell::simulation::Integrator;
 use serde::Deserialize;
 use std::error::Error;
 use std::hint::black_box;
@@ -39,7 +39,7 @@ impl Bench {
     fn new(work: &Work) -> Result<Self, Box<dyn Error>> {
         let robot = RobotModel::irb120()?;
         let plan = Plan::from_json(&std::fs::read_to_string(&work.plan)?)?;
-        let model = DynamicsModel::new(&robot, RigidBody::tool(&plan.tool).as_ref())?;
+        let model = DynamicsModel::new(&robot, RigidBody::tool(&plan.job.workcell.tool).as_ref())?;
         let rows = work.q.iter().zip(&work.qd).zip(&work.qdd);
         Ok(Self {
             robot,
@@ -52,7 +52,7 @@ impl Bench {
         })
     }
 
-    /// Nanoseconds of one call on average, and what the last one came to.
+    /// Nanoseconds of one call on average, and the result of the last one.
     fn each(&self, call: impl Fn(&[JointVector; 3]) -> JointVector) -> (f64, JointVector) {
         let start = Instant::now();
         let last = self.states.iter().map(|state| black_box(call(black_box(state)))).last();
@@ -70,9 +70,8 @@ impl Bench {
     }
 
     fn kitchen(&self) -> Result<(f64, JointVector), Box<dyn Error>> {
-        let setup = Setup::of(&self.plan);
         let start = Instant::now();
-        let execution = simulate(&self.plan, &self.robot, &setup)?;
+        let execution = simulate(&self.plan, &self.robot, &self.plan.job.simulation)?;
         let spent = start.elapsed().as_nanos() as f64;
         Ok((
             spent,

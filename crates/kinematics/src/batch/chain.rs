@@ -9,7 +9,7 @@
 //! is the Denavit–Hartenberg form without its trouble with nearly parallel axes, because the common normal is used
 //! where it is well defined only. Most α are 0 or π/2, which cost nothing.
 
-use crate::fk::Frame;
+use crate::frame::Frame;
 use crate::rotation::Rigid;
 use crate::trig::{atan2, sin_cos};
 use crate::{AXES, RobotModel};

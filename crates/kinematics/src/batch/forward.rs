@@ -1,7 +1,7 @@
 //! Forward kinematics of four configurations at once, and the columns of their Jacobians.
 
 use super::chain::{Bend, Chain, Link};
-use super::vector::{LANES, Vector};
+use super::kernel::{LANES, Vector};
 use crate::trig::sin_cos_lanes;
 use crate::{AXES, JointVector};
 

@@ -2,8 +2,9 @@
 
 use super::chain::Chain;
 use super::forward::{Tips, frames_and_lines, no_lines, vectors};
+use super::kernel::{Kernel, LANES, Vector};
 use super::step::{Bounds, LEAST_COSINE, damped_step, errors, moved};
-use super::vector::{Kernel, LANES, Path, Vector, run};
+use super::vector::{Backend, run};
 use super::{BatchError, CHUNK, same_length};
 use crate::ik::{Damping, IkError, IkSettings, IkSolution, IkSolver, Method, Start, dls};
 use crate::{AXES, JointVector, Pose};
@@ -38,7 +39,7 @@ struct Problem {
 /// solved several at a time. Every other one, and all with [`Damping::NearSingularities`], is given to
 /// [`IkSolver::solve`], so that its answer and its error are exactly those. The lanes take the scalar solver's steps,
 /// with other rounding: answers are on the same branch, within the limits and within both tolerances, but not equal in
-/// the last bits; with [`Path::Portable`] the bits are the same on every machine. No answer depends on the other
+/// the last bits; with [`Backend::Portable`] the bits are the same on every machine. No answer depends on the other
 /// problems, nor on the number of threads.
 ///
 /// # Errors
@@ -48,7 +49,7 @@ pub fn solve(
     solver: &IkSolver<'_>,
     targets: &[Pose],
     seeds: &[JointVector],
-    path: Path,
+    path: Backend,
 ) -> Result<Vec<Result<IkSolution, IkError>>, BatchError> {
     let mut answers = vec![Err(NOT_YET); targets.len()];
     solve_into(solver, targets, seeds, &mut answers, path)?;
@@ -64,7 +65,7 @@ pub fn solve_into(
     targets: &[Pose],
     seeds: &[JointVector],
     answers: &mut [Result<IkSolution, IkError>],
-    path: Path,
+    path: Backend,
 ) -> Result<(), BatchError> {
     same_length("seeds", targets.len(), seeds.len())?;
     same_length("answers", targets.len(), answers.len())?;

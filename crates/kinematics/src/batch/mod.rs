@@ -6,9 +6,9 @@
 //! | [`jacobian`], [`jacobian_into`] | geometric Jacobian of a frame | within 1e-12 |
 //! | [`solve`], [`solve_into`] | joint positions for a pose, from a near seed | the same branch, both within tolerance |
 //!
-//! Configurations stand side by side in vectors of four doubles ([`Path`] says with which instructions). Chunks of
+//! Configurations stand side by side in vectors of four doubles ([`Backend`] says with which instructions). Chunks of
 //! fixed size go to rayon's current thread pool. No answer depends on its neighbours, on its place, or on the number
-//! of threads; between processors with and without AVX2 the last bits differ, unless [`Path::Portable`] is asked for.
+//! of threads; between processors with and without AVX2 the last bits differ, unless [`Backend::Portable`] is asked for.
 //!
 //! | concept | file |
 //! | --- | --- |
@@ -23,13 +23,14 @@
 mod chain;
 mod forward;
 mod inverse;
+mod kernel;
 mod poses;
 mod step;
 mod vector;
 
 pub use inverse::{solve, solve_into};
 pub use poses::{fk, fk_into, fk_matrices_into, jacobian, jacobian_into};
-pub use vector::Path;
+pub use vector::Backend;
 
 /// Configurations to a unit of work for the thread pool. Fixed, so that nothing depends on the number of threads.
 const CHUNK: usize = 512;

@@ -2,7 +2,8 @@
 
 use super::chain::Chain;
 use super::forward::{Tips, dot, frames, frames_and_lines, gather, moment, no_lines};
-use super::vector::{Kernel, LANES, Path, Vector, run};
+use super::kernel::{Kernel, LANES, Vector};
+use super::vector::{Backend, run};
 use super::{BatchError, CHUNK, same_length};
 use crate::rotation::Rigid;
 use crate::{Axes, Frame, Jacobian, JointVector, Pose, RobotModel};
@@ -15,7 +16,7 @@ use rayon::prelude::*;
 /// Agrees with [`RobotModel::pose`] within 1e-12 (m, and entries of the rotation matrix). A quaternion per pose costs
 /// about as much as its forward kinematics: [`fk_into`] is the fast form.
 #[must_use]
-pub fn fk(robot: &RobotModel, frame: &Frame, q: &[JointVector], path: Path) -> Vec<Pose> {
+pub fn fk(robot: &RobotModel, frame: &Frame, q: &[JointVector], path: Backend) -> Vec<Pose> {
     let (mut positions, mut rotations) = (vec![[0.0; 3]; q.len()], vec![[0.0; 9]; q.len()]);
     evaluate(&Chain::new(robot, frame), q, &mut positions, &mut rotations, path);
     let pose = |(p, r): (&[f64; 3], &[f64; 9])| {
@@ -43,7 +44,7 @@ pub fn fk_into(
     q: &[JointVector],
     positions: &mut [[f64; 3]],
     rotations: &mut [[f64; 9]],
-    path: Path,
+    path: Backend,
 ) -> Result<(), BatchError> {
     same_length("positions", q.len(), positions.len())?;
     same_length("rotations", q.len(), rotations.len())?;
@@ -61,7 +62,7 @@ pub fn fk_matrices_into(
     frame: &Frame,
     q: &[JointVector],
     matrices: &mut [[f64; 16]],
-    path: Path,
+    path: Backend,
 ) -> Result<(), BatchError> {
     same_length("matrices", q.len(), matrices.len())?;
     let chain = Chain::new(robot, frame);
@@ -86,7 +87,7 @@ pub fn fk_matrices_into(
 ///
 /// [`BodyPoses::jacobian`]: crate::BodyPoses::jacobian
 #[must_use]
-pub fn jacobian(robot: &RobotModel, frame: &Frame, q: &[JointVector], axes: Axes, path: Path) -> Vec<Jacobian> {
+pub fn jacobian(robot: &RobotModel, frame: &Frame, q: &[JointVector], axes: Axes, path: Backend) -> Vec<Jacobian> {
     let mut jacobians = vec![Jacobian::zeros(); q.len()];
     differentiate(&Chain::new(robot, frame), q, &mut jacobians, axes, path);
     jacobians
@@ -102,14 +103,14 @@ pub fn jacobian_into(
     q: &[JointVector],
     axes: Axes,
     jacobians: &mut [Jacobian],
-    path: Path,
+    path: Backend,
 ) -> Result<(), BatchError> {
     same_length("jacobians", q.len(), jacobians.len())?;
     differentiate(&Chain::new(robot, frame), q, jacobians, axes, path);
     Ok(())
 }
 
-fn evaluate(chain: &Chain, q: &[JointVector], positions: &mut [[f64; 3]], rotations: &mut [[f64; 9]], path: Path) {
+fn evaluate(chain: &Chain, q: &[JointVector], positions: &mut [[f64; 3]], rotations: &mut [[f64; 9]], path: Backend) {
     let chunks = q
         .par_chunks(CHUNK)
         .zip(positions.par_chunks_mut(CHUNK))
@@ -127,7 +128,7 @@ fn evaluate(chain: &Chain, q: &[JointVector], positions: &mut [[f64; 3]], rotati
     });
 }
 
-fn differentiate(chain: &Chain, q: &[JointVector], jacobians: &mut [Jacobian], axes: Axes, path: Path) {
+fn differentiate(chain: &Chain, q: &[JointVector], jacobians: &mut [Jacobian], axes: Axes, path: Backend) {
     let chunks = q.par_chunks(CHUNK).zip(jacobians.par_chunks_mut(CHUNK));
     chunks.for_each(|(q, jacobians)| {
         run(

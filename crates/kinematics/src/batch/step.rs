@@ -2,7 +2,7 @@
 //! lane by lane.
 
 use super::forward::{Line, Tips, cross, dot, moment};
-use super::vector::Vector;
+use super::kernel::Vector;
 use crate::AXES;
 
 /// Below this cosine of the error angle (0.5 rad) a lane is left to the scalar solver.

@@ -4,15 +4,13 @@
 //! instructions enabled, and for [`Portable`] without. `run` enters the one that the processor has.
 #![allow(unsafe_code)]
 
-use crate::trig::{MulAdd, Separate};
+use super::kernel::{Kernel, LANES, Vector};
+use crate::trig::Separate;
 use std::ops::{Add, Div, Mul, Sub};
-
-/// Configurations to a vector.
-pub(super) const LANES: usize = 4;
 
 /// Which instructions a batch runs on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Path {
+pub enum Backend {
     /// AVX2 and FMA where the processor has them, found at run time; the portable instructions elsewhere. Products
     /// and sums are fused, so that the last bits differ from the portable ones.
     #[default]
@@ -21,7 +19,7 @@ pub enum Path {
     Portable,
 }
 
-impl Path {
+impl Backend {
     /// Whether a batch on this path runs on AVX2 and FMA on this machine.
     #[must_use]
     pub fn is_vectorised(self) -> bool {
@@ -33,41 +31,8 @@ impl Path {
     }
 }
 
-/// Four doubles; every operation is lane by lane, rounded as IEEE 754 says.
-pub(super) trait Vector:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
-{
-    /// How [`Vector::mul_add`] rounds.
-    type Rounding: MulAdd;
-    /// The lanes of an array.
-    fn from_array(lanes: [f64; LANES]) -> Self;
-    /// The array of the lanes.
-    fn to_array(self) -> [f64; LANES];
-    /// `self · b + c`.
-    fn mul_add(self, b: Self, c: Self) -> Self;
-    /// `self · b − c`.
-    fn mul_sub(self, b: Self, c: Self) -> Self;
-    /// `c − self · b`.
-    fn neg_mul_add(self, b: Self, c: Self) -> Self;
-    /// Where `self > bound` (false for NaN) `yes`, elsewhere `no`.
-    fn if_above(self, bound: Self, yes: Self, no: Self) -> Self;
-
-    /// The same number in every lane.
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        Self::from_array([x; LANES])
-    }
-}
-
-/// Work that is written once and compiled twice. `run` is `#[inline(always)]`, and so is all that it calls often,
-/// because a function is compiled for the instructions of the one it is inlined into.
-pub(super) trait Kernel {
-    /// Does the work.
-    fn run<V: Vector>(self);
-}
-
 /// Runs the kernel on the path.
-pub(super) fn run<K: Kernel>(path: Path, kernel: K) {
+pub(super) fn run<K: Kernel>(path: Backend, kernel: K) {
     #[cfg(target_arch = "x86_64")]
     if path.is_vectorised() {
         // SAFETY: calling a function with `target_feature(enable = "avx2,fma")` needs a processor that has both;
@@ -143,7 +108,7 @@ impl Vector for Portable {
 
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
-    use super::{Kernel, LANES, Vector};
+    use crate::batch::kernel::{Kernel, LANES, Vector};
     use crate::trig::Fused;
     use std::arch::x86_64::{
         __m256d, _CMP_GT_OQ, _mm256_add_pd, _mm256_blendv_pd, _mm256_cmp_pd, _mm256_div_pd, _mm256_fmadd_pd,

@@ -7,7 +7,7 @@ use super::{
     AnalyticStarts, IkCause, IkError, IkFailure, IkSettings, IkSettingsError, IkSolution, Method, RandomRestarts, Start,
 };
 use super::{dls, qp};
-use crate::fk::Frame;
+use crate::frame::Frame;
 use crate::rotation::Rigid;
 use crate::{AXES, JointVector, Pose, RobotModel};
 use rand::{RngExt, SeedableRng};

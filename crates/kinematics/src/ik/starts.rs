@@ -1,19 +1,17 @@
 //! The listed starts: a fixed, evenly spread set of configurations within the limits.
 //!
-//! They are the first [`LISTED`] points of the six-dimensional Halton sequence (bases 2, 3, 5, 7, 11, 13;
-//! Halton 1960), scaled to the joint limits, with joints that turn further than ±π kept within it. For
+//! They are the first [`LISTED`] points of the six-dimensional Halton sequence ([`halton`]), scaled to the joint limits, with joints that turn further than ±π kept within it. For
 //! a target, the starts whose frame is nearest to it are tried first: squared distance of the origins in
 //! metres plus 0.05 of the squared chord between the rotations.
 
-use crate::fk::Frame;
+use crate::frame::Frame;
 use crate::rotation::Rigid;
-use crate::{AXES, JointVector, RobotModel};
+use crate::{JointVector, RobotModel, halton};
 use std::f64::consts::PI;
 
 /// Length of the list.
 pub const LISTED: usize = 256;
 
-const BASES: [u32; AXES] = [2, 3, 5, 7, 11, 13];
 const ROTATION_WEIGHT: f64 = 0.05;
 
 /// The list for one frame of one arm.
@@ -25,7 +23,7 @@ pub(super) struct Starts {
 impl Starts {
     pub fn new(robot: &RobotModel, frame: &Frame) -> Self {
         let entry = |k| {
-            let q = halton(robot, k);
+            let q = scaled(robot, k);
             (q, robot.fk(&q).rigid(frame))
         };
         Self {
@@ -54,7 +52,8 @@ pub(super) fn distance(pose: &Rigid, target: &Rigid) -> f64 {
 }
 
 /// Point `k` of the sequence within the arm's limits \[rad\].
-fn halton(robot: &RobotModel, k: u32) -> JointVector {
+fn scaled(robot: &RobotModel, k: u32) -> JointVector {
+    let shares = halton::point(k);
     JointVector::from_fn(|joint, _| {
         let [lower, upper] = robot.limits().sampling_range(joint);
         let within_a_turn = [lower.max(-PI), upper.min(PI)];
@@ -63,28 +62,6 @@ fn halton(robot: &RobotModel, k: u32) -> JointVector {
         } else {
             [lower, upper]
         };
-        lower + (upper - lower) * radical_inverse(k, BASES[joint])
+        lower + (upper - lower) * shares[joint]
     })
-}
-
-/// The digits of `k` mirrored at the radix point, in (0, 1).
-fn radical_inverse(mut k: u32, base: u32) -> f64 {
-    let (mut value, mut place) = (0.0, 1.0);
-    while k > 0 {
-        place /= f64::from(base);
-        value += f64::from(k % base) * place;
-        k /= base;
-    }
-    value
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn radical_inverse_mirrors_the_digits() {
-        assert_eq!([1, 2, 3, 4].map(|k| radical_inverse(k, 2)), [0.5, 0.25, 0.75, 0.125]);
-        assert!((radical_inverse(5, 3) - (2.0 / 3.0 + 1.0 / 9.0)).abs() < 1e-15);
-    }
 }

@@ -1,6 +1,7 @@
 //! The pose error and its Jacobian at one configuration.
 
-use crate::fk::{BodyPoses, Frame};
+use crate::fk::BodyPoses;
+use crate::frame::Frame;
 use crate::jacobian::{Axes, Jacobian};
 use crate::rotation::{Rigid, rotation_vector};
 use crate::{JointVector, RobotModel};

@@ -1,6 +1,9 @@
 //! Collision elements of a link as shapes.
 
-use super::{MeshSource, UrdfError, capsule, length, pose};
+use super::capsule;
+use super::error::UrdfError;
+use super::mesh::MeshSource;
+use super::numbers::{length, pose};
 use crate::geometry::{Primitive, Shape};
 use urdf_rs::Geometry;
 

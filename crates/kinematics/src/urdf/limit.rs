@@ -1,6 +1,8 @@
 //! The `<limit>` elements of the six axes.
 
-use super::{UrdfError, finite, tree::Tree};
+use super::error::UrdfError;
+use super::numbers::finite;
+use super::tree::Tree;
 use crate::limits::JointLimits;
 use crate::{AXES, JointVector};
 use urdf_rs::JointType;

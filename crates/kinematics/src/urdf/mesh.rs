@@ -1,6 +1,8 @@
 //! Collision meshes: found through package folders, read as vertices (their convex hull is what counts).
 
-use super::{UrdfError, file, length, vertices};
+use super::error::UrdfError;
+use super::numbers::length;
+use super::{file, vertices};
 use nalgebra::Point3;
 use std::path::{Path, PathBuf};
 

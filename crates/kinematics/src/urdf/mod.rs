@@ -14,6 +14,7 @@ mod error;
 pub mod file;
 mod limit;
 mod mesh;
+mod numbers;
 mod scan;
 mod tree;
 mod vertices;
@@ -22,13 +23,14 @@ pub use error::UrdfError;
 pub use mesh::MeshSource;
 pub use scan::MAX_BYTES;
 
+use crate::AXES;
 use crate::fingerprint::sha256_hex;
-use crate::fk::Frame;
+use crate::frame::Frame;
 use crate::geometry::{Inertial, Shape};
 use crate::model::{Joint, Link, RobotModel};
-use crate::rotation::{Rigid, from_rpy};
-use crate::{AXES, Pose};
+use crate::rotation::Rigid;
 use nalgebra::{Matrix3, Vector3};
+use numbers::{finite, pose, rigid};
 use tree::Tree;
 
 /// Most links that are read; real descriptions need fewer than 50.
@@ -37,14 +39,21 @@ const MAX_LINKS: usize = 1000;
 /// Most collision elements that are read, all links together: every pair of them may need a check.
 const MAX_COLLISIONS: usize = 500;
 
-/// Largest length that is believed \[m\]; beyond it the file is probably in millimetres.
-const LARGEST_LENGTH_M: f64 = 100.0;
+impl RobotModel {
+    /// A model from expanded URDF text; `meshes` says where `package://` and relative mesh files are.
+    ///
+    /// # Errors
+    /// [`UrdfError`], naming the joint or link at fault.
+    pub fn from_urdf(text: &str, meshes: &MeshSource) -> Result<Self, UrdfError> {
+        load(text, meshes)
+    }
+}
 
 /// Builds the model from expanded URDF text.
 ///
 /// # Errors
 /// [`UrdfError`], naming the joint or link at fault.
-pub(crate) fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
+fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
     scan::check(text)?;
     let robot = urdf_rs::read_from_string(text).map_err(|e| syntax(text, &e))?;
     sizes(&robot)?;
@@ -160,43 +169,6 @@ fn frame_with_z_along(z: &Vector3<f64>) -> Matrix3<f64> {
     let helper = if z.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
     let x = (helper - z * z.dot(&helper)).normalize();
     Matrix3::from_columns(&[x, z.cross(&x), *z])
-}
-
-fn rigid(origin: &urdf_rs::Pose, at: &str) -> Result<Rigid, UrdfError> {
-    length(at, "origin xyz", &origin.xyz.0)?;
-    finite(at, "origin rpy", &origin.rpy.0)?;
-    Ok(Rigid {
-        rotation: from_rpy(origin.rpy.0),
-        translation: origin.xyz.0.into(),
-    })
-}
-
-fn pose(origin: &urdf_rs::Pose, at: &str) -> Result<Pose, UrdfError> {
-    rigid(origin, at).map(|r| Pose::from(&r))
-}
-
-fn finite(at: &str, what: &str, values: &[f64]) -> Result<(), UrdfError> {
-    if values.iter().all(|v| v.is_finite()) {
-        return Ok(());
-    }
-    Err(UrdfError::NotFinite {
-        at: at.to_owned(),
-        what: what.to_owned(),
-        found: format!("{values:?}"),
-    })
-}
-
-fn length(at: &str, what: &str, values: &[f64]) -> Result<(), UrdfError> {
-    finite(at, what, values)?;
-    if values.iter().all(|v| v.abs() <= LARGEST_LENGTH_M) {
-        return Ok(());
-    }
-    Err(UrdfError::TooLong {
-        at: at.to_owned(),
-        what: what.to_owned(),
-        found: format!("{values:?}"),
-        limit_m: LARGEST_LENGTH_M,
-    })
 }
 
 /// Mass properties of a link; `None` where the file states none (`urdf-rs` then reports zeros).

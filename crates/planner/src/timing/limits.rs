@@ -1,6 +1,5 @@
 //! What a timed motion must keep to.
 
-use super::TimingError;
 use platewash_kinematics::{AXES, JointVector};
 
 /// Limits of a motion, the same in both directions.
@@ -58,8 +57,8 @@ impl std::fmt::Display for Limit {
 }
 
 impl MotionLimits {
-    /// Refuses a limit that is not a positive finite number.
-    pub(super) fn check(&self) -> Result<(), TimingError> {
+    /// The first limit that is no positive finite number, with its value.
+    pub(super) fn unusable(&self) -> Option<(Limit, f64)> {
         let joints = (0..AXES).flat_map(|joint| {
             [
                 (Limit::JointSpeed(joint), self.velocity[joint]),
@@ -72,10 +71,7 @@ impl MotionLimits {
                 (Limit::TipAcceleration, tip.acceleration_m_s2),
             ]
         });
-        match joints.chain(tip).find(|(_, value)| !value.is_normal() || *value < 0.0) {
-            Some((limit, value)) => Err(TimingError::Limit { limit, value }),
-            None => Ok(()),
-        }
+        joints.chain(tip).find(|(_, value)| !value.is_normal() || *value < 0.0)
     }
 
     /// The same limits, all of them multiplied by `share`.

@@ -1,8 +1,8 @@
 //! Time-optimal timing along a path of the joints.
 //!
-//! [`time_optimal`] makes a [`JointPath`] a [`Trajectory`] from rest to rest that is as fast as its limits allow. What
-//! is promised is the trajectory itself, cubic Hermite pieces between knots: their accelerations, not those of the path,
-//! are what the limits constrain, and no motion is returned that breaks a limit anywhere.
+//! [`time_optimal`] makes a [`JointPath`] a motion from rest to rest that is as fast as its limits allow. What is promised
+//! is the motion itself, cubic Hermite pieces between knots: their accelerations, not those of the path, are what the
+//! limits constrain, and no motion is returned that breaks a limit anywhere.
 //!
 //! | concept | file |
 //! | --- | --- |
@@ -10,7 +10,7 @@
 //! | knots on the path, and where more are needed | `grid.rs`, `refine.rs` |
 //! | how the tip moves | `tip.rs` |
 //! | constraints of an interval | `interval.rs` |
-//! | linear program of an interval | `program.rs` |
+//! | linear program of an interval | `linear_program.rs` |
 //! | backward and forward pass | `passes.rs` |
 //! | a piece of the motion | `hermite.rs` |
 //! | what a piece demands of its limits | `check.rs` |
@@ -22,37 +22,26 @@ mod grid;
 mod hermite;
 mod interval;
 mod limits;
+mod linear_program;
 mod passes;
-mod program;
 mod refine;
 mod rounds;
 #[cfg(test)]
 mod tests;
+mod timed;
 mod tip;
 
 pub use error::TimingError;
 pub use limits::{Limit, MotionLimits, Slow, TipLimits};
 pub use refine::{LONGEST_PIECE_S, PATH_ERROR_RAD};
 pub use rounds::SHORTEST_PIECE_S;
+pub use timed::Timed;
 
 use crate::joint_path::JointPath;
 use grid::Grid;
 use platewash_kinematics::{Frame, RobotModel};
-use platewash_workcell::trajectory::Trajectory;
 use rounds::Rounds;
 use tip::TipModel;
-
-/// A path in time.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Timed {
-    /// The motion, from time 0, at rest at both ends. Its knots are the path's samples and more between them.
-    pub motion: Trajectory,
-    /// The path's parameter at every knot; those of the samples are among them to the bit.
-    pub parameters: Vec<f64>,
-    /// Largest distance of a joint from the path \[rad\]: measured in the middle of every piece, where the leading term
-    /// of the error of Hermite interpolation, `t² (h − t)²`, is largest.
-    pub path_error_rad: f64,
-}
 
 /// The fastest motion along `path`, from rest to rest, within `limits`; `tip` is the point on `robot` that the limits of
 /// the tip are for (unused without them).
@@ -91,7 +80,9 @@ pub fn time_optimal_slowed(
     limits: &MotionLimits,
     slow: &[Slow],
 ) -> Result<Timed, TimingError> {
-    limits.check()?;
+    if let Some((limit, value)) = limits.unusable() {
+        return Err(TimingError::Limit { limit, value });
+    }
     let still = path.positions().iter().all(|q| *q == path.positions()[0]);
     if still && path.slopes().iter().all(|m| m.amax() == 0.0) {
         return Err(TimingError::NoMotion {

@@ -6,7 +6,7 @@
 //! smaller x can too. A second pass from the start takes the largest x that stays below.
 
 use super::interval::Interval;
-use super::program::Program;
+use super::linear_program::LinearProgram;
 
 /// Share by which the backward pass stays inside its limits, so that rounding never closes the forward pass's way.
 const INSIDE: f64 = 1e-10;
@@ -14,7 +14,7 @@ const INSIDE: f64 = 1e-10;
 /// Room for the passes, kept from one round to the next.
 #[derive(Debug)]
 pub(super) struct Passes {
-    program: Program,
+    program: LinearProgram,
     /// Largest x from which the end is reached.
     controllable: Vec<f64>,
     /// Share of x₁ in x₀ that is allowed for the largest x₀, by interval.
@@ -27,7 +27,7 @@ impl Passes {
     /// Empty.
     pub fn new() -> Self {
         Self {
-            program: Program::new(),
+            program: LinearProgram::new(),
             controllable: Vec::new(),
             witness: Vec::new(),
             x: Vec::new(),

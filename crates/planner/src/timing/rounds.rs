@@ -1,6 +1,5 @@
 //! From knots on the path to the motion, in rounds: find the speed, refine the knots, check, lower limits, again.
 
-use super::Timed;
 use super::check::{self, Demand};
 use super::error::TimingError;
 use super::grid::{Grid, PathKnot};
@@ -9,6 +8,7 @@ use super::interval::Interval;
 use super::limits::{MotionLimits, Slow};
 use super::passes::Passes;
 use super::refine::{self, Course};
+use super::timed::Timed;
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::trajectory::Trajectory;
 

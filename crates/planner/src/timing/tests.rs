@@ -5,19 +5,15 @@ use crate::joint_path::Ends;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{AXES, JointVector};
-use platewash_workcell::stroke::Stroke;
-use platewash_workcell::tool::Tool;
+use platewash_workcell::fixtures::kitchen_tool;
+use platewash_workcell::wash_path::WashCurve;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
 /// The IRB 120 and the tip of a tool 150 mm long.
 pub(super) fn arm() -> (RobotModel, Frame) {
     let robot = RobotModel::irb120().unwrap();
-    let tool = Tool {
-        length_m: 0.15,
-        ..Tool::default()
-    };
-    let tip = platewash_workcell::tool::tip_frame(&robot, &tool);
+    let tip = kitchen_tool().tip_frame(&robot);
     (robot, tip)
 }
 
@@ -36,7 +32,7 @@ const WASH: TipLimits = TipLimits {
 
 /// The spiral and ring of a kitchen's plate, tool straight down.
 fn wash(robot: &RobotModel, tip: &Frame) -> JointPath {
-    let stroke = Stroke {
+    let curve = WashCurve {
         radius_m: 0.124,
         turns: 3.5,
         start_angle_rad: 0.3,
@@ -44,10 +40,10 @@ fn wash(robot: &RobotModel, tip: &Frame) -> JointPath {
     };
     let solver = IkSolver::new(robot, *tip, IkSettings::default()).unwrap();
     let down = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), PI);
-    let u = stroke.parameters(5e-5);
+    let u = curve.parameters(5e-5);
     let mut seed = JointVector::new(0.0, 0.5, 0.3, 0.0, 0.7, 0.0);
     let q = u.iter().map(|&theta| {
-        let p = stroke.at(theta).position;
+        let p = curve.at(theta).position;
         let target = Isometry3::from_parts(Translation3::new(0.36 + p.x, p.y, 0.03), down);
         seed = solver.solve(&target, &seed).unwrap().q;
         seed

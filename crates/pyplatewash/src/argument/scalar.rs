@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyComplex, PyFloat};
 
 /// Largest seed: beyond 2⁵³ − 1, neighbouring integers are one number in a plan file.
-pub const LARGEST_SEED: u64 = platewash::planner::scenario::MAX_SEED;
+pub const LARGEST_SEED: u64 = platewash::workcell::job::MAX_SEED;
 /// Largest count that is passed on, to be judged by whoever counts.
 pub const ANY_COUNT: [u64; 2] = [0, i64::MAX as u64];
 

@@ -1,7 +1,7 @@
 //! Unanswered inverse-kinematics calls.
 
 use super::{any, input, raise};
-use crate::arrays;
+use crate::made;
 use platewash::kinematics::ik::{IkCause, IkPathError, PathBreak};
 use platewash::{IkError, IkFailure};
 use pyo3::prelude::*;
@@ -35,7 +35,7 @@ fn failure_fields<'py>(py: Python<'py>, failure: &IkFailure) -> Vec<(&'static st
         ("joint", joint.and_then(|joint| any(py, joint))),
         (
             "q",
-            arrays::array(py, &[6], failure.q.as_slice()).ok().map(Bound::into_any),
+            made::array(py, &[6], failure.q.as_slice()).ok().map(Bound::into_any),
         ),
         ("iterations", any(py, failure.iterations)),
         ("limit_excess_rad", failure.limit_excess_rad.and_then(|v| any(py, v))),
@@ -47,7 +47,7 @@ fn failure_fields<'py>(py: Python<'py>, failure: &IkFailure) -> Vec<(&'static st
 /// A path that breaks off.
 pub fn ik_path(py: Python<'_>, error: &IkPathError) -> PyErr {
     let message = error.to_string();
-    let solved = |q: &[_]| arrays::joint_rows(py, q).ok().map(Bound::into_any);
+    let solved = |q: &[_]| made::joint_rows(py, q).ok().map(Bound::into_any);
     match error {
         IkPathError::Waypoint { waypoint, error } => {
             let mut fields = match error {
@@ -73,7 +73,7 @@ pub fn ik_path(py: Python<'_>, error: &IkPathError) -> PyErr {
             solved: q,
         } => {
             let (cause, joint) = path_break(reason);
-            let last = q.last().and_then(|q| arrays::array(py, &[6], q.as_slice()).ok());
+            let last = q.last().and_then(|q| made::array(py, &[6], q.as_slice()).ok());
             let fields = [
                 ("waypoint", any(py, *waypoint)),
                 ("cause", any(py, cause)),

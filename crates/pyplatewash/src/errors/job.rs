@@ -1,14 +1,21 @@
 //! Scenarios that are refused, and jobs that cannot be carried out.
 
+use super::simulation::simulation;
 use super::{FileOf, SystemWord, any, input, keyed, named, raise, system_file};
-use crate::arrays;
-use platewash::planner::crossing::CrossingError;
-use platewash::planner::cycle::CycleError;
-use platewash::planner::scenario::{Problem, ScenarioError};
-use platewash::planner::tracking::TrackingError;
+use crate::made;
+use platewash::paper::PaperError;
+use platewash::paper::tracking::TrackingError;
+use platewash::planner::UnwashablePlate;
+use platewash::planner::transit::TransitError;
+use platewash::scenario::Problem;
+use platewash::workcell::job::JobError;
 use platewash::workcell::layout::LayoutError;
-use platewash::{PlanError, VerifyError};
+use platewash::workcell::workcell::ArmId;
+use platewash::{Failure, PlanError, ScenarioError};
 use pyo3::prelude::*;
+
+/// A field of an exception.
+type Field<'py> = (&'static str, Option<Bound<'py, PyAny>>);
 
 /// A refused scenario.
 pub fn scenario(py: Python<'_>, error: &ScenarioError) -> PyErr {
@@ -36,33 +43,32 @@ pub fn scenario(py: Python<'_>, error: &ScenarioError) -> PyErr {
     raise(py, "ScenarioError", &error.to_string(), &fields)
 }
 
-/// A job that could not be carried out.
-pub fn plan(py: Python<'_>, error: &PlanError) -> PyErr {
+/// A scenario, a job or a plan that could not be carried out, with the keys of scenarios that decide it.
+pub fn failure(py: Python<'_>, error: &Failure) -> PyErr {
     let message = error.to_string();
-    let (stage, waypoint, joint) = match error {
-        PlanError::Scenario(error) => return scenario(py, error),
-        PlanError::Layout(error) => return layout(py, error),
-        PlanError::Robot(_) => ("robot", None, None),
-        PlanError::IkSettings(_) | PlanError::Ik(_) => ("ik", None, None),
-        PlanError::Tracking(TrackingError::Ik { waypoint, .. }) => ("tracking", Some(*waypoint), None),
-        PlanError::Tracking(TrackingError::Divergence { waypoint, joint, .. }) => {
-            ("tracking", Some(*waypoint), Some(*joint))
-        }
-        PlanError::Clearance(_) => ("clearance", None, None),
-        PlanError::Coverage(_) => ("coverage", None, None),
-        PlanError::Cycle(error) => return cycle(py, error),
-        _ => ("plan", None, None),
-    };
-    let fields = [
-        ("stage", any(py, stage)),
-        ("waypoint", waypoint.and_then(|v| any(py, v))),
-        ("joint", joint.and_then(|v| any(py, v))),
-    ];
-    raise(py, "PlanError", &message, &fields)
+    match error {
+        Failure::Scenario(error) => scenario(py, error),
+        Failure::Arm(_) => staged(py, "robot", &message, Vec::new()),
+        Failure::Layout(error) => layout(py, error, &message),
+        Failure::NoContact { .. } => keyed(py, "wash.height_m", &message),
+        Failure::Job(error) => job(py, error, &message),
+        Failure::Plan(error) => plan(py, error, &message),
+        Failure::Paper(error) => paper(py, error, &message),
+        Failure::Prove(_) => named(py, "ProveError", &message),
+        Failure::Simulation(error) => simulation(py, error, &message),
+        Failure::File(_) => named(py, "PlanFileError", &message),
+        _ => named(py, "PlanError", &message),
+    }
+}
+
+/// A job that failed at a stage.
+fn staged<'py>(py: Python<'py>, stage: &str, message: &str, fields: Vec<Field<'py>>) -> PyErr {
+    let fields = [vec![("stage", any(py, stage))], fields].concat();
+    raise(py, "PlanError", message, &fields)
 }
 
 /// Plates that could not be placed.
-pub fn layout(py: Python<'_>, error: &LayoutError) -> PyErr {
+fn layout(py: Python<'_>, error: &LayoutError, message: &str) -> PyErr {
     let fields = match error {
         LayoutError::NoRoom {
             count,
@@ -86,51 +92,92 @@ pub fn layout(py: Python<'_>, error: &LayoutError) -> PyErr {
         LayoutError::InvalidInput { key, problem } => return input(py, key, &problem.to_string()),
         _ => Vec::new(),
     };
-    raise(py, "LayoutError", &format!("layout: {error}"), &fields)
+    raise(py, "LayoutError", message, &fields)
 }
 
-/// A cycle that could not be planned.
-fn cycle(py: Python<'_>, error: &CycleError) -> PyErr {
-    let mut fields = vec![("stage", any(py, "cycle"))];
+/// Terms that are no job.
+fn job(py: Python<'_>, error: &JobError, message: &str) -> PyErr {
     match error {
-        CycleError::NoContact { .. } => return keyed(py, "wash.height_m", &error.to_string()),
-        CycleError::NoTool => return keyed(py, "tool.length_m", &error.to_string()),
-        CycleError::Unwashable(plate) => {
-            let cause = if plate.conclusion.is_proved() {
-                "unwashable"
-            } else {
-                "not_found"
-            };
-            fields.extend([("cause", any(py, cause)), ("plate", any(py, plate.plate))]);
-            fields.push(("share", plate.share.and_then(|share| any(py, share))));
-            let nearest = plate.nearest_m.and_then(|at| arrays::array(py, &[2], &at).ok());
-            fields.push(("nearest_m", nearest.map(Bound::into_any)));
+        JobError::Home { violation, .. } => {
+            let fields = vec![("cause", any(py, "home")), ("joint", any(py, violation.joint))];
+            staged(py, "job", message, fields)
         }
-        CycleError::Line { plate, .. } => fields.extend([("cause", any(py, "line")), ("plate", any(py, *plate))]),
-        CycleError::Crossing(CrossingError::NoWay { from, to, .. }) => {
-            let plate = to.or(*from);
-            fields.extend([("cause", any(py, "no_way")), ("plate", plate.and_then(|p| any(py, p)))]);
+        JobError::Clearance(_) => staged(py, "clearance", message, Vec::new()),
+        JobError::PlateCount { .. } | JobError::NoPlate { .. } | JobError::TiltedPlate { .. } => {
+            keyed(py, "plates", message)
         }
-        CycleError::Crossing(CrossingError::Line { plate, .. }) => {
-            fields.extend([("cause", any(py, "line")), ("plate", any(py, *plate))]);
-        }
-        CycleError::Tilt { plate, .. } => fields.extend([("cause", any(py, "tilt")), ("plate", any(py, *plate))]),
-        CycleError::Home(violation) => {
-            fields.extend([("cause", any(py, "home")), ("joint", any(py, violation.joint))]);
-        }
-        _ => (),
+        _ => keyed(py, "job", message),
     }
-    raise(py, "PlanError", &error.to_string(), &fields)
 }
 
-/// A plan that cannot be judged.
-pub fn verify(py: Python<'_>, error: &VerifyError) -> PyErr {
-    let VerifyError::NoDescription { file } = error else {
-        return named(py, "VerifyError", &error.to_string());
+/// A washing that could not be planned.
+fn plan(py: Python<'_>, error: &PlanError, message: &str) -> PyErr {
+    let cause = |word: &str| ("cause", any(py, word));
+    let at = |plate: usize| ("plate", any(py, plate));
+    let fields = match error {
+        PlanError::Job(error) => return job(py, error, message),
+        PlanError::Layout(error) => return layout(py, error, message),
+        PlanError::NoTool => return keyed(py, "tool.length_m", message),
+        PlanError::Clearance(_) => return staged(py, "clearance", message, Vec::new()),
+        PlanError::IkSettings(_) => return staged(py, "ik", message, Vec::new()),
+        PlanError::Unwashable(plate) => unwashable(py, plate),
+        PlanError::NoneWashable { .. } => vec![cause("not_found")],
+        PlanError::Line { plate, .. } | PlanError::Transit(TransitError::Line { plate, .. }) => {
+            vec![cause("line"), at(*plate)]
+        }
+        PlanError::Transit(TransitError::NotFound { from, to, .. }) => {
+            vec![cause("no_transit"), ("plate", to.or(*from).and_then(|p| any(py, p)))]
+        }
+        PlanError::Tilt { plate, .. } => vec![cause("tilt"), at(*plate)],
+        PlanError::Home { violation, .. } => vec![cause("home"), ("joint", any(py, violation.joint))],
+        PlanError::HomeNotClear { .. } | PlanError::Transit(TransitError::Home { .. }) => vec![cause("home")],
+        _ => Vec::new(),
     };
+    staged(py, "plan", message, fields)
+}
+
+/// A plate that cannot be washed whole, or for which no way to was found.
+fn unwashable<'py>(py: Python<'py>, plate: &UnwashablePlate) -> Vec<Field<'py>> {
+    let cause = match plate.conclusion.is_proved() {
+        true => "unwashable",
+        false => "not_found",
+    };
+    let nearest = plate.nearest_m.and_then(|at| made::array(py, &[2], &at).ok());
+    vec![
+        ("cause", any(py, cause)),
+        ("plate", any(py, plate.plate)),
+        ("share", plate.share.and_then(|share| any(py, share))),
+        ("nearest_m", nearest.map(Bound::into_any)),
+    ]
+}
+
+/// A run of the paper's program that could not be carried out.
+fn paper(py: Python<'_>, error: &PaperError, message: &str) -> PyErr {
+    let (stage, fields) = match error {
+        PaperError::Job(error) => return job(py, error, message),
+        PaperError::Layout(error) => return layout(py, error, message),
+        PaperError::Tracking(TrackingError::Ik { waypoint, .. } | TrackingError::Torque { waypoint }) => {
+            ("tracking", vec![("waypoint", any(py, *waypoint))])
+        }
+        PaperError::Tracking(TrackingError::Divergence { waypoint, joint, .. }) => (
+            "tracking",
+            vec![("waypoint", any(py, *waypoint)), ("joint", any(py, *joint))],
+        ),
+        PaperError::IkSettings(_) => ("ik", Vec::new()),
+        PaperError::Clearance(_) => ("clearance", Vec::new()),
+        PaperError::Coverage(_) => ("coverage", Vec::new()),
+        _ => ("paper", Vec::new()),
+    };
+    staged(py, stage, message, fields)
+}
+
+/// A plan whose arm is not at hand.
+pub fn arm_needed(py: Python<'_>, arm: &ArmId) -> PyErr {
+    let hash = arm.urdf_sha256.get(..8).unwrap_or(&arm.urdf_sha256);
     let message = format!(
-        "robot: the plan is for the arm of \"{file}\", which a plan file names but does not hold; give the arm as \
-         robot=Robot.load(...)"
+        "robot: the plan is for the arm \"{}\" (description {hash}…), which a plan file names but does not hold; give the arm as \
+         robot=Robot.load(...)",
+        arm.name
     );
-    raise(py, "VerifyError", &message, &[("argument", any(py, "robot"))])
+    raise(py, "ProveError", &message, &[("argument", any(py, "robot"))])
 }

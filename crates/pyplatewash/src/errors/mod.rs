@@ -10,8 +10,8 @@ mod simulation;
 
 pub use file::{FileOf, SystemWord, system_file, unread};
 pub use inverse::{cause, ik, ik_path};
-pub use job::{plan, scenario, verify};
-pub use simulation::{dynamics, simulation};
+pub use job::{arm_needed, failure, scenario};
+pub use simulation::dynamics;
 
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;

@@ -1,8 +1,9 @@
 //! Inverse kinematics of many targets, straight into NumPy's arrays.
 
 use super::rows::{Desk, Problems, Rows, Seeds};
-use crate::arrays::{self, JOINTS, MANY_POSES, Numbers};
+use crate::arrays::{JOINTS, MANY_POSES, Numbers};
 use crate::errors;
+use crate::made;
 use crate::work::released;
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
 use platewash::{IkSolver, JointVector};
@@ -48,10 +49,10 @@ pub fn solve<'py>(
         }
     };
     let columns = Columns {
-        q: arrays::zeros(py, &[n, 6]),
-        solved: arrays::zeros(py, &[n]),
-        iterations: arrays::zeros(py, &[n]),
-        errors: [arrays::zeros(py, &[n]), arrays::zeros(py, &[n])],
+        q: made::zeros(py, &[n, 6]),
+        solved: made::zeros(py, &[n]),
+        iterations: made::zeros(py, &[n]),
+        errors: [made::zeros(py, &[n]), made::zeros(py, &[n])],
     };
     let problems = Problems {
         solver,

@@ -3,6 +3,7 @@
 use super::settings::IkSolutionRecord;
 use crate::arrays::{self, MANY_POSES, Numbers, ONE_POSE};
 use crate::errors::{self, Input};
+use crate::made;
 use crate::pose;
 use crate::work::{alone, patiently, released};
 use numpy::PyArrayDyn;
@@ -76,7 +77,7 @@ pub fn all<'py>(
         rejections.set_item(name(label), why.to_string())?;
     }
     let class = BRANCHES.import(py, "pyplatewash._records", "IkBranches")?;
-    class.call1((arrays::joint_rows(py, &q)?, labels, rejections))
+    class.call1((made::joint_rows(py, &q)?, labels, rejections))
 }
 
 /// Names the argument for which there are no branches.
@@ -102,5 +103,5 @@ pub fn path<'py>(
     let from = seed(from, "seed")?;
     let targets = released(py, || poses(matrices))?.map_err(|e| no_pose(py, e))?;
     let answer = patiently(py, move |_| solver.solve_path(&targets, &from))?;
-    arrays::joint_rows(py, &answer.map_err(|e| errors::ik_path(py, &e))?.q)
+    made::joint_rows(py, &answer.map_err(|e| errors::ik_path(py, &e))?.q)
 }

@@ -8,13 +8,14 @@ mod settings;
 mod source;
 
 use crate::argument::{self, ROBOT};
-use crate::arrays;
 use crate::errors;
+use crate::made;
 use crate::notes::warn;
 use crate::tool::ToolFields;
 use numpy::PyArrayDyn;
-use platewash::planner::scenario::{RobotSection, UnitNote};
-use platewash::{Axes, Frame, RobotModel, ToolFrame};
+use platewash::Scenario;
+use platewash::scenario::UnitNote;
+use platewash::{Axes, Frame, IkSolver, RobotModel, ToolFrame};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use settings::Solvers;
@@ -40,10 +41,10 @@ pub struct Robot {
 }
 
 impl Robot {
-    fn new(model: RobotModel, source: Source) -> Self {
+    fn new(model: Arc<RobotModel>, source: Source) -> Self {
         Self {
             mount: model.mounting_frame(),
-            model: Arc::new(model),
+            model,
             source,
             solvers: Solvers::default(),
         }
@@ -61,7 +62,7 @@ impl Robot {
     /// None in practice.
     pub fn built_in(py: Python<'_>) -> PyResult<Py<Self>> {
         let model = RobotModel::irb120().map_err(|e| errors::internal(py, &e.to_string()))?;
-        Py::new(py, Self::new(model, Source::BuiltIn))
+        Py::new(py, Self::new(Arc::new(model), Source::BuiltIn))
     }
 
     /// The arm of the argument called `robot`, if it is given.
@@ -76,8 +77,18 @@ impl Robot {
     ///
     /// # Errors
     /// `UrdfError` for files that can no longer be read.
-    pub fn of_section(py: Python<'_>, section: &RobotSection, model: &RobotModel) -> PyResult<Py<Self>> {
-        Py::new(py, Self::new(model.clone(), Source::of(py, section)?))
+    pub fn of_scenario(py: Python<'_>, scenario: &Scenario, model: Arc<RobotModel>) -> PyResult<Py<Self>> {
+        Py::new(py, Self::new(model, Source::of(py, scenario)?))
+    }
+
+    /// The solver for a frame, kept from an earlier call or new.
+    fn solver(
+        &self,
+        py: Python<'_>,
+        frame: Frame,
+        settings: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Arc<IkSolver<'static>>> {
+        self.solvers.solver(py, &self.model, frame, settings)
     }
 
     fn frame(
@@ -88,10 +99,7 @@ impl Robot {
     ) -> PyResult<Frame> {
         match (name, tool) {
             (None, None) => Ok(self.mount),
-            (None, Some(tool)) => Ok(platewash::workcell::tool::tip_frame(
-                &self.model,
-                &ToolFields::of(tool)?.section(py)?,
-            )),
+            (None, Some(tool)) => Ok(ToolFields::of(tool)?.tool(py)?.tip_frame(&self.model)),
             (Some(_), Some(_)) => Err(errors::input(
                 py,
                 "frame",
@@ -137,7 +145,7 @@ impl Robot {
             argument::paths("package_path", package_path)?,
             folder.map(|folder| argument::path("folder", folder)).transpose()?,
         );
-        Ok(Self::new(source.load(py)?, source))
+        Ok(Self::new(Arc::new(source.load(py)?), source))
     }
 
     /// An arm from an expanded URDF file, with an SRDF file if given; meshes are looked up beside it and in `package_path`, a
@@ -157,7 +165,7 @@ impl Robot {
         let srdf = srdf.map(|srdf| argument::path("srdf", srdf)).transpose()?;
         let package_path = argument::paths("package_path", package_path)?;
         let source = Source::files(py, &urdf, srdf.as_deref(), package_path)?;
-        let model = source.load(py)?;
+        let model = Arc::new(source.load(py)?);
         warn(py, UnitNote::of_arm(&model).as_slice())?;
         Ok(Self::new(model, source))
     }
@@ -201,19 +209,19 @@ impl Robot {
     /// Lowest joint positions, shape (6,) [rad]; -inf for a continuous joint.
     #[getter]
     fn lower<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        arrays::array(py, &[6], self.model.limits().lower.as_slice())
+        made::array(py, &[6], self.model.limits().lower.as_slice())
     }
 
     /// Highest joint positions, shape (6,) [rad]; inf for a continuous joint.
     #[getter]
     fn upper<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        arrays::array(py, &[6], self.model.limits().upper.as_slice())
+        made::array(py, &[6], self.model.limits().upper.as_slice())
     }
 
     /// Highest joint speeds, shape (6,) [rad/s].
     #[getter]
     fn velocity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        arrays::array(py, &[6], self.model.limits().velocity.as_slice())
+        made::array(py, &[6], self.model.limits().velocity.as_slice())
     }
 
     /// Highest joint torques [N·m], None where the description states none.
@@ -224,7 +232,7 @@ impl Robot {
 
     /// Distance of each joint from its nearer limit [rad], shape of `q`; negative outside.
     fn limit_margins<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        forward::limit_margins(self, py, q)
+        forward::limit_margins(&self.model, py, q)
     }
 
     /// Pose `T_base_frame` at `q`: shape (6,) gives (4, 4), (N, 6) gives (N, 4, 4). Limits are not checked; NaN in, NaN out.
@@ -236,7 +244,7 @@ impl Robot {
         frame: Option<&Bound<'_, PyAny>>,
         tool: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        forward::fk(self, py, q, &self.frame(py, frame, tool)?)
+        forward::fk(&self.model, py, q, &self.frame(py, frame, tool)?)
     }
 
     /// Geometric Jacobian of a frame at `q`: shape (6,) gives (6, 6), (N, 6) gives (N, 6, 6).
@@ -254,7 +262,7 @@ impl Robot {
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let words = [("base", Axes::Base), ("local", Axes::Local)];
         let axes = axes.map_or(Ok(Axes::Base), |axes| argument::word("axes", axes, &words))?;
-        forward::jacobian(self, py, q, &self.frame(py, frame, tool)?, axes)
+        forward::jacobian(&self.model, py, q, &self.frame(py, frame, tool)?, axes)
     }
 
     /// Yoshikawa's manipulability `|det J|` of a frame at `q` [m³]: shape (6,) gives a number, (N, 6) gives (N,).
@@ -266,7 +274,7 @@ impl Robot {
         frame: Option<&Bound<'_, PyAny>>,
         tool: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        forward::manipulability(self, py, q, &self.frame(py, frame, tool)?)
+        forward::manipulability(&self.model, py, q, &self.frame(py, frame, tool)?)
     }
 
     /// A configuration within the limits that brings the frame to `target`, shape (4, 4), found from `seed`, shape (6,), by

@@ -3,7 +3,7 @@
 use crate::errors;
 use crate::pose;
 use nalgebra::Quaternion;
-use platewash::kinematics::batch::{self, BatchError, Path};
+use platewash::kinematics::batch::{self, Backend, BatchError};
 use platewash::{IkError, IkSolution, IkSolver, JointVector, Pose};
 
 /// Rows to a unit of work: their poses and answers stay in a processor's cache.
@@ -131,7 +131,7 @@ impl<'a> Rows<'a> {
             Seeds::Each(seeds) => &seeds[first..first + n],
         };
         let answers = &mut desk.answers[..n];
-        batch::solve_into(problems.solver, &desk.targets, seeds, answers, Path::Detected)?;
+        batch::solve_into(problems.solver, &desk.targets, seeds, answers, Backend::Detected)?;
         let mut causes = Causes::new();
         for (k, answer) in answers.iter().enumerate() {
             if let Some(cause) = self.put(k, answer) {

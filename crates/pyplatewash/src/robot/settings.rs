@@ -1,12 +1,12 @@
 //! Settings of the inverse kinematics, and solvers that are kept between calls.
 
-use super::Robot;
 use crate::argument;
 use crate::arrays;
 use crate::errors;
+use crate::made;
 use numpy::PyArrayDyn;
 use platewash::kinematics::ik::{AnalyticStarts, Method, RandomRestarts, Start};
-use platewash::{Frame, IkSettings, IkSolution, IkSolver};
+use platewash::{Frame, IkSettings, IkSolution, IkSolver, RobotModel};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -102,11 +102,12 @@ impl From<Fields> for IkSettings {
     }
 }
 
-impl Robot {
-    /// The solver for a frame, kept from an earlier call or new.
-    pub(super) fn solver(
+impl Solvers {
+    /// The solver for a frame of the arm that these are for, kept from an earlier call or new.
+    pub fn solver(
         &self,
         py: Python<'_>,
+        robot: &RobotModel,
         frame: Frame,
         settings: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Arc<IkSolver<'static>>> {
@@ -114,13 +115,12 @@ impl Robot {
             None => IkSettings::default(),
             Some(given) => self::settings(given)?,
         };
-        let mut kept = self.solvers.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let same = |s: &Arc<IkSolver<'static>>| *s.frame() == frame && *s.settings() == settings;
         if let Some(found) = kept.iter().rev().find(|s| same(s)) {
             return Ok(found.clone());
         }
-        let new =
-            IkSolver::new(&self.model, frame, settings).map_err(|e| errors::input(py, "settings", &e.to_string()))?;
+        let new = IkSolver::new(robot, frame, settings).map_err(|e| errors::input(py, "settings", &e.to_string()))?;
         let new = Arc::new(new.into_owned());
         if kept.len() >= KEPT {
             kept.remove(0);
@@ -198,7 +198,7 @@ impl IkSolutionRecord {
     /// Joint positions, shape (6,) [rad].
     #[getter]
     fn q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        arrays::array(py, &[6], &self.q)
+        made::array(py, &[6], &self.q)
     }
 
     fn __repr__(&self) -> String {

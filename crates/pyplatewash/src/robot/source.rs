@@ -2,10 +2,10 @@
 
 use crate::errors::{self, FileOf};
 use platewash::RobotModel;
+use platewash::Scenario;
 use platewash::kinematics::DisabledPairs;
-use platewash::kinematics::model::{IRB120_SRDF, IRB120_URDF};
+use platewash::kinematics::irb120::{IRB120_SRDF, IRB120_URDF};
 use platewash::kinematics::urdf::{MAX_BYTES, MeshSource, file};
-use platewash::planner::scenario::RobotSection;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use std::path::{Path, PathBuf};
@@ -63,7 +63,8 @@ impl Source {
     ///
     /// # Errors
     /// As [`Source::files`].
-    pub fn of(py: Python<'_>, section: &RobotSection) -> PyResult<Self> {
+    pub fn of(py: Python<'_>, scenario: &Scenario) -> PyResult<Self> {
+        let section = &scenario.robot;
         match &section.urdf {
             None => Ok(Self::BuiltIn),
             Some(urdf) => Self::files(py, urdf, section.srdf.as_deref(), section.package_path.clone()),

@@ -1,34 +1,34 @@
 //! `Execution`: what the arm did, sample by sample, and its report.
 
-use super::{Question, Refused, SetupObject};
+use super::question::Question;
+use super::settings::SettingsObject;
 use crate::argument;
-use crate::arrays;
 use crate::errors;
+use crate::made;
 use crate::plan::PlanObject;
 use crate::robot::Robot;
 use crate::value::to_record;
 use crate::work::patiently;
 use numpy::{PyArray1, PyArrayDyn};
 use platewash::simulator::simulate::{Sample, table};
-use platewash::{Execution, JointVector, Plan, RobotModel, Setup, SimulationReport};
+use platewash::simulator::simulate_with;
+use platewash::{Execution, JointVector, SimulationError, SimulationReport};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::sync::Arc;
 
 /// A plan executed under a control law; the samples are N. Immutable.
 ///
-/// The arm starts on the path, at its speed. The same plan, arm and setup give the same bits.
+/// The arm starts on the path, at its speed. The same plan, arm and settings give the same bits.
 #[pyclass(frozen, module = "pyplatewash", name = "Execution")]
 pub struct ExecutionObject {
     inner: Arc<Done>,
-    arguments: (Py<PlanObject>, Py<SetupObject>, Option<Py<Robot>>),
+    arguments: (Py<PlanObject>, Option<Py<Robot>>, Py<SettingsObject>),
 }
 
 /// An execution and what it is one of.
 struct Done {
-    plan: Plan,
-    robot: Arc<RobotModel>,
-    setup: Setup,
+    question: Question,
     execution: Execution,
 }
 
@@ -38,7 +38,7 @@ impl ExecutionObject {
     }
 
     fn rows<'py>(&self, py: Python<'py>, of: impl Fn(&Sample) -> JointVector) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        arrays::joint_rows(py, &self.samples().iter().map(of).collect::<Vec<_>>())
+        made::joint_rows(py, &self.samples().iter().map(of).collect::<Vec<_>>())
     }
 }
 
@@ -46,8 +46,8 @@ impl ExecutionObject {
 impl ExecutionObject {
     /// Under which law, with which gains and on which plant.
     #[getter]
-    fn setup(&self, py: Python<'_>) -> Py<SetupObject> {
-        self.arguments.1.clone_ref(py)
+    fn settings(&self, py: Python<'_>) -> Py<SettingsObject> {
+        self.arguments.2.clone_ref(py)
     }
 
     /// Time between samples [s].
@@ -59,13 +59,13 @@ impl ExecutionObject {
     /// Times of the samples, shape (N,) [s].
     #[getter]
     fn t_s<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        arrays::line(py, self.samples().iter().map(|s| s.t_s).collect())
+        made::line(py, self.samples().iter().map(|s| s.t_s).collect())
     }
 
     /// Index of the plan's segment at each sample, shape (N,).
     #[getter]
     fn segment<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        arrays::line(py, self.samples().iter().map(|s| s.segment as i64).collect())
+        made::line(py, self.samples().iter().map(|s| s.segment as i64).collect())
     }
 
     /// Positions that the plan asks for, shape (N, 6) [rad].
@@ -117,19 +117,20 @@ impl ExecutionObject {
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let done = self.inner.clone();
         let report = patiently(py, move |_| {
-            SimulationReport::new(&done.plan, &done.robot, &done.setup, &done.execution)
+            let Question { plan, arm, settings } = &done.question;
+            SimulationReport::new(plan, arm, settings, &done.execution)
         })?;
-        let report = report.map_err(|e| errors::simulation(py, &e))?;
+        let report = report.map_err(|e| errors::failure(py, &e.into()))?;
         to_record(py, &report, Some(report.to_string()))
     }
 
-    /// The executed motion as CSV text, every `dt_s` [s], by default the scenario's.
+    /// The executed motion as CSV text, every `dt_s` [s], by default the plan's.
     #[pyo3(signature = (dt_s=None))]
     fn to_csv(&self, py: Python<'_>, dt_s: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
-        let done = &self.inner;
+        let (execution, Question { plan, arm, .. }) = (&self.inner.execution, &self.inner.question);
         let dt_s = dt_s.map(|dt_s| argument::number("dt_s", dt_s)).transpose()?;
-        let dt_s = dt_s.unwrap_or(done.plan.scenario.control.dt_s);
-        let table = table(&done.execution, &done.plan, &done.robot, dt_s);
+        let dt_s = dt_s.unwrap_or(plan.job.simulation.control.dt_s);
+        let table = table(execution, plan, arm, dt_s);
         table
             .map(|table| table.to_string())
             .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
@@ -140,8 +141,8 @@ impl ExecutionObject {
     }
 
     fn __repr__(&self) -> String {
-        let done = &self.inner;
-        let (name, law) = (&done.plan.scenario.name, done.setup.law.name());
+        let Question { plan, settings, .. } = &self.inner.question;
+        let (name, law) = (&plan.provenance.scenario, settings.law.name());
         format!(
             "Execution('{name}' under {law}, {} samples, {:.2} s)",
             self.samples().len(),
@@ -151,7 +152,8 @@ impl ExecutionObject {
 
     fn __eq__(&self, other: &Self) -> bool {
         let (a, b) = (&self.inner, &other.inner);
-        (&a.plan, &a.setup, &a.execution) == (&b.plan, &b.setup, &b.execution)
+        let (asked, other) = (&a.question, &b.question);
+        (&asked.plan, &asked.settings, &a.execution) == (&other.plan, &other.settings, &b.execution)
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {
@@ -163,45 +165,36 @@ impl ExecutionObject {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        // The same plan on the same arm under the same setup is the same execution, to the bit.
+        // The same plan on the same arm with the same settings is the same execution, to the bit.
         let simulate = slf.py().import("pyplatewash")?.getattr("simulate")?;
         Ok((simulate, (&slf.get().arguments).into_pyobject(slf.py())?))
     }
 }
 
-/// Runs a plan, or the plan file of that path, under a control law, by default that of its scenario, on an arm, by default the one
-/// that it was made for.
+/// Runs a plan, or the plan file of that path, on an arm, by default the one that it was made for, under a control law, by default
+/// the one that it states.
 ///
 /// Raises SimulationError for a plan that is no motion or for another arm, a law that is not stable with the limit that was
-/// passed, or an arm that leaves all bounds; DynamicsError for an arm without dynamics; VerifyError for a plan whose arm
+/// passed, or an arm that leaves all bounds; DynamicsError for an arm without dynamics; ProveError for a plan whose arm
 /// must be given.
 #[pyfunction]
-#[pyo3(signature = (plan, setup=None, robot=None))]
+#[pyo3(signature = (plan, robot=None, settings=None))]
 pub fn simulate(
     py: Python<'_>,
     plan: &Bound<'_, PyAny>,
-    setup: Option<&Bound<'_, PyAny>>,
     robot: Option<&Bound<'_, PyAny>>,
+    settings: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<ExecutionObject> {
     let plan = PlanObject::given("plan", plan)?;
-    let (setup, robot) = (SetupObject::given(setup)?, Robot::given(robot)?);
-    let question = Question::new(plan.get(), setup, robot);
-    let setup = match setup {
-        Some(setup) => setup.clone().unbind(),
-        None => Py::new(py, SetupObject::from(question.setup.clone()))?,
-    };
-    let done = patiently(py, move |_| {
-        let robot = question.arm()?;
-        let Question { plan, setup, .. } = question;
-        let execution = platewash::simulate(&plan, &robot, &setup).map_err(Refused::Simulation)?;
-        Ok::<_, Refused>(Done {
-            plan,
-            robot,
-            setup,
-            execution,
-        })
+    let question = Question::new(&plan, robot, settings)?;
+    let robot = Robot::given(robot)?.map(|robot| robot.clone().unbind());
+    let settings = Py::new(py, SettingsObject::from(question.settings.clone()))?;
+    let done = patiently(py, move |cancel| {
+        let Question { plan, arm, settings } = &question;
+        let execution = simulate_with(plan, arm, settings, cancel)?;
+        Ok(Done { question, execution })
     })?;
-    let inner = Arc::new(done.map_err(|e| e.raised(py))?);
-    let arguments = (plan.unbind(), setup, robot.map(|robot| robot.clone().unbind()));
+    let inner = Arc::new(done.map_err(|e: SimulationError| errors::failure(py, &e.into()))?);
+    let arguments = (plan.unbind(), robot, settings);
     Ok(ExecutionObject { inner, arguments })
 }

@@ -1,15 +1,15 @@
 //! Many frequencies and dampings of a law.
 
-use super::{Question, Refused, SetupObject};
+use super::question::Question;
 use crate::arrays::{Count, Numbers, Wanted};
 use crate::errors;
-use crate::plan::{PlanObject, records};
-use crate::robot::Robot;
+use crate::plan::PlanObject;
+use crate::value::records;
 use crate::work::patiently;
+use platewash::Failure;
 use platewash::simulator::simulate::{TuneOutcome, TuneRow};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
-use rayon::prelude::*;
 use serde::Serialize;
 
 /// Most settings of one call.
@@ -45,7 +45,7 @@ impl From<TuneRow> for Row {
                 Ok(outcome) => Outcome::Simulated(outcome),
                 Err(error) => Outcome::Refused {
                     verdict: "refused",
-                    reason: error.to_string(),
+                    reason: Failure::from(error).to_string(),
                 },
             },
         }
@@ -59,45 +59,36 @@ impl From<TuneRow> for Row {
 ///
 /// Raises InputError for a law without a plant, and what `simulate` raises for a plan whose arm must be given.
 #[pyfunction]
-#[pyo3(signature = (plan, frequencies_rad_s, damping_ratios=None, setup=None, robot=None))]
+#[pyo3(signature = (plan, frequencies_rad_s, damping_ratios=None, robot=None, settings=None))]
 pub fn tune<'py>(
     py: Python<'py>,
     plan: &Bound<'py, PyAny>,
     frequencies_rad_s: &Bound<'py, PyAny>,
     damping_ratios: Option<&Bound<'py, PyAny>>,
-    setup: Option<&Bound<'py, PyAny>>,
     robot: Option<&Bound<'py, PyAny>>,
+    settings: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyList>> {
     let plan = PlanObject::given("plan", plan)?;
-    let (setup, robot) = (SetupObject::given(setup)?, Robot::given(robot)?);
     let frequencies = numbers("frequencies_rad_s", frequencies_rad_s)?;
     let dampings = damping_ratios.map_or_else(|| Ok(vec![1.0]), |given| numbers("damping_ratios", given))?;
-    let question = Question::new(plan.get(), setup, robot);
-    if question.setup.law.is_kinematic() {
-        let law = question.setup.law.name();
+    let question = Question::new(&plan, robot, settings)?;
+    if question.settings.law.is_kinematic() {
+        let law = question.settings.law.name();
         let problem =
             format!("law \"{law}\" has no frequency to tune: use \"pd\", \"pd_gravity\" or \"computed_torque\"");
-        return Err(errors::input(py, "setup", &problem));
+        return Err(errors::input(py, "settings", &problem));
     }
-    let settings = frequencies.len().saturating_mul(dampings.len());
-    if settings > MOST_SETTINGS {
-        let problem = format!("{settings} settings; at most {MOST_SETTINGS} at a time");
+    let rows = frequencies.len().saturating_mul(dampings.len());
+    if rows > MOST_SETTINGS {
+        let problem = format!("{rows} settings; at most {MOST_SETTINGS} at a time");
         return Err(errors::input(py, "frequencies_rad_s", &problem));
     }
     let rows = patiently(py, move |cancel| {
-        let robot = question.arm()?;
-        let pairs: Vec<_> = frequencies
-            .iter()
-            .flat_map(|f| dampings.iter().map(move |d| [*f, *d]))
-            .collect();
-        let row = |&[frequency, damping]: &[f64; 2]| match cancel.is_asked() {
-            true => Vec::new(),
-            false => platewash::tune(&question.plan, &robot, &question.setup, &[frequency], &[damping]),
-        };
-        let rows: Vec<Vec<TuneRow>> = pairs.par_iter().map(row).collect();
-        Ok::<Vec<Row>, Refused>(rows.into_iter().flatten().map(Row::from).collect())
+        let Question { plan, arm, settings } = &question;
+        platewash::tune(plan, arm, settings, &frequencies, &dampings, cancel)
     })?;
-    records(py, &rows.map_err(|e| e.raised(py))?)
+    let rows = rows.map_err(|e| errors::failure(py, &e.into()))?;
+    records(py, &rows.into_iter().map(Row::from).collect::<Vec<_>>())
 }
 
 fn numbers(name: &'static str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {

@@ -1,9 +1,10 @@
 //! Computed torque: the arm's own model makes every joint a double integrator.
 
-use super::{Command, ControlLaw, Gains, Reference, errors};
+use super::gains::Gains;
+use super::law::{Command, ControlLaw, Reference};
 use crate::dynamics::DynamicsModel;
 use crate::plant::PlantState;
-use platewash_planner::scenario::FeedForward;
+use platewash_workcell::simulation::FeedForward;
 
 /// τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q), one inverse dynamics; then ë + Kd ė + Kp e = 0 (Lynch, Park, *Modern
 /// Robotics*, §11.4.2).
@@ -19,7 +20,7 @@ pub struct ComputedTorque<'a> {
 
 impl ControlLaw for ComputedTorque<'_> {
     fn command(&mut self, reference: &Reference, state: &PlantState) -> Command {
-        let (position, speed) = errors(&reference.now, state, self.feed_forward);
+        let (position, speed) = reference.errors(state, self.feed_forward);
         let correction = self.gains.kp.component_mul(&position) + self.gains.kd.component_mul(&speed);
         let wanted = match self.feed_forward {
             FeedForward::Velocity => reference.now.qdd + correction,

@@ -2,7 +2,7 @@
 
 use crate::dynamics::DynamicsModel;
 use platewash_kinematics::{JointLimits, JointVector};
-use platewash_planner::scenario::{ControlLawName, ControlSection};
+use platewash_workcell::simulation::ControlSettings;
 
 /// Proportional and derivative gains, joint by joint: \[N·m/rad\] and \[N·m·s/rad\], or \[1/s²\] and \[1/s\] for computed
 /// torque.
@@ -12,6 +12,15 @@ pub struct Gains {
     pub kp: JointVector,
     /// Kd.
     pub kd: JointVector,
+}
+
+/// What gains multiply.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Loop {
+    /// Torques: `pd` and `pd_gravity`.
+    Torque,
+    /// Accelerations: `computed_torque`.
+    Acceleration,
 }
 
 impl Gains {
@@ -25,20 +34,20 @@ impl Gains {
         }
     }
 
-    /// Those of a `[control]` section: given outright, or from frequency and damping with M each joint's largest inertia
-    /// within the limits, 1 for computed torque.
+    /// Those of the settings: given outright, or from frequency and damping with M each joint's largest inertia within the limits, 1
+    /// where they multiply accelerations.
     #[must_use]
-    pub fn new(section: &ControlSection, law: ControlLawName, model: &DynamicsModel, limits: &JointLimits) -> Self {
-        if let (Some(kp), Some(kd)) = (section.joint_kp, section.joint_kd) {
+    pub fn new(settings: &ControlSettings, of: Loop, model: &DynamicsModel, limits: &JointLimits) -> Self {
+        if let (Some(kp), Some(kd)) = (settings.joint_kp, settings.joint_kd) {
             return Self {
                 kp: kp.into(),
                 kd: kd.into(),
             };
         }
-        let inertia = match law {
-            ControlLawName::ComputedTorque => JointVector::repeat(1.0),
-            _ => model.largest_inertias(limits),
+        let inertia = match of {
+            Loop::Acceleration => JointVector::repeat(1.0),
+            Loop::Torque => model.largest_inertias(limits),
         };
-        Self::of_frequency(&inertia, section.frequency_rad_s, section.damping_ratio)
+        Self::of_frequency(&inertia, settings.frequency_rad_s, settings.damping_ratio)
     }
 }

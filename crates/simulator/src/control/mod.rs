@@ -2,72 +2,148 @@
 //!
 //! | law | what it commands | file |
 //! | --- | --- | --- |
-//! | `paper` | positions, the paper's low-pass filter to the letter | `kinematic.rs` |
-//! | `exact` | the commanded positions themselves | `kinematic.rs` |
+//! | `paper` | positions, the paper's low-pass filter to the letter | `paper.rs` |
+//! | `exact` | the commanded positions themselves | `exact.rs` |
 //! | `pd` | τ = Kp e + Kd ė | `pd.rs` |
-//! | `pd_gravity` | the same + g(q) | `pd_gravity.rs` |
+//! | `pd_gravity` | that and g(q) | `pd_gravity.rs` |
 //! | `computed_torque` | τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q) | `computed_torque.rs` |
 //!
-//! Gains and where they come from: `gains.rs`. Whether the sampled loop is stable: `stability.rs`. The law that a scenario
-//! names: `named.rs`.
+//! The trait: `law.rs`. Gains and where they come from: `gains.rs`. Whether the sampled loop is stable: `stability.rs`. Why a law is
+//! refused: `error.rs`, and within which limits it would not be: `refusal.rs`.
+//!
+//! Another law is a name in [`ControlLawName`], a file here, and what [`kinematic`] and [`law`] then miss.
 
 mod computed_torque;
+mod error;
+mod exact;
 mod gains;
-mod kinematic;
-mod named;
+mod law;
+mod paper;
 mod pd;
 mod pd_gravity;
+mod refusal;
 mod stability;
 
 pub use computed_torque::ComputedTorque;
-pub use gains::Gains;
-pub use kinematic::Kinematic;
-pub use named::{ControlError, kinematic, law};
+pub use error::ControlError;
+pub use exact::ExactLaw;
+pub use gains::{Gains, Loop};
+pub use law::{Command, ControlLaw, Reference};
+pub use paper::PaperLaw;
 pub use pd::Pd;
 pub use pd_gravity::PdGravity;
-pub use stability::{Loop, Stability, check};
+pub use stability::{Stability, check};
 
-use crate::plant::PlantState;
-use platewash_kinematics::JointVector;
-use platewash_workcell::trajectory::JointState;
+use crate::dynamics::DynamicsModel;
+use crate::plant::Plant;
+use platewash_kinematics::{JointLimits, JointVector};
+use platewash_workcell::simulation::{ControlLawName, ControlSettings, FeedForward};
+use refusal::unstable;
 
-/// What is asked of the arm at a sample and at the next one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reference {
-    /// At the sample.
-    pub now: JointState,
-    /// At the next one.
-    pub next: JointState,
+/// How a torque law is made.
+type Made<'a> = fn(&'a DynamicsModel, Gains, FeedForward) -> Box<dyn ControlLaw + 'a>;
+
+/// The law `name` without a plant, as the paper's program needs, whatever its gains.
+///
+/// # Errors
+/// [`ControlError::NotKinematic`] for a law that drives torques.
+pub fn kinematic(name: ControlLawName, settings: &ControlSettings) -> Result<Box<dyn ControlLaw>, ControlError> {
+    let ControlSettings { kp, kd, dt_s, .. } = *settings;
+    match name {
+        ControlLawName::Paper => Ok(Box::new(PaperLaw::new(kp, kd, dt_s))),
+        ControlLawName::Exact => Ok(Box::new(ExactLaw)),
+        ControlLawName::Pd | ControlLawName::PdGravity | ControlLawName::ComputedTorque => {
+            Err(ControlError::NotKinematic { law: name })
+        }
+    }
 }
 
-/// What a law answers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Command {
-    /// Joint torques, held until the next sample \[N·m\].
-    Torque(JointVector),
-    /// Joint positions at the next sample \[rad\]: there is no plant.
-    Position(JointVector),
+/// As [`kinematic`], refused where it is not stable: the error of the paper's law obeys e_{k+1} = (1 − Kp dt − Kd) e_k + Kd e_{k−1}
+/// about a constant target, and is stable if and only if |Kd| < 1 and 0 < Kp dt < 2 (1 − Kd) (Jury's criterion).
+///
+/// # Errors
+/// [`ControlError::UnstablePaper`], and those of [`kinematic`].
+pub fn stable_kinematic(name: ControlLawName, settings: &ControlSettings) -> Result<Box<dyn ControlLaw>, ControlError> {
+    let ControlSettings { kp, kd, dt_s, .. } = *settings;
+    let kp_limit = 2.0 * (1.0 - kd) / dt_s;
+    let is_stable = kd.abs() < 1.0 && kp > 0.0 && dt_s > 0.0 && kp < kp_limit;
+    if name == ControlLawName::Paper && !is_stable {
+        return Err(ControlError::UnstablePaper { kp, kd, dt_s, kp_limit });
+    }
+    kinematic(name, settings)
 }
 
-/// A law that follows a commanded motion, sampled.
-pub trait ControlLaw: std::fmt::Debug {
-    /// Called before the first sample of every segment of the plan.
-    fn begin_segment(&mut self) {}
-
-    /// The answer at one sample.
-    fn command(&mut self, reference: &Reference, state: &PlantState) -> Command;
-}
-
-/// Errors of position and speed \[rad, rad/s\].
-fn errors(
-    reference: &JointState,
-    state: &PlantState,
-    feed: platewash_planner::scenario::FeedForward,
-) -> (JointVector, JointVector) {
-    use platewash_planner::scenario::FeedForward;
-    let speed = match feed {
-        FeedForward::Velocity => reference.qd - state.qd,
-        FeedForward::None => -state.qd,
+/// The law `name` with its settings on a plant, whose model it knows. `limits` bound the configurations from which gains are scaled;
+/// the sampled loop must be stable about each of `configurations` \[rad\], with `substeps` steps of integration a sample.
+///
+/// # Errors
+/// [`ControlError`]: a setting that makes no sense, or a law that is not stable at its rate, with the limit.
+pub fn law<'a>(
+    name: ControlLawName,
+    settings: &ControlSettings,
+    plant: &'a Plant,
+    limits: &JointLimits,
+    configurations: &[JointVector],
+    substeps: usize,
+) -> Result<Box<dyn ControlLaw + 'a>, ControlError> {
+    let (of, made): (Loop, Made<'a>) = match name {
+        ControlLawName::Paper | ControlLawName::Exact => return stable_kinematic(name, settings),
+        ControlLawName::Pd => (Loop::Torque, |_, gains, feed_forward| {
+            Box::new(Pd { gains, feed_forward })
+        }),
+        ControlLawName::PdGravity => (Loop::Torque, |model, gains, feed_forward| {
+            Box::new(PdGravity {
+                model,
+                gains,
+                feed_forward,
+            })
+        }),
+        ControlLawName::ComputedTorque => (Loop::Acceleration, |model, gains, feed_forward| {
+            Box::new(ComputedTorque {
+                model,
+                gains,
+                feed_forward,
+            })
+        }),
     };
-    (reference.q - state.q, speed)
+    check_settings(settings)?;
+    let model = &plant.model;
+    let gains = Gains::new(settings, of, model, limits);
+    let stability = Stability {
+        of,
+        gains,
+        friction: plant.friction.largest(),
+        integrator: plant.integrator,
+        substeps: substeps.max(1),
+    };
+    check(&stability, settings.rate_hz, model, configurations)
+        .map_err(|q| unstable(name, settings, &stability, q, (model, configurations)))?;
+    Ok(made(model, gains, settings.feed_forward))
+}
+
+fn check_settings(settings: &ControlSettings) -> Result<(), ControlError> {
+    let refuse = |name, expected, found| Err(ControlError::Setting { name, expected, found });
+    let rate = settings.rate_hz;
+    if !(rate.is_finite() && rate > 0.0) {
+        return refuse("rate_hz", "finite and above 0 Hz", rate);
+    }
+    let outright = [("joint_kp", settings.joint_kp), ("joint_kd", settings.joint_kd)];
+    for (name, gains) in outright {
+        let bad = gains.and_then(|gains| gains.into_iter().find(|k| !(k.is_finite() && *k >= 0.0)));
+        if let Some(found) = bad {
+            return refuse(name, "finite and not negative", found);
+        }
+    }
+    if settings.joint_kp.is_some() && settings.joint_kd.is_some() {
+        return Ok(());
+    }
+    for (name, found) in [
+        ("frequency_rad_s", settings.frequency_rad_s),
+        ("damping_ratio", settings.damping_ratio),
+    ] {
+        if !(found.is_finite() && found > 0.0) {
+            return refuse(name, "finite and above 0", found);
+        }
+    }
+    Ok(())
 }

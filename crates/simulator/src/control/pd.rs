@@ -1,8 +1,9 @@
 //! Proportional–derivative control of independent joints.
 
-use super::{Command, ControlLaw, Gains, Reference, errors};
+use super::gains::Gains;
+use super::law::{Command, ControlLaw, Reference};
 use crate::plant::PlantState;
-use platewash_planner::scenario::FeedForward;
+use platewash_workcell::simulation::FeedForward;
 
 /// τ = Kp e + Kd ė with e = q_d − q. Nothing holds the arm up: where it rests, Kp e = g(q).
 #[derive(Debug, Clone, PartialEq)]
@@ -15,7 +16,7 @@ pub struct Pd {
 
 impl ControlLaw for Pd {
     fn command(&mut self, reference: &Reference, state: &PlantState) -> Command {
-        let (position, speed) = errors(&reference.now, state, self.feed_forward);
+        let (position, speed) = reference.errors(state, self.feed_forward);
         Command::Torque(self.gains.kp.component_mul(&position) + self.gains.kd.component_mul(&speed))
     }
 }

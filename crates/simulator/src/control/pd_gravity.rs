@@ -1,9 +1,10 @@
 //! Proportional–derivative control with gravity compensation.
 
-use super::{Command, ControlLaw, Gains, Reference, errors};
+use super::gains::Gains;
+use super::law::{Command, ControlLaw, Reference};
 use crate::dynamics::DynamicsModel;
 use crate::plant::PlantState;
-use platewash_planner::scenario::FeedForward;
+use platewash_workcell::simulation::FeedForward;
 
 /// τ = Kp e + Kd ė + g(q): at rest the error is zero (Takegaki, Arimoto, *J. Dyn. Sys. Meas. Control* 103, 1981); moving, it
 /// is what accelerations need, about q̈_d/ω².
@@ -19,7 +20,7 @@ pub struct PdGravity<'a> {
 
 impl ControlLaw for PdGravity<'_> {
     fn command(&mut self, reference: &Reference, state: &PlantState) -> Command {
-        let (position, speed) = errors(&reference.now, state, self.feed_forward);
+        let (position, speed) = reference.errors(state, self.feed_forward);
         let correction = self.gains.kp.component_mul(&position) + self.gains.kd.component_mul(&speed);
         Command::Torque(self.model.gravity_torque(&state.q) + correction)
     }

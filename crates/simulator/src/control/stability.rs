@@ -5,23 +5,14 @@
 //! Over a sample the integrator's own steps are a matrix, x ← A x. The loop is stable if and only if the eigenvalues of A
 //! lie within the unit circle, and certainly if ‖Aⁿ‖ < 1 for some n, which repeated squaring finds.
 
-use super::Gains;
+use super::gains::{Gains, Loop};
 use crate::dynamics::{DynamicsModel, MassMatrix};
 use nalgebra::SMatrix;
 use platewash_kinematics::JointVector;
-use platewash_planner::scenario::Integrator;
+use platewash_workcell::simulation::Integrator;
 
 /// Squarings: n up to 2²⁴ samples.
 const SQUARINGS: u32 = 24;
-
-/// What the gains multiply.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Loop {
-    /// Torques: `pd` and `pd_gravity`.
-    Torque,
-    /// Accelerations: `computed_torque`.
-    Acceleration,
-}
 
 /// A sampled law on a plant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,7 +80,7 @@ impl Stability {
     }
 }
 
-/// What `count` steps under the same input make of state and input, by doubling.
+/// What `count` steps under one input make of state and input, by doubling.
 fn repeated(mut step: Transition, mut input: Transition, mut count: usize) -> (Transition, Transition) {
     let (mut passed, mut forced) = (Transition::identity(), Transition::zeros());
     while count > 0 {

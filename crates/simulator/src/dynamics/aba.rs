@@ -7,7 +7,7 @@
 //! - outwards: a' = a_{i−1} + c, q̈ = (u − Uᵀ a')/D, a_i = a' + S q̈, with a_0 = −g.
 
 use super::model::DynamicsModel;
-use super::sweep::{Spatial, Sweep};
+use super::pass::{Pass, Spatial};
 use nalgebra::{Matrix6, Vector3, Vector6};
 use platewash_kinematics::{AXES, JointVector};
 
@@ -35,7 +35,7 @@ impl DynamicsModel {
         self.forward_dynamics_with(q, qd, torque, &JointVector::zeros())
     }
 
-    /// The same with an inertia `own` \[kg·m²\], not negative, that each joint alone has to turn: (M(q) + diag(own)) q̈ =
+    /// As [`DynamicsModel::forward_dynamics`] with an inertia `own` \[kg·m²\], not negative, that each joint alone has to turn: (M(q) + diag(own)) q̈ =
     /// τ − C(q, q̇) q̇ − g(q). A rotor behind a gear is one; a step of implicit friction has the form, too.
     #[must_use]
     pub fn forward_dynamics_with(
@@ -45,8 +45,8 @@ impl DynamicsModel {
         torque: &JointVector,
         own: &JointVector,
     ) -> JointVector {
-        let sweep = self.sweep(q);
-        let (mut inertias, mut biases, mut joints) = outwards(&sweep, qd);
+        let pass = self.pass(q);
+        let (mut inertias, mut biases, mut joints) = outwards(&pass, qd);
         for i in (0..AXES).rev() {
             let (axis, drift) = (joints[i].axis, joints[i].drift);
             let across: SpatialVector = inertias[i] * axis;
@@ -75,7 +75,7 @@ impl DynamicsModel {
 
 /// Inertias, bias wrenches and joints of the moving arm.
 #[inline(always)]
-fn outwards(sweep: &Sweep, qd: &JointVector) -> ([Matrix6<f64>; AXES], [SpatialVector; AXES], [Joint; AXES]) {
+fn outwards(pass: &Pass, qd: &JointVector) -> ([Matrix6<f64>; AXES], [SpatialVector; AXES], [Joint; AXES]) {
     let still = Joint {
         axis: SpatialVector::zeros(),
         drift: SpatialVector::zeros(),
@@ -86,11 +86,11 @@ fn outwards(sweep: &Sweep, qd: &JointVector) -> ([Matrix6<f64>; AXES], [SpatialV
         ([Matrix6::zeros(); AXES], [SpatialVector::zeros(); AXES], [still; AXES]);
     let (mut w, mut v) = (Vector3::zeros(), Vector3::zeros());
     for i in 0..AXES {
-        let (axis, moment) = (sweep.axes[i], sweep.moments[i]);
+        let (axis, moment) = (pass.axes[i], pass.moments[i]);
         let (turn, slide) = (axis * qd[i], moment * qd[i]);
         w += turn;
         v += slide;
-        let body = &sweep.bodies[i];
+        let body = &pass.bodies[i];
         let (spin, momentum) = body.times(&w, &v);
         joints[i].axis = spatial(&axis, &moment);
         joints[i].drift = spatial(&w.cross(&turn), &(w.cross(&slide) + v.cross(&turn)));

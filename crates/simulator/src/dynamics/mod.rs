@@ -11,7 +11,7 @@
 //! | the tool as a body | `tool.rs` |
 //! | the arm's bodies, joint by joint | `model.rs` |
 //! | inverse dynamics, gravity, bias | `rnea.rs` |
-//! | axes and inertias in base axes | `sweep.rs` |
+//! | axes and inertias in base axes | `pass.rs` |
 //! | mass matrix | `crba.rs` |
 //! | forward dynamics | `aba.rs` |
 //! | torques of a force on the tool | `push.rs` |
@@ -24,17 +24,15 @@ mod crba;
 mod energy;
 mod largest;
 pub mod model;
+mod pass;
 mod physical;
 mod push;
 mod rnea;
-mod sweep;
 mod tool;
 
 pub use body::RigidBody;
+pub use crba::MassMatrix;
 pub use energy::Energy;
 pub use largest::spread;
 pub use model::{DynamicsError, DynamicsModel, STANDARD_GRAVITY_M_S2};
 pub use physical::Unphysical;
-
-/// The joint-space mass matrix M(q) \[kg·m²\], symmetric and positive definite.
-pub type MassMatrix = nalgebra::Matrix6<f64>;

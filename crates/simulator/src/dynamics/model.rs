@@ -32,7 +32,7 @@ pub enum DynamicsError {
         cause: Unphysical,
     },
     /// A tool that cannot exist.
-    #[error("tool: {cause}; see tool.mass_kg, tool.com_m and tool.inertia_kg_m2")]
+    #[error("tool: {cause}")]
     Tool {
         /// Why.
         cause: Unphysical,

@@ -1,17 +1,17 @@
 //! What the motors give at most.
 
 use platewash_kinematics::{AXES, JointLimits, JointVector};
-use platewash_planner::scenario::PlantSection;
+use platewash_workcell::simulation::PlantSettings;
 
 /// Torque limits, joint by joint \[N·m\]; `None` where none is known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TorqueLimits(pub [Option<f64>; AXES]);
 
 impl TorqueLimits {
-    /// Those of the section, otherwise those of the arm's description.
+    /// Those of the settings, otherwise those of the arm's description.
     #[must_use]
-    pub fn new(section: &PlantSection, limits: &JointLimits) -> Self {
-        Self(section.torque_limit_n_m.map_or(limits.effort, |given| given.map(Some)))
+    pub fn new(settings: &PlantSettings, limits: &JointLimits) -> Self {
+        Self(settings.torque_limit_n_m.map_or(limits.effort, |given| given.map(Some)))
     }
 
     /// The torques \[N·m\], cut to the limits.

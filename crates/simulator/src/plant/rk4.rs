@@ -1,6 +1,6 @@
 //! One step of the classical Runge–Kutta scheme (Kutta 1901), fourth order.
 
-use super::PlantState;
+use super::state::PlantState;
 use platewash_kinematics::JointVector;
 
 /// The state `h` \[s\] later, and the acceleration at the start.

@@ -38,7 +38,7 @@ pub enum Cause {
         /// When \[s\].
         t_s: f64,
     },
-    /// Less is surely swept than the scenario requires.
+    /// Less is surely swept than is required.
     Coverage {
         /// What is surely swept.
         at_least: f64,

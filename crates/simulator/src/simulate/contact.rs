@@ -2,18 +2,17 @@
 
 use crate::dynamics::DynamicsModel;
 use nalgebra::Vector3;
-use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
-use platewash_planner::plan::Plan;
-use platewash_workcell::layout::Plate;
-use platewash_workcell::tool::Tool;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::tool::Sponge;
 
 /// How the sponge stands to the plate that it shall wash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Touch {
     /// It touches.
     On,
-    /// The tip is farther above the surface than the sponge is compressed.
+    /// The tip is farther above the face than the sponge is compressed.
     Lifted,
     /// The tip is deeper than the sponge is high: the handle would have to be in the plate.
     Pressed,
@@ -23,16 +22,17 @@ pub(super) enum Touch {
 #[derive(Debug, Clone)]
 pub(super) struct Contact<'a> {
     tip: Frame,
-    tool: &'a Tool,
+    sponge: &'a Sponge,
     plates: &'a [Plate],
 }
 
 impl<'a> Contact<'a> {
     pub fn new(plan: &'a Plan, robot: &RobotModel) -> Self {
+        let tool = &plan.job.workcell.tool;
         Self {
-            tip: platewash_workcell::tool::tip_frame(robot, &plan.tool),
-            tool: &plan.tool,
-            plates: &plan.plates,
+            tip: tool.tip_frame(robot),
+            sponge: &tool.sponge,
+            plates: &plan.job.plates,
         }
     }
 
@@ -41,16 +41,11 @@ impl<'a> Contact<'a> {
         &self.tip
     }
 
-    /// Height of the tip above the washing surface \[m\].
-    pub fn lift_m(&self, tip: &Rigid, plate: usize) -> f64 {
-        tip.translation.z - self.plates[plate].z_m
-    }
-
-    /// How the sponge stands at a lift \[m\].
-    pub fn touch(&self, lift_m: f64) -> Touch {
-        if lift_m < -self.tool.sponge_height_m {
+    /// How the sponge stands with its tip that high over the face \[m\].
+    pub fn touch(&self, height_m: f64) -> Touch {
+        if height_m < -self.sponge.height_m {
             Touch::Pressed
-        } else if lift_m <= self.tool.sponge_compression_m {
+        } else if height_m <= self.sponge.compression_m {
             Touch::On
         } else {
             Touch::Lifted
@@ -59,10 +54,11 @@ impl<'a> Contact<'a> {
 
     /// Torques of the plate's force \[N\] on the sponge, where it touches \[N·m\].
     pub fn push(&self, model: &DynamicsModel, q: &JointVector, plate: usize, force_n: f64) -> JointVector {
-        let height = model.position(q, &self.tip).z - self.plates[plate].z_m;
-        if height > self.tool.sponge_compression_m {
+        let plate = &self.plates[plate];
+        let tip: Vector3<f64> = model.position(q, &self.tip).coords;
+        if plate.height_of(&tip) > self.sponge.compression_m {
             return JointVector::zeros();
         }
-        model.torque_of_force(q, &self.tip, &Vector3::new(0.0, 0.0, force_n))
+        model.torque_of_force(q, &self.tip, &(plate.axis() * force_n))
     }
 }

@@ -1,9 +1,9 @@
 //! The executed motion as CSV.
 
-use super::Execution;
+use super::execution::Execution;
 use platewash_kinematics::RobotModel;
-use platewash_planner::plan::Plan;
 use platewash_workcell::csv::{self, CsvError};
+use platewash_workcell::plan::Plan;
 use std::fmt;
 
 /// What stands in the header behind the plan's columns ([`csv::HEADER`]).
@@ -41,7 +41,7 @@ pub struct ExecutedTable<'a> {
 impl fmt::Display for ExecutedTable<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let samples = &self.execution.samples;
-        let tip = platewash_workcell::tool::tip_frame(self.robot, &self.plan.tool);
+        let tip = self.plan.job.workcell.tool.tip_frame(self.robot);
         let stride = (self.dt_s / self.execution.period_s).max(1.0);
         let last = samples.len().saturating_sub(1);
         writeln!(f, "{}{HEADER}", csv::HEADER)?;

@@ -1,6 +1,6 @@
 //! Torques, work and power.
 
-use super::Execution;
+use super::execution::Execution;
 use super::statistics::Spread;
 use platewash_kinematics::AXES;
 use serde::Serialize;

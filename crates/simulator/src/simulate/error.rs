@@ -1,31 +1,13 @@
 //! Why a plan could not be simulated.
 
+use super::work::{MAX_SAMPLES, MAX_STEPS, highest_rate, shortest_period};
 use crate::control::ControlError;
 use crate::dynamics::DynamicsError;
-use platewash_kinematics::words::{rounded_down, rounded_up};
+use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::coverage::CoverageError;
+use platewash_workcell::job::JobError;
 use platewash_workcell::trajectory::KnotError;
 use platewash_workcell::words::counted;
-
-/// Significant digits of a rate or period that is suggested.
-const DIGITS: usize = 3;
-
-/// Periods of an execution that is not too much work, but for two of rounding.
-fn most_periods(substeps: usize) -> f64 {
-    super::MAX_SAMPLES
-        .min(super::MAX_STEPS / substeps.max(1))
-        .saturating_sub(3) as f64
-}
-
-/// A rate \[Hz\] at which so much motion is not too much work.
-pub(super) fn highest_rate(duration_s: f64, substeps: usize) -> f64 {
-    rounded_down(most_periods(substeps) / duration_s, DIGITS)
-}
-
-/// A period \[s\] with which it is not.
-fn shortest_period(duration_s: f64, substeps: usize) -> f64 {
-    rounded_up(duration_s / most_periods(substeps), DIGITS)
-}
 
 /// Why a plan could not be simulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -39,6 +21,9 @@ pub enum SimulationError {
         /// Hash of the arm.
         given: String,
     },
+    /// The plan's job is none.
+    #[error("plan: {0}")]
+    Job(#[from] JobError),
     /// The plan's knots are no motion.
     #[error("plan: {0}")]
     Knots(#[from] KnotError),
@@ -60,11 +45,11 @@ pub enum SimulationError {
         /// Plates of the plan.
         plates: usize,
     },
-    /// A setting that makes no sense.
-    #[error("{key} must be {expected}; found {found}")]
+    /// A setting of the plant that makes no sense.
+    #[error("plant: {name} must be {expected}; found {found}")]
     Setting {
-        /// The key of the scenario.
-        key: &'static str,
+        /// The field of the settings.
+        name: &'static str,
         /// What it must be.
         expected: &'static str,
         /// What it is.
@@ -73,8 +58,8 @@ pub enum SimulationError {
     /// So much work that it would not end soon.
     #[error(
         "{duration_s:.2} s at {rate_hz} Hz with {} a sample are too much work: at most {} samples and {} steps; \
-         with as many steps a sample, control.rate_hz must be at most {} (for laws without a plant: control.dt_s at least {})",
-        counted(*.substeps, "step"), super::MAX_SAMPLES, super::MAX_STEPS,
+         with as many steps a sample, the rate must be at most {} Hz (for laws without a plant: the time step at least {} s)",
+        counted(*.substeps, "step"), MAX_SAMPLES, MAX_STEPS,
         highest_rate(*.duration_s, *.substeps), shortest_period(*.duration_s, *.substeps)
     )]
     TooLong {
@@ -94,7 +79,7 @@ pub enum SimulationError {
     /// The arm leaves all bounds.
     #[error(
         "the arm diverges: joint {} is at {position_rad:.3e} rad, moving at {speed_rad_s:.3e} rad/s, after {t_s:.4} s; raise \
-         control.rate_hz or plant.substeps, or lower the gains", .joint + 1
+         the rate or the steps a sample, or lower the gains", .joint + 1
     )]
     Divergence {
         /// When \[s\].
@@ -106,6 +91,9 @@ pub enum SimulationError {
         /// How fast it moves \[rad/s\].
         speed_rad_s: f64,
     },
+    /// The work was given up, as it was told to be.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// Coverage could not be measured.
     #[error("coverage: {0}")]
     Coverage(#[from] CoverageError),

@@ -1,11 +1,12 @@
 //! A plan under a control law: what the arm does, and what of the wash is left.
 //!
 //! [`simulate`] runs a plan sample by sample and gives an [`Execution`]; [`SimulationReport::new`] judges it. Both are pure:
-//! the same plan, arm and setup give the same bytes.
+//! equal plans, arms and settings give equal bytes.
 //!
 //! | concept | file |
 //! | --- | --- |
-//! | law, gains, plant; their checks | `setup.rs` |
+//! | whether settings make sense | `settings.rs` |
+//! | how much work it may be | `work.rs` |
 //! | the loop of samples | `run.rs` |
 //! | segments of a plan in time | `schedule.rs` |
 //! | the executed motion, sample by sample | `execution.rs` |
@@ -29,12 +30,14 @@ mod payload;
 mod report;
 mod run;
 mod schedule;
-mod setup;
+mod settings;
 mod statistics;
 mod text;
 mod tracking;
 mod tune;
 mod washing;
+mod words;
+mod work;
 
 pub use cause::Cause;
 pub use csv::{HEADER, table};
@@ -43,9 +46,9 @@ pub use error::SimulationError;
 pub use execution::{Execution, Sample};
 pub use payload::{PayloadCheck, PayloadVerdict};
 pub use report::{SimulationReport, SimulationVerdict};
-pub use run::{MAX_SAMPLES, MAX_STEPS, simulate};
-pub use setup::Setup;
+pub use run::{simulate, simulate_with};
 pub use statistics::Spread;
 pub use tracking::{SegmentTracking, Tracking};
 pub use tune::{TuneOutcome, TuneRow, tune};
 pub use washing::{PlateOutcome, PlateVerdict};
+pub use work::{MAX_SAMPLES, MAX_STEPS};

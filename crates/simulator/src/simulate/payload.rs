@@ -1,11 +1,11 @@
 //! The tool's mass against the arm's rated payload.
 
-use super::report::shown;
+use super::words::shown;
 use crate::dynamics::RigidBody;
 use platewash_kinematics::RobotModel;
-use platewash_kinematics::model::IRB120_URDF;
+use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::words::told_apart;
-use platewash_planner::scenario::{RobotSection, Tool};
+use platewash_workcell::tool::Tool;
 use serde::Serialize;
 
 /// Rated payload of the ABB IRB 120 \[kg\] (ABB's data sheet).
@@ -19,7 +19,7 @@ pub enum PayloadVerdict {
     Within,
     /// It weighs more.
     Exceeded,
-    /// No payload is known for this arm: give `robot.payload_kg`.
+    /// No payload is known for this arm, and none is stated.
     Unknown,
 }
 
@@ -35,12 +35,12 @@ pub struct PayloadCheck {
 }
 
 impl PayloadCheck {
-    /// Of a tool on an arm: the payload that the scenario states, otherwise 3 kg for the built-in IRB 120.
+    /// A tool on an arm: against the payload that is stated \[kg\], otherwise 3 kg for the built-in IRB 120.
     #[must_use]
-    pub fn of(tool: &Tool, section: &RobotSection, robot: &RobotModel) -> Self {
+    pub fn new(tool: &Tool, payload_kg: Option<f64>, robot: &RobotModel) -> Self {
         let is_built_in = robot.sha256() == platewash_kinematics::sha256_hex(IRB120_URDF.as_bytes());
         let built_in = is_built_in.then_some(IRB120_PAYLOAD_KG);
-        let rated_kg = section.payload_kg.or(built_in);
+        let rated_kg = payload_kg.or(built_in);
         let tool_kg = RigidBody::tool(tool).map_or(0.0, |tool| tool.mass_kg);
         let verdict = match rated_kg {
             Some(rated) if tool_kg <= rated => PayloadVerdict::Within,

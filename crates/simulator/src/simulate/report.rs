@@ -1,15 +1,16 @@
-//! What came of a plan under a law.
+//! The report of an execution.
 
 use super::contact::Contact;
 use super::effort::Effort;
+use super::error::SimulationError;
+use super::execution::Execution;
 use super::payload::{PayloadCheck, PayloadVerdict};
 use super::tracking::{self, SegmentTracking, Tracking};
 use super::washing::{self, PlateOutcome, PlateVerdict};
-use super::{Execution, Setup, SimulationError};
+use super::words::shown;
 use platewash_kinematics::RobotModel;
-use platewash_kinematics::words::rounded;
-use platewash_planner::plan::Plan;
-use platewash_planner::scenario::ControlLawName;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::simulation::{ControlLawName, PlantSettings, SimulationSettings};
 use platewash_workcell::words::part_of;
 use serde::Serialize;
 
@@ -42,7 +43,7 @@ impl Seal {
     }
 }
 
-/// What came of a plan under a law. Lengths in metres, angles in radians, times in seconds.
+/// The report of a plan's execution under a law. Lengths in metres, angles in radians, times in seconds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SimulationReport {
     /// Name of the scenario.
@@ -78,45 +79,50 @@ pub struct SimulationReport {
 }
 
 impl SimulationReport {
-    /// Judges an execution of `plan` by [`super::simulate`] with the same arm and setup.
+    /// Judges an execution of `plan` by [`super::simulate`] with that arm and those settings.
     ///
     /// # Errors
     /// [`SimulationError::Coverage`] for plates or sponges that make no sense.
-    pub fn new(plan: &Plan, robot: &RobotModel, setup: &Setup, execution: &Execution) -> Result<Self, SimulationError> {
-        Self::judge(plan, robot, setup, execution, Seal::of(plan))
+    pub fn new(
+        plan: &Plan,
+        robot: &RobotModel,
+        settings: &SimulationSettings,
+        execution: &Execution,
+    ) -> Result<Self, SimulationError> {
+        Self::judge(plan, robot, settings, execution, Seal::of(plan))
     }
 
-    /// The same where it is known whether the plan is as it was sealed.
+    /// The report where it is known whether the plan is as it was sealed.
     pub(super) fn judge(
         plan: &Plan,
         robot: &RobotModel,
-        setup: &Setup,
+        settings: &SimulationSettings,
         execution: &Execution,
         seal: Seal,
     ) -> Result<Self, SimulationError> {
         let contact = Contact::new(plan, robot);
         let tip_errors = tracking::tip_errors(execution, robot, contact.tip());
         let plates = washing::plates(plan, robot, execution)?;
-        let payload = PayloadCheck::of(&plan.tool, &plan.scenario.robot, robot);
+        let payload = PayloadCheck::new(&plan.job.workcell.tool, settings.payload_kg, robot);
         let washed = plates.iter().filter(|p| p.verdict == PlateVerdict::Washed).count();
         let verdict = match seal {
             Seal::Broken => SimulationVerdict::Altered,
             Seal::Whole if payload.verdict == PayloadVerdict::Exceeded => SimulationVerdict::Overloaded,
-            Seal::Whole if washed == plan.plates.len() => SimulationVerdict::Washed,
+            Seal::Whole if washed == plan.job.plates.len() => SimulationVerdict::Washed,
             Seal::Whole => SimulationVerdict::NotWashed,
         };
         let tracking = tracking::tracking(&execution.samples, &tip_errors);
         Ok(Self {
-            scenario: plan.scenario.name.clone(),
-            seed: plan.scenario.seed,
+            scenario: plan.provenance.scenario.clone(),
+            seed: plan.job.seed,
             robot: robot.name().to_owned(),
-            law: setup.law,
+            law: settings.law,
             verdict,
             headline: format!(
                 "{}{} washed under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
                 payload.overload().map_or_else(String::new, |words| words + "; "),
-                part_of(washed, plan.plates.len(), "plate"),
-                setup.law.name(),
+                part_of(washed, plan.job.plates.len(), "plate"),
+                settings.law.name(),
                 1e3 * tracking.tip_m.rms,
                 1e3 * tracking.tip_m.max
             ),
@@ -128,39 +134,36 @@ impl SimulationReport {
             segments: tracking::by_segment(execution, &plan.segments, &tip_errors),
             effort: Effort::of(execution),
             payload,
-            assumptions: assumptions(plan, setup),
+            assumptions: assumptions(plan, settings),
         })
     }
 }
 
-/// Significant digits of what the scenario states.
-const SHOWN_DIGITS: usize = 6;
-
-/// What the scenario states, as people read it.
-pub(super) fn shown(value: f64) -> f64 {
-    rounded(value, SHOWN_DIGITS)
-}
-
-fn assumptions(plan: &Plan, setup: &Setup) -> Vec<String> {
-    let tool = &plan.tool;
-    if setup.law.is_kinematic() {
+fn assumptions(plan: &Plan, settings: &SimulationSettings) -> Vec<String> {
+    let tool = &plan.job.workcell.tool;
+    if settings.law.is_kinematic() {
         return vec!["there is no plant: the law moves positions".to_owned()];
     }
     let mut all =
         vec!["the law knows masses and inertias exactly, and measures positions and speeds exactly".to_owned()];
-    if tool.length_m > 0.0 {
+    if tool.is_present() {
         all.push(format!(
             "the tool weighs {} kg and its sponge is pressed in by {} mm",
-            shown(tool.mass_kg),
-            shown(1e3 * tool.sponge_compression_m)
+            shown(tool.mass.map_or(0.0, |mass| mass.mass_kg)),
+            shown(1e3 * tool.sponge.compression_m)
         ));
     }
-    let plant = &setup.plant;
+    all.extend(plant_assumptions(&settings.plant));
+    all
+}
+
+fn plant_assumptions(plant: &PlantSettings) -> Vec<String> {
+    let mut all = Vec::new();
     let none = |values: &[f64]| values.iter().all(|v| *v == 0.0);
     if none(&plant.viscous_friction_n_m_s) && none(&plant.coulomb_friction_n_m) {
         all.push("there is no friction in the joints".to_owned());
     } else {
-        all.push("friction is as plant.viscous_friction_n_m_s and plant.coulomb_friction_n_m state".to_owned());
+        all.push("the joints have the friction that is stated".to_owned());
     }
     if plant.contact_force_n == 0.0 {
         all.push("the plate does not push back".to_owned());
@@ -171,7 +174,7 @@ fn assumptions(plan: &Plan, setup: &Setup) -> Vec<String> {
         ));
     }
     if plant.torque_limit_n_m.is_some() {
-        all.push("torque limits are as plant.torque_limit_n_m states".to_owned());
+        all.push("torque limits are those that are stated".to_owned());
     }
     all
 }

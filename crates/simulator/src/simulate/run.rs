@@ -1,23 +1,21 @@
 //! The loop of samples: reference, law, plant.
 
 use super::contact::Contact;
-use super::error::highest_rate;
+use super::error::SimulationError;
+use super::execution::{Execution, Sample};
 use super::schedule::Schedule;
-use super::{Execution, Sample, Setup, SimulationError};
-use crate::control::{self, Command, ControlLaw, Reference};
+use super::settings;
+use super::work::{MAX_SAMPLES, MAX_STEPS, highest_rate};
+use crate::control::{self, Command, ControlError, ControlLaw, Reference};
 use crate::dynamics::{DynamicsModel, RigidBody};
 use crate::plant::{Plant, PlantState};
 use platewash_kinematics::words::rounded;
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_planner::plan::Plan;
-use platewash_planner::tool_path::SegmentKind;
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::simulation::SimulationSettings;
 use platewash_workcell::trajectory::{JointState, Trajectory};
-
-/// Most samples of an execution, some 500 MB.
-pub const MAX_SAMPLES: usize = 2_000_000;
-
-/// Most steps of integration.
-pub const MAX_STEPS: usize = 50_000_000;
 
 /// Configurations along a plan about which the sampled loop is checked, at most.
 const STABLE_AT: usize = 64;
@@ -28,7 +26,8 @@ const RATE_DIGITS: usize = 6;
 /// Positions \[rad\] and speeds \[rad/s\] beyond this are divergence, not motion.
 const LARGEST: f64 = 1e6;
 
-/// Runs a plan on its arm: sampled law, torque held between samples, plant.
+/// Runs a plan on its arm: sampled law, torque held between samples, plant. The settings that the plan states are
+/// `plan.job.simulation`.
 ///
 /// The arm starts on the path, at its speed. The law knows the plant's rigid bodies exactly, tool included, but neither
 /// friction nor contact. Under a kinematic law there is no plant.
@@ -36,44 +35,65 @@ const LARGEST: f64 = 1e6;
 /// # Errors
 /// [`SimulationError`]: a plan that is no motion or for another arm, settings that make no sense, an arm without dynamics, a
 /// law that cannot be stable, or an arm that leaves all bounds.
-pub fn simulate(plan: &Plan, robot: &RobotModel, setup: &Setup) -> Result<Execution, SimulationError> {
+pub fn simulate(plan: &Plan, robot: &RobotModel, settings: &SimulationSettings) -> Result<Execution, SimulationError> {
+    simulate_with(plan, robot, settings, &CancelToken::new())
+}
+
+/// As [`simulate`], to be given up half-way when `token` says so.
+///
+/// # Errors
+/// Those of [`simulate`], and [`SimulationError::Cancelled`].
+pub fn simulate_with(
+    plan: &Plan,
+    robot: &RobotModel,
+    settings: &SimulationSettings,
+    token: &CancelToken,
+) -> Result<Execution, SimulationError> {
     check_arm(plan, robot)?;
-    setup.check()?;
-    let knots = &plan.knots;
-    let motion = Trajectory::from_knots(knots.t_s.clone(), knots.q_rad.clone(), knots.qd_rad_s.clone())?;
-    let schedule = Schedule::new(plan, setup.period_s())?;
-    let count = samples(&motion, setup)?;
-    let tool = RigidBody::tool(&plan.tool);
-    let plant = if setup.law.is_kinematic() {
-        None
-    } else {
-        let model = DynamicsModel::new(robot, tool.as_ref())?;
-        Some(Plant::new(model, robot.limits(), &setup.plant))
-    };
+    plan.job.validate()?;
+    settings::check(settings)?;
+    let motion = plan.knots.motion()?;
+    let schedule = Schedule::new(plan, settings.period_s())?;
+    let count = count(motion.duration_s(), settings.period_s(), settings.plant.substeps)?;
+    token.check()?;
+    let plant = plant(plan, robot, settings)?;
     let mut law: Box<dyn ControlLaw + '_> = match &plant {
-        Some(plant) => {
-            let along = along(&motion);
-            control::law(
-                setup.law,
-                &setup.control,
-                plant,
-                robot.limits(),
-                &along,
-                setup.plant.substeps,
-            )
-            .map_err(|error| error.with_rates_up_to(highest_rate(motion.duration_s(), setup.plant.substeps)))?
-        }
-        None => Box::new(control::kinematic(setup.law, &setup.control)?),
+        Some(plant) => driving(plant, robot, &motion, settings)?,
+        None => control::stable_kinematic(settings.law, &settings.control)?,
     };
     let run = Run {
         motion: &motion,
         plant: plant.as_ref(),
         contact: Contact::new(plan, robot),
-        force_n: setup.plant.contact_force_n,
-        substeps: setup.plant.substeps,
-        period_s: setup.period_s(),
+        force_n: settings.plant.contact_force_n,
+        substeps: settings.plant.substeps,
+        period_s: settings.period_s(),
+        token,
     };
     run.carry_out(law.as_mut(), schedule, count)
+}
+
+/// The arm with its tool; `None` under a kinematic law.
+fn plant(plan: &Plan, robot: &RobotModel, settings: &SimulationSettings) -> Result<Option<Plant>, SimulationError> {
+    if settings.law.is_kinematic() {
+        return Ok(None);
+    }
+    let tool = RigidBody::tool(&plan.job.workcell.tool);
+    let model = DynamicsModel::new(robot, tool.as_ref())?;
+    Ok(Some(Plant::new(model, robot.limits(), &settings.plant)))
+}
+
+/// The law that drives a plant along the motion.
+fn driving<'a>(
+    plant: &'a Plant,
+    robot: &RobotModel,
+    motion: &Trajectory,
+    settings: &SimulationSettings,
+) -> Result<Box<dyn ControlLaw + 'a>, ControlError> {
+    let substeps = settings.plant.substeps;
+    let (limits, along) = (robot.limits(), along(motion));
+    control::law(settings.law, &settings.control, plant, limits, &along, substeps)
+        .map_err(|error| error.with_rates_up_to(highest_rate(motion.duration_s(), substeps)))
 }
 
 /// What does not change from sample to sample.
@@ -84,9 +104,10 @@ struct Run<'a> {
     force_n: f64,
     substeps: usize,
     period_s: f64,
+    token: &'a CancelToken,
 }
 
-/// What a command comes to over one sample.
+/// What the arm does under a command, over one sample.
 struct Outcome {
     state: PlantState,
     qdd: JointVector,
@@ -114,6 +135,7 @@ impl Run<'_> {
         let (mut segment, mut saturated) = (schedule.at(0.0), 0);
         law.begin_segment();
         for k in 0..count {
+            self.token.check()?;
             let t_s = self.time(k);
             let towards = schedule.at(self.time(k + 1));
             // The paper's program begins with its first waypoint, which ends the way there from the start.
@@ -209,20 +231,17 @@ fn along(motion: &Trajectory) -> Vec<JointVector> {
 }
 
 fn check_arm(plan: &Plan, robot: &RobotModel) -> Result<(), SimulationError> {
-    if plan.robot.urdf_sha256 == robot.sha256() {
+    let planned = &plan.job.workcell.arm.urdf_sha256;
+    if planned == robot.sha256() {
         return Ok(());
     }
     Err(SimulationError::OtherArm {
-        planned: plan.robot.urdf_sha256.clone(),
+        planned: planned.clone(),
         given: robot.sha256().to_owned(),
     })
 }
 
 /// Samples from 0 s to the plan's end, which is the last one or lies less than a period before it.
-fn samples(motion: &Trajectory, setup: &Setup) -> Result<usize, SimulationError> {
-    count(motion.duration_s(), setup.period_s(), setup.plant.substeps)
-}
-
 fn count(duration_s: f64, period_s: f64, substeps: usize) -> Result<usize, SimulationError> {
     // A last period shorter than a millionth is rounding, not a sample.
     let count = (duration_s / period_s - 1e-6).ceil().max(0.0) + 1.0;
@@ -266,7 +285,7 @@ mod tests {
                 let rest = refused.split(before).nth(1).unwrap();
                 rest.split([' ', ')']).next().unwrap().parse().unwrap()
             };
-            for period_s in [1.0 / number("rate_hz must be at most "), number("dt_s at least ")] {
+            for period_s in [1.0 / number("the rate must be at most "), number("the time step at least ")] {
                 prop_assert!(count(duration_s, period_s, substeps).is_ok(), "{}", refused);
                 prop_assert!(count(duration_s, 0.9 * period_s, substeps).is_err(), "{}", refused);
             }

@@ -1,8 +1,8 @@
 //! Segments of a plan in time.
 
-use super::SimulationError;
-use platewash_planner::plan::{Plan, PlanSegment};
-use platewash_planner::tool_path::SegmentKind;
+use super::error::SimulationError;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::segment::{PlanSegment, SegmentKind};
 
 /// What a sampling time may be past a segment's end and still belong to it, as a part of the sampling period: rounding.
 const ROUNDING: f64 = 1e-6;
@@ -21,7 +21,7 @@ impl<'a> Schedule<'a> {
     /// # Errors
     /// [`SimulationError::Empty`] without segments, [`SimulationError::Plate`] for a segment of no plate.
     pub fn new(plan: &'a Plan, period_s: f64) -> Result<Self, SimulationError> {
-        let (segments, plates) = (&plan.segments[..], plan.plates.len());
+        let (segments, plates) = (&plan.segments[..], plan.job.plates.len());
         if segments.is_empty() || plan.knots.t_s.is_empty() {
             return Err(SimulationError::Empty {
                 knots: plan.knots.t_s.len(),

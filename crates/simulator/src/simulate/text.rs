@@ -1,8 +1,11 @@
 //! The report as a person reads it.
 
+use super::effort::Effort;
 use super::payload::PayloadVerdict;
-use super::report::shown;
-use super::{Effort, PlateVerdict, SimulationReport, SimulationVerdict, Tracking};
+use super::report::{SimulationReport, SimulationVerdict};
+use super::tracking::Tracking;
+use super::washing::PlateVerdict;
+use super::words::shown;
 use platewash_kinematics::words::told_apart;
 use std::fmt::{self, Display, Formatter};
 
@@ -118,7 +121,7 @@ fn payload(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
         PayloadVerdict::Within => rated("within"),
         PayloadVerdict::Exceeded => rated("above"),
         PayloadVerdict::Unknown => format!(
-            "the tool weighs {} kg; no payload is known for this arm: give robot.payload_kg",
+            "the tool weighs {} kg; no payload is known for this arm, and none is stated",
             shown(payload.tool_kg)
         ),
     };

@@ -1,10 +1,9 @@
 //! How far the arm is from where the plan wants it, at the same time.
 
+use super::execution::{Execution, Sample};
 use super::statistics::Spread;
-use super::{Execution, Sample};
 use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
-use platewash_planner::plan::PlanSegment;
-use platewash_planner::tool_path::SegmentKind;
+use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use serde::Serialize;
 
 /// Errors over some samples.

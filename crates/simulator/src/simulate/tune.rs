@@ -1,20 +1,23 @@
 //! Many frequencies and dampings: the trade-off between tip error, torque and coverage.
 
-use super::report::Seal;
-use super::{Setup, SimulationError, SimulationReport, SimulationVerdict, simulate};
+use super::error::SimulationError;
+use super::report::{Seal, SimulationReport, SimulationVerdict};
+use super::run::simulate_with;
 use platewash_kinematics::{AXES, RobotModel};
-use platewash_planner::plan::Plan;
+use platewash_workcell::cancel::{CancelToken, Cancelled};
+use platewash_workcell::plan::Plan;
+use platewash_workcell::simulation::SimulationSettings;
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// What a setting came to.
+/// The outcome of a setting.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TuneOutcome {
     /// Whether the wash survives.
     pub verdict: SimulationVerdict,
     /// Tip error over the whole execution, root mean square \[m\].
     pub tip_rms_m: f64,
-    /// The same, at most \[m\].
+    /// Tip error over the whole execution, at most \[m\].
     pub tip_max_m: f64,
     /// Largest torque of each joint \[N·m\].
     pub torque_max_n_m: [f64; AXES],
@@ -31,42 +34,54 @@ pub struct TuneRow {
     pub frequency_rad_s: f64,
     /// Damping ratio.
     pub damping_ratio: f64,
-    /// What came of it, or why it was refused.
+    /// Its outcome, or why it was refused.
     pub outcome: Result<TuneOutcome, SimulationError>,
 }
 
 /// Simulates a plan with every pair of a frequency \[rad/s\] and a damping ratio, gains given outright being left out; rows
 /// in the order of the frequencies, then of the dampings. On rayon's current thread pool; the answer does not depend on it.
-#[must_use]
+///
+/// # Errors
+/// [`Cancelled`] when `token` says so: no row is left half-done.
 pub fn tune(
     plan: &Plan,
     robot: &RobotModel,
-    setup: &Setup,
+    settings: &SimulationSettings,
     frequencies_rad_s: &[f64],
     damping_ratios: &[f64],
-) -> Vec<TuneRow> {
+    token: &CancelToken,
+) -> Result<Vec<TuneRow>, Cancelled> {
     let pairs: Vec<_> = frequencies_rad_s
         .iter()
         .flat_map(|&frequency| damping_ratios.iter().map(move |&damping| (frequency, damping)))
         .collect();
     let seal = Seal::of(plan);
     let row = |&(frequency_rad_s, damping_ratio): &(f64, f64)| {
-        let mut setup = setup.clone();
-        let control = &mut setup.control;
+        let mut settings = settings.clone();
+        let control = &mut settings.control;
         (control.joint_kp, control.joint_kd) = (None, None);
         (control.frequency_rad_s, control.damping_ratio) = (frequency_rad_s, damping_ratio);
-        TuneRow {
-            frequency_rad_s,
-            damping_ratio,
-            outcome: outcome(plan, robot, &setup, seal),
+        match outcome(plan, robot, &settings, seal, token) {
+            Err(SimulationError::Cancelled(cancelled)) => Err(cancelled),
+            outcome => Ok(TuneRow {
+                frequency_rad_s,
+                damping_ratio,
+                outcome,
+            }),
         }
     };
     pairs.par_iter().map(row).collect()
 }
 
-fn outcome(plan: &Plan, robot: &RobotModel, setup: &Setup, seal: Seal) -> Result<TuneOutcome, SimulationError> {
-    let execution = simulate(plan, robot, setup)?;
-    let report = SimulationReport::judge(plan, robot, setup, &execution, seal)?;
+fn outcome(
+    plan: &Plan,
+    robot: &RobotModel,
+    settings: &SimulationSettings,
+    seal: Seal,
+    token: &CancelToken,
+) -> Result<TuneOutcome, SimulationError> {
+    let execution = simulate_with(plan, robot, settings, token)?;
+    let report = SimulationReport::judge(plan, robot, settings, &execution, seal)?;
     let coverages = report.plates.iter().map(|plate| plate.executed.fraction);
     Ok(TuneOutcome {
         verdict: report.verdict,

@@ -1,21 +1,21 @@
 //! What was washed: contact, coverage and verdict, plate by plate.
 //!
-//! The planned and the executed motion are measured alike: the tip seen from above at every sample of the plate's wash, with
-//! the planner's own raster; a sponge tilted by τ counts as a disc of radius s cos τ, τ the largest tilt of that wash. The
-//! executed sponge sweeps only where it touches ([`Touch`]). Without a tool body the whole sponge counts wherever the flange
-//! passes, as in the report of the paper's job. These are measurements, not bounds: between samples the tip is
-//! taken to move straight.
+//! The planned and the executed motion are measured alike: the tip seen along the plate's axis at every sample of the plate's wash; a
+//! sponge tilted by τ counts as a disc of radius s cos τ, τ the largest tilt of that wash. The executed sponge sweeps only where it
+//! touches ([`Touch`]). Without a tool body the whole sponge counts wherever the flange passes, as in the report of the paper's
+//! program. These are measurements, not bounds: between samples the tip is taken to move straight.
 
 use super::cause::Cause;
 use super::contact::{Contact, Touch};
-use super::{Execution, Sample, SimulationError};
-use platewash_kinematics::rotation::Rigid;
-use platewash_kinematics::{JointVector, RobotModel};
-use platewash_planner::certificate;
-use platewash_planner::plan::Plan;
-use platewash_planner::tool_path::SegmentKind;
-use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage_of_strokes};
-use platewash_workcell::layout::Plate;
+use super::error::SimulationError;
+use super::execution::{Execution, Sample};
+use nalgebra::Vector3;
+use platewash_kinematics::{Frame, JointVector, RobotModel};
+use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage_of_strokes, reaches};
+use platewash_workcell::plan::Plan;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::tool::Tool;
 use serde::Serialize;
 
 /// As fine as the planner's own report: the proven error is about a tenth of a percent.
@@ -70,13 +70,16 @@ pub(super) fn plates(
         }
         let from = samples.partition_point(|s| s.segment < index);
         let to = samples.partition_point(|s| s.segment <= index);
+        let plate = &plan.job.plates[segment.plate];
+        let track = |of| track(robot, contact.tip(), plate, &samples[from..to], of);
         let wash = Wash {
-            plan,
+            tool: &plan.job.workcell.tool,
+            required: plan.job.requirements.coverage,
             contact: &contact,
             index: segment.plate,
-            plate: &plan.plates[segment.plate],
-            planned: track(robot, &contact, &samples[from..to], |s| s.commanded),
-            executed: track(robot, &contact, &samples[from..to], |s| s.state.q),
+            plate,
+            planned: track(|s| s.commanded),
+            executed: track(|s| s.state.q),
         };
         outcomes.push(wash.outcome()?);
     }
@@ -87,20 +90,38 @@ pub(super) fn plates(
 #[derive(Debug, Clone, Copy)]
 struct Tip {
     t_s: f64,
-    pose: Rigid,
+    /// Place, world frame \[m\].
+    at: Vector3<f64>,
+    /// Height over the plate's face \[m\].
+    height_m: f64,
+    /// Cosine of the tool's tilt from the plate's normal.
+    cosine: f64,
 }
 
-fn track(robot: &RobotModel, contact: &Contact<'_>, samples: &[Sample], of: fn(&Sample) -> JointVector) -> Vec<Tip> {
-    let at = |sample: &Sample| Tip {
-        t_s: sample.t_s,
-        pose: robot.fk(&of(sample)).rigid(contact.tip()),
+fn track(
+    robot: &RobotModel,
+    tip: &Frame,
+    plate: &Plate,
+    samples: &[Sample],
+    of: fn(&Sample) -> JointVector,
+) -> Vec<Tip> {
+    let at = |sample: &Sample| {
+        let pose = robot.fk(&of(sample)).rigid(tip);
+        let at = pose.translation;
+        Tip {
+            t_s: sample.t_s,
+            at,
+            height_m: plate.height_of(&at),
+            cosine: -pose.rotation.column(2).dot(&plate.normal_at(&at)),
+        }
     };
     samples.iter().map(at).collect()
 }
 
 /// The wash of one plate.
 struct Wash<'a> {
-    plan: &'a Plan,
+    tool: &'a Tool,
+    required: f64,
     contact: &'a Contact<'a>,
     index: usize,
     plate: &'a Plate,
@@ -137,30 +158,30 @@ impl Wash<'_> {
     }
 
     fn has_tool(&self) -> bool {
-        self.plan.tool.length_m > 0.0
+        self.tool.is_present()
     }
 
     /// Without a tool body the sponge counts as touching wherever the flange passes, as in the paper's report.
     fn touch(&self, tip: &Tip) -> Touch {
         if self.has_tool() {
-            self.contact.touch(self.contact.lift_m(&tip.pose, self.index))
+            self.contact.touch(tip.height_m)
         } else {
             Touch::On
         }
     }
 
     fn swept(&self, track: &[Tip], touches: &[Touch]) -> Result<Coverage, CoverageError> {
-        let plate = self.plate;
         let cosine = if self.has_tool() { least_cosine(track) } else { 1.0 };
-        let radius = self.plan.tool.sponge_radius_m * cosine;
+        let radius = self.tool.sponge.radius_m * cosine;
         let strokes = if radius > 0.0 {
-            strokes(track, touches)
+            strokes(self.plate, track, touches)
         } else {
             Vec::new()
         };
         // With nothing to sweep, any radius sweeps nothing.
-        let radius = if radius > 0.0 { radius } else { plate.radius_m };
-        coverage_of_strokes(&strokes, [plate.x_m, plate.y_m], plate.radius_m, radius, &RASTER)
+        let rim_m = self.plate.rim_m();
+        let radius = if radius > 0.0 { radius } else { rim_m };
+        coverage_of_strokes(&strokes, [0.0; 2], rim_m, radius, &RASTER)
     }
 
     fn causes(&self, touches: &[Touch], executed: &Coverage) -> Vec<Cause> {
@@ -168,17 +189,15 @@ impl Wash<'_> {
         if !self.has_tool() {
             causes.push(Cause::NoTool);
         }
-        let height = |tip: &Tip| self.contact.lift_m(&tip.pose, self.index);
-        if let Some((share, most_m, t_s)) = self.worst(touches, Touch::Lifted, height) {
+        if let Some((share, most_m, t_s)) = self.worst(touches, Touch::Lifted, |tip| tip.height_m) {
             causes.push(Cause::Lifted { share, most_m, t_s });
         }
-        if let Some((share, most_m, t_s)) = self.worst(touches, Touch::Pressed, |tip| -height(tip)) {
+        if let Some((share, most_m, t_s)) = self.worst(touches, Touch::Pressed, |tip| -tip.height_m) {
             causes.push(Cause::Pressed { share, most_m, t_s });
         }
         causes.extend(self.strayed());
-        let required = self.plan.scenario.job.required_coverage;
-        if !certificate::reaches(executed.lower, required) {
-            let at_least = executed.lower;
+        let (at_least, required) = (executed.lower, self.required);
+        if !reaches(at_least, required) {
             causes.push(Cause::Coverage { at_least, required });
         }
         causes
@@ -192,14 +211,11 @@ impl Wash<'_> {
     }
 
     fn strayed(&self) -> Option<Cause> {
-        let off = |(planned, executed): (&Tip, &Tip)| {
-            let off = (executed.pose.translation - planned.pose.translation).xy().norm();
-            (off, executed.t_s)
-        };
+        let off = |(planned, executed): (&Tip, &Tip)| (sideways_m(self.plate, &planned.at, &executed.at), executed.t_s);
         let all: Vec<_> = self.planned.iter().zip(&self.executed).map(off).collect();
         let (most_m, t_s) = all.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0))?;
         let mean = all.iter().map(|(off, _)| off * off).sum::<f64>() / all.len() as f64;
-        (most_m > 0.1 * self.plan.tool.sponge_radius_m).then_some(Cause::Strayed {
+        (most_m > 0.1 * self.tool.sponge.radius_m).then_some(Cause::Strayed {
             rms_m: mean.sqrt(),
             most_m,
             t_s,
@@ -209,12 +225,12 @@ impl Wash<'_> {
 
 /// Cosine of the largest tilt from the plate's normal, at most 1; 1 of none.
 fn least_cosine(track: &[Tip]) -> f64 {
-    let cosines = track.iter().map(|tip| -tip.pose.rotation.m33);
+    let cosines = track.iter().map(|tip| tip.cosine);
     cosines.fold(1.0, f64::min)
 }
 
-/// Runs of touching samples, seen from above and thinned.
-fn strokes(track: &[Tip], touches: &[Touch]) -> Vec<Vec<[f64; 2]>> {
+/// Runs of touching samples, seen along the plate's axis in its frame, and thinned.
+fn strokes(plate: &Plate, track: &[Tip], touches: &[Touch]) -> Vec<Vec<[f64; 2]>> {
     let mut strokes: Vec<Vec<[f64; 2]>> = Vec::new();
     let mut last = None;
     for (k, tip) in track.iter().enumerate() {
@@ -222,19 +238,22 @@ fn strokes(track: &[Tip], touches: &[Touch]) -> Vec<Vec<[f64; 2]>> {
             last = None;
             continue;
         }
-        let here = [tip.pose.translation.x, tip.pose.translation.y];
+        let local = plate.local(&tip.at);
+        let here = [local.x, local.y];
         let ends = touches.get(k + 1) != Some(&Touch::On);
         match (last, strokes.last_mut()) {
-            (Some(before), Some(stroke)) if ends || distance(before, here) >= SPACING_M => stroke.push(here),
+            (Some(before), Some(stroke)) if ends || sideways_m(plate, &before, &tip.at) >= SPACING_M => {
+                stroke.push(here)
+            }
             (Some(_), Some(_)) => continue,
             _ => strokes.push(vec![here]),
         }
-        last = Some(here);
+        last = Some(tip.at);
     }
     strokes
 }
 
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    let (dx, dy) = (a[0] - b[0], a[1] - b[1]);
-    (dx * dx + dy * dy).sqrt()
+/// Distance of two points of the world, seen along the plate's axis \[m\].
+fn sideways_m(plate: &Plate, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
+    plate.pose.inverse_transform_vector(&(to - from)).xy().norm()
 }

@@ -4,7 +4,7 @@
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_simulator::{DynamicsModel, RigidBody};
-use platewash_workcell::tool;
+use platewash_workcell::tool::StraightTool;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
@@ -56,12 +56,13 @@ pub fn fixture(name: &str) -> (Fixture, RobotModel, DynamicsModel) {
     let urdf = std::fs::read_to_string(folder().join(&fixture.urdf)).unwrap();
     let robot = RobotModel::from_urdf(&urdf, &MeshSource::none()).unwrap();
     let tool = fixture.tool.as_ref().and_then(|tool| {
-        RigidBody::tool(&tool::Tool {
+        let straight = StraightTool {
             mass_kg: tool.mass_kg,
             length_m: tool.length_m,
             radius_m: tool.radius_m,
-            ..tool::Tool::default()
-        })
+            ..StraightTool::default()
+        };
+        RigidBody::tool(&straight.into())
     });
     let model = DynamicsModel::new(&robot, tool.as_ref()).unwrap();
     (fixture, robot, model)

@@ -11,11 +11,12 @@
 //!
 //! Nothing here allocates.
 
+use super::body::BodyKind;
 use super::distance::bracketed;
 use super::lever::{self, Levers};
+use super::model::ClearanceModel;
 use super::part::Part;
 use super::part::Placed;
-use super::{BodyKind, ClearanceModel};
 use parry3d_f64::math::Vector;
 use platewash_kinematics::{BodyPoses, JointVector};
 use std::ops::Range;
@@ -142,8 +143,7 @@ impl<'a> PartPair<'a> {
 mod tests {
     use super::*;
     use crate::clearance::ITERATIVE_ERROR_M;
-    use crate::layout::Plate;
-    use crate::tool::Tool;
+    use crate::fixtures::{kitchen_plate, kitchen_tool, workcell};
     use platewash_kinematics::RobotModel;
     use proptest::prelude::*;
 
@@ -157,9 +157,8 @@ mod tests {
         #[test]
         fn bounds_hold_between_moments(q in vector(1.5), v in vector(0.4), at in -1.0..1.0f64, n in prop::array::uniform3(-1.0..1.0f64)) {
             let robot = RobotModel::irb120().unwrap();
-            let tool = Tool { length_m: 0.15, ..Tool::default() };
-            let plate = Plate { x_m: 0.3, y_m: 0.1, z_m: 0.03, radius_m: 0.145, thickness_m: 0.02 };
-            let model = ClearanceModel::new(&robot, &tool, &[plate]).unwrap();
+            let world = workcell(&robot, kitchen_tool());
+            let model = ClearanceModel::new(&robot, &world, &[kitchen_plate([0.3, 0.1])]).unwrap();
             let poses = |t: f64| robot.fk(&(q + v * t));
             let [start, middle, there, end] = [-1.0, 0.0, at, 1.0].map(poses);
             prop_assume!(Vector::from_array(n).length() > 0.1);

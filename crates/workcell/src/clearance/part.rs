@@ -9,6 +9,10 @@ use parry3d_f64::shape::{ConvexPolyhedron, Cuboid, Cylinder, Segment, SharedShap
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{BodyPoses, Frame};
+use std::f64::consts::FRAC_PI_2;
+
+/// A quarter turn that lays parry's cylinder (along y) along z.
+const Y_TO_Z: f64 = FRAC_PI_2;
 
 /// The core of a part, in its own frame.
 #[derive(Clone)]
@@ -194,7 +198,7 @@ impl Part {
     pub fn place(&self, poses: &BodyPoses) -> Placed<'_> {
         let pose: Pose = poses.pose(&self.frame).into();
         let pose = match &self.core {
-            Core::Solid(_, Extent::Cylinder(..)) => pose * Pose::rotation(Vector::new(super::Y_TO_Z, 0.0, 0.0)),
+            Core::Solid(_, Extent::Cylinder(..)) => pose * Pose::rotation(Vector::new(Y_TO_Z, 0.0, 0.0)),
             _ => pose,
         };
         Placed {

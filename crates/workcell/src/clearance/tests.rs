@@ -1,7 +1,15 @@
+use super::distance::{Separation, bracketed};
+use super::part::Part;
 use super::*;
+use crate::fixtures::{kitchen_plate, kitchen_tool, workcell};
+use crate::tool::{StraightTool, Tool};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+use nalgebra::{Point3, Vector3};
 use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::{Frame, JointVector, RobotModel};
 use proptest::prelude::*;
+use std::f64::consts::FRAC_PI_2;
 
 mod bounds;
 
@@ -145,28 +153,19 @@ proptest! {
 }
 
 fn model() -> ClearanceModel {
-    let tool = Tool {
-        length_m: 0.15,
-        ..Tool::default()
-    };
-    let plate = |x_m, y_m| Plate {
-        x_m,
-        y_m,
-        z_m: 0.03,
-        radius_m: 0.145,
-        thickness_m: 0.02,
-    };
-    ClearanceModel::new(
-        &RobotModel::irb120().unwrap(),
-        &tool,
-        &[plate(0.3, -0.2), plate(0.3, 0.2)],
-    )
-    .unwrap()
+    let robot = RobotModel::irb120().unwrap();
+    let plates = [[0.3, -0.2], [0.3, 0.2]].map(kitchen_plate);
+    ClearanceModel::new(&robot, &workcell(&robot, kitchen_tool()), &plates).unwrap()
+}
+
+fn bare(robot: &RobotModel) -> ClearanceModel {
+    let tool = Tool::from(StraightTool::default());
+    ClearanceModel::new(robot, &workcell(robot, tool), &[]).unwrap()
 }
 
 #[test]
 fn the_irb_120_checks_the_eight_self_pairs() {
-    let bare = ClearanceModel::new(&RobotModel::irb120().unwrap(), &Tool::default(), &[]).unwrap();
+    let bare = bare(&RobotModel::irb120().unwrap());
     let pairs = bare.pair_names();
     let own: Vec<_> = pairs
         .iter()
@@ -195,10 +194,10 @@ fn the_irb_120_checks_the_eight_self_pairs() {
 #[test]
 fn without_a_list_neighbours_and_pairs_that_always_touch_are_left_out() {
     let robot = RobotModel::from_urdf(
-        platewash_kinematics::model::IRB120_URDF,
+        platewash_kinematics::irb120::IRB120_URDF,
         &platewash_kinematics::urdf::MeshSource::none(),
     );
-    let model = ClearanceModel::new(&robot.unwrap(), &Tool::default(), &[]).unwrap();
+    let model = bare(&robot.unwrap());
     let pairs = model.pair_names();
     assert!(!pairs.contains(&("link_4", "link_6")), "these shapes always overlap");
     assert!(!pairs.contains(&("link_2", "link_3")), "neighbours");

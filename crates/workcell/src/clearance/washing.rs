@@ -3,7 +3,9 @@
 //! While the sponge washes every pair keeps the margin, with one exception: the sponge and the plates. It lies on the one
 //! that it works on and runs over its rim by up to its radius, where a neighbour may lie.
 
-use super::{BodyKind, ClearanceModel, PairClearance, bracketed, is_clear, nearest, separation};
+use super::body::BodyKind;
+use super::distance::{bracketed, separation};
+use super::model::{ClearanceModel, PairClearance, is_clear, nearest};
 use platewash_kinematics::JointVector;
 
 impl ClearanceModel {

@@ -1,6 +1,6 @@
 //! The swept share of a cell, by columns: within each, what the disc and every capsule cut out of its middle line is exact.
 
-use super::raster::Capsule;
+use super::capsule::Capsule;
 
 /// Columns of a cell.
 const COLUMNS: u32 = 8;

@@ -1,5 +1,6 @@
 //! How much of a plate the sponge sweeps.
 
+mod capsule;
 mod columns;
 mod disc;
 mod picture;
@@ -8,14 +9,25 @@ mod raster;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use picture::{Cell, CoverageRaster, MAX_CELLS, raster};
-use raster::{Capsule, Raster, Uncovered};
+use capsule::Capsule;
+pub use picture::{CoverageRaster, MAX_CELLS, RasterCell, raster};
+use raster::{Raster, Uncovered};
 
 /// Cells may not be smaller than this part of the plate's radius, so that every call ends soon.
 const SMALLEST_CELL: f64 = 1e-5;
 
 /// What is added to both sides of the bounds for rounding, as a part of the disc's area.
 const ROUNDING: f64 = 1e-11;
+
+/// By how much of it a required share may be missed: the rounding of everything that leads to a share.
+const SLACK: f64 = 1e-9;
+
+/// Whether a share is at least the required one, but for the rounding of what leads to it: whoever proves and whoever simulates asks
+/// this one question. NaN is not.
+#[must_use]
+pub fn reaches(share: f64, required: f64) -> bool {
+    share >= required - SLACK * required.abs().max(1e-3)
+}
 
 /// How finely to look.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

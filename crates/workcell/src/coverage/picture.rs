@@ -1,6 +1,6 @@
 //! What the sponge sweeps as a regular raster, to look at.
 
-use super::raster::Capsule;
+use super::capsule::Capsule;
 use super::{CoverageError, capsules, check_lengths};
 use rayon::prelude::*;
 
@@ -9,7 +9,7 @@ pub const MAX_CELLS: usize = 4096;
 
 /// State of a cell of a raster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cell {
+pub enum RasterCell {
     /// The cell lies wholly outside the disc.
     Outside,
     /// The sponge sweeps no part of the cell.
@@ -24,7 +24,7 @@ pub enum Cell {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoverageRaster {
     /// The cells row by row, y ascending; `x_m.len()` a row.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<RasterCell>,
     /// x of the cells' middles, in the polyline's frame \[m\].
     pub x_m: Vec<f64>,
     /// y of the cells' middles, in the polyline's frame \[m\].
@@ -71,10 +71,10 @@ pub fn raster(
 }
 
 /// The state of the cell about `middle`, all relative to the disc's centre.
-fn state(middle: [f64; 2], half: f64, radius: f64, sponge: f64, capsules: &[&Capsule]) -> Cell {
+fn state(middle: [f64; 2], half: f64, radius: f64, sponge: f64, capsules: &[&Capsule]) -> RasterCell {
     let nearest = middle.map(|c| (c.abs() - half).max(0.0));
     if nearest[0] * nearest[0] + nearest[1] * nearest[1] >= radius * radius {
-        return Cell::Outside;
+        return RasterCell::Outside;
     }
     let half_diagonal = half * std::f64::consts::SQRT_2;
     let least = capsules
@@ -83,11 +83,11 @@ fn state(middle: [f64; 2], half: f64, radius: f64, sponge: f64, capsules: &[&Cap
         .fold(f64::INFINITY, f64::min);
     let (within, reach) = (sponge - half_diagonal, sponge + half_diagonal);
     if within > 0.0 && least <= within * within {
-        Cell::Swept
+        RasterCell::Swept
     } else if least >= reach * reach {
-        Cell::Missed
+        RasterCell::Missed
     } else {
-        Cell::Partly
+        RasterCell::Partly
     }
 }
 
@@ -109,11 +109,11 @@ mod tests {
             let exact = coverage(&polyline, centre, radius, sponge, &CoverageSettings::default()).unwrap();
             let raster = raster(&polyline, centre, radius, sponge, cells).unwrap();
             let area = (2.0 * radius / cells as f64).powi(2) / (std::f64::consts::PI * radius * radius);
-            let share = |states: &[Cell]| area * raster.cells.iter().filter(|c| states.contains(c)).count() as f64;
+            let share = |states: &[RasterCell]| area * raster.cells.iter().filter(|c| states.contains(c)).count() as f64;
             // Cells on the rim reach beyond the disc, so that only sums with them are upper bounds.
-            prop_assert!(share(&[Cell::Swept, Cell::Partly, Cell::Missed]) >= 1.0 - 1e-9);
-            prop_assert!(share(&[Cell::Swept, Cell::Partly]) >= exact.lower - 1e-9);
-            prop_assert!(share(&[Cell::Missed, Cell::Partly]) >= 1.0 - exact.upper - 1e-9);
+            prop_assert!(share(&[RasterCell::Swept, RasterCell::Partly, RasterCell::Missed]) >= 1.0 - 1e-9);
+            prop_assert!(share(&[RasterCell::Swept, RasterCell::Partly]) >= exact.lower - 1e-9);
+            prop_assert!(share(&[RasterCell::Missed, RasterCell::Partly]) >= 1.0 - exact.upper - 1e-9);
             prop_assert_eq!(raster.cells.len(), cells * cells);
         }
 
@@ -129,10 +129,10 @@ mod tests {
             let point = [raster.x_m[at.0] + half * inside[0], raster.y_m[at.1] + half * inside[1]];
             let distance = capsules(&polyline, [0.0; 2]).iter().map(|c| c.distance_squared(point).sqrt()).fold(f64::INFINITY, f64::min);
             match raster.cells[at.1 * 20 + at.0] {
-                Cell::Swept => prop_assert!(distance <= sponge + 1e-12),
-                Cell::Missed => prop_assert!(distance >= sponge - 1e-12),
-                Cell::Outside => prop_assert!(point[0].hypot(point[1]) >= 0.145 - 1e-12),
-                Cell::Partly => (),
+                RasterCell::Swept => prop_assert!(distance <= sponge + 1e-12),
+                RasterCell::Missed => prop_assert!(distance >= sponge - 1e-12),
+                RasterCell::Outside => prop_assert!(point[0].hypot(point[1]) >= 0.145 - 1e-12),
+                RasterCell::Partly => (),
             }
         }
     }
@@ -147,6 +147,12 @@ mod tests {
             call(&[[0.0, f64::INFINITY]], 0.1, 5),
             Err(CoverageError::PathNotFinite { index: 0 })
         );
-        assert!(call(&[], 0.1, 1).unwrap().cells.iter().all(|c| *c == Cell::Missed));
+        assert!(
+            call(&[], 0.1, 1)
+                .unwrap()
+                .cells
+                .iter()
+                .all(|c| *c == RasterCell::Missed)
+        );
     }
 }

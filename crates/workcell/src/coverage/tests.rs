@@ -275,3 +275,10 @@ proptest! {
         prop_assert!(part.fraction <= fine.fraction + 1e-12 && part.lower <= fine.lower + 1e-12);
     }
 }
+
+#[test]
+fn a_share_reaches_what_is_required_but_for_rounding() {
+    assert!(reaches(0.995, 0.995) && reaches(0.995 - 9e-10, 0.995) && !reaches(0.995 - 1.1e-9, 0.995));
+    assert!(reaches(-9e-13, 0.0) && !reaches(-1.1e-12, 0.0));
+    assert!(!reaches(f64::NAN, 0.5) && !reaches(0.5, f64::NAN));
+}

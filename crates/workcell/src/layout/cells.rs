@@ -6,7 +6,7 @@ const MAX_LEVEL: u32 = 30;
 /// More cells than this are not halved any further.
 const MAX_CELLS: usize = 1 << 16;
 
-use super::region::Cell;
+use super::region::QuadCell;
 use super::space::Space;
 
 /// Equal rectangles of one level of a quadtree over the region's box, which together contain every free point.
@@ -93,11 +93,11 @@ impl Cells {
         space.area.size().map(|s| s / parts)
     }
 
-    fn cell(&self, space: &Space, [i, j]: [u32; 2]) -> Cell {
+    fn cell(&self, space: &Space, [i, j]: [u32; 2]) -> QuadCell {
         let [width, height] = self.cell_size(space);
         let [x, y] = space.area.low();
         let middle = [x + (f64::from(i) + 0.5) * width, y + (f64::from(j) + 0.5) * height];
-        Cell {
+        QuadCell {
             middle,
             half: [0.5 * width, 0.5 * height],
         }

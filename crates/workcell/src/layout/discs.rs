@@ -1,6 +1,6 @@
 //! The discs that earlier plates forbid to later ones.
 
-use super::MAX_PLATES;
+use super::spacing::MAX_PLATES;
 
 /// Up to here a linear search is faster than buckets.
 const LINEAR_LIMIT: usize = 24;

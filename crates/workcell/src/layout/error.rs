@@ -63,7 +63,7 @@ pub enum LayoutError {
     /// A number of the request makes no sense.
     #[error("{key} {problem}")]
     InvalidInput {
-        /// The key, spelled as in a scenario's `[layout]` table.
+        /// Its name.
         key: &'static str,
         /// What is wrong with it.
         problem: InputProblem,
@@ -106,7 +106,7 @@ fn remedy(count: usize, upper_bound: Option<usize>) -> &'static str {
     if cannot_fit(count, upper_bound) {
         ""
     } else {
-        "; try another seed, a smaller layout.min_distance_m, or state the places as layout.positions_m"
+        "; another seed, a smaller least distance of the centres, or places that are given may do"
     }
 }
 

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use platewash_kinematics::words::{not_as_zero, told_apart};
 
-use super::{BaseFootprint, Plate, Region, Spacing};
+use super::{BaseFootprint, Region, Spacing};
+use crate::plate::Plate;
 
 /// Something that a layout breaks. Plates are named by index, from 0; lengths are in metres, positions in the base frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -117,13 +118,13 @@ impl fmt::Display for Finding {
 pub(super) fn overlaps(plates: &[Plate], base: &BaseFootprint) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (i, plate) in plates.iter().enumerate() {
-        let overlap_m = plate.radius_m - signed_distance(base, [plate.x_m, plate.y_m]);
+        let overlap_m = plate.rim_m() - signed_distance(base, plate.centre_xy());
         if overlap_m > 0.0 {
             findings.push(Finding::OverlapsBase { plate: i, overlap_m });
         }
     }
     for (a, b, distance_m) in pairs(plates) {
-        let overlap_m = plates[a].radius_m + plates[b].radius_m - distance_m;
+        let overlap_m = plates[a].rim_m() + plates[b].rim_m() - distance_m;
         if overlap_m > 0.0 {
             findings.push(Finding::PlatesOverlap { a, b, overlap_m });
         }
@@ -134,7 +135,8 @@ pub(super) fn overlaps(plates: &[Plate], base: &BaseFootprint) -> Vec<Finding> {
 /// Plates that break the rules by which layouts are drawn.
 pub(super) fn broken_rules(plates: &[Plate], region: Option<&Region>, spacing: &Spacing) -> Vec<Finding> {
     let mut findings = Vec::new();
-    for (i, &Plate { x_m, y_m, .. }) in plates.iter().enumerate() {
+    for (i, plate) in plates.iter().enumerate() {
+        let [x_m, y_m] = plate.centre_xy();
         if region.is_some_and(|region| !region.contains([x_m, y_m])) {
             findings.push(Finding::LeavesRegion { plate: i, x_m, y_m });
         }
@@ -164,7 +166,8 @@ pub(super) fn broken_rules(plates: &[Plate], region: Option<&Region>, spacing: &
 fn pairs(plates: &[Plate]) -> impl Iterator<Item = (usize, usize, f64)> {
     (0..plates.len()).flat_map(move |a| {
         (a + 1..plates.len()).map(move |b| {
-            let (dx, dy) = (plates[a].x_m - plates[b].x_m, plates[a].y_m - plates[b].y_m);
+            let ([xa, ya], [xb, yb]) = (plates[a].centre_xy(), plates[b].centre_xy());
+            let (dx, dy) = (xa - xb, ya - yb);
             (a, b, (dx * dx + dy * dy).sqrt())
         })
     })

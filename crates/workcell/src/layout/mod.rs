@@ -8,12 +8,14 @@ mod error;
 mod findings;
 mod footprint;
 mod packing;
-mod plate;
+mod placement;
 mod region;
 mod sampling;
 mod space;
+mod spacing;
 mod wedge;
 
+use crate::plate::Plate;
 use rand::Rng;
 use serde::{Deserialize, Serialize};
 
@@ -21,14 +23,12 @@ pub use error::{EmptyReason, InputProblem, LayoutError};
 pub use findings::Finding;
 pub use footprint::base_footprint;
 pub use packing::packing_bound;
-pub use plate::{BaseFootprint, Plate, PlateGeometry, Spacing};
+pub use placement::Placement;
 pub use region::Region;
 pub use sampling::{Attempt, Sampler};
+pub use spacing::{BaseFootprint, MAX_PLATES, PlateGeometry, Spacing};
 
 use sampling::Work;
-
-/// The largest number of plates that a layout may have.
-pub const MAX_PLATES: usize = 1000;
 
 /// Where the positions of a layout come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -54,6 +54,18 @@ pub struct Layout {
     pub source: LayoutSource,
     /// What is wrong with them.
     pub findings: Vec<Finding>,
+}
+
+impl Layout {
+    /// Some plates, given, about which nothing is to be said.
+    #[must_use]
+    pub fn of(plates: Vec<Plate>) -> Self {
+        Self {
+            plates,
+            source: LayoutSource::Explicit,
+            findings: Vec::new(),
+        }
+    }
 }
 
 /// What to draw.

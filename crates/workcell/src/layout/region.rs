@@ -78,12 +78,12 @@ pub(super) struct Area {
 
 /// An axis-aligned rectangle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cell {
+pub(super) struct QuadCell {
     pub(super) middle: [f64; 2],
     pub(super) half: [f64; 2],
 }
 
-impl Cell {
+impl QuadCell {
     /// Square of the greatest distance from `p` to a point of the rectangle.
     pub(super) fn farthest_squared(&self, p: [f64; 2]) -> f64 {
         let dx = (self.middle[0] - p[0]).abs() + self.half[0];
@@ -139,7 +139,7 @@ impl Area {
     }
 
     /// Whether a cell of the box is surely outside. May miss one that is outside, never the reverse.
-    pub(super) fn excludes(&self, cell: &Cell) -> bool {
+    pub(super) fn excludes(&self, cell: &QuadCell) -> bool {
         let ring = self
             .rho_squared
             .is_some_and(|[low, high]| cell.farthest_squared([0.0; 2]) < low || cell.nearest_squared([0.0; 2]) > high);

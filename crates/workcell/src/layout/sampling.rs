@@ -20,12 +20,12 @@
 
 use rand::Rng;
 
-use super::Spacing;
 use super::cells::{Cells, Refined};
 use super::discs::Discs;
 use super::error::{EmptyReason, LayoutError};
 use super::region::{Area, Region};
 use super::space::Space;
+use super::spacing::Spacing;
 
 /// Draws from the box before cells are used.
 const BOX_DRAWS: u64 = 64;

@@ -1,7 +1,7 @@
 //! Which points are free for the next plate.
 
 use super::discs::Discs;
-use super::region::{Area, Cell};
+use super::region::{Area, QuadCell};
 
 /// The region, the free space around the base and the discs around earlier plates.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +23,7 @@ impl Space<'_> {
     }
 
     /// Whether a cell of the region's box surely holds no free point: it lies wholly in one disc or outside the region.
-    pub(super) fn is_closed(&self, cell: &Cell) -> bool {
+    pub(super) fn is_closed(&self, cell: &QuadCell) -> bool {
         cell.farthest_squared([0.0; 2]) <= self.base_radius_squared
             || self.discs.any_near(cell.middle, |centre, radius_squared| {
                 cell.farthest_squared(centre) <= radius_squared

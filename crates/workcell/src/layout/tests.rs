@@ -43,7 +43,7 @@ fn draw(request: &SampleRequest, seed: u64) -> Result<Layout, LayoutError> {
 }
 
 fn centres(layout: &Layout) -> Vec<[f64; 2]> {
-    layout.plates.iter().map(|plate| [plate.x_m, plate.y_m]).collect()
+    layout.plates.iter().map(Plate::centre_xy).collect()
 }
 
 fn explicit(positions_m: &[[f64; 2]], region: Option<&Region>) -> Layout {
@@ -64,7 +64,10 @@ fn a_seed_gives_one_layout_which_keeps_the_rules() {
         let again = explicit(&centres(&layout), Some(&Region::PAPER_TEXT));
         assert_eq!((&again.plates, &again.findings), (&layout.plates, &layout.findings));
         let plate = layout.plates[3];
-        assert_eq!((plate.z_m, plate.radius_m, plate.thickness_m), (0.03, 0.145, 0.02));
+        assert_eq!(
+            (plate.centre().z, plate.rim_m(), plate.thickness_m),
+            (0.03, 0.145, 0.02)
+        );
     }
 }
 

@@ -1,8 +1,12 @@
 //! All answers within the limits, and why the other branches are none.
 
+use super::arm::AnalyticArm;
+use super::branch::Branch;
+use super::error::{AnalyticError, check_finite};
+use super::label::{Degenerate, Label, OutOfReach};
+use super::tolerance::LIMIT_ROUNDING_RAD;
 use super::window::{Window, nearest_integer};
 use super::wrist::Turn;
-use super::{AnalyticArm, AnalyticError, Branch, Degenerate, LIMIT_ROUNDING_RAD, Label, OutOfReach, check_finite};
 use crate::rotation::Rigid;
 use crate::{AXES, JointLimits, JointVector, LimitViolation};
 use serde::Serialize;

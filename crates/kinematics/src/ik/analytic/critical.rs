@@ -9,9 +9,10 @@
 //! - joint 5 at λ: `ẑ · E ẑ = cos(λ + α₅)`;
 //! - joint 6 at λ: `ẑ · E (sin(λ + α₆), cos(λ + α₆), 0) = 0`.
 
+use super::arm::AnalyticArm;
+use super::label::{Elbow, Shoulder};
 use super::position::{Bend, Goal};
 use super::window::Window;
-use super::{AnalyticArm, Elbow, Shoulder};
 use crate::trig::{acos, atan2, sin_cos};
 use nalgebra::{Matrix3, Vector3};
 

@@ -1,11 +1,11 @@
 //! The answer nearest to a start.
 
+use super::all::{Rejection, Solutions};
+use super::arm::AnalyticArm;
+use super::error::{AnalyticError, check_finite};
+use super::label::{Degenerate, Elbow, Label, OutOfReach, Shoulder, Wrist};
 use super::position::{Bend, Goal, Swing};
 use super::window::Window;
-use super::{
-    AnalyticArm, AnalyticError, Degenerate, Elbow, Label, OutOfReach, Rejection, Shoulder, Solutions, Wrist,
-    check_finite,
-};
 use crate::rotation::Rigid;
 use crate::{JointLimits, JointVector, LimitViolation};
 use serde::Serialize;

@@ -1,6 +1,8 @@
 //! Joints 1 to 3: where the wrist centre is.
 
-use super::{AnalyticArm, Elbow, FREE_SHOULDER_M, OutOfReach, REACH_ROUNDING_M, ReachBorder, Shoulder};
+use super::arm::AnalyticArm;
+use super::label::{Elbow, OutOfReach, ReachBorder, Shoulder};
+use super::tolerance::{FREE_SHOULDER_M, REACH_ROUNDING_M};
 use crate::rotation::Rigid;
 use crate::trig::{atan2, sin_cos};
 use nalgebra::{Complex, Matrix3, Vector3};

@@ -1,7 +1,8 @@
 //! Recognising the structure: the geometry of the folded chain at q = 0, in the base frame.
 
-use super::{AnalyticArm, GEOMETRY_TOLERANCE_M, GEOMETRY_TOLERANCE_RAD, SHORTEST_LINK_M};
-use crate::fk::Frame;
+use super::arm::AnalyticArm;
+use super::tolerance::{GEOMETRY_TOLERANCE_M, GEOMETRY_TOLERANCE_RAD, SHORTEST_LINK_M};
+use crate::frame::Frame;
 use crate::rotation::Rigid;
 use crate::trig::{atan2, sin_cos};
 use crate::{AXES, RobotModel};

@@ -1,6 +1,7 @@
 //! Closing a branch that ends beyond a limit by no more than its joints are uncertain.
 
-use super::{AnalyticArm, CLOSED, LIMIT_ROUNDING_RAD};
+use super::arm::AnalyticArm;
+use super::tolerance::{CLOSED, LIMIT_ROUNDING_RAD};
 use crate::rotation::{Rigid, rotation_vector};
 use crate::trig::sin_cos;
 use crate::{AXES, JointLimits, JointVector};

@@ -1,6 +1,6 @@
 //! Joint limits and the start against which values are weighed.
 
-use super::{LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, MOST_TURNS};
+use super::tolerance::{LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, MOST_TURNS};
 use crate::{JointLimits, JointVector, LimitViolation};
 use std::f64::consts::TAU;
 

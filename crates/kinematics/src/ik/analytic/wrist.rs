@@ -1,8 +1,10 @@
 //! Joints 4 to 6: how the hand is turned.
 
+use super::arm::AnalyticArm;
+use super::label::Wrist;
 use super::position::{Bend, Swing};
+use super::tolerance::FREE_WRIST_RAD;
 use super::window::Window;
-use super::{AnalyticArm, FREE_WRIST_RAD, Wrist};
 use crate::trig::{atan2, sin_cos};
 use nalgebra::{Complex, Matrix3};
 use std::f64::consts::PI;

@@ -1,0 +1,69 @@
+//! The bodies that a job adds to the arm: whether distances to them can be worked out at all.
+
+use crate::error::ProveError;
+use platewash_kinematics::Pose;
+use platewash_kinematics::geometry::Shape;
+use platewash_workcell::job::JobTerms;
+use platewash_workcell::workcell::ObstacleShape;
+
+/// Bodies of the tool and obstacles, together, that a job may have at most.
+const MOST: usize = 1000;
+
+/// The greatest size of a body, and the greatest distance of one from its frame, along each axis \[m\].
+const GREATEST_M: f64 = 1e3;
+
+/// Points of a hull at least and at most.
+const POINTS: [usize; 2] = [4, 100_000];
+
+/// Refuses shapes that are none, places that are nowhere, and more bodies than can be judged soon.
+///
+/// # Errors
+/// [`ProveError::TooManyBodies`], [`ProveError::Body`].
+pub(crate) fn check(job: &JobTerms) -> Result<(), ProveError> {
+    let world = &job.workcell;
+    let found = world.tool.bodies.len() + world.obstacles.len();
+    if found > MOST {
+        return Err(ProveError::TooManyBodies { found, most: MOST });
+    }
+    let tool = world.tool.bodies.iter().map(|b| (&b.name, Some(&b.shape), &b.pose));
+    let obstacles = world.obstacles.iter().map(|o| match &o.shape {
+        ObstacleShape::HalfSpace => (&o.name, None, &o.pose),
+        ObstacleShape::Convex(shape) => (&o.name, Some(shape), &o.pose),
+    });
+    let sponge = "sponge".to_owned();
+    let tip = "tip of the tool".to_owned();
+    let frames = [(&sponge, None, &world.tool.sponge.pose), (&tip, None, &world.tool.tip)];
+    let is_sound = |shape: Option<&Shape>, pose: &Pose| shape.is_none_or(is_shape) && is_place(pose);
+    let mut all = tool.chain(obstacles).chain(frames);
+    match all.find(|(_, shape, pose)| !is_sound(*shape, pose)) {
+        Some((name, ..)) => Err(ProveError::Body { name: name.clone() }),
+        None => Ok(()),
+    }
+}
+
+fn is_shape(shape: &Shape) -> bool {
+    let size = |size: f64| size > 0.0 && size <= GREATEST_M;
+    let [least, most] = POINTS;
+    match shape {
+        Shape::Box { half_m } => half_m.iter().all(|half| size(*half)),
+        Shape::Cylinder {
+            radius_m,
+            half_length_m,
+        } => size(*radius_m) && size(*half_length_m),
+        Shape::Sphere { radius_m } => size(*radius_m),
+        Shape::Capsule {
+            radius_m,
+            half_length_m,
+        } => size(*radius_m) && (0.0..=GREATEST_M).contains(half_length_m),
+        Shape::Hull { points } => {
+            let near = points.iter().flat_map(|p| p.iter()).all(|c| c.abs() <= GREATEST_M);
+            (least..=most).contains(&points.len()) && near
+        }
+    }
+}
+
+/// Whether a pose is a place not too far away, and a rotation.
+fn is_place(pose: &Pose) -> bool {
+    let near = pose.translation.vector.iter().all(|c| c.abs() <= GREATEST_M);
+    near && (pose.rotation.quaternion().norm() - 1.0).abs() <= 1e-9
+}

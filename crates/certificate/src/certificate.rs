@@ -1,0 +1,88 @@
+//! What is proved about a plan.
+
+use crate::check::{Check, Status};
+use crate::clearances::PairBound;
+use crate::requirement::Requirement;
+use crate::rests_on::RestsOn;
+use crate::swept::PlateCoverage;
+use platewash_workcell::coverage::reaches;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+/// What came of the whole plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Every requirement is kept, and the plan is as it was sealed. [`Certificate::waived`] names those that are not proved, only
+    /// waived by the job.
+    Pass,
+    /// A requirement is violated or not proved, or the hash is not that of the contents.
+    Fail,
+}
+
+/// What the hash says. It tells nothing about the motion: whoever changes a plan can seal it again.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct HashFinding {
+    /// The hash in the file.
+    pub stated: Option<String>,
+    /// The hash that belongs to the contents; none for contents that JSON cannot say.
+    pub computed: Option<String>,
+    /// Whether they are the same: proved or violated.
+    pub status: Status,
+}
+
+/// What is proved about a plan.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Certificate {
+    /// Pass, or fail.
+    pub verdict: Verdict,
+    /// The first line in words: the verdict, what it waives, and what is not kept.
+    pub headline: String,
+    /// The requirements that are not kept and that the job waives: [`Status::Waived`].
+    pub waived: Vec<Requirement>,
+    /// Name of the scenario, as the plan states it.
+    pub scenario: String,
+    /// Duration of the motion \[s\].
+    pub duration_s: f64,
+    /// The hash.
+    pub hash: HashFinding,
+    /// The requirements, one by one.
+    pub checks: Vec<Check>,
+    /// Coverage, plate by plate in the order of washing.
+    pub coverage: Vec<PlateCoverage>,
+    /// Clearance, pair by pair and rule by rule.
+    pub clearance: Vec<PairBound>,
+    /// What the verdict rests on.
+    pub rests_on: RestsOn,
+}
+
+impl Certificate {
+    /// What came of a requirement.
+    #[must_use]
+    pub fn check(&self, requirement: Requirement) -> Option<&Check> {
+        self.checks.iter().find(|check| check.requirement == requirement)
+    }
+
+    /// The requirements that are violated or not proved.
+    pub fn broken(&self) -> impl Iterator<Item = &Check> {
+        self.checks.iter().filter(|check| !check.status.is_kept())
+    }
+
+    /// Whether every requirement is kept, and the hash is that of the contents.
+    #[must_use]
+    pub fn passes(&self) -> bool {
+        self.verdict == Verdict::Pass
+    }
+
+    /// Number of plates that are proved to be washed: swept to the share required, with the sponge on them.
+    #[must_use]
+    pub fn plates_washed(&self) -> usize {
+        let on = self.check(Requirement::ContactHeight);
+        if !on.is_some_and(|check| check.status == Status::Proved) {
+            return 0;
+        }
+        let required = self.rests_on.requirements.coverage;
+        let enough = self.coverage.iter().filter(|swept| reaches(swept.at_least, required));
+        enough.map(|swept| swept.plate).collect::<BTreeSet<_>>().len()
+    }
+}

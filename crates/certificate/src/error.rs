@@ -1,0 +1,126 @@
+//! Why a plan cannot be judged at all.
+
+use platewash_kinematics::words::told_apart;
+use platewash_workcell::cancel::Cancelled;
+use platewash_workcell::clearance::ClearanceError;
+use platewash_workcell::coverage::CoverageError;
+use platewash_workcell::job::JobError;
+use platewash_workcell::trajectory::KnotError;
+use platewash_workcell::words::{counted, printable};
+
+/// Why a plan cannot be judged at all; a plan that breaks a requirement is no error.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ProveError {
+    /// A run of the paper's program.
+    #[error("the plan is a run of the paper's program; there is no certificate for one")]
+    PaperRun,
+    /// The work was given up, as it was told to be.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The job of the plan is none that could be judged.
+    #[error("the plan's job: {}", printable(&.0.to_string()))]
+    Job(JobError),
+    /// A body of the tool or an obstacle has no size, no end or no place.
+    #[error("\"{}\": a body must have a finite size above 0 and a pose; lengths up to 1000 m can be judged", printable(.name))]
+    Body {
+        /// Its name.
+        name: String,
+    },
+    /// More bodies of the tool and obstacles than can be judged soon.
+    #[error("{found} bodies of the tool and obstacles; {most} can be judged at most")]
+    TooManyBodies {
+        /// How many.
+        found: usize,
+        /// How many are possible.
+        most: usize,
+    },
+    /// The face of a plate is curved.
+    #[error("plate {plate} is curved; this version proves the washing of flat plates only")]
+    CurvedPlate {
+        /// Index of the plate.
+        plate: usize,
+    },
+    /// The knots are no motion.
+    #[error("{0}")]
+    Knots(KnotError),
+    /// Fewer than two knots.
+    #[error("{}; a motion has at least 2", counted(*.found, "knot"))]
+    NoMotion {
+        /// Knots found.
+        found: usize,
+    },
+    /// A piece of the motion is so short that its cubic cannot be computed.
+    #[error("the piece from knot {piece} to knot {} lasts {length_s:.3e} s; the shortest that can be judged lasts {least_s:e} s", .piece + 1)]
+    TooShort {
+        /// Index of the piece, and of the knot that it starts from.
+        piece: usize,
+        /// How long it lasts \[s\].
+        length_s: f64,
+        /// How long it must last \[s\].
+        least_s: f64,
+    },
+    /// A joint turns so far that its sine means nothing any more.
+    #[error("joint {} gets to {} rad; no more than ±{most_rad} rad can be judged", .joint + 1, far(*.position_rad, *.most_rad))]
+    TurnsTooFar {
+        /// Joint index, 0 for joint 1.
+        joint: usize,
+        /// How far \[rad\].
+        position_rad: f64,
+        /// How far is possible \[rad\].
+        most_rad: f64,
+    },
+    /// More of something than any plan for that many plates has.
+    #[error("{found} {what} for {}; there are {most} at most", counted(*.plates, "plate"))]
+    TooMany {
+        /// Segments, wash paths, or entries of the order.
+        what: &'static str,
+        /// How many.
+        found: usize,
+        /// Plates.
+        plates: usize,
+        /// How many are possible.
+        most: usize,
+    },
+    /// The collision model cannot be made.
+    #[error("clearance: {0}")]
+    Clearance(ClearanceError),
+    /// Coverage cannot be measured.
+    #[error("coverage: {0}")]
+    Coverage(CoverageError),
+}
+
+/// An angle \[rad\] beyond a limit, as many digits as tell them apart.
+fn far(position_rad: f64, most_rad: f64) -> String {
+    const WRITTEN_OUT: f64 = 1e6;
+    if position_rad < WRITTEN_OUT {
+        let [far, _] = told_apart(position_rad, most_rad, 1);
+        return far;
+    }
+    format!("{position_rad:.3e}")
+}
+
+// The messages above hold those of their causes, which are therefore not told again as sources.
+impl From<JobError> for ProveError {
+    fn from(error: JobError) -> Self {
+        Self::Job(error)
+    }
+}
+
+impl From<KnotError> for ProveError {
+    fn from(error: KnotError) -> Self {
+        Self::Knots(error)
+    }
+}
+
+impl From<ClearanceError> for ProveError {
+    fn from(error: ClearanceError) -> Self {
+        Self::Clearance(error)
+    }
+}
+
+impl From<CoverageError> for ProveError {
+    fn from(error: CoverageError) -> Self {
+        Self::Coverage(error)
+    }
+}

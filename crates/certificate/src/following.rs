@@ -1,0 +1,174 @@
+//! The tip follows its curve: all of it, in order, and never farther away than the tolerance.
+//!
+//! To every moment belongs a parameter θ(t) that starts at 0, never falls and ends at the curve's end; between two moments a
+//! and b it runs evenly. The deviation e(t) = p(t) − c(θ(t)) then keeps
+//! ‖e‖ ≤ max(‖e(a)‖, ‖e(b)‖) + h²/8 · sup ‖p̈‖ + Δθ²/8 · sup ‖c″‖. Which θ is chosen at a moment (the nearest point's;
+//! where these run back, half-way between the greatest so far and the least to come) decides how tight this is, and nothing else.
+
+use crate::bound_tracker::BoundTracker;
+use crate::check::{Check, Unit};
+use crate::curve::Curve;
+use crate::piece::Piece;
+use crate::requirement::Requirement;
+use crate::schedule::{Schedule, is_at_plate};
+use crate::subject::Subject;
+use crate::tip::{Arm, Moment, Stretch};
+use crate::tip_limits;
+use platewash_workcell::job::{LINE_TOLERANCE_M, PATH_TOLERANCE_M};
+use platewash_workcell::segment::SegmentKind;
+
+/// How far a bound of a deviation may be above the worst one found, as a part of the tolerance.
+const RESOLUTION: f64 = 0.02;
+
+/// A stretch with the curve's parameters at its ends.
+#[derive(Debug, Clone, Copy)]
+struct Leg<'a> {
+    stretch: Stretch<'a>,
+    theta: [f64; 2],
+}
+
+/// How far the tip leaves the wash paths, and the lines over their ends.
+pub(crate) fn checks(
+    arm: &Arm<'_>,
+    subject: &Subject<'_>,
+    pieces: &[Piece],
+    schedule: Option<&Schedule>,
+) -> [Check; 2] {
+    let requirements = [Requirement::PathDeviation, Requirement::LineDeviation];
+    let Some(schedule) = schedule else {
+        return requirements.map(Check::not_judged);
+    };
+    let limits = [PATH_TOLERANCE_M, LINE_TOLERANCE_M];
+    let mut trackers = limits.map(|limit| BoundTracker::new(limit, RESOLUTION * limit));
+    let mut no_curve = [false; 2];
+    for span in schedule.spans.iter().filter(|span| is_at_plate(span.kind)) {
+        let which = usize::from(span.kind != SegmentKind::Wash);
+        let (plate, path) = (subject.plates().get(span.plate), subject.path_of(span.plate));
+        let curve = plate
+            .zip(path)
+            .and_then(|(plate, path)| Curve::new(plate, path, span.kind));
+        match curve {
+            Some(curve) => follow(arm, &pieces[span.pieces.clone()], &curve, &mut trackers[which]),
+            None => no_curve[which] = true,
+        }
+    }
+    std::array::from_fn(|i| {
+        if no_curve[i] {
+            return Check::not_judged(requirements[i]);
+        }
+        let worst = tip_limits::worst(&trackers[i], pieces, Some(schedule));
+        tip_limits::check(requirements[i], &trackers[i], (limits[i], Unit::Metre), worst)
+    })
+}
+
+/// Bounds how far the tip leaves a curve during some pieces.
+fn follow(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve, tracker: &mut BoundTracker) {
+    tracker.allow_for(pieces.len());
+    let theta = in_order(nearest(arm, pieces, curve));
+    let leg = |i: usize| Leg {
+        stretch: arm.stretch(&pieces[i]),
+        theta: [theta[i], theta[i + 1]],
+    };
+    for leg in (0..pieces.len()).map(leg) {
+        for (k, time_s) in leg.stretch.times().into_iter().enumerate() {
+            tracker.see(deviation(curve, &leg, k), time_s, &leg.stretch.ends[k]);
+        }
+    }
+    (0..pieces.len()).for_each(|i| refine(arm, curve, &leg(i), tracker, 0));
+}
+
+/// θ of the points nearest to the tip, at the first knot and behind every piece; where the curve begins and ends at the ends.
+fn nearest(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve) -> Vec<f64> {
+    let mut theta = vec![0.0];
+    for (i, piece) in pieces.iter().enumerate() {
+        let there = arm.at(piece, piece.length_s).position;
+        theta.push(if i + 1 == pieces.len() {
+            curve.end()
+        } else {
+            curve.nearest(&there, theta[i], [0.0, curve.end()])
+        });
+    }
+    theta
+}
+
+/// The sequence that never falls and is nowhere farther from the given one than need be: half-way between the greatest value so far
+/// and the least one to come. Where the tip runs back a little, half of that is its deviation, and not all of it.
+fn in_order(mut values: Vec<f64>) -> Vec<f64> {
+    let mut to_come = values.clone();
+    for i in (1..to_come.len()).rev() {
+        to_come[i - 1] = to_come[i - 1].min(to_come[i]);
+    }
+    let mut so_far = f64::NEG_INFINITY;
+    for (value, to_come) in values.iter_mut().zip(to_come) {
+        so_far = so_far.max(*value);
+        *value = 0.5 * (so_far + to_come);
+    }
+    values
+}
+
+fn refine(arm: &Arm<'_>, curve: &Curve, leg: &Leg<'_>, tracker: &mut BoundTracker, depth: u32) {
+    let [from, to] = [0, 1].map(|k| deviation(curve, leg, k));
+    let greater = if from > to || from.is_nan() { from } else { to };
+    let advance = leg.theta[1] - leg.theta[0];
+    let bend = 0.125 * advance * advance * curve.bend(leg.theta[1]);
+    let bound = greater + leg.stretch.sag(arm.derivatives(&leg.stretch).second()) + bend;
+    if tracker.accepts(bound) || !tracker.may_split(depth) {
+        return tracker.take(bound);
+    }
+    let Some([first, second]) = arm.halves(&leg.stretch) else {
+        return tracker.take(bound);
+    };
+    let there: Moment = first.ends[1];
+    let middle = curve.nearest(&there.position, 0.5 * (leg.theta[0] + leg.theta[1]), leg.theta);
+    let halves = [
+        Leg {
+            stretch: first,
+            theta: [leg.theta[0], middle],
+        },
+        Leg {
+            stretch: second,
+            theta: [middle, leg.theta[1]],
+        },
+    ];
+    tracker.see(deviation(curve, &halves[0], 1), first.times()[1], &there);
+    for half in &halves {
+        refine(arm, curve, half, tracker, depth + 1);
+    }
+}
+
+/// Deviation at an end of a leg \[m\].
+fn deviation(curve: &Curve, leg: &Leg<'_>, end: usize) -> f64 {
+    (leg.stretch.ends[end].position - curve.at(leg.theta[end])[0]).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_order;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Of two values of which the later is less, one must move by half of their difference: no sequence that never falls
+        /// is nearer than by the greatest such half.
+        #[test]
+        fn the_order_costs_half_the_greatest_fall(values in prop::collection::vec(-3.0..3.0f64, 1..40)) {
+            let ordered = in_order(values.clone());
+            prop_assert!(ordered.is_sorted());
+            let moved = values.iter().zip(&ordered).map(|(v, o)| (v - o).abs()).fold(0.0, f64::max);
+            let falls = (0..values.len()).flat_map(|i| values[i..].iter().map(move |later| (i, later)));
+            let fall = falls.map(|(i, later)| values[i] - later).fold(0.0, f64::max);
+            prop_assert!((moved - 0.5 * fall).abs() < 1e-12, "{moved} {fall}");
+        }
+
+        #[test]
+        fn what_is_in_order_stays(mut values in prop::collection::vec(-3.0..3.0f64, 1..40)) {
+            values.sort_by(f64::total_cmp);
+            prop_assert_eq!(in_order(values.clone()), values);
+        }
+    }
+
+    #[test]
+    fn nothing_and_no_number_are_no_trouble() {
+        assert!(in_order(Vec::new()).is_empty());
+        assert_eq!(in_order(vec![0.0, f64::NAN, 1.0]).len(), 3);
+    }
+}

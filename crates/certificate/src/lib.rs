@@ -1,0 +1,72 @@
+//! The certificate of a plan: what is proved about it, judged from the plan file and the arm's description alone.
+//!
+//! Nothing here knows how a plan came about: the wash paths are evaluated from their definition, the motion from its knots. What is
+//! shared with a planner are definitions: forward kinematics, bodies, pairs and distances, limits, the wash path, the raster of
+//! coverage. Every bound holds for the whole motion, not for samples; `docs/certificate.md` says how and on what assumptions.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | what is required, and what came of it | `requirement`, `check` |
+//! | all of it, one after the other; as a proof that cannot be forged | `prove`, `certified` |
+//! | the certificate; its first line, as a table, what it rests on | `certificate`, `headline`, `table`, `rests_on` |
+//! | the job that is judged, its limits, its bodies, its faces | `subject`, `limits`, `bodies`, `face` |
+//! | what the plan states | `statements`, `wash_paths`, `schedule`, `home`, `apart`, `exclusions` |
+//! | the motion: cubics, groups of them | `piece`, `timeline` |
+//! | joints | `joints` |
+//! | the tip: derivatives, halving, speed, tilt, height | `tip`, `bound_tracker`, `tip_limits` |
+//! | the sponge's rim where it comes down and leaves | `contact` |
+//! | the curves, following them, sweeping the plate | `curve`, `following`, `polyline`, `swept` |
+//! | beyond the rim: what may be touched there, how far it is | `neighbours`, `reach` |
+//! | clearance: one pair, all pairs | `clear`, `clearances` |
+//! | where a job is not the one that was asked for | `differences` |
+
+mod apart;
+mod bodies;
+mod bound_tracker;
+mod certificate;
+mod certified;
+mod check;
+mod clear;
+mod clearances;
+mod contact;
+mod curve;
+mod differences;
+mod error;
+mod exclusions;
+mod face;
+mod following;
+mod headline;
+mod home;
+mod joints;
+mod limits;
+mod neighbours;
+mod piece;
+mod polyline;
+mod prove;
+mod reach;
+mod requirement;
+mod rests_on;
+mod schedule;
+mod statements;
+mod subject;
+mod swept;
+mod table;
+#[cfg(test)]
+mod tests;
+mod timeline;
+mod tip;
+mod tip_limits;
+mod wash_paths;
+
+pub use certificate::{Certificate, HashFinding, Verdict};
+pub use certified::{Certified, CertifyError, certify};
+pub use check::{Check, Discrepancy, Measure, Sense, Status, Unit, Worst};
+pub use clearances::{PairBound, PairRule};
+pub use differences::{Difference, differences};
+pub use error::ProveError;
+pub use neighbours::Touched;
+pub use prove::{MotionProof, prove, prove_motion, prove_with};
+pub use requirement::Requirement;
+pub use rests_on::RestsOn;
+pub use swept::PlateCoverage;
+pub use table::{CertificateTable, PairsShown};

@@ -1,0 +1,105 @@
+//! Which plates the sponge may touch while it works on one, and how far beyond that one's rim.
+//!
+//! The tip keeps within the wash path's radius R of the pole of its plate of radius r. At the height of the plate's face a sponge of
+//! radius s, tilted by τ, reaches s / cos τ from the tip: upright it is its own radius, tilted its side wall lies as far out. (Below the
+//! face it reaches less far; above it, where no plate of that height is, farther.) So it reaches at most R + s / cos τ − r beyond the rim.
+//! A neighbour may be touched there and nowhere else; and by no more than its rim: not so far that the tip is over it, nor the sponge
+//! over its centre.
+
+use crate::check::Discrepancy;
+use crate::face::{PLACE_M, distance, gap, norm};
+use crate::subject::Subject;
+use platewash_kinematics::trig::cos;
+use platewash_workcell::job::LINE_TOLERANCE_M;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::words::millimetres;
+use serde::{Deserialize, Serialize};
+
+/// A neighbour that the sponge reaches while it works on another plate.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Touched {
+    /// Index of the plate that is reached.
+    pub plate: usize,
+    /// How far over its rim, at most \[m\].
+    pub depth_m: f64,
+}
+
+/// How far beyond the rim of a plate the sponge reaches at the height of its face, at most, with the tip within `tip_m` of the plate's
+/// centre and cos τ not below `cos_tilt` \[m\]; infinite without a bound of the tilt. A tip below the face by d has the side wall at the
+/// face d tan τ farther out: other requirements see to it that d is no more than the tolerance of the lines.
+pub(crate) fn beyond_rim_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, cos_tilt: f64) -> f64 {
+    if cos_tilt > 0.0 {
+        let sine = (1.0 - cos_tilt * cos_tilt).max(0.0).sqrt();
+        tip_m + (subject.sponge_m() + LINE_TOLERANCE_M * sine) / cos_tilt - plate.rim_m()
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// The plates but one that a sponge reaches which gets `beyond_rim_m` beyond the rim of that one, in order.
+pub(crate) fn touched(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) -> Vec<Touched> {
+    let Some(own) = subject.plates().get(plate) else {
+        return Vec::new();
+    };
+    let others = subject.plates().iter().enumerate().filter(|(other, _)| *other != plate);
+    let depths = others.map(|(plate, other)| Touched {
+        plate,
+        depth_m: beyond_rim_m - gap(own, other),
+    });
+    depths.filter(|touched| touched.depth_m > 0.0).collect()
+}
+
+/// Whether the sponge, tilted as it likes, may come nearer to one plate than the clearance while it works on another.
+pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: usize) -> bool {
+    let (Some(own), Some(other)) = (subject.plates().get(working_on), subject.plates().get(plate)) else {
+        return false;
+    };
+    let Some(radius_m) = subject.path_radius_m(working_on) else {
+        return false;
+    };
+    // No point of the sponge is farther from the tip.
+    let sponge = &subject.job.workcell.tool.sponge;
+    let sponge_m = norm(sponge.radius_m, sponge.height_m);
+    let reach_m = radius_m + LINE_TOLERANCE_M + sponge_m + subject.limits.clearance_m;
+    distance(own, other) - other.rim_m() <= reach_m
+}
+
+/// What is swept besides the plate that is washed.
+#[derive(Debug, Default)]
+pub(crate) struct Swept {
+    /// Plates that lie apart from the one that is washed.
+    pub apart: Vec<Discrepancy>,
+    /// Plates that overlap it.
+    pub overlapping: Vec<Discrepancy>,
+}
+
+/// Plates of which more than the rim may be swept while another one is washed.
+pub(crate) fn swept(subject: &Subject<'_>) -> Swept {
+    let sponge_m = subject.sponge_m() / cos(subject.limits.tilt_rad);
+    let mut swept = Swept::default();
+    for (i, own) in subject.plates().iter().enumerate() {
+        // Without a path it is not washed at all.
+        let Some(radius_m) = subject.path_radius_m(i) else {
+            continue;
+        };
+        let beyond_m = radius_m + sponge_m - own.rim_m();
+        for (j, other) in subject.plates().iter().enumerate().filter(|(j, _)| *j != i) {
+            let (gap_m, most_m) = (gap(own, other), sponge_m.min(other.rim_m()));
+            let depth_m = (beyond_m - gap_m).min(2.0 * other.rim_m());
+            if depth_m <= most_m + PLACE_M {
+                continue;
+            }
+            let list = if gap_m < -PLACE_M {
+                &mut swept.overlapping
+            } else {
+                &mut swept.apart
+            };
+            list.push(Discrepancy::new(
+                format!("plate {j} while plate {i} is washed"),
+                format!("swept as far as {} over its rim", millimetres(depth_m)),
+                format!("at most its rim, {}", millimetres(most_m)),
+            ));
+        }
+    }
+    swept
+}

@@ -1,0 +1,309 @@
+//! One cubic of the motion, with its extremes, and what ranges of many have in common.
+//!
+//! The motion is what the numbers in the file say: the cubic c through the knots as they stand. What is computed is another one, ĉ,
+//! and the shorter a piece, the farther its derivatives may be from those of c. With m = Δq/h, M = |m| + |v₀| + |v₁| and the unit
+//! roundoff u = 2⁻⁵³ (Higham, *Accuracy and Stability of Numerical Algorithms*, §3.1): h, Δq and m are right to u, u and 3u as parts
+//! of themselves, and every further operation adds one u to each term, so that to first order
+//!
+//! - |ĉ₂ − c₂| ≤ 8u (3|m| + 2|v₀| + |v₁|) / h ≤ 24 u M / h, |ĉ₃ − c₃| ≤ 8u (2|m| + |v₀| + |v₁|) / h² ≤ 16 u M / h²;
+//! - 2c₂ + 6c₃u adds 2·24 + 6·16 = 144 u M / h to that, and its own evaluation, of terms up to 6M/h and 12M/h in four operations
+//!   with an argument right to u, at most 54: 198 u M / h. Speed, position and jerk have smaller factors.
+//!
+//! 200 u = 100 ε holds for all of them, with the powers of h that belong to each; a position also has the rounding of the last sum. Bounds
+//! include these. They are nothing for a piece of a millisecond (10⁻¹¹ rad/s² at 1 rad/s), and for one of 10⁻¹⁶ s they are whole
+//! rad/s²: what such a piece does cannot be proved, and is not.
+
+use platewash_kinematics::{AXES, JointVector};
+use platewash_workcell::plan::Knots;
+use platewash_workcell::trajectory::{KnotError, Trajectory};
+
+/// `q(u) = c₀ + c₁u + c₂u² + c₃u³` for u in [0, length].
+#[derive(Debug, Clone)]
+pub(crate) struct Piece {
+    /// Time of u = 0 \[s\].
+    pub start_s: f64,
+    /// \[s\]
+    pub length_s: f64,
+    c: [JointVector; 4],
+    rounding: Rounding,
+}
+
+/// How far what is computed of a piece may be from what its knots say, anywhere on it: see the head of this file.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rounding {
+    /// \[rad\]
+    pub position: JointVector,
+    /// \[rad/s\]
+    pub speed: JointVector,
+    /// \[rad/s²\]
+    pub acceleration: JointVector,
+}
+
+/// Rounding as a part of |m| + |v₀| + |v₁|: 200 u.
+const ROUNDING: f64 = 100.0 * f64::EPSILON;
+
+/// What the joints do within a stretch of time: bounds, for a single piece exact but for its rounding.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Extent {
+    /// Lowest positions \[rad\].
+    pub least: JointVector,
+    /// Highest positions \[rad\].
+    pub most: JointVector,
+    /// Greatest speeds \[rad/s\].
+    pub speed: JointVector,
+    /// Greatest accelerations \[rad/s²\].
+    pub acceleration: JointVector,
+}
+
+/// The pieces of a plan's knots, in time order.
+///
+/// # Errors
+/// [`KnotError`] for knots that are no motion.
+pub(crate) fn pieces(knots: &Knots) -> Result<Vec<Piece>, KnotError> {
+    let Knots { t_s, q_rad, qd_rad_s } = knots;
+    // The checks are those of every motion; what follows from the knots is worked out here, on its own.
+    Trajectory::from_knots(t_s.clone(), q_rad.clone(), qd_rad_s.clone())?;
+    let piece = |k: usize| {
+        Piece::new(
+            [t_s[k], t_s[k + 1]],
+            [q_rad[k], q_rad[k + 1]],
+            [qd_rad_s[k], qd_rad_s[k + 1]],
+        )
+    };
+    Ok((0..t_s.len().saturating_sub(1)).map(piece).collect())
+}
+
+impl Piece {
+    /// The cubic Hermite piece between two knots: times \[s\], positions \[rad\], speeds \[rad/s\].
+    pub fn new([from, to]: [f64; 2], [q0, q1]: [JointVector; 2], [v0, v1]: [JointVector; 2]) -> Self {
+        let h = to - from;
+        let mean = (q1 - q0) / h;
+        let rounding = (mean.abs() + v0.abs() + v1.abs()) * ROUNDING;
+        Self {
+            start_s: from,
+            length_s: h,
+            c: [
+                q0,
+                v0,
+                (mean * 3.0 - v0 * 2.0 - v1) / h,
+                (v0 + v1 - mean * 2.0) / (h * h),
+            ],
+            rounding: Rounding {
+                position: rounding * h + q0.abs().sup(&q1.abs()) * f64::EPSILON,
+                speed: rounding,
+                acceleration: rounding / h,
+            },
+        }
+    }
+
+    /// How far the joints' positions, speeds and accelerations may be from those computed.
+    pub fn rounding(&self) -> &Rounding {
+        &self.rounding
+    }
+
+    /// Whether a joint's cubic is made of numbers so small that their squares are numbers.
+    pub fn is_sane(&self, joint: usize) -> bool {
+        self.c.iter().all(|c| c[joint].abs() < 1e100)
+    }
+
+    pub fn position(&self, u: f64) -> JointVector {
+        let [c0, c1, c2, c3] = &self.c;
+        c0 + (c1 + (c2 + c3 * u) * u) * u
+    }
+
+    pub fn speed(&self, u: f64) -> JointVector {
+        let [_, c1, c2, c3] = &self.c;
+        c1 + (c2 * 2.0 + c3 * (3.0 * u)) * u
+    }
+
+    pub fn acceleration(&self, u: f64) -> JointVector {
+        self.c[2] * 2.0 + self.c[3] * (6.0 * u)
+    }
+
+    /// What the third derivative's magnitude, constant over the piece, is not above \[rad/s³\].
+    pub fn jerk(&self) -> JointVector {
+        (self.c[3] * 6.0).abs() + self.rounding.acceleration / self.length_s
+    }
+
+    /// What no joint's speed is above from `u0` to `u1` \[rad/s\]: a parabola's, at an end or where the acceleration is zero.
+    pub fn greatest_speed(&self, [u0, u1]: [f64; 2]) -> JointVector {
+        let mut greatest = self.speed(u0).abs().sup(&self.speed(u1).abs());
+        for joint in 0..AXES {
+            let u = -self.c[2][joint] / (3.0 * self.c[3][joint]);
+            if u > u0 && u < u1 {
+                greatest[joint] = greatest[joint].max(self.speed(u)[joint].abs());
+            }
+        }
+        greatest + self.rounding.speed
+    }
+
+    /// What no joint's acceleration is above from `u0` to `u1` \[rad/s²\]: a line's, at an end.
+    pub fn greatest_acceleration(&self, [u0, u1]: [f64; 2]) -> JointVector {
+        self.acceleration(u0).abs().sup(&self.acceleration(u1).abs()) + self.rounding.acceleration
+    }
+
+    /// All extremes from `u0` to `u1`.
+    pub fn extent(&self, [u0, u1]: [f64; 2]) -> Extent {
+        let (start, end) = (self.position(u0), self.position(u1));
+        let mut extent = Extent {
+            least: start.inf(&end),
+            most: start.sup(&end),
+            speed: self.greatest_speed([u0, u1]),
+            acceleration: self.greatest_acceleration([u0, u1]),
+        };
+        for joint in 0..AXES {
+            for u in self.turns(joint).into_iter().filter(|u| *u > u0 && *u < u1) {
+                let q = self.position(u)[joint];
+                extent.least[joint] = extent.least[joint].min(q);
+                extent.most[joint] = extent.most[joint].max(q);
+            }
+        }
+        extent.least -= self.rounding.position;
+        extent.most += self.rounding.position;
+        extent
+    }
+
+    /// Moments at which a joint's position, speed or acceleration may be extreme \[s\].
+    pub fn candidates(&self, joint: usize) -> Vec<f64> {
+        let fastest = -self.c[2][joint] / (3.0 * self.c[3][joint]);
+        let [a, b] = self.turns(joint);
+        let inside = [a, b, fastest].into_iter().filter(|u| *u > 0.0 && *u < self.length_s);
+        [0.0, self.length_s].into_iter().chain(inside).collect()
+    }
+
+    /// Where a joint's speed c₁ + 2c₂u + 3c₃u² is zero; NaN or far away where it nowhere is.
+    fn turns(&self, joint: usize) -> [f64; 2] {
+        let (a, half_b, c) = (3.0 * self.c[3][joint], self.c[2][joint], self.c[1][joint]);
+        let root = (half_b * half_b - a * c).sqrt();
+        // The pair of roots that does not cancel (Numerical Recipes, §5.6).
+        let sum = -(half_b + if half_b < 0.0 { -root } else { root });
+        [sum / a, c / sum]
+    }
+}
+
+impl Extent {
+    /// What two stretches have in common.
+    pub fn and(&self, other: &Self) -> Self {
+        Self {
+            least: self.least.inf(&other.least),
+            most: self.most.sup(&other.most),
+            speed: self.speed.sup(&other.speed),
+            acceleration: self.acceleration.sup(&other.acceleration),
+        }
+    }
+
+    /// How far the joints get from `q` \[rad\].
+    pub fn drift(&self, q: &JointVector) -> JointVector {
+        (self.most - q).sup(&(q - self.least))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn vector() -> impl Strategy<Value = JointVector> {
+        prop::array::uniform6(-2.0..2.0f64).prop_map(JointVector::from)
+    }
+
+    /// A number as a sum of two, right to 2⁻¹⁰⁴ of it (Dekker, Numer. Math. 18, 1971).
+    #[derive(Clone, Copy)]
+    struct Twice(f64, f64);
+
+    impl Twice {
+        fn sum(a: f64, b: f64) -> Self {
+            let s = a + b;
+            let t = s - a;
+            Self(s, (a - (s - t)) + (b - t))
+        }
+
+        fn plus(self, other: Self) -> Self {
+            let s = Self::sum(self.0, other.0);
+            Self::sum(s.0, s.1 + self.1 + other.1)
+        }
+
+        fn times(self, by: f64) -> Self {
+            let p = self.0 * by;
+            Self::sum(p, self.0.mul_add(by, -p) + self.1 * by)
+        }
+
+        fn over(self, by: Self) -> Self {
+            let first = self.0 / by.0;
+            let rest = self.plus(by.times(-first));
+            let second = rest.0 / by.0;
+            Self::sum(first, second)
+        }
+    }
+
+    /// Accelerations of one joint at both ends of a piece, from its knots as they stand \[rad/s²\]: (6m − 4v₀ − 2v₁)/h and
+    /// (2v₀ + 4v₁ − 6m)/h.
+    fn accelerations([from, to]: [f64; 2], [q0, q1]: [f64; 2], [v0, v1]: [f64; 2]) -> [f64; 2] {
+        let h = Twice::sum(to, -from);
+        let m = Twice::sum(q1, -q0).over(h).times(6.0);
+        [[-4.0, -2.0, 1.0], [2.0, 4.0, -1.0]].map(|[a, b, sign]| {
+            let sum = m.times(sign).plus(Twice(a * v0, 0.0)).plus(Twice(b * v1, 0.0));
+            sum.over(h).0
+        })
+    }
+
+    proptest! {
+        /// However short the piece and however late: what its knots say is within the bounds. Speeds are those of an even motion,
+        /// a few units in the last place off, where rounding is all there is.
+        #[test]
+        fn bounds_hold_for_the_knots_as_they_stand(
+            start in 0.0..60.0f64, steps in 1..40i32, long in -16.0..0.0f64, q0 in -3.0..3.0f64, v in -2.0..2.0f64, off in [-4..4i32, -4..4i32],
+        ) {
+            let least = if start > 0.0 { start.next_up() - start } else { f64::EPSILON };
+            let end = start + (least * f64::from(steps)).max(10f64.powf(long));
+            let h = end - start;
+            let q = [q0, q0 + v * h];
+            let m = (q[1] - q[0]) / h;
+            let speeds = off.map(|k| m + f64::from(k) * (m.abs().next_up() - m.abs()));
+            let all = JointVector::repeat;
+            let piece = Piece::new([start, end], q.map(all), speeds.map(all));
+            let most = accelerations([start, end], q, speeds).into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+            let extent = piece.extent([0.0, h]);
+            prop_assert!(most <= extent.acceleration[0], "{most} {}", extent.acceleration[0]);
+            let jerk = {
+                let [a, b] = accelerations([start, end], q, speeds);
+                (b - a).abs() / h
+            };
+            prop_assert!(jerk <= piece.jerk()[0] * (1.0 + 1e-15), "{jerk} {}", piece.jerk()[0]);
+            prop_assert!(extent.least[0] <= q[0].min(q[1]) && extent.most[0] >= q[0].max(q[1]));
+            prop_assert!(extent.speed[0] >= speeds[0].abs().max(speeds[1].abs()));
+            // And they are no more than rounding above it.
+            let room = 4.0 * ROUNDING * speeds[0].abs().max(speeds[1].abs()) * 3.0 / h;
+            prop_assert!(extent.acceleration[0] <= most + room);
+        }
+
+        #[test]
+        fn extremes_hold_between_and_are_attained(q in [vector(), vector()], v in [vector(), vector()], cut in [0.0..0.5f64, 0.5..1.0f64]) {
+            let piece = Piece::new([1.0, 1.25], q, v);
+            let u = cut.map(|c| c * piece.length_s);
+            let extent = piece.extent(u);
+            let mut seen = Extent { least: piece.position(u[0]), most: piece.position(u[0]), speed: JointVector::zeros(), acceleration: JointVector::zeros() };
+            for k in 0..=2000 {
+                let at = u[0] + (u[1] - u[0]) * f64::from(k) / 2000.0;
+                let q = piece.position(at);
+                seen = seen.and(&Extent { least: q, most: q, speed: piece.speed(at).abs(), acceleration: piece.acceleration(at).abs() });
+            }
+            for (bound, seen) in [(-extent.least, -seen.least), (extent.most, seen.most), (extent.speed, seen.speed), (extent.acceleration, seen.acceleration)] {
+                for j in 0..AXES {
+                    prop_assert!(seen[j] <= bound[j] + 1e-9 && seen[j] >= bound[j] - 1e-2 * (1.0 + bound[j].abs()), "{} {}", seen[j], bound[j]);
+                }
+            }
+        }
+
+        #[test]
+        fn it_is_the_motion_that_the_plan_states(q in [vector(), vector()], v in [vector(), vector()], share in 0.0..0.999f64) {
+            let knots = Knots { t_s: vec![0.0, 0.25], q_rad: q.to_vec(), qd_rad_s: v.to_vec() };
+            let piece = &pieces(&knots).unwrap()[0];
+            let motion = Trajectory::from_knots(knots.t_s, knots.q_rad, knots.qd_rad_s).unwrap();
+            let state = motion.at(0.25 * share).unwrap();
+            prop_assert!((piece.position(0.25 * share) - state.q).amax() < 1e-12);
+            prop_assert!((piece.speed(0.25 * share) - state.qd).amax() < 1e-11);
+            prop_assert!((piece.acceleration(0.25 * share) - state.qdd).amax() < 1e-9);
+        }
+    }
+}

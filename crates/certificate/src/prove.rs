@@ -1,0 +1,294 @@
+//! A plan is judged: all requirements, one after the other.
+
+use crate::apart;
+use crate::bodies;
+use crate::certificate::{Certificate, HashFinding, Verdict};
+use crate::check::{Check, Status};
+use crate::clearances::{self, PairBound, Work};
+use crate::contact;
+use crate::error::ProveError;
+use crate::exclusions::Exclusions;
+use crate::face;
+use crate::following;
+use crate::headline::headline;
+use crate::home;
+use crate::joints;
+use crate::piece::{self, Piece};
+use crate::reach;
+use crate::requirement::Requirement;
+use crate::rests_on::RestsOn;
+use crate::schedule::Schedule;
+use crate::statements;
+use crate::subject::Subject;
+use crate::swept::{self, PlateCoverage};
+use crate::timeline::Timeline;
+use crate::tip::Arm;
+use crate::tip_limits::Tips;
+use crate::wash_paths;
+use platewash_kinematics::{AXES, RobotModel};
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::job::JobTerms;
+use platewash_workcell::plan::{Knots, Plan, Process};
+
+/// How far joints may turn for their sines to be right (see [`platewash_kinematics::trig`]) \[rad\].
+const MOST_TURN_RAD: f64 = 1e4;
+
+/// The shortest piece whose cubic can be computed \[s\]. A joint that keeps within [`MOST_TURN_RAD`] is no faster than some 10⁵ rad over
+/// the piece's length, and what is divided by its cube stays below 10¹⁰⁰, whose squares are numbers.
+const SHORTEST_S: f64 = 1e-30;
+
+/// What is proved of a motion alone, whatever it is for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionProof {
+    /// Joint positions, speeds and accelerations; speed and acceleration of the tip; clearance.
+    pub checks: Vec<Check>,
+    /// Clearance, pair by pair: the sponge keeps clear of the plates, too.
+    pub clearance: Vec<PairBound>,
+}
+
+/// Judges a plan for an arm.
+///
+/// # Errors
+/// [`ProveError`] for a plan that says nothing that could be judged. A plan that breaks requirements is no error.
+pub fn prove(plan: &Plan, arm: &RobotModel) -> Result<Certificate, ProveError> {
+    prove_with(plan, arm, &CancelToken::new())
+}
+
+/// [`prove`], to be given up half-way.
+///
+/// # Errors
+/// As [`prove`], and [`ProveError::Cancelled`].
+pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result<Certificate, ProveError> {
+    if [plan.process, Process::from(&plan.job.planner)].contains(&Process::Paper) {
+        return Err(ProveError::PaperRun);
+    }
+    check_sizes(plan)?;
+    check_job(&plan.job)?;
+    let subject = Subject::new(&plan.job, arm, wash_paths::by_plate(plan));
+    let pieces = read(&plan.knots)?;
+    let timeline = timeline(&pieces, plan.knots.t_s.len())?;
+    let (schedule, gaps) = match Schedule::new(plan, &pieces) {
+        Ok(schedule) => (Some(schedule), Vec::new()),
+        Err(gaps) => (None, gaps),
+    };
+    let judged = Judged {
+        plan,
+        subject: &subject,
+        pieces: &pieces,
+        timeline: &timeline,
+        schedule: schedule.as_ref(),
+        cancel,
+    };
+    let mut proof = judged.proof(Check::stated(Requirement::Segments, gaps))?;
+    cancel.check()?;
+    proof.checks.sort_by_key(|check| check.requirement);
+    Ok(certificate(plan, proof))
+}
+
+/// Judges a motion alone: limits of the joints and of the tip, and the clearance of every pair all the time, the sponge and the plates
+/// among them. What follows from the arm and its SRDF is left out, whatever the job leaves out besides.
+///
+/// # Errors
+/// [`ProveError`] for a motion or a job that cannot be judged.
+pub fn prove_motion(
+    knots: &Knots,
+    job: &JobTerms,
+    arm: &RobotModel,
+    cancel: &CancelToken,
+) -> Result<MotionProof, ProveError> {
+    check_job(job)?;
+    let subject = Subject::new(job, arm, Vec::new());
+    let pieces = read(knots)?;
+    let timeline = timeline(&pieces, knots.t_s.len())?;
+    let model = Exclusions::of(&subject)?.model(&subject)?;
+    let carrier = Arm::new(arm, &job.workcell.tool, cancel);
+    let tips = Tips::new(&carrier, &subject, &pieces, None);
+    let clearance = clearances::judge(&subject, (&model, &[]), &timeline, Work::Nothing, cancel)?;
+    cancel.check()?;
+    let mut checks = Vec::from(joints::checks(&pieces, &subject.limits, None));
+    checks.extend(tips.moving_checks(&subject, &pieces, None));
+    checks.push(clearances::check(subject.limits.clearance_m, &clearance));
+    Ok(MotionProof { checks, clearance })
+}
+
+/// A plan that is judged, and its motion.
+struct Judged<'a> {
+    plan: &'a Plan,
+    subject: &'a Subject<'a>,
+    pieces: &'a [Piece],
+    timeline: &'a Timeline<'a>,
+    schedule: Option<&'a Schedule>,
+    cancel: &'a CancelToken,
+}
+
+/// All that is proved of a plan.
+struct Proof {
+    checks: Vec<Check>,
+    coverage: Vec<PlateCoverage>,
+    clearance: Vec<PairBound>,
+    rests_on: RestsOn,
+}
+
+impl Judged<'_> {
+    /// Judges everything; `segments` was judged before.
+    fn proof(&self, segments: Check) -> Result<Proof, ProveError> {
+        let (subject, schedule) = (self.subject, self.schedule);
+        let exclusions = Exclusions::of(subject)?;
+        let model = exclusions.model(subject)?;
+        let arm = Arm::new(subject.robot, &subject.job.workcell.tool, self.cancel);
+        let tips = Tips::new(&arm, subject, self.pieces, schedule);
+        let mut checks = self.stated(segments);
+        checks.extend(joints::checks(self.pieces, &subject.limits, schedule));
+        checks.extend(tips.checks(subject, self.pieces, schedule));
+        checks.push(contact::check(&arm, subject, (self.pieces, schedule), &tips));
+        let coverage = self.washing(&arm, &tips, &mut checks)?;
+        let waived = exclusions.waived_in(&model);
+        let work = schedule.map_or(Work::Unknown, Work::Scheduled);
+        let clearance = clearances::judge(subject, (&model, &waived), self.timeline, work, self.cancel)?;
+        checks.push(clearances::check(subject.limits.clearance_m, &clearance));
+        checks.push(exclusions.check(subject, &model, &clearance));
+        Ok(Proof {
+            checks,
+            coverage,
+            clearance,
+            rests_on: RestsOn::new(subject, exclusions),
+        })
+    }
+
+    /// What the plan states.
+    fn stated(&self, segments: Check) -> Vec<Check> {
+        let (subject, plan) = (self.subject, self.plan);
+        vec![
+            statements::arm(subject),
+            statements::tool(subject),
+            statements::plates(subject),
+            wash_paths::check(plan),
+            segments,
+            statements::every_plate_once(subject, plan),
+            home::home_to_home(plan),
+            match self.schedule {
+                Some(schedule) => home::rest_at_wash_ends(plan, schedule),
+                None => Check::not_judged(Requirement::RestAtWashEnds),
+            },
+            apart::check(subject),
+        ]
+    }
+
+    /// What the tip and the sponge do on the plates: deviations, coverage and reach.
+    fn washing(&self, arm: &Arm<'_>, tips: &Tips, checks: &mut Vec<Check>) -> Result<Vec<PlateCoverage>, ProveError> {
+        let (subject, pieces) = (self.subject, self.pieces);
+        let deviations = following::checks(arm, subject, pieces, self.schedule);
+        let mut washes = Vec::new();
+        if let Some(schedule) = self.schedule {
+            washes = swept::washes(arm, subject, (pieces, schedule), tips, self.cancel)?;
+            // A deviation is one from the stated path: it tells of the plate where there is one on it.
+            let has_paths = |c: &Check| c.requirement == Requirement::WashPaths && c.status == Status::Proved;
+            let has_paths = checks.iter().any(has_paths);
+            let proved = reach::Proved {
+                arm,
+                pieces,
+                schedule,
+                tips,
+                path_deviation_m: deviations[0].measure.and_then(|m| m.bound).filter(|_| has_paths),
+            };
+            reach::settle(subject, &mut washes, &proved);
+        }
+        let coverage: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
+        checks.extend(deviations);
+        checks.push(reach::check(subject, &coverage));
+        checks.push(swept::check(subject, &coverage));
+        Ok(coverage)
+    }
+}
+
+fn certificate(plan: &Plan, proof: Proof) -> Certificate {
+    let hash = hash(plan);
+    let sound = hash.status == Status::Proved && proof.checks.iter().all(|check| check.status.is_kept());
+    let waived = proof.checks.iter().filter(|check| check.status == Status::Waived);
+    let mut certificate = Certificate {
+        verdict: if sound { Verdict::Pass } else { Verdict::Fail },
+        headline: String::new(),
+        waived: waived.map(|check| check.requirement).collect(),
+        scenario: plan.provenance.scenario.clone(),
+        duration_s: plan.duration_s(),
+        hash,
+        checks: proof.checks,
+        coverage: proof.coverage,
+        clearance: proof.clearance,
+        rests_on: proof.rests_on,
+    };
+    certificate.headline = headline(&certificate);
+    certificate
+}
+
+fn hash(plan: &Plan) -> HashFinding {
+    let computed = plan.seal().ok();
+    let same = computed.is_some() && plan.hash == computed;
+    HashFinding {
+        stated: plan.hash.clone(),
+        computed,
+        status: if same { Status::Proved } else { Status::Violated },
+    }
+}
+
+/// Nothing in a plan may be so large that judging it takes for ever.
+fn check_sizes(plan: &Plan) -> Result<(), ProveError> {
+    let plates = plan.job.plates.len();
+    // Twice as many as there should be and more, so that what is wrong with a few too many is said by name.
+    let most = plates.saturating_add(2).saturating_mul(8);
+    let lists = [
+        ("segments", plan.segments.len()),
+        ("wash paths", plan.wash_paths.len()),
+        ("entries of the order", plan.order.len()),
+    ];
+    match lists.into_iter().find(|(_, found)| *found > most) {
+        Some((what, found)) => Err(ProveError::TooMany {
+            what,
+            found,
+            plates,
+            most,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a job with which nothing can be computed, and bodies and faces that the bounds do not hold for.
+fn check_job(job: &JobTerms) -> Result<(), ProveError> {
+    job.validate()?;
+    bodies::check(job)?;
+    match job.plates.iter().position(|plate| !face::is_judged(plate)) {
+        Some(plate) => Err(ProveError::CurvedPlate { plate }),
+        None => Ok(()),
+    }
+}
+
+/// The pieces of the motion, none so short that time, which divides, squared and cubed, leaves no number.
+fn read(knots: &Knots) -> Result<Vec<Piece>, ProveError> {
+    let pieces = piece::pieces(knots)?;
+    match pieces.iter().position(|piece| piece.length_s < SHORTEST_S) {
+        Some(piece) => Err(ProveError::TooShort {
+            piece,
+            length_s: pieces[piece].length_s,
+            least_s: SHORTEST_S,
+        }),
+        None => Ok(pieces),
+    }
+}
+
+/// The timeline of a motion all along which sines are right.
+fn timeline(pieces: &[Piece], knots: usize) -> Result<Timeline<'_>, ProveError> {
+    let timeline = Timeline::new(pieces);
+    let Some(whole) = timeline.whole() else {
+        return Err(ProveError::NoMotion { found: knots });
+    };
+    let far = whole.most.abs().sup(&whole.least.abs());
+    let too_far = |joint: usize| far[joint] > MOST_TURN_RAD || !pieces.iter().all(|p| p.is_sane(joint));
+    match (0..AXES).find(|&joint| too_far(joint)) {
+        Some(joint) => Err(ProveError::TurnsTooFar {
+            joint,
+            position_rad: far[joint],
+            most_rad: MOST_TURN_RAD,
+        }),
+        None => Ok(timeline),
+    }
+}

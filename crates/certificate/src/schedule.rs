@@ -1,0 +1,134 @@
+//! Which piece of the motion belongs to which segment, and whether the segments are those of a washing.
+//!
+//! depart, then for each plate in order approach, wash, retreat, with a transit between plates, and return;
+//! without a gap from 0 to the last knot, every boundary a knot.
+
+use crate::check::Discrepancy;
+use crate::piece::Piece;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::words::counted;
+use std::ops::Range;
+
+/// The segments by their pieces, in time order.
+#[derive(Debug, Clone)]
+pub(crate) struct Schedule {
+    pub spans: Vec<Span>,
+}
+
+/// A segment.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Span {
+    pub kind: SegmentKind,
+    pub plate: usize,
+    /// Its pieces; at least one.
+    pub pieces: Range<usize>,
+}
+
+impl Schedule {
+    /// The schedule that a plan states.
+    ///
+    /// # Errors
+    /// What keeps it from being that of a washing.
+    pub fn new(plan: &Plan, pieces: &[Piece]) -> Result<Self, Vec<Discrepancy>> {
+        let mut wrong = kinds(plan);
+        let mut spans = Vec::with_capacity(plan.segments.len());
+        let times = &plan.knots.t_s;
+        let mut next = 0;
+        for (i, segment) in plan.segments.iter().enumerate() {
+            let starts = times.get(next).copied().unwrap_or(f64::NAN);
+            if segment.t_start_s != starts {
+                let what = format!("segments[{i}].t_start_s");
+                wrong.push(Discrepancy::new(
+                    what,
+                    segment.t_start_s,
+                    format!("{starts}, without a gap"),
+                ));
+                break;
+            }
+            match times.binary_search_by(|t| t.total_cmp(&segment.t_end_s)) {
+                Ok(end) if end > next => {
+                    let (kind, plate) = (segment.kind, segment.plate);
+                    let pieces = next..end;
+                    spans.push(Span { kind, plate, pieces });
+                    next = end;
+                }
+                _ => {
+                    let what = format!("segments[{i}].t_end_s");
+                    wrong.push(Discrepancy::new(what, segment.t_end_s, "the time of a later knot"));
+                    break;
+                }
+            }
+        }
+        if wrong.is_empty() && next != pieces.len() {
+            let end = times.get(next).copied().unwrap_or(0.0);
+            let last = times.last().copied().unwrap_or(0.0);
+            wrong.push(Discrepancy::new(
+                "end of the last segment",
+                end,
+                format!("{last}, the last knot"),
+            ));
+        }
+        if wrong.is_empty() {
+            Ok(Self { spans })
+        } else {
+            Err(wrong)
+        }
+    }
+
+    /// Index and kind of the segment that a piece belongs to.
+    pub fn segment_of(&self, piece: usize) -> Option<(usize, SegmentKind)> {
+        let i = self.spans.partition_point(|s| s.pieces.end <= piece);
+        self.spans.get(i).map(|s| (i, s.kind))
+    }
+
+    /// Index and kind of the segment of a time \[s\]; at a boundary that of the later one.
+    pub fn segment_at(&self, pieces: &[Piece], time_s: f64) -> Option<(usize, SegmentKind)> {
+        let piece = pieces.partition_point(|p| p.start_s <= time_s).saturating_sub(1);
+        self.segment_of(piece)
+    }
+}
+
+/// Whether the tip is on a plate, or on its normal.
+pub(crate) fn is_at_plate(kind: SegmentKind) -> bool {
+    matches!(kind, SegmentKind::Approach | SegmentKind::Wash | SegmentKind::Retreat)
+}
+
+/// The sequence of kinds and plates against what the order asks for.
+fn kinds(plan: &Plan) -> Vec<Discrepancy> {
+    let expected = expected(&plan.order);
+    let mut wrong = Vec::new();
+    if plan.segments.len() != expected.len() {
+        let asked = format!("{} for {}", expected.len(), counted(plan.order.len(), "plate"));
+        wrong.push(Discrepancy::new("number of segments", plan.segments.len(), asked));
+    }
+    let found = plan.segments.iter().map(|s| (s.kind, s.plate));
+    let differs = |(found, expected): &((SegmentKind, usize), &(SegmentKind, usize))| found != *expected;
+    if let Some((i, (found, expected))) = found.zip(&expected).enumerate().find(|(_, pair)| differs(pair)) {
+        let say = |(kind, plate): (SegmentKind, usize)| format!("{} of plate {plate}", kind.name());
+        wrong.push(Discrepancy::new(format!("segments[{i}]"), say(found), say(*expected)));
+    }
+    wrong
+}
+
+/// Kinds and plates of a job that washes in this order. Depart leads to the first plate; a return belongs to the last.
+fn expected(order: &[usize]) -> Vec<(SegmentKind, usize)> {
+    let mut all = Vec::with_capacity(4 * order.len() + 1);
+    for (i, &plate) in order.iter().enumerate() {
+        let towards = if i == 0 {
+            SegmentKind::Depart
+        } else {
+            SegmentKind::Transit
+        };
+        all.extend([
+            (towards, plate),
+            (SegmentKind::Approach, plate),
+            (SegmentKind::Wash, plate),
+            (SegmentKind::Retreat, plate),
+        ]);
+    }
+    if let Some(&last) = order.last() {
+        all.push((SegmentKind::Return, last));
+    }
+    all
+}

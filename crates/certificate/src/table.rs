@@ -1,0 +1,278 @@
+//! A certificate as a table to read.
+
+use crate::certificate::Certificate;
+use crate::check::{Check, Measure, Sense, Status, Unit, Worst};
+use crate::clearances::{PairBound, PairRule};
+use crate::swept::PlateCoverage;
+use platewash_kinematics::trig::acos;
+use platewash_kinematics::words::{decimals_down, decimals_up, told_apart};
+use platewash_workcell::words::{counted, printable};
+use std::fmt;
+
+/// Pairs that a table lists where it is not asked for all.
+const TIGHTEST: usize = 10;
+
+/// Which pairs a table lists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PairsShown {
+    /// The ten that come nearest, those that do not keep clear first of all.
+    #[default]
+    Tightest,
+    /// All.
+    All,
+}
+
+/// A certificate as a table of requirements, coverage, clearance and what it rests on; see [`Certificate::table`].
+#[derive(Debug, Clone, Copy)]
+pub struct CertificateTable<'a> {
+    certificate: &'a Certificate,
+    pairs: PairsShown,
+}
+
+impl Certificate {
+    /// The certificate as a table to read.
+    #[must_use]
+    pub fn table(&self, pairs: PairsShown) -> CertificateTable<'_> {
+        CertificateTable {
+            certificate: self,
+            pairs,
+        }
+    }
+}
+
+impl fmt::Display for CertificateTable<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.certificate.head(f)?;
+        pairs(f, &self.certificate.clearance, self.pairs)?;
+        self.certificate.rests_on.fmt(f)
+    }
+}
+
+impl fmt::Display for Certificate {
+    /// The table with the tightest pairs.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.table(PairsShown::default()).fmt(f)
+    }
+}
+
+impl Certificate {
+    /// The table down to the pairs.
+    fn head(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.headline)?;
+        let hash = match (self.hash.status, &self.hash.stated) {
+            (Status::Proved, _) => "is that of the contents",
+            (_, Some(_)) => "is NOT that of the contents: the plan was changed after it was sealed",
+            (_, None) => "is missing",
+        };
+        writeln!(f, "hash {hash}\n")?;
+        writeln!(
+            f,
+            "{:<22} {:<10} {:>12} {:>12} {:<6}  worst",
+            "requirement", "status", "bound", "limit", "unit"
+        )?;
+        for check in &self.checks {
+            row(f, check)?;
+        }
+        writeln!(f, "\ncoverage, at least")?;
+        for plate in &self.coverage {
+            plate_row(f, plate)?;
+        }
+        Ok(())
+    }
+}
+
+/// The pairs: those that must keep clear, the nearest first, where not all are listed; those that may touch, after them.
+fn pairs(f: &mut fmt::Formatter<'_>, all: &[PairBound], shown: PairsShown) -> fmt::Result {
+    let judged = || all.iter().filter(|line| line.rule != PairRule::Touching);
+    if shown == PairsShown::All || judged().count() <= TIGHTEST {
+        writeln!(f, "\nclearance, at least")?;
+        return all.iter().try_for_each(|line| pair_row(f, line));
+    }
+    let mut nearest: Vec<_> = judged().collect();
+    let rank = |line: &PairBound| (line.status.is_kept(), line.at_least_m.unwrap_or(f64::NEG_INFINITY));
+    nearest.sort_by(|a, b| {
+        let ((a_kept, a), (b_kept, b)) = (rank(a), rank(b));
+        a_kept.cmp(&b_kept).then(a.total_cmp(&b))
+    });
+    let (tightest, rest) = nearest.split_at(TIGHTEST);
+    writeln!(
+        f,
+        "\nclearance, at least: the {TIGHTEST} tightest of {} pairs",
+        nearest.len()
+    )?;
+    tightest.iter().try_for_each(|line| pair_row(f, line))?;
+    let broken = rest.iter().filter(|line| !line.status.is_kept()).count();
+    if broken > 0 {
+        let (other, do_not) = (
+            counted(rest.len(), "other pair"),
+            if broken == 1 { "does" } else { "do" },
+        );
+        writeln!(f, "  {broken} of {other} {do_not} not keep clear either")?;
+    } else if let Some(at_least) = rest.first().and_then(|line| line.at_least_m) {
+        writeln!(
+            f,
+            "  {}, never nearer than {} mm",
+            counted(rest.len(), "other pair"),
+            decimals_down(1e3 * at_least, 2)
+        )?;
+    }
+    let touching = all.iter().filter(|line| line.rule == PairRule::Touching);
+    touching.into_iter().try_for_each(|line| pair_row(f, line))
+}
+
+fn row(f: &mut fmt::Formatter<'_>, check: &Check) -> fmt::Result {
+    let (name, status) = (check.requirement.words(), word(check.status));
+    let place = place(&check.worst);
+    match &check.measure {
+        Some(measure) => {
+            let (bound, limit, unit) = numbers(measure);
+            writeln!(f, "{name:<22} {status:<10} {bound:>12} {limit:>12} {unit:<6}  {place}")?;
+        }
+        None => writeln!(f, "{name:<22} {status}")?,
+    }
+    if let (Some(Measure { seen: Some(seen), .. }), true) = (&check.measure, check.status != Status::Proved) {
+        let (scale, unit) = check.measure.as_ref().map_or((1.0, ""), |m| scale(m.unit));
+        let [seen, _] = told_apart(seen * scale, check.measure.as_ref().map_or(0.0, |m| m.limit * scale), 4);
+        writeln!(f, "  found: {seen} {unit}")?;
+    }
+    check.discrepancies.iter().try_for_each(|d| writeln!(f, "  - {d}"))?;
+    match check.more_discrepancies {
+        0 => Ok(()),
+        more => writeln!(f, "  … and {more} more"),
+    }
+}
+
+fn plate_row(f: &mut fmt::Formatter<'_>, plate: &PlateCoverage) -> fmt::Result {
+    let percent = decimals_down(100.0 * plate.at_least, 3);
+    let tilt = acos(plate.cos_tilt.clamp(0.0, 1.0)).to_degrees();
+    let tilt = decimals_up(tilt, 2);
+    let reach = plate
+        .beyond_rim_m
+        .map_or("nobody knows how far beyond the rim".to_owned(), beyond_rim);
+    let allowed_m = plate.beyond_rim_allowed_m;
+    let allowed = format!("{:.2} mm {}", 1e3 * allowed_m.abs(), side(allowed_m));
+    writeln!(
+        f,
+        "  plate {:<4} {percent:>8} %  with the tool at most {tilt}° from the normal, {reach} (allowed: {allowed})",
+        plate.plate
+    )?;
+    plate.touches.iter().try_for_each(|touched| {
+        let depth = decimals_up(1e3 * touched.depth_m, 2);
+        writeln!(
+            f,
+            "             there it may touch plate {}, up to {depth} mm over its rim",
+            touched.plate
+        )
+    })
+}
+
+fn numbers(measure: &Measure) -> (String, String, &'static str) {
+    let (scale, unit) = scale(measure.unit);
+    let sign = match measure.sense {
+        Sense::AtMost => "≤",
+        Sense::AtLeast => "≥",
+        Sense::Above => ">",
+    };
+    let limit = measure.limit * scale;
+    let told = measure.bound.map(|bound| {
+        if measure.keeps(bound) {
+            [kept(bound * scale, limit, measure.sense), format!("{limit:.4}")]
+        } else {
+            told_apart(bound * scale, limit, 4)
+        }
+    });
+    let [bound, limit] = told.unwrap_or_else(|| ["none".to_owned(), format!("{limit:.4}")]);
+    (bound, format!("{sign} {limit}"), unit)
+}
+
+/// A bound that keeps its limit: no more is said than is proved, but where that would read as if the limit were not kept.
+fn kept(bound: f64, limit: f64, sense: Sense) -> String {
+    let as_read = |v: &str| v.parse::<f64>().unwrap_or(f64::NAN);
+    let limit = format!("{limit:.4}");
+    let (told, beyond) = match sense {
+        Sense::AtMost => {
+            let told = decimals_up(bound, 4);
+            let beyond = as_read(&told) > as_read(&limit);
+            (told, beyond)
+        }
+        Sense::AtLeast | Sense::Above => {
+            let told = decimals_down(bound, 4);
+            let beyond = as_read(&told) < as_read(&limit);
+            (told, beyond)
+        }
+    };
+    if beyond { limit } else { told }
+}
+
+/// A reach beyond a rim, at most; one that is negative ends within it.
+fn beyond_rim(reach_m: f64) -> String {
+    let reach_mm = 1e3 * reach_m;
+    let told = if reach_m < 0.0 {
+        decimals_down(-reach_mm, 2)
+    } else {
+        decimals_up(reach_mm, 2)
+    };
+    format!("{told} mm {}", side(reach_m))
+}
+
+fn side(reach_m: f64) -> &'static str {
+    if reach_m < 0.0 {
+        "inside the rim"
+    } else {
+        "beyond the rim"
+    }
+}
+
+/// Factor and unit in which people read a quantity.
+fn scale(unit: Unit) -> (f64, &'static str) {
+    match unit {
+        Unit::Radian => (180.0 / std::f64::consts::PI, "°"),
+        Unit::RadianPerSecond => (1.0, "rad/s"),
+        Unit::RadianPerSecondSquared => (1.0, "rad/s²"),
+        Unit::Metre => (1e3, "mm"),
+        Unit::MetrePerSecond => (1.0, "m/s"),
+        Unit::MetrePerSecondSquared => (1.0, "m/s²"),
+        Unit::Share => (100.0, "%"),
+    }
+}
+
+fn word(status: Status) -> &'static str {
+    match status {
+        Status::Proved => "proved",
+        Status::Violated => "VIOLATED",
+        Status::NotProved => "NOT PROVED",
+        Status::Waived => "waived",
+    }
+}
+
+fn place(worst: &Worst) -> String {
+    let parts = [
+        worst
+            .pair
+            .as_ref()
+            .map(|[a, b]| format!("{} and {}", printable(a), printable(b))),
+        worst.joint.map(|joint| format!("joint {}", joint + 1)),
+        worst.segment.map(|(i, kind)| format!("segment {i} ({})", kind.name())),
+        worst.plate.map(|plate| format!("plate {plate}")),
+        worst.time_s.map(|t| format!("at {t:.4} s")),
+        worst.place_m.map(|[x, y, z]| format!("({x:.3}, {y:.3}, {z:.3}) m")),
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+fn pair_row(f: &mut fmt::Formatter<'_>, line: &PairBound) -> fmt::Result {
+    let pair = format!("{} – {}", printable(&line.pair[0]), printable(&line.pair[1]));
+    if line.rule == PairRule::Touching {
+        let plates: Vec<_> = line.working_on.iter().map(usize::to_string).collect();
+        let noun = if plates.len() == 1 { "plate" } else { "plates" };
+        return writeln!(
+            f,
+            "  {pair:<26} may touch while the sponge works on {noun} {}",
+            plates.join(", ")
+        );
+    }
+    let mm = |v: Option<f64>| v.map_or("none".to_owned(), |v| decimals_down(1e3 * v, 2));
+    let time = line.time_s.map_or(String::new(), |t| format!("at {t:.3} s"));
+    let (bound, status) = (mm(line.at_least_m), word(line.status));
+    writeln!(f, "  {pair:<26} {bound:>9} mm  {status:<10} {time}")
+}

@@ -1,0 +1,142 @@
+//! What comes out of a proof besides its requirements: something certified, a motion alone, what it rests on.
+
+use super::made::{good, irb120, resealed};
+use crate::Requirement::{Clearance, JointSpeed, TipSpeed};
+use crate::{CertifyError, PairRule, ProveError, Status, certify, prove, prove_motion};
+use platewash_workcell::cancel::{CancelToken, Cancelled};
+use platewash_workcell::plan::Process;
+use std::collections::BTreeSet;
+
+#[test]
+fn only_a_plan_whose_certificate_holds_is_certified() {
+    let certified = certify(good(), &irb120()).unwrap();
+    assert_eq!(certified.plan(), &good());
+    assert_eq!(certified.certificate(), &prove(&good(), &irb120()).unwrap());
+    let (plan, certificate) = certified.into_parts();
+    assert!(plan.is_sealed() && certificate.passes());
+    let mut changed = good();
+    changed.knots.q_rad[77][2] += 0.01;
+    let certificate = prove(&changed, &irb120()).unwrap();
+    assert_eq!(
+        certify(changed.clone(), &irb120()),
+        Err(CertifyError::Fails(Box::new(certificate)))
+    );
+    changed.process = Process::Paper;
+    assert_eq!(
+        certify(changed, &irb120()),
+        Err(CertifyError::Prove(ProveError::PaperRun))
+    );
+    // A seal that is broken is enough.
+    let mut renamed = good();
+    renamed.provenance.scenario = "another".to_owned();
+    let refused = certify(renamed, &irb120()).unwrap_err().to_string();
+    assert!(refused.ends_with("not kept: the hash"), "{refused}");
+}
+
+#[test]
+fn requirements_stand_in_their_order_each_once() {
+    let checks = prove(&good(), &irb120()).unwrap().checks;
+    assert!(checks.is_sorted_by(|a, b| a.requirement < b.requirement));
+    assert_eq!(checks.len(), 25);
+}
+
+/// Without a word about washing, the sponge on the plates is in the way, and the tip is never faster.
+#[test]
+fn a_motion_alone_keeps_clear_of_everything_all_the_time() {
+    let (plan, token) = (good(), CancelToken::new());
+    let whole = prove(&plan, &irb120()).unwrap();
+    let proof = prove_motion(&plan.knots, &plan.job, &irb120(), &token).unwrap();
+    let of = |name| proof.checks.iter().find(|c| c.requirement == name).unwrap();
+    assert_eq!(of(JointSpeed).status, whole.check(JointSpeed).unwrap().status);
+    assert_eq!(of(TipSpeed).measure, whole.check(TipSpeed).unwrap().measure);
+    assert_eq!((proof.checks.len(), of(Clearance).status), (6, Status::Violated));
+    assert!(proof.clearance.iter().all(|line| line.rule == PairRule::Clearance));
+    let worst = of(Clearance).worst.pair.clone().unwrap();
+    assert!(worst[0] == "sponge" && worst[1].starts_with("plate "), "{worst:?}");
+    // The way there alone, which ends over the plate.
+    let mut there = plan.knots.clone();
+    let end = plan
+        .knots
+        .t_s
+        .iter()
+        .position(|t| *t == plan.segments[0].t_end_s)
+        .unwrap();
+    there.t_s.truncate(end + 1);
+    there.q_rad.truncate(end + 1);
+    there.qd_rad_s.truncate(end + 1);
+    let proof = prove_motion(&there, &plan.job, &irb120(), &token).unwrap();
+    assert!(
+        proof.checks.iter().all(|c| c.status == Status::Proved),
+        "{:?}",
+        proof.checks
+    );
+    let pairs: BTreeSet<_> = whole.clearance.iter().map(|line| &line.pair).collect();
+    assert_eq!(
+        proof.clearance.iter().map(|line| &line.pair).collect::<BTreeSet<_>>(),
+        pairs
+    );
+    assert_eq!(proof.clearance.len(), pairs.len());
+    token.cancel();
+    let given_up = prove_motion(&there, &plan.job, &irb120(), &token);
+    assert_eq!(given_up, Err(ProveError::Cancelled(Cancelled)));
+}
+
+#[test]
+fn what_the_verdict_rests_on_is_told() {
+    let mut plan = good();
+    let mut post = super::made::post("post");
+    post.pose.translation.x = -0.9;
+    plan.job.workcell.obstacles.push(post);
+    plan.job.home_rad[1][5] = 0.5;
+    let certificate = prove(&resealed(plan), &irb120()).unwrap();
+    let table = certificate.to_string();
+    let told: Vec<_> = table.split("\nrests on\n").nth(1).unwrap().lines().collect();
+    let expected = [
+        "  arm           irb120, description ",
+        "  tool          handle, a cylinder of radius 20 and length 125 mm; sponge of radius 25 and height 25 mm, compressed by 5 mm (assumed); tip at 0, 0, 150 mm of the flange",
+        "  plates        2 of radius 145 mm, 20 mm thick, faces 30 mm over the floor: 0 at (0.303, -0.212), 1 at (0.32, 0.185) m",
+        "  obstacles     floor, all below 0; post, a cylinder of radius 20 and length 600 mm at (-0.9, 0, 0.3) m",
+        "  home          0, 0, 10, 0, 70, 0 ° at the start, 0, 0, 10, 0, 70, 28.65 ° at the end",
+        "  limits        joint positions and speeds of the description; joint accelerations 8, 8, 8, 8, 8, 8 rad/s² (assumed); tip 1 m/s, 8 m/s² (assumed)",
+        "  requirements  coverage 99.5 %, clearance 10 mm, tilt 15 °, washing at most 0.25 m/s and 4 m/s², no overlapping plates, in any order",
+        "  left out      by the SRDF: base_link – link_1, ",
+        "  assumed       the arm is as its description says, and moves as its knots say",
+        "                joints and tip reach the accelerations stated; the manufacturer publishes none",
+    ];
+    for (line, expected) in told.iter().zip(expected) {
+        assert!(line.starts_with(expected), "{line}\n{expected}");
+    }
+    assert_eq!(told.len(), 13, "{table}");
+    let robot = irb120();
+    let hash = &robot.sha256()[..12];
+    assert!(
+        told[0].contains(hash) && told[0].ends_with("; mounted on the floor at the origin"),
+        "{table}"
+    );
+    // The same in JSON, and nothing shortened.
+    let data = serde_json::to_value(&certificate).unwrap();
+    assert_eq!(data["rests_on"]["workcell"]["arm"]["urdf_sha256"], irb120().sha256());
+    assert_eq!(data["rests_on"]["workcell"]["obstacles"][1]["name"], "post");
+    assert_eq!(data["rests_on"]["plates"].as_array().unwrap().len(), 2);
+    assert_eq!(data["rests_on"]["assumptions"].as_array().unwrap().len(), 5);
+}
+
+/// What is proved does not rest on how it was planned: of this project, the crate uses kinematics and the workcell and nothing else.
+#[test]
+fn the_certificate_knows_no_planner() {
+    let manifest: toml::Table = include_str!("../../Cargo.toml").parse().unwrap();
+    for section in ["dependencies", "dev-dependencies"] {
+        let ours = manifest[section]
+            .as_table()
+            .unwrap()
+            .keys()
+            .filter(|name| name.starts_with("platewash"));
+        let ours: Vec<_> = ours.map(String::as_str).collect();
+        let allowed: &[&str] = match section {
+            "dependencies" => &["platewash-kinematics", "platewash-workcell"],
+            _ => &["platewash-workcell"],
+        };
+        assert_eq!(ours, allowed, "{section}");
+    }
+    assert!(!manifest.contains_key("build-dependencies") && !manifest.contains_key("target"));
+}

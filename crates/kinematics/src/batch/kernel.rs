@@ -1,0 +1,40 @@
+//! Work on four configurations at once, whatever the processor.
+
+use crate::trig::MulAdd;
+use std::ops::{Add, Div, Mul, Sub};
+
+/// Configurations to a vector.
+pub(super) const LANES: usize = 4;
+
+/// Four doubles; every operation is lane by lane, rounded as IEEE 754 says.
+pub(super) trait Vector:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// How [`Vector::mul_add`] rounds.
+    type Rounding: MulAdd;
+    /// The lanes of an array.
+    fn from_array(lanes: [f64; LANES]) -> Self;
+    /// The array of the lanes.
+    fn to_array(self) -> [f64; LANES];
+    /// `self · b + c`.
+    fn mul_add(self, b: Self, c: Self) -> Self;
+    /// `self · b − c`.
+    fn mul_sub(self, b: Self, c: Self) -> Self;
+    /// `c − self · b`.
+    fn neg_mul_add(self, b: Self, c: Self) -> Self;
+    /// Where `self > bound` (false for NaN) `yes`, elsewhere `no`.
+    fn if_above(self, bound: Self, yes: Self, no: Self) -> Self;
+
+    /// The same number in every lane.
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self::from_array([x; LANES])
+    }
+}
+
+/// Work that is written once and compiled twice. `run` is `#[inline(always)]`, and so is all that it calls often,
+/// because a function is compiled for the instructions of the one it is inlined into.
+pub(super) trait Kernel {
+    /// Does the work.
+    fn run<V: Vector>(self);
+}

@@ -1,0 +1,34 @@
+//! The arm that is built in: the ABB IRB 120.
+
+use crate::model::RobotModel;
+use crate::srdf::{DisabledPairs, SrdfError};
+use crate::urdf::{MeshSource, UrdfError};
+
+/// What went wrong while the embedded IRB 120 was read; never seen unless the sources were edited.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EmbeddedModelError {
+    /// The URDF does not load.
+    #[error(transparent)]
+    Urdf(#[from] UrdfError),
+    /// The SRDF does not load.
+    #[error(transparent)]
+    Srdf(#[from] SrdfError),
+}
+
+/// Text of the embedded description of the ABB IRB 120.
+pub const IRB120_URDF: &str = include_str!("../../../urdf/irb120.urdf");
+/// Text of the embedded list of its link pairs that need no collision check.
+pub const IRB120_SRDF: &str = include_str!("../../../urdf/irb120.srdf");
+
+impl RobotModel {
+    /// The embedded ABB IRB 120, with its list of link pairs that may be ignored.
+    ///
+    /// # Errors
+    /// None in a released build: the embedded text is tested.
+    pub fn irb120() -> Result<Self, EmbeddedModelError> {
+        let model = Self::from_urdf(IRB120_URDF, &MeshSource::none())?;
+        let disabled = DisabledPairs::parse(IRB120_SRDF)?;
+        Ok(model.with_disabled_pairs(disabled)?)
+    }
+}

@@ -1,0 +1,100 @@
+//! Why the paper's program could not be carried out.
+
+use crate::settings::SettingError;
+use crate::tracking::TrackingError;
+use crate::work::WorkError;
+use platewash_kinematics::ik::IkSettingsError;
+use platewash_kinematics::irb120::EmbeddedModelError;
+use platewash_simulator::ControlError;
+use platewash_workcell::cancel::Cancelled;
+use platewash_workcell::clearance::ClearanceError;
+use platewash_workcell::coverage::CoverageError;
+use platewash_workcell::job::JobError;
+use platewash_workcell::layout::LayoutError;
+use platewash_workcell::plan::PlanFileError;
+use platewash_workcell::verdict::Infeasibility;
+
+/// Why the paper's program could not be carried out; one variant a stage. A run that does not wash is no error.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PaperError {
+    /// A setting with which nothing can be computed.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// A job with which nothing can be computed, or a start beyond the arm's limits.
+    #[error(transparent)]
+    Job(#[from] JobError),
+    /// The settings could not be stated.
+    #[error(transparent)]
+    Terms(#[from] PlanFileError),
+    /// The run would take minutes.
+    #[error(transparent)]
+    Work(#[from] WorkError),
+    /// The built-in arm is broken.
+    #[error(transparent)]
+    Arm(#[from] EmbeddedModelError),
+    /// The plates could not be placed.
+    #[error("layout: {0}")]
+    Layout(LayoutError),
+    /// A setting of the inverse kinematics is out of range.
+    #[error(transparent)]
+    IkSettings(#[from] IkSettingsError),
+    /// The control law moves no waypoints.
+    #[error(transparent)]
+    Law(#[from] ControlError),
+    /// A waypoint is not finite, or the control law does not stay finite.
+    #[error(transparent)]
+    Tracking(TrackingError),
+    /// The collision model could not be made.
+    #[error("clearance: {0}")]
+    Clearance(ClearanceError),
+    /// Coverage could not be measured.
+    #[error("coverage: {0}")]
+    Coverage(CoverageError),
+    /// The caller asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+// The messages above hold those of their causes, which are therefore not told again as sources.
+impl From<LayoutError> for PaperError {
+    fn from(error: LayoutError) -> Self {
+        Self::Layout(error)
+    }
+}
+
+impl From<ClearanceError> for PaperError {
+    fn from(error: ClearanceError) -> Self {
+        Self::Clearance(error)
+    }
+}
+
+impl From<CoverageError> for PaperError {
+    fn from(error: CoverageError) -> Self {
+        Self::Coverage(error)
+    }
+}
+
+impl From<TrackingError> for PaperError {
+    fn from(error: TrackingError) -> Self {
+        match error {
+            TrackingError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            error => Self::Tracking(error),
+        }
+    }
+}
+
+impl PaperError {
+    /// Whether the plates are known to have no room, or none was found for them; `None` for bad input.
+    #[must_use]
+    pub fn infeasibility(&self) -> Option<Infeasibility> {
+        use LayoutError::{EmptyRegion, NoRoom};
+        match self {
+            Self::Layout(error @ (NoRoom { .. } | EmptyRegion { .. })) if error.is_proven() => {
+                Some(Infeasibility::Proved)
+            }
+            Self::Layout(NoRoom { .. } | EmptyRegion { .. }) => Some(Infeasibility::NotFound),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! The report as a person reads it.
+
+use super::contents::PaperReport;
+use super::motion::{MotionReport, Violation, ViolationKind};
+use super::nearness::ClosestApproach;
+use super::unreached::Unreached;
+use platewash_kinematics::JointVector;
+use platewash_kinematics::words::{angles_told_apart, rounded, told_apart};
+use platewash_workcell::coverage::Coverage;
+use std::fmt::{self, Display, Formatter};
+
+/// Violations listed one by one for a motion before the rest is only counted.
+const LISTED_VIOLATIONS: usize = 12;
+
+/// Significant digits of what the scenario states.
+const SHOWN_DIGITS: usize = 6;
+
+impl Display for PaperReport {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}\n", self.headline)?;
+        let (name, seed, robot) = (&self.scenario, self.seed, &self.robot);
+        writeln!(
+            f,
+            "scenario {name}, seed {seed}, robot {robot}, {:.2} s of motion",
+            self.duration_s
+        )?;
+        self.write_plates(f)?;
+        self.write_transits(f)?;
+        writeln!(
+            f,
+            "\nWhole job, largest share of each joint's limit (1 to 6; acceleration limits are assumptions), of the cubics"
+        )?;
+        writeln!(
+            f,
+            "through the waypoints (their speeds there are central differences: the program commands positions only)"
+        )?;
+        motion(f, "planned", &self.planned)?;
+        motion(f, "executed", &self.executed)?;
+        violations(f, "planned", &self.planned.violations)?;
+        violations(f, "executed", &self.executed.violations)?;
+        if !self.findings.is_empty() {
+            writeln!(f, "\nFindings")?;
+        }
+        self.findings
+            .iter()
+            .try_for_each(|finding| writeln!(f, "  - {finding}"))
+    }
+}
+
+impl PaperReport {
+    fn write_plates(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let shown = |value: f64| rounded(value, SHOWN_DIGITS);
+        let (sponge, wanted) = (shown(1e3 * self.sponge_radius_m), shown(100.0 * self.coverage_required));
+        writeln!(
+            f,
+            "\nPlates, in the order of washing (coverage by a sponge of radius {sponge} mm; {wanted} % wanted)"
+        )?;
+        writeln!(
+            f,
+            "  {:<6} {:>16} {:>9} {:>12} {:>11} {:>11} {:>19} {:>8} {:>7}",
+            "plate",
+            "centre, mm",
+            "reached",
+            "worst IK, mm",
+            "ideal, %",
+            "done, %",
+            "error rms, max, mm",
+            "contact",
+            "washed"
+        )?;
+        for p in &self.plates {
+            writeln!(
+                f,
+                "  {:<6} {:>16} {:>9} {:>12.4} {:>11} {:>11} {:>19} {:>8} {:>7}",
+                p.plate,
+                format!("({:.0}, {:.0})", 1e3 * p.centre_m[0], 1e3 * p.centre_m[1]),
+                format!("{}/{}", p.reached, p.waypoints),
+                1e3 * p.worst_ik_position_error_m,
+                percent(&p.ideal_coverage),
+                percent(&p.executed_coverage),
+                format!("{:.1}, {:.1}", 1e3 * p.tracking_rms_m, 1e3 * p.tracking_max_m),
+                format!("{}/{}", p.in_contact, p.waypoints),
+                if p.washed { "yes" } else { "no" },
+            )?;
+        }
+        for p in &self.plates {
+            let what = format!("plate {}", p.plate);
+            unreached(f, &what, p.waypoints - p.reached, p.worst_unreached.as_ref())?;
+        }
+        writeln!(
+            f,
+            "\nSmallest clearance (pair, place, time; {:.1} mm wanted)",
+            1e3 * self.clearance_required_m
+        )?;
+        for p in &self.plates {
+            nearest(f, &format!("plate {}, planned", p.plate), p.planned_clearance.as_ref())?;
+            nearest(
+                f,
+                &format!("plate {}, executed", p.plate),
+                p.executed_clearance.as_ref(),
+            )?;
+        }
+        Ok(())
+    }
+
+    fn write_transits(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let t = &self.transits;
+        if t.waypoints == 0 {
+            return Ok(());
+        }
+        nearest(f, "transitions, planned", t.planned_clearance.as_ref())?;
+        nearest(f, "transitions, executed", t.executed_clearance.as_ref())?;
+        let (rms, most) = (1e3 * t.tracking_rms_m, 1e3 * t.tracking_max_m);
+        writeln!(
+            f,
+            "\nTransitions: {}/{} waypoints reached, tracking error {rms:.1} mm rms, {most:.1} mm at most",
+            t.reached, t.waypoints
+        )?;
+        unreached(f, "transitions", t.waypoints - t.reached, t.worst_unreached.as_ref())
+    }
+}
+
+/// A coverage with half the width of its proven interval, in percent.
+fn percent(c: &Coverage) -> String {
+    format!("{:.1} ± {:.1}", 100.0 * c.fraction, 50.0 * c.error())
+}
+
+fn unreached(f: &mut Formatter<'_>, what: &str, count: usize, worst: Option<&Unreached>) -> fmt::Result {
+    let Some(u) = worst else { return Ok(()) };
+    let [x, y, z] = u.target_m.map(|v| 1e3 * v);
+    writeln!(
+        f,
+        "  {what}: {count} waypoints not reached; worst is waypoint {} at ({x:.0}, {y:.0}, {z:.0}) mm ({}), {:.1} mm and {:.1}° off",
+        u.waypoint,
+        u.cause,
+        1e3 * u.position_error_m,
+        u.orientation_error_rad.to_degrees()
+    )
+}
+
+fn nearest(f: &mut Formatter<'_>, what: &str, approach: Option<&ClosestApproach>) -> fmt::Result {
+    let Some(ClosestApproach { t_s, pair }) = approach else {
+        return writeln!(f, "  {what:<22} nothing to check");
+    };
+    let [x, y, z] = pair.place_m.map(|v| 1e3 * v);
+    let bodies = format!("{} – {}", pair.a, pair.b);
+    writeln!(
+        f,
+        "  {what:<22} {:>7.1} mm  {bodies:<22} at ({x:.0}, {y:.0}, {z:.0}) mm, t = {t_s:.2} s",
+        1e3 * pair.distance_m
+    )
+}
+
+fn motion(f: &mut Formatter<'_>, what: &str, report: &MotionReport) -> fmt::Result {
+    let shares = |v: &JointVector| {
+        v.iter()
+            .map(|share| {
+                if *share < 1e4 {
+                    format!("{share:>10.2}")
+                } else {
+                    format!("{share:>10.2e}")
+                }
+            })
+            .collect::<String>()
+    };
+    writeln!(f, "  {what:<9} speed       {}", shares(&report.speed_share))?;
+    writeln!(f, "  {what:<9} acceleration{}", shares(&report.acceleration_share))
+}
+
+fn violations(f: &mut Formatter<'_>, what: &str, all: &[Violation]) -> fmt::Result {
+    if all.is_empty() {
+        return writeln!(f, "\nViolations, {what} motion: none");
+    }
+    writeln!(f, "\nViolations, {what} motion: {}", all.len())?;
+    // The worst of each kind and body first, so that the list says something before it is cut.
+    let mut ranked: Vec<_> = all.iter().collect();
+    ranked.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
+    ranked
+        .iter()
+        .take(LISTED_VIOLATIONS)
+        .try_for_each(|v| writeln!(f, "  - {v}"))?;
+    match all.len().saturating_sub(LISTED_VIOLATIONS) {
+        0 => Ok(()),
+        more => writeln!(f, "  - and {more} more; all of them in the JSON report"),
+    }
+}
+
+impl Violation {
+    /// How bad it is, for ranking: contacts first, then the share of the limit.
+    fn severity(&self) -> f64 {
+        match self.kind {
+            ViolationKind::Clearance => 1e9 - self.worst,
+            ViolationKind::Position => 1e6 + (self.worst - self.limit).abs(),
+            ViolationKind::Speed | ViolationKind::Acceleration => self.worst / self.limit,
+        }
+    }
+}
+
+impl Display for Violation {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (worst, limit) = (self.worst, self.limit);
+        match self.kind {
+            ViolationKind::Position => {
+                let [worst, limit] = angles_told_apart(worst, limit, 2);
+                write!(f, "{} position {worst} beyond {limit}", self.who)
+            }
+            ViolationKind::Speed => {
+                let [worst, limit] = told_apart(worst, limit, 2);
+                write!(f, "{} speed {worst} rad/s of {limit}", self.who)
+            }
+            ViolationKind::Acceleration => {
+                let [worst, limit] = told_apart(worst, limit, 1);
+                write!(f, "{} acceleration {worst} rad/s² of {limit}", self.who)
+            }
+            ViolationKind::Clearance => {
+                let [worst, limit] = told_apart(1e3 * worst, 1e3 * limit, 1);
+                write!(f, "{} clearance {worst} mm of {limit} mm", self.who)
+            }
+        }?;
+        write!(f, ", t = {:.2} … {:.2} s", self.t_start_s, self.t_end_s)
+    }
+}

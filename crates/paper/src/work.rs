@@ -1,0 +1,96 @@
+//! How much work a run is, known before any of it is done.
+
+use crate::settings::PaperSettings;
+use platewash_workcell::words::counted;
+
+/// Most waypoints of a run: tens of seconds of planning.
+pub const MAX_WAYPOINTS: usize = 200_000;
+
+/// Most checks of a waypoint against a plate.
+pub const MAX_PLATE_CHECKS: usize = 5_000_000;
+
+/// A run that would take minutes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WorkError {
+    /// Too many waypoints.
+    #[error("{} would have up to {waypoints} waypoints; at most {MAX_WAYPOINTS} are planned", counted(*.plates, "plate"))]
+    Waypoints {
+        /// Plates.
+        plates: usize,
+        /// Waypoints at most.
+        waypoints: usize,
+    },
+    /// Too many plates, each of which is checked at every waypoint.
+    #[error(
+        "{} and up to {waypoints} waypoints are too much work: their product must be at most {MAX_PLATE_CHECKS}; give fewer plates \
+         or waypoints", counted(*.plates, "plate")
+    )]
+    PlateChecks {
+        /// Plates.
+        plates: usize,
+        /// Waypoints at most.
+        waypoints: usize,
+    },
+}
+
+impl PaperSettings {
+    /// Upper bound on the waypoints of a run: every plate's spiral, with one transit to each plate.
+    #[must_use]
+    pub fn waypoints_at_most(&self, plates: usize) -> usize {
+        let a_plate = self.spiral.waypoint_count().saturating_add(self.transit.samples);
+        a_plate.saturating_mul(plates)
+    }
+
+    /// Refuses more than [`MAX_WAYPOINTS`].
+    ///
+    /// # Errors
+    /// [`WorkError::Waypoints`].
+    pub fn check_waypoints(&self, plates: usize) -> Result<(), WorkError> {
+        match self.waypoints_at_most(plates) {
+            ..=MAX_WAYPOINTS => Ok(()),
+            waypoints => Err(WorkError::Waypoints { plates, waypoints }),
+        }
+    }
+
+    /// Refuses more than [`MAX_WAYPOINTS`], and more than [`MAX_PLATE_CHECKS`] of them against the plates.
+    ///
+    /// # Errors
+    /// [`WorkError`].
+    pub fn check_work(&self, plates: usize) -> Result<(), WorkError> {
+        self.check_waypoints(plates)?;
+        let waypoints = self.waypoints_at_most(plates);
+        if plates.saturating_mul(waypoints) <= MAX_PLATE_CHECKS {
+            return Ok(());
+        }
+        Err(WorkError::PlateChecks { plates, waypoints })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of_points(points: usize) -> PaperSettings {
+        let mut settings = PaperSettings::text();
+        settings.spiral.points = points;
+        settings
+    }
+
+    #[test]
+    fn too_much_work_is_refused_before_it_is_begun() {
+        assert_eq!(of_points(55).waypoints_at_most(4), 4 * (55 + 50));
+        assert_eq!(of_points(49_950).check_waypoints(4), Ok(()));
+        let message = of_points(49_951).check_waypoints(4).unwrap_err().to_string();
+        assert!(
+            message.contains("4 plates") && message.contains("200004 waypoints"),
+            "{message}"
+        );
+        assert_eq!(of_points(55).check_work(218), Ok(()));
+        let message = of_points(55).check_work(1000).unwrap_err().to_string();
+        assert!(
+            message.contains("1000 plates") && message.contains("5000000"),
+            "{message}"
+        );
+    }
+}

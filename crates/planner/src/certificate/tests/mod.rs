@@ -1,8 +1,0 @@
-//! The certificate against a hand-made plan, its mutations, an independent sampler, and files that are no plans.
-
-mod adversarial;
-mod asked;
-mod differential;
-mod made;
-mod mutations;
-mod words;

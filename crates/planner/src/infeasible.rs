@@ -1,0 +1,175 @@
+//! What is reported of a job that cannot be done, or that no way was found to do: why, and what of each plate concerned.
+
+use crate::error::PlanError;
+use crate::redundancy::Conclusion;
+use crate::redundancy::washable::Cause;
+use crate::scene::{Filter, Hindrance};
+use crate::transit::TransitError;
+use crate::unwashable::{PlaceSearch, UnwashablePlate};
+use platewash_workcell::verdict::{Infeasibility, Verdict};
+use serde::Serialize;
+use std::fmt;
+
+/// A job of which no plan came. Lengths in metres, angles in radians.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InfeasibleReport {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Its seed.
+    pub seed: u64,
+    /// [`Verdict::Infeasible`] where the job cannot be done, [`Verdict::NotFound`] where no way was found to do it.
+    pub verdict: Verdict,
+    /// The first line.
+    pub headline: String,
+    /// Why, in full.
+    pub reason: String,
+    /// The plates concerned; none where it is no plate that stands in the way.
+    pub plates: Vec<InfeasiblePlate>,
+}
+
+/// A plate because of which a job cannot be done.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InfeasiblePlate {
+    /// The plate.
+    pub plate: usize,
+    /// Its centre \[m\], where it cannot be washed whole.
+    pub centre_m: Option<[f64; 2]>,
+    /// Share of its wash path for which configurations were found.
+    pub washable_share: Option<f64>,
+    /// Whether the rest is known to be beyond the arm, and by what; `None` where the plate itself can be washed.
+    pub conclusion: Option<Conclusion>,
+    /// What keeps the rest from being washed.
+    pub causes: Vec<InfeasiblePart>,
+    /// The nearest centre found at which it can be washed \[m\].
+    pub nearest_m: Option<[f64; 2]>,
+    /// How that was looked for; `None` where the plate itself can be washed.
+    pub place_search: Option<PlaceSearch>,
+}
+
+/// A part of a wash path for which no configurations were found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InfeasiblePart {
+    /// Share of the wash path.
+    pub share: f64,
+    /// Least and greatest distance of the part from axis 1 \[m\].
+    pub from_axis_m: [f64; 2],
+    /// The kind of hindrance.
+    pub kind: Filter,
+    /// By how much the worst point is missed \[m\]; `None` for joints.
+    pub shortfall_m: Option<f64>,
+    /// By how much the worst joint is off \[rad\]; `None` for lengths.
+    pub shortfall_rad: Option<f64>,
+    /// The same in words.
+    pub cause: String,
+}
+
+impl InfeasibleReport {
+    /// What is to be said of a job, by the name of its scenario and its seed, that ended with `error`; `None` where the error is
+    /// one of the input.
+    #[must_use]
+    pub fn new(scenario: &str, seed: u64, error: &PlanError) -> Option<Self> {
+        let verdict = match error.infeasibility()? {
+            Infeasibility::Proved => Verdict::Infeasible,
+            Infeasibility::NotFound => Verdict::NotFound,
+        };
+        let report = Self {
+            scenario: scenario.to_owned(),
+            seed,
+            verdict,
+            headline: String::new(),
+            reason: String::new(),
+            plates: plates(error),
+        };
+        Some(report.explained(error.to_string()))
+    }
+
+    /// The same with the reason in other words.
+    #[must_use]
+    pub fn explained(self, reason: String) -> Self {
+        let word = match self.verdict {
+            Verdict::Infeasible => "INFEASIBLE",
+            _ => "NOT FOUND",
+        };
+        let headline = format!("{word}: {reason}");
+        Self {
+            headline,
+            reason,
+            ..self
+        }
+    }
+}
+
+impl fmt::Display for InfeasibleReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.headline)?;
+        writeln!(f, "scenario {}, seed {}: nothing was planned", self.scenario, self.seed)
+    }
+}
+
+fn plates(error: &PlanError) -> Vec<InfeasiblePlate> {
+    match error {
+        PlanError::Unwashable(plate) => vec![InfeasiblePlate::from(&**plate)],
+        PlanError::Line { plate, .. }
+        | PlanError::Tilt { plate, .. }
+        | PlanError::Transit(TransitError::Line { plate, .. }) => {
+            vec![InfeasiblePlate::reached_in_vain(*plate)]
+        }
+        PlanError::Transit(TransitError::NotFound { from, to, .. }) => {
+            let ends = from.iter().chain(to);
+            ends.map(|plate| InfeasiblePlate::reached_in_vain(*plate)).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+impl InfeasiblePlate {
+    /// A plate that could be washed if the arm got there and away.
+    fn reached_in_vain(plate: usize) -> Self {
+        Self {
+            plate,
+            centre_m: None,
+            washable_share: None,
+            conclusion: None,
+            causes: Vec::new(),
+            nearest_m: None,
+            place_search: None,
+        }
+    }
+}
+
+impl From<&UnwashablePlate> for InfeasiblePlate {
+    fn from(plate: &UnwashablePlate) -> Self {
+        Self {
+            plate: plate.plate,
+            centre_m: Some(plate.centre_m),
+            washable_share: plate.share,
+            conclusion: Some(plate.conclusion),
+            causes: plate
+                .causes
+                .iter()
+                .map(|cause| InfeasiblePart::new(cause, plate.conclusion))
+                .collect(),
+            nearest_m: plate.nearest_m,
+            place_search: Some(plate.place_search),
+        }
+    }
+}
+
+impl InfeasiblePart {
+    fn new(cause: &Cause, conclusion: Conclusion) -> Self {
+        let shortfall = cause.worst.shortfall();
+        let (shortfall_m, shortfall_rad) = match cause.worst {
+            Hindrance::Limit(_) | Hindrance::Jump { .. } => (None, Some(shortfall)),
+            Hindrance::NotFinite => (None, None),
+            _ => (Some(shortfall), None),
+        };
+        Self {
+            share: cause.share,
+            from_axis_m: cause.from_axis_m,
+            kind: cause.worst.filter(),
+            shortfall_m,
+            shortfall_rad,
+            cause: cause.words(conclusion),
+        }
+    }
+}

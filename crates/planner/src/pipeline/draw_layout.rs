@@ -1,0 +1,66 @@
+//! Layouts of which every plate can be washed whole.
+
+use super::shared::Pipeline;
+use super::visit::wash_path;
+use crate::activity::Activity;
+use crate::error::PlanError;
+use crate::redundancy::RedundancyError;
+use crate::watch::Watch;
+use platewash_kinematics::RobotModel;
+use platewash_workcell::job::{JobTerms, WashJob};
+use platewash_workcell::layout::{Layout, LayoutError};
+use std::sync::Arc;
+
+/// Layouts drawn before it is given up.
+const MOST_LAYOUTS: usize = 200;
+
+/// The first of the layouts drawn of which every plate can be washed whole under `terms`, whose own plates are ignored.
+///
+/// # Errors
+/// [`PlanError::Layout`] of the draws, [`PlanError::NoneWashable`] when no layout drawn will do, and whatever [`check`](crate::check)
+/// refuses.
+pub fn draw_washable_layout(
+    arm: &Arc<RobotModel>,
+    terms: &JobTerms,
+    draw: &mut dyn FnMut() -> Result<Layout, LayoutError>,
+    watch: &Watch<'_>,
+) -> Result<Layout, PlanError> {
+    Pipeline::new(arm, terms, &[], watch)?.check_homes()?;
+    let (mut drawn, most) = (0, MOST_LAYOUTS);
+    loop {
+        watch.cancel.check()?;
+        drawn += 1;
+        (watch.tell)(&Activity::Layout { drawn, most });
+        let layout = draw()?;
+        let terms = JobTerms {
+            plates: layout.plates.clone(),
+            ..terms.clone()
+        };
+        let job = WashJob::new(arm.clone(), terms)?;
+        let pipeline = Pipeline::new(job.arm(), job.terms(), &layout.plates, watch)?;
+        match pipeline.first_unwashable()? {
+            None => return Ok(layout),
+            Some(last) if drawn == most => {
+                let (layouts, last) = (drawn, Box::new(last));
+                return Err(PlanError::NoneWashable { layouts, last });
+            }
+            Some(_) => {}
+        }
+    }
+}
+
+impl Pipeline<'_> {
+    /// What stands in the way on the first plate that cannot be washed whole.
+    fn first_unwashable(&self) -> Result<Option<RedundancyError>, PlanError> {
+        let (scene, [start, _]) = (self.scene()?, &self.terms.home_rad);
+        let home = self.home_tip(&scene, start);
+        for plate in 0..self.plates.len() {
+            match self.washing(&scene, &wash_path(self, plate, &home), start) {
+                Ok(_) => {}
+                Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
+                Err(error) => return Ok(Some(error)),
+            }
+        }
+        Ok(None)
+    }
+}

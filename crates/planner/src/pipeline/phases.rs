@@ -1,0 +1,78 @@
+//! All phases, one after the other.
+
+use super::assemble::assemble;
+use super::shared::Pipeline;
+use crate::error::PlanError;
+use crate::planned::{Planned, TransitSummary, VisitSummary};
+use crate::watch::Watch;
+use platewash_kinematics::{JointVector, RobotModel};
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::job::{JobTerms, WashJob};
+use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
+use platewash_workcell::trajectory::Trajectory;
+use platewash_workcell::wash_path::WashPath;
+
+/// Plans a job.
+///
+/// # Errors
+/// [`PlanError`], one variant a phase.
+pub fn plan(job: &WashJob) -> Result<Planned, PlanError> {
+    plan_with(job, &Watch::silent(&CancelToken::new()))
+}
+
+/// [`plan`], watched.
+///
+/// # Errors
+/// As [`plan`], and [`PlanError::Cancelled`].
+pub fn plan_with(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError> {
+    let pipeline = Pipeline::new(job.arm(), job.terms(), &job.terms().plates, watch)?;
+    pipeline.check_homes()?;
+    let scene = pipeline.scene()?;
+    let (order, tour) = pipeline.order(&scene)?;
+    let visits = pipeline.visits(&scene, &order)?;
+    let lines: Vec<_> = visits.iter().map(|visit| visit.lines.each_ref()).collect();
+    let transits = pipeline.transits(&scene, &lines, |_| true)?;
+    let whole = assemble(&visits, &transits)?;
+    let wash_paths: Vec<WashPath> = visits.iter().map(|visit| visit.path).collect();
+    pipeline.check_tilt(&scene, &whole, &wash_paths)?;
+    let parts = PlanParts {
+        provenance: Provenance::of(job.name()),
+        order,
+        wash_paths,
+        segments: whole.segments,
+        knots: Knots::from(&whole.motion),
+    };
+    let duration = |motion: &Trajectory| motion.duration_s();
+    let visits = visits.iter().map(|visit| VisitSummary {
+        plate: visit.path.plate,
+        tilt: visit.washing.choice,
+        wash_s: duration(&visit.wash.motion),
+    });
+    let transits = transits.iter().map(|transit| TransitSummary {
+        kind: transit.kind,
+        duration_s: duration(&transit.timed.motion),
+    });
+    Ok(Planned {
+        plan: Plan::sealed(job.terms().clone(), parts)?,
+        visits: visits.collect(),
+        transits: transits.collect(),
+        tour,
+        largest_jerk: largest_jerk(&whole.motion),
+    })
+}
+
+/// Refuses what is known to fail before anything is searched for: an end configuration beyond its limits or too near something, an
+/// arm without a tool. Plates may be left out where they are not known yet.
+///
+/// # Errors
+/// [`PlanError`].
+pub fn check(arm: &RobotModel, terms: &JobTerms) -> Result<(), PlanError> {
+    let cancel = CancelToken::new();
+    let watch = Watch::silent(&cancel);
+    Pipeline::new(arm, terms, &terms.plates, &watch)?.check_homes()
+}
+
+fn largest_jerk(motion: &Trajectory) -> JointVector {
+    let jerks = motion.extremes().map(|segment| segment.jerk);
+    jerks.fold(JointVector::zeros(), |largest, jerk| largest.sup(&jerk))
+}

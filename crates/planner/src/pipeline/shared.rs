@@ -1,0 +1,138 @@
+//! What the phases of planning share.
+
+use crate::error::PlanError;
+use crate::scene::{Scene, Stretch, TiltPolicy};
+use crate::timing::{MotionLimits, TipLimits};
+use crate::transit::TooNear;
+use crate::watch::Watch;
+use nalgebra::Vector3;
+use platewash_kinematics::{JointVector, RobotModel};
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::job::{End, JobTerms, PlannerSettings};
+use platewash_workcell::plate::Plate;
+
+/// The longest line over a plate \[m\].
+const LONGEST_LIFT_M: f64 = 10.0;
+
+/// Most waypoints of the arc round the base.
+const MOST_ARC_POINTS: f64 = 1e4;
+
+/// What the phases of planning share.
+#[derive(Debug)]
+pub(super) struct Pipeline<'a> {
+    pub robot: &'a RobotModel,
+    pub terms: &'a JobTerms,
+    pub settings: &'a PlannerSettings,
+    pub plates: &'a [Plate],
+    pub clearance: ClearanceModel,
+    /// Limits while washing, and elsewhere.
+    pub washing: MotionLimits,
+    pub transit: MotionLimits,
+    pub watch: Watch<'a>,
+}
+
+impl<'a> Pipeline<'a> {
+    /// Terms on plates, which need not be those of the terms.
+    pub fn new(
+        robot: &'a RobotModel,
+        terms: &'a JobTerms,
+        plates: &'a [Plate],
+        watch: &Watch<'a>,
+    ) -> Result<Self, PlanError> {
+        let settings = terms.planner_settings().ok_or(PlanError::PaperJob)?;
+        if !terms.workcell.tool.is_present() {
+            return Err(PlanError::NoTool);
+        }
+        within("lift_m", settings.lift_m, [0.0, LONGEST_LIFT_M])?;
+        within("arc.points", settings.arc.points as f64, [2.0, MOST_ARC_POINTS])?;
+        for (end, q) in ends(terms) {
+            if let Some(violation) = robot.limits().violation(q) {
+                return Err(PlanError::Home { end, violation });
+            }
+        }
+        let of_tip = |speed_m_s, acceleration_m_s2| MotionLimits {
+            velocity: robot.limits().velocity,
+            acceleration: terms.limits.joint_acceleration_rad_s2.into(),
+            tip: Some(TipLimits {
+                speed_m_s,
+                acceleration_m_s2,
+            }),
+        };
+        Ok(Self {
+            robot,
+            terms,
+            settings,
+            plates,
+            clearance: ClearanceModel::new(robot, &terms.workcell, plates)?,
+            washing: of_tip(terms.wash_speed_m_s(), terms.wash_acceleration_m_s2()),
+            transit: of_tip(terms.limits.tip_speed_m_s, terms.limits.tip_acceleration_m_s2),
+            watch: *watch,
+        })
+    }
+
+    /// The same among as many plates that lie elsewhere; nobody listens.
+    pub fn among<'b>(&self, plates: &'b [Plate]) -> Pipeline<'b>
+    where
+        'a: 'b,
+    {
+        Pipeline {
+            plates,
+            clearance: self.clearance.among(plates),
+            watch: Watch::silent(self.watch.cancel),
+            robot: self.robot,
+            terms: self.terms,
+            settings: self.settings,
+            washing: self.washing,
+            transit: self.transit,
+        }
+    }
+
+    /// The arm among the plates.
+    pub fn scene(&self) -> Result<Scene<'_>, PlanError> {
+        let (tool, reach) = (&self.terms.workcell.tool, self.settings.reach);
+        let scene = Scene::new(self.robot, tool, &self.clearance, self.plates, reach)?;
+        Ok(scene.until(self.watch.cancel))
+    }
+
+    /// The tilt that suits each place.
+    pub fn policy(&self) -> TiltPolicy {
+        TiltPolicy::upright(self.terms.tilt_max_rad(), &self.settings.reach)
+    }
+
+    /// The clearance asked for \[m\].
+    pub fn clearance_m(&self) -> f64 {
+        self.terms.requirements.clearance_m
+    }
+
+    /// Where the tip is at an end \[m\].
+    pub fn home_tip(&self, scene: &Scene<'_>, home: &JointVector) -> Vector3<f64> {
+        self.robot.fk(home).rigid(&scene.tip).translation
+    }
+
+    /// Refuses end configurations at which the arm is too near something.
+    pub fn check_homes(&self) -> Result<(), PlanError> {
+        for (end, q) in ends(self.terms) {
+            let too_near = TooNear::at(&self.clearance, q, Stretch::Free, self.clearance_m());
+            if let Some(too_near) = too_near.map(Box::new) {
+                return Err(PlanError::HomeNotClear { end, too_near });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn ends(terms: &JobTerms) -> impl Iterator<Item = (End, &JointVector)> {
+    [End::Start, End::End].into_iter().zip(&terms.home_rad)
+}
+
+fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), PlanError> {
+    if (least..=most).contains(&found) {
+        return Ok(());
+    }
+    Err(PlanError::Setting {
+        name,
+        least,
+        most,
+        found,
+    })
+}

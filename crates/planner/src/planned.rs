@@ -1,0 +1,61 @@
+//! What planning makes: the plan, and what is to be said of it.
+
+use crate::order::Optimality;
+use crate::redundancy::TiltChoice;
+use crate::transit::TransitKind;
+use platewash_kinematics::JointVector;
+use platewash_workcell::plan::Plan;
+use serde::Serialize;
+
+/// A job, planned.
+#[derive(Debug, Clone)]
+pub struct Planned {
+    /// The plan, sealed.
+    pub plan: Plan,
+    /// One entry a plate, in the order of washing.
+    pub visits: Vec<VisitSummary>,
+    /// From home, between the plates, and home.
+    pub transits: Vec<TransitSummary>,
+    /// What the order gains.
+    pub tour: TourSummary,
+    pub(crate) largest_jerk: JointVector,
+}
+
+/// How a plate is washed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct VisitSummary {
+    /// The plate.
+    pub plate: usize,
+    /// Where the tilt of the tool comes from.
+    pub tilt: TiltChoice,
+    /// Time on the plate \[s\].
+    pub wash_s: f64,
+}
+
+/// How a transit goes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TransitSummary {
+    /// Its kind.
+    pub kind: TransitKind,
+    /// Time from contact to contact, or from or to home \[s\].
+    pub duration_s: f64,
+}
+
+/// What the order gains.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TourSummary {
+    /// Travel time estimated for the order taken \[s\]: each joint at its limits from place to place.
+    pub travel_s: f64,
+    /// The same for always the plate reached soonest \[s\].
+    pub nearest_next_s: f64,
+    /// Whether the order is known to be the best under that estimate.
+    pub optimality: Option<Optimality>,
+}
+
+impl Planned {
+    /// Largest jerk of each joint between knots \[rad/s³\]: no plan keeps a limit of it. At knots the acceleration may jump.
+    #[must_use]
+    pub fn largest_jerk(&self) -> JointVector {
+        self.largest_jerk
+    }
+}

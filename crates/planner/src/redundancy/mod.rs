@@ -1,0 +1,50 @@
+//! What washing leaves free: tilt and yaw of the tool, and the branch of the arm, at every contact point.
+//!
+//! # What is sought
+//!
+//! A configuration for each contact point of a [`WashPath`](platewash_workcell::wash_path::WashPath), such that the tip is
+//! exactly there, the tool within the path's cone about the normal, the joints within their limits, the bodies clear of each
+//! other by the margin, and the joint path continuous, on one branch of the arm.
+//!
+//! # Freedom
+//!
+//! The sponge is round, so yaw is free: it is chosen such that joints 4 and 6 rest, which takes the least joint travel
+//! ([`Scene::tip_pose`](crate::scene::Scene::tip_pose)). Of the two directions in which the tool can tilt, the one in the arm's
+//! own plane is the useful one.
+//!
+//! # How
+//!
+//! 1. [`policy`](crate::scene::policy): a tilt by the distance from axis 1 alone. It mostly suffices, and costs one pass over the
+//!    points.
+//! 2. `search`: the cheapest path through a graph of tilts along the wash path, near the policy where that will do, smoothed
+//!    (`tilt_spline`) as far as it stays within what will do.
+//!
+//! Before the second, a few points of the last turn tell (`blocked`) whether it can find anything at all.
+//!
+//! Each is tried on every branch of the arm, elbow up in front first; on arms without a closed form, on every branch that a
+//! search finds ([`platewash_kinematics::ik::spread`]). Whatever answers has been checked for limits and steps at
+//! every contact point, and for clearance at every one but those within 4 mm behind one with 8 mm to spare. Between the
+//! points nothing is proved here. Where nothing answers, the error names contact points and what stands in the way there;
+//! [`Conclusion`] tells whether there is no configuration or none was found.
+
+mod blocked;
+mod conclusion;
+mod dead_ends;
+mod error;
+pub mod exhaustive;
+pub mod relocation;
+mod samples;
+mod search;
+pub mod settings;
+mod task;
+#[cfg(test)]
+mod tests;
+mod tilt_spline;
+pub mod washable;
+mod washing;
+
+pub use blocked::is_blocked;
+pub use conclusion::Conclusion;
+pub use error::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError};
+pub use task::Task;
+pub use washing::{TiltChoice, Washing, washing};

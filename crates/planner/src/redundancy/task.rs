@@ -1,0 +1,248 @@
+//! One plate to wash: whether a contact point can be washed at a tilt, and a whole wash path at a profile of tilts.
+
+use super::error::RedundancyError;
+use super::samples::Samples;
+use super::settings::{RESERVE_M, TILT_RESERVE_RAD, check_input};
+use super::tilt_spline::TiltSpline;
+use crate::scene::{Contact, Hindrance, Scene, Start, Stretch, TiltPolicy};
+use nalgebra::Vector6;
+use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::{Axes, JointVector};
+use platewash_workcell::cancel::Cancelled;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::wash_path::WashPath;
+
+/// The most that a joint may move per length of the wash path \[rad/m\]: 0.35 rad in 5 mm.
+pub(super) const JOINT_RATE: f64 = 70.0;
+
+/// What a joint may move in any step, however short \[rad\].
+const LEAST_STEP_RAD: f64 = 1e-3;
+
+/// With this much more than the clearance required \[m\] …
+pub(super) const ROOM_M: f64 = 8e-3;
+
+/// … contact points within this length need no look of their own \[m\].
+const STRIDE_M: f64 = 4e-3;
+
+/// Step of θ for differences \[rad\].
+const DIFFERENCE_RAD: f64 = 1e-3;
+
+/// A tilt in the arm's plane for each contact point.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Profile {
+    /// By the distance from axis 1.
+    Policy(TiltPolicy),
+    /// By the length along the wash path.
+    Spline(TiltSpline),
+}
+
+/// One plate to wash.
+#[derive(Debug, Clone)]
+pub struct Task<'a> {
+    pub(super) scene: &'a Scene<'a>,
+    pub(super) path: WashPath,
+    pub(super) plate: &'a Plate,
+    pub(super) samples: Samples,
+    clearance_m: f64,
+    /// The configuration not far from which it starts \[rad\].
+    pub(super) near: JointVector,
+}
+
+/// Where a profile cannot be followed further.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Stop {
+    /// Index of the sample.
+    pub sample: usize,
+    /// Why.
+    pub hindrance: Hindrance,
+}
+
+impl<'a> Task<'a> {
+    /// The task of washing along a path, from a configuration not far from `near` \[rad\]. Every pair but the sponge and the
+    /// plates keeps `clearance_m`, in [0, 1], and [`RESERVE_M`] more; the tool stays in the path's cone.
+    ///
+    /// # Errors
+    /// [`RedundancyError::Input`] and [`RedundancyError::Plate`].
+    pub fn new(
+        scene: &'a Scene<'a>,
+        path: &WashPath,
+        clearance_m: f64,
+        near: &JointVector,
+    ) -> Result<Self, RedundancyError> {
+        let (index, count) = (path.plate, scene.plates.len());
+        let missing = RedundancyError::Plate { plate: index, count };
+        let plate = scene.plates.get(index).ok_or(missing)?;
+        check_input(path, plate, clearance_m, near)?;
+        Ok(Self {
+            scene,
+            path: *path,
+            plate,
+            samples: Samples::new(path, plate),
+            clearance_m,
+            near: *near,
+        })
+    }
+
+    /// What every pair but the sponge and the plates must keep, with its reserve \[m\].
+    pub(super) fn required_m(&self) -> f64 {
+        self.clearance_m + RESERVE_M
+    }
+
+    /// The largest tilt allowed \[rad\].
+    pub(super) fn tilt_max_rad(&self) -> f64 {
+        self.path.cone_rad
+    }
+
+    /// The largest tilt at the points that are solved \[rad\]: [`TILT_RESERVE_RAD`] less than allowed, or half of what is allowed
+    /// where that is more.
+    pub(super) fn planned_tilt_rad(&self) -> f64 {
+        let most = self.tilt_max_rad();
+        (most - TILT_RESERVE_RAD).max(0.5 * most)
+    }
+
+    /// The plate's centre, the pole of its face.
+    pub(super) fn centre(&self) -> Contact {
+        let point = self.plate.centre();
+        let normal = self.plate.normal_at(&point);
+        Contact { point, normal }
+    }
+
+    /// A start from anywhere near.
+    pub(super) fn anywhere_near(&self) -> Start {
+        let q = self.near;
+        Start { q, sides: None }
+    }
+
+    /// The configuration at a pose of the tip, continued from `start` and clear.
+    ///
+    /// # Errors
+    /// The first filter that rejects it.
+    pub(super) fn configuration(&self, target: &Rigid, start: &Start) -> Result<JointVector, Hindrance> {
+        let q = self.scene.inverse.continuing(target, start)?;
+        self.check_clear(&q)?;
+        Ok(q)
+    }
+
+    /// Whether the bodies keep off each other at `q` \[rad\].
+    pub(super) fn is_clear(&self, q: &JointVector) -> bool {
+        let surroundings = self.scene.surroundings;
+        surroundings.is_clear(q, Stretch::AtPlate, self.required_m())
+    }
+
+    /// The same, with what does not.
+    pub(super) fn check_clear(&self, q: &JointVector) -> Result<(), Hindrance> {
+        if self.is_clear(q) {
+            return Ok(());
+        }
+        let required_m = self.required_m();
+        match self.scene.surroundings.too_near(q, Stretch::AtPlate, required_m) {
+            Some(pair) => Err(Hindrance::Clearance { pair, required_m }),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether the bodies keep [`ROOM_M`] more than they must.
+    pub(super) fn has_room(&self, q: &JointVector) -> bool {
+        let surroundings = self.scene.surroundings;
+        surroundings.is_clear(q, Stretch::AtPlate, self.required_m() + ROOM_M)
+    }
+
+    /// Tilt \[rad\] at a contact point at the length `s` \[m\] along the wash path.
+    pub(super) fn tilt(&self, profile: &Profile, contact: &Contact, s: f64) -> f64 {
+        match profile {
+            Profile::Policy(policy) => policy.tilt(self.scene.distance(&contact.point)),
+            Profile::Spline(spline) => spline.tilt(s),
+        }
+    }
+
+    /// Tilts at all samples \[rad\].
+    pub(super) fn tilts(&self, profile: &Profile) -> Vec<f64> {
+        let Samples { contact, length_m, .. } = &self.samples;
+        contact
+            .iter()
+            .zip(length_m)
+            .map(|(p, &s)| self.tilt(profile, p, s))
+            .collect()
+    }
+
+    /// Configurations at all samples, continued from `start`; or the first sample that cannot be washed so, and why.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub(super) fn follow(&self, tilts: &[f64], start: &Start) -> Result<Result<Vec<JointVector>, Stop>, Cancelled> {
+        let Samples { contact, length_m, .. } = &self.samples;
+        let mut all: Vec<JointVector> = Vec::with_capacity(contact.len());
+        let mut free_until = f64::NEG_INFINITY;
+        let mut last = *start;
+        for (sample, (contact, &tilt)) in contact.iter().zip(tilts).enumerate() {
+            self.scene.check_cancelled()?;
+            let is_last = sample + 1 == length_m.len();
+            let looked_at = length_m[sample] >= free_until || is_last;
+            let along_m = sample.checked_sub(1).map(|before| length_m[sample] - length_m[before]);
+            match self.next(contact, tilt, &last, (along_m, looked_at)) {
+                Ok((q, has_room)) => {
+                    if has_room {
+                        free_until = length_m[sample] + STRIDE_M;
+                    }
+                    all.push(q);
+                    last.q = q;
+                }
+                Err(hindrance) => return Ok(Err(Stop { sample, hindrance })),
+            }
+        }
+        Ok(Ok(all))
+    }
+
+    /// The configuration at a contact point so far along from `last` \[m\], and whether it was seen to have room.
+    fn next(
+        &self,
+        contact: &Contact,
+        tilt: f64,
+        last: &Start,
+        (along_m, looked_at): (Option<f64>, bool),
+    ) -> Result<(JointVector, bool), Hindrance> {
+        let target = self.scene.tip_rigid(contact, tilt);
+        let q = self.scene.inverse.continuing(&target, last)?;
+        if let Some(along_m) = along_m {
+            check_step(&last.q, &q, along_m)?;
+        }
+        let has_room = looked_at && self.has_room(&q);
+        if looked_at && !has_room {
+            self.check_clear(&q)?;
+        }
+        Ok((q, has_room))
+    }
+
+    /// `dq/dθ` where the tip follows the profile: `J q′ = (p′, ω)`, ω by differences of the exact rotation; `None` at a
+    /// singularity.
+    pub(super) fn slope(&self, profile: &Profile, sample: usize, q: &JointVector) -> Option<JointVector> {
+        let (theta, length) = (self.samples.theta[sample], self.samples.length_m[sample]);
+        let first = self.samples.first(theta);
+        let rotation = |step: f64| {
+            let contact = self.samples.at(theta + step);
+            let tilt = self.tilt(profile, &contact, length + step * first.norm());
+            self.scene.tip_rigid(&contact, tilt).rotation
+        };
+        let h = DIFFERENCE_RAD;
+        let change = ((rotation(h) - rotation(-h)) * 8.0 - (rotation(2.0 * h) - rotation(-2.0 * h))) / (12.0 * h);
+        let spin = change * rotation(0.0).transpose();
+        let twist = Vector6::new(first.x, first.y, first.z, spin.m32, spin.m13, spin.m21);
+        let jacobian = self.scene.robot.fk(q).jacobian(&self.scene.tip, Axes::Base);
+        let slope = jacobian.lu().solve(&twist)?;
+        let bounded = slope.amax() <= JOINT_RATE * first.norm().max(1e-3);
+        bounded.then_some(slope)
+    }
+}
+
+/// Refuses a joint step that is no continuous motion along `length` \[m\] of the wash path.
+pub(super) fn check_step(from: &JointVector, to: &JointVector, length: f64) -> Result<(), Hindrance> {
+    let step = (to - from).abs();
+    let joint = step.imax();
+    if step[joint] <= JOINT_RATE * length + LEAST_STEP_RAD {
+        return Ok(());
+    }
+    Err(Hindrance::Jump {
+        joint,
+        by_rad: step[joint],
+    })
+}

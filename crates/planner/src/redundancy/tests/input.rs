@@ -1,0 +1,110 @@
+//! Input that makes no sense, and arms of other kinds.
+
+use super::*;
+use platewash_kinematics::irb120::IRB120_URDF;
+use platewash_kinematics::urdf::MeshSource;
+
+#[test]
+fn numbers_that_make_no_sense_are_refused_by_name() {
+    let good = path(curve(RADIUS_M), 15.0);
+    let refused = |path: &WashPath, y_m: f64, clearance_m: f64, near: &JointVector| {
+        let plates = [plate_at(0.36, 0.0).moved_to([0.3, y_m])];
+        within(&kitchen_tool(), &[plate_at(0.36, 0.0)], |world| {
+            let scene = world.scene.among(world.clearance, &plates);
+            match Task::new(&scene, path, clearance_m, near) {
+                Err(RedundancyError::Input { name, .. }) => name,
+                other => panic!("{other:?}"),
+            }
+        })
+    };
+    let curved = |change: &dyn Fn(&mut WashCurve)| {
+        let mut path = good;
+        change(&mut path.curve);
+        refused(&path, 0.0, 0.01, &HOME)
+    };
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 1e300] {
+        assert_eq!(curved(&|curve| curve.radius_m = bad), "curve.radius_m");
+        assert_eq!(curved(&|curve| curve.turns = bad), "curve.turns");
+        let tilted = WashPath { cone_rad: bad, ..good };
+        assert_eq!(refused(&tilted, 0.0, 0.01, &HOME), "cone_rad");
+        assert_eq!(refused(&good, 0.0, bad, &HOME), "clearance_m");
+    }
+    for bad in [f64::NAN, f64::INFINITY, 1e300] {
+        assert_eq!(curved(&|curve| curve.start_angle_rad = bad), "curve.start_angle_rad");
+        assert_eq!(refused(&good, bad, 0.01, &HOME), "centre");
+        assert_eq!(refused(&good, 0.0, 0.01, &JointVector::repeat(bad)), "near");
+    }
+    let long = |curve: &mut WashCurve| (curve.radius_m, curve.turns) = (9.0, 100.0);
+    assert_eq!(curved(&long), "length of the curve");
+    within(&kitchen_tool(), &[plate_at(0.36, 0.0)], |world| {
+        let other = WashPath { plate: 7, ..good };
+        let missing = RedundancyError::Plate { plate: 7, count: 1 };
+        assert_eq!(Task::new(&world.scene, &other, 0.01, &HOME).err(), Some(missing));
+    });
+}
+
+/// Extremes of what is allowed end with an answer or a reason.
+#[test]
+fn extremes_end() {
+    for (x, y, z) in [
+        (0.0, 0.0, 0.03),
+        (10.0, -10.0, 10.0),
+        (0.0, 0.05, -3.0),
+        (0.36, 0.0, 0.9),
+    ] {
+        let plates = [Plate::level_disc([x, y, z], 0.145, 0.02)];
+        within(&kitchen_tool(), &plates, |world| {
+            for (radius_m, turns, tilt) in [
+                (1e-4, 0.25, 0.0),
+                (8.0, 1.5, 15.0),
+                (0.12, 40.0, 80.0),
+                (0.05, 0.25, 15.0),
+            ] {
+                let curve = WashCurve {
+                    turns,
+                    ..curve(radius_m)
+                };
+                let path = path(curve, tilt);
+                match world.washing(&path) {
+                    Ok(washing) => check(world, &path, &washing),
+                    Err(error) => assert!(error.to_string().contains("plate 0"), "{error}"),
+                }
+            }
+        });
+    }
+}
+
+/// The sponge may touch other plates while it works on one; how near they lie changes nothing.
+#[test]
+fn other_plates_may_lie_as_near_as_they_like() {
+    let first = plate_at(0.36, 0.0);
+    let path = path(curve(RADIUS_M), 15.0);
+    let alone = within(&kitchen_tool(), &[first], |world| world.washing(&path).unwrap());
+    for gap in [-0.02, -1e-6, 0.0005, 0.0035, 0.01] {
+        let beside = first.moved_to([first.centre().x, 0.29 + gap]);
+        within(&kitchen_tool(), &[first, beside], |world| {
+            let washing = world.washing(&path).unwrap();
+            check(world, &path, &washing);
+            assert_eq!(washing.q, alone.q, "{gap}");
+        });
+    }
+}
+
+/// An arm without a spherical wrist has no named branches: the branch is the one that the path follows.
+#[test]
+fn an_arm_without_a_closed_form_washes_too() {
+    let offset = r#"<origin xyz="0.072 0 0"/>"#;
+    assert!(IRB120_URDF.contains(offset));
+    let text = IRB120_URDF.replace(offset, r#"<origin xyz="0.072 0 0.012"/>"#);
+    let robot = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
+    let robot = robot
+        .with_disabled_pairs(RobotModel::irb120().unwrap().disabled_pairs().unwrap().clone())
+        .unwrap();
+    with_arm(&robot, &kitchen_tool(), &[plate_at(0.36, 30.0)], |world| {
+        assert!(matches!(*world.scene.inverse, Inverse::Numeric(_)));
+        let path = path(curve(0.1), 15.0);
+        let washing = world.washing(&path).unwrap();
+        check(world, &path, &washing);
+        assert!(washing.travel_rad() < 15.0, "{}", washing.travel_rad());
+    });
+}

@@ -1,0 +1,117 @@
+//! Arms of other makers: branches that are searched for, and what follows where none is found.
+
+use super::*;
+use platewash_kinematics::urdf::MeshSource;
+
+/// No closed form here: its wrist is not spherical.
+const UR5: &str = include_str!("../../../../kinematics/tests/fixtures/ur5_lengths.urdf");
+const KR5: &str = include_str!("../../../../kinematics/tests/fixtures/kr5_lengths.urdf");
+
+const UR5_HOME_DEG: [f64; 6] = [0.0, -90.0, 90.0, -90.0, -90.0, 0.0];
+
+fn plate(x_m: f64, y_m: f64, z_m: f64) -> Plate {
+    Plate::level_disc([x_m, y_m, z_m], 0.11, 0.02)
+}
+
+/// Does something with an arm and one plate.
+fn with<T>(urdf: &str, plate: Plate, act: impl FnOnce(&World<'_>) -> T) -> T {
+    let robot = RobotModel::from_urdf(urdf, &MeshSource::none()).unwrap();
+    with_arm(&robot, &kitchen_tool(), &[plate], act)
+}
+
+fn ur5_home() -> JointVector {
+    JointVector::from(UR5_HOME_DEG).map(f64::to_radians)
+}
+
+/// The arm is the same from every side: a plate that is washed in one direction is washed in all of them, whichever way joint 1
+/// would turn first from home.
+#[test]
+fn a_plate_is_washed_wherever_it_is_turned_about_axis_1() {
+    for k in 0..12 {
+        let azimuth = -149.999 + 30.0 * f64::from(k);
+        let (s, c) = sin_cos(azimuth.to_radians());
+        with(UR5, plate(0.509 * c, 0.509 * s, 0.1), |world| {
+            let path = path(curve(0.09), 15.0);
+            let washing = washing(&world.task_near(&path, &ur5_home()));
+            let washing = washing.unwrap_or_else(|error| panic!("{azimuth}: {error}"));
+            check(world, &path, &washing);
+        });
+    }
+}
+
+#[test]
+fn cannot_is_said_where_a_bound_or_every_branch_proves_it() {
+    let conclusion = |urdf: &str, lies: Plate, near: &JointVector| {
+        with(urdf, lies, |world| {
+            match washable(&world.task_near(&path(curve(0.09), 15.0), near)).unwrap() {
+                Washable::Whole => None,
+                Washable::Part { conclusion, causes, .. } => {
+                    let word = if conclusion.is_proved() {
+                        "cannot"
+                    } else {
+                        "no configuration found"
+                    };
+                    assert!(
+                        causes.iter().all(|cause| cause.words(conclusion).contains(word)),
+                        "{causes:?}"
+                    );
+                    Some(conclusion)
+                }
+            }
+        })
+    };
+    // 1.02 m and the tool of 0.15 m are the most that the UR5 reaches; 0.2 m from axis 1 its own bodies are in the way, but no list
+    // of its branches says so.
+    assert_eq!(
+        conclusion(UR5, plate(1.4, 0.0, 0.1), &ur5_home()),
+        Some(Conclusion::BeyondReach)
+    );
+    assert_eq!(
+        conclusion(UR5, plate(0.95, 0.0, 0.1), &ur5_home()),
+        Some(Conclusion::NotFound)
+    );
+    assert_eq!(conclusion(UR5, plate(0.5, 0.0, 0.1), &ur5_home()), None);
+    let near = JointVector::from([0.0, -90.0, 90.0, 0.0, 90.0, 0.0]).map(f64::to_radians);
+    assert_eq!(
+        conclusion(KR5, plate(2.2, 0.0, 0.2), &near),
+        Some(Conclusion::BeyondReach)
+    );
+    assert_eq!(
+        conclusion(KR5, plate(1.45, 0.0, 0.2), &near),
+        Some(Conclusion::EveryBranchRefused)
+    );
+}
+
+/// What is solved keeps off the largest tilt: the cubics between the points turn the tool a little further.
+#[test]
+fn the_search_leaves_room_under_the_largest_tilt() {
+    with(KR5, plate(0.55, 0.0, 0.2), |world| {
+        let near = JointVector::from([0.0, -90.0, 90.0, 0.0, 90.0, 0.0]).map(f64::to_radians);
+        let turned = WashCurve {
+            turns: 3.0,
+            start_angle_rad: std::f64::consts::PI,
+            ..curve(0.09)
+        };
+        let path = path(turned, 15.0);
+        let found = washing(&world.task_near(&path, &near)).unwrap();
+        check(world, &path, &found);
+        let most = found.tilt_rad.iter().fold(0.0, |most: f64, tilt| most.max(tilt.abs()));
+        assert!(most > 0.99 * path.cone_rad, "{most}: the limit does not bind here");
+        assert!(most <= path.cone_rad - 0.9 * settings::TILT_RESERVE_RAD, "{most}");
+    });
+}
+
+#[test]
+fn plates_are_moved_without_making_the_arm_again() {
+    let robot = RobotModel::from_urdf(KR5, &MeshSource::none()).unwrap();
+    let [before, after] = [
+        [plate(0.6, 0.1, 0.2), plate(0.2, -0.6, 0.1)],
+        [plate(0.5, 0.3, 0.2), plate(0.1, 0.7, 0.3)],
+    ];
+    let workcell = workcell(&robot, kitchen_tool());
+    let moved = ClearanceModel::new(&robot, &workcell, &before).unwrap().among(&after);
+    let made = ClearanceModel::new(&robot, &workcell, &after).unwrap();
+    assert_eq!(moved.pair_names(), made.pair_names());
+    let q = JointVector::new(0.4, -1.2, 1.4, 0.3, 0.9, 0.1);
+    assert_eq!(moved.all(&q), made.all(&q));
+}

@@ -1,0 +1,167 @@
+//! Whether a plate can be washed whole where it lies; if not, which part of it not, and why.
+
+use super::conclusion::{Conclusion, conclude};
+use super::dead_ends::reasons;
+use super::error::Reason;
+use super::search::Graph;
+use super::task::Task;
+use super::washing::{by_policy, search_starts};
+use crate::scene::{Hindrance, Start, Width};
+use platewash_workcell::cancel::Cancelled;
+use std::fmt;
+
+/// What of a plate can be washed.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Washable {
+    /// Each contact point on its own. (That they connect is for [`super::washing()`] to find; it always did.)
+    Whole,
+    /// Not all of it.
+    Part {
+        /// Share of the wash path for which configurations were found, on the best branch of the arm.
+        share: f64,
+        /// What stands in the way of the rest, the most frequent first. Where several filters leave no tilt together, each
+        /// is counted.
+        causes: Vec<Cause>,
+        /// Whether the rest cannot be washed, or was only not found to be.
+        conclusion: Conclusion,
+    },
+}
+
+/// What keeps a part of a wash path from being washed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cause {
+    /// Share of the wash path.
+    pub share: f64,
+    /// Least and greatest distance of that part from axis 1 \[m\].
+    pub from_axis_m: [f64; 2],
+    /// The greatest of the hindrances there, at each point that of the best tilt: without it all of the part could be washed.
+    pub worst: Hindrance,
+}
+
+/// A [`Cause`] in words: the part in percent, where it lies, and by how much it is missed at most, rounded up.
+struct Words<'a>(&'a Cause, Conclusion);
+
+impl fmt::Display for Words<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(cause, conclusion) = self;
+        let [near, far] = cause.from_axis_m;
+        let share = 100.0 * cause.share;
+        let verdict = if conclusion.is_proved() {
+            "cannot"
+        } else {
+            "no configuration found"
+        };
+        write!(f, "{share:.1} %, {near:.3} to {far:.3} m from axis 1, {verdict} (")?;
+        cause.worst.fmt_worst(f)?;
+        f.write_str(")")
+    }
+}
+
+impl Cause {
+    /// It in words: the part in percent, where it lies, that it cannot be washed or was not found to be, and by how much it is
+    /// missed at most, rounded up.
+    #[must_use]
+    pub fn words(&self, conclusion: Conclusion) -> String {
+        Words(self, conclusion).to_string()
+    }
+}
+
+/// What of a plate can be washed.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn washable(task: &Task<'_>) -> Result<Washable, Cancelled> {
+    match by_policy(task, Width::Everywhere)? {
+        Some(_) => Ok(Washable::Whole),
+        None => washable_part(task),
+    }
+}
+
+/// What of a plate can be washed that no policy of tilts washes.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn washable_part(task: &Task<'_>) -> Result<Washable, Cancelled> {
+    let graph = Graph::new(task);
+    let mut starts = search_starts(task, &graph)?;
+    starts.push(task.anywhere_near());
+    let mut best: Option<Vec<Unwashed>> = None;
+    for start in &starts {
+        let fewer_than = best.as_ref().map_or(usize::MAX, Vec::len);
+        best = survey(task, &graph, start, fewer_than)?.or(best);
+    }
+    let best = best.unwrap_or_default();
+    if best.is_empty() {
+        return Ok(Washable::Whole);
+    }
+    let tried = graph.surveyed().len() as f64;
+    let dead: Vec<f64> = best.iter().map(|(k, _)| graph.theta[*k]).collect();
+    let conclusion = conclude(task, &dead)?;
+    let mut unwashed = Vec::with_capacity(best.len());
+    for (k, here) in &best {
+        task.scene.check_cancelled()?;
+        let contact = task.samples.at(graph.theta[*k]);
+        let hindrance = |&tilt: &f64| task.configuration(&task.scene.tip_rigid(&contact, tilt), here).err();
+        let reasons = reasons(graph.tilts.iter().filter_map(hindrance));
+        unwashed.push((task.scene.distance(&contact.point), reasons));
+    }
+    Ok(Washable::Part {
+        share: 1.0 - best.len() as f64 / tried,
+        causes: causes(unwashed, tried),
+        conclusion,
+    })
+}
+
+/// A layer without a vertex, and where the arm was before.
+type Unwashed = (usize, Start);
+
+/// The layers of a graph without a vertex on the branch of `start`; `None` as soon as they are not fewer than asked.
+fn survey(
+    task: &Task<'_>,
+    graph: &Graph,
+    start: &Start,
+    fewer_than: usize,
+) -> Result<Option<Vec<Unwashed>>, Cancelled> {
+    let mut here = *start;
+    let mut unwashed = Vec::new();
+    for k in graph.surveyed() {
+        task.scene.check_cancelled()?;
+        match graph.least_tilt(task, k, &here) {
+            Some(q) => here.q = q,
+            None => unwashed.push((k, here)),
+        }
+        if unwashed.len() >= fewer_than {
+            return Ok(None);
+        }
+    }
+    Ok(Some(unwashed))
+}
+
+/// Points, each with its distance from axis 1 \[m\], gathered by what stands in their way.
+fn causes(unwashed: Vec<(f64, Vec<Reason>)>, tried: f64) -> Vec<Cause> {
+    let mut found: Vec<Cause> = Vec::new();
+    let of_point = |(r, reasons): (f64, Vec<Reason>)| reasons.into_iter().map(move |reason| (r, reason.least));
+    let each = unwashed.into_iter().flat_map(of_point);
+    for (r, hindrance) in each {
+        match found
+            .iter_mut()
+            .find(|cause| cause.worst.filter() == hindrance.filter())
+        {
+            Some(cause) => {
+                cause.share += 1.0 / tried;
+                cause.from_axis_m = [cause.from_axis_m[0].min(r), cause.from_axis_m[1].max(r)];
+                if hindrance.shortfall() > cause.worst.shortfall() {
+                    cause.worst = hindrance;
+                }
+            }
+            None => found.push(Cause {
+                share: 1.0 / tried,
+                from_axis_m: [r, r],
+                worst: hindrance,
+            }),
+        }
+    }
+    found.sort_by(|a, b| b.share.total_cmp(&a.share));
+    found
+}

@@ -1,0 +1,267 @@
+//! How a plate is washed: the policies in turn, then the search.
+
+use super::blocked::blocked;
+use super::dead_ends;
+use super::error::RedundancyError;
+use super::search::{Graph, GraphPath};
+use super::task::{Profile, Stop, Task};
+use super::tilt_spline::{TiltSpline, smoothed};
+use crate::scene::policy::GENTLE_TILT_RAD;
+use crate::scene::{Contact, Hindrance, Start, TiltPolicy, Width, merge_starts};
+use platewash_kinematics::JointVector;
+use platewash_workcell::cancel::Cancelled;
+use serde::Serialize;
+use std::fmt;
+
+/// Passes of smoothing tried on a searched path, the smoothest first.
+const SMOOTHING: [usize; 6] = [256, 64, 16, 4, 1, 0];
+
+/// How a plate is washed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Washing {
+    /// Parameters of the wash path, from 0 to its end, as
+    /// [`WashCurve::parameters`](platewash_workcell::wash_path::WashCurve::parameters) gives them for
+    /// [`super::settings::CHORD_ERROR_M`] \[rad\].
+    pub theta: Vec<f64>,
+    /// Tilt of the tool at each: its angle from the plate's normal, positive where the flange leans away from axis 1 \[rad\].
+    pub tilt_rad: Vec<f64>,
+    /// Configuration of the arm at each \[rad\].
+    pub q: Vec<JointVector>,
+    /// dq/dθ at the first and at the last.
+    pub end_slopes: [JointVector; 2],
+    /// How the tilt was chosen.
+    pub choice: TiltChoice,
+}
+
+/// How the tilt was chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum TiltChoice {
+    /// By the distance from axis 1.
+    Policy(TiltPolicy),
+    /// By a search along the wash path.
+    Search {
+        /// Passes of smoothing that its path bore.
+        smoothing: usize,
+    },
+}
+
+impl fmt::Display for TiltChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Policy(policy) => write!(f, "tilt by distance, up to {:.1}°", policy.tilt_rad.to_degrees()),
+            Self::Search { .. } => f.write_str("tilt searched along the path"),
+        }
+    }
+}
+
+impl Washing {
+    /// Joint travel `Σ_k Σ_i |q_i(k+1) − q_i(k)|` \[rad\].
+    #[must_use]
+    pub fn travel_rad(&self) -> f64 {
+        self.q.windows(2).map(|pair| (pair[1] - pair[0]).abs().sum()).sum()
+    }
+}
+
+/// How to wash a plate.
+///
+/// # Errors
+/// [`RedundancyError`]: the contact points where nothing will do, and why; or the search was given up.
+pub fn washing(task: &Task<'_>) -> Result<Washing, RedundancyError> {
+    match by_policy(task, Width::Everywhere)? {
+        Some(washing) => Ok(washing),
+        None => by_search(task),
+    }
+}
+
+/// The policies worth trying, the best first: those that slope over the plate take the least joint travel, those that stay
+/// upright keep the most clearance.
+pub(super) fn policies(task: &Task<'_>) -> Vec<TiltPolicy> {
+    let most = task.tilt_max_rad();
+    let gentle = most.min(GENTLE_TILT_RAD);
+    let mut amplitudes = vec![gentle];
+    amplitudes.extend((most > gentle).then_some(most));
+    let centre_m = task.scene.distance(&task.centre().point);
+    let both = |&tilt: &f64| {
+        let sloping = TiltPolicy::sloping(tilt, centre_m, task.path.curve.radius_m);
+        [sloping, TiltPolicy::upright(tilt, &task.scene.reach)].map(|policy| within(policy, task))
+    };
+    amplitudes.iter().flat_map(both).collect()
+}
+
+/// The policy, with less amplitude where on this wash path it would come nearer to the largest tilt than what follows may need.
+fn within(policy: TiltPolicy, task: &Task<'_>) -> TiltPolicy {
+    let most = task.planned_tilt_rad();
+    let tilt = |contact: &Contact| policy.tilt(task.scene.distance(&contact.point)).abs();
+    let keeps = task.samples.contact.iter().all(|contact| tilt(contact) <= most);
+    TiltPolicy {
+        tilt_rad: if keeps {
+            policy.tilt_rad
+        } else {
+            policy.tilt_rad.min(most)
+        },
+        ..policy
+    }
+}
+
+/// The washing by the first policy that will do. Where branches are searched for, at most as widely as `widest`: first on
+/// those that are found from nearby.
+pub(super) fn by_policy(task: &Task<'_>, widest: Width) -> Result<Option<Washing>, Cancelled> {
+    let all = policies(task);
+    let near = first_of(task, &all, Width::Near)?;
+    let more = widest == Width::Everywhere && !task.scene.inverse.knows_all_branches();
+    if near.is_some() || !more {
+        return Ok(near);
+    }
+    first_of(task, &all, Width::Everywhere)
+}
+
+fn first_of(task: &Task<'_>, policies: &[TiltPolicy], width: Width) -> Result<Option<Washing>, Cancelled> {
+    for policy in policies {
+        let washing = with_policy(task, policy, width)?;
+        if washing.is_some() {
+            return Ok(washing);
+        }
+    }
+    Ok(None)
+}
+
+/// The washing by one policy, on the first branch that will do.
+fn with_policy(task: &Task<'_>, policy: &TiltPolicy, width: Width) -> Result<Option<Washing>, Cancelled> {
+    let profile = Profile::Policy(*policy);
+    let tilts = task.tilts(&profile);
+    if !may_do(task, &tilts) {
+        return Ok(None);
+    }
+    let first = task.scene.tip_rigid(&task.samples.contact[0], tilts[0]);
+    let starts = task.scene.inverse.starts(&first, &task.near, width);
+    for start in starts.unwrap_or_default() {
+        if let Ok(q) = task.follow(&tilts, &start)? {
+            let choice = TiltChoice::Policy(*policy);
+            return Ok(Some(finish(task, &profile, tilts, q, choice)));
+        }
+    }
+    Ok(None)
+}
+
+/// The washing by the cheapest path through the graph of tilts.
+pub(super) fn by_search(task: &Task<'_>) -> Result<Washing, RedundancyError> {
+    let graph = Graph::new(task);
+    if let Some(error) = blocked(task, &graph)? {
+        return Err(error);
+    }
+    let mut furthest: Option<(usize, Start)> = None;
+    let mut between = None;
+    for start in search_starts(task, &graph)? {
+        match graph.cheapest(task, &start)? {
+            Ok(path) => match smooth(task, &graph, &path, &start)? {
+                Ok(washing) => return Ok(washing),
+                Err(stop) => between = between.or(Some(stop)),
+            },
+            Err(layer) if furthest.is_none_or(|(other, _)| layer > other) => furthest = Some((layer, start)),
+            Err(_) => {}
+        }
+    }
+    Err(match (between, furthest) {
+        (Some(stop), _) => dead_ends::between(task, stop),
+        (None, Some((layer, start))) => dead_ends::no_tilt(task, &graph, layer, &start),
+        (None, None) => dead_ends::no_tilt(task, &graph, 0, &task.anywhere_near()),
+    })
+}
+
+/// Whether some branch reaches the contact points nearest to axis 1 and farthest from it, where every branch is known: it spares
+/// the path there.
+fn may_do(task: &Task<'_>, tilts: &[f64]) -> bool {
+    let inverse = &task.scene.inverse;
+    if !inverse.knows_all_branches() {
+        return true;
+    }
+    let contact = &task.samples.contact;
+    let mut extremes = [(0, f64::INFINITY), (0, f64::NEG_INFINITY)];
+    for (k, contact) in contact.iter().enumerate() {
+        let r = task.scene.distance(&contact.point);
+        if r < extremes[0].1 {
+            extremes[0] = (k, r);
+        }
+        if r > extremes[1].1 {
+            extremes[1] = (k, r);
+        }
+    }
+    let reached = |k: usize| {
+        let target = task.scene.tip_rigid(&contact[k], tilts[k]);
+        inverse.starts(&target, &task.near, Width::Near).is_ok()
+    };
+    extremes.iter().all(|(k, _)| reached(*k))
+}
+
+/// The branches on which some tilt reaches the first contact point, those of the smallest tilts first.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(super) fn search_starts(task: &Task<'_>, graph: &Graph) -> Result<Vec<Start>, Cancelled> {
+    let mut tilts = graph.tilts.clone();
+    tilts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let inverse = &task.scene.inverse;
+    if !inverse.knows_all_branches() {
+        // A search for branches costs too much to be made at each.
+        tilts = [tilts.first(), graph.tilts.first(), graph.tilts.last()]
+            .into_iter()
+            .flatten()
+            .copied()
+            .collect();
+    }
+    let mut starts = Vec::new();
+    for tilt in tilts {
+        task.scene.check_cancelled()?;
+        let target = task.scene.tip_rigid(&task.samples.contact[0], tilt);
+        let found = inverse.starts(&target, &task.near, Width::Everywhere);
+        merge_starts(&mut starts, found.unwrap_or_default());
+    }
+    Ok(starts)
+}
+
+/// The path's tilts, as smooth as they can be and still do.
+fn smooth(task: &Task<'_>, graph: &Graph, path: &GraphPath, start: &Start) -> Result<Result<Washing, Stop>, Cancelled> {
+    // A spline stays between its control values: where those keep within what is planned, so do its tilts.
+    let most = task.planned_tilt_rad();
+    let planned = |tilt: f64| tilt.clamp(-most, most);
+    let rough: Vec<f64> = path.tilt.iter().map(|&j| planned(graph.tilts[j])).collect();
+    let ranges: Vec<_> = path.ranges.iter().map(|range| range.map(planned)).collect();
+    let start = Start {
+        q: path.first,
+        ..*start
+    };
+    let mut last_stop = None;
+    for smoothing in SMOOTHING {
+        let profile = Profile::Spline(TiltSpline {
+            control_rad: smoothed(&rough, &ranges, smoothing),
+            spacing_m: graph.spacing_m,
+        });
+        let tilts = task.tilts(&profile);
+        match task.follow(&tilts, &start)? {
+            Ok(q) => return Ok(Ok(finish(task, &profile, tilts, q, TiltChoice::Search { smoothing }))),
+            Err(stop) => last_stop = Some(stop),
+        }
+    }
+    Ok(Err(last_stop.unwrap_or(Stop {
+        sample: 0,
+        hindrance: Hindrance::NotFinite,
+    })))
+}
+
+/// The answer, with its slopes at the ends.
+fn finish(task: &Task<'_>, profile: &Profile, tilt_rad: Vec<f64>, q: Vec<JointVector>, choice: TiltChoice) -> Washing {
+    let theta = task.samples.theta.clone();
+    let last = q.len() - 1;
+    // At a singularity there is no slope; then the chord's.
+    let chord = |a: usize, b: usize| (q[b] - q[a]) / (theta[b] - theta[a]);
+    let slope = |k: usize, pair: [usize; 2]| task.slope(profile, k, &q[k]).unwrap_or_else(|| chord(pair[0], pair[1]));
+    Washing {
+        end_slopes: [slope(0, [0, 1]), slope(last, [last - 1, last])],
+        theta,
+        tilt_rad,
+        q,
+        choice,
+    }
+}

@@ -1,0 +1,173 @@
+//! What keeps the arm from a contact point: the filters of a configuration, one a variant.
+
+use platewash_kinematics::LimitViolation;
+use platewash_kinematics::ik::analytic::{AnalyticError, OutOfReach, Rejection};
+use platewash_kinematics::ik::{IkCause, IkError};
+use platewash_kinematics::words::{not_as_zero, told_apart};
+use platewash_workcell::clearance::PairClearance;
+use serde::Serialize;
+use std::fmt;
+
+/// Why a contact point cannot be washed at a tilt in a configuration of the arm.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Hindrance {
+    /// The wrist cannot be where it must.
+    #[error("out of reach by {} mm", not_as_zero(1e3 * .0.by_m, 1))]
+    Reach(OutOfReach),
+    /// A joint would be beyond its limit.
+    #[error(
+        "joint {} is {}° beyond its limit of {:.2}°",
+        .0.joint + 1, not_as_zero((.0.position_rad - .0.limit_rad).abs().to_degrees(), 2), .0.limit_rad.to_degrees()
+    )]
+    Limit(LimitViolation),
+    /// The numeric inverse kinematics found nothing.
+    #[error("inverse kinematics: {cause}, {:.1} mm off", 1e3 * position_error_m)]
+    Unsolved {
+        /// Why.
+        cause: IkCause,
+        /// How far the best configuration is away \[m\].
+        position_error_m: f64,
+    },
+    /// Two bodies are too near.
+    #[error(
+        "{} is {} mm from {}; {} mm must be kept",
+        pair.a, told_apart(1e3 * pair.distance_m, 1e3 * required_m, 1)[0],
+        pair.b, told_apart(1e3 * pair.distance_m, 1e3 * required_m, 1)[1]
+    )]
+    Clearance {
+        /// The bodies.
+        pair: PairClearance,
+        /// What they must keep \[m\].
+        required_m: f64,
+    },
+    /// A joint would have to move too far from the last contact point.
+    #[error("joint {} would have to jump by {:.1}°", joint + 1, by_rad.to_degrees())]
+    Jump {
+        /// Joint index, 0 for joint 1.
+        joint: usize,
+        /// How far \[rad\].
+        by_rad: f64,
+    },
+    /// The pose or the start of the arm is not finite.
+    #[error("not finite")]
+    NotFinite,
+}
+
+/// The kinds of [`Hindrance`], for counting.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Filter {
+    /// [`Hindrance::Reach`] and [`Hindrance::Unsolved`].
+    Reach,
+    /// [`Hindrance::Limit`].
+    Limit,
+    /// [`Hindrance::Clearance`].
+    Clearance,
+    /// [`Hindrance::Jump`].
+    Continuity,
+    /// [`Hindrance::NotFinite`].
+    Numbers,
+}
+
+impl Hindrance {
+    /// Its kind.
+    #[must_use]
+    pub fn filter(&self) -> Filter {
+        match self {
+            Self::Reach(_) | Self::Unsolved { .. } => Filter::Reach,
+            Self::Limit(_) => Filter::Limit,
+            Self::Clearance { .. } => Filter::Clearance,
+            Self::Jump { .. } => Filter::Continuity,
+            Self::NotFinite => Filter::Numbers,
+        }
+    }
+
+    /// How far it is from being none, in the unit of its kind: m for reach and clearance, rad for limits and jumps.
+    #[must_use]
+    pub fn shortfall(&self) -> f64 {
+        match self {
+            Self::Reach(miss) => miss.by_m,
+            Self::Unsolved { position_error_m, .. } => *position_error_m,
+            Self::Limit(violation) => (violation.position_rad - violation.limit_rad).abs(),
+            Self::Clearance { pair, required_m } => required_m - pair.distance_m,
+            Self::Jump { by_rad, .. } => *by_rad,
+            Self::NotFinite => f64::INFINITY,
+        }
+    }
+}
+
+impl Hindrance {
+    /// In words where this is the greatest of many like it: "by up to", rounded up to what is printed.
+    pub(crate) fn fmt_worst(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mm = |m: f64| (1e4 * m).ceil() / 10.0;
+        let degrees = |rad: f64| (100.0 * rad.to_degrees()).ceil() / 100.0;
+        match self {
+            Self::Reach(miss) => write!(f, "out of reach by up to {:.1} mm", mm(miss.by_m)),
+            Self::Limit(violation) => write!(
+                f,
+                "joint {} is up to {:.2}° beyond its limit of {:.2}°",
+                violation.joint + 1,
+                degrees(self.shortfall()),
+                violation.limit_rad.to_degrees()
+            ),
+            Self::Unsolved {
+                cause,
+                position_error_m,
+            } => write!(
+                f,
+                "inverse kinematics: {cause}, up to {:.1} mm off",
+                mm(*position_error_m)
+            ),
+            Self::Clearance { pair, required_m } => write!(
+                f,
+                "{} is up to {:.1} mm too near {}, of {:.1} mm that must be kept",
+                pair.a,
+                mm(required_m - pair.distance_m),
+                pair.b,
+                1e3 * required_m
+            ),
+            Self::Jump { joint, by_rad } => {
+                write!(
+                    f,
+                    "joint {} would have to jump by up to {:.1}°",
+                    joint + 1,
+                    by_rad.to_degrees()
+                )
+            }
+            Self::NotFinite => f.write_str("not finite"),
+        }
+    }
+}
+
+impl From<AnalyticError> for Hindrance {
+    fn from(error: AnalyticError) -> Self {
+        match error {
+            AnalyticError::OutOfReach(miss) => Self::Reach(miss),
+            AnalyticError::Limits { violation, .. } => Self::Limit(violation),
+            _ => Self::NotFinite,
+        }
+    }
+}
+
+impl From<Rejection> for Hindrance {
+    fn from(rejection: Rejection) -> Self {
+        match rejection {
+            Rejection::OutOfReach(miss) => Self::Reach(miss),
+            Rejection::Limit(violation) => Self::Limit(violation),
+        }
+    }
+}
+
+impl From<IkError> for Hindrance {
+    fn from(error: IkError) -> Self {
+        match error {
+            IkError::NotSolved(failure) => Self::Unsolved {
+                cause: failure.cause,
+                position_error_m: failure.position_error_m,
+            },
+            _ => Self::NotFinite,
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! The arm, its tool and what stands around it; and how the tool stands at a contact point.
+
+mod contact;
+mod hindrance;
+mod inverse;
+pub mod policy;
+mod surroundings;
+
+pub use contact::Contact;
+pub use hindrance::{Filter, Hindrance};
+pub(crate) use inverse::{Inverse, Start, Width, merge_starts};
+pub use policy::TiltPolicy;
+pub use surroundings::{Stretch, Surroundings};
+
+use crate::trig::sin_cos;
+use nalgebra::{Matrix3, Vector3};
+use platewash_kinematics::ik::{IkSettingsError, IkSolver};
+use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
+use platewash_workcell::cancel::{CancelToken, Cancelled};
+use platewash_workcell::job::ReachBorders;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::tool::Tool;
+use std::sync::Arc;
+
+/// A distance from axis 1 along a face below which it has no direction \[m\].
+const ON_AXIS_M: f64 = 1e-9;
+
+/// What everything is planned in: the arm with its tool, and the bodies around them.
+#[derive(Debug, Clone)]
+pub struct Scene<'a> {
+    /// The arm.
+    pub robot: &'a RobotModel,
+    /// The tip: the centre of the sponge's far face, z leaving the tool.
+    pub tip: Frame,
+    /// The bodies around, the plates among them.
+    pub surroundings: &'a dyn Surroundings,
+    /// The plates, as in `surroundings`.
+    pub plates: &'a [Plate],
+    /// Where the upright tool leans.
+    pub reach: ReachBorders,
+    pub(crate) solver: Arc<IkSolver<'a>>,
+    pub(crate) inverse: Arc<Inverse<'a>>,
+    /// A point of axis 1 and its direction, base frame.
+    axis_1: [Vector3<f64>; 2],
+    /// The direction of the tip frame that lies across the arm's plane while joints 4 and 6 rest: unit, z = 0.
+    across: Vector3<f64>,
+    cancel: Option<&'a CancelToken>,
+}
+
+impl<'a> Scene<'a> {
+    /// A scene. `tool` and `plates` are those that `surroundings` was made with.
+    ///
+    /// # Errors
+    /// [`IkSettingsError`], for a solver that refuses its settings.
+    pub fn new(
+        robot: &'a RobotModel,
+        tool: &Tool,
+        surroundings: &'a dyn Surroundings,
+        plates: &'a [Plate],
+        reach: ReachBorders,
+    ) -> Result<Self, IkSettingsError> {
+        let tip = tool.tip_frame(robot);
+        let axes = robot.fk(&JointVector::zeros()).joint_axes();
+        let mut scene = Self {
+            robot,
+            tip,
+            surroundings,
+            plates,
+            reach,
+            solver: Arc::new(IkSolver::new(robot, tip, inverse::exact())?),
+            inverse: Arc::new(Inverse::new(robot, tip)?),
+            axis_1: [robot.reach_bound(&tip).0.coords, axes[0]],
+            across: Vector3::y(),
+            cancel: None,
+        };
+        scene.across = scene.across_at_rest(&axes[4]);
+        Ok(scene)
+    }
+
+    /// The same scene, in which all searches end as soon as `cancel` says so.
+    #[must_use]
+    pub fn until(self, cancel: &'a CancelToken) -> Self {
+        let cancel = Some(cancel);
+        Self { cancel, ..self }
+    }
+
+    /// The same arm among other plates.
+    #[must_use]
+    pub fn among<'b>(&self, surroundings: &'b dyn Surroundings, plates: &'b [Plate]) -> Scene<'b>
+    where
+        'a: 'b,
+    {
+        Scene {
+            surroundings,
+            plates,
+            ..self.clone()
+        }
+    }
+
+    /// Whether the work is to be given up.
+    pub(crate) fn check_cancelled(&self) -> Result<(), Cancelled> {
+        self.cancel.map_or(Ok(()), CancelToken::check)
+    }
+
+    /// Where the tip frame must be to wash at `contact` with the tool tilted by `tilt_rad` in the arm's plane, the one through
+    /// axis 1, the contact point and the normal there: z of the tip is `−(cos τ n + sin τ ρ̂)`, so that τ > 0 leans the flange
+    /// away from axis 1. The yaw is the one at which joints 4 and 6 rest on arms whose wrist allows it, where the face is level.
+    ///
+    /// On axis 1 itself ρ̂ is x of the base frame, along the face.
+    #[must_use]
+    pub fn tip_pose(&self, contact: &Contact, tilt_rad: f64) -> Pose {
+        Pose::from(&self.tip_rigid(contact, tilt_rad))
+    }
+
+    /// [`Scene::tip_pose`] with the tilt of a policy.
+    #[must_use]
+    pub fn pose(&self, contact: &Contact, policy: &TiltPolicy) -> Pose {
+        self.tip_pose(contact, policy.tilt(self.distance(&contact.point)))
+    }
+
+    /// The configuration for [`Scene::pose`] that is found from `near` \[rad\].
+    #[must_use]
+    pub fn configuration(&self, contact: &Contact, policy: &TiltPolicy, near: &JointVector) -> Option<JointVector> {
+        let answer = self.solver.solve(&self.pose(contact, policy), near);
+        answer.ok().map(|answer| answer.q)
+    }
+
+    pub(crate) fn tip_rigid(&self, contact: &Contact, tilt_rad: f64) -> Rigid {
+        let out = self.out(contact);
+        leaning(&self.across, contact, [&out, &out], tilt_rad)
+    }
+
+    /// The tip with the flange leaning towards `lean`, along the face, by its length \[rad\].
+    pub(crate) fn tip_leaning(&self, contact: &Contact, lean: &Vector3<f64>) -> Rigid {
+        let out = self.out(contact);
+        let tilt_rad = lean.norm();
+        let towards = if tilt_rad > 0.0 { lean / tilt_rad } else { out };
+        leaning(&self.across, contact, [&out, &towards], tilt_rad)
+    }
+
+    /// Distance of a point \[m\] from axis 1 \[m\].
+    #[must_use]
+    pub fn distance(&self, point: &Vector3<f64>) -> f64 {
+        self.away(point).norm()
+    }
+
+    /// ρ̂ of a contact point: the direction along the face away from axis 1.
+    pub(crate) fn out(&self, contact: &Contact) -> Vector3<f64> {
+        let n = contact.normal;
+        let along = |v: Vector3<f64>| (v - n * n.dot(&v)).try_normalize(ON_AXIS_M);
+        let away = along(self.away(&contact.point));
+        away.or_else(|| along(Vector3::x())).unwrap_or_else(Vector3::y)
+    }
+
+    /// The vector from axis 1 to a point \[m\].
+    fn away(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        let [origin, direction] = self.axis_1;
+        let away = point - origin;
+        away - direction * direction.dot(&away)
+    }
+
+    /// Axis 5 at q = 0 in the tip frame, across the tool, in the sense that it has against ẑ × ρ̂ there.
+    fn across_at_rest(&self, axis_5: &Vector3<f64>) -> Vector3<f64> {
+        let tip = self.robot.fk(&JointVector::zeros()).rigid(&self.tip);
+        let inside = tip.rotation.tr_mul(axis_5);
+        let across = Vector3::new(inside.x, inside.y, 0.0);
+        let Some(across) = across.try_normalize(1e-6) else {
+            return Vector3::y();
+        };
+        let here = Contact::level(tip.translation);
+        let side = here.normal.cross(&self.out(&here));
+        across * 1.0_f64.copysign(side.dot(axis_5))
+    }
+}
+
+/// The straight tool whose `across` points along `n × out`, turned about `n × lean` by the tilt.
+fn leaning(rest: &Vector3<f64>, contact: &Contact, [out, lean]: [&Vector3<f64>; 2], tilt_rad: f64) -> Rigid {
+    let n = contact.normal;
+    let (s, c) = sin_cos(tilt_rad);
+    let side = n.cross(out);
+    let hinge = n.cross(lean);
+    let z = -(n * c + lean * s);
+    let leant = lean * c - n * s;
+    let across = leant * side.dot(lean) + hinge * side.dot(&hinge);
+    let [here, there] =
+        [(across, z), (*rest, Vector3::z())].map(|(across, z)| Matrix3::from_columns(&[across, z, across.cross(&z)]));
+    Rigid {
+        rotation: here * there.transpose(),
+        translation: contact.point,
+    }
+}

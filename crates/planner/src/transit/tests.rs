@@ -1,0 +1,190 @@
+//! Transits among made-up obstacles: each kind is needed once, and is really free.
+
+use super::*;
+use crate::scene::{Contact, Scene, Stretch, Surroundings, TiltPolicy};
+use crate::timing::MotionLimits;
+use nalgebra::Vector3;
+use platewash_kinematics::{Frame, JointVector, RobotModel};
+use platewash_workcell::arc::Arc;
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::clearance::PairClearance;
+use platewash_workcell::job::ReachBorders;
+use platewash_workcell::random;
+use platewash_workcell::tool::{StraightTool, Tool};
+use std::fmt;
+
+/// Whether a configuration is free on a stretch.
+type Free<'a> = &'a (dyn Fn(&JointVector, Stretch) -> bool + Sync);
+
+/// Obstacles that a rule says.
+struct MadeUp<'a>(Free<'a>);
+
+impl fmt::Debug for MadeUp<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("MadeUp")
+    }
+}
+
+impl Surroundings for MadeUp<'_> {
+    fn is_clear(&self, q: &JointVector, stretch: Stretch, _: f64) -> bool {
+        (self.0)(q, stretch)
+    }
+
+    fn too_near(&self, _: &JointVector, _: Stretch, _: f64) -> Option<PairClearance> {
+        None
+    }
+}
+
+struct Set {
+    robot: RobotModel,
+    /// Of an arm without a tool.
+    tip: Frame,
+    limits: MotionLimits,
+}
+
+fn set() -> Set {
+    let robot = RobotModel::irb120().unwrap();
+    let limits = MotionLimits {
+        velocity: robot.limits().velocity,
+        acceleration: JointVector::new(4.0, 4.0, 4.0, 5.0, 5.0, 6.0),
+        tip: None,
+    };
+    let tip = robot.mounting_frame();
+    Set { robot, tip, limits }
+}
+
+/// Does something among obstacles.
+fn among<T>(set: &Set, free: Free<'_>, act: impl FnOnce(&Scene<'_>) -> T) -> T {
+    let tool = Tool::from(StraightTool::default());
+    let obstacles = MadeUp(free);
+    let scene = Scene::new(&set.robot, &tool, &obstacles, &[], ReachBorders::IRB_120).unwrap();
+    act(&scene)
+}
+
+/// The line over a place on the circle of radius 0.38 m, with the tool straight down.
+fn line(set: &Set, plate: usize, azimuth: f64) -> LiftLine {
+    among(set, &|_, _| true, |scene| {
+        let foot = Contact::level(Vector3::new(0.38 * azimuth.cos(), 0.38 * azimuth.sin(), 0.2));
+        let heights: Vec<f64> = (0..=15).map(|k| 2e-3 * f64::from(k)).collect();
+        let poses: Vec<_> = heights.iter().map(|h| scene.tip_pose(&foot.raised(*h), 0.0)).collect();
+        let seed = JointVector::new(azimuth, 0.3, 0.2, 0.0, 1.0, 0.0);
+        LiftLine::line(plate, heights, scene.solver.solve_path(&poses, &seed).unwrap().q).unwrap()
+    })
+}
+
+fn plan_among(set: &Set, free: Free<'_>, arc: Option<f64>) -> Result<Transit, TransitError> {
+    let arc = arc.map(|height_m| BaseArc {
+        arc: Arc {
+            points: 5,
+            radius_m: 0.35,
+            height_m,
+        },
+        policy: TiltPolicy::upright(0.0, &ReachBorders::IRB_120),
+    });
+    let transit = among(set, free, |scene| {
+        let rules = TransitRules {
+            scene,
+            limits: &set.limits,
+            clearance_m: 0.01,
+            arc,
+        };
+        let ends = [line(set, 0, -0.7), line(set, 1, 0.9)];
+        plan(&rules, &ends[0], &ends[1], &mut random::stream(1, "crossing"))
+    })?;
+    check(set, &transit, free);
+    Ok(transit)
+}
+
+/// From rest to rest, within limits, and free at a hundred times more places than the planner looked at.
+fn check(set: &Set, transit: &Transit, free: Free<'_>) {
+    let motion = &transit.timed.motion;
+    let (start, end) = (motion.at(0.0).unwrap(), motion.at(motion.duration_s()).unwrap());
+    assert!(start.qd.amax() < 1e-12 && end.qd.amax() < 1e-9);
+    assert!((start.q - line(set, 0, -0.7).rest()).amax() < 1e-9);
+    assert!((end.q - line(set, 1, 0.9).rest()).amax() < 1e-9);
+    let knot = |u: f64| transit.timed.parameters.iter().position(|p| *p >= u).unwrap();
+    let [from, to] = transit.free.map(|u| motion.times()[knot(u)]);
+    for k in 0..=5000 {
+        let q = motion.at(from + (to - from) * f64::from(k) / 5000.0).unwrap().q;
+        assert!(set.robot.limits().contain(&q));
+        assert!(free(&q, Stretch::Free), "{:?} at {q}", transit.kind);
+    }
+}
+
+#[test]
+fn the_direct_transit_is_taken_where_it_is_free() {
+    let set = set();
+    let transit = plan_among(&set, &|_, _| true, Some(0.3)).unwrap();
+    assert_eq!(transit.kind, TransitKind::Direct);
+}
+
+#[test]
+fn joint_2_is_drawn_back_where_only_that_helps() {
+    let set = set();
+    let top = *line(&set, 0, -0.7).top();
+    let drawn_back =
+        |q: &JointVector, _: Stretch| q[0].abs() > 0.1 || q[1] < top[1] - 0.4 && (q[2] - top[2]).abs() < 0.1;
+    let transit = plan_among(&set, &drawn_back, None).unwrap();
+    assert_eq!(transit.kind, TransitKind::Raised);
+}
+
+#[test]
+fn the_arc_stands_in_where_the_joints_are_blocked() {
+    let set = set();
+    // A tunnel about the arc.
+    let tunnel = |q: &JointVector, _: Stretch| {
+        let tip = set.robot.fk(q).rigid(&set.tip).translation;
+        tip.y.abs() > 0.12 || (tip.xy().norm() - 0.35).abs() < 0.012 && (tip.z - 0.22).abs() < 0.012
+    };
+    let transit = plan_among(&set, &tunnel, Some(0.22)).unwrap();
+    assert_eq!(transit.kind, TransitKind::Arc);
+}
+
+#[test]
+fn a_window_among_the_joints_is_found_by_sampling() {
+    let set = set();
+    let window = |q: &JointVector, _: Stretch| q[0].abs() > 0.1 || q[2] < -0.6 && q[2] > -1.2;
+    let transit = plan_among(&set, &window, None).unwrap();
+    assert_eq!(transit.kind, TransitKind::Sampled);
+    // From its own seeded stream: the same again.
+    assert_eq!(plan_among(&set, &window, None).unwrap(), transit);
+}
+
+#[test]
+fn what_cannot_be_crossed_is_named() {
+    let set = set();
+    let blocked = |q: &JointVector, _: Stretch| q[0].abs() > 0.1;
+    let error = plan_among(&set, &blocked, Some(0.3)).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            TransitError::NotFound {
+                from: Some(0),
+                to: Some(1),
+                ..
+            }
+        ),
+        "{error}"
+    );
+    let over_plate = |q: &JointVector, stretch: Stretch| stretch == Stretch::Free || q[0] < 0.0;
+    let error = plan_among(&set, &over_plate, None).unwrap_err();
+    assert!(matches!(error, TransitError::Line { plate: 1, .. }), "{error}");
+}
+
+#[test]
+fn what_is_given_up_is_no_transit() {
+    let (set, cancel) = (set(), CancelToken::new());
+    cancel.cancel();
+    among(&set, &|_, _| true, |scene| {
+        let scene = scene.clone().until(&cancel);
+        let rules = TransitRules {
+            scene: &scene,
+            limits: &set.limits,
+            clearance_m: 0.01,
+            arc: None,
+        };
+        let ends = [line(&set, 0, -0.7), line(&set, 1, 0.9)];
+        let given_up = plan(&rules, &ends[0], &ends[1], &mut random::stream(1, "crossing"));
+        assert!(matches!(given_up, Err(TransitError::Cancelled(_))), "{given_up:?}");
+    });
+}

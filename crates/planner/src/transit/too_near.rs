@@ -1,0 +1,94 @@
+//! Two bodies nearer than a transit may bring them.
+
+use crate::scene::{Stretch, Surroundings};
+use platewash_kinematics::JointVector;
+use platewash_kinematics::words::told_apart;
+use platewash_workcell::clearance::PairClearance;
+use std::fmt;
+
+/// What transits and the rests at home keep beyond the clearance asked for, because they are looked at in steps \[m\].
+pub const RESERVE_M: f64 = 1e-3;
+
+/// Two bodies nearer than a transit may bring them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TooNear {
+    /// The bodies and their distance.
+    pub pair: PairClearance,
+    /// The clearance asked for \[m\]; [`RESERVE_M`] is kept on top of it.
+    pub asked_m: f64,
+}
+
+impl TooNear {
+    /// The nearest of the pairs that count at `q` \[rad\], where it is too near.
+    #[must_use]
+    pub fn at(surroundings: &dyn Surroundings, q: &JointVector, stretch: Stretch, asked_m: f64) -> Option<Self> {
+        let pair = surroundings.too_near(q, stretch, asked_m + RESERVE_M)?;
+        Some(Self { pair, asked_m })
+    }
+}
+
+/// Distances that differ by less than this are not told apart by their digits \[m\].
+const ALIKE_M: f64 = 1e-9;
+
+/// What is kept, before the reserve.
+const KEPT: &str = "the clearance asked for and";
+
+impl fmt::Display for TooNear {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let PairClearance { a, b, distance_m, .. } = &self.pair;
+        let mm = |m: f64| 1e3 * m;
+        let [distance, required] = told_apart(mm(*distance_m), mm(self.asked_m + RESERVE_M), 2);
+        if *distance_m > 0.0 && self.asked_m + RESERVE_M - distance_m < ALIKE_M {
+            write!(f, "{a} is a little nearer to {b} than allowed")?;
+            return write!(
+                f,
+                "; {:.2} mm must be kept: {KEPT} {:.2} mm in reserve",
+                mm(self.asked_m + RESERVE_M),
+                mm(RESERVE_M)
+            );
+        }
+        if *distance_m > 0.0 {
+            write!(f, "{a} is {distance} mm from {b}")?;
+        } else {
+            write!(f, "{a} touches {b}")?;
+        }
+        write!(
+            f,
+            "; {required} mm must be kept: {KEPT} {:.2} mm in reserve",
+            mm(RESERVE_M)
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_kinematics::RobotModel;
+    use platewash_workcell::clearance::ClearanceModel;
+    use platewash_workcell::fixtures::{kitchen_tool, workcell};
+    use platewash_workcell::plate::Plate;
+
+    /// A plate whose surface is `gap` below the floor of the sponge, under the tool that points straight down.
+    #[test]
+    fn the_pair_its_distance_and_what_is_required_are_named() {
+        let robot = RobotModel::irb120().unwrap();
+        let tool = kitchen_tool();
+        let q = JointVector::new(0.0, 0.0, 0.0, 0.0, 90.0_f64.to_radians(), 0.0);
+        let tip = robot.fk(&q).rigid(&tool.tip_frame(&robot)).translation;
+        let workcell = workcell(&robot, tool);
+        for (gap, near) in [(0.0105, true), (0.0112, false)] {
+            let plate = Plate::level_disc([tip.x, tip.y, tip.z - gap], 0.1, 0.02);
+            let clearance = ClearanceModel::new(&robot, &workcell, &[plate]).unwrap();
+            let found = TooNear::at(&clearance, &q, Stretch::Free, 0.01);
+            assert_eq!(found.is_some(), near);
+            let at_plate = TooNear::at(&clearance, &q, Stretch::AtPlate, 0.01);
+            assert_eq!(at_plate, None, "the sponge may be near a plate");
+            if let Some(found) = found {
+                let message = found.to_string();
+                for part in ["sponge", "plate 0", "10.50 mm", "11.00 mm", "1.00 mm in reserve"] {
+                    assert!(message.contains(part), "{message}");
+                }
+            }
+        }
+    }
+}

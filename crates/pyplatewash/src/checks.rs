@@ -1,0 +1,22 @@
+//! Python's plain values are checked when they are made.
+
+use crate::curves;
+use crate::errors;
+use crate::robot;
+use crate::tool::{PlateFields, ToolFields};
+use pyo3::prelude::*;
+
+/// Checks one of Python's plain values when it is made, field by field; `kind` is its class in lower case.
+///
+/// Raises InputTypeError for a field of a wrong type, InputError for one out of its range.
+#[pyfunction]
+pub fn _check(py: Python<'_>, kind: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+    match kind {
+        "tool" => ToolFields::of(value)?.tool(py).map(|_| ()),
+        "plate" => PlateFields::of("plate", value)?.plate(py).map(|_| ()),
+        "ik_settings" => robot::settings(value).map(|_| ()),
+        "paper_spiral" => curves::spiral_of(value).map(|_| ()),
+        "wash_curve" => curves::curve_of(value).map(|_| ()),
+        _ => Err(errors::internal(py, "no such kind of value")),
+    }
+}

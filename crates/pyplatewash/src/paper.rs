@@ -1,0 +1,209 @@
+//! `PaperRun`: the paper's program, planned and followed.
+
+use crate::argument;
+use crate::errors;
+use crate::job::PaperJobObject;
+use crate::made;
+use crate::plan::PlanObject;
+use crate::trajectory::TrajectoryObject;
+use crate::value::to_record;
+use crate::work::patiently;
+use numpy::{PyArray1, PyArrayDyn};
+use platewash::paper::run_with;
+use platewash::workcell::csv;
+use platewash::workcell::segment::SegmentKind;
+use platewash::workcell::words::counted;
+use platewash::{JointVector, PaperRun};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use std::sync::Arc;
+
+/// A run of the paper's program, planned and followed, before it is judged.
+///
+/// One step a waypoint; N is their number. See `report` for what it washes.
+#[pyclass(frozen, module = "pyplatewash", name = "PaperRun")]
+pub struct PaperRunObject {
+    inner: Arc<PaperRun>,
+    job: Py<PaperJobObject>,
+}
+
+impl PaperRunObject {
+    fn positions<'py>(
+        &self,
+        py: Python<'py>,
+        of: fn(&PaperRun) -> Vec<JointVector>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        made::joint_rows(py, &of(&self.inner))
+    }
+}
+
+#[pymethods]
+impl PaperRunObject {
+    /// What was asked.
+    #[getter]
+    fn job(&self, py: Python<'_>) -> Py<PaperJobObject> {
+        self.job.clone_ref(py)
+    }
+
+    /// Plate indices in the order of washing.
+    #[getter]
+    fn order(&self) -> Vec<usize> {
+        self.inner.tool_path.order.clone()
+    }
+
+    /// The commanded motion, from the start configuration on.
+    #[getter]
+    fn planned(&self) -> TrajectoryObject {
+        self.inner.planned.clone().into()
+    }
+
+    /// The motion that the control law makes of it.
+    #[getter]
+    fn executed(&self) -> TrajectoryObject {
+        self.inner.executed.clone().into()
+    }
+
+    /// Where the tip shall be, shape (N, 3) [m].
+    #[getter]
+    fn targets<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let all: Vec<f64> = self
+            .inner
+            .steps
+            .iter()
+            .flat_map(|s| <[f64; 3]>::from(s.target))
+            .collect();
+        made::array(py, &[self.inner.steps.len(), 3], &all)
+    }
+
+    /// Where the tip is after each step, shape (N, 3) [m].
+    #[getter]
+    fn executed_tip<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let all: Vec<f64> = self
+            .inner
+            .steps
+            .iter()
+            .flat_map(|s| <[f64; 3]>::from(s.executed_tip))
+            .collect();
+        made::array(py, &[self.inner.steps.len(), 3], &all)
+    }
+
+    /// Configurations commanded, shape (N, 6) [rad].
+    #[getter]
+    fn commanded_q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.positions(py, |run| run.steps.iter().map(|s| s.commanded).collect())
+    }
+
+    /// Configurations after each step, shape (N, 6) [rad].
+    #[getter]
+    fn executed_q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.positions(py, |run| run.steps.iter().map(|s| s.executed).collect())
+    }
+
+    /// Whether the inverse kinematics solved each waypoint, shape (N,).
+    #[getter]
+    fn reached<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        made::line(py, self.inner.steps.iter().map(|s| s.reached()).collect())
+    }
+
+    /// Plate of each waypoint (the one washed, or the one a transit leads to), shape (N,).
+    #[getter]
+    fn plate<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        let segments = &self.inner.tool_path.segments;
+        made::line(
+            py,
+            self.inner
+                .steps
+                .iter()
+                .map(|s| segments[s.segment].plate as i64)
+                .collect(),
+        )
+    }
+
+    /// Whether each waypoint washes, rather than belongs to a transit, shape (N,).
+    #[getter]
+    fn washing<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        let segments = &self.inner.tool_path.segments;
+        let washes = |segment: usize| segments[segment].kind == SegmentKind::Wash;
+        made::line(py, self.inner.steps.iter().map(|s| washes(s.segment)).collect())
+    }
+
+    /// Judges the run: what was reached, how near it came, what it covered. A record; its text is the report that the command
+    /// prints.
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let run = self.inner.clone();
+        let report = patiently(py, move |cancel| run.report_with(cancel))?;
+        let report = report.map_err(|e| errors::failure(py, &e.into()))?;
+        to_record(py, &report, Some(report.to_string()))
+    }
+
+    /// The plan file of the commanded motion, sealed. There is no certificate for it.
+    fn plan(&self, py: Python<'_>) -> PyResult<PlanObject> {
+        let plan = self.inner.plan().map_err(|e| errors::failure(py, &e.into()))?;
+        Ok(PlanObject::new(plan, Some(self.job.get().robot(py))))
+    }
+
+    /// A motion as CSV text, the planned one or with `executed=True` the executed one, every `dt_s` [s], by default the
+    /// job's.
+    #[pyo3(signature = (dt_s=None, *, executed=None), text_signature = "($self, dt_s=None, *, executed=False)")]
+    fn to_csv(
+        &self,
+        py: Python<'_>,
+        dt_s: Option<&Bound<'_, PyAny>>,
+        executed: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<String> {
+        let run = &self.inner;
+        let dt_s = dt_s.map(|dt_s| argument::number("dt_s", dt_s)).transpose()?;
+        let executed = executed.map_or(Ok(false), |executed| argument::flag("executed", executed))?;
+        let motion = if executed { &run.executed } else { &run.planned };
+        let tip = run.job.workcell.tool.tip_frame(&run.job.arm);
+        let dt_s = dt_s.unwrap_or(run.job.simulation.control.dt_s);
+        let segments = run.segments();
+        let table = csv::table(motion, &segments, &run.job.arm, &tip, dt_s);
+        table
+            .map(|table| table.to_string())
+            .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
+    }
+
+    fn __len__(&self) -> usize {
+        self.inner.steps.len()
+    }
+
+    fn __repr__(&self) -> String {
+        let plates = counted(self.inner.job.layout.plates.len(), "plate");
+        let steps = counted(self.inner.steps.len(), "waypoint");
+        format!("PaperRun('{}', {plates}, {steps})", self.inner.job.name)
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        let (a, b) = (&self.inner, &other.inner);
+        self.job.get() == other.job.get() && (&a.steps, &a.planned, &a.executed) == (&b.steps, &b.planned, &b.executed)
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        // The same job gives the same run, to the bit.
+        let run = slf.py().import("pyplatewash")?.getattr("run_paper")?;
+        Ok((run, (&slf.get().job,).into_pyobject(slf.py())?))
+    }
+}
+
+/// Plans and follows a job of the paper's program, as `Scenario.paper_job` gives it.
+///
+/// Raises PlanError. A run that does not wash is no error: see `PaperRun.report`.
+#[pyfunction]
+pub fn run_paper(py: Python<'_>, job: &Bound<'_, PyAny>) -> PyResult<PaperRunObject> {
+    let job = PaperJobObject::given(job)?;
+    let asked = job.get().inner().clone();
+    let run = patiently(py, move |cancel| run_with(&asked, cancel))?;
+    Ok(PaperRunObject {
+        inner: Arc::new(run.map_err(|e| errors::failure(py, &e.into()))?),
+        job: job.clone().unbind(),
+    })
+}

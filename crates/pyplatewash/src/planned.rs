@@ -1,0 +1,110 @@
+//! `Planned`: a washing, planned, and what is to be said of it.
+
+use crate::errors;
+use crate::job::WashJobObject;
+use crate::made;
+use crate::plan::PlanObject;
+use crate::value::{records, to_record};
+use crate::work::patiently;
+use numpy::PyArrayDyn;
+use platewash::certificate::prove_with;
+use platewash::planner::{Watch, plan_with};
+use platewash::workcell::words::counted;
+use platewash::{Planned, WashReport};
+use pyo3::prelude::*;
+use pyo3::types::{PyList, PyTuple};
+use std::sync::Arc;
+
+/// A washing, from home to home, planned before anything moves: the `plan`, and how it came about. Immutable.
+#[pyclass(frozen, module = "pyplatewash", name = "Planned")]
+pub struct PlannedObject {
+    inner: Arc<Planned>,
+    job: Py<WashJobObject>,
+}
+
+#[pymethods]
+impl PlannedObject {
+    /// What was asked.
+    #[getter]
+    fn job(&self, py: Python<'_>) -> Py<WashJobObject> {
+        self.job.clone_ref(py)
+    }
+
+    /// The plan, sealed. Nothing is proved: see `prove`.
+    #[getter]
+    fn plan(&self, py: Python<'_>) -> PlanObject {
+        PlanObject::new(self.inner.plan.clone(), Some(self.job.get().robot(py)))
+    }
+
+    /// How each plate is washed, in the order of washing: `plate`, `tilt`, `wash_s`.
+    #[getter]
+    fn visits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        records(py, &self.inner.visits)
+    }
+
+    /// How the transits go, from home, between the plates, and home: `kind`, `duration_s`.
+    #[getter]
+    fn transits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        records(py, &self.inner.transits)
+    }
+
+    /// What the order gains: `travel_s`, `nearest_next_s`, `optimality`.
+    #[getter]
+    fn tour<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_record(py, &self.inner.tour, None)
+    }
+
+    /// Largest jerk of each joint between knots, shape (6,) [rad/s³]: no plan keeps a limit of it. At knots the acceleration may
+    /// jump.
+    #[getter]
+    fn largest_jerk_rad_s3<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        made::array(py, &[6], self.inner.largest_jerk().as_slice())
+    }
+
+    /// Proves the plan and sums it up. A record; its text is the report that the command prints.
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let (planned, arm) = (self.inner.clone(), self.job.get().inner().shared_arm());
+        let proved = patiently(py, move |cancel| prove_with(&planned.plan, &arm, cancel))?;
+        let certificate = proved.map_err(|e| errors::failure(py, &e.into()))?;
+        let report = WashReport::new(&self.inner, &self.job.get().layout().findings, certificate);
+        to_record(py, &report, Some(report.to_string()))
+    }
+
+    fn __repr__(&self) -> String {
+        let plan = &self.inner.plan;
+        let (name, plates) = (&plan.provenance.scenario, counted(plan.order.len(), "plate"));
+        format!("Planned('{name}', {plates}, {:.2} s)", plan.duration_s())
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.job.get() == other.job.get() && self.inner.plan == other.inner.plan
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        // The same job gives the same plan, to the bit.
+        let plan = slf.py().import("pyplatewash")?.getattr("plan")?;
+        Ok((plan, (&slf.get().job,).into_pyobject(slf.py())?))
+    }
+}
+
+/// Plans a job, as `Scenario.job` gives it. Nothing is proved: see `prove`.
+///
+/// Raises PlanError, with the plate at fault where it is one, or LayoutError.
+#[pyfunction]
+pub fn plan(py: Python<'_>, job: &Bound<'_, PyAny>) -> PyResult<PlannedObject> {
+    let job = WashJobObject::given(job)?;
+    let asked = job.get().inner().clone();
+    let planned = patiently(py, move |cancel| plan_with(&asked, &Watch::silent(cancel)))?;
+    Ok(PlannedObject {
+        inner: Arc::new(planned.map_err(|e| errors::failure(py, &e.into()))?),
+        job: job.clone().unbind(),
+    })
+}

@@ -1,0 +1,39 @@
+//! Many layouts of one scenario.
+
+use crate::argument;
+use crate::errors;
+use crate::scenario;
+use crate::value::records;
+use crate::work::patiently;
+use platewash::scenario::Program;
+use platewash::{Failure, SweepRow, sweep_each};
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+use rayon::prelude::*;
+use std::ops::ControlFlow;
+
+/// Plans and proves a scenario once a seed: one record a seed with `seed`, `outcome` (`"proved"`, `"not_proved"`,
+/// `"infeasible"`, `"not_found"`, `"error"`), `duration_s`, `transits_s`, `coverage`, `clearance_m` and `reason`. Works on all processors.
+///
+/// Raises InputError for a scenario of the paper's program; ScenarioError or PlanError for one that is wrong for every seed.
+#[pyfunction]
+pub fn sweep<'py>(
+    py: Python<'py>,
+    scenario: &Bound<'_, PyAny>,
+    seeds: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyList>> {
+    let scenario = scenario::given(scenario)?;
+    scenario::of_program(py, &scenario, Program::Certified)?;
+    let seeds = argument::each("seeds", seeds, "a list of seeds", argument::seed)?;
+    let rows = patiently(py, move |cancel| {
+        let one = |&seed: &u64| {
+            cancel.check()?;
+            sweep_each(&scenario, seed..=seed, cancel, &mut |_| ControlFlow::Continue(()))
+        };
+        seeds
+            .par_iter()
+            .map(one)
+            .collect::<Result<Vec<Vec<SweepRow>>, Failure>>()
+    })?;
+    records(py, &rows.map_err(|e| errors::failure(py, &e))?.concat())
+}

@@ -1,0 +1,108 @@
+//! The reference of scenario keys (`docs/scenario.md`), made from the table and the types' defaults.
+
+use crate::keys::KEYS;
+use crate::scenario::Scenario;
+use std::fmt::Write;
+
+/// Markdown reference of every key: unit, default, range, meaning.
+#[must_use]
+pub fn reference() -> String {
+    let defaults = toml::Value::try_from(Scenario::default()).ok();
+    let mut text = String::from(HEAD);
+    let mut section = None;
+    for key in KEYS {
+        let (here, name) = key.path.rsplit_once('.').unwrap_or(("", key.path));
+        if section != Some(here) {
+            let title = if here.is_empty() {
+                "Top level".to_owned()
+            } else {
+                format!("`[{here}]`")
+            };
+            // Writing to a String cannot fail.
+            let _ = write!(
+                text,
+                "\n## {title}\n\n| key | unit | default | range | meaning |\n| --- | --- | --- | --- | --- |\n"
+            );
+            section = Some(here);
+        }
+        let default = defaults.as_ref().and_then(|v| look_up(v, key.path));
+        let default = default.map_or_else(|| "none".to_owned(), |v| format!("`{v}`"));
+        let unit = if key.unit.is_empty() { "–" } else { key.unit };
+        let _ = writeln!(
+            text,
+            "| `{name}` | {unit} | {default} | {} | {} |",
+            key.domain.describe(),
+            key.meaning
+        );
+    }
+    text
+}
+
+const HEAD: &str = "# The scenario file
+
+A TOML file that decides a job in full. Unknown keys, values out of range, NaN and infinity are refused with the line, the
+key, what was expected and what was found. `platewash validate --scenario FILE` checks one without running it. Files in
+`scenarios/` are shipped: their names work in place of a path.
+
+This page is made from the program's own table of keys by `cargo xtask docs`; a test keeps it current. Frames: base frame of
+the arm, z up, origin on the base axis at floor level.
+";
+
+fn look_up<'a>(value: &'a toml::Value, path: &str) -> Option<&'a toml::Value> {
+    path.split('.').try_fold(value, |v, name| v.get(name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    fn leaves(value: &toml::Value, prefix: &str, into: &mut BTreeSet<String>) {
+        for (name, v) in value.as_table().unwrap() {
+            match v {
+                toml::Value::Table(_) => leaves(v, &format!("{prefix}{name}."), into),
+                _ => {
+                    into.insert(format!("{prefix}{name}"));
+                }
+            }
+        }
+    }
+
+    /// The table and the types know the same keys: every optional one is filled in here.
+    #[test]
+    fn the_table_lists_the_types_keys_and_no_others() {
+        let mut full = Scenario::default();
+        (full.robot.urdf, full.robot.srdf) = (Some("a".into()), Some("b".into()));
+        full.robot.package_path = vec!["c".into()];
+        full.robot.home_deg = Some([0.0; 6]);
+        full.robot.payload_kg = Some(3.0);
+        (full.tool.com_m, full.tool.inertia_kg_m2) = (Some(0.1), Some([0.0; 6]));
+        full.control.law = Some(platewash_workcell::simulation::ControlLawName::Pd);
+        (full.control.joint_kp, full.control.joint_kd) = (Some([0.0; 6]), Some([0.0; 6]));
+        full.plant.torque_limit_n_m = Some([1.0; 6]);
+        let layout = &mut full.layout;
+        layout.region = Some(crate::layout::RegionName::Text);
+        (layout.x_m, layout.y_m) = (Some([0.0, 1.0]), Some([0.0, 1.0]));
+        (layout.rho_m, layout.azimuth_deg) = (Some([0.0, 1.0]), Some([0.0, 1.0]));
+        layout.positions_m = Some(vec![[0.3, 0.0]]);
+        full.transition.mid_radius_m = Some(0.3);
+        let mut of_types = BTreeSet::new();
+        leaves(&toml::Value::try_from(full).unwrap(), "", &mut of_types);
+        let of_table: BTreeSet<_> = KEYS.iter().map(|k| k.path.to_owned()).collect();
+        assert_eq!(of_table, of_types);
+        assert_eq!(of_table.len(), KEYS.len(), "no key twice");
+    }
+
+    #[test]
+    fn the_committed_page_is_current() {
+        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scenario.md");
+        if std::env::var_os("PLATEWASH_WRITE_DOCS").is_some() {
+            std::fs::write(page, reference()).unwrap();
+        }
+        let committed = std::fs::read_to_string(page).unwrap();
+        assert!(
+            committed == reference(),
+            "docs/scenario.md is out of date: run `cargo xtask docs`"
+        );
+    }
+}

@@ -1,0 +1,275 @@
+//! Why a scenario could not be carried out, in the scenario's own keys.
+//!
+//! Whoever plans, proves or simulates knows no keys: the errors name things of the domain. Here each gets the keys that decide it.
+
+use crate::arm::ArmError;
+use crate::error::ScenarioError;
+use platewash_certificate::ProveError;
+use platewash_paper::PaperError;
+use platewash_paper::tracking::TrackingError;
+use platewash_planner::transit::TransitError;
+use platewash_planner::{PlaceSearch, PlanError};
+use platewash_simulator::{ControlError, DynamicsError, SimulationError};
+use platewash_workcell::cancel::Cancelled;
+use platewash_workcell::clearance::ClearanceError;
+use platewash_workcell::job::{End, JobError};
+use platewash_workcell::layout::LayoutError;
+use platewash_workcell::plan::PlanFileError;
+use platewash_workcell::verdict::Infeasibility;
+use std::fmt;
+
+/// Why a scenario could not be carried out. Its words name the keys that decide it.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Failure {
+    /// The scenario was refused.
+    Scenario(ScenarioError),
+    /// The arm could not be made.
+    Arm(ArmError),
+    /// The plates could not be placed.
+    Layout(LayoutError),
+    /// The tip shall wash off the plates.
+    NoContact {
+        /// Its height over them \[m\].
+        height_m: f64,
+    },
+    /// The terms are no job.
+    Job(JobError),
+    /// The washing could not be planned.
+    Plan(PlanError),
+    /// The paper's program could not be carried out.
+    Paper(PaperError),
+    /// The plan could not be judged.
+    Prove(ProveError),
+    /// The plan could not be simulated.
+    Simulation(SimulationError),
+    /// The plan could not be written.
+    File(PlanFileError),
+}
+
+impl Failure {
+    /// Whether the job cannot be done, or no way to do it was found; `None` for bad input.
+    #[must_use]
+    pub fn infeasibility(&self) -> Option<Infeasibility> {
+        match self {
+            Self::Layout(error) => layout_infeasibility(error),
+            Self::Plan(error) => error.infeasibility(),
+            Self::Paper(error) => error.infeasibility(),
+            _ => None,
+        }
+    }
+
+    /// Whether the work was given up, as it was told to be.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        matches!(
+            self,
+            Self::Plan(PlanError::Cancelled(_))
+                | Self::Paper(PaperError::Cancelled(_))
+                | Self::Prove(ProveError::Cancelled(_))
+                | Self::Simulation(SimulationError::Cancelled(_))
+        )
+    }
+}
+
+fn layout_infeasibility(error: &LayoutError) -> Option<Infeasibility> {
+    use LayoutError::{EmptyRegion, NoRoom};
+    match error {
+        NoRoom { .. } | EmptyRegion { .. } if error.is_proven() => Some(Infeasibility::Proved),
+        NoRoom { .. } | EmptyRegion { .. } => Some(Infeasibility::NotFound),
+        _ => None,
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scenario(error) => write!(f, "{error}"),
+            Self::Arm(error) => write!(f, "{error}"),
+            Self::Layout(error) => layout(f, error),
+            Self::NoContact { height_m } => write!(
+                f,
+                "wash.height_m must be 0 in a certified job, whose sponge touches the plates; found {height_m}"
+            ),
+            Self::Job(error) => job(f, error),
+            Self::Plan(error) => plan(f, error),
+            Self::Paper(error) => paper(f, error),
+            Self::Prove(error) => write!(f, "{error}"),
+            Self::Simulation(error) => simulation(f, error),
+            Self::File(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for Failure {}
+
+/// The key that states an end of the motion.
+fn home_key(end: End) -> &'static str {
+    match end {
+        End::Start => "robot.start_deg",
+        End::End => "robot.home_deg",
+    }
+}
+
+fn layout(f: &mut fmt::Formatter<'_>, error: &LayoutError) -> fmt::Result {
+    write!(f, "layout: {error}")?;
+    match error {
+        LayoutError::NoRoom { .. } if !error.is_proven() => {
+            f.write_str(" (seed; layout.min_distance_m; layout.positions_m)")
+        }
+        _ => Ok(()),
+    }
+}
+
+fn job(f: &mut fmt::Formatter<'_>, error: &JobError) -> fmt::Result {
+    match error {
+        JobError::Home { end, violation } => write!(f, "{}: {violation}", home_key(*end)),
+        other => write!(f, "{other}"),
+    }
+}
+
+fn plan(f: &mut fmt::Formatter<'_>, error: &PlanError) -> fmt::Result {
+    match error {
+        PlanError::Job(error) => job(f, error),
+        PlanError::Layout(error) => layout(f, error),
+        PlanError::Home { end, violation } => write!(f, "{}: {violation}", home_key(*end)),
+        PlanError::HomeNotClear { end, too_near } => {
+            write!(
+                f,
+                "{}: the arm is not clear at home: {too_near} (wash.clearance_m)",
+                home_key(*end)
+            )
+        }
+        PlanError::NoTool => f.write_str(
+            "tool.length_m is 0: a certified job needs a tool; the paper's program (job.program = \"paper\") hovers without one",
+        ),
+        PlanError::NoneWashable { .. } => write!(f, "{error} (layout.only_washable asks for it)"),
+        PlanError::Unwashable(plate) if plate.nearest_m.is_none() && plate.place_search == PlaceSearch::Off => {
+            write!(f, "{error}, as plates are sampled: another seed or layout.only_washable may do")
+        }
+        PlanError::Line { .. } | PlanError::LiftLine(_) | PlanError::Transit(TransitError::Line { .. }) => {
+            write!(f, "{error} (wash.lift_m decides it)")
+        }
+        PlanError::Tilt { .. } => write!(f, "{error} (wash.tilt_max_deg)"),
+        PlanError::Transit(TransitError::NotFound { .. } | TransitError::Home { .. }) => {
+            write!(f, "{error} (wash.clearance_m)")
+        }
+        PlanError::Timing(_) | PlanError::Transit(TransitError::Timing(_)) => write!(
+            f,
+            "{error}; wash.speed_m_s, wash.acceleration_m_s2 and the keys of [limits] decide it"
+        ),
+        other => write!(f, "{other}"),
+    }
+}
+
+fn paper(f: &mut fmt::Formatter<'_>, error: &PaperError) -> fmt::Result {
+    match error {
+        PaperError::Job(error) => job(f, error),
+        PaperError::Layout(error) => layout(f, error),
+        PaperError::Law(error) => control(f, error),
+        PaperError::Tracking(TrackingError::Divergence { .. }) => {
+            write!(f, "{error} (control.kp, control.kd, control.dt_s)")
+        }
+        other => write!(f, "{other}"),
+    }
+}
+
+fn simulation(f: &mut fmt::Formatter<'_>, error: &SimulationError) -> fmt::Result {
+    match error {
+        SimulationError::Control(error) => control(f, error),
+        SimulationError::Setting { name, expected, found } => {
+            write!(f, "plant.{name} must be {expected}; found {found}")
+        }
+        SimulationError::TooLong { .. } => {
+            write!(f, "{error} (control.rate_hz, control.dt_s, plant.substeps)")
+        }
+        SimulationError::Divergence { .. } => {
+            write!(f, "{error} (control.rate_hz, plant.substeps; the gains of [control])")
+        }
+        SimulationError::Dynamics(DynamicsError::Tool { .. }) => {
+            write!(f, "{error}; see tool.mass_kg, tool.com_m and tool.inertia_kg_m2")
+        }
+        other => write!(f, "{other}"),
+    }
+}
+
+fn control(f: &mut fmt::Formatter<'_>, error: &ControlError) -> fmt::Result {
+    match error {
+        ControlError::Setting { name, expected, found } => {
+            write!(f, "control.{name} must be {expected}; found {found}")
+        }
+        ControlError::NotKinematic { .. } => write!(f, "control.law: {error}"),
+        ControlError::UnstablePaper { .. } => write!(f, "control.kp, control.kd, control.dt_s: {error}"),
+        ControlError::Unstable {
+            highest_frequency_rad_s: Some(_),
+            ..
+        } => write!(f, "control.frequency_rad_s, control.rate_hz: {error}"),
+        other => write!(f, "control.rate_hz, the gains of [control]: {other}"),
+    }
+}
+
+impl From<ScenarioError> for Failure {
+    fn from(error: ScenarioError) -> Self {
+        Self::Scenario(error)
+    }
+}
+
+impl From<ArmError> for Failure {
+    fn from(error: ArmError) -> Self {
+        Self::Arm(error)
+    }
+}
+
+impl From<LayoutError> for Failure {
+    fn from(error: LayoutError) -> Self {
+        Self::Layout(error)
+    }
+}
+
+impl From<ClearanceError> for Failure {
+    fn from(error: ClearanceError) -> Self {
+        Self::Job(error.into())
+    }
+}
+
+impl From<JobError> for Failure {
+    fn from(error: JobError) -> Self {
+        Self::Job(error)
+    }
+}
+
+impl From<PlanError> for Failure {
+    fn from(error: PlanError) -> Self {
+        Self::Plan(error)
+    }
+}
+
+impl From<PaperError> for Failure {
+    fn from(error: PaperError) -> Self {
+        Self::Paper(error)
+    }
+}
+
+impl From<ProveError> for Failure {
+    fn from(error: ProveError) -> Self {
+        Self::Prove(error)
+    }
+}
+
+impl From<SimulationError> for Failure {
+    fn from(error: SimulationError) -> Self {
+        Self::Simulation(error)
+    }
+}
+
+impl From<PlanFileError> for Failure {
+    fn from(error: PlanFileError) -> Self {
+        Self::File(error)
+    }
+}
+
+impl From<Cancelled> for Failure {
+    fn from(error: Cancelled) -> Self {
+        Self::Plan(error.into())
+    }
+}

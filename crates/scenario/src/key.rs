@@ -1,0 +1,73 @@
+//! A scenario key: its path, unit, range and meaning.
+
+use Domain::{Bool, Integer, Joints, JointsAbove, Number, NumberAbove, Path, Paths, Points, Range, Text, Word};
+use platewash_workcell::job::MAX_SEED;
+
+/// What values a key takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Domain {
+    /// Text that is not empty and has no control characters, which a terminal would obey.
+    Text,
+    /// A path of a file, relative to the scenario's folder.
+    Path,
+    /// A list of folder paths.
+    Paths,
+    /// One of some words.
+    Word(&'static [&'static str]),
+    /// `true` or `false`.
+    Bool,
+    /// A whole number, both ends included.
+    Integer(i64, i64),
+    /// A number, both ends included.
+    Number(f64, f64),
+    /// A number above the first and up to the second.
+    NumberAbove(f64, f64),
+    /// `[least, greatest]`, least below greatest, both within the range.
+    Range(f64, f64),
+    /// Six numbers, one a joint, each within the range.
+    Joints(f64, f64),
+    /// Six numbers, each above the first and up to the second.
+    JointsAbove(f64, f64),
+    /// A list of 1 to 1000 points `[x, y]`, coordinates within the range.
+    Points(f64, f64),
+}
+
+/// A key of the scenario file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Key {
+    /// Dotted path.
+    pub path: &'static str,
+    /// Unit; empty for none.
+    pub unit: &'static str,
+    /// Values it takes.
+    pub domain: Domain,
+    /// What it means.
+    pub meaning: &'static str,
+}
+
+impl Domain {
+    /// The range in words, as messages and the reference print it.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        match self {
+            Text => "text without control characters".to_owned(),
+            Path => "a path".to_owned(),
+            Paths => "a list of folders".to_owned(),
+            Word(words) => {
+                let quoted: Vec<_> = words.iter().map(|w| format!("\"{w}\"")).collect();
+                quoted.join(" or ")
+            }
+            Bool => "true or false".to_owned(),
+            Integer(least, most) if *most == MAX_SEED as i64 => {
+                format!("a whole number from {least} to {most} (2^53 − 1)")
+            }
+            Integer(least, most) => format!("a whole number from {least} to {most}"),
+            Number(least, most) => format!("a number from {least} to {most}"),
+            NumberAbove(above, most) => format!("a number above {above}, up to {most}"),
+            Range(least, most) => format!("[least, greatest] with least < greatest, from {least} to {most}"),
+            Joints(least, most) => format!("six numbers from {least} to {most}"),
+            JointsAbove(above, most) => format!("six numbers above {above}, up to {most}"),
+            Points(least, most) => format!("a list of 1 to 1000 [x, y], coordinates from {least} to {most}"),
+        }
+    }
+}

@@ -1,0 +1,435 @@
+//! The one table of scenario keys: unit, range, meaning.
+
+use crate::control::TIME_STEPS_S;
+pub use crate::key::{Domain, Key};
+use platewash_workcell::job::MAX_SEED;
+use platewash_workcell::simulation::ControlLawName;
+
+const fn key(path: &'static str, unit: &'static str, domain: Domain, meaning: &'static str) -> Key {
+    Key {
+        path,
+        unit,
+        domain,
+        meaning,
+    }
+}
+
+use Domain::{Bool, Integer, Joints, JointsAbove, Number, NumberAbove, Path, Paths, Points, Range, Text, Word};
+
+/// Every key, in the order of the reference.
+pub const KEYS: &[Key] = &[
+    key("name", "", Text, "Name, for reports."),
+    key(
+        "seed",
+        "",
+        Integer(0, MAX_SEED as i64),
+        "Seed of every random stream; the same seed gives the same bytes. Larger ones are no JSON numbers of their own.",
+    ),
+    key(
+        "job.program",
+        "",
+        Word(&["paper", "certified"]),
+        "Waypoint after waypoint as the paper's program, or planned as a whole, from home to home, with a certificate. Each uses \
+         the keys that it needs.",
+    ),
+    key(
+        "job.on_failure",
+        "",
+        Word(&["report", "fail"]),
+        "A job that does not wash: report it (exit code 0), or also end with exit code 3 (infeasible) or 4 (verification failed).",
+    ),
+    key(
+        "job.order",
+        "",
+        Word(&["nearest", "given", "fastest"]),
+        "Order of the plates: always the nearest unvisited centre, as listed, or the least travel time in all (certified only).",
+    ),
+    key(
+        "job.required_coverage",
+        "",
+        Number(0.0, 1.0),
+        "Share of a plate's disc that the executed sponge must sweep for the plate to count as washed.",
+    ),
+    key("robot.model", "", Word(&["irb120"]), "Built-in arm."),
+    key(
+        "robot.urdf",
+        "",
+        Path,
+        "Expanded URDF of another six-axis arm, in place of the built-in one; relative to the scenario's folder.",
+    ),
+    key(
+        "robot.srdf",
+        "",
+        Path,
+        "SRDF whose `disable_collisions` elements name the link pairs that need no check. Without it: adjacent pairs and pairs that always touch.",
+    ),
+    key(
+        "robot.package_path",
+        "",
+        Paths,
+        "Folders in which `package://` mesh names are looked up.",
+    ),
+    key(
+        "robot.tool_frame",
+        "",
+        Word(&["flange", "tool0", "matlab_tool0"]),
+        "Frame in which tool poses are stated and returned; nothing else changes.",
+    ),
+    key(
+        "robot.start_deg",
+        "deg",
+        Joints(-36000.0, 36000.0),
+        "Joint positions at the start, within the arm's limits.",
+    ),
+    key(
+        "robot.home_deg",
+        "deg",
+        Joints(-36000.0, 36000.0),
+        "Joint positions at the end, within the arm's limits; without it, those at the start (certified).",
+    ),
+    key(
+        "robot.payload_kg",
+        "kg",
+        NumberAbove(0.0, 1e6),
+        "Rated payload, against which the tool's mass is checked; without it, 3 kg for the built-in arm, unknown for others.",
+    ),
+    key(
+        "tool.length_m",
+        "m",
+        Number(0.0, 2.0),
+        "From the flange to the sponge's far face, along the flange's normal; 0 means no tool body; above 0 in a certified job.",
+    ),
+    key("tool.radius_m", "m", NumberAbove(0.0, 1.0), "Radius of the handle."),
+    key(
+        "tool.sponge_radius_m",
+        "m",
+        NumberAbove(0.0, 1.0),
+        "Radius of the sponge; decides coverage, also where there is no tool body.",
+    ),
+    key(
+        "tool.sponge_height_m",
+        "m",
+        NumberAbove(0.0, 1.0),
+        "Height of the sponge; with a tool body, below its length.",
+    ),
+    key(
+        "tool.sponge_compression_m",
+        "m",
+        Number(0.0, 1.0),
+        "How far the sponge is pressed in while it washes: the tip may lift as far and still touch. An assumption.",
+    ),
+    key(
+        "tool.mass_kg",
+        "kg",
+        Number(0.0, 1e4),
+        "Mass of the tool body (none where length_m is 0): an assumption.",
+    ),
+    key(
+        "tool.com_m",
+        "m",
+        Number(-10.0, 10.0),
+        "Distance of the tool's centre of mass from the flange, along its axis; without it, half its length.",
+    ),
+    key(
+        "tool.inertia_kg_m2",
+        "kg·m²",
+        Joints(-1e4, 1e4),
+        "Inertia of the tool about its centre of mass: ixx, ixy, ixz, iyy, iyz, izz, z along the tool; without it, that of a \
+         uniform cylinder.",
+    ),
+    key(
+        "layout.count",
+        "",
+        Integer(1, 1000),
+        "Plates to sample; not used with `positions_m`.",
+    ),
+    key(
+        "layout.plate_radius_m",
+        "m",
+        NumberAbove(0.0, 10.0),
+        "Radius of a plate; above 0.000001 in a certified job.",
+    ),
+    key(
+        "layout.plate_height_m",
+        "m",
+        Number(-10.0, 10.0),
+        "z of the washing surface.",
+    ),
+    key(
+        "layout.plate_thickness_m",
+        "m",
+        NumberAbove(0.0, 1.0),
+        "Thickness of a plate, downwards from its washing surface; above 0.000001 in a certified job.",
+    ),
+    key(
+        "layout.region",
+        "",
+        Word(&["text", "appendix"]),
+        "Region of plate centres by name: as the paper's text, or as its appendix code.",
+    ),
+    key("layout.x_m", "m", Range(-10.0, 10.0), "Range of x of plate centres."),
+    key("layout.y_m", "m", Range(-10.0, 10.0), "Range of y of plate centres."),
+    key(
+        "layout.rho_m",
+        "m",
+        Range(0.0, 10.0),
+        "Range of the distance of plate centres from the base axis.",
+    ),
+    key(
+        "layout.azimuth_deg",
+        "deg",
+        Range(-720.0, 720.0),
+        "Range of the azimuth of plate centres, counter-clockwise from x, at most a turn wide.",
+    ),
+    key(
+        "layout.min_distance_m",
+        "m",
+        Number(0.0, 10.0),
+        "Plate centres are farther apart than this.",
+    ),
+    key(
+        "layout.base_radius_m",
+        "m",
+        Number(0.0, 10.0),
+        "Plate centres are farther from the base axis than this.",
+    ),
+    key(
+        "layout.overlap",
+        "",
+        Word(&["report", "fail"]),
+        "Plates that overlap: a finding only, or the certificate fails.",
+    ),
+    key(
+        "layout.only_washable",
+        "",
+        Bool,
+        "Whether sampled layouts are drawn anew until every plate can be washed whole (certified).",
+    ),
+    key(
+        "layout.positions_m",
+        "m",
+        Points(-10.0, 10.0),
+        "Plate centres, in place of sampling: as many plates as are listed.",
+    ),
+    key("wash.points", "", Integer(2, 100_000), "Waypoints of the spiral."),
+    key(
+        "wash.turns",
+        "",
+        NumberAbove(0.0, 1000.0),
+        "Turns of the spiral; from 0.25 to 200 in a certified job.",
+    ),
+    key(
+        "wash.path_radius_m",
+        "m",
+        NumberAbove(0.0, 10.0),
+        "Outer radius of the spiral; in a certified job at least 0.0001, and π · path_radius_m · (turns + 2) at most 100 m.",
+    ),
+    key(
+        "wash.height_m",
+        "m",
+        Number(0.0, 1.0),
+        "Height of the tip above the washing surface.",
+    ),
+    key(
+        "wash.closing_ring",
+        "",
+        Bool,
+        "Whether a full circle at the outer radius follows the spiral.",
+    ),
+    key(
+        "wash.clearance_m",
+        "m",
+        Number(0.0, 1.0),
+        "Least clearance that counts as free; at 0 only contact is a violation. In a certified job the planner keeps 0.5 mm more \
+         while washing, and 1 mm more at home, on the lines over plates and between them, because it looks in steps.",
+    ),
+    key(
+        "wash.tilt_max_deg",
+        "deg",
+        Number(0.0, 60.0),
+        "Largest angle of the tool from the plate's normal at a plate (certified), and never above atan(sponge_height_m / sponge_radius_m).",
+    ),
+    key(
+        "wash.speed_m_s",
+        "m/s",
+        NumberAbove(0.0, 10.0),
+        "Largest speed of the tip while it washes, and of the sponge's rim where it touches before and after (certified); at least 0.000001.",
+    ),
+    key(
+        "wash.acceleration_m_s2",
+        "m/s²",
+        NumberAbove(0.0, 1000.0),
+        "Largest acceleration of the tip while it washes (certified); at least 0.000001.",
+    ),
+    key(
+        "wash.lift_m",
+        "m",
+        NumberAbove(0.0, 1.0),
+        "How far the tip approaches and retreats along the plate's normal (certified): more than clearance_m and 1 mm, so that a \
+         tilted sponge too is clear of the plate.",
+    ),
+    key(
+        "ik.method",
+        "",
+        Word(&["numeric", "analytic"]),
+        "Solver of the paper's program: damped least squares with a QP fallback, alone or also from the closed form's nearest branch.",
+    ),
+    key(
+        "ik.seed",
+        "",
+        Word(&["executed", "previous"]),
+        "Each waypoint is solved from the configuration that the arm really has (the paper), or from the previous answer.",
+    ),
+    key(
+        "ik.position_tolerance_m",
+        "m",
+        Number(1e-12, 1e-2),
+        "Largest accepted position error.",
+    ),
+    key(
+        "ik.orientation_tolerance_rad",
+        "rad",
+        Number(1e-12, 1e-2),
+        "Largest accepted orientation error.",
+    ),
+    key(
+        "transition.interpolation",
+        "",
+        Word(&["zero_velocity", "c2_spline"]),
+        "Curve between plates: cubics at rest at every waypoint (the paper), or one spline with continuous acceleration.",
+    ),
+    key(
+        "transition.samples",
+        "",
+        Integer(2, 100_000),
+        "Samples along the curve, both ends included.",
+    ),
+    key(
+        "transition.mid_points",
+        "",
+        Integer(2, 1000),
+        "Waypoints of the arc round the base, both ends included.",
+    ),
+    key(
+        "transition.mid_radius_m",
+        "m",
+        NumberAbove(0.0, 10.0),
+        "Radius of the arc; without it, max(layout.base_radius_m + 0.1, 0.3).",
+    ),
+    key("transition.mid_height_m", "m", Number(-10.0, 10.0), "z of the arc."),
+    key(
+        "limits.joint_acceleration_rad_s2",
+        "rad/s²",
+        JointsAbove(0.0, 1e6),
+        "Joint acceleration limits, at least 0.001 in a certified job: an assumption, as the manufacturer publishes none.",
+    ),
+    key(
+        "limits.tip_speed_m_s",
+        "m/s",
+        NumberAbove(0.0, 100.0),
+        "Largest speed of the tip anywhere (certified), at least 0.000001: an assumption.",
+    ),
+    key(
+        "limits.tip_acceleration_m_s2",
+        "m/s²",
+        NumberAbove(0.0, 1e4),
+        "Largest acceleration of the tip anywhere (certified), at least 0.000001: an assumption.",
+    ),
+    key(
+        "control.law",
+        "",
+        Word(&ControlLawName::NAMES),
+        "How the arm follows: the paper's law or exactly, without a plant; or a law that gives torques (certified). Without it, \
+         \"paper\" for the paper's program, \"computed_torque\" for a certified job.",
+    ),
+    key(
+        "control.kp",
+        "1/s",
+        Number(0.0, 1e6),
+        "Proportional gain of the paper's law.",
+    ),
+    key(
+        "control.kd",
+        "",
+        Number(0.0, 1e6),
+        "Derivative gain of the paper's law.",
+    ),
+    key(
+        "control.dt_s",
+        "s",
+        Number(TIME_STEPS_S[0], TIME_STEPS_S[1]),
+        "Time between waypoints.",
+    ),
+    key(
+        "control.rate_hz",
+        "Hz",
+        Number(1.0, 1e5),
+        "Samples of a torque law; its torque is held between them.",
+    ),
+    key(
+        "control.frequency_rad_s",
+        "rad/s",
+        NumberAbove(0.0, 1e5),
+        "Natural frequency ω of a torque law: kp = M ω², M each joint's largest inertia, or 1 for computed torque.",
+    ),
+    key(
+        "control.damping_ratio",
+        "",
+        Number(0.0, 100.0),
+        "Damping ratio ζ of a torque law: kd = 2 ζ ω M.",
+    ),
+    key(
+        "control.joint_kp",
+        "N·m/rad",
+        Joints(0.0, 1e9),
+        "Proportional gains of a torque law in place of those; in 1/s² for computed torque.",
+    ),
+    key(
+        "control.joint_kd",
+        "N·m·s/rad",
+        Joints(0.0, 1e9),
+        "Derivative gains of a torque law in place of those; in 1/s for computed torque.",
+    ),
+    key(
+        "control.feed_forward",
+        "",
+        Word(&["none", "velocity"]),
+        "What a torque law takes from the commanded motion besides positions; computed torque takes accelerations with speeds.",
+    ),
+    key(
+        "plant.integrator",
+        "",
+        Word(&["semi_implicit_euler", "rk4"]),
+        "How the motion is integrated: speeds then positions, or the classical fourth-order scheme.",
+    ),
+    key(
+        "plant.substeps",
+        "",
+        Integer(1, 1000),
+        "Steps of integration to a sample of the law.",
+    ),
+    key(
+        "plant.viscous_friction_n_m_s",
+        "N·m·s/rad",
+        Joints(0.0, 1e6),
+        "Friction torque per joint speed: off by default, as none is published.",
+    ),
+    key(
+        "plant.coulomb_friction_n_m",
+        "N·m",
+        Joints(0.0, 1e6),
+        "Friction torque against any motion: off by default, as none is published.",
+    ),
+    key(
+        "plant.torque_limit_n_m",
+        "N·m",
+        JointsAbove(0.0, 1e6),
+        "Largest joint torques; without it, those of the arm's description, where an effort of 0 means unknown, not a limit.",
+    ),
+    key(
+        "plant.contact_force_n",
+        "N",
+        Number(0.0, 1e4),
+        "Force of a plate on the sponge while it washes, along the plate's normal: off by default.",
+    ),
+];

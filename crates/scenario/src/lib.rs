@@ -1,0 +1,55 @@
+//! The scenario file: everything that decides a job, in TOML with the unit in every key's name; the jobs that it states; and the
+//! keys in the messages of whoever could not carry them out.
+//!
+//! [`keys`] is the one table of keys, units, ranges and meanings: it checks files and makes
+//! `docs/scenario.md`. The defaults are those of the types here.
+//!
+//! [`Scenario::load`] reads a file, [`Scenario::job`] and [`Scenario::paper_job`] resolve it, with `arm`, `layout`, `place` and `job_on` for
+//! whoever wants the steps one by one. Errors of other crates become a [`Failure`] by `?`; its words name the keys.
+
+mod arm;
+mod certified;
+mod control;
+mod document;
+mod error;
+mod failure;
+mod ik;
+mod job;
+mod key;
+pub mod keys;
+mod layout;
+mod limits;
+mod load;
+mod paths;
+mod placement;
+mod plant;
+mod resolve;
+mod robot;
+mod scenario;
+mod seed;
+mod shipped;
+mod tool;
+mod transition;
+mod units;
+mod wash;
+mod work;
+
+pub use arm::{ArmError, load_arm, load_description};
+pub use control::{ControlSection, TIME_STEPS_S};
+pub use document::reference;
+pub use error::{Problem, ScenarioError};
+pub use failure::Failure;
+pub use ik::IkSection;
+pub use job::{JobSection, OnFailure, Program};
+pub use layout::{LayoutSection, RegionName};
+pub use limits::LimitsSection;
+pub use plant::PlantSection;
+pub use robot::{BuiltInArm, RobotSection};
+pub use scenario::Scenario;
+pub use seed::check_seed;
+pub use shipped::{SHIPPED, ShippedScenario};
+pub use tool::ToolSection;
+pub use transition::TransitionSection;
+pub use units::UnitNote;
+pub use wash::WashSection;
+pub use work::MAX_CONTACT_CHECKS;

@@ -1,0 +1,264 @@
+//! From a scenario to the job that it states.
+
+use crate::arm::load_arm;
+use crate::failure::Failure;
+use crate::job::Program;
+use crate::scenario::Scenario;
+use platewash_kinematics::RobotModel;
+use platewash_paper::order::PaperOrder;
+use platewash_paper::settings::{PaperIk, TransitCurve};
+use platewash_paper::{PaperJob, PaperSettings, PaperSpiral};
+use platewash_planner::Watch;
+use platewash_workcell::arc::Arc as ArcRoundBase;
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::job::{
+    End, JobError, JobTerms, Limits, OrderRule, Planner, PlannerSettings, ReachBorders, Requirements, WashJob,
+};
+use platewash_workcell::layout::{Finding, Layout};
+use platewash_workcell::simulation::{ControlLawName, SimulationSettings};
+use platewash_workcell::workcell::Workcell;
+use std::sync::Arc;
+
+impl Scenario {
+    /// The arm.
+    ///
+    /// # Errors
+    /// [`Failure::Arm`].
+    pub fn arm(&self) -> Result<Arc<RobotModel>, Failure> {
+        Ok(Arc::new(load_arm(&self.robot)?))
+    }
+
+    /// The washing that the scenario asks for, resolved: the arm loaded, the plates placed.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub fn job(&self) -> Result<WashJob, Failure> {
+        let arm = self.arm()?;
+        let layout = self.place(&arm, &Watch::silent(&CancelToken::new()))?;
+        self.job_on(&arm, &layout)
+    }
+
+    /// The washing that the scenario asks for with an arm loaded and plates placed before.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub fn job_on(&self, arm: &Arc<RobotModel>, layout: &Layout) -> Result<WashJob, Failure> {
+        self.validate()?;
+        self.check_work()?;
+        Ok(WashJob::new(arm.clone(), self.terms(arm, layout)?)?.named(&self.name))
+    }
+
+    /// The run of the paper's program that the scenario asks for, resolved.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub fn paper_job(&self) -> Result<PaperJob, Failure> {
+        let arm = self.arm()?;
+        let layout = self.layout(&arm)?;
+        self.paper_job_on(&arm, layout)
+    }
+
+    /// The run of the paper's program that the scenario asks for with an arm loaded and plates placed before.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub fn paper_job_on(&self, arm: &Arc<RobotModel>, layout: Layout) -> Result<PaperJob, Failure> {
+        self.validate()?;
+        self.check_work()?;
+        let [start, _] = self.homes();
+        Ok(PaperJob {
+            name: self.name.clone(),
+            arm: arm.clone(),
+            workcell: self.workcell(arm)?,
+            layout,
+            seed: self.seed,
+            start_rad: start,
+            requirements: self.requirements(),
+            limits: self.limits(),
+            settings: self.paper_settings(),
+            simulation: self.simulation(),
+        })
+    }
+
+    /// Checks a scenario without carrying it out: the arm loads, its ends are within its limits and clear, and the plates have room in
+    /// principle (given ones are placed; for sampled ones the region is not empty).
+    ///
+    /// Returns the arm, and what is to be said about given plates.
+    ///
+    /// # Errors
+    /// As carrying it out, for the same fault.
+    pub fn check(&self) -> Result<(Arc<RobotModel>, Vec<Finding>), Failure> {
+        self.validate()?;
+        let arm = self.arm()?;
+        let given = self.layout.positions_m.is_some();
+        let layout = if given {
+            self.layout(&arm)?
+        } else {
+            self.check_region()?;
+            Layout::of(Vec::new())
+        };
+        let [start, _] = self.homes();
+        if let Some(violation) = arm.limits().violation(&start) {
+            return Err(JobError::Home {
+                end: End::Start,
+                violation,
+            }
+            .into());
+        }
+        if self.job.program == Program::Certified {
+            platewash_planner::check(&arm, &self.terms(&arm, &layout)?)?;
+        }
+        Ok((arm, layout.findings))
+    }
+
+    /// The terms of the job on some plates.
+    ///
+    /// # Errors
+    /// [`Failure`]: a tip that washes off the plates, or an arm with a shape that is none.
+    pub fn terms(&self, arm: &RobotModel, layout: &Layout) -> Result<JobTerms, Failure> {
+        if self.wash.height_m != 0.0 {
+            let height_m = self.wash.height_m;
+            return Err(Failure::NoContact { height_m });
+        }
+        let wash = &self.wash;
+        Ok(JobTerms {
+            workcell: self.workcell(arm)?,
+            plates: layout.plates.clone(),
+            requirements: self.requirements(),
+            limits: self.limits(),
+            home_rad: self.homes(),
+            planner: Planner::Wash(PlannerSettings {
+                path_radius_m: wash.path_radius_m,
+                turns: wash.turns,
+                closing_ring: wash.closing_ring,
+                lift_m: wash.lift_m,
+                order: self.job.order,
+                arc: self.arc(),
+                reach: ReachBorders::IRB_120,
+                relocate: self.layout.positions_m.is_some(),
+            }),
+            seed: self.seed,
+            simulation: self.simulation(),
+        })
+    }
+
+    /// The settings of the paper's program.
+    #[must_use]
+    pub fn paper_settings(&self) -> PaperSettings {
+        let (wash, transition, ik) = (&self.wash, &self.transition, &self.ik);
+        PaperSettings {
+            spiral: PaperSpiral {
+                points: wash.points,
+                turns: wash.turns,
+                radius_m: wash.path_radius_m,
+                closing_ring: wash.closing_ring,
+            },
+            height_m: wash.height_m,
+            transit: TransitCurve {
+                interpolation: transition.interpolation,
+                samples: transition.samples,
+            },
+            arc: self.arc(),
+            ik: PaperIk {
+                method: ik.method,
+                seed: ik.seed,
+                position_tolerance_m: ik.position_tolerance_m,
+                orientation_tolerance_rad: ik.orientation_tolerance_rad,
+            },
+            order: match self.job.order {
+                OrderRule::Given => PaperOrder::Given,
+                // The least travel time is refused for the paper's program before.
+                OrderRule::Nearest | OrderRule::Fastest => PaperOrder::Nearest,
+            },
+        }
+    }
+
+    /// The arm with its tool, on the floor.
+    fn workcell(&self, arm: &RobotModel) -> Result<Workcell, Failure> {
+        Ok(Workcell::on_floor(arm, self.tool.tool())?)
+    }
+
+    fn requirements(&self) -> Requirements {
+        let wash = &self.wash;
+        Requirements {
+            coverage: self.job.required_coverage,
+            clearance_m: wash.clearance_m,
+            tilt_rad: wash.tilt_max_deg.to_radians(),
+            wash_speed_m_s: wash.speed_m_s,
+            wash_acceleration_m_s2: wash.acceleration_m_s2,
+            overlap: self.layout.overlap,
+            as_listed: self.job.order == OrderRule::Given,
+        }
+    }
+
+    fn limits(&self) -> Limits {
+        let limits = &self.limits;
+        Limits {
+            joint_acceleration_rad_s2: limits.joint_acceleration_rad_s2,
+            tip_speed_m_s: limits.tip_speed_m_s,
+            tip_acceleration_m_s2: limits.tip_acceleration_m_s2,
+        }
+    }
+
+    fn simulation(&self) -> SimulationSettings {
+        SimulationSettings {
+            law: self.law(),
+            control: self.control.settings(),
+            plant: self.plant.settings(),
+            payload_kg: self.robot.payload_kg,
+        }
+    }
+
+    /// The control law: the one stated, otherwise the paper's for the paper's program and computed torque for a certified job.
+    #[must_use]
+    pub fn law(&self) -> ControlLawName {
+        self.control.law.unwrap_or(match self.job.program {
+            Program::Paper => ControlLawName::Paper,
+            Program::Certified => ControlLawName::ComputedTorque,
+        })
+    }
+
+    /// The arc round the base.
+    #[must_use]
+    pub fn arc(&self) -> ArcRoundBase {
+        let section = &self.transition;
+        let outside_m = (self.layout.base_radius_m + 0.1).max(0.3);
+        ArcRoundBase {
+            points: section.mid_points,
+            radius_m: section.mid_radius_m.unwrap_or(outside_m),
+            height_m: section.mid_height_m,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_workcell::fixtures;
+
+    #[test]
+    fn the_kitchen_of_other_crates_tests_is_the_shipped_one() {
+        let job = Scenario::load("kitchen").unwrap().job().unwrap();
+        assert_eq!(job.terms(), fixtures::kitchen().terms());
+        assert_eq!(job.name(), "kitchen");
+    }
+
+    #[test]
+    fn the_papers_own_settings_are_those_of_its_scenarios() {
+        for (name, settings) in [
+            ("paper-appendix", PaperSettings::appendix()),
+            ("paper-text", PaperSettings::text()),
+        ] {
+            let job = Scenario::load(name).unwrap().paper_job().unwrap();
+            assert_eq!(job.settings, settings, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_tip_that_hovers_washes_nothing() {
+        let mut scenario = Scenario::load("kitchen").unwrap();
+        scenario.wash.height_m = 0.01;
+        let failure = scenario.job().unwrap_err();
+        assert!(failure.to_string().starts_with("wash.height_m must be 0"), "{failure}");
+    }
+}

@@ -1,0 +1,34 @@
+//! Scenarios that come with the program, by name.
+
+/// A scenario that comes with the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ShippedScenario {
+    /// The name under which it is found.
+    pub name: &'static str,
+    /// Its commented TOML text.
+    pub text: &'static str,
+}
+
+/// All shipped scenarios; the first is the default.
+pub const SHIPPED: &[ShippedScenario] = &[
+    ShippedScenario {
+        name: "kitchen",
+        text: include_str!("../../../scenarios/kitchen.toml"),
+    },
+    ShippedScenario {
+        name: "kitchen-roomy",
+        text: include_str!("../../../scenarios/kitchen-roomy.toml"),
+    },
+    ShippedScenario {
+        name: "kitchen-rim",
+        text: include_str!("../../../scenarios/kitchen-rim.toml"),
+    },
+    ShippedScenario {
+        name: "paper-appendix",
+        text: include_str!("../../../scenarios/paper-appendix.toml"),
+    },
+    ShippedScenario {
+        name: "paper-text",
+        text: include_str!("../../../scenarios/paper-text.toml"),
+    },
+];

@@ -1,0 +1,71 @@
+//! The `[tool]` section.
+
+use platewash_workcell::tool::{StraightTool, Tool};
+use serde::{Deserialize, Serialize};
+
+/// `[tool]`: a straight handle with a sponge at its end.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ToolSection {
+    /// From the flange to the sponge's far face \[m\]; 0 for no tool body.
+    pub length_m: f64,
+    /// Radius of the handle \[m\].
+    pub radius_m: f64,
+    /// Radius of the sponge \[m\]; also decides coverage.
+    pub sponge_radius_m: f64,
+    /// Height of the sponge \[m\].
+    pub sponge_height_m: f64,
+    /// How far the sponge is pressed in while it washes \[m\]: the tip may lift as far and still touch. An assumption.
+    pub sponge_compression_m: f64,
+    /// Mass of the tool body \[kg\]: an assumption.
+    pub mass_kg: f64,
+    /// Distance of its centre of mass from the flange along its axis \[m\]; without it, half its length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub com_m: Option<f64>,
+    /// Its inertia about the centre of mass, ixx, ixy, ixz, iyy, iyz, izz with z along it \[kg·m²\]; without it, that of a
+    /// uniform cylinder.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inertia_kg_m2: Option<[f64; 6]>,
+}
+
+impl ToolSection {
+    /// The tool.
+    #[must_use]
+    pub fn tool(&self) -> Tool {
+        Tool::from(StraightTool {
+            length_m: self.length_m,
+            radius_m: self.radius_m,
+            sponge_radius_m: self.sponge_radius_m,
+            sponge_height_m: self.sponge_height_m,
+            sponge_compression_m: self.sponge_compression_m,
+            mass_kg: self.mass_kg,
+            com_m: self.com_m,
+            inertia_kg_m2: self.inertia_kg_m2,
+        })
+    }
+}
+
+impl Default for ToolSection {
+    fn default() -> Self {
+        let StraightTool {
+            length_m,
+            radius_m,
+            sponge_radius_m,
+            sponge_height_m,
+            sponge_compression_m,
+            mass_kg,
+            com_m,
+            inertia_kg_m2,
+        } = StraightTool::default();
+        Self {
+            length_m,
+            radius_m,
+            sponge_radius_m,
+            sponge_height_m,
+            sponge_compression_m,
+            mass_kg,
+            com_m,
+            inertia_kg_m2,
+        }
+    }
+}

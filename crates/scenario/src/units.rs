@@ -1,0 +1,187 @@
+//! Values that were probably meant in another unit: notes, not errors, because they make sense as they stand.
+
+use crate::scenario::Scenario;
+use platewash_kinematics::words::rounded;
+use platewash_kinematics::{AXES, RobotModel};
+use serde::Serialize;
+use std::f64::consts::TAU;
+use std::fmt;
+
+/// An arm that reaches farther than this is described in millimetres \[m\]: six axes reach some five metres.
+const LONGEST_REACH_M: f64 = 20.0;
+
+/// Significant digits of what is suggested.
+const DIGITS: usize = 4;
+
+/// A value that was probably meant in another unit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum UnitNote {
+    /// A home whose values all lie within ±2π, not all zero and not all whole numbers: degrees are expected, radians were
+    /// probably meant.
+    HomeInRadians {
+        /// The key.
+        key: &'static str,
+        /// What it states \[deg\].
+        found_deg: [f64; AXES],
+        /// It in degrees, if radians were meant \[deg\].
+        meant_deg: [f64; AXES],
+    },
+    /// An arm that reaches tens of metres and more: URDF states metres, millimetres were probably meant.
+    ArmInMillimetres {
+        /// Name of the arm.
+        robot: String,
+        /// How far it reaches at most, as described \[m\].
+        reach_m: f64,
+    },
+}
+
+impl Scenario {
+    /// What the scenario states and probably means in another unit; the arm's description is for [`UnitNote::of_arm`].
+    #[must_use]
+    pub fn notes(&self) -> Vec<UnitNote> {
+        let robot = &self.robot;
+        let homes = [
+            ("robot.start_deg", Some(robot.start_deg)),
+            ("robot.home_deg", robot.home_deg),
+        ];
+        let notes = homes
+            .into_iter()
+            .filter_map(|(key, home)| UnitNote::of_home(key, home?));
+        notes.collect()
+    }
+}
+
+impl UnitNote {
+    fn of_home(key: &'static str, found_deg: [f64; AXES]) -> Option<Self> {
+        let small = found_deg.iter().all(|v| v.abs() <= TAU);
+        let broken = found_deg.iter().any(|v| v.fract() != 0.0);
+        (small && broken).then(|| Self::HomeInRadians {
+            key,
+            found_deg,
+            meant_deg: found_deg.map(|v| rounded(v.to_degrees(), DIGITS)),
+        })
+    }
+
+    /// What an arm's description states and probably means in another unit.
+    #[must_use]
+    pub fn of_arm(robot: &RobotModel) -> Option<Self> {
+        let (_, reach_m) = robot.reach_bound(&robot.last_link_frame());
+        (reach_m > LONGEST_REACH_M).then(|| Self::ArmInMillimetres {
+            robot: robot.name().to_owned(),
+            reach_m,
+        })
+    }
+}
+
+impl fmt::Display for UnitNote {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::HomeInRadians {
+                key,
+                found_deg,
+                meant_deg,
+            } => write!(
+                f,
+                "{key} = {found_deg:?} is taken in degrees; radians were probably meant, as all of it lies within ±2π: write \
+                 {meant_deg:?}"
+            ),
+            Self::ArmInMillimetres { robot, reach_m } => write!(
+                f,
+                "robot {robot} reaches {} m: URDF states metres; millimetres were probably meant",
+                rounded(*reach_m, DIGITS)
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_kinematics::irb120::IRB120_URDF;
+    use platewash_kinematics::urdf::MeshSource;
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
+
+    fn with_home(start_deg: [f64; AXES]) -> Scenario {
+        let mut scenario = Scenario::load("kitchen").unwrap();
+        scenario.robot.start_deg = start_deg;
+        scenario
+    }
+
+    #[test]
+    fn a_home_in_radians_is_noted_with_its_degrees() {
+        let scenario = with_home([0.0, -FRAC_PI_2, FRAC_PI_2, 0.0, FRAC_PI_6, 0.0]);
+        let notes = scenario.notes();
+        assert_eq!(notes.len(), 1, "{notes:?}");
+        let message = notes[0].to_string();
+        for part in [
+            "robot.start_deg",
+            "degrees",
+            "radians",
+            "[0.0, -90.0, 90.0, 0.0, 30.0, 0.0]",
+        ] {
+            assert!(message.contains(part), "no {part} in {message}");
+        }
+        let mut scenario = Scenario::load("kitchen").unwrap();
+        scenario.robot.home_deg = Some([0.0, 0.0, 0.0, 0.0, FRAC_PI_2, 0.0]);
+        assert!(matches!(
+            scenario.notes()[..],
+            [UnitNote::HomeInRadians {
+                key: "robot.home_deg",
+                ..
+            }]
+        ));
+    }
+
+    #[test]
+    fn homes_that_make_sense_in_degrees_are_not_noted() {
+        for home in [
+            [0.0; AXES],
+            [0.0, 0.0, 0.0, 0.0, 5.0, -3.0],
+            [0.0, 0.0, 0.0, 0.0, 90.0, 0.5],
+            [6.5, 0.0, 0.0, 0.0, 0.0, 0.0],
+        ] {
+            assert_eq!(with_home(home).notes(), [], "{home:?}");
+        }
+        for shipped in crate::SHIPPED {
+            assert_eq!(Scenario::load(shipped.name).unwrap().notes(), []);
+        }
+    }
+
+    /// An arm of which every length is a hundred times that of the IRB 120; one in millimetres is refused as it is.
+    #[test]
+    fn an_arm_that_reaches_tens_of_metres_is_noted() {
+        let no_meshes = MeshSource::none();
+        let text = hundredfold(IRB120_URDF);
+        let robot = RobotModel::from_urdf(&text, &no_meshes).unwrap();
+        let note = UnitNote::of_arm(&robot).unwrap().to_string();
+        assert!(
+            note.contains("millimetres were probably meant") && note.contains(robot.name()),
+            "{note}"
+        );
+        assert_eq!(UnitNote::of_arm(&RobotModel::irb120().unwrap()), None);
+    }
+
+    /// The description with the origins of its joints a hundred times as far.
+    fn hundredfold(urdf: &str) -> String {
+        let mut parts = urdf.split("xyz=\"");
+        let mut text = parts.next().unwrap().to_owned();
+        for part in parts {
+            let (numbers, rest) = part.split_once('"').unwrap();
+            let is_axis = text.trim_end().ends_with("<axis");
+            let scaled: Vec<_> = numbers
+                .split_whitespace()
+                .map(|v| {
+                    if is_axis {
+                        v.to_owned()
+                    } else {
+                        (100.0 * v.parse::<f64>().unwrap()).to_string()
+                    }
+                })
+                .collect();
+            text += &format!("xyz=\"{}\"{rest}", scaled.join(" "));
+        }
+        text
+    }
+}

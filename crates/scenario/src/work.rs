@@ -1,0 +1,124 @@
+//! How much work a scenario asks for, known before any of it is done.
+
+use crate::error::{Problem, ScenarioError};
+use crate::job::Program;
+use crate::scenario::Scenario;
+use platewash_paper::WorkError;
+use platewash_planner::redundancy::settings::CHORD_ERROR_M;
+use platewash_workcell::words::counted;
+
+/// Most checks of a contact point of a certified job against a plate: a minute or so of planning.
+pub const MAX_CONTACT_CHECKS: usize = 25_000_000;
+
+/// The keys that decide how many waypoints there are.
+const WAYPOINT_KEYS: &str = "wash.points, transition.samples";
+
+impl Scenario {
+    /// Plates that are asked for.
+    #[must_use]
+    pub fn plates(&self) -> usize {
+        self.layout.positions_m.as_ref().map_or(self.layout.count, Vec::len)
+    }
+
+    /// Contact points of a certified job: those of every plate's wash path.
+    #[must_use]
+    pub fn contact_points(&self) -> usize {
+        let a_plate = self.wash_curve().parameters(CHORD_ERROR_M).len();
+        a_plate.saturating_mul(self.plates())
+    }
+
+    /// Refuses a job whose clearances would take minutes: many plates, each of which is checked at every waypoint or contact
+    /// point. Only keys that the job's program uses count.
+    ///
+    /// # Errors
+    /// [`Problem::Conflict`] with how much work it is and the most that is taken on.
+    pub fn check_work(&self) -> Result<(), ScenarioError> {
+        let checked = match self.job.program {
+            Program::Paper => self.check_paper_work(),
+            Program::Certified => self.check_contacts(),
+        };
+        checked.map_err(|problem| ScenarioError::new(&self.name, None, problem))
+    }
+
+    fn check_paper_work(&self) -> Result<(), Problem> {
+        let plates = "layout.count or positions_m, ";
+        self.paper_settings().check_work(self.plates()).map_err(|error| {
+            let plates = if matches!(error, WorkError::Waypoints { .. }) {
+                ""
+            } else {
+                plates
+            };
+            conflict(format!("{plates}{WAYPOINT_KEYS}"), error.to_string())
+        })
+    }
+
+    fn check_contacts(&self) -> Result<(), Problem> {
+        let (plates, points) = (self.plates(), self.contact_points());
+        if plates.saturating_mul(points) <= MAX_CONTACT_CHECKS {
+            return Ok(());
+        }
+        let detail = format!(
+            "{} and up to {points} contact points are too much work: their product must be at most {MAX_CONTACT_CHECKS}; give fewer \
+             plates or contact points",
+            counted(plates, "plate")
+        );
+        let keys = "layout.count or positions_m, wash.turns, wash.path_radius_m".to_owned();
+        Err(conflict(keys, detail))
+    }
+
+    /// Refuses more waypoints of the paper's program than are planned; a certified job has none.
+    pub(crate) fn check_waypoints(&self) -> Result<(), Problem> {
+        if self.job.program == Program::Certified {
+            return Ok(());
+        }
+        let checked = self.paper_settings().check_waypoints(self.plates());
+        checked.map_err(|error| conflict(WAYPOINT_KEYS.to_owned(), error.to_string()))
+    }
+}
+
+fn conflict(keys: String, detail: String) -> Problem {
+    Problem::Conflict { keys, detail }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with(points: usize, plates: usize) -> Scenario {
+        let mut scenario = Scenario::load("paper-text").unwrap();
+        scenario.wash.points = points;
+        scenario.layout.count = plates;
+        scenario
+    }
+
+    #[test]
+    fn too_much_work_is_refused_before_it_is_begun() {
+        assert!(with(49_950, 4).validate().is_ok());
+        let message = with(49_951, 4).validate().unwrap_err().to_string();
+        assert!(
+            message.contains("200004 waypoints") && message.contains("wash.points"),
+            "{message}"
+        );
+        assert!(with(55, 218).check_work().is_ok());
+        let message = with(55, 1000).check_work().unwrap_err().to_string();
+        assert!(
+            message.contains("1000 plates") && message.contains("5000000"),
+            "{message}"
+        );
+    }
+
+    /// Waypoints are the paper program's alone: they refuse no certified job, whose own wash paths count.
+    #[test]
+    fn only_keys_that_the_program_uses_count() {
+        let mut scenario = Scenario::load("kitchen").unwrap();
+        (scenario.wash.points, scenario.transition.samples) = (100_000, 100_000);
+        scenario.layout.count = 200;
+        assert!(scenario.validate().is_ok() && scenario.check_work().is_ok());
+        scenario.layout.count = 1000;
+        let message = scenario.check_work().unwrap_err().to_string();
+        assert!(
+            message.contains("1000 plates") && message.contains("wash.turns") && !message.contains("wash.points"),
+            "{message}"
+        );
+    }
+}

@@ -1,0 +1,175 @@
+//! Distances of all pairs at one configuration.
+
+use super::body::{Body, BodyKind, part_pairs, place, plate_body, world};
+use super::distance::{Separation, bracketed};
+use super::error::ClearanceError;
+use super::pairs;
+use super::part::Placed;
+use crate::plate::Plate;
+use crate::workcell::Workcell;
+use platewash_kinematics::{JointVector, RobotModel};
+use serde::Serialize;
+
+/// Distance between two bodies at one configuration.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PairClearance {
+    /// One body.
+    pub a: String,
+    /// The other.
+    pub b: String,
+    /// Distance \[m\]; ≤ 0 when they touch or overlap.
+    pub distance_m: f64,
+    /// Half-way between the two nearest points \[m\], base frame.
+    pub place_m: [f64; 3],
+}
+
+/// The bodies and pairs of one job, ready for many configurations.
+#[derive(Debug, Clone)]
+pub struct ClearanceModel {
+    pub(super) robot: RobotModel,
+    pub(super) bodies: Vec<Body>,
+    pub(super) pairs: Vec<(usize, usize)>,
+}
+
+impl ClearanceModel {
+    /// An arm in its workcell, with the plates.
+    ///
+    /// Pairs: links with each other; the tool's bodies with the links; everything that moves with the obstacles and the plates. Those
+    /// that the workcell excludes are left out.
+    ///
+    /// # Errors
+    /// [`ClearanceError::FlatHull`] for a mesh without volume.
+    pub fn new(robot: &RobotModel, workcell: &Workcell, plates: &[Plate]) -> Result<Self, ClearanceError> {
+        let mut bodies = world(robot, &workcell.tool, &workcell.obstacles)?;
+        let plates = plates.iter().enumerate().map(|(i, plate)| plate_body(i, plate));
+        bodies.extend(plates);
+        Ok(Self {
+            pairs: pairs::choose(&bodies, &workcell.exclusions),
+            robot: robot.clone(),
+            bodies,
+        })
+    }
+
+    /// The same arm and tool among plates that lie elsewhere, as many as before: which pairs are checked does not depend on where
+    /// plates lie, and the arm's bodies need not be made again.
+    #[must_use]
+    pub fn among(&self, plates: &[Plate]) -> Self {
+        let mut model = self.clone();
+        model.lay(plates);
+        model
+    }
+
+    /// [`ClearanceModel::among`] in place.
+    pub fn lay(&mut self, plates: &[Plate]) {
+        for body in &mut self.bodies {
+            if let BodyKind::Plate(index) = body.kind
+                && let Some(plate) = plates.get(index)
+            {
+                *body = plate_body(index, plate);
+            }
+        }
+    }
+
+    /// Names of the pairs that are checked.
+    #[must_use]
+    pub fn pair_names(&self) -> Vec<(&str, &str)> {
+        let name = |i: usize| self.bodies[i].name.as_str();
+        self.pairs.iter().map(|&(a, b)| (name(a), name(b))).collect()
+    }
+
+    /// Distances of all pairs at `q` \[rad\], in the order of [`ClearanceModel::pair_names`].
+    #[must_use]
+    pub fn all(&self, q: &JointVector) -> Vec<PairClearance> {
+        let placed = self.place(q);
+        let all = self.pairs.iter().map(|&(a, b)| {
+            let least = self
+                .part_pairs(a, b)
+                .map(|(p, r)| bracketed(&placed[a][p], &placed[b][r]).0);
+            self.describe(a, b, nearest(least))
+        });
+        all.collect()
+    }
+
+    /// The smallest distance at `q` \[rad\] and where it is. The sponge may touch the plates in `working`.
+    ///
+    /// `None` when there is nothing to check: a description without collision geometry.
+    #[must_use]
+    pub fn smallest(&self, q: &JointVector, working: &[usize]) -> Option<PairClearance> {
+        let placed = self.place(q);
+        let mut best: Option<(usize, usize, Separation)> = None;
+        let mut candidates: Vec<_> = self
+            .pairs
+            .iter()
+            .filter(|&&(a, b)| !self.exempt(a, b, working))
+            .flat_map(|&(a, b)| self.part_pairs(a, b).map(move |(p, r)| (a, b, p, r)))
+            .map(|(a, b, p, r)| (placed[a][p].sphere_gap(&placed[b][r]), a, b, p, r))
+            .collect();
+        candidates.sort_unstable_by(|x, y| x.0.total_cmp(&y.0));
+        for (at_least, a, b, p, r) in candidates {
+            if best.as_ref().is_some_and(|(.., s)| at_least >= s.distance) {
+                break;
+            }
+            let found = bracketed(&placed[a][p], &placed[b][r]).0;
+            if best.as_ref().is_none_or(|(.., s)| found.distance < s.distance) {
+                best = Some((a, b, found));
+            }
+        }
+        best.map(|(a, b, found)| self.describe(a, b, found))
+    }
+
+    /// All pairs that are in contact or nearer than `required_m` at `q` \[rad\], nearest first. The sponge may touch the
+    /// plates in `working`.
+    #[must_use]
+    pub fn too_near(&self, q: &JointVector, working: &[usize], required_m: f64) -> Vec<PairClearance> {
+        let placed = self.place(q);
+        let pairs = self.pairs.iter().filter(|&&(a, b)| !self.exempt(a, b, working));
+        let near = pairs.map(|&(a, b)| {
+            let candidates = self.part_pairs(a, b).map(|(p, r)| (&placed[a][p], &placed[b][r]));
+            let candidates = candidates.filter(|(p, r)| p.sphere_gap(r) <= required_m);
+            self.describe(a, b, nearest(candidates.map(|(p, r)| bracketed(p, r).0)))
+        });
+        let mut near: Vec<_> = near.filter(|pair| !is_clear(pair.distance_m, required_m)).collect();
+        near.sort_by(|x, y| x.distance_m.total_cmp(&y.distance_m));
+        near
+    }
+
+    fn exempt(&self, a: usize, b: usize, working: &[usize]) -> bool {
+        match (self.bodies[a].kind, self.bodies[b].kind) {
+            (BodyKind::Sponge, BodyKind::Plate(i)) | (BodyKind::Plate(i), BodyKind::Sponge) => working.contains(&i),
+            _ => false,
+        }
+    }
+
+    pub(super) fn part_pairs(&self, a: usize, b: usize) -> impl Iterator<Item = (usize, usize)> + use<> {
+        part_pairs(&self.bodies[a], &self.bodies[b])
+    }
+
+    pub(super) fn place(&self, q: &JointVector) -> Vec<Vec<Placed<'_>>> {
+        place(&self.bodies, &self.robot.fk(q))
+    }
+
+    pub(super) fn describe(&self, a: usize, b: usize, found: Separation) -> PairClearance {
+        PairClearance {
+            a: self.bodies[a].name.clone(),
+            b: self.bodies[b].name.clone(),
+            distance_m: found.distance,
+            place_m: found.place,
+        }
+    }
+}
+
+/// Whether a distance \[m\] keeps the clearance asked for \[m\]; at 0 only contact breaks it. NaN keeps nothing.
+#[must_use]
+pub fn is_clear(distance_m: f64, required_m: f64) -> bool {
+    distance_m > 0.0 && distance_m >= required_m
+}
+
+pub(super) fn nearest(separations: impl Iterator<Item = Separation>) -> Separation {
+    separations
+        .min_by(|x, y| x.distance.total_cmp(&y.distance))
+        .unwrap_or(Separation {
+            distance: f64::INFINITY,
+            place: [0.0; 3],
+            normal: [0.0; 3],
+        })
+}

@@ -1,0 +1,98 @@
+//! Jobs for tests: what the shipped scenarios ask for, without their files.
+
+use crate::arc::Arc;
+use crate::job::{JobTerms, Limits, OrderRule, Overlap, Planner, PlannerSettings, ReachBorders, Requirements, WashJob};
+use crate::plate::Plate;
+use crate::simulation::{ControlLawName, ControlSettings, PlantSettings, SimulationSettings};
+use crate::tool::{StraightTool, Tool};
+use crate::workcell::Workcell;
+use platewash_kinematics::{JointVector, RobotModel};
+
+/// The tool of the kitchen: 150 mm long, with a sponge of 25 mm.
+#[must_use]
+pub fn kitchen_tool() -> Tool {
+    Tool::from(StraightTool {
+        length_m: 0.15,
+        ..StraightTool::default()
+    })
+}
+
+/// A plate of the kitchen with its centre there \[m\].
+#[must_use]
+pub fn kitchen_plate([x, y]: [f64; 2]) -> Plate {
+    Plate::level_disc([x, y, 0.03], 0.145, 0.02)
+}
+
+/// The plates of the shipped scenario `kitchen`, seed 1.
+#[must_use]
+pub fn kitchen_plates() -> Vec<Plate> {
+    let centres = [
+        [0.265_793_545_653_285_45, -0.194_424_167_605_078_8],
+        [0.104_474_020_185_935_73, 0.357_812_449_470_351_96],
+        [0.292_301_782_633_575_1, 0.109_926_683_200_943_51],
+        [0.008_604_206_487_816_731, -0.351_735_697_978_640_1],
+    ];
+    centres.into_iter().map(kitchen_plate).collect()
+}
+
+/// An arm on the floor with a tool.
+#[must_use]
+#[allow(clippy::unwrap_used, reason = "fixtures are for tests")]
+pub fn workcell(robot: &RobotModel, tool: Tool) -> Workcell {
+    Workcell::on_floor(robot, tool).unwrap()
+}
+
+/// What the shipped scenario `kitchen` asks for, on some plates.
+#[must_use]
+pub fn kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
+    let home = JointVector::from([0.0, 0.0, 0.0, 0.0, 90.0, 0.0]).map(f64::to_radians);
+    JobTerms {
+        workcell: workcell(robot, kitchen_tool()),
+        plates,
+        requirements: Requirements {
+            coverage: 0.995,
+            clearance_m: 0.01,
+            tilt_rad: 15_f64.to_radians(),
+            wash_speed_m_s: 0.25,
+            wash_acceleration_m_s2: 4.0,
+            overlap: Overlap::Fail,
+            as_listed: false,
+        },
+        limits: Limits {
+            joint_acceleration_rad_s2: [4.0, 4.0, 4.0, 5.0, 5.0, 6.0],
+            tip_speed_m_s: 1.0,
+            tip_acceleration_m_s2: 8.0,
+        },
+        home_rad: [home; 2],
+        planner: Planner::Wash(PlannerSettings {
+            path_radius_m: 0.12385,
+            turns: 3.5,
+            closing_ring: true,
+            lift_m: 0.03,
+            order: OrderRule::Fastest,
+            arc: Arc {
+                points: 5,
+                radius_m: 0.38,
+                height_m: 0.25,
+            },
+            reach: ReachBorders::IRB_120,
+            relocate: false,
+        }),
+        seed: 1,
+        simulation: SimulationSettings {
+            law: ControlLawName::ComputedTorque,
+            control: ControlSettings::default(),
+            plant: PlantSettings::default(),
+            payload_kg: None,
+        },
+    }
+}
+
+/// The shipped scenario `kitchen` with seed 1, resolved.
+#[must_use]
+#[allow(clippy::unwrap_used, reason = "fixtures are for tests")]
+pub fn kitchen() -> WashJob {
+    let robot = RobotModel::irb120().unwrap();
+    let terms = kitchen_terms(&robot, kitchen_plates());
+    WashJob::new(std::sync::Arc::new(robot), terms).unwrap()
+}

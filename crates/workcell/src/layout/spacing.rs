@@ -1,0 +1,81 @@
+//! What all plates of a layout share, and the distances that they keep.
+
+use crate::plate::Plate;
+use serde::{Deserialize, Serialize};
+
+use super::error::{LayoutError, finite, not_negative, positive, range};
+
+/// The largest number of plates that a layout may have.
+pub const MAX_PLATES: usize = 1000;
+
+/// Shape and height that all plates of a layout share.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlateGeometry {
+    /// Radius, metres.
+    pub radius_m: f64,
+    /// Height of the washing surface (z, base frame), metres.
+    pub height_m: f64,
+    /// Thickness, from the washing surface down, metres.
+    pub thickness_m: f64,
+}
+
+/// The rule by which plates keep their distance. It concerns centres: it does not keep plates from overlapping.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Spacing {
+    /// Centres must be farther apart than this, metres.
+    pub min_distance_m: f64,
+    /// Centres must be farther from the base axis than this, metres.
+    pub base_radius_m: f64,
+}
+
+/// The rectangle that the robot's base covers, base frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BaseFootprint {
+    /// Least and greatest x, metres.
+    pub x_m: [f64; 2],
+    /// Least and greatest y, metres.
+    pub y_m: [f64; 2],
+}
+
+impl PlateGeometry {
+    /// Refuses a radius or thickness that is not greater than zero and a height that is not finite.
+    ///
+    /// # Errors
+    ///
+    /// [`LayoutError::InvalidInput`], naming the key.
+    pub fn validate(&self) -> Result<(), LayoutError> {
+        positive("plate_radius_m", self.radius_m)?;
+        finite("plate_height_m", self.height_m)?;
+        positive("plate_thickness_m", self.thickness_m)
+    }
+
+    /// Plates of this geometry at the centres `[x, y]`, metres, base frame.
+    pub(super) fn plates(&self, centres: &[[f64; 2]]) -> Vec<Plate> {
+        let at = |&[x, y]: &[f64; 2]| Plate::level_disc([x, y, self.height_m], self.radius_m, self.thickness_m);
+        centres.iter().map(at).collect()
+    }
+}
+
+impl Spacing {
+    /// Refuses distances that are negative or not finite.
+    ///
+    /// # Errors
+    ///
+    /// [`LayoutError::InvalidInput`], naming the key.
+    pub fn validate(&self) -> Result<(), LayoutError> {
+        not_negative("min_distance_m", self.min_distance_m)?;
+        not_negative("base_radius_m", self.base_radius_m)
+    }
+}
+
+impl BaseFootprint {
+    /// Refuses sides that are not finite, reversed or of zero length.
+    ///
+    /// # Errors
+    ///
+    /// [`LayoutError::InvalidInput`], naming the side.
+    pub fn validate(&self) -> Result<(), LayoutError> {
+        range("base footprint x", self.x_m)?;
+        range("base footprint y", self.y_m)
+    }
+}

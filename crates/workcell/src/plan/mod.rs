@@ -1,0 +1,235 @@
+//! The plan file: a job, and a motion that does it, sealed with a hash. It is all that a verifier needs besides the arm.
+
+mod contents;
+mod error;
+mod format;
+
+pub use error::PlanFileError;
+pub use format::{FORMAT, Process};
+
+use crate::job::JobTerms;
+use crate::segment::PlanSegment;
+use crate::trajectory::{KnotError, Trajectory};
+use crate::wash_path::WashPath;
+use format::BEFORE;
+use platewash_kinematics::{JointVector, sha256_hex};
+use serde::{Deserialize, Serialize};
+
+/// A plan file, `"format": "platewash-plan/2"`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    /// [`FORMAT`].
+    pub format: String,
+    /// SHA-256 over the canonical JSON (RFC 8785) of everything else, lower-case hexadecimal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hash: Option<String>,
+    /// What kind of plan it is.
+    pub process: Process,
+    /// What is asked.
+    pub job: JobTerms,
+    /// Where it comes from: stated, never judged.
+    pub provenance: Provenance,
+    /// Plate indices in the order of washing.
+    pub order: Vec<usize>,
+    /// How each plate is washed, in the order of washing; none for the paper's program.
+    pub wash_paths: Vec<WashPath>,
+    /// The segments in time.
+    pub segments: Vec<PlanSegment>,
+    /// The motion: cubic Hermite between knots.
+    pub knots: Knots,
+}
+
+/// Where a plan comes from.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Version of the program that planned it.
+    pub version: String,
+}
+
+impl Provenance {
+    /// A scenario, planned by this version.
+    #[must_use]
+    pub fn of(scenario: &str) -> Self {
+        Self {
+            scenario: scenario.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
+}
+
+/// The knots of a motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Knots {
+    /// Times \[s\].
+    pub t_s: Vec<f64>,
+    /// Positions \[rad\], one row a knot.
+    pub q_rad: Vec<JointVector>,
+    /// Speeds \[rad/s\], one row a knot.
+    pub qd_rad_s: Vec<JointVector>,
+}
+
+impl Knots {
+    /// No knots at all.
+    fn none() -> Self {
+        Self {
+            t_s: Vec::new(),
+            q_rad: Vec::new(),
+            qd_rad_s: Vec::new(),
+        }
+    }
+
+    /// The motion through them.
+    ///
+    /// # Errors
+    /// [`KnotError`] with the first knot that does not fit.
+    pub fn motion(&self) -> Result<Trajectory, KnotError> {
+        Trajectory::from_knots(self.t_s.clone(), self.q_rad.clone(), self.qd_rad_s.clone())
+    }
+}
+
+impl From<&Trajectory> for Knots {
+    fn from(motion: &Trajectory) -> Self {
+        Self {
+            t_s: motion.times().to_vec(),
+            q_rad: motion.positions().to_vec(),
+            qd_rad_s: motion.speeds().to_vec(),
+        }
+    }
+}
+
+/// What a plan says besides its job.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanParts {
+    /// Where it comes from.
+    pub provenance: Provenance,
+    /// Plate indices in the order of washing.
+    pub order: Vec<usize>,
+    /// How each plate is washed, in the order of washing.
+    pub wash_paths: Vec<WashPath>,
+    /// The segments in time.
+    pub segments: Vec<PlanSegment>,
+    /// The motion.
+    pub knots: Knots,
+}
+
+impl Plan {
+    /// The plan of a job, sealed.
+    ///
+    /// # Errors
+    /// [`PlanFileError::Unwritable`].
+    pub fn sealed(job: JobTerms, parts: PlanParts) -> Result<Self, PlanFileError> {
+        let mut plan = Self {
+            format: FORMAT.to_owned(),
+            hash: None,
+            process: Process::from(&job.planner),
+            job,
+            provenance: parts.provenance,
+            order: parts.order,
+            wash_paths: parts.wash_paths,
+            segments: parts.segments,
+            knots: parts.knots,
+        };
+        plan.hash = Some(plan.seal()?);
+        Ok(plan)
+    }
+
+    /// Duration of the motion \[s\].
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.knots.t_s.last().copied().unwrap_or(0.0)
+    }
+
+    /// The wash path of a plate.
+    #[must_use]
+    pub fn wash_path_of(&self, plate: usize) -> Option<&WashPath> {
+        self.wash_paths.iter().find(|path| path.plate == plate)
+    }
+
+    /// The hash that belongs to the contents.
+    ///
+    /// # Errors
+    /// [`PlanFileError::Unwritable`] for contents that could not be read back: a number that is not finite.
+    pub fn seal(&self) -> Result<String, PlanFileError> {
+        let open = Self {
+            hash: None,
+            ..self.clone()
+        };
+        let canonical = serde_json_canonicalizer::to_vec(&open).map_err(unwritable)?;
+        open.check_readable()?;
+        Ok(sha256_hex(&canonical))
+    }
+
+    /// Refuses contents that would be read back as others.
+    fn check_readable(mut self) -> Result<(), PlanFileError> {
+        let refuse = |detail: &str| {
+            let detail = detail.to_owned();
+            Err(PlanFileError::Unwritable { detail })
+        };
+        // Almost all numbers are here, and all of one kind.
+        let Knots { t_s, q_rad, qd_rad_s } = std::mem::replace(&mut self.knots, Knots::none());
+        let mut numbers = t_s.iter().chain(q_rad.iter().chain(&qd_rad_s).flatten());
+        if !numbers.all(|number| number.is_finite()) {
+            return refuse("a number of the knots is not finite");
+        }
+        // What is not finite is written as `null`, and a whole number of more than 53 bits as its neighbour.
+        let rest = serde_json_canonicalizer::to_vec(&self).map_err(unwritable)?;
+        if serde_json::from_slice::<Self>(&rest).map_err(unwritable)? != self {
+            return refuse("a whole number is above 2^53 − 1, the largest that JSON says exactly");
+        }
+        Ok(())
+    }
+
+    /// Whether the stored hash is that of the contents.
+    #[must_use]
+    pub fn is_sealed(&self) -> bool {
+        self.hash.is_some() && self.hash == self.seal().ok()
+    }
+
+    /// The file's text: canonical JSON, one line.
+    ///
+    /// # Errors
+    /// [`PlanFileError::Unwritable`].
+    pub fn to_json(&self) -> Result<String, PlanFileError> {
+        serde_json_canonicalizer::to_string(self).map_err(unwritable)
+    }
+
+    /// Reads a plan file's text: every key once, none unknown, none left out, so that what is read is all that the file says and the
+    /// hash of the one is that of the other. The hash is not checked here: see [`Plan::is_sealed`].
+    ///
+    /// # Errors
+    /// [`PlanFileError`] for anything but a plan of this format.
+    pub fn from_json(text: &str) -> Result<Self, PlanFileError> {
+        let unreadable = |e: serde_json::Error| PlanFileError::Unreadable { detail: e.to_string() };
+        match serde_json::from_str::<Head>(text).map_err(unreadable)?.format {
+            Some(found) if found == BEFORE => return Err(PlanFileError::Before),
+            Some(found) if found != FORMAT => return Err(PlanFileError::Format { found }),
+            _ => {}
+        }
+        let plan: Self = serde_json::from_str(text).map_err(unreadable)?;
+        let planned = Process::from(&plan.job.planner);
+        if plan.process != planned {
+            let stated = plan.process;
+            return Err(PlanFileError::Process { stated, planned });
+        }
+        contents::check(text, &plan.to_json()?, &plan)?;
+        Ok(plan)
+    }
+}
+
+/// What tells formats apart.
+#[derive(Deserialize)]
+struct Head {
+    format: Option<String>,
+}
+
+fn unwritable(e: serde_json::Error) -> PlanFileError {
+    PlanFileError::Unwritable { detail: e.to_string() }
+}
+
+#[cfg(test)]
+mod tests;

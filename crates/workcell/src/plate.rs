@@ -1,0 +1,127 @@
+//! A plate: a face to be washed, the body below it, and where it lies.
+
+use crate::pose;
+use crate::surface::Surface;
+use nalgebra::{Point3, Vector3};
+use platewash_kinematics::Pose;
+use platewash_kinematics::geometry::Shape;
+use serde::{Deserialize, Serialize};
+
+/// The least size of a plate \[m\].
+pub const LEAST_PLATE_M: f64 = 1e-6;
+
+/// The greatest size of a plate, and the greatest distance of one from the origin, along each axis \[m\].
+pub const GREATEST_M: f64 = 1e3;
+
+/// A plate.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plate {
+    /// The face that is washed.
+    pub surface: Surface,
+    /// Thickness, from the face against its axis \[m\].
+    pub thickness_m: f64,
+    /// `T_world_plate`: origin at the pole of the face, z along its axis, out of the plate.
+    #[serde(with = "pose")]
+    pub pose: Pose,
+}
+
+impl Plate {
+    /// A flat round plate that lies level: its face has its centre there \[m\].
+    #[must_use]
+    pub fn level_disc(centre_m: [f64; 3], radius_m: f64, thickness_m: f64) -> Self {
+        let [x, y, z] = centre_m;
+        Self {
+            surface: Surface::Disc { radius_m },
+            thickness_m,
+            pose: Pose::translation(x, y, z),
+        }
+    }
+
+    /// The same plate with the pole of its face above another place of the floor, as high as before \[m\].
+    #[must_use]
+    pub fn moved_to(mut self, [x, y]: [f64; 2]) -> Self {
+        self.pose.translation.x = x;
+        self.pose.translation.y = y;
+        self
+    }
+
+    /// The pole of the face, world frame \[m\].
+    #[must_use]
+    pub fn centre(&self) -> Vector3<f64> {
+        self.pose.translation.vector
+    }
+
+    /// The pole of the face seen from above, world frame \[m\].
+    #[must_use]
+    pub fn centre_xy(&self) -> [f64; 2] {
+        [self.pose.translation.x, self.pose.translation.y]
+    }
+
+    /// Radius of the rim \[m\].
+    #[must_use]
+    pub fn rim_m(&self) -> f64 {
+        self.surface.rim_m()
+    }
+
+    /// The axis of the face, out of the plate, world frame.
+    #[must_use]
+    pub fn axis(&self) -> Vector3<f64> {
+        self.pose.rotation * Vector3::z()
+    }
+
+    /// A point of the world in the plate's frame \[m\].
+    #[must_use]
+    pub fn local(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.pose.inverse_transform_point(&Point3::from(*point)).coords
+    }
+
+    /// A point of the plate's frame in the world \[m\].
+    #[must_use]
+    pub fn world(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.pose.transform_point(&Point3::from(*point)).coords
+    }
+
+    /// Height of a point of the world over the face, along its axis \[m\].
+    #[must_use]
+    pub fn height_of(&self, point: &Vector3<f64>) -> f64 {
+        let local = self.local(point);
+        local.z - self.surface.height_m(local.xy().norm())
+    }
+
+    /// The normal of the face where it is nearest to a point of the world along the axis, world frame.
+    #[must_use]
+    pub fn normal_at(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        let local = self.local(point);
+        let phi = crate::trig::atan2(local.y, local.x);
+        self.pose.rotation * self.surface.normal(local.xy().norm(), phi).into_inner()
+    }
+
+    /// The body as a convex shape and its pose, world frame.
+    #[must_use]
+    pub fn body(&self) -> (Shape, Pose) {
+        let half_length_m = self.thickness_m / 2.0;
+        let shape = match self.surface {
+            Surface::Disc { radius_m } => Shape::Cylinder {
+                radius_m,
+                half_length_m,
+            },
+        };
+        (shape, self.pose * Pose::translation(0.0, 0.0, -half_length_m))
+    }
+
+    /// Whether it is a plate: of some size, and somewhere.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let sizes = [self.rim_m(), self.thickness_m];
+        let places = self.pose.translation.vector;
+        sizes.into_iter().all(|size| size > LEAST_PLATE_M && size <= GREATEST_M)
+            && places.iter().all(|place| place.abs() <= GREATEST_M)
+    }
+
+    /// Whether it lies level: its axis is vertical.
+    #[must_use]
+    pub fn is_level(&self) -> bool {
+        self.axis() == Vector3::z()
+    }
+}

@@ -1,0 +1,45 @@
+//! A pose in files: position in metres and unit quaternion (w, x, y, z).
+
+use nalgebra::{Quaternion, Translation3, UnitQuaternion};
+use platewash_kinematics::Pose;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// How far the norm of a quaternion may be from 1.
+const UNIT: f64 = 1e-9;
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct InFile {
+    position_m: [f64; 3],
+    quaternion_wxyz: [f64; 4],
+}
+
+pub(crate) fn serialize<S: Serializer>(pose: &Pose, serializer: S) -> Result<S::Ok, S::Error> {
+    let q = pose.rotation.quaternion();
+    let in_file = InFile {
+        position_m: pose.translation.vector.into(),
+        quaternion_wxyz: [q.w, q.i, q.j, q.k],
+    };
+    in_file.serialize(serializer)
+}
+
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Pose, D::Error> {
+    let InFile {
+        position_m,
+        quaternion_wxyz: [w, x, y, z],
+    } = InFile::deserialize(deserializer)?;
+    let q = Quaternion::new(w, x, y, z);
+    let off = (q.norm() - 1.0).abs();
+    if off.is_nan() || off > UNIT {
+        return Err(D::Error::custom(format!(
+            "quaternion_wxyz must have length 1; found {}",
+            q.norm()
+        )));
+    }
+    // To the bit: what is read is what was written.
+    Ok(Pose::from_parts(
+        Translation3::from(position_m),
+        UnitQuaternion::new_unchecked(q),
+    ))
+}

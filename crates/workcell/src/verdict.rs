@@ -1,0 +1,26 @@
+//! How a job ended.
+
+use serde::Serialize;
+
+/// How a job ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Every plate is washed and every limit kept.
+    Washed,
+    /// The job cannot be done, or the plan itself fails: a waypoint out of reach, or too little clearance.
+    Infeasible,
+    /// No way to do the job was found; there may be one.
+    NotFound,
+    /// The plan would do, but its execution fails: coverage, limits or clearance.
+    NotVerified,
+}
+
+/// Whether a job that is not done cannot be done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Infeasibility {
+    /// It cannot be done.
+    Proved,
+    /// No way to do it was found, which does not prove that there is none.
+    NotFound,
+}

@@ -1,0 +1,165 @@
+//! A plan with its certificate, for people and as data.
+
+use platewash_certificate::{self as certificate, Certificate, PairsShown};
+use platewash_kinematics::AXES;
+use platewash_planner::{Planned, TourSummary, TransitSummary, VisitSummary};
+use platewash_workcell::layout::Finding;
+use platewash_workcell::verdict::Verdict;
+use platewash_workcell::words::counted;
+use serde::Serialize;
+use std::fmt;
+
+/// A plan and its proof. Lengths in metres, times in seconds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WashReport {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Its seed.
+    pub seed: u64,
+    /// Name of the arm.
+    pub robot: String,
+    /// How it ended.
+    pub verdict: Verdict,
+    /// The first line: whether it washes, whether that is proved, and what the scenario waives.
+    pub headline: String,
+    /// Duration \[s\].
+    pub duration_s: f64,
+    /// One entry a plate, in the order of washing.
+    pub visits: Vec<VisitSummary>,
+    /// From home, between the plates, and home.
+    pub transits: Vec<TransitSummary>,
+    /// What the order gains.
+    pub tour: TourSummary,
+    /// Largest jerk of each joint between knots \[rad/s³\]: reported, not judged. At knots the acceleration may jump.
+    pub jerk_rad_s3: [f64; AXES],
+    /// What is to be said about the plates.
+    pub findings: Vec<Finding>,
+    /// The proof.
+    pub certificate: Certificate,
+}
+
+impl WashReport {
+    /// Sums up a plan and its certificate; `findings` are those of its layout.
+    #[must_use]
+    pub fn new(planned: &Planned, findings: &[Finding], certificate: Certificate) -> Self {
+        let verdict = match certificate.verdict {
+            certificate::Verdict::Pass => Verdict::Washed,
+            certificate::Verdict::Fail => Verdict::NotVerified,
+        };
+        let plan = &planned.plan;
+        let duration_s = plan.duration_s();
+        let headline = headline(plan.order.len(), duration_s, &certificate);
+        Self {
+            scenario: plan.provenance.scenario.clone(),
+            seed: plan.job.seed,
+            robot: plan.job.workcell.arm.name.clone(),
+            verdict,
+            headline,
+            duration_s,
+            visits: planned.visits.clone(),
+            transits: planned.transits.clone(),
+            tour: planned.tour,
+            jerk_rad_s3: planned.largest_jerk().into(),
+            findings: findings.to_vec(),
+            certificate,
+        }
+    }
+}
+
+/// Share of a plate from which on it counts as washed whole in words: nothing but rounding is missing.
+const WHOLE: f64 = 1.0 - 1e-9;
+
+/// The first line: what is proved but for what is waived, or which requirements are not kept, and what is waived besides.
+fn headline(plates: usize, duration_s: f64, certificate: &Certificate) -> String {
+    let covered = certificate
+        .coverage
+        .iter()
+        .map(|plate| plate.at_least)
+        .fold(1.0, f64::min);
+    let plates = counted(plates, "plate");
+    if let Some(what) = certificate.not_kept() {
+        let waived = certificate.and_waived();
+        return format!("NOT PROVED: a plan for {plates} in {duration_s:.2} s does not keep {what}{waived}");
+    }
+    let waived = certificate.but_for();
+    // Rounded down: no more is said than is proved.
+    let share = if covered >= WHOLE {
+        "washed whole".to_owned()
+    } else {
+        format!("washed by at least {:.1} %", (1000.0 * covered).floor() / 10.0)
+    };
+    format!("PROVED{waived}: {plates} {share}, from home to home in {duration_s:.2} s")
+}
+
+/// A report as a person reads it; see [`WashReport::text`].
+#[derive(Debug, Clone, Copy)]
+pub struct WashText<'a> {
+    report: &'a WashReport,
+    pairs: PairsShown,
+}
+
+impl fmt::Display for WashText<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.report.motion(f)?;
+        self.report.certificate.table(self.pairs).fmt(f)
+    }
+}
+
+impl fmt::Display for WashReport {
+    /// With the tightest pairs of the certificate.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.text(PairsShown::default()).fmt(f)
+    }
+}
+
+impl WashReport {
+    /// The report as a person reads it, with these pairs of the certificate.
+    #[must_use]
+    pub fn text(&self, pairs: PairsShown) -> WashText<'_> {
+        WashText { report: self, pairs }
+    }
+
+    /// What is said of the motion, the certificate apart.
+    fn motion(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.headline)?;
+        writeln!(
+            f,
+            "scenario {}, seed {}, arm {}\n",
+            self.scenario, self.seed, self.robot
+        )?;
+        for finding in &self.findings {
+            writeln!(f, "note: {finding}")?;
+        }
+        writeln!(f, "{:<24} {:>9}  how", "motion", "time, s")?;
+        for (k, transit) in self.transits.iter().enumerate() {
+            let plate = |k: usize| self.visits.get(k).map(|v| v.plate);
+            let name = match (k.checked_sub(1).and_then(plate), plate(k)) {
+                (None, Some(to)) => format!("home to plate {to}"),
+                (Some(from), Some(to)) => format!("plate {from} to plate {to}"),
+                (Some(from), None) => format!("plate {from} to home"),
+                (None, None) => "home".to_owned(),
+            };
+            writeln!(f, "{name:<24} {:>9.2}  {}", transit.duration_s, transit.kind)?;
+            if let Some(visit) = self.visits.get(k) {
+                let name = format!("wash plate {}", visit.plate);
+                writeln!(f, "{name:<24} {:>9.2}  {}", visit.wash_s, visit.tilt)?;
+            }
+        }
+        let travel: f64 = self.transits.iter().map(|c| c.duration_s).sum();
+        writeln!(f, "{:<24} {travel:>9.2}", "all transits")?;
+        writeln!(f, "{:<24} {:>9.2}", "whole cycle", self.duration_s)?;
+        let tour = &self.tour;
+        let gain = tour.nearest_next_s - tour.travel_s;
+        writeln!(
+            f,
+            "order: {:.2} s of travel estimated, {gain:.2} s less than nearest-next",
+            tour.travel_s
+        )?;
+        let jerk: Vec<_> = self.jerk_rad_s3.iter().map(|j| format!("{j:.0}")).collect();
+        writeln!(
+            f,
+            "largest jerk between knots, not judged: {} rad/s³\n",
+            jerk.join(", ")
+        )
+    }
+}
