@@ -36,12 +36,13 @@ pub(crate) fn beyond_rim_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, cos
     }
 }
 
-/// The plates but one that a sponge reaches which gets `beyond_rim_m` beyond the rim of that one, in order.
+/// The plates but one, no higher than it, that a sponge reaches which gets `beyond_rim_m` beyond the rim of that one, in order.
 pub(crate) fn touched(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) -> Vec<Touched> {
     let Some(own) = subject.plates().get(plate) else {
         return Vec::new();
     };
-    let others = subject.plates().iter().enumerate().filter(|(other, _)| *other != plate);
+    let others = subject.plates().iter().enumerate();
+    let others = others.filter(|(index, other)| *index != plate && !is_higher(own, other));
     let depths = others.map(|(plate, other)| Touched {
         plate,
         depth_m: beyond_rim_m - gap(own, other),
@@ -49,7 +50,9 @@ pub(crate) fn touched(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) ->
     depths.filter(|touched| touched.depth_m > 0.0).collect()
 }
 
-/// Whether the sponge, tilted as it likes, may come nearer to one plate than the clearance while it works on another.
+/// Whether the sponge, tilted as it likes, may come nearer to one plate than the clearance while it works on another. Of a plate whose
+/// face is higher than that of the one it works on it keeps clear: how fast it touches, and how far beyond the rim it reaches, is
+/// bounded at the height of the plate that it works on and below.
 pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: usize) -> bool {
     let (Some(own), Some(other)) = (subject.plates().get(working_on), subject.plates().get(plate)) else {
         return false;
@@ -57,11 +60,19 @@ pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: u
     let Some(radius_m) = subject.path_radius_m(working_on) else {
         return false;
     };
+    if is_higher(own, other) {
+        return false;
+    }
     // No point of the sponge is farther from the tip.
     let sponge = &subject.job.workcell.tool.sponge;
     let sponge_m = norm(sponge.radius_m, sponge.height_m);
     let reach_m = radius_m + LINE_TOLERANCE_M + sponge_m + subject.limits.clearance_m;
     distance(own, other) - other.rim_m() <= reach_m
+}
+
+/// Whether the face of another plate is higher than one's own.
+fn is_higher(own: &Plate, other: &Plate) -> bool {
+    own.height_of(&other.centre()) > PLACE_M
 }
 
 /// What is swept besides the plate that is washed.

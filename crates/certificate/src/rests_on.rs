@@ -2,12 +2,15 @@
 
 use crate::exclusions::Exclusions;
 use crate::subject::Subject;
-use platewash_kinematics::words::{fixed, rounded};
-use platewash_kinematics::{JointVector, geometry::Shape};
+use nalgebra::{Point3, Vector3};
+use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::trig::atan2;
+use platewash_kinematics::words::rounded;
+use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::job::{Limits, Overlap, Requirements};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Tool;
-use platewash_workcell::words::{counted, printable};
+use platewash_workcell::words::{counted, printable, quoted};
 use platewash_workcell::workcell::{ArmId, Exclusion, ExclusionReason, Obstacle, ObstacleShape, Workcell};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -17,6 +20,9 @@ const PLACES: usize = 12;
 
 /// Digits of a hash that are told.
 const HASH_DIGITS: usize = 12;
+
+/// Significant digits of a number that are told at most.
+const DIGITS: usize = 9;
 
 /// What is assumed, whatever the job.
 const ASSUMPTIONS: [&str; 5] = [
@@ -98,46 +104,79 @@ fn arm(world: &Workcell) -> String {
     let srdf = arm.srdf_sha256.as_deref();
     let srdf = srdf.map_or("without an SRDF".to_owned(), |hash| format!("SRDF {}", short(hash)));
     let at = world.mount.translation.vector;
-    let place = if at.norm() == 0.0 {
-        "on the floor at the origin".to_owned()
+    let place = if at == Vector3::zeros() {
+        "at the origin".to_owned()
     } else {
-        format!("at {} m", list(at.iter().copied(), 3))
+        format!("at ({}) m", list(at.iter().copied()))
     };
     format!(
-        "{}, description {}, {srdf}; mounted {place}",
-        printable(&arm.name),
-        short(&arm.urdf_sha256)
+        "{}, description {}, {srdf}; mounted {place}{}",
+        quoted(&arm.name),
+        short(&arm.urdf_sha256),
+        turned(&world.mount)
     )
 }
 
 fn tool(tool: &Tool) -> String {
     let sponge = &tool.sponge;
     let sponge = format!(
-        "sponge of radius {} and height {} mm, compressed by {} mm (assumed)",
+        "sponge of radius {} and height {} mm, compressed by {} mm (assumed), {}{}",
         mm(sponge.radius_m),
         mm(sponge.height_m),
-        mm(sponge.compression_m)
+        mm(sponge.compression_m),
+        of_flange(&sponge.pose),
+        slanted(&sponge.pose)
     );
-    let bodies = tool
-        .bodies
-        .iter()
-        .map(|body| format!("{}, {}", printable(&body.name), shape(&body.shape)));
+    let bodies = tool.bodies.iter().map(|body| {
+        let (name, shape) = (quoted(&body.name), shape(&body.shape));
+        format!("{name}, {shape} {}{}", of_flange(&body.pose), turned(&body.pose))
+    });
     let mut parts: Vec<_> = bodies.collect();
     if parts.is_empty() {
         parts.push("no body".to_owned());
     }
     parts.push(sponge);
-    let tip = tool.tip.translation.vector;
-    parts.push(format!(
-        "tip at {} mm of the flange",
-        list(tip.iter().map(|v| 1e3 * v), 1)
-    ));
+    parts.push(format!("tip {}{}", of_flange(&tool.tip), slanted(&tool.tip)));
     parts.join("; ")
+}
+
+fn of_flange(pose: &Pose) -> String {
+    let at = pose.translation.vector;
+    format!("at ({}) mm of the flange", list(at.iter().map(|v| 1e3 * v)))
+}
+
+/// The direction of a z axis that is not along the z of what it is told in.
+fn slanted(pose: &Pose) -> String {
+    let axis = pose.rotation * Vector3::z();
+    if axis.xy() == Vector3::zeros().xy() && axis.z > 0.0 {
+        return String::new();
+    }
+    format!(", along ({})", list(axis.iter().copied()))
+}
+
+/// A rotation, where there is any.
+fn turned(pose: &Pose) -> String {
+    let [x, y, z, w] = pose.rotation.quaternion().coords.into();
+    let along = Vector3::new(x, y, z);
+    if along == Vector3::zeros() {
+        return String::new();
+    }
+    // Scaled, so that the squares of the least rotation are not 0.
+    let most = along.amax();
+    let length = (along / most).norm();
+    let side = if w < 0.0 { -1.0 } else { 1.0 };
+    let axis = along / most / length * side;
+    let angle_rad = 2.0 * atan2(length * most, w.abs());
+    format!(
+        ", turned by {} ° about ({})",
+        number(angle_rad.to_degrees()),
+        list(axis.iter().copied())
+    )
 }
 
 fn shape(shape: &Shape) -> String {
     match shape {
-        Shape::Box { half_m } => format!("a box of {} mm", list(half_m.iter().map(|v| 2e3 * v), 1)),
+        Shape::Box { half_m } => format!("a box of {} mm", list(half_m.iter().map(|v| 2e3 * v))),
         Shape::Cylinder {
             radius_m,
             half_length_m,
@@ -155,54 +194,88 @@ fn shape(shape: &Shape) -> String {
             mm(*radius_m),
             mm(2.0 * (half_length_m + radius_m))
         ),
-        Shape::Hull { points } => format!("the hull of {}", counted(points.len(), "point")),
+        Shape::Hull { points } => format!("the hull of {}, {} mm,", counted(points.len(), "point"), bounds(points)),
     }
 }
 
-/// Sizes, and the places of the first ones.
+/// How far points extend along each axis, in millimetres.
+fn bounds(points: &[Point3<f64>]) -> String {
+    let along = |(axis, name): (usize, &str)| {
+        let least = points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
+        let most = points.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
+        format!("{name} from {} to {}", mm(least), mm(most))
+    };
+    ["x", "y", "z"]
+        .into_iter()
+        .enumerate()
+        .map(along)
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
+/// Sizes and heights of all, and the places of the first ones.
 fn plates(plates: &[Plate]) -> String {
-    let size = |plate: &Plate| [plate.rim_m(), plate.thickness_m, plate.centre().z];
-    let mut alike: Vec<([f64; 3], Vec<usize>)> = Vec::new();
-    for (i, plate) in plates.iter().enumerate().take(PLACES) {
-        match alike.iter_mut().find(|(other, _)| *other == size(plate)) {
+    let mut alike: Vec<(String, Vec<usize>)> = Vec::new();
+    for (i, plate) in plates.iter().enumerate() {
+        let size = size(plate);
+        match alike.iter_mut().find(|(other, _)| *other == size) {
             Some((_, those)) => those.push(i),
-            None => alike.push((size(plate), vec![i])),
+            None => alike.push((size, vec![i])),
         }
     }
-    let group = |([radius_m, thickness_m, height_m], those): ([f64; 3], Vec<usize>)| {
-        let at = |i: &usize| format!("{i} at ({})", list(plates[*i].centre_xy(), 3));
-        let places: Vec<_> = those.iter().map(at).collect();
-        format!(
-            "of radius {} mm, {} mm thick, faces {} mm over the floor: {} m",
-            mm(radius_m),
-            mm(thickness_m),
-            mm(height_m),
-            places.join(", ")
-        )
-    };
-    let mut parts: Vec<_> = alike.into_iter().map(group).collect();
-    if plates.len() > PLACES {
-        parts.push(format!("and {} more", plates.len() - PLACES));
+    let groups: Vec<_> = alike
+        .iter()
+        .map(|(size, those)| format!("{} {size}{}", those.len(), places(plates, those)))
+        .collect();
+    match &groups[..] {
+        [one] => one.clone(),
+        all => format!("{}: {}", plates.len(), all.join("; ")),
     }
-    format!("{} {}", plates.len(), parts.join("; "))
+}
+
+/// Where some of the plates are, as far as they are among the first ones.
+fn places(plates: &[Plate], those: &[usize]) -> String {
+    let first = those.iter().filter(|i| **i < PLACES);
+    let told: Vec<_> = first
+        .map(|i| format!("{i} at ({})", list(plates[*i].centre_xy())))
+        .collect();
+    match those.len() - told.len() {
+        _ if told.is_empty() => String::new(),
+        0 => format!(": {} m", told.join(", ")),
+        more => format!(": {} m and {more} more", told.join(", ")),
+    }
+}
+
+fn size(plate: &Plate) -> String {
+    format!(
+        "of radius {} mm, {} mm thick, faces {} mm above 0",
+        mm(plate.rim_m()),
+        mm(plate.thickness_m),
+        mm(plate.centre().z)
+    )
 }
 
 fn obstacles(obstacles: &[Obstacle]) -> String {
     let one = |obstacle: &Obstacle| match &obstacle.shape {
-        ObstacleShape::HalfSpace => format!("{}, all below 0", printable(&obstacle.name)),
+        ObstacleShape::HalfSpace => format!("{}, all below 0", quoted(&obstacle.name)),
         ObstacleShape::Convex(solid) => {
-            let at = list(obstacle.pose.translation.vector.iter().copied(), 3);
-            format!("{}, {} at ({at}) m", printable(&obstacle.name), shape(solid))
+            let at = list(obstacle.pose.translation.vector.iter().copied());
+            let (name, shape) = (quoted(&obstacle.name), shape(solid));
+            format!("{name}, {shape} at ({at}) m{}", turned(&obstacle.pose))
         }
     };
-    match obstacles {
-        [] => "none".to_owned(),
-        some => some.iter().map(one).collect::<Vec<_>>().join("; "),
+    let mut parts: Vec<_> = obstacles.iter().map(one).collect();
+    if !obstacles.iter().any(|o| o.shape == ObstacleShape::HalfSpace) {
+        parts.insert(0, "no floor".to_owned());
     }
+    if obstacles.is_empty() {
+        parts.insert(0, "none".to_owned());
+    }
+    parts.join("; ")
 }
 
 fn homes([start, end]: &[JointVector; 2]) -> String {
-    let degrees = |q: &JointVector| list(q.iter().map(|v| v.to_degrees()), 2);
+    let degrees = |q: &JointVector| list(q.iter().map(|v| v.to_degrees()));
     if start == end {
         return format!("{} ° at the start and at the end", degrees(start));
     }
@@ -212,7 +285,7 @@ fn homes([start, end]: &[JointVector; 2]) -> String {
 fn limits(limits: &Limits) -> String {
     format!(
         "joint positions and speeds of the description; joint accelerations {} rad/s² (assumed); tip {} m/s, {} m/s² (assumed)",
-        list(limits.joint_acceleration_rad_s2, 3),
+        list(limits.joint_acceleration_rad_s2),
         number(limits.tip_speed_m_s),
         number(limits.tip_acceleration_m_s2)
     )
@@ -264,7 +337,7 @@ fn left_out(pairs: &[Exclusion]) -> String {
 }
 
 fn pair(exclusion: &Exclusion) -> String {
-    let [a, b] = exclusion.pair.each_ref().map(|name| printable(name));
+    let [a, b] = exclusion.pair.each_ref().map(|name| quoted(name));
     format!("{a} – {b}")
 }
 
@@ -273,20 +346,18 @@ fn mm(length_m: f64) -> String {
     number(1e3 * length_m)
 }
 
-/// A number as people write it: up to six digits, no zeros at its end.
+/// A number as people write it: as short as it is, up to nine digits.
 fn number(value: f64) -> String {
-    rounded(value, 6).to_string()
-}
-
-fn list(numbers: impl IntoIterator<Item = f64>, decimals: usize) -> String {
-    let each: Vec<_> = numbers.into_iter().map(|v| trimmed(&fixed(v, decimals))).collect();
-    each.join(", ")
-}
-
-/// Without zeros at the end of its decimals.
-fn trimmed(number: &str) -> String {
-    if !number.contains('.') {
-        return number.to_owned();
+    // A negative zero is 0.
+    let told = rounded(value, DIGITS) + 0.0;
+    if told == 0.0 || (1e-6..=1e6).contains(&told.abs()) {
+        told.to_string()
+    } else {
+        format!("{told:e}")
     }
-    number.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn list(numbers: impl IntoIterator<Item = f64>) -> String {
+    let each: Vec<_> = numbers.into_iter().map(number).collect();
+    each.join(", ")
 }

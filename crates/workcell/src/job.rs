@@ -4,7 +4,7 @@
 use crate::arc::Arc as ArcRoundBase;
 use crate::clearance::{self, ClearanceError};
 use crate::layout::MAX_PLATES;
-use crate::plate::Plate;
+use crate::plate::{GREATEST_M, Plate};
 use crate::simulation::SimulationSettings;
 use crate::workcell::{ArmId, Exclusion, ObstacleShape, Workcell};
 use platewash_kinematics::{AXES, JointVector, LimitViolation, Pose, RobotModel};
@@ -217,8 +217,13 @@ impl JobTerms {
 
     fn check_tool(&self) -> Result<(), JobError> {
         let tool = &self.workcell.tool;
-        positive("workcell.tool.sponge.radius_m", tool.sponge.radius_m)?;
-        positive("workcell.tool.sponge.height_m", tool.sponge.height_m)?;
+        for (name, size) in [
+            ("workcell.tool.sponge.radius_m", tool.sponge.radius_m),
+            ("workcell.tool.sponge.height_m", tool.sponge.height_m),
+        ] {
+            positive(name, size)?;
+            within(name, size, [0.0, GREATEST_M])?;
+        }
         let most = tool.sponge.height_m;
         within(
             "workcell.tool.sponge.compression_m",
@@ -454,7 +459,7 @@ mod tests {
     #[test]
     fn terms_with_which_nothing_can_be_computed_are_refused_by_name() {
         let good = kitchen();
-        let cases: [(&str, Change); 18] = [
+        let cases: [(&str, Change); 22] = [
             ("requirements.coverage", |t| t.requirements.coverage = f64::NAN),
             ("requirements.coverage", |t| t.requirements.coverage = 1.1),
             ("requirements.clearance_m", |t| t.requirements.clearance_m = -1e-9),
@@ -475,6 +480,10 @@ mod tests {
             ("plate 1 is tilted", |t| {
                 t.plates[1].pose.rotation = nalgebra::UnitQuaternion::from_euler_angles(0.1, 0.0, 0.0)
             }),
+            ("sponge.radius_m", |t| t.workcell.tool.sponge.radius_m = 1000.1),
+            ("sponge.radius_m", |t| t.workcell.tool.sponge.radius_m = 0.0),
+            ("sponge.height_m", |t| t.workcell.tool.sponge.height_m = 1000.1),
+            ("sponge.height_m", |t| t.workcell.tool.sponge.height_m = f64::NAN),
             ("sponge.compression_m", |t| t.workcell.tool.sponge.compression_m = 1.0),
             ("mounted at the origin", |t| t.workcell.mount.translation.z = 0.5),
             ("obstacle \"wall\"", |t| {

@@ -19,17 +19,34 @@ pub fn millimetres(length_m: f64) -> String {
     format!("{:.1} mm", 1e3 * length_m)
 }
 
-/// Text out of a file with control characters written out, so that no terminal obeys them and no line is added to a message.
+/// Text out of a file with control and format characters and separators of lines written out, so that no terminal obeys them, no
+/// line is added to a message and nothing is hidden or reordered.
 #[must_use]
 pub fn printable(text: &str) -> String {
     let written = |c: char| {
-        if c.is_control() {
+        if c.is_control() || is_unseen(c) {
             c.escape_default().to_string()
         } else {
             c.to_string()
         }
     };
     text.chars().map(written).collect()
+}
+
+/// A name out of a file in quotes, printable; quotes and backslashes in it are written out, so that it ends where its quotes end.
+#[must_use]
+pub fn quoted(name: &str) -> String {
+    let name = name.replace('\\', r"\\").replace('"', "\\\"");
+    format!("\"{}\"", printable(&name))
+}
+
+/// Whether a character is one of Unicode's format characters or separators of lines and paragraphs (categories Cf, Zl and Zp).
+fn is_unseen(c: char) -> bool {
+    matches!(c,
+        '\u{ad}' | '\u{600}'..='\u{605}' | '\u{61c}' | '\u{6dd}' | '\u{70f}' | '\u{890}'..='\u{891}' | '\u{8e2}' | '\u{180e}'
+        | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}'
+        | '\u{110bd}' | '\u{110cd}' | '\u{13430}'..='\u{1343f}' | '\u{1bca0}'..='\u{1bca3}' | '\u{1d173}'..='\u{1d17a}'
+        | '\u{e0001}' | '\u{e0020}'..='\u{e007f}')
 }
 
 #[cfg(test)]
@@ -49,5 +66,32 @@ mod tests {
     #[test]
     fn lengths_are_said_in_millimetres() {
         assert_eq!(millimetres(-0.09), "-90.0 mm");
+    }
+
+    #[test]
+    fn what_is_not_seen_is_written_out() {
+        let edges = [
+            0x0a, 0x1b, 0x7f, 0x9b, 0xad, 0x61c, 0x200b, 0x200f, 0x2028, 0x2029, 0x202a, 0x202e, 0x2060, 0x2064,
+            0x2066, 0x206f, 0xfeff, 0xe0041,
+        ];
+        for c in edges.map(|code| char::from_u32(code).unwrap()) {
+            assert_eq!(
+                printable(&format!("a{c}b")),
+                format!("a{}b", c.escape_default()),
+                "{c:?}"
+            );
+        }
+        let seen = "link_1 – Spüle, 皿\u{2027}\u{202f}\u{2070}\\\"";
+        assert_eq!(printable(seen), seen);
+    }
+
+    #[test]
+    fn a_quoted_name_ends_where_its_quotes_end() {
+        assert_eq!(quoted("floor"), r#""floor""#);
+        assert_eq!(quoted(r#"a"; "b"#), r#""a\"; \"b""#);
+        assert_eq!(quoted("a\\"), r#""a\\""#);
+        assert_eq!(quoted("a\n\u{202e}b"), r#""a\n\u{202e}b""#);
+        // A name that spells an escape is not the name with that character.
+        assert_ne!(quoted("\\n"), quoted("\n"));
     }
 }

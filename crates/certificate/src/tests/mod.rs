@@ -6,4 +6,5 @@ mod differential;
 mod made;
 mod mutations;
 mod proofs;
+mod rests_on;
 mod words;

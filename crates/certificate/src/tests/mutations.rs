@@ -176,7 +176,7 @@ fn a_pair_that_is_waived_is_named_where_it_does_not_keep_clear() {
     assert!(
         certificate
             .to_string()
-            .contains("waived        by the job alone: handle – link_4\n"),
+            .contains("waived        by the job alone: \"handle\" – \"link_4\"\n"),
         "{certificate}"
     );
     // Some 20 mm are there.
@@ -321,6 +321,30 @@ fn the_sponge_may_touch_only_what_is_within_reach() {
         .find(|line| line.rule == PairRule::Touching)
         .unwrap();
     assert_eq!(line.working_on, [0, 1]);
+}
+
+/// How fast and how deep the sponge touches is bounded up to the face that it works on: a plate that is higher, if only by a micron, it
+/// keeps clear of.
+#[test]
+fn the_sponge_keeps_clear_of_a_higher_neighbour() {
+    let mut plan = Recipe::arc(&[-23.5, 23.5]).plan();
+    plan.job.plates[1].pose.translation.z += 1e-6;
+    let certificate = judged(plan);
+    let touching = certificate
+        .clearance
+        .iter()
+        .filter(|line| line.rule == PairRule::Touching);
+    let touching: Vec<_> = touching
+        .map(|line| (line.pair[1].as_str(), &line.working_on[..]))
+        .collect();
+    assert_eq!(touching, [("plate 0", &[0, 1][..]), ("plate 1", &[1])]);
+    assert!(broken(&certificate).contains(&Clearance), "{certificate}");
+    assert!(
+        certificate
+            .coverage
+            .iter()
+            .all(|plate| plate.touches.iter().all(|other| other.plate == 0))
+    );
 }
 
 #[test]

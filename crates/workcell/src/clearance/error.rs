@@ -1,11 +1,13 @@
 //! Why no clearance model could be made.
 
+use crate::words::printable;
+
 /// Why no clearance model could be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ClearanceError {
-    /// A mesh whose points span no volume.
-    #[error("link '{link}': its collision mesh is flat; a convex hull needs a volume")]
+    /// A hull whose points span no volume.
+    #[error("body '{}': its hull is flat; a convex hull needs a volume", printable(.link))]
     FlatHull {
         /// The link, the body of the tool or the obstacle.
         link: String,

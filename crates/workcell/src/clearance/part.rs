@@ -91,9 +91,9 @@ impl Part {
                     .iter()
                     .map(|p: &Point3<f64>| Vector::new(p.x, p.y, p.z))
                     .collect();
-                let hull = ConvexPolyhedron::from_convex_hull(&vertices)?;
-                let vertices = hull.points().to_vec();
-                Self::solid(SharedShape::new(hull), Extent::Vertices(vertices), frame)
+                let hull = ConvexPolyhedron::from_convex_hull(&vertices).filter(|_| has_volume(&vertices))?;
+                let extent = Extent::Vertices(enclosing(&hull, &vertices));
+                Self::solid(SharedShape::new(hull), extent, frame)
             }
         })
     }
@@ -208,6 +208,50 @@ impl Part {
             bounding: self.bounding,
         }
     }
+}
+
+/// What a point may be outside of a face by rounding, and how thin a hull may be, as a part of its size.
+const HULL_ROUNDING: f64 = 1e-12;
+const THINNEST_HULL: f64 = 1e-9;
+
+/// The vertices of a hull, and those of the points it was made of that it left outside: a hull that the collision library makes may be
+/// too small, down to a flat one for a body that is much wider than high. What reaches farthest along a direction is among these,
+/// whatever became of the hull, so that a gap along a direction is never overstated.
+fn enclosing(hull: &ConvexPolyhedron, points: &[Vector]) -> Vec<Vector> {
+    let size = points.iter().map(|p| p.length()).fold(0.0, f64::max);
+    let corner = |first: u32| hull.points()[hull.vertices_adj_to_face()[first as usize] as usize];
+    let faces: Vec<_> = hull
+        .faces()
+        .iter()
+        .map(|f| (f.normal, corner(f.first_vertex_or_edge)))
+        .collect();
+    let is_outside = |point: &&Vector| {
+        let beyond = |(normal, corner): &(Vector, Vector)| normal.dot(**point - *corner);
+        // NaN is outside.
+        !faces.iter().map(beyond).all(|beyond| beyond <= HULL_ROUNDING * size)
+    };
+    let outside = points.iter().filter(is_outside);
+    hull.points().iter().chain(outside).copied().collect()
+}
+
+/// Whether points span a volume: some of them is off the plane through three that are far apart.
+fn has_volume(points: &[Vector]) -> bool {
+    let Some(first) = points.first().copied() else {
+        return false;
+    };
+    let farthest = |distance: &dyn Fn(Vector) -> f64| {
+        let far = points
+            .iter()
+            .copied()
+            .max_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+        far.map_or((first, 0.0), |point| (point, distance(point)))
+    };
+    let (second, size) = farthest(&|p| (p - first).length());
+    let along = (second - first) / size;
+    let (third, width) = farthest(&|p| (p - first).cross(along).length());
+    let normal = along.cross(third - first).normalize_or_zero();
+    let (_, height) = farthest(&|p| (p - first).dot(normal).abs());
+    width > THINNEST_HULL * size && height > THINNEST_HULL * size
 }
 
 impl Placed<'_> {

@@ -251,3 +251,69 @@ fn nan_is_never_a_distance_of_zero() {
     let q = JointVector::repeat(f64::NAN);
     assert!(model().all(&q).iter().all(|p| p.distance_m.is_nan()));
 }
+
+/// A hull is enclosed by what its support functions know, however wide and low it is and in whatever order its points stand: no
+/// distance is overstated for what the collision library leaves out.
+#[test]
+fn wide_and_low_hulls_are_no_smaller_than_their_points() {
+    let wide: Vec<_> = [[1e3, 1e3], [1e3, -1e3], [-1e3, 1e3], [-1e3, -1e3]]
+        .map(|[x, y]| Point3::new(x, y, -0.02))
+        .into_iter()
+        .chain([Point3::new(0.3, 0.0, 1.5)])
+        .collect();
+    let corners = |z: f64| [[1.0, 0.5], [1.0, -0.5], [-1.0, 0.5], [-1.0, -0.5]].map(|[x, y]| Point3::new(x, y, z));
+    let slab = |first: f64| corners(first).into_iter().chain(corners(-first)).collect::<Vec<_>>();
+    let many = wide
+        .iter()
+        .take(4)
+        .cycle()
+        .take(4 * 2000)
+        .chain(&wide[4..])
+        .copied()
+        .collect();
+    // A ball 0.1 m in radius beside each: inside the pyramid, and 0.2 m over the slab.
+    for (points, at, overlaps) in [
+        (wide.clone(), [0.3, 0.0, 1.0], true),
+        (many, [0.3, 0.0, 1.0], true),
+        (slab(6.5e-4), [0.2, 0.1, 0.200_65 + 0.1], false),
+        (slab(-6.5e-4), [0.2, 0.1, 0.200_65 + 0.1], false),
+    ] {
+        let ball = part(
+            &Shape::Sphere { radius_m: 0.1 },
+            &Isometry3::translation(at[0], at[1], at[2]),
+        );
+        let hull = part(&Shape::Hull { points }, &Isometry3::identity());
+        let (found, at_least) = bounds(&ball, &hull);
+        let truth = if overlaps { 0.0 } else { 0.2 };
+        assert!(at_least <= truth + 1e-9, "{at_least} {found:?}");
+        assert!(
+            overlaps || (found.distance - truth).abs() < ITERATIVE_ERROR_M,
+            "{found:?}"
+        );
+    }
+}
+
+#[test]
+fn points_without_a_volume_are_no_body() {
+    let flat = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[x, y]| Point3::new(x, y, 0.3 * x - 0.2 * y));
+    let line = [0.0, 1.0, 2.0, 3.0].map(|x| Point3::new(x, x, x));
+    for points in [flat.to_vec(), line.to_vec(), vec![Point3::origin(); 5], Vec::new()] {
+        assert!(Part::new(&Shape::Hull { points }, Frame::base()).is_none());
+    }
+}
+
+#[test]
+fn a_flat_hull_is_refused_by_the_name_of_its_body() {
+    let robot = RobotModel::irb120().unwrap();
+    let flat = Shape::Hull {
+        points: vec![Point3::origin(), Point3::new(1.0, 0.0, 0.0), Point3::new(2.0, 0.0, 0.0)],
+    };
+    let mut cell = workcell(&robot, kitchen_tool());
+    cell.tool.bodies[0].name = "hand\nle".to_owned();
+    cell.tool.bodies[0].shape = flat;
+    let refused = ClearanceModel::new(&robot, &cell, &[]).unwrap_err().to_string();
+    assert_eq!(
+        refused,
+        r"body 'hand\nle': its hull is flat; a convex hull needs a volume"
+    );
+}

@@ -1,0 +1,216 @@
+//! What a verdict rests on, in words: nothing that differs reads alike, and no name reads as more than a name.
+
+use super::made::{good, post};
+use crate::RestsOn;
+use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
+use platewash_kinematics::geometry::Shape;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::workcell::{Exclusion, ExclusionReason, Obstacle, ObstacleShape};
+
+/// The line of that name, where the terms are changed.
+fn told(name: &str, change: impl Fn(&mut RestsOn)) -> String {
+    let job = good().job;
+    let mut rests = RestsOn {
+        workcell: job.workcell,
+        plates: job.plates,
+        requirements: job.requirements,
+        limits: job.limits,
+        home_rad: job.home_rad,
+        waived_pairs: Vec::new(),
+        assumptions: vec!["nothing".to_owned()],
+    };
+    rests.workcell.obstacles = vec![Obstacle::floor()];
+    change(&mut rests);
+    let text = rests.to_string();
+    let line = text.lines().find_map(|line| line.trim_start().strip_prefix(name));
+    line.unwrap().trim_start().to_owned()
+}
+
+fn turned(degrees: f64, axis: Vector3<f64>) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_scaled_axis(axis.normalize() * degrees.to_radians())
+}
+
+fn hull() -> Shape {
+    let at = |x: f64, y: f64, z: f64| Point3::new(x, y, z);
+    Shape::Hull {
+        points: vec![
+            at(-0.01, 0.0, 0.0),
+            at(0.03, 0.0, 0.0),
+            at(0.0, 0.02, 0.0),
+            at(0.0, 0.0, 0.0400004),
+        ],
+    }
+}
+
+#[test]
+fn a_name_reads_as_one_name() {
+    let forged = "floor, all below 0; dust";
+    let named = |name: &str| {
+        let name = name.to_owned();
+        told("obstacles", move |r| r.workcell.obstacles = vec![post(&name)])
+    };
+    let body = "a cylinder of radius 20 and length 600 mm at (0.4, 0, 0.3) m";
+    assert_eq!(named(forged), format!("no floor; \"{forged}\", {body}"));
+    assert_eq!(
+        named("floor\", all below 0; \"dust"),
+        format!(r#"no floor; "floor\", all below 0; \"dust", {body}"#)
+    );
+    assert_eq!(
+        named("a\nb\u{202e}c\u{2028}"),
+        format!(r#"no floor; "a\nb\u{{202e}}c\u{{2028}}", {body}"#)
+    );
+    let arm = told("arm", |r| r.workcell.arm.name = "irb120, description 0".to_owned());
+    assert!(arm.starts_with("\"irb120, description 0\", description "), "{arm}");
+    let tool = told("tool", |r| r.workcell.tool.bodies[0].name = "no body; a".to_owned());
+    assert!(tool.starts_with("\"no body; a\", a cylinder "), "{tool}");
+    let pair = Exclusion {
+        pair: ["a – b".to_owned(), "c".to_owned()],
+        reason: ExclusionReason::Srdf,
+    };
+    let left_out = told("left out", |r| r.workcell.exclusions = vec![pair.clone()]);
+    assert_eq!(left_out, "by the SRDF: \"a – b\" – \"c\"");
+    let waived = told("waived", |r| r.waived_pairs = vec![pair.clone()]);
+    assert_eq!(waived, "by the job alone: \"a – b\" – \"c\"");
+}
+
+#[test]
+fn a_missing_floor_is_told() {
+    assert_eq!(told("obstacles", |_| ()), "\"floor\", all below 0");
+    assert_eq!(told("obstacles", |r| r.workcell.obstacles.clear()), "none; no floor");
+}
+
+#[test]
+fn bodies_of_the_tool_are_told_with_where_they_are_and_how_they_lie() {
+    let straight = told("tool", |_| ());
+    assert_eq!(
+        straight,
+        "\"handle\", a cylinder of radius 20 and length 125 mm at (0, 0, 62.5) mm of the flange; sponge of radius 25 and height 25 mm, \
+         compressed by 5 mm (assumed), at (0, 0, 137.5) mm of the flange; tip at (0, 0, 150) mm of the flange"
+    );
+    // About its own axis, the tip points where it pointed.
+    let about_z = |r: &mut RestsOn| r.workcell.tool.tip.rotation = turned(40.0, Vector3::z());
+    assert_eq!(told("tool", about_z), straight);
+    let bent = told("tool", |r| {
+        let tool = &mut r.workcell.tool;
+        tool.bodies[0].pose.translation.x = 6.0004e-3;
+        tool.bodies[0].pose.rotation = turned(-30.0, Vector3::y());
+        tool.sponge.pose.rotation = turned(180.0, Vector3::x());
+        tool.tip.rotation = turned(1e-12, Vector3::y());
+    });
+    let parts: Vec<_> = bent.split("; ").collect();
+    assert!(
+        parts[0].ends_with(" at (6.0004, 0, 62.5) mm of the flange, turned by 30 ° about (0, -1, 0)"),
+        "{bent}"
+    );
+    assert!(
+        parts[1].contains(" mm of the flange, along (0, ") && parts[1].ends_with(", -1)"),
+        "{bent}"
+    );
+    assert_eq!(
+        parts[2],
+        "tip at (0, 0, 150) mm of the flange, along (1.74532925e-14, 0, 1)"
+    );
+}
+
+#[test]
+fn a_turned_obstacle_is_told_by_axis_and_angle() {
+    let post_turned = |rotation: UnitQuaternion<f64>| {
+        told("obstacles", move |r| {
+            let mut post = post("post");
+            post.pose.rotation = rotation;
+            r.workcell.obstacles.push(post);
+        })
+    };
+    let upright = post_turned(UnitQuaternion::identity());
+    assert!(upright.ends_with(" at (0.4, 0, 0.3) m"), "{upright}");
+    let quarter = turned(90.0, Vector3::x());
+    for rotation in [quarter, UnitQuaternion::new_unchecked(-quarter.into_inner())] {
+        assert_eq!(
+            post_turned(rotation),
+            format!("{upright}, turned by 90 ° about (1, 0, 0)")
+        );
+    }
+    let slight = post_turned(UnitQuaternion::new_unchecked(Quaternion::new(1.0, 0.0, 3e-200, 4e-200)));
+    assert_eq!(
+        slight,
+        format!("{upright}, turned by 5.72957795e-198 ° about (0, 0.6, 0.8)")
+    );
+}
+
+#[test]
+fn a_hull_is_told_by_its_points_and_bounds() {
+    let words = "the hull of 4 points, x from -10 to 30, y from 0 to 20, z from 0 to 40.0004 mm, at ";
+    let obstacle = told("obstacles", |r| {
+        let mut rock = post("rock");
+        rock.shape = ObstacleShape::Convex(hull());
+        r.workcell.obstacles.push(rock);
+    });
+    assert_eq!(
+        obstacle,
+        format!("\"floor\", all below 0; \"rock\", {words}(0.4, 0, 0.3) m")
+    );
+    let tool = told("tool", |r| r.workcell.tool.bodies[0].shape = hull());
+    assert!(
+        tool.starts_with(&format!("\"handle\", {words}(0, 0, 62.5) mm of the flange; ")),
+        "{tool}"
+    );
+}
+
+#[test]
+fn all_sizes_of_plates_are_told_and_the_first_places() {
+    let row = |count: u32| (0..count).map(|i| Plate::level_disc([f64::from(i), 0.5, 0.03], 0.145, 0.02));
+    let few = told("plates", |r| r.plates = row(2).collect());
+    let size = "of radius 145 mm, 20 mm thick, faces 30 mm above 0";
+    assert_eq!(few, format!("2 {size}: 0 at (0, 0.5), 1 at (1, 0.5) m"));
+    let many = told("plates", |r| {
+        r.plates = row(14).collect();
+        r.plates[1].thickness_m = 0.0200001;
+        r.plates.push(Plate::level_disc([20.0, 0.0, 0.04], 0.001, 0.02));
+    });
+    let groups: Vec<_> = many.split("; ").collect();
+    assert!(
+        groups[0].starts_with(&format!("15: 13 {size}: 0 at (0, 0.5), 2 at (2, 0.5), ")),
+        "{many}"
+    );
+    assert!(groups[0].ends_with(", 11 at (11, 0.5) m and 2 more"), "{many}");
+    assert_eq!(
+        groups[1..],
+        [
+            "1 of radius 145 mm, 20.0001 mm thick, faces 30 mm above 0: 1 at (1, 0.5) m",
+            "1 of radius 1 mm, 20 mm thick, faces 40 mm above 0"
+        ]
+    );
+}
+
+#[test]
+fn no_number_reads_as_a_rounder_one() {
+    let tip_at = |speed: f64| {
+        let limits = told("limits", move |r| r.limits.tip_speed_m_s = speed);
+        limits
+            .split("tip ")
+            .nth(1)
+            .unwrap()
+            .split(" m/s,")
+            .next()
+            .unwrap()
+            .to_owned()
+    };
+    let cases = [
+        (6.0004, "6.0004"),
+        (6.000_000_01, "6.00000001"),
+        (0.1 + 0.2, "0.3"),
+        (-0.0, "0"),
+        (1e-6, "0.000001"),
+        (9.5e-7, "9.5e-7"),
+        (1e6, "1000000"),
+        (1_000_001.0, "1.000001e6"),
+        (-2.5e12, "-2.5e12"),
+    ];
+    for (value, words) in cases {
+        assert_eq!(tip_at(value), words);
+    }
+    let home = told("home", |r| r.home_rad[0][0] = 0.001_f64.to_radians());
+    assert!(home.starts_with("0.001, "), "{home}");
+    let place = told("plates", |r| r.plates[0].pose.translation.x = 0.3000004);
+    assert!(place.contains(": 0 at (0.3000004, "), "{place}");
+}
