@@ -140,7 +140,9 @@ fn may_touch(plan: &Plan, segment: usize, plate: usize) -> bool {
     let sponge_m = sponge.radius_m.hypot(sponge.height_m);
     let reach_m = path.curve.radius_m + LINE_M + sponge_m + job.requirements.clearance_m;
     let ([x, y], [u, v]) = (own.centre_xy(), other.centre_xy());
-    segment.plate == plate || (x - u).hypot(y - v) - other.rim_m() <= reach_m
+    // Of a plate that is higher than the one worked on the sponge keeps clear.
+    let is_higher = other.centre().z - own.centre().z > 1e-9;
+    segment.plate == plate || !is_higher && (x - u).hypot(y - v) - other.rim_m() <= reach_m
 }
 
 fn key(q: &JointVector) -> [u64; 6] {
