@@ -11,8 +11,8 @@ const WANTED: [&str; 10] = [
     "ik_nearest/platewash `nearest`/solved 100.0 %",
     "ik_cold/platewash `solve`/solved 100.0 %",
     "ik_batch/platewash `batch::solve`/solved 100.0 %",
-    "kitchen/plan, whole cycle",
-    "kitchen/verify",
+    "kitchen/plan, from home to home",
+    "kitchen/prove",
     "plant/semi-implicit Euler",
     "kitchen executed/computed_torque",
 ];
