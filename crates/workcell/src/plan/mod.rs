@@ -204,13 +204,13 @@ impl Plan {
     /// # Errors
     /// [`PlanFileError`] for anything but a plan of this format.
     pub fn from_json(text: &str) -> Result<Self, PlanFileError> {
-        let unreadable = |e: serde_json::Error| PlanFileError::Unreadable { detail: e.to_string() };
-        match serde_json::from_str::<Head>(text).map_err(unreadable)?.format {
-            Some(found) if found == BEFORE => return Err(PlanFileError::Before),
-            Some(found) if found != FORMAT => return Err(PlanFileError::Format { found }),
-            _ => {}
+        let plan: Self = match serde_json::from_str(text) {
+            Ok(plan) => plan,
+            Err(error) => return Err(other_format(text).unwrap_or_else(|| unreadable(&error))),
+        };
+        if plan.format != FORMAT {
+            return Err(PlanFileError::Format { found: plan.format });
         }
-        let plan: Self = serde_json::from_str(text).map_err(unreadable)?;
         let planned = Process::from(&plan.job.planner);
         if plan.process != planned {
             let stated = plan.process;
@@ -225,6 +225,19 @@ impl Plan {
 #[derive(Deserialize)]
 struct Head {
     format: Option<String>,
+}
+
+/// That a text which is no plan says that it has another format.
+fn other_format(text: &str) -> Option<PlanFileError> {
+    match serde_json::from_str::<Head>(text).ok()?.format? {
+        found if found == BEFORE => Some(PlanFileError::Before),
+        found if found != FORMAT => Some(PlanFileError::Format { found }),
+        _ => None,
+    }
+}
+
+fn unreadable(e: &serde_json::Error) -> PlanFileError {
+    PlanFileError::Unreadable { detail: e.to_string() }
 }
 
 fn unwritable(e: serde_json::Error) -> PlanFileError {
