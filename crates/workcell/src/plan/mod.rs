@@ -209,7 +209,7 @@ impl Plan {
             Err(error) => return Err(other_format(text).unwrap_or_else(|| unreadable(&error))),
         };
         if plan.format != FORMAT {
-            return Err(PlanFileError::Format { found: plan.format });
+            return Err(refused(plan.format));
         }
         let planned = Process::from(&plan.job.planner);
         if plan.process != planned {
@@ -229,11 +229,16 @@ struct Head {
 
 /// That a text which is no plan says that it has another format.
 fn other_format(text: &str) -> Option<PlanFileError> {
-    match serde_json::from_str::<Head>(text).ok()?.format? {
-        found if found == BEFORE => Some(PlanFileError::Before),
-        found if found != FORMAT => Some(PlanFileError::Format { found }),
-        _ => None,
+    let format = serde_json::from_str::<Head>(text).ok()?.format?;
+    (format != FORMAT).then(|| refused(format))
+}
+
+/// That a plan has another format.
+fn refused(format: String) -> PlanFileError {
+    if format == BEFORE {
+        return PlanFileError::Before;
     }
+    PlanFileError::Format { found: format }
 }
 
 fn unreadable(e: &serde_json::Error) -> PlanFileError {

@@ -74,6 +74,12 @@ fn other_formats_are_refused_with_what_to_do() {
     let said = |text: &str| Plan::from_json(text).unwrap_err().to_string();
     let before = said(r#"{"format": "platewash-plan/1", "scenario": {}}"#);
     assert!(before.contains("plan its scenario again"), "{before}");
+    // Whatever else stands in it.
+    let relabelled = plan()
+        .to_json()
+        .unwrap()
+        .replace("platewash-plan/2", "platewash-plan/1");
+    assert_eq!(said(&relabelled), before);
     assert!(said(r#"{"format": "platewash-plan/3"}"#).contains("found \"platewash-plan/3\""));
     assert!(said("{}").contains("missing field"), "{}", said("{}"));
     assert!(said("no JSON").contains("not a plan file"));
