@@ -139,3 +139,28 @@ fn told(exclusion: &Exclusion) -> String {
     let [a, b] = &exclusion.pair;
     format!("{a:?} and {b:?}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_workcell::fixtures::kitchen;
+    use platewash_workcell::job::JobTerms;
+    use platewash_workcell::workcell::ExclusionReason;
+
+    #[test]
+    fn only_what_follows_from_the_arm_is_left_out_without_being_waived() {
+        let job = kitchen();
+        let mut terms = job.terms().clone();
+        let waived = |terms: &JobTerms| {
+            let subject = Subject::new(terms, job.arm(), Vec::new());
+            Exclusions::of(&subject).unwrap().waived
+        };
+        assert_eq!(waived(&terms), []);
+        let added = Exclusion {
+            pair: ["handle".to_owned(), "link_2".to_owned()],
+            reason: ExclusionReason::Srdf,
+        };
+        terms.workcell.exclusions.push(added.clone());
+        assert_eq!(waived(&terms), [added]);
+    }
+}

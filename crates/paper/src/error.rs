@@ -88,12 +88,8 @@ impl PaperError {
     /// Whether the plates are known to have no room, or none was found for them; `None` for bad input.
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
-        use LayoutError::{EmptyRegion, NoRoom};
         match self {
-            Self::Layout(error @ (NoRoom { .. } | EmptyRegion { .. })) if error.is_proven() => {
-                Some(Infeasibility::Proved)
-            }
-            Self::Layout(NoRoom { .. } | EmptyRegion { .. }) => Some(Infeasibility::NotFound),
+            Self::Layout(error) => error.infeasibility(),
             _ => None,
         }
     }

@@ -141,13 +141,9 @@ impl PlanError {
     /// Whether the job cannot be done, or no way to do it was found; `None` for bad input.
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
-        use LayoutError::{EmptyRegion, NoRoom};
-        let found = |proved: bool| match proved {
-            true => Some(Infeasibility::Proved),
-            false => Some(Infeasibility::NotFound),
-        };
+        let found = |proved| Some(Infeasibility::proved_if(proved));
         match self {
-            Self::Layout(error @ (NoRoom { .. } | EmptyRegion { .. })) => found(error.is_proven()),
+            Self::Layout(error) => error.infeasibility(),
             Self::HomeNotClear { .. } | Self::Transit(TransitError::Home { .. }) => found(true),
             Self::Unwashable(plate) => found(plate.conclusion.is_proved()),
             Self::NoneWashable { .. } | Self::Line { .. } | Self::Tilt { .. } => found(false),

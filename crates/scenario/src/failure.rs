@@ -52,7 +52,7 @@ impl Failure {
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
         match self {
-            Self::Layout(error) => layout_infeasibility(error),
+            Self::Layout(error) => error.infeasibility(),
             Self::Plan(error) => error.infeasibility(),
             Self::Paper(error) => error.infeasibility(),
             _ => None,
@@ -69,15 +69,6 @@ impl Failure {
                 | Self::Prove(ProveError::Cancelled(_))
                 | Self::Simulation(SimulationError::Cancelled(_))
         )
-    }
-}
-
-fn layout_infeasibility(error: &LayoutError) -> Option<Infeasibility> {
-    use LayoutError::{EmptyRegion, NoRoom};
-    match error {
-        NoRoom { .. } | EmptyRegion { .. } if error.is_proven() => Some(Infeasibility::Proved),
-        NoRoom { .. } | EmptyRegion { .. } => Some(Infeasibility::NotFound),
-        _ => None,
     }
 }
 

@@ -2,11 +2,11 @@
 //! defaults and no files left.
 
 use crate::arc::Arc as ArcRoundBase;
-use crate::clearance::{self, ClearanceError};
+use crate::clearance::ClearanceError;
 use crate::layout::MAX_PLATES;
 use crate::plate::{GREATEST_M, Plate};
 use crate::simulation::SimulationSettings;
-use crate::workcell::{ArmId, Exclusion, ObstacleShape, Workcell};
+use crate::workcell::{ArmId, ObstacleShape, Workcell};
 use platewash_kinematics::{AXES, JointVector, LimitViolation, Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
@@ -422,16 +422,6 @@ impl WashJob {
     }
 }
 
-/// Pairs that a job leaves out and that do not follow from the arm and its SRDF.
-///
-/// # Errors
-/// [`ClearanceError`] for an arm with a shape that is none.
-pub fn waived_pairs(terms: &JobTerms, arm: &RobotModel) -> Result<Vec<Exclusion>, ClearanceError> {
-    let own = clearance::exclusions(arm, &terms.workcell.tool, &terms.workcell.obstacles)?;
-    let others = terms.workcell.exclusions.iter().filter(|e| !own.contains(e));
-    Ok(others.cloned().collect())
-}
-
 fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), JobError> {
     if (least..=most).contains(&found) {
         return Ok(());
@@ -524,18 +514,5 @@ mod tests {
         assert_eq!(terms.tilt_max_rad(), 30_f64.to_radians());
         terms.workcell.tool.sponge.height_m = 0.5 * terms.workcell.tool.sponge.radius_m;
         assert!((terms.tilt_max_rad() - 0.5_f64.atan()).abs() < 1e-15);
-    }
-
-    #[test]
-    fn only_what_follows_from_the_arm_is_left_out_without_being_waived() {
-        let job = kitchen();
-        let mut terms = job.terms().clone();
-        assert_eq!(waived_pairs(&terms, job.arm()).unwrap(), []);
-        let added = Exclusion {
-            pair: ["handle".to_owned(), "link_2".to_owned()],
-            reason: crate::workcell::ExclusionReason::Srdf,
-        };
-        terms.workcell.exclusions.push(added.clone());
-        assert_eq!(waived_pairs(&terms, job.arm()).unwrap(), [added]);
     }
 }

@@ -24,3 +24,11 @@ pub enum Infeasibility {
     /// No way to do it was found, which does not prove that there is none.
     NotFound,
 }
+
+impl Infeasibility {
+    /// Proved, or only not found.
+    #[must_use]
+    pub fn proved_if(is_proved: bool) -> Self {
+        if is_proved { Self::Proved } else { Self::NotFound }
+    }
+}

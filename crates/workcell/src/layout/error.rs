@@ -1,5 +1,6 @@
 //! Why a layout could not be made.
 
+use crate::verdict::Infeasibility;
 use crate::words::counted;
 use thiserror::Error;
 
@@ -135,6 +136,15 @@ impl LayoutError {
         match self {
             Self::NoRoom { count, upper_bound, .. } => cannot_fit(*count, *upper_bound),
             _ => true,
+        }
+    }
+
+    /// Whether the plates have no room, or none was found for them; `None` for bad input.
+    #[must_use]
+    pub fn infeasibility(&self) -> Option<Infeasibility> {
+        match self {
+            Self::NoRoom { .. } | Self::EmptyRegion { .. } => Some(Infeasibility::proved_if(self.is_proven())),
+            _ => None,
         }
     }
 }
