@@ -1,8 +1,9 @@
-//! Collision geometry of a link, as data: no collision library is involved here.
+//! Geometry of a link, as data: what can touch, what is looked at, what has mass. No collision library is involved here.
 
 use crate::Pose;
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// A convex shape in its own frame; lengths in metres.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -46,6 +47,43 @@ pub struct Primitive {
     pub pose: Pose,
     /// The shape.
     pub shape: Shape,
+}
+
+/// What a link looks like, or a part of it. It decides nothing: neither clearances nor hashes depend on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Visual {
+    /// Name in the description, where it has one.
+    pub name: Option<String>,
+    /// `T_link_visual`.
+    pub pose: Pose,
+    /// What is seen.
+    pub shape: VisualShape,
+    /// Red, green, blue and alpha, from 0 to 1, where the description states them.
+    pub rgba: Option<[f64; 4]>,
+}
+
+/// The shape of a [`Visual`].
+#[derive(Debug, Clone, PartialEq)]
+pub enum VisualShape {
+    /// A convex solid.
+    Solid(Shape),
+    /// The surface of a mesh, shared by all who look at it.
+    Mesh(Arc<[Triangle]>),
+}
+
+/// Three corners of a triangle, counter-clockwise seen from outside \[m\].
+pub type Triangle = [Point3<f32>; 3];
+
+/// A visual that is left out, as it cannot be read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{visual} of link '{link}' is not shown: {why}")]
+pub struct VisualFinding {
+    /// Name of the link.
+    pub link: String,
+    /// Which of its visuals, by its name or its place among them.
+    pub visual: String,
+    /// Why, in words.
+    pub why: String,
 }
 
 /// Mass properties of a link, as the description states them (SI; inertia about the centre of mass).

@@ -21,7 +21,7 @@
 //! | the built-in arm | [`irb120`] |
 //! | frames on its links | [`frame`] |
 //! | joint limits and margins | [`limits`] |
-//! | collision shapes | [`geometry`] |
+//! | shapes: collision and looks | [`geometry`] |
 //! | forward kinematics | [`fk`] |
 //! | geometric Jacobian, manipulability | [`jacobian`] |
 //! | tool frames by name | [`tool_frame`] |

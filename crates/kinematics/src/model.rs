@@ -1,7 +1,7 @@
 //! The immutable model of a six-axis arm.
 
 use crate::frame::Frame;
-use crate::geometry::{Inertial, Primitive};
+use crate::geometry::{Inertial, Primitive, Visual, VisualFinding};
 use crate::limits::JointLimits;
 use crate::rotation::Rigid;
 use crate::srdf::DisabledPairs;
@@ -26,6 +26,8 @@ pub struct Link {
     pub frame: Frame,
     /// Collision geometry in the link frame; empty for pure frames.
     pub collision: Vec<Primitive>,
+    /// What it looks like, in the link frame; visuals that could not be read are left out ([`RobotModel::visual_findings`]).
+    pub visuals: Vec<Visual>,
     /// Mass properties, where stated.
     pub inertial: Option<Inertial>,
 }
@@ -41,6 +43,7 @@ pub struct RobotModel {
     pub(crate) links: Vec<Link>,
     pub(crate) last_link: Frame,
     pub(crate) disabled: Option<DisabledPairs>,
+    pub(crate) visual_findings: Vec<VisualFinding>,
 }
 
 impl RobotModel {
@@ -83,6 +86,12 @@ impl RobotModel {
     #[must_use]
     pub fn links(&self) -> &[Link] {
         &self.links
+    }
+
+    /// What of the arm's looks could not be read and is left out. Nothing else depends on it.
+    #[must_use]
+    pub fn visual_findings(&self) -> &[VisualFinding] {
+        &self.visual_findings
     }
 
     /// Frame of the link behind joint 6.

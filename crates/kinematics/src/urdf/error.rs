@@ -112,7 +112,7 @@ pub enum UrdfError {
     #[error("link '{link}': mass must not be negative [kg]; found {found}")]
     Mass { link: String, found: f64 },
     /// A collision shape with a size that is not positive.
-    #[error("link '{link}': collision {shape} needs positive sizes; found {found}")]
+    #[error("link '{link}': {shape} needs positive sizes; found {found}")]
     ShapeSize {
         link: String,
         shape: &'static str,

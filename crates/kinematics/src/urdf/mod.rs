@@ -3,13 +3,15 @@
 //! The stages: `scan` bounds size and depth and finds cut files before any recursive parser sees them;
 //! `urdf-rs` reads the elements (where it refuses one, `culprit` finds which); `tree` checks the structure
 //! and orders the six joints; `limit` checks their limits; `collision` converts the geometry (recognising
-//! `capsule`s, finding meshes through `mesh` and reading their `vertices`). Every file is read through `file`.
+//! `capsule`s, finding meshes through `mesh` and reading their `vertices`); `visual` converts what is only looked at (reading the
+//! `triangles` of meshes), and what it cannot read is left out by name. Every file is read through `file`.
 //!
 //! xacro is not expanded: run `xacro FILE.xacro > FILE.urdf` first.
 
 mod capsule;
 mod collision;
 mod culprit;
+mod element;
 mod error;
 pub mod file;
 mod limit;
@@ -17,11 +19,14 @@ mod mesh;
 mod numbers;
 mod scan;
 mod tree;
+mod triangles;
 mod vertices;
+mod visual;
 
 pub use error::UrdfError;
 pub use mesh::MeshSource;
 pub use scan::MAX_BYTES;
+pub use visual::{MAX_TRIANGLES, MAX_VISUALS};
 
 use crate::AXES;
 use crate::fingerprint::sha256_hex;
@@ -32,6 +37,7 @@ use crate::rotation::Rigid;
 use nalgebra::{Matrix3, Vector3};
 use numbers::{finite, pose, rigid};
 use tree::Tree;
+use visual::Looks;
 
 /// Most links that are read; real descriptions need fewer than 50.
 const MAX_LINKS: usize = 1000;
@@ -65,11 +71,12 @@ fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
     });
     let (folded, frames) = fold(&tree)?;
     let last_link = frames[tree.position(&tree.axes[AXES - 1].child.link)];
+    let mut looks = Looks::new(&robot, meshes);
     let links = tree
         .links
         .iter()
         .zip(&frames)
-        .map(|(link, frame)| convert_link(link, *frame, meshes));
+        .map(|(link, frame)| convert_link(link, *frame, meshes, &mut looks));
     let links = links.collect::<Result<Vec<_>, _>>()?;
     Ok(RobotModel {
         name: robot.name.clone(),
@@ -80,6 +87,7 @@ fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
         links,
         last_link,
         disabled: None,
+        visual_findings: looks.findings,
     })
 }
 
@@ -117,11 +125,17 @@ fn syntax(text: &str, error: &urdf_rs::UrdfError) -> UrdfError {
     }
 }
 
-fn convert_link(link: &urdf_rs::Link, frame: Frame, meshes: &MeshSource) -> Result<Link, UrdfError> {
+fn convert_link(
+    link: &urdf_rs::Link,
+    frame: Frame,
+    meshes: &MeshSource,
+    looks: &mut Looks<'_>,
+) -> Result<Link, UrdfError> {
     Ok(Link {
         name: link.name.clone(),
         frame,
         collision: collision::primitives(link, meshes)?,
+        visuals: looks.of(link),
         inertial: inertial(link)?,
     })
 }
