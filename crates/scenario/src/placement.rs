@@ -6,7 +6,7 @@ use crate::scenario::Scenario;
 use platewash_kinematics::RobotModel;
 use platewash_planner::Watch;
 use platewash_workcell::layout::{
-    self, BaseFootprint, Layout, LayoutError, Placement, PlateGeometry, Region, Sampler, Spacing,
+    self, BaseFootprint, Layout, LayoutError, Placement, PlateGeometry, Region, Sampler, Spacing, TaskRegion,
 };
 use platewash_workcell::random;
 use rand_pcg::Pcg64;
@@ -49,8 +49,18 @@ impl LayoutSection {
         }
     }
 
+    /// Where plates are drawn, to look at.
+    #[must_use]
+    pub fn task_region(&self) -> TaskRegion {
+        TaskRegion {
+            base_circle_m: (self.base_radius_m > 0.0).then_some(self.base_radius_m),
+            polygon_m: self.region().map(|region| region.outline_m()),
+        }
+    }
+
     /// The region stated; `None` where none is (explicit positions only).
-    fn region(&self) -> Option<Region> {
+    #[must_use]
+    pub fn region(&self) -> Option<Region> {
         if let Some(named) = self.region {
             return Some(named.region());
         }

@@ -61,6 +61,9 @@ pub const HEADER: &str = "t_s,segment,plate,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q
 qd1_rad_s,qd2_rad_s,qd3_rad_s,qd4_rad_s,qd5_rad_s,qd6_rad_s,\
 qdd1_rad_s2,qdd2_rad_s2,qdd3_rad_s2,qdd4_rad_s2,qdd5_rad_s2,qdd6_rad_s2,tip_x_m,tip_y_m,tip_z_m";
 
+/// What stands in the header behind [`HEADER`] where a motion was executed: torques.
+pub const TORQUES: &str = ",tau1_n_m,tau2_n_m,tau3_n_m,tau4_n_m,tau5_n_m,tau6_n_m";
+
 /// The motion at multiples of `dt_s` and at its end: time, segment, plate, joint positions, speeds, accelerations (to
 /// the right of the time) and the origin of `tip`. Numbers are the shortest that read back exactly.
 ///

@@ -8,7 +8,7 @@
 //! | plates, and where they lie | [`plate`], [`surface`], [`layout`] |
 //! | what is asked, resolved | [`job`], [`simulation`] |
 //! | how a plate is washed; the arc between plates | [`wash_path`], [`arc`] |
-//! | a motion, its stretches, it as CSV | [`trajectory`], [`segment`], [`csv`] |
+//! | a motion, its stretches, it as CSV, and read back | [`trajectory`], [`segment`], [`csv`], [`recorded`] |
 //! | the plan file | [`plan`] |
 //! | distances between bodies | [`clearance`] |
 //! | the share of a plate that is swept | [`coverage`] |
@@ -28,6 +28,7 @@ pub mod plan;
 pub mod plate;
 mod pose;
 pub mod random;
+pub mod recorded;
 pub mod segment;
 pub mod simulation;
 pub mod surface;

@@ -53,6 +53,17 @@ pub struct Sponge {
     pub pose: Pose,
 }
 
+/// How a sponge stands to the plate that it shall wash.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Touch {
+    /// It touches.
+    On,
+    /// The tip is farther above the face than the sponge is compressed.
+    Lifted,
+    /// The tip is deeper than the sponge is high: what holds it would have to be in the plate.
+    Pressed,
+}
+
 /// Mass properties of a tool.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -153,6 +164,17 @@ impl Tool {
         !self.bodies.is_empty()
     }
 
+    /// How the sponge stands with its tip that high over a face \[m\]. Without a tool body the sponge counts as touching wherever the
+    /// flange passes, as in the report of the paper's program.
+    #[must_use]
+    pub fn touch(&self, height_m: f64) -> Touch {
+        if self.is_present() {
+            self.sponge.touch(height_m)
+        } else {
+            Touch::On
+        }
+    }
+
     /// The frame of the tip on an arm.
     #[must_use]
     pub fn tip_frame(&self, robot: &RobotModel) -> Frame {
@@ -170,6 +192,18 @@ impl Sponge {
     #[must_use]
     pub fn greatest_tilt_rad(&self) -> f64 {
         atan2(self.height_m, self.radius_m)
+    }
+
+    /// How it stands with its tip that high over a face \[m\].
+    #[must_use]
+    pub fn touch(&self, height_m: f64) -> Touch {
+        if height_m < -self.height_m {
+            Touch::Pressed
+        } else if height_m <= self.compression_m {
+            Touch::On
+        } else {
+            Touch::Lifted
+        }
     }
 
     /// Its shape about its pose.

@@ -18,6 +18,17 @@ pub(super) struct Separation {
     pub normal: [f64; 3],
 }
 
+impl Separation {
+    /// The nearest point of either part \[m\], base frame: half of the distance from the middle, either way.
+    pub fn points(&self) -> [[f64; 3]; 2] {
+        let (middle, half) = (
+            Vector::from_array(self.place),
+            Vector::from_array(self.normal) * (0.5 * self.distance),
+        );
+        [middle - half, middle + half].map(|point| point.to_array())
+    }
+}
+
 /// The distance between two parts, and what it is not below \[m\] but for the rounding of closed forms and support functions. Where
 /// the cores meet, that is what the radii around them make it.
 pub(super) fn bracketed(a: &Placed<'_>, b: &Placed<'_>) -> (Separation, f64) {

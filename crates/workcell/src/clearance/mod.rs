@@ -19,12 +19,14 @@
 //! | the distance of two parts: quickly, and between bounds | `distance.rs`, `bracket.rs` |
 //! | all pairs at one configuration | `model.rs` |
 //! | a quick yes or no for planners | `washing.rs` |
+//! | the facets of a hull, to look at | `hull.rs` |
 //! | bounds between configurations | `motion.rs`, `lever.rs` |
 
 mod body;
 mod bracket;
 mod distance;
 mod error;
+mod hull;
 pub mod lever;
 mod model;
 pub mod motion;
@@ -33,7 +35,8 @@ mod part;
 mod washing;
 
 pub use error::ClearanceError;
-pub use model::{ClearanceModel, PairClearance, is_clear};
+pub use hull::{Triangulated, hull_triangles};
+pub use model::{ClearanceModel, Nearest, PairClearance, is_clear};
 pub use pairs::exclusions;
 
 /// How far apart the bounds of a distance between solids are that is stated \[m\].

@@ -23,6 +23,17 @@ pub struct PairClearance {
     pub place_m: [f64; 3],
 }
 
+/// The two bodies of a model that come nearest to each other at one configuration, and where.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// The two bodies, by their place in [`ClearanceModel::body_names`].
+    pub bodies: [usize; 2],
+    /// Distance \[m\]; ≤ 0 when they touch or overlap.
+    pub distance_m: f64,
+    /// The nearest point of either body \[m\], base frame; where they overlap, one point of their common part, or two.
+    pub points_m: [[f64; 3]; 2],
+}
+
 /// The bodies and pairs of one job, ready for many configurations.
 #[derive(Debug, Clone)]
 pub struct ClearanceModel {
@@ -77,6 +88,12 @@ impl ClearanceModel {
         self.pairs.iter().map(|&(a, b)| (name(a), name(b))).collect()
     }
 
+    /// Names of the bodies.
+    #[must_use]
+    pub fn body_names(&self) -> Vec<&str> {
+        self.bodies.iter().map(|body| body.name.as_str()).collect()
+    }
+
     /// Distances of all pairs at `q` \[rad\], in the order of [`ClearanceModel::pair_names`].
     #[must_use]
     pub fn all(&self, q: &JointVector) -> Vec<PairClearance> {
@@ -95,6 +112,23 @@ impl ClearanceModel {
     /// `None` when there is nothing to check: a description without collision geometry.
     #[must_use]
     pub fn smallest(&self, q: &JointVector, working: &[usize]) -> Option<PairClearance> {
+        let (a, b, found) = self.least(q, working)?;
+        Some(self.describe(a, b, found))
+    }
+
+    /// As [`ClearanceModel::smallest`], with both of the nearest points.
+    #[must_use]
+    pub fn nearest(&self, q: &JointVector, working: &[usize]) -> Option<Nearest> {
+        let (a, b, found) = self.least(q, working)?;
+        Some(Nearest {
+            bodies: [a, b],
+            distance_m: found.distance,
+            points_m: found.points(),
+        })
+    }
+
+    /// The pair with the smallest distance.
+    fn least(&self, q: &JointVector, working: &[usize]) -> Option<(usize, usize, Separation)> {
         let placed = self.place(q);
         let mut best: Option<(usize, usize, Separation)> = None;
         let mut candidates: Vec<_> = self
@@ -114,7 +148,7 @@ impl ClearanceModel {
                 best = Some((a, b, found));
             }
         }
-        best.map(|(a, b, found)| self.describe(a, b, found))
+        best
     }
 
     /// All pairs that are in contact or nearer than `required_m` at `q` \[rad\], nearest first. The sponge may touch the

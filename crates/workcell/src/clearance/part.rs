@@ -235,7 +235,7 @@ fn enclosing(hull: &ConvexPolyhedron, points: &[Vector]) -> Vec<Vector> {
 }
 
 /// Whether points span a volume: some of them is off the plane through three that are far apart.
-fn has_volume(points: &[Vector]) -> bool {
+pub(super) fn has_volume(points: &[Vector]) -> bool {
     let Some(first) = points.first().copied() else {
         return false;
     };

@@ -317,3 +317,43 @@ fn a_flat_hull_is_refused_by_the_name_of_its_body() {
         r"body 'hand\nle': its hull is flat; a convex hull needs a volume"
     );
 }
+
+proptest! {
+    /// The two nearest points are as far apart as the smallest distance, and half-way between them is its place.
+    #[test]
+    fn nearest_points_are_those_of_the_smallest_distance(q in prop::array::uniform6(-1.5..1.5f64), plate in 0..2usize) {
+        let robot = RobotModel::irb120().unwrap();
+        let plates = [kitchen_plate([0.3, 0.1]), kitchen_plate([-0.1, 0.35])];
+        let model = ClearanceModel::new(&robot, &workcell(&robot, kitchen_tool()), &plates).unwrap();
+        let q = JointVector::from(q);
+        for working in [&[][..], &[plate]] {
+            let (smallest, nearest) = (model.smallest(&q, working).unwrap(), model.nearest(&q, working).unwrap());
+            prop_assert_eq!(nearest.distance_m, smallest.distance_m);
+            let names = model.body_names();
+            prop_assert_eq!(nearest.bodies.map(|body| names[body]), [smallest.a.as_str(), smallest.b.as_str()]);
+            let [a, b] = nearest.points_m.map(Vector3::from);
+            prop_assert!(((a + b) / 2.0 - Vector3::from(smallest.place_m)).norm() < 1e-12);
+            if smallest.distance_m > 0.0 {
+                prop_assert!(((b - a).norm() - smallest.distance_m).abs() < 1e-9, "{} {}", (b - a).norm(), smallest.distance_m);
+            }
+        }
+    }
+}
+
+/// By hand: the middle of the foot of an upright handle over the floor, and the point of the floor below it.
+#[test]
+fn nearest_points_lie_on_the_bodies() {
+    let ball = Shape::Sphere { radius_m: 0.1 };
+    let cube = Shape::Box { half_m: [0.2; 3] };
+    let at = |x: f64| Isometry3::translation(x, 0.0, 0.0);
+    let found = gap(&part(&ball, &at(-1.0)), &part(&cube, &at(1.0))).points();
+    let expected = [[-0.9, 0.0, 0.0], [0.8, 0.0, 0.0]];
+    for (found, expected) in found.iter().zip(&expected) {
+        assert!(
+            (Vector3::from(*found) - Vector3::from(*expected)).norm() < 1e-9,
+            "{found:?}"
+        );
+    }
+    let over_floor = gap(&Part::floor(), &part(&ball, &Isometry3::translation(0.3, 0.2, 0.5))).points();
+    assert_eq!(over_floor, [[0.3, 0.2, 0.0], [0.3, 0.2, 0.4]]);
+}

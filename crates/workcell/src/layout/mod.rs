@@ -7,12 +7,14 @@ mod discs;
 mod error;
 mod findings;
 mod footprint;
+mod outline;
 mod packing;
 mod placement;
 mod region;
 mod sampling;
 mod space;
 mod spacing;
+mod task_region;
 mod wedge;
 
 use crate::plate::Plate;
@@ -27,6 +29,7 @@ pub use placement::Placement;
 pub use region::Region;
 pub use sampling::{Attempt, Sampler};
 pub use spacing::{BaseFootprint, MAX_PLATES, PlateGeometry, Spacing};
+pub use task_region::TaskRegion;
 
 use sampling::Work;
 
