@@ -239,7 +239,7 @@ fn tasks(
             }
             (Work::Scheduled(schedule), PairKind::SpongeAndPlate(plate)) => (schedule, plate),
         };
-        let touches = |span: &Span| may_touch(subject, span, plate);
+        let touches = |span: &Span| may_touch(subject, (span.kind, span.plate), plate);
         let clear = joined(schedule, |span| !touches(span));
         if !clear.is_empty() {
             add(keeps, Some(clear), Vec::new());
@@ -254,9 +254,9 @@ fn tasks(
     tasks
 }
 
-/// Whether the sponge may touch a plate during a span.
-fn may_touch(subject: &Subject<'_>, span: &Span, plate: usize) -> bool {
-    is_at_plate(span.kind) && (span.plate == plate || neighbours::is_within_reach(subject, span.plate, plate))
+/// Whether the sponge may touch a plate during a segment of a kind, on a plate or towards it.
+pub(crate) fn may_touch(subject: &Subject<'_>, (kind, on): (SegmentKind, usize), plate: usize) -> bool {
+    is_at_plate(kind) && (on == plate || neighbours::is_within_reach(subject, on, plate))
 }
 
 /// The pieces of some spans; neighbours joined.

@@ -17,7 +17,7 @@
 //! | the sponge's rim where it comes down and leaves | `contact` |
 //! | the curves, following them, sweeping the plate | `curve`, `following`, `polyline`, `swept` |
 //! | beyond the rim: what may be touched there, how far it is | `neighbours`, `reach` |
-//! | clearance: one pair, all pairs | `clear`, `clearances` |
+//! | clearance: one pair, all pairs; at a single moment, to look at | `clear`, `clearances`; `moments` |
 //! | where a job is not the one that was asked for | `differences` |
 
 mod apart;
@@ -39,6 +39,7 @@ mod headline;
 mod home;
 mod joints;
 mod limits;
+mod moments;
 mod neighbours;
 mod piece;
 mod polyline;
@@ -64,6 +65,7 @@ pub use check::{Check, Discrepancy, Measure, Sense, Status, Unit, Worst};
 pub use clearances::{PairBound, PairRule};
 pub use differences::{Difference, differences};
 pub use error::ProveError;
+pub use moments::ClearanceRule;
 pub use neighbours::Touched;
 pub use prove::{MotionProof, prove, prove_motion, prove_with};
 pub use requirement::Requirement;

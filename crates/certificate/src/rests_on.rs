@@ -73,28 +73,40 @@ impl RestsOn {
     }
 }
 
-impl fmt::Display for RestsOn {
-    /// Some compact lines.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "\nrests on")?;
-        let mut line = |name: &str, what: String| writeln!(f, "  {name:<13} {what}");
-        line("arm", arm(&self.workcell))?;
-        line("tool", tool(&self.workcell.tool))?;
-        line("plates", plates(&self.plates))?;
-        line("obstacles", obstacles(&self.workcell.obstacles))?;
-        line("home", homes(&self.home_rad))?;
-        line("limits", limits(&self.limits))?;
-        line("requirements", requirements(&self.requirements))?;
-        line("left out", left_out(&self.workcell.exclusions))?;
+impl RestsOn {
+    /// What it says in words: a name and what belongs to it, a line each.
+    #[must_use]
+    pub fn lines(&self) -> Vec<(&'static str, String)> {
+        let mut lines = vec![
+            ("arm", arm(&self.workcell)),
+            ("tool", tool(&self.workcell.tool)),
+            ("plates", plates(&self.plates)),
+            ("obstacles", obstacles(&self.workcell.obstacles)),
+            ("home", homes(&self.home_rad)),
+            ("limits", limits(&self.limits)),
+            ("requirements", requirements(&self.requirements)),
+            ("left out", left_out(&self.workcell.exclusions)),
+        ];
         if !self.waived_pairs.is_empty() {
             let pairs = self.waived_pairs.iter().map(pair).collect::<Vec<_>>();
-            line("waived", format!("by the job alone: {}", pairs.join(", ")))?;
+            lines.push(("waived", format!("by the job alone: {}", pairs.join(", "))));
         }
-        let assumed = self.assumptions.iter();
-        let mut named = std::iter::once("assumed").chain(std::iter::repeat(""));
-        assumed
-            .zip(named.by_ref())
-            .try_for_each(|(what, name)| line(name, printable(what)))
+        lines.extend(self.assumptions.iter().map(|what| ("assumed", printable(what))));
+        lines
+    }
+}
+
+impl fmt::Display for RestsOn {
+    /// Some compact lines; a name stands before the first of its lines.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "\nrests on")?;
+        let mut before = "";
+        for (name, what) in self.lines() {
+            let shown = if name == before { "" } else { name };
+            writeln!(f, "  {shown:<13} {what}")?;
+            before = name;
+        }
+        Ok(())
     }
 }
 

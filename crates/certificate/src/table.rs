@@ -130,15 +130,45 @@ fn row(f: &mut fmt::Formatter<'_>, check: &Check) -> fmt::Result {
         }
         None => writeln!(f, "{name:<22} {status}")?,
     }
-    if let (Some(Measure { seen: Some(seen), .. }), true) = (&check.measure, check.status != Status::Proved) {
-        let (scale, unit) = check.measure.as_ref().map_or((1.0, ""), |m| scale(m.unit));
-        let [seen, _] = told_apart(seen * scale, check.measure.as_ref().map_or(0.0, |m| m.limit * scale), 4);
-        writeln!(f, "  found: {seen} {unit}")?;
+    if let Some(found) = found(check) {
+        writeln!(f, "  {found}")?;
     }
     check.discrepancies.iter().try_for_each(|d| writeln!(f, "  - {d}"))?;
     match check.more_discrepancies {
         0 => Ok(()),
         more => writeln!(f, "  … and {more} more"),
+    }
+}
+
+/// The worst value found, where the limit is not proved to be kept.
+fn found(check: &Check) -> Option<String> {
+    let measure = check.measure.as_ref().filter(|_| check.status != Status::Proved)?;
+    let (scale, unit) = scale(measure.unit);
+    let [seen, _] = told_apart(measure.seen? * scale, measure.limit * scale, 4);
+    Some(format!("found: {seen} {unit}"))
+}
+
+impl Check {
+    /// What the table says of it besides its name, its status and its worst place, in one line: bound and limit, what was found where
+    /// it is not proved, and what does not agree. Empty where there is nothing to add.
+    #[must_use]
+    pub fn detail(&self) -> String {
+        let measured = self.measure.as_ref().map(|measure| {
+            let (bound, limit, unit) = numbers(measure);
+            format!("bound {bound}, limit {limit} {unit}")
+        });
+        let more = self.more_discrepancies;
+        let disagreeing = self.discrepancies.iter().map(ToString::to_string);
+        let parts = measured.into_iter().chain(found(self)).chain(disagreeing);
+        let parts = parts.chain((more > 0).then(|| format!("and {more} more")));
+        printable(&parts.collect::<Vec<_>>().join("; "))
+    }
+}
+
+impl fmt::Display for Worst {
+    /// Pair, joint, segment, plate, time and place, as far as they apply.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&place(self))
     }
 }
 
