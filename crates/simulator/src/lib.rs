@@ -18,4 +18,6 @@ pub mod simulate;
 pub use control::{Command, ControlError, ControlLaw, Gains};
 pub use dynamics::{DynamicsError, DynamicsModel, Energy, RigidBody};
 pub use plant::{Plant, PlantState};
-pub use simulate::{Execution, SimulationError, SimulationReport, SimulationVerdict, simulate, simulate_with, tune};
+pub use simulate::{
+    Execution, SimulationError, SimulationReport, SimulationVerdict, simulate, simulate_watched, simulate_with, tune,
+};

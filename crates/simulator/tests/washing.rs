@@ -6,7 +6,9 @@ mod two_plates;
 
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_simulator::simulate::{Cause, PayloadVerdict, PlateVerdict, SimulationVerdict};
-use platewash_simulator::{ControlError, Execution, SimulationError, SimulationReport, simulate, simulate_with, tune};
+use platewash_simulator::{
+    ControlError, Execution, SimulationError, SimulationReport, simulate, simulate_watched, simulate_with, tune,
+};
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use platewash_workcell::job::JobError;
 use platewash_workcell::plan::{Knots, Plan};
@@ -250,6 +252,35 @@ fn simulating_is_given_up_when_told_so() {
         Err(SimulationError::Cancelled(Cancelled))
     );
     assert_eq!(tune(plan, robot, &settings, &[15.0], &[1.0], &token), Err(Cancelled));
+}
+
+#[test]
+fn whoever_watches_sees_every_sample_once_and_changes_none() {
+    let (robot, plan) = planned();
+    for law in [ControlLawName::ComputedTorque, ControlLawName::Exact] {
+        let settings = under(law, 30.0);
+        let mut seen = Vec::new();
+        let token = CancelToken::new();
+        let watched = simulate_watched(plan, robot, &settings, &token, &mut |sample| seen.push(*sample)).unwrap();
+        assert_eq!(seen, watched.samples);
+        assert_eq!(watched, simulate(plan, robot, &settings).unwrap());
+    }
+}
+
+/// The token is looked at between two samples, whoever used it.
+#[test]
+fn whoever_watches_can_end_the_run() {
+    let (robot, plan) = planned();
+    let settings = under(ControlLawName::ComputedTorque, 30.0);
+    let token = CancelToken::new();
+    let mut seen = 0;
+    let ended = simulate_watched(plan, robot, &settings, &token, &mut |_| {
+        seen += 1;
+        if seen == 100 {
+            token.cancel();
+        }
+    });
+    assert_eq!((seen, ended), (100, Err(SimulationError::Cancelled(Cancelled))));
 }
 
 /// Forty million steps last for a minute; told from elsewhere, the work ends at the next sample.

@@ -7,17 +7,6 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Sponge;
 
-/// How the sponge stands to the plate that it shall wash.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Touch {
-    /// It touches.
-    On,
-    /// The tip is farther above the face than the sponge is compressed.
-    Lifted,
-    /// The tip is deeper than the sponge is high: the handle would have to be in the plate.
-    Pressed,
-}
-
 /// Tip and plates.
 #[derive(Debug, Clone)]
 pub(super) struct Contact<'a> {
@@ -39,17 +28,6 @@ impl<'a> Contact<'a> {
     /// The frame of the tip.
     pub fn tip(&self) -> &Frame {
         &self.tip
-    }
-
-    /// How the sponge stands with its tip that high over the face \[m\].
-    pub fn touch(&self, height_m: f64) -> Touch {
-        if height_m < -self.sponge.height_m {
-            Touch::Pressed
-        } else if height_m <= self.sponge.compression_m {
-            Touch::On
-        } else {
-            Touch::Lifted
-        }
     }
 
     /// Torques of the plate's force \[N\] on the sponge, where it touches \[N·m\].

@@ -7,7 +7,7 @@ use platewash_workcell::plan::Plan;
 use std::fmt;
 
 /// What stands in the header behind the plan's columns ([`csv::HEADER`]).
-pub const HEADER: &str = ",tau1_n_m,tau2_n_m,tau3_n_m,tau4_n_m,tau5_n_m,tau6_n_m";
+pub const HEADER: &str = csv::TORQUES;
 
 /// The executed motion at the samples nearest to multiples of `dt_s`, and the last one: the plan's columns, then the torque
 /// held from then on. Numbers are the shortest that read back exactly.

@@ -46,7 +46,7 @@ pub use error::SimulationError;
 pub use execution::{Execution, Sample};
 pub use payload::{PayloadCheck, PayloadVerdict};
 pub use report::{SimulationReport, SimulationVerdict};
-pub use run::{simulate, simulate_with};
+pub use run::{simulate, simulate_watched, simulate_with};
 pub use statistics::Spread;
 pub use tracking::{SegmentTracking, Tracking};
 pub use tune::{TuneOutcome, TuneRow, tune};

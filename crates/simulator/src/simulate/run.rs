@@ -49,6 +49,21 @@ pub fn simulate_with(
     settings: &SimulationSettings,
     token: &CancelToken,
 ) -> Result<Execution, SimulationError> {
+    simulate_watched(plan, robot, settings, token, &mut |_| {})
+}
+
+/// As [`simulate_with`], and tells `watch` of each sample as soon as it is known, in time order and once. The run goes on when `watch`
+/// returns, which may take its time, and is the same whatever it does.
+///
+/// # Errors
+/// Those of [`simulate_with`]; samples before the fault have been told by then.
+pub fn simulate_watched(
+    plan: &Plan,
+    robot: &RobotModel,
+    settings: &SimulationSettings,
+    token: &CancelToken,
+    watch: &mut dyn FnMut(&Sample),
+) -> Result<Execution, SimulationError> {
     check_arm(plan, robot)?;
     plan.job.validate()?;
     settings::check(settings)?;
@@ -70,7 +85,7 @@ pub fn simulate_with(
         period_s: settings.period_s(),
         token,
     };
-    run.carry_out(law.as_mut(), schedule, count)
+    run.carry_out(law.as_mut(), schedule, count, watch)
 }
 
 /// The arm with its tool; `None` under a kinematic law.
@@ -122,6 +137,7 @@ impl Run<'_> {
         law: &mut dyn ControlLaw,
         mut schedule: Schedule<'_>,
         count: usize,
+        watch: &mut dyn FnMut(&Sample),
     ) -> Result<Execution, SimulationError> {
         let mut reference = Reference {
             now: self.asked(0),
@@ -146,14 +162,16 @@ impl Run<'_> {
                 Command::Position(q) => self.moved(&state, q),
                 Command::Torque(torque) => self.driven(&state, &torque, schedule.washed_plate(segment)),
             };
-            samples.push(Sample {
+            let sample = Sample {
                 t_s,
                 segment,
                 commanded: reference.now.q,
                 state,
                 qdd: outcome.qdd,
                 torque: outcome.torque,
-            });
+            };
+            watch(&sample);
+            samples.push(sample);
             saturated += usize::from(outcome.is_cut);
             state = outcome.state;
             check_bounded(self.time(k + 1), &state)?;

@@ -2,11 +2,11 @@
 //!
 //! The planned and the executed motion are measured alike: the tip seen along the plate's axis at every sample of the plate's wash; a
 //! sponge tilted by τ counts as a disc of radius s cos τ, τ the largest tilt of that wash. The executed sponge sweeps only where it
-//! touches ([`Touch`]). Without a tool body the whole sponge counts wherever the flange passes, as in the report of the paper's
+//! touches ([`platewash_workcell::tool::Touch`]). Without a tool body the whole sponge counts wherever the flange passes, as in the report of the paper's
 //! program. These are measurements, not bounds: between samples the tip is taken to move straight.
 
 use super::cause::Cause;
-use super::contact::{Contact, Touch};
+use super::contact::Contact;
 use super::error::SimulationError;
 use super::execution::{Execution, Sample};
 use nalgebra::Vector3;
@@ -15,7 +15,7 @@ use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, co
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::segment::SegmentKind;
-use platewash_workcell::tool::Tool;
+use platewash_workcell::tool::{Tool, Touch};
 use serde::Serialize;
 
 /// As fine as the planner's own report: the proven error is about a tenth of a percent.
@@ -75,7 +75,6 @@ pub(super) fn plates(
         let wash = Wash {
             tool: &plan.job.workcell.tool,
             required: plan.job.requirements.coverage,
-            contact: &contact,
             index: segment.plate,
             plate,
             planned: track(|s| s.commanded),
@@ -122,7 +121,6 @@ fn track(
 struct Wash<'a> {
     tool: &'a Tool,
     required: f64,
-    contact: &'a Contact<'a>,
     index: usize,
     plate: &'a Plate,
     planned: Vec<Tip>,
@@ -131,7 +129,7 @@ struct Wash<'a> {
 
 impl Wash<'_> {
     fn outcome(&self) -> Result<PlateOutcome, CoverageError> {
-        let touches: Vec<_> = self.executed.iter().map(|tip| self.touch(tip)).collect();
+        let touches: Vec<_> = self.executed.iter().map(|tip| self.tool.touch(tip.height_m)).collect();
         let everywhere = vec![Touch::On; self.planned.len()];
         let planned = self.swept(&self.planned, &everywhere)?;
         let executed = self.swept(&self.executed, &touches)?;
@@ -159,15 +157,6 @@ impl Wash<'_> {
 
     fn has_tool(&self) -> bool {
         self.tool.is_present()
-    }
-
-    /// Without a tool body the sponge counts as touching wherever the flange passes, as in the paper's report.
-    fn touch(&self, tip: &Tip) -> Touch {
-        if self.has_tool() {
-            self.contact.touch(tip.height_m)
-        } else {
-            Touch::On
-        }
     }
 
     fn swept(&self, track: &[Tip], touches: &[Touch]) -> Result<Coverage, CoverageError> {
