@@ -6,7 +6,7 @@ use crate::settings::PaperSettings;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::job::{JobTerms, Limits, Overlap, Planner, Requirements, WashJob};
 use platewash_workcell::layout::Layout;
-use platewash_workcell::plan::PlanFileError;
+use platewash_workcell::plan::{Plan, PlanFileError};
 use platewash_workcell::simulation::{ControlLawName, ControlSettings, PlantSettings, SimulationSettings};
 use platewash_workcell::tool::{StraightTool, Tool};
 use platewash_workcell::workcell::Workcell;
@@ -74,6 +74,31 @@ impl PaperJob {
                 plant: PlantSettings::default(),
                 payload_kg: None,
             },
+        })
+    }
+
+    /// The job that a plan file of the paper's program states, its plates as they lie there, to be run again.
+    ///
+    /// # Errors
+    /// [`PaperError::Terms`] for another program's plan, or settings that are none of this one's.
+    pub fn of_plan(plan: &Plan, arm: Arc<RobotModel>) -> Result<Self, PaperError> {
+        let unreadable = |detail: String| PlanFileError::Unreadable { detail };
+        let terms = &plan.job;
+        let Planner::Paper(stated) = &terms.planner else {
+            return Err(unreadable("the plan is none of the paper's program".to_owned()).into());
+        };
+        let settings = serde_json::from_value(stated.clone());
+        Ok(Self {
+            name: plan.provenance.scenario.clone(),
+            arm,
+            workcell: terms.workcell.clone(),
+            layout: Layout::of(terms.plates.clone()),
+            seed: terms.seed,
+            start_rad: terms.home_rad[0],
+            requirements: terms.requirements,
+            limits: terms.limits,
+            settings: settings.map_err(|e| unreadable(e.to_string()))?,
+            simulation: terms.simulation.clone(),
         })
     }
 
