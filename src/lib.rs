@@ -30,6 +30,7 @@ pub use platewash_paper as paper;
 pub use platewash_planner as planner;
 pub use platewash_scenario as scenario;
 pub use platewash_simulator as simulator;
+pub use platewash_viewer as viewer;
 pub use platewash_workcell as workcell;
 
 // The way through: a scenario states a job, a job is planned, a plan is proved and simulated.

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 /// The project's own packages, and what each may depend on among them; the root package may know all that are below it.
 ///
 /// Packages that are not named here are no part of the product: the chores and what the benchmarks need.
-const FLOORS: [(&str, &[&str]); 9] = [
+const FLOORS: [(&str, &[&str]); 10] = [
     ("platewash-kinematics", &[]),
     ("platewash-workcell", &["platewash-kinematics"]),
     ("platewash-certificate", &["platewash-kinematics", "platewash-workcell"]),
@@ -28,6 +28,15 @@ const FLOORS: [(&str, &[&str]); 9] = [
         ],
     ),
     (
+        "platewash-viewer",
+        &[
+            "platewash-kinematics",
+            "platewash-workcell",
+            "platewash-certificate",
+            "platewash-simulator",
+        ],
+    ),
+    (
         "platewash",
         &[
             "platewash-kinematics",
@@ -37,6 +46,7 @@ const FLOORS: [(&str, &[&str]); 9] = [
             "platewash-planner",
             "platewash-paper",
             "platewash-scenario",
+            "platewash-viewer",
         ],
     ),
     ("pyplatewash", &["platewash"]),

@@ -1,15 +1,20 @@
 //! The project's own chores.
 //!
-//!     cargo xtask test [--only lint|rust|python]    every test there is, or one part of them
+//!     cargo xtask test [OPTIONS]                    every test there is
+//!         --only lint|rust|python|browser           one part of them
+//!         --without-browser                         all but what is looked at in a browser
 //!     cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
+//!     cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
 //!     cargo xtask docs                              writes the pages that are made from the program
 //!     cargo xtask rules                             the rules of the code that no compiler checks, all of them
 //!     cargo xtask rings                             one of them: no modules that import each other in a ring
 //!     cargo xtask subjects REVISION                 whether the commits since then have first lines as they should be
 
 mod benches;
+mod browser;
 mod floors;
 mod map;
+mod page;
 mod python;
 mod rings;
 mod rules;
@@ -23,11 +28,14 @@ mod workspace;
 
 use anyhow::{Result, bail};
 use std::process::ExitCode;
-use suite::Part;
+use suite::{InBrowser, Part};
 
 const USAGE: &str = "\
-cargo xtask test [--only lint|rust|python]    every test there is, or one part of them
+cargo xtask test [OPTIONS]                    every test there is
+    --only lint|rust|python|browser           one part of them
+    --without-browser                         all but what is looked at in a browser
 cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
+cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
 cargo xtask docs                              writes the pages that are made from the program
 cargo xtask rules                             the rules of the code that no compiler checks, all of them
 cargo xtask rings                             one of them: no modules that import each other in a ring
@@ -36,8 +44,9 @@ cargo xtask subjects REVISION                 whether the commits since then hav
 /// What to do.
 #[derive(Debug, PartialEq, Eq)]
 enum Chore {
-    Test(Option<Part>),
+    Test(Option<Part>, InBrowser),
     Bench(Vec<String>),
+    Page,
     Docs,
     Rules,
     Rings,
@@ -55,8 +64,9 @@ fn main() -> ExitCode {
         }
     };
     let done = match chore {
-        Chore::Test(only) => suite::run(only),
+        Chore::Test(only, in_browser) => suite::run(only, in_browser),
         Chore::Bench(arguments) => benches::run(&arguments),
+        Chore::Page => page::make(),
         Chore::Docs => suite::docs(),
         Chore::Rules => rules::kept(),
         Chore::Rings => rules::no_rings(),
@@ -78,15 +88,25 @@ fn main() -> ExitCode {
 fn parse(arguments: &[String]) -> Result<Chore> {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words[..] {
-        ["test"] => Ok(Chore::Test(None)),
-        ["test", "--only", part] => Part::named(part).map(|part| Chore::Test(Some(part))),
+        ["test", ref options @ ..] => tests(options),
         ["bench", ..] => Ok(Chore::Bench(arguments[1..].to_vec())),
+        ["page"] => Ok(Chore::Page),
         ["docs"] => Ok(Chore::Docs),
         ["rules"] => Ok(Chore::Rules),
         ["rings"] => Ok(Chore::Rings),
         ["subjects", revision] => Ok(Chore::Subjects(revision.to_owned())),
         [] | ["help" | "--help" | "-h"] => Ok(Chore::Help),
         _ => bail!("unknown arguments: {}", words.join(" ")),
+    }
+}
+
+fn tests(options: &[&str]) -> Result<Chore> {
+    match *options {
+        [] => Ok(Chore::Test(None, InBrowser::Run)),
+        ["--without-browser"] => Ok(Chore::Test(None, InBrowser::LeftOut)),
+        ["--only", part] => Ok(Chore::Test(Some(Part::named(part)?), InBrowser::Run)),
+        ["--only", part, "--without-browser"] => Ok(Chore::Test(Some(Part::named(part)?), InBrowser::LeftOut)),
+        _ => bail!("unknown options of test: {}", options.join(" ")),
     }
 }
 
@@ -100,9 +120,21 @@ mod tests {
 
     #[test]
     fn every_chore_is_understood() {
-        assert_eq!(parsed("test"), Some(Chore::Test(None)));
-        assert_eq!(parsed("test --only python"), Some(Chore::Test(Some(Part::Python))));
+        assert_eq!(parsed("test"), Some(Chore::Test(None, InBrowser::Run)));
+        assert_eq!(
+            parsed("test --only python"),
+            Some(Chore::Test(Some(Part::Python), InBrowser::Run))
+        );
+        assert_eq!(
+            parsed("test --without-browser"),
+            Some(Chore::Test(None, InBrowser::LeftOut))
+        );
+        assert_eq!(
+            parsed("test --only browser --without-browser"),
+            Some(Chore::Test(Some(Part::Browser), InBrowser::LeftOut))
+        );
         assert_eq!(parsed("bench ik_warm"), Some(Chore::Bench(vec!["ik_warm".to_owned()])));
+        assert_eq!(parsed("page"), Some(Chore::Page));
         assert_eq!(parsed("docs"), Some(Chore::Docs));
         assert_eq!(parsed("rules"), Some(Chore::Rules));
         assert_eq!(parsed("rings"), Some(Chore::Rings));
@@ -116,6 +148,7 @@ mod tests {
             "tset",
             "test --only",
             "test --only ruby",
+            "test --without-browser --only",
             "test now",
             "subjects",
             "rings x",

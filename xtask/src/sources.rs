@@ -8,7 +8,10 @@ use std::path::{Path, PathBuf};
 pub fn all_in(folder: &Path) -> Result<()> {
     let account = target().join("release").join(account());
     let text = std::fs::read_to_string(&account).with_context(|| account.display().to_string())?;
-    let files = compiled_from(&text, &root())?;
+    let mut files = Vec::new();
+    for named in compiled_from(&text, &root())? {
+        collect(&root(), named, &mut files)?;
+    }
     for file in &files {
         let read = |place: &Path| {
             std::fs::read(place.join(file)).with_context(|| format!("{} in {}", file.display(), place.display()))
@@ -18,6 +21,19 @@ pub fn all_in(folder: &Path) -> Result<()> {
         }
     }
     println!("    {} source files are the checkout's", files.len());
+    Ok(())
+}
+
+/// A file of `root`, or all in a folder of it: build scripts name folders, too.
+fn collect(root: &Path, named: PathBuf, files: &mut Vec<PathBuf>) -> Result<()> {
+    let place = root.join(&named);
+    if !place.is_dir() {
+        files.push(named);
+        return Ok(());
+    }
+    for entry in std::fs::read_dir(&place).with_context(|| place.display().to_string())? {
+        collect(root, named.join(entry?.file_name()), files)?;
+    }
     Ok(())
 }
 
@@ -53,6 +69,22 @@ mod tests {
             "/here/a\\ b/target/lib_core.so: /here/a\\ b/src/lib.rs /elsewhere/x.rs /here/a\\ b/urdf/arm.urdf\n";
         let files = compiled_from(account, Path::new("/here/a b")).unwrap();
         assert_eq!(files, [PathBuf::from("src/lib.rs"), PathBuf::from("urdf/arm.urdf")]);
+    }
+
+    #[test]
+    fn a_folder_stands_for_all_in_it() {
+        let root = tempfile::tempdir().unwrap();
+        for name in ["a/b/c.ts", "a/d.ts", "e.rs"] {
+            let place = root.path().join(name);
+            std::fs::create_dir_all(place.parent().unwrap()).unwrap();
+            std::fs::write(place, "").unwrap();
+        }
+        let mut files = Vec::new();
+        for named in ["a", "e.rs"] {
+            collect(root.path(), named.into(), &mut files).unwrap();
+        }
+        files.sort();
+        assert_eq!(files, ["a/b/c.ts", "a/d.ts", "e.rs"].map(PathBuf::from));
     }
 
     #[test]

@@ -2,9 +2,10 @@
 
 use anyhow::{Context, Result, bail};
 use std::ffi::OsStr;
+use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::time::Instant;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 /// The repository.
 pub fn root() -> PathBuf {
@@ -23,6 +24,7 @@ pub fn target() -> PathBuf {
 pub struct Step {
     title: &'static str,
     command: Command,
+    longest: Option<Duration>,
 }
 
 impl Step {
@@ -30,7 +32,12 @@ impl Step {
     pub fn program(title: &'static str, program: impl AsRef<OsStr>, arguments: &[&str]) -> Self {
         let mut command = Command::new(program);
         command.args(arguments).current_dir(root());
-        Self { title, command }
+        let longest = None;
+        Self {
+            title,
+            command,
+            longest,
+        }
     }
 
     /// A call of the cargo that runs us.
@@ -41,6 +48,18 @@ impl Step {
     /// The same with an environment variable set.
     pub fn with(mut self, variable: &str, value: impl AsRef<OsStr>) -> Self {
         self.command.env(variable, value);
+        self
+    }
+
+    /// The same in another folder.
+    pub fn at(mut self, folder: &Path) -> Self {
+        self.command.current_dir(folder);
+        self
+    }
+
+    /// The same, ended by force if it takes longer.
+    pub fn within(mut self, longest: Duration) -> Self {
+        self.longest = Some(longest);
         self
     }
 
@@ -60,8 +79,8 @@ impl Step {
         let start = Instant::now();
         let child = self.command.stdout(stdout).spawn();
         let output = child
-            .and_then(Child::wait_with_output)
-            .with_context(|| format!("{}: cannot start {line}", self.title))?;
+            .and_then(|child| wait(child, self.longest))
+            .with_context(|| format!("{}: cannot run `{line}`", self.title))?;
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         if !output.status.success() {
             bail!("{}: `{line}` ended with {}\n{text}", self.title, output.status);
@@ -76,5 +95,42 @@ impl Step {
         let name = program.file_name().unwrap_or(program.as_os_str());
         let words = std::iter::once(name).chain(self.command.get_args());
         words.map(OsStr::to_string_lossy).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// Waits for the end of a program, for a time if one is given, and then ends it.
+fn wait(mut child: Child, longest: Option<Duration>) -> io::Result<Output> {
+    const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
+    let start = Instant::now();
+    while let Some(longest) = longest
+        && child.try_wait()?.is_none()
+    {
+        if start.elapsed() > longest {
+            child.kill()?;
+            child.wait()?;
+            let words = format!("not done after {} s", longest.as_secs());
+            return Err(io::Error::new(io::ErrorKind::TimedOut, words));
+        }
+        std::thread::sleep(BETWEEN_LOOKS);
+    }
+    child.wait_with_output()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_that_is_done_in_time_has_succeeded() {
+        let step = Step::cargo("version", &["--version"]).within(Duration::from_secs(60));
+        assert!(step.output().unwrap().starts_with("cargo "));
+    }
+
+    #[test]
+    fn a_program_that_takes_too_long_is_ended() {
+        // It reads a source that does not end.
+        let child = Command::new("rustc").arg("-").stdin(Stdio::piped()).spawn().unwrap();
+        let error = wait(child, Some(Duration::ZERO)).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::TimedOut);
     }
 }

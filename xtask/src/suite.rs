@@ -1,7 +1,7 @@
 //! Everything that must pass, in order.
 
 use crate::step::Step;
-use crate::{benches, python, rules, wheel};
+use crate::{benches, browser, page, python, rules, wheel};
 use anyhow::{Result, bail};
 use std::time::Instant;
 
@@ -15,6 +15,9 @@ const CHECKED: [&str; 2] = ["--config", ".cargo/checked.toml"];
 /// With this, pyo3 asks no interpreter: the parts in Rust need none.
 const NO_PYTHON: (&str, &str) = ("PYO3_NO_PYTHON", "1");
 
+/// With this, the command makes no page: the tests need no network, and have the page already.
+const NO_PAGE: (&str, &str) = ("PLATEWASH_MAKE_PAGE", "0");
+
 /// One thing that must pass.
 type Check = fn() -> Result<()>;
 
@@ -27,6 +30,17 @@ pub enum Part {
     Rust,
     /// The tests in Python, of the finished command and the finished wheel.
     Python,
+    /// The page: its types, its tests, and in a browser what it shows.
+    Browser,
+}
+
+/// Whether the tests in a browser are run, which need one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InBrowser {
+    /// They are, and fail where there is no browser.
+    Run,
+    /// They are left out, as was asked for.
+    LeftOut,
 }
 
 impl Part {
@@ -36,32 +50,55 @@ impl Part {
             "lint" => Ok(Self::Lint),
             "rust" => Ok(Self::Rust),
             "python" => Ok(Self::Python),
+            "browser" => Ok(Self::Browser),
             other => bail!("unknown part '{other}'"),
         }
     }
 }
 
 /// Runs the whole suite or one part of it, up to the first failure.
-pub fn run(only: Option<Part>) -> Result<()> {
+///
+/// The page is made first, so that all that is compiled after it has it.
+pub fn run(only: Option<Part>, in_browser: InBrowser) -> Result<()> {
     let start = Instant::now();
-    let steps: [(Part, Check); 10] = [
-        (Part::Lint, format),
-        (Part::Lint, clippy),
-        (Part::Lint, documentation),
-        (Part::Lint, rules::kept),
-        (Part::Rust, tests),
-        (Part::Rust, benches::once),
-        (Part::Python, if only.is_none() { release } else { release_alone }),
-        (Part::Python, wheel::install),
-        (Part::Python, wheel::package),
-        (Part::Python, python::tests),
+    let release: Check = if only.is_none() { release } else { release_alone };
+    let steps: [(&[Part], Check); 14] = [
+        (&[Part::Rust, Part::Python, Part::Browser], page::make),
+        (&[Part::Lint], format),
+        (&[Part::Lint], clippy),
+        (&[Part::Lint], documentation),
+        (&[Part::Lint], rules::kept),
+        (&[Part::Rust], tests),
+        (&[Part::Rust], benches::once),
+        (&[Part::Python, Part::Browser], release),
+        (&[Part::Python], wheel::install),
+        (&[Part::Python], wheel::package),
+        (&[Part::Python], python::tests),
+        (&[Part::Browser], page::tested),
+        (&[Part::Browser], page::again),
+        (
+            &[Part::Browser],
+            if in_browser == InBrowser::Run {
+                browser::tests
+            } else {
+                left_out
+            },
+        ),
     ];
     let mut passed = 0;
-    for (_, step) in steps.iter().filter(|(part, _)| only.is_none_or(|only| only == *part)) {
+    for (_, step) in steps
+        .iter()
+        .filter(|(parts, _)| only.is_none_or(|only| parts.contains(&only)))
+    {
         step()?;
         passed += 1;
     }
     println!("\nAll {passed} steps passed in {:.0} s.", start.elapsed().as_secs_f64());
+    Ok(())
+}
+
+fn left_out() -> Result<()> {
+    println!("\n==> tests in a browser: LEFT OUT, as was asked for");
     Ok(())
 }
 
@@ -94,7 +131,8 @@ fn documentation() -> Result<()> {
 
 fn tests() -> Result<()> {
     let line = [&["test"], &CRATES[..], &CHECKED[..]].concat();
-    Step::cargo("tests", &line).with(NO_PYTHON.0, NO_PYTHON.1).run()
+    let step = Step::cargo("tests", &line).with(NO_PYTHON.0, NO_PYTHON.1);
+    step.with(NO_PAGE.0, NO_PAGE.1).run()
 }
 
 /// The release build of the command, after the tests and the benchmarks: of the crates of others, nothing is left to build.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// What lies in a checkout and is none of its sources.
-const LEFT_OUT: [&str; 5] = [".git", ".venv", "__pycache__", "out", "target"];
+const LEFT_OUT: [&str; 7] = [".git", ".venv", "__pycache__", "dist", "node_modules", "out", "target"];
 
 /// Names of files, relative to one folder, with `/` between their parts.
 #[derive(Debug)]

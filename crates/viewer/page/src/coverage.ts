@@ -1,0 +1,174 @@
+/** A plate's coverage over time: sampled on a raster to look at, not the proof. */
+import { colormap } from "./colormap.ts";
+import { decode, NumbersError } from "./numbers.ts";
+import type { PlateCoverage } from "./view.ts";
+
+/** A cell that the sponge never gets over. */
+export const NEVER = 65535;
+/** A cell with its middle beyond the rim. */
+export const OUTSIDE = 65534;
+
+/** A raster as it is in the document, with its cells in the order in which they get swept. */
+export interface Coverage {
+  plate: number;
+  rows: number;
+  columns: number;
+  half_m: number;
+  first: Uint16Array;
+  step_s: number;
+  dwell: Uint8Array;
+  dwell_step_s: number;
+  proved: number | null;
+  /** Cells within the rim. */
+  cells: number;
+  /** Indices of the cells that get swept, earliest first. */
+  order: Uint32Array;
+  /** At k: how many cells are swept by step k, the step included; its last number holds ever after. */
+  swept: Uint32Array;
+}
+
+function ordered(first: Uint16Array): { order: Uint32Array; swept: Uint32Array } {
+  let last = -1;
+  for (const step of first) if (step < OUTSIDE && step > last) last = step;
+  const swept = new Uint32Array(last + 2);
+  for (const step of first) if (step < OUTSIDE) swept[step + 1]!++;
+  for (let k = 1; k < swept.length; k++) swept[k]! += swept[k - 1]!;
+  const order = new Uint32Array(swept[last + 1]!);
+  const at = swept.slice();
+  first.forEach((step, cell) => {
+    if (step < OUTSIDE) order[at[step]!++] = cell;
+  });
+  return { order, swept: swept.subarray(1) };
+}
+
+/** Decodes a raster; `NumbersError` where its arrays do not fit each other. */
+export function decodeCoverage(document: PlateCoverage): Coverage {
+  const first = decode(document.first);
+  const dwell = decode(document.dwell);
+  const [rows = 0, columns = 0] = document.first.shape;
+  if (!(first instanceof Uint16Array) || !(dwell instanceof Uint8Array)) {
+    throw new NumbersError("coverage: first must be u16 and dwell u8");
+  }
+  if (document.first.shape.length !== 2 || first.length !== dwell.length) {
+    throw new NumbersError(`coverage: first of shape ${document.first.shape.join("×")} and dwell of ${document.dwell.shape.join("×")}`);
+  }
+  let cells = 0;
+  for (const step of first) if (step !== OUTSIDE) cells++;
+  const { plate, half_m, step_s, dwell_step_s, proved } = document;
+  return { plate, rows, columns, half_m, first, step_s, dwell, dwell_step_s, proved, cells, ...ordered(first) };
+}
+
+/** How many cells are swept at `t` [s]. */
+function sweptAt(coverage: Coverage, t: number): number {
+  if (!(t >= 0) || coverage.swept.length === 0) return 0;
+  const step = Math.min(coverage.swept.length - 1, Math.floor(t / coverage.step_s + 1e-9));
+  return coverage.swept[step]!;
+}
+
+/** The share of the plate's cells that are swept at `t` [s]; 0 where there are no cells. */
+export function shareAt(coverage: Coverage, t: number): number {
+  return coverage.cells === 0 ? 0 : sweptAt(coverage, t) / coverage.cells;
+}
+
+/** The time to which a heat map's scale goes [s]: 98 of 100 swept cells are washed no longer. */
+export function dwellScale(coverages: readonly Coverage[]): number {
+  let scale = 0;
+  for (const coverage of coverages) {
+    const count = new Uint32Array(256);
+    for (const cell of coverage.order) count[coverage.dwell[cell]!]!++;
+    let left = 0.02 * coverage.order.length;
+    let steps = 255;
+    while (steps > 1 && left >= count[steps]!) left -= count[steps--]!;
+    if (coverage.order.length > 0) scale = Math.max(scale, steps * coverage.dwell_step_s);
+  }
+  return scale > 0 ? scale : 1;
+}
+
+/** What a map shows: how it builds up until a time, or for how long each place is washed in the end. */
+export type MapMode = "build-up" | "dwell";
+
+/** Red, green and blue bytes. */
+export interface MapColours {
+  swept: readonly [number, number, number];
+  unswept: readonly [number, number, number];
+}
+
+export const MAP_COLOURS: MapColours = { swept: [0, 114, 178], unswept: [203, 208, 214] };
+
+const HEAT = colormap();
+
+/** A small map of one plate, seen from above with x to the right. Painting costs what has changed since it was last painted. */
+export class PlateMap {
+  readonly coverage: Coverage;
+  readonly #canvas: HTMLCanvasElement;
+  readonly #context: CanvasRenderingContext2D | null;
+  readonly #image: ImageData;
+  #colours: MapColours;
+  /** Seconds at the hot end of a heat map. */
+  readonly #scale_s: number;
+  #painted = 0;
+  #mode: MapMode | null = null;
+
+  constructor(canvas: HTMLCanvasElement, coverage: Coverage, scale_s = dwellScale([coverage]), colours: MapColours = MAP_COLOURS) {
+    this.coverage = coverage;
+    this.#canvas = canvas;
+    this.#canvas.width = Math.max(1, coverage.columns);
+    this.#canvas.height = Math.max(1, coverage.rows);
+    this.#context = canvas.getContext("2d");
+    this.#image = new ImageData(this.#canvas.width, this.#canvas.height);
+    this.#scale_s = scale_s;
+    this.#colours = colours;
+  }
+
+  /** Changes the colours; takes effect with the next painting. */
+  setColours(colours: MapColours): void {
+    this.#colours = colours;
+    this.#mode = null;
+  }
+
+  /** Paints the map as it is at `t` [s]. */
+  paint(t: number, mode: MapMode = "build-up"): void {
+    const changed = mode === "dwell" ? this.#paintDwell() : this.#paintSwept(t);
+    if (changed) this.#context?.putImageData(this.#image, 0, 0);
+  }
+
+  #paintSwept(t: number): boolean {
+    const count = sweptAt(this.coverage, t);
+    const anew = this.#mode !== "build-up";
+    if (anew) {
+      this.#mode = "build-up";
+      this.#painted = 0;
+      this.coverage.first.forEach((step, cell) => {
+        if (step !== OUTSIDE) this.#set(cell, this.#colours.unswept, 0);
+      });
+    }
+    const before = this.#painted;
+    for (let k = before; k < count; k++) this.#set(this.coverage.order[k]!, this.#colours.swept, 0);
+    for (let k = count; k < before; k++) this.#set(this.coverage.order[k]!, this.#colours.unswept, 0);
+    this.#painted = count;
+    return anew || before !== count;
+  }
+
+  #paintDwell(): boolean {
+    if (this.#mode === "dwell") return false;
+    this.#mode = "dwell";
+    const perStep = (255 * this.coverage.dwell_step_s) / this.#scale_s;
+    this.coverage.first.forEach((step, cell) => {
+      if (step === OUTSIDE) return;
+      if (step === NEVER) this.#set(cell, this.#colours.unswept, 0);
+      else this.#set(cell, HEAT, 4 * Math.min(255, Math.round(this.coverage.dwell[cell]! * perStep)));
+    });
+    return true;
+  }
+
+  #set(cell: number, colours: ArrayLike<number>, at: number): void {
+    const { rows, columns } = this.coverage;
+    const y = Math.floor(cell / columns);
+    const pixel = 4 * ((rows - 1 - y) * columns + (cell - y * columns));
+    const data = this.#image.data;
+    data[pixel] = colours[at]!;
+    data[pixel + 1] = colours[at + 1]!;
+    data[pixel + 2] = colours[at + 2]!;
+    data[pixel + 3] = 255;
+  }
+}

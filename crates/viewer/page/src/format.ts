@@ -1,0 +1,53 @@
+/** Numbers in words, for people. */
+
+const MINUS = "\u2212";
+const NARROW_SPACE = "\u202f";
+
+/** A number with a fixed count of decimals and a real minus sign; an en dash where there is none. */
+export function fixed(value: number, decimals: number): string {
+  if (!Number.isFinite(value)) return "–";
+  const text = Math.abs(value).toFixed(decimals);
+  return value < 0 && Number(text) !== 0 ? MINUS + text : text;
+}
+
+/** A number with its unit. */
+export function quantity(value: number, decimals: number, unit: string): string {
+  return `${fixed(value, decimals)}${NARROW_SPACE}${unit}`;
+}
+
+/** A share as a percentage. */
+export function percent(share: number, decimals = 0): string {
+  return quantity(100 * share, decimals, "%");
+}
+
+/** A share that must not look larger than it is: rounded down. */
+export function percentDown(share: number, decimals: number): string {
+  const scale = 10 ** decimals;
+  return quantity(Math.floor(100 * share * scale + 1e-9) / scale, decimals, "%");
+}
+
+/** A length [m] in millimetres. */
+export function millimetres(metres: number, decimals = 1): string {
+  return quantity(1000 * metres, decimals, "mm");
+}
+
+/** A time of the film [s]: seconds to a hundredth, with minutes where the film has them. */
+export function clockTime(t: number, end: number): string {
+  if (end < 100) return fixed(t, 2);
+  const minutes = Math.floor(t / 60);
+  return `${minutes}:${(t - 60 * minutes).toFixed(1).padStart(4, "0")}`;
+}
+
+/** A time in words, for screen readers and tooltips. */
+export function spokenTime(t: number): string {
+  return `${fixed(t, 2)} seconds`;
+}
+
+export function degrees(radians: number): number {
+  return (radians * 180) / Math.PI;
+}
+
+/** A count and its noun. */
+export function counted(count: number, noun: string): string {
+  return `${count}${NARROW_SPACE}${count === 1 ? noun : `${noun}s`}`;
+}

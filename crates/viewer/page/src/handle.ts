@@ -1,0 +1,44 @@
+/** `window.platewash`: the page in the hands of a test, or of whoever opens the console. */
+import type { LivePhase } from "./live.ts";
+import type { FrameStatistics } from "./loop.ts";
+import type { Layer } from "./scene/index.ts";
+import type { View } from "./view.ts";
+
+export interface Handle {
+  /** The first frame was drawn. */
+  readonly ready: Promise<void>;
+  readonly view: View;
+  /** [s] */
+  readonly duration: number;
+  /** The time shown [s]. */
+  time(): number;
+  seek(t_s: number): void;
+  play(): void;
+  pause(): void;
+  isPlaying(): boolean;
+  speed(): number;
+  setSpeed(speed: number): void;
+  /** Drives the film by a clock [ms] instead of the browser's; frames come only by `step`. Null for the browser's again. */
+  setClock(now_ms: (() => number) | null): void;
+  /** One frame. */
+  step(): void;
+  /** Whose motion the arm shows. */
+  follow(motion: "planned" | "executed"): void;
+  /** Where the tip is in the scene graph, world frame [m]; null without a scene. */
+  tip(): [number, number, number] | null;
+  /** Where a place of the world is on the scene's canvas [CSS px]; null where it is not, or without a scene. */
+  project(place_m: [number, number, number]): [number, number] | null;
+  camera(view: string): void;
+  layers(): { id: Layer; label: string; on: boolean }[];
+  setLayer(layer: Layer, on: boolean): void;
+  heat(on: boolean): void;
+  readonly frame: FrameStatistics;
+  /** `recorded`, or how a live run stands. */
+  readonly state: "recorded" | LivePhase;
+}
+
+declare global {
+  interface Window {
+    platewash?: Handle;
+  }
+}

@@ -1,0 +1,20 @@
+import "./language.ts";
+import { App } from "./app.ts";
+import { DocumentError, readView } from "./document.ts";
+import { NumbersError } from "./numbers.ts";
+import { byId, el } from "./shell/dom.ts";
+
+function main(): void {
+  try {
+    const app = new App(readView(document));
+    window.platewash = app.handle;
+    app.start();
+  } catch (error) {
+    const known = error instanceof DocumentError || error instanceof NumbersError;
+    const words = known ? error.message : "This page does not work in this browser.";
+    byId("main").replaceChildren(el("p", { class: "message", set: { role: "alert" } }, words));
+    if (!known) throw error;
+  }
+}
+
+main();

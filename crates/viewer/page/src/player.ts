@@ -1,0 +1,191 @@
+/** What is shown at a time: the plan's motion or what the arm did, from the document and, while a run is live, from its samples. */
+import { Clearances } from "./clearances.ts";
+import { Clock } from "./clock.ts";
+import { Follower } from "./follow.ts";
+import type { LivePhase } from "./live.ts";
+import { AXES, Motion, newState, type JointState } from "./motion.ts";
+import { Recording } from "./recording.ts";
+import type { Shown } from "./scene/index.ts";
+import { segmentAt } from "./segments.ts";
+import type { Segment, View } from "./view.ts";
+
+/** Whose joints the arm shows. */
+export type Follows = "planned" | "executed";
+
+export class Player {
+  readonly view: View;
+  readonly motion: Motion | null;
+  readonly recording: Recording | null;
+  readonly clearances: Clearances | null;
+  readonly clock: Clock;
+  /** What the scene draws: the object and its arrays are used again for the next frame. */
+  readonly shown: Shown;
+  readonly #q = new Float64Array(AXES);
+  readonly #plan: JointState = newState();
+  readonly #executed = new Float64Array(AXES);
+  readonly #follower = new Follower();
+  #follows: Follows = "planned";
+  #segment = 0;
+  /** Null where the page shows no live run. */
+  #phase: LivePhase | null = null;
+  /** Whether the newest moment of a live run is shown. */
+  #newest = false;
+
+  constructor(view: View) {
+    this.view = view;
+    this.motion = view.motion === null ? null : Motion.of(view.motion);
+    this.recording = view.execution === null ? null : new Recording(view.execution);
+    this.clearances = view.clearance === null ? null : new Clearances(view.clearance);
+    this.clock = new Clock(Math.max(this.motion?.duration ?? 0, this.recording?.end ?? 0));
+    this.shown = {
+      t_s: 0,
+      q: this.#q,
+      commanded: null,
+      washing: null,
+      clearance: null,
+      coverageTime: 0,
+      coverageKind: "planned",
+      heat: false,
+    };
+    if (view.live !== null && this.recording !== null) {
+      this.#phase = "connecting";
+      this.#newest = true;
+      this.#follows = "executed";
+    }
+  }
+
+  get time(): number {
+    return this.clock.time;
+  }
+
+  get duration(): number {
+    return this.clock.end;
+  }
+
+  get follows(): Follows {
+    return this.#follows;
+  }
+
+  follow(follows: Follows): void {
+    if (follows === "planned" || this.recording !== null) this.#follows = follows;
+  }
+
+  get phase(): LivePhase | null {
+    return this.#phase;
+  }
+
+  set phase(phase: LivePhase | null) {
+    this.#phase = phase;
+  }
+
+  /** Whether a live run is under way, so that there is nothing to show yet behind its newest sample. */
+  get live(): boolean {
+    return this.#phase !== null && this.#phase !== "done";
+  }
+
+  get newest(): boolean {
+    return this.#newest;
+  }
+
+  /** The latest time that there is something to show of [s]. */
+  get edge(): number {
+    return this.live ? (this.recording?.end ?? 0) : this.duration;
+  }
+
+  /** How far the arm that is shown is behind the newest sample [s]. */
+  get lag(): number {
+    return Math.max(0, this.edge - this.time);
+  }
+
+  /** The segment at the time shown; null between segments. */
+  get segment(): Segment | null {
+    const found = segmentAt(this.view.segments, this.time, this.#segment);
+    if (found >= 0) this.#segment = found;
+    return this.view.segments[found] ?? null;
+  }
+
+  /** Goes to where `now` [ms] has it; whether time changed. */
+  tick(now: number): boolean {
+    if (this.#newest && this.#phase !== null) return this.#tickLive(now);
+    const changed = this.clock.tick(now);
+    if (changed && this.live && this.time >= this.edge) this.toNewest();
+    return changed;
+  }
+
+  play(now: number): void {
+    if (this.#newest) return;
+    this.clock.play(now);
+  }
+
+  pause(now: number): void {
+    if (this.#newest) this.seek(this.time, now);
+    this.clock.pause(now);
+  }
+
+  seek(t: number, now: number): void {
+    this.#newest = false;
+    this.clock.seek(Math.min(t, this.edge), now);
+  }
+
+  /** Shows the newest moment of a live run from now on. */
+  toNewest(): void {
+    if (!this.live) return;
+    this.#newest = true;
+    this.#follower.from(this.time);
+  }
+
+  /** What there is to show now. */
+  show(): Shown {
+    const { shown, time } = this;
+    shown.t_s = time;
+    this.#joints(shown);
+    const segment = this.segment;
+    shown.washing = segment?.kind === "wash" ? segment.plate : null;
+    shown.clearance = this.clearances?.at(time) ?? null;
+    shown.coverageTime = time;
+    shown.coverageKind = this.coverageKind;
+    return shown;
+  }
+
+  /** Whose coverage there is to show. */
+  get coverageKind(): Follows {
+    const executed = this.view.execution?.coverage ?? [];
+    return this.#follows === "executed" && executed.length > 0 ? "executed" : "planned";
+  }
+
+  /** The joints that are shown [rad] at `t`, into `q`. */
+  jointsAt(t: number, q: Float64Array): void {
+    if (this.#follows === "executed" && this.recording?.positionAt(t, q) === true) return;
+    if (this.motion === null) this.#rest(q);
+    else q.set(this.motion.at(t, this.#plan).q);
+  }
+
+  #joints(shown: Shown): void {
+    const { motion, time } = this;
+    shown.commanded = null;
+    if (this.#follows === "executed" && this.recording?.positionAt(time, this.#executed) === true) {
+      this.#q.set(this.#executed);
+      if (motion !== null) shown.commanded = motion.at(time, this.#plan).q;
+    } else if (motion === null) {
+      this.#rest(this.#q);
+    } else {
+      this.#q.set(motion.at(time, this.#plan).q);
+    }
+  }
+
+  #rest(q: Float64Array): void {
+    for (let j = 0; j < AXES; j++) q[j] = this.view.pose_rad[j] ?? 0;
+  }
+
+  #tickLive(now: number): boolean {
+    const before = this.time;
+    const end = this.recording?.end ?? 0;
+    const t = this.#follower.tick(now, end);
+    this.clock.seek(t, now);
+    if (this.#phase === "done" && (t >= end || end - t < 0.2)) {
+      this.clock.seek(end, now);
+      this.#newest = false;
+    }
+    return this.time !== before;
+  }
+}

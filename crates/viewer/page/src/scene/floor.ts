@@ -1,0 +1,114 @@
+/** The floor: the paper's grey patch, a grid that fades, shadows, and what the job keeps to: base circle and region. */
+import { Group, Mesh, PlaneGeometry, ShadowMaterial, Shape, ShapeGeometry, Vector2, Color, MeshBasicMaterial } from "three";
+import type { Surroundings } from "../view.ts";
+import { Lines, stretches } from "./lines.ts";
+import type { Palette } from "./palette.ts";
+import type { Studio } from "./studio.ts";
+
+/** Half of the patch's edge [m]. */
+export const PATCH_M = 0.5;
+/** How far the ground lies below the patch [m]. */
+const GROUND_M = 0.0015;
+
+const GRID_VERTEX = /* glsl */ `
+#include <worldpos_vertex>
+vGround = (modelMatrix * vec4(position, 1.0)).xy;
+`;
+
+const GRID = /* glsl */ `
+vec2 groundWidth = fwidth(vGround);
+float fineness = max(groundWidth.x, groundWidth.y);
+vec2 tenth = abs(fract(vGround * 10.0 - 0.5) - 0.5) / (groundWidth * 10.0 + 1e-6);
+vec2 whole = abs(fract(vGround - 0.5) - 0.5) / (groundWidth + 1e-6);
+float lineTenth = (1.0 - min(min(tenth.x, tenth.y), 1.0)) * smoothstep(0.03, 0.006, fineness) * 0.16;
+float lineWhole = (1.0 - min(min(whole.x, whole.y), 1.0)) * smoothstep(0.3, 0.05, fineness) * 0.34;
+float grid = max(lineTenth, lineWhole);
+float far = smoothstep(1.0, 0.35, length(vGround - groundFrame.xy) / groundFrame.z);
+float shade = opacity * (1.0 - getShadowMask());
+float alpha = 1.0 - (1.0 - grid) * (1.0 - shade);
+vec3 ink = mix(color, gridColour, alpha > 0.0 ? grid / max(alpha, 1e-4) : 0.0);
+gl_FragColor = vec4(ink, alpha * far);
+`;
+
+function roundedPatch(): ShapeGeometry {
+  const r = 0.012;
+  const e = PATCH_M;
+  const shape = new Shape();
+  shape.moveTo(-e + r, -e).lineTo(e - r, -e).absarc(e - r, -e + r, r, -Math.PI / 2, 0, false);
+  shape.lineTo(e, e - r).absarc(e - r, e - r, r, 0, Math.PI / 2, false);
+  shape.lineTo(-e + r, e).absarc(-e + r, e - r, r, Math.PI / 2, Math.PI, false);
+  shape.lineTo(-e, -e + r).absarc(-e + r, -e + r, r, Math.PI, 1.5 * Math.PI, false);
+  return new ShapeGeometry(shape, 6);
+}
+
+function circle(radius: number, height: number): number[] {
+  return Array.from({ length: 129 }, (_, i) => {
+    const angle = (i / 64) * Math.PI;
+    return [radius * Math.cos(angle), radius * Math.sin(angle), height];
+  }).flat();
+}
+
+/** The floor and its marks. */
+export class Floor {
+  readonly ground = new Group();
+  readonly region = new Group();
+  readonly #patch;
+  readonly #shadow = new ShadowMaterial({ transparent: true, depthWrite: false, toneMapped: false });
+  readonly #grid = { value: new Color() };
+  readonly #frame = { value: new Float32Array([0, 0, 2]) };
+  readonly #lines: Lines[] = [];
+  readonly #fill: MeshBasicMaterial | null = null;
+  readonly #plane: Mesh;
+
+  constructor(surroundings: Surroundings, base: readonly [number, number, number], studio: Studio) {
+    this.#patch = studio.material({ roughness: 0.9 });
+    const patch = new Mesh(roundedPatch(), this.#patch);
+    patch.receiveShadow = true;
+    this.#plane = new Mesh(new PlaneGeometry(1, 1), this.#shadow);
+    this.#plane.position.z = -GROUND_M;
+    this.#plane.receiveShadow = true;
+    this.#plane.renderOrder = -1;
+    this.#shadow.onBeforeCompile = (shader): void => {
+      Object.assign(shader.uniforms, { gridColour: this.#grid, groundFrame: this.#frame });
+      shader.vertexShader = `varying vec2 vGround;\n${shader.vertexShader}`.replace("#include <worldpos_vertex>", GRID_VERTEX);
+      shader.fragmentShader = `varying vec2 vGround;\nuniform vec3 gridColour;\nuniform vec3 groundFrame;\n${shader.fragmentShader}`.replace(
+        "gl_FragColor = vec4( color, opacity * ( 1.0 - getShadowMask() ) );",
+        GRID,
+      );
+    };
+    this.ground.add(this.#plane, patch);
+    const { base_circle_m: radius, region_m: region } = surroundings;
+    if (radius !== null && radius > 0) this.#outline(circle(radius, 0.0015).map((x, i) => x + (i % 3 < 2 ? base[i % 3]! : 0)), [0.02, 0.014]);
+    if (region !== null && region.length > 2) this.#fill = this.#area(region);
+  }
+
+  #area(region: [number, number][]): MeshBasicMaterial {
+    const fill = new MeshBasicMaterial({ transparent: true, opacity: 0.07, depthWrite: false, toneMapped: false });
+    const mesh = new Mesh(new ShapeGeometry(new Shape(region.map(([x, y]) => new Vector2(x, y)))), fill);
+    mesh.position.z = 0.001;
+    this.region.add(mesh);
+    this.#outline([...region, region[0]!].flatMap(([x, y]) => [x, y, 0.0015]));
+    return fill;
+  }
+
+  #outline(places: number[], dash_m?: [number, number]): void {
+    const lines = new Lines(stretches([places]), { width: 1.6, ...(dash_m === undefined ? {} : { dash_m }) });
+    this.#lines.push(lines);
+    this.region.add(lines);
+  }
+
+  /** Lets the ground reach as far round `centre` as `radius` [m]. */
+  setExtent(centre: { x: number; y: number }, radius: number): void {
+    this.#frame.value.set([centre.x, centre.y, radius]);
+    this.#plane.position.set(centre.x, centre.y, -GROUND_M);
+    this.#plane.scale.set(2 * radius, 2 * radius, 1);
+  }
+
+  setPalette(palette: Palette): void {
+    this.#patch.color.set(palette.patch);
+    this.#shadow.opacity = palette.shadow;
+    this.#grid.value.set(palette.grid);
+    this.#fill?.color.set(palette.region);
+    for (const lines of this.#lines) lines.setColour(palette.region);
+  }
+}

@@ -1,0 +1,143 @@
+/** The tool: its bodies, and a sponge that gives way where a plate presses on it. */
+import { Color, Group, Matrix4, Mesh, Vector3, type MeshStandardMaterial } from "three";
+import { multiply, matrixOf, type Matrix } from "../kinematics.ts";
+import type { Plate, Tool } from "../view.ts";
+import { meshesOf } from "./arm.ts";
+import { foamMaterial, spongeGeometry } from "./foam.ts";
+import type { Palette } from "./palette.ts";
+import { fix } from "./pose.ts";
+import type { Studio } from "./studio.ts";
+
+/** A plate's face as the sponge meets it. */
+interface Face {
+  /** `T_plate_world`. */
+  inverse: Matrix4;
+  normal: Vector3;
+  rim_m: number;
+  meridian: [number, number][];
+}
+
+function faceOf(plate: Plate): Face {
+  const pose = new Matrix4().fromArray(matrixOf(plate.pose));
+  const rim_m = plate.meridian_m[plate.meridian_m.length - 1]?.[0] ?? 0;
+  return { inverse: pose.clone().invert(), normal: new Vector3().setFromMatrixColumn(pose, 2), rim_m, meridian: plate.meridian_m };
+}
+
+/** Height of a face at a distance from its axis [m]; that of its rim beyond. */
+function heightAt(meridian: [number, number][], r: number): number {
+  for (let k = 1; k < meridian.length; k++) {
+    const [r0, z0] = meridian[k - 1]!;
+    const [r1, z1] = meridian[k]!;
+    if (r <= r1) return r1 > r0 ? z0 + ((z1 - z0) * Math.max(0, r - r0)) / (r1 - r0) : z1;
+  }
+  return meridian[meridian.length - 1]?.[1] ?? 0;
+}
+
+/**
+ * The tool at the flange. The free sponge reaches beyond the tip by its compression, which is how far the tip may lift and still touch:
+ * as it comes down its face meets the plate, and with the tip in the plate's face it is shorter by the compression, its face at the tip.
+ */
+export class ToolGraph {
+  /** At the flange. */
+  readonly root = new Group();
+  /** At `T_flange_tip`. */
+  readonly tip = new Group();
+  readonly visuals: Mesh[] = [];
+  readonly #faces: Face[];
+  readonly #handles: MeshStandardMaterial[] = [];
+  readonly #foam: MeshStandardMaterial | null = null;
+  readonly #compression: number = 0;
+  readonly #height: number = 0;
+  readonly #reach: number = 0;
+  readonly #sponge: Mesh | null = null;
+  readonly #plane = { value: new Float32Array([0, 0, 1, 1]) };
+  readonly #size = { value: new Float32Array([1, 0, 0, 0]) };
+  readonly #inverse = new Matrix4();
+  readonly #at = new Vector3();
+  readonly #normal = new Vector3();
+
+  constructor(tool: Tool | null, plates: readonly Plate[], studio: Studio) {
+    this.#faces = plates.map(faceOf);
+    this.root.add(this.tip);
+    if (tool === null) return;
+    fix(this.tip, tool.tip);
+    for (const mesh of meshesOf(tool.bodies, studio)) this.#addHandle(mesh, tool.bodies.every((body) => body.rgba === null));
+    const { radius_m, height_m, compression_m, pose } = tool.sponge;
+    if (!(radius_m > 0 && height_m > 0) || tool.bodies.length === 0) return;
+    this.#compression = Math.max(0, Math.min(compression_m, 0.9 * height_m));
+    this.#height = height_m;
+    this.#reach = radius_m;
+    const free = height_m + this.#compression;
+    this.#foam = foamMaterial(studio, { pressPlane: this.#plane, pressSize: this.#size });
+    const back = new Float64Array(16);
+    const along: Matrix = matrixOf({ position_m: [0, 0, -height_m / 2], quaternion_wxyz: [1, 0, 0, 0] });
+    multiply(matrixOf(pose), along, back);
+    const mesh = new Mesh(spongeGeometry(radius_m, Math.min(0.003, 0.2 * Math.min(radius_m, height_m)), free), this.#foam);
+    mesh.matrixAutoUpdate = false;
+    mesh.matrix.fromArray(back);
+    mesh.frustumCulled = false;
+    mesh.castShadow = false;
+    mesh.receiveShadow = true;
+    this.#sponge = mesh;
+    this.#size.value[0] = free;
+    this.#plane.value[3] = free;
+    this.visuals.push(mesh);
+    this.root.add(mesh);
+  }
+
+  #addHandle(mesh: Mesh, plain: boolean): void {
+    const material = mesh.material as MeshStandardMaterial;
+    if (plain) {
+      material.vertexColors = false;
+      material.metalness = 0.55;
+      material.roughness = 0.38;
+      this.#handles.push(material);
+    }
+    this.visuals.push(mesh);
+    this.root.add(mesh);
+  }
+
+  setPalette(palette: Palette): void {
+    for (const material of this.#handles) material.color = new Color(palette.handle);
+    this.#foam?.color.set(palette.sponge);
+  }
+
+  /** How far the sponge is pressed in [m], from 0 to its compression. */
+  get pressed_m(): number {
+    return this.#size.value[1]!;
+  }
+
+  /** Presses the sponge on the face that it is over; world matrices must be up to date. No allocation. */
+  press(): void {
+    if (this.#sponge === null) return;
+    const size = this.#size.value;
+    size[1] = size[2] = 0;
+    this.#plane.value.set(FREE);
+    this.#plane.value[3] = size[0]!;
+    for (const face of this.#faces) {
+      this.#at.setFromMatrixPosition(this.tip.matrixWorld).applyMatrix4(face.inverse);
+      const r = Math.hypot(this.#at.x, this.#at.y);
+      const height = this.#at.z - heightAt(face.meridian, r);
+      if (r > face.rim_m + this.#reach || height > this.#compression || height < -this.#height) continue;
+      this.#pressOn(face, Math.max(0, height));
+      return;
+    }
+  }
+
+  /** The tip is `height` above a face [m]: its plane there, in the sponge's frame, is where the sponge ends. */
+  #pressOn(face: Face, height: number): void {
+    const size = this.#size.value;
+    size[1] = this.#compression - height;
+    size[2] = this.#compression > 0 ? Math.min(1, size[1]! / this.#compression) : 1;
+    this.#inverse.copy(this.#sponge!.matrixWorld).invert();
+    this.#at.setFromMatrixPosition(this.tip.matrixWorld).addScaledVector(face.normal, -height).applyMatrix4(this.#inverse);
+    this.#normal.copy(face.normal).negate().transformDirection(this.#inverse);
+    const plane = this.#plane.value;
+    plane[0] = this.#normal.x;
+    plane[1] = this.#normal.y;
+    plane[2] = Math.max(0.2, this.#normal.z);
+    plane[3] = this.#normal.dot(this.#at);
+  }
+}
+
+const FREE = new Float32Array([0, 0, 1, 0]);

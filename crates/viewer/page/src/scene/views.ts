@@ -1,0 +1,222 @@
+/** Views: where the camera stands and how it gets there. */
+import { PerspectiveCamera, Vector3 } from "three";
+import type { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { Extent } from "./extent.ts";
+
+export type Preset = "overview" | "above" | "front" | "side" | "follow";
+
+interface Direction {
+  label: string;
+  /** From what is looked at to the eye. */
+  from: [number, number, number];
+  /** Vertical angle of view [deg]; small ones look like a drawing without perspective. */
+  fov_deg: number;
+}
+
+const DIRECTIONS: Record<Preset, Direction> = {
+  overview: { label: "Overview", from: [1, -0.82, 0.78], fov_deg: 30 },
+  above: { label: "From above", from: [0, -1e-4, 1], fov_deg: 7 },
+  front: { label: "Front", from: [1, 0, 0.12], fov_deg: 12 },
+  side: { label: "Side", from: [0, -1, 0.12], fov_deg: 12 },
+  follow: { label: "Follow the tip", from: [0.9, -0.75, 0.62], fov_deg: 30 },
+};
+
+export const PRESETS: readonly { id: Preset; label: string }[] = (Object.keys(DIRECTIONS) as Preset[]).map((id) => ({ id, label: DIRECTIONS[id].label }));
+
+/** Share of the picture that content fills. */
+const FILL = 0.94;
+/** Time of a flight from view to view [s]. */
+const FLIGHT_S = 0.55;
+/** How far off the tip is followed [m]. */
+const FOLLOW_M = 0.62;
+
+interface Stand {
+  target: Vector3;
+  eye: Vector3;
+  fov_deg: number;
+}
+
+/** The middle along an axis from which the outermost points appear equally far off on either side, seen from the depth `d`. */
+function centred(points: readonly Vector3[], axis: Vector3, back: Vector3, d: number, start: number): number {
+  let middle = start;
+  for (let round = 0; round < 20; round++) {
+    let [high, low, depth] = [-Infinity, Infinity, 0];
+    for (const point of points) {
+      const away = Math.max(1e-3, d - point.dot(back));
+      const at = (point.dot(axis) - middle) / away;
+      high = Math.max(high, at);
+      low = Math.min(low, at);
+      depth = Math.max(depth, away);
+    }
+    if (points.length > 0) middle += (depth * (high + low)) / 4;
+  }
+  return middle;
+}
+
+/** The nearest stand in a direction from which all points are in a picture of that aspect. */
+function standFor(points: readonly Vector3[], from: Vector3, fov_deg: number, aspect: number): Stand {
+  const back = from.clone().normalize();
+  const right = new Vector3(0, 0, 1).cross(back);
+  if (right.lengthSq() < 1e-12) right.set(1, 0, 0);
+  right.normalize();
+  const up = back.clone().cross(right);
+  const tall = FILL * Math.tan((fov_deg * Math.PI) / 360);
+  const wide = tall * aspect;
+  // Of x ≤ wide (d − depth) for all points on either side, d and the middle follow; likewise for y.
+  let d = 0;
+  const middle = [0, 0];
+  for (const [axis, slope, k] of [[right, wide, 0], [up, tall, 1]] as const) {
+    let high = -Infinity;
+    let low = -Infinity;
+    for (const point of points) {
+      const [at, depth] = [point.dot(axis), point.dot(back)];
+      high = Math.max(high, at + slope * depth);
+      low = Math.max(low, -at + slope * depth);
+    }
+    d = Math.max(d, (high + low) / (2 * slope));
+    middle[k] = (high - low) / 2;
+  }
+  middle[0] = centred(points, right, back, d, middle[0]!);
+  middle[1] = centred(points, up, back, d, middle[1]!);
+  const depths = points.map((point) => point.dot(back));
+  const depth = points.length > 0 ? (Math.max(...depths) + Math.min(...depths)) / 2 : 0;
+  const place = (along: number): Vector3 =>
+    new Vector3().addScaledVector(right, middle[0]!).addScaledVector(up, middle[1]!).addScaledVector(back, along);
+  return { target: place(depth), eye: place(Math.max(d, depth + 0.05)), fov_deg };
+}
+
+function ease(share: number): number {
+  return share < 0.5 ? 4 * share ** 3 : 1 - (2 - 2 * share) ** 3 / 2;
+}
+
+/** Moves one camera. */
+export class Views {
+  readonly #camera: PerspectiveCamera;
+  readonly #controls: OrbitControls;
+  readonly #extent: Extent;
+  #preset: Preset = "overview";
+  /** Whether a reader has moved the camera since a view was chosen. */
+  #moved = false;
+  #from: Stand | null = null;
+  #to: Stand | null = null;
+  #start_s: number | null = null;
+  readonly #tip = new Vector3();
+  readonly #step = new Vector3();
+
+  constructor(camera: PerspectiveCamera, controls: OrbitControls, extent: Extent) {
+    this.#camera = camera;
+    this.#controls = controls;
+    this.#extent = extent;
+    controls.addEventListener("start", () => {
+      this.#to = null;
+      this.#moved = true;
+    });
+  }
+
+  get preset(): Preset {
+    return this.#preset;
+  }
+
+  /** Whether the camera is on its way. */
+  get flying(): boolean {
+    return this.#to !== null;
+  }
+
+  /** Goes to a view, at once or in a flight. */
+  go(preset: Preset, atOnce: boolean): void {
+    this.#preset = preset;
+    this.#moved = false;
+    this.#fly(this.#standOf(preset), atOnce);
+  }
+
+  /** Shows all again after the picture's shape has changed, unless a reader has moved the camera. */
+  refit(): void {
+    if (!this.#moved) this.go(this.#preset, true);
+  }
+
+  /** Turns to a place and comes near. */
+  look(place: Vector3, atOnce: boolean): void {
+    const back = this.#camera.position.clone().sub(this.#controls.target).normalize();
+    const near = Math.tan((DIRECTIONS.overview.fov_deg * Math.PI) / 360) / Math.tan((this.#camera.fov * Math.PI) / 360);
+    this.#moved = true;
+    this.#fly({ target: place.clone(), eye: place.clone().addScaledVector(back, 0.9 * near), fov_deg: this.#camera.fov }, atOnce);
+  }
+
+  #standOf(preset: Preset): Stand {
+    const { from, fov_deg } = DIRECTIONS[preset];
+    const direction = new Vector3(...from);
+    if (preset !== "follow") {
+      return standFor(this.#extent.points, direction, fov_deg, this.#camera.aspect);
+    }
+    const narrow = Math.max(1, 1 / this.#camera.aspect);
+    return { target: this.#tip.clone(), eye: this.#tip.clone().addScaledVector(direction.normalize(), FOLLOW_M * narrow), fov_deg };
+  }
+
+  #fly(to: Stand, atOnce: boolean): void {
+    if (atOnce) {
+      this.#to = null;
+      this.#place(to);
+      return;
+    }
+    this.#from = { target: this.#controls.target.clone(), eye: this.#camera.position.clone(), fov_deg: this.#camera.fov };
+    this.#to = to;
+    this.#start_s = null;
+  }
+
+  #place(stand: Stand): void {
+    this.#controls.target.copy(stand.target);
+    this.#camera.position.copy(stand.eye);
+    this.#camera.fov = stand.fov_deg;
+    this.#clip();
+    this.#controls.update();
+  }
+
+  /** Near and far planes about the content. No allocation. */
+  #clip(): void {
+    const { center, radius } = this.#extent.sphere;
+    const distance = this.#camera.position.distanceTo(center);
+    this.#camera.near = Math.max(0.01, 0.5 * (distance - radius - 1));
+    this.#camera.far = distance + 8 * radius + 10;
+    this.#camera.updateProjectionMatrix();
+  }
+
+  /** The tip has moved. Whether the camera goes with it. No allocation. */
+  follow(tip: Vector3): boolean {
+    this.#step.copy(tip).sub(this.#tip);
+    this.#tip.copy(tip);
+    if (this.#preset !== "follow" || this.#step.lengthSq() < 1e-16) return false;
+    this.#camera.position.add(this.#step);
+    this.#controls.target.add(this.#step);
+    this.#from?.eye.add(this.#step);
+    this.#from?.target.add(this.#step);
+    this.#to?.eye.add(this.#step);
+    this.#to?.target.add(this.#step);
+    return true;
+  }
+
+  /** Moves the camera on by the time `now` [s]; whether it has moved. */
+  advance(now_s: number): boolean {
+    if (this.#to === null || this.#from === null) {
+      const moved = this.#controls.update();
+      if (moved) this.#clip();
+      return moved;
+    }
+    this.#start_s ??= now_s;
+    const share = Math.max(0, Math.min(1, (now_s - this.#start_s) / FLIGHT_S));
+    this.#between(this.#from, this.#to, ease(share));
+    if (share >= 1) this.#to = null;
+    return true;
+  }
+
+  /** A stand between two: what is looked at keeps its size in the picture, so the angle of view and the distance change together. */
+  #between(a: Stand, b: Stand, share: number): void {
+    const size = (stand: Stand): number => stand.eye.distanceTo(stand.target) * Math.tan((stand.fov_deg * Math.PI) / 360);
+    const height = size(a) * (size(b) / size(a)) ** share;
+    const fov_deg = a.fov_deg + (b.fov_deg - a.fov_deg) * share;
+    const target = a.target.clone().lerp(b.target, share);
+    const towards = a.eye.clone().sub(a.target).normalize().lerp(b.eye.clone().sub(b.target).normalize(), share);
+    if (towards.lengthSq() < 1e-6) towards.set(0, -0.1, 1);
+    const distance = height / Math.tan((fov_deg * Math.PI) / 360);
+    this.#place({ target, eye: target.clone().addScaledVector(towards.normalize(), distance), fov_deg });
+  }
+}

@@ -1,0 +1,75 @@
+/** The strip above everything: the verdict first, then what it is about. */
+import { quantity } from "../format.ts";
+import { statusWord, verdict, washed, type Verdict } from "../verdict.ts";
+import type { View } from "../view.ts";
+import { announce } from "./announcer.ts";
+import { button, byId, el, isolated, type Child } from "./dom.ts";
+import { icon, toneIcon } from "./icons.ts";
+
+/** Characters of a tooltip at most. */
+const TITLE = 300;
+
+/** A verdict as a badge: sign, word and colour. */
+function badge(of: Verdict, extra = ""): HTMLElement {
+  return el("span", { class: `badge tone-${of.tone} ${extra}`.trim(), title: of.sentence }, toneIcon(of.tone), of.word);
+}
+
+function fact(name: string, ...value: Child[]): HTMLElement {
+  return el("div", { class: "fact" }, el("dt", {}, name), el("dd", {}, ...value));
+}
+
+function copyButton(text: string): HTMLButtonElement {
+  return button({ class: "button bare-button", label: "Copy the plan’s hash" }, () => {
+    navigator.clipboard
+      ?.writeText(text)
+      .then(() => announce("Hash copied"))
+      .catch(() => announce("The browser does not let this page copy; About shows the hash in full"));
+  }, icon("copy"));
+}
+
+function facts(view: View): HTMLElement {
+  const { heading, certificate } = view;
+  const list = el("dl", { class: "facts" });
+  if (view.motion !== null) list.append(fact("cycle", quantity(heading.duration_s, 2, "s")));
+  if (heading.process !== "configuration") list.append(fact("seed", String(heading.seed)));
+  list.append(fact("arm", isolated(heading.robot)));
+  if (heading.hash !== null) {
+    const altered = certificate !== null && certificate.hash !== "proved" ? ` (${statusWord(certificate.hash).toLowerCase()})` : "";
+    const short = el("code", { title: heading.hash }, heading.hash.slice(0, 10));
+    list.append(fact("hash", short, altered, copyButton(heading.hash)));
+  }
+  return list;
+}
+
+/** Fills the header; its tint is the verdict's. */
+export class Header {
+  readonly #root = byId("header");
+  readonly #badges = el("div", { class: "badges" });
+  readonly #sentence = el("p", { class: "sentence" });
+  readonly #view: View;
+
+  constructor(view: View, tools: readonly HTMLElement[]) {
+    this.#view = view;
+    const scenario = el("h1", { class: "scenario", title: view.heading.scenario.slice(0, TITLE) }, isolated(view.heading.scenario));
+    this.#root.replaceChildren(
+      this.#badges,
+      el("div", { class: "heading" }, scenario, this.#sentence),
+      facts(view),
+      el("div", { class: "tools" }, ...tools),
+    );
+    this.update();
+  }
+
+  /** Again from the view, whose execution a live run completes. */
+  update(): void {
+    const of = verdict(this.#view);
+    const result = washed(this.#view);
+    this.#root.className = `tone-${of.tone === "proved" && result?.tone === "violated" ? "violated" : of.tone}`;
+    this.#badges.replaceChildren(badge(of));
+    if (result !== null) this.#badges.append(badge(result, "badge-small"));
+    this.#sentence.replaceChildren(isolated(of.sentence));
+    this.#sentence.title = of.sentence;
+    document.documentElement.dataset["verdict"] = of.tone;
+  }
+}
+

@@ -1,0 +1,97 @@
+/** What keys do. */
+import { el } from "./dom.ts";
+
+/** What keys can ask for. */
+export interface KeyActions {
+  toggle(): void;
+  /** Steps in time: 1 forth, −1 back. */
+  step(direction: 1 | -1, coarse: boolean): void;
+  toStart(): void;
+  toEnd(): void;
+  speed(up: boolean): void;
+  /** To the plate with this number. */
+  plate(number: string): void;
+  layers(): void;
+  camera(): void;
+  fullscreen(): void;
+  help(): void;
+}
+
+const FILM: [string, string][] = [
+  ["Space", "play or pause"],
+  ["← →", "one frame back or forth; with Shift a second"],
+  ["Home End", "to the start, to the end"],
+  ["[ ]", "slower, faster"],
+  ["0 … 9", "to the washing of the plate with this number"],
+];
+
+const SCENE: [string, string][] = [
+  ["C", "next view"],
+  ["L", "layers"],
+  ["F", "full screen"],
+  ["?", "this help"],
+];
+
+export function keyTable(film: boolean): HTMLElement {
+  const rows = (film ? [...FILM, ...SCENE] : SCENE).map(([keys, words]) => {
+    const caps = keys.split(" ").map((key) => (key === "…" ? key : el("kbd", {}, key)));
+    return el("tr", {}, el("th", { set: { scope: "row" } }, ...caps), el("td", {}, words));
+  });
+  return el("table", { class: "keys" }, el("tbody", {}, ...rows));
+}
+
+/** Whether the key goes into a control that has a use of its own for it. */
+function isTaken(event: KeyboardEvent): boolean {
+  const target = event.target;
+  if (!(target instanceof Element)) return false;
+  if (target.closest("input, select, textarea, dialog, [contenteditable]") !== null) return true;
+  return event.key === " " && target.closest("button, summary, a") !== null;
+}
+
+function act(event: KeyboardEvent, actions: KeyActions): boolean {
+  if (/^[0-9]$/.test(event.key)) {
+    actions.plate(event.key);
+    return true;
+  }
+  switch (event.key) {
+    case " ":
+      actions.toggle();
+      return true;
+    case "ArrowLeft":
+      actions.step(-1, event.shiftKey);
+      return true;
+    case "ArrowRight":
+      actions.step(1, event.shiftKey);
+      return true;
+    case "Home":
+      actions.toStart();
+      return true;
+    case "End":
+      actions.toEnd();
+      return true;
+    case "[":
+      actions.speed(false);
+      return true;
+    case "]":
+      actions.speed(true);
+      return true;
+    case "?":
+      actions.help();
+      return true;
+    default:
+      return letter(event.key.toLowerCase(), actions);
+  }
+}
+
+function letter(key: string, actions: KeyActions): boolean {
+  const does = { l: actions.layers, c: actions.camera, f: actions.fullscreen }[key];
+  does?.call(actions);
+  return does !== undefined;
+}
+
+export function listenToKeys(actions: KeyActions): void {
+  document.addEventListener("keydown", (event) => {
+    if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || isTaken(event)) return;
+    if (act(event, actions)) event.preventDefault();
+  });
+}

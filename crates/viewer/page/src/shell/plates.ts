@@ -1,0 +1,166 @@
+/** Each plate's coverage: a map that builds up as time runs, and how much of the plate that is. */
+import { colormap } from "../colormap.ts";
+import { decodeCoverage, dwellScale, PlateMap, shareAt, type Coverage } from "../coverage.ts";
+import { percentDown, quantity } from "../format.ts";
+import type { Follows, Player } from "../player.ts";
+import type { PlateCoverage } from "../view.ts";
+import { button, el, isolated, TextCell } from "./dom.ts";
+
+/** Least time between two paintings [ms]. */
+const PAINT_MS = 120;
+/** Cards that are painted before the browser has said which are in sight. */
+const FIRST_SEEN = 8;
+
+interface Card {
+  plate: number;
+  element: HTMLElement;
+  canvas: HTMLCanvasElement;
+  share: TextCell;
+  bar: HTMLElement;
+  maps: Partial<Record<Follows, PlateMap>>;
+  /** Whether the card is in sight. */
+  seen: boolean;
+}
+
+/** The colours of a heat map, from short to long. */
+function heatBar(): HTMLElement {
+  const colours = colormap();
+  const stops = Array.from({ length: 9 }, (_, k) => {
+    const at = 4 * Math.round((255 * k) / 8);
+    return `rgb(${colours[at]} ${colours[at + 1]} ${colours[at + 2]})`;
+  });
+  const bar = el("span", { class: "heat-bar", set: { "aria-hidden": "true" } });
+  bar.style.background = `linear-gradient(to right, ${stops.join(", ")})`;
+  return bar;
+}
+
+/** Coverage of every plate, planned and executed; decoded when it is first asked for. */
+export class Coverages {
+  readonly #documents: Record<Follows, Map<number, PlateCoverage>>;
+  readonly #decoded: Record<Follows, Map<number, Coverage>> = { planned: new Map(), executed: new Map() };
+
+  constructor(planned: readonly PlateCoverage[], executed: readonly PlateCoverage[]) {
+    const byPlate = (list: readonly PlateCoverage[]): Map<number, PlateCoverage> => new Map(list.map((one) => [one.plate, one]));
+    this.#documents = { planned: byPlate(planned), executed: byPlate(executed) };
+  }
+
+  get plates(): number[] {
+    return [...this.#documents.planned.keys()];
+  }
+
+  get all(): Coverage[] {
+    return this.plates.map((plate) => this.of(plate, "planned")).filter((one) => one !== null);
+  }
+
+  of(plate: number, kind: Follows): Coverage | null {
+    const ready = this.#decoded[kind].get(plate);
+    if (ready !== undefined) return ready;
+    const document = this.#documents[kind].get(plate);
+    if (document === undefined) return null;
+    const decoded = decodeCoverage(document);
+    this.#decoded[kind].set(plate, decoded);
+    return decoded;
+  }
+
+  shareAt(plate: number, kind: Follows, t: number): number | null {
+    const coverage = this.of(plate, kind);
+    return coverage === null ? null : shareAt(coverage, t);
+  }
+}
+
+export class Plates {
+  readonly element = el("div", { class: "plates" });
+  readonly #player: Player;
+  readonly #coverages: Coverages;
+  readonly #onPlate: (plate: number) => void;
+  readonly #scale = el("p", { class: "heat-scale" });
+  #cards: Card[] | null = null;
+  #dwell_s = 1;
+  #painted = Number.NEGATIVE_INFINITY;
+
+  constructor(player: Player, coverages: Coverages, onPlate: (plate: number) => void) {
+    this.#player = player;
+    this.#coverages = coverages;
+    this.#onPlate = onPlate;
+  }
+
+  show(): void {
+    if (this.#cards === null) this.#make();
+    this.update(0, true);
+  }
+
+  /** Paints what is in sight and has changed. */
+  update(now: number, anew: boolean): void {
+    if (this.#cards === null) return;
+    if (!anew && now >= this.#painted && now - this.#painted < PAINT_MS) return;
+    this.#painted = now;
+    const { time, coverageKind, shown } = this.#player;
+    this.#scale.hidden = !shown.heat;
+    for (const card of this.#cards) if (card.seen) this.#paint(card, time, coverageKind, shown.heat);
+  }
+
+  /** Paints all, in sight or not. */
+  print(): void {
+    if (this.#cards === null) this.#make();
+    const { time, coverageKind, shown } = this.#player;
+    for (const card of this.#cards ?? []) this.#paint(card, time, coverageKind, shown.heat);
+  }
+
+  #paint(card: Card, t: number, kind: Follows, heat: boolean): void {
+    const coverage = this.#coverages.of(card.plate, kind);
+    if (coverage === null) return;
+    card.maps[kind] ??= new PlateMap(card.canvas, coverage, this.#dwell_s);
+    const other = card.maps[kind === "planned" ? "executed" : "planned"];
+    if (other !== undefined) delete card.maps[kind === "planned" ? "executed" : "planned"];
+    card.maps[kind].paint(t, heat ? "dwell" : "build-up");
+    const share = shareAt(coverage, t);
+    card.share.set(percentDown(share, share > 0.99 ? 1 : 0));
+    card.bar.style.transform = `scaleX(${share.toFixed(4)})`;
+  }
+
+  #make(): void {
+    this.#dwell_s = dwellScale(this.#coverages.all);
+    this.#scale.append(
+      el("span", {}, "washed for 0 s"),
+      heatBar(),
+      el("span", {}, quantity(this.#dwell_s, 1, "s and more")),
+    );
+    const order = this.#player.view.paths.map((path) => path.plate);
+    const plates = this.#coverages.plates.sort((a, b) => order.indexOf(a) - order.indexOf(b));
+    this.#cards = plates.map((plate, k) => this.#card(plate, k < FIRST_SEEN));
+    const observer = new IntersectionObserver((entries) => {
+      for (const entry of entries) {
+        const card = this.#cards?.find(({ element }) => element === entry.target);
+        if (card !== undefined) card.seen = entry.isIntersecting;
+      }
+      this.update(0, true);
+    });
+    for (const { element } of this.#cards) observer.observe(element);
+    const words = "In the order of washing; sampled on a raster to look at. What is proved is below each map.";
+    this.element.replaceChildren(
+      el("p", { class: "summary" }, words),
+      this.#scale,
+      el("ul", { class: "cards" }, ...this.#cards.map(({ element }) => element)),
+    );
+  }
+
+  #card(plate: number, seen: boolean): Card {
+    const name = this.#player.view.plates[plate]?.name ?? `plate ${plate + 1}`;
+    const canvas = el("canvas", { class: "map", set: { role: "img", "aria-label": `Coverage of ${name}` } });
+    const share = new TextCell("0\u202f%");
+    const bar = el("span", { class: "bar-fill" });
+    const final = this.#coverages.shareAt(plate, this.#player.coverageKind, Number.POSITIVE_INFINITY) ?? 0;
+    const proved = this.#coverages.of(plate, "planned")?.proved ?? null;
+    const last = proved === null ? `in the end ${percentDown(final, 1)}` : `proved ≥\u202f${percentDown(proved, 2)}`;
+    const go = button({ class: "card-button", label: `Go to the washing of ${name}` }, () => this.#onPlate(plate), canvas);
+    const element = el(
+      "li",
+      { class: "card" },
+      go,
+      el("div", { class: "card-words" }, isolated(name, { class: "card-name" }), el("strong", {}, share.node)),
+      el("div", { class: "bar", set: { "aria-hidden": "true" } }, bar),
+      el("p", { class: "card-proved" }, last),
+    );
+    return { plate, element, canvas, share, bar, maps: {}, seen };
+  }
+}

@@ -1,0 +1,116 @@
+/** What the arm does at this moment, in figures, over the scene. */
+import { fixed, millimetres, percentDown, quantity } from "../format.ts";
+import { Kinematics } from "../kinematics.ts";
+import { AXES } from "../motion.ts";
+import type { Player } from "../player.ts";
+import { segmentWords } from "../segments.ts";
+import { el, TextCell } from "./dom.ts";
+
+/** Half the step of the difference that gives the tip's speed [s]. */
+const DIFFERENCE_S = 2e-3;
+/** Least time between two changes: faster than this nobody reads [ms]. */
+const READABLE_MS = 90;
+
+interface Figure {
+  element: HTMLElement;
+  value: TextCell;
+  note: TextCell;
+}
+
+function figure(name: string): Figure {
+  const [value, note] = [new TextCell(), new TextCell()];
+  const element = el(
+    "div",
+    { class: "figure" },
+    el("dt", {}, name),
+    el("dd", {}, el("span", { class: "figure-value" }, value.node), el("span", { class: "figure-note" }, note.node)),
+  );
+  return { element, value, note };
+}
+
+export class Readout {
+  readonly element: HTMLElement;
+  readonly #player: Player;
+  readonly #kinematics: Kinematics;
+  readonly #activity = new TextCell();
+  readonly #speed = figure("tip speed");
+  readonly #clearance = figure("clearance");
+  readonly #coverage = figure("covered");
+  readonly #error = figure("off the plan");
+  readonly #swatch = el("span", { class: "swatch" });
+  readonly #shareAt: (plate: number, t: number) => number | null;
+  readonly #q = new Float64Array(AXES);
+  readonly #from = new Float64Array(16);
+  readonly #to = new Float64Array(16);
+  #updated = Number.NEGATIVE_INFINITY;
+
+  constructor(player: Player, shareAt: (plate: number, t: number) => number | null) {
+    this.#player = player;
+    this.#shareAt = shareAt;
+    this.#kinematics = new Kinematics(player.view.arm, player.view.tool);
+    this.element = el(
+      "div",
+      { class: "readout" },
+      el("p", { class: "activity" }, this.#swatch, el("bdi", {}, this.#activity.node)),
+      el("dl", { class: "figures" }, this.#speed.element, this.#coverage.element, this.#error.element, this.#clearance.element),
+    );
+  }
+
+  /** Shows the moment; `anew` whatever time it is. */
+  update(now: number, anew: boolean): void {
+    if (!anew && now >= this.#updated && now - this.#updated < READABLE_MS) return;
+    this.#updated = now;
+    this.#showActivity();
+    this.#speed.value.set(quantity(this.#tipSpeed(), 3, "m/s"));
+    this.#showClearance();
+    this.#showCoverage();
+    this.#showError();
+  }
+
+  #showActivity(): void {
+    const { segment, view } = this.#player;
+    this.#activity.set(segment === null ? "At rest" : segmentWords(segment, view.plates));
+    this.#swatch.style.background = segment === null ? "" : `var(--segment-${segment.kind})`;
+  }
+
+  #tipSpeed(): number {
+    const { time, edge } = this.#player;
+    const from = Math.max(0, time - DIFFERENCE_S);
+    const to = Math.min(edge, time + DIFFERENCE_S);
+    if (to <= from) return 0;
+    this.#tipAt(from, this.#from);
+    this.#tipAt(to, this.#to);
+    return Math.hypot(this.#to[12]! - this.#from[12]!, this.#to[13]! - this.#from[13]!, this.#to[14]! - this.#from[14]!) / (to - from);
+  }
+
+  #tipAt(t: number, into: Float64Array): void {
+    this.#player.jointsAt(t, this.#q);
+    this.#kinematics.tip(this.#q, into);
+  }
+
+  #showClearance(): void {
+    const { clearances, time } = this.#player;
+    const now = clearances?.at(time) ?? null;
+    this.#clearance.element.hidden = now === null;
+    if (now === null || clearances === null) return;
+    const under = now.distance_m < now.margin_m;
+    this.#clearance.element.classList.toggle("bad", under);
+    this.#clearance.value.set(millimetres(now.distance_m));
+    this.#clearance.note.set(`${under ? "under" : "margin"} ${fixed(1000 * now.margin_m, 0)}, ${clearances.pairAt(time)}`);
+  }
+
+  #showCoverage(): void {
+    const { segment, time } = this.#player;
+    const plate = segment?.plate ?? null;
+    const share = plate === null || segment?.kind === "transit" ? null : this.#shareAt(plate, time);
+    this.#coverage.element.classList.toggle("faint", share === null);
+    this.#coverage.value.set(share === null ? "–" : percentDown(share, share > 0.99 ? 1 : 0));
+  }
+
+  #showError(): void {
+    const { recording, time, follows } = this.#player;
+    const k = follows === "executed" && recording !== null ? recording.sampleAt(time) : -1;
+    this.#error.element.hidden = k < 0;
+    if (k >= 0) this.#error.value.set(millimetres(recording?.errorOf(k) ?? Number.NaN, 2));
+  }
+}

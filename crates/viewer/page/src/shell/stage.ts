@@ -1,0 +1,174 @@
+/** The scene's place in the page: its canvas, its tools, and a message where it cannot be drawn. */
+import type { Theme } from "../palette.ts";
+import type { Follows } from "../player.ts";
+import { Scene, SceneError, type Layer, type Preset } from "../scene/index.ts";
+import type { View } from "../view.ts";
+import { announce } from "./announcer.ts";
+import { button, byId, el } from "./dom.ts";
+import { icon } from "./icons.ts";
+
+export interface StageActions {
+  /** Something in the scene's look has changed. */
+  changed(): void;
+  heat(on: boolean): void;
+  /** Null where nothing was carried out, so that there is nothing to choose. */
+  follow: ((motion: Follows) => void) | null;
+}
+
+export class Stage {
+  readonly scene: Scene | null;
+  readonly root = byId("stage");
+  readonly canvas: HTMLCanvasElement;
+  readonly #actions: StageActions;
+  readonly #message = el("div", { class: "stage-message", set: { role: "alert" } });
+  readonly #menu = el("div", { class: "menu", id: "layers-menu", set: { role: "group", "aria-label": "Layers" } });
+  readonly #layersButton: HTMLButtonElement;
+  readonly #camera = el("select", { class: "camera", set: { "aria-label": "View (C)" } });
+  readonly #follow: HTMLSelectElement | null;
+  readonly #heat: HTMLButtonElement;
+
+  constructor(view: View, theme: Theme, banner: HTMLElement, readout: HTMLElement | null, actions: StageActions) {
+    this.#actions = actions;
+    const label = `The arm ${view.heading.robot} and ${view.plates.length} plates in three dimensions. Drag to turn, scroll to come nearer.`;
+    this.canvas = el("canvas", { class: "scene", set: { role: "img", "aria-label": label } });
+    this.#layersButton = button(
+      { class: "button text-button", title: "Layers (L)", set: { "aria-expanded": "false", "aria-controls": "layers-menu", "aria-label": "Layers" } },
+      () => this.toggleLayers(),
+      icon("layers"),
+      el("span", { class: "wide-only" }, "Layers"),
+    );
+    this.#heat = button({ class: "button text-button", set: { "aria-pressed": "false" } }, () => {
+      actions.heat(this.#heat.getAttribute("aria-pressed") !== "true");
+    }, "Heat map");
+    this.#menu.hidden = true;
+    this.#message.hidden = true;
+    this.#follow = actions.follow === null ? null : this.#followSelect(actions.follow, view);
+    this.scene = this.#create(view, theme);
+    const port = el("div", { class: "viewport" }, this.canvas, this.#message, this.#toolbar(view), this.#menu, banner);
+    this.root.replaceChildren(port, ...(readout === null ? [] : [readout]));
+    this.#fillMenu();
+    this.#watch();
+  }
+
+  /** Fits the drawing to its place. */
+  fit(): void {
+    const { width, height } = this.canvas.getBoundingClientRect();
+    if (width > 0 && height > 0) this.scene?.resize(width, height, Math.min(2, devicePixelRatio));
+    this.#actions.changed();
+  }
+
+  camera(preset: string): void {
+    const known = this.scene?.cameras().find(({ id }) => id === preset);
+    if (known === undefined) return;
+    this.scene?.camera(known.id);
+    this.#camera.value = known.id;
+    this.#actions.changed();
+  }
+
+  nextCamera(): void {
+    const ids: Preset[] = this.scene?.cameras().map(({ id }) => id) ?? [];
+    const next = ids[(ids.indexOf(this.#camera.value as Preset) + 1) % ids.length];
+    if (next === undefined) return;
+    this.camera(next);
+    announce(`View: ${this.#camera.selectedOptions[0]?.textContent ?? next}`);
+  }
+
+  setLayer(layer: Layer, on: boolean): void {
+    this.scene?.setLayer(layer, on);
+    this.#fillMenu();
+    this.#actions.changed();
+  }
+
+  toggleLayers(): void {
+    this.#menu.hidden = !this.#menu.hidden;
+    this.#layersButton.setAttribute("aria-expanded", String(!this.#menu.hidden));
+    if (!this.#menu.hidden) this.#menu.querySelector("input")?.focus();
+    else this.#layersButton.focus();
+  }
+
+  toggleFullscreen(): void {
+    const done = document.fullscreenElement === null ? document.documentElement.requestFullscreen?.() : document.exitFullscreen();
+    done?.catch(() => announce("The browser does not let this page fill the screen"));
+  }
+
+  /** Which motion is shown, and whether plates show their heat map. */
+  showMotion(follows: Follows, heat: boolean): void {
+    if (this.#follow !== null) this.#follow.value = follows;
+    this.#heat.setAttribute("aria-pressed", String(heat));
+  }
+
+  #create(view: View, theme: Theme): Scene | null {
+    try {
+      return Scene.create(this.canvas, view, theme);
+    } catch (error) {
+      if (!(error instanceof SceneError)) throw error;
+      this.#say(error.message);
+      this.canvas.hidden = true;
+      return null;
+    }
+  }
+
+  #say(words: string | null): void {
+    this.#message.hidden = words === null;
+    this.#message.replaceChildren(words === null ? "" : el("p", {}, words, el("br"), "Everything else on this page works."));
+  }
+
+  #followSelect(follow: (motion: Follows) => void, view: View): HTMLSelectElement {
+    const done = { simulated: "Simulated motion", recorded: "Recorded motion", live: "Live motion" }[view.execution?.source ?? "simulated"];
+    const select = el(
+      "select",
+      { class: "follow", set: { "aria-label": "Motion that the arm shows" } },
+      el("option", { set: { value: "planned" } }, "Planned motion"),
+      el("option", { set: { value: "executed" } }, done),
+    );
+    select.addEventListener("change", () => follow(select.value === "executed" ? "executed" : "planned"));
+    return select;
+  }
+
+  #toolbar(view: View): HTMLElement {
+    this.#camera.append(...(this.scene?.cameras() ?? []).map(({ id, label }) => el("option", { set: { value: id } }, label)));
+    this.#camera.addEventListener("change", () => this.camera(this.#camera.value));
+    const heat = view.coverage.length === 0 ? null : this.#heat;
+    const full = button({ class: "button icon-button", label: "Full screen (F)" }, () => this.toggleFullscreen(), icon("fullscreen"));
+    const tools = this.scene === null ? [this.#follow, full] : [this.#follow, this.#camera, heat, this.#layersButton, full];
+    return el("div", { class: "toolbar", set: { role: "toolbar", "aria-label": "Scene" } }, ...tools);
+  }
+
+  #fillMenu(): void {
+    const layers = this.scene?.layers() ?? [];
+    this.#menu.replaceChildren(
+      ...layers.map(({ id, label, on }) => {
+        const box = el("input", { set: { type: "checkbox" } });
+        box.checked = on;
+        box.addEventListener("change", () => {
+          this.scene?.setLayer(id, box.checked);
+          this.#actions.changed();
+        });
+        return el("label", {}, box, label);
+      }),
+    );
+  }
+
+  #watch(): void {
+    new ResizeObserver(() => this.fit()).observe(this.canvas);
+    this.canvas.addEventListener("webglcontextlost", () => this.#say("The graphics processor has taken the scene away; it comes back by itself."));
+    this.canvas.addEventListener("webglcontextrestored", () => {
+      this.#say(null);
+      this.#actions.changed();
+    });
+    document.addEventListener("pointerdown", (event) => {
+      const inside = event.target instanceof Node && (this.#menu.contains(event.target) || this.#layersButton.contains(event.target));
+      if (!this.#menu.hidden && !inside) this.#close();
+    });
+    this.#menu.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape") return;
+      this.#close();
+      this.#layersButton.focus();
+    });
+  }
+
+  #close(): void {
+    this.#menu.hidden = true;
+    this.#layersButton.setAttribute("aria-expanded", "false");
+  }
+}

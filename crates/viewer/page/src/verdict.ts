@@ -1,0 +1,70 @@
+/** What may be said of a plan at first glance. */
+import { counted } from "./format.ts";
+import type { Certificate, Status, View } from "./view.ts";
+
+/** How a verdict looks: `none` is no verdict, neither good nor bad. */
+export type Tone = Status | "none";
+
+export interface Verdict {
+  tone: Tone;
+  /** On the badge. */
+  word: string;
+  /** A sentence. */
+  sentence: string;
+}
+
+const WORDS: Record<Status, string> = { proved: "Proved", violated: "Violated", not_proved: "Not proved", waived: "Waived" };
+
+/** A status in words. */
+export function statusWord(status: Status): string {
+  return WORDS[status];
+}
+
+export function countOf(certificate: Certificate, status: Status): number {
+  return certificate.checks.filter((check) => check.status === status).length;
+}
+
+/** Never better than the certificate's own word: a plan whose hash does not fit, or with a requirement that is not kept, is not proved. */
+export function verdict(view: View): Verdict {
+  const certificate = view.certificate;
+  if (certificate === null) return { tone: "none", word: "No certificate", sentence: withoutCertificate(view) };
+  const sentence = certificate.headline;
+  const violated = countOf(certificate, "violated");
+  if (certificate.hash !== "proved") return { tone: "violated", word: "Altered", sentence };
+  if (violated > 0) return { tone: "violated", word: "Violated", sentence };
+  if (!certificate.passes || countOf(certificate, "not_proved") > 0) return { tone: "not_proved", word: "Not proved", sentence };
+  const waived = countOf(certificate, "waived");
+  if (waived > 0) return { tone: "waived", word: `Proved but for ${waived} waived`, sentence };
+  return { tone: "proved", word: "Proved", sentence };
+}
+
+function withoutCertificate(view: View): string {
+  switch (view.heading.process) {
+    case "paper":
+      return "No certificate: the paper’s program is judged by what is measured on its motion.";
+    case "configuration":
+      return "No certificate: one configuration, not a motion.";
+    case "wash":
+      return "No certificate: nothing was proved about this plan.";
+  }
+}
+
+/** What came of carrying it out; null where nothing is known of it. */
+export function washed(view: View): Verdict | null {
+  const execution = view.execution;
+  if (execution === null || execution.washed === null) return null;
+  const sentence = execution.headline ?? "";
+  const how = { simulated: "simulated", recorded: "recorded", live: "simulated" }[execution.source];
+  return execution.washed
+    ? { tone: "proved", word: `Washed, ${how}`, sentence }
+    : { tone: "violated", word: `Not washed, ${how}`, sentence };
+}
+
+/** The certificate's requirements in figures: “24 proved, 1 violated”. */
+export function summary(certificate: Certificate): string {
+  const parts = (["violated", "not_proved", "waived", "proved"] as const)
+    .map((status) => ({ status, count: countOf(certificate, status) }))
+    .filter(({ count }) => count > 0)
+    .map(({ status, count }) => `${count} ${WORDS[status].toLowerCase()}`);
+  return `${counted(certificate.checks.length, "requirement")}: ${parts.join(", ")}`;
+}

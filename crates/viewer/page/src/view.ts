@@ -1,0 +1,274 @@
+/**
+ * What a page shows: the document `platewash-view/1`, which `crates/viewer/src/view` writes.
+ *
+ * Units are SI and radians. World, arm base and plate frames are three things: `mount` is `T_world_base`, a plate's `pose` is
+ * `T_world_plate`. Everything that is drawn is in the world frame unless it says otherwise.
+ */
+
+/** `T_a_b`: where b's origin lies in a, and b's axes as a unit quaternion. */
+export interface Pose {
+  position_m: [number, number, number];
+  quaternion_wxyz: [number, number, number, number];
+}
+
+/** An array of numbers, little-endian and in base64, row by row. */
+export type Numbers = { shape: number[] } & (
+  | { f64: string }
+  | { f32: string }
+  | { u32: string }
+  | { u16: string }
+  | { u8: string }
+);
+
+/** A shape in its own frame. `cylinder` and `capsule` lie along z. */
+export type Shape =
+  | { box: { half_m: [number, number, number] } }
+  | { cylinder: { radius_m: number; half_length_m: number } }
+  | { sphere: { radius_m: number } }
+  | { capsule: { radius_m: number; half_length_m: number } }
+  | { hull: { points: [number, number, number][] } }
+  /** Triangles [count, 3 corners, 3 coordinates]. */
+  | { mesh: { triangles: Numbers } }
+  /** All below z = 0. */
+  | { half_space: Record<string, never> };
+
+/** A shape somewhere. */
+export interface Body {
+  name: string;
+  shape: Shape;
+  pose: Pose;
+  /** Red, green, blue, alpha from 0 to 1. */
+  rgba: [number, number, number, number] | null;
+}
+
+/** What the page is about. */
+export interface Heading {
+  scenario: string;
+  seed: number;
+  /** SHA-256 of the plan; null for one configuration. */
+  hash: string | null;
+  process: "wash" | "paper" | "configuration";
+  robot: string;
+  duration_s: number;
+}
+
+export type Status = "proved" | "violated" | "not_proved" | "waived";
+
+/** A requirement and what came of it. */
+export interface Check {
+  /** The requirement's name in the certificate's file. */
+  requirement: string;
+  /** In words. */
+  words: string;
+  status: Status;
+  /** Bound, seen and limit with units; the discrepancies; empty where there is nothing to add. */
+  detail: string;
+  /** Where it is worst. */
+  worst: {
+    time_s: number | null;
+    /** World frame [m]. */
+    place_m: [number, number, number] | null;
+    /** Joint, plate, segment and pair in words. */
+    words: string;
+  } | null;
+}
+
+/** The proof. */
+export interface Certificate {
+  passes: boolean;
+  headline: string;
+  /** Of the hash in the file. */
+  hash: Status;
+  checks: Check[];
+  /** What the verdict rests on, a line each. */
+  rests_on: string[];
+}
+
+/** A joint: `T_parent_joint(q) = origin · Rot_z(q)`. */
+export interface Joint {
+  name: string;
+  origin: Pose;
+  /** Null where it turns without end. */
+  position_rad: [number, number] | null;
+  speed_rad_s: number;
+  /** Null where the job states none. */
+  acceleration_rad_s2: number | null;
+}
+
+/** A link, fixed to the frame behind `joints` joints: 0 for the base. */
+export interface Link {
+  name: string;
+  joints: number;
+  /** `T_frame_link`. */
+  pose: Pose;
+  /** Link frame. */
+  visuals: Body[];
+  /** Link frame: the bodies that count for the proof. */
+  collision: Body[];
+}
+
+export interface Arm {
+  name: string;
+  /** `T_world_base`. */
+  mount: Pose;
+  joints: Joint[];
+  links: Link[];
+  /** `T_6_flange`: the mounting frame (`tool0`) behind joint 6. */
+  flange: Pose;
+}
+
+export interface Tool {
+  /** Flange frame; without the sponge. */
+  bodies: Body[];
+  sponge: { radius_m: number; height_m: number; compression_m: number; /** `T_flange_sponge`, its middle. */ pose: Pose };
+  /** `T_flange_tip`: centre of the sponge's far face, z out of the tool. */
+  tip: Pose;
+}
+
+export interface Surroundings {
+  /** World frame. */
+  obstacles: Body[];
+  /** Radius about the base axis that plates' centres keep away from [m]. */
+  base_circle_m: number | null;
+  /** Where plates' centres are drawn, a closed polygon seen from above [m]. */
+  region_m: [number, number][] | null;
+}
+
+export interface Plate {
+  name: string;
+  /** `T_world_plate`: origin at the pole of the face, z out of the plate. */
+  pose: Pose;
+  /** The face's meridian from the pole to the rim: distance from the axis, height [m]. */
+  meridian_m: [number, number][];
+  thickness_m: number;
+}
+
+/** What the tip follows on a plate. */
+export interface WashPath {
+  plate: number;
+  /** [n, 3], world frame [m]. */
+  points_m: Numbers;
+}
+
+export type SegmentKind = "depart" | "approach" | "wash" | "retreat" | "transit" | "return";
+
+export interface Segment {
+  kind: SegmentKind;
+  plate: number | null;
+  t_start_s: number;
+  t_end_s: number;
+}
+
+/** The planned motion: between two knots each joint is the cubic of their positions and speeds (Hermite). */
+export interface Motion {
+  /** [n], from 0. */
+  t_s: Numbers;
+  /** [n, 6] */
+  q_rad: Numbers;
+  /** [n, 6] */
+  qd_rad_s: Numbers;
+}
+
+/** The smallest distance of all pairs that count, over time; sampled to look at, not the proof. */
+export interface Clearance {
+  margin_m: number;
+  /** [n] */
+  t_s: Numbers;
+  /** [n] */
+  distance_m: Numbers;
+  /** [n, 2, 3]: the nearest point of either body, world frame. */
+  nearest_m: Numbers;
+  /** [n, 2]: indices into `names`. */
+  pair: Numbers;
+  names: string[];
+}
+
+/** How a plate gets swept: a raster over the square around its face, sampled to look at, not the proof. */
+export interface PlateCoverage {
+  plate: number;
+  /** Half of the square's edge [m]: the rim's radius. */
+  half_m: number;
+  /** [rows, columns], y then x ascending in the plate's frame: when the sponge is first over the cell's middle, in steps of
+   * `step_s`; 65535 for never. Cells with their middle outside the rim are 65534. */
+  first: Numbers;
+  step_s: number;
+  /** [rows, columns]: for how long it is over it, in steps of `dwell_step_s`, at most 255. */
+  dwell: Numbers;
+  dwell_step_s: number;
+  /** What the certificate proves at least; null without one. */
+  proved: number | null;
+}
+
+/** What an arm did. */
+export interface Execution {
+  /** `simulated`, `recorded` (a CSV), or `live`: then the arrays are empty and the samples come from the server. */
+  source: "simulated" | "recorded" | "live";
+  /** Name of the control law; null where it is not known. */
+  law: string | null;
+  /** First line of its report. */
+  headline: string | null;
+  /** Whether every plate is washed; null where that is not judged. */
+  washed: boolean | null;
+  /** [n] */
+  t_s: Numbers;
+  /** [n, 6] */
+  q_rad: Numbers;
+  /** [n, 6] */
+  qd_rad_s: Numbers;
+  /** [n, 6] */
+  qdd_rad_s2: Numbers | null;
+  /** [n, 6]; null under a kinematic law. */
+  torque_n_m: Numbers | null;
+  /** Six limits; null where none are known. */
+  torque_limit_n_m: number[] | null;
+  /** [n]: distance of the tip from where the plan has it at that time [m]. */
+  error_m: Numbers;
+  coverage: PlateCoverage[];
+}
+
+export interface View {
+  format: "platewash-view/1";
+  /** Of platewash. */
+  version: string;
+  heading: Heading;
+  /** Null where nothing was proved. */
+  certificate: Certificate | null;
+  arm: Arm;
+  tool: Tool | null;
+  surroundings: Surroundings;
+  plates: Plate[];
+  /** In the order of washing. */
+  paths: WashPath[];
+  segments: Segment[];
+  /** Null for one configuration. */
+  motion: Motion | null;
+  /** What the arm shows where there is no motion. */
+  pose_rad: number[];
+  clearance: Clearance | null;
+  /** Of the planned motion. */
+  coverage: PlateCoverage[];
+  execution: Execution | null;
+  /** Where a live run's events come from; null where there is none. */
+  live: { events: string } | null;
+}
+
+/**
+ * Events of a live run, as the server sends them (server-sent events; `id` of `samples` is the index of its last sample, so
+ * that a page that reconnects is told what it missed).
+ *
+ * `state`: a `LiveState`. `samples`: a `LiveSamples`. `done`: a `LiveEnd`.
+ */
+export interface LiveState {
+  state: "waiting" | "running" | "done";
+}
+
+/** Rows of 20: t_s, six q_rad, six qd_rad_s, six torque_n_m (zeros under a kinematic law), error_m. */
+export interface LiveSamples {
+  samples: number[][];
+}
+
+export interface LiveEnd {
+  /** The report's first line, or why there is none. */
+  headline: string;
+  washed: boolean | null;
+}

@@ -1,0 +1,91 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { DocumentError, parseView } from "../src/document.ts";
+import { clockTime, fixed, percentDown } from "../src/format.ts";
+import { linkTo, parseLink } from "../src/link.ts";
+import { segmentAt, segmentWords } from "../src/segments.ts";
+import { verdict, washed } from "../src/verdict.ts";
+import type { Certificate, Check, Execution, Plate, Segment, Status, View } from "../src/view.ts";
+
+const check = (status: Status): Check => ({ requirement: "tilt", words: "tilt", status, detail: "", worst: null });
+
+function viewWith(statuses: Status[] | null, certificate: Partial<Certificate> = {}): View {
+  const checks = (statuses ?? []).map(check);
+  const passes = checks.every(({ status }) => status === "proved" || status === "waived");
+  return {
+    heading: { process: "wash" },
+    certificate: statuses === null ? null : { passes, headline: "so", hash: "proved", checks, rests_on: [], ...certificate },
+    execution: null,
+  } as unknown as View;
+}
+
+test("a verdict is never better than its worst requirement", () => {
+  assert.equal(verdict(viewWith(["proved", "proved"])).tone, "proved");
+  assert.equal(verdict(viewWith(["proved", "violated", "not_proved"])).tone, "violated");
+  assert.equal(verdict(viewWith(["proved", "not_proved"])).tone, "not_proved");
+  assert.equal(verdict(viewWith(["proved", "waived"])).tone, "waived");
+});
+
+test("nothing looks proved that is not: no certificate, an altered plan, a certificate that does not pass", () => {
+  assert.equal(verdict(viewWith(null)).tone, "none");
+  for (const hash of ["violated", "not_proved", "waived"] as const) {
+    assert.equal(verdict(viewWith(["proved"], { hash })).tone, "violated");
+  }
+  assert.equal(verdict(viewWith(["proved"], { passes: false })).tone, "not_proved");
+  assert.equal(verdict(viewWith([], { passes: false })).tone, "not_proved");
+});
+
+test("washing is judged only where it was", () => {
+  const view = viewWith(["proved"]);
+  const with_ = (result: boolean | null): View => ({ ...view, execution: { washed: result, headline: null } as unknown as Execution });
+  assert.equal(washed(view), null);
+  assert.equal(washed(with_(null)), null);
+  assert.equal(washed(with_(false))?.tone, "violated");
+  assert.equal(washed(with_(true))?.tone, "proved");
+});
+
+test("a document that cannot be read says why", () => {
+  for (const text of ["", "{", "[]", "null", "{}", '{"format":"platewash-view/2"}']) {
+    assert.throws(() => parseView(text), DocumentError);
+  }
+  assert.equal(parseView('{"format":"platewash-view/1"}').format, "platewash-view/1");
+});
+
+test("links go there and back, and garbage goes nowhere", () => {
+  const place = { t: 12.5, speed: 2, show: "executed", panel: "plots", camera: "above" } as const;
+  assert.deepEqual(parseLink(linkTo(place)), place);
+  const nowhere = { t: null, speed: null, show: null, panel: null, camera: null };
+  for (const hash of ["", "#", "#t=", "#t=NaN&speed=-1&show=x", "#t=1e400", "#panel=<b>", "#%%%&&==", `#t=${"9".repeat(600)}`]) {
+    assert.deepEqual(parseLink(hash), nowhere, hash);
+  }
+});
+
+test("numbers read as numbers are written", () => {
+  assert.equal(fixed(-0.5, 1), "−0.5");
+  assert.equal(fixed(-0.001, 1), "0.0");
+  assert.equal(fixed(Number.NaN, 1), "–");
+  assert.equal(percentDown(0.99999, 1), "99.9\u202f%");
+  assert.equal(percentDown(1, 1), "100.0\u202f%");
+  assert.equal(clockTime(12.345, 40), "12.35");
+  assert.equal(clockTime(65.04, 200), "1:05.0");
+});
+
+const PLATES = [{ name: "plate 1" }] as unknown as Plate[];
+const SEGMENTS: Segment[] = [
+  { kind: "depart", plate: 0, t_start_s: 0, t_end_s: 1 },
+  { kind: "wash", plate: 0, t_start_s: 1, t_end_s: 3 },
+  { kind: "transit", plate: 7, t_start_s: 4, t_end_s: 5 },
+];
+
+test("segments are found from any hint; between and behind them there are none", () => {
+  for (let hint = -1; hint < 5; hint++) {
+    for (const [t, expected] of [[0, 0], [1, 1], [2.9, 1], [3.5, -1], [4, 2], [5, 2], [6, -1]] as const) {
+      assert.equal(segmentAt(SEGMENTS, t, hint), expected, `${t} from ${hint}`);
+    }
+  }
+  assert.equal(segmentAt([], 1, 0), -1);
+});
+
+test("segments say what the arm does, with a plate that exists or none", () => {
+  assert.deepEqual(SEGMENTS.map((segment) => segmentWords(segment, PLATES)), ["Leaving home", "Washing plate 1", "On the way"]);
+});

@@ -1,0 +1,241 @@
+//! A page: a document in the bundle that all pages share, as one file of HTML that needs no other.
+//!
+//! Whatever a document says is text. It stands in a data block in which every `<` is written `\u003c`, so that nothing in it ends the
+//! block, and its name stands in the title with its markup written out. Placeholders are looked for in the template alone.
+
+use crate::bundle::Bundle;
+use crate::view::View;
+use platewash_workcell::words::printable;
+
+/// What stands around a placeholder's name.
+const OPEN: &str = "<!--platewash:";
+const CLOSE: &str = "-->";
+
+/// Longest name in a title, in characters.
+const LONGEST_TITLE: usize = 120;
+
+/// Why there is no page.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PageError {
+    /// The document cannot be written as JSON.
+    #[error("the page's document cannot be written: {0}")]
+    Document(#[from] serde_json::Error),
+    /// A template with an unknown placeholder, or without one that it needs.
+    #[error("the page's template {what} the placeholder \"{name}\": it was made for another version")]
+    Template {
+        /// What it does with it.
+        what: &'static str,
+        /// The placeholder.
+        name: String,
+    },
+    /// A part of the bundle that would end before its end.
+    #[error("the page's {part} has \"{end}\" in it")]
+    Ends {
+        /// The part.
+        part: &'static str,
+        /// What ends it.
+        end: &'static str,
+    },
+}
+
+/// The placeholders of a template.
+const PLACEHOLDERS: [&str; 5] = ["title", "style", "data", "script", "notices"];
+
+/// A document as a page.
+///
+/// # Errors
+/// [`PageError`], for a bundle that is none: documents can always be written.
+pub fn html(view: &View, bundle: &Bundle) -> Result<String, PageError> {
+    refuse_end("style", &bundle.style, "</style")?;
+    refuse_end("script", &bundle.script, "</script")?;
+    let data = in_data_block(&serde_json::to_string(view)?);
+    let mut page = String::with_capacity(
+        data.len() + bundle.template.len() + bundle.style.len() + bundle.script.len() + 2 * bundle.notices.len(),
+    );
+    let mut filled = Vec::new();
+    let mut rest: &str = &bundle.template;
+    while let Some((before, name, after)) = next_placeholder(rest) {
+        page.push_str(before);
+        match name {
+            "title" => page.push_str(&escaped(&title(view))),
+            "style" => page.extend(["<style>", &bundle.style, "</style>"]),
+            "data" => page.extend([
+                r#"<script type="application/json" id="platewash-view">"#,
+                &data,
+                "</script>",
+            ]),
+            "script" => page.extend(["<script>", &bundle.script, "</script>"]),
+            "notices" => page.push_str(&escaped(&bundle.notices)),
+            _ => return Err(template("does not know", name)),
+        }
+        filled.push(name);
+        rest = after;
+    }
+    page.push_str(rest);
+    match PLACEHOLDERS.into_iter().find(|name| !filled.contains(name)) {
+        Some(missing) => Err(template("lacks", missing)),
+        None => Ok(page),
+    }
+}
+
+fn template(what: &'static str, name: &str) -> PageError {
+    let name = name.to_owned();
+    PageError::Template { what, name }
+}
+
+/// What stands before the first placeholder, its name, and what stands behind it.
+fn next_placeholder(text: &str) -> Option<(&str, &str, &str)> {
+    let (before, inside) = text.split_once(OPEN)?;
+    let (name, after) = inside.split_once(CLOSE)?;
+    Some((before, name, after))
+}
+
+/// Refuses a part in which the element that holds it would end, in whatever case.
+fn refuse_end(part: &'static str, text: &str, end: &'static str) -> Result<(), PageError> {
+    let ends = |window: &[u8]| window.eq_ignore_ascii_case(end.as_bytes());
+    let mut places = text.match_indices("</").map(|(at, _)| at);
+    match places.any(|at| text.as_bytes().get(at..at + end.len()).is_some_and(ends)) {
+        true => Err(PageError::Ends { part, end }),
+        false => Ok(()),
+    }
+}
+
+/// The title: what is shown, and by whom.
+fn title(view: &View) -> String {
+    let name = printable(&view.heading.scenario);
+    match name.char_indices().nth(LONGEST_TITLE) {
+        Some((end, _)) => format!("{}… · platewash", &name[..end]),
+        None => format!("{name} · platewash"),
+    }
+}
+
+/// JSON as it may stand in a data block: the same values, and nothing that HTML or a script would read as markup or the end of a line.
+fn in_data_block(json: &str) -> String {
+    replaced(json, |c| match c {
+        '<' => Some("\\u003c"),
+        '\u{2028}' => Some("\\u2028"),
+        '\u{2029}' => Some("\\u2029"),
+        _ => None,
+    })
+}
+
+/// Text as it stands in HTML, between elements or in an attribute.
+fn escaped(text: &str) -> String {
+    replaced(text, |c| match c {
+        '&' => Some("&amp;"),
+        '<' => Some("&lt;"),
+        '>' => Some("&gt;"),
+        '"' => Some("&quot;"),
+        '\'' => Some("&#39;"),
+        _ => None,
+    })
+}
+
+fn replaced(text: &str, by: impl Fn(char) -> Option<&'static str>) -> String {
+    let mut written = String::with_capacity(text.len() + text.len() / 16);
+    let mut kept = 0;
+    for (at, c) in text.char_indices() {
+        if let Some(other) = by(c) {
+            written.push_str(&text[kept..at]);
+            written.push_str(other);
+            kept = at + c.len_utf8();
+        }
+    }
+    written.push_str(&text[kept..]);
+    written
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_kinematics::{JointVector, RobotModel};
+    use proptest::prelude::*;
+
+    const TEMPLATE: &str = "<title><!--platewash:title--></title><!--platewash:style--><body><!--platewash:notices-->\
+        <!--platewash:data--><!--platewash:script--></body>";
+    const DATA: &str = r#"<script type="application/json" id="platewash-view">"#;
+
+    fn bundle() -> Bundle {
+        Bundle {
+            template: TEMPLATE.into(),
+            style: "a > b {}".into(),
+            script: "run(1 < 2)".into(),
+            notices: "A & B <c@d.example>".into(),
+        }
+    }
+
+    fn named(name: &str) -> View {
+        let robot = RobotModel::irb120().unwrap();
+        let mut view = View::of_configuration(&robot, None, &JointVector::zeros());
+        view.heading.scenario = name.to_owned();
+        view
+    }
+
+    /// What a browser reads from the data block, which ends at the first `</script`.
+    fn read_back(page: &str) -> serde_json::Value {
+        let (_, data) = page.split_once(DATA).unwrap();
+        let (data, _) = data.split_once("</script").unwrap();
+        serde_json::from_str(data).unwrap()
+    }
+
+    #[test]
+    fn every_part_stands_in_its_place() {
+        let page = html(&named("kitchen"), &bundle()).unwrap();
+        let start =
+            "<title>kitchen · platewash</title><style>a > b {}</style><body>A &amp; B &lt;c@d.example&gt;<script type=";
+        assert!(page.starts_with(start), "{}", &page[..200]);
+        assert!(page.ends_with("</script><script>run(1 < 2)</script></body>"));
+        assert_eq!(read_back(&page)["heading"]["scenario"], "kitchen");
+    }
+
+    #[test]
+    fn a_hostile_name_is_text() {
+        let names = [
+            "</script><script>alert(1)</script>",
+            "</ScRiPt ><img src=x onerror=alert(1)>",
+            "<!--<script>",
+            "<!--platewash:script-->",
+            "\" onload='x' &amp;",
+            "\u{202e}txet\u{2066}\u{2028}\u{2029}\u{0}",
+            "</title><script>",
+            &"long ".repeat(2000),
+        ];
+        for name in names {
+            let page = html(&named(name), &bundle()).unwrap();
+            assert_eq!(read_back(&page)["heading"]["scenario"], *name);
+            assert_eq!(page.matches("<script").count(), 2, "{name}");
+            assert_eq!(page.matches("</script").count(), 2, "{name}");
+            let (_, title) = page.split_once("<title>").unwrap();
+            let (title, _) = title.split_once('<').unwrap();
+            assert!(title.len() < 1000 && title.ends_with("· platewash"), "{title}");
+            assert!(!page.contains(['\u{2028}', '\u{2029}']));
+        }
+    }
+
+    #[test]
+    fn a_bundle_that_is_none_is_refused() {
+        let refused = |change: fn(&mut Bundle)| {
+            let mut bundle = bundle();
+            change(&mut bundle);
+            html(&named("kitchen"), &bundle).unwrap_err().to_string()
+        };
+        assert!(refused(|b| b.script = "x = '</SCRIPT>'".into()).contains("script"));
+        assert!(refused(|b| b.style = "</style>".into()).contains("style"));
+        assert!(
+            refused(|b| b.template = TEMPLATE.replace("<!--platewash:data-->", "").into())
+                .contains("lacks the placeholder \"data\"")
+        );
+        let unknown = refused(|b| b.template = format!("{TEMPLATE}<!--platewash:more-->").into());
+        assert!(unknown.contains("does not know the placeholder \"more\""), "{unknown}");
+    }
+
+    proptest! {
+        #[test]
+        fn any_name_is_read_back(name in "\\PC*|[<>/!a-z\\-\"'&\u{2028}]{0,60}") {
+            let page = html(&named(&name), &bundle()).unwrap();
+            prop_assert_eq!(&read_back(&page)["heading"]["scenario"], &name);
+            prop_assert_eq!(page.to_lowercase().matches("<script").count(), 2);
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Why nothing can be served.
+
+use std::net::SocketAddr;
+
+/// Why nothing can be served.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ServerError {
+    /// The address is taken, is none of this machine, or may not be used.
+    #[error("cannot listen on {address}")]
+    Bind {
+        /// What was asked for.
+        address: SocketAddr,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The system gives no thread.
+    #[error("cannot serve: no thread can be started")]
+    Thread(#[source] std::io::Error),
+}

@@ -1,0 +1,138 @@
+//! The port, and the thread that accepts.
+
+use super::connection;
+use super::connections::Connections;
+use super::error::ServerError;
+use super::limits::TO_END;
+use super::names::Names;
+use super::site::Site;
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{Builder, JoinHandle, sleep};
+use std::time::{Duration, Instant};
+
+/// Rest after the system has given no connection, as where there are too many open files.
+const AFTER_A_FAULT: Duration = Duration::from_millis(50);
+
+/// A port that is taken, on which nothing is answered yet: who connects waits.
+#[derive(Debug)]
+pub struct Listener {
+    listener: TcpListener,
+    address: SocketAddr,
+}
+
+/// A site that is served until this is dropped.
+#[derive(Debug)]
+pub struct Server {
+    address: SocketAddr,
+    ends: Arc<AtomicBool>,
+    site: Arc<Site>,
+    connections: Arc<Connections>,
+    accepting: Option<JoinHandle<()>>,
+}
+
+impl Listener {
+    /// Takes a port; port 0 stands for any free one.
+    ///
+    /// # Errors
+    /// [`ServerError::Bind`]: the port is taken or may not be, or the address is none of this machine.
+    pub fn bind(address: SocketAddr) -> Result<Self, ServerError> {
+        let cannot = |source| ServerError::Bind { address, source };
+        let listener = TcpListener::bind(address).map_err(cannot)?;
+        let address = listener.local_addr().map_err(cannot)?;
+        Ok(Self { listener, address })
+    }
+
+    /// What a browser on this machine opens.
+    #[must_use]
+    pub fn url(&self) -> String {
+        url(self.address)
+    }
+
+    /// Answers from now on.
+    ///
+    /// # Errors
+    /// [`ServerError::Thread`].
+    pub fn serve(self, site: Site) -> Result<Server, ServerError> {
+        let mut server = Server {
+            address: self.address,
+            ends: Arc::default(),
+            site: Arc::new(site),
+            connections: Arc::default(),
+            accepting: None,
+        };
+        let (ends, site, connections) = (server.ends.clone(), server.site.clone(), server.connections.clone());
+        let accept = move || accept(&self.listener, self.address, &ends, &site, &connections);
+        let accepting = Builder::new().name("page".to_owned()).spawn(accept);
+        server.accepting = Some(accepting.map_err(ServerError::Thread)?);
+        Ok(server)
+    }
+}
+
+impl Server {
+    /// What a browser on this machine opens.
+    #[must_use]
+    pub fn url(&self) -> String {
+        url(self.address)
+    }
+}
+
+impl Drop for Server {
+    /// Closes the port and all connections, within seconds whatever clients do.
+    fn drop(&mut self) {
+        self.ends.store(true, Ordering::Relaxed);
+        // The thread waits for a connection; here is one. Where none can be made, it is busy with others and looks by itself.
+        let woken = TcpStream::connect_timeout(&reachable(self.address), TO_END);
+        let begin = Instant::now();
+        if let Some(accepting) = self.accepting.take() {
+            while !accepting.is_finished() && begin.elapsed() < TO_END {
+                sleep(Duration::from_millis(1));
+            }
+        }
+        drop(woken);
+        if let Some(live) = &self.site.live {
+            live.close();
+        }
+        self.connections.close(TO_END);
+    }
+}
+
+fn accept(listener: &TcpListener, address: SocketAddr, ends: &AtomicBool, site: &Arc<Site>, all: &Arc<Connections>) {
+    while !ends.load(Ordering::Relaxed) {
+        match listener.accept() {
+            Ok(_) if ends.load(Ordering::Relaxed) => {}
+            Ok((stream, _)) => welcome(stream, Names::of(address), site, all),
+            Err(_) => sleep(AFTER_A_FAULT),
+        }
+    }
+}
+
+/// Gives a connection a thread; one for which there is no place or no thread is closed.
+fn welcome(stream: TcpStream, names: Names, site: &Arc<Site>, all: &Arc<Connections>) {
+    let Some(place) = all.enter(&stream) else {
+        return;
+    };
+    let site = site.clone();
+    let serve = move || {
+        // Small events are not held back to be sent together; where that cannot be had, they come later.
+        let _ = stream.set_nodelay(true);
+        connection::serve(&stream, &site, names, &place);
+    };
+    let _ = Builder::new().name("page client".to_owned()).spawn(serve);
+}
+
+fn url(address: SocketAddr) -> String {
+    format!("http://{}/", reachable(address))
+}
+
+/// An address to which this machine can connect.
+fn reachable(mut address: SocketAddr) -> SocketAddr {
+    if address.ip().is_unspecified() {
+        address.set_ip(match address.ip() {
+            IpAddr::V4(_) => Ipv4Addr::LOCALHOST.into(),
+            IpAddr::V6(_) => Ipv6Addr::LOCALHOST.into(),
+        });
+    }
+    address
+}

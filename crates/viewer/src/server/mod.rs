@@ -1,0 +1,42 @@
+//! A page on the loopback: one HTML file and, of a live run, its events.
+//!
+//! [`Listener::bind`] takes a port before any long work, [`Listener::serve`] answers on it until the [`Server`] is dropped. What it serves
+//! lives in memory; it reads no file, whatever is asked for.
+//!
+//! | concept | file |
+//! | --- | --- |
+//! | sizes, numbers and times that bound what a client can do | `limits.rs` |
+//! | which addresses and origins requests may name | `names.rs` |
+//! | the head of a request, read and judged | `head.rs`, `request.rs` |
+//! | why a request is refused | `refusal.rs` |
+//! | what is answered | `answer.rs` |
+//! | a stream with a deadline | `deadline.rs` |
+//! | who is connected, and who has to go for another | `connections.rs` |
+//! | what is served; one connection from request to answer | `site.rs`, `connection.rs` |
+//! | the port, and the thread that accepts | `listener.rs` |
+//! | a live run as those who watch it share it | `live.rs` |
+//! | it as server-sent events | `events.rs` |
+//! | samples of a simulation into it, in real time | `feed.rs`, `pace.rs` |
+
+mod answer;
+mod connection;
+mod connections;
+mod deadline;
+mod error;
+mod events;
+mod feed;
+mod head;
+mod limits;
+mod listener;
+mod live;
+mod names;
+mod pace;
+mod refusal;
+mod request;
+mod site;
+
+pub use error::ServerError;
+pub use feed::Feed;
+pub use listener::{Listener, Server};
+pub use live::{Live, LiveEnd};
+pub use site::Site;

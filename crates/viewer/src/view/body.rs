@@ -1,0 +1,147 @@
+//! Shapes and where they are.
+
+use super::numbers::Numbers;
+use platewash_kinematics::Pose as Rigid;
+use platewash_kinematics::geometry::{self, Triangle, VisualShape};
+use platewash_workcell::workcell::ObstacleShape;
+use serde::Serialize;
+
+/// `T_a_b`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Pose {
+    /// Where b's origin lies in a \[m\].
+    pub position_m: [f64; 3],
+    /// b's axes in a, a unit quaternion (w, x, y, z).
+    pub quaternion_wxyz: [f64; 4],
+}
+
+impl From<&Rigid> for Pose {
+    fn from(pose: &Rigid) -> Self {
+        let q = pose.rotation.quaternion();
+        Self {
+            position_m: pose.translation.vector.into(),
+            quaternion_wxyz: [q.w, q.i, q.j, q.k],
+        }
+    }
+}
+
+/// A shape in its own frame; cylinders and capsules lie along z.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// A box centred at the origin.
+    Box {
+        /// Half of each edge \[m\].
+        half_m: [f64; 3],
+    },
+    /// A cylinder centred at the origin.
+    Cylinder {
+        /// Radius \[m\].
+        radius_m: f64,
+        /// Half of the length \[m\].
+        half_length_m: f64,
+    },
+    /// A sphere centred at the origin.
+    Sphere {
+        /// Radius \[m\].
+        radius_m: f64,
+    },
+    /// All points near a segment about the origin.
+    Capsule {
+        /// How near \[m\].
+        radius_m: f64,
+        /// Half of the segment's length \[m\].
+        half_length_m: f64,
+    },
+    /// The convex hull of points.
+    Hull {
+        /// The points \[m\].
+        points: Vec<[f64; 3]>,
+    },
+    /// A surface of triangles.
+    Mesh {
+        /// \[count, 3 corners, 3 coordinates\] \[m\].
+        triangles: Numbers,
+    },
+    /// All of z ≤ 0.
+    HalfSpace {},
+}
+
+impl From<&geometry::Shape> for Shape {
+    fn from(shape: &geometry::Shape) -> Self {
+        match *shape {
+            geometry::Shape::Box { half_m } => Self::Box { half_m },
+            geometry::Shape::Cylinder {
+                radius_m,
+                half_length_m,
+            } => Self::Cylinder {
+                radius_m,
+                half_length_m,
+            },
+            geometry::Shape::Sphere { radius_m } => Self::Sphere { radius_m },
+            geometry::Shape::Capsule {
+                radius_m,
+                half_length_m,
+            } => Self::Capsule {
+                radius_m,
+                half_length_m,
+            },
+            geometry::Shape::Hull { ref points } => Self::Hull {
+                points: points.iter().map(|p| p.coords.into()).collect(),
+            },
+        }
+    }
+}
+
+impl From<&ObstacleShape> for Shape {
+    fn from(shape: &ObstacleShape) -> Self {
+        match shape {
+            ObstacleShape::HalfSpace => Self::HalfSpace {},
+            ObstacleShape::Convex(shape) => shape.into(),
+        }
+    }
+}
+
+impl From<&VisualShape> for Shape {
+    fn from(shape: &VisualShape) -> Self {
+        match shape {
+            VisualShape::Solid(shape) => shape.into(),
+            VisualShape::Mesh(triangles) => Self::Mesh {
+                triangles: corners(triangles),
+            },
+        }
+    }
+}
+
+fn corners(triangles: &[Triangle]) -> Numbers {
+    let coordinates = triangles
+        .iter()
+        .flatten()
+        .flat_map(|corner| corner.coords.iter().copied());
+    Numbers::f32_shaped(vec![triangles.len(), 3, 3], coordinates)
+}
+
+/// A shape somewhere.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Body {
+    /// Its name.
+    pub name: String,
+    /// Its shape.
+    pub shape: Shape,
+    /// Where it is.
+    pub pose: Pose,
+    /// Red, green, blue and alpha, from 0 to 1, where they are stated.
+    pub rgba: Option<[f64; 4]>,
+}
+
+impl Body {
+    /// A body of no stated colour.
+    pub(super) fn plain(name: &str, shape: Shape, pose: &Rigid) -> Self {
+        Self {
+            name: name.to_owned(),
+            shape,
+            pose: pose.into(),
+            rgba: None,
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! What is proved, in the words of the certificate.
+
+use nalgebra::Point3;
+use platewash_certificate::{self as proved, Status, Worst};
+use platewash_kinematics::Pose;
+use platewash_workcell::words::printable;
+use serde::Serialize;
+
+/// The proof.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Certificate {
+    /// Whether every requirement is kept, and the hash is that of the contents.
+    pub passes: bool,
+    /// Its first line.
+    pub headline: String,
+    /// Of the hash in the file.
+    pub hash: Status,
+    /// The requirements, in the certificate's order.
+    pub checks: Vec<Check>,
+    /// What the verdict rests on, a line each.
+    pub rests_on: Vec<String>,
+}
+
+/// A requirement and what came of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Check {
+    /// Its name in the certificate's file.
+    pub requirement: proved::Requirement,
+    /// In words.
+    pub words: &'static str,
+    /// What came of it.
+    pub status: Status,
+    /// Bound, limit, what was found, and what does not agree; empty where there is nothing to add.
+    pub detail: String,
+    /// Where it is worst.
+    pub worst: Option<Place>,
+}
+
+/// A place in time and space.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Place {
+    /// When \[s\].
+    pub time_s: Option<f64>,
+    /// World frame \[m\].
+    pub place_m: Option<[f64; 3]>,
+    /// Pair, joint, segment and plate in words.
+    pub words: String,
+}
+
+impl Certificate {
+    /// As it is shown; `mount` is `T_world_base`.
+    pub(super) fn new(certificate: &proved::Certificate, mount: &Pose) -> Self {
+        let check = |check: &proved::Check| Check {
+            requirement: check.requirement,
+            words: check.requirement.words(),
+            status: check.status,
+            detail: check.detail(),
+            worst: place(&check.worst, mount),
+        };
+        let line = |(name, what): (&str, String)| format!("{name}: {what}");
+        Self {
+            passes: certificate.passes(),
+            headline: printable(&certificate.headline),
+            hash: certificate.hash.status,
+            checks: certificate.checks.iter().map(check).collect(),
+            rests_on: certificate.rests_on.lines().into_iter().map(line).collect(),
+        }
+    }
+}
+
+/// A worst place; `None` where nothing is said.
+fn place(worst: &Worst, mount: &Pose) -> Option<Place> {
+    let in_words = Worst {
+        time_s: None,
+        place_m: None,
+        ..worst.clone()
+    };
+    (*worst != Worst::default()).then(|| Place {
+        time_s: worst.time_s,
+        place_m: worst
+            .place_m
+            .map(|at| mount.transform_point(&Point3::from(at)).coords.into()),
+        words: in_words.to_string(),
+    })
+}

@@ -1,0 +1,90 @@
+//! The smallest distance of all pairs that count, over time: sampled to look at, not the proof.
+
+use super::motion::segment_at;
+use super::numbers::Numbers;
+use nalgebra::{Point3, SVector, Vector6};
+use platewash_certificate::{self as proved, ClearanceRule, Requirement};
+use platewash_kinematics::RobotModel;
+use platewash_workcell::clearance::Nearest;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::trajectory::Trajectory;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// Moments that are looked at, besides the boundaries of segments and the proof's worst one.
+const MOMENTS: usize = 400;
+
+/// Time between two moments at least \[s\].
+const LEAST_STEP_S: f64 = 0.02;
+
+/// The smallest distance over time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Clearance {
+    /// What is required \[m\].
+    pub margin_m: f64,
+    /// \[n\] \[s\].
+    pub t_s: Numbers,
+    /// \[n\] \[m\].
+    pub distance_m: Numbers,
+    /// \[n, 2, 3\]: the nearest point of either body, world frame \[m\].
+    pub nearest_m: Numbers,
+    /// \[n, 2\]: places in `names`.
+    pub pair: Numbers,
+    /// Names of the bodies.
+    pub names: Vec<String>,
+}
+
+impl Clearance {
+    /// Along a plan, by the rule of its certificate. `None` where no pair counts or the job is none that distances can be told of.
+    pub(super) fn new(
+        plan: &Plan,
+        robot: &RobotModel,
+        motion: &Trajectory,
+        certificate: Option<&proved::Certificate>,
+    ) -> Option<Self> {
+        let rule = ClearanceRule::new(plan, robot).ok()?;
+        let times = times(plan, certificate);
+        let look = |t_s: &f64| {
+            let state = motion.at(*t_s)?;
+            Some((*t_s, rule.nearest(&state.q, segment_at(&plan.segments, *t_s))?))
+        };
+        let found: Vec<(f64, Nearest)> = times.par_iter().filter_map(look).collect();
+        let mount = &plan.job.workcell.mount;
+        let in_world = |at: &[f64; 3]| mount.transform_point(&Point3::from(*at)).coords;
+        let points = found
+            .iter()
+            .map(|(_, nearest)| nearest.points_m.each_ref().map(in_world));
+        let points: Vec<Vector6<f64>> = points
+            .map(|[a, b]| SVector::from_iterator(a.iter().chain(&b).copied()))
+            .collect();
+        let pairs = found.iter().flat_map(|(_, nearest)| nearest.bodies);
+        let mut nearest_m = Numbers::f32_rows(points.iter());
+        nearest_m.shape = vec![found.len(), 2, 3];
+        (!found.is_empty()).then(|| Self {
+            margin_m: plan.job.requirements.clearance_m,
+            t_s: Numbers::f64(&found.iter().map(|(t_s, _)| *t_s).collect::<Vec<_>>()),
+            distance_m: Numbers::f32(found.iter().map(|(_, nearest)| nearest.distance_m)),
+            nearest_m,
+            pair: Numbers::u16_shaped(
+                vec![found.len(), 2],
+                pairs.map(|body| u16::try_from(body).unwrap_or(u16::MAX)),
+            ),
+            names: rule.body_names().into_iter().map(str::to_owned).collect(),
+        })
+    }
+}
+
+/// Moments from the start to the end in even steps, the boundaries of segments, at which other pairs count, and the worst one of the
+/// proof \[s\].
+fn times(plan: &Plan, certificate: Option<&proved::Certificate>) -> Vec<f64> {
+    let duration_s = plan.duration_s();
+    let steps = (duration_s / LEAST_STEP_S).floor().clamp(1.0, MOMENTS as f64);
+    let even = (0..=steps as usize).map(|k| duration_s * k as f64 / steps);
+    let boundaries = plan.segments.iter().map(|segment| segment.t_start_s);
+    let worst = certificate.and_then(|certificate| certificate.check(Requirement::Clearance)?.worst.time_s);
+    let inside = |t: &f64| (0.0..=duration_s).contains(t);
+    let mut times: Vec<f64> = even.chain(boundaries).chain(worst).filter(inside).collect();
+    times.sort_unstable_by(f64::total_cmp);
+    times.dedup();
+    times
+}

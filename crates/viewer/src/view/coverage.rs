@@ -1,0 +1,129 @@
+//! How plates get swept: sampled to look at, not the proof.
+//!
+//! A sponge counts as a disc about its tip, seen along the plate's axis, of the radius s cos τ at that moment: tilted by τ, its face is an
+//! ellipse that holds this disc. It counts while the plan washes the plate, as long as the sponge touches
+//! ([`platewash_workcell::tool::Tool::touch`]).
+
+use super::numbers::Numbers;
+use super::raster::{Disc, Raster};
+use super::tips::{Tip, washes};
+use platewash_certificate as proved;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::tool::{Tool, Touch};
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// Cells of all rasters of a page together, about.
+const CELLS: usize = 160_000;
+
+/// Cells along an edge of a raster, at least and at most.
+const EDGE: [usize; 2] = [24, 88];
+
+/// Longest stroke that is made of several moments \[m\].
+const STROKE_M: f64 = 4e-3;
+
+/// How a plate gets swept.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlateCoverage {
+    /// Index of the plate.
+    pub plate: usize,
+    /// Half of the square's edge: the rim's radius \[m\].
+    pub half_m: f64,
+    /// \[rows, columns\], y then x ascending in the plate's frame: from when on the sponge was over the cell's middle, in steps of `step_s`;
+    /// 65535 for never, 65534 for cells with their middle outside the rim.
+    pub first: Numbers,
+    /// \[s\]
+    pub step_s: f64,
+    /// \[rows, columns\]: for how long, in steps of `dwell_step_s`.
+    pub dwell: Numbers,
+    /// \[s\]
+    pub dwell_step_s: f64,
+    /// The least share that the certificate proves; `None` without one.
+    pub proved: Option<f64>,
+}
+
+/// Rasters of all plates that a plan washes, in the order of washing, from the tip during each wash (from and to \[s\]).
+pub(super) fn plates(
+    plan: &Plan,
+    certificate: Option<&proved::Certificate>,
+    tips: impl Fn([f64; 2]) -> Vec<Tip> + Sync,
+) -> Vec<PlateCoverage> {
+    let mut order: Vec<usize> = Vec::new();
+    for (plate, _) in washes(plan) {
+        if !order.contains(&plate) {
+            order.push(plate);
+        }
+    }
+    let cells = edge(order.len());
+    let duration_s = plan.duration_s();
+    let one = |&index: &usize| {
+        let plate = plan.job.plates.get(index)?;
+        let of_plate = washes(plan).filter(|(washed, _)| *washed == index);
+        let ways = of_plate.map(|(_, span)| tips(span));
+        let marks = swept(plate, &plan.job.workcell.tool, ways, cells).marks(duration_s);
+        let proved = certificate.and_then(|c| c.coverage.iter().find(|swept| swept.plate == index));
+        Some(PlateCoverage {
+            plate: index,
+            half_m: plate.rim_m(),
+            first: marks.first,
+            step_s: marks.step_s,
+            dwell: marks.dwell,
+            dwell_step_s: marks.dwell_step_s,
+            proved: proved.map(|swept| swept.at_least),
+        })
+    };
+    order.par_iter().filter_map(one).collect()
+}
+
+/// Cells along an edge of the raster of one of so many plates, each of which may have two.
+fn edge(plates: usize) -> usize {
+    let cells = CELLS / (2 * plates).max(1);
+    cells.isqrt().clamp(EDGE[0], EDGE[1])
+}
+
+/// What a sponge sweeps of a plate on some ways of its tip.
+pub(crate) fn swept(plate: &Plate, tool: &Tool, ways: impl Iterator<Item = Vec<Tip>>, cells: usize) -> Raster {
+    let mut raster = Raster::new(plate.rim_m(), cells);
+    let disc = |tip: &Tip| {
+        let local = plate.local(&tip.at);
+        let cosine = -tip.axis.dot(&plate.normal_at(&tip.at));
+        // Without a tool the whole sponge counts, however the flange is turned.
+        let cosine = if tool.is_present() { cosine } else { 1.0 };
+        Disc {
+            t_s: tip.t_s,
+            at: [local.x, local.y],
+            radius_m: tool.sponge.radius_m * cosine,
+        }
+    };
+    let touches = |tip: &Tip| tool.touch(plate.height_of(&tip.at)) == Touch::On;
+    for way in ways {
+        let mut stroke: Option<[Disc; 2]> = None;
+        for tip in &way {
+            let here = touches(tip).then(|| disc(tip)).filter(|disc| disc.radius_m > 0.0);
+            stroke = match (stroke, here) {
+                (Some([from, to]), Some(here)) if is_long(&from, &here) => {
+                    raster.sweep(&from, &to);
+                    Some([to, here])
+                }
+                (Some([from, _]), Some(here)) => Some([from, here]),
+                (None, Some(here)) => Some([here, here]),
+                (Some([from, to]), None) => {
+                    raster.sweep(&from, &to);
+                    None
+                }
+                (None, None) => None,
+            };
+        }
+        if let Some([from, to]) = stroke {
+            raster.sweep(&from, &to);
+        }
+    }
+    raster
+}
+
+/// Whether the way between two moments is longer than a stroke that is taken for straight.
+fn is_long(from: &Disc, to: &Disc) -> bool {
+    let [x, y] = [to.at[0] - from.at[0], to.at[1] - from.at[1]];
+    x * x + y * y > STROKE_M * STROKE_M
+}

@@ -1,0 +1,176 @@
+//! What a page shows: the document `platewash-view/1`. `page/src/view.ts` states the same for those who read it.
+//!
+//! Units are SI and radians. What is drawn is in the world frame unless it says otherwise. Nothing in a document is a proof but what it
+//! repeats of the certificate: distances and swept areas over time are sampled to look at.
+//!
+//! | concept | file |
+//! | --- | --- |
+//! | arrays as text | `numbers.rs` |
+//! | shapes and poses | `body.rs` |
+//! | what the page is about; what is proved | `heading.rs`, `certificate.rs` |
+//! | arm, tool, surroundings, plates and paths | `arm.rs`, `tool.rs`, `surroundings.rs`, `plates.rs` |
+//! | planned motion, and its tip | `motion.rs`, `tips.rs` |
+//! | smallest distance over time | `clearance.rs` |
+//! | swept area over time | `coverage.rs`, `raster.rs` |
+//! | what an arm did: as it is known, as it is shown | `executed.rs`, `execution.rs` |
+
+mod arm;
+mod body;
+mod certificate;
+mod clearance;
+pub(crate) mod coverage;
+mod error;
+mod executed;
+mod execution;
+mod heading;
+mod motion;
+mod numbers;
+mod plates;
+pub(crate) mod raster;
+mod surroundings;
+pub(crate) mod tips;
+mod tool;
+
+pub use arm::{Arm, Joint, Link};
+pub use body::{Body, Pose, Shape};
+pub use certificate::{Certificate, Check, Place};
+pub use clearance::Clearance;
+pub use coverage::PlateCoverage;
+pub use error::ViewError;
+pub use executed::{Executed, Source};
+pub use execution::Execution;
+pub use heading::{Heading, Process};
+pub use motion::{Motion, Segment};
+pub use numbers::{Data, Numbers};
+pub use plates::{Plate, WashPath};
+use platewash_workcell::layout::TaskRegion;
+pub use surroundings::Surroundings;
+pub use tool::{Sponge, Tool};
+
+use platewash_certificate as proved;
+use platewash_kinematics::{JointVector, Pose as Rigid, RobotModel};
+use platewash_workcell::plan::Plan;
+use platewash_workcell::tool as held;
+use serde::Serialize;
+use tips::Tips;
+
+/// The format of the document.
+pub const FORMAT: &str = "platewash-view/1";
+
+/// What a page shows.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct View {
+    /// [`FORMAT`].
+    pub format: &'static str,
+    /// Version of the program that wrote it.
+    pub version: &'static str,
+    /// What it is about.
+    pub heading: Heading,
+    /// The proof; `None` where nothing was proved.
+    pub certificate: Option<Certificate>,
+    /// The arm.
+    pub arm: Arm,
+    /// What it holds.
+    pub tool: Option<Tool>,
+    /// What stands around it.
+    pub surroundings: Surroundings,
+    /// The plates, by their index.
+    pub plates: Vec<Plate>,
+    /// What the tip follows, in the order of washing.
+    pub paths: Vec<WashPath>,
+    /// The stretches of the motion.
+    pub segments: Vec<Segment>,
+    /// The planned motion; `None` for one configuration.
+    pub motion: Option<Motion>,
+    /// What the arm shows where there is no motion \[rad\].
+    pub pose_rad: [f64; 6],
+    /// The smallest distance over time; `None` where there is nothing to keep clear of.
+    pub clearance: Option<Clearance>,
+    /// How the planned motion sweeps the plates.
+    pub coverage: Vec<PlateCoverage>,
+    /// What an arm did.
+    pub execution: Option<Execution>,
+    /// Where a live run's events come from.
+    pub live: Option<Live>,
+}
+
+/// A live run.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Live {
+    /// Address of its events, beside that of the page.
+    pub events: String,
+}
+
+/// What is shown beside a plan.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Beside<'a> {
+    /// Its proof.
+    pub certificate: Option<&'a proved::Certificate>,
+    /// What an arm did with it.
+    pub executed: Option<&'a Executed>,
+    /// Where its scenario draws plates.
+    pub region: Option<&'a TaskRegion>,
+    /// Where the events of a live run come from.
+    pub events: Option<&'a str>,
+}
+
+impl View {
+    /// A plan on its arm. It need not be one that can be proved.
+    ///
+    /// # Errors
+    /// [`ViewError`] for a plan that is no motion, a job with which nothing can be computed, or a motion of another plan.
+    pub fn of_plan(plan: &Plan, robot: &RobotModel, beside: &Beside<'_>) -> Result<Self, ViewError> {
+        let (job, certificate) = (&plan.job, beside.certificate);
+        job.validate()?;
+        let motion = plan.knots.motion()?;
+        let start = motion.positions().first().ok_or(ViewError::NoMotion)?;
+        let (workcell, mount) = (&job.workcell, &job.workcell.mount);
+        let tips = Tips::new(plan, robot, &motion);
+        let execution = beside.executed;
+        let execution = execution.map(|executed| Execution::new(executed, plan, &tips, certificate));
+        let plates = job.plates.iter().enumerate();
+        Ok(Self {
+            format: FORMAT,
+            version: env!("CARGO_PKG_VERSION"),
+            heading: Heading::of_plan(plan),
+            certificate: certificate.map(|certificate| Certificate::new(certificate, mount)),
+            arm: Arm::new(robot, mount, Some(job.limits.joint_acceleration_rad_s2)),
+            tool: Some((&workcell.tool).into()),
+            surroundings: Surroundings::new(&workcell.obstacles, beside.region.unwrap_or(&TaskRegion::default())),
+            plates: plates.map(|(index, plate)| Plate::new(index, plate)).collect(),
+            paths: plates::paths(plan, &tips),
+            segments: plan.segments.iter().map(Segment::from).collect(),
+            motion: Some((&motion).into()),
+            pose_rad: (*start).into(),
+            clearance: Clearance::new(plan, robot, &motion, certificate),
+            coverage: coverage::plates(plan, certificate, |[from, to]| tips.during(from, to)),
+            execution: execution.transpose()?,
+            live: beside.events.map(|events| Live {
+                events: events.to_owned(),
+            }),
+        })
+    }
+
+    /// One configuration of an arm that stands at the origin \[rad\], with a tool or without.
+    #[must_use]
+    pub fn of_configuration(robot: &RobotModel, tool: Option<&held::Tool>, q: &JointVector) -> Self {
+        Self {
+            format: FORMAT,
+            version: env!("CARGO_PKG_VERSION"),
+            heading: Heading::of_configuration(robot.name()),
+            certificate: None,
+            arm: Arm::new(robot, &Rigid::identity(), None),
+            tool: tool.map(Tool::from),
+            surroundings: Surroundings::default(),
+            plates: Vec::new(),
+            paths: Vec::new(),
+            segments: Vec::new(),
+            motion: None,
+            pose_rad: (*q).into(),
+            clearance: None,
+            coverage: Vec::new(),
+            execution: None,
+            live: None,
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Plates, and what the tip follows on them.
+
+use super::body::Pose;
+use super::numbers::Numbers;
+use super::tips::{Tips, washes};
+use nalgebra::Vector3;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::plate;
+use platewash_workcell::wash_path::{self, WashCurve};
+use serde::Serialize;
+
+/// How far a chord of a wash path may be from it \[m\].
+const CHORD_M: f64 = 5e-5;
+
+/// Turns of a spiral that are drawn at most.
+const MOST_TURNS: f64 = 1000.0;
+
+/// Radius of a spiral that is drawn at most, as a multiple of the plate's.
+const MOST_RIMS: f64 = 10.0;
+
+/// Points of the meridian of a face that is not flat.
+const MERIDIAN_POINTS: usize = 33;
+
+/// A plate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Plate {
+    /// Its name, as the pairs of bodies have it.
+    pub name: String,
+    /// `T_world_plate`: origin at the pole of the face, z out of the plate.
+    pub pose: Pose,
+    /// The face from the pole to the rim: distance from the axis, and height \[m\].
+    pub meridian_m: Vec<[f64; 2]>,
+    /// Thickness, from the face against its axis \[m\].
+    pub thickness_m: f64,
+}
+
+/// What the tip follows on a plate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WashPath {
+    /// Index of the plate.
+    pub plate: usize,
+    /// \[n, 3\], world frame \[m\].
+    pub points_m: Numbers,
+}
+
+impl Plate {
+    /// The plate of that index.
+    #[must_use]
+    pub fn new(index: usize, plate: &plate::Plate) -> Self {
+        let surface = &plate.surface;
+        let points = if surface.curvature_bounds() == [0.0; 2] {
+            2
+        } else {
+            MERIDIAN_POINTS
+        };
+        let rho = |k: usize| surface.rim_m() * k as f64 / (points - 1) as f64;
+        let rho = (0..points).map(rho);
+        Self {
+            name: format!("plate {index}"),
+            pose: (&plate.pose).into(),
+            meridian_m: rho.map(|rho| [rho, surface.height_m(rho)]).collect(),
+            thickness_m: plate.thickness_m,
+        }
+    }
+}
+
+/// The wash paths that a plan states, in the order of washing; where it states none, what the tip does while it washes.
+pub(super) fn paths(plan: &Plan, tips: &Tips<'_>) -> Vec<WashPath> {
+    let path = |plate, points: Vec<Vector3<f64>>| WashPath {
+        plate,
+        points_m: Numbers::f32_rows(points.iter()),
+    };
+    if plan.wash_paths.is_empty() {
+        let on_way = |[from, to]: [f64; 2]| tips.during(from, to).iter().map(|tip| tip.at).collect();
+        let planned = washes(plan).map(|(plate, span)| path(plate, on_way(span)));
+        return planned.collect();
+    }
+    let stated = plan.wash_paths.iter();
+    let stated = stated.filter_map(|stated| Some((stated, plan.job.plates.get(stated.plate)?)));
+    let drawn = stated.filter(|(stated, plate)| can_be_drawn(&stated.curve, plate));
+    drawn
+        .map(|(stated, plate)| path(stated.plate, points(stated, plate)))
+        .collect()
+}
+
+/// Whether a curve has some turns on a plate, and not so many that nobody could draw them. Whether it is the right one is for the proof.
+fn can_be_drawn(curve: &WashCurve, plate: &plate::Plate) -> bool {
+    (0.5..=MOST_TURNS).contains(&curve.turns) && curve.radius_m > 0.0 && curve.radius_m <= MOST_RIMS * plate.rim_m()
+}
+
+/// Points of a stated path, world frame \[m\].
+fn points(path: &wash_path::WashPath, plate: &plate::Plate) -> Vec<Vector3<f64>> {
+    let parameters = path.curve.parameters(CHORD_M);
+    parameters.into_iter().map(|theta| path.contact(plate, theta)).collect()
+}

@@ -1,0 +1,441 @@
+//! Documents of real plans against what proves, simulates and plans them.
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use nalgebra::Vector3;
+use platewash_certificate::{Certificate, Requirement, prove};
+use platewash_kinematics::{JointVector, RobotModel};
+use platewash_simulator::{Execution, SimulationReport, simulate};
+use platewash_viewer::View;
+use platewash_viewer::view::{Beside, Executed, ViewError};
+use platewash_workcell::fixtures::{kitchen, kitchen_tool};
+use platewash_workcell::layout::TaskRegion;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::recorded::RecordedMotion;
+use platewash_workcell::segment::SegmentKind;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::sync::LazyLock;
+
+/// The kitchen: planned, proved, simulated.
+struct Kitchen {
+    arm: RobotModel,
+    plan: Plan,
+    certificate: Certificate,
+    execution: Execution,
+    report: SimulationReport,
+}
+
+static KITCHEN: LazyLock<Kitchen> = LazyLock::new(|| {
+    let job = kitchen();
+    let plan = platewash_planner::plan(&job).unwrap().plan;
+    let settings = &plan.job.simulation;
+    let execution = simulate(&plan, job.arm(), settings).unwrap();
+    Kitchen {
+        arm: job.arm().clone(),
+        certificate: prove(&plan, job.arm()).unwrap(),
+        report: SimulationReport::new(&plan, job.arm(), settings, &execution).unwrap(),
+        execution,
+        plan,
+    }
+});
+
+impl Kitchen {
+    fn document(&self) -> Value {
+        let executed = Executed::simulated(&self.execution, &self.report);
+        let region = TaskRegion {
+            base_circle_m: Some(0.28),
+            polygon_m: Some(vec![[0.0, -0.38], [0.3, -0.38], [0.3, 0.38]]),
+        };
+        let beside = Beside {
+            certificate: Some(&self.certificate),
+            executed: Some(&executed),
+            region: Some(&region),
+            events: Some("events"),
+        };
+        serde_json::to_value(View::of_plan(&self.plan, &self.arm, &beside).unwrap()).unwrap()
+    }
+}
+
+/// The numbers of an array, with its shape.
+fn numbers(array: &Value) -> (Vec<f64>, Vec<usize>) {
+    let array = array.as_object().unwrap();
+    let (kind, text) = array.iter().find(|(key, _)| *key != "shape").unwrap();
+    let bytes = STANDARD.decode(text.as_str().unwrap()).unwrap();
+    let all: Vec<f64> = match kind.as_str() {
+        "f64" => bytes
+            .chunks_exact(8)
+            .map(|b| f64::from_le_bytes(b.try_into().unwrap()))
+            .collect(),
+        "f32" => bytes
+            .chunks_exact(4)
+            .map(|b| f32::from_le_bytes(b.try_into().unwrap()).into())
+            .collect(),
+        "u16" => bytes
+            .chunks_exact(2)
+            .map(|b| u16::from_le_bytes(b.try_into().unwrap()).into())
+            .collect(),
+        "u8" => bytes.into_iter().map(f64::from).collect(),
+        other => panic!("{other}"),
+    };
+    let shape: Vec<usize> = array["shape"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|n| n.as_u64().unwrap() as usize)
+        .collect();
+    assert_eq!(all.len(), shape.iter().product::<usize>());
+    (all, shape)
+}
+
+/// Shares of the cells inside the rim that were ever swept, plate by plate.
+fn shares(coverage: &Value) -> Vec<(u64, f64)> {
+    let share = |plate: &Value| {
+        let (first, _) = numbers(&plate["first"]);
+        let inside = first.iter().filter(|mark| **mark != 65534.0).count();
+        let swept = first.iter().filter(|mark| **mark < 65534.0).count();
+        (plate["plate"].as_u64().unwrap(), swept as f64 / inside as f64)
+    };
+    coverage.as_array().unwrap().iter().map(share).collect()
+}
+
+#[test]
+fn the_clearance_over_time_is_that_of_the_certificate() {
+    let document = KITCHEN.document();
+    let clearance = &document["clearance"];
+    let (times, _) = numbers(&clearance["t_s"]);
+    let (distances, _) = numbers(&clearance["distance_m"]);
+    let (nearest, shape) = numbers(&clearance["nearest_m"]);
+    assert_eq!(shape, [times.len(), 2, 3]);
+    assert!(times.is_sorted() && times[0] == 0.0 && times[times.len() - 1] == KITCHEN.plan.duration_s());
+    let proved = KITCHEN.certificate.check(Requirement::Clearance).unwrap();
+    let measure = proved.measure.unwrap();
+    let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
+    // Never below what is proved, and no greater than what the proof found, whose moment is among those shown.
+    assert!(least >= measure.bound.unwrap() - 1e-6, "{least}");
+    assert!(least <= measure.seen.unwrap() + 1e-6, "{least} {:?}", measure.seen);
+    assert!(times.contains(&proved.worst.time_s.unwrap()));
+    for (points, distance) in nearest.chunks_exact(6).zip(&distances) {
+        let between = Vector3::from_column_slice(&points[3..]) - Vector3::from_column_slice(&points[..3]);
+        assert!(
+            (between.norm() - distance).abs() < 1e-5,
+            "{} {distance}",
+            between.norm()
+        );
+    }
+    let names = clearance["names"].as_array().unwrap();
+    let (pairs, _) = numbers(&clearance["pair"]);
+    assert!(pairs.iter().all(|body| (*body as usize) < names.len()));
+    // While it washes, the sponge on its plate is no pair that counts.
+    for (at, pair) in times.iter().zip(pairs.chunks_exact(2)) {
+        let on = |s: &&platewash_workcell::segment::PlanSegment| s.t_start_s < *at && *at < s.t_end_s;
+        let segment = KITCHEN.plan.segments.iter().find(on);
+        if let Some(segment) = segment.filter(|s| s.kind == SegmentKind::Wash) {
+            let named: BTreeSet<_> = pair
+                .iter()
+                .map(|body| names[*body as usize].as_str().unwrap())
+                .collect();
+            let own = format!("plate {}", segment.plate);
+            assert!(!(named.contains("sponge") && named.contains(own.as_str())), "{named:?}");
+        }
+    }
+}
+
+#[test]
+fn what_is_swept_is_what_is_proved_and_simulated() {
+    let document = KITCHEN.document();
+    let planned = shares(&document["coverage"]);
+    let executed = shares(&document["execution"]["coverage"]);
+    assert_eq!(planned.len(), 4);
+    for (k, (plate, share)) in planned.iter().enumerate() {
+        let proved = &KITCHEN.certificate.coverage[k];
+        assert_eq!(*plate as usize, proved.plate);
+        assert!(*share >= proved.at_least - 0.005, "{share} {}", proved.at_least);
+        assert_eq!(document["coverage"][k]["proved"], proved.at_least);
+        let outcome = &KITCHEN.report.plates[k];
+        assert!((executed[k].1 - outcome.executed.fraction).abs() < 0.005);
+    }
+}
+
+/// A path without its ring leaves part of the rim: as much as the simulation measures.
+#[test]
+fn a_path_that_leaves_something_shows_it() {
+    let job = kitchen();
+    let mut terms = job.terms().clone();
+    let platewash_workcell::job::Planner::Wash(settings) = &mut terms.planner else {
+        panic!()
+    };
+    (settings.closing_ring, settings.turns) = (false, 2.0);
+    let job = platewash_workcell::job::WashJob::new(job.shared_arm(), terms).unwrap();
+    let plan = platewash_planner::plan(&job).unwrap().plan;
+    let settings = &plan.job.simulation;
+    let execution = simulate(&plan, job.arm(), settings).unwrap();
+    let report = SimulationReport::new(&plan, job.arm(), settings, &execution).unwrap();
+    let view = View::of_plan(&plan, job.arm(), &Beside::default()).unwrap();
+    let shown = shares(&serde_json::to_value(&view.coverage).unwrap());
+    for ((_, share), outcome) in shown.iter().zip(&report.plates) {
+        let measured = outcome.planned.fraction;
+        assert!(measured < 0.95 && (share - measured).abs() < 0.01, "{share} {measured}");
+    }
+}
+
+#[test]
+fn the_arm_of_a_document_is_the_arm() {
+    let document = KITCHEN.document();
+    let pose = |value: &Value| {
+        let list = |key: &str| -> Vec<f64> { serde_json::from_value(value[key].clone()).unwrap() };
+        let (p, q) = (list("position_m"), list("quaternion_wxyz"));
+        let rotation = nalgebra::UnitQuaternion::new_normalize(nalgebra::Quaternion::new(q[0], q[1], q[2], q[3]));
+        nalgebra::Isometry3::from_parts(nalgebra::Translation3::new(p[0], p[1], p[2]), rotation)
+    };
+    let arm = &document["arm"];
+    let q = JointVector::new(0.3, -0.2, 0.5, 1.1, -0.7, 2.0);
+    let mut frames = vec![pose(&arm["mount"])];
+    for (k, joint) in arm["joints"].as_array().unwrap().iter().enumerate() {
+        let turn = nalgebra::UnitQuaternion::from_axis_angle(&Vector3::z_axis(), q[k]);
+        frames.push(frames[k] * pose(&joint["origin"]) * turn);
+    }
+    let tip = frames[6] * pose(&arm["flange"]) * pose(&document["tool"]["tip"]);
+    let expected = KITCHEN
+        .arm
+        .pose(&q, &KITCHEN.plan.job.workcell.tool.tip_frame(&KITCHEN.arm));
+    assert!((tip.translation.vector - expected.translation.vector).norm() < 1e-12);
+    assert!(tip.rotation.angle_to(&expected.rotation) < 1e-7);
+    for (link, known) in arm["links"].as_array().unwrap().iter().zip(KITCHEN.arm.links()) {
+        let shown = frames[link["joints"].as_u64().unwrap() as usize] * pose(&link["pose"]);
+        let expected = KITCHEN.arm.pose(&q, &known.frame);
+        assert!((shown.translation.vector - expected.translation.vector).norm() < 1e-12);
+        assert_eq!(link["collision"].as_array().unwrap().len(), known.collision.len());
+    }
+    // Our own description: white castings and dark fittings, by the names of its materials.
+    let base = &arm["links"][0]["visuals"][0];
+    assert_eq!(base["name"], "foot_plate");
+    assert!(
+        base["rgba"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|share| (0.0..=1.0).contains(&share.as_f64().unwrap()))
+    );
+}
+
+#[test]
+fn an_execution_is_thinned_and_keeps_its_end_and_its_error() {
+    let document = KITCHEN.document();
+    let execution = &document["execution"];
+    let (times, _) = numbers(&execution["t_s"]);
+    let samples = &KITCHEN.execution.samples;
+    assert_eq!(
+        (times[0], times[times.len() - 1]),
+        (0.0, samples[samples.len() - 1].t_s)
+    );
+    let steps = times.windows(2).map(|pair| pair[1] - pair[0]);
+    let count = times.len();
+    assert!(count <= 2501 && steps.take(count - 2).all(|step| step >= 0.0099));
+    let (errors, _) = numbers(&execution["error_m"]);
+    let most = errors.iter().copied().fold(0.0, f64::max);
+    let stated = KITCHEN.report.tracking.tip_m.max;
+    assert!(most <= stated * (1.0 + 1e-6) && most > 0.8 * stated, "{most} {stated}");
+    assert_eq!(numbers(&execution["torque_n_m"]).1, [count, 6]);
+    assert_eq!(
+        (&execution["law"], &execution["washed"]),
+        (&Value::from("computed_torque"), &Value::from(true))
+    );
+}
+
+/// What `run` writes, read back: the same motion but for the step of the table.
+#[test]
+fn a_recorded_motion_shows_what_the_simulation_showed() {
+    let kitchen = &*KITCHEN;
+    let table = platewash_simulator::simulate::table(&kitchen.execution, &kitchen.plan, &kitchen.arm, 0.01).unwrap();
+    let recorded = RecordedMotion::from_csv(&table.to_string()).unwrap();
+    let shown = |executed: &Executed| {
+        let beside = Beside {
+            executed: Some(executed),
+            ..Beside::default()
+        };
+        let view = View::of_plan(&kitchen.plan, &kitchen.arm, &beside);
+        serde_json::to_value(view.unwrap().execution.unwrap()).unwrap()
+    };
+    let (simulated, read) = (
+        shown(&Executed::simulated(&kitchen.execution, &kitchen.report)),
+        shown(&Executed::recorded(&recorded)),
+    );
+    assert_eq!(
+        (&read["source"], &read["law"], &read["washed"]),
+        (&Value::from("recorded"), &Value::Null, &Value::Null)
+    );
+    let most = |execution: &Value| numbers(&execution["error_m"]).0.into_iter().fold(0.0, f64::max);
+    assert!((most(&simulated) - most(&read)).abs() < 1e-5);
+    for (a, b) in shares(&simulated["coverage"]).iter().zip(shares(&read["coverage"])) {
+        assert!((a.1 - b.1).abs() < 0.01);
+    }
+}
+
+#[test]
+fn a_motion_of_another_plan_shows_by_its_error_or_is_refused() {
+    let kitchen = &*KITCHEN;
+    let table = platewash_simulator::simulate::table(&kitchen.execution, &kitchen.plan, &kitchen.arm, 0.05).unwrap();
+    let recorded = RecordedMotion::from_csv(&table.to_string()).unwrap();
+    let view = |recorded: &RecordedMotion| {
+        let executed = Executed::recorded(recorded);
+        let beside = Beside {
+            executed: Some(&executed),
+            ..Beside::default()
+        };
+        View::of_plan(&kitchen.plan, &kitchen.arm, &beside)
+    };
+    let mut elsewhere = recorded.clone();
+    elsewhere.samples.truncate(100);
+    for sample in &mut elsewhere.samples {
+        sample.q[0] += 0.5;
+    }
+    let shown = serde_json::to_value(view(&elsewhere).unwrap().execution.unwrap()).unwrap();
+    assert!(numbers(&shown["error_m"]).0.iter().all(|error| *error > 0.1));
+    let mut longer = recorded;
+    for sample in &mut longer.samples {
+        sample.t_s *= 1.5;
+    }
+    let refused = view(&longer).unwrap_err();
+    assert!(matches!(refused, ViewError::BeyondEnd { .. }), "{refused}");
+    assert!(refused.to_string().contains("not of this plan"), "{refused}");
+}
+
+#[test]
+fn a_document_does_not_depend_on_the_number_of_threads() {
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| KITCHEN.document())
+    };
+    assert_eq!(with(1), with(3));
+}
+
+#[test]
+fn a_document_is_no_larger_than_a_page_can_hold() {
+    let length = KITCHEN.document().to_string().len();
+    assert!(length < 1_000_000, "{length}");
+}
+
+#[test]
+fn a_plan_that_fails_is_shown_with_what_it_breaks() {
+    let kitchen = &*KITCHEN;
+    let mut plan = kitchen.plan.clone();
+    plan.job.requirements.clearance_m = 0.06;
+    let certificate = prove(&plan, &kitchen.arm).unwrap();
+    let beside = Beside {
+        certificate: Some(&certificate),
+        ..Beside::default()
+    };
+    let document = serde_json::to_value(View::of_plan(&plan, &kitchen.arm, &beside).unwrap()).unwrap();
+    let shown = &document["certificate"];
+    assert_eq!(
+        (&shown["passes"], &shown["hash"]),
+        (&Value::from(false), &Value::from("violated"))
+    );
+    let checks = shown["checks"].as_array().unwrap();
+    let clearance = checks.iter().find(|check| check["requirement"] == "clearance").unwrap();
+    assert_eq!(clearance["status"], "violated");
+    let detail = clearance["detail"].as_str().unwrap();
+    assert!(
+        detail.contains("limit ≥ 60") && detail.contains("found: 19."),
+        "{detail}"
+    );
+    assert!(clearance["worst"]["time_s"].is_number() && clearance["worst"]["place_m"].is_array());
+    assert!(clearance["worst"]["words"].as_str().unwrap().contains(" and "));
+    assert_eq!(document["clearance"]["margin_m"], 0.06);
+}
+
+#[test]
+fn plans_that_are_none_are_refused_and_odd_ones_shown() {
+    let kitchen = &*KITCHEN;
+    let shown = |change: fn(&mut Plan)| {
+        let mut plan = kitchen.plan.clone();
+        change(&mut plan);
+        View::of_plan(&plan, &kitchen.arm, &Beside::default())
+    };
+    let none = |plan: &mut Plan| {
+        plan.knots.t_s.clear();
+        plan.knots.q_rad.clear();
+        plan.knots.qd_rad_s.clear();
+    };
+    assert_eq!(shown(none), Err(ViewError::NoMotion));
+    assert!(matches!(
+        shown(|plan| plan.knots.t_s[3] = f64::NAN),
+        Err(ViewError::Knots(_))
+    ));
+    assert!(matches!(shown(|plan| plan.job.plates.clear()), Err(ViewError::Job(_))));
+    assert!(
+        shown(|plan| plan.segments.iter_mut().for_each(|s| s.plate = 77))
+            .unwrap()
+            .coverage
+            .is_empty()
+    );
+    assert!(shown(|plan| plan.segments.clear()).unwrap().clearance.is_some());
+    assert_eq!(
+        shown(|plan| plan.wash_paths[0].curve.turns = 1e12).unwrap().paths.len(),
+        3
+    );
+    // As a run of the paper's program: what the tip does while it washes.
+    let followed = shown(|plan| plan.wash_paths.clear()).unwrap();
+    assert_eq!(followed.paths.len(), 4);
+}
+
+/// Every field that `view.ts` states of a type is in the document, and no other.
+#[test]
+fn the_document_has_the_fields_that_its_readers_expect() {
+    let source = include_str!("../page/src/view.ts");
+    let fields = |name: &str| -> BTreeSet<String> {
+        let (_, body) = source
+            .split_once(&format!("export interface {name} {{\n"))
+            .unwrap_or_else(|| panic!("{name}"));
+        let (body, _) = body.split_once("\n}").unwrap();
+        let field = |line: &str| {
+            let (name, _) = line.strip_prefix("  ")?.split_once(": ")?;
+            name.chars()
+                .all(|c| c.is_ascii_alphanumeric() || c == '_')
+                .then(|| name.to_owned())
+        };
+        body.lines().filter_map(field).collect()
+    };
+    let document = KITCHEN.document();
+    let at = [
+        ("View", ""),
+        ("Heading", "/heading"),
+        ("Certificate", "/certificate"),
+        ("Check", "/certificate/checks/0"),
+        ("Arm", "/arm"),
+        ("Joint", "/arm/joints/0"),
+        ("Link", "/arm/links/0"),
+        ("Body", "/arm/links/0/visuals/0"),
+        ("Pose", "/arm/flange"),
+        ("Tool", "/tool"),
+        ("Surroundings", "/surroundings"),
+        ("Plate", "/plates/0"),
+        ("WashPath", "/paths/0"),
+        ("Segment", "/segments/0"),
+        ("Motion", "/motion"),
+        ("Clearance", "/clearance"),
+        ("PlateCoverage", "/coverage/0"),
+        ("Execution", "/execution"),
+    ];
+    for (name, pointer) in at {
+        let found = document.pointer(pointer).unwrap_or_else(|| panic!("{pointer}"));
+        let found: BTreeSet<String> = found.as_object().unwrap().keys().cloned().collect();
+        assert_eq!(found, fields(name), "{name}");
+    }
+}
+
+#[test]
+fn a_configuration_has_an_arm_and_no_motion() {
+    let robot = RobotModel::irb120().unwrap();
+    let q = JointVector::new(0.1, 0.2, 0.3, 0.4, 0.5, 0.6);
+    let view = View::of_configuration(&robot, Some(&kitchen_tool()), &q);
+    let document = serde_json::to_value(view).unwrap();
+    assert_eq!(document["pose_rad"], serde_json::json!([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]));
+    assert_eq!(
+        (&document["motion"], &document["heading"]["process"]),
+        (&Value::Null, &Value::from("configuration"))
+    );
+    assert_eq!(document["tool"]["bodies"][0]["name"], "handle");
+}

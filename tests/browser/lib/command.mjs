@@ -1,0 +1,79 @@
+/** The command under test, and what it writes. */
+import { execFile, spawn } from "node:child_process";
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { promisify } from "node:util";
+
+const run = promisify(execFile);
+
+const needed = (name) => {
+  const value = process.env[name];
+  if (value === undefined) throw new Error(`${name} is not set: cargo xtask test --only browser sets it`);
+  return value;
+};
+
+/** Runs the command in a folder; `codes` are the exit codes that it may have. */
+export async function platewash(folder, words, codes = [0]) {
+  try {
+    return await run(needed("PLATEWASH_BIN"), words, { cwd: folder, maxBuffer: 1 << 28 });
+  } catch (error) {
+    if (codes.includes(error.code)) return error;
+    throw new Error(`platewash ${words.join(" ")} ended with ${error.code}: ${error.stderr}`);
+  }
+}
+
+/** A folder for the files of a test, removed after it. */
+export async function folder(test) {
+  const place = await mkdtemp(join(tmpdir(), "platewash-page-"));
+  test.after(() => rm(place, { recursive: true, force: true }));
+  return place;
+}
+
+/** Writes the kitchen's scenario with some of its text replaced, each of which must be there, and says where it is. */
+export async function kitchen(place, ...changes) {
+  let text = await readFile(join(needed("PLATEWASH_ROOT"), "scenarios", "kitchen.toml"), "utf8");
+  for (const [from, to] of changes) {
+    if (!text.includes(from)) throw new Error(`no “${from}” in the kitchen`);
+    text = text.replace(from, () => to);
+  }
+  const file = join(place, "case.toml");
+  await writeFile(file, text);
+  return file;
+}
+
+/** Runs a scenario in a folder; where its page is. */
+export async function page(place, scenario = "kitchen", codes = [0]) {
+  await platewash(place, ["run", "--quiet", "--scenario", scenario], codes);
+  return join(place, "out", "page.html");
+}
+
+/** Starts the command and waits for the address that it prints; ended after the test. */
+export async function serve(test, place, words) {
+  const child = spawn(needed("PLATEWASH_BIN"), words, { cwd: place, stdio: ["ignore", "pipe", "pipe"] });
+  const ended = new Promise((resolve) => child.on("exit", (code) => resolve(code)));
+  test.after(async () => {
+    child.kill();
+    await ended;
+  });
+  let said = "";
+  const url = await new Promise((resolve, reject) => {
+    const hear = (chunk) => {
+      said += chunk;
+      const found = /http:\/\/127\.0\.0\.1:\d+\/?/.exec(said);
+      if (found !== null) resolve(found[0].replace(/\/?$/, "/"));
+    };
+    child.stdout.on("data", hear);
+    child.stderr.on("data", hear);
+    child.on("error", reject);
+    child.on("exit", (code) => reject(new Error(`ended with ${code} before it had an address: ${said}`)));
+  });
+  return { url, ended, said: () => said };
+}
+
+/** Rows of a CSV file, by the names of its columns. */
+export async function rows(file) {
+  const [head, ...lines] = (await readFile(file, "utf8")).trimEnd().split("\n");
+  const names = head.split(",");
+  return lines.map((line) => Object.fromEntries(line.split(",").map((value, index) => [names[index], value])));
+}

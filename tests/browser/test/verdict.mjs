@@ -1,0 +1,29 @@
+/** What is not proved does not look proved. */
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { folder, kitchen, page as written } from "../lib/command.mjs";
+import { address, open } from "../lib/watched.mjs";
+
+const header = (page) => page.evaluate(() => document.querySelector("header").innerText);
+const background = (page) => page.evaluate(() => getComputedStyle(document.querySelector("header")).background);
+
+test("a certificate that fails looks failed", async (t) => {
+  const [good, bad] = [await folder(t), await folder(t)];
+  // Windings that lie too far apart leave some of each plate unwashed.
+  const scenario = await kitchen(bad, ["turns = 3.5", "turns = 2"]);
+  const proved = await open(t, address(await written(good)));
+  const failed = await open(t, address(await written(bad, scenario, [4])));
+  assert.match(await header(proved.page), /proved/i);
+  assert.doesNotMatch(await header(proved.page), /not proved|violated/i);
+  assert.match(await header(failed.page), /violated|not proved/i);
+  assert.notEqual(await background(proved.page), await background(failed.page), "only words tell them apart");
+  proved.quiet();
+  failed.quiet();
+});
+
+test("without a certificate nothing is called proved", async (t) => {
+  const { page, quiet } = await open(t, address(await written(await folder(t), "paper-text")));
+  assert.match(await header(page), /no certificate/i);
+  assert.doesNotMatch(await header(page), /(?<!not )proved/i);
+  quiet();
+});

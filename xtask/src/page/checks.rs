@@ -1,0 +1,42 @@
+//! The page's own tests, and whether it is made twice alike.
+
+use super::make::{alone, bundle, make, sources, workshop};
+use super::node::Node;
+use super::stamp;
+use super::workshop::{Packages, Workshop, removed};
+use crate::step::target;
+use anyhow::{Context, Result, bail};
+use std::fs;
+use std::path::PathBuf;
+
+/// Checks the types of the page's sources and runs their tests, which need no browser.
+pub fn tested() -> Result<()> {
+    let _alone = alone()?;
+    let node = Node::found()?;
+    let workshop = workshop()?;
+    workshop.fetch(&node, Packages::All)?;
+    node.npm("types of the page", workshop.folder(), &["run", "check"])
+        .run()?;
+    let tests = node.npm("tests of the page", workshop.folder(), &["test"]);
+    // Later versions run TypeScript without being told to.
+    tests.with("NODE_OPTIONS", "--experimental-strip-types").run()
+}
+
+/// Makes the bundle once more, elsewhere and with packages fetched anew: the same bytes come of it.
+pub fn again() -> Result<()> {
+    make()?;
+    let _alone = alone()?;
+    let node = Node::found()?;
+    let elsewhere = target().join("page made again");
+    removed(&elsewhere)?;
+    let workshop = Workshop::new("the page", &sources(), elsewhere.join("page"))?;
+    workshop.fetch(&node, Packages::Bundled)?;
+    workshop.bundle(&node, &elsewhere.join("dist"))?;
+    for name in stamp::FILES.into_iter().chain([stamp::STAMP]) {
+        let read = |place: PathBuf| fs::read(&place).with_context(|| place.display().to_string());
+        if read(elsewhere.join("dist").join(name))? != read(bundle().join(name))? {
+            bail!("the page made twice: {name} differs");
+        }
+    }
+    removed(&elsewhere)
+}

