@@ -1,6 +1,6 @@
-//! What an arm makes of a plan under a control law, for `run` and `simulate`.
+//! What an arm makes of a plan under a control law, for `run`, `simulate` and `view`.
 
-use platewash::simulator::simulate_with;
+use platewash::simulator::simulate::{Sample, simulate_watched};
 use platewash::workcell::simulation::SimulationSettings;
 use platewash::{CancelToken, Execution, Plan, RobotModel, SimulationError, SimulationReport};
 
@@ -11,7 +11,18 @@ pub fn carry_out(
     settings: &SimulationSettings,
     cancel: &CancelToken,
 ) -> Result<(Execution, SimulationReport), SimulationError> {
-    let execution = simulate_with(plan, arm, settings, cancel)?;
+    carry_out_watched(plan, arm, settings, cancel, &mut |_| {})
+}
+
+/// As [`carry_out`], and tells `watch` of each sample when it is known.
+pub fn carry_out_watched(
+    plan: &Plan,
+    arm: &RobotModel,
+    settings: &SimulationSettings,
+    cancel: &CancelToken,
+    watch: &mut dyn FnMut(&Sample),
+) -> Result<(Execution, SimulationReport), SimulationError> {
+    let execution = simulate_watched(plan, arm, settings, cancel, watch)?;
     let report = SimulationReport::new(plan, arm, settings, &execution)?;
     Ok((execution, report))
 }

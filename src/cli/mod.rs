@@ -4,27 +4,34 @@
 
 mod against;
 mod angles;
+mod bundle;
 mod execution;
 mod exit;
 mod failure;
+mod figures;
 mod fk;
 mod ik;
 mod infeasible;
 mod interrupt;
 mod law;
 mod layout;
+mod live;
 mod motion;
 mod options;
 mod output;
+mod page;
 mod pairs;
 mod paper;
+mod paper_claims;
 mod plan;
 mod plan_file;
 mod progress;
+mod region;
 mod reproduce;
 mod results;
 mod robot;
 mod run;
+mod serve;
 mod simulate;
 mod sweep;
 mod text;
@@ -32,6 +39,7 @@ mod time_step;
 mod tune;
 mod validate;
 mod verify;
+mod view;
 mod wash;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -40,6 +48,7 @@ use options::Options;
 use platewash::CancelToken;
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
+use std::panic::UnwindSafe;
 
 /// Plan, check and report the washing of plates by a six-axis arm.
 ///
@@ -62,7 +71,9 @@ struct Arguments {
 enum Verb {
     /// Run a scenario to the end: plan, CSV and report (the default).
     ///
-    /// Owns plan.json, trajectory.csv, executed.csv, certificate.json, report.json, report.txt and the files of simulate in the
+    /// With --live the simulation runs in real time and is shown while it does; files and exit code are what they are without it.
+    ///
+    /// Owns plan.json, trajectory.csv, executed.csv, certificate.json, report.json, report.txt, page.html and the files of simulate in the
     /// output folder: those that it does not write are removed. A job that cannot be done leaves report.json and report.txt, which say why.
     Run(run::RunArguments),
     /// Place the plates of a scenario and say what is wrong with them.
@@ -87,6 +98,16 @@ enum Verb {
     /// Writes simulated.csv, simulation.json and simulation.txt to the output folder, and touches no other file there; the next run
     /// or plan into that folder removes them.
     Simulate(simulate::SimulateArguments),
+    /// Show a plan file in three dimensions, on a page in the browser.
+    ///
+    /// Proves it, simulates it as it states itself, serves the page on the loopback and prints its address. Ctrl-C ends it: exit code
+    /// 0, or 130 where there is no page yet.
+    View(view::ViewArguments),
+    /// Draw a plan file: the workcell from above, the arm while it washes and crosses over, joints, coverage, ideal and executed path,
+    /// and what is claimed beside what is proved or measured.
+    ///
+    /// Each figure is written twice, NAME.svg and NAME.png, which show the same.
+    Figures(figures::FiguresArguments),
     /// Simulate a plan file at many frequencies and dampings of a control law.
     Tune(tune::TuneArguments),
     /// Forward kinematics of one or many configurations, with clearances.
@@ -107,7 +128,12 @@ enum Verb {
 /// It may be called more than once in a process; of the settings for messages the first ones count. A panic is caught
 /// and is exit code 1.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    answer(arguments, CancelToken::new)
+    main_until(arguments, &CancelToken::new())
+}
+
+/// As [`main`], until `cancel` says to give up: long work ends with exit code 130, and `view` as at Ctrl-C.
+pub fn main_until(arguments: impl IntoIterator<Item = OsString>, cancel: &CancelToken) -> u8 {
+    answer(arguments, || cancel.clone())
 }
 
 /// The `platewash` program: [`main`], and Ctrl-C tells long work to give up (exit code 130). A second one ends the process at once.
@@ -116,7 +142,7 @@ pub fn program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 /// Does what the arguments ask; `token` makes what tells long work to give up.
-fn answer(arguments: impl IntoIterator<Item = OsString>, token: fn() -> CancelToken) -> u8 {
+fn answer(arguments: impl IntoIterator<Item = OsString>, token: impl FnOnce() -> CancelToken + UnwindSafe) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let outcome = std::panic::catch_unwind(|| {
         let parsed = Arguments::command()
@@ -147,7 +173,7 @@ fn answer(arguments: impl IntoIterator<Item = OsString>, token: fn() -> CancelTo
     code
 }
 
-fn dispatch(arguments: Arguments, token: fn() -> CancelToken) -> Result<ExitCode, Failure> {
+fn dispatch(arguments: Arguments, token: impl FnOnce() -> CancelToken) -> Result<ExitCode, Failure> {
     let mut options = arguments.options;
     let verb = arguments.verb.unwrap_or(Verb::Run(run::RunArguments::default()));
     if verb.gives_up() {
@@ -161,7 +187,7 @@ impl Verb {
     fn gives_up(&self) -> bool {
         match self {
             Self::Run(_) | Self::Plan(_) | Self::Verify(_) | Self::Simulate(_) | Self::Tune(_) => true,
-            Self::Sweep(_) | Self::Reproduce(_) => true,
+            Self::View(_) | Self::Figures(_) | Self::Sweep(_) | Self::Reproduce(_) => true,
             Self::Layout | Self::Validate | Self::Fk(_) | Self::Ik(_) | Self::Robot => false,
         }
     }
@@ -175,7 +201,9 @@ fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode, Failure> {
         Verb::Validate => validate::run(options),
         Verb::Verify(arguments) => verify::run(options, &arguments),
         Verb::Simulate(arguments) => simulate::run(options, &arguments),
+        Verb::View(arguments) => view::run(options, &arguments),
         Verb::Tune(arguments) => tune::run(options, &arguments),
+        Verb::Figures(arguments) => figures::run(options, &arguments),
         Verb::Fk(arguments) => fk::run(options, &arguments),
         Verb::Ik(arguments) => ik::run(options, &arguments),
         Verb::Robot => robot::run(options),

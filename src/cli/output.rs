@@ -58,12 +58,25 @@ pub fn message(quiet: bool, text: &str) {
     }
 }
 
-/// A file and what is to stand in it, which may be made while it is written.
-pub type File<'a> = (PathBuf, Box<dyn Display + 'a>);
+/// A file and what is to stand in it.
+pub type File<'a> = (PathBuf, Content<'a>);
 
-/// A file for [`write_files`].
+/// What is to stand in a file.
+pub enum Content<'a> {
+    /// A text, which may be made while it is written.
+    Text(Box<dyn Display + 'a>),
+    /// Bytes.
+    Bytes(Vec<u8>),
+}
+
+/// A text file for [`write_files`].
 pub fn file<'a>(path: PathBuf, content: impl Display + 'a) -> File<'a> {
-    (path, Box::new(content))
+    (path, Content::Text(Box::new(content)))
+}
+
+/// A file of bytes for [`write_files`].
+pub fn bytes<'a>(path: PathBuf, content: Vec<u8>) -> File<'a> {
+    (path, Content::Bytes(content))
 }
 
 /// Writes all files or none: each goes to a temporary file beside its place, and they are renamed once all are complete. None where
@@ -143,14 +156,18 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-fn stage(path: &Path, content: &dyn Display) -> anyhow::Result<NamedTempFile> {
+fn stage(path: &Path, content: &Content<'_>) -> anyhow::Result<NamedTempFile> {
     let folder = folder_of(path);
     std::fs::create_dir_all(folder).with_context(|| format!("{}: folder cannot be made", folder.display()))?;
     refuse_folder(path)?;
     let cannot = || format!("{}: cannot be written", path.display());
     let staged = temporary().tempfile_in(folder).with_context(cannot)?;
     let mut buffered = BufWriter::new(staged);
-    write!(buffered, "{content}").with_context(cannot)?;
+    let written = match content {
+        Content::Text(text) => write!(buffered, "{text}"),
+        Content::Bytes(bytes) => buffered.write_all(bytes),
+    };
+    written.with_context(cannot)?;
     let staged = buffered.into_inner().map_err(IntoInnerError::into_error);
     staged.with_context(cannot)
 }

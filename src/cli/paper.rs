@@ -7,10 +7,11 @@ use super::output::{self, File};
 use super::progress::Progress;
 use super::results;
 use platewash::paper::run_with;
+use platewash::viewer::view::Executed;
 use platewash::workcell::csv::MotionTable;
 use platewash::workcell::segment::PlanSegment;
 use platewash::workcell::words::counted;
-use platewash::{PaperReport, PaperRun, Scenario};
+use platewash::{PaperReport, PaperRun, Scenario, Verdict};
 
 /// A run of the paper's program, judged.
 pub struct Followed {
@@ -55,6 +56,12 @@ impl Followed {
             ),
             output::file(arguments.csv_file(options), csv),
         ])
+    }
+
+    /// The motion that the control law makes of it, as a page shows it.
+    pub fn as_executed(&self) -> Executed {
+        let (run, washed) = (&self.run, self.report.verdict == Verdict::Washed);
+        Executed::followed(&run.executed, run.job.simulation.law, &self.report.headline, washed)
     }
 
     /// The motion that the control law makes of it, as CSV.

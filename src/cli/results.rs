@@ -16,17 +16,21 @@ pub fn folder(options: &Options) -> PathBuf {
 }
 
 /// Names in the output folder that belong to `run` and `plan`, those that `simulate` writes of a plan there included.
-pub const OWNED: [&str; 9] = [
+pub const OWNED: [&str; 10] = [
     "plan.json",
     "trajectory.csv",
     "executed.csv",
     "certificate.json",
     "report.json",
     "report.txt",
+    PAGE,
     "simulated.csv",
     "simulation.json",
     "simulation.txt",
 ];
+
+/// The page that `run` writes once everything else is written.
+pub const PAGE: &str = "page.html";
 
 /// What `simulate` writes: the motion, and the report twice.
 pub const SIMULATED: [&str; 3] = ["simulated.csv", "simulation.json", "simulation.txt"];

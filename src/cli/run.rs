@@ -2,15 +2,18 @@
 
 use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
+use super::live::{LiveArguments, Show, Stage};
 use super::motion::MotionArguments;
 use super::options::Options;
 use super::pairs::PairArguments;
 use super::text::text;
-use super::{execution, infeasible, output, paper, results, wash};
+use super::{execution, infeasible, output, page, paper, results, wash};
 use clap::Args;
 use platewash::certificate::{PairsShown, prove_with};
 use platewash::scenario::Program;
-use platewash::simulator::simulate::{PlateVerdict, table};
+use platewash::simulator::simulate::{PlateVerdict, Sample, table};
+use platewash::viewer::server::LiveEnd;
+use platewash::viewer::view::{Beside, Executed};
 use platewash::{
     Execution, Plan, RobotModel, Scenario, SimulationError, SimulationReport, SimulationVerdict, WashReport,
 };
@@ -23,6 +26,8 @@ pub struct RunArguments {
     motion: MotionArguments,
     #[command(flatten)]
     pairs: PairArguments,
+    #[command(flatten)]
+    live: LiveArguments,
 }
 
 /// Plans and judges the scenario; writes the plan, both motions and the report.
@@ -32,8 +37,9 @@ pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Fail
     let names = results::OWNED.into_iter().filter(others);
     let csv = arguments.motion.csv_file(options);
     results::check_places(options, &names.collect::<Vec<_>>(), &csv)?;
+    let stage = arguments.live.prepare(options, &scenario)?;
     match scenario.job.program {
-        Program::Certified => run_washing(options, &scenario, arguments),
+        Program::Certified => run_washing(options, &scenario, arguments, stage),
         Program::Paper => run_paper(options, &scenario, &arguments.motion),
     }
 }
@@ -53,11 +59,25 @@ fn run_paper(options: &Options, scenario: &Scenario, arguments: &MotionArguments
     results::write(options, &files)?;
     output::print_either(options.json, report, || words.clone())?;
     results::name(options, &files);
+    let executed = followed.as_executed();
+    let plan = followed.run.plan().map_err(platewash::Failure::from)?;
+    let region = scenario.layout.task_region();
+    let beside = Beside {
+        executed: Some(&executed),
+        region: Some(&region),
+        ..Beside::default()
+    };
+    page::write(options, &plan, &followed.run.job.arm, &beside)?;
     Ok(Outcome::from(report.verdict).job(scenario.job.on_failure))
 }
 
 /// Plans, proves and simulates; writes plan, both motions, certificate and report.
-fn run_washing(options: &Options, scenario: &Scenario, arguments: &RunArguments) -> Result<ExitCode, Failure> {
+fn run_washing(
+    options: &Options,
+    scenario: &Scenario,
+    arguments: &RunArguments,
+    stage: Option<Stage<'_>>,
+) -> Result<ExitCode, Failure> {
     let washing = match wash::plan(options, scenario) {
         Ok(washing) => washing,
         Err(failure) => return infeasible::end(options, scenario, failure),
@@ -67,7 +87,13 @@ fn run_washing(options: &Options, scenario: &Scenario, arguments: &RunArguments)
     let lasts_s = execution::lasts_at_most_s(plan, &plan.job.simulation);
     let dt_s = time_step.or(scenario.control.dt_s, lasts_s)?;
     let certificate = prove_with(plan, arm, &options.cancel).map_err(platewash::Failure::from)?;
-    let (execution, simulation) = simulated(options, plan, arm)?;
+    let show = stage
+        .map(|stage| stage.open(options, plan, arm, &certificate))
+        .transpose()?;
+    let (execution, simulation) = match &show {
+        Some(show) => shown(options, plan, arm, show)?,
+        None => simulated(options, plan, arm, &mut |_| {})?,
+    };
     let proof = output::json(&certificate)?;
     let report = WashReport::new(&washing.planned, &washing.findings, certificate);
     let report = RunReport::new(report, simulation);
@@ -84,6 +110,18 @@ fn run_washing(options: &Options, scenario: &Scenario, arguments: &RunArguments)
     results::write(options, &files)?;
     output::print_either(options.json, &report, || words.clone())?;
     results::name(options, &files);
+    let executed = report.simulation.as_executed(execution.as_ref());
+    let region = scenario.layout.task_region();
+    let beside = Beside {
+        certificate: Some(&report.wash.certificate),
+        executed: executed.as_ref(),
+        region: Some(&region),
+        ..Beside::default()
+    };
+    page::write(options, plan, arm, &beside)?;
+    if let Some(show) = show {
+        show.part(options);
+    }
     // The worse of the two.
     let outcome = Outcome::from(report.wash.verdict).max(report.simulation.outcome());
     Ok(outcome.job(scenario.job.on_failure))
@@ -107,9 +145,14 @@ enum Simulated {
     Refused { refused: String },
 }
 
-/// Simulates a plan as it asks for itself.
-fn simulated(options: &Options, plan: &Plan, arm: &RobotModel) -> Result<(Option<Execution>, Simulated), Failure> {
-    match execution::carry_out(plan, arm, &plan.job.simulation, &options.cancel) {
+/// Simulates a plan as it asks for itself, and tells `watch` of each sample when it is known.
+fn simulated(
+    options: &Options,
+    plan: &Plan,
+    arm: &RobotModel,
+    watch: &mut dyn FnMut(&Sample),
+) -> Result<(Option<Execution>, Simulated), Failure> {
+    match execution::carry_out_watched(plan, arm, &plan.job.simulation, &options.cancel, watch) {
         Ok((execution, report)) => Ok((Some(execution), Simulated::Done(Box::new(report)))),
         Err(SimulationError::Cancelled(cancelled)) => Err(cancelled.into()),
         Err(error) => {
@@ -119,7 +162,34 @@ fn simulated(options: &Options, plan: &Plan, arm: &RobotModel) -> Result<(Option
     }
 }
 
+/// Simulates a plan in real time, while it is shown.
+fn shown(
+    options: &Options,
+    plan: &Plan,
+    arm: &RobotModel,
+    show: &Show,
+) -> Result<(Option<Execution>, Simulated), Failure> {
+    let mut feed = show.feed(options, plan, arm);
+    let (execution, simulation) = simulated(options, plan, arm, &mut |sample| feed.sample(sample))?;
+    show.tell_end(options, feed.end(), simulation.live_end());
+    Ok((execution, simulation))
+}
+
 impl Simulated {
+    /// How it ended, for pages that show it live.
+    fn live_end(&self) -> LiveEnd {
+        match self {
+            Self::Done(report) => LiveEnd {
+                headline: report.headline.clone(),
+                washed: Some(report.verdict == SimulationVerdict::Washed),
+            },
+            Self::Refused { refused } => LiveEnd {
+                headline: format!("NOT SIMULATED: {refused}"),
+                washed: None,
+            },
+        }
+    }
+
     /// What the first line adds to what is proved: that nothing was simulated, or that the simulation fails.
     fn first_line(&self) -> Option<String> {
         match self {
@@ -135,6 +205,14 @@ impl Simulated {
                 Some(overload.into_iter().chain(not_washed).collect::<Vec<_>>().join("; "))
             }
             Self::Refused { .. } => Some("NOT SIMULATED".to_owned()),
+        }
+    }
+
+    /// What a page shows of it.
+    fn as_executed(&self, execution: Option<&Execution>) -> Option<Executed> {
+        match (self, execution) {
+            (Self::Done(report), Some(execution)) => Some(Executed::simulated(execution, report)),
+            _ => None,
         }
     }
 

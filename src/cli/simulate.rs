@@ -13,7 +13,6 @@ use clap::Args;
 use platewash::Plan;
 use platewash::simulator::simulate::table;
 use platewash::workcell::simulation::SimulationSettings;
-use std::fmt::Display;
 use std::path::PathBuf;
 
 /// Arguments of `simulate`.
@@ -65,8 +64,12 @@ pub fn run(options: &Options, arguments: &SimulateArguments) -> Result<ExitCode,
     };
     let csv = table(&execution, plan, &file.arm, dt_s)?;
     let words = text(&report);
-    let contents: [Box<dyn Display + '_>; 3] = [Box::new(csv), Box::new(output::json(&report)?), Box::new(&words)];
-    let files: Vec<_> = places.into_iter().zip(contents).collect();
+    let [motion, data, sheet] = places;
+    let files = [
+        output::file(motion, csv),
+        output::file(data, output::json(&report)?),
+        output::file(sheet, &words),
+    ];
     output::write_files(&files, &options.cancel)?;
     output::print_either(options.json, &report, || words.clone())?;
     results::name(options, &files);

@@ -1,26 +1,17 @@
-"""The committed pictures are what their generators make of the command's own output."""
+"""The committed pictures are what the command draws."""
 
 import subprocess
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+PICTURES = Path(__file__).resolve().parents[2] / "docs/pictures"
 
 
-def test_the_paper_cell_is_current(platewash, tmp_path):
-    subprocess.run([platewash, "run", "--quiet", "--scenario", "paper-appendix", "--out", tmp_path], check=True, capture_output=True)
-    drawn = tmp_path / "drawn.svg"
-    subprocess.run([sys.executable, ROOT / "docs/pictures/paper_cell.py", tmp_path, drawn], check=True)
-    committed = ROOT / "docs/pictures/paper-cell.svg"
-    assert drawn.read_text() == committed.read_text(), "run docs/pictures/paper_cell.py as its first lines say"
-
-
-def test_the_kitchen_cell_is_current(platewash, tmp_path):
-    folders = [tmp_path / "paper", tmp_path / "kitchen"]
-    for folder, scenario in zip(folders, ["paper-appendix", "kitchen"]):
-        command = [platewash, "run", "--quiet", "--scenario", scenario, "--out", folder]
-        subprocess.run(command, check=True, capture_output=True)
-    drawn = tmp_path / "drawn.svg"
-    subprocess.run([sys.executable, ROOT / "docs/pictures/kitchen_cell.py", *folders, drawn], check=True)
-    committed = ROOT / "docs/pictures/kitchen-cell.svg"
-    assert drawn.read_text() == committed.read_text(), "run docs/pictures/kitchen_cell.py as its first lines say"
+def test_the_pictures_are_current(platewash, tmp_path):
+    made = [sys.executable, PICTURES / "make.py", platewash, "--only", "pictures", "--target", tmp_path]
+    subprocess.run(made, check=True)
+    drawn = sorted(file.name for file in tmp_path.glob("*.svg"))
+    assert drawn == sorted(file.name for file in PICTURES.glob("*.svg"))
+    for name in drawn:
+        same = (tmp_path / name).read_text() == (PICTURES / name).read_text()
+        assert same, f"{name}: run docs/pictures/make.py as its first lines say"

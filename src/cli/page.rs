@@ -1,0 +1,31 @@
+//! The page of a plan: what a scenario says of its surroundings, and the file beside the report.
+
+use super::failure::Failure;
+use super::options::Options;
+use super::{bundle, output, results};
+use anyhow::Context;
+use platewash::viewer::bundle::Bundle;
+use platewash::viewer::page;
+use platewash::viewer::view::{Beside, View};
+use platewash::{Plan, RobotModel};
+
+/// The page of a plan.
+pub fn html(plan: &Plan, arm: &RobotModel, beside: &Beside<'_>, bundle: &Bundle) -> anyhow::Result<String> {
+    let view = View::of_plan(plan, arm, beside)?;
+    Ok(page::html(&view, bundle)?)
+}
+
+/// Writes the page of a plan beside its report, which is written already: the first page of a checkout may take a minute. Without a bundle
+/// there is none, and a line on standard error says why.
+pub fn write(options: &Options, plan: &Plan, arm: &RobotModel, beside: &Beside<'_>) -> Result<(), Failure> {
+    let Some(bundle) = bundle::bundle(options) else {
+        return Ok(());
+    };
+    let page = html(plan, arm, beside, &bundle)
+        .context("the page of the plan")
+        .map_err(Failure::internal)?;
+    let files = [output::file(results::folder(options).join(results::PAGE), page)];
+    output::write_files(&files, &options.cancel)?;
+    results::name(options, &files);
+    Ok(())
+}
