@@ -62,6 +62,7 @@ from ._errors import (
     InputTypeError,
     InternalError,
     LayoutError,
+    MissingError,
     NoKeyError,
     PlanError,
     PlanFileError,
@@ -72,6 +73,7 @@ from ._errors import (
     SimulationError,
     UrdfError,
 )
+from ._page import Page
 from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record
 from ._values import Coverage, IkSettings, PaperSpiral, Plate, Tool, WashCurve
 
@@ -98,7 +100,9 @@ __all__ = [
     "InternalError",
     "Layout",
     "LayoutError",
+    "MissingError",
     "NoKeyError",
+    "Page",
     "PaperJob",
     "PaperRun",
     "PaperSpiral",

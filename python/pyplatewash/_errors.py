@@ -117,6 +117,10 @@ class PlanNotFoundError(PlanAccessError, FileNotFoundError):
     """A plan file is not there, or the folder that it shall be written to."""
 
 
+class PageNotFoundError(FileError, FileNotFoundError):
+    """The folder that a page shall be written to is not there."""
+
+
 class LayoutError(PlatewashError):
     """The plates could not be placed."""
 
@@ -212,6 +216,13 @@ class SimulationError(PlatewashError):
     least_rate_hz: float | None = None
     #: The highest frequency that is stable at this rate with this damping [rad/s], where there is one.
     highest_frequency_rad_s: float | None = None
+
+
+class MissingError(PlatewashError, ImportError):
+    """Something that this installation lacks is needed; the message says how to get it."""
+
+    #: What is missing: ``"matplotlib"`` or ``"page"``.
+    name: str | None = None
 
 
 class InternalError(PlatewashError):

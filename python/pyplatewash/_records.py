@@ -60,6 +60,11 @@ class Record(Mapping[str, Any]):
     def __str__(self) -> str:
         return repr(self) if self._text is None else str(self._text)
 
+    def _repr_html_(self) -> str:
+        from ._tables import record
+
+        return record(self)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return (Record, (self._data, self._text))
 

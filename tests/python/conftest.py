@@ -4,6 +4,7 @@ import os
 import sys
 from pathlib import Path
 
+import matplotlib
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -12,6 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FIXTURES = ROOT / "crates" / "kinematics" / "tests" / "fixtures"
 sys.path.insert(0, str(FIXTURES))
 sys.dont_write_bytecode = True
+matplotlib.use("agg")  # No test opens a window.
 
 
 @pytest.fixture(scope="session")

@@ -4,10 +4,12 @@ import inspect
 import itertools
 import pickle
 import re
+import webbrowser
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -35,6 +37,8 @@ GOOD: dict[str, Any] = {
     "sponge_height_m": 0.02, "sponge_compression_m": 0.005, "mass_kg": 0.3, "com_m": 0.05, "inertia_kg_m2": (1.0, 0.0, 0.0, 1.0, 0.0, 1.0), "x_m": 0.3, "y_m": 0.0, "z_m": 0.03,
     "thickness_m": 0.02, "position_tolerance_m": 1e-6, "orientation_tolerance_rad": 1e-6, "max_iterations": 60, "max_qp_iterations": 30, "step_bound_rad": 0.7,
     "analytic_starts": True, "listed_starts": 4, "random_restarts": 0, "random_seed": 0, "data": {"a": 1},
+    "kind": "layout", "ax": plt.figure().add_subplot(), "execution": pw.simulate(WASH.plan), "certificate": pw.prove(WASH.plan), "plate": 0, "prove": True, "simulate": False, "height": 300,
+    "html": "<p>a page", "Plan.view path": "page.html", "Page.save path": "page.html", "Page.open path": "page.html",
     "Robot.from_urdf text": ROBOT.urdf, "Robot.from_urdf srdf": ROBOT.srdf, "Plan.from_json text": PLAN.to_json(), "Scenario.parse text": "name = 'x'\n[layout]\nregion = 'text'\n",
     "Robot.ik seed": Q, "Robot.ik_path seed": Q, "Robot.ik_batch seeds": Q, "IkSolution start": "seed", "sweep scenario": "kitchen", "run_paper job": RUN.job, "prove plan": WASH.plan,
     "simulate settings": pw.SimulationSettings("exact"), "tune settings": pw.SimulationSettings("pd"), "Record.__getitem__ key": "a", "Record text": "words",
@@ -76,6 +80,7 @@ INSTANCES: dict[str, Callable[[], Any]] = {
     "PaperJob": lambda: RUN.job, "PaperRun": lambda: RUN, "WashJob": lambda: WASH.job, "Planned": lambda: WASH, "Certificate": lambda: pw.prove(WASH.plan), "DynamicsModel": lambda: pw.DynamicsModel(ROBOT),
     "ClearanceModel": lambda: pw.ClearanceModel(ROBOT, pw.Tool(length_m=0.15), [pw.Plate(x_m=0.3, y_m=0.0)]), "Execution": lambda: pw.simulate(PLAN), "PaperSpiral": pw.PaperSpiral,
     "WashCurve": lambda: pw.WashCurve(radius_m=0.1, turns=3.0), "Record": lambda: pw.Record({"a": 1}), "Layout": lambda: pw.place_plates("kitchen"),
+    "Plan.show": lambda: WASH.plan, "Plan.view": lambda: WASH.plan, "Plan.figure": lambda: WASH.plan, "Page": lambda: pw.Page("<p>a page"),
     "Scenario.paper_job": lambda: pw.Scenario.load("paper-appendix"),
 }  # fmt: skip
 MADE: dict[str, Any] = {}
@@ -116,6 +121,7 @@ CALLS = dict(public())
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Files of good names, in a folder that may be written to."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(webbrowser, "open", lambda address: True)
     Path("arm.urdf").write_text(ROBOT.urdf)
     Path("arm.srdf").write_text(ROBOT.srdf or "")
     PLAN.save("plan.json")
@@ -175,6 +181,12 @@ LISTED: list[tuple[Callable[[], Any], type[Exception], str]] = [
     (lambda: pw.Scenario.load("ktchen"), FileNotFoundError, "ktchen: is neither a file nor a shipped scenario"),
     (lambda: pw.place_plates("none.toml"), FileNotFoundError, "none.toml: is neither a file nor a shipped scenario"),
     (lambda: pw.Scenario.load("kitchen")["nose"], KeyError, "one of .*wash.* is needed; found 'nose'"),
+    (lambda: WASH.plan.show(3), TypeError, r"execution: an Execution, as simulate gives it, is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    (lambda: WASH.plan.show(certificate=True), TypeError, r"certificate: a Certificate, as prove gives it, is needed; found True \(bool\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    (lambda: WASH.plan.show(height=50), ValueError, r"height: an integer from 100 to 10000 is needed; found 50 \(int\)"),
+    (lambda: pw.Page("", 0), ValueError, "height: an integer from 100 to 10000 is needed; found 0"),
+    (lambda: WASH.plan.view(path=3), TypeError, r"path: a path is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    (lambda: pw.Page("").save("/nowhere/a.html"), FileNotFoundError, "/nowhere/a.html: cannot be written"),
     (lambda: PLAN.provenance["nose"], KeyError, "one of scenario, version is needed; found 'nose'"),
 ]  # fmt: skip
 

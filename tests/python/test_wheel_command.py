@@ -80,6 +80,7 @@ LONG = {
     "paper run": (EDGE, "pw.run_paper(edge)"),
     "paper report": (NEAR, "near.report()"),
     "reproduce": ("", "pw.reproduce(layouts=10_000, draws=1_000_000)"),
+    "command": ("", 'pw.run_command(["reproduce", "--layouts", "10000", "--draws", "1000000"])'),
     "batch": ("far = np.tile(np.eye(4), (400_000, 1, 1)); far[:, :3, 3] = 0.9", "pw.Robot.irb120().ik_batch(far)"),
 }
 # Seconds of processor time, all threads together, in which work that was given up must have ended.

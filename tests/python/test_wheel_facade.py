@@ -22,6 +22,7 @@ PYTHON = {
     "scenario": None,
     "simulator": None,
     "workcell": None,
+    "viewer": "Plan.show",  # the page, and figures by matplotlib
     "cli": "run_command",
     # The way through.
     "Certificate": "Certificate",
@@ -111,7 +112,7 @@ def test_the_scenarios_and_verbs_are_the_commands(platewash: Path) -> None:
         assert getattr(pw, name).__doc__, f"{name} has no docstring"
 
 
-@pytest.mark.parametrize("module", ["", "._values", "._records", "._errors"])
+@pytest.mark.parametrize("module", ["", "._values", "._records", "._errors", "._page", "._words"])
 def test_examples_in_docstrings_run(module: str) -> None:
     found = doctest.testmod(importlib.import_module("pyplatewash" + module))
     assert found.failed == 0

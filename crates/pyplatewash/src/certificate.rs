@@ -1,6 +1,7 @@
 //! `Certificate`: what is proved about a plan.
 
 use crate::argument;
+use crate::by_python::table;
 use crate::errors;
 use crate::job::{PaperJobObject, WashJobObject};
 use crate::plan::PlanObject;
@@ -22,6 +23,22 @@ pub struct CertificateObject {
 impl From<Certificate> for CertificateObject {
     fn from(inner: Certificate) -> Self {
         Self { inner }
+    }
+}
+
+impl CertificateObject {
+    /// The certificate of the argument called `certificate`, if it is given.
+    ///
+    /// # Errors
+    /// `InputTypeError` for what is no certificate.
+    pub fn given<'a, 'py>(value: Option<&'a Bound<'py, PyAny>>) -> PyResult<Option<&'a Bound<'py, Self>>> {
+        argument::maybe("certificate", value, "a Certificate, as prove gives it,")
+    }
+
+    /// The certificate.
+    #[must_use]
+    pub fn inner(&self) -> &Certificate {
+        &self.inner
     }
 }
 
@@ -113,6 +130,19 @@ impl CertificateObject {
     /// Everything as plain dictionaries and lists.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.inner)
+    }
+
+    /// The requirements as lines of a table: name, status, bound and limit, where it is worst.
+    fn _rows<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let row = |check: &Check| {
+            let name = check.requirement.words();
+            (name, check.status, check.detail(), check.worst.to_string())
+        };
+        to_python(py, &self.inner.checks.iter().map(row).collect::<Vec<_>>())
+    }
+
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        table(slf, "certificate")
     }
 
     fn __str__(&self) -> String {

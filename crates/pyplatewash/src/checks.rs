@@ -2,6 +2,7 @@
 
 use crate::curves;
 use crate::errors;
+use crate::page;
 use crate::robot;
 use crate::tool::{PlateFields, ToolFields};
 use pyo3::prelude::*;
@@ -16,6 +17,7 @@ pub fn _check(py: Python<'_>, kind: &str, value: &Bound<'_, PyAny>) -> PyResult<
         "plate" => PlateFields::of("plate", value)?.plate(py).map(|_| ()),
         "ik_settings" => robot::settings(value).map(|_| ()),
         "paper_spiral" => curves::spiral_of(value).map(|_| ()),
+        "page" => page::check(value),
         "wash_curve" => curves::curve_of(value).map(|_| ()),
         _ => Err(errors::internal(py, "no such kind of value")),
     }

@@ -1,6 +1,7 @@
 //! `WashJob` and `PaperJob`: what is asked, resolved.
 
 use crate::argument;
+use crate::by_python::table;
 use crate::errors;
 use crate::layout::{LayoutObject, plates};
 use crate::made;
@@ -155,6 +156,10 @@ impl WashJobObject {
     /// Everything but the arm as plain dictionaries and lists, as a plan file states it.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, self.inner.terms())
+    }
+
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        table(slf, "job")
     }
 
     fn __repr__(&self) -> String {
@@ -332,6 +337,10 @@ impl PaperJobObject {
     /// Everything but the arm as plain dictionaries and lists, as a plan file states it.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.terms(py)?)
+    }
+
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        table(slf, "job")
     }
 
     fn __repr__(&self) -> String {

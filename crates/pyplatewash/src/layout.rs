@@ -1,6 +1,7 @@
 //! `Layout`: where the plates lie.
 
 use crate::argument;
+use crate::by_python::table;
 use crate::errors;
 use crate::made;
 use crate::value::to_record;
@@ -96,6 +97,10 @@ impl LayoutObject {
 
     fn __len__(&self) -> usize {
         self.inner.plates.len()
+    }
+
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        table(slf, "layout")
     }
 
     fn __repr__(&self) -> String {

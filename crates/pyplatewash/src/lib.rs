@@ -6,6 +6,7 @@
 
 mod argument;
 mod arrays;
+mod by_python;
 mod certificate;
 mod checks;
 mod clearance;
@@ -18,6 +19,7 @@ mod job;
 mod layout;
 mod made;
 mod notes;
+mod page;
 mod paper;
 mod plan;
 mod planned;
@@ -25,6 +27,7 @@ mod pose;
 mod reproduce;
 mod robot;
 mod scenario;
+mod shown;
 mod simulation;
 mod sweep;
 mod tool;
@@ -56,6 +59,8 @@ mod _core {
     #[pymodule_export]
     use crate::layout::LayoutObject;
     #[pymodule_export]
+    use crate::page::{_configuration_page, _plan_page, _plan_view, _save_page};
+    #[pymodule_export]
     use crate::paper::{PaperRunObject, run_paper};
     #[pymodule_export]
     use crate::plan::PlanObject;
@@ -67,6 +72,8 @@ mod _core {
     use crate::robot::{IkSolutionRecord, Robot};
     #[pymodule_export]
     use crate::scenario::{ScenarioObject, place_plates};
+    #[pymodule_export]
+    use crate::shown::{_figure_arguments, _show_arguments};
     #[pymodule_export]
     use crate::simulation::{ExecutionObject, SettingsObject, simulate, tune};
     #[pymodule_export]

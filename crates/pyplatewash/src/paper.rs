@@ -1,6 +1,7 @@
 //! `PaperRun`: the paper's program, planned and followed.
 
 use crate::argument;
+use crate::by_python::table;
 use crate::errors;
 use crate::job::PaperJobObject;
 use crate::made;
@@ -166,6 +167,10 @@ impl PaperRunObject {
 
     fn __len__(&self) -> usize {
         self.inner.steps.len()
+    }
+
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        table(slf, "paper_run")
     }
 
     fn __repr__(&self) -> String {

@@ -1,13 +1,14 @@
 //! `Plan`: the plan file.
 
 use crate::argument;
+use crate::by_python::{ask, table};
 use crate::errors::{self, FileOf, SystemWord};
 use crate::layout::plates;
 use crate::robot::Robot;
 use crate::trajectory::TrajectoryObject;
 use crate::value::{records, to_python, to_record};
 use platewash::kinematics::urdf::file;
-use platewash::workcell::csv;
+use platewash::workcell::csv::table as csv_table;
 use platewash::workcell::plan::PlanFileError;
 use platewash::workcell::trajectory::KnotError;
 use platewash::workcell::workcell::ArmId;
@@ -84,12 +85,19 @@ impl PlanObject {
     /// # Errors
     /// `ProveError` for a plan from a file that names an arm which is not at hand.
     pub fn arm(&self, py: Python<'_>, given: Option<&Bound<'_, Robot>>) -> PyResult<Arc<RobotModel>> {
-        if let Some(robot) = given {
-            return Ok(robot.get().model().clone());
-        }
-        match self.own_arm(py)? {
-            Some(robot) => Ok(robot.get().model().clone()),
-            None => Err(errors::arm_needed(py, &self.inner.job.workcell.arm)),
+        Ok(self.robot_for(py, given)?.get().model().clone())
+    }
+
+    /// The same as Python's object.
+    ///
+    /// # Errors
+    /// As [`PlanObject::arm`].
+    pub fn robot_for(&self, py: Python<'_>, given: Option<&Bound<'_, Robot>>) -> PyResult<Py<Robot>> {
+        match given {
+            Some(robot) => Ok(robot.clone().unbind()),
+            None => self
+                .own_arm(py)?
+                .ok_or_else(|| errors::arm_needed(py, &self.inner.job.workcell.arm)),
         }
     }
 
@@ -255,10 +263,94 @@ impl PlanObject {
             .motion()
             .map_err(|e| errors::input(py, "knots", &e.to_string()))?;
         let tip = plan.job.workcell.tool.tip_frame(&arm);
-        let table = csv::table(&motion, &plan.segments, &arm, &tip, dt_s);
+        let table = csv_table(&motion, &plan.segments, &arm, &tip, dt_s);
         table
             .map(|table| table.to_string())
             .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
+    }
+
+    /// Shows the plan in three dimensions: a `Page`, which a notebook shows in the cell and whose `open()` and `save(path)` do what
+    /// they say. As the command's `view` does, it proves the plan and simulates it with its own settings, unless a `certificate` or an
+    /// `execution` is given or `prove` or `simulate` is False; what is not proved says so. A run of the paper's program has no certificate.
+    /// Where the plan cannot be simulated, a warning says why.
+    ///
+    /// With `scenario` the page shows where its plates are drawn. `robot` is the arm, by default the one that the plan was made for.
+    /// `height` is that of the cell [px].
+    ///
+    /// Raises MissingError in a build without the page; InputError for what does not belong to the plan; ProveError for a plan
+    /// that says nothing that could be judged or whose arm must be given.
+    #[pyo3(
+        signature = (execution=None, certificate=None, *, scenario=None, robot=None, prove=None, simulate=None, height=None),
+        text_signature = "($self, execution=None, certificate=None, *, scenario=None, robot=None, prove=True, simulate=True, height=640)"
+    )]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn show<'py>(
+        slf: &Bound<'py, Self>,
+        execution: Option<&Bound<'py, PyAny>>,
+        certificate: Option<&Bound<'py, PyAny>>,
+        scenario: Option<&Bound<'py, PyAny>>,
+        robot: Option<&Bound<'py, PyAny>>,
+        prove: Option<&Bound<'py, PyAny>>,
+        simulate: Option<&Bound<'py, PyAny>>,
+        height: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let beside = (execution, certificate, scenario, robot);
+        ask(slf.py(), "_page", "show", (slf, beside, prove, simulate, height))
+    }
+
+    /// Writes the page of `show` to a file and opens it in the browser. Gives the file's path, by default that of a new one in the
+    /// system's folder for temporary files, where it stays.
+    ///
+    /// Raises what `show` raises; FileError for a file that cannot be written. Where no browser can be started, a warning says so.
+    #[pyo3(
+        signature = (execution=None, certificate=None, *, scenario=None, robot=None, prove=None, simulate=None, path=None),
+        text_signature = "($self, execution=None, certificate=None, *, scenario=None, robot=None, prove=True, simulate=True, path=None)"
+    )]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn view<'py>(
+        slf: &Bound<'py, Self>,
+        execution: Option<&Bound<'py, PyAny>>,
+        certificate: Option<&Bound<'py, PyAny>>,
+        scenario: Option<&Bound<'py, PyAny>>,
+        robot: Option<&Bound<'py, PyAny>>,
+        prove: Option<&Bound<'py, PyAny>>,
+        simulate: Option<&Bound<'py, PyAny>>,
+        path: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let beside = (execution, certificate, scenario, robot);
+        ask(slf.py(), "_page", "view", (slf, beside, prove, simulate, path))
+    }
+
+    /// Draws the plan with matplotlib: `"layout"` (from above), `"joints"` (positions, speeds and accelerations as shares of their
+    /// limits), `"tip"` (its speed), `"clearance"` (the least distance), `"coverage"` (for how long the sponge is over each place of a
+    /// plate) or `"spiral"` (planned and executed).
+    ///
+    /// `ax` is drawn on, an Axes or as many as the figure has; without, they are made new. Gives the Axes: one for `"layout"`, `"tip"`,
+    /// `"clearance"` and where `plate` says which, else a list. `execution` is drawn beside the plan; `"spiral"` simulates the plan with
+    /// its own settings where there is none. With `scenario` the layout shows where plates are drawn. `robot` is the arm, by default the
+    /// one that the plan was made for.
+    ///
+    /// Raises MissingError, an ImportError, without matplotlib; InputError for what does not belong to the plan; ProveError for a plan
+    /// whose arm must be given.
+    #[pyo3(
+        signature = (kind=None, ax=None, *, execution=None, plate=None, scenario=None, robot=None),
+        text_signature = "($self, kind='layout', ax=None, *, execution=None, plate=None, scenario=None, robot=None)"
+    )]
+    fn figure<'py>(
+        slf: &Bound<'py, Self>,
+        kind: Option<&Bound<'py, PyAny>>,
+        ax: Option<&Bound<'py, PyAny>>,
+        execution: Option<&Bound<'py, PyAny>>,
+        plate: Option<&Bound<'py, PyAny>>,
+        scenario: Option<&Bound<'py, PyAny>>,
+        robot: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let of = (execution, plate, scenario, robot);
+        ask(slf.py(), "_figures", "figure", (slf, kind, ax, of))
+    }
+
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        table(slf, "plan")
     }
 
     fn __repr__(&self) -> String {

@@ -1,5 +1,6 @@
 //! `Planned`: a washing, planned, and what is to be said of it.
 
+use crate::by_python::table;
 use crate::errors;
 use crate::job::WashJobObject;
 use crate::made;
@@ -68,6 +69,10 @@ impl PlannedObject {
         let certificate = proved.map_err(|e| errors::failure(py, &e.into()))?;
         let report = WashReport::new(&self.inner, &self.job.get().layout().findings, certificate);
         to_record(py, &report, Some(report.to_string()))
+    }
+
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        table(slf, "planned")
     }
 
     fn __repr__(&self) -> String {

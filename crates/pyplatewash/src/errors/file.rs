@@ -15,6 +15,8 @@ pub enum FileOf {
     Plan,
     /// A scenario.
     Scenario,
+    /// A page.
+    Page,
 }
 
 /// What the system says of a file.
@@ -44,9 +46,11 @@ pub fn system_file(py: Python<'_>, of: FileOf, word: SystemWord, filename: &str,
         (FileOf::Urdf, SystemWord::NotFound) => ("UrdfNotFoundError", Some(ENOENT)),
         (FileOf::Plan, SystemWord::NotFound) => ("PlanNotFoundError", Some(ENOENT)),
         (FileOf::Scenario, SystemWord::NotFound) => ("ScenarioNotFoundError", Some(ENOENT)),
+        (FileOf::Page, SystemWord::NotFound) => ("PageNotFoundError", Some(ENOENT)),
         (FileOf::Urdf, SystemWord::Refused(number)) => ("UrdfAccessError", number),
         (FileOf::Plan, SystemWord::Refused(number)) => ("PlanAccessError", number),
         (FileOf::Scenario, SystemWord::Refused(number)) => ("ScenarioAccessError", number),
+        (FileOf::Page, SystemWord::Refused(number)) => ("FileError", number),
     };
     let fields = [
         ("filename", any(py, filename)),
@@ -73,6 +77,7 @@ pub fn unread(py: Python<'_>, of: FileOf, path: &Path, error: &FileError) -> PyE
             FileOf::Urdf => named(py, "UrdfError", &message),
             FileOf::Plan => named(py, "PlanFileError", &message),
             FileOf::Scenario => named(py, "ScenarioError", &message),
+            FileOf::Page => named(py, "FileError", &message),
         },
     }
 }

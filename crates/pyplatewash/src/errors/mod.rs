@@ -106,6 +106,11 @@ pub fn named(py: Python<'_>, class: &'static str, message: &str) -> PyErr {
     raise(py, class, message, &[])
 }
 
+/// Something that this installation lacks.
+pub fn missing(py: Python<'_>, name: &str, message: &str) -> PyErr {
+    raise(py, "MissingError", message, &[("name", any(py, name))])
+}
+
 /// A key that is not there.
 pub fn no_key(py: Python<'_>, key: &str, known: &[&str]) -> PyErr {
     let fields = [("argument", any(py, "key"))];

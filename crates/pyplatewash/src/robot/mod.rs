@@ -8,6 +8,7 @@ mod settings;
 mod source;
 
 use crate::argument::{self, ROBOT};
+use crate::by_python::{ask, table};
 use crate::errors;
 use crate::made;
 use crate::notes::warn;
@@ -347,6 +348,28 @@ impl Robot {
     ) -> PyResult<Bound<'py, PyAny>> {
         let frame = self.frame(py, frame, tool)?;
         batch::solve(&*self.solver(py, frame, settings)?, py, targets, seeds)
+    }
+
+    /// Shows one configuration, shape (6,), in three dimensions: a `Page`, which a notebook shows in the cell and whose `open()` and
+    /// `save(path)` do what they say. With a tool and plates where they are given; nothing is judged. `height` is that of the cell [px].
+    ///
+    /// Raises MissingError in a build without the page.
+    #[pyo3(
+        signature = (q, *, tool=None, plates=None, height=None),
+        text_signature = "($self, q, *, tool=None, plates=(), height=640)"
+    )]
+    fn show<'py>(
+        slf: &Bound<'py, Self>,
+        q: &Bound<'py, PyAny>,
+        tool: Option<&Bound<'py, PyAny>>,
+        plates: Option<&Bound<'py, PyAny>>,
+        height: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        ask(slf.py(), "_page", "show_configuration", (slf, q, tool, plates, height))
+    }
+
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        table(slf, "robot")
     }
 
     fn __repr__(&self) -> String {

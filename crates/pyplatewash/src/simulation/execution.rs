@@ -3,6 +3,7 @@
 use super::question::Question;
 use super::settings::SettingsObject;
 use crate::argument;
+use crate::by_python::table;
 use crate::errors;
 use crate::made;
 use crate::plan::PlanObject;
@@ -10,7 +11,7 @@ use crate::robot::Robot;
 use crate::value::to_record;
 use crate::work::patiently;
 use numpy::{PyArray1, PyArrayDyn};
-use platewash::simulator::simulate::{Sample, table};
+use platewash::simulator::simulate::{Sample, table as csv_table};
 use platewash::simulator::simulate_with;
 use platewash::{Execution, JointVector, SimulationError, SimulationReport};
 use pyo3::prelude::*;
@@ -27,12 +28,28 @@ pub struct ExecutionObject {
 }
 
 /// An execution and what it is one of.
-struct Done {
-    question: Question,
-    execution: Execution,
+pub struct Done {
+    /// What was simulated.
+    pub question: Question,
+    /// What came of it.
+    pub execution: Execution,
 }
 
 impl ExecutionObject {
+    /// The execution of the argument called `execution`, if it is given.
+    ///
+    /// # Errors
+    /// `InputTypeError` for what is no execution.
+    pub fn given<'a, 'py>(value: Option<&'a Bound<'py, PyAny>>) -> PyResult<Option<&'a Bound<'py, Self>>> {
+        argument::maybe("execution", value, "an Execution, as simulate gives it,")
+    }
+
+    /// The execution, and what it is one of.
+    #[must_use]
+    pub fn done(&self) -> Arc<Done> {
+        self.inner.clone()
+    }
+
     fn samples(&self) -> &[Sample] {
         &self.inner.execution.samples
     }
@@ -44,6 +61,12 @@ impl ExecutionObject {
 
 #[pymethods]
 impl ExecutionObject {
+    /// The plan that is executed.
+    #[getter]
+    fn plan(&self, py: Python<'_>) -> Py<PlanObject> {
+        self.arguments.0.clone_ref(py)
+    }
+
     /// Under which law, with which gains and on which plant.
     #[getter]
     fn settings(&self, py: Python<'_>) -> Py<SettingsObject> {
@@ -130,10 +153,14 @@ impl ExecutionObject {
         let (execution, Question { plan, arm, .. }) = (&self.inner.execution, &self.inner.question);
         let dt_s = dt_s.map(|dt_s| argument::number("dt_s", dt_s)).transpose()?;
         let dt_s = dt_s.unwrap_or(plan.job.simulation.control.dt_s);
-        let table = table(execution, plan, arm, dt_s);
+        let table = csv_table(execution, plan, arm, dt_s);
         table
             .map(|table| table.to_string())
             .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
+    }
+
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        table(slf, "execution")
     }
 
     fn __len__(&self) -> usize {

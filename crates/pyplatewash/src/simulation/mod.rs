@@ -5,6 +5,7 @@ mod question;
 mod settings;
 mod tuning;
 
-pub use execution::{ExecutionObject, simulate};
+pub use execution::{Done, ExecutionObject, simulate};
+pub use question::Question;
 pub use settings::SettingsObject;
 pub use tuning::tune;

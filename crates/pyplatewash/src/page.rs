@@ -1,0 +1,162 @@
+//! Pages in three dimensions, and the documents that they show.
+
+use crate::argument;
+use crate::arrays;
+use crate::certificate::CertificateObject;
+use crate::errors::{self, FileOf, SystemWord};
+use crate::plan::PlanObject;
+use crate::robot::Robot;
+use crate::scenario::ScenarioObject;
+use crate::simulation::{Done, ExecutionObject, Question};
+use crate::tool::{PlateFields, ToolFields};
+use crate::value::to_python;
+use crate::work::patiently;
+use platewash::viewer::bundle::Bundle;
+use platewash::viewer::page;
+use platewash::viewer::view::{Beside, Executed, Plate, View};
+use platewash::{JointVector, SimulationError, SimulationReport};
+use pyo3::prelude::*;
+
+/// Heights of a page in a notebook that are believed \[px\].
+const HEIGHTS_PX: [u64; 2] = [100, 10_000];
+
+const MISSING: &str = "this build of pyplatewash is without the page that shows plans: where its sources are, `cargo xtask page` makes \
+                       it, which needs a network once, and `pip install .` takes it along";
+
+/// The bundle that all pages share.
+///
+/// # Errors
+/// `MissingError` in a build without it.
+pub fn bundle(py: Python<'_>) -> PyResult<Bundle> {
+    Bundle::embedded().ok_or_else(|| errors::missing(py, "page", MISSING))
+}
+
+/// The argument called `height` \[px\], 640 where it is not given.
+///
+/// # Errors
+/// `InputTypeError`; `InputError` out of range.
+pub fn height_px(value: Option<&Bound<'_, PyAny>>) -> PyResult<usize> {
+    value.map_or(Ok(640), |value| argument::count("height", value, HEIGHTS_PX))
+}
+
+/// Checks the fields of Python's `Page`.
+///
+/// # Errors
+/// As [`height_px`]; `InputTypeError` for a page that is no text.
+pub fn check(page: &Bound<'_, PyAny>) -> PyResult<()> {
+    argument::text("html", &page.getattr("html")?, "a page's text")?;
+    height_px(Some(&page.getattr("height")?)).map(|_| ())
+}
+
+/// A document as a page.
+fn html(py: Python<'_>, view: &View, bundle: &Bundle) -> PyResult<String> {
+    page::html(view, bundle).map_err(|e| errors::internal(py, &e.to_string()))
+}
+
+/// What a page shows of a plan.
+fn view(
+    py: Python<'_>,
+    plan: &PlanObject,
+    robot: &Robot,
+    execution: Option<&ExecutionObject>,
+    certificate: Option<&CertificateObject>,
+    scenario: Option<&ScenarioObject>,
+) -> PyResult<View> {
+    let certificate = certificate.map(|certificate| certificate.inner().clone());
+    let hash = plan.inner().seal().ok();
+    if certificate.as_ref().is_some_and(|c| c.hash.computed != hash) {
+        return Err(errors::input(py, "certificate", "is one of another plan"));
+    }
+    let done = execution.map(ExecutionObject::done);
+    if done.as_ref().is_some_and(|done| done.question.plan != *plan.inner()) {
+        return Err(errors::input(py, "execution", "is one of another plan"));
+    }
+    let region = scenario.map(|scenario| scenario.inner().layout.task_region());
+    let (plan, arm) = (plan.inner().clone(), robot.model().clone());
+    let made = patiently(py, move |_| {
+        let executed = done.map(|done| executed(&done)).transpose()?;
+        let beside = Beside {
+            certificate: certificate.as_ref(),
+            executed: executed.as_ref(),
+            region: region.as_ref(),
+            events: None,
+        };
+        Ok::<_, SimulationError>(View::of_plan(&plan, &arm, &beside))
+    })?;
+    let made = made.map_err(|error| errors::failure(py, &error.into()))?;
+    made.map_err(|error| errors::keyed(py, "plan", &error.to_string()))
+}
+
+/// An execution, judged.
+fn executed(done: &Done) -> Result<Executed, SimulationError> {
+    let Question { plan, arm, settings } = &done.question;
+    let report = SimulationReport::new(plan, arm, settings, &done.execution)?;
+    Ok(Executed::simulated(&done.execution, &report))
+}
+
+/// The document of a plan as dictionaries; arrays are in base64.
+#[pyfunction]
+pub fn _plan_view<'py>(
+    py: Python<'py>,
+    plan: &PlanObject,
+    robot: &Robot,
+    execution: Option<&ExecutionObject>,
+    scenario: Option<&ScenarioObject>,
+) -> PyResult<Bound<'py, PyAny>> {
+    to_python(py, &view(py, plan, robot, execution, None, scenario)?)
+}
+
+/// The page of a plan.
+#[pyfunction]
+pub fn _plan_page(
+    py: Python<'_>,
+    plan: &PlanObject,
+    robot: &Robot,
+    execution: Option<&ExecutionObject>,
+    certificate: Option<&CertificateObject>,
+    scenario: Option<&ScenarioObject>,
+) -> PyResult<String> {
+    let bundle = bundle(py)?;
+    let view = view(py, plan, robot, execution, certificate, scenario)?;
+    html(py, &view, &bundle)
+}
+
+/// The page of one configuration of an arm, and its height.
+#[pyfunction]
+pub fn _configuration_page(
+    robot: &Robot,
+    q: &Bound<'_, PyAny>,
+    tool: Option<&Bound<'_, PyAny>>,
+    plates: Option<&Bound<'_, PyAny>>,
+    height: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(String, usize)> {
+    let (py, height) = (q.py(), height_px(height)?);
+    let q: JointVector = arrays::joint_vector("q", q)?;
+    if !q.iter().all(|v| v.is_finite()) {
+        return Err(errors::input(py, "q", "is not finite"));
+    }
+    let tool = tool.map(|tool| ToolFields::of(tool)?.tool(py)).transpose()?;
+    let read = |name: &str, plate: &Bound<'_, PyAny>| PlateFields::of(name, plate)?.plate(py);
+    let plates = plates.map(|plates| argument::each("plates", plates, "a list of Plates", read));
+    let plates = plates.transpose()?.unwrap_or_default();
+    let bundle = bundle(py)?;
+    let mut view = View::of_configuration(robot.model(), tool.as_ref(), &q);
+    view.plates = plates
+        .iter()
+        .enumerate()
+        .map(|(k, plate)| Plate::new(k, plate))
+        .collect();
+    Ok((html(py, &view, &bundle)?, height))
+}
+
+/// Writes a page to a file.
+#[pyfunction]
+pub fn _save_page(py: Python<'_>, page: &Bound<'_, PyAny>, path: &Bound<'_, PyAny>) -> PyResult<()> {
+    let path = argument::path("path", path)?;
+    let html = argument::text("html", &page.getattr("html")?, "a page's text")?;
+    std::fs::write(&path, html).map_err(|e| {
+        let filename = path.display().to_string();
+        let message = format!("{filename}: cannot be written: {e}");
+        errors::system_file(py, FileOf::Page, SystemWord::from(&e), &filename, &message)
+    })
+}

@@ -1,0 +1,20 @@
+"""Colours: those of Okabe and Ito, which colour-blind readers tell apart, and the source's magenta."""
+
+from __future__ import annotations
+
+#: Wash paths.
+WASH = "#c2258f"
+#: Motion between plates.
+TRANSIT = "#0072b2"
+#: What an arm did.
+EXECUTED = "#1b1f24"
+#: Rims of plates, and other outlines.
+OUTLINE = "#6e7781"
+#: Faces of plates.
+FACE = "#eef0f2"
+#: A limit, a margin, what is missed.
+LIMIT = "#d55e00"
+#: The six joints.
+JOINTS = ("#0072b2", "#e69f00", "#009e73", "#1b1f24", "#cc79a7", "#56b4e9")
+#: Cells that are missed, swept in part, swept.
+MISSED, PARTLY, SWEPT = "#d55e00", "#f0e442", "#56b4e9"

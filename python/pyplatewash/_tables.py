@@ -1,0 +1,192 @@
+"""Tables in HTML for notebooks: a function a noun. Texts of a file are escaped, whatever they say."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core, _picture
+from ._errors import PlatewashError
+from ._figures.subject import Subject
+from ._values import Floats, WashCurve
+from ._words import percent
+
+if TYPE_CHECKING:
+    from ._records import Record
+
+#: Most characters of a text and most lines of a table.
+MOST_CHARACTERS, MOST_LINES = 400, 60
+
+#: Most plates whose wash paths a picture shows.
+MOST_PATHS = 24
+
+_CELL = "text-align:left;vertical-align:top;padding:0.15em 0.8em 0.15em 0"
+#: A status has a sign of its own, so that it is not told by its colour alone.
+_SIGNS = {"proved": "✓", "violated": "✗", "not_proved": "?", "waived": "!", "washed": "✓", "not_washed": "✗"}
+
+
+def shown(value: object) -> str:
+    """A value as the text of a cell: escaped, cut where it is long, and for itself where it is written from right to left."""
+    text = value if isinstance(value, str) else str(value)
+    text = "".join(c if c.isprintable() or c == "\n" else "\N{REPLACEMENT CHARACTER}" for c in text)
+    text = text if len(text) <= MOST_CHARACTERS else f"{text[: MOST_CHARACTERS - 1]}…"
+    return f"<bdi>{html.escape(text)}</bdi>"
+
+
+class Raw(str):
+    """Text that is HTML already."""
+
+
+def status(word: str) -> Raw:
+    """A status with its sign."""
+    text = f"{_SIGNS.get(word, '')} {html.escape(word.replace('_', ' '))}".strip()
+    return Raw(f'<span style="white-space:nowrap">{text}</span>')
+
+
+def table(rows: Iterable[Sequence[object]], head: Sequence[str] = ()) -> Raw:
+    """Rows of cells; the first cell of each names it."""
+    lines = list(rows)
+    left = len(lines) - MOST_LINES
+    if left > 0:
+        lines = [*lines[:MOST_LINES], (f"… and {left} more",)]
+    cells = ["".join(_cell(cell, "th" if k == 0 else "td") for k, cell in enumerate(row)) for row in lines]
+    top = f"<thead><tr>{''.join(_cell(name, 'th') for name in head)}</tr></thead>" if head else ""
+    body = "".join(f"<tr>{row}</tr>" for row in cells)
+    return Raw(f'<table style="margin:0;border-collapse:collapse">{top}<tbody>{body}</tbody></table>')
+
+
+def _cell(value: object, tag: str) -> str:
+    return f'<{tag} style="{_CELL}">{value if isinstance(value, Raw) else shown(value)}</{tag}>'
+
+
+def page(title: object, parts: Iterable[str]) -> str:
+    """A headline over tables and pictures that stand beside one another."""
+    inner = "".join(f"<div>{part}</div>" for part in parts if part)
+    return f'<div><strong>{shown(title)}</strong><div style="display:flex;flex-wrap:wrap;gap:1.5em;align-items:flex-start">{inner}</div></div>'
+
+
+def plan(of: _core.Plan) -> str:
+    """A plan: it says nothing about a proof."""
+    hash_ = "none" if of.hash is None else f"{of.hash[:12]}… ({'as sealed' if of.is_sealed() else 'NOT that of the contents'})"
+    rows = [
+        ("process", of.process),
+        ("seed", of.job.seed),
+        ("plates", f"{len(of.order)}, in the order {_listed(of.order)}"),
+        ("duration", f"{of.duration_s:.2f} s, {len(of.segments)} segments"),
+        ("arm", of.job.workcell.arm.name),
+        ("hash", hash_),
+        ("proof", "none for a run of the paper's program" if of.process == "paper" else "see prove(plan)"),
+    ]
+    return page(f"Plan: {of.provenance.scenario}", [table(rows), plan_picture(of)])
+
+
+def planned(of: _core.Planned) -> str:
+    rows = [(f"{k}: plate {v.plate}", f"{v.wash_s:.2f} s") for k, v in enumerate(of.visits, 1)]
+    tour = of.tour
+    whole = [
+        ("duration", f"{of.plan.duration_s:.2f} s"),
+        ("between plates", f"{tour.travel_s:.2f} s (nearest first: {tour.nearest_next_s:.2f} s)"),
+        ("proof", "see prove(planned.plan)"),
+    ]
+    return page(f"Planned: {of.plan.provenance.scenario}", [table(whole), table(rows, ("wash", "time")), plan_picture(of.plan)])
+
+
+def certificate(of: _core.Certificate) -> str:
+    rows = [(name, status(word), detail, worst) for name, word, detail, worst in of._rows()]
+    sign = "✓" if of.proved else "✗"
+    return page(f"{sign} {of.headline}", [table(rows, ("requirement", "status", "measure", "worst"))])
+
+
+def layout(of: _core.Layout) -> str:
+    plates = [(k, f"({p.x_m:.4f}, {p.y_m:.4f}) m", f"{1e3 * p.radius_m:g} mm") for k, p in enumerate(of.plates)]
+    findings = [(k, str(finding)) for k, finding in enumerate(of.findings, 1)]
+    parts = [table(plates, ("plate", "centre", "radius")), table(findings, ("finding", "")) if findings else "", _picture.from_above(of.plates)]
+    return page(f"Layout: {len(of)} plates, {'no findings' if not findings else f'{len(findings)} findings'}", parts)
+
+
+def job(of: _core.WashJob | _core.PaperJob) -> str:
+    rows = [("program", "the paper's" if isinstance(of, _core.PaperJob) else "certified"), ("seed", of.seed), ("arm", of.robot.name), ("plates", len(of.layout))]
+    return page(f"Job: {of.name}", [table(rows), _picture.from_above(of.layout.plates)])
+
+
+def execution(of: _core.Execution) -> str:
+    report = of.report()
+    rows = [(f"plate {p.plate}", status(p.verdict), percent(p.planned.fraction), percent(p.executed.fraction)) for p in report.plates]
+    whole = [
+        ("law", of.settings.law),
+        ("tip off by", f"{1e3 * report.tracking.tip_m.rms:.3g} mm rms, {1e3 * report.tracking.tip_m.max:.3g} mm at most"),
+        ("samples", f"{len(of)}, every {1e3 * of.period_s:g} ms"),
+        ("saturated", f"{of.saturated} samples"),
+    ]
+    title = f"Execution of {of.plan.provenance.scenario}: {report.headline}"
+    return page(title, [table(whole), table(rows, ("plate", "verdict", "swept as planned", "executed"))])
+
+
+def paper_run(of: _core.PaperRun) -> str:
+    report = of.report()
+    rows = [
+        (f"plate {p.plate}", f"{p.reached} of {p.waypoints}", percent(p.ideal_coverage.fraction), percent(p.executed_coverage.fraction), f"{1e3 * p.tracking_rms_m:.1f} mm")
+        for p in report.plates
+    ]
+    head = ("plate", "waypoints reached", "swept as commanded", "executed", "tip off by, rms")
+    paths = [of.targets[of.washing & (of.plate == index), :2] for index in of.order]
+    return page(report.headline, [table(rows, head), _picture.from_above(of.job.layout.plates, paths, of.order)])
+
+
+def robot(of: _core.Robot) -> str:
+    degrees = np.degrees([of.lower, of.upper, of.velocity])
+    rows = [
+        (name, f"{low:g} to {high:g} °", f"{speed:g} °/s", "–" if effort is None else f"{effort:g} N·m")
+        for name, low, high, speed, effort in zip(of.joint_names, *degrees.round(3), of.effort)
+    ]
+    return page(f"Robot: {of.name}", [table(rows, ("joint", "position", "speed", "torque"))])
+
+
+def record(of: Record) -> str:
+    """A report as its text; any other record as its keys and values."""
+    text = of._text
+    if text is not None:
+        return f'<pre style="white-space:pre-wrap">{html.escape(str(text))}</pre>'
+    return str(table((key, _brief(value)) for key, value in of.items()))
+
+
+def _brief(value: object) -> object:
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(map(str, value)) + "}"
+    if isinstance(value, list) and len(value) > 8:
+        return f"{len(value)} items"
+    return value
+
+
+def plan_picture(of: _core.Plan) -> str:
+    """The plates of a plan with their wash paths; nothing for a file whose numbers make no picture."""
+    try:
+        return _picture.from_above(of.plates, wash_paths(of), of.order)
+    except (PlatewashError, IndexError):
+        return ""
+
+
+def wash_paths(of: _core.Plan) -> list[Floats]:
+    """The curves of a plan's wash paths from above, each of shape (N, 2), world frame [m]; for a run of the paper's program, where its
+    motion goes while it washes, if its arm is known."""
+    if of.process == "paper":
+        if of.robot is None:
+            return []
+        subject = Subject.of(of, of.robot, None, None, None)
+        return [subject.planned_tip(s.t_start_s, s.t_end_s)[:, :2] for s in of.segments if s.kind == "wash"]
+    paths: list[Floats] = []
+    for path in of.wash_paths if len(of.plates) <= MOST_PATHS else ():
+        curve, pose = path.curve, of.job.plates[path.plate].pose
+        shape = WashCurve(radius_m=curve.radius_m, turns=curve.turns, start_angle_rad=curve.start_angle_rad, closing_ring=curve.closing_ring)
+        points = shape.sample(1.5e-3)[1]
+        w, _, _, z = pose.quaternion_wxyz
+        turn = np.array([[w * w - z * z, -2 * w * z], [2 * w * z, w * w - z * z]])
+        paths.append(points @ turn.T + np.array(pose.position_m[:2]))
+    return paths
+
+
+def _listed(order: Sequence[int]) -> str:
+    return ", ".join(map(str, order[:20])) + (", …" if len(order) > 20 else "")
