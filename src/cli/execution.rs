@@ -1,5 +1,6 @@
 //! What an arm makes of a plan under a control law, for `run`, `simulate` and `view`.
 
+use super::failure::Failure;
 use platewash::simulator::simulate::{Sample, simulate_watched};
 use platewash::workcell::simulation::SimulationSettings;
 use platewash::{CancelToken, Execution, Plan, RobotModel, SimulationError, SimulationReport};
@@ -12,6 +13,20 @@ pub fn carry_out(
     cancel: &CancelToken,
 ) -> Result<(Execution, SimulationReport), SimulationError> {
     carry_out_watched(plan, arm, settings, cancel, &mut |_| {})
+}
+
+/// As [`carry_out_watched`], where going on without an execution is no failure: why there is none, in words. To give up is one.
+pub fn tried(
+    plan: &Plan,
+    arm: &RobotModel,
+    cancel: &CancelToken,
+    watch: &mut dyn FnMut(&Sample),
+) -> Result<Result<(Execution, SimulationReport), String>, Failure> {
+    match carry_out_watched(plan, arm, &plan.job.simulation, cancel, watch) {
+        Ok(done) => Ok(Ok(done)),
+        Err(SimulationError::Cancelled(cancelled)) => Err(cancelled.into()),
+        Err(error) => Ok(Err(platewash::Failure::from(error).to_string())),
+    }
 }
 
 /// As [`carry_out`], and tells `watch` of each sample when it is known.

@@ -11,7 +11,7 @@ use platewash::certificate::prove_with;
 use platewash::viewer::figures::{Figure, Ideal, Sheet, Subject, draw};
 use platewash::workcell::layout::TaskRegion;
 use platewash::workcell::plan::Process;
-use platewash::{Certificate, Execution, SimulationError, SimulationReport};
+use platewash::{Certificate, Execution, SimulationReport};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -168,15 +168,11 @@ impl Known {
         let simulated = wanted
             .iter()
             .any(|figure| figure.shows_executed())
-            .then(|| execution::carry_out(plan, arm, &plan.job.simulation, &options.cancel));
-        let executed = match simulated.transpose() {
-            Ok(executed) => executed,
-            Err(SimulationError::Cancelled(cancelled)) => return Err(cancelled.into()),
-            Err(error) => {
-                unknown("what an arm makes of it", platewash::Failure::from(error).to_string());
-                None
-            }
-        };
+            .then(|| execution::tried(plan, arm, &options.cancel, &mut |_| {}));
+        let executed = simulated.transpose()?.and_then(|simulated| {
+            let refused = |why| unknown("what an arm makes of it", why);
+            simulated.map_err(refused).ok()
+        });
         Ok(Self {
             certificate,
             executed,

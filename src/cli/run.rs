@@ -14,9 +14,7 @@ use platewash::scenario::Program;
 use platewash::simulator::simulate::{PlateVerdict, Sample, table};
 use platewash::viewer::server::LiveEnd;
 use platewash::viewer::view::{Beside, Executed};
-use platewash::{
-    Execution, Plan, RobotModel, Scenario, SimulationError, SimulationReport, SimulationVerdict, WashReport,
-};
+use platewash::{Execution, Plan, RobotModel, Scenario, SimulationReport, SimulationVerdict, WashReport};
 use serde::Serialize;
 
 /// Arguments of `run`.
@@ -152,14 +150,10 @@ fn simulated(
     arm: &RobotModel,
     watch: &mut dyn FnMut(&Sample),
 ) -> Result<(Option<Execution>, Simulated), Failure> {
-    match execution::carry_out_watched(plan, arm, &plan.job.simulation, &options.cancel, watch) {
-        Ok((execution, report)) => Ok((Some(execution), Simulated::Done(Box::new(report)))),
-        Err(SimulationError::Cancelled(cancelled)) => Err(cancelled.into()),
-        Err(error) => {
-            let refused = platewash::Failure::from(error).to_string();
-            Ok((None, Simulated::Refused { refused }))
-        }
-    }
+    Ok(match execution::tried(plan, arm, &options.cancel, watch)? {
+        Ok((execution, report)) => (Some(execution), Simulated::Done(Box::new(report))),
+        Err(refused) => (None, Simulated::Refused { refused }),
+    })
 }
 
 /// Simulates a plan in real time, while it is shown.

@@ -14,7 +14,7 @@ use platewash::viewer::server::Site;
 use platewash::viewer::view::{Beside, Executed, ViewError};
 use platewash::workcell::plan::Process;
 use platewash::workcell::recorded::RecordedMotion;
-use platewash::{CancelToken, Certificate, SimulationError};
+use platewash::{CancelToken, Certificate};
 use serde::Serialize;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -136,12 +136,9 @@ fn certificate(options: &Options, file: &PlanFile<'_>) -> Result<Option<Certific
 /// error explains.
 fn simulated(options: &Options, file: &PlanFile<'_>) -> Result<Option<Executed>, Failure> {
     let _progress = Progress::new(options.quiet, "simulating");
-    let settings = &file.plan.job.simulation;
-    match execution::carry_out(&file.plan, &file.arm, settings, &options.cancel) {
+    match execution::tried(&file.plan, &file.arm, &options.cancel, &mut |_| {})? {
         Ok((execution, report)) => Ok(Some(Executed::simulated(&execution, &report))),
-        Err(SimulationError::Cancelled(cancelled)) => Err(cancelled.into()),
-        Err(error) => {
-            let words = platewash::Failure::from(error).to_string();
+        Err(words) => {
             output::message(options.quiet, &format!("not simulated: {words}"));
             Ok(None)
         }

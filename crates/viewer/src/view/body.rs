@@ -29,35 +29,6 @@ impl From<&Rigid> for Pose {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
-    /// A box centred at the origin.
-    Box {
-        /// Half of each edge \[m\].
-        half_m: [f64; 3],
-    },
-    /// A cylinder centred at the origin.
-    Cylinder {
-        /// Radius \[m\].
-        radius_m: f64,
-        /// Half of the length \[m\].
-        half_length_m: f64,
-    },
-    /// A sphere centred at the origin.
-    Sphere {
-        /// Radius \[m\].
-        radius_m: f64,
-    },
-    /// All points near a segment about the origin.
-    Capsule {
-        /// How near \[m\].
-        radius_m: f64,
-        /// Half of the segment's length \[m\].
-        half_length_m: f64,
-    },
-    /// The convex hull of points.
-    Hull {
-        /// The points \[m\].
-        points: Vec<[f64; 3]>,
-    },
     /// A surface of triangles.
     Mesh {
         /// \[count, 3 corners, 3 coordinates\] \[m\].
@@ -65,31 +36,14 @@ pub enum Shape {
     },
     /// All of z ≤ 0.
     HalfSpace {},
+    /// A convex solid.
+    #[serde(untagged)]
+    Solid(geometry::Shape),
 }
 
 impl From<&geometry::Shape> for Shape {
     fn from(shape: &geometry::Shape) -> Self {
-        match *shape {
-            geometry::Shape::Box { half_m } => Self::Box { half_m },
-            geometry::Shape::Cylinder {
-                radius_m,
-                half_length_m,
-            } => Self::Cylinder {
-                radius_m,
-                half_length_m,
-            },
-            geometry::Shape::Sphere { radius_m } => Self::Sphere { radius_m },
-            geometry::Shape::Capsule {
-                radius_m,
-                half_length_m,
-            } => Self::Capsule {
-                radius_m,
-                half_length_m,
-            },
-            geometry::Shape::Hull { ref points } => Self::Hull {
-                points: points.iter().map(|p| p.coords.into()).collect(),
-            },
-        }
+        Self::Solid(shape.clone())
     }
 }
 

@@ -43,12 +43,12 @@ pub use heading::{Heading, Process};
 pub use motion::{Motion, Segment};
 pub use numbers::{Data, Numbers};
 pub use plates::{Plate, WashPath};
-use platewash_workcell::layout::TaskRegion;
 pub use surroundings::Surroundings;
 pub use tool::{Sponge, Tool};
 
 use platewash_certificate as proved;
 use platewash_kinematics::{JointVector, Pose as Rigid, RobotModel};
+use platewash_workcell::layout::TaskRegion;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::tool as held;
 use serde::Serialize;
