@@ -28,7 +28,7 @@ pub enum PlanError {
     /// A setting with which nothing can be planned.
     #[error("{name} must be in [{least}, {most}]; found {found}")]
     Setting {
-        /// Its name in the planner's settings.
+        /// Its name in the planner's settings, or in a map's.
         name: &'static str,
         /// Least value.
         least: f64,
@@ -36,6 +36,14 @@ pub enum PlanError {
         most: f64,
         /// What was given.
         found: f64,
+    },
+    /// There is no such plate.
+    #[error("there is no plate {plate}; there are {count}")]
+    Plate {
+        /// Index of the plate.
+        plate: usize,
+        /// How many there are.
+        count: usize,
     },
     /// The terms are no job.
     #[error(transparent)]
@@ -132,6 +140,19 @@ pub enum PlanError {
 }
 
 impl PlanError {
+    /// Refuses a setting that is not within its range.
+    pub(crate) fn unless_within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), Self> {
+        if (least..=most).contains(&found) {
+            return Ok(());
+        }
+        Err(Self::Setting {
+            name,
+            least,
+            most,
+            found,
+        })
+    }
+
     /// Whether the input was fine but no plan came of it.
     #[must_use]
     pub fn is_infeasible(&self) -> bool {

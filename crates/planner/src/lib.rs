@@ -11,6 +11,7 @@ mod error;
 mod infeasible;
 pub mod joint_path;
 mod order;
+mod outlook;
 mod pipeline;
 mod planned;
 pub mod redundancy;
@@ -18,15 +19,22 @@ pub mod scene;
 pub mod timing;
 pub mod transit;
 mod unwashable;
+mod washable_map;
 mod watch;
 
 pub use activity::Activity;
 pub use error::PlanError;
 pub use infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport};
 pub use order::{EXACT_UP_TO, Optimality};
-pub use pipeline::{check, draw_washable_layout, plan, plan_with};
+pub use outlook::PlateOutlook;
+pub use pipeline::{
+    check, draw_washable_layout, nearest_place, outlook, plan, plan_here, plan_with, unwashable_plates, washable_map,
+};
 pub use planned::{Planned, TourSummary, TransitSummary, VisitSummary};
+pub use redundancy::Chance;
+pub use redundancy::relocation::SEARCHED_M;
 pub use unwashable::{PlaceSearch, UnwashablePlate};
+pub use washable_map::{MapArea, MapPatch};
 pub use watch::{Listener, Watch};
 
 pub(crate) use platewash_kinematics::trig;

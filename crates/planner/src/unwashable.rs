@@ -20,6 +20,11 @@ pub struct UnwashablePlate {
     pub share: Option<f64>,
     /// What keeps the rest from being washed, the most frequent first.
     pub causes: Vec<Cause>,
+    /// Contact points, world frame \[m\], looked at one by one: those for which configurations were found on the best branch of
+    /// the arm. Without a `share` none were looked at, here and in `dead_m`.
+    pub free_m: Vec<[f64; 3]>,
+    /// Those for which none were.
+    pub dead_m: Vec<[f64; 3]>,
     /// The nearest centre found at which it can be washed whole, and the arm gets there and away \[m\]; on a grid of a
     /// millimetre, so that what is printed is what was tried.
     pub nearest_m: Option<[f64; 2]>,
@@ -35,13 +40,27 @@ pub enum PlaceSearch {
     Within(f64),
     /// Not at all: the job does not ask for it.
     Off,
+    /// Not yet: the job asks for it, but whoever asked for an answer did not wait for it.
+    Later,
 }
 
-impl fmt::Display for UnwashablePlate {
+/// Why a plate cannot be washed, without another place for it.
+struct Why<'a>(&'a UnwashablePlate);
+
+impl UnwashablePlate {
+    /// Why it cannot be washed, or that no way to was found, in words; without another place for it.
+    #[must_use]
+    pub fn why(&self) -> impl fmt::Display + '_ {
+        Why(self)
+    }
+}
+
+impl fmt::Display for Why<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let ([x, y], plate) = (self.centre_m, self.plate);
-        let percent = self.share.map(|share| 100.0 * share);
-        match (self.conclusion.is_proved(), percent) {
+        let Self(of) = self;
+        let ([x, y], plate) = (of.centre_m, of.plate);
+        let percent = of.share.map(|share| 100.0 * share);
+        match (of.conclusion.is_proved(), percent) {
             (true, Some(percent)) => write!(
                 f,
                 "plate {plate} at ({x:.3}, {y:.3}) m cannot be washed whole: {percent:.1} % of its wash path can"
@@ -54,18 +73,26 @@ impl fmt::Display for UnwashablePlate {
             (_, None) => write!(
                 f,
                 "no way to wash plate {plate} at ({x:.3}, {y:.3}) m whole was found, which does not prove that there is none: {}",
-                self.error
+                of.error
             )?,
         }
-        for cause in &self.causes {
-            write!(f, "; {}", cause.words(self.conclusion))?;
+        for cause in &of.causes {
+            write!(f, "; {}", cause.words(of.conclusion))?;
         }
+        Ok(())
+    }
+}
+
+impl fmt::Display for UnwashablePlate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.why().fmt(f)?;
         match (self.nearest_m, self.place_search) {
             (Some([x, y]), _) => write!(f, "; the nearest position found where it can is ({x:.3}, {y:.3}) m"),
             (None, PlaceSearch::Within(most_m)) => {
                 write!(f, "; no position where it can was found within {most_m} m of it")
             }
             (None, PlaceSearch::Off) => f.write_str("; no other position was looked for"),
+            (None, PlaceSearch::Later) => f.write_str("; another position was not looked for here"),
         }
     }
 }

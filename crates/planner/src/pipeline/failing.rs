@@ -1,65 +1,93 @@
-//! A plate for which no way was found to wash it whole: why, and where it could be washed.
+//! A plate for which no way was found to wash it whole: why.
 
 use super::shared::Pipeline;
-use super::visit;
+use super::visits::Failed;
 use crate::activity::Activity;
 use crate::error::PlanError;
-use crate::redundancy::relocation::{RING_M, RINGS, Relocation, SEARCHED_M};
-use crate::redundancy::washable::{self, Washable};
+use crate::redundancy::washable::{self, Points, Washable};
 use crate::redundancy::{Conclusion, RedundancyError, Task};
 use crate::scene::Scene;
-use crate::transit::LiftLine;
 use crate::unwashable::{PlaceSearch, UnwashablePlate};
-use nalgebra::Vector2;
-use platewash_kinematics::JointVector;
+use crate::watch::Watch;
 use platewash_workcell::cancel::Cancelled;
-use platewash_workcell::wash_path::WashPath;
+use platewash_workcell::job::WashJob;
+use rayon::prelude::*;
+
+/// Every plate of a job that cannot be washed whole or that no way was found for, with all that stands in the way, by their
+/// index. Where another could lie is not looked for, nor how the arm gets from one to the next: a job of which nothing is
+/// listed here may still not be planned.
+///
+/// The one that [`plan_here`](crate::plan_here) reports is among them, with the same words.
+///
+/// # Errors
+/// [`PlanError`] of the input, an end configuration that is not clear, and [`PlanError::Cancelled`].
+pub fn unwashable_plates(job: &WashJob, watch: &Watch<'_>) -> Result<Vec<UnwashablePlate>, PlanError> {
+    let pipeline = Pipeline::here(job, watch)?;
+    pipeline.check_homes()?;
+    let scene = pipeline.scene()?;
+    let (order, _) = pipeline.order(&scene)?;
+    let failed = pipeline.failed(&scene, &order)?;
+    let why = |failed: Failed| pipeline.look_into(&scene, failed);
+    let plates: Result<Vec<UnwashablePlate>, Cancelled> = failed.into_par_iter().map(why).collect();
+    let mut plates = plates?;
+    plates.sort_by_key(|plate| plate.plate);
+    Ok(plates)
+}
 
 impl Pipeline<'_> {
+    /// All plates for which no configurations are found: those that a few points tell, and the others as they are washed.
+    fn failed(&self, scene: &Scene<'_>, order: &[usize]) -> Result<Vec<Failed>, Cancelled> {
+        let turns = (0..order.len()).into_par_iter();
+        let blocked: Result<Vec<_>, Cancelled> = turns.map(|k| self.blocked(scene, order, k)).collect();
+        let mut failed: Vec<Failed> = blocked?.into_iter().flatten().collect();
+        let known: Vec<usize> = failed.iter().map(|failed| failed.path.plate).collect();
+        let others = self.turns(scene, order, |plate| !known.contains(&plate));
+        failed.extend(others.filter_map(Result::err).map(|failed| *failed));
+        scene.check_cancelled()?;
+        Ok(failed)
+    }
+
     /// Looks into a plate for which no configurations were found.
-    pub fn unwashable(
-        &self,
-        scene: &Scene<'_>,
-        path: &WashPath,
-        near: &JointVector,
-        error: RedundancyError,
-    ) -> PlanError {
-        let looked_into = match error {
-            RedundancyError::Cancelled(cancelled) => Err(cancelled),
-            error => self.look_into(scene, path, near, error),
-        };
-        match looked_into {
+    pub fn unwashable(&self, scene: &Scene<'_>, failed: Failed) -> PlanError {
+        match self.with_place(scene, failed) {
             Ok(plate) => PlanError::Unwashable(Box::new(plate)),
             Err(cancelled) => cancelled.into(),
         }
     }
 
-    fn look_into(
-        &self,
-        scene: &Scene<'_>,
-        path: &WashPath,
-        near: &JointVector,
-        error: RedundancyError,
-    ) -> Result<UnwashablePlate, Cancelled> {
+    /// Why, and where else it could lie if that is to be looked for.
+    fn with_place(&self, scene: &Scene<'_>, failed: Failed) -> Result<UnwashablePlate, Cancelled> {
+        let (path, near) = (failed.path, failed.near);
+        let plate = self.look_into(scene, failed)?;
+        let nearest_m = match self.place_search {
+            PlaceSearch::Within(_) => self.nearest(scene, &path, &near)?,
+            PlaceSearch::Off | PlaceSearch::Later => None,
+        };
+        scene.check_cancelled()?;
+        Ok(UnwashablePlate { nearest_m, ..plate })
+    }
+
+    /// Why, without a search for another place.
+    fn look_into(&self, scene: &Scene<'_>, failed: Failed) -> Result<UnwashablePlate, Cancelled> {
+        let Failed { path, near, error } = failed;
+        if let RedundancyError::Cancelled(cancelled) = error {
+            return Err(cancelled);
+        }
         let plate = path.plate;
         (self.watch.tell)(&Activity::Cause { plate });
-        let part = match Task::new(scene, path, self.clearance_m(), near) {
+        let part = match Task::new(scene, &path, self.clearance_m(), &near) {
             Ok(task) => Some(washable::washable_part(&task)?),
             Err(_) => None,
         };
-        let (share, causes, conclusion) = match part {
+        let (share, causes, conclusion, points) = match part {
             Some(Washable::Part {
                 share,
                 causes,
                 conclusion,
-            }) => (Some(share), causes, conclusion),
-            _ => (None, Vec::new(), Conclusion::NotFound),
+                points,
+            }) => (Some(share), causes, conclusion, points),
+            _ => (None, Vec::new(), Conclusion::NotFound, Points::default()),
         };
-        let (nearest, place_search) = match self.settings.relocate {
-            true => (self.nearest(scene, path, near), PlaceSearch::Within(SEARCHED_M)),
-            false => (None, PlaceSearch::Off),
-        };
-        scene.check_cancelled()?;
         Ok(UnwashablePlate {
             plate,
             centre_m: self.plates[plate].centre_xy(),
@@ -67,66 +95,10 @@ impl Pipeline<'_> {
             conclusion,
             share,
             causes,
-            nearest_m: nearest.map(Into::into),
-            place_search,
+            free_m: points.free_m,
+            dead_m: points.dead_m,
+            nearest_m: None,
+            place_search: self.place_search,
         })
-    }
-
-    /// The nearest place found at which the job would wash the plate \[m\].
-    fn nearest(&self, scene: &Scene<'_>, path: &WashPath, near: &JointVector) -> Option<Vector2<f64>> {
-        let plate = path.plate;
-        let relocation = Relocation {
-            scene,
-            clearance: &self.clearance,
-            path,
-            clearance_m: self.clearance_m(),
-            near,
-        };
-        let mut holds = |centre: &Vector2<f64>| {
-            let centre_m = (*centre).into();
-            (self.watch.tell)(&Activity::Trial { plate, centre_m });
-            self.washes_at(plate, centre_m).unwrap_or(false)
-        };
-        let tell = |ring: u32| {
-            let (of, away_m) = (RINGS, RING_M * f64::from(ring));
-            (self.watch.tell)(&Activity::Relocation {
-                plate,
-                ring,
-                of,
-                away_m,
-            });
-        };
-        relocation.nearest_washable(&mut holds, &tell).ok().flatten()
-    }
-
-    /// Whether the job would wash a plate with its centre there \[m\]: planned as the job is, up to the transits to it and from
-    /// it. Other plates that cannot be washed are left out.
-    fn washes_at(&self, plate: usize, centre_m: [f64; 2]) -> Result<bool, PlanError> {
-        let mut plates = self.plates.to_vec();
-        plates[plate] = plates[plate].moved_to(centre_m);
-        let moved = self.among(&plates);
-        moved.check_homes()?;
-        let scene = moved.scene()?;
-        let (order, _) = moved.order(&scene)?;
-        let [mut near, _] = self.terms.home_rad;
-        let (mut lines, mut at): (Vec<[LiftLine; 2]>, _) = (Vec::new(), None);
-        for k in 0..order.len() {
-            let path = moved.path_of(&scene, &order, k);
-            let washing = match moved.washing(&scene, &path, &near) {
-                Ok(washing) => washing,
-                Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
-                Err(_) if order[k] != plate => continue,
-                Err(_) => return Ok(false),
-            };
-            near = washing.q.last().copied().unwrap_or(near);
-            if order[k] == plate {
-                at = Some(lines.len());
-            }
-            lines.push(visit::lines(&moved, &scene, &path, &washing)?);
-        }
-        let lines: Vec<_> = lines.iter().map(|[entry, exit]| [entry, exit]).collect();
-        let beside = |k: usize| at.is_some_and(|at| k == at || k == at + 1);
-        moved.transits(&scene, &lines, beside)?;
-        Ok(true)
     }
 }

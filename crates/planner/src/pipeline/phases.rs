@@ -25,7 +25,20 @@ pub fn plan(job: &WashJob) -> Result<Planned, PlanError> {
 /// # Errors
 /// As [`plan`], and [`PlanError::Cancelled`].
 pub fn plan_with(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError> {
-    let pipeline = Pipeline::new(job.arm(), job.terms(), &job.terms().plates, watch)?;
+    planned(job, &Pipeline::new(job.arm(), job.terms(), &job.terms().plates, watch)?)
+}
+
+/// [`plan_with`] for whoever does not wait: where a plate cannot be washed, no other place is looked for, whatever the job asks for.
+/// [`PlaceSearch::Later`](crate::PlaceSearch::Later) says so; [`nearest_place`](crate::nearest_place) is that search. Plans are the
+/// same, to the bit.
+///
+/// # Errors
+/// As [`plan_with`].
+pub fn plan_here(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError> {
+    planned(job, &Pipeline::here(job, watch)?)
+}
+
+fn planned(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanError> {
     pipeline.check_homes()?;
     let scene = pipeline.scene()?;
     let (order, tour) = pipeline.order(&scene)?;

@@ -1,14 +1,16 @@
 //! What the phases of planning share.
 
 use crate::error::PlanError;
+use crate::redundancy::relocation::SEARCHED_M;
 use crate::scene::{Scene, Stretch, TiltPolicy};
 use crate::timing::{MotionLimits, TipLimits};
 use crate::transit::TooNear;
+use crate::unwashable::PlaceSearch;
 use crate::watch::Watch;
 use nalgebra::Vector3;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::job::{End, JobTerms, PlannerSettings};
+use platewash_workcell::job::{End, JobTerms, PlannerSettings, WashJob};
 use platewash_workcell::plate::Plate;
 
 /// The longest line over a plate \[m\].
@@ -28,6 +30,8 @@ pub(super) struct Pipeline<'a> {
     /// Limits while washing, and elsewhere.
     pub washing: MotionLimits,
     pub transit: MotionLimits,
+    /// How another place is looked for where a plate cannot be washed.
+    pub place_search: PlaceSearch,
     pub watch: Watch<'a>,
 }
 
@@ -43,8 +47,8 @@ impl<'a> Pipeline<'a> {
         if !terms.workcell.tool.is_present() {
             return Err(PlanError::NoTool);
         }
-        within("lift_m", settings.lift_m, [0.0, LONGEST_LIFT_M])?;
-        within("arc.points", settings.arc.points as f64, [2.0, MOST_ARC_POINTS])?;
+        PlanError::unless_within("lift_m", settings.lift_m, [0.0, LONGEST_LIFT_M])?;
+        PlanError::unless_within("arc.points", settings.arc.points as f64, [2.0, MOST_ARC_POINTS])?;
         for (end, q) in ends(terms) {
             if let Some(violation) = robot.limits().violation(q) {
                 return Err(PlanError::Home { end, violation });
@@ -66,7 +70,25 @@ impl<'a> Pipeline<'a> {
             clearance: ClearanceModel::new(robot, &terms.workcell, plates)?,
             washing: of_tip(terms.wash_speed_m_s(), terms.wash_acceleration_m_s2()),
             transit: of_tip(terms.limits.tip_speed_m_s, terms.limits.tip_acceleration_m_s2),
+            place_search: if settings.relocate {
+                PlaceSearch::Within(SEARCHED_M)
+            } else {
+                PlaceSearch::Off
+            },
             watch: *watch,
+        })
+    }
+
+    /// A job as it stands: no other place is looked for.
+    pub fn here(job: &'a WashJob, watch: &Watch<'a>) -> Result<Self, PlanError> {
+        let pipeline = Self::new(job.arm(), job.terms(), &job.terms().plates, watch)?;
+        let place_search = match pipeline.place_search {
+            PlaceSearch::Within(_) => PlaceSearch::Later,
+            never => never,
+        };
+        Ok(Self {
+            place_search,
+            ..pipeline
         })
     }
 
@@ -82,6 +104,7 @@ impl<'a> Pipeline<'a> {
             robot: self.robot,
             terms: self.terms,
             settings: self.settings,
+            place_search: self.place_search,
             washing: self.washing,
             transit: self.transit,
         }
@@ -109,10 +132,24 @@ impl<'a> Pipeline<'a> {
         self.robot.fk(home).rigid(&scene.tip).translation
     }
 
+    /// Refuses a plate that is not there.
+    pub fn check_plate(&self, plate: usize) -> Result<(), PlanError> {
+        let count = self.plates.len();
+        if plate < count {
+            return Ok(());
+        }
+        Err(PlanError::Plate { plate, count })
+    }
+
     /// Refuses end configurations at which the arm is too near something.
     pub fn check_homes(&self) -> Result<(), PlanError> {
+        self.check_homes_among(&self.clearance)
+    }
+
+    /// The same among other bodies.
+    pub fn check_homes_among(&self, bodies: &ClearanceModel) -> Result<(), PlanError> {
         for (end, q) in ends(self.terms) {
-            let too_near = TooNear::at(&self.clearance, q, Stretch::Free, self.clearance_m());
+            let too_near = TooNear::at(bodies, q, Stretch::Free, self.clearance_m());
             if let Some(too_near) = too_near.map(Box::new) {
                 return Err(PlanError::HomeNotClear { end, too_near });
             }
@@ -123,16 +160,4 @@ impl<'a> Pipeline<'a> {
 
 fn ends(terms: &JobTerms) -> impl Iterator<Item = (End, &JointVector)> {
     [End::Start, End::End].into_iter().zip(&terms.home_rad)
-}
-
-fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), PlanError> {
-    if (least..=most).contains(&found) {
-        return Ok(());
-    }
-    Err(PlanError::Setting {
-        name,
-        least,
-        most,
-        found,
-    })
 }

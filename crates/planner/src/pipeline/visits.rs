@@ -7,44 +7,73 @@ use crate::error::PlanError;
 use crate::redundancy::{self, RedundancyError, Task, Washing};
 use crate::scene::Scene;
 use platewash_kinematics::JointVector;
+use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::wash_path::WashPath;
+
+/// A plate for which no configurations were found.
+#[derive(Debug)]
+pub(super) struct Failed {
+    /// Its wash path.
+    pub path: WashPath,
+    /// The configuration not far from which it was to start \[rad\].
+    pub near: JointVector,
+    /// Where the search ended.
+    pub error: RedundancyError,
+}
 
 impl Pipeline<'_> {
     pub fn visits(&self, scene: &Scene<'_>, order: &[usize]) -> Result<Vec<Visit>, PlanError> {
-        self.check_unblocked(scene, order)?;
-        let [start, _] = &self.terms.home_rad;
-        let mut visits: Vec<Visit> = Vec::with_capacity(order.len());
+        // At once, before others are searched for minutes.
         for k in 0..order.len() {
-            self.tell_of(order, k);
-            let path = self.path_of(scene, order, k);
-            let near = visits.last().and_then(|v| v.washing.q.last()).unwrap_or(start);
-            let washing = self
-                .washing(scene, &path, near)
-                .map_err(|error| self.unwashable(scene, &path, near, error))?;
+            if let Some(failed) = self.blocked(scene, order, k)? {
+                return Err(self.unwashable(scene, failed));
+            }
+        }
+        let mut visits: Vec<Visit> = Vec::with_capacity(order.len());
+        for turn in self.turns(scene, order, |_| true) {
+            let (path, washing) = turn.map_err(|failed| self.unwashable(scene, *failed))?;
             visits.push(Visit::plan(self, scene, path, washing)?);
         }
         Ok(visits)
     }
 
-    /// Refuses at once a plate of which a few points tell that it cannot be washed, before others are searched for minutes.
-    fn check_unblocked(&self, scene: &Scene<'_>, order: &[usize]) -> Result<(), PlanError> {
-        let [near, _] = &self.terms.home_rad;
-        for k in 0..order.len() {
-            scene.check_cancelled()?;
-            let path = self.path_of(scene, order, k);
-            let Ok(task) = Task::new(scene, &path, self.clearance_m(), near) else {
-                continue;
-            };
-            if !redundancy::is_blocked(&task)? {
-                continue;
-            }
-            self.tell_of(order, k);
-            // A tilt between those of the search may still do.
-            if let Err(error) = redundancy::washing(&task) {
-                return Err(self.unwashable(scene, &path, near, error));
-            }
+    /// The `k`-th plate of an order, where a few points tell that it cannot be washed, and no policy of tilts washes it either.
+    pub fn blocked(&self, scene: &Scene<'_>, order: &[usize], k: usize) -> Result<Option<Failed>, Cancelled> {
+        scene.check_cancelled()?;
+        let [near, _] = self.terms.home_rad;
+        let path = self.path_of(scene, order, k);
+        let Ok(task) = Task::new(scene, &path, self.clearance_m(), &near) else {
+            return Ok(None);
+        };
+        if !redundancy::is_blocked(&task)? {
+            return Ok(None);
         }
-        Ok(())
+        self.tell_of(order, k);
+        // A tilt between those of the search may still do.
+        let error = redundancy::washing(&task).err();
+        Ok(error.map(|error| Failed { path, near, error }))
+    }
+
+    /// The washings of the plates that are `wanted`, in order; each starts where the last one ended. Those that fail are left out.
+    pub fn turns(
+        &self,
+        scene: &Scene<'_>,
+        order: &[usize],
+        wanted: impl Fn(usize) -> bool,
+    ) -> impl Iterator<Item = Result<(WashPath, Washing), Box<Failed>>> {
+        let [mut near, _] = self.terms.home_rad;
+        let turns = (0..order.len()).filter(move |&k| wanted(order[k]));
+        turns.map(move |k| {
+            self.tell_of(order, k);
+            let path = self.path_of(scene, order, k);
+            match self.washing(scene, &path, &near) {
+                Ok(washing) => {
+                    near = washing.q.last().copied().unwrap_or(near);
+                    Ok((path, washing))
+                }
+                Err(error) => Err(Box::new(Failed { path, near, error })),
+            }
+        })
     }
 
     fn tell_of(&self, order: &[usize], k: usize) {

@@ -3,6 +3,7 @@
 use super::exhaustive::anywhere;
 use super::task::Task;
 use crate::scene::Scene;
+use nalgebra::Vector3;
 use platewash_kinematics::{AXES, Axes, JointVector};
 use platewash_workcell::cancel::Cancelled;
 use serde::Serialize;
@@ -42,9 +43,8 @@ impl Conclusion {
 /// # Errors
 /// [`Cancelled`].
 pub(super) fn conclude(task: &Task<'_>, dead: &[f64]) -> Result<Conclusion, Cancelled> {
-    let (centre, bound_m) = task.scene.robot.reach_bound(&task.scene.tip);
-    let beyond = |&theta: &f64| (task.samples.at(theta).point - centre.coords).norm() > bound_m + ON_AXIS_6;
-    if dead.iter().any(beyond) {
+    let mut points = dead.iter().map(|&theta| task.samples.at(theta).point);
+    if points.any(|point| is_beyond_reach(task, &point)) {
         return Ok(Conclusion::BeyondReach);
     }
     if task.scene.inverse.knows_all_branches() && yaw_is_joint_6(task.scene) {
@@ -55,6 +55,12 @@ pub(super) fn conclude(task: &Task<'_>, dead: &[f64]) -> Result<Conclusion, Canc
         }
     }
     Ok(Conclusion::NotFound)
+}
+
+/// Whether a point \[m\] is farther away than the lengths of the links add up to: no configuration puts the tip there.
+pub(super) fn is_beyond_reach(task: &Task<'_>, point: &Vector3<f64>) -> bool {
+    let (centre, bound_m) = task.scene.robot.reach_bound(&task.scene.tip);
+    (point - centre.coords).norm() > bound_m + ON_AXIS_6
 }
 
 /// The points likeliest to have no configuration at all: the farthest from axis 1 and the nearest, then the first and the last.

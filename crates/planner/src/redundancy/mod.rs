@@ -30,8 +30,10 @@
 mod blocked;
 mod conclusion;
 mod dead_ends;
+pub mod elsewhere;
 mod error;
 pub mod exhaustive;
+mod outlook;
 pub mod relocation;
 mod samples;
 mod search;
@@ -46,5 +48,6 @@ mod washing;
 pub use blocked::is_blocked;
 pub use conclusion::Conclusion;
 pub use error::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError};
+pub use outlook::{Chance, chance};
 pub use task::Task;
 pub use washing::{TiltChoice, Washing, washing};

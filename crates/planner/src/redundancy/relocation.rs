@@ -1,16 +1,9 @@
 //! Where else a plate could lie to be washed whole.
 
+use super::elsewhere::{Elsewhere, Trial};
 use super::error::RedundancyError;
-use super::task::Task;
-use super::washing::by_policy;
-use crate::scene::{Scene, Width};
 use crate::trig::sin_cos;
 use nalgebra::Vector2;
-use platewash_kinematics::{JointVector, RobotModel};
-use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::layout::base_footprint;
-use platewash_workcell::plate::Plate;
-use platewash_workcell::wash_path::WashPath;
 use std::f64::consts::TAU;
 
 /// Distance of the rings on which other positions are tried \[m\].
@@ -40,142 +33,76 @@ const FURTHER_M: [f64; 7] = [0.0, 1e-3, 2e-3, 3e-3, 5e-3, 9e-3, 17e-3];
 /// Times that the caller's check is asked, at most: it may plan a whole job.
 pub const MOST_CHECKS: usize = 32;
 
-/// Where to look for a better place of a plate.
-#[derive(Debug, Clone, Copy)]
-pub struct Relocation<'a> {
-    /// The scene, with the plates as they lie.
-    pub scene: &'a Scene<'a>,
-    /// Its bodies, to be moved.
-    pub clearance: &'a ClearanceModel,
-    /// The wash path on the plate to move.
-    pub path: &'a WashPath,
-    /// Clearance that must be kept \[m\].
-    pub clearance_m: f64,
-    /// The configuration it starts not far from \[rad\].
-    pub near: &'a JointVector,
-}
-
-impl Relocation<'_> {
-    /// The nearest centre (x, y) on the grid of [`GRID_M`] \[m\] at which the plate can be washed whole by a policy of tilts,
-    /// overlaps neither another plate nor the base, and `holds` agrees; `None` within [`SEARCHED_M`] of where it lies. Tried in 24
-    /// directions on growing rings, halved towards where it lies, put on the grid, and stepped further out until the place on the
-    /// grid itself passes: right to about a tenth of its distance. `holds` is asked [`MOST_CHECKS`] times at most; `tell` hears of
-    /// each ring before it is tried, from 1 to [`RINGS`].
-    ///
-    /// # Errors
-    /// [`RedundancyError`] for numbers out of range, or where the search was given up.
-    pub fn nearest_washable(
-        &self,
-        holds: &mut dyn FnMut(&Vector2<f64>) -> bool,
-        tell: &dyn Fn(u32),
-    ) -> Result<Option<Vector2<f64>>, RedundancyError> {
-        let (plate, plates) = (self.path.plate, self.scene.plates);
-        let count = plates.len();
-        let here = plates.get(plate).ok_or(RedundancyError::Plate { plate, count })?;
-        let here = Vector2::from(here.centre_xy());
-        let mut trial = Trial {
-            asked: self,
-            plates: plates.to_vec(),
-            clearance: self.clearance.clone(),
-        };
-        let at_rest = on_grid(&here);
-        if trial.suits(&at_rest)? && holds(&at_rest) {
-            return Ok(Some(at_rest));
-        }
-        let mut checks = 1;
-        for ring in 1..=RINGS {
-            tell(ring);
-            for (distance, away) in trial.on_ring(&here, ring)? {
-                for further in FURTHER_M {
-                    let place = on_grid(&(here + away * (distance + further)));
-                    if !trial.suits(&place)? {
-                        continue;
-                    }
-                    if checks == MOST_CHECKS {
-                        return Ok(None);
-                    }
-                    checks += 1;
-                    if holds(&place) {
-                        return Ok(Some(place));
-                    }
+/// The nearest centre (x, y) on the grid of [`GRID_M`] \[m\] at which the plate can be washed whole by a policy of tilts,
+/// overlaps neither another plate nor the base, and `holds` agrees; `None` within [`SEARCHED_M`] of where it lies. Tried in 24
+/// directions on growing rings, halved towards where it lies, put on the grid, and stepped further out until the place on the
+/// grid itself passes: right to about a tenth of its distance. `holds` is asked [`MOST_CHECKS`] times at most; `tell` hears of
+/// each ring before it is tried, from 1 to [`RINGS`].
+///
+/// # Errors
+/// [`RedundancyError`] for numbers out of range, or where the search was given up.
+pub fn nearest_washable(
+    asked: &Elsewhere<'_>,
+    holds: &mut dyn FnMut(&Vector2<f64>) -> bool,
+    tell: &dyn Fn(u32),
+) -> Result<Option<Vector2<f64>>, RedundancyError> {
+    let (plate, plates) = (asked.path.plate, asked.scene.plates);
+    let count = plates.len();
+    let here = plates.get(plate).ok_or(RedundancyError::Plate { plate, count })?;
+    let here = Vector2::from(here.centre_xy());
+    let mut trial = Trial::new(asked);
+    let at_rest = on_grid(&here);
+    if trial.suits(&at_rest)? && holds(&at_rest) {
+        return Ok(Some(at_rest));
+    }
+    let mut checks = 1;
+    for ring in 1..=RINGS {
+        tell(ring);
+        for (distance, away) in on_ring(&mut trial, &here, ring)? {
+            for further in FURTHER_M {
+                let place = on_grid(&(here + away * (distance + further)));
+                if !trial.suits(&place)? {
+                    continue;
+                }
+                if checks == MOST_CHECKS {
+                    return Ok(None);
+                }
+                checks += 1;
+                if holds(&place) {
+                    return Ok(Some(place));
                 }
             }
         }
-        Ok(None)
     }
+    Ok(None)
 }
 
-/// One place after the other, with the plate moved there.
-struct Trial<'a> {
-    asked: &'a Relocation<'a>,
-    plates: Vec<Plate>,
-    clearance: ClearanceModel,
-}
-
-impl Trial<'_> {
-    /// Directions in which a place on the ring suits, and the least distance there that does \[m\]; the nearest first.
-    fn on_ring(&mut self, here: &Vector2<f64>, ring: u32) -> Result<Vec<(f64, Vector2<f64>)>, RedundancyError> {
-        let mut found = Vec::new();
-        for k in 0..DIRECTIONS {
-            let (s, c) = sin_cos(TAU * f64::from(k) / f64::from(DIRECTIONS));
-            let away = Vector2::new(c, s);
-            if self.suits(&(here + away * (RING_M * f64::from(ring))))? {
-                found.push((self.halve(here, &away, ring)?, away));
-            }
+/// Directions in which a place on the ring suits, and the least distance there that does \[m\]; the nearest first.
+fn on_ring(trial: &mut Trial<'_>, here: &Vector2<f64>, ring: u32) -> Result<Vec<(f64, Vector2<f64>)>, RedundancyError> {
+    let mut found = Vec::new();
+    for k in 0..DIRECTIONS {
+        let (s, c) = sin_cos(TAU * f64::from(k) / f64::from(DIRECTIONS));
+        let away = Vector2::new(c, s);
+        if trial.suits(&(here + away * (RING_M * f64::from(ring))))? {
+            found.push((halve(trial, here, &away, ring)?, away));
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Ok(found)
     }
-
-    /// The least distance from `here` in a direction that suits, between a ring that does and the one within it \[m\].
-    fn halve(&mut self, here: &Vector2<f64>, away: &Vector2<f64>, ring: u32) -> Result<f64, RedundancyError> {
-        let [mut bad, mut good] = [ring - 1, ring].map(|ring| RING_M * f64::from(ring));
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (bad + good);
-            if self.suits(&(here + away * middle))? {
-                good = middle;
-            } else {
-                bad = middle;
-            }
-        }
-        Ok(good)
-    }
-
-    /// Whether the plate can be washed whole with its centre there, and has room there.
-    fn suits(&mut self, centre: &Vector2<f64>) -> Result<bool, RedundancyError> {
-        let Relocation {
-            scene,
-            path,
-            clearance_m,
-            near,
-            ..
-        } = *self.asked;
-        scene.check_cancelled()?;
-        let moved = self.plates[path.plate].moved_to((*centre).into());
-        self.plates[path.plate] = moved;
-        let mut others = self.plates.iter().enumerate().filter(|(i, _)| *i != path.plate);
-        if others.any(|(_, other)| overlap(&moved, other)) || meets_base(scene.robot, &moved) {
-            return Ok(false);
-        }
-        self.clearance.lay(&self.plates);
-        let scene = scene.among(&self.clearance, &self.plates);
-        let task = Task::new(&scene, path, clearance_m, near)?;
-        Ok(by_policy(&task, Width::Near)?.is_some())
-    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(found)
 }
 
-/// Whether two plates share a place: seen from above they do, and neither lies over the other.
-fn overlap(a: &Plate, b: &Plate) -> bool {
-    let apart = (a.centre() - b.centre()).xy().norm();
-    let above = |top: &Plate, bottom: &Plate| top.centre().z - top.thickness_m > bottom.centre().z;
-    apart < a.rim_m() + b.rim_m() && !above(a, b) && !above(b, a)
-}
-
-fn meets_base(robot: &RobotModel, plate: &Plate) -> bool {
-    let (foot, [x, y], rim_m) = (base_footprint(robot), plate.centre_xy(), plate.rim_m());
-    let beside = |[least, most]: [f64; 2], at: f64| (least - at).max(at - most).max(0.0);
-    let (dx, dy) = (beside(foot.x_m, x), beside(foot.y_m, y));
-    dx * dx + dy * dy < rim_m * rim_m
+/// The least distance from `here` in a direction that suits, between a ring that does and the one within it \[m\].
+fn halve(trial: &mut Trial<'_>, here: &Vector2<f64>, away: &Vector2<f64>, ring: u32) -> Result<f64, RedundancyError> {
+    let [mut bad, mut good] = [ring - 1, ring].map(|ring| RING_M * f64::from(ring));
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (bad + good);
+        if trial.suits(&(here + away * middle))? {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    Ok(good)
 }
 
 /// The nearest place of the grid; what three decimals print is it to the bit.

@@ -1,8 +1,9 @@
+use super::elsewhere::Elsewhere;
 use super::exhaustive::anywhere;
-use super::relocation::{MOST_CHECKS, Relocation, on_grid};
+use super::relocation::{MOST_CHECKS, nearest_washable, on_grid};
 use super::search::Graph;
 use super::task::Profile;
-use super::washable::{Cause, Washable, washable};
+use super::washable::{Cause, Points, Washable, washable};
 use super::washing::{by_search, policies, search_starts};
 use super::*;
 use crate::scene::{Contact, Filter, Inverse, Scene, TiltPolicy, Width, policy};
@@ -367,6 +368,7 @@ fn a_failure_is_the_arms_own() {
                 share,
                 causes,
                 conclusion,
+                points,
             } = washable(&task).unwrap()
             else {
                 panic!("{rho} {azimuth}: washable");
@@ -377,6 +379,25 @@ fn a_failure_is_the_arms_own() {
                 "{rho} {azimuth}: {conclusion:?}"
             );
             assert!(0.4 < share && share < 1.0, "{share}");
+            let Points { free_m, dead_m } = points;
+            let graph = Graph::new(&task);
+            assert_eq!(free_m.len() + dead_m.len(), graph.surveyed().len());
+            let all = free_m.len() + dead_m.len();
+            assert!((share - free_m.len() as f64 / all as f64).abs() < 1e-12, "{share}");
+            let surveyed = |place: &[f64; 3]| {
+                let mut layers = graph.surveyed();
+                layers.any(|k| <[f64; 3]>::from(task.samples.at(graph.theta[k]).point) == *place)
+            };
+            assert!(free_m.iter().chain(&dead_m).all(surveyed));
+            assert!(free_m.iter().all(|place| !dead_m.contains(place)));
+            for place in &dead_m {
+                let from_axis_m = world.scene.distance(&Vector3::from(*place));
+                let within = |cause: &Cause| {
+                    let [least, most] = cause.from_axis_m;
+                    (least..=most).contains(&from_axis_m)
+                };
+                assert!(causes.iter().any(within), "{from_axis_m}");
+            }
             let filters: Vec<_> = causes.iter().map(|cause| cause.worst.filter()).collect();
             assert!(expected.iter().all(|filter| filters.contains(filter)), "{causes:?}");
             for Cause {
@@ -406,8 +427,8 @@ fn a_better_position_is_near_and_does() {
     for (rho, azimuth, furthest) in [(0.2, 30.0, 0.065), (0.56, -40.0, 0.055), (0.36, 0.0, 0.0)] {
         let plates = [plate_at(rho, azimuth), plate_at(0.4, 120.0)];
         let found = within(&kitchen_tool(), &plates, |world| {
-            let search = relocation(world, &path);
-            search.nearest_washable(&mut |_| true, &|_| ()).unwrap().unwrap()
+            let search = elsewhere(world, &path);
+            nearest_washable(&search, &mut |_| true, &|_| ()).unwrap().unwrap()
         });
         let moved = [plates[0].moved_to(found.into()), plates[1]];
         assert!(
@@ -429,26 +450,26 @@ fn a_better_position_is_near_and_does() {
 fn a_better_position_is_one_that_the_caller_accepts() {
     let (path, plates) = (path(curve(RADIUS_M), 15.0), [plate_at(0.56, -40.0)]);
     within(&kitchen_tool(), &plates, |world| {
-        let search = relocation(world, &path);
+        let search = elsewhere(world, &path);
         let mut asked = Vec::new();
         let third = |place: &Vector2<f64>| {
             asked.push(*place);
             asked.len() == 3
         };
-        let found = search.nearest_washable(&mut { third }, &|_| ()).unwrap().unwrap();
+        let found = nearest_washable(&search, &mut { third }, &|_| ()).unwrap().unwrap();
         assert_eq!((asked.len(), asked[2]), (3, found));
         let mut count = 0;
         let none = |_: &Vector2<f64>| {
             count += 1;
             false
         };
-        assert_eq!(search.nearest_washable(&mut { none }, &|_| ()).unwrap(), None);
+        assert_eq!(nearest_washable(&search, &mut { none }, &|_| ()).unwrap(), None);
         assert!(0 < count && count <= MOST_CHECKS, "{count}");
     });
 }
 
-fn relocation<'a>(world: &'a World<'a>, path: &'a WashPath) -> Relocation<'a> {
-    Relocation {
+fn elsewhere<'a>(world: &'a World<'a>, path: &'a WashPath) -> Elsewhere<'a> {
+    Elsewhere {
         scene: &world.scene,
         clearance: world.clearance,
         path,
@@ -488,12 +509,12 @@ fn what_is_given_up_is_neither_found_nor_refused() {
             assert_eq!(is_blocked(&task), Err(cancelled));
             assert_eq!(anywhere(&task, 1.0), Err(cancelled));
             assert_eq!(washable::washable_part(&task), Err(cancelled));
-            let search = Relocation {
+            let search = Elsewhere {
                 scene: &scene,
-                ..relocation(world, &path)
+                ..elsewhere(world, &path)
             };
             assert_eq!(
-                search.nearest_washable(&mut |_| true, &|_| ()),
+                nearest_washable(&search, &mut |_| true, &|_| ()),
                 Err(RedundancyError::Cancelled(cancelled))
             );
         });

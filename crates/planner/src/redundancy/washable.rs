@@ -25,7 +25,18 @@ pub enum Washable {
         causes: Vec<Cause>,
         /// Whether the rest cannot be washed, or was only not found to be.
         conclusion: Conclusion,
+        /// The contact points looked at.
+        points: Points,
     },
+}
+
+/// Contact points looked at one by one, in the order of the wash path, world frame \[m\].
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Points {
+    /// Those for which configurations were found, on the best branch of the arm.
+    pub free_m: Vec<[f64; 3]>,
+    /// Those for which none were.
+    pub dead_m: Vec<[f64; 3]>,
 }
 
 /// What keeps a part of a wash path from being washed.
@@ -110,7 +121,19 @@ pub fn washable_part(task: &Task<'_>) -> Result<Washable, Cancelled> {
         share: 1.0 - best.len() as f64 / tried,
         causes: causes(unwashed, tried),
         conclusion,
+        points: points(task, &graph, &best),
     })
+}
+
+/// The contact points of a survey, by whether their layer is among the `unwashed`.
+fn points(task: &Task<'_>, graph: &Graph, unwashed: &[Unwashed]) -> Points {
+    let dead = |k: &usize| unwashed.binary_search_by_key(k, |(layer, _)| *layer).is_ok();
+    let place = |k: usize| task.samples.at(graph.theta[k]).point.into();
+    let (dead, free): (Vec<usize>, Vec<usize>) = graph.surveyed().partition(dead);
+    Points {
+        free_m: free.into_iter().map(place).collect(),
+        dead_m: dead.into_iter().map(place).collect(),
+    }
 }
 
 /// A layer without a vertex, and where the arm was before.

@@ -1,0 +1,13 @@
+//! What to expect of a plate, before anything is planned.
+
+use crate::redundancy::Chance;
+use serde::Serialize;
+
+/// The chance of a plate to be washed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct PlateOutlook {
+    /// The plate.
+    pub plate: usize,
+    /// Its chance.
+    pub chance: Chance,
+}
