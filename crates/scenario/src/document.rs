@@ -2,12 +2,14 @@
 
 use crate::keys::KEYS;
 use crate::scenario::Scenario;
+use crate::values::values_of;
+use crate::write::on_one_line;
 use std::fmt::Write;
 
 /// Markdown reference of every key: unit, default, range, meaning.
 #[must_use]
 pub fn reference() -> String {
-    let defaults = toml::Value::try_from(Scenario::default()).ok();
+    let defaults = values_of(&Scenario::default());
     let mut text = String::from(HEAD);
     let mut section = None;
     for key in KEYS {
@@ -25,8 +27,8 @@ pub fn reference() -> String {
             );
             section = Some(here);
         }
-        let default = defaults.as_ref().and_then(|v| look_up(v, key.path));
-        let default = default.map_or_else(|| "none".to_owned(), |v| format!("`{v}`"));
+        let default = defaults.get(key.path);
+        let default = default.map_or_else(|| "none".to_owned(), |v| format!("`{}`", on_one_line(v)));
         let unit = if key.unit.is_empty() { "–" } else { key.unit };
         let _ = writeln!(
             text,
@@ -47,10 +49,6 @@ key, what was expected and what was found. `platewash validate --scenario FILE` 
 This page is made from the program's own table of keys by `cargo xtask docs`; a test keeps it current. Frames: base frame of
 the arm, z up, origin on the base axis at floor level.
 ";
-
-fn look_up<'a>(value: &'a toml::Value, path: &str) -> Option<&'a toml::Value> {
-    path.split('.').try_fold(value, |v, name| v.get(name))
-}
 
 #[cfg(test)]
 mod tests {

@@ -1,5 +1,6 @@
 //! Why a scenario was refused.
 
+use crate::line::line_at;
 use platewash_workcell::words::printable;
 
 /// What is wrong with a scenario.
@@ -52,6 +53,38 @@ impl ScenarioError {
             source_name: source_name.to_owned(),
             line,
             problem,
+        }
+    }
+
+    /// What is said of a text that is no TOML.
+    pub(crate) fn syntax(source_name: &str, text: &str, error: &toml::de::Error) -> Self {
+        let line = error.span().map(|span| line_at(text, span.start));
+        let detail = error.message().to_owned();
+        Self::new(source_name, line, Problem::Syntax { detail })
+    }
+
+    /// The key that it is about: a path of the table of keys or a section, where a file is at fault, or whatever a file states in
+    /// place of one; of keys that contradict each other, the first.
+    #[must_use]
+    pub fn key(&self) -> Option<&str> {
+        self.problem.key()
+    }
+
+    /// Line in the file, from 1, where one is at fault.
+    #[must_use]
+    pub fn line(&self) -> Option<usize> {
+        self.line
+    }
+}
+
+impl Problem {
+    /// As [`ScenarioError::key`].
+    #[must_use]
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::UnknownKey { key, .. } | Self::Value { key, .. } => Some(key),
+            Self::Conflict { keys, .. } => keys.split([',', ' ']).next(),
+            Self::Unreadable { .. } | Self::NotFound { .. } | Self::TooLarge { .. } | Self::Syntax { .. } => None,
         }
     }
 }

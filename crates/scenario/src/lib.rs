@@ -5,20 +5,24 @@
 //! `docs/scenario.md`. The defaults are those of the types here.
 //!
 //! [`Scenario::load`] reads a file, [`Scenario::job`] and [`Scenario::paper_job`] resolve it, with `arm`, `layout`, `place` and `job_on` for
-//! whoever wants the steps one by one. Errors of other crates become a [`Failure`] by `?`; its words name the keys.
+//! whoever wants the steps one by one. [`Draft`] changes a scenario's text key by key. Errors of other crates become a [`Failure`] by `?`; its words name the keys.
 
 mod arm;
 mod certified;
 mod control;
 mod document;
+mod draft;
 mod error;
 mod failure;
+mod fits;
+mod form;
 mod ik;
 mod job;
 mod key;
 pub mod keys;
 mod layout;
 mod limits;
+mod line;
 mod load;
 mod paths;
 mod placement;
@@ -28,17 +32,24 @@ mod robot;
 mod scenario;
 mod seed;
 mod shipped;
+mod source;
 mod tool;
 mod transition;
 mod units;
+mod unknown;
+mod value;
+mod values;
 mod wash;
 mod work;
+mod write;
 
 pub use arm::{ArmError, load_arm, load_description};
 pub use control::{ControlSection, TIME_STEPS_S};
 pub use document::reference;
+pub use draft::{Draft, EditError};
 pub use error::{Problem, ScenarioError};
 pub use failure::Failure;
+pub use form::{FormDomain, FormKey, form};
 pub use ik::IkSection;
 pub use job::{JobSection, OnFailure, Program};
 pub use layout::{LayoutSection, RegionName};
@@ -48,8 +59,10 @@ pub use robot::{BuiltInArm, RobotSection};
 pub use scenario::Scenario;
 pub use seed::check_seed;
 pub use shipped::{SHIPPED, ShippedScenario};
+pub use source::{ScenarioSource, source};
 pub use tool::ToolSection;
 pub use transition::TransitionSection;
 pub use units::UnitNote;
+pub use values::values_of;
 pub use wash::WashSection;
 pub use work::MAX_CONTACT_CHECKS;

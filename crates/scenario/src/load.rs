@@ -1,24 +1,19 @@
 //! From a file or a shipped name to a checked [`Scenario`].
 
 use crate::error::{Problem, ScenarioError};
+use crate::fits::check;
 use crate::job::Program;
-use crate::keys::{Domain, KEYS, Key};
+use crate::keys::{KEYS, Key};
+use crate::line::line_at;
 use crate::scenario::Scenario;
 use crate::seed::check_seed;
-use crate::shipped::SHIPPED;
-use platewash_kinematics::urdf::file::{self, FileError};
-use platewash_kinematics::words::rounded;
+use crate::source::source;
+use crate::unknown::unknown;
+use crate::value::{describe, json_of};
 use platewash_workcell::job::OrderRule;
-use platewash_workcell::words::printable;
 use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
-
-/// Significant digits of a length that is suggested.
-const METRE_DIGITS: usize = 6;
-
-/// Longest file that is read \[bytes\].
-const MAX_BYTES: u64 = 1 << 20;
 
 impl Scenario {
     /// Reads a scenario: a shipped name (`paper-appendix`), or a file. Paths in a file are taken
@@ -27,19 +22,16 @@ impl Scenario {
     /// # Errors
     /// [`ScenarioError`] with the file, line, key, what was expected and what was found.
     pub fn load(name_or_file: &str) -> Result<Self, ScenarioError> {
-        if let Some(shipped) = SHIPPED.iter().find(|s| s.name == name_or_file) {
-            return Self::parse(shipped.text, shipped.name);
+        let source = source(name_or_file)?;
+        Self::parse_in(&source.text, &source.name, source.folder.as_deref())
+    }
+
+    /// Reads a scenario from TOML text whose paths are relative to a folder; without one they stay as they are.
+    pub(crate) fn parse_in(text: &str, source_name: &str, folder: Option<&Path>) -> Result<Self, ScenarioError> {
+        let mut scenario = Self::parse(text, source_name)?;
+        if let Some(folder) = folder {
+            scenario.resolve_paths(folder);
         }
-        let fail = |problem| ScenarioError::new(name_or_file, None, problem);
-        let path = Path::new(name_or_file);
-        if !path.exists() {
-            let shipped: Vec<_> = SHIPPED.iter().map(|s| s.name).collect();
-            let shipped = shipped.join(", ");
-            return Err(fail(Problem::NotFound { shipped }));
-        }
-        let text = file::read_text(path, MAX_BYTES).map_err(|e| fail(unread(e)))?;
-        let mut scenario = Self::parse(&text, name_or_file)?;
-        scenario.resolve_paths(path.parent().unwrap_or(Path::new("")));
         Ok(scenario)
     }
 
@@ -48,11 +40,7 @@ impl Scenario {
     /// # Errors
     /// As [`Scenario::load`].
     pub fn parse(text: &str, source_name: &str) -> Result<Self, ScenarioError> {
-        let syntax = |e: toml::de::Error| {
-            let line = e.span().map(|span| line_at(text, span.start));
-            let detail = e.message().to_owned();
-            ScenarioError::new(source_name, line, Problem::Syntax { detail })
-        };
+        let syntax = |e: toml::de::Error| ScenarioError::syntax(source_name, text, &e);
         let table = DeTable::parse(text).map_err(syntax)?;
         check_table(table.get_ref(), "").map_err(|(at, problem)| {
             let line = Some(line_at(text, at));
@@ -158,15 +146,6 @@ impl Scenario {
     }
 }
 
-fn unread(error: FileError) -> Problem {
-    match error {
-        FileError::TooLong { limit } => Problem::TooLarge { limit },
-        other => Problem::Unreadable {
-            detail: other.to_string(),
-        },
-    }
-}
-
 type Misfit = (usize, Problem);
 
 fn check_table(table: &DeTable<'_>, prefix: &str) -> Result<(), Misfit> {
@@ -189,128 +168,15 @@ fn check_table(table: &DeTable<'_>, prefix: &str) -> Result<(), Misfit> {
                     },
                 ));
             }
-            _ => return Err((name.span().start, unknown(path))),
+            _ => return Err((name.span().start, unknown(&path))),
         }
     }
     Ok(())
 }
 
-fn unknown(key: String) -> Problem {
-    let ranked = KEYS
-        .iter()
-        .map(|k| (strsim::normalized_damerau_levenshtein(k.path, &key), k.path));
-    let nearest = ranked
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .filter(|(likeness, _)| *likeness > 0.6);
-    Problem::UnknownKey {
-        key: printable(&key),
-        nearest: nearest.map(|(_, path)| path.to_owned()),
-    }
-}
-
 fn check_value(key: &Key, value: &Spanned<DeValue<'_>>) -> Result<(), Misfit> {
-    if fits(key.domain, value.get_ref()) {
-        return Ok(());
-    }
-    let problem = Problem::Value {
-        key: key.path.to_owned(),
-        expected: key.domain.describe(),
-        found: describe(value.get_ref()) + &in_millimetres(key, value.get_ref()),
-    };
-    Err((value.span().start, problem))
-}
-
-/// Whether a value lies in the domain; NaN and infinity never do.
-fn fits(domain: Domain, value: &DeValue<'_>) -> bool {
-    let text = value.as_str().is_some_and(|s| !s.trim().is_empty());
-    match domain {
-        Domain::Text => text && !value.as_str().is_some_and(|s| s.contains(char::is_control)),
-        Domain::Path => text,
-        Domain::Paths => elements(value).is_some_and(|all| all.iter().all(|v| v.as_str().is_some())),
-        Domain::Word(words) => value.as_str().is_some_and(|s| words.contains(&s)),
-        Domain::Bool => matches!(value, DeValue::Boolean(_)),
-        Domain::Integer(least, most) => integer(value).is_some_and(|v| (least..=most).contains(&v)),
-        Domain::Number(least, most) => number(value).is_some_and(|v| (least..=most).contains(&v)),
-        Domain::NumberAbove(above, most) => number(value).is_some_and(|v| v > above && v <= most),
-        Domain::Range(least, most) => {
-            numbers(value).is_some_and(|v| matches!(v[..], [a, b] if least <= a && a < b && b <= most))
-        }
-        Domain::Joints(least, most) => six(value, |v| (least..=most).contains(&v)),
-        Domain::JointsAbove(above, most) => six(value, |v| v > above && v <= most),
-        Domain::Points(least, most) => elements(value).is_some_and(|points| {
-            let fine = |p: &&DeValue<'_>| {
-                numbers(p).is_some_and(|v| v.len() == 2 && v.iter().all(|c| (least..=most).contains(c)))
-            };
-            (1..=1000).contains(&points.len()) && points.iter().all(fine)
-        }),
-    }
-}
-
-/// What is said of a length that fits where it was meant in millimetres.
-fn in_millimetres(key: &Key, value: &DeValue<'_>) -> String {
-    let meant = number(value).map(|v| rounded(1e-3 * v, METRE_DIGITS));
-    let fits = |metres: f64| match key.domain {
-        Domain::Number(least, most) => (least..=most).contains(&metres),
-        Domain::NumberAbove(above, most) => metres > above && metres <= most,
-        _ => false,
-    };
-    match meant {
-        Some(metres) if key.unit == "m" && fits(metres) => {
-            format!(" (metres are expected; {metres} if millimetres were meant)")
-        }
-        _ => String::new(),
-    }
-}
-
-fn six(value: &DeValue<'_>, fine: impl Fn(f64) -> bool) -> bool {
-    numbers(value).is_some_and(|v| v.len() == 6 && v.into_iter().all(fine))
-}
-
-fn elements<'a, 'i>(value: &'a DeValue<'i>) -> Option<Vec<&'a DeValue<'i>>> {
-    value
-        .as_array()
-        .map(|array| array.iter().map(Spanned::get_ref).collect())
-}
-
-fn numbers(value: &DeValue<'_>) -> Option<Vec<f64>> {
-    elements(value)?.into_iter().map(number).collect()
-}
-
-fn number(value: &DeValue<'_>) -> Option<f64> {
-    match value {
-        DeValue::Float(float) => float.as_str().parse().ok(),
-        DeValue::Integer(_) => integer(value).map(|v| v as f64),
-        _ => None,
-    }
-}
-
-fn integer(value: &DeValue<'_>) -> Option<i64> {
-    value
-        .as_integer()
-        .and_then(|i| i64::from_str_radix(i.as_str(), i.radix()).ok())
-}
-
-fn describe(value: &DeValue<'_>) -> String {
-    match value {
-        DeValue::String(text) => format!("\"{}\"", printable(text)),
-        DeValue::Integer(integer) => integer.to_string(),
-        DeValue::Float(float) => float.to_string(),
-        DeValue::Boolean(boolean) => boolean.to_string(),
-        DeValue::Datetime(datetime) => datetime.to_string(),
-        DeValue::Array(array) => {
-            let few: Vec<_> = array.iter().take(8).map(|v| describe(v.get_ref())).collect();
-            let more = if array.len() > 8 { ", …" } else { "" };
-            format!("[{}{more}]", few.join(", "))
-        }
-        DeValue::Table(_) => "a section".to_owned(),
-    }
-}
-
-fn line_at(text: &str, byte: usize) -> usize {
-    1 + text.as_bytes()[..byte.min(text.len())]
-        .iter()
-        .filter(|b| **b == b'\n')
-        .count()
+    let found = || describe(value.get_ref());
+    check(key, &json_of(value.get_ref()), found).map_err(|problem| (value.span().start, problem))
 }
 
 #[cfg(test)]
@@ -351,17 +217,5 @@ mod tests {
             let message = refused(line);
             assert!(!message.contains("millimetres"), "{message}");
         }
-    }
-
-    #[test]
-    fn only_regular_files_of_sensible_length_are_read() {
-        let folder = std::env::temp_dir().join(format!("platewash-load-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
-        let path = folder.join("long.toml");
-        std::fs::write(&path, " ".repeat(MAX_BYTES as usize + 1)).unwrap();
-        let problem = |path: &Path| Scenario::load(&path.to_string_lossy()).unwrap_err().problem;
-        assert_eq!(problem(&path), Problem::TooLarge { limit: MAX_BYTES });
-        assert!(problem(&folder).to_string().contains("not a regular file"));
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -1,0 +1,70 @@
+//! Whether a value lies in a key's domain, and what is said where it does not: the same of files and of edits.
+
+use crate::error::Problem;
+use crate::key::{Domain, Key};
+use platewash_kinematics::words::rounded;
+use serde_json::Value;
+
+/// Significant digits of a length that is suggested.
+const METRE_DIGITS: usize = 6;
+
+/// Refuses a value that lies outside a key's domain; `found` puts it into words.
+pub(crate) fn check(key: &Key, value: &Value, found: impl FnOnce() -> String) -> Result<(), Problem> {
+    if fits(key.domain, value) {
+        return Ok(());
+    }
+    Err(Problem::Value {
+        key: key.path.to_owned(),
+        expected: key.domain.describe(),
+        found: found() + &in_millimetres(key, value),
+    })
+}
+
+/// Whether a value lies in the domain; NaN and infinity, which are null here, never do.
+fn fits(domain: Domain, value: &Value) -> bool {
+    let text = value.as_str().is_some_and(|s| !s.trim().is_empty());
+    match domain {
+        Domain::Text => text && !value.as_str().is_some_and(|s| s.contains(char::is_control)),
+        Domain::Path => text,
+        Domain::Paths => value.as_array().is_some_and(|all| all.iter().all(Value::is_string)),
+        Domain::Word(words) => value.as_str().is_some_and(|s| words.contains(&s)),
+        Domain::Bool => value.is_boolean(),
+        Domain::Integer(least, most) => value.as_i64().is_some_and(|v| (least..=most).contains(&v)),
+        Domain::Number(least, most) => value.as_f64().is_some_and(|v| (least..=most).contains(&v)),
+        Domain::NumberAbove(above, most) => value.as_f64().is_some_and(|v| v > above && v <= most),
+        Domain::Range(least, most) => {
+            numbers(value).is_some_and(|v| matches!(v[..], [a, b] if least <= a && a < b && b <= most))
+        }
+        Domain::Joints(least, most) => six(value, |v| (least..=most).contains(&v)),
+        Domain::JointsAbove(above, most) => six(value, |v| v > above && v <= most),
+        Domain::Points(least, most) => value.as_array().is_some_and(|points| {
+            let fine =
+                |p: &Value| numbers(p).is_some_and(|v| v.len() == 2 && v.iter().all(|c| (least..=most).contains(c)));
+            (1..=1000).contains(&points.len()) && points.iter().all(fine)
+        }),
+    }
+}
+
+/// What is said of a length that fits where it was meant in millimetres.
+fn in_millimetres(key: &Key, value: &Value) -> String {
+    let meant = value.as_f64().map(|v| rounded(1e-3 * v, METRE_DIGITS));
+    let fits = |metres: f64| match key.domain {
+        Domain::Number(least, most) => (least..=most).contains(&metres),
+        Domain::NumberAbove(above, most) => metres > above && metres <= most,
+        _ => false,
+    };
+    match meant {
+        Some(metres) if key.unit == "m" && fits(metres) => {
+            format!(" (metres are expected; {metres} if millimetres were meant)")
+        }
+        _ => String::new(),
+    }
+}
+
+fn six(value: &Value, fine: impl Fn(f64) -> bool) -> bool {
+    numbers(value).is_some_and(|v| v.len() == 6 && v.into_iter().all(fine))
+}
+
+fn numbers(value: &Value) -> Option<Vec<f64>> {
+    value.as_array()?.iter().map(Value::as_f64).collect()
+}

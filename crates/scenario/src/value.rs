@@ -1,0 +1,65 @@
+//! A value of a file or of an edit: as JSON, in words.
+
+use platewash_workcell::words::printable;
+use serde_json::{Number, Value};
+use toml::de::DeValue;
+
+/// Elements of a list that are named.
+const FEW: usize = 8;
+
+/// Most characters of a text that are quoted.
+const LONGEST: usize = 200;
+
+/// A value of a file as JSON. What JSON does not know (NaN, infinity, dates, sections) is null, as are whole numbers of more than 64 bits:
+/// no key takes them.
+pub(crate) fn json_of(value: &DeValue<'_>) -> Value {
+    match value {
+        DeValue::String(text) => Value::String(text.clone().into_owned()),
+        DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix()).map_or(Value::Null, Value::from),
+        DeValue::Float(float) => {
+            let number = float.as_str().parse().ok().and_then(Number::from_f64);
+            number.map_or(Value::Null, Value::Number)
+        }
+        DeValue::Boolean(boolean) => Value::Bool(*boolean),
+        DeValue::Array(array) => Value::Array(array.iter().map(|v| json_of(v.get_ref())).collect()),
+        DeValue::Datetime(_) | DeValue::Table(_) => Value::Null,
+    }
+}
+
+/// A value of a file, in words.
+pub(crate) fn describe(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(text) => quoted(text),
+        DeValue::Integer(integer) => integer.to_string(),
+        DeValue::Float(float) => float.to_string(),
+        DeValue::Boolean(boolean) => boolean.to_string(),
+        DeValue::Datetime(datetime) => datetime.to_string(),
+        DeValue::Array(array) => list(array.iter().map(|v| describe(v.get_ref()))),
+        DeValue::Table(_) => "a section".to_owned(),
+    }
+}
+
+/// A value of an edit, in the same words.
+pub(crate) fn describe_json(value: &Value) -> String {
+    match value {
+        Value::Null => "nothing".to_owned(),
+        Value::Bool(boolean) => boolean.to_string(),
+        Value::Number(number) => number.to_string(),
+        Value::String(text) => quoted(text),
+        Value::Array(array) => list(array.iter().map(describe_json)),
+        Value::Object(_) => "a section".to_owned(),
+    }
+}
+
+fn quoted(text: &str) -> String {
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("\"{}…\"", printable(&text[..end])),
+        None => format!("\"{}\"", printable(text)),
+    }
+}
+
+fn list(mut elements: impl ExactSizeIterator<Item = String>) -> String {
+    let few: Vec<_> = elements.by_ref().take(FEW).collect();
+    let more = if elements.len() > 0 { ", …" } else { "" };
+    format!("[{}{more}]", few.join(", "))
+}

@@ -1,0 +1,56 @@
+//! A value as TOML writes it.
+
+use serde_json::{Number, Value};
+
+/// A value on one line; numbers with the shortest text that reads back exactly.
+pub(crate) fn on_one_line(value: &Value) -> String {
+    match value {
+        Value::Array(elements) => {
+            let elements: Vec<_> = elements.iter().map(on_one_line).collect();
+            format!("[{}]", elements.join(", "))
+        }
+        Value::String(text) => string(text),
+        Value::Number(number) => self::number(number),
+        other => other.to_string(),
+    }
+}
+
+/// A list with an element a line; `newline` ends each but the last.
+pub(crate) fn on_rows(elements: &[Value], newline: &str, indent: &str) -> String {
+    let row = |element| format!("{newline}{indent}    {},", on_one_line(element));
+    let rows: String = elements.iter().map(row).collect();
+    format!("[{rows}{newline}{indent}]")
+}
+
+/// A value in the style of the one that it takes the place of: whole numbers without a point and texts in single quotes stay so.
+pub(crate) fn in_style_of(old: &str, value: &Value) -> String {
+    let whole = |n: &Number| {
+        n.as_f64()
+            .filter(|v| v.fract() == 0.0 && v.abs() < 1e15 && v.to_bits() != (-0.0f64).to_bits())
+    };
+    match value {
+        Value::Number(n) if is_whole(old) => whole(n).map_or_else(|| number(n), |v| format!("{v:.0}")),
+        Value::String(text) if old.starts_with('\'') && !old.starts_with("'''") => {
+            let plain = !text.contains(|c: char| c == '\'' || c.is_control());
+            if plain { format!("'{text}'") } else { string(text) }
+        }
+        other => on_one_line(other),
+    }
+}
+
+fn is_whole(old: &str) -> bool {
+    let digits = old.strip_prefix(['+', '-']).unwrap_or(old);
+    !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit() || b == b'_')
+}
+
+fn number(number: &Number) -> String {
+    match number.as_f64() {
+        Some(float) if number.is_f64() => format!("{float:?}"),
+        _ => number.to_string(),
+    }
+}
+
+/// In double quotes. JSON's escapes are TOML's, but for one character that TOML wants escaped, too.
+fn string(text: &str) -> String {
+    Value::from(text).to_string().replace('\u{7f}', "\\u007F")
+}
