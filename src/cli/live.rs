@@ -9,7 +9,7 @@ use clap::Args;
 use platewash::scenario::Program;
 use platewash::simulator::plant::TorqueLimits;
 use platewash::viewer::bundle::Bundle;
-use platewash::viewer::server::{Feed, Listener, Live, LiveEnd, Server, Site};
+use platewash::viewer::server::{Feed, Listener, Live, LiveEnd, Page, Server, Site};
 use platewash::viewer::view::{Beside, Executed};
 use platewash::workcell::layout::TaskRegion;
 use platewash::{Certificate, Plan, RobotModel, Scenario};
@@ -89,8 +89,8 @@ impl Stage<'_> {
         let page = self.page(plan, arm, certificate, &live).map_err(Failure::internal)?;
         let url = self.listener.url();
         let site = Site {
-            page,
             live: Some(live.clone()),
+            ..Site::of(Page::Fixed(page))
         };
         let server = self.listener.serve(site).map_err(Failure::internal)?;
         output::message(options.quiet, &format!("live at {url}"));

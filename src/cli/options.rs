@@ -10,9 +10,13 @@ use platewash::{CancelToken, RobotModel, Scenario};
 use rayon::ThreadPool;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Stack of a worker thread: what a main thread usually has.
 const STACK_BYTES: usize = 8 << 20;
+
+/// Time between two looks at whether somebody ends it.
+const LOOK: Duration = Duration::from_millis(50);
 
 /// Options that every verb takes.
 #[derive(Debug, Clone, Args)]
@@ -119,6 +123,13 @@ impl Options {
         }
     }
 
+    /// Waits until it is told to end.
+    pub fn wait(&self) {
+        while !self.cancel.is_cancelled() {
+            std::thread::sleep(LOOK);
+        }
+    }
+
     /// Refuses a scenario where a plan file is given.
     pub fn refuse_scenario(&self) -> Result<(), Failure> {
         refuse_beside_plan(self.scenario.is_some(), "--scenario")
@@ -129,7 +140,8 @@ impl Options {
         refuse_beside_plan(self.seed.is_some(), "--seed")
     }
 
-    fn scenario_name(&self) -> &str {
+    /// What the scenario was called: a file, or a shipped name.
+    pub fn scenario_name(&self) -> &str {
         self.scenario.as_deref().unwrap_or(SHIPPED[0].name)
     }
 

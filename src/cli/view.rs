@@ -8,23 +8,19 @@ use super::serve::ServeArguments;
 use super::{bundle, execution, output, page, region};
 use anyhow::anyhow;
 use clap::Args;
+use platewash::Certificate;
 use platewash::certificate::prove_with;
 use platewash::kinematics::urdf::file;
-use platewash::viewer::server::Site;
+use platewash::viewer::server::{Page, Site};
 use platewash::viewer::view::{Beside, Executed, ViewError};
 use platewash::workcell::plan::Process;
 use platewash::workcell::recorded::RecordedMotion;
-use platewash::{CancelToken, Certificate};
 use serde::Serialize;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 /// Longest CSV file that is read \[bytes\].
 const MAX_BYTES: u64 = 1 << 28;
-
-/// Time between two looks at whether somebody ends it.
-const LOOK: Duration = Duration::from_millis(50);
 
 /// Arguments of `view`.
 #[derive(Debug, Args)]
@@ -70,19 +66,14 @@ fn serve(options: &Options, arguments: &ViewArguments) -> Result<ExitCode, Failu
     let listener = arguments.serve.listen(options)?;
     let page = html(options, arguments)?;
     let url = listener.url();
-    let server = listener.serve(Site { page, live: None }).map_err(Failure::internal)?;
+    let site = Site::of(Page::Fixed(page));
+    let server = listener.serve(site).map_err(Failure::internal)?;
     output::print_either(options.json, &Answer::Url(&url), || format!("{url}\n"))?;
     arguments.serve.open(options, &url);
     output::message(options.quiet, "Ctrl-C ends it");
-    wait(&options.cancel);
+    options.wait();
     drop(server);
     Ok(ExitCode::SUCCESS)
-}
-
-fn wait(cancel: &CancelToken) {
-    while !cancel.is_cancelled() {
-        std::thread::sleep(LOOK);
-    }
 }
 
 /// The page of a plan file.

@@ -1,11 +1,12 @@
 //! A page: a document in the bundle that all pages share, as one file of HTML that needs no other.
 //!
-//! Whatever a document says is text. It stands in a data block in which every `<` is written `\u003c`, so that nothing in it ends the
-//! block, and its name stands in the title with its markup written out. Placeholders are looked for in the template alone.
+//! Whatever a document says is text. Each stands in a data block in which every `<` is written `\u003c`, so that nothing in it ends the
+//! block, and the name of what is shown stands in the title with its markup written out. Placeholders are looked for in the template alone.
 
 use crate::bundle::Bundle;
 use crate::view::View;
 use platewash_workcell::words::printable;
+use serde::Serialize;
 
 /// What stands around a placeholder's name.
 const OPEN: &str = "<!--platewash:";
@@ -47,9 +48,22 @@ const PLACEHOLDERS: [&str; 5] = ["title", "style", "data", "script", "notices"];
 /// # Errors
 /// [`PageError`], for a bundle that is none: documents can always be written.
 pub fn html(view: &View, bundle: &Bundle) -> Result<String, PageError> {
+    filled(&title(view), &data_block("view", view)?, bundle)
+}
+
+/// A document as a page on which the scenario behind it can be edited, as a second document says: `platewash-edit`.
+///
+/// # Errors
+/// [`PageError`], for a bundle that is none, or a second document that cannot be written as JSON.
+pub fn html_with(view: &View, edit: &impl Serialize, bundle: &Bundle) -> Result<String, PageError> {
+    let data = data_block("view", view)? + &data_block("edit", edit)?;
+    filled(&title(view), &data, bundle)
+}
+
+/// The bundle with title and data blocks in their places.
+fn filled(title: &str, data: &str, bundle: &Bundle) -> Result<String, PageError> {
     refuse_end("style", &bundle.style, "</style")?;
     refuse_end("script", &bundle.script, "</script")?;
-    let data = in_data_block(&serde_json::to_string(view)?);
     let mut page = String::with_capacity(
         data.len() + bundle.template.len() + bundle.style.len() + bundle.script.len() + 2 * bundle.notices.len(),
     );
@@ -58,13 +72,9 @@ pub fn html(view: &View, bundle: &Bundle) -> Result<String, PageError> {
     while let Some((before, name, after)) = next_placeholder(rest) {
         page.push_str(before);
         match name {
-            "title" => page.push_str(&escaped(&title(view))),
+            "title" => page.push_str(&escaped(title)),
             "style" => page.extend(["<style>", &bundle.style, "</style>"]),
-            "data" => page.extend([
-                r#"<script type="application/json" id="platewash-view">"#,
-                &data,
-                "</script>",
-            ]),
+            "data" => page.push_str(data),
             "script" => page.extend(["<script>", &bundle.script, "</script>"]),
             "notices" => page.push_str(&escaped(&bundle.notices)),
             _ => return Err(template("does not know", name)),
@@ -108,6 +118,14 @@ fn title(view: &View) -> String {
         Some((end, _)) => format!("{}… · platewash", &name[..end]),
         None => format!("{name} · platewash"),
     }
+}
+
+/// A document in a data block of its own.
+fn data_block(name: &str, document: &impl Serialize) -> Result<String, PageError> {
+    let json = in_data_block(&serde_json::to_string(document)?);
+    Ok(format!(
+        r#"<script type="application/json" id="platewash-{name}">{json}</script>"#
+    ))
 }
 
 /// JSON as it may stand in a data block: the same values, and nothing that HTML or a script would read as markup or the end of a line.
@@ -174,7 +192,11 @@ mod tests {
 
     /// What a browser reads from the data block, which ends at the first `</script`.
     fn read_back(page: &str) -> serde_json::Value {
-        let (_, data) = page.split_once(DATA).unwrap();
+        read_back_from(page, DATA)
+    }
+
+    fn read_back_from(page: &str, start: &str) -> serde_json::Value {
+        let (_, data) = page.split_once(start).unwrap();
         let (data, _) = data.split_once("</script").unwrap();
         serde_json::from_str(data).unwrap()
     }
@@ -211,6 +233,28 @@ mod tests {
             assert!(title.len() < 1000 && title.ends_with("· platewash"), "{title}");
             assert!(!page.contains(['\u{2028}', '\u{2029}']));
         }
+    }
+
+    #[test]
+    fn a_second_document_stands_beside_the_first_and_is_text_too() {
+        let texts = [
+            "seed = 1\n",
+            "# </script><script>alert(1)</script>",
+            "# </SCRIPT ><!--<script>",
+            "# <!--platewash:data--><!--platewash:script-->",
+            "# \u{2028}\u{2029}\u{0}\u{202e} \\u003c",
+            "",
+        ];
+        for text in texts {
+            let edit = serde_json::json!({ "format": "platewash-edit/1", "text": text });
+            let page = html_with(&named("kitchen"), &edit, &bundle()).unwrap();
+            assert_eq!(read_back(&page)["heading"]["scenario"], "kitchen");
+            assert_eq!(read_back_from(&page, &DATA.replace("view", "edit")), edit);
+            assert_eq!(page.to_lowercase().matches("<script").count(), 3, "{text}");
+            assert_eq!(page.to_lowercase().matches("</script").count(), 3, "{text}");
+            assert!(!page.contains(['\u{2028}', '\u{2029}']));
+        }
+        assert!(!html(&named("kitchen"), &bundle()).unwrap().contains("platewash-edit"));
     }
 
     #[test]

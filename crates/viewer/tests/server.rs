@@ -1,7 +1,7 @@
 //! The server as its clients meet it, good ones and others, over TCP.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use platewash_viewer::server::{Listener, Live, LiveEnd, Server, ServerError, Site};
+use platewash_viewer::server::{Listener, Live, LiveEnd, Page, Server, ServerError, Site};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::sync::Arc;
@@ -25,9 +25,10 @@ fn serve_page(page: &str, live: Option<Arc<Live>>) -> Served {
     let listener = Listener::bind("127.0.0.1:0".parse().unwrap()).unwrap();
     let url = listener.url();
     let address = url.strip_prefix("http://").unwrap().strip_suffix('/').unwrap();
-    let page = page.to_owned();
+    let page = Page::Fixed(page.to_owned());
+    let site = Site { live, ..Site::of(page) };
     Served {
-        server: Some(listener.serve(Site { page, live }).unwrap()),
+        server: Some(listener.serve(site).unwrap()),
         address: address.parse().unwrap(),
     }
 }

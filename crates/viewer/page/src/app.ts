@@ -1,15 +1,21 @@
 /** The page, put together: a player, a scene, and everything around them that shows a moment or asks for one. */
 import { Address } from "./address.ts";
 import { Controls } from "./controls.ts";
+import { Editor } from "./edit/editor.ts";
+import { PLATE_KEYS } from "./edit/plate-keys.ts";
+import type { EditDocument } from "./edit/protocol.ts";
+import { NO_SCENE } from "./edit/scene.ts";
 import { Feed } from "./feed.ts";
 import { quantity } from "./format.ts";
-import type { Handle } from "./handle.ts";
+import { handleOf, type Handle } from "./handle.ts";
 import type { Place } from "./link.ts";
 import { Loop } from "./loop.ts";
 import { Player } from "./player.ts";
 import { about } from "./shell/about.ts";
 import { announce } from "./shell/announcer.ts";
 import { Banner } from "./shell/banner.ts";
+import { byId, el } from "./shell/dom.ts";
+import { keepingFocus } from "./shell/focus.ts";
 import { Header } from "./shell/header.ts";
 import { Help } from "./shell/help.ts";
 import { configuration } from "./shell/joints.ts";
@@ -27,9 +33,11 @@ import type { Check, LiveEnd, View } from "./view.ts";
 
 /** Width of plots on paper [px]. */
 const PAPER_PX = 680;
+/** How long a document stands before its curves are drawn [ms]. */
+const PLOTS_MS = 250;
 
 export class App {
-  readonly #view: View;
+  readonly #editor: Editor | null;
   readonly #player: Player;
   readonly #controls: Controls;
   readonly #loop: Loop;
@@ -47,13 +55,17 @@ export class App {
   readonly #plots: Plots;
   readonly #plates: Plates;
   readonly #panels: Panels;
+  readonly #about = el("div");
+  /** Plots wait until documents no longer follow each other. */
+  #plotsTimer = 0;
   /** Everything has to be shown anew with the next frame. */
   #anew = true;
 
-  constructor(view: View) {
-    this.#view = view;
+  /** `edit`: what makes the page one of a live cell; null where it only shows. */
+  constructor(view: View, edit: EditDocument | null) {
     this.#player = new Player(view);
-    const film = this.#player.duration > 0;
+    // A live cell's film comes and goes: its place is always there.
+    const film = this.#player.duration > 0 || edit !== null;
     const { promise, resolve } = newPromise();
     this.#ready = promise;
     const afterFirst = (): void => {
@@ -72,21 +84,23 @@ export class App {
       draw: (times, positions) => this.#stage.scene?.appendExecuted(times, positions),
       done: (end) => this.#done(end),
     });
-    const coverages = new Coverages(view.coverage, view.execution?.coverage ?? []);
+    const coverages = coveragesOf(view);
     this.#banner = new Banner(this.#player, () => this.#controls.toNewest());
-    this.#readout = film ? new Readout(this.#player, (plate, t) => coverages.shareAt(plate, this.#player.coverageKind, t)) : null;
+    this.#readout = film ? new Readout(this.#player, this.#shareIn(coverages)) : null;
     this.#stage = new Stage(view, this.#theme.theme, this.#banner.element, this.#readout?.element ?? null, {
       changed: () => this.#show(),
       heat: (on) => this.#controls.heat(on),
       follow: view.execution === null ? null : (motion) => this.#controls.follow(motion),
     });
-    this.#help = new Help(film);
+    this.#help = new Help(film, edit === null ? [] : PLATE_KEYS);
     this.#header = new Header(view, [this.#theme.button(), this.#help.button()]);
     this.#transport = film ? this.#makeTransport() : null;
     this.#requirements = new Requirements(view, (check) => this.#choose(check));
     this.#plots = new Plots(this.#player, () => this.#theme.palette, (t) => this.#controls.seek(t));
     this.#plates = new Plates(this.#player, coverages, (plate) => this.#toPlate(plate));
-    this.#panels = new Panels(this.#makePanels(film), this.#address.place.panel, () => this.#address.touch());
+    this.#editor = edit === null ? null : this.#makeEditor(edit, view);
+    this.#about.replaceChildren(about(view));
+    this.#panels = new Panels([...(this.#editor?.panels ?? []), ...this.#makePanels(film)], this.#address.place.panel, () => this.#address.touch());
     this.#listen();
     this.#go(this.#address.place);
   }
@@ -94,49 +108,62 @@ export class App {
   /** The first frame, then all that follows it. */
   start(): void {
     this.#stage.fit();
-    const quiet = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    const quiet = matchMedia("(prefers-reduced-motion: reduce)").matches || this.#editor !== null;
     if (!quiet && !this.#player.live && this.#address.place.t === null) this.#controls.play();
     this.#loop.start();
     this.#feed.start();
+    this.#editor?.start(this.#stage.canvas);
   }
 
   get handle(): Handle {
-    const [player, controls, stage, loop] = [this.#player, this.#controls, this.#stage, this.#loop];
-    return {
-      ready: this.#ready,
-      view: this.#view,
-      duration: player.duration,
-      time: () => player.time,
-      seek: (t) => controls.seek(t),
-      play: () => controls.play(),
-      pause: () => controls.pause(),
-      isPlaying: () => controls.playing,
-      speed: () => player.clock.speed,
-      setSpeed: (speed) => controls.setSpeed(speed),
-      setClock: (now) => {
-        loop.setClock(now);
-        player.clock.resume(loop.now());
-      },
-      step: () => loop.step(),
-      follow: (motion) => controls.follow(motion),
-      tip: () => stage.scene?.tip() ?? null,
-      project: (place) => stage.scene?.project(place) ?? null,
-      camera: (preset) => stage.camera(preset),
-      layers: () => stage.scene?.layers() ?? [],
-      setLayer: (layer, on) => stage.setLayer(layer, on),
-      heat: (on) => controls.heat(on),
-      get frame() {
-        return loop.statistics;
-      },
-      get state() {
-        return player.phase ?? "recorded";
-      },
-    };
+    return handleOf({ ready: this.#ready, player: this.#player, controls: this.#controls, stage: this.#stage, loop: this.#loop, edit: this.#editor?.handle ?? null });
+  }
+
+  /** Shows another document in place of this one: time, camera, panels, scroll and focus stay. */
+  replace(view: View): void {
+    keepingFocus(byId("panels"), () => {
+      const coverages = coveragesOf(view);
+      const { motion, clearance } = this.#player.view;
+      this.#player.replace(view, this.#loop.now());
+      this.#stage.replace(view);
+      this.#header.replace(view);
+      this.#readout?.replace(this.#shareIn(coverages));
+      this.#transport?.replace(view, this.#player.duration);
+      this.#requirements.replace(view);
+      this.#plates.replace(coverages);
+      if (this.#panels.shows("plates")) this.#plates.show();
+      this.#about.replaceChildren(about(view));
+      if (view.motion !== motion || view.clearance !== clearance) this.#renewPlots();
+    });
+    this.#changed();
+  }
+
+  /** Curves take longer than a frame. */
+  #renewPlots(): void {
+    this.#plots.replace();
+    clearTimeout(this.#plotsTimer);
+    this.#plotsTimer = window.setTimeout(() => {
+      if (this.#panels.shows("plots")) this.#plots.show();
+    }, PLOTS_MS);
+  }
+
+  #shareIn(coverages: Coverages): (plate: number, t: number) => number | null {
+    return (plate, t) => coverages.shareAt(plate, this.#player.coverageKind, t);
+  }
+
+  #makeEditor(edit: EditDocument, view: View): Editor {
+    const { canvas, scene } = this.#stage;
+    return new Editor(edit, view, {
+      scene: () => scene ?? NO_SCENE,
+      size: () => [canvas.clientWidth, canvas.clientHeight],
+      replace: (next) => this.replace(next),
+      say: (said) => this.#header.say(said),
+    });
   }
 
   #makeTransport(): Transport {
     const controls = this.#controls;
-    return new Transport(this.#view, this.#player.duration, this.#theme.palette, {
+    return new Transport(this.#player.view, this.#player.duration, this.#theme.palette, {
       toggle: () => controls.toggle(),
       toStart: () => controls.seek(0),
       segment: (direction) => controls.toSegment(direction),
@@ -148,18 +175,19 @@ export class App {
 
   #makePanels(film: boolean): Panel[] {
     const panels: (Panel | null)[] = [
-      film ? null : { id: "joints", title: "Joints", content: configuration(this.#view) },
+      film ? null : { id: "joints", title: "Joints", content: configuration(this.#player.view) },
       film ? { id: "requirements", title: "Requirements", content: this.#requirements.element } : null,
       film ? { id: "plots", title: "Plots", content: this.#plots.element, onShow: () => this.#plots.show() } : null,
-      this.#view.coverage.length > 0
+      this.#player.view.coverage.length > 0 || this.#editor !== null
         ? { id: "plates", title: "Plates", content: this.#plates.element, onShow: () => this.#plates.show() }
         : null,
-      { id: "about", title: "About", content: about(this.#view) },
+      { id: "about", title: "About", content: this.#about },
     ];
     return panels.filter((panel) => panel !== null);
   }
 
   #advance(now: number): boolean {
+    this.#editor?.advance(now);
     const ran = this.#player.tick(now);
     const anew = this.#anew;
     this.#anew = false;
@@ -187,9 +215,10 @@ export class App {
 
   #draw(): boolean {
     const scene = this.#stage.scene;
-    if (scene === null || !scene.needsRender()) return false;
-    scene.render();
-    return true;
+    const draws = scene !== null && scene.needsRender();
+    if (draws) scene.render();
+    this.#editor?.drawn(performance.now());
+    return draws;
   }
 
   /** Shows everything anew with the next frame. */
@@ -225,7 +254,7 @@ export class App {
 
   #toPlate(plate: number): void {
     const start = this.#controls.toPlate(plate);
-    if (start !== null) announce(`${this.#view.plates[plate]?.name ?? "plate"}, at ${quantity(start, 2, "seconds")}`);
+    if (start !== null) announce(`${this.#player.view.plates[plate]?.name ?? "plate"}, at ${quantity(start, 2, "seconds")}`);
   }
 
   /** Where the page stands; null while that changes by itself. */
@@ -234,7 +263,7 @@ export class App {
     if (this.#controls.playing || live) return null;
     const { panel, camera } = this.#address.place;
     const speed = clock.speed === 1 ? null : clock.speed;
-    return { t: this.#transport === null ? null : time, speed, show: follows === "executed" ? follows : null, panel, camera };
+    return { t: this.#transport === null || this.#player.duration === 0 ? null : time, speed, show: follows === "executed" ? follows : null, panel, camera };
   }
 
   #go(place: Place): void {
@@ -286,7 +315,7 @@ export class App {
   }
 
   #done(end: LiveEnd): void {
-    const execution = this.#view.execution;
+    const execution = this.#player.view.execution;
     if (execution === null) return;
     execution.headline = end.headline;
     execution.washed = end.washed;
@@ -294,6 +323,10 @@ export class App {
     this.#changed();
     announce(end.headline);
   }
+}
+
+function coveragesOf(view: View): Coverages {
+  return new Coverages(view.coverage, view.execution?.coverage ?? []);
 }
 
 function newPromise(): { promise: Promise<void>; resolve: () => void } {

@@ -28,6 +28,13 @@ export class Clock {
     return this.#end;
   }
 
+  /** Another film: goes on at `t` [s], or as far as the film goes. */
+  setEnd(end: number, t: number, now: number): void {
+    this.#end = Math.max(0, end);
+    this.seek(t, now);
+    if (this.#time >= this.#end) this.#playing = false;
+  }
+
   get speed(): number {
     return this.#speed;
   }

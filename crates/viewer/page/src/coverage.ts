@@ -41,8 +41,19 @@ function ordered(first: Uint16Array): { order: Uint32Array; swept: Uint32Array }
   return { order, swept: swept.subarray(1) };
 }
 
-/** Decodes a raster; `NumbersError` where its arrays do not fit each other. */
+/** By the raster itself: a proof changes only what is said of it. */
+const DECODED = new WeakMap<object, Coverage>();
+
+/** Decodes a raster, once; `NumbersError` where its arrays do not fit each other. */
 export function decodeCoverage(document: PlateCoverage): Coverage {
+  const before = DECODED.get(document.first);
+  if (before !== undefined) return before.proved === document.proved ? before : { ...before, proved: document.proved };
+  const decoded = freshlyDecoded(document);
+  DECODED.set(document.first, decoded);
+  return decoded;
+}
+
+function freshlyDecoded(document: PlateCoverage): Coverage {
   const first = decode(document.first);
   const dwell = decode(document.dwell);
   const [rows = 0, columns = 0] = document.first.shape;

@@ -1,7 +1,11 @@
 /** `window.platewash`: the page in the hands of a test, or of whoever opens the console. */
+import type { Controls } from "./controls.ts";
+import type { EditHandle } from "./edit/handle.ts";
 import type { LivePhase } from "./live.ts";
-import type { FrameStatistics } from "./loop.ts";
+import type { FrameStatistics, Loop } from "./loop.ts";
+import type { Player } from "./player.ts";
 import type { Layer } from "./scene/index.ts";
+import type { Stage } from "./shell/stage.ts";
 import type { View } from "./view.ts";
 
 export interface Handle {
@@ -35,10 +39,60 @@ export interface Handle {
   readonly frame: FrameStatistics;
   /** `recorded`, or how a live run stands. */
   readonly state: "recorded" | LivePhase;
+  /** Null in a page that only shows. */
+  readonly edit: EditHandle | null;
 }
 
 declare global {
   interface Window {
     platewash?: Handle;
   }
+}
+
+/** What a handle is of. */
+export interface Parts {
+  ready: Promise<void>;
+  player: Player;
+  controls: Controls;
+  stage: Stage;
+  loop: Loop;
+  edit: EditHandle | null;
+}
+
+export function handleOf({ ready, player, controls, stage, loop, edit }: Parts): Handle {
+  return {
+    ready,
+    get view() {
+      return player.view;
+    },
+    get duration() {
+      return player.duration;
+    },
+    time: () => player.time,
+    seek: (t) => controls.seek(t),
+    play: () => controls.play(),
+    pause: () => controls.pause(),
+    isPlaying: () => controls.playing,
+    speed: () => player.clock.speed,
+    setSpeed: (speed) => controls.setSpeed(speed),
+    setClock: (now) => {
+      loop.setClock(now);
+      player.clock.resume(loop.now());
+    },
+    step: () => loop.step(),
+    follow: (motion) => controls.follow(motion),
+    tip: () => stage.scene?.tip() ?? null,
+    project: (place) => stage.scene?.project(place) ?? null,
+    camera: (preset) => stage.camera(preset),
+    layers: () => stage.scene?.layers() ?? [],
+    setLayer: (layer, on) => stage.setLayer(layer, on),
+    heat: (on) => controls.heat(on),
+    get frame() {
+      return loop.statistics;
+    },
+    get state() {
+      return player.phase ?? "recorded";
+    },
+    edit,
+  };
 }

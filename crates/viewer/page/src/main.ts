@@ -1,12 +1,13 @@
 import "./language.ts";
 import { App } from "./app.ts";
 import { DocumentError, readView } from "./document.ts";
+import { readEdit } from "./edit/document.ts";
 import { NumbersError } from "./numbers.ts";
 import { byId, el } from "./shell/dom.ts";
 
 function main(): void {
   try {
-    const app = new App(readView(document));
+    const app = new App(readView(document), readEdit(document));
     window.platewash = app.handle;
     app.start();
   } catch (error) {

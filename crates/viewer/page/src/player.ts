@@ -12,11 +12,29 @@ import type { Segment, View } from "./view.ts";
 /** Whose joints the arm shows. */
 export type Follows = "planned" | "executed";
 
+/** A document and what is computed from it. */
+interface Film {
+  view: View;
+  motion: Motion | null;
+  recording: Recording | null;
+  clearances: Clearances | null;
+}
+
+function filmOf(view: View): Film {
+  return {
+    view,
+    motion: view.motion === null ? null : Motion.of(view.motion),
+    recording: view.execution === null ? null : new Recording(view.execution),
+    clearances: view.clearance === null ? null : new Clearances(view.clearance),
+  };
+}
+
+/** When it ends [s]. */
+function endOf({ motion, recording }: Film): number {
+  return Math.max(motion?.duration ?? 0, recording?.end ?? 0);
+}
+
 export class Player {
-  readonly view: View;
-  readonly motion: Motion | null;
-  readonly recording: Recording | null;
-  readonly clearances: Clearances | null;
   readonly clock: Clock;
   /** What the scene draws: the object and its arrays are used again for the next frame. */
   readonly shown: Shown;
@@ -24,19 +42,19 @@ export class Player {
   readonly #plan: JointState = newState();
   readonly #executed = new Float64Array(AXES);
   readonly #follower = new Follower();
+  #film: Film;
   #follows: Follows = "planned";
   #segment = 0;
   /** Null where the page shows no live run. */
   #phase: LivePhase | null = null;
   /** Whether the newest moment of a live run is shown. */
   #newest = false;
+  /** Where the last film stood, while there is none. */
+  #waiting = { t: 0, playing: false };
 
   constructor(view: View) {
-    this.view = view;
-    this.motion = view.motion === null ? null : Motion.of(view.motion);
-    this.recording = view.execution === null ? null : new Recording(view.execution);
-    this.clearances = view.clearance === null ? null : new Clearances(view.clearance);
-    this.clock = new Clock(Math.max(this.motion?.duration ?? 0, this.recording?.end ?? 0));
+    this.#film = filmOf(view);
+    this.clock = new Clock(endOf(this.#film));
     this.shown = {
       t_s: 0,
       q: this.#q,
@@ -52,6 +70,34 @@ export class Player {
       this.#newest = true;
       this.#follows = "executed";
     }
+  }
+
+  /** Shows another document, at the same time where its film goes as far. Without a film, time waits for the next one. */
+  replace(view: View, now: number): void {
+    const resting = this.duration === 0;
+    const t = resting ? this.#waiting.t : this.time;
+    const playing = resting ? this.#waiting.playing : this.clock.playing;
+    this.#film = filmOf(view);
+    this.#segment = 0;
+    this.clock.setEnd(endOf(this.#film), t, now);
+    this.#waiting = { t, playing };
+    if (playing && this.time < this.duration) this.clock.play(now);
+  }
+
+  get view(): View {
+    return this.#film.view;
+  }
+
+  get motion(): Motion | null {
+    return this.#film.motion;
+  }
+
+  get recording(): Recording | null {
+    return this.#film.recording;
+  }
+
+  get clearances(): Clearances | null {
+    return this.#film.clearances;
   }
 
   get time(): number {
@@ -124,6 +170,7 @@ export class Player {
 
   seek(t: number, now: number): void {
     this.#newest = false;
+    if (this.duration === 0 && Number.isFinite(t)) this.#waiting = { t, playing: false };
     this.clock.seek(Math.min(t, this.edge), now);
   }
 

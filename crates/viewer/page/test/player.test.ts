@@ -182,3 +182,37 @@ test("a paused live run stays where it is", () => {
   assert.equal(player.time, time);
   assert.equal(controls.playing, false);
 });
+
+test("another document goes on at the same time, as far as its film goes", () => {
+  const view = viewWith({});
+  const short = viewWith({ motion: { t_s: f64([0, 4], 2), q_rad: f64([...six(0), ...six(4)], 2, 6), qd_rad_s: f64([...six(1), ...six(1)], 2, 6) } });
+  const player = new Player(view);
+  player.seek(3, 0);
+  player.play(0);
+  player.replace(short, 0);
+  assert.deepEqual([player.time, player.duration, player.clock.playing], [3, 4, true]);
+  assert.equal(player.show().q[0], 3);
+  player.tick(500);
+  assert.equal(player.time, 3.5);
+  player.pause(500);
+  player.seek(9, 500);
+  assert.equal(player.time, 4);
+});
+
+test("while there is no film its time and whether it ran wait for the next", () => {
+  const player = new Player(viewWith({}));
+  player.seek(3, 0);
+  player.play(0);
+  player.replace(viewWith({ motion: null, segments: [] }), 0);
+  assert.deepEqual([player.time, player.duration, player.clock.playing], [0, 0, false]);
+  assert.deepEqual([...player.show().q], [1, 2, 3, 4, 5, 6]);
+  player.replace(viewWith({ motion: null, segments: [] }), 0);
+  player.replace(viewWith({}), 1000);
+  assert.deepEqual([player.time, player.clock.playing], [3, true]);
+  player.tick(1500);
+  assert.equal(player.time, 3.5);
+  player.replace(viewWith({ motion: null, segments: [] }), 1500);
+  player.seek(7, 1500);
+  player.replace(viewWith({}), 2000);
+  assert.deepEqual([player.time, player.clock.playing], [7, false]);
+});

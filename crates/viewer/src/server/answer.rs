@@ -8,6 +8,9 @@ use std::io::{Result, Write};
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; connect-src 'self'; \
      base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
+/// Words are text, whatever is in them.
+const TEXT: (&str, &str) = ("Content-Type", "text/plain; charset=utf-8");
+
 /// Writes the page; its headers alone where only they are asked for.
 pub fn page(out: &mut impl Write, page: &str, wants_contents: bool) -> Result<()> {
     let head = head(
@@ -26,10 +29,7 @@ pub fn nothing(out: &mut impl Write) -> Result<()> {
 /// Writes a refusal.
 pub fn refusal(out: &mut impl Write, refusal: Refusal, wants_contents: bool) -> Result<()> {
     let words = format!("{}\n", refusal.words());
-    let mut headers = vec![("Content-Type", "text/plain; charset=utf-8")];
-    if refusal == Refusal::Method {
-        headers.push(("Allow", "GET, HEAD"));
-    }
+    let headers = [&[TEXT], refusal.headers()].concat();
     whole(
         out,
         &head(refusal.status(), &headers, Some(words.len())),
@@ -38,9 +38,26 @@ pub fn refusal(out: &mut impl Write, refusal: Refusal, wants_contents: bool) -> 
     )
 }
 
+/// Writes that there is no page, and why.
+pub fn no_page(out: &mut impl Write, words: &str, wants_contents: bool) -> Result<()> {
+    let words = format!("the page cannot be made: {words}\n");
+    let head = head("500 Internal Server Error", &[TEXT], Some(words.len()));
+    whole(out, &head, &words, wants_contents)
+}
+
 /// Writes the headers that events follow.
 pub fn events(out: &mut impl Write) -> Result<()> {
     let head = head("200 OK", &[("Content-Type", "text/event-stream; charset=utf-8")], None);
+    whole(out, &head, "", false)
+}
+
+/// Writes the headers that the lines of an answer follow.
+pub fn lines(out: &mut impl Write) -> Result<()> {
+    let head = head(
+        "200 OK",
+        &[("Content-Type", "application/x-ndjson; charset=utf-8")],
+        None,
+    );
     whole(out, &head, "", false)
 }
 

@@ -1,10 +1,10 @@
 //! Who is connected, and who has to go for another.
 
-use super::limits::CONNECTIONS;
+use super::limits::{CONNECTIONS, QUESTIONS};
 use std::collections::BTreeMap;
 use std::net::{Shutdown, TcpStream};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// All connections, oldest first.
 #[derive(Debug, Default)]
@@ -17,13 +17,27 @@ pub struct Connections {
 struct Open {
     streams: BTreeMap<u64, Connected>,
     next: u64,
+    /// Nobody comes in any more.
+    is_closed: bool,
 }
 
 #[derive(Debug)]
 struct Connected {
     stream: TcpStream,
-    /// Whether it is being answered: others have not asked yet, or have their answer.
-    is_answered: bool,
+    stage: Stage,
+}
+
+/// How far a connection has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// It has not asked yet.
+    Asking,
+    /// It sends a question.
+    Telling,
+    /// It is being answered, or waits for that.
+    Answered,
+    /// It has its answer.
+    Leaving,
 }
 
 /// A place among the connections, until it is dropped.
@@ -38,16 +52,16 @@ impl Connections {
     pub fn enter(self: &Arc<Self>, stream: &TcpStream) -> Option<Place> {
         let stream = stream.try_clone().ok()?;
         let mut open = self.lock();
+        if open.is_closed {
+            return None;
+        }
         if open.streams.len() >= CONNECTIONS {
-            let idle = open.streams.iter().find(|(_, connected)| !connected.is_answered);
-            let oldest = *idle?.0;
-            // Its thread finds the connection closed and ends.
-            close(open.streams.remove(&oldest)?);
+            open.push_out(|stage| stage != Stage::Answered)?;
         }
         let number = open.next;
         open.next += 1;
-        let is_answered = false;
-        open.streams.insert(number, Connected { stream, is_answered });
+        let stage = Stage::Asking;
+        open.streams.insert(number, Connected { stream, stage });
         Some(Place {
             connections: self.clone(),
             number,
@@ -56,19 +70,19 @@ impl Connections {
 
     /// Closes all connections and waits until their threads have seen it, for so long at most.
     pub fn close(&self, patience: Duration) {
+        let end = Instant::now() + patience;
         let mut open = self.lock();
+        open.is_closed = true;
         for connected in open.streams.values() {
             let _ = connected.stream.shutdown(Shutdown::Both);
         }
         while !open.streams.is_empty() {
-            let (now, waited) = self
-                .left
-                .wait_timeout(open, patience)
-                .unwrap_or_else(PoisonError::into_inner);
-            open = now;
-            if waited.timed_out() {
+            let left = end.saturating_duration_since(Instant::now());
+            if left.is_zero() {
                 return;
             }
+            let woken = self.left.wait_timeout(open, left);
+            open = woken.unwrap_or_else(PoisonError::into_inner).0;
         }
     }
 
@@ -77,16 +91,27 @@ impl Connections {
     }
 }
 
-fn close(connected: Connected) {
-    // One that is closed already needs nothing.
-    let _ = connected.stream.shutdown(Shutdown::Both);
+impl Open {
+    /// Closes the oldest connection of such a stage: its thread finds it closed and ends. None where there is none.
+    fn push_out(&mut self, of: impl Fn(Stage) -> bool) -> Option<()> {
+        let oldest = *self.streams.iter().find(|(_, connected)| of(connected.stage))?.0;
+        let connected = self.streams.remove(&oldest)?;
+        // One that is closed already needs nothing.
+        let _ = connected.stream.shutdown(Shutdown::Both);
+        Some(())
+    }
 }
 
 impl Place {
-    /// Notes whether it is being answered.
-    pub fn is_answered(&self, is_answered: bool) {
-        if let Some(connected) = self.connections.lock().streams.get_mut(&self.number) {
-            connected.is_answered = is_answered;
+    /// Notes how far it has come. Where too many send a question, the oldest of them has to go.
+    pub fn is_at(&self, stage: Stage) {
+        let mut open = self.connections.lock();
+        let is_alike = |connected: &&Connected| connected.stage == stage;
+        if stage == Stage::Telling && open.streams.values().filter(is_alike).count() >= QUESTIONS {
+            open.push_out(|other| other == stage);
+        }
+        if let Some(connected) = open.streams.get_mut(&self.number) {
+            connected.stage = stage;
         }
     }
 }

@@ -17,4 +17,7 @@ pub enum ServerError {
     /// The system gives no thread.
     #[error("cannot serve: no thread can be started")]
     Thread(#[source] std::io::Error),
+    /// The system gives no random numbers, without which no token can be made that nobody guesses.
+    #[error("cannot make a token: the system gives no random numbers")]
+    Randomness(#[source] std::io::Error),
 }

@@ -40,3 +40,27 @@ pub const ROWS: usize = 60_000;
 
 /// Rows of one event.
 pub const ROWS_AN_EVENT: usize = 500;
+
+/// For how long a client may take to send a question, behind its head.
+pub const TO_QUESTION: Duration = Duration::from_secs(5);
+
+/// Most questions that are being received at a time. One more pushes out the oldest.
+pub const QUESTIONS: usize = 8;
+
+/// For how long a client may take to receive a line of an answer.
+pub const TO_RECEIVE_LINE: Duration = Duration::from_secs(5);
+
+/// Most questions that are being worked on at a time.
+pub const WORK: usize = 2;
+
+/// Most questions that wait to be worked on.
+pub const WAITING: usize = 16;
+
+/// For how long each of them waits at most.
+pub const TO_WAIT: Duration = Duration::from_secs(10);
+
+/// Time between two looks at whether whoever waits gives up, or is gone.
+pub const LOOK: Duration = Duration::from_millis(50);
+
+/// Most clients without a place that are told so and not closed yet.
+pub const TURNED_AWAY: usize = 64;

@@ -1,11 +1,13 @@
 //! The port, and the thread that accepts.
 
-use super::connection;
+use super::connection::{self, Served};
 use super::connections::Connections;
 use super::error::ServerError;
 use super::limits::TO_END;
 use super::names::Names;
 use super::site::Site;
+use super::turned_away::Door;
+use super::work::Work;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,7 +29,7 @@ pub struct Listener {
 pub struct Server {
     address: SocketAddr,
     ends: Arc<AtomicBool>,
-    site: Arc<Site>,
+    served: Arc<Served>,
     connections: Arc<Connections>,
     accepting: Option<JoinHandle<()>>,
 }
@@ -55,15 +57,17 @@ impl Listener {
     /// # Errors
     /// [`ServerError::Thread`].
     pub fn serve(self, site: Site) -> Result<Server, ServerError> {
+        let (names, work) = (Names::of(self.address), Work::default());
         let mut server = Server {
             address: self.address,
             ends: Arc::default(),
-            site: Arc::new(site),
+            served: Arc::new(Served { site, names, work }),
             connections: Arc::default(),
             accepting: None,
         };
-        let (ends, site, connections) = (server.ends.clone(), server.site.clone(), server.connections.clone());
-        let accept = move || accept(&self.listener, self.address, &ends, &site, &connections);
+        let door = Door::open().map_err(ServerError::Thread)?;
+        let (ends, served, connections) = (server.ends.clone(), server.served.clone(), server.connections.clone());
+        let accept = move || accept(&self.listener, &ends, &served, &connections, &door);
         let accepting = Builder::new().name("page".to_owned()).spawn(accept);
         server.accepting = Some(accepting.map_err(ServerError::Thread)?);
         Ok(server)
@@ -91,33 +95,33 @@ impl Drop for Server {
             }
         }
         drop(woken);
-        if let Some(live) = &self.site.live {
+        if let Some(live) = &self.served.site.live {
             live.close();
         }
         self.connections.close(TO_END);
     }
 }
 
-fn accept(listener: &TcpListener, address: SocketAddr, ends: &AtomicBool, site: &Arc<Site>, all: &Arc<Connections>) {
+fn accept(listener: &TcpListener, ends: &AtomicBool, served: &Arc<Served>, all: &Arc<Connections>, door: &Door) {
     while !ends.load(Ordering::Relaxed) {
         match listener.accept() {
             Ok(_) if ends.load(Ordering::Relaxed) => {}
-            Ok((stream, _)) => welcome(stream, Names::of(address), site, all),
+            Ok((stream, _)) => welcome(stream, served, all, door),
             Err(_) => sleep(AFTER_A_FAULT),
         }
     }
 }
 
-/// Gives a connection a thread; one for which there is no place or no thread is closed.
-fn welcome(stream: TcpStream, names: Names, site: &Arc<Site>, all: &Arc<Connections>) {
+/// Gives a connection a thread. One for which there is no place is told so, one for which there is no thread is closed.
+fn welcome(stream: TcpStream, served: &Arc<Served>, all: &Arc<Connections>, door: &Door) {
     let Some(place) = all.enter(&stream) else {
-        return;
+        return door.turn_away(stream);
     };
-    let site = site.clone();
+    let served = served.clone();
     let serve = move || {
         // Small events are not held back to be sent together; where that cannot be had, they come later.
         let _ = stream.set_nodelay(true);
-        connection::serve(&stream, &site, names, &place);
+        connection::serve(&stream, &served, &place);
     };
     let _ = Builder::new().name("page client".to_owned()).spawn(serve);
 }

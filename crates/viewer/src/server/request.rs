@@ -1,98 +1,92 @@
 //! A request, judged.
 
+use super::headers::Headers;
 use super::limits::HEADERS;
 use super::names::Names;
+use super::question::Question;
 use super::refusal::Refusal;
-use httparse::{EMPTY_HEADER, Error, Header, Status};
+use super::service::Service;
+use httparse::{EMPTY_HEADER, Error, Status};
 
 /// A request that may be answered.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Request {
-    /// Whether the answer's contents are asked for, and not its headers alone.
-    pub wants_contents: bool,
+    /// What it is to get.
+    pub wants: Wants,
     /// From `/` to `?`.
     pub path: String,
     /// Behind `?`.
     pub query: Option<String>,
     /// The last event that a client who connects again has received.
     pub last_event_id: Option<String>,
+    /// Length of its head \[bytes\].
+    pub head_bytes: usize,
+}
+
+/// What a request is to get.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wants {
+    /// What is here.
+    Contents,
+    /// The headers of that alone.
+    Headers,
+    /// The answer to a question, which follows.
+    Answer(Question),
 }
 
 impl Request {
-    /// Judges the head of a request to a server of these names.
-    pub fn judge(head: &[u8], names: Names) -> Result<Self, Refusal> {
+    /// Judges the head of a request to a server of these names, where somebody may answer questions.
+    pub fn judge(head: &[u8], names: Names, service: Option<&dyn Service>) -> Result<Self, Refusal> {
         let mut headers = [EMPTY_HEADER; HEADERS];
         let mut parsed = httparse::Request::new(&mut headers);
-        match parsed.parse(head) {
-            Ok(Status::Complete(_)) => {}
+        let head_bytes = match parsed.parse(head) {
+            Ok(Status::Complete(bytes)) => bytes,
             Ok(Status::Partial) => return Err(Refusal::Garbled),
             Err(Error::TooManyHeaders) => return Err(Refusal::TooLong),
             Err(Error::Version) => return Err(Refusal::Version),
             Err(_) => return Err(Refusal::Garbled),
-        }
+        };
         let headers = Headers(parsed.headers);
         let host = headers.one("host")?.ok_or(Refusal::Garbled)?;
         if !names.is_host(host) {
             return Err(Refusal::ForeignHost);
         }
         let origin = headers.one("origin")?;
-        if origin.is_some_and(|origin| !names.is_origin(origin)) || headers.are_of_a_foreign_page()? {
+        let is_foreign = headers.are_of_a_foreign_page()? && !headers.are_of_a_link()?;
+        if origin.is_some_and(|origin| !names.is_origin(origin)) || is_foreign {
             return Err(Refusal::ForeignOrigin);
         }
-        let wants_contents = match parsed.method {
-            Some("GET") => true,
-            Some("HEAD") => false,
+        // The whole of another server's address is what a proxy is asked for.
+        let target = parsed.path.filter(|path| path.starts_with('/'));
+        let (path, query) = target.map_or((None, None), parted);
+        let asked = service.and_then(|service| Some((service, service.knows(path?)?)));
+        let wants = match (parsed.method, asked) {
+            (Some("POST"), Some((service, asked))) => {
+                Wants::Answer(Question::judge(&headers, host, asked, service.token())?)
+            }
+            (_, Some(_)) => return Err(Refusal::QuestionMethod),
+            (Some("GET"), None) => Wants::Contents,
+            (Some("HEAD"), None) => Wants::Headers,
             _ => return Err(Refusal::Method),
         };
-        if headers.announce_contents()? {
+        if asked.is_none() && headers.announce_contents()? {
             return Err(Refusal::Contents);
         }
-        // The whole of another server's address is what a proxy is asked for.
-        let target = parsed
-            .path
-            .filter(|path| path.starts_with('/'))
-            .ok_or(Refusal::Garbled)?;
-        let (path, query) = target
-            .split_once('?')
-            .map_or((target, None), |(path, query)| (path, Some(query)));
         Ok(Self {
-            wants_contents,
-            path: path.to_owned(),
+            wants,
+            path: path.ok_or(Refusal::Garbled)?.to_owned(),
             query: query.map(ToOwned::to_owned),
             last_event_id: headers.one("last-event-id")?.map(ToOwned::to_owned),
+            head_bytes,
         })
     }
 }
 
-struct Headers<'a>(&'a [Header<'a>]);
-
-impl<'a> Headers<'a> {
-    /// A header that can be stated once.
-    fn one(&self, name: &str) -> Result<Option<&'a str>, Refusal> {
-        let mut stated = self.0.iter().filter(|header| header.name.eq_ignore_ascii_case(name));
-        let (first, second) = (stated.next(), stated.next());
-        match (first, second) {
-            (None, _) => Ok(None),
-            (Some(header), None) => std::str::from_utf8(header.value)
-                .map(Some)
-                .map_err(|_| Refusal::Garbled),
-            (Some(_), Some(_)) => Err(Refusal::Garbled),
-        }
-    }
-
-    /// Whether a page of another site asks for something to put into itself, as browsers say of their own accord. A link to here is
-    /// followed: who follows it sees the page, and the other site does not.
-    fn are_of_a_foreign_page(&self) -> Result<bool, Refusal> {
-        let site = self.one("sec-fetch-site")?;
-        let is_followed =
-            self.one("sec-fetch-mode")? == Some("navigate") && self.one("sec-fetch-dest")? == Some("document");
-        Ok(site.is_some_and(|site| !["same-origin", "none"].contains(&site)) && !is_followed)
-    }
-
-    fn announce_contents(&self) -> Result<bool, Refusal> {
-        let length = self.one("content-length")?;
-        Ok(self.one("transfer-encoding")?.is_some() || length.is_some_and(|length| length.trim() != "0"))
-    }
+/// Path and query.
+fn parted(target: &str) -> (Option<&str>, Option<&str>) {
+    target
+        .split_once('?')
+        .map_or((Some(target), None), |(path, query)| (Some(path), Some(query)))
 }
 
 #[cfg(test)]
@@ -100,7 +94,7 @@ mod tests {
     use super::*;
 
     fn judged(head: &str) -> Result<Request, Refusal> {
-        Request::judge(head.as_bytes(), Names::of("127.0.0.1:8080".parse().unwrap()))
+        Request::judge(head.as_bytes(), Names::of("127.0.0.1:8080".parse().unwrap()), None)
     }
 
     /// A request with a proper Host and more headers, a line each.
@@ -112,14 +106,26 @@ mod tests {
     fn a_request_is_its_path_and_what_it_missed() {
         let asked = with("GET /events?run=7 HTTP/1.1", "last-event-id: 41\r\nAccept: */*\r\n").unwrap();
         let expected = Request {
-            wants_contents: true,
+            wants: Wants::Contents,
             path: "/events".to_owned(),
             query: Some("run=7".to_owned()),
             last_event_id: Some("41".to_owned()),
+            head_bytes: 84,
         };
         assert_eq!(asked, expected);
         let asked = with("HEAD / HTTP/1.0", "").unwrap();
-        assert!(!asked.wants_contents && asked.query.is_none());
+        assert!(asked.wants == Wants::Headers && asked.query.is_none());
+    }
+
+    #[test]
+    fn what_follows_a_head_is_no_part_of_it() {
+        let alone = with("GET / HTTP/1.1", "").unwrap();
+        let host = "\r\nHost: localhost:8080\r\n\r\n";
+        let followed = judged(&format!("GET / HTTP/1.1{host}more\r\n\r\n")).unwrap();
+        assert_eq!(
+            (followed.head_bytes, &followed),
+            ("GET / HTTP/1.1".len() + host.len(), &alone)
+        );
     }
 
     #[test]

@@ -3,6 +3,10 @@
 use super::live::{EVENTS, Live};
 use super::refusal::Refusal;
 use super::request::Request;
+use super::service::Service;
+use std::borrow::Cow;
+use std::error::Error;
+use std::fmt;
 use std::sync::Arc;
 
 /// Where the page is.
@@ -13,16 +17,31 @@ const ICON: &str = "/favicon.ico";
 /// What is served.
 #[derive(Debug)]
 pub struct Site {
-    /// The page, as HTML.
-    pub page: String,
+    /// The page.
+    pub page: Page,
     /// The run whose events it shows; `None` where it shows what is done.
     pub live: Option<Arc<Live>>,
+    /// Who answers its questions; `None` where it has none, and nothing but reading is allowed.
+    pub service: Option<Arc<dyn Service>>,
 }
+
+/// A page, as HTML.
+pub enum Page {
+    /// The same each time.
+    Fixed(String),
+    /// Made anew each time; or why it cannot be, which is shown as text.
+    Made(Box<MakePage>),
+}
+
+/// Makes a page.
+pub type MakePage = dyn Fn() -> Result<String, Box<dyn Error + Send + Sync>> + Send + Sync;
 
 /// What a request gets.
 pub enum Found<'a> {
     /// The page.
-    Page(&'a str),
+    Page(Cow<'a, str>),
+    /// Why there is no page.
+    NoPage(String),
     /// Events as they come.
     Events(&'a Arc<Live>),
     /// That there is nothing.
@@ -30,10 +49,17 @@ pub enum Found<'a> {
 }
 
 impl Site {
+    /// A page alone.
+    #[must_use]
+    pub fn of(page: Page) -> Self {
+        let (live, service) = (None, None);
+        Self { page, live, service }
+    }
+
     /// What a request gets.
     pub fn find(&self, request: &Request) -> Result<Found<'_>, Refusal> {
         match (request.path.as_str(), &self.live) {
-            (PAGE, _) => Ok(Found::Page(&self.page)),
+            (PAGE, _) => Ok(self.page.found()),
             (ICON, _) => Ok(Found::Nothing),
             (EVENTS, Some(live)) if request.query.as_deref().is_none_or(|query| live.is_asked_for(query)) => {
                 Ok(Found::Events(live))
@@ -42,5 +68,26 @@ impl Site {
             (EVENTS, Some(_)) => Ok(Found::Nothing),
             _ => Err(Refusal::NotFound),
         }
+    }
+}
+
+impl Page {
+    fn found(&self) -> Found<'_> {
+        match self {
+            Self::Fixed(page) => Found::Page(Cow::Borrowed(page)),
+            Self::Made(make) => match make() {
+                Ok(page) => Found::Page(Cow::Owned(page)),
+                Err(error) => Found::NoPage(error.to_string()),
+            },
+        }
+    }
+}
+
+impl fmt::Debug for Page {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fixed(_) => "Fixed(..)",
+            Self::Made(_) => "Made(..)",
+        })
     }
 }

@@ -49,7 +49,8 @@ pub struct Place {
 
 impl Certificate {
     /// As it is shown; `mount` is `T_world_base`.
-    pub(super) fn new(certificate: &proved::Certificate, mount: &Pose) -> Self {
+    #[must_use]
+    pub fn new(certificate: &proved::Certificate, mount: &Pose) -> Self {
         let check = |check: &proved::Check| Check {
             requirement: check.requirement,
             words: check.requirement.words(),

@@ -1,5 +1,6 @@
 //! What a page is about.
 
+use platewash_workcell::job::WashJob;
 use platewash_workcell::plan::{self, Plan};
 use serde::Serialize;
 
@@ -10,13 +11,13 @@ pub struct Heading {
     pub scenario: String,
     /// Its seed.
     pub seed: u64,
-    /// SHA-256 that the plan states; `None` for one configuration.
+    /// SHA-256 that the plan states; `None` where there is no plan.
     pub hash: Option<String>,
     /// What kind of motion it is, if any.
     pub process: Process,
     /// Name of the arm.
     pub robot: String,
-    /// Duration of the motion \[s\]; 0 for one configuration.
+    /// Duration of the motion \[s\]; 0 where there is none.
     pub duration_s: f64,
 }
 
@@ -44,6 +45,17 @@ impl Heading {
             },
             robot: plan.job.workcell.arm.name.clone(),
             duration_s: plan.duration_s(),
+        }
+    }
+
+    pub(super) fn of_job(job: &WashJob) -> Self {
+        Self {
+            scenario: job.name().to_owned(),
+            seed: job.terms().seed,
+            hash: None,
+            process: Process::Wash,
+            robot: job.arm().name().to_owned(),
+            duration_s: 0.0,
         }
     }
 

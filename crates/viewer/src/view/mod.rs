@@ -48,6 +48,7 @@ pub use tool::{Sponge, Tool};
 
 use platewash_certificate as proved;
 use platewash_kinematics::{JointVector, Pose as Rigid, RobotModel};
+use platewash_workcell::job::WashJob;
 use platewash_workcell::layout::TaskRegion;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::tool as held;
@@ -149,6 +150,22 @@ impl View {
                 events: events.to_owned(),
             }),
         })
+    }
+
+    /// A job that is not planned: the arm at home among the plates.
+    #[must_use]
+    pub fn of_job(job: &WashJob, region: &TaskRegion) -> Self {
+        let terms = job.terms();
+        let workcell = &terms.workcell;
+        let accelerations = Some(terms.limits.joint_acceleration_rad_s2);
+        let plates = terms.plates.iter().enumerate();
+        Self {
+            heading: Heading::of_job(job),
+            arm: Arm::new(job.arm(), &workcell.mount, accelerations),
+            surroundings: Surroundings::new(&workcell.obstacles, region),
+            plates: plates.map(|(index, plate)| Plate::new(index, plate)).collect(),
+            ..Self::of_configuration(job.arm(), Some(&workcell.tool), &terms.home_rad[0])
+        }
     }
 
     /// One configuration of an arm that stands at the origin \[rad\], with a tool or without.

@@ -11,8 +11,7 @@ const PLAIN: [number, number, number, number] = [0.773, 0.78, 0.769, 1];
 
 /** A body's triangles in its parent's frame, coloured by vertex. */
 function painted(body: Body): BufferGeometry {
-  let geometry = geometryOf(body.shape, "rounded");
-  if (geometry.index !== null) geometry = geometry.toNonIndexed();
+  const geometry = geometryOf(body.shape, "rounded");
   for (const name of Object.keys(geometry.attributes)) {
     if (name !== "position" && name !== "normal") geometry.deleteAttribute(name);
   }

@@ -1,5 +1,6 @@
 /** The sponge's look: a cylinder of foam that ends where a plane presses on it, and bulges. */
 import { LatheGeometry, Vector2, type BufferGeometry, type MeshStandardMaterial } from "three";
+import { segmentsRound } from "./round.ts";
 import type { Studio } from "./studio.ts";
 
 /** Rings of the sponge along its axis. */
@@ -69,7 +70,7 @@ export function spongeGeometry(radius: number, edge: number, height: number): Bu
     points.push(new Vector2(radius - edge + edge * Math.cos(angle), 1 - (edge * (1 - Math.sin(angle))) / height));
   }
   for (let k = 0; k <= 6; k++) points.push(new Vector2((radius - edge) * (1 - k / 6), 1));
-  return new LatheGeometry(points, 48).rotateX(Math.PI / 2);
+  return new LatheGeometry(points, segmentsRound(radius, 48)).rotateX(Math.PI / 2);
 }
 
 /** What the program of the sponge is told, in its own frame with z from the handle to the far face. */

@@ -1,31 +1,36 @@
 /** The workcell in three dimensions: all that is drawn of a document at a moment. */
-import { PerspectiveCamera, Vector3, type Object3D } from "three";
+import { PerspectiveCamera, Ray, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { decodeCoverage } from "../coverage.ts";
-import { Kinematics } from "../kinematics.ts";
+import type { Chance } from "../edit/protocol.ts";
 import type { Theme } from "../palette.ts";
 import type { View } from "../view.ts";
-import { ArmGraph } from "./arm.ts";
 import { ClearanceLine, type Nearest } from "./clearance.ts";
-import { extentOf, type Extent } from "./extent.ts";
-import { Floor } from "./floor.ts";
-import { CommandedTip, FrameAxes } from "./frame.ts";
+import { Content } from "./content.ts";
+import { Editing, type EditActions, type Selection } from "./editing.ts";
+import type { GhostPlace } from "./ghost.ts";
+import type { Centre } from "./grab.ts";
+import { Haste } from "./haste.ts";
 import { LABELS, LAYERS, type Layer } from "./layers.ts";
+import type { MapPatch } from "./map.ts";
 import { Mark } from "./mark.ts";
-import { Obstacles } from "./obstacles.ts";
-import { PALETTES, type Palette } from "./palette.ts";
-import { Paths } from "./paths.ts";
-import { Plates, type CoverageKind } from "./plates.ts";
+import { PALETTES } from "./palette.ts";
+import { onPlane } from "./pick.ts";
+import type { CoverageKind } from "./plates.ts";
 import { disposeTree } from "./pose.ts";
-import { ProofBodies } from "./proof.ts";
+import { Retired } from "./retired.ts";
 import { Stage } from "./stage.ts";
 import { Studio } from "./studio.ts";
-import { ToolGraph } from "./tool.ts";
 import { PRESETS, Views, type Preset } from "./views.ts";
+import type { Offending } from "./washability.ts";
 
+export type { EditActions, Selection } from "./editing.ts";
+export type { GhostPlace } from "./ghost.ts";
+export type { Centre } from "./grab.ts";
 export type { Layer } from "./layers.ts";
+export type { MapPatch } from "./map.ts";
 export { SceneError } from "./stage.ts";
 export type { Preset } from "./views.ts";
+export type { Offending } from "./washability.ts";
 
 /** A moment. */
 export interface Shown {
@@ -46,25 +51,19 @@ export interface Shown {
 
 /** Below this distance the commanded tip is not shown beside the tip [m]. */
 const APART_M = 0.0005;
+/** While plates are dragged their shadows follow so much later at most [ms], and in haste. */
+const SHADOWS_MS = 90;
+const HASTY_SHADOWS_MS = 1000;
 
 export class Scene {
   readonly #stage: Stage;
   readonly #camera = new PerspectiveCamera(30, 1, 0.01, 100);
   readonly #controls: OrbitControls;
   readonly #views: Views;
-  readonly #extent: Extent;
-  readonly #arm: ArmGraph;
-  readonly #tool: ToolGraph;
-  readonly #plates: Plates;
-  readonly #paths: Paths;
-  readonly #floor: Floor;
+  readonly #content: Content;
+  readonly #retired: Retired;
   readonly #clearance = new ClearanceLine();
-  readonly #axes = new FrameAxes();
-  readonly #commanded: CommandedTip;
-  readonly #obstacles: Obstacles;
-  readonly #bodies: ProofBodies;
   readonly #mark = new Mark();
-  readonly #kinematics: Kinematics;
   readonly #commandedPose = new Float64Array(16);
   readonly #studio = new Studio();
   readonly #on = new Map<Layer, boolean>();
@@ -74,10 +73,17 @@ export class Scene {
   readonly #quick = matchMedia("(prefers-reduced-motion: reduce)");
   #theme: Theme;
   #size = { width: 1, height: 1, dpr: 1 };
+  #shown: Shown | null = null;
   #nearest: Nearest | null = null;
+  #editing: Editing | null = null;
   /** Whether there is something new to draw, and whether it changes the shadows. */
   #dirty = true;
   #moved = true;
+  /** When shadows were last drawn [ms]. */
+  #shaded_ms = 0;
+  readonly #haste: Haste;
+  /** Whether the next frame is drawn in haste. */
+  #hasty = false;
   #lost = false;
 
   /** Builds the scene of a document; `SceneError` where there is no WebGL 2. */
@@ -89,27 +95,18 @@ export class Scene {
     this.#canvas = canvas;
     this.#theme = theme;
     this.#stage = new Stage(canvas);
+    this.#haste = new Haste(this.#stage.software);
+    this.#retired = new Retired(this.#stage.renderer);
     this.#camera.up.set(0, 0, 1);
     this.#controls = new OrbitControls(this.#camera, canvas);
     this.#controls.enableDamping = true;
     this.#controls.dampingFactor = 0.12;
     this.#controls.maxPolarAngle = 0.98 * Math.PI;
-    this.#obstacles = new Obstacles(view.surroundings.obstacles, this.#studio);
-    this.#extent = extentOf(view, this.#obstacles.bounds());
     this.#controls.minDistance = 0.05;
-    this.#controls.maxDistance = 60 * Math.max(1, this.#extent.sphere.radius);
-    this.#views = new Views(this.#camera, this.#controls, this.#extent);
-    this.#kinematics = new Kinematics(view.arm, view.tool);
-    this.#arm = new ArmGraph(view.arm, this.#studio);
-    this.#tool = new ToolGraph(view.tool, view.plates, this.#studio);
-    this.#arm.flange.add(this.#tool.root);
-    const executed = view.execution?.coverage ?? [];
-    this.#plates = new Plates(view.plates, { planned: view.coverage.map(decodeCoverage), executed: executed.map(decodeCoverage) }, this.#studio);
-    this.#paths = new Paths(view);
-    this.#floor = new Floor(view.surroundings, view.arm.mount.position_m, this.#studio);
-    this.#commanded = new CommandedTip(view.tool?.sponge.radius_m || 0.02);
-    this.#bodies = new ProofBodies(view, this.#arm);
-    this.#assemble();
+    this.#content = new Content(view, this.#studio, this.#retired);
+    this.#views = new Views(this.#camera, this.#controls, this.#content.extent);
+    this.#stage.graph.add(this.#content.root, this.#clearance.root, this.#mark.sprite);
+    this.#reach();
     this.#watch();
     this.setTheme(theme);
     for (const layer of LAYERS) this.setLayer(layer, layer !== "bodies");
@@ -118,20 +115,95 @@ export class Scene {
     this.#stage.prepare(this.#camera);
   }
 
-  #assemble(): void {
-    this.#tool.tip.add(this.#axes.root);
-    this.#stage.graph.add(
-      this.#floor.ground, this.#floor.region, this.#arm.root, this.#plates.root, this.#obstacles.root,
-      this.#paths.wash, this.#paths.transits, this.#paths.executed, this.#clearance.root, this.#commanded.root, this.#mark.sprite,
-    );
-    const { center, radius } = this.#extent.sphere;
-    this.#floor.setExtent(center, Math.max(2, 2.6 * radius));
-    this.#stage.light(this.#extent.sphere);
+  /** Lights all that there is, and lets the camera go as far as that needs. */
+  #reach(): void {
+    const { sphere } = this.#content.extent;
+    this.#controls.maxDistance = 60 * Math.max(1, sphere.radius);
+    this.#stage.light(sphere);
+  }
+
+  /**
+   * Shows another document in place of this one. Layers, theme, camera, mark and moment stay, and so does what both documents say
+   * alike; an arm is the same where it is the same object. Previews are over; what else was said of plates stays until it is said anew.
+   */
+  replace(view: View): void {
+    const kept = this.#content.replace(view);
+    this.#content.setPalette(PALETTES[this.#theme]);
+    for (const [layer, on] of this.#on) this.#switch(layer, on);
+    if (!kept.extent) {
+      this.#reach();
+      this.#views.setExtent(this.#content.extent, this.#quick.matches);
+    }
+    if (this.#shown !== null) this.show(this.#shown);
+    else this.#pose(view.pose_rad);
+    this.#editing?.replaced();
+    this.#dirty = this.#moved = true;
+    this.#haste.hurry();
+  }
+
+  /** Lets hands move plates, and tells `actions` of it; null for no longer. */
+  edit(actions: EditActions | null): void {
+    this.#editing?.dispose();
+    if (this.#editing !== null) this.#retired.add(this.#editing.root);
+    this.#editing = null;
+    this.#dirty = this.#moved = true;
+    if (actions === null) return;
+    const surface = {
+      canvas: this.#canvas,
+      content: this.#content,
+      studio: this.#studio,
+      ray: (x: number, y: number): Ray => this.#ray(x, y),
+      pixel_m: (place: Vector3): number => (2 * this.#halfHeight * this.#camera.position.distanceTo(place)) / this.#size.height,
+      setCamera: (free: boolean): void => {
+        this.#controls.enabled = free;
+        this.#views.hold(!free);
+      },
+      changed: (bodies: boolean): void => {
+        this.#dirty = true;
+        this.#moved ||= bodies;
+        this.#haste.hurry();
+      },
+    };
+    this.#editing = new Editing(surface, actions);
+    this.#editing.setPalette(PALETTES[this.#theme]);
+    this.#stage.graph.add(this.#editing.root);
+    this.#stage.prepare(this.#camera);
+  }
+
+  /** Selects a plate, all of them or none. Only while the scene can be edited, as all that follows up to `map`. */
+  select(selection: Selection): void {
+    this.#editing?.select(selection);
+  }
+
+  /** Shows plates at other centres than the document's, until it is replaced; null where the document has them. */
+  preview(centres_m: readonly Centre[] | null): void {
+    this.#editing?.preview(centres_m);
+  }
+
+  /** Marks plates by what is guessed of them. */
+  chances(list: readonly { plate: number; chance: Chance }[] | null): void {
+    this.#editing?.chances(list ?? []);
+  }
+
+  /** Shows which parts of plates cannot be washed where they lie now: what is nearer to a dead contact point than to a free one. */
+  offending(list: readonly Offending[]): void {
+    this.#editing?.offending(list);
+  }
+
+  /** Shows where plates could be washed. */
+  ghosts(list: readonly GhostPlace[]): void {
+    this.#editing?.ghosts(list);
+  }
+
+  /** Adds to the map of where a plate could be washed; null takes it away. */
+  map(patch: MapPatch | null): void {
+    this.#editing?.map(patch);
   }
 
   #watch(): void {
     this.#controls.addEventListener("change", () => {
       this.#dirty = true;
+      if (!this.#views.placing) this.#haste.hurry();
     });
     this.#canvas.addEventListener("webglcontextlost", this.#onLost);
     this.#canvas.addEventListener("webglcontextrestored", this.#onRestored);
@@ -153,49 +225,81 @@ export class Scene {
   }
 
   #pose(q: ArrayLike<number>): void {
-    this.#arm.set(q);
-    this.#arm.root.updateMatrixWorld(true);
-    this.#tool.press();
-    this.#tip.setFromMatrixPosition(this.#tool.tip.matrixWorld);
+    const { arm, tool } = this.#content;
+    arm.set(q);
+    arm.root.updateMatrixWorld(true);
+    tool.press();
+    this.#tip.setFromMatrixPosition(tool.tip.matrixWorld);
     this.#views.follow(this.#tip);
     this.#dirty = this.#moved = true;
   }
 
   /** Moves everything to a moment; draws nothing. No allocation. */
   show(shown: Shown): void {
+    this.#shown = shown;
+    this.#haste.change();
     this.#pose(shown.q);
-    this.#plates.show(shown.coverageTime, shown.coverageKind, shown.heat);
-    this.#paths.show(shown.t_s);
+    this.#content.plates.show(shown.coverageTime, shown.coverageKind, shown.heat);
+    this.#content.paths.show(shown.t_s);
     this.#nearest = shown.clearance;
     this.#clearance.show(this.#isOn("clearance") ? shown.clearance : null);
     this.#showCommanded(shown.commanded);
   }
 
   #showCommanded(q: ArrayLike<number> | null): void {
-    const root = this.#commanded.root;
+    const { root } = this.#content.commanded;
     root.visible = false;
     if (q === null || !this.#isOn("executed")) return;
-    root.matrix.fromArray(this.#kinematics.tip(q, this.#commandedPose));
+    root.matrix.fromArray(this.#content.kinematics.tip(q, this.#commandedPose));
     root.matrixWorldNeedsUpdate = true;
     root.visible = this.#scratch.setFromMatrixPosition(root.matrix).distanceTo(this.#tip) > APART_M;
   }
 
-  /** Draws what is shown. */
+  get #halfHeight(): number {
+    return Math.tan((this.#camera.fov * Math.PI) / 360);
+  }
+
+  /** Draws what is shown: in full, but where `needsRender` has found that there is haste. */
   render(): void {
+    const hasty = this.#hasty;
+    this.#hasty = false;
     if (this.#lost) return;
-    const halfHeight = Math.tan((this.#camera.fov * Math.PI) / 360);
+    const [halfHeight, pixel] = [this.#halfHeight, (2 * this.#halfHeight) / this.#size.height];
     this.#clearance.face(this.#camera, this.#scratch, halfHeight / 0.268);
-    this.#mark.setScale((2 * halfHeight) / this.#size.height);
+    this.#mark.setScale(pixel);
+    this.#editing?.face(this.#camera, this.#scratch, halfHeight / 0.268, pixel);
     const distance = this.#camera.position.distanceTo(this.#controls.target);
-    this.#paths.setScale(this.#size.height / (2 * distance * halfHeight));
-    this.#stage.draw(this.#camera, this.#moved);
-    this.#dirty = this.#moved = false;
+    this.#content.paths.setScale(this.#size.height / (2 * distance * halfHeight));
+    this.#content.paths.setSeenThrough(!hasty);
+    const now = performance.now();
+    const shadows = this.#moved && this.#shadowsAt(now, hasty);
+    this.#stage.draw(this.#camera, shadows, hasty);
+    this.#retired.free();
+    this.#haste.drawn(now, hasty);
+    this.#dirty = false;
+    if (!shadows) return;
+    this.#moved = false;
+    this.#shaded_ms = now;
+  }
+
+  /** Whether shadows that no longer fit are drawn anew. */
+  #shadowsAt(now: number, hasty: boolean): boolean {
+    if (hasty) return now - this.#shaded_ms >= HASTY_SHADOWS_MS;
+    // Without a graphics processor a full frame may be the last for long.
+    return this.#stage.software || this.#editing?.dragging !== true || now - this.#shaded_ms >= SHADOWS_MS;
   }
 
   /** Moves the camera on where it is on its way, and says whether there is anything new to draw. */
   needsRender(): boolean {
-    if (this.#views.advance(performance.now() / 1000)) this.#dirty = true;
-    return this.#dirty && !this.#lost;
+    const now = performance.now();
+    if (this.#views.advance(now / 1000)) {
+      this.#dirty = true;
+      this.#haste.hurry();
+    }
+    const owed = this.#haste.owes(now, this.#editing?.dragging === true);
+    const late = !this.#stage.software && this.#moved && now - this.#shaded_ms >= SHADOWS_MS;
+    this.#hasty = this.#haste.hasty(now);
+    return (this.#dirty || late || owed) && !this.#lost;
   }
 
   /** Fits the drawing to its canvas, CSS pixels and device pixels a CSS pixel. */
@@ -214,12 +318,8 @@ export class Scene {
 
   setTheme(theme: Theme): void {
     this.#theme = theme;
-    const palette: Palette = PALETTES[theme];
-    const parts = [
-      this.#stage, this.#studio, this.#floor, this.#plates, this.#paths, this.#tool, this.#clearance, this.#commanded, this.#obstacles,
-      this.#bodies, this.#mark,
-    ];
-    for (const part of parts) part.setPalette(palette);
+    for (const part of [this.#stage, this.#studio, this.#content, this.#clearance, this.#mark]) part.setPalette(PALETTES[theme]);
+    this.#editing?.setPalette(PALETTES[theme]);
     this.#dirty = true;
   }
 
@@ -227,29 +327,18 @@ export class Scene {
     return this.#on.get(layer) ?? false;
   }
 
-  #objectsOf(layer: Layer): readonly Object3D[] {
-    switch (layer) {
-      case "arm": return [...this.#arm.visuals, ...this.#tool.visuals];
-      case "plates": return [this.#plates.root];
-      case "paths": return [this.#paths.wash];
-      case "transits": return [this.#paths.transits];
-      case "executed": return [this.#paths.executed];
-      case "tip": return [this.#axes.root];
-      case "region": return [this.#floor.region];
-      case "obstacles": return [this.#obstacles.root];
-      case "floor": return [this.#floor.ground];
-      default: return [];
-    }
-  }
-
   setLayer(layer: Layer, on: boolean): void {
     this.#on.set(layer, on);
-    for (const object of this.#objectsOf(layer)) object.visible = on;
-    if (layer === "bodies") this.#bodies.setVisible(on);
-    if (layer === "coverage") this.#plates.setCoverage(on);
+    this.#switch(layer, on);
     if (layer === "clearance") this.#clearance.show(on ? this.#nearest : null);
-    if (layer === "executed" && !on) this.#commanded.root.visible = false;
+    if (layer === "executed" && !on) this.#content.commanded.root.visible = false;
     this.#dirty = this.#moved = true;
+  }
+
+  #switch(layer: Layer, on: boolean): void {
+    for (const object of this.#content.objectsOf(layer)) object.visible = on;
+    if (layer === "bodies") this.#content.bodies.setVisible(on);
+    if (layer === "coverage") this.#content.plates.setCoverage(on);
   }
 
   layers(): { id: Layer; label: string; on: boolean }[] {
@@ -281,14 +370,15 @@ export class Scene {
 
   /** Adds executed samples: times [s] and joint positions [rad], six a time. */
   appendExecuted(times: ArrayLike<number>, rows: ArrayLike<number>): void {
-    this.#paths.append(times, rows);
+    this.#content.paths.append(times, rows);
     this.#dirty = true;
   }
 
   /** Where the tip is in the scene graph, world frame [m]. */
   tip(): [number, number, number] {
-    this.#tool.tip.updateWorldMatrix(true, false);
-    const place = this.#scratch.setFromMatrixPosition(this.#tool.tip.matrixWorld);
+    const { tip } = this.#content.tool;
+    tip.updateWorldMatrix(true, false);
+    const place = this.#scratch.setFromMatrixPosition(tip.matrixWorld);
     return [place.x, place.y, place.z];
   }
 
@@ -298,6 +388,19 @@ export class Scene {
     const place = new Vector3(...place_m).project(this.#camera);
     if (!(Math.abs(place.z) <= 1)) return null;
     return [(0.5 + 0.5 * place.x) * this.#size.width, (0.5 - 0.5 * place.y) * this.#size.height];
+  }
+
+  /** The ray through a place on the canvas [CSS px]. */
+  #ray(x: number, y: number): Ray {
+    this.#camera.updateMatrixWorld();
+    const eye = new Vector3().setFromMatrixPosition(this.#camera.matrixWorld);
+    const through = new Vector3((2 * x) / this.#size.width - 1, 1 - (2 * y) / this.#size.height, 0.5).unproject(this.#camera);
+    return new Ray(eye, through.sub(eye).normalize());
+  }
+
+  /** Where a place on the canvas [CSS px] is in the plane z = `height_m` [m]; null where it is not in it. */
+  toPlane(x: number, y: number, height_m: number): Centre | null {
+    return onPlane(this.#ray(x, y), height_m);
   }
 
   /** A picture of the moment as PNG in a data URL, drawn at once; in another theme or size where asked. */
@@ -320,10 +423,11 @@ export class Scene {
   dispose(): void {
     this.#canvas.removeEventListener("webglcontextlost", this.#onLost);
     this.#canvas.removeEventListener("webglcontextrestored", this.#onRestored);
+    this.edit(null);
     this.#controls.dispose();
     disposeTree(this.#stage.graph);
-    this.#plates.dispose();
-    this.#bodies.dispose();
+    this.#content.dispose();
+    this.#retired.dispose();
     this.#mark.dispose();
     this.#stage.dispose();
   }

@@ -71,7 +71,9 @@ export function simplified(line: Polyline, tolerance_m: number): Float64Array {
 /** Stretches of line in one call of the graphics processor; there must be one at least. */
 export class Lines extends LineSegments2 {
   readonly style: LineMaterial;
-  readonly #count: number;
+  readonly #dashed: boolean;
+  readonly #opacity: number;
+  #count: number;
 
   constructor(ends: Float32Array, style: LineStyle) {
     const dashed = style.dash_m !== undefined;
@@ -91,13 +93,38 @@ export class Lines extends LineSegments2 {
       polygonOffsetFactor: -(style.before ?? 1),
       polygonOffsetUnits: -8 * (style.before ?? 1),
     });
-    const geometry = new LineSegmentsGeometry();
-    geometry.setPositions(ends.length > 0 ? ends : new Float32Array(6));
-    super(geometry, material);
-    this.#count = ends.length / 6;
+    super(new LineSegmentsGeometry(), material);
     this.style = material;
+    this.#dashed = dashed;
+    this.#opacity = opacity;
+    this.#count = 0;
+    this.setEnds(ends);
+  }
+
+  /** Draws other stretches. */
+  setEnds(ends: Float32Array): void {
+    this.geometry.dispose();
+    this.geometry = new LineSegmentsGeometry();
+    this.geometry.setPositions(ends.length > 0 ? ends : new Float32Array(6));
+    this.#count = ends.length / 6;
     this.visible = ends.length > 0;
-    if (dashed) this.computeLineDistances();
+    if (this.#dashed) this.computeLineDistances();
+  }
+
+  /** Draws the lines as faint as this share of how they were made, which changes their program at 1. */
+  setFaint(share: number): void {
+    const opacity = share * this.#opacity;
+    if (opacity === this.style.opacity) return;
+    this.style.opacity = opacity;
+    if (this.style.transparent === opacity < 1) return;
+    this.style.transparent = opacity < 1;
+    this.style.depthWrite = opacity >= 1;
+    this.style.needsUpdate = true;
+  }
+
+  /** Whether there is anything to draw. */
+  get any(): boolean {
+    return this.#count > 0;
   }
 
   /** Width [CSS px]. */

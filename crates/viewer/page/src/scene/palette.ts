@@ -29,6 +29,21 @@ export interface Palette {
   front: string;
   handle: string;
   sponge: string;
+  /** Around what is selected, around what the pointer is over, and the ring that turns plates about the base axis. */
+  selected: string;
+  hovered: string;
+  turn: string;
+  /** What is said of plates before they are planned. */
+  washable: string;
+  unclear: string;
+  unwashable: string;
+  /** Discs of signs under white letters. */
+  sign: { unclear: string; unwashable: string };
+  /** A plate where it could be washed. */
+  ghost: string;
+  /** Squares of the map, apart in lightness, too. */
+  mapWashable: string;
+  mapUnwashable: string;
 }
 
 type Own = Omit<Palette, "wash" | "transit" | "executed">;
@@ -53,6 +68,16 @@ const LIGHT: Own = {
   front: "#d8f1ff",
   handle: "#8d97a0",
   sponge: "#f0c23c",
+  selected: "#005fb8",
+  hovered: "#4d8fc9",
+  turn: "#005fb8",
+  washable: "#009e73",
+  unclear: "#b57b00",
+  unwashable: "#c8281e",
+  sign: { unclear: "#8a5c00", unwashable: "#b3201a" },
+  ghost: "#00a878",
+  mapWashable: "#63d6c1",
+  mapUnwashable: "#80504e",
 };
 
 const DARK: Own = {
@@ -74,6 +99,15 @@ const DARK: Own = {
   porcelain: "#e6e8e8",
   washed: "#5fa9d6",
   handle: "#a3acb4",
+  selected: "#7cc4ff",
+  hovered: "#a9d3f2",
+  turn: "#7cc4ff",
+  washable: "#35c79b",
+  unclear: "#f0bf4c",
+  unwashable: "#ff5a45",
+  ghost: "#35d6a2",
+  mapWashable: "#4fc4b0",
+  mapUnwashable: "#6d4443",
 };
 
 function withMeanings(own: Own, { segments, executed }: Meanings): Palette {

@@ -39,15 +39,29 @@ function transits(view: View, kinematics: Kinematics): Float64Array[] {
   return segments.map((segment) => travelled(segment, motion, kinematics, rate));
 }
 
-/** Wash paths, lifted along the normals of their plates. */
-function washed(view: View): Float64Array[] {
+/** How faint lines are that belong to a plan of other places. */
+const FAINT = 0.22;
+
+/** Wash paths, lifted along the normals of their plates: the plate, and stretches of line. */
+function washed(view: View): { plate: number; ends: Float32Array }[] {
   return view.paths.map((path) => {
     const points = floats(path.points_m).slice();
     const [w, x, y, z] = view.plates[path.plate]?.pose.quaternion_wxyz ?? [1, 0, 0, 0];
     const normal = [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)];
     for (let i = 0; i < points.length; i++) points[i]! += LIFT_M * normal[i % 3]!;
-    return points;
+    return { plate: path.plate, ends: stretches([simplified(points, TOLERANCE_M)]) };
   });
+}
+
+/** All stretches one after the other. */
+function joined(parts: readonly { ends: Float32Array }[]): Float32Array {
+  const all = new Float32Array(parts.reduce((sum, { ends }) => sum + ends.length, 0));
+  let at = 0;
+  for (const { ends } of parts) {
+    all.set(ends, at);
+    at += ends.length;
+  }
+  return all;
 }
 
 /** The executed way, which may grow. */
@@ -117,17 +131,24 @@ export class Paths {
   readonly executed: Group;
   readonly #near: Lines;
   readonly #hidden: Lines;
+  /** Wash paths of plates that have been moved since. */
+  readonly #old: Lines;
+  readonly #washed: { plate: number; ends: Float32Array }[];
+  #moved = "";
   readonly #executed: Executed;
   readonly #kinematics: Kinematics;
 
   constructor(view: View) {
     this.#kinematics = new Kinematics(view.arm, view.tool);
-    const ends = stretches(washed(view).map((line) => simplified(line, TOLERANCE_M)));
+    this.#washed = washed(view);
+    const ends = joined(this.#washed);
     this.#near = new Lines(ends, { width: 2.6, before: 3 });
     this.#near.renderOrder = 2;
     this.#hidden = new Lines(ends, { width: 1.6, opacity: 0.22, depth: GreaterDepth });
     this.#hidden.renderOrder = 1;
-    this.wash.add(this.#near, this.#hidden);
+    this.#old = new Lines(new Float32Array(0), { width: 1.6, opacity: FAINT });
+    this.#old.renderOrder = 2;
+    this.wash.add(this.#near, this.#hidden, this.#old);
     this.transits = new Lines(stretches(transits(view, this.#kinematics).map((line) => simplified(line, TOLERANCE_M))), { width: 1.7 });
     const execution = view.execution;
     const rows = execution === null ? new Float64Array(0) : floats(execution.q_rad);
@@ -138,6 +159,7 @@ export class Paths {
   setPalette(palette: Palette): void {
     this.#near.setColour(palette.wash);
     this.#hidden.setColour(palette.wash);
+    this.#old.setColour(palette.wash);
     this.transits.setColour(palette.transit);
     this.#executed.setColour(palette.executed);
   }
@@ -155,7 +177,24 @@ export class Paths {
     this.transits.setWidth(1.7 * share);
   }
 
+  /** Whether what something hides of the wash paths is seen through it. */
+  setSeenThrough(on: boolean): void {
+    this.#hidden.visible = on && this.#hidden.any;
+  }
+
   show(t: number): void {
     this.#executed.show(t);
+  }
+
+  /** Draws faintly what belongs to a plan in which these plates lay elsewhere: their wash paths, and all transits. */
+  fade(moved: ReadonlySet<number>): void {
+    const key = [...moved].join(" ");
+    if (key === this.#moved) return;
+    this.#moved = key;
+    const ends = joined(this.#washed.filter(({ plate }) => !moved.has(plate)));
+    this.#near.setEnds(ends);
+    this.#hidden.setEnds(ends);
+    this.#old.setEnds(joined(this.#washed.filter(({ plate }) => moved.has(plate))));
+    this.transits.setFaint(moved.size > 0 ? FAINT : 1);
   }
 }

@@ -1,6 +1,8 @@
 /** A plate as triangles: turned from its meridian, with an attribute that tells the face from the rest. */
 import { BufferGeometry, Float32BufferAttribute, LatheGeometry, Vector2 } from "three";
 import type { Plate } from "../view.ts";
+import { indexed } from "./indexed.ts";
+import { segmentsRound } from "./round.ts";
 
 /** Radius of the edge between face and side [m], at most. */
 const EDGE_M = 0.002;
@@ -27,14 +29,14 @@ function outlineOf(plate: Plate): { points: Vector2[]; face: number } {
   return { points, face };
 }
 
-/** The triangles of a plate in its own frame, `segments` of them round it. */
-export function plateGeometry(plate: Plate, segments: number): BufferGeometry {
+/** The triangles of a plate in its own frame, `most` of them round it. */
+export function plateGeometry(plate: Plate, most: number): BufferGeometry {
   const { points, face } = outlineOf(plate);
   if (points.length === 0) return new BufferGeometry();
-  const geometry = new LatheGeometry(points, segments).rotateX(Math.PI / 2);
+  const geometry = new LatheGeometry(points, segmentsRound(Math.max(...points.map(({ x }) => x)), most)).rotateX(Math.PI / 2);
   geometry.deleteAttribute("uv");
   const count = geometry.getAttribute("position").count;
   const flags = Float32Array.from({ length: count }, (_, i) => (i % points.length >= face ? 1 : 0));
   geometry.setAttribute("face", new Float32BufferAttribute(flags, 1));
-  return geometry;
+  return indexed(geometry);
 }

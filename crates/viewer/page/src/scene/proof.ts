@@ -5,6 +5,7 @@ import type { ArmGraph } from "./arm.ts";
 import { geometryOf } from "./bodies.ts";
 import type { Palette } from "./palette.ts";
 import { fix } from "./pose.ts";
+import type { Retired } from "./retired.ts";
 
 const VERTEX = /* glsl */ `
 varying vec3 vNormal;
@@ -85,6 +86,13 @@ export class ProofBodies {
     }
     this.#groups.push(group);
     return group;
+  }
+
+  /** Takes the bodies from the scene. */
+  retire(retired: Retired): void {
+    for (const group of this.#groups) retired.add(group);
+    retired.addMaterial(this.#fill);
+    retired.addMaterial(this.#edge);
   }
 
   dispose(): void {

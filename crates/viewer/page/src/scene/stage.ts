@@ -15,6 +15,7 @@ import {
   type Sphere,
 } from "three";
 import type { Palette } from "./palette.ts";
+import { drawsInSoftware } from "./software.ts";
 
 /** Why there is no scene. */
 export class SceneError extends Error {
@@ -23,6 +24,8 @@ export class SceneError extends Error {
 
 /** Screens finer than this are not drawn finer. */
 const FINEST = 2;
+/** How coarse hasty pictures are: pixels for one. */
+const HASTY = 0.5;
 const SHADOW_PIXELS = 1024;
 const KEY = new Vector3(0.08, -0.72, 1).normalize();
 
@@ -56,14 +59,15 @@ function backdrop(): { mesh: Mesh; top: Color; bottom: Color } {
   return { mesh, top, bottom };
 }
 
-function rendererOn(canvas: HTMLCanvasElement): WebGLRenderer {
-  const attributes: WebGLContextAttributes = { antialias: true, alpha: false, powerPreference: "high-performance" };
+/** Without a graphics processor pictures are plain: smooth edges would cost as much again. */
+function rendererOn(canvas: HTMLCanvasElement, software: boolean): WebGLRenderer {
+  const attributes: WebGLContextAttributes = { antialias: !software, alpha: false, powerPreference: "high-performance" };
   const context = canvas.getContext("webgl2", attributes);
   if (!(context instanceof WebGL2RenderingContext)) {
     throw new SceneError("This browser offers no WebGL 2, which the 3-D view needs: switch on hardware acceleration or try another browser.");
   }
   try {
-    return new WebGLRenderer({ canvas, context, antialias: true });
+    return new WebGLRenderer({ canvas, context });
   } catch (error) {
     throw new SceneError(`WebGL 2 does not start: ${error instanceof Error ? error.message : String(error)}`);
   }
@@ -72,11 +76,15 @@ function rendererOn(canvas: HTMLCanvasElement): WebGLRenderer {
 export class Stage {
   readonly graph = new Graph();
   readonly renderer: WebGLRenderer;
+  /** Whether pictures are drawn without a graphics processor. */
+  readonly software = drawsInSoftware();
   readonly #key = new DirectionalLight("#fff6ea");
   readonly #backdrop = backdrop();
+  #size = { width: 1, height: 1, dpr: 1 };
+  #ratio = 0;
 
   constructor(canvas: HTMLCanvasElement) {
-    this.renderer = rendererOn(canvas);
+    this.renderer = rendererOn(canvas, this.software);
     // Asking each program for its errors would have them built one after the other.
     this.renderer.debug.checkShaderErrors = false;
     this.renderer.toneMapping = NeutralToneMapping;
@@ -111,8 +119,19 @@ export class Stage {
   }
 
   resize(width: number, height: number, dpr: number): void {
-    this.renderer.setPixelRatio(Math.max(0.25, Math.min(FINEST, dpr)));
-    this.renderer.setSize(Math.max(1, width), Math.max(1, height), false);
+    this.#size = { width: Math.max(1, width), height: Math.max(1, height), dpr };
+    this.#ratio = 0;
+    this.#fit(1);
+  }
+
+  /** Gives the canvas so many pixels for one of the screen's; its size on the page stays. */
+  #fit(fineness: number): void {
+    const { width, height, dpr } = this.#size;
+    const ratio = Math.max(0.25, fineness * Math.min(FINEST, dpr));
+    if (ratio === this.#ratio) return;
+    this.#ratio = ratio;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
   }
 
   /** Begins to build all programs at once. */
@@ -120,8 +139,9 @@ export class Stage {
     this.renderer.compile(this.graph, camera);
   }
 
-  /** Draws; the shadows anew only where bodies have moved. */
-  draw(camera: Camera, moved: boolean): void {
+  /** Draws, coarsely in haste; the shadows anew only where bodies have moved. */
+  draw(camera: Camera, moved: boolean, hasty: boolean): void {
+    this.#fit(hasty ? HASTY : 1);
     if (moved) this.renderer.shadowMap.needsUpdate = true;
     this.renderer.render(this.graph, camera);
   }

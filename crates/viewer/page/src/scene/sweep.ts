@@ -77,15 +77,15 @@ vec4 sweptAround(vec2 place) {
 const COLOUR = /* glsl */ `
 #include <color_fragment>
 float wet = 0.0;
-if (vFace.z > 0.5 && sweepNow.z > 0.5) {
+if (vFace.z > 0.5 && sweepNow.z > 0.0) {
   vec4 sweep = sweptAround(vFace.xy);
   if (sweepNow.y > 0.5) {
     vec3 hot = texture2D(heatMap, vec2(sweep.z / sweepNow.w, 0.5)).rgb;
     float missed = smoothstep(0.55, 0.45, sweep.w);
-    diffuseColor.rgb = mix(hot, diffuseColor.rgb, missed);
+    diffuseColor.rgb = mix(diffuseColor.rgb, hot, (1.0 - missed) * sweepNow.z);
   } else {
     float soft = clamp(fwidth(sweep.x), 0.06, 0.4);
-    wet = smoothstep(0.5 - soft, 0.5 + soft, sweep.x);
+    wet = smoothstep(0.5 - soft, 0.5 + soft, sweep.x) * sweepNow.z;
     float rim = wet * (1.0 - smoothstep(0.55, 1.0, sweep.x));
     vec3 water = mix(sweptColour, frontColour, clamp(sweep.y * 1.1, 0.0, 1.0));
     diffuseColor.rgb = mix(diffuseColor.rgb, water * (1.0 - 0.12 * rim), 0.88 * wet);
@@ -118,7 +118,7 @@ export interface Sweep {
   sweeps: { value: DataTexture };
   /** Half of the raster's edge [m], columns, rows. */
   sweepFrame: { value: Float32Array };
-  /** Time [s], whether the heat map is shown, whether anything is, the heat map's scale [s]. */
+  /** Time [s], whether the heat map is shown, how much of anything, the heat map's scale [s]. */
   sweepNow: { value: Float32Array };
 }
 

@@ -43,7 +43,7 @@ export class ToolGraph {
   /** At `T_flange_tip`. */
   readonly tip = new Group();
   readonly visuals: Mesh[] = [];
-  readonly #faces: Face[];
+  #faces: Face[];
   readonly #handles: MeshStandardMaterial[] = [];
   readonly #foam: MeshStandardMaterial | null = null;
   readonly #compression: number = 0;
@@ -95,6 +95,11 @@ export class ToolGraph {
     }
     this.visuals.push(mesh);
     this.root.add(mesh);
+  }
+
+  /** The plates that the sponge may press on. */
+  setPlates(plates: readonly Plate[]): void {
+    this.#faces = plates.map(faceOf);
   }
 
   setPalette(palette: Palette): void {

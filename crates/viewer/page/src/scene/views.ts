@@ -93,13 +93,16 @@ function ease(share: number): number {
 export class Views {
   readonly #camera: PerspectiveCamera;
   readonly #controls: OrbitControls;
-  readonly #extent: Extent;
+  #extent: Extent;
   #preset: Preset = "overview";
   /** Whether a reader has moved the camera since a view was chosen. */
   #moved = false;
   #from: Stand | null = null;
   #to: Stand | null = null;
   #start_s: number | null = null;
+  /** Whether the camera stands still whatever happens. */
+  #held = false;
+  #placing = false;
   readonly #tip = new Vector3();
   readonly #step = new Vector3();
 
@@ -122,6 +125,11 @@ export class Views {
     return this.#to !== null;
   }
 
+  /** Whether it is here that the camera is moved right now, and no reader who moves it. */
+  get placing(): boolean {
+    return this.#placing;
+  }
+
   /** Goes to a view, at once or in a flight. */
   go(preset: Preset, atOnce: boolean): void {
     this.#preset = preset;
@@ -132,6 +140,32 @@ export class Views {
   /** Shows all again after the picture's shape has changed, unless a reader has moved the camera. */
   refit(): void {
     if (!this.#moved) this.go(this.#preset, true);
+  }
+
+  /** Keeps the camera where it is, as somebody drags something in the picture. */
+  hold(on: boolean): void {
+    this.#held = on;
+    if (on) this.#to = null;
+  }
+
+  /** There is something else to show. The camera moves only where it shows an overview, nobody has moved it, and not all is in it. */
+  setExtent(extent: Extent, atOnce: boolean): void {
+    const { radius } = this.#extent.sphere;
+    this.#extent = extent;
+    this.#clip();
+    const alike = extent.sphere.radius < 1.4 * radius && extent.sphere.radius > radius / 1.4;
+    if (this.#held || this.#moved || this.#preset !== "overview" || (alike && this.#holds(extent.points))) return;
+    this.go(this.#preset, atOnce);
+  }
+
+  /** Whether places are in the picture that the camera takes, or will have taken when it arrives. */
+  #holds(points: readonly Vector3[]): boolean {
+    if (this.#to !== null) return false;
+    this.#camera.updateMatrixWorld();
+    return points.every((point) => {
+      const { x, y } = this.#step.copy(point).project(this.#camera);
+      return Math.abs(x) <= 1 && Math.abs(y) <= 1;
+    });
   }
 
   /** Turns to a place and comes near. */
@@ -168,7 +202,9 @@ export class Views {
     this.#camera.position.copy(stand.eye);
     this.#camera.fov = stand.fov_deg;
     this.#clip();
+    this.#placing = true;
     this.#controls.update();
+    this.#placing = false;
   }
 
   /** Near and far planes about the content. No allocation. */
@@ -184,7 +220,7 @@ export class Views {
   follow(tip: Vector3): boolean {
     this.#step.copy(tip).sub(this.#tip);
     this.#tip.copy(tip);
-    if (this.#preset !== "follow" || this.#step.lengthSq() < 1e-16) return false;
+    if (this.#held || this.#preset !== "follow" || this.#step.lengthSq() < 1e-16) return false;
     this.#camera.position.add(this.#step);
     this.#controls.target.add(this.#step);
     this.#from?.eye.add(this.#step);
@@ -196,6 +232,7 @@ export class Views {
 
   /** Moves the camera on by the time `now` [s]; whether it has moved. */
   advance(now_s: number): boolean {
+    if (this.#held) return false;
     if (this.#to === null || this.#from === null) {
       const moved = this.#controls.update();
       if (moved) this.#clip();

@@ -41,28 +41,63 @@ function facts(view: View): HTMLElement {
   return list;
 }
 
+function same(a: Verdict, b: Verdict): boolean {
+  return a.tone === b.tone && a.word === b.word && a.sentence === b.sentence;
+}
+
 /** Fills the header; its tint is the verdict's. */
 export class Header {
   readonly #root = byId("header");
   readonly #badges = el("div", { class: "badges" });
   readonly #sentence = el("p", { class: "sentence" });
-  readonly #view: View;
+  readonly #scenario = el("h1", { class: "scenario" });
+  #facts: HTMLElement;
+  #view: View;
+  /** What is to be said in place of the view's own verdict. */
+  #said: Verdict | null = null;
 
   constructor(view: View, tools: readonly HTMLElement[]) {
     this.#view = view;
-    const scenario = el("h1", { class: "scenario", title: view.heading.scenario.slice(0, TITLE) }, isolated(view.heading.scenario));
+    this.#facts = facts(view);
     this.#root.replaceChildren(
       this.#badges,
-      el("div", { class: "heading" }, scenario, this.#sentence),
-      facts(view),
+      el("div", { class: "heading" }, this.#scenario, this.#sentence),
+      this.#facts,
       el("div", { class: "tools" }, ...tools),
     );
+    this.#name();
     this.update();
+  }
+
+  /** Is about another document. */
+  replace(view: View): void {
+    const other = JSON.stringify(view.heading) !== JSON.stringify(this.#view.heading) || view.certificate?.hash !== this.#view.certificate?.hash;
+    this.#view = view;
+    if (other) {
+      const fresh = facts(view);
+      this.#facts.replaceWith(fresh);
+      this.#facts = fresh;
+      this.#name();
+    }
+    this.update();
+  }
+
+  /** Says a verdict in place of the document's own; null for that again. */
+  say(said: Verdict | null): void {
+    if (said !== null && this.#said !== null && same(said, this.#said)) return;
+    this.#said = said;
+    this.update();
+  }
+
+  #name(): void {
+    const name = this.#view.heading.scenario;
+    this.#scenario.title = name.slice(0, TITLE);
+    this.#scenario.replaceChildren(isolated(name));
   }
 
   /** Again from the view, whose execution a live run completes. */
   update(): void {
-    const of = verdict(this.#view);
+    const of = this.#said ?? verdict(this.#view);
     const result = washed(this.#view);
     this.#root.className = `tone-${of.tone === "proved" && result?.tone === "violated" ? "violated" : of.tone}`;
     this.#badges.replaceChildren(badge(of));

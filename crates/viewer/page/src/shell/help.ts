@@ -6,13 +6,13 @@ import { keyTable } from "./keys.ts";
 export class Help {
   readonly #dialog: HTMLDialogElement;
 
-  constructor(film: boolean) {
+  constructor(film: boolean, more: readonly [string, string][] = []) {
     const close = button({ class: "button icon-button", label: "Close" }, () => this.#dialog.close(), icon("cross"));
     this.#dialog = el(
       "dialog",
       { class: "help", set: { "aria-labelledby": "help-title" } },
       el("header", {}, el("h2", { id: "help-title" }, "Keys and mouse"), close),
-      keyTable(film),
+      keyTable(film, more),
       el("p", {}, "Drag the scene to turn it, with the right button or two fingers to move it, and scroll or pinch to come nearer."),
       el("p", {}, "Solid segments on the time line are washing. Signs above it show where a requirement is worst: click to go there."),
     );

@@ -32,8 +32,9 @@ const SCENE: [string, string][] = [
   ["?", "this help"],
 ];
 
-export function keyTable(film: boolean): HTMLElement {
-  const rows = (film ? [...FILM, ...SCENE] : SCENE).map(([keys, words]) => {
+/** `more`: keys of a page that can do more than show. */
+export function keyTable(film: boolean, more: readonly [string, string][] = []): HTMLElement {
+  const rows = [...more, ...(film ? FILM : []), ...SCENE].map(([keys, words]) => {
     const caps = keys.split(" ").map((key) => (key === "…" ? key : el("kbd", {}, key)));
     return el("tr", {}, el("th", { set: { scope: "row" } }, ...caps), el("td", {}, words));
   });

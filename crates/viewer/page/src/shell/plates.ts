@@ -71,9 +71,10 @@ export class Coverages {
 export class Plates {
   readonly element = el("div", { class: "plates" });
   readonly #player: Player;
-  readonly #coverages: Coverages;
+  #coverages: Coverages;
   readonly #onPlate: (plate: number) => void;
   readonly #scale = el("p", { class: "heat-scale" });
+  #observer: IntersectionObserver | null = null;
   #cards: Card[] | null = null;
   #dwell_s = 1;
   #painted = Number.NEGATIVE_INFINITY;
@@ -82,6 +83,13 @@ export class Plates {
     this.#player = player;
     this.#coverages = coverages;
     this.#onPlate = onPlate;
+  }
+
+  /** The player shows another document: its plates are painted when they are shown. */
+  replace(coverages: Coverages): void {
+    this.#coverages = coverages;
+    this.#observer?.disconnect();
+    this.#cards = null;
   }
 
   show(): void {
@@ -120,7 +128,7 @@ export class Plates {
 
   #make(): void {
     this.#dwell_s = dwellScale(this.#coverages.all);
-    this.#scale.append(
+    this.#scale.replaceChildren(
       el("span", {}, "washed for 0 s"),
       heatBar(),
       el("span", {}, quantity(this.#dwell_s, 1, "s and more")),
@@ -128,15 +136,16 @@ export class Plates {
     const order = this.#player.view.paths.map((path) => path.plate);
     const plates = this.#coverages.plates.sort((a, b) => order.indexOf(a) - order.indexOf(b));
     this.#cards = plates.map((plate, k) => this.#card(plate, k < FIRST_SEEN));
-    const observer = new IntersectionObserver((entries) => {
+    this.#observer = new IntersectionObserver((entries) => {
       for (const entry of entries) {
         const card = this.#cards?.find(({ element }) => element === entry.target);
         if (card !== undefined) card.seen = entry.isIntersecting;
       }
       this.update(0, true);
     });
-    for (const { element } of this.#cards) observer.observe(element);
+    for (const { element } of this.#cards) this.#observer.observe(element);
     const words = "In the order of washing; sampled on a raster to look at. What is proved is below each map.";
+    if (this.#cards.length === 0) return this.element.replaceChildren(el("p", { class: "summary" }, "No plate is washed: there is no plan."));
     this.element.replaceChildren(
       el("p", { class: "summary" }, words),
       this.#scale,

@@ -107,6 +107,12 @@ export class Plot {
     this.#place();
   }
 
+  /** Takes it out of the plots that share a cursor. */
+  destroy(): void {
+    this.#plot?.destroy();
+    this.#plot = null;
+  }
+
   resize(): void {
     const width = this.#box.clientWidth;
     if (this.#plot === null || this.#plot.width === width) return;

@@ -40,13 +40,14 @@ function empty(lines: Line[]): Trace {
 export class Plots {
   readonly element = el("div", { class: "plots" });
   readonly #player: Player;
-  readonly #group: PlotGroup;
+  #group: PlotGroup;
   readonly #reset: HTMLButtonElement;
   #plots: { spec: PlotSpec; plot: Plot; grow: (() => Trace[]) | null }[] | null = null;
   #updated = Number.NEGATIVE_INFINITY;
   /** Samples that are drawn. */
   #grown = 0;
   #growing = false;
+  #old = false;
 
   constructor(player: Player, palette: () => Palette, seek: (t: number) => void) {
     this.#player = player;
@@ -60,9 +61,21 @@ export class Plots {
     new ResizeObserver(() => this.#fit()).observe(this.element);
   }
 
+  /** The player shows another document. Curves take longer than a frame: the old ones stay, faint, until they are asked for again. */
+  replace(): void {
+    this.#old = true;
+    this.element.classList.add("old");
+    this.#group = { ...this.#group, duration: this.#player.duration, segments: this.#player.view.segments };
+  }
+
+  /** Whether what is drawn is of another document. */
+  get old(): boolean {
+    return this.#old;
+  }
+
   /** Makes and draws what has not been drawn, now that it is in sight. */
   show(): void {
-    if (this.#plots === null) this.#make();
+    if (this.#plots === null || this.#old) this.#make();
     this.#fit();
     this.update(0, true);
   }
@@ -96,7 +109,7 @@ export class Plots {
 
   /** Draws at this width, for paper; null for that of the panel. */
   print(width: number | null): void {
-    if (width !== null && this.#plots === null) this.#make();
+    if (width !== null && (this.#plots === null || this.#old)) this.#make();
     for (const { plot } of this.#plots ?? []) plot.draw(width ?? undefined);
     this.update(0, true);
   }
@@ -109,9 +122,13 @@ export class Plots {
   }
 
   #make(): void {
+    this.#old = false;
+    this.element.classList.remove("old");
+    for (const { plot } of this.#plots ?? []) plot.destroy();
     const made = [...this.#planned(), ...this.#executed()];
     this.#plots = made.map(({ spec, grow }) => ({ spec, grow, plot: new Plot(spec, this.#group) }));
-    const words = "Click to go there, drag to look closer. Sampled to look at, not the proof.";
+    this.#reset.hidden = true;
+    const words = made.length === 0 ? "Nothing moves: there is no plan." : "Click to go there, drag to look closer. Sampled to look at, not the proof.";
     const head = el("div", { class: "plots-head" }, el("p", { class: "summary" }, words), this.#reset);
     this.element.replaceChildren(head, ...this.#plots.map(({ plot }) => plot.element));
     this.#grown = this.#player.recording?.count ?? 0;

@@ -31,14 +31,14 @@ function figure(name: string): Figure {
 export class Readout {
   readonly element: HTMLElement;
   readonly #player: Player;
-  readonly #kinematics: Kinematics;
+  #kinematics: Kinematics;
   readonly #activity = new TextCell();
   readonly #speed = figure("tip speed");
   readonly #clearance = figure("clearance");
   readonly #coverage = figure("covered");
   readonly #error = figure("off the plan");
   readonly #swatch = el("span", { class: "swatch" });
-  readonly #shareAt: (plate: number, t: number) => number | null;
+  #shareAt: (plate: number, t: number) => number | null;
   readonly #q = new Float64Array(AXES);
   readonly #from = new Float64Array(16);
   readonly #to = new Float64Array(16);
@@ -54,6 +54,13 @@ export class Readout {
       el("p", { class: "activity" }, this.#swatch, el("bdi", {}, this.#activity.node)),
       el("dl", { class: "figures" }, this.#speed.element, this.#coverage.element, this.#error.element, this.#clearance.element),
     );
+  }
+
+  /** The player shows another document. */
+  replace(shareAt: (plate: number, t: number) => number | null): void {
+    this.#shareAt = shareAt;
+    this.#kinematics = new Kinematics(this.#player.view.arm, this.#player.view.tool);
+    this.element.hidden = this.#player.duration === 0;
   }
 
   /** Shows the moment; `anew` whatever time it is. */

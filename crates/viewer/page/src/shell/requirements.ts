@@ -40,6 +40,13 @@ export class Requirements {
 
   constructor(view: View, onSelect: (check: Check) => void) {
     this.#onSelect = onSelect;
+    this.replace(view);
+  }
+
+  /** Shows those of another document. */
+  replace(view: View): void {
+    this.#rows.clear();
+    this.element.replaceChildren();
     if (view.certificate === null) this.#without(view);
     else this.#table(view.certificate);
   }

@@ -21,8 +21,8 @@ const SPOKEN_MS = 700;
 
 export class Scrubber {
   readonly element: HTMLElement;
-  readonly #view: View;
-  readonly #duration: number;
+  #view: View;
+  #duration: number;
   readonly #actions: ScrubberActions;
   readonly #canvas = el("canvas", { set: { "aria-hidden": "true" } });
   /** Above the shade, so that plates' numbers stay legible. */
@@ -58,6 +58,19 @@ export class Scrubber {
     this.element = el("div", { class: "scrubber" }, this.#marks, this.#track, this.#hint);
     this.#listen();
     new ResizeObserver(() => this.#resized()).observe(this.#track);
+  }
+
+  /** Shows the length of another document. */
+  replace(view: View, duration: number): void {
+    const marks = view.certificate !== this.#view.certificate || duration !== this.#duration;
+    this.#view = view;
+    this.#duration = duration;
+    this.#edge = duration;
+    this.#spoken = -SPOKEN_MS;
+    this.#track.setAttribute("aria-valuemax", duration.toFixed(2));
+    this.#draw();
+    this.#place();
+    if (marks) this.#drawMarks();
   }
 
   /** Shows a time; up to `edge` there is something to show. No layout: head and shade are moved alone. */

@@ -15,11 +15,23 @@ export interface StageActions {
   follow: ((motion: Follows) => void) | null;
 }
 
+/** Whether the scene of two documents is the same: a proof changes nothing of it. */
+function drawnAlike(a: View, b: View): boolean {
+  const parts = ["arm", "tool", "surroundings", "plates", "paths", "segments", "motion", "clearance", "execution", "pose_rad"] as const;
+  if (!parts.every((part) => a[part] === b[part]) || a.coverage.length !== b.coverage.length) return false;
+  return a.coverage.every((one, k) => one.first === b.coverage[k]!.first && one.plate === b.coverage[k]!.plate);
+}
+
+function labelOf(view: View): string {
+  return `The arm ${view.heading.robot} and ${view.plates.length} plates in three dimensions. Drag to turn, scroll to come nearer.`;
+}
+
 export class Stage {
   readonly scene: Scene | null;
   readonly root = byId("stage");
   readonly canvas: HTMLCanvasElement;
   readonly #actions: StageActions;
+  #view: View;
   readonly #message = el("div", { class: "stage-message", set: { role: "alert" } });
   readonly #menu = el("div", { class: "menu", id: "layers-menu", set: { role: "group", "aria-label": "Layers" } });
   readonly #layersButton: HTMLButtonElement;
@@ -29,8 +41,8 @@ export class Stage {
 
   constructor(view: View, theme: Theme, banner: HTMLElement, readout: HTMLElement | null, actions: StageActions) {
     this.#actions = actions;
-    const label = `The arm ${view.heading.robot} and ${view.plates.length} plates in three dimensions. Drag to turn, scroll to come nearer.`;
-    this.canvas = el("canvas", { class: "scene", set: { role: "img", "aria-label": label } });
+    this.#view = view;
+    this.canvas = el("canvas", { class: "scene", set: { role: "img", "aria-label": labelOf(view) } });
     this.#layersButton = button(
       { class: "button text-button", title: "Layers (L)", set: { "aria-expanded": "false", "aria-controls": "layers-menu", "aria-label": "Layers" } },
       () => this.toggleLayers(),
@@ -48,6 +60,16 @@ export class Stage {
     this.root.replaceChildren(port, ...(readout === null ? [] : [readout]));
     this.#fillMenu();
     this.#watch();
+  }
+
+  /** Shows another document. */
+  replace(view: View): void {
+    if (drawnAlike(view, this.#view)) return;
+    this.#view = view;
+    this.scene?.replace(view);
+    this.#heat.hidden = view.coverage.length === 0;
+    this.canvas.setAttribute("aria-label", labelOf(view));
+    this.#actions.changed();
   }
 
   /** Fits the drawing to its place. */
@@ -128,9 +150,9 @@ export class Stage {
   #toolbar(view: View): HTMLElement {
     this.#camera.append(...(this.scene?.cameras() ?? []).map(({ id, label }) => el("option", { set: { value: id } }, label)));
     this.#camera.addEventListener("change", () => this.camera(this.#camera.value));
-    const heat = view.coverage.length === 0 ? null : this.#heat;
+    this.#heat.hidden = view.coverage.length === 0;
     const full = button({ class: "button icon-button", label: "Full screen (F)" }, () => this.toggleFullscreen(), icon("fullscreen"));
-    const tools = this.scene === null ? [this.#follow, full] : [this.#follow, this.#camera, heat, this.#layersButton, full];
+    const tools = this.scene === null ? [this.#follow, full] : [this.#follow, this.#camera, this.#heat, this.#layersButton, full];
     return el("div", { class: "toolbar", set: { role: "toolbar", "aria-label": "Scene" } }, ...tools);
   }
 

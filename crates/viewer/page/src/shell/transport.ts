@@ -23,11 +23,11 @@ export class Transport {
   readonly #speed: HTMLSelectElement;
   readonly #other = el("option", { set: { hidden: "" } });
   readonly #scrubber: Scrubber;
-  readonly #duration: number;
+  readonly #end = new TextCell();
+  #duration = 0;
   #playing: boolean | null = null;
 
   constructor(view: View, duration: number, palette: Palette, actions: TransportActions) {
-    this.#duration = duration;
     this.#play = button({ class: "button play-button" }, () => actions.toggle());
     const options = SPEEDS.map((speed) => el("option", { set: { value: speed } }, `${speed}${MULTIPLY}`));
     this.#speed = el("select", { class: "speed", set: { "aria-label": "Speed" } }, ...options, this.#other);
@@ -43,7 +43,7 @@ export class Transport {
         button({ class: "button icon-button", label: "Segment before" }, () => actions.segment(-1), icon("previous")),
         this.#play,
         button({ class: "button icon-button", label: "Next segment" }, () => actions.segment(1), icon("next")),
-        el("span", { class: "time" }, el("span", { class: "time-now" }, this.#time.node), ` / ${clockTime(duration, duration)} s`),
+        el("span", { class: "time" }, el("span", { class: "time-now" }, this.#time.node), " / ", this.#end.node),
         el(
           "span",
           { class: "speeds" },
@@ -55,6 +55,20 @@ export class Transport {
     );
     this.setSpeed(1);
     this.setPlaying(false);
+    this.#setDuration(duration);
+  }
+
+  /** Shows the time of another document. */
+  replace(view: View, duration: number): void {
+    this.#setDuration(duration);
+    this.#scrubber.replace(view, duration);
+  }
+
+  #setDuration(duration: number): void {
+    this.#duration = duration;
+    this.#end.set(`${clockTime(duration, duration)} s`);
+    byId("transport").classList.toggle("no-film", duration === 0);
+    this.#play.disabled = duration === 0;
   }
 
   update(t: number, edge: number, now: number): void {

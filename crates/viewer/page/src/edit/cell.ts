@@ -1,0 +1,220 @@
+/** The live cell: the scenario with its history, what is being changed in it, and what was answered. Knows no page. */
+import type { Answers } from "./answers.ts";
+import { Asker, type AskerSettings } from "./asker.ts";
+import { History, type Step } from "./history.ts";
+import type { Asked } from "./lane.ts";
+import type { Seen } from "./seen.ts";
+import { standing, type Activity, type Standing } from "./standing.ts";
+import type { Timing } from "./timings.ts";
+import { changed, sameVersion, type Edit, type Version } from "./version.ts";
+
+export type Centre = [number, number];
+
+/** Changes of one thing that follow each other within this are one step [ms]. */
+export const BURST_MS = 1000;
+
+export const POSITIONS = "layout.positions_m";
+
+export interface CellSettings extends AskerSettings {
+  steps: readonly Step[];
+  at: number;
+  /** Anything has changed. */
+  onChange: () => void;
+}
+
+interface Drag {
+  from: Version;
+  to: Version;
+  /** Where plates were before. */
+  were: readonly Centre[];
+}
+
+interface Burst {
+  name: string;
+  at: number;
+  until: number;
+  from: Version;
+}
+
+export class Cell {
+  readonly #settings: CellSettings;
+  readonly #history: History;
+  readonly #asker: Asker;
+  #drag: Drag | null = null;
+  #burst: Burst | null = null;
+  /** Where plates were put, until whoever plans has drawn them there. */
+  #centres: readonly Centre[] | null = null;
+
+  constructor(settings: CellSettings) {
+    this.#settings = settings;
+    this.#history = new History(settings.steps, settings.at);
+    this.#asker = new Asker(settings, {
+      version: () => this.version,
+      moving: () => this.dragging,
+      answered: (asked) => this.#adopt(asked),
+      changed: () => settings.onChange(),
+    });
+  }
+
+  /** Asks about what there is. */
+  start(): void {
+    this.#ask();
+  }
+
+  get history(): History {
+    return this.#history;
+  }
+
+  /** What counts now: that of a drag while there is one. */
+  get version(): Version {
+    return this.#drag?.to ?? this.#history.version;
+  }
+
+  /** The scenario as far as it is written out. */
+  get text(): string {
+    return this.version.text;
+  }
+
+  get dragging(): boolean {
+    return this.#drag !== null;
+  }
+
+  /** What there is to show. */
+  get seen(): Readonly<Seen> {
+    return this.#asker.seen;
+  }
+
+  /** Where plates are [m]. */
+  get centres(): readonly Centre[] {
+    return this.#centres ?? this.seen.drawn?.centres_m ?? [];
+  }
+
+  /** What was answered about the version that counts. */
+  get answers(): Answers {
+    return this.#asker.answers;
+  }
+
+  /** What planning has said last, perhaps of a moment ago while the mouse moves. */
+  get planned(): Asked | null {
+    return this.#asker.planned;
+  }
+
+  get timings(): Timing[] {
+    return this.#asker.timings.list();
+  }
+
+  get state(): Activity {
+    return this.#asker.state;
+  }
+
+  get standing(): Standing {
+    const { lost } = this.#asker;
+    return lost === null ? standing(this.answers) : { kind: "lost", words: `${lost.message} Trying again; nothing is lost here.` };
+  }
+
+  /** Whether every word about the version that counts was said. */
+  get settled(): boolean {
+    return this.state === "idle";
+  }
+
+  /** Changes keys. Changes of the same `burst` that follow each other closely are one step. */
+  change(edits: readonly Edit[], label: string, burst: string | null = null): void {
+    this.#endDrag();
+    const now = this.#settings.time.now();
+    const before = this.#burst;
+    const goesOn = burst !== null && before?.name === burst && now <= before.until && before.at === this.#history.at;
+    const from = goesOn ? before.from : this.#history.version;
+    if (goesOn) this.#history.amend(changed(this.#history.version, edits));
+    else this.#history.commit(changed(from, edits), label);
+    // Where it is back at its start there is no step of it to go on with.
+    const stepped = !sameVersion(this.#history.version, from);
+    this.#burst = burst === null || !stepped ? null : { name: burst, at: this.#history.at, until: now + BURST_MS, from };
+    this.#ask();
+  }
+
+  /** Another scenario. */
+  setText(text: string, label: string): void {
+    this.#endDrag();
+    this.#burst = null;
+    if (this.#history.commit({ text, edits: [] }, label)) this.#elsewhere();
+  }
+
+  /** Goes a step back; false where there is none. */
+  undo(): boolean {
+    this.cancelDrag();
+    const went = this.#history.undo();
+    if (went) this.#elsewhere();
+    return went;
+  }
+
+  /** Goes a step forth; false where there is none. */
+  redo(): boolean {
+    this.cancelDrag();
+    const went = this.#history.redo();
+    if (went) this.#elsewhere();
+    return went;
+  }
+
+  /** Plates are somewhere else; the others exactly where they are. */
+  place(centres: readonly Centre[], label: string, burst: string | null = null): void {
+    if (centres.length === 0) return;
+    this.#centres = centres.map(([x, y]): Centre => [x, y]);
+    this.change([{ key: POSITIONS, value: this.#centres }], label, burst);
+  }
+
+  /** Plates are on their way. */
+  drag(centres: readonly Centre[]): void {
+    const { from, were } = this.#drag ?? { from: this.#history.version, were: this.centres };
+    this.#centres = centres.map(([x, y]): Centre => [x, y]);
+    this.#drag = { from, were, to: changed(from, [{ key: POSITIONS, value: this.#centres }]) };
+    this.#burst = null;
+    this.#asker.moved();
+    this.#settings.onChange();
+  }
+
+  /** They were dropped: one step. */
+  drop(label: string): void {
+    const drag = this.#drag;
+    if (drag === null) return;
+    this.#drag = null;
+    this.#asker.stopLooking();
+    this.#history.commit(drag.to, label);
+    this.#ask();
+  }
+
+  /** They are where they were. */
+  cancelDrag(): void {
+    const drag = this.#drag;
+    if (drag === null) return;
+    this.#drag = null;
+    this.#asker.stopLooking();
+    this.#elsewhere();
+    if (this.planned?.answers.cell == null) this.#centres = drag.were;
+  }
+
+  /** A change from elsewhere ends a drag where it is. */
+  #endDrag(): void {
+    if (this.#drag !== null) this.drop("Move plates");
+  }
+
+  #elsewhere(): void {
+    this.#burst = null;
+    this.#centres = null;
+    this.#ask();
+  }
+
+  #ask(): void {
+    this.#asker.ensure();
+    this.#settings.onChange();
+  }
+
+  /** What whoever plans has written out is what stands in the history, and where it has drawn plates they are. */
+  #adopt(asked: Asked): void {
+    const { scenario, cell } = asked.answers;
+    if (scenario !== null && (scenario.text !== asked.version.text || asked.version.edits.length > 0)) {
+      this.#history.settle({ text: scenario.text, edits: [] });
+      asked.version = this.#history.version;
+    }
+    if (cell !== null) this.#centres = null;
+  }
+}

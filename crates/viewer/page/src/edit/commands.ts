@@ -1,0 +1,124 @@
+/** What hands, keys and buttons do to the plates of a live cell. */
+import { announce } from "../shell/announcer.ts";
+import type { View } from "../view.ts";
+import type { Cell, Centre } from "./cell.ts";
+import { onFloor, plateIndices, roomFor, shifted, turned, type Selected } from "./moves.ts";
+import type { EditedScene, Hands } from "./scene.ts";
+
+export class Commands implements Hands {
+  readonly #cell: Cell;
+  readonly #scene: () => EditedScene;
+  /** Of the canvas [CSS px]. */
+  readonly #size: () => Centre;
+  /** The axis that plates are turned about, seen from above [m]. */
+  readonly #axis: () => Centre;
+  readonly #changed: () => void;
+  #selected: Selected = null;
+
+  constructor(cell: Cell, view: () => View, scene: () => EditedScene, size: () => Centre, changed: () => void) {
+    this.#cell = cell;
+    this.#scene = scene;
+    this.#size = size;
+    this.#axis = () => {
+      const [x, y] = view().arm.mount.position_m;
+      return [x, y];
+    };
+    this.#changed = changed;
+  }
+
+  get selected(): Selected {
+    return this.#selected;
+  }
+
+  select(plate: Selected): void {
+    if (plate === this.#selected) return;
+    this.#selected = plate;
+    this.#scene().select(plate);
+    this.#changed();
+  }
+
+  move(to: { plates: number[]; centres_m: Centre[] }, phase: "start" | "drag" | "end" | "cancel"): void {
+    if (phase === "cancel") return this.#cell.cancelDrag();
+    const centres = this.#cell.centres.map((centre, k): Centre => to.centres_m[to.plates.indexOf(k)] ?? centre);
+    if (phase !== "start") this.#cell.drag(centres);
+    if (phase === "end") this.#cell.drop(this.#label("Move", to.plates));
+  }
+
+  /** Puts a plate where it can be washed. */
+  take(plate: number): void {
+    const nearest = this.#cell.answers.places.find((place) => place.plate === plate)?.nearest_m;
+    if (!nearest) return;
+    this.place(plate, nearest, "Take the nearest place of");
+    announce(`plate ${plate} put at ${nearest.map((c) => c.toFixed(3)).join(", ")} m`);
+  }
+
+  place(plate: number, centre: Centre, verb = "Move"): void {
+    const centres = this.#cell.centres.map((one, k): Centre => (k === plate ? centre : one));
+    this.#cell.place(centres, this.#label(verb, [plate]), `place ${plate}`);
+  }
+
+  /** Selects the next plate, or the one before. */
+  next(step: 1 | -1): void {
+    const count = this.#cell.centres.length;
+    if (count === 0) return;
+    const from = typeof this.#selected === "number" ? this.#selected : step === 1 ? -1 : 0;
+    const next = (from + step + count) % count;
+    this.select(next);
+    announce(`plate ${next} selected`);
+  }
+
+  /** Shifts what is selected to the right and upwards on the screen. */
+  shift(right_m: number, up_m: number): void {
+    const plates = this.#plates;
+    const [dx_m, dy_m] = onFloor(right_m, up_m, this.#ahead());
+    this.#cell.place(shifted(this.#cell.centres, plates, dx_m, dy_m), this.#label("Move", plates), `move ${this.#selected}`);
+    this.#sayPlace();
+  }
+
+  turn(angle_rad: number): void {
+    const plates = this.#plates;
+    this.#cell.place(turned(this.#cell.centres, plates, this.#axis(), angle_rad), this.#label("Turn", plates), `turn ${this.#selected}`);
+    this.#sayPlace();
+  }
+
+  add(): void {
+    const { drawn } = this.#cell.seen;
+    if (drawn === null) return;
+    const keepOff = (drawn.surroundings.base_circle_m ?? 0.2) + 0.01;
+    const room = roomFor(this.#cell.centres, Math.max(0.001, ...drawn.radius_m), this.#axis(), keepOff);
+    this.#cell.place([...this.#cell.centres, room], "Add a plate");
+    this.select(this.#cell.centres.length - 1);
+    announce(`plate ${this.#cell.centres.length - 1} added at ${room.map((c) => c.toFixed(3)).join(", ")} m`);
+  }
+
+  remove(plate: number): void {
+    const centres = this.#cell.centres.filter((_, k) => k !== plate);
+    if (centres.length === 0 || centres.length === this.#cell.centres.length) return;
+    const label = this.#label("Remove", [plate]);
+    this.select(this.#selected === "all" ? "all" : null);
+    this.#cell.place(centres, label);
+    announce(`plate ${plate} removed; ${centres.length} left, numbered anew`);
+  }
+
+  get #plates(): number[] {
+    return plateIndices(this.#selected, this.#cell.centres.length);
+  }
+
+  #sayPlace(): void {
+    const centre = typeof this.#selected === "number" ? this.#cell.centres[this.#selected] : undefined;
+    announce(centre === undefined ? "All plates moved" : centre.map((c) => c.toFixed(3)).join(", "));
+  }
+
+  /** Where upwards on the screen points, seen from above; along x where there is no scene. */
+  #ahead(): Centre {
+    const [width, height] = this.#size();
+    const [from, to] = [0.52, 0.48].map((share) => this.#scene().toPlane(0.5 * width, share * height, 0));
+    return from && to ? [to[0] - from[0], to[1] - from[1]] : [1, 0];
+  }
+
+  #label(verb: string, plates: readonly number[]): string {
+    const [only] = plates;
+    if (plates.length !== 1 || only === undefined) return `${verb} ${plates.length} plates`;
+    return `${verb} ${this.#cell.seen.drawn?.plates[only]?.name ?? `plate_${only}`}`;
+  }
+}

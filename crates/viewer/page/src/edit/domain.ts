@@ -1,0 +1,91 @@
+/** What may be typed for a key, and what that is as a value. */
+import type { Domain, Key, Value } from "./protocol.ts";
+
+/** A value, or that there is none for what was typed. */
+export type Read = { value: Value } | { wrong: true };
+
+const WRONG: Read = { wrong: true };
+const NUMBER = /^[+-]?(\d[\d_]*)?(\.\d*)?(e[+-]?\d{1,3})?$/i;
+
+/** A finite number as people type it, with a real minus sign or a comma too; null for what is none. */
+export function readNumber(text: string): number | null {
+  const plain = text.trim().replace("\u2212", "-").replace(/^([+-]?\d*),(\d+)$/, "$1.$2");
+  if (!NUMBER.test(plain) || !/\d/.test(plain)) return null;
+  const value = Number(plain.replaceAll("_", ""));
+  return Number.isFinite(value) ? value : null;
+}
+
+/** The text of a number: the shortest that reads back exactly. */
+export function numberText(value: number): string {
+  return String(value);
+}
+
+/** What a control shows for a value. */
+export function valueText(value: Value): string {
+  if (Array.isArray(value)) return value.map((one: Value) => (Array.isArray(one) ? `[${valueText(one)}]` : valueText(one))).join(", ");
+  return typeof value === "number" ? numberText(value) : String(value);
+}
+
+/** Whether a number is within a domain. */
+function within(value: number, domain: Extract<Domain, { least: number }>): boolean {
+  const above = domain.kind === "number_above" || domain.kind === "joints_above";
+  return (above ? value > domain.least : value >= domain.least) && value <= domain.most;
+}
+
+/** Numbers between commas, spaces or brackets. */
+function numbers(text: string): number[] | null {
+  const parts = text.replace(/[[\]()]/g, " ").trim().split(/[\s,;]+/).filter((part) => part !== "");
+  const values = parts.map(readNumber);
+  return values.every((value) => value !== null) ? values : null;
+}
+
+function isControl(text: string): boolean {
+  return /[\u0000-\u001f\u007f-\u009f]/.test(text);
+}
+
+/** Reads what was typed for a key. */
+export function readValue({ domain }: Pick<Key, "domain">, text: string): Read {
+  switch (domain.kind) {
+    case "text":
+    case "path":
+      return isControl(text) || (domain.kind === "path" && text.trim() === "") ? WRONG : { value: text };
+    case "paths":
+      return { value: text.split(/\r?\n|,/).map((part) => part.trim()).filter((part) => part !== "") };
+    case "bool":
+      return text === "true" || text === "false" ? { value: text === "true" } : WRONG;
+    case "word":
+      return domain.words.includes(text) ? { value: text } : WRONG;
+    case "integer":
+    case "number":
+    case "number_above":
+      return scalar(readNumber(text), domain);
+    case "range":
+    case "joints":
+    case "joints_above":
+    case "points":
+      return list(numbers(text), domain);
+  }
+}
+
+function scalar(value: number | null, domain: Extract<Domain, { least: number }>): Read {
+  const fits = value !== null && within(value, domain) && (domain.kind !== "integer" || Number.isSafeInteger(value));
+  return fits ? { value } : WRONG;
+}
+
+function list(values: number[] | null, domain: Extract<Domain, { least: number }>): Read {
+  if (values === null || !values.every((value) => within(value, domain))) return WRONG;
+  if (domain.kind === "range") return values.length === 2 && values[0]! < values[1]! ? { value: values } : WRONG;
+  if (domain.kind !== "points") return values.length === 6 ? { value: values } : WRONG;
+  if (values.length < 2 || values.length > 2000 || values.length % 2 !== 0) return WRONG;
+  return { value: Array.from({ length: values.length / 2 }, (_, k) => [values[2 * k]!, values[2 * k + 1]!]) };
+}
+
+/** The number a step up or down from what is typed: by its last digit, or ten of those. */
+export function stepped(text: string, direction: 1 | -1, coarse: boolean, domain: Extract<Domain, { least: number }>): string | null {
+  const value = readNumber(text);
+  if (value === null) return null;
+  const decimals = domain.kind === "integer" ? 0 : Math.min(12, /\.(\d+)/.exec(text)?.[1]?.length ?? (Number.isInteger(value) && Math.abs(value) >= 10 ? 0 : 1));
+  const to = value + direction * (coarse ? 10 : 1) * 10 ** -decimals;
+  const rounded = Number(to.toFixed(decimals));
+  return within(rounded, domain) ? rounded.toFixed(decimals) : null;
+}

@@ -1,0 +1,273 @@
+/** A live cell in the page: its state, its panels, and what ties them to the rest of the page. */
+import { announce } from "../shell/announcer.ts";
+import { byId } from "../shell/dom.ts";
+import type { Panel } from "../shell/panels.ts";
+import type { Verdict } from "../verdict.ts";
+import type { View } from "../view.ts";
+import { ConflictBar } from "./bar.ts";
+import { Cell } from "./cell.ts";
+import { CellPanel } from "./cell-panel.ts";
+import type { Channel } from "./channel.ts";
+import { Commands } from "./commands.ts";
+import { Disk } from "./disk.ts";
+import { Drawings } from "./drawings.ts";
+import { Form } from "./form.ts";
+import { FrameChannel } from "./frame.ts";
+import type { EditHandle } from "./handle.ts";
+import { HttpChannel } from "./http.ts";
+import { listenToEditKeys } from "./edit-keys.ts";
+import { MapAsker } from "./map.ts";
+import { plateKey } from "./plate-keys.ts";
+import type { EditDocument } from "./protocol.ts";
+import type { EditedScene } from "./scene.ts";
+import { CellShown } from "./shown.ts";
+import { Keeper, tabStore } from "./storage.ts";
+import { TextPanel } from "./text-panel.ts";
+import { BROWSER_TIME } from "./time.ts";
+import { Toolbar } from "./toolbar.ts";
+import { editVerdict } from "./verdict.ts";
+
+export interface EditorHost {
+  scene(): EditedScene;
+  /** Of the scene's canvas [CSS px]. */
+  size(): [number, number];
+  replace(view: View): void;
+  say(verdict: Verdict): void;
+}
+
+/** How long a verdict stands before it is read out [ms]. */
+const SPOKEN_MS = 600;
+/** How long a notice stays [ms]. */
+const NOTICE_MS = 8000;
+const NO_VALUES = {};
+
+export class Editor {
+  readonly panels: Panel[];
+  readonly #document: EditDocument;
+  readonly #host: EditorHost;
+  readonly #cell: Cell;
+  readonly #disk: Disk;
+  readonly #keeper: Keeper;
+  readonly #shown: CellShown;
+  readonly #commands: Commands;
+  readonly #map: MapAsker;
+  readonly #drawings: Drawings;
+  readonly #toolbar: Toolbar;
+  readonly #cellPanel: CellPanel;
+  readonly #form: Form;
+  readonly #text: TextPanel;
+  readonly #bar: ConflictBar;
+  #file: string | null;
+  #notice = { words: "", until: 0, of: "" };
+  #spoken = { words: "", since: 0, said: true };
+  #changed = true;
+  /** What is in the tab's store. */
+  #kept: { version: unknown; known: unknown } | null = null;
+  /** Somebody wants to save what is not written out yet. */
+  #saveSoon = false;
+
+  constructor(edit: EditDocument, view: View, host: EditorHost) {
+    this.#document = edit;
+    this.#host = host;
+    this.#file = edit.file;
+    this.#keeper = new Keeper(tabStore(), edit.file ?? edit.text);
+    const channel = this.#channel();
+    const session = newSession();
+    const kept = this.#keeper.load();
+    const steps = kept?.steps ?? [{ version: { text: edit.text, edits: [] }, label: "" }];
+    const touch = (): void => this.#touch();
+    this.#cell = new Cell({ channel, time: BROWSER_TIME, session, steps, at: kept?.at ?? 0, onChange: touch });
+    const known = kept === null ? { disk: edit.disk, saved: edit.saved } : { disk: kept.disk, saved: kept.saved };
+    this.#disk = new Disk(channel, BROWSER_TIME, session, known, {
+      text: () => (this.#cell.version.edits.length > 0 ? null : this.#cell.text),
+      take: (text, words) => this.#cell.setText(text, words),
+      notice: (words) => this.#say(words),
+      changed: touch,
+    });
+    this.#shown = new CellShown(view, () => host.scene(), (next) => host.replace(next));
+    this.#commands = new Commands(this.#cell, () => this.#shown.view, () => host.scene(), () => host.size(), touch);
+    this.#map = new MapAsker(channel, session, () => host.scene(), touch);
+    this.#drawings = new Drawings(this.#cell);
+    this.#toolbar = new Toolbar({ undo: () => this.#travel("Undone"), redo: () => this.#travel("Done again"), save: () => this.#save() });
+    this.#cellPanel = new CellPanel(this.#panelActions());
+    this.#form = new Form(edit.keys, (key, value) => this.#cell.change([{ key, value }], value === null ? `Reset ${key}` : `Change ${key}`, key));
+    this.#text = new TextPanel((text) => this.#cell.setText(text, "Change the text"));
+    this.#bar = new ConflictBar(() => this.#disk);
+    this.panels = [
+      { id: "cell", title: "Cell", content: this.#cellPanel.element },
+      { id: "keys", title: "Settings", content: this.#form.element },
+      { id: "text", title: "Text", content: this.#text.element },
+    ];
+  }
+
+  /** Begins: asks about the scenario, and listens to hands and keys. */
+  start(canvas: HTMLCanvasElement): void {
+    document.documentElement.dataset["editing"] = "";
+    this.#host.scene().edit(this.#commands);
+    byId("panels").prepend(this.#toolbar.element);
+    listenToEditKeys(canvas, {
+      undo: () => this.#travel("Undone"),
+      redo: () => this.#travel("Done again"),
+      save: () => this.#save(),
+      plate: (event) => this.#key(event),
+    });
+    addEventListener("beforeunload", (event) => {
+      if (!this.#keeper.works && this.#disk.unsaved) event.preventDefault();
+    });
+    this.#cell.start();
+    if (this.#file !== null) this.#disk.watch(() => !document.hidden);
+  }
+
+  /** Brings the page up to the cell, once a frame. */
+  advance(now: number): void {
+    this.#shown.update(this.#cell, now);
+    this.#speak(now);
+    const stale = now > this.#notice.until || this.#notice.of !== this.#cell.text;
+    if (this.#notice.words !== "" && stale) this.#say("");
+    if (!this.#changed) return;
+    this.#changed = false;
+    if (this.#saveSoon && (this.#cell.version.edits.length === 0 || this.#cell.settled)) this.#save();
+    this.#map.follow(this.#cell.text, this.#cell.version.edits.length > 0);
+    this.#keep();
+    this.#show();
+  }
+
+  /** The frame is drawn. */
+  drawn(now: number): void {
+    this.#drawings.drawn(now, !this.#changed);
+  }
+
+  get handle(): EditHandle {
+    const cell = this.#cell;
+    return {
+      text: () => cell.text,
+      written: () => cell.version.edits.length === 0,
+      state: () => cell.state,
+      verdict: () => cell.standing,
+      undo: () => cell.undo(),
+      redo: () => cell.redo(),
+      change: (edits) => cell.change(edits, "Change"),
+      save: () => this.#save(),
+      unsaved: () => this.#disk.unsaved,
+      centres: () => cell.centres.map(([x, y]) => [x, y]),
+      selected: () => this.#commands.selected,
+      ghosts: () => cell.answers.places.flatMap(({ plate, nearest_m }) => (nearest_m === null ? [] : [{ plate, centre_m: nearest_m }])),
+      timings: () => cell.timings,
+      settled: () => this.#drawings.settled(),
+    };
+  }
+
+  #channel(): Channel {
+    if (this.#document.channel === "frame") return new FrameChannel(window, (text) => this.#cell.setText(text, "From the notebook"));
+    return new HttpChannel(this.#document.token, ({ file }) => {
+      if (file !== this.#file) this.#say(`Another platewash answers now${file === null ? "" : `, of ${file}`}: saving goes there.`);
+      this.#file = file;
+    });
+  }
+
+  #panelActions(): ConstructorParameters<typeof CellPanel>[0] {
+    const commands = this.#commands;
+    return {
+      select: (plate) => commands.select(plate),
+      place: (plate, centre) => commands.place(plate, centre),
+      take: (plate) => commands.take(plate),
+      map: (plate) => this.#map.ask(this.#cell.text, plate, this.#cell.seen.drawn?.plates[plate]?.name ?? "the plate"),
+      remove: (plate) => commands.remove(plate),
+      add: () => commands.add(),
+      all: () => commands.select(commands.selected === "all" ? null : "all"),
+      clearMap: () => this.#map.clear(),
+      key: (event) => this.#key(event),
+    };
+  }
+
+  #key(event: KeyboardEvent): boolean {
+    const commands = this.#commands;
+    const one = (): number | null => (typeof commands.selected === "number" ? commands.selected : null);
+    const used = plateKey(event, {
+      active: () => commands.selected !== null,
+      next: (step) => commands.next(step),
+      shift: (right, up) => commands.shift(right, up),
+      turn: (angle) => commands.turn(angle),
+      remove: () => one() !== null && commands.remove(one()!),
+      take: () => one() !== null && commands.take(one()!),
+      cancel: () => this.#cancel(),
+    });
+    if (!used && event.key === "Escape") this.#map.clear();
+    return used;
+  }
+
+  /** Gives up the newest of what can be given up. */
+  #cancel(): void {
+    if (this.#cell.dragging) this.#cell.cancelDrag();
+    else if (this.#map.words !== null) this.#map.clear();
+    else this.#commands.select(null);
+  }
+
+  /** Saves, with what is being typed. */
+  #save(): void {
+    if (document.activeElement instanceof HTMLElement && document.activeElement.dataset["dirty"] === "true") document.activeElement.blur();
+    this.#saveSoon = this.#cell.version.edits.length > 0 && !this.#cell.settled;
+    if (!this.#saveSoon) void this.#disk.save();
+  }
+
+  #touch(): void {
+    this.#changed = true;
+  }
+
+  #say(words: string): void {
+    this.#notice = { words, until: performance.now() + NOTICE_MS, of: this.#cell.text };
+    if (words !== "") announce(words);
+    this.#touch();
+  }
+
+  /** Goes back or forth, and says what that was. */
+  #travel(verb: "Undone" | "Done again"): boolean {
+    const { undoes, redoes } = this.#cell.history;
+    const [went, label] = verb === "Undone" ? [this.#cell.undo(), undoes] : [this.#cell.redo(), redoes];
+    announce(went ? `${verb}: ${label ?? ""}` : `Nothing to ${verb === "Undone" ? "undo" : "redo"}`);
+    return went;
+  }
+
+  #show(): void {
+    const [cell, disk] = [this.#cell, this.#disk];
+    const { answers, standing, seen } = cell;
+    const unsaved = this.#file !== null && disk.unsaved;
+    this.#host.say(editVerdict(standing, answers, this.#shown.view));
+    const { undoes, redoes } = cell.history;
+    this.#toolbar.show({ undoes, redoes, activity: cell.state, file: this.#file, unsaved, saving: disk.saving, notice: this.#notice.words });
+    this.#cellPanel.show(cell, this.#commands.selected, this.#map.words);
+    const { refused } = answers;
+    const key = refused?.key ?? null;
+    this.#form.show({ stated: seen.scenario?.stated ?? NO_VALUES, values: seen.scenario?.values ?? NO_VALUES, refused: key === null ? null : { key, words: refused!.words } });
+    this.#text.show(cell.text, refused, cell.version.edits.length > 0 && !cell.dragging);
+    this.#bar.show(disk.conflict);
+    const title = document.title.replace(/^• /, "");
+    if (document.title.startsWith("• ") !== unsaved) document.title = unsaved ? `• ${title}` : title;
+  }
+
+  /** Says a verdict once it stands. */
+  #speak(now: number): void {
+    const words = this.#cell.settled ? this.#cell.standing.words : "";
+    if (words !== this.#spoken.words) {
+      const again = words === "";
+      this.#spoken = { words, since: now, said: again };
+    }
+    if (this.#spoken.said || now - this.#spoken.since < SPOKEN_MS) return;
+    this.#spoken.said = true;
+    announce(words);
+  }
+
+  #keep(): void {
+    const { steps, at, version } = this.#cell.history;
+    const { known } = this.#disk;
+    if (version === this.#kept?.version && known === this.#kept.known) return;
+    this.#kept = { version, known };
+    this.#keeper.save({ steps, at, ...known });
+  }
+}
+
+/** A name of this load of the page: two tabs must not stop each other's questions. */
+function newSession(): string {
+  const bytes = crypto.getRandomValues(new Uint8Array(12));
+  return [...bytes].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+}

@@ -1,0 +1,74 @@
+/** Keys that choose a plate and move the one that is selected that is selected, on its row and on the scene. */
+
+export interface PlateKeys {
+  /** Selects the next plate (1) or the one before (−1). */
+  next(step: 1 | -1): void;
+  /** Whether there is a plate to move; otherwise keys are the film's. */
+  active(): boolean;
+  /** By so much to the right and upwards on the screen. */
+  shift(right_m: number, up_m: number): void;
+  turn(angle_rad: number): void;
+  remove(): void;
+  /** Takes the nearest place. */
+  take(): void;
+  cancel(): void;
+}
+
+const STEP_M = 0.005;
+const COARSE_M = 0.05;
+const FINE_M = 0.001;
+const TURN_RAD = Math.PI / 180;
+
+const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+};
+
+/** For the help. */
+export const PLATE_KEYS: [string, string][] = [
+  ["N", "in the scene: select the next plate; with Shift the one before"],
+  ["↑ ↓ ← →", "on a plate: move it 5 mm along x or y, whichever the arrow points along on the screen; with Shift 50 mm, with Alt 1 mm"],
+  ["R", "on a plate: turn it 1° about the arm’s axis, counter-clockwise; with Shift clockwise"],
+  ["Enter", "on a plate: take the nearest place that can be washed"],
+  ["Delete", "on a plate: remove it"],
+  ["Escape", "give up what is being dragged; then select nothing"],
+  ["Ctrl+Z Ctrl+Y", "undo, redo"],
+  ["Ctrl+S", "save"],
+];
+
+/** Does what a key says; whether it says anything. */
+export function plateKey(event: KeyboardEvent, keys: PlateKeys): boolean {
+  if (event.ctrlKey || event.metaKey) return false;
+  if (event.key.toLowerCase() === "n" && !event.altKey) {
+    keys.next(event.shiftKey ? -1 : 1);
+    return true;
+  }
+  if (!keys.active()) return false;
+  const arrow = ARROWS[event.key];
+  if (arrow !== undefined) {
+    const step = event.altKey ? FINE_M : event.shiftKey ? COARSE_M : STEP_M;
+    keys.shift(arrow[0] * step, arrow[1] * step);
+    return true;
+  }
+  if (event.altKey) return false;
+  switch (event.key) {
+    case "r":
+    case "R":
+      keys.turn(event.shiftKey ? -TURN_RAD : TURN_RAD);
+      return true;
+    case "Delete":
+    case "Backspace":
+      keys.remove();
+      return true;
+    case "Enter":
+      keys.take();
+      return true;
+    case "Escape":
+      keys.cancel();
+      return true;
+    default:
+      return false;
+  }
+}

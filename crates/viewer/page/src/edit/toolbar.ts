@@ -1,0 +1,66 @@
+/** Undo, redo, save, and what is going on. */
+import { button, el, TextCell } from "../shell/dom.ts";
+import { icon } from "../shell/icons.ts";
+import type { Activity } from "./standing.ts";
+
+export interface ToolbarActions {
+  undo(): void;
+  redo(): void;
+  save(): void;
+}
+
+export interface ToolbarShown {
+  undoes: string | null;
+  redoes: string | null;
+  activity: Activity;
+  /** Null where there is nothing to save to. */
+  file: string | null;
+  unsaved: boolean;
+  saving: boolean;
+  notice: string;
+}
+
+const WORDS: Record<Activity, string> = { idle: "", previewing: "looking …", planning: "planning …", proving: "proving …" };
+
+export class Toolbar {
+  readonly element: HTMLElement;
+  readonly #undo: HTMLButtonElement;
+  readonly #redo: HTMLButtonElement;
+  readonly #save: HTMLButtonElement;
+  readonly #saveWord = new TextCell("Save");
+  readonly #activity = new TextCell();
+  readonly #notice = new TextCell();
+
+  constructor(actions: ToolbarActions) {
+    this.#undo = button({ class: "button text-button" }, () => actions.undo(), icon("undo"), "Undo");
+    this.#redo = button({ class: "button text-button" }, () => actions.redo(), icon("redo"), "Redo");
+    this.#save = button({ class: "button text-button" }, () => actions.save(), this.#saveWord.node);
+    this.element = el(
+      "div",
+      { class: "edit-tools", set: { role: "toolbar", "aria-label": "Scenario" } },
+      this.#undo,
+      this.#redo,
+      this.#save,
+      el("span", { class: "edit-activity", set: { "aria-hidden": "true" } }, this.#activity.node),
+      el("p", { class: "edit-notice", set: { role: "status" } }, el("bdi", {}, this.#notice.node)),
+    );
+  }
+
+  show(shown: ToolbarShown): void {
+    enable(this.#undo, shown.undoes !== null, shown.undoes === null ? "Nothing to undo" : `Undo: ${shown.undoes} (Ctrl+Z)`);
+    enable(this.#redo, shown.redoes !== null, shown.redoes === null ? "Nothing to redo" : `Redo: ${shown.redoes} (Ctrl+Y)`);
+    this.#save.hidden = shown.file === null;
+    enable(this.#save, !shown.saving, `Save ${shown.file ?? ""} (Ctrl+S)`);
+    this.#save.classList.toggle("unsaved", shown.unsaved);
+    this.#saveWord.set(shown.saving ? "Saving …" : shown.unsaved ? "Save •" : "Saved");
+    this.#activity.set(WORDS[shown.activity]);
+    this.#notice.set(shown.notice);
+  }
+}
+
+/** Not `disabled`, which would throw the focus away. */
+function enable(of: HTMLButtonElement, on: boolean, title: string): void {
+  const value = String(!on);
+  if (of.getAttribute("aria-disabled") !== value) of.setAttribute("aria-disabled", value);
+  if (of.title !== title) of.title = title;
+}

@@ -1,0 +1,160 @@
+/** All that is drawn of a document, and how another one takes its place: what says the same stays, the rest is made anew. */
+import { Group, type Object3D } from "three";
+import { decodeCoverage } from "../coverage.ts";
+import { Kinematics } from "../kinematics.ts";
+import type { View } from "../view.ts";
+import { ArmGraph } from "./arm.ts";
+import { extentOf, type Extent } from "./extent.ts";
+import { Floor } from "./floor.ts";
+import { CommandedTip, FrameAxes } from "./frame.ts";
+import { keptOf, type Kept } from "./kept.ts";
+import type { Layer } from "./layers.ts";
+import { Obstacles } from "./obstacles.ts";
+import type { Palette } from "./palette.ts";
+import { Paths } from "./paths.ts";
+import { Plates } from "./plates.ts";
+import { ProofBodies } from "./proof.ts";
+import type { Retired } from "./retired.ts";
+import type { Studio } from "./studio.ts";
+import { ToolGraph } from "./tool.ts";
+
+const NOTHING: Kept = {
+  arm: false, tool: false, obstacles: false, floor: false, plates: false, planned: false, executed: false, paths: false, extent: false,
+};
+
+export class Content {
+  readonly root = new Group();
+  readonly plates: Plates;
+  readonly #axes = new FrameAxes();
+  readonly #studio: Studio;
+  readonly #retired: Retired;
+  #view: View;
+  #arm!: ArmGraph;
+  #tool!: ToolGraph;
+  #paths!: Paths;
+  #floor!: Floor;
+  #obstacles!: Obstacles;
+  #bodies!: ProofBodies;
+  #commanded!: CommandedTip;
+  #kinematics!: Kinematics;
+  #extent!: Extent;
+
+  constructor(view: View, studio: Studio, retired: Retired) {
+    this.#view = view;
+    this.#studio = studio;
+    this.#retired = retired;
+    this.plates = new Plates(studio, retired);
+    this.root.add(this.plates.root);
+    this.#make(view, NOTHING);
+  }
+
+  get view(): View {
+    return this.#view;
+  }
+  get arm(): ArmGraph {
+    return this.#arm;
+  }
+  get tool(): ToolGraph {
+    return this.#tool;
+  }
+  get paths(): Paths {
+    return this.#paths;
+  }
+  get bodies(): ProofBodies {
+    return this.#bodies;
+  }
+  get commanded(): CommandedTip {
+    return this.#commanded;
+  }
+  get kinematics(): Kinematics {
+    return this.#kinematics;
+  }
+  get extent(): Extent {
+    return this.#extent;
+  }
+
+  /** Shows another document; what was kept. Palette and layers have to be set again. */
+  replace(view: View): Kept {
+    const kept = keptOf(this.#view, view);
+    this.#view = view;
+    this.#make(view, kept);
+    return kept;
+  }
+
+  #make(view: View, kept: Kept): void {
+    if (!kept.arm || !kept.tool) this.#makeArm(view, kept);
+    if (!kept.obstacles) {
+      this.#retire(this.#obstacles?.root);
+      this.#obstacles = new Obstacles(view.surroundings.obstacles, this.#studio);
+      this.root.add(this.#obstacles.root);
+    }
+    if (!kept.plates) {
+      this.plates.replace(view.plates);
+      this.#tool.setPlates(view.plates);
+    }
+    if (!kept.planned) this.plates.cover("planned", view.coverage.map(decodeCoverage));
+    if (!kept.executed) this.plates.cover("executed", (view.execution?.coverage ?? []).map(decodeCoverage));
+    if (!kept.paths) {
+      this.#retire(this.#paths?.wash, this.#paths?.transits, this.#paths?.executed);
+      this.#paths = new Paths(view);
+      this.root.add(this.#paths.wash, this.#paths.transits, this.#paths.executed);
+    }
+    if (!kept.floor) {
+      this.#retire(this.#floor?.ground, this.#floor?.region);
+      this.#floor = new Floor(view.surroundings, view.arm.mount.position_m, this.#studio);
+      this.root.add(this.#floor.ground, this.#floor.region);
+    }
+    if (!kept.extent) this.#extent = extentOf(view, this.#obstacles.bounds());
+    const { center, radius } = this.#extent.sphere;
+    this.#floor.setExtent(center, Math.max(2, 2.6 * radius));
+  }
+
+  /** The arm is made anew only where it is another one, the tool where it, or the arm, is. */
+  #makeArm(view: View, kept: Kept): void {
+    this.#axes.root.removeFromParent();
+    this.#bodies?.retire(this.#retired);
+    this.#retire(this.#tool?.root, this.#commanded?.root);
+    if (!kept.arm) {
+      this.#retire(this.#arm?.root);
+      this.#arm = new ArmGraph(view.arm, this.#studio);
+      this.root.add(this.#arm.root);
+    }
+    this.#tool = new ToolGraph(view.tool, view.plates, this.#studio);
+    this.#tool.tip.add(this.#axes.root);
+    this.#arm.flange.add(this.#tool.root);
+    this.#bodies = new ProofBodies(view, this.#arm);
+    this.#commanded = new CommandedTip(view.tool?.sponge.radius_m || 0.02);
+    this.root.add(this.#commanded.root);
+    this.#kinematics = new Kinematics(view.arm, view.tool);
+  }
+
+  #retire(...roots: (Object3D | undefined)[]): void {
+    for (const root of roots) if (root !== undefined) this.#retired.add(root);
+  }
+
+  setPalette(palette: Palette): void {
+    const parts = [this.#floor, this.plates, this.#paths, this.#tool, this.#commanded, this.#obstacles, this.#bodies];
+    for (const part of parts) part.setPalette(palette);
+  }
+
+  /** What a layer shows and hides as a whole. */
+  objectsOf(layer: Layer): readonly Object3D[] {
+    switch (layer) {
+      case "arm": return [...this.#arm.visuals, ...this.#tool.visuals];
+      case "plates": return [this.plates.root];
+      case "paths": return [this.#paths.wash];
+      case "transits": return [this.#paths.transits];
+      case "executed": return [this.#paths.executed];
+      case "tip": return [this.#axes.root];
+      case "region": return [this.#floor.region];
+      case "obstacles": return [this.#obstacles.root];
+      case "floor": return [this.#floor.ground];
+      default: return [];
+    }
+  }
+
+  dispose(): void {
+    this.plates.dispose();
+    this.#bodies.dispose();
+  }
+}

@@ -1,0 +1,282 @@
+/** What of the scene is there only where it can be edited: what is selected, dragged and guessed, ghosts, ring and map. */
+import { Group, Vector3, type Camera, type Ray } from "three";
+import type { Chance } from "../edit/protocol.ts";
+import type { Content } from "./content.ts";
+import { Ghosts, type GhostPlace } from "./ghost.ts";
+import { middle, type Centre, type Grab } from "./grab.ts";
+import { Handles, type Phase, type Picked, type Touched } from "./handles.ts";
+import { WashMap, type MapPatch } from "./map.ts";
+import { Outlines } from "./outlines.ts";
+import type { Palette } from "./palette.ts";
+import { nearest, onPlane, type Solid } from "./pick.ts";
+import { RingHandle, partOf, ringThrough } from "./ring.ts";
+import { Signs } from "./signs.ts";
+import type { Studio } from "./studio.ts";
+import { Washability, type Offending } from "./washability.ts";
+
+export type Selection = number | "all" | null;
+
+/** Who is told what hands do. */
+export interface EditActions {
+  /** A plate was pressed, or null for none. */
+  select(plate: number | null): void;
+  /** While the pointer moves and once when it is let go: where the centres of the grabbed plates are. */
+  move(to: { plates: number[]; centres_m: Centre[] }, phase: Phase): void;
+  /** The ghost of a plate was clicked. */
+  take(plate: number): void;
+}
+
+/** What editing needs of the scene. */
+export interface Surface {
+  readonly canvas: HTMLCanvasElement;
+  readonly content: Content;
+  readonly studio: Studio;
+  /** The ray through a place on the canvas [CSS px]. */
+  ray(x: number, y: number): Ray;
+  /** How much of the world a CSS pixel is at a place [m]. */
+  pixel_m(place: Vector3): number;
+  setCamera(free: boolean): void;
+  /** There is something new to draw; `bodies` where it changes the shadows. */
+  changed(bodies: boolean): void;
+}
+
+/** What is near on the screen, to the ring [CSS px]: for a mouse, for a finger. */
+const NEAR_PX = 8;
+const NEAR_FINGER_PX = 18;
+/** How far under the plates the map is, and at least over the floor [m]. */
+const UNDER_M = 0.004;
+const LEAST_M = 0.0025;
+/** How far over the map the ring is [m]. */
+const OVER_MAP_M = 0.0036;
+
+export class Editing implements Touched {
+  readonly root = new Group();
+  readonly #surface: Surface;
+  readonly #actions: EditActions;
+  readonly #handles: Handles;
+  readonly #outlines = new Outlines();
+  readonly #ring = new RingHandle();
+  readonly #signs = new Signs();
+  readonly #washability = new Washability();
+  readonly #ghosts: Ghosts;
+  readonly #map = new WashMap();
+  #solids: Solid[] = [];
+  #selection: Selection = null;
+  #hovered: Picked | null = null;
+  #preview: readonly Centre[] | null = null;
+  /** Plates in the hand, which lie where it holds them whatever else is shown. */
+  #carried = new Map<number, Centre>();
+  #offending: readonly Offending[] = [];
+
+  constructor(surface: Surface, actions: EditActions) {
+    this.#surface = surface;
+    this.#actions = actions;
+    this.#ghosts = new Ghosts(surface.studio);
+    this.root.add(
+      this.#map.mesh, this.#washability.root, this.#outlines.root, this.#ring.root, this.#ghosts.root, this.#signs.root,
+    );
+    this.#handles = new Handles(surface.canvas, this);
+    this.#arrange();
+  }
+
+  setPalette(palette: Palette): void {
+    for (const part of [this.#outlines, this.#ring, this.#signs, this.#washability, this.#ghosts, this.#map]) part.setPalette(palette);
+  }
+
+  get dragging(): boolean {
+    return this.#handles.dragging;
+  }
+
+  /** Another document is shown: previews are over, what is in the hand stays there. */
+  replaced(): void {
+    const { count } = this.#surface.content.plates;
+    if ([...this.#carried.keys()].some((plate) => plate >= count)) this.#handles.cancel();
+    if (typeof this.#selection === "number" && this.#selection >= count) this.#selection = null;
+    this.#hovered = null;
+    this.#preview = null;
+    this.#lay();
+    this.#washability.setOffending(this.#offending, this.#solids);
+    this.#arrange();
+  }
+
+  select(selection: Selection): void {
+    this.#selection = selection;
+    this.#arrange();
+  }
+
+  preview(centres_m: readonly Centre[] | null): void {
+    this.#preview = centres_m;
+    this.#lay();
+    this.#arrange();
+  }
+
+  chances(list: readonly { plate: number; chance: Chance }[]): void {
+    this.#washability.setChances(list);
+    this.#arrange();
+  }
+
+  offending(list: readonly Offending[]): void {
+    this.#offending = list;
+    this.#washability.setOffending(list, this.#solids);
+    this.#arrange();
+  }
+
+  ghosts(list: readonly GhostPlace[]): void {
+    this.#ghosts.set(list);
+    this.#arrange();
+  }
+
+  map(patch: MapPatch | null): void {
+    this.#map.add(patch);
+    this.#surface.changed(false);
+  }
+
+  /** Lays the plates where they are held, previewed, or where the document has them. */
+  #lay(): void {
+    const { plates, paths } = this.#surface.content;
+    for (let plate = 0; plate < plates.count; plate++) plates.move(plate, this.#carried.get(plate) ?? this.#preview?.[plate] ?? null);
+    paths.fade(plates.moved);
+    this.#surface.changed(true);
+  }
+
+  /** Puts everything about the plates as they lie. */
+  #arrange(): void {
+    const { plates } = this.#surface.content;
+    const shape = (plate: number): ReturnType<typeof plates.shape> => plates.shape(plate);
+    this.#solids = plates.solids;
+    const height = Math.max(LEAST_M, Math.min(1, ...this.#solids.map(({ pose, bottom_m }) => pose.elements[14]! + bottom_m)) - UNDER_M);
+    this.#map.setHeight(height);
+    this.#outlines.show("selected", this.#selected.map((plate) => this.#solids[plate]!));
+    const over = this.#hovered?.kind === "plate" && !this.#selected.includes(this.#hovered.plate) ? [this.#solids[this.#hovered.plate]!] : [];
+    this.#outlines.show("hovered", over);
+    this.#ring.show(this.#ringNow(), height + OVER_MAP_M);
+    this.#washability.show(this.#solids, shape);
+    this.#signs.show(this.#solids.flatMap((solid, plate) => {
+      const chance = this.#washability.chanceOf(plate);
+      return chance === null || chance === "washable" ? [] : [{ kind: chance, solid }];
+    }));
+    this.#ghosts.show(this.#solids, shape);
+    this.#surface.changed(false);
+  }
+
+  /** Plates that are selected. */
+  get #selected(): number[] {
+    if (this.#selection === "all") return this.#solids.map((_, plate) => plate);
+    return this.#selection !== null && this.#solids[this.#selection] !== undefined ? [this.#selection] : [];
+  }
+
+  get #axis(): Centre {
+    const [x, y] = this.#surface.content.view.arm.mount.position_m;
+    return [x, y];
+  }
+
+  #ringNow(): ReturnType<typeof ringThrough> {
+    const centres = this.#selected.map((plate) => centreOf(this.#solids[plate]!));
+    if (centres.length === 0) return null;
+    const rim = this.#solids[this.#selected[0]!]!.rim_m;
+    return ringThrough(this.#axis, middle(centres), rim);
+  }
+
+  pick(x: number, y: number, coarse: boolean): Picked | null {
+    const ray = this.#surface.ray(x, y);
+    const plate = nearest(ray, this.#solids);
+    const ghost = this.#ghosts.plates[nearest(ray, this.#ghosts.solids) ?? -1];
+    const ring = this.#overRing(ray, coarse);
+    if (ring === "arrow") return { kind: "ring" };
+    if (ghost !== undefined && (ghost !== plate || this.#nearGhost(ghost, x, y))) return { kind: "ghost", plate: ghost };
+    if (plate !== null) return { kind: "plate", plate };
+    return ring === null ? null : { kind: "ring" };
+  }
+
+  /** Where a ghost overlaps its own plate: whether its middle is nearer, or the plate's, which can still be dragged. */
+  #nearGhost(plate: number, x: number, y: number): boolean {
+    const [own, ghost] = [this.#solids[plate], this.#ghosts.solids[this.#ghosts.plates.indexOf(plate)]];
+    if (own === undefined || ghost === undefined) return false;
+    const place = this.toPlane(x, y, own.pose.elements[14]! + own.top_m);
+    const away = (solid: Solid): number => Math.hypot(place![0] - centreOf(solid)[0], place![1] - centreOf(solid)[1]);
+    return place !== null && away(ghost) < away(own);
+  }
+
+  #overRing(ray: Ray, coarse: boolean): ReturnType<typeof partOf> {
+    const { ring, height_m } = this.#ring;
+    const place = ring === null ? null : onPlane(ray, height_m);
+    if (ring === null || place === null) return null;
+    return partOf(ring, place, (coarse ? NEAR_FINGER_PX : NEAR_PX) * this.#surface.pixel_m(new Vector3(...place, height_m)));
+  }
+
+  hover(picked: Picked | null): void {
+    if (JSON.stringify(picked) === JSON.stringify(this.#hovered)) return;
+    this.#hovered = picked;
+    this.#ghosts.hover(picked?.kind === "ghost" ? picked.plate : null);
+    this.#ring.setHeld(picked?.kind === "ring");
+    this.#arrange();
+  }
+
+  grab(picked: Picked, x: number, y: number): { grab: Grab; height_m: number } | null {
+    if (picked.kind === "ghost") return null;
+    const plates = picked.kind === "ring" || this.#selection === "all" ? this.#selected : [picked.plate];
+    const [solid] = picked.kind === "ring" ? [] : [this.#solids[picked.plate]];
+    const height_m = solid === undefined ? this.#ring.height_m : solid.pose.elements[14]! + solid.top_m;
+    const from_m = this.toPlane(x, y, height_m);
+    if (from_m === null || plates.length === 0) return null;
+    const starts_m = plates.map((plate) => centreOf(this.#solids[plate]!));
+    return { grab: { plates, starts_m, from_m, about_m: picked.kind === "ring" ? this.#axis : null }, height_m };
+  }
+
+  toPlane(x: number, y: number, height_m: number): Centre | null {
+    return onPlane(this.#surface.ray(x, y), height_m);
+  }
+
+  /** Moves the plates in the hand at once, and tells of it. Let go, they stay until another document is shown. */
+  carry(plates: readonly number[], centres_m: readonly Centre[], phase: Phase): void {
+    this.#carried = new Map(plates.map((plate, k) => [plate, centres_m[k]!]));
+    if (phase === "end" || phase === "cancel") {
+      this.#preview = this.#solids.map((solid, plate) => this.#carried.get(plate) ?? centreOf(solid));
+      this.#carried.clear();
+    }
+    this.#lay();
+    this.#arrange();
+    this.#actions.move({ plates: [...plates], centres_m: centres_m.map(([x, y]) => [x, y]) }, phase);
+  }
+
+  press(picked: Picked | null): void {
+    if (picked?.kind !== "plate" || this.#selection === "all") return;
+    this.#choose(picked.plate);
+  }
+
+  click(picked: Picked | null): void {
+    if (picked === null) this.#choose(null);
+    else if (picked.kind === "ghost") this.#actions.take(picked.plate);
+    else if (picked.kind === "plate" && this.#selection === "all") this.#choose(picked.plate);
+  }
+
+  #choose(plate: number | null): void {
+    if (plate === null && this.#selection === null) return;
+    this.select(plate);
+    this.#actions.select(plate);
+  }
+
+  setCamera(free: boolean): void {
+    this.#surface.setCamera(free);
+  }
+
+  /** Keeps what is of one size on the screen at that size. No allocation. */
+  face(camera: Camera, eye: Vector3, narrow: number, pixel: number): void {
+    this.#ring.face(camera, eye, narrow);
+    this.#signs.setScale(pixel);
+  }
+
+  /** Puts the plates back where the document has them. */
+  dispose(): void {
+    this.#handles.dispose();
+    this.#preview = null;
+    this.#carried.clear();
+    this.#lay();
+    this.#washability.dispose();
+    this.#signs.dispose();
+  }
+}
+
+function centreOf({ pose }: Solid): Centre {
+  return [pose.elements[12]!, pose.elements[13]!];
+}

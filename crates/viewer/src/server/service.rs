@@ -1,0 +1,36 @@
+//! Who answers questions of the page.
+
+use platewash_workcell::cancel::CancelToken;
+use std::fmt::Debug;
+
+/// Answers questions of the page.
+///
+/// A question is a POST of JSON. It comes here when it is known to be the page's own, is no longer than it may be, and its turn has come.
+pub trait Service: Debug + Send + Sync {
+    /// What is asked under this path, from `/` to `?`; `None` where no question is.
+    fn knows(&self, path: &str) -> Option<Asked>;
+
+    /// Answers a question, each on its own thread; of those that are work as many at a time as there are turns. Each line goes to `tell`
+    /// when it is known: JSON without a line break, as an empty line says nothing. `tell` returns when the system has taken all of it. `gone`
+    /// is cancelled when the client has left, is too slow, or the server ends: then this is to return soon, as its turn lasts until it does.
+    fn answer(&self, path: &str, question: &[u8], tell: &mut dyn FnMut(String) -> Result<(), Gone>, gone: &CancelToken);
+
+    /// What the page sends with its questions, so that others cannot ask: see [`token`](super::token()).
+    fn token(&self) -> &str;
+}
+
+/// What is to be known of a question before it is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Asked {
+    /// Whether it has to come with the token.
+    pub needs_token: bool,
+    /// Whether it is long work, of which there is only so much at a time.
+    pub is_work: bool,
+    /// Longest question \[bytes\].
+    pub most_bytes: usize,
+}
+
+/// Nobody listens any more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("nobody listens to the answer any more")]
+pub struct Gone;
