@@ -25,6 +25,7 @@ mod sweep;
 extern crate self as platewash;
 
 pub use platewash_certificate as certificate;
+pub use platewash_editor as editor;
 pub use platewash_kinematics as kinematics;
 pub use platewash_paper as paper;
 pub use platewash_planner as planner;

@@ -19,7 +19,7 @@ struct NotValid {
 }
 
 /// What is to be said of a scenario that could not be carried out; `None` where the input is at fault.
-fn report(scenario: &Scenario, failure: &platewash::Failure) -> Option<InfeasibleReport> {
+pub fn report(scenario: &Scenario, failure: &platewash::Failure) -> Option<InfeasibleReport> {
     use platewash::Failure::{Layout, Paper, Plan};
     let new = |error: &PlanError| InfeasibleReport::new(&scenario.name, scenario.seed, error);
     let report = match failure {

@@ -5,6 +5,7 @@
 mod against;
 mod angles;
 mod bundle;
+mod edit;
 mod execution;
 mod exit;
 mod failure;
@@ -13,6 +14,7 @@ mod fk;
 mod ik;
 mod infeasible;
 mod interrupt;
+mod kept;
 mod law;
 mod layout;
 mod live;
@@ -103,6 +105,13 @@ enum Verb {
     /// Proves it, simulates it as it states itself, serves the page on the loopback and prints its address. Ctrl-C ends it: exit code
     /// 0, or 130 where there is no page yet.
     View(view::ViewArguments),
+    /// Change a scenario on a page in the browser, and see its plan and proof at once.
+    ///
+    /// Drag plates, change keys in a form or as text; each change is planned and proved by this command, which serves the page on the
+    /// loopback and prints its address. Save writes the scenario, its comments and order kept, and beside it NAME.plan.json,
+    /// NAME.certificate.json, NAME.report.json, NAME.report.txt and NAME.page.html (in the folder of --out, where given): it owns those
+    /// names. Ctrl-C ends it: exit code 0, or 130 where there is no page yet.
+    Edit(edit::EditArguments),
     /// Draw a plan file: the workcell from above, the arm while it washes and crosses over, joints, coverage, ideal and executed path,
     /// and what is claimed beside what is proved or measured.
     ///
@@ -131,7 +140,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     main_until(arguments, &CancelToken::new())
 }
 
-/// As [`main`], until `cancel` says to give up: long work ends with exit code 130, and `view` as at Ctrl-C.
+/// As [`main`], until `cancel` says to give up: long work ends with exit code 130, and `view` and `edit` as at Ctrl-C.
 pub fn main_until(arguments: impl IntoIterator<Item = OsString>, cancel: &CancelToken) -> u8 {
     answer(arguments, || cancel.clone())
 }
@@ -187,7 +196,7 @@ impl Verb {
     fn gives_up(&self) -> bool {
         match self {
             Self::Run(_) | Self::Plan(_) | Self::Verify(_) | Self::Simulate(_) | Self::Tune(_) => true,
-            Self::View(_) | Self::Figures(_) | Self::Sweep(_) | Self::Reproduce(_) => true,
+            Self::View(_) | Self::Edit(_) | Self::Figures(_) | Self::Sweep(_) | Self::Reproduce(_) => true,
             Self::Layout | Self::Validate | Self::Fk(_) | Self::Ik(_) | Self::Robot => false,
         }
     }
@@ -202,6 +211,7 @@ fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode, Failure> {
         Verb::Verify(arguments) => verify::run(options, &arguments),
         Verb::Simulate(arguments) => simulate::run(options, &arguments),
         Verb::View(arguments) => view::run(options, &arguments),
+        Verb::Edit(arguments) => edit::run(options, &arguments),
         Verb::Tune(arguments) => tune::run(options, &arguments),
         Verb::Figures(arguments) => figures::run(options, &arguments),
         Verb::Fk(arguments) => fk::run(options, &arguments),

@@ -87,11 +87,24 @@ pub fn write_files(files: &[File<'_>], cancel: &CancelToken) -> Result<(), Failu
 
 /// Writes all files or none in place of `stale` ones, which go just before.
 pub fn replace(files: &[File<'_>], stale: &[PathBuf], cancel: &CancelToken) -> Result<(), Failure> {
+    replace_if(files, stale, cancel, &|| true).map(|_| ())
+}
+
+/// As [`replace`], unless `still` says no once all files are complete: then none is written. Whether they were.
+pub fn replace_if(
+    files: &[File<'_>],
+    stale: &[PathBuf],
+    cancel: &CancelToken,
+    still: &dyn Fn() -> bool,
+) -> Result<bool, Failure> {
     refuse_one_place_for_two(files.iter().map(|(path, _)| path)).map_err(Failure::input)?;
     let mut complete = Vec::new();
     for (path, content) in files {
         complete.push((stage(path, content).map_err(Failure::input)?, path));
         cancel.check()?;
+    }
+    if !still() {
+        return Ok(false);
     }
     for path in stale {
         std::fs::remove_file(path)
@@ -104,7 +117,7 @@ pub fn replace(files: &[File<'_>], stale: &[PathBuf], cancel: &CancelToken) -> R
             .with_context(|| format!("{}: cannot be written", path.display()))
             .map_err(Failure::input)?;
     }
-    Ok(())
+    Ok(true)
 }
 
 /// Refuses, before any work, files that could not be written after it. Nothing is left behind.

@@ -37,12 +37,17 @@ impl ServeArguments {
         given.into_iter().find_map(|(is_given, name)| is_given.then_some(name))
     }
 
+    /// Whether this machine alone reaches the page.
+    pub fn is_loopback(&self) -> bool {
+        self.bind.is_none_or(|ip| ip.is_loopback())
+    }
+
     /// Takes the port, before any long work.
     pub fn listen(&self, options: &Options) -> Result<Listener, Failure> {
         let ip = self.bind.unwrap_or(Ipv4Addr::LOCALHOST.into());
         let address = SocketAddr::new(ip, self.port.unwrap_or(0));
         let listener = Listener::bind(address).map_err(|error| self.refused(error))?;
-        if !ip.is_loopback() {
+        if !self.is_loopback() {
             let warning =
                 format!("warning: --bind {ip}: whoever reaches this address sees the page; it asks for no password");
             output::message(options.quiet, &warning);

@@ -4,6 +4,7 @@
 mod against;
 mod answers;
 mod arms;
+mod edit;
 mod exit_codes;
 mod figures;
 mod files;
@@ -17,6 +18,7 @@ mod page;
 mod reader;
 mod remedies;
 mod scenarios;
+mod served;
 mod simulate;
 mod units;
 mod verbs;

@@ -2,15 +2,11 @@
 //!
 //! A program that was built without the page shows none, and says so; the suite makes the page first.
 
+use super::served::{all, ask, command, line_after, start};
 use super::*;
 use platewash::viewer::bundle::Bundle;
-use std::io::{BufRead, BufReader, Read, Write};
-use std::net::{TcpListener, TcpStream};
-use std::process::{Child, ChildStderr, ChildStdout, Stdio};
-use std::time::Duration;
-
-/// Long after anything that answers has answered.
-const PATIENCE: Duration = Duration::from_secs(60);
+use std::io::{BufRead, BufReader};
+use std::net::TcpListener;
 
 /// One small plate, washed in two seconds.
 const QUICK: [(&str, &str); 7] = [
@@ -25,83 +21,6 @@ const QUICK: [(&str, &str); 7] = [
     ("tip_acceleration_m_s2 = 8", "tip_acceleration_m_s2 = 30"),
     ("\nacceleration_m_s2 = 4", "\nacceleration_m_s2 = 20"),
 ];
-
-/// A command that goes on; it is ended with the test.
-struct Running {
-    child: Child,
-    stdout: BufReader<ChildStdout>,
-    stderr: BufReader<ChildStderr>,
-}
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
-fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_platewash"));
-    command
-        .args(arguments)
-        .current_dir(folder)
-        .env("PLATEWASH_MAKE_PAGE", "0");
-    command
-}
-
-fn start(command: &mut Command) -> Running {
-    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    Running {
-        stdout: BufReader::new(child.stdout.take().unwrap()),
-        stderr: BufReader::new(child.stderr.take().unwrap()),
-        child,
-    }
-}
-
-/// Reads lines up to one that begins so; what follows in it.
-#[track_caller]
-fn line_after(lines: &mut impl BufRead, begin: &str) -> String {
-    let mut all = String::new();
-    loop {
-        let from = all.len();
-        assert_ne!(lines.read_line(&mut all).unwrap(), 0, "no '{begin}' in {all}");
-        if let Some(rest) = all[from..].trim_end().strip_prefix(begin) {
-            return rest.to_owned();
-        }
-    }
-}
-
-impl Running {
-    #[cfg(unix)]
-    fn interrupt(&self) {
-        let kill = ["-INT", &self.child.id().to_string()];
-        assert!(Command::new("kill").args(kill).status().unwrap().success());
-    }
-
-    /// The exit code, and the rest of what was said.
-    fn end(mut self) -> (Option<i32>, String, String) {
-        let (mut stdout, mut stderr) = (String::new(), String::new());
-        self.stdout.read_to_string(&mut stdout).unwrap();
-        self.stderr.read_to_string(&mut stderr).unwrap();
-        (self.child.wait().unwrap().code(), stdout, stderr)
-    }
-}
-
-/// Asks the server of a URL for something, with more headers, a line each.
-fn ask(url: &str, path: &str, headers: &str) -> TcpStream {
-    let address = url.strip_prefix("http://").unwrap().strip_suffix('/').unwrap();
-    let mut stream = TcpStream::connect(address).unwrap();
-    stream.set_read_timeout(Some(PATIENCE)).unwrap();
-    let request = format!("GET {path} HTTP/1.1\r\nHost: {address}\r\n{headers}\r\n");
-    stream.write_all(request.as_bytes()).unwrap();
-    stream
-}
-
-fn all(mut stream: TcpStream) -> String {
-    let mut text = String::new();
-    stream.read_to_string(&mut text).unwrap();
-    text
-}
 
 fn plan(dir: &Path) {
     let quick = kitchen(dir, &QUICK);

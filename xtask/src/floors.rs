@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 /// The project's own packages, and what each may depend on among them; the root package may know all that are below it.
 ///
 /// Packages that are not named here are no part of the product: the chores and what the benchmarks need.
-const FLOORS: [(&str, &[&str]); 10] = [
+const FLOORS: [(&str, &[&str]); 11] = [
     ("platewash-kinematics", &[]),
     ("platewash-workcell", &["platewash-kinematics"]),
     ("platewash-certificate", &["platewash-kinematics", "platewash-workcell"]),
@@ -37,6 +37,17 @@ const FLOORS: [(&str, &[&str]); 10] = [
         ],
     ),
     (
+        "platewash-editor",
+        &[
+            "platewash-kinematics",
+            "platewash-workcell",
+            "platewash-certificate",
+            "platewash-planner",
+            "platewash-scenario",
+            "platewash-viewer",
+        ],
+    ),
+    (
         "platewash",
         &[
             "platewash-kinematics",
@@ -47,6 +58,7 @@ const FLOORS: [(&str, &[&str]); 10] = [
             "platewash-paper",
             "platewash-scenario",
             "platewash-viewer",
+            "platewash-editor",
         ],
     ),
     ("pyplatewash", &["platewash"]),
@@ -54,15 +66,17 @@ const FLOORS: [(&str, &[&str]); 10] = [
 
 /// The crate that alone knows the sections of a scenario file.
 const OF_SECTIONS: &str = "platewash-scenario";
-/// The crate beyond it that may name a whole scenario.
-const OF_SCENARIOS: &str = "pyplatewash";
+/// The wheel, which is named after Python's way.
+const WHEEL: &str = "pyplatewash";
+/// The crates beyond it that may name a whole scenario: those that people change or make one with.
+const OF_SCENARIOS: [&str; 2] = ["platewash-editor", WHEEL];
 
 /// Largest share of the library's lines that one package may have: one in this many.
 const SHARES: usize = 4;
 
 /// What is wrong with a package's dependencies.
 pub fn misplaced(package: &str, dependencies: &BTreeSet<String>) -> Vec<String> {
-    let own = |name: &str| name.starts_with("platewash") || name == OF_SCENARIOS;
+    let own = |name: &str| name.starts_with("platewash") || name == WHEEL;
     let known = dependencies.iter().filter(|name| own(name));
     let Some((_, allowed)) = FLOORS.iter().find(|(name, _)| *name == package) else {
         return vec![format!(
@@ -86,7 +100,7 @@ pub fn foreign_types(package: &str, source: &str) -> Result<BTreeSet<String>, pr
     let mut words = BTreeSet::new();
     collect_words(source.parse()?, &mut words);
     words.retain(|word| match word.as_str() {
-        "Scenario" => package != OF_SECTIONS && package != OF_SCENARIOS,
+        "Scenario" => package != OF_SECTIONS && !OF_SCENARIOS.contains(&package),
         _ => word.len() > "Section".len() && word.ends_with("Section") && package != OF_SECTIONS,
     });
     Ok(words)
@@ -173,7 +187,9 @@ mod tests {
         let source = "/// Reads a `Scenario`.\nfn f(s: &Scenario) { g(\"WashSection\", s.wash as x::WashSection, Section, Sectional) }";
         let found = |package| foreign_types(package, source).unwrap().into_iter().collect::<Vec<_>>();
         assert_eq!(found("platewash-planner"), ["Scenario", "WashSection"]);
-        assert_eq!(found("pyplatewash"), ["WashSection"]);
+        for package in OF_SCENARIOS {
+            assert_eq!(found(package), ["WashSection"]);
+        }
         assert!(found("platewash-scenario").is_empty());
         assert!(
             foreign_types("platewash-planner", "/// Scenario\nstruct Scenarios;")

@@ -68,7 +68,7 @@ export async function serve(test, place, words) {
     child.on("error", reject);
     child.on("exit", (code) => reject(new Error(`ended with ${code} before it had an address: ${said}`)));
   });
-  return { url, ended, said: () => said };
+  return { url, ended, said: () => said, pid: child.pid, kill: (signal) => child.kill(signal) };
 }
 
 /** Rows of a CSV file, by the names of its columns. */

@@ -1,0 +1,224 @@
+//! What is edited, and who answers the page's questions.
+
+use crate::bounds::{LONGEST, LONGEST_MAP};
+use crate::deadline::Deadline;
+use crate::document::{Channel, EditDocument};
+use crate::draft::{changed, may_name_its_files};
+use crate::end::End;
+use crate::error::EditorError;
+use crate::keep::{Keeper, Kept};
+use crate::protocol::{CellLine, CellQuestion, DiskQuestion, MapQuestion, SaveQuestion, Want};
+use crate::sessions::{Lane, Sessions, Turn, is_name};
+use crate::subject::{Latest, Subject};
+use crate::told::Told;
+use crate::{cell, map};
+use platewash_scenario::{Draft, Scenario, source};
+use platewash_viewer::bundle::Bundle;
+use platewash_viewer::page;
+use platewash_viewer::view::View;
+use platewash_workcell::cancel::CancelToken;
+use serde::Deserialize;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+/// A scenario that is edited. It holds no state of a page but what is under way: the page holds the scenario.
+#[derive(Debug)]
+pub struct Editor {
+    subject: Subject,
+    pub(crate) kept: Option<Kept>,
+    sessions: Sessions,
+}
+
+impl Editor {
+    /// A scenario by its shipped name or file.
+    ///
+    /// # Errors
+    /// [`EditorError::Scenario`].
+    pub fn open(name_or_file: &str) -> Result<Self, EditorError> {
+        let source = source(name_or_file)?;
+        Self::of_text(&source.name, &source.text, source.folder.as_deref())
+    }
+
+    /// A scenario as text; paths in it are taken relative to `folder`.
+    ///
+    /// # Errors
+    /// [`EditorError::Scenario`].
+    pub fn of_text(name: &str, text: &str, folder: Option<&Path>) -> Result<Self, EditorError> {
+        Scenario::parse(text, name)?;
+        Ok(Self {
+            subject: Subject::new(name, text, folder),
+            kept: None,
+            sessions: Sessions::default(),
+        })
+    }
+
+    /// The same, saved by a keeper. What stands on disk is read again for each page.
+    #[must_use]
+    pub fn kept_by(self, keeper: Box<dyn Keeper>) -> Self {
+        Self {
+            kept: Some(Kept::new(keeper)),
+            ..self
+        }
+    }
+
+    /// The same for pages that other machines can reach: they name no files but those that the scenario names.
+    #[must_use]
+    pub fn open_to_others(mut self) -> Self {
+        self.subject.is_open_to_others = true;
+        self
+    }
+
+    /// The same, which remembers what came last.
+    #[must_use]
+    pub fn remembering(mut self) -> Self {
+        self.subject.remembers = true;
+        self
+    }
+
+    /// Name of the scenario, or its file as it was given.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.subject.name
+    }
+
+    /// Where paths in the scenario begin.
+    #[must_use]
+    pub fn folder(&self) -> Option<&Path> {
+        self.subject.folder.as_deref()
+    }
+
+    /// The scenario as it was opened.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.subject.text
+    }
+
+    /// What came last, of an editor that is [`Editor::remembering`].
+    #[must_use]
+    pub fn latest(&self) -> Option<Latest> {
+        self.subject.latest()
+    }
+
+    /// A page whose questions go to the window around it.
+    ///
+    /// # Errors
+    /// [`EditorError`].
+    pub fn framed_page(&self, bundle: &Bundle) -> Result<String, EditorError> {
+        self.page(Channel::Frame, "", self.text(), bundle)
+    }
+
+    /// A page of the scenario as `text` has it, or as it was opened where that is none.
+    pub(crate) fn page(
+        &self,
+        channel: Channel,
+        token: &str,
+        text: &str,
+        bundle: &Bundle,
+    ) -> Result<String, EditorError> {
+        let edit = EditDocument::new(channel, token, text, self.kept.as_ref());
+        let view = self.view(text)?;
+        Ok(page::html_with(&view, &edit, bundle)?)
+    }
+
+    /// The arm at home: what is shown before the first answer.
+    fn view(&self, text: &str) -> Result<View, EditorError> {
+        let subject = &self.subject;
+        let draft = |text| Draft::new(text)?.scenario(&subject.name, self.folder());
+        let shown = draft(text)
+            .ok()
+            .filter(|scenario| may_name_its_files(subject, scenario).is_ok());
+        let scenario = shown.map_or_else(|| draft(&subject.text), Ok)?;
+        let arm = subject.arms.of(&scenario)?.arm;
+        let mut view = View::of_configuration(&arm, None, &scenario.homes()[0]);
+        view.heading.scenario.clone_from(&scenario.name);
+        Ok(view)
+    }
+
+    /// Answers a question: `/cell`, `/map`, and where it is kept `/save`, `/disk`. Each line of JSON goes to `tell` as soon as it is known;
+    /// where that says that nobody listens any more, or `gone` is cancelled, the work is given up.
+    pub fn answer(&self, path: &str, question: &[u8], tell: &mut dyn FnMut(String) -> bool, gone: &CancelToken) {
+        let mut told = Told::new(tell, gone);
+        let answered = catch_unwind(AssertUnwindSafe(|| self.answer_told(path, question, &mut told, gone)));
+        let words = match answered {
+            Ok(Ok(())) => return,
+            Ok(Err(words)) => words,
+            // Its message is on standard error.
+            Err(_) => "a fault of the program: see the terminal that it runs in".to_owned(),
+        };
+        told.line(&CellLine::Failed { words: &words });
+    }
+
+    fn answer_told(&self, path: &str, question: &[u8], told: &mut Told<'_>, gone: &CancelToken) -> Result<(), String> {
+        match (path, &self.kept) {
+            ("/cell", _) => {
+                let question: CellQuestion = read(question)?;
+                let lane = match question.want {
+                    Want::Preview => Lane::Preview,
+                    Want::Proof => Lane::Proof,
+                };
+                let _turn = self.turn(&question.session, lane, gone)?;
+                let deadline = Deadline::after(LONGEST, gone);
+                cell::answer(&self.subject, &question, told, gone, &deadline);
+            }
+            ("/map", _) => {
+                let question: MapQuestion = read(question)?;
+                let _turn = self.turn(&question.session, Lane::Map, gone)?;
+                let deadline = Deadline::after(LONGEST_MAP, gone);
+                map::answer(&self.subject, &question, told, gone, &deadline);
+            }
+            ("/save", Some(kept)) => {
+                let question: SaveQuestion = read(question)?;
+                named(&question.session)?;
+                let _deadline = Deadline::after(LONGEST, gone);
+                self.save(kept, &question, told, gone)?;
+            }
+            ("/disk", Some(kept)) => {
+                let question: DiskQuestion = read(question)?;
+                named(&question.session)?;
+                kept.look(&question, told);
+            }
+            _ => return Err(format!("there is no question {path}")),
+        }
+        Ok(())
+    }
+
+    /// Saves a text, with what comes of it where it states a cell that is planned while somebody waits.
+    fn save(
+        &self,
+        kept: &Kept,
+        question: &SaveQuestion,
+        told: &mut Told<'_>,
+        gone: &CancelToken,
+    ) -> Result<(), String> {
+        let subject = &self.subject;
+        // Whatever is refused for other reasons is saved: it may be mended later.
+        if let Ok(stated) = Draft::new(&question.text).and_then(|draft| draft.scenario(&subject.name, self.folder())) {
+            may_name_its_files(subject, &stated).map_err(|refusal| refusal.words)?;
+        }
+        let scenario = match changed(subject, &question.text, &[], gone) {
+            Ok(changed) => changed.scenario.map_err(|refusal| refusal.words),
+            Err(End::Refused(refusal)) => Err(refusal.words),
+            Err(End::GivenUp) => return Err("given up: nothing was written".to_owned()),
+            Err(End::Failed(words)) => return Err(words),
+        };
+        kept.save(question, scenario.as_ref().map_err(String::as_str), told, gone);
+        Ok(())
+    }
+
+    fn turn(&self, session: &str, lane: Lane, token: &CancelToken) -> Result<Turn<'_>, String> {
+        named(session)?;
+        Ok(self.sessions.begin(session, lane, token))
+    }
+}
+
+/// Refuses a name that is none.
+fn named(session: &str) -> Result<(), String> {
+    match is_name(session) {
+        true => Ok(()),
+        false => Err("session must be 1 to 64 letters and digits".to_owned()),
+    }
+}
+
+fn read<'a, Q: Deserialize<'a>>(question: &'a [u8]) -> Result<Q, String> {
+    serde_json::from_slice(question).map_err(|error| format!("the question is none: {error}"))
+}

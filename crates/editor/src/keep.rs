@@ -1,0 +1,207 @@
+//! The file on disk: what stands there, and what is written.
+
+use crate::protocol::{DiskLine, DiskQuestion, FORMAT, HelloLine, SaveLine, SaveQuestion};
+use crate::told::Told;
+use platewash_kinematics::fingerprint::sha256_hex;
+use platewash_scenario::Scenario;
+use platewash_workcell::cancel::CancelToken;
+use std::fmt::Debug;
+use std::sync::{Mutex, PoisonError};
+
+/// Who keeps the scenario's file and what is written beside it.
+pub trait Keeper: Debug + Send + Sync {
+    /// The file, in words.
+    fn file(&self) -> String;
+
+    /// Whether what stands there is the scenario that is edited, and no other one that is to be written over.
+    fn is_scenario(&self) -> bool;
+
+    /// What stands there: `None` for nothing.
+    ///
+    /// # Errors
+    /// Why it cannot be read, in words.
+    fn on_disk(&self) -> Result<Option<Vec<u8>>, String>;
+
+    /// Writes a scenario's text there, and beside it what comes of the scenario: all of it or nothing. `still` is asked once all is ready,
+    /// just before anything is replaced; where it says no, nothing is.
+    ///
+    /// # Errors
+    /// [`NotWritten`].
+    fn write(&self, save: &Save<'_>, still: &dyn Fn() -> bool, cancel: &CancelToken) -> Result<Written, NotWritten>;
+}
+
+/// What is to be written.
+#[derive(Debug, Clone, Copy)]
+pub struct Save<'a> {
+    /// The text.
+    pub text: &'a str,
+    /// The scenario that it states; or why nothing is planned of it here, in words.
+    pub scenario: Result<&'a Scenario, &'a str>,
+}
+
+/// Why nothing was written.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotWritten {
+    /// What stands there has changed meanwhile.
+    #[error("the file was changed meanwhile")]
+    Changed,
+    /// It cannot be, in words.
+    #[error("{0}")]
+    Cannot(String),
+}
+
+/// What was written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Written {
+    /// The files.
+    pub files: Vec<String>,
+    /// What came of the scenario, in a line.
+    pub words: String,
+}
+
+/// A file that pages save to, one after the other.
+#[derive(Debug)]
+pub struct Kept {
+    keeper: Box<dyn Keeper>,
+    one_at_a_time: Mutex<()>,
+}
+
+/// What stands on disk.
+pub struct Standing {
+    bytes: Option<Vec<u8>>,
+}
+
+impl Standing {
+    /// SHA-256 of it; `None` for nothing.
+    pub fn hash(&self) -> Option<String> {
+        self.bytes.as_deref().map(sha256_hex)
+    }
+
+    fn text(&self) -> Option<&str> {
+        std::str::from_utf8(self.bytes.as_deref()?).ok()
+    }
+
+    /// It, if it is text.
+    pub fn into_text(self) -> Option<String> {
+        String::from_utf8(self.bytes?).ok()
+    }
+}
+
+impl Kept {
+    /// A file.
+    pub fn new(keeper: Box<dyn Keeper>) -> Self {
+        Self {
+            keeper,
+            one_at_a_time: Mutex::default(),
+        }
+    }
+
+    /// Its name, in words.
+    pub fn file(&self) -> String {
+        self.keeper.file()
+    }
+
+    /// SHA-256 of what stands there; `None` for nothing, or what cannot be read.
+    pub fn hash(&self) -> Option<String> {
+        self.standing().ok()?.hash()
+    }
+
+    /// The scenario that is edited, if it stands there as text.
+    pub fn scenario(&self) -> Option<String> {
+        let standing = self.keeper.is_scenario().then(|| self.standing().ok())?;
+        standing?.into_text()
+    }
+
+    /// What stands there.
+    pub fn standing(&self) -> Result<Standing, String> {
+        self.keeper.on_disk().map(|bytes| Standing { bytes })
+    }
+
+    /// Answers whether what stands there has changed.
+    pub fn look(&self, question: &DiskQuestion, told: &mut Told<'_>) {
+        let standing = match self.standing() {
+            Ok(standing) => standing,
+            Err(words) => {
+                let disk = question.disk.as_deref();
+                return told.line(&DiskLine {
+                    disk,
+                    text: None,
+                    words: Some(&words),
+                });
+            }
+        };
+        let hash = standing.hash();
+        let differs = hash != question.disk;
+        let text = standing.text().filter(|_| differs);
+        let is_no_text = differs && standing.bytes.is_some() && text.is_none();
+        told.line(&DiskLine {
+            disk: hash.as_deref(),
+            text,
+            words: is_no_text.then_some("the file on disk is no text"),
+        });
+    }
+
+    /// Writes, unless something else stands there than the page knows, when it asks or when all is ready to be written.
+    pub fn save(
+        &self,
+        question: &SaveQuestion,
+        scenario: Result<&Scenario, &str>,
+        told: &mut Told<'_>,
+        cancel: &CancelToken,
+    ) {
+        let _one = self.one_at_a_time.lock().unwrap_or_else(PoisonError::into_inner);
+        let failed = |told: &mut Told<'_>, words: &str| told.line(&SaveLine::Failed { words });
+        let standing = match self.standing() {
+            Ok(standing) => standing,
+            Err(words) => return failed(told, &words),
+        };
+        let hash = standing.hash();
+        // What is there already needs no asking.
+        let is_same = standing.text() == Some(&question.text);
+        if !question.force && hash != question.disk && !is_same {
+            return told_conflict(&standing, told);
+        }
+        let still = || self.standing().is_ok_and(|now| now.hash() == hash);
+        let text = question.text.as_str();
+        match self.keeper.write(&Save { text, scenario }, &still, cancel) {
+            Ok(written) => told.line(&SaveLine::Saved {
+                disk: &sha256_hex(question.text.as_bytes()),
+                file: &self.file(),
+                files: &written.files,
+                words: &written.words,
+            }),
+            Err(NotWritten::Changed) => match self.standing() {
+                Ok(now) => told_conflict(&now, told),
+                Err(words) => failed(told, &words),
+            },
+            Err(NotWritten::Cannot(words)) => failed(told, &words),
+        }
+    }
+
+    /// Greets a page that comes from a server that is gone.
+    pub fn greet(&self, token: &str, told: &mut Told<'_>) {
+        told.line(&HelloLine {
+            format: FORMAT,
+            token,
+            file: Some(&self.file()),
+            disk: self.hash().as_deref(),
+        });
+    }
+}
+
+/// Tells that something else stands on disk.
+fn told_conflict(standing: &Standing, told: &mut Told<'_>) {
+    let hash = standing.hash();
+    let words = match hash {
+        Some(_) => {
+            "the file on disk is not the one that this page has read or written: it was changed by somebody else"
+        }
+        None => "the file that this page has read or written is gone from the disk",
+    };
+    told.line(&SaveLine::Conflict {
+        disk: hash.as_deref(),
+        text: standing.text(),
+        words,
+    });
+}

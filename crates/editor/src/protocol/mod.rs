@@ -1,0 +1,13 @@
+//! Questions of the page and lines of answers, as JSON: `platewash-edit/1`.
+
+mod line;
+mod question;
+
+pub use line::{
+    ArmLine, CellLine, CellParts, DiskLine, FindingLine, HelloLine, MapLine, PlanParts, PlateChance, PlateProof,
+    Refusal, SaveLine, Unwashable,
+};
+pub use question::{CellQuestion, DiskQuestion, Edit, MapQuestion, SaveQuestion, Want};
+
+/// The format of the words.
+pub const FORMAT: &str = "platewash-edit/1";

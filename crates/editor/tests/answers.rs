@@ -1,0 +1,442 @@
+//! Questions as a page asks them, and the lines of their answers.
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+
+use platewash_editor::{Editor, Keeper, MOST_CONTACT_POINTS, NotWritten, Save, Written};
+use platewash_scenario::Scenario;
+use platewash_workcell::cancel::CancelToken;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+const KITCHEN: &str = include_str!("../../../scenarios/kitchen.toml");
+
+fn kitchen() -> Editor {
+    Editor::of_text("kitchen", KITCHEN, None).unwrap()
+}
+
+/// All lines of an answer.
+fn ask(editor: &Editor, path: &str, question: &Value) -> Vec<Value> {
+    ask_bytes(editor, path, question.to_string().as_bytes())
+}
+
+fn ask_bytes(editor: &Editor, path: &str, question: &[u8]) -> Vec<Value> {
+    let mut lines = Vec::new();
+    let mut tell = |line: String| {
+        assert!(!line.contains('\n'));
+        lines.push(serde_json::from_str(&line).unwrap());
+        true
+    };
+    editor.answer(path, question, &mut tell, &CancelToken::new());
+    lines
+}
+
+fn cell(text: &str, edits: &Value) -> Value {
+    json!({"session": "s", "text": text, "edits": edits, "want": "proof", "arm": null})
+}
+
+fn kinds(lines: &[Value]) -> Vec<&str> {
+    lines.iter().map(|line| line["kind"].as_str().unwrap()).collect()
+}
+
+fn line<'a>(lines: &'a [Value], kind: &str) -> &'a Value {
+    let found = lines.iter().find(|line| line["kind"] == kind);
+    found.unwrap_or_else(|| panic!("no {kind} in {:?}", kinds(lines)))
+}
+
+/// The kitchen with its plates listed, one of them elsewhere.
+fn with_plate(editor: &Editor, plate: usize, at: Value) -> Vec<Value> {
+    let lines = ask(editor, "/cell", &cell(KITCHEN, &json!([])));
+    let mut centres = line(&lines, "cell")["centres_m"].clone();
+    centres[plate] = at;
+    ask(
+        editor,
+        "/cell",
+        &cell(KITCHEN, &json!([{"key": "layout.positions_m", "value": centres}])),
+    )
+}
+
+#[test]
+fn a_scenario_is_told_from_its_text_to_its_proof() {
+    let editor = kitchen().remembering();
+    let lines = ask(&editor, "/cell", &cell(KITCHEN, &json!([])));
+    assert_eq!(kinds(&lines), ["scenario", "cell", "preview", "plan", "proof"]);
+    assert_eq!(lines[0]["text"], KITCHEN);
+    assert_eq!(lines[0]["values"]["wash.turns"], 3.5);
+    assert_eq!(lines[0]["stated"].get("ik.method"), None);
+    assert_eq!(lines[0]["values"]["ik.method"], "numeric");
+    assert_eq!(lines[1]["listed"], false);
+    assert_eq!(lines[1]["arm"]["id"], lines[1]["arm_id"]);
+    let chances = lines[2]["plates"].as_array().unwrap();
+    assert!(chances.iter().all(|plate| plate["chance"] == "washable"), "{chances:?}");
+    let job = Scenario::load("kitchen").unwrap().job().unwrap();
+    let planned = platewash_planner::plan(&job).unwrap().plan;
+    assert_eq!(lines[3]["heading"]["hash"].as_str(), planned.hash.as_deref());
+    assert_eq!(lines[4]["certificate"]["passes"], true);
+    assert_eq!(lines[4]["proved"].as_array().unwrap().len(), 4);
+    let latest = editor.latest().unwrap();
+    assert_eq!(latest.plan.unwrap().hash, planned.hash);
+    assert!(latest.certificate.unwrap().passes());
+}
+
+#[test]
+fn an_arm_that_the_page_has_is_not_sent_again() {
+    let editor = kitchen();
+    let first = ask(&editor, "/cell", &cell(KITCHEN, &json!([])));
+    let id = line(&first, "cell")["arm_id"].clone();
+    let question = json!({"session": "s", "text": KITCHEN, "edits": [], "want": "preview", "arm": id});
+    let again = ask(&editor, "/cell", &question);
+    assert_eq!(kinds(&again), ["scenario", "cell", "preview"]);
+    assert_eq!(again[1]["arm"], Value::Null);
+    let other = json!({"session": "s", "text": KITCHEN, "want": "preview", "arm": id,
+        "edits": [{"key": "limits.joint_acceleration_rad_s2", "value": [3, 3, 3, 3, 3, 3]}]});
+    assert_ne!(ask(&editor, "/cell", &other)[1]["arm"], Value::Null);
+}
+
+#[test]
+fn a_plate_out_of_reach_is_explained_and_proved_at_the_place_that_is_shown() {
+    let editor = kitchen().remembering();
+    let lines = with_plate(&editor, 1, json!([0.62, 0.12]));
+    assert_eq!(kinds(&lines), ["scenario", "cell", "preview", "unplanned", "place"]);
+    assert_eq!(line(&lines, "preview")["plates"][1]["chance"], "unwashable");
+    let unplanned = line(&lines, "unplanned");
+    assert_eq!(unplanned["proved"], true);
+    assert!(
+        unplanned["headline"]
+            .as_str()
+            .unwrap()
+            .starts_with("INFEASIBLE: plate 1 ")
+    );
+    let plate = &unplanned["plates"][0];
+    assert_eq!(plate["plate"], 1);
+    assert!(plate["causes"][0].as_str().unwrap().contains("out of reach"), "{plate}");
+    for part in ["free_m", "dead_m"] {
+        assert!(plate[part].as_array().unwrap().len() > 10, "{part}");
+    }
+    assert!(editor.latest().unwrap().plan.is_none());
+    let place = line(&lines, "place");
+    assert_eq!(place["plate"], 1);
+    let there = with_plate(&editor, 1, place["nearest_m"].clone());
+    assert_eq!(line(&there, "proof")["certificate"]["passes"], true);
+}
+
+#[test]
+fn what_is_refused_names_its_key_and_says_what_is_expected() {
+    let editor = kitchen();
+    let cases = [
+        (
+            json!([{"key": "wash.tilt_max", "value": 3}]),
+            "wash.tilt_max",
+            "did you mean 'wash.tilt_max_deg'?",
+        ),
+        (
+            json!([{"key": "wash.tilt_max_deg", "value": 90}]),
+            "wash.tilt_max_deg",
+            "a number from 0 to 60",
+        ),
+        (json!([{"key": "wash.turns", "value": "many"}]), "wash.turns", "found"),
+        (
+            json!([{"key": "job.program", "value": "paper"}]),
+            "job.order",
+            "nearest",
+        ),
+        (
+            json!([{"key": "job.order", "value": "nearest"}, {"key": "job.program", "value": "paper"}]),
+            "job.program",
+            "certified",
+        ),
+        (
+            json!([{"key": "tool.length_m", "value": 0}]),
+            "tool.length_m",
+            "needs a tool",
+        ),
+        (
+            json!([{"key": "robot.urdf", "value": "/nowhere.urdf"}]),
+            "robot.urdf",
+            "nowhere",
+        ),
+    ];
+    for (edits, key, words) in cases {
+        let lines = ask(&editor, "/cell", &cell(KITCHEN, &edits));
+        let last = lines.last().unwrap();
+        assert_eq!(last["kind"], "refused", "{edits} {last}");
+        assert_eq!(last["key"], key, "{last}");
+        assert!(last["words"].as_str().unwrap().contains(words), "{last}");
+    }
+    let lines = ask(&editor, "/cell", &cell("name = \"a\"\nwash.turns = nan\n", &json!([])));
+    let refused = line(&lines, "refused");
+    assert_eq!((&refused["key"], &refused["line"]), (&json!("wash.turns"), &json!(2)));
+    let lines = ask(&editor, "/cell", &cell("name = \n", &json!([])));
+    assert_eq!(kinds(&lines), ["refused"]);
+    assert_eq!(lines[0]["line"], 1);
+}
+
+#[test]
+fn a_text_that_is_no_scenario_yet_is_kept_and_shown() {
+    let half = KITCHEN.replace("turns = 3.5", "turns = -1");
+    let lines = ask(
+        &kitchen(),
+        "/cell",
+        &cell(&half, &json!([{"key": "wash.lift_m", "value": 0.04}])),
+    );
+    assert_eq!(kinds(&lines), ["scenario", "refused"]);
+    assert_eq!(lines[0]["text"], half.replace("lift_m = 0.03 ", "lift_m = 0.04 "));
+    assert_eq!(lines[0]["stated"]["wash.turns"], -1);
+    assert_eq!(lines[0]["values"], json!({}));
+}
+
+#[test]
+fn work_is_bounded_before_it_is_begun() {
+    for edits in [
+        json!([{"key": "layout.count", "value": 1000}, {"key": "layout.min_distance_m", "value": 0}]),
+        json!([{"key": "wash.turns", "value": 200}, {"key": "layout.count", "value": 30}]),
+    ] {
+        let begin = Instant::now();
+        let lines = ask(&kitchen(), "/cell", &cell(KITCHEN, &edits));
+        let last = lines.last().unwrap();
+        assert_eq!(last["kind"], "refused", "{last}");
+        assert!(
+            last["words"]
+                .as_str()
+                .unwrap()
+                .contains(&MOST_CONTACT_POINTS.to_string()),
+            "{last}"
+        );
+        assert!(begin.elapsed() < Duration::from_secs(20));
+    }
+}
+
+#[test]
+fn what_is_no_question_is_answered_with_what_is_wrong() {
+    let editor = kitchen();
+    let deep = format!("{{\"session\":{}", "[".repeat(100_000));
+    let big = json!({"session": "s", "text": "", "edits": vec![json!({"key": "seed", "value": 1}); 1001], "want": "proof", "arm": null});
+    let big = big.to_string();
+    let cases: [(&str, &[u8], &str); 9] = [
+        ("/cell", b"", "question"),
+        ("/cell", b"\xff\xfe", "question"),
+        ("/cell", b"{}", "session"),
+        ("/cell", deep.as_bytes(), "question"),
+        (
+            "/cell",
+            br#"{"session":"","text":"","edits":[],"want":"proof","arm":null}"#,
+            "session",
+        ),
+        (
+            "/cell",
+            br#"{"session":"s","text":"","edits":[],"want":"everything","arm":null}"#,
+            "everything",
+        ),
+        ("/cell", big.as_bytes(), "1001 changes"),
+        (
+            "/save",
+            br#"{"session":"s","text":"","disk":null,"force":true}"#,
+            "no question",
+        ),
+        ("/etc/passwd", b"{}", "no question"),
+    ];
+    for (path, question, words) in cases {
+        let lines = ask_bytes(&editor, path, question);
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        assert!(["failed", "refused"].contains(&lines[0]["kind"].as_str().unwrap()));
+        assert!(lines[0]["words"].as_str().unwrap().contains(words), "{}", lines[0]);
+    }
+    let lines = ask(&editor, "/map", &json!({"session": "s", "text": KITCHEN, "plate": 4}));
+    assert_eq!(kinds(&lines), ["refused"]);
+}
+
+#[test]
+fn a_new_question_ends_the_one_before() {
+    let editor = kitchen();
+    // Two minutes of looking.
+    let slow = json!({"session": "s", "text": KITCHEN, "plate": 0});
+    std::thread::scope(|scope| {
+        let (begun, is_begun) = std::sync::mpsc::channel();
+        let map = scope.spawn({
+            let editor = &editor;
+            move || {
+                let mut last = Value::Null;
+                let mut tell = |line: String| {
+                    last = serde_json::from_str(&line).unwrap();
+                    let _ = begun.send(());
+                    true
+                };
+                editor.answer("/map", slow.to_string().as_bytes(), &mut tell, &CancelToken::new());
+                last
+            }
+        });
+        is_begun.recv().unwrap();
+        let other = json!({"session": "other", "text": KITCHEN, "edits": [], "want": "proof", "arm": null});
+        assert_eq!(kinds(&ask(&editor, "/cell", &other)).last(), Some(&"proof"));
+        assert_eq!(
+            kinds(&ask(&editor, "/cell", &cell(KITCHEN, &json!([])))).last(),
+            Some(&"proof")
+        );
+        let last = map.join().unwrap();
+        // One that was done before it was ended is as good.
+        assert!(
+            ["superseded", "map_done"].contains(&last["kind"].as_str().unwrap()),
+            "{last}"
+        );
+    });
+}
+
+#[test]
+fn nobody_works_for_who_has_left() {
+    let (token, mut told) = (CancelToken::new(), 0);
+    let mut tell = |_: String| {
+        told += 1;
+        false
+    };
+    kitchen().answer(
+        "/cell",
+        cell(KITCHEN, &json!([])).to_string().as_bytes(),
+        &mut tell,
+        &token,
+    );
+    assert!(token.is_cancelled());
+    // The first line, and at most that nothing follows.
+    assert!(told <= 3, "{told} lines");
+}
+
+#[test]
+fn a_page_that_others_reach_names_no_files() {
+    let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/../../urdf/irb120.urdf");
+    let other = |editor: &Editor, text: &str| {
+        let edits = json!([{"key": "robot.urdf", "value": "/etc/passwd"}]);
+        let lines = ask(editor, "/cell", &cell(text, &edits));
+        lines.last().unwrap()["words"].as_str().unwrap().to_owned()
+    };
+    let text = KITCHEN.replace("model = \"irb120\"", &format!("urdf = {urdf:?}"));
+    let (open, own) = (kitchen().open_to_others(), kitchen());
+    assert!(other(&open, KITCHEN).contains("other machines"));
+    assert!(!other(&own, KITCHEN).contains("other machines"));
+    let named = Editor::of_text("cell", &text, None).unwrap().open_to_others();
+    assert!(other(&named, &text).contains("other machines"));
+    let folder = tempfile::tempdir().unwrap();
+    let kept = |editor: Editor| editor.kept_by(Box::new(InFolder(folder.path().join("cell.toml"))));
+    let save = json!({"session": "s", "disk": null, "force": true, "text": text.replace(urdf, "/etc/passwd")});
+    let lines = ask(&kept(kitchen().open_to_others()), "/save", &save);
+    assert!(
+        lines[0]["words"].as_str().unwrap().contains("other machines"),
+        "{lines:?}"
+    );
+    assert!(!folder.path().join("cell.toml").exists());
+    assert_eq!(kinds(&ask(&kept(kitchen()), "/save", &save)), ["saved"]);
+    if Path::new(urdf).is_file() {
+        let lines = ask(&named, "/cell", &cell(&text, &json!([])));
+        assert!(!lines.last().unwrap().to_string().contains("other machines"));
+    }
+}
+
+/// A file of a test.
+#[derive(Debug)]
+struct InFolder(PathBuf);
+
+impl Keeper for InFolder {
+    fn file(&self) -> String {
+        "cell.toml".to_owned()
+    }
+
+    fn is_scenario(&self) -> bool {
+        true
+    }
+
+    fn on_disk(&self) -> Result<Option<Vec<u8>>, String> {
+        match fs::read(&self.0) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(error.to_string()),
+        }
+    }
+
+    fn write(&self, save: &Save<'_>, still: &dyn Fn() -> bool, _: &CancelToken) -> Result<Written, NotWritten> {
+        if save.text == "slow" {
+            fs::write(&self.0, "meanwhile").unwrap();
+        }
+        if !still() {
+            return Err(NotWritten::Changed);
+        }
+        fs::write(&self.0, save.text).map_err(|error| NotWritten::Cannot(error.to_string()))?;
+        Ok(Written {
+            files: vec!["cell.toml".to_owned()],
+            words: "PROVED".to_owned(),
+        })
+    }
+}
+
+#[test]
+fn nothing_is_written_over_what_somebody_else_wrote() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("cell.toml");
+    let editor = kitchen().kept_by(Box::new(InFolder(file.clone())));
+    let save = |text: &str, disk: &Value, force: bool| {
+        let lines = ask(
+            &editor,
+            "/save",
+            &json!({"session": "s", "text": text, "disk": disk, "force": force}),
+        );
+        assert_eq!(lines.len(), 1);
+        lines[0].clone()
+    };
+    let look = |disk: &Value| ask(&editor, "/disk", &json!({"session": "s", "disk": disk}))[0].clone();
+    assert_eq!(
+        look(&Value::Null),
+        json!({"kind": "disk", "disk": null, "text": null, "words": null})
+    );
+    let first = save("a", &Value::Null, false);
+    assert_eq!(first["kind"], "saved");
+    assert_eq!(fs::read_to_string(&file).unwrap(), "a");
+    assert_eq!(look(&first["disk"])["text"], Value::Null);
+    fs::write(&file, "somebody else's").unwrap();
+    let seen = look(&first["disk"]);
+    assert_eq!(seen["text"], "somebody else's");
+    let refused = save("b", &first["disk"], false);
+    assert_eq!(
+        (&refused["kind"], &refused["text"]),
+        (&json!("conflict"), &json!("somebody else's"))
+    );
+    assert_eq!(refused["disk"], seen["disk"]);
+    assert_eq!(fs::read_to_string(&file).unwrap(), "somebody else's");
+    assert_eq!(save("b", &seen["disk"], false)["kind"], "saved");
+    fs::write(&file, "once more").unwrap();
+    assert_eq!(save("c", &Value::Null, true)["kind"], "saved");
+    assert_eq!(fs::read_to_string(&file).unwrap(), "c");
+    // Somebody writes while the answer is made.
+    let slow = save("slow", &Value::Null, true);
+    assert_eq!(
+        (&slow["kind"], &slow["text"]),
+        (&json!("conflict"), &json!("meanwhile"))
+    );
+    assert_eq!(fs::read_to_string(&file).unwrap(), "meanwhile");
+    fs::write(&file, b"\xff").unwrap();
+    let seen = look(&Value::Null);
+    assert_eq!(seen["text"], Value::Null);
+    assert!(seen["words"].as_str().unwrap().contains("no text"));
+    assert_eq!(save("d", &Value::Null, false)["text"], Value::Null);
+    fs::remove_file(&file).unwrap();
+    let gone = save("d", &seen["disk"], false);
+    assert_eq!((&gone["kind"], &gone["disk"]), (&json!("conflict"), &Value::Null));
+    fs::create_dir(&file).unwrap();
+    assert_eq!(save("d", &Value::Null, true)["kind"], "failed");
+}
+
+#[test]
+fn a_map_is_told_coarse_to_fine() {
+    let lines = ask(
+        &kitchen(),
+        "/map",
+        &json!({"session": "s", "text": KITCHEN, "plate": 2}),
+    );
+    assert_eq!(kinds(&lines).last(), Some(&"map_done"));
+    let patches: Vec<_> = lines.iter().filter(|line| line["kind"] == "map").collect();
+    let steps: Vec<_> = patches.iter().map(|patch| patch["step_m"].as_f64().unwrap()).collect();
+    assert!(steps.is_sorted_by(|a, b| a >= b), "{steps:?}");
+    let count = |part: &str| {
+        patches
+            .iter()
+            .map(|patch| patch[part].as_array().unwrap().len())
+            .sum::<usize>()
+    };
+    assert!(count("washable_m") > 20 && count("unwashable_m") > 20);
+}

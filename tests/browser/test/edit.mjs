@@ -1,0 +1,180 @@
+/** A plate in the hand: where it can be washed it is planned and proved, elsewhere the page says why and shows a place. */
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { centres, change, drag, edit, onScreen, scenario, settled, verdict } from "../lib/cell.mjs";
+import { folder } from "../lib/command.mjs";
+import { text } from "../lib/watched.mjs";
+
+/** Pixels are some millimetres wide. */
+const NEAR_M = 0.012;
+
+const apart = ([a, b], [c, d]) => Math.hypot(a - c, b - d);
+
+test("a drag to a washable place leads to a proved plan of the plate there", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t));
+  const before = await centres(page);
+  assert.equal((await verdict(page)).kind, "proved");
+  const hash = await page.evaluate(() => window.platewash.view.heading.hash);
+  // The one that has room beside it.
+  const plate = 1;
+  const to = [before[plate][0] - 0.03, before[plate][1] + 0.01];
+  await drag(page, plate, to);
+  await settled(page);
+  const after = await centres(page);
+  assert.ok(apart(after[plate], to) < NEAR_M, `${after[plate]} for ${to}`);
+  assert.deepEqual(after.toSpliced(plate, 1), before.toSpliced(plate, 1));
+  assert.equal((await verdict(page)).kind, "proved");
+  assert.match(await text(page), /proved/i);
+  assert.notEqual(await page.evaluate(() => window.platewash.view.heading.hash), hash);
+  // The film shows the new plan: the tip is over the plate where it is now.
+  const over = await page.evaluate((plate) => {
+    const { segments } = window.platewash.view;
+    const wash = segments.find((segment) => segment.kind === "wash" && segment.plate === plate);
+    window.platewash.pause();
+    window.platewash.seek(wash.t_start_s);
+    window.platewash.step();
+    return window.platewash.tip();
+  }, plate);
+  assert.ok(apart(over, after[plate]) < 0.15, `${over}`);
+  quiet();
+});
+
+test("a drag out of reach leads to the reason and a ghost, and a click on the ghost to a proved plan", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t));
+  const from = (await centres(page))[0];
+  const away = Math.hypot(...from);
+  await drag(page, 0, from.map((c) => (c * 0.62) / away));
+  await settled(page);
+  const said = await verdict(page);
+  assert.equal(said.kind, "unplanned");
+  assert.match(said.words, /cannot be washed whole|no way to wash/);
+  assert.match(await text(page), /out of reach by up to/);
+  const ghost = await page.evaluate(() => window.platewash.edit.ghosts()[0]);
+  assert.equal(ghost.plate, 0);
+  const [x, y] = await onScreen(page, [...ghost.centre_m, 0.03]);
+  await page.mouse.click(x, y);
+  await settled(page);
+  assert.deepEqual((await centres(page))[0], ghost.centre_m);
+  assert.equal((await verdict(page)).kind, "proved");
+  quiet();
+});
+
+test("two hundred changes and as many undos give the first scenario byte for byte", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t));
+  const first = await scenario(page);
+  // A small generator, so that each run draws the same.
+  let state = 120;
+  const next = (n) => {
+    state = (Math.imul(state, 1103515245) + 12345) & 0x7fffffff;
+    return (state >>> 8) % n;
+  };
+  const draws = [
+    () => ({ key: "wash.turns", value: 2 + next(40) / 10 }),
+    () => ({ key: "layout.count", value: 1 + next(4) }),
+    () => ({ key: "seed", value: next(1000) }),
+    () => ({ key: "wash.tilt_max_deg", value: next(60) }),
+    () => ({ key: "tool.com_m", value: next(2) === 0 ? null : next(100) / 1000 }),
+    () => ({ key: "layout.positions_m", value: next(3) === 0 ? null : [[0.3, next(100) / 500], [-0.2, -0.3]] }),
+    () => ({ key: "name", value: `cell ${next(9)} # "quoted" 'and' \\ ü` }),
+    () => ({ key: "job.order", value: ["nearest", "given", "fastest"][next(3)] }),
+  ];
+  const edits = Array.from({ length: 200 }, () => draws[next(draws.length)]());
+  const texts = await page.evaluate(async (edits) => {
+    const { edit } = window.platewash;
+    const texts = new Set();
+    for (const one of edits) {
+      edit.change([one]);
+      while (!edit.written()) await new Promise((resolve) => setTimeout(resolve, 2));
+      texts.add(edit.text());
+    }
+    return texts.size;
+  }, edits);
+  assert.ok(texts > 100, `${texts} texts`);
+  const last = await scenario(page);
+  const steps = await page.evaluate(() => {
+    let steps = 0;
+    while (window.platewash.edit.undo()) steps += 1;
+    return steps;
+  });
+  assert.ok(steps > 150, `${steps} steps`);
+  assert.equal(await scenario(page), first);
+  await page.evaluate(() => {
+    while (window.platewash.edit.redo());
+  });
+  assert.equal(await scenario(page), last);
+  await page.evaluate(() => {
+    while (window.platewash.edit.undo());
+  });
+  await settled(page);
+  assert.equal((await verdict(page)).kind, "proved");
+  quiet();
+});
+
+test("with the keyboard alone a cell is broken, mended and saved", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t));
+  await page.locator("canvas.scene").focus();
+  const [before] = await centres(page);
+  await page.keyboard.press("n");
+  assert.equal(await page.evaluate(() => window.platewash.edit.selected()), 0);
+  for (let k = 0; k < 8; k++) await page.keyboard.press("Shift+ArrowDown");
+  await settled(page);
+  const moved = (await centres(page))[0];
+  assert.ok(Math.abs(apart(moved, before) - 0.4) < 1e-5, `${moved}`);
+  assert.equal((await verdict(page)).kind, "unplanned");
+  await page.keyboard.press("Enter");
+  await settled(page);
+  assert.equal((await verdict(page)).kind, "proved");
+  for (let k = 0; k < 2; k++) await page.keyboard.press("Control+z");
+  await settled(page);
+  assert.deepEqual((await centres(page))[0], before);
+  await page.keyboard.press("Control+s");
+  await page.waitForFunction(() => !window.platewash.edit.unsaved());
+  const heard = await page.evaluate(() => document.getElementById("announcer").textContent);
+  assert.match(heard, /saved|proved/i);
+  quiet();
+});
+
+test("the form knows every key, refuses what does not fit and says what was meant", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t));
+  await page.getByRole("tab", { name: "Settings" }).click();
+  const keys = await page.evaluate(() => JSON.parse(document.getElementById("platewash-edit").textContent).keys.map(({ path }) => path));
+  const shown = await page.evaluate(() => [...document.querySelectorAll("[data-key]")].map((row) => row.dataset.key));
+  assert.deepEqual([...shown].sort(), [...keys].sort());
+  const tilt = page.locator('[data-key="wash.tilt_max_deg"] input');
+  const first = await scenario(page);
+  await tilt.fill("90");
+  await tilt.press("Enter");
+  await settled(page);
+  assert.equal(await tilt.getAttribute("aria-invalid"), "true");
+  assert.match(await page.locator('[data-key="wash.tilt_max_deg"]').innerText(), /from 0 to 60/);
+  assert.equal(await scenario(page), first);
+  await tilt.fill("20");
+  await tilt.press("Enter");
+  await settled(page);
+  assert.match(await scenario(page), /tilt_max_deg = 20(\.0)?\n/);
+  await page.getByRole("searchbox").fill("wash.tilt_mx_deg");
+  assert.match(await page.locator("#panel-keys").innerText(), /did you mean.*wash\.tilt_max_deg/is);
+  quiet();
+});
+
+test("a change of a key is shown with its refusal, and the plan of before stays in sight", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t));
+  await change(page, [{ key: "robot.start_deg", value: [0, 0, 0, 0, 200, 0] }]);
+  assert.equal((await verdict(page)).kind, "refused");
+  assert.match((await verdict(page)).words, /robot\.start_deg/);
+  assert.ok(await page.evaluate(() => window.platewash.view.motion !== null));
+  await page.evaluate(() => window.platewash.edit.undo());
+  await settled(page);
+  assert.equal((await verdict(page)).kind, "proved");
+  quiet();
+});
+
+test("a map shows where a plate could lie, and goes when the cell changes", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t));
+  await page.getByRole("button", { name: "Where?" }).first().click();
+  const words = page.locator(".map-words");
+  await words.getByText("Not planned, not proved").waitFor({ timeout: 30_000 });
+  await change(page, [{ key: "seed", value: 2 }]);
+  assert.equal(await words.isVisible(), false);
+  quiet();
+});
