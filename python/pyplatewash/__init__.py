@@ -53,6 +53,7 @@ from ._core import (
     transit_waypoints,
     tune,
 )
+from ._edit import edit
 from ._errors import (
     DynamicsError,
     FileError,
@@ -129,6 +130,7 @@ __all__ = [
     "coverage_raster",
     "cubic_samples",
     "differences",
+    "edit",
     "place_plates",
     "plan",
     "prove",

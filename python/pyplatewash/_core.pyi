@@ -1,7 +1,7 @@
 """Types of the compiled part."""
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, TypeAlias, final, overload
 
@@ -14,6 +14,8 @@ from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record
 from ._values import Coverage, IkSettings, PaperSpiral, Plate, Tool, WashCurve
 
 __all__ = [
+    "CellEditor",
+    "CellQuestion",
     "Certificate",
     "ClearanceModel",
     "DynamicsModel",
@@ -31,6 +33,7 @@ __all__ = [
     "WashJob",
     "_check",
     "_configuration_page",
+    "_edit_arguments",
     "_figure_arguments",
     "_paper_spiral",
     "_plan_page",
@@ -500,6 +503,20 @@ class ClearanceModel:
     def __getnewargs__(self) -> tuple[Any, ...]: ...
 
 @final
+class CellEditor:
+    @property
+    def text(self) -> str: ...
+    def page(self, text: str) -> str: ...
+    def parse(self, text: str) -> Scenario: ...
+    def ask(self, path: str, question: str) -> CellQuestion: ...
+    def latest(self) -> tuple[str, Scenario, Plan | None, Certificate | None, str] | None: ...
+
+@final
+class CellQuestion:
+    def answer(self, tell: Callable[[str], bool]) -> None: ...
+    def cancel(self) -> None: ...
+
+@final
 class Certificate:
     @property
     def verdict(self) -> str: ...
@@ -686,6 +703,7 @@ def _plan_view(
 def _configuration_page(
     robot: Robot, q: object, tool: object, plates: object, height: object
 ) -> tuple[str, int]: ...
+def _edit_arguments(scenario: object, height: object) -> tuple[CellEditor, int]: ...
 def _show_arguments(
     plan: Plan, beside: tuple[object, object, object, object], prove: object, simulate: object, height: object, path: object
 ) -> tuple[tuple[Robot, Scenario | None], list[bool], int]: ...

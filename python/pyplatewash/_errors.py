@@ -102,11 +102,11 @@ class UrdfNotFoundError(UrdfAccessError, FileNotFoundError):
 
 
 class ScenarioAccessError(ScenarioError, FileError):
-    """The file of a scenario cannot be read."""
+    """The file of a scenario cannot be read or written."""
 
 
 class ScenarioNotFoundError(ScenarioAccessError, FileNotFoundError):
-    """There is no scenario of that name, and no such file."""
+    """There is no scenario of that name, and no such file, or no folder that one shall be written to."""
 
 
 class PlanAccessError(PlanFileError, FileError):
@@ -221,7 +221,7 @@ class SimulationError(PlatewashError):
 class MissingError(PlatewashError, ImportError):
     """Something that this installation lacks is needed; the message says how to get it."""
 
-    #: What is missing: ``"matplotlib"`` or ``"page"``.
+    #: What is missing: ``"matplotlib"``, ``"anywidget"`` or ``"page"``.
     name: str | None = None
 
 

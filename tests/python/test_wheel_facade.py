@@ -16,6 +16,7 @@ import pyplatewash as pw
 PYTHON = {
     # Modules of Rust's; their nouns are at the top.
     "certificate": None,
+    "editor": "edit",
     "kinematics": None,
     "paper": None,
     "planner": None,

@@ -7,6 +7,7 @@
 mod argument;
 mod arrays;
 mod by_python;
+mod cell;
 mod certificate;
 mod checks;
 mod clearance;
@@ -40,6 +41,8 @@ use pyo3::prelude::*;
 /// The compiled part of pyplatewash; import `pyplatewash` instead.
 #[pymodule(gil_used = false)]
 mod _core {
+    #[pymodule_export]
+    use crate::cell::{_edit_arguments, CellEditorObject, CellQuestionObject};
     #[pymodule_export]
     use crate::certificate::{CertificateObject, differences, prove};
     #[pymodule_export]

@@ -169,7 +169,7 @@ impl ScenarioObject {
     }
 
     /// The scenario as a TOML file's text.
-    fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
+    pub fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         toml::to_string(&self.inner).map_err(|e| errors::internal(py, &e.to_string()))
     }
 

@@ -30,14 +30,15 @@ fn pool(py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
     {
         return Ok(pool.clone());
     }
-    let pool = rayon::ThreadPoolBuilder::new()
-        .stack_size(STACK_BYTES)
-        .build()
-        .map_err(|e| errors::internal(py, &format!("no threads: {e}")))?;
-    let pool = Arc::new(pool);
+    let pool = Arc::new(new_pool(py)?);
     // A parent's pool has no threads here that could be told to end.
     std::mem::forget(held.replace((here, pool.clone())));
     Ok(pool)
+}
+
+fn new_pool(py: Python<'_>) -> PyResult<ThreadPool> {
+    let pool = rayon::ThreadPoolBuilder::new().stack_size(STACK_BYTES).build();
+    pool.map_err(|e| errors::internal(py, &format!("no threads: {e}")))
 }
 
 /// Runs short work on the pool without the interpreter lock.
@@ -56,6 +57,17 @@ pub fn released<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyR
 /// `InternalError` in place of a panic.
 pub fn alone<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let done = py.detach(|| catch_unwind(AssertUnwindSafe(work)));
+    done.map_err(|panic| errors::internal(py, &panic_text(panic.as_ref())))
+}
+
+/// Runs work without the interpreter lock on threads of its own, beside other such work: a thread of a shared pool that waits for a
+/// part of one would begin another one meanwhile, and the first had to wait for it.
+///
+/// # Errors
+/// `InternalError` in place of a panic.
+pub fn aside<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    let pool = new_pool(py)?;
+    let done = py.detach(|| catch_unwind(AssertUnwindSafe(|| pool.install(work))));
     done.map_err(|panic| errors::internal(py, &panic_text(panic.as_ref())))
 }
 
