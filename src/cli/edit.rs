@@ -80,25 +80,18 @@ fn text(options: &Options, source: &ScenarioSource) -> Result<String, Failure> {
 /// Refuses to save a scenario elsewhere that names files relative to its folder: there, it would name others.
 fn refuse_other_folder(source: &ScenarioSource, save_as: Option<&Path>, editor: &Editor) -> Result<(), Failure> {
     let Some(save_as) = save_as else { return Ok(()) };
-    let folder = |path: &Path| path.canonicalize().ok();
-    let own = source.folder.as_deref().unwrap_or(Path::new("."));
-    let there = save_as.parent().unwrap_or(Path::new(""));
-    let either = |path: &Path| {
-        folder(if path.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            path
-        })
+    let in_full = |folder: Option<&Path>| match folder {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.canonicalize().ok(),
+        _ => Path::new(".").canonicalize().ok(),
     };
-    if either(own) == either(there) {
+    if in_full(source.folder.as_deref()) == in_full(save_as.parent()) {
         return Ok(());
     }
     let stated = Draft::new(editor.text())?.stated();
-    let is_relative = |value: &serde_json::Value| match value {
-        serde_json::Value::Array(all) => all
-            .iter()
-            .any(|one| one.as_str().is_some_and(|path| Path::new(path).is_relative())),
-        one => one.as_str().is_some_and(|path| Path::new(path).is_relative()),
+    let is_relative = |value: &serde_json::Value| {
+        let paths = value.as_array().map_or(std::slice::from_ref(value), Vec::as_slice);
+        let mut paths = paths.iter().filter_map(serde_json::Value::as_str);
+        paths.any(|path| Path::new(path).is_relative())
     };
     let files = ["robot.urdf", "robot.srdf", "robot.package_path"];
     match files.into_iter().find(|key| stated.get(*key).is_some_and(is_relative)) {

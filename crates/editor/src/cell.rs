@@ -67,7 +67,7 @@ impl Answering<'_> {
         watch.step("place");
         self.tell_cell(&placed, told, watch);
         match self.question.want {
-            Want::Preview => self.tell_preview(&placed, told, watch).map(|_| ()),
+            Want::Preview => self.tell_preview(&placed, told, watch),
             Want::Proof => self.tell_all(&placed, &changed.text, told, watch),
         }
     }
@@ -145,13 +145,8 @@ impl Answering<'_> {
         watch: &mut Stopwatch,
     ) -> Result<(), End> {
         let arm = &placed.loaded.arm;
-        let region = placed.scenario.layout.task_region();
-        let beside = Beside {
-            region: Some(&region),
-            ..Beside::default()
-        };
         let plan = Arc::new(planned.plan);
-        let view = View::of_plan(&plan, arm, &beside).map_err(|error| End::Failed(error.to_string()))?;
+        let view = View::of_plan(&plan, arm, &Beside::default()).map_err(|error| End::Failed(error.to_string()))?;
         self.gone.check()?;
         watch.step("show plan");
         told.line(&CellLine::Plan(Box::new(PlanParts {

@@ -44,8 +44,7 @@ pub fn changed(subject: &Subject, text: &str, edits: &[Edit], cancel: &CancelTok
         .as_ref()
         .map(values_of)
         .unwrap_or_default();
-    let scenario = draft.scenario(&subject.name, subject.folder.as_deref());
-    let scenario = scenario.map_err(|error| of_scenario(&error));
+    let scenario = in_folder(subject, &draft);
     Ok(Changed {
         text: draft.text().to_owned(),
         stated,
@@ -54,8 +53,19 @@ pub fn changed(subject: &Subject, text: &str, edits: &[Edit], cancel: &CancelTok
     })
 }
 
+/// The scenario that a text states, its paths found from the scenario's folder; not one yet that a page may ask for.
+pub fn stated(subject: &Subject, text: &str) -> Result<Scenario, Refusal> {
+    let draft = Draft::new(text).map_err(|error| of_scenario(&error))?;
+    in_folder(subject, &draft)
+}
+
+fn in_folder(subject: &Subject, draft: &Draft) -> Result<Scenario, Refusal> {
+    let scenario = draft.scenario(&subject.name, subject.folder.as_deref());
+    scenario.map_err(|error| of_scenario(&error))
+}
+
 /// A scenario that a page may ask for.
-fn accepted(subject: &Subject, scenario: Scenario) -> Result<Scenario, Refusal> {
+pub fn accepted(subject: &Subject, scenario: Scenario) -> Result<Scenario, Refusal> {
     if scenario.job.program == Program::Paper {
         let words = "job.program = \"paper\": the paper's program moves from waypoint to waypoint, and nothing of it is proved; set it to \
                      \"certified\" (its wash.height_m to 0) for a plan with its proof, or look at it with `platewash run`";

@@ -3,8 +3,7 @@
 use crate::bounds::{LONGEST, LONGEST_MAP};
 use crate::deadline::Deadline;
 use crate::document::{Channel, EditDocument};
-use crate::draft::{changed, may_name_its_files};
-use crate::end::End;
+use crate::draft::{accepted, may_name_its_files, stated};
 use crate::error::EditorError;
 use crate::keep::{Keeper, Kept};
 use crate::protocol::{CellLine, CellQuestion, DiskQuestion, MapQuestion, SaveQuestion, Want};
@@ -123,11 +122,12 @@ impl Editor {
     /// The arm at home: what is shown before the first answer.
     fn view(&self, text: &str) -> Result<View, EditorError> {
         let subject = &self.subject;
-        let draft = |text| Draft::new(text)?.scenario(&subject.name, self.folder());
-        let shown = draft(text)
-            .ok()
-            .filter(|scenario| may_name_its_files(subject, scenario).is_ok());
-        let scenario = shown.map_or_else(|| draft(&subject.text), Ok)?;
+        let scenario = stated(subject, text).ok();
+        let scenario = scenario.filter(|scenario| may_name_its_files(subject, scenario).is_ok());
+        let scenario = match scenario {
+            Some(scenario) => scenario,
+            None => Draft::new(&subject.text)?.scenario(&subject.name, self.folder())?,
+        };
         let arm = subject.arms.of(&scenario)?.arm;
         let mut view = View::of_configuration(&arm, None, &scenario.homes()[0]);
         view.heading.scenario.clone_from(&scenario.name);
@@ -191,16 +191,13 @@ impl Editor {
         gone: &CancelToken,
     ) -> Result<(), String> {
         let subject = &self.subject;
+        let scenario = stated(subject, &question.text);
         // Whatever is refused for other reasons is saved: it may be mended later.
-        if let Ok(stated) = Draft::new(&question.text).and_then(|draft| draft.scenario(&subject.name, self.folder())) {
-            may_name_its_files(subject, &stated).map_err(|refusal| refusal.words)?;
+        if let Ok(scenario) = &scenario {
+            may_name_its_files(subject, scenario).map_err(|refusal| refusal.words)?;
         }
-        let scenario = match changed(subject, &question.text, &[], gone) {
-            Ok(changed) => changed.scenario.map_err(|refusal| refusal.words),
-            Err(End::Refused(refusal)) => Err(refusal.words),
-            Err(End::GivenUp) => return Err("given up: nothing was written".to_owned()),
-            Err(End::Failed(words)) => return Err(words),
-        };
+        let scenario = scenario.and_then(|scenario| accepted(subject, scenario));
+        let scenario = scenario.map_err(|refusal| refusal.words);
         kept.save(question, scenario.as_ref().map_err(String::as_str), told, gone);
         Ok(())
     }

@@ -2,34 +2,20 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod support;
+
 use platewash_planner::{
     Activity, InfeasibleReport, PlaceSearch, PlanError, Watch, check, draw_washable_layout, plan, plan_with,
 };
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures::{kitchen, kitchen_plate};
-use platewash_workcell::job::{End, JobTerms, Planner, PlannerSettings, WashJob};
+use platewash_workcell::job::{End, Planner, WashJob};
 use platewash_workcell::layout::{Layout, LayoutError, LayoutSource};
 use platewash_workcell::tool::{StraightTool, Tool};
 use platewash_workcell::verdict::{Infeasibility, Verdict};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
-
-/// The kitchen with other terms.
-fn job(change: impl FnOnce(&mut JobTerms, &mut PlannerSettings)) -> WashJob {
-    let kitchen = kitchen();
-    let mut terms = kitchen.terms().clone();
-    let mut settings = *terms.planner_settings().unwrap();
-    change(&mut terms, &mut settings);
-    terms.planner = Planner::Wash(settings);
-    WashJob::new(kitchen.shared_arm(), terms).unwrap()
-}
-
-fn on(places: &[[f64; 2]], relocate: bool) -> WashJob {
-    job(|terms, settings| {
-        terms.plates = places.iter().copied().map(kitchen_plate).collect();
-        settings.relocate = relocate;
-    })
-}
+use support::{job, on};
 
 #[test]
 fn a_plate_out_of_reach_is_named_with_the_nearest_place_that_will_do() {

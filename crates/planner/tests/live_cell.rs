@@ -2,37 +2,23 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod support;
+
 use platewash_planner::{
     Activity, Chance, MapArea, MapPatch, PlaceSearch, PlanError, SEARCHED_M, UnwashablePlate, Watch, nearest_place,
     outlook, plan, plan_here, plan_with, unwashable_plates, washable_map,
 };
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures::{kitchen, kitchen_plate};
-use platewash_workcell::job::{JobTerms, OrderRule, Planner, PlannerSettings, WashJob};
+use platewash_workcell::job::{OrderRule, Planner, WashJob};
 use platewash_workcell::random;
 use rand::RngExt;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
+use support::{job, on};
 
 /// One that is washed, one out of reach, one behind the arm, one too near.
 const MIXED: [[f64; 2]; 4] = [[0.40, 0.0], [0.1, 0.56], [-0.7, 0.1], [0.0, -0.2]];
-
-/// The kitchen with other terms.
-fn job(change: impl FnOnce(&mut JobTerms, &mut PlannerSettings)) -> WashJob {
-    let kitchen = kitchen();
-    let mut terms = kitchen.terms().clone();
-    let mut settings = *terms.planner_settings().unwrap();
-    change(&mut terms, &mut settings);
-    terms.planner = Planner::Wash(settings);
-    WashJob::new(kitchen.shared_arm(), terms).unwrap()
-}
-
-fn on(places: &[[f64; 2]], relocate: bool) -> WashJob {
-    job(|terms, settings| {
-        terms.plates = places.iter().copied().map(kitchen_plate).collect();
-        settings.relocate = relocate;
-    })
-}
 
 /// Plates anywhere around the arm, over each other and the base too.
 fn scattered(seed: u64, relocate: bool) -> WashJob {

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod toy;
+mod wire;
 
 use platewash_viewer::server::Page;
 use std::io::{Read, Write};
@@ -11,6 +12,7 @@ use std::sync::mpsc::channel;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use toy::*;
+use wire::*;
 
 /// Questions that are worked on at a time, that wait, and connections, as the documentation says.
 const WORK: usize = 2;

@@ -1,11 +1,14 @@
 //! The server as its clients meet it, good ones and others, over TCP.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+mod wire;
+
 use platewash_viewer::server::{Listener, Live, LiveEnd, Page, Server, ServerError, Site};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::sync::Arc;
 use std::time::Duration;
+use wire::{is, read_until};
 
 const PAGE: &str = "<!doctype html><title>page</title>";
 
@@ -65,24 +68,6 @@ fn rest(mut stream: TcpStream) -> String {
         Err(error) => assert_eq!(error.kind(), ErrorKind::ConnectionReset, "{error}"),
     }
     String::from_utf8(bytes).unwrap()
-}
-
-/// Reads until a text has come.
-fn read_until(stream: &mut TcpStream, text: &str) -> String {
-    let (mut bytes, mut byte) = (Vec::new(), [0]);
-    while !String::from_utf8_lossy(&bytes).ends_with(text) {
-        stream.read_exact(&mut byte).unwrap();
-        bytes.push(byte[0]);
-    }
-    String::from_utf8(bytes).unwrap()
-}
-
-#[track_caller]
-fn is(answer: &str, status: &str) {
-    assert!(
-        answer.starts_with(&format!("HTTP/1.1 {status} ")),
-        "{status}: {answer:?}"
-    );
 }
 
 fn body(answer: &str) -> &str {

@@ -1,0 +1,22 @@
+//! Jobs of more than one test.
+
+use platewash_workcell::fixtures::{kitchen, kitchen_plate};
+use platewash_workcell::job::{JobTerms, Planner, PlannerSettings, WashJob};
+
+/// The kitchen with other terms.
+pub fn job(change: impl FnOnce(&mut JobTerms, &mut PlannerSettings)) -> WashJob {
+    let kitchen = kitchen();
+    let mut terms = kitchen.terms().clone();
+    let mut settings = *terms.planner_settings().unwrap();
+    change(&mut terms, &mut settings);
+    terms.planner = Planner::Wash(settings);
+    WashJob::new(kitchen.shared_arm(), terms).unwrap()
+}
+
+/// It with plates elsewhere; `relocate`: whether the job asks for other places.
+pub fn on(places: &[[f64; 2]], relocate: bool) -> WashJob {
+    job(|terms, settings| {
+        terms.plates = places.iter().copied().map(kitchen_plate).collect();
+        settings.relocate = relocate;
+    })
+}
