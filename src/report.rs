@@ -43,6 +43,7 @@ impl WashReport {
     #[must_use]
     pub fn new(planned: &Planned, findings: &[Finding], certificate: Certificate) -> Self {
         let verdict = match certificate.verdict {
+            certificate::Verdict::Pass if certificate.rests_on.dry_run.is_some() => Verdict::DryRun,
             certificate::Verdict::Pass => Verdict::Washed,
             certificate::Verdict::Fail => Verdict::NotVerified,
         };
@@ -77,18 +78,25 @@ fn headline(plates: usize, duration_s: f64, certificate: &Certificate) -> String
         .map(|plate| plate.at_least)
         .fold(1.0, f64::min);
     let plates = counted(plates, "plate");
+    let dry_run = certificate.rests_on.dry_run.as_ref();
+    let before = dry_run.map_or_else(String::new, |dry_run| dry_run.words() + "; ");
     if let Some(what) = certificate.not_kept() {
         let waived = certificate.and_waived();
-        return format!("NOT PROVED: a plan for {plates} in {duration_s:.2} s does not keep {what}{waived}");
+        return format!("{before}NOT PROVED: a plan for {plates} in {duration_s:.2} s does not keep {what}{waived}");
     }
     let waived = certificate.but_for();
     // Rounded down: no more is said than is proved.
-    let share = if covered >= WHOLE {
-        "washed whole".to_owned()
+    let washed = if dry_run.is_some() {
+        "swept in the air"
     } else {
-        format!("washed by at least {:.1} %", (1000.0 * covered).floor() / 10.0)
+        "washed"
     };
-    format!("PROVED{waived}: {plates} {share}, from home to home in {duration_s:.2} s")
+    let share = if covered >= WHOLE {
+        format!("{washed} whole")
+    } else {
+        format!("{washed} by at least {:.1} %", (1000.0 * covered).floor() / 10.0)
+    };
+    format!("{before}PROVED{waived}: {plates} {share}, from home to home in {duration_s:.2} s")
 }
 
 /// A report as a person reads it; see [`WashReport::text`].

@@ -38,7 +38,7 @@ impl Outcome {
 impl From<Verdict> for Outcome {
     fn from(verdict: Verdict) -> Self {
         match verdict {
-            Verdict::Washed => Self::Good,
+            Verdict::Washed | Verdict::DryRun => Self::Good,
             Verdict::NotVerified => Self::NotVerified,
             Verdict::Infeasible | Verdict::NotFound => Self::Infeasible,
         }
@@ -48,7 +48,7 @@ impl From<Verdict> for Outcome {
 impl From<SimulationVerdict> for Outcome {
     fn from(verdict: SimulationVerdict) -> Self {
         match verdict {
-            SimulationVerdict::Washed => Self::Good,
+            SimulationVerdict::Washed | SimulationVerdict::DryRun => Self::Good,
             SimulationVerdict::NotWashed | SimulationVerdict::Overloaded | SimulationVerdict::Altered => {
                 Self::NotVerified
             }

@@ -186,6 +186,7 @@ fn largest(outcome: &TuneOutcome) -> f64 {
 fn verdict(outcome: &TuneOutcome) -> &'static str {
     match outcome.verdict {
         SimulationVerdict::Washed => "washed",
+        SimulationVerdict::DryRun => "dry run",
         SimulationVerdict::NotWashed => "not washed",
         SimulationVerdict::Overloaded => "overloaded",
         SimulationVerdict::Altered => "altered",

@@ -74,9 +74,12 @@ impl Certificate {
         self.verdict == Verdict::Pass
     }
 
-    /// Number of plates that are proved to be washed: swept to the share required, with the sponge on them.
+    /// Number of plates that are proved to be washed: swept to the share required, with the sponge on them. A dry run washes none.
     #[must_use]
     pub fn plates_washed(&self) -> usize {
+        if self.rests_on.dry_run.is_some() {
+            return 0;
+        }
         let on = self.check(Requirement::ContactHeight);
         if !on.is_some_and(|check| check.status == Status::Proved) {
             return 0;

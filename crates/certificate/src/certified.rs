@@ -2,11 +2,12 @@
 
 use crate::certificate::Certificate;
 use crate::error::ProveError;
-use crate::prove::prove;
+use crate::prove::prove_with;
 use platewash_kinematics::RobotModel;
+use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
 
-/// Something that a certificate holds for. There is no other way to make one than [`certify`].
+/// Something that a certificate holds for. There is no other way to make one than [`certify`] and [`certify_with`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Certified<P> {
     plan: P,
@@ -31,7 +32,15 @@ pub enum CertifyError {
 /// # Errors
 /// [`CertifyError`]: the plan cannot be judged, or its certificate fails.
 pub fn certify(plan: Plan, arm: &RobotModel) -> Result<Certified<Plan>, CertifyError> {
-    let certificate = prove(&plan, arm)?;
+    certify_with(plan, arm, &CancelToken::new())
+}
+
+/// [`certify`], to be given up half-way.
+///
+/// # Errors
+/// As [`certify`], and [`ProveError::Cancelled`].
+pub fn certify_with(plan: Plan, arm: &RobotModel, cancel: &CancelToken) -> Result<Certified<Plan>, CertifyError> {
+    let certificate = prove_with(&plan, arm, cancel)?;
     if certificate.passes() {
         Ok(Certified { plan, certificate })
     } else {

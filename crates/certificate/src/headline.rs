@@ -7,12 +7,17 @@ use platewash_workcell::words::counted;
 /// The first line: certified or not, for which scenario, what is not kept, and what is waived.
 pub(crate) fn headline(certificate: &Certificate) -> String {
     let (scenario, duration_s) = (certificate.scenario.escape_debug(), certificate.duration_s);
-    match certificate.not_kept() {
+    let judged = match certificate.not_kept() {
         None => format!("CERTIFIED{}: {scenario}, {duration_s:.3} s", certificate.but_for()),
         Some(broken) => format!(
             "NOT CERTIFIED: {scenario}, {duration_s:.3} s; not kept: {broken}{}",
             certificate.and_waived()
         ),
+    };
+    match &certificate.rests_on.dry_run {
+        // Before everything else: nobody shall take it for a washing.
+        Some(dry_run) => format!("{}; {judged}", dry_run.words()),
+        None => judged,
     }
 }
 

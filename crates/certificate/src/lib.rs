@@ -10,7 +10,7 @@
 //! | all of it, one after the other; as a proof that cannot be forged | `prove`, `certified` |
 //! | the certificate; its first line, as a table, what it rests on | `certificate`, `headline`, `table`, `rests_on` |
 //! | the job that is judged, its limits, its bodies, its faces | `subject`, `limits`, `bodies`, `face` |
-//! | what the plan states | `statements`, `wash_paths`, `schedule`, `home`, `apart`, `exclusions` |
+//! | what the plan states | `statements`, `wash_paths`, `schedule`, `home`, `apart`, `exclusions`, `dry_run` |
 //! | the motion: cubics, groups of them | `piece`, `timeline` |
 //! | joints | `joints` |
 //! | the tip: derivatives, halving, speed, tilt, height | `tip`, `bound_tracker`, `tip_limits` |
@@ -18,6 +18,7 @@
 //! | the curves, following them, sweeping the plate | `curve`, `following`, `polyline`, `swept` |
 //! | beyond the rim: what may be touched there, how far it is | `neighbours`, `reach` |
 //! | clearance: one pair, all pairs; at a single moment, to look at | `clear`, `clearances`; `moments` |
+//! | a motion that a controller makes of a plan; how far it leaves the plan | `program`, `deviation` |
 //! | where a job is not the one that was asked for | `differences` |
 
 mod apart;
@@ -30,7 +31,9 @@ mod clear;
 mod clearances;
 mod contact;
 mod curve;
+mod deviation;
 mod differences;
+mod dry_run;
 mod error;
 mod exclusions;
 mod face;
@@ -43,6 +46,7 @@ mod moments;
 mod neighbours;
 mod piece;
 mod polyline;
+mod program;
 mod prove;
 mod reach;
 mod requirement;
@@ -60,13 +64,14 @@ mod tip_limits;
 mod wash_paths;
 
 pub use certificate::{Certificate, HashFinding, Verdict};
-pub use certified::{Certified, CertifyError, certify};
+pub use certified::{Certified, CertifyError, certify, certify_with};
 pub use check::{Check, Discrepancy, Measure, Sense, Status, Unit, Worst};
 pub use clearances::{PairBound, PairRule};
 pub use differences::{Difference, differences};
 pub use error::ProveError;
 pub use moments::ClearanceRule;
 pub use neighbours::Touched;
+pub use program::{ProgramLimits, ProgramProof, prove_program};
 pub use prove::{MotionProof, prove, prove_motion, prove_with};
 pub use requirement::Requirement;
 pub use rests_on::RestsOn;

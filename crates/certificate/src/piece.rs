@@ -14,6 +14,7 @@
 //! rad/s²: what such a piece does cannot be proved, and is not.
 
 use platewash_kinematics::{AXES, JointVector};
+use platewash_workcell::piecewise::MotionPiece;
 use platewash_workcell::plan::Knots;
 use platewash_workcell::trajectory::{KnotError, Trajectory};
 
@@ -71,6 +72,12 @@ pub(crate) fn pieces(knots: &Knots) -> Result<Vec<Piece>, KnotError> {
         )
     };
     Ok((0..t_s.len().saturating_sub(1)).map(piece).collect())
+}
+
+impl From<&MotionPiece> for Piece {
+    fn from(piece: &MotionPiece) -> Self {
+        Self::new(piece.t_s, piece.q_rad, piece.qd_rad_s)
+    }
 }
 
 impl Piece {

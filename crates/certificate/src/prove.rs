@@ -6,6 +6,7 @@ use crate::certificate::{Certificate, HashFinding, Verdict};
 use crate::check::{Check, Status};
 use crate::clearances::{self, PairBound, Work};
 use crate::contact;
+use crate::dry_run;
 use crate::error::ProveError;
 use crate::exclusions::Exclusions;
 use crate::face;
@@ -138,6 +139,7 @@ impl Judged<'_> {
         let arm = Arm::new(subject.robot, &subject.job.workcell.tool, self.cancel);
         let tips = Tips::new(&arm, subject, self.pieces, schedule);
         let mut checks = self.stated(segments);
+        checks.extend(dry_run::check(subject));
         checks.extend(joints::checks(self.pieces, &subject.limits, schedule));
         checks.extend(tips.checks(subject, self.pieces, schedule));
         checks.push(contact::check(&arm, subject, (self.pieces, schedule), &tips));
@@ -276,7 +278,7 @@ fn read(knots: &Knots) -> Result<Vec<Piece>, ProveError> {
 }
 
 /// The timeline of a motion all along which sines are right.
-fn timeline(pieces: &[Piece], knots: usize) -> Result<Timeline<'_>, ProveError> {
+pub(crate) fn timeline(pieces: &[Piece], knots: usize) -> Result<Timeline<'_>, ProveError> {
     let timeline = Timeline::new(pieces);
     let Some(whole) = timeline.whole() else {
         return Err(ProveError::NoMotion { found: knots });

@@ -13,6 +13,8 @@ pub enum Requirement {
     Tool,
     /// No plate reaches below the floor.
     Plates,
+    /// A dry run's plates are raised, and the real ones stand below them as obstacles. Asked of dry runs alone.
+    DryRun,
     /// The pairs that are left out are those that follow from the arm and its SRDF; any other keeps clear all the same, or is waived.
     Exclusions,
     /// Every plate has a wash path that can be judged.
@@ -58,9 +60,41 @@ pub enum Requirement {
     Reach,
     /// Share of each plate that the sponge sweeps.
     Coverage,
+    /// Distance of the tip from where the plan has it at that time: of a program alone.
+    PlanDeviation,
 }
 
 impl Requirement {
+    /// All of them, in the order of the certificate; the last is of programs alone.
+    pub const ALL: [Self; 26] = [
+        Self::Arm,
+        Self::Tool,
+        Self::Plates,
+        Self::Exclusions,
+        Self::WashPaths,
+        Self::Segments,
+        Self::EveryPlateOnce,
+        Self::HomeToHome,
+        Self::RestAtWashEnds,
+        Self::PlatesApart,
+        Self::JointPosition,
+        Self::JointSpeed,
+        Self::JointAcceleration,
+        Self::TipSpeed,
+        Self::TipAcceleration,
+        Self::WashSpeed,
+        Self::WashAcceleration,
+        Self::Tilt,
+        Self::ContactHeight,
+        Self::ContactSpeed,
+        Self::PathDeviation,
+        Self::LineDeviation,
+        Self::Clearance,
+        Self::Reach,
+        Self::Coverage,
+        Self::PlanDeviation,
+    ];
+
     /// The words used in tables.
     #[must_use]
     pub fn words(self) -> &'static str {
@@ -68,6 +102,7 @@ impl Requirement {
             Self::Arm => "arm",
             Self::Tool => "tool",
             Self::Plates => "plates",
+            Self::DryRun => "dry run",
             Self::Exclusions => "exclusions",
             Self::WashPaths => "wash paths",
             Self::Segments => "segments",
@@ -90,6 +125,7 @@ impl Requirement {
             Self::Clearance => "clearance",
             Self::Reach => "reach beyond rim",
             Self::Coverage => "coverage",
+            Self::PlanDeviation => "deviation from plan",
         }
     }
 }

@@ -7,7 +7,8 @@ use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::trig::atan2;
 use platewash_kinematics::words::rounded;
 use platewash_kinematics::{JointVector, Pose};
-use platewash_workcell::job::{Limits, Overlap, Requirements};
+use platewash_workcell::dry_run::DryRun;
+use platewash_workcell::job::{JobTerms, Limits, Overlap, Requirements};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::words::{counted, printable, quoted};
@@ -33,6 +34,10 @@ const ASSUMPTIONS: [&str; 5] = [
     "the sponge is round and gives way, so that its whole face touches; how far it is compressed is not judged",
 ];
 
+/// What is assumed of a dry run besides.
+const PARENT: &str =
+    "the plan that is tried out is the one of the hash stated: that is not judged, as it takes that plan";
+
 /// What a verdict rests on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RestsOn {
@@ -50,6 +55,9 @@ pub struct RestsOn {
     /// Pairs that the job alone leaves out: judged, and waived where they do not keep clear.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub waived_pairs: Vec<Exclusion>,
+    /// That the job is a dry run of another plan, which is stated and not judged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dry_run: Option<DryRun>,
     /// What is assumed, in words.
     pub assumptions: Vec<String>,
 }
@@ -68,16 +76,25 @@ impl RestsOn {
             limits: job.limits,
             home_rad: job.home_rad,
             waived_pairs: exclusions.waived,
-            assumptions: ASSUMPTIONS.map(str::to_owned).to_vec(),
+            assumptions: assumptions(job).map(str::to_owned).collect(),
+            dry_run: job.dry_run.clone(),
         }
     }
+}
+
+/// What is assumed of a job.
+fn assumptions(job: &JobTerms) -> impl Iterator<Item = &'static str> {
+    let of_dry_run = job.dry_run.is_some().then_some(PARENT);
+    ASSUMPTIONS.into_iter().chain(of_dry_run)
 }
 
 impl RestsOn {
     /// What it says in words: a name and what belongs to it, a line each.
     #[must_use]
     pub fn lines(&self) -> Vec<(&'static str, String)> {
-        let mut lines = vec![
+        let dry_run = self.dry_run.iter().map(|dry_run| ("dry run", tried_out(dry_run)));
+        let mut lines: Vec<_> = dry_run.collect();
+        lines.extend([
             ("arm", arm(&self.workcell)),
             ("tool", tool(&self.workcell.tool)),
             ("plates", plates(&self.plates)),
@@ -86,7 +103,7 @@ impl RestsOn {
             ("limits", limits(&self.limits)),
             ("requirements", requirements(&self.requirements)),
             ("left out", left_out(&self.workcell.exclusions)),
-        ];
+        ]);
         if !self.waived_pairs.is_empty() {
             let pairs = self.waived_pairs.iter().map(pair).collect::<Vec<_>>();
             lines.push(("waived", format!("by the job alone: {}", pairs.join(", "))));
@@ -108,6 +125,14 @@ impl fmt::Display for RestsOn {
         }
         Ok(())
     }
+}
+
+fn tried_out(dry_run: &DryRun) -> String {
+    format!(
+        "of the plan {}, its plates raised by {} mm; nothing is there, and nothing is washed",
+        printable(&dry_run.parent),
+        mm(dry_run.height_m)
+    )
 }
 
 fn arm(world: &Workcell) -> String {

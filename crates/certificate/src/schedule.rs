@@ -6,7 +6,7 @@
 use crate::check::Discrepancy;
 use crate::piece::Piece;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use platewash_workcell::words::counted;
 use std::ops::Range;
 
@@ -73,6 +73,26 @@ impl Schedule {
             Ok(Self { spans })
         } else {
             Err(wrong)
+        }
+    }
+
+    /// The schedule of another motion that does what a plan does at the same times: each of its `ends_s`, the ends of its pieces \[s\],
+    /// belongs to the segment in which it is, up to `near_s` \[s\]. What comes after the plan belongs to its last segment.
+    pub fn along(plan: &Plan, ends_s: &[f64], near_s: f64) -> Self {
+        let mut next = 0;
+        let last = plan.segments.len().saturating_sub(1);
+        let span = |(i, segment): (usize, &PlanSegment)| {
+            let end = match i {
+                _ if i == last => ends_s.len(),
+                _ => ends_s.partition_point(|t| *t <= segment.t_end_s + near_s).max(next),
+            };
+            let pieces = next..end;
+            next = end;
+            let (kind, plate) = (segment.kind, segment.plate);
+            Span { kind, plate, pieces }
+        };
+        Self {
+            spans: plan.segments.iter().enumerate().map(span).collect(),
         }
     }
 

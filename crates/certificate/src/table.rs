@@ -12,6 +12,10 @@ use std::fmt;
 /// Pairs that a table lists where it is not asked for all.
 const TIGHTEST: usize = 10;
 
+/// How the table of a dry run is to be read.
+const IN_THE_AIR: &str = "a plate, and what is said to wash or to touch it, means below the raised plate, where nothing is; the plates\n\
+                          that are there are the obstacles \"real plate 0\" and so on";
+
 /// Which pairs a table lists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PairsShown {
@@ -65,6 +69,10 @@ impl Certificate {
             (_, None) => "is missing",
         };
         writeln!(f, "hash {hash}\n")?;
+        let dry_run = self.rests_on.dry_run.is_some();
+        if dry_run {
+            writeln!(f, "{IN_THE_AIR}\n")?;
+        }
         writeln!(
             f,
             "{:<22} {:<10} {:>12} {:>12} {:<6}  worst",
@@ -73,7 +81,8 @@ impl Certificate {
         for check in &self.checks {
             row(f, check)?;
         }
-        writeln!(f, "\ncoverage, at least")?;
+        let swept = if dry_run { "would be swept" } else { "coverage" };
+        writeln!(f, "\n{swept}, at least")?;
         for plate in &self.coverage {
             plate_row(f, plate)?;
         }

@@ -96,7 +96,11 @@ impl<'a> Arm<'a> {
 
     /// A whole piece.
     pub fn stretch<'p>(&self, piece: &'p Piece) -> Stretch<'p> {
-        let u = [0.0, piece.length_s];
+        self.part(piece, [0.0, piece.length_s])
+    }
+
+    /// Part of a piece: from and to, within it \[s\].
+    pub fn part<'p>(&self, piece: &'p Piece, u: [f64; 2]) -> Stretch<'p> {
         let ends = u.map(|u| self.at(piece, u));
         Stretch { piece, u, ends }
     }

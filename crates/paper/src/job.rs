@@ -116,6 +116,7 @@ impl PaperJob {
             planner: Planner::Paper(stated(&self.settings)?),
             seed: self.seed,
             simulation: self.simulation.clone(),
+            dry_run: None,
         })
     }
 

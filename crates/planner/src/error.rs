@@ -45,6 +45,12 @@ pub enum PlanError {
         /// How many there are.
         count: usize,
     },
+    /// An order that is none.
+    #[error("an order of {count} plates must name each of them once")]
+    Order {
+        /// How many there are.
+        count: usize,
+    },
     /// The terms are no job.
     #[error(transparent)]
     Job(#[from] JobError),

@@ -139,6 +139,7 @@ impl Scenario {
             }),
             seed: self.seed,
             simulation: self.simulation(),
+            dry_run: None,
         })
     }
 

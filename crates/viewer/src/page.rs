@@ -114,9 +114,10 @@ fn refuse_end(part: &'static str, text: &str, end: &'static str) -> Result<(), P
 /// The title: what is shown, and by whom.
 fn title(view: &View) -> String {
     let name = printable(&view.heading.scenario);
+    let before = view.heading.dry_run.as_ref().map_or("", |_| "Dry run: ");
     match name.char_indices().nth(LONGEST_TITLE) {
-        Some((end, _)) => format!("{}… · platewash", &name[..end]),
-        None => format!("{name} · platewash"),
+        Some((end, _)) => format!("{before}{}… · platewash", &name[..end]),
+        None => format!("{before}{name} · platewash"),
     }
 }
 
@@ -281,5 +282,18 @@ mod tests {
             prop_assert_eq!(&read_back(&page)["heading"]["scenario"], &name);
             prop_assert_eq!(page.to_lowercase().matches("<script").count(), 2);
         }
+    }
+
+    #[test]
+    fn the_title_of_a_dry_run_begins_with_that() {
+        let mut view = named("kitchen");
+        assert!(
+            html(&view, &bundle())
+                .unwrap()
+                .contains("<title>kitchen · platewash</title>")
+        );
+        view.heading.dry_run = Some("DRY RUN of 221b93b62aa8".to_owned());
+        let page = html(&view, &bundle()).unwrap();
+        assert!(page.contains("<title>Dry run: kitchen · platewash</title>"), "{page}");
     }
 }

@@ -9,6 +9,7 @@ use platewash_kinematics::{JointVector, RobotModel};
 use platewash_simulator::{Execution, SimulationReport, simulate};
 use platewash_viewer::View;
 use platewash_viewer::view::{Beside, Executed, ViewError};
+use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::fixtures::{kitchen, kitchen_tool};
 use platewash_workcell::layout::TaskRegion;
 use platewash_workcell::plan::Plan;
@@ -424,6 +425,20 @@ fn the_document_has_the_fields_that_its_readers_expect() {
         let found: BTreeSet<String> = found.as_object().unwrap().keys().cloned().collect();
         assert_eq!(found, fields(name), "{name}");
     }
+}
+
+/// Whatever the plan is called: what it states of itself is told.
+#[test]
+fn a_dry_run_says_so_in_its_document() {
+    assert_eq!(KITCHEN.document()["heading"]["dry_run"], Value::Null);
+    let mut plan = KITCHEN.plan.clone();
+    let dry_run = DryRun {
+        parent: KITCHEN.plan.hash.clone().unwrap(),
+        height_m: 0.05,
+    };
+    plan.job.dry_run = Some(dry_run.clone());
+    let view = View::of_plan(&plan, &KITCHEN.arm, &Beside::default()).unwrap();
+    assert_eq!(view.heading.dry_run, Some(dry_run.words()));
 }
 
 #[test]

@@ -85,6 +85,7 @@ pub fn kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
             plant: PlantSettings::default(),
             payload_kg: None,
         },
+        dry_run: None,
     }
 }
 

@@ -10,23 +10,28 @@
 //! | how a plate is washed; the arc between plates | [`wash_path`], [`arc`] |
 //! | a motion, its stretches, it as CSV, and read back | [`trajectory`], [`segment`], [`csv`], [`recorded`] |
 //! | the plan file | [`plan`] |
+//! | a plan tried out in the air; where the arm stands at the table | [`dry_run`], [`raised`]; [`align`] |
 //! | distances between bodies | [`clearance`] |
 //! | the share of a plate that is swept | [`coverage`] |
 //! | random streams; giving up; how a job ended; words of messages | [`random`], [`cancel`], [`verdict`], [`words`] |
 
+pub mod align;
 pub mod arc;
 pub mod cancel;
 pub mod clearance;
 pub mod coverage;
 pub mod csv;
+pub mod dry_run;
 #[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;
 pub mod job;
 pub mod layout;
 mod on_floor;
+pub mod piecewise;
 pub mod plan;
 pub mod plate;
 mod pose;
+pub mod raised;
 pub mod random;
 pub mod recorded;
 pub mod segment;

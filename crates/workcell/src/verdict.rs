@@ -8,6 +8,8 @@ use serde::Serialize;
 pub enum Verdict {
     /// Every plate is washed and every limit kept.
     Washed,
+    /// A dry run that is proved: its motion in the air is. Nothing is washed.
+    DryRun,
     /// The job cannot be done, or the plan itself fails: a waypoint out of reach, or too little clearance.
     Infeasible,
     /// No way to do the job was found; there may be one.

@@ -1,7 +1,8 @@
 /** What is not proved does not look proved. */
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { folder, kitchen, page as written } from "../lib/command.mjs";
+import { join } from "node:path";
+import { folder, kitchen, page as written, platewash } from "../lib/command.mjs";
 import { address, open } from "../lib/watched.mjs";
 
 const header = (page) => page.evaluate(() => document.querySelector("header").innerText);
@@ -25,5 +26,18 @@ test("without a certificate nothing is called proved", async (t) => {
   const { page, quiet } = await open(t, address(await written(await folder(t), "paper-text")));
   assert.match(await header(page), /no certificate/i);
   assert.doesNotMatch(await header(page), /(?<!not )proved/i);
+  quiet();
+});
+
+test("a dry run never looks like a washing", async (t) => {
+  const place = await folder(t);
+  await platewash(place, ["plan", "--quiet"]);
+  await platewash(place, ["dry-run", "out/plan.json", "--quiet"]);
+  await platewash(place, ["view", "out/dry-run/plan.json", "--save", "dry-run.html", "--quiet"]);
+  const { page, quiet } = await open(t, address(join(place, "dry-run.html")));
+  const [badges, words] = await page.evaluate(() => ["header .badges", "header .sentence"].map((at) => document.querySelector(at).innerText));
+  assert.match(badges, /^dry run: proved$/i);
+  assert.match(words, /^DRY RUN of [0-9a-f]{12}: 50 mm above the plates, nothing is washed; /);
+  assert.match(await page.title(), /^Dry run: /);
   quiet();
 });

@@ -5,6 +5,7 @@ mod asked;
 mod differential;
 mod made;
 mod mutations;
+mod program;
 mod proofs;
 mod rests_on;
 mod words;

@@ -4,6 +4,7 @@ use super::made::{good, post};
 use crate::RestsOn;
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
+use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::workcell::{Exclusion, ExclusionReason, Obstacle, ObstacleShape};
 
@@ -17,6 +18,7 @@ fn told(name: &str, change: impl Fn(&mut RestsOn)) -> String {
         limits: job.limits,
         home_rad: job.home_rad,
         waived_pairs: Vec::new(),
+        dry_run: None,
         assumptions: vec!["nothing".to_owned()],
     };
     rests.workcell.obstacles = vec![Obstacle::floor()];
@@ -71,6 +73,26 @@ fn a_name_reads_as_one_name() {
     assert_eq!(left_out, "by the SRDF: \"a – b\" – \"c\"");
     let waived = told("waived", |r| r.waived_pairs = vec![pair.clone()]);
     assert_eq!(waived, "by the job alone: \"a – b\" – \"c\"");
+}
+
+#[test]
+fn a_dry_run_is_told_before_everything_else() {
+    let dry_run = DryRun {
+        parent: "0a".repeat(32),
+        height_m: 0.05,
+    };
+    let line = told("dry run", |r| r.dry_run = Some(dry_run.clone()));
+    let rest = ", its plates raised by 50 mm; nothing is there, and nothing is washed";
+    assert_eq!(line, format!("of the plan {}{rest}", "0a".repeat(32)));
+    assert_eq!(
+        dry_run.words(),
+        "DRY RUN of 0a0a0a0a0a0a: 50 mm above the plates, nothing is washed"
+    );
+    let odd = DryRun {
+        height_m: 0.0123,
+        ..dry_run
+    };
+    assert!(odd.words().contains(": 12.3 mm above"), "{}", odd.words());
 }
 
 #[test]

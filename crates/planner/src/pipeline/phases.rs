@@ -38,6 +38,14 @@ pub fn plan_here(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError>
     planned(job, &Pipeline::here(job, watch)?)
 }
 
+/// [`plan_here`] with the plates in a given order, whatever the job's settings say of it: the order of another plan, say.
+///
+/// # Errors
+/// As [`plan_with`], and [`PlanError::Order`].
+pub fn plan_in_order(job: &WashJob, order: &[usize], watch: &Watch<'_>) -> Result<Planned, PlanError> {
+    planned(job, &Pipeline::in_order(job, order, watch)?)
+}
+
 fn planned(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanError> {
     pipeline.check_homes()?;
     let scene = pipeline.scene()?;

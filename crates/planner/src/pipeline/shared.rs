@@ -32,6 +32,8 @@ pub(super) struct Pipeline<'a> {
     pub transit: MotionLimits,
     /// How another place is looked for where a plate cannot be washed.
     pub place_search: PlaceSearch,
+    /// The order of the plates, where it is not for the settings to decide.
+    pub asked_order: Option<Vec<usize>>,
     pub watch: Watch<'a>,
 }
 
@@ -75,7 +77,23 @@ impl<'a> Pipeline<'a> {
             } else {
                 PlaceSearch::Off
             },
+            asked_order: None,
             watch: *watch,
+        })
+    }
+
+    /// A job as it stands, its plates in that order.
+    pub fn in_order(job: &'a WashJob, order: &[usize], watch: &Watch<'a>) -> Result<Self, PlanError> {
+        let pipeline = Self::here(job, watch)?;
+        let count = pipeline.plates.len();
+        let mut sorted = order.to_vec();
+        sorted.sort_unstable();
+        if !sorted.into_iter().eq(0..count) {
+            return Err(PlanError::Order { count });
+        }
+        Ok(Self {
+            asked_order: Some(order.to_vec()),
+            ..pipeline
         })
     }
 
@@ -105,6 +123,7 @@ impl<'a> Pipeline<'a> {
             terms: self.terms,
             settings: self.settings,
             place_search: self.place_search,
+            asked_order: self.asked_order.clone(),
             washing: self.washing,
             transit: self.transit,
         }

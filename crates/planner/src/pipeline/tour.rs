@@ -18,10 +18,11 @@ impl Pipeline<'_> {
         let times = self.travel_times(scene)?;
         let nearest = times.nearest_next();
         let nearest_next_s = times.duration_s(&nearest);
-        let (order, optimality) = match self.settings.order {
-            OrderRule::Given => ((0..self.plates.len()).collect(), None),
-            OrderRule::Nearest => (nearest, None),
-            OrderRule::Fastest => {
+        let (order, optimality) = match (&self.asked_order, self.settings.order) {
+            (Some(asked), _) => (asked.clone(), None),
+            (None, OrderRule::Given) => ((0..self.plates.len()).collect(), None),
+            (None, OrderRule::Nearest) => (nearest, None),
+            (None, OrderRule::Fastest) => {
                 let (order, optimality) = times.best(self.watch.cancel)?;
                 (order, Some(optimality))
             }

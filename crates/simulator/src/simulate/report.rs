@@ -9,6 +9,7 @@ use super::tracking::{self, SegmentTracking, Tracking};
 use super::washing::{self, PlateOutcome, PlateVerdict};
 use super::words::shown;
 use platewash_kinematics::RobotModel;
+use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::simulation::{ControlLawName, PlantSettings, SimulationSettings};
 use platewash_workcell::words::part_of;
@@ -20,6 +21,8 @@ use serde::Serialize;
 pub enum SimulationVerdict {
     /// Every plate is washed, and the arm may carry its tool as far as is known.
     Washed,
+    /// A dry run whose raised plates are swept as they would be washed. Nothing is washed.
+    DryRun,
     /// Not so: a plate is not washed.
     NotWashed,
     /// The arm may not carry its tool, whatever is washed with it.
@@ -50,6 +53,9 @@ pub struct SimulationReport {
     pub scenario: String,
     /// Its seed.
     pub seed: u64,
+    /// That the plan is a dry run: its plates are raised, and nothing is washed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dry_run: Option<DryRun>,
     /// Name of the arm.
     pub robot: String,
     /// The law.
@@ -102,24 +108,34 @@ impl SimulationReport {
     ) -> Result<Self, SimulationError> {
         let contact = Contact::new(plan, robot);
         let tip_errors = tracking::tip_errors(execution, robot, contact.tip());
-        let plates = washing::plates(plan, robot, execution)?;
+        let dry_run = plan.job.dry_run.clone();
+        let mut plates = washing::plates(plan, robot, execution)?;
         let payload = PayloadCheck::new(&plan.job.workcell.tool, settings.payload_kg, robot);
         let washed = plates.iter().filter(|p| p.verdict == PlateVerdict::Washed).count();
         let verdict = match seal {
             Seal::Broken => SimulationVerdict::Altered,
             Seal::Whole if payload.verdict == PayloadVerdict::Exceeded => SimulationVerdict::Overloaded,
+            Seal::Whole if washed == plan.job.plates.len() && dry_run.is_some() => SimulationVerdict::DryRun,
             Seal::Whole if washed == plan.job.plates.len() => SimulationVerdict::Washed,
             Seal::Whole => SimulationVerdict::NotWashed,
+        };
+        if dry_run.is_some() {
+            plates.iter_mut().for_each(PlateOutcome::in_air);
+        }
+        let (before, done) = match &dry_run {
+            Some(dry_run) => (format!("{}; ", dry_run.words()), "swept in the air"),
+            None => (String::new(), "washed"),
         };
         let tracking = tracking::tracking(&execution.samples, &tip_errors);
         Ok(Self {
             scenario: plan.provenance.scenario.clone(),
             seed: plan.job.seed,
+            dry_run,
             robot: robot.name().to_owned(),
             law: settings.law,
             verdict,
             headline: format!(
-                "{}{} washed under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
+                "{before}{}{} {done} under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
                 payload.overload().map_or_else(String::new, |words| words + "; "),
                 part_of(washed, plan.job.plates.len(), "plate"),
                 settings.law.name(),

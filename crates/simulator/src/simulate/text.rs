@@ -13,6 +13,8 @@ impl Display for SimulationReport {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let verdict = match self.verdict {
             SimulationVerdict::Washed => "WASHED",
+            SimulationVerdict::DryRun => "FOLLOWED",
+            SimulationVerdict::NotWashed if self.dry_run.is_some() => "NOT FOLLOWED",
             SimulationVerdict::NotWashed => "NOT WASHED",
             SimulationVerdict::Overloaded => "OVERLOADED",
             SimulationVerdict::Altered => "ALTERED, the hash is not that of the contents",
@@ -47,6 +49,8 @@ fn plates(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
         let contact = 100.0 * plate.in_contact as f64 / plate.samples.max(1) as f64;
         let verdict = match plate.verdict {
             PlateVerdict::Washed => "washed",
+            PlateVerdict::SweptInAir => "swept in the air",
+            PlateVerdict::NotWashed if report.dry_run.is_some() => "not swept",
             PlateVerdict::NotWashed => "not washed",
         };
         writeln!(

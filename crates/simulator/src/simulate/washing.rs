@@ -30,6 +30,8 @@ const SPACING_M: f64 = 5e-4;
 pub enum PlateVerdict {
     /// Enough of it is surely swept, and the tool never had to be in the plate.
     Washed,
+    /// So it would be, but the plate is one that a dry run has raised: nothing is there, and nothing is washed.
+    SweptInAir,
     /// Not so.
     NotWashed,
 }
@@ -53,6 +55,15 @@ pub struct PlateOutcome {
     pub in_contact: usize,
     /// Largest tilt of the tool from the plate's normal, executed \[rad\].
     pub tilt_rad: f64,
+}
+
+impl PlateOutcome {
+    /// The same of a plate that a dry run has raised.
+    pub(super) fn in_air(&mut self) {
+        if self.verdict == PlateVerdict::Washed {
+            self.verdict = PlateVerdict::SweptInAir;
+        }
+    }
 }
 
 /// Every plate that the plan washes, in the order of washing.

@@ -1,5 +1,5 @@
 /** The parts of a motion in words and in order. */
-import type { Plate, Segment, SegmentKind } from "./view.ts";
+import type { Plate, Segment, SegmentKind, View } from "./view.ts";
 
 const NAMES: Record<SegmentKind, string> = {
   depart: "Leaving home",
@@ -10,17 +10,21 @@ const NAMES: Record<SegmentKind, string> = {
   return: "Returning home",
 };
 
+/** In a dry run nothing is where the sponge moves. */
+const IN_AIR: Record<SegmentKind, string> = { ...NAMES, wash: "In the air over" };
+
 /** A plate's number in its name, as files count it; its place in the list where its name has none. */
 export function plateNumber(plates: readonly Plate[], index: number): string {
   return /(\d{1,4})$/.exec(plates[index]?.name ?? "")?.[1] ?? String(index);
 }
 
 /** What the arm does in a segment. */
-export function segmentWords(segment: Segment, plates: readonly Plate[]): string {
+export function segmentWords(segment: Segment, { heading, plates }: Pick<View, "heading" | "plates">): string {
+  const names = heading.dry_run === null ? NAMES : IN_AIR;
   const plate = segment.plate === null ? undefined : plates[segment.plate];
-  if (segment.kind === "depart" || segment.kind === "return") return NAMES[segment.kind];
-  if (plate === undefined) return segment.kind === "transit" ? "On the way" : NAMES[segment.kind].replace(/ from$/, "");
-  return `${NAMES[segment.kind]} ${plate.name}`;
+  if (segment.kind === "depart" || segment.kind === "return") return names[segment.kind];
+  if (plate === undefined) return segment.kind === "transit" ? "On the way" : names[segment.kind].replace(/ (from|over)$/, "");
+  return `${names[segment.kind]} ${plate.name}`;
 }
 
 /** The segment at `t`, searched from `hint` on; -1 where there is none. Segments are in order of time. */

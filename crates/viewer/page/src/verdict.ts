@@ -24,8 +24,19 @@ export function countOf(certificate: Certificate, status: Status): number {
   return certificate.checks.filter((check) => check.status === status).length;
 }
 
-/** Never better than the certificate's own word: a plan whose hash does not fit, or with a requirement that is not kept, is not proved. */
+/**
+ * Never better than the certificate's own word: a plan whose hash does not fit, or with a requirement that is not kept, is not proved.
+ * A dry run says first that it is one, so that nobody takes it for a washing.
+ */
 export function verdict(view: View): Verdict {
+  const judged = ofMotion(view);
+  const words = view.heading.dry_run;
+  if (words === null) return judged;
+  const sentence = judged.sentence.startsWith(words) ? judged.sentence : `${words}; ${judged.sentence}`;
+  return { ...judged, word: `Dry run: ${judged.word.toLowerCase()}`, sentence };
+}
+
+function ofMotion(view: View): Verdict {
   const certificate = view.certificate;
   if (certificate === null) return { tone: "none", word: "No certificate", sentence: withoutCertificate(view) };
   const sentence = certificate.headline;
@@ -49,10 +60,10 @@ function withoutCertificate(view: View): string {
   }
 }
 
-/** What came of carrying it out; null where nothing is known of it. */
+/** What came of carrying it out; null where nothing is known of it, and in a dry run, which washes nothing. */
 export function washed(view: View): Verdict | null {
   const execution = view.execution;
-  if (execution === null || execution.washed === null) return null;
+  if (execution === null || execution.washed === null || view.heading.dry_run !== null) return null;
   const sentence = execution.headline ?? "";
   const how = { simulated: "simulated", recorded: "recorded", live: "simulated" }[execution.source];
   return execution.washed

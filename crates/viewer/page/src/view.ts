@@ -48,6 +48,8 @@ export interface Heading {
   /** SHA-256 of the plan; null for one configuration. */
   hash: string | null;
   process: "wash" | "paper" | "configuration";
+  /** What must be read first of a dry run: nothing is washed; null for everything else. */
+  dry_run: string | null;
   robot: string;
   duration_s: number;
 }

@@ -13,7 +13,7 @@ function viewWith(statuses: Status[] | null, certificate: Partial<Certificate> =
   const checks = (statuses ?? []).map(check);
   const passes = checks.every(({ status }) => status === "proved" || status === "waived");
   return {
-    heading: { process: "wash" },
+    heading: { process: "wash", dry_run: null },
     certificate: statuses === null ? null : { passes, headline: "so", hash: "proved", checks, rests_on: [], ...certificate },
     execution: null,
   } as unknown as View;
@@ -33,6 +33,28 @@ test("nothing looks proved that is not: no certificate, an altered plan, a certi
   }
   assert.equal(verdict(viewWith(["proved"], { passes: false })).tone, "not_proved");
   assert.equal(verdict(viewWith([], { passes: false })).tone, "not_proved");
+});
+
+const IN_AIR = "DRY RUN of 221b93b62aa8: 50 mm above the plates, nothing is washed";
+
+test("a dry run says so first, whatever came of its proof, and is never called washed", () => {
+  const inAir = (view: View): View => ({ ...view, heading: { ...view.heading, dry_run: IN_AIR } });
+  const cases: [View, string, string][] = [
+    [viewWith(["proved"], { headline: `${IN_AIR}; CERTIFIED: x` }), "proved", "Dry run: proved"],
+    [viewWith(["proved", "violated"]), "violated", "Dry run: violated"],
+    [viewWith(["proved"], { hash: "violated" }), "violated", "Dry run: altered"],
+    [viewWith(["waived"]), "waived", "Dry run: proved but for 1 waived"],
+    [viewWith(null), "none", "Dry run: no certificate"],
+  ];
+  for (const [view, tone, word] of cases) {
+    const said = verdict(inAir(view));
+    assert.deepEqual([said.tone, said.word], [tone, word]);
+    assert.equal(said.sentence.split(IN_AIR).length, 2, said.sentence);
+    assert.ok(said.sentence.startsWith(IN_AIR), said.sentence);
+    assert.doesNotMatch(verdict(view).word, /dry run/i);
+  }
+  const executed = { washed: true, headline: null } as unknown as Execution;
+  assert.equal(washed(inAir({ ...viewWith(["proved"]), execution: executed })), null);
 });
 
 test("washing is judged only where it was", () => {
@@ -86,6 +108,11 @@ test("segments are found from any hint; between and behind them there are none",
   assert.equal(segmentAt([], 1, 0), -1);
 });
 
+const shown = (dryRun: string | null): View => ({ heading: { dry_run: dryRun }, plates: PLATES }) as unknown as View;
+
 test("segments say what the arm does, with a plate that exists or none", () => {
-  assert.deepEqual(SEGMENTS.map((segment) => segmentWords(segment, PLATES)), ["Leaving home", "Washing plate 1", "On the way"]);
+  assert.deepEqual(SEGMENTS.map((segment) => segmentWords(segment, shown(null))), ["Leaving home", "Washing plate 1", "On the way"]);
+  assert.deepEqual(SEGMENTS.map((segment) => segmentWords(segment, shown(IN_AIR))), ["Leaving home", "In the air over plate 1", "On the way"]);
+  const nowhere: Segment = { kind: "wash", plate: 7, t_start_s: 0, t_end_s: 1 };
+  assert.equal(segmentWords(nowhere, shown(IN_AIR)), "In the air");
 });

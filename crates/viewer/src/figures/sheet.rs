@@ -111,6 +111,7 @@ fn stated(requirement: Requirement) -> &'static str {
         Requirement::Arm => "the plan is for this arm, its SRDF included",
         Requirement::Tool => "the tip is the middle of the sponge's face",
         Requirement::Plates => "none reaches below the floor",
+        Requirement::DryRun => "the real plates stand below, as obstacles",
         Requirement::Exclusions => "pairs left out follow from arm and SRDF",
         Requirement::WashPaths => "each plate has one that can be judged",
         Requirement::Segments => "they follow one another, home to home",

@@ -26,8 +26,10 @@ impl Subject<'_> {
             1 => "1 plate".to_owned(),
             count => format!("{count} plates"),
         };
+        let dry_run = self.plan.job.dry_run.as_ref();
+        let dry_run = dry_run.map_or_else(String::new, |dry_run| dry_run.words() + "; ");
         let first = format!(
-            "{plates}, seed {}, {}",
+            "{dry_run}{plates}, seed {}, {}",
             self.plan.job.seed,
             seconds(self.motion.duration_s())
         );

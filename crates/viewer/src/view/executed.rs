@@ -56,7 +56,11 @@ impl Executed {
             source: Source::Simulated,
             law: Some(report.law.name().to_owned()),
             headline: Some(report.headline.clone()),
-            washed: Some(report.verdict == SimulationVerdict::Washed),
+            // Nothing is asked of a dry run that could be washed.
+            washed: report
+                .dry_run
+                .is_none()
+                .then_some(report.verdict == SimulationVerdict::Washed),
             samples: samples.collect(),
             torque_limit_n_m: execution.limits.and_then(|limits| all(limits.0)),
         }

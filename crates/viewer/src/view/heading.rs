@@ -1,5 +1,6 @@
 //! What a page is about.
 
+use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::WashJob;
 use platewash_workcell::plan::{self, Plan};
 use serde::Serialize;
@@ -15,6 +16,8 @@ pub struct Heading {
     pub hash: Option<String>,
     /// What kind of motion it is, if any.
     pub process: Process,
+    /// What must be read first of a dry run: of which plan it is one, and that nothing is washed; `None` for everything else.
+    pub dry_run: Option<String>,
     /// Name of the arm.
     pub robot: String,
     /// Duration of the motion \[s\]; 0 where there is none.
@@ -43,6 +46,7 @@ impl Heading {
                 plan::Process::Wash => Process::Wash,
                 plan::Process::Paper => Process::Paper,
             },
+            dry_run: plan.job.dry_run.as_ref().map(DryRun::words),
             robot: plan.job.workcell.arm.name.clone(),
             duration_s: plan.duration_s(),
         }
@@ -54,6 +58,7 @@ impl Heading {
             seed: job.terms().seed,
             hash: None,
             process: Process::Wash,
+            dry_run: job.terms().dry_run.as_ref().map(DryRun::words),
             robot: job.arm().name().to_owned(),
             duration_s: 0.0,
         }
@@ -65,6 +70,7 @@ impl Heading {
             seed: 0,
             hash: None,
             process: Process::Configuration,
+            dry_run: None,
             robot: robot.to_owned(),
             duration_s: 0.0,
         }

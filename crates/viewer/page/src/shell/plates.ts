@@ -144,7 +144,8 @@ export class Plates {
       this.update(0, true);
     });
     for (const { element } of this.#cards) this.#observer.observe(element);
-    const words = "In the order of washing; sampled on a raster to look at. What is proved is below each map.";
+    const inAir = this.#player.view.heading.dry_run === null ? "" : "Nothing is washed: what the sponge goes over in the air. ";
+    const words = `${inAir}In the order of washing; sampled on a raster to look at. What is proved is below each map.`;
     if (this.#cards.length === 0) return this.element.replaceChildren(el("p", { class: "summary" }, "No plate is washed: there is no plan."));
     this.element.replaceChildren(
       el("p", { class: "summary" }, words),

@@ -76,7 +76,7 @@ export class Readout {
 
   #showActivity(): void {
     const { segment, view } = this.#player;
-    this.#activity.set(segment === null ? "At rest" : segmentWords(segment, view.plates));
+    this.#activity.set(segment === null ? "At rest" : segmentWords(segment, view));
     this.#swatch.style.background = segment === null ? "" : `var(--segment-${segment.kind})`;
   }
 

@@ -99,7 +99,7 @@ export class Scrubber {
 
   #wordsAt(t: number): string {
     const segment = this.#view.segments[segmentAt(this.#view.segments, t, 0)];
-    return segment === undefined ? "" : segmentWords(segment, this.#view.plates);
+    return segment === undefined ? "" : segmentWords(segment, this.#view);
   }
 
   #place(): void {

@@ -1,0 +1,100 @@
+//! Why a job is none.
+
+use crate::clearance::ClearanceError;
+use crate::layout::MAX_PLATES;
+use crate::workcell::ArmId;
+use platewash_kinematics::LimitViolation;
+use serde::{Deserialize, Serialize};
+
+/// Why a job is none.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum JobError {
+    /// A number out of range.
+    #[error("job: {name} must be {expected}; found {found}")]
+    Number {
+        /// Its place in the job.
+        name: &'static str,
+        /// What it must be.
+        expected: String,
+        /// What it is.
+        found: f64,
+    },
+    /// A seed that JSON cannot say.
+    #[error("job: seed must be at most 2^53 − 1; found {found}")]
+    Seed {
+        /// What it is.
+        found: u64,
+    },
+    /// No plates, or too many.
+    #[error("{found} plates; a job has at least 1 and at most {MAX_PLATES}")]
+    PlateCount {
+        /// Plates found.
+        found: usize,
+    },
+    /// A plate of no size, or nowhere.
+    #[error("plate {plate}: its centre, height, radius and thickness must be finite, the latter two above 0")]
+    NoPlate {
+        /// Index of the plate.
+        plate: usize,
+    },
+    /// A plate that does not lie level.
+    #[error("plate {plate} is tilted; this version washes level plates only")]
+    TiltedPlate {
+        /// Index of the plate.
+        plate: usize,
+    },
+    /// The arm is not mounted at the world's origin.
+    #[error("the arm must be mounted at the origin of the world; this version knows no other mount")]
+    Mount,
+    /// A half-space that is not the floor.
+    #[error("obstacle \"{name}\": a half-space must be z ≤ 0 of the world; this version knows no other")]
+    HalfSpace {
+        /// The obstacle.
+        name: String,
+    },
+    /// A dry run of the paper's program.
+    #[error("a run of the paper's program is no dry run")]
+    PaperDryRun,
+    /// A dry run of what is no plan.
+    #[error("job: dry_run.parent must be the hash of a plan, 64 digits of lower-case hexadecimal")]
+    Parent,
+    /// The terms are for another arm.
+    #[error("the job is for the arm \"{}\" with description {}; given is \"{}\" with {}", .job.name, .job.urdf_sha256, .given.name, .given.urdf_sha256)]
+    OtherArm {
+        /// That of the job.
+        job: Box<ArmId>,
+        /// The one given.
+        given: Box<ArmId>,
+    },
+    /// An end configuration beyond the arm's limits.
+    #[error("at the {end} of the motion: {violation}")]
+    Home {
+        /// Which end.
+        end: End,
+        /// Which joint, and by how much.
+        violation: LimitViolation,
+    },
+    /// A shape of the arm is none.
+    #[error(transparent)]
+    Clearance(#[from] ClearanceError),
+}
+
+/// An end of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum End {
+    /// Where it starts.
+    Start,
+    /// Where it ends.
+    End,
+}
+
+impl std::fmt::Display for End {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Start => "start",
+            Self::End => "end",
+        })
+    }
+}

@@ -1,0 +1,253 @@
+//! The terms of a job: everything about it but the arm itself.
+
+use super::error::JobError;
+use super::planner::{Planner, PlannerSettings};
+use super::requirements::{Limits, Requirements};
+use crate::dry_run::DryRun;
+use crate::layout::MAX_PLATES;
+use crate::plate::{GREATEST_M, Plate};
+use crate::simulation::SimulationSettings;
+use crate::workcell::{ObstacleShape, Workcell};
+use platewash_kinematics::{JointVector, Pose};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::FRAC_PI_2;
+
+/// The largest seed: up to here every whole number is a JSON number of its own (RFC 8785 writes them all as doubles), so that no two
+/// seeds are one text in a plan file.
+pub const MAX_SEED: u64 = (1 << 53) - 1;
+
+/// The terms of a job: everything about it but the arm itself, as a plan file states it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JobTerms {
+    /// The world.
+    pub workcell: Workcell,
+    /// The plates, by their index.
+    pub plates: Vec<Plate>,
+    /// What the washing must keep.
+    pub requirements: Requirements,
+    /// What joints and tip must not exceed, beyond the limits of the arm's description.
+    pub limits: Limits,
+    /// Joint positions at the start and at the end \[rad\].
+    pub home_rad: [JointVector; 2],
+    /// How it is planned: hashed, not judged.
+    pub planner: Planner,
+    /// Seed of every random stream.
+    pub seed: u64,
+    /// How its plan is simulated: hashed, not judged.
+    pub simulation: SimulationSettings,
+    /// That it is the dry run of another plan; left out of files where it is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dry_run: Option<DryRun>,
+}
+
+impl JobTerms {
+    /// How the washing is planned; `None` for a run of the paper's program.
+    #[must_use]
+    pub fn planner_settings(&self) -> Option<&PlannerSettings> {
+        match &self.planner {
+            Planner::Wash(settings) => Some(settings),
+            Planner::Paper(_) => None,
+        }
+    }
+
+    /// Largest angle of the tool from a plate's normal \[rad\]: what is required, and no more than the sponge allows.
+    #[must_use]
+    pub fn tilt_max_rad(&self) -> f64 {
+        let sponge = self.workcell.tool.sponge.greatest_tilt_rad();
+        self.requirements.tilt_rad.min(sponge)
+    }
+
+    /// Largest speed of the tip while it washes \[m/s\], never above that anywhere.
+    #[must_use]
+    pub fn wash_speed_m_s(&self) -> f64 {
+        self.requirements.wash_speed_m_s.min(self.limits.tip_speed_m_s)
+    }
+
+    /// Largest acceleration of the tip while it washes \[m/s²\], never above that anywhere.
+    #[must_use]
+    pub fn wash_acceleration_m_s2(&self) -> f64 {
+        let anywhere = self.limits.tip_acceleration_m_s2;
+        self.requirements.wash_acceleration_m_s2.min(anywhere)
+    }
+
+    /// Refuses terms with which nothing can be computed, NaN and infinity included.
+    ///
+    /// # Errors
+    /// [`JobError`], naming the first.
+    pub fn validate(&self) -> Result<(), JobError> {
+        let wanted = &self.requirements;
+        within("requirements.coverage", wanted.coverage, [0.0, 1.0])?;
+        within("requirements.clearance_m", wanted.clearance_m, [0.0, 1.0])?;
+        within("requirements.tilt_rad", wanted.tilt_rad, [0.0, FRAC_PI_2])?;
+        positive("requirements.wash_speed_m_s", wanted.wash_speed_m_s)?;
+        positive("requirements.wash_acceleration_m_s2", wanted.wash_acceleration_m_s2)?;
+        for joint in self.limits.joint_acceleration_rad_s2 {
+            positive("limits.joint_acceleration_rad_s2", joint)?;
+        }
+        positive("limits.tip_speed_m_s", self.limits.tip_speed_m_s)?;
+        positive("limits.tip_acceleration_m_s2", self.limits.tip_acceleration_m_s2)?;
+        for joint in self.home_rad.iter().flatten() {
+            within("home_rad", *joint, [-1e3, 1e3])?;
+        }
+        if self.seed > MAX_SEED {
+            return Err(JobError::Seed { found: self.seed });
+        }
+        self.check_tool()?;
+        self.check_world()?;
+        self.check_dry_run()?;
+        let count = self.plates.len();
+        if !(1..=MAX_PLATES).contains(&count) {
+            return Err(JobError::PlateCount { found: count });
+        }
+        match self.plates.iter().position(|plate| !plate.is_sound()) {
+            Some(plate) => Err(JobError::NoPlate { plate }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_tool(&self) -> Result<(), JobError> {
+        let tool = &self.workcell.tool;
+        for (name, size) in [
+            ("workcell.tool.sponge.radius_m", tool.sponge.radius_m),
+            ("workcell.tool.sponge.height_m", tool.sponge.height_m),
+        ] {
+            positive(name, size)?;
+            within(name, size, [0.0, GREATEST_M])?;
+        }
+        let most = tool.sponge.height_m;
+        within(
+            "workcell.tool.sponge.compression_m",
+            tool.sponge.compression_m,
+            [0.0, most],
+        )?;
+        for at in tool
+            .tip
+            .translation
+            .vector
+            .iter()
+            .chain(&tool.sponge.pose.translation.vector)
+        {
+            within("workcell.tool.tip", *at, [-10.0, 10.0])?;
+        }
+        Ok(())
+    }
+
+    fn check_dry_run(&self) -> Result<(), JobError> {
+        let Some(dry_run) = &self.dry_run else { return Ok(()) };
+        let (name, found) = ("dry_run.height_m", dry_run.height_m);
+        positive(name, found)?;
+        within(name, found, [0.0, GREATEST_M])?;
+        match (&self.planner, dry_run.names_a_hash()) {
+            (Planner::Paper(_), _) => Err(JobError::PaperDryRun),
+            (_, false) => Err(JobError::Parent),
+            _ => Ok(()),
+        }
+    }
+
+    /// What this version can judge of a world.
+    fn check_world(&self) -> Result<(), JobError> {
+        let workcell = &self.workcell;
+        if workcell.mount != Pose::identity() {
+            return Err(JobError::Mount);
+        }
+        let floor = |shape: &ObstacleShape| *shape == ObstacleShape::HalfSpace;
+        let tilted = |pose: &Pose| *pose != Pose::identity();
+        if let Some(other) = workcell.obstacles.iter().find(|o| floor(&o.shape) && tilted(&o.pose)) {
+            let name = other.name.clone();
+            return Err(JobError::HalfSpace { name });
+        }
+        match self.plates.iter().position(|plate| !plate.is_level()) {
+            Some(plate) => Err(JobError::TiltedPlate { plate }),
+            None => Ok(()),
+        }
+    }
+}
+
+fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), JobError> {
+    if (least..=most).contains(&found) {
+        return Ok(());
+    }
+    let expected = format!("from {least} to {most}");
+    Err(JobError::Number { name, expected, found })
+}
+
+fn positive(name: &'static str, found: f64) -> Result<(), JobError> {
+    if found > 0.0 && found.is_finite() {
+        return Ok(());
+    }
+    let expected = "finite and above 0".to_owned();
+    Err(JobError::Number { name, expected, found })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixtures::{kitchen, kitchen_terms};
+    use crate::job::WashJob;
+    use crate::workcell::Obstacle;
+    use platewash_kinematics::RobotModel;
+
+    type Change = fn(&mut JobTerms);
+
+    #[test]
+    fn terms_with_which_nothing_can_be_computed_are_refused_by_name() {
+        let good = kitchen();
+        let cases: [(&str, Change); 22] = [
+            ("requirements.coverage", |t| t.requirements.coverage = f64::NAN),
+            ("requirements.coverage", |t| t.requirements.coverage = 1.1),
+            ("requirements.clearance_m", |t| t.requirements.clearance_m = -1e-9),
+            ("requirements.tilt_rad", |t| t.requirements.tilt_rad = 2.0),
+            ("requirements.wash_speed_m_s", |t| t.requirements.wash_speed_m_s = 0.0),
+            ("requirements.wash_acceleration_m_s2", |t| {
+                t.requirements.wash_acceleration_m_s2 = f64::INFINITY
+            }),
+            ("limits.joint_acceleration_rad_s2", |t| {
+                t.limits.joint_acceleration_rad_s2[5] = -1.0
+            }),
+            ("limits.tip_speed_m_s", |t| t.limits.tip_speed_m_s = f64::NAN),
+            ("limits.tip_acceleration_m_s2", |t| t.limits.tip_acceleration_m_s2 = 0.0),
+            ("home_rad", |t| t.home_rad[1][3] = f64::NAN),
+            ("seed", |t| t.seed = MAX_SEED + 1),
+            ("0 plates", |t| t.plates.clear()),
+            ("plate 2", |t| t.plates[2].thickness_m = 0.0),
+            ("plate 1 is tilted", |t| {
+                t.plates[1].pose.rotation = nalgebra::UnitQuaternion::from_euler_angles(0.1, 0.0, 0.0)
+            }),
+            ("sponge.radius_m", |t| t.workcell.tool.sponge.radius_m = 1000.1),
+            ("sponge.radius_m", |t| t.workcell.tool.sponge.radius_m = 0.0),
+            ("sponge.height_m", |t| t.workcell.tool.sponge.height_m = 1000.1),
+            ("sponge.height_m", |t| t.workcell.tool.sponge.height_m = f64::NAN),
+            ("sponge.compression_m", |t| t.workcell.tool.sponge.compression_m = 1.0),
+            ("mounted at the origin", |t| t.workcell.mount.translation.z = 0.5),
+            ("obstacle \"wall\"", |t| {
+                let wall = Obstacle {
+                    name: "wall".to_owned(),
+                    pose: Pose::translation(0.0, 0.0, -1.0),
+                    ..Obstacle::floor()
+                };
+                t.workcell.obstacles.push(wall);
+            }),
+            ("the job is for the arm \"other\"", |t| {
+                t.workcell.arm.name = "other".to_owned()
+            }),
+        ];
+        for (words, change) in cases {
+            let mut terms = good.terms().clone();
+            change(&mut terms);
+            let said = WashJob::new(good.shared_arm(), terms).unwrap_err().to_string();
+            assert!(said.contains(words), "{words}: {said}");
+        }
+    }
+
+    /// By hand: atan(1/2) is 26.6°, less than the 30° asked for.
+    #[test]
+    fn a_flat_sponge_allows_less_tilt_than_is_asked_for() {
+        let robot = RobotModel::irb120().unwrap();
+        let mut terms = kitchen_terms(&robot, Vec::new());
+        terms.requirements.tilt_rad = 30_f64.to_radians();
+        assert_eq!(terms.tilt_max_rad(), 30_f64.to_radians());
+        terms.workcell.tool.sponge.height_m = 0.5 * terms.workcell.tool.sponge.radius_m;
+        assert!((terms.tilt_max_rad() - 0.5_f64.atan()).abs() < 1e-15);
+    }
+}

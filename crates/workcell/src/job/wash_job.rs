@@ -1,0 +1,97 @@
+//! A job with its arm.
+
+use super::error::{End, JobError};
+use super::terms::JobTerms;
+use crate::plate::Plate;
+use crate::workcell::ArmId;
+use platewash_kinematics::RobotModel;
+use std::sync::Arc;
+
+/// A job with its arm.
+#[derive(Debug, Clone)]
+pub struct WashJob {
+    name: String,
+    arm: Arc<RobotModel>,
+    terms: JobTerms,
+}
+
+impl WashJob {
+    /// The terms with the arm that they are for.
+    ///
+    /// # Errors
+    /// [`JobError`]: terms with which nothing can be computed, another arm, or an end configuration beyond its limits.
+    pub fn new(arm: Arc<RobotModel>, terms: JobTerms) -> Result<Self, JobError> {
+        terms.validate()?;
+        let given = ArmId::of(&arm);
+        if terms.workcell.arm != given {
+            let job = Box::new(terms.workcell.arm.clone());
+            let given = Box::new(given);
+            return Err(JobError::OtherArm { job, given });
+        }
+        for (end, q) in [End::Start, End::End].into_iter().zip(&terms.home_rad) {
+            if let Some(violation) = arm.limits().violation(q) {
+                return Err(JobError::Home { end, violation });
+            }
+        }
+        let name = "unnamed".to_owned();
+        Ok(Self { name, arm, terms })
+    }
+
+    /// The same job under the name of a scenario, for reports and the plan's provenance.
+    #[must_use]
+    pub fn named(self, name: &str) -> Self {
+        let name = name.to_owned();
+        Self { name, ..self }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The arm.
+    #[must_use]
+    pub fn arm(&self) -> &RobotModel {
+        &self.arm
+    }
+
+    /// The arm, to be shared.
+    #[must_use]
+    pub fn shared_arm(&self) -> Arc<RobotModel> {
+        self.arm.clone()
+    }
+
+    /// Everything else.
+    #[must_use]
+    pub fn terms(&self) -> &JobTerms {
+        &self.terms
+    }
+
+    /// The same job on other plates.
+    ///
+    /// # Errors
+    /// [`JobError`] for plates that are none.
+    pub fn on_plates(&self, plates: Vec<Plate>) -> Result<Self, JobError> {
+        let terms = JobTerms {
+            plates,
+            ..self.terms.clone()
+        };
+        Ok(Self::new(self.arm.clone(), terms)?.named(&self.name))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixtures::kitchen;
+
+    #[test]
+    fn a_home_beyond_the_limits_is_refused_by_its_joint() {
+        let good = kitchen();
+        let mut terms = good.terms().clone();
+        terms.home_rad[1][2] = 3.0;
+        let said = WashJob::new(good.shared_arm(), terms).unwrap_err().to_string();
+        assert!(said.contains("end of the motion") && said.contains("joint 3"), "{said}");
+    }
+}

@@ -1,0 +1,247 @@
+//! Joint motion of cubic pieces that meet in position, but not needfully in speed: what a controller is assumed to make of a program.
+
+use crate::trajectory::KnotError;
+use platewash_kinematics::JointVector;
+
+/// A cubic Hermite piece of joint motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionPiece {
+    /// Start and end \[s\].
+    pub t_s: [f64; 2],
+    /// Positions there \[rad\].
+    pub q_rad: [JointVector; 2],
+    /// Speeds there, on the piece's own side \[rad/s\].
+    pub qd_rad_s: [JointVector; 2],
+}
+
+/// Pieces one after the other, from 0 s and without a gap in time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PiecewiseMotion {
+    pieces: Vec<MotionPiece>,
+}
+
+impl MotionPiece {
+    /// Even motion from one position to another \[rad\].
+    #[must_use]
+    pub fn line(t_s: [f64; 2], q_rad: [JointVector; 2]) -> Self {
+        let speed = (q_rad[1] - q_rad[0]) / (t_s[1] - t_s[0]);
+        Self {
+            t_s,
+            q_rad,
+            qd_rad_s: [speed; 2],
+        }
+    }
+
+    /// Length \[s\].
+    #[must_use]
+    pub fn length_s(&self) -> f64 {
+        self.t_s[1] - self.t_s[0]
+    }
+
+    /// The coefficients c of q = c₀ + c₁u + c₂u² + c₃u³, u from the start of the piece \[s\].
+    fn coefficients(&self) -> [JointVector; 4] {
+        let h = self.length_s();
+        let ([q0, q1], [v0, v1]) = (self.q_rad, self.qd_rad_s);
+        let mean = (q1 - q0) / h;
+        [
+            q0,
+            v0,
+            (mean * 3.0 - v0 * 2.0 - v1) / h,
+            (v0 + v1 - mean * 2.0) / (h * h),
+        ]
+    }
+
+    /// Position \[rad\] and speed \[rad/s\] at a time within the piece \[s\].
+    #[must_use]
+    pub fn at(&self, t_s: f64) -> [JointVector; 2] {
+        let [c0, c1, c2, c3] = self.coefficients();
+        let u = t_s - self.t_s[0];
+        [c0 + (c1 + (c2 + c3 * u) * u) * u, c1 + (c2 * 2.0 + c3 * (3.0 * u)) * u]
+    }
+
+    /// Accelerations at the start and at the end \[rad/s²\]; all others are between them.
+    #[must_use]
+    pub fn accelerations(&self) -> [JointVector; 2] {
+        let [_, _, c2, c3] = self.coefficients();
+        [c2 * 2.0, c2 * 2.0 + c3 * (6.0 * self.length_s())]
+    }
+
+    /// Both parts of the piece before and after a time within it \[s\].
+    fn split(&self, t_s: f64) -> [Self; 2] {
+        let [q, qd] = self.at(t_s);
+        let [from, to] = self.t_s;
+        let part = |t_s, q_rad, qd_rad_s| Self { t_s, q_rad, qd_rad_s };
+        [
+            part([from, t_s], [self.q_rad[0], q], [self.qd_rad_s[0], qd]),
+            part([t_s, to], [q, self.q_rad[1]], [qd, self.qd_rad_s[1]]),
+        ]
+    }
+}
+
+impl PiecewiseMotion {
+    /// A motion from its pieces.
+    ///
+    /// # Errors
+    /// [`KnotError`] with the index of the piece: a number that is not finite, or a time that does not continue the one before.
+    pub fn new(pieces: Vec<MotionPiece>) -> Result<Self, KnotError> {
+        let mut end_s = 0.0;
+        for (knot, piece) in pieces.iter().enumerate() {
+            let [from, to] = piece.t_s;
+            let numbers = piece.q_rad.iter().chain(&piece.qd_rad_s).flatten();
+            if ![from, to].into_iter().chain(numbers.copied()).all(f64::is_finite) {
+                return Err(KnotError::NotFinite { knot });
+            }
+            if from != end_s || to <= from {
+                return Err(KnotError::Time { knot, t_s: to });
+            }
+            end_s = to;
+        }
+        Ok(Self { pieces })
+    }
+
+    /// The pieces, in time order.
+    #[must_use]
+    pub fn pieces(&self) -> &[MotionPiece] {
+        &self.pieces
+    }
+
+    /// Time of the end \[s\]; 0 for an empty motion.
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.pieces.last().map_or(0.0, |piece| piece.t_s[1])
+    }
+
+    /// Position \[rad\] and speed \[rad/s\] at a time \[s\], where pieces meet those of the later one; `None` outside the motion.
+    #[must_use]
+    pub fn at(&self, t_s: f64) -> Option<[JointVector; 2]> {
+        let index = self.pieces.partition_point(|piece| piece.t_s[0] <= t_s);
+        let piece = self.pieces.get(index.checked_sub(1)?)?;
+        (t_s <= piece.t_s[1]).then(|| piece.at(t_s))
+    }
+
+    /// The same motion `factor` times as long, and as much slower.
+    #[must_use]
+    pub fn stretched(&self, factor: f64) -> Self {
+        let stretched = |piece: &MotionPiece| MotionPiece {
+            t_s: piece.t_s.map(|t| t * factor),
+            q_rad: piece.q_rad,
+            qd_rad_s: piece.qd_rad_s.map(|v| v / factor),
+        };
+        Self {
+            pieces: self.pieces.iter().map(stretched).collect(),
+        }
+    }
+
+    /// The same motion with a rest where it ends, until a time \[s\] that is later.
+    #[must_use]
+    pub fn resting_until(mut self, end_s: f64) -> Self {
+        let from = self.duration_s();
+        if let Some(last) = self.pieces.last().filter(|_| end_s > from) {
+            let there = last.q_rad[1];
+            self.pieces.push(MotionPiece::line([from, end_s], [there; 2]));
+        }
+        self
+    }
+
+    /// The same motion with pieces that end at each of some times \[s\], in ascending order; those outside the motion are left out, and
+    /// so are those that are within `near_s` \[s\] of where a piece ends already.
+    #[must_use]
+    pub fn cut_at(&self, times_s: impl IntoIterator<Item = f64>, near_s: f64) -> Self {
+        let mut pieces = Vec::with_capacity(self.pieces.len());
+        let mut rest = self.pieces.iter().copied();
+        let mut current = rest.next();
+        for t_s in times_s {
+            while let Some(piece) = current.filter(|piece| piece.t_s[1] <= t_s + near_s) {
+                pieces.push(piece);
+                current = rest.next();
+            }
+            if let Some(piece) = current.filter(|piece| piece.t_s[0] + near_s < t_s) {
+                let [before, after] = piece.split(t_s);
+                pieces.push(before);
+                current = Some(after);
+            }
+        }
+        pieces.extend(current.into_iter().chain(rest));
+        Self { pieces }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn vector() -> impl Strategy<Value = JointVector> {
+        prop::array::uniform6(-2.0..2.0_f64).prop_map(JointVector::from)
+    }
+
+    fn motions() -> impl Strategy<Value = PiecewiseMotion> {
+        let piece = (0.01..0.5_f64, vector(), [vector(), vector()]);
+        (vector(), prop::collection::vec(piece, 1..8)).prop_map(|(start, parts)| {
+            let (mut t, mut q) = (0.0, start);
+            let pieces = parts.into_iter().map(|(h, to, qd_rad_s)| {
+                let piece = MotionPiece {
+                    t_s: [t, t + h],
+                    q_rad: [q, to],
+                    qd_rad_s,
+                };
+                (t, q) = (t + h, to);
+                piece
+            });
+            PiecewiseMotion::new(pieces.collect()).unwrap()
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn cutting_changes_no_motion(motion in motions(), shares in prop::collection::vec(-0.1..1.1_f64, 0..6), seen in 0.0..1.0_f64) {
+            let duration_s = motion.duration_s();
+            let mut times: Vec<_> = shares.iter().map(|share| share * duration_s).collect();
+            times.sort_by(f64::total_cmp);
+            let cut = motion.cut_at(times.iter().copied(), 0.0);
+            prop_assert!(PiecewiseMotion::new(cut.pieces().to_vec()).is_ok());
+            prop_assert_eq!(cut.duration_s(), duration_s);
+            for time in times.into_iter().filter(|t| *t > 0.0 && *t <= duration_s) {
+                prop_assert!(cut.pieces().iter().any(|piece| piece.t_s[1] == time));
+            }
+            let t = seen * duration_s;
+            let ([q, v], [q_cut, v_cut]) = (motion.at(t).unwrap(), cut.at(t).unwrap());
+            prop_assert!((q - q_cut).amax() < 1e-9 && (v - v_cut).amax() < 1e-6, "{} {}", (q - q_cut).amax(), (v - v_cut).amax());
+        }
+
+        #[test]
+        fn a_stretched_motion_is_slower_and_goes_the_same_way(motion in motions(), factor in 0.2..5.0_f64, share in 0.0..1.0_f64) {
+            let stretched = motion.stretched(factor);
+            let t = share * motion.duration_s();
+            let ([q, v], [q_slow, v_slow]) = (motion.at(t).unwrap(), stretched.at((t * factor).min(stretched.duration_s())).unwrap());
+            prop_assert!((q - q_slow).amax() < 1e-9, "{}", (q - q_slow).amax());
+            prop_assert!((v - v_slow * factor).amax() < 1e-6);
+        }
+
+        #[test]
+        fn speeds_are_derivatives_and_accelerations_theirs(motion in motions(), share in 0.1..0.9_f64) {
+            let piece = motion.pieces()[0];
+            let (u, h) = (share * piece.length_s(), 1e-6);
+            let [before, after] = [u - h, u + h].map(|u| piece.at(u));
+            prop_assert!(((after[0] - before[0]) / (2.0 * h) - piece.at(u)[1]).amax() < 1e-3);
+            let acceleration = (after[1] - before[1]) / (2.0 * h);
+            let [first, last] = piece.accelerations();
+            prop_assert!((first + (last - first) * share - acceleration).amax() < 1e-3 * (1.0 + first.amax() + last.amax()));
+        }
+    }
+
+    #[test]
+    fn gaps_and_no_numbers_are_refused() {
+        let rest = |t_s| MotionPiece::line(t_s, [JointVector::zeros(); 2]);
+        let refused = |pieces| PiecewiseMotion::new(pieces).unwrap_err();
+        assert_eq!(
+            refused(vec![rest([0.0, 1.0]), rest([1.5, 2.0])]),
+            KnotError::Time { knot: 1, t_s: 2.0 }
+        );
+        assert_eq!(refused(vec![rest([0.5, 1.0])]), KnotError::Time { knot: 0, t_s: 1.0 });
+        let mut nan = rest([0.0, 1.0]);
+        nan.qd_rad_s[1][3] = f64::NAN;
+        assert_eq!(refused(vec![nan]), KnotError::NotFinite { knot: 0 });
+        assert_eq!(PiecewiseMotion::new(Vec::new()).unwrap().at(0.0), None);
+    }
+}
