@@ -26,6 +26,7 @@ extern crate self as platewash;
 
 pub use platewash_certificate as certificate;
 pub use platewash_editor as editor;
+pub use platewash_export as export;
 pub use platewash_kinematics as kinematics;
 pub use platewash_paper as paper;
 pub use platewash_planner as planner;

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 /// The project's own packages, and what each may depend on among them; the root package may know all that are below it.
 ///
 /// Packages that are not named here are no part of the product: the chores and what the benchmarks need.
-const FLOORS: [(&str, &[&str]); 11] = [
+const FLOORS: [(&str, &[&str]); 12] = [
     ("platewash-kinematics", &[]),
     ("platewash-workcell", &["platewash-kinematics"]),
     ("platewash-certificate", &["platewash-kinematics", "platewash-workcell"]),
@@ -37,6 +37,10 @@ const FLOORS: [(&str, &[&str]); 11] = [
         ],
     ),
     (
+        "platewash-export",
+        &["platewash-kinematics", "platewash-workcell", "platewash-certificate"],
+    ),
+    (
         "platewash-editor",
         &[
             "platewash-kinematics",
@@ -58,6 +62,7 @@ const FLOORS: [(&str, &[&str]); 11] = [
             "platewash-paper",
             "platewash-scenario",
             "platewash-viewer",
+            "platewash-export",
             "platewash-editor",
         ],
     ),

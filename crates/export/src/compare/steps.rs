@@ -1,0 +1,84 @@
+//! The points of a program, by the lines that name them.
+
+use crate::reading::{ReadPoint, Reading};
+use platewash_kinematics::words::told_apart;
+use platewash_kinematics::{AXES, JointVector};
+use std::collections::HashMap;
+
+/// What is rounding of angles and their speeds \[rad, rad/s\], and of lengths \[m\].
+const ROUNDING: (f64, f64) = (1e-12, 1e-9);
+
+/// What is rounding of a step that was worked out of sums of times \[s\]: of programs that run at the same share of the speed, and at
+/// different ones.
+const ROUNDING_S: [f64; 2] = [1e-10, 2e-7];
+
+/// A point, with speeds and the time since the point before in the plan's time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Step<'a> {
+    point: &'a ReadPoint,
+    /// \[s\]
+    lasts_s: f64,
+    /// \[rad/s\]
+    qd_rad_s: Option<JointVector>,
+}
+
+/// What is rounding of the steps of two programs \[s\].
+pub(super) fn rounding_s(a: &Reading, b: &Reading) -> f64 {
+    ROUNDING_S[usize::from(a.share() != b.share())]
+}
+
+/// The points that each line names, in order; lines by file and number.
+pub(super) fn by_line(reading: &Reading) -> HashMap<(&str, usize), Vec<Step<'_>>> {
+    let share = reading.share();
+    let mut before_s = 0.0;
+    let mut all: HashMap<_, Vec<_>> = HashMap::new();
+    for point in &reading.points {
+        let step = Step {
+            point,
+            lasts_s: (point.t_s - before_s) * share,
+            qd_rad_s: point.qd_rad_s.map(|qd| qd / share),
+        };
+        before_s = point.t_s;
+        let place = &point.place;
+        all.entry((place.file.as_str(), place.line)).or_default().push(step);
+    }
+    all
+}
+
+impl Step<'_> {
+    /// What is different, as name, found and expected.
+    pub fn differences(&self, other: &Self, most_s: f64) -> Vec<(String, String, String)> {
+        let (most_rad, most_m) = ROUNDING;
+        let mut all = Vec::new();
+        for j in 0..AXES {
+            let (a, b) = (self.point.q_rad[j], other.point.q_rad[j]);
+            if a.is_nan() || (a - b).abs() > most_rad {
+                let [a, b] = told_apart(a.to_degrees(), b.to_degrees(), 4);
+                all.push((format!("joint {}", j + 1), format!("{a} deg"), format!("{b} deg")));
+            }
+            let speeds = [self, other].map(|step| step.qd_rad_s.map(|v| v[j]));
+            if let [Some(a), Some(b)] = speeds
+                && (a.is_nan() || (a - b).abs() > most_rad)
+            {
+                let [a, b] = told_apart(a.to_degrees(), b.to_degrees(), 4);
+                let what = format!("speed of joint {}", j + 1);
+                all.push((what, format!("{a} deg/s"), format!("{b} deg/s")));
+            }
+        }
+        if self.lasts_s.is_nan() || (self.lasts_s - other.lasts_s).abs() > most_s {
+            let [a, b] = told_apart(self.lasts_s, other.lasts_s, 6);
+            all.push(("time".to_owned(), format!("{a} s"), format!("{b} s")));
+        }
+        let corners = [self, other].map(|step| step.point.corner_m);
+        let is_same = match corners {
+            [Some(a), Some(b)] => (a - b).abs() <= most_m,
+            [a, b] => a.is_none() == b.is_none(),
+        };
+        if !is_same {
+            let told = |corner: Option<f64>| corner.map_or_else(|| "stop".to_owned(), |m| format!("{} mm", 1e3 * m));
+            let [a, b] = corners.map(told);
+            all.push(("corner".to_owned(), a, b));
+        }
+        all
+    }
+}

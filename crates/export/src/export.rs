@@ -1,0 +1,270 @@
+//! A certified plan becomes a program, which is read back and judged before it is handed over.
+
+use crate::dialect::{Dialect, ReadError};
+use crate::file::ProgramFile;
+use crate::header;
+use crate::judged::{self, Judged};
+use crate::points::{Following, Source};
+use crate::program::{Point, Program};
+use crate::reading::Reading;
+use crate::refusal::Refusal;
+use crate::settings::ExportSettings;
+use crate::tool_frame;
+use platewash_certificate::{Certified, ProveError};
+use platewash_kinematics::words::told_apart;
+use platewash_kinematics::{AXES, JointVector, RobotModel};
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::workcell::ArmId;
+
+/// How far the arm may stand from the start of the plan \[°\].
+pub const START_WITHIN_DEG: f64 = 0.5;
+
+/// How far a point that was read back may be from the one that was written \[°\], and its time \[s\].
+const READ_WITHIN: (f64, f64) = (1e-4, 1e-4);
+
+/// A program that may be handed over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exported {
+    /// Its files.
+    pub files: Vec<ProgramFile>,
+    /// What is proved of it.
+    pub judged: Judged,
+    /// What it says, read back.
+    pub reading: Reading,
+}
+
+/// Why there is no program.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// The plan is not handed over.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// The motion cannot be judged, or the work was given up.
+    #[error(transparent)]
+    Prove(#[from] ProveError),
+    /// The program that was written does not say what it should: a fault of this program.
+    #[error("the {dialect} program that was written does not read back: {reason}")]
+    Unfaithful {
+        /// The dialect.
+        dialect: &'static str,
+        /// What differs, and where.
+        reason: String,
+    },
+}
+
+/// A certified plan of an arm as a program of a dialect.
+///
+/// # Errors
+/// [`ExportError`]; [`Refusal`] where the plan, its job or what the program does stands against it.
+pub fn export(
+    certified: &Certified<Plan>,
+    arm: &RobotModel,
+    dialect: &dyn Dialect,
+    settings: &ExportSettings,
+    cancel: &CancelToken,
+) -> Result<Exported, ExportError> {
+    let plan = certified.plan();
+    check(certified, arm, settings)?;
+    dialect.accepts(&plan.job, arm)?;
+    let exported = Written::new(certified, arm, dialect, settings)?.judged(cancel)?;
+    exported.judged.accepted()?;
+    Ok(exported)
+}
+
+/// The program as it was handed over, whatever was accepted then: what an edited one is compared with.
+pub(crate) fn again(
+    certified: &Certified<Plan>,
+    arm: &RobotModel,
+    dialect: &dyn Dialect,
+    settings: &ExportSettings,
+    cancel: &CancelToken,
+) -> Result<Exported, ExportError> {
+    settings.check()?;
+    Written::new(certified, arm, dialect, settings)?.judged(cancel)
+}
+
+/// What must hold whatever the dialect.
+fn check(certified: &Certified<Plan>, arm: &RobotModel, settings: &ExportSettings) -> Result<(), Refusal> {
+    settings.check()?;
+    let job = &certified.plan().job;
+    let (expected, found) = (&job.workcell.arm, ArmId::of(arm));
+    if *expected != found {
+        return Err(Refusal::OtherArm {
+            expected: expected.name.clone(),
+            found: found.name,
+        });
+    }
+    let waived = certified.certificate().waived.iter();
+    let waived: Vec<_> = waived
+        .filter(|requirement| !settings.accepted.contains(requirement))
+        .collect();
+    if !waived.is_empty() {
+        let waived = waived
+            .into_iter()
+            .map(|requirement| requirement.words().to_owned())
+            .collect();
+        return Err(Refusal::Waived { waived });
+    }
+    if let Some(stands) = &settings.stands_rad {
+        check_start(stands, &job.home_rad[0])?;
+    }
+    settings
+        .tip
+        .as_ref()
+        .map_or(Ok(()), |tip| tool_frame::check(tip, &job.workcell.tool.tip))
+}
+
+fn check_start(stands: &JointVector, start: &JointVector) -> Result<(), Refusal> {
+    let off = |joint: &usize| (stands[*joint] - start[*joint]).abs().to_degrees();
+    let worst = (0..AXES).max_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
+    if off(&worst) <= START_WITHIN_DEG {
+        return Ok(());
+    }
+    Err(Refusal::Start {
+        joint: worst,
+        found_deg: stands[worst].to_degrees(),
+        expected_deg: start[worst].to_degrees(),
+        most_deg: START_WITHIN_DEG,
+    })
+}
+
+/// A program before its header is known.
+struct Written<'a> {
+    certified: &'a Certified<Plan>,
+    source: Source<'a>,
+    dialect: &'a dyn Dialect,
+    settings: &'a ExportSettings,
+    points: Vec<Point>,
+}
+
+impl<'a> Written<'a> {
+    fn new(
+        certified: &'a Certified<Plan>,
+        arm: &'a RobotModel,
+        dialect: &'a dyn Dialect,
+        settings: &'a ExportSettings,
+    ) -> Result<Self, ExportError> {
+        let source = Source::new(certified.plan(), arm).map_err(ProveError::from)?;
+        let following = Following {
+            tolerance_m: settings.tolerance_m,
+            corner_m: settings.corner_m,
+            speed_share: settings.speed_share,
+        };
+        let points = source.points(dialect.points(), &following)?;
+        Ok(Self {
+            certified,
+            source,
+            dialect,
+            settings,
+            points,
+        })
+    }
+
+    /// The program with what is proved of it at its head.
+    fn judged(&self, cancel: &CancelToken) -> Result<Exported, ExportError> {
+        let (_, reading) = self.text(None)?;
+        let judged = judged::judge(
+            self.certified,
+            &reading,
+            self.source.arm,
+            self.settings.tolerance_m,
+            cancel,
+        )?;
+        let (files, reading) = self.text(Some(&judged))?;
+        Ok(Exported { files, judged, reading })
+    }
+
+    /// The text, and what it says.
+    fn text(&self, judged: Option<&Judged>) -> Result<(Vec<ProgramFile>, Reading), ExportError> {
+        let header = header::lines(
+            self.certified,
+            &self.source,
+            (self.dialect, self.settings),
+            (&self.points, judged),
+        );
+        let program = Program {
+            name: name_of(self.certified.plan()),
+            plan: self.certified.plan(),
+            arm: self.source.arm,
+            points: self.points.clone(),
+            speed_share: self.settings.speed_share,
+            corner_m: self.settings.corner_m,
+            header,
+        };
+        let files = self.dialect.write(&program);
+        let unfaithful = |reason: String| ExportError::Unfaithful {
+            dialect: self.dialect.name(),
+            reason,
+        };
+        let reading = self
+            .dialect
+            .read(&files, self.source.arm)
+            .map_err(|e: ReadError| unfaithful(e.to_string()))?;
+        differs(&program, &reading).map_or(Ok(()), |reason| Err(unfaithful(reason)))?;
+        Ok((files, reading))
+    }
+}
+
+/// Where what was read back is not what was written.
+fn differs(program: &Program<'_>, reading: &Reading) -> Option<String> {
+    let (written, read) = (program.points.len(), reading.points.len());
+    if written != read {
+        return Some(format!("{written} points were written, {read} read"));
+    }
+    if let Some(stated) = reading
+        .speed_share
+        .filter(|stated| (program.speed_share - stated).abs() > 1e-6)
+    {
+        let [share, stated] = told_apart(program.speed_share, stated, 6);
+        return Some(format!("the speed share is {share}, read as {stated}"));
+    }
+    let share = program.speed_share;
+    let both = program.points.iter().zip(&reading.points);
+    both.into_iter().find_map(|(point, read)| {
+        let (most_deg, most_s) = READ_WITHIN;
+        let off_deg = (point.q_rad - read.q_rad).amax().to_degrees();
+        let off_s = (point.t_s - read.t_s * share).abs();
+        let far = off_deg.is_nan() || off_deg > most_deg || off_s.is_nan() || off_s > most_s;
+        far.then(|| format!("{}: {off_deg:.2e}° and {off_s:.2e} s off", read.place))
+    })
+}
+
+/// Name of a plan's program: of its scenario, and of a dry run alone does it begin with that, however long the scenario's name is.
+fn name_of(plan: &Plan) -> String {
+    let scenario = &plan.provenance.scenario;
+    if plan.job.dry_run.is_some() {
+        let washing = scenario.strip_suffix("-dry-run").unwrap_or(scenario);
+        return identifier(&format!("dry run {washing}"));
+    }
+    let name = identifier(scenario);
+    match name.contains("dry_run") {
+        true => identifier(&format!("wash {name}")),
+        false => name,
+    }
+}
+
+/// A name that every dialect takes: a letter, then letters, digits and `_`, 20 at most.
+fn identifier(name: &str) -> String {
+    const LONGEST: usize = 20;
+    let letter = |c: char| {
+        if c.is_ascii_alphanumeric() {
+            c.to_ascii_lowercase()
+        } else {
+            '_'
+        }
+    };
+    let plain: String = name.chars().map(letter).collect();
+    let plain = plain.trim_matches('_');
+    let named = match plain.chars().next() {
+        Some(first) if first.is_ascii_alphabetic() => plain.to_owned(),
+        _ => format!("wash_{plain}"),
+    };
+    named
+        .chars()
+        .take(LONGEST)
+        .collect::<String>()
+        .trim_end_matches('_')
+        .to_owned()
+}

@@ -1,0 +1,220 @@
+//! What stands at the head of a program: what it is, from which plan, what is proved of it, and what it rests on. A statement an
+//! entry.
+
+use crate::dialect::Dialect;
+use crate::judged::{Case, Judged};
+use crate::points::Source;
+use crate::program::Point;
+use crate::settings::ExportSettings;
+use nalgebra::Vector3;
+use platewash_certificate::{Certificate, Certified, Check, Requirement, Sense, Unit};
+use platewash_kinematics::words::{decimals_down, decimals_up, fixed, rounded as rounded_to};
+use platewash_kinematics::{AXES, JointVector, sha256_hex};
+use platewash_workcell::plan::Plan;
+use platewash_workcell::words::counted;
+
+/// Degrees in a radian.
+const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+
+/// Plates whose places are listed.
+const MOST_PLATES: usize = 24;
+
+/// The header of a program, of the points that it names. Before it is judged there is no verdict in it.
+pub(crate) fn lines(
+    certified: &Certified<Plan>,
+    source: &Source<'_>,
+    (dialect, settings): (&dyn Dialect, &ExportSettings),
+    (points, judged): (&[Point], Option<&Judged>),
+) -> Vec<String> {
+    let plan = certified.plan();
+    let mut lines = vec![
+        format!("platewash {}, target {}", env!("CARGO_PKG_VERSION"), dialect.name()),
+        format!("scenario: {}", plan.provenance.scenario),
+        format!("plan sha256: {}", plan.hash.as_deref().unwrap_or("none")),
+        format!("certificate sha256: {}", hash(certified.certificate())),
+        format!("the plan: {}", certified.certificate().headline),
+    ];
+    lines.extend(workcell(source));
+    lines.extend(speeds(source, settings, points));
+    lines.extend(judged.into_iter().flat_map(|judged| verdict(judged, settings)));
+    lines.push("Assumed, not verified on a controller:".to_owned());
+    lines.extend(dialect.assumptions().iter().map(|words| format!("- {words}")));
+    let rests_on = &certified.certificate().rests_on.assumptions;
+    lines.extend(rests_on.iter().map(|words| format!("- {words}")));
+    lines.push(
+        "Before the first run: the dry run of this plan (platewash dry-run), and a small share of the speed."
+            .to_owned(),
+    );
+    lines.push("This program is not a safety function.".to_owned());
+    lines.extend(settings.lines());
+    lines
+}
+
+/// SHA-256 of a certificate's canonical JSON (RFC 8785).
+fn hash(certificate: &Certificate) -> String {
+    serde_json_canonicalizer::to_vec(certificate).map_or_else(|_| "none".to_owned(), |text| sha256_hex(&text))
+}
+
+/// Arm, mount, tool, and what stands around them.
+fn workcell(source: &Source<'_>) -> Vec<String> {
+    let job = &source.plan.job;
+    let world = &job.workcell;
+    let place = |m: f64| fixed(1e3 * m, 1);
+    let (at, mount) = (
+        world.tool.tip.translation.vector.map(place),
+        world.mount.translation.vector.map(place),
+    );
+    let sponge = &world.tool.sponge;
+    let mut lines = vec![
+        format!("arm: {}, URDF sha256 {}", world.arm.name, world.arm.urdf_sha256),
+        format!(
+            "mount: base at {}, {}, {} mm of the world, upright",
+            mount.x, mount.y, mount.z
+        ),
+        format!(
+            "tool: tip at {}, {}, {} mm of the flange; sponge of radius {} mm, {} mm high",
+            at.x,
+            at.y,
+            at.z,
+            place(sponge.radius_m),
+            place(sponge.height_m)
+        ),
+    ];
+    if let Some(mass) = &world.tool.mass {
+        let com = mass.com_m.map(place).join(", ");
+        lines.push(format!(
+            "load: {} kg, centre of mass at {com} mm of the flange",
+            mass.mass_kg
+        ));
+    }
+    let plates = job.plates.iter().enumerate().take(MOST_PLATES);
+    lines.extend(plates.map(|(k, plate)| {
+        let pole = plate.world(&Vector3::zeros()).map(place);
+        format!(
+            "plate {k}: middle of its face at {}, {}, {} mm of the world, radius {} mm",
+            pole.x,
+            pole.y,
+            pole.z,
+            place(plate.rim_m())
+        )
+    }));
+    if job.plates.len() > MOST_PLATES {
+        lines.push(format!("and {} more plates", job.plates.len() - MOST_PLATES));
+    }
+    let names: Vec<_> = world.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect();
+    let others = if names.is_empty() {
+        "nothing".to_owned()
+    } else {
+        names.join(", ")
+    };
+    lines.push(format!(
+        "the world of the proof is the arm, the tool, the plates and: {others}. Tables, fences, cables and people are not in it."
+    ));
+    lines
+}
+
+/// Duration, top speeds and the shortest step.
+fn speeds(source: &Source<'_>, settings: &ExportSettings, points: &[Point]) -> Vec<String> {
+    let share = settings.speed_share;
+    let mut most = JointVector::zeros();
+    source
+        .motion
+        .extremes()
+        .for_each(|extremes| most = most.sup(&extremes.speed));
+    let joints: Vec<_> = (0..AXES)
+        .map(|j| decimals_up((most[j] * share).to_degrees(), 1))
+        .collect();
+    let plan_s = source.motion.duration_s();
+    let steps = points.windows(2).map(|both| (both[1].t_s - both[0].t_s) / share);
+    vec![
+        format!(
+            "{}, {:.3} s at a share of {share} of the plan's speed (the plan: {plan_s:.3} s); {} points, the nearest {:.1} ms apart",
+            counted(source.plan.order.len(), "plate"),
+            plan_s / share,
+            points.len(),
+            1e3 * steps.fold(f64::INFINITY, f64::min)
+        ),
+        format!(
+            "top speeds of the plan at that share: joints {} deg/s",
+            joints.join(", ")
+        ),
+    ]
+}
+
+/// What is proved of the text itself.
+fn verdict(judged: &Judged, settings: &ExportSettings) -> Vec<String> {
+    let corners = judged.cases.iter().any(|case| case.corner_scale.is_some());
+    let how = match corners {
+        true => ", without corners and with corners of 0.5, 1 and 2 times their size",
+        false => "",
+    };
+    let held = if judged.holds() { "HOLDS" } else { "DOES NOT HOLD" };
+    let share = settings.speed_share;
+    let mut lines = vec![format!("Judged: the motion of this text, interpreted{how}: {held}")];
+    lines.extend(judged.worst().iter().map(|check| told(check, "limit", 1.0)));
+    lines.push(format!(
+        "That is at a share of {share} of the plan's speed; at a lower one the path, as assumed below, is the same and every speed lower."
+    ));
+    lines.push(
+        "Not judged: accelerations, rest where a plate is touched, and speeds of the tip: the controller times the motion. Implied by \
+         it at that share, beside what the plan keeps:"
+            .to_owned(),
+    );
+    lines.extend(judged.implied().iter().map(|check| {
+        let is_speed = check
+            .measure
+            .is_some_and(|measure| measure.unit == Unit::MetrePerSecond);
+        told(check, "plan", if is_speed { share } else { 1.0 })
+    }));
+    lines.extend(judged.cases.iter().filter_map(|case| asked(case, share)));
+    lines
+}
+
+/// A measure with what it is held against, both times a factor.
+fn told(check: &Check, beside: &str, factor: f64) -> String {
+    let name = match check.requirement {
+        Requirement::JointPosition => "distance from the joints' limits",
+        requirement => requirement.words(),
+    };
+    let Some(measure) = check.measure else {
+        return format!("- {name}: {}", check.detail());
+    };
+    let (scale, unit) = match measure.unit {
+        Unit::Radian => (DEGREES, "deg"),
+        Unit::RadianPerSecond => (DEGREES, "deg/s"),
+        Unit::RadianPerSecondSquared => (DEGREES, "deg/s^2"),
+        Unit::Metre => (1e3, "mm"),
+        Unit::MetrePerSecond => (1.0, "m/s"),
+        Unit::MetrePerSecondSquared => (1.0, "m/s^2"),
+        Unit::Share => (100.0, "%"),
+    };
+    let (side, rounded): (_, fn(f64, usize) -> String) = match measure.sense {
+        Sense::AtMost => ("at most", decimals_up),
+        Sense::AtLeast | Sense::Above => ("at least", decimals_down),
+    };
+    let bound = measure
+        .bound
+        .map_or_else(|| "unknown".to_owned(), |v| rounded(v * factor * scale, 4));
+    format!(
+        "- {name}: {side} {bound} {unit} ({beside} {})",
+        rounded_to(measure.limit * factor * scale, 6)
+    )
+}
+
+/// What corners of one size ask of the controller; nothing where the motion is as smooth as the plan.
+fn asked(case: &Case, speed_share: f64) -> Option<String> {
+    let scale = case.corner_scale?;
+    let share = |v: Option<f64>| v.map(|v| decimals_up(v * speed_share * speed_share, 2));
+    let step = decimals_up((case.asked.speed_step_rad_s * speed_share).to_degrees(), 1);
+    let (median, most) = (
+        share(case.asked.acceleration_median),
+        share(case.asked.acceleration_most),
+    );
+    Some(match median.zip(most) {
+        Some((median, most)) => format!(
+            "- corners x {scale}: {median} times the plan's joint acceleration limit in the median, {most} at most; steps of speed up to \
+             {step} deg/s at stops"
+        ),
+        None => format!("- no corners: steps of joint speed up to {step} deg/s"),
+    })
+}

@@ -1,0 +1,57 @@
+//! Robot programs: a proved plan in the words of a controller, read back and judged again before it is handed over.
+//!
+//! ```text
+//! Certified<Plan> ─ points ─ Program ─ Dialect::write ─ text ─ Dialect::read ─ Reading ─ motions ─ judged ─┬─ files
+//!                                                                                                          └─ Refusal
+//! ```
+//!
+//! What is handed over is never trusted: the text itself is interpreted, as the controller is assumed to move, and what comes of it is
+//! judged against the plan and its job (`platewash_certificate::prove_program`). A plan that is not certified cannot get here.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | a text file of a program, and a line in it | `file` |
+//! | what is handed over, in no dialect | `program` |
+//! | what a program says, read back | `reading` |
+//! | a language of programs; the list of all | `dialect`, `dialects` |
+//! | RAPID, of ABB: written, parsed, executed | `rapid` |
+//! | URScript, of Universal Robots: written, parsed, executed | `urscript` |
+//! | a table of positions and speeds, for any other use | `csv` |
+//! | sentences as lines of a comment | `comment` |
+//! | a tool as a controller has it, beside the plan's | `tool_frame` |
+//! | settings, and as lines of a program | `settings` |
+//! | which points of a plan a program names | `points` |
+//! | how an arm is assumed to move along a program | `interpret` |
+//! | what is proved of that motion | `judged` |
+//! | what stands at the head of a program | `header` |
+//! | all of it, one after the other; why a plan is not handed over | `export`, `refusal` |
+//! | a program that may have been changed since | `compare` |
+//! | ROS 2 | `ros2` |
+
+mod comment;
+pub mod compare;
+pub mod csv;
+pub mod dialect;
+pub mod dialects;
+mod export;
+pub mod file;
+mod header;
+pub mod interpret;
+pub mod judged;
+mod points;
+pub mod program;
+pub mod rapid;
+pub mod reading;
+mod refusal;
+pub mod ros2;
+mod settings;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;
+mod tool_frame;
+pub mod urscript;
+
+pub use compare::{Change, CompareError, Compared, compare};
+pub use export::{ExportError, Exported, START_WITHIN_DEG, export};
+pub use refusal::Refusal;
+pub use settings::{ExportSettings, requirement};

@@ -1,0 +1,187 @@
+//! Which jobs can be handed to an ABB controller: the make of the arm, and what it may carry.
+
+use super::interpret::LEAST_KG;
+use crate::refusal::Refusal;
+use nalgebra::Matrix2;
+use platewash_kinematics::irb120::IRB120_URDF;
+use platewash_kinematics::words::told_apart;
+use platewash_kinematics::{RobotModel, sha256_hex};
+use platewash_workcell::job::JobTerms;
+use platewash_workcell::tool::ToolMass;
+
+/// Rated payload of the IRB 120 \[kg\] (product specification 3HAC035960).
+const PAYLOAD_KG: f64 = 3.0;
+/// From the centre of its joint 5 to the flange \[m\].
+const JOINT_5_TO_FLANGE_M: f64 = 0.072;
+/// Largest inertia of a load about its joint 5 \[kg·m²\].
+const JOINT_5_KG_M2: f64 = 0.175;
+/// Largest inertia of a load about its joint 6 \[kg·m²\].
+const JOINT_6_KG_M2: f64 = 0.085;
+/// Least distance of a centre of mass from the flange \[m\]: a tenth of the last digit that is written.
+const LEAST_COM_M: f64 = 1e-6;
+
+/// Refuses a job that an ABB controller would not take.
+pub fn accepts(job: &JobTerms, arm: &RobotModel) -> Result<(), Refusal> {
+    let is_built_in = arm.sha256() == sha256_hex(IRB120_URDF.as_bytes());
+    if !is_built_in && !arm.name().to_lowercase().starts_with("abb") {
+        return Err(Refusal::Arm {
+            dialect: "RAPID",
+            expected: "arms of ABB, whose URDF has a name that begins with \"abb\"",
+            found: arm.name().to_owned(),
+        });
+    }
+    let Some(mass) = &job.workcell.tool.mass else {
+        return load(
+            "the tool has no mass, and a controller takes none without: state its mass in the scenario, and plan again",
+        );
+    };
+    check_mass(mass)?;
+    let stated_kg = job.simulation.payload_kg;
+    if is_built_in {
+        let rated_kg = stated_kg.map_or(PAYLOAD_KG, |stated_kg| stated_kg.min(PAYLOAD_KG));
+        within(
+            "the tool weighs",
+            mass.mass_kg,
+            rated_kg,
+            "kg, the arm's rated payload is",
+        )?;
+        let [about_5, about_6] = inertias_kg_m2(mass);
+        within(
+            "the tool's inertia about joint 5 is",
+            about_5,
+            JOINT_5_KG_M2,
+            "kg·m², allowed are",
+        )?;
+        return within(
+            "the tool's inertia about joint 6 is",
+            about_6,
+            JOINT_6_KG_M2,
+            "kg·m², allowed are",
+        );
+    }
+    match stated_kg {
+        Some(rated_kg) => within(
+            "the tool weighs",
+            mass.mass_kg,
+            rated_kg,
+            "kg, the arm's rated payload is",
+        ),
+        None => Ok(()),
+    }
+}
+
+fn check_mass(mass: &ToolMass) -> Result<(), Refusal> {
+    let ToolMass {
+        mass_kg,
+        com_m,
+        inertia_kg_m2,
+    } = mass;
+    if ![*mass_kg]
+        .iter()
+        .chain(com_m)
+        .chain(inertia_kg_m2)
+        .all(|value| value.is_finite())
+    {
+        return load(
+            "the tool's mass, centre of mass and inertia must be finite: state them in the scenario, and plan again",
+        );
+    }
+    if *mass_kg < LEAST_KG {
+        return load(&format!(
+            "the tool weighs {mass_kg} kg, a controller takes {LEAST_KG} kg or more: state its mass in the scenario, and plan again"
+        ));
+    }
+    if com_m.iter().all(|coordinate| coordinate.abs() < LEAST_COM_M) {
+        return load(
+            "the tool's centre of mass is at the flange's origin, which a controller refuses: state where it is in the scenario, and \
+             plan again",
+        );
+    }
+    Ok(())
+}
+
+/// Inertia of a load about joints 5 and 6 of the IRB 120 \[kg·m²\], at the worst turn of joint 6:
+/// `m ((Z + 0.072)² + L²) + max J0` and `m L² + J0z`, the centre of mass at `Z` along the flange's axis and `L` beside it.
+fn inertias_kg_m2(mass: &ToolMass) -> [f64; 2] {
+    let [x, y, z] = mass.com_m;
+    let [ixx, ixy, _, iyy, _, izz] = mass.inertia_kg_m2;
+    let beside = x * x + y * y;
+    let along = z + JOINT_5_TO_FLANGE_M;
+    let across = Matrix2::new(ixx, ixy, ixy, iyy).symmetric_eigenvalues().max();
+    let about_5 = mass.mass_kg * (along * along + beside) + across;
+    [about_5, mass.mass_kg * beside + izz]
+}
+
+fn within(what: &str, found: f64, most: f64, unit: &str) -> Result<(), Refusal> {
+    if found <= most {
+        return Ok(());
+    }
+    let [found, most] = told_apart(found, most, 3);
+    load(&format!("{what} {found} {unit} {most}: take a lighter or shorter tool"))
+}
+
+fn load(reason: &str) -> Result<(), Refusal> {
+    let reason = reason.to_owned();
+    Err(Refusal::Load { reason })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_workcell::fixtures::kitchen_terms;
+
+    fn refused(change: impl Fn(&mut ToolMass)) -> String {
+        let arm = RobotModel::irb120().unwrap();
+        let mut job = kitchen_terms(&arm, Vec::new());
+        accepts(&job, &arm).unwrap();
+        let mut mass = job.workcell.tool.mass.unwrap();
+        change(&mut mass);
+        job.workcell.tool.mass = Some(mass);
+        match accepts(&job, &arm) {
+            Err(Refusal::Load { reason }) => reason,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn loads_beyond_the_arm_are_refused_with_the_limit() {
+        assert!(refused(|mass| mass.mass_kg = 3.01).contains("weighs 3.010 kg, the arm's rated payload is 3.000"));
+        // 3 (0.15 + 0.072)² = 0.148, and 0.05 more.
+        let about_5 = refused(|mass| {
+            (mass.mass_kg, mass.com_m) = (3.0, [0.0, 0.0, 0.15]);
+            mass.inertia_kg_m2 = [0.01, 0.02, 0.0, 0.01, 0.0, 0.01];
+        });
+        assert!(
+            about_5.contains("about joint 5 is 0.178 kg·m², allowed are 0.175"),
+            "{about_5}"
+        );
+        let about_6 = refused(|mass| (mass.mass_kg, mass.com_m) = (1.0, [0.3, 0.0, -0.072]));
+        assert!(about_6.contains("about joint 6 is 0.090"), "{about_6}");
+    }
+
+    #[test]
+    fn loads_that_a_controller_refuses() {
+        assert!(refused(|mass| mass.mass_kg = 0.0009).contains("0.001 kg or more"));
+        assert!(refused(|mass| mass.com_m = [0.0; 3]).contains("centre of mass"));
+        assert!(refused(|mass| mass.mass_kg = f64::NAN).contains("finite"));
+        let arm = RobotModel::irb120().unwrap();
+        let mut job = kitchen_terms(&arm, Vec::new());
+        job.workcell.tool.mass = None;
+        assert!(matches!(accepts(&job, &arm), Err(Refusal::Load { reason }) if reason.contains("no mass")));
+    }
+
+    #[test]
+    fn arms_of_others_are_refused() {
+        let text = IRB120_URDF.replace("<robot name=\"irb120\">", "<robot name=\"ur5\">");
+        assert_ne!(text, IRB120_URDF);
+        let sources = platewash_kinematics::urdf::MeshSource::none();
+        let arm = RobotModel::from_urdf(&text, &sources).unwrap();
+        let job = kitchen_terms(&arm, Vec::new());
+        let refusal = accepts(&job, &arm).unwrap_err();
+        assert_eq!(refusal.code(), "arm");
+        assert!(refusal.to_string().contains("ur5"));
+        let text = text.replace("\"ur5\"", "\"ABB_IRB1200\"");
+        let arm = RobotModel::from_urdf(&text, &sources).unwrap();
+        accepts(&job, &arm).unwrap();
+    }
+}

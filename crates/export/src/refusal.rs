@@ -1,0 +1,120 @@
+//! Why a plan is not handed over.
+
+use platewash_certificate::Requirement;
+
+/// Why a plan is not handed over. [`Refusal::code`] is stable.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// The certificate waives requirements that were not accepted by name.
+    #[error("the certificate waives {}: nobody has accepted that by name", .waived.join(", "))]
+    Waived {
+        /// Their names.
+        waived: Vec<String>,
+    },
+    /// The program is for arms of another make.
+    #[error("a {dialect} program is for {expected}; the plan is for \"{found}\"")]
+    Arm {
+        /// The dialect.
+        dialect: &'static str,
+        /// Which arms it is for.
+        expected: &'static str,
+        /// The plan's arm.
+        found: String,
+    },
+    /// The tool has no mass, or one that the controller or the arm does not take.
+    #[error("{reason}")]
+    Load {
+        /// What is wrong with it, and what to do.
+        reason: String,
+    },
+    /// The tool's frame is not the plan's.
+    #[error("{reason}")]
+    Frame {
+        /// What differs, and by how much.
+        reason: String,
+    },
+    /// The arm does not stand where the plan begins.
+    #[error(
+        "joint {} stands at {found_deg:.4}°, the plan starts at {expected_deg:.4}°: more than {most_deg}° away; move the arm there first",
+        .joint + 1
+    )]
+    Start {
+        /// Index of the joint.
+        joint: usize,
+        /// Where it stands \[°\].
+        found_deg: f64,
+        /// Where the plan starts \[°\].
+        expected_deg: f64,
+        /// How far it may be away \[°\].
+        most_deg: f64,
+    },
+    /// A setting that makes no sense.
+    #[error("{name} must be {expected}; found {found}")]
+    Setting {
+        /// Its name.
+        name: &'static str,
+        /// What it must be.
+        expected: String,
+        /// What it is.
+        found: String,
+    },
+    /// The arm is not the one that the plan is certified for.
+    #[error("the plan is certified for the arm \"{expected}\" as another description states it; given is \"{found}\"")]
+    OtherArm {
+        /// The plan's arm.
+        expected: String,
+        /// The one given.
+        found: String,
+    },
+    /// Points would have to be closer together than controllers take them.
+    #[error(
+        "at {t_s:.3} s the tip would be {:.3} mm from the plan with {:.0} ms between points, the closest that are written; {:.3} mm were \
+         asked: allow more, run at a smaller share of the speed, or plan with lower accelerations",
+        1e3 * .deviation_m, 1e3 * .least_s, 1e3 * .tolerance_m
+    )]
+    TooClose {
+        /// When \[s\].
+        t_s: f64,
+        /// How far the tip would be from the plan \[m\].
+        deviation_m: f64,
+        /// How far it may be \[m\].
+        tolerance_m: f64,
+        /// The shortest time between two points \[s\].
+        least_s: f64,
+    },
+    /// What the program does does not keep to the plan or to its job.
+    #[error("{} is not kept{assuming}: {words}", .requirement.words())]
+    NotKept {
+        /// What is not kept.
+        requirement: Requirement,
+        /// Under which assumption, in words that follow a noun; empty where there is but one.
+        assuming: String,
+        /// What was found, and where.
+        words: String,
+    },
+}
+
+impl Refusal {
+    /// A stable word for it.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Waived { .. } => "waived",
+            Self::Arm { .. } | Self::OtherArm { .. } => "arm",
+            Self::Setting { .. } => "setting",
+            Self::Load { .. } => "load",
+            Self::Frame { .. } => "frame",
+            Self::Start { .. } => "start",
+            Self::TooClose { .. } => "segment_time",
+            Self::NotKept { requirement, .. } => match requirement {
+                Requirement::JointSpeed => "joint_speed",
+                Requirement::PlanDeviation => "deviation",
+                Requirement::Clearance => "clearance",
+                Requirement::Coverage => "coverage",
+                Requirement::ContactHeight => "contact",
+                _ => "not_kept",
+            },
+        }
+    }
+}

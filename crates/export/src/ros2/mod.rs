@@ -1,0 +1,140 @@
+//! ROS 2: a plan as messages for joint_trajectory_controller, and a player that sends them.
+//!
+//! Positions and speeds at every knot and nothing else: between two points the controller draws the cubic that has both, which is the
+//! plan's own. The first point is [`timing::LEAD_IN_S`] after the goal is taken, so that the arm is led to it and does not jump.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | the messages as data | `message` |
+//! | times in them | `timing` |
+//! | YAML and JSON | `language` |
+//! | numbers in them | `number` |
+//! | them as YAML and JSON | `write` |
+//! | YAML as a tree with lines | `node` |
+//! | a message out of a tree | `parse` |
+//! | what the controller asks, and what this program asks beyond that; as a check | `rule`, `rules` |
+//! | a message as a reading; files that must agree | `interpret` |
+//! | the script that sends a goal | `player`, `play.py` |
+
+mod interpret;
+mod language;
+pub mod message;
+mod node;
+mod number;
+mod parse;
+mod player;
+pub mod rule;
+pub mod rules;
+pub mod timing;
+mod write;
+
+use crate::dialect::{Dialect, Points, ReadError};
+use crate::file::ProgramFile;
+use crate::program::Program;
+use crate::reading::Reading;
+use crate::refusal::Refusal;
+use language::Language;
+use message::{Message, Tolerances};
+use platewash_kinematics::RobotModel;
+use platewash_workcell::job::JobTerms;
+
+/// The file that holds the `trajectory_msgs/JointTrajectory` as JSON.
+pub const TRAJECTORY_JSON: &str = "joint_trajectory.json";
+
+/// The dialect `ros2`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Ros2;
+
+impl Dialect for Ros2 {
+    fn name(&self) -> &'static str {
+        "ros2"
+    }
+
+    fn is_in(&self, file: &ProgramFile) -> bool {
+        player::is_it(file) || (Language::of(&file.name).is_some() && file.text.contains("time_from_start"))
+    }
+
+    fn points(&self) -> Points {
+        Points::Knots
+    }
+
+    fn assumptions(&self) -> &'static [&'static str] {
+        &[
+            "The controller is joint_trajectory_controller with interpolation_method: splines, which draws the cubic with both points' \
+             positions and speeds.",
+            "It commands the arm's joints by these names, in radians, and starts where the plan starts: the first point is 0.5 s after \
+             the goal is taken, and what the arm does until then is not proved beyond standing within 0.5 degrees of it.",
+            "The drives follow what is commanded; how far they may lag behind is the path tolerance, which no clearance is proved for.",
+            "Nothing retimes the trajectory on the way: neither MoveIt nor a speed scaling.",
+            "Not tried in a ROS installation or on an arm: the controller's rules and its cubic are mirrored from its public source.",
+        ]
+    }
+
+    fn accepts(&self, _job: &JobTerms, _arm: &RobotModel) -> Result<(), Refusal> {
+        Ok(())
+    }
+
+    fn write(&self, program: &Program<'_>) -> Vec<ProgramFile> {
+        let message = Message::of(program);
+        let tolerances = message.tolerances.clone().unwrap_or_default();
+        let trajectory = |language| write::trajectory(&message, language);
+        let goal = |language| write::goal(&message, &tolerances, language);
+        let file = |name: &str, text: String| ProgramFile {
+            name: name.to_owned(),
+            text,
+        };
+        let head = write::head(program, &said(program));
+        let of_goal = write::head(program, &[said(program), said_of_goal(&tolerances)].concat());
+        vec![
+            file("joint_trajectory.yaml", head + &trajectory(Language::Yaml)),
+            file(TRAJECTORY_JSON, trajectory(Language::Json)),
+            file("follow_joint_trajectory.yaml", of_goal + &goal(Language::Yaml)),
+            file("follow_joint_trajectory.json", goal(Language::Json)),
+            player::file(),
+        ]
+    }
+
+    fn read(&self, files: &[ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {
+        let (players, messages): (Vec<_>, Vec<_>) = files.iter().partition(|file| player::is_it(file));
+        let check = |file: &ProgramFile| player::check(file).map_err(|fault| interpret::refused(file, fault));
+        players.into_iter().try_for_each(check)?;
+        interpret::reading(&messages, arm)
+    }
+}
+
+/// What the head of a message says beside that of every program.
+fn said(program: &Program<'_>) -> Vec<String> {
+    let lead_in_s = timing::LEAD_IN_S;
+    vec![
+        "trajectory_msgs/JointTrajectory: positions in rad, velocities in rad/s; no accelerations, no effort."
+            .to_owned(),
+        format!(
+            "time_from_start 0 is the arm as it stands, within 0.5 degrees of the first point; {lead_in_s} s later, at the first point, the \
+             plan begins."
+        ),
+        format!(
+            "At a speed share of {} the plan takes {:.3} s, the message {:.3} s.",
+            program.speed_share,
+            program.duration_s(),
+            program.duration_s() + lead_in_s,
+        ),
+    ]
+}
+
+/// What the head of a goal says of its tolerances.
+fn said_of_goal(tolerances: &Tolerances) -> Vec<String> {
+    let each = |all: &[message::Tolerance]| {
+        let told: Vec<String> = all.iter().map(|t| number::float(t.position.value)).collect();
+        told.join(", ")
+    };
+    vec![
+        "control_msgs/action/FollowJointTrajectory, the goal of the action.".to_owned(),
+        format!(
+            "path_tolerance {} rad: what a joint that is 0.05 s late is off at its greatest speed, at least 0.02 rad; beyond it the \
+             controller aborts.",
+            each(&tolerances.path.value)
+        ),
+        format!("goal_tolerance {} rad.", each(&tolerances.goal.value)),
+        "A tolerance of 0.0 would mean the controller's own, -1.0 none. None of them is part of the proof.".to_owned(),
+    ]
+}

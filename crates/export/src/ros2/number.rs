@@ -1,0 +1,161 @@
+//! Numbers in messages: what is written reads back exactly, and as a float by readers of YAML 1.1, YAML 1.2 and JSON.
+
+/// A finite number as a float's text: always with a point, an exponent always with its sign, never a negative zero.
+///
+/// YAML 1.1, which ROS 2 reads, takes `1e-05` and `1e16` for texts; `1.0e-5` is a number to everybody.
+pub(super) fn float(value: f64) -> String {
+    let value = if value == 0.0 { 0.0 } else { value };
+    let shortest = format!("{value:?}");
+    let Some((mantissa, exponent)) = shortest.split_once('e') else {
+        return shortest;
+    };
+    let point = if mantissa.contains('.') { "" } else { ".0" };
+    let sign = if exponent.starts_with('-') { "" } else { "+" };
+    format!("{mantissa}{point}e{sign}{exponent}")
+}
+
+/// A text in double quotes, as JSON and YAML read it: of the first 65536 characters what is not ASCII is written out.
+pub(super) fn quoted(text: &str) -> String {
+    let mut out = String::with_capacity(text.len() + 2);
+    out.push('"');
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            ' '..='~' | '\u{10000}'.. => out.push(c),
+            _ => out.push_str(&format!("\\u{:04x}", u32::from(c))),
+        }
+    }
+    out.push('"');
+    out
+}
+
+/// What a text says as a number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Said {
+    /// A finite number that every reader takes for a float.
+    Float(f64),
+    /// A whole number.
+    Whole(i64),
+    /// A finite number that JSON and YAML 1.2 take for a float, and YAML 1.1 for a text.
+    TextInYaml11(f64),
+    /// Not a number, or not a finite one.
+    Nothing,
+}
+
+/// Reads a number's text.
+pub(super) fn read(text: &str) -> Said {
+    let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
+    let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, Some(exponent)),
+        None => (unsigned, None),
+    };
+    let (whole, fraction) = match mantissa.split_once('.') {
+        Some((whole, fraction)) => (whole, Some(fraction)),
+        None => (mantissa, None),
+    };
+    let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+    let octal = whole.len() > 1 && whole.starts_with('0');
+    let power = exponent.map(|e| e.strip_prefix(['-', '+']).unwrap_or(e));
+    let is_number = !whole.is_empty()
+        && digits(whole)
+        && !octal
+        && fraction.is_none_or(|f| !f.is_empty() && digits(f))
+        && power.is_none_or(|p| !p.is_empty() && digits(p));
+    if !is_number {
+        return Said::Nothing;
+    }
+    if fraction.is_none() && exponent.is_none() {
+        return text.parse().map_or(Said::Nothing, Said::Whole);
+    }
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => {
+            let signed = exponent.is_none_or(|e| e.starts_with(['-', '+']));
+            if fraction.is_some() && signed {
+                Said::Float(value)
+            } else {
+                Said::TextInYaml11(value)
+            }
+        }
+        _ => Said::Nothing,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn every_reader_takes_them_for_floats() {
+        let texts = [0.0, -0.0, 1.0, -2.0, 1e-5, 1.5e-7, 1e16, 1e300, 0.1].map(float);
+        let expected = [
+            "0.0", "0.0", "1.0", "-2.0", "1.0e-5", "1.5e-7", "1.0e+16", "1.0e+300", "0.1",
+        ];
+        assert_eq!(texts, expected);
+    }
+
+    #[test]
+    fn what_is_no_float_is_told() {
+        for (text, said) in [
+            ("1", Said::Whole(1)),
+            ("-3", Said::Whole(-3)),
+            ("1e-05", Said::TextInYaml11(1e-5)),
+            ("1.0e5", Said::TextInYaml11(1e5)),
+            ("1.0e+5", Said::Float(1e5)),
+            ("+0.5", Said::Float(0.5)),
+        ] {
+            assert_eq!(read(text), said, "{text}");
+        }
+        let nothing = [
+            "",
+            "-",
+            ".",
+            ".5",
+            "5.",
+            "1_000.0",
+            "010",
+            "00.5",
+            "0x1F",
+            "nan",
+            ".nan",
+            ".inf",
+            "inf",
+            "NaN",
+            "1.0e999",
+            "1.0e",
+            "1.0e+",
+            "--1.0",
+            "1.0 ",
+            "1,0",
+            "~",
+            "9223372036854775808",
+            "é",
+        ];
+        for text in nothing {
+            assert_eq!(read(text), Said::Nothing, "{text}");
+        }
+    }
+
+    #[test]
+    fn names_are_quoted_for_both_languages() {
+        assert_eq!(quoted("joint_1"), "\"joint_1\"");
+        assert_eq!(quoted("a\"\\\n\u{85}é😀"), "\"a\\\"\\\\\\u000a\\u0085\\u00e9😀\"");
+    }
+
+    proptest! {
+        #[test]
+        fn a_written_number_reads_back_exactly(bits in any::<u64>()) {
+            let value = f64::from_bits(bits);
+            prop_assume!(value.is_finite());
+            let text = float(value);
+            prop_assert_eq!(read(&text), Said::Float(if value == 0.0 { 0.0 } else { value }), "{}", text);
+            prop_assert_eq!(serde_json::from_str::<f64>(&text).unwrap(), value);
+        }
+
+        #[test]
+        fn reading_takes_any_text(text in "[-+0-9.eE_]{0,12}|\\PC{0,8}") {
+            let _ = read(&text);
+        }
+    }
+}

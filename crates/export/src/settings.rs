@@ -1,0 +1,123 @@
+//! How a plan is handed over, and these settings as lines of a program's head, so that it can be made again and compared.
+
+use crate::refusal::Refusal;
+use platewash_certificate::Requirement;
+use platewash_kinematics::{JointVector, Pose};
+
+/// The shortest tolerance that rounding leaves room for \[m\].
+const LEAST_TOLERANCE_M: f64 = 2e-5;
+
+/// The largest tolerance: what is farther off is no longer the plan \[m\].
+const GREATEST_TOLERANCE_M: f64 = 2e-3;
+
+/// The largest corner \[m\].
+const GREATEST_CORNER_M: f64 = 0.1;
+
+/// How a plan is handed over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExportSettings {
+    /// How far the tip may be from the plan \[m\].
+    pub tolerance_m: f64,
+    /// Share of the plan's speed at which the program runs, above 0 and at most 1.
+    pub speed_share: f64,
+    /// Radius of corners at points that are not stops \[m\].
+    pub corner_m: f64,
+    /// Requirements whose waiving is accepted.
+    pub accepted: Vec<Requirement>,
+    /// Where the arm stands now, if that is to be compared with the start of the plan \[rad\].
+    pub stands_rad: Option<JointVector>,
+    /// `T_flange_tip` as the controller has it, if that is to be compared with the plan's.
+    pub tip: Option<Pose>,
+}
+
+impl Default for ExportSettings {
+    fn default() -> Self {
+        Self {
+            tolerance_m: 2e-4,
+            speed_share: 1.0,
+            corner_m: 5e-3,
+            accepted: Vec::new(),
+            stands_rad: None,
+            tip: None,
+        }
+    }
+}
+
+impl ExportSettings {
+    /// Refuses settings that make no sense.
+    ///
+    /// # Errors
+    /// [`Refusal::Setting`], naming the first.
+    pub(crate) fn check(&self) -> Result<(), Refusal> {
+        let within = |name, found: f64, [least, most]: [f64; 2]| {
+            if (least..=most).contains(&found) {
+                return Ok(());
+            }
+            Err(Refusal::Setting {
+                name,
+                expected: format!(
+                    "from {least} to {most}{}",
+                    if name.ends_with("_m") { " metres" } else { "" }
+                ),
+                found: found.to_string(),
+            })
+        };
+        within(
+            "tolerance_m",
+            self.tolerance_m,
+            [LEAST_TOLERANCE_M, GREATEST_TOLERANCE_M],
+        )?;
+        within("speed_share", self.speed_share, [1e-3, 1.0])?;
+        within("corner_m", self.corner_m, [0.0, GREATEST_CORNER_M])?;
+        let numbers = self.stands_rad.iter().flatten();
+        numbers.copied().try_for_each(|q| within("stands_rad", q, [-1e3, 1e3]))
+    }
+
+    /// The settings that shape the text, a line each.
+    pub(crate) fn lines(&self) -> Vec<String> {
+        let accepted: Vec<_> = self.accepted.iter().map(|r| r.words().replace(' ', "_")).collect();
+        let mut lines = vec![
+            format!("{SETTING} tolerance_m = {}", self.tolerance_m),
+            format!("{SETTING} speed_share = {}", self.speed_share),
+            format!("{SETTING} corner_m = {}", self.corner_m),
+        ];
+        if !accepted.is_empty() {
+            lines.push(format!("{SETTING} accepted = {}", accepted.join(",")));
+        }
+        lines
+    }
+
+    /// The settings that a text states in such lines, whatever stands before them; those that it does not state are as they are in
+    /// `otherwise`. `None` where a line cannot be read.
+    pub(crate) fn stated(text: &str, otherwise: Self) -> Option<Self> {
+        let mut settings = otherwise;
+        for line in text.lines() {
+            let Some((_, statement)) = line.split_once(SETTING) else {
+                continue;
+            };
+            let (name, value) = statement.split_once('=')?;
+            let value = value.trim();
+            let number = || value.parse().ok();
+            match name.trim() {
+                "tolerance_m" => settings.tolerance_m = number()?,
+                "speed_share" => settings.speed_share = number()?,
+                "corner_m" => settings.corner_m = number()?,
+                "accepted" => settings.accepted = value.split(',').map(requirement).collect::<Option<_>>()?,
+                _ => return None,
+            }
+        }
+        Some(settings)
+    }
+}
+
+/// What such a line begins with.
+const SETTING: &str = "platewash setting:";
+
+/// A requirement by its words, joined by underscores or spaces.
+#[must_use]
+pub fn requirement(name: &str) -> Option<Requirement> {
+    let name = name.trim().replace('_', " ");
+    Requirement::ALL
+        .into_iter()
+        .find(|requirement| requirement.words() == name)
+}

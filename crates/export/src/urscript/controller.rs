@@ -1,0 +1,312 @@
+//! What the controller is assumed to do at each instruction.
+//!
+//! The arm goes evenly in the joints to where a `servoj` sends it, and is there when its time is over. `movej` has a path in time of its
+//! own: it may bring the arm to the start, before the program's time begins, and to where it stands already.
+
+use super::fault::Fault;
+use super::value::Value;
+use super::words::shortened;
+use crate::file::Place;
+use crate::reading::{Between, ReadPoint, ReadTool, Reading};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use platewash_kinematics::trig::sin_cos;
+use platewash_kinematics::{JointVector, Pose};
+use platewash_workcell::words::quoted;
+
+/// Longest time of a `servoj` \[s\]: it hastens to where it is sent, which is even motion in short steps alone.
+const LONGEST_S: f64 = 0.02;
+
+/// Look-ahead times that a controller takes \[s\].
+const LOOKAHEAD_S: [f64; 2] = [0.03, 0.2];
+
+/// Gains that a controller takes.
+const GAIN: [f64; 2] = [100.0, 2000.0];
+
+/// How far a `movej` may go where no motion is meant \[rad\].
+const NOWHERE_RAD: f64 = 1e-6;
+
+/// Joint positions beyond which no arm of the maker goes \[rad\]: two turns.
+const FARTHEST_RAD: f64 = 4.0 * std::f64::consts::PI;
+
+/// Instructions, each with its parameters in order.
+pub(super) const INSTRUCTIONS: [(&str, &[&str]); 7] = [
+    ("set_tcp", &["pose"]),
+    ("set_payload", &["m", "cog"]),
+    ("movej", &["q", "a", "v", "t", "r"]),
+    ("servoj", &["q", "a", "v", "t", "lookahead_time", "gain"]),
+    ("stopj", &["a"]),
+    ("popup", &["s", "title", "warning", "error", "blocking"]),
+    ("textmsg", &["s1", "s2"]),
+];
+
+/// What the arm has done so far.
+#[derive(Debug, Default)]
+enum Stage {
+    /// Nothing: where it stands is not known.
+    #[default]
+    Before,
+    /// It stands at its start, or moves.
+    Moving,
+    /// It has been stopped for good.
+    Stopped,
+}
+
+/// A controller, so far.
+#[derive(Debug, Default)]
+pub(super) struct Controller {
+    stage: Stage,
+    t_s: f64,
+    points: Vec<ReadPoint>,
+    tip: Option<Pose>,
+    load: Option<(f64, [f64; 3])>,
+}
+
+/// Values of an instruction's parameters, in their order; `None` where not given.
+pub(super) type Given = Vec<Option<Value>>;
+
+impl Controller {
+    /// Where the program begins, once it has gone there.
+    pub(super) fn start(&self) -> Option<JointVector> {
+        self.points.first().map(|point| point.q_rad)
+    }
+
+    /// The points so far.
+    pub(super) fn points(&self) -> &[ReadPoint] {
+        &self.points
+    }
+
+    /// Whether it moves beyond its start.
+    pub(super) fn moves(&self) -> bool {
+        self.points.len() > 1
+    }
+
+    /// One of [`INSTRUCTIONS`].
+    pub(super) fn instruction(&mut self, name: &str, given: &Given, place: Place) -> Result<(), Fault> {
+        match name {
+            "set_tcp" => {
+                self.check_standing("the tip")?;
+                self.tip = Some(pose(required(given, 0, "pose")?.pose()?));
+            }
+            "set_payload" => {
+                self.check_standing("the payload")?;
+                self.load = Some(load(given)?);
+            }
+            "movej" => return self.movej(given, place),
+            "servoj" => return self.servoj(given, place),
+            "stopj" => {
+                positive(given, 0, "a")?;
+                if matches!(self.stage, Stage::Before) {
+                    return Err(Fault::new("stopj before any motion"));
+                }
+                self.stage = Stage::Stopped;
+            }
+            "popup" if self.moves() && !matches!(self.stage, Stage::Stopped) => {
+                return Err(Fault::new(
+                    "a popup in the midst of the motion: how the arm moves while it waits is not modelled",
+                ));
+            }
+            _ => {
+                required(given, 0, "text")?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What the tool is must not change while it moves.
+    fn check_standing(&self, what: &str) -> Result<(), Fault> {
+        match self.moves() {
+            true => Err(Fault::new(format!(
+                "{what} is set in the midst of the motion; expected before it"
+            ))),
+            false => Ok(()),
+        }
+    }
+
+    fn movej(&mut self, given: &Given, place: Place) -> Result<(), Fault> {
+        let q_rad = joints(given)?;
+        for (k, name) in [(1, "a"), (2, "v")] {
+            if given.get(k).is_some_and(Option::is_some) {
+                positive(given, k, name)?;
+            }
+        }
+        for (k, name) in [(3, "t"), (4, "r")] {
+            let found = given.get(k).and_then(Option::as_ref).map_or(Ok(0.0), Value::number)?;
+            if found != 0.0 {
+                let reason = format!(
+                    "movej with {name}: its ramps and blends are the controller's; expected servoj for what is timed"
+                );
+                return Err(Fault::new(reason));
+            }
+        }
+        let Some(last) = self.points.last() else {
+            self.stage = Stage::Moving;
+            self.points.push(ReadPoint {
+                place,
+                t_s: 0.0,
+                q_rad,
+                qd_rad_s: None,
+                corner_m: None,
+            });
+            return Ok(());
+        };
+        let away = (last.q_rad - q_rad).amax();
+        if away > NOWHERE_RAD {
+            return Err(Fault::new(format!(
+                "movej to a place {away:.6} rad away in the midst of the motion: its path in time is the controller's; expected servoj"
+            )));
+        }
+        Ok(())
+    }
+
+    fn servoj(&mut self, given: &Given, place: Place) -> Result<(), Fault> {
+        match self.stage {
+            Stage::Before => {
+                return Err(Fault::new(
+                    "servoj before the arm is at its start; expected movej to the start first",
+                ));
+            }
+            Stage::Stopped => return Err(Fault::new("servoj behind stopj, which takes a time of its own")),
+            Stage::Moving => {}
+        }
+        let q_rad = joints(given)?;
+        let t_s = positive(given, 3, "t")?;
+        if t_s > LONGEST_S {
+            return Err(Fault::new(format!(
+                "servoj with t = {t_s} s: it hastens to its target, which is even motion up to {LONGEST_S} s alone"
+            )));
+        }
+        within(given, 4, "lookahead_time", LOOKAHEAD_S)?;
+        within(given, 5, "gain", GAIN)?;
+        self.t_s += t_s;
+        let t_s = self.t_s;
+        self.points.push(ReadPoint {
+            place,
+            t_s,
+            q_rad,
+            qd_rad_s: None,
+            corner_m: Some(0.0),
+        });
+        Ok(())
+    }
+
+    /// What the program did.
+    pub(super) fn reading(mut self, speed_share: f64) -> Result<Reading, Fault> {
+        // Where it stays for a step, and at both ends, it rests.
+        let stays: Vec<bool> = self
+            .points
+            .windows(2)
+            .map(|pair| matches!(pair, [a, b] if a.q_rad == b.q_rad))
+            .collect();
+        let last = self.points.len().saturating_sub(1);
+        for (k, point) in self.points.iter_mut().enumerate() {
+            let rests = |k: usize| stays.get(k).copied().unwrap_or(true);
+            if k == 0 || k == last || rests(k - 1) || rests(k) {
+                point.corner_m = None;
+            }
+        }
+        let tool = match (self.tip, self.load) {
+            (tip, Some((mass_kg, com_m))) => Some(ReadTool {
+                tip,
+                mass_kg,
+                com_m,
+                inertia: None,
+            }),
+            (None, None) => None,
+            (Some(_), None) => {
+                return Err(Fault::new(
+                    "the program sets a tip and no payload; expected set_payload",
+                ));
+            }
+        };
+        Ok(Reading {
+            speed_share: Some(speed_share),
+            points: self.points,
+            between: Between::Lines,
+            tool,
+        })
+    }
+}
+
+fn required<'a>(given: &'a Given, k: usize, name: &str) -> Result<&'a Value, Fault> {
+    match given.get(k) {
+        Some(Some(value)) => Ok(value),
+        _ => Err(Fault::new(format!("expected an argument \"{name}\""))),
+    }
+}
+
+fn positive(given: &Given, k: usize, name: &str) -> Result<f64, Fault> {
+    let found = required(given, k, name)?.number()?;
+    match found > 0.0 {
+        true => Ok(found),
+        false => Err(Fault::new(format!("expected {name} above 0, found {found}"))),
+    }
+}
+
+fn within(given: &Given, k: usize, name: &str, [least, most]: [f64; 2]) -> Result<(), Fault> {
+    let Some(Some(value)) = given.get(k) else { return Ok(()) };
+    let found = value.number()?;
+    match (least..=most).contains(&found) {
+        true => Ok(()),
+        false => Err(Fault::new(format!(
+            "expected {name} from {least} to {most}, found {found}"
+        ))),
+    }
+}
+
+fn joints(given: &Given) -> Result<JointVector, Fault> {
+    let value = required(given, 0, "q")?;
+    if let Value::Pose(_) = value {
+        return Err(Fault::new(
+            "expected joint positions, found a pose: which branch it means is the controller's",
+        ));
+    }
+    let q_rad = JointVector::from(value.list::<6>()?);
+    match q_rad.iter().position(|q| q.abs() > FARTHEST_RAD) {
+        None => Ok(q_rad),
+        Some(k) => Err(Fault::new(format!(
+            "joint {} at {} rad: expected within two turns, {FARTHEST_RAD:.3} rad; are these degrees?",
+            k + 1,
+            q_rad[k]
+        ))),
+    }
+}
+
+fn load(given: &Given) -> Result<(f64, [f64; 3]), Fault> {
+    let mass_kg = positive(given, 0, "m")?;
+    let com_m = match given.get(1) {
+        Some(Some(cog)) => cog.list::<3>()?,
+        _ => [0.0; 3],
+    };
+    Ok((mass_kg, com_m))
+}
+
+/// A pose of its position and rotation vector.
+fn pose([x, y, z, rx, ry, rz]: [f64; 6]) -> Pose {
+    let turn = Vector3::new(rx, ry, rz);
+    let angle = turn.norm();
+    let rotation = match angle > 0.0 {
+        true => {
+            let (s, c) = sin_cos(0.5 * angle);
+            let axis = turn / angle * s;
+            UnitQuaternion::from_quaternion(Quaternion::new(c, axis.x, axis.y, axis.z))
+        }
+        false => UnitQuaternion::identity(),
+    };
+    Pose::from_parts(Vector3::new(x, y, z).into(), rotation)
+}
+
+/// Why a call of something that is not modelled is refused.
+pub(super) fn not_modelled(name: &str) -> Fault {
+    let reason = match name {
+        "movel" | "movep" | "movec" | "speedl" => {
+            "its path needs inverse kinematics and its time is the controller's; only servoj is judged"
+        }
+        "speedj" => "where the arm is then, is the controller's; only servoj is judged",
+        "servoc" | "servol" => "only servoj is judged",
+        "sleep" | "sync" => {
+            "how the arm moves on while the program waits is not modelled; write out servoj to where it stays"
+        }
+        _ => "it is neither a function of this program nor an instruction that is read",
+    };
+    Fault::new(format!("{}: {reason}", quoted(&shortened(name))))
+}

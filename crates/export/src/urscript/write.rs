@@ -1,0 +1,195 @@
+//! A program's text.
+//!
+//! The first line is the program's `def`, and the header stands inside: what reaches the controller by a socket is taken from the first
+//! `def` to its `end`. A stretch of the plan is a function of its own.
+
+use crate::comment::wrapped;
+use crate::program::{Point, Program};
+use platewash_kinematics::rotation::{Rigid, rotation_vector};
+use platewash_kinematics::words::fixed;
+use platewash_kinematics::{AXES, JointVector};
+use std::fmt::Write;
+
+/// Decimals of a position \[rad, m\]: half a nanoradian.
+const DECIMALS: usize = 9;
+
+/// Nanoseconds of a second: times are rounded as sums, so that rounding does not add up.
+const PER_S: f64 = 1e9;
+
+/// How far a joint may be from the start \[°\].
+const START_DEG: f64 = 0.5;
+
+/// How the program gets to its start, and to its end once more: acceleration \[rad/s²\] and speed \[rad/s\].
+const SLOWLY: &str = "a=0.1, v=0.05";
+
+/// How the program slows down behind the last point, where the plan rests \[rad/s²\].
+const STOP: &str = "stopj(2.0)";
+
+/// What follows of lag and smoothing: the shortest look-ahead, and the gain of the maker's own driver.
+const SERVO: &str =
+    "  # How closely the arm follows: look-ahead 0.03 to 0.2 s, gain 100 to 2000. A longer look-ahead and a lower gain
+  # are smoother and later, and cut corners.
+  global lookahead = 0.03
+  global gain = 2000
+";
+
+/// The program's text.
+pub(super) fn text(program: &Program<'_>) -> String {
+    let mut text = format!("def pw_{}():\n", program.name);
+    text.push_str(&head(program));
+    text.push_str(SERVO);
+    let stretches = stretches(program);
+    for stretch in &stretches {
+        text.push_str(&function(program, stretch));
+    }
+    let Some((first, last)) = program.points.first().zip(program.points.last()) else {
+        return text + "end\n";
+    };
+    text.push_str(&start(&first.q_rad));
+    text.push_str(&tool(program));
+    text.push_str(&format!("  movej(start, {SLOWLY})\n"));
+    for stretch in &stretches {
+        text.push_str(&format!("  {}()\n", stretch.name));
+    }
+    let end = list(last.q_rad.iter().copied());
+    text + &format!(
+        "  # The plan rests here. What the arm is late by is made up slowly.\n  {STOP}\n  movej({end}, {SLOWLY})\nend\n"
+    )
+}
+
+/// Header and units.
+fn head(program: &Program<'_>) -> String {
+    let share = shortest(program.speed_share);
+    let own = [
+        "Units: rad, m, s, kg. Joints in the order base, shoulder, elbow, wrist 1, wrist 2, wrist 3.".to_owned(),
+        format!(
+            "Duration {} s at {share} of the plan's speed.",
+            fixed(program.duration_s(), 3)
+        ),
+    ];
+    let mut text = wrapped("  #", program.header.iter().chain(&own).map(String::as_str));
+    text.push_str("  # The points are made for this share of the plan's speed: to change it, export again.\n");
+    text + &format!("  global speed_share = {share}\n")
+}
+
+/// The tool: its tip and what it weighs.
+fn tool(program: &Program<'_>) -> String {
+    let tool = program.tool();
+    let tip = Rigid::from(&tool.tip);
+    let turn = rotation_vector(&tip.rotation);
+    let pose = list(tip.translation.iter().chain(turn.iter()).copied());
+    let mut text = format!(
+        "  # The tool, at the flange: its tip as position and rotation vector, mass, centre of mass.\n  set_tcp(p{pose})\n"
+    );
+    if let Some(mass) = &tool.mass {
+        let com = list(mass.com_m);
+        text.push_str(&format!("  set_payload({}, {com})\n", fixed(mass.mass_kg, DECIMALS)));
+    }
+    text
+}
+
+/// Refuses to start from elsewhere, before anything is set or moved.
+fn start(q_rad: &JointVector) -> String {
+    let mut text = format!(
+        "  # The arm must stand within {START_DEG} deg of the start.\n  start = {}\n  found = get_actual_joint_positions()\n",
+        list(q_rad.iter().copied())
+    );
+    for joint in 0..AXES {
+        let (number, deg) = (joint + 1, fixed(q_rad[joint].to_degrees(), 2));
+        let said = format!(
+            "Joint {number} is more than {START_DEG} deg from the start: move it to {deg} deg, then start again."
+        );
+        let most = fixed(START_DEG.to_radians(), DECIMALS);
+        text.push_str(&format!(
+            "  if norm(found[{joint}] - start[{joint}]) > {most}:\n    \
+             popup(\"{said}\", title=\"platewash\", error=True, blocking=True)\n    halt\n  end\n"
+        ));
+    }
+    text
+}
+
+/// Points of one stretch of the plan.
+struct Stretch {
+    name: String,
+    said: String,
+    points: std::ops::Range<usize>,
+}
+
+/// The points behind the first one, by the plan's segments.
+fn stretches(program: &Program<'_>) -> Vec<Stretch> {
+    let mut stretches = Vec::new();
+    let mut from = 1;
+    for points in program
+        .points
+        .get(1..)
+        .unwrap_or_default()
+        .chunk_by(|a, b| a.segment == b.segment)
+    {
+        let count = stretches.len();
+        let segment = points
+            .first()
+            .and_then(|point| program.plan.segments.get(point.segment));
+        let (name, said) = match segment {
+            Some(segment) => {
+                let (kind, plate) = (segment.kind.name(), segment.plate);
+                let time = format!("{} to {} s", fixed(segment.t_start_s, 3), fixed(segment.t_end_s, 3));
+                (
+                    format!("part_{count}_{kind}_{plate}"),
+                    format!("{kind}, plate {plate}: {time} of the plan"),
+                )
+            }
+            None => (format!("part_{count}"), "a part of the plan".to_owned()),
+        };
+        stretches.push(Stretch {
+            name,
+            said,
+            points: from..from + points.len(),
+        });
+        from += points.len();
+    }
+    stretches
+}
+
+/// A stretch as a function.
+fn function(program: &Program<'_>, stretch: &Stretch) -> String {
+    let mut text = format!("  # {}\n  def {}():\n", stretch.said, stretch.name);
+    for k in stretch.points.clone() {
+        let Some([before, point]) = program
+            .points
+            .get(k - 1..=k)
+            .and_then(|pair| <&[Point; 2]>::try_from(pair).ok())
+        else {
+            continue;
+        };
+        let [from, to] = [before, point].map(|point| (point.t_s / program.speed_share * PER_S).round() as i64);
+        // Nothing takes no time: points as close as that are one.
+        if to <= from {
+            continue;
+        }
+        let _ = writeln!(
+            text,
+            "    servoj({}, t={}, lookahead_time=lookahead, gain=gain)",
+            list(point.q_rad.iter().copied()),
+            seconds(to - from)
+        );
+    }
+    text + "  end\n"
+}
+
+/// Nanoseconds, in seconds without zeros that say nothing.
+fn seconds(ns: i64) -> String {
+    let (whole, rest) = (ns / 1_000_000_000, ns % 1_000_000_000);
+    let decimals = format!("{rest:09}");
+    let decimals = decimals.trim_end_matches('0');
+    format!("{whole}.{}", if decimals.is_empty() { "0" } else { decimals })
+}
+
+/// A share with as many decimals as it has, one at least.
+fn shortest(share: f64) -> String {
+    format!("{share:?}")
+}
+
+fn list(numbers: impl IntoIterator<Item = f64>) -> String {
+    let numbers: Vec<String> = numbers.into_iter().map(|number| fixed(number, DECIMALS)).collect();
+    format!("[{}]", numbers.join(", "))
+}
