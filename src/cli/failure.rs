@@ -52,6 +52,11 @@ impl Failure {
         Self::with_code(INPUT, error)
     }
 
+    /// A plan that is refused because it is not proved, or was changed after it was sealed.
+    pub fn not_verified(error: impl Into<anyhow::Error>) -> Self {
+        Self::with_code(NOT_VERIFIED, error)
+    }
+
     /// Something that must not happen.
     pub fn internal(error: impl Into<anyhow::Error>) -> Self {
         Self::with_code(INTERNAL, error)

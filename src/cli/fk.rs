@@ -44,7 +44,7 @@ struct Configuration {
 }
 
 /// A pose as people and programs read it.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 pub struct FramePose {
     /// \[m\].
     pub position_m: [f64; 3],

@@ -3,14 +3,18 @@
 //! Exit codes: 0 done, 1 internal error, 2 bad usage or input, 3 infeasible, 4 verification failed, 130 interrupted.
 
 mod against;
+mod align;
 mod angles;
 mod bundle;
+mod dry_run;
 mod edit;
 mod execution;
 mod exit;
+mod export;
 mod failure;
 mod figures;
 mod fk;
+mod handed_over;
 mod ik;
 mod infeasible;
 mod interrupt;
@@ -25,6 +29,7 @@ mod page;
 mod pairs;
 mod paper;
 mod paper_claims;
+mod parent;
 mod plan;
 mod plan_file;
 mod progress;
@@ -94,7 +99,20 @@ enum Verb {
     ///
     /// A certificate says that the plan does its own job. Whether that is the job of a scenario is for --against: exit code 4 where a
     /// field differs, and the first line begins with OTHER JOB.
+    ///
+    /// With --program it is the program of a controller that is judged: code 0 where what it does holds, changed or not, otherwise 4.
     Verify(verify::VerifyArguments),
+    /// Plan and prove the motion of a plan in the air, slower: what to try on the arm first.
+    ///
+    /// The plan is proved; its plates are raised, the real ones stand below as obstacles, and the same paths are planned and proved in
+    /// the same order. Writes plan.json, certificate.json, report.json and report.txt to the folder dry-run in the output folder. Exit
+    /// code 3 where that height does not work, with one that was found to, and 4 where a plan is not proved.
+    DryRun(dry_run::DryRunArguments),
+    /// Find where the arm stands at a table, from points touched with its tip.
+    ///
+    /// Prints T_world_base with the residual of each point, and points of the drawing in the base frame. Exit code 4 where a residual is
+    /// larger than the tolerance.
+    Align(align::AlignArguments),
     /// Simulate a plan file under a control law: tracking, torque, and what is really washed.
     ///
     /// Writes simulated.csv, simulation.json and simulation.txt to the output folder, and touches no other file there; the next run
@@ -117,6 +135,11 @@ enum Verb {
     ///
     /// Each figure is written twice, NAME.svg and NAME.png, which show the same.
     Figures(figures::FiguresArguments),
+    /// Write a plan file as a program for a robot's controller: rapid, ros2 and others.
+    ///
+    /// The plan is proved first. The program is then read back, its motion interpreted and judged again, and written only where that
+    /// holds: exit code 4 where it does not. What is written goes to the folder of --out, or to out/TARGET.
+    Export(export::ExportArguments),
     /// Simulate a plan file at many frequencies and dampings of a control law.
     Tune(tune::TuneArguments),
     /// Forward kinematics of one or many configurations, with clearances.
@@ -196,8 +219,14 @@ impl Verb {
     fn gives_up(&self) -> bool {
         match self {
             Self::Run(_) | Self::Plan(_) | Self::Verify(_) | Self::Simulate(_) | Self::Tune(_) => true,
-            Self::View(_) | Self::Edit(_) | Self::Figures(_) | Self::Sweep(_) | Self::Reproduce(_) => true,
-            Self::Layout | Self::Validate | Self::Fk(_) | Self::Ik(_) | Self::Robot => false,
+            Self::View(_)
+            | Self::Edit(_)
+            | Self::Export(_)
+            | Self::DryRun(_)
+            | Self::Figures(_)
+            | Self::Sweep(_)
+            | Self::Reproduce(_) => true,
+            Self::Layout | Self::Validate | Self::Align(_) | Self::Fk(_) | Self::Ik(_) | Self::Robot => false,
         }
     }
 }
@@ -209,9 +238,12 @@ fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode, Failure> {
         Verb::Plan(arguments) => plan::run(options, &arguments),
         Verb::Validate => validate::run(options),
         Verb::Verify(arguments) => verify::run(options, &arguments),
+        Verb::DryRun(arguments) => dry_run::run(options, &arguments),
+        Verb::Align(arguments) => align::run(options, &arguments),
         Verb::Simulate(arguments) => simulate::run(options, &arguments),
         Verb::View(arguments) => view::run(options, &arguments),
         Verb::Edit(arguments) => edit::run(options, &arguments),
+        Verb::Export(arguments) => export::run(options, &arguments),
         Verb::Tune(arguments) => tune::run(options, &arguments),
         Verb::Figures(arguments) => figures::run(options, &arguments),
         Verb::Fk(arguments) => fk::run(options, &arguments),

@@ -49,6 +49,11 @@ impl<'a> PlanFile<'a> {
         refused(self.path, error)
     }
 
+    /// Something in the file that is not as it was sealed, or not proved.
+    pub fn not_verified(&self, error: impl Display) -> Failure {
+        Failure::not_verified(anyhow!("{}: {error}", self.path.display()))
+    }
+
     /// Why the plan could not be judged or simulated.
     pub fn failure(&self, error: platewash::Failure) -> Failure {
         if error.is_cancelled() {

@@ -3,11 +3,14 @@
 use super::against::{Against, Asked};
 use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
+use super::handed_over;
 use super::options::Options;
 use super::output;
 use super::pairs::PairArguments;
+use super::parent::OfParent;
 use super::plan_file::{self, PlanFile};
 use super::progress::Progress;
+use anyhow::anyhow;
 use clap::Args;
 use platewash::certificate::{HashFinding, PairsShown, Status, Verdict, prove_with};
 use platewash::workcell::plan::Process;
@@ -25,6 +28,13 @@ pub struct VerifyArguments {
     /// plan's seed, and every field of the job compared
     #[arg(long, value_name = "FILE|NAME")]
     pub against: Option<String>,
+    /// A program that was exported of the plan and may have been changed since, all its files: it is read back, compared with the one
+    /// that is made of the plan, and judged as it stands
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["against", "parent"])]
+    pub program: Vec<PathBuf>,
+    /// Plan file that a dry run should be one of: its job, its order and its wash paths are compared
+    #[arg(long, value_name = "PLAN")]
+    pub parent: Option<PathBuf>,
     #[command(flatten)]
     pub pairs: PairArguments,
 }
@@ -36,6 +46,8 @@ struct Answer {
     judgement: Judgement,
     #[serde(skip_serializing_if = "Option::is_none")]
     against: Option<Against>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    parent: Option<OfParent>,
 }
 
 #[derive(Debug, Serialize)]
@@ -62,21 +74,37 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, F
     if arguments.against.is_none() {
         options.refuse_seed()?;
     }
+    if !arguments.program.is_empty() {
+        return handed_over::run(options, &arguments.plan, &arguments.program);
+    }
     let plan = plan_file::read(&arguments.plan)?;
     let asked = arguments.against.as_ref();
     let asked = asked
         .map(|name| Asked::resolve(options, name, plan.job.seed))
         .transpose()?;
     let against = asked.as_ref().map(|asked| asked.compare(&plan.job));
+    let mut parent = None;
     let judgement = match plan.process {
+        Process::Paper if arguments.parent.is_some() => {
+            let name = arguments.plan.display();
+            return Err(Failure::input(anyhow!(
+                "{name}: a run of the paper's program is no dry run"
+            )));
+        }
         Process::Paper => Judgement::Paper(NoCertificate::new(&plan)),
         Process::Wash => {
             let besides = asked.as_ref().map(|asked| &asked.arm);
             let file = PlanFile::with_arm(options, &arguments.plan, plan, besides)?;
+            let given = arguments.parent.as_ref();
+            parent = given.map(|path| OfParent::compare(&file, path)).transpose()?;
             Judgement::Washing(Box::new(prove(options, &file)?))
         }
     };
-    let answer = Answer { judgement, against };
+    let answer = Answer {
+        judgement,
+        against,
+        parent,
+    };
     output::print_either(options.json, &answer, || answer.text(arguments.pairs.shown()))?;
     Ok(answer.outcome().answer())
 }
@@ -92,7 +120,8 @@ impl Answer {
             Judgement::Washing(certificate) => certificate.passes(),
             Judgement::Paper(_) => false,
         };
-        if passes && self.against.as_ref().is_none_or(Against::agrees) {
+        let of_parent = self.parent.as_ref().is_none_or(OfParent::agrees);
+        if passes && of_parent && self.against.as_ref().is_none_or(Against::agrees) {
             Outcome::Good
         } else {
             Outcome::NotVerified
@@ -107,7 +136,10 @@ impl Answer {
         };
         let against = self.against.as_ref();
         let against = against.map_or_else(String::new, |against| format!("\n{against}"));
-        format!("{first}{judgement}{against}")
+        let of = self.parent.as_ref().map_or_else(String::new, OfParent::first_words);
+        let parent = self.parent.as_ref();
+        let parent = parent.map_or_else(String::new, |parent| format!("\n{parent}"));
+        format!("{of}{first}{judgement}{against}{parent}")
     }
 }
 

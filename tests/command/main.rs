@@ -2,10 +2,13 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 mod against;
+mod align;
 mod answers;
 mod arms;
+mod dry_run;
 mod edit;
 mod exit_codes;
+mod export;
 mod figures;
 mod files;
 mod golden;

@@ -2,7 +2,7 @@
 
 use super::*;
 
-const UR5: &str = concat!(
+pub const UR5: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/crates/kinematics/tests/fixtures/ur5_lengths.urdf"
 );
@@ -12,7 +12,7 @@ const KR5: &str = concat!(
 );
 
 /// A cell with plates of 220 mm.
-fn cell(dir: &Path, start_deg: &str, positions_m: &str, plate_height_m: f64) -> PathBuf {
+pub fn cell(dir: &Path, start_deg: &str, positions_m: &str, plate_height_m: f64) -> PathBuf {
     let text = format!(
         r#"
 name = "cell"
@@ -41,9 +41,9 @@ clearance_m = 0.01
     path
 }
 
-const UR5_START: &str = "[0, -90, 90, -90, -90, 0]";
+pub const UR5_START: &str = "[0, -90, 90, -90, -90, 0]";
 
-fn run(dir: &Path, verb: &str, file: &Path, urdf: &str) -> Ran {
+pub fn run(dir: &Path, verb: &str, file: &Path, urdf: &str) -> Ran {
     let file = file.to_str().unwrap();
     platewash(dir, &[verb, "--scenario", file, "--urdf", urdf, "--out", "o", "--json"])
 }

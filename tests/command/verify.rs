@@ -23,7 +23,7 @@ fn a_plan_of_the_papers_program_is_refused_by_name() {
 }
 
 /// Two plates 80 mm into each other, which is only to be reported.
-const OVERLAPPING: &str = "name = \"overlapping\"
+pub const OVERLAPPING: &str = "name = \"overlapping\"
 [tool]
 length_m = 0.15
 [robot]

@@ -1,0 +1,134 @@
+//! `platewash verify PLAN --program FILE`: a program that was handed over, read back: what changed since, and whether it still holds.
+
+use super::exit::Outcome;
+use super::failure::{ExitCode, Failure};
+use super::options::Options;
+use super::plan_file::PlanFile;
+use super::progress::Progress;
+use super::{export, output};
+use anyhow::anyhow;
+use platewash::certificate::Check;
+use platewash::export::file::ProgramFile;
+use platewash::export::{Change, CompareError, Compared, compare};
+use platewash::kinematics::urdf::file;
+use platewash::workcell::dry_run::DryRun;
+use platewash::workcell::words::counted;
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Longest program file that is read \[bytes\].
+const MAX_BYTES: u64 = 1 << 26;
+
+/// What is said of a program.
+#[derive(Debug, Serialize)]
+struct Answer {
+    headline: String,
+    target: &'static str,
+    holds: bool,
+    unchanged: bool,
+    changes: Vec<Change>,
+    more_changes: usize,
+    /// What is proved of it as it stands: the worst over all assumptions about corners.
+    checks: Vec<Check>,
+    implied: Vec<Check>,
+    /// That the tool of the program is not the plan's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tool: Option<String>,
+}
+
+/// Compares the files of a program with the one that is made of the plan, and judges them as they stand.
+pub fn run(options: &Options, plan: &Path, program: &[PathBuf]) -> Result<ExitCode, Failure> {
+    let files = program.iter().map(|path| read(path)).collect::<Result<Vec<_>, _>>()?;
+    let plan = PlanFile::read(options, plan)?;
+    let certified = match export::certified(options, &plan)? {
+        Ok(certified) => certified,
+        Err(words) => return export::uncertified(options, &words),
+    };
+    let compared = {
+        let _progress = Progress::new(options.quiet, "judging the program");
+        compare(&certified, &plan.arm, &files, &options.cancel)
+    };
+    let compared = compared.map_err(|error| match error {
+        CompareError::Prove(error) => plan.failure(error.into()),
+        error => Failure::input(error),
+    })?;
+    let answer = Answer::of(
+        &compared,
+        plan.plan.job.dry_run.as_ref(),
+        &certified.certificate().but_for(),
+    );
+    output::print_either(options.json, &answer, || answer.text())?;
+    let outcome = if answer.holds {
+        Outcome::Good
+    } else {
+        Outcome::NotVerified
+    };
+    Ok(outcome.answer())
+}
+
+fn read(path: &Path) -> Result<ProgramFile, Failure> {
+    let text = file::read_text(path, MAX_BYTES)
+        .map_err(|e| Failure::input(anyhow!("{}: cannot be read: {e}", path.display())))?;
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    Ok(ProgramFile {
+        name: name.to_string_lossy().into_owned(),
+        text,
+    })
+}
+
+impl Answer {
+    fn of(compared: &Compared, dry_run: Option<&DryRun>, but_for: &str) -> Self {
+        let (holds, unchanged) = (compared.holds(), compared.is_unchanged());
+        let changed = match (unchanged, compared.changes.len() + compared.more_changes) {
+            (true, _) => "as it was handed over".to_owned(),
+            (false, count) => format!("CHANGED in {}", counted(count, "place")),
+        };
+        let verdict = if holds { "HOLDS" } else { "DOES NOT HOLD" };
+        let within = format!("tip within {} mm of the plan", 1e3 * compared.tolerance_m);
+        Self {
+            headline: format!(
+                "{}{verdict}{but_for}: {} program, {within}; {changed}",
+                export::before(dry_run.map(DryRun::words).as_deref()),
+                compared.dialect
+            ),
+            target: compared.dialect,
+            holds,
+            unchanged,
+            changes: compared.changes.clone(),
+            more_changes: compared.more_changes,
+            checks: compared.judged.worst(),
+            implied: compared.judged.implied(),
+            tool: compared.tool.as_ref().map(ToString::to_string),
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!("{}\n", self.headline);
+        for Change {
+            place,
+            what,
+            found,
+            expected,
+        } in &self.changes
+        {
+            // A text that grows cannot fail to be written.
+            let _ = writeln!(text, "  {place}: {what}: {found}; handed over: {expected}");
+        }
+        if self.more_changes > 0 {
+            let _ = writeln!(text, "  and {} more", self.more_changes);
+        }
+        if !self.unchanged {
+            text += "  what is no motion is named and not judged: checks before the start, messages, comments\n";
+        }
+        if let Some(tool) = &self.tool {
+            let _ = writeln!(text, "  {:<20} {:<9} {tool}", "tool", "NOT KEPT");
+        }
+        for check in &self.checks {
+            let status = if check.status.is_kept() { "kept" } else { "NOT KEPT" };
+            let (name, detail) = (check.requirement.words(), check.detail());
+            let _ = writeln!(text, "  {name:<20} {status:<9} {detail}; {}", check.worst);
+        }
+        text
+    }
+}

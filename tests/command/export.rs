@@ -1,0 +1,288 @@
+//! `platewash export` and `verify --program`.
+
+use super::other_arms::{UR5, UR5_START, cell};
+use super::verify::OVERLAPPING;
+use super::*;
+use std::fs;
+
+/// A folder with a plan of the kitchen.
+fn planned() -> TempDir {
+    let folder = folder();
+    platewash(folder.path(), &["plan", "--quiet"]).done();
+    folder
+}
+
+/// A line of a module that moves the arm, in the middle of it: its number and its text.
+fn a_move(text: &str) -> (usize, String) {
+    let moves: Vec<_> = text
+        .lines()
+        .enumerate()
+        .filter(|(_, line)| line.contains("\\T:=") && line.contains("z5"))
+        .collect();
+    let (i, line) = moves[moves.len() / 2];
+    (i + 1, line.to_owned())
+}
+
+fn module(dir: &Path) -> PathBuf {
+    let mut all: Vec<_> = fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path()).collect();
+    all.sort();
+    all.into_iter()
+        .find(|path| path.extension().is_some_and(|e| e == "mod"))
+        .unwrap()
+}
+
+fn refused(ran: &Ran, code: &str, exit: i32) -> Value {
+    assert_eq!(ran.code, exit, "{} {}", ran.stdout, ran.stderr);
+    assert!(ran.stderr.contains(&format!("refused ({code}): ")), "{}", ran.stderr);
+    let answer = ran.json();
+    assert_eq!(answer["refused"], code);
+    answer
+}
+
+#[test]
+fn a_program_is_written_and_found_unchanged_and_an_edited_line_is_named() {
+    let folder = planned();
+    let dir = folder.path();
+    let ran = platewash(dir, &["export", "out/plan.json", "--to", "rapid", "--json"]).done();
+    let answer = ran.json();
+    assert_eq!(answer["target"], "rapid");
+    assert!(answer["points"].as_u64().unwrap() > 500);
+    assert!((answer["duration_s"].as_f64().unwrap() - 42.679).abs() < 2e-3);
+    assert!(
+        answer["checks"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|check| check["status"] == "proved")
+    );
+    let path = module(&dir.join("out/rapid"));
+    let text = fs::read_to_string(&path).unwrap();
+    let plan: Value = serde_json::from_str(&fs::read_to_string(dir.join("out/plan.json")).unwrap()).unwrap();
+    assert!(text.contains(plan["hash"].as_str().unwrap()));
+
+    let verify = |expected: i32| {
+        let ran = platewash(
+            dir,
+            &["verify", "out/plan.json", "--program", path.to_str().unwrap(), "--json"],
+        );
+        assert_eq!(ran.code, expected, "{}", ran.stderr);
+        ran.json()
+    };
+    let answer = verify(0);
+    assert_eq!((&answer["unchanged"], &answer["holds"]), (&true.into(), &true.into()));
+
+    // One digit of a target: a tenth of a degree.
+    let (line, before) = a_move(&text);
+    let target = before.split("[[").nth(1).unwrap().split(',').next().unwrap().to_owned();
+    let moved = format!("{:.4}", target.parse::<f64>().unwrap() + 0.1);
+    fs::write(&path, text.replacen(&before, &before.replacen(&target, &moved, 1), 1)).unwrap();
+    let answer = verify(4);
+    let name = path.file_name().unwrap().to_str().unwrap();
+    assert_eq!(answer["changes"][0]["place"], format!("{name}:{line}"));
+    assert_eq!(answer["changes"][0]["what"], "joint 1");
+
+    // One digit of a time: a microsecond, which holds and is named all the same.
+    let time = before
+        .split("\\T:=")
+        .nth(1)
+        .unwrap()
+        .split(['/', ','])
+        .next()
+        .unwrap()
+        .to_owned();
+    let later = format!("{:.6}", time.parse::<f64>().unwrap() + 1e-6);
+    fs::write(&path, text.replacen(&before, &before.replacen(&time, &later, 1), 1)).unwrap();
+    let answer = verify(0);
+    assert_eq!(answer["changes"][0]["place"], format!("{name}:{line}"));
+    assert_eq!(answer["changes"][0]["what"], "time");
+    let said = platewash(dir, &["verify", "out/plan.json", "--program", path.to_str().unwrap()])
+        .done()
+        .stdout;
+    assert!(
+        said.starts_with("HOLDS: rapid program, tip within 0.2 mm of the plan; CHANGED in 1 place"),
+        "{said}"
+    );
+}
+
+#[test]
+fn each_refusal_has_its_code() {
+    let folder = planned();
+    let dir = folder.path();
+    let export = |more: &[&str]| {
+        let mut arguments = vec!["export", "out/plan.json", "--to", "rapid", "--json"];
+        arguments.extend(more);
+        platewash(dir, &arguments)
+    };
+    refused(&export(&["--stands", "0,0,0,0,90.6,0"]), "start", 2);
+    refused(&export(&["--tip", "0,0,151,1,0,0,0"]), "frame", 2);
+    refused(&export(&["--tolerance", "-1"]), "setting", 2);
+    refused(&export(&["--speed-share", "1.5"]), "setting", 2);
+    refused(&export(&["--tolerance", "2e-5"]), "segment_time", 4);
+    refused(
+        &platewash(dir, &["export", "out/plan.json", "--to", "urscript", "--json"]),
+        "arm",
+        2,
+    );
+    assert_eq!(names(&dir.join("out")), ["plan.json", "trajectory.csv"]);
+    export(&["--tip", "0,0,150,1,0,0,0", "--stands", "0,0,0,0,90.4,0"]).done();
+
+    // Changed after it was sealed.
+    let text = fs::read_to_string(dir.join("out/plan.json")).unwrap();
+    fs::write(
+        dir.join("edited.json"),
+        text.replacen("\"coverage\":0.995", "\"coverage\":0.9", 1),
+    )
+    .unwrap();
+    let ran = platewash(dir, &["export", "edited.json", "--to", "rapid", "--json"]);
+    let answer = refused(&ran, "uncertified", 4);
+    assert!(answer["message"].as_str().unwrap().contains("NOT CERTIFIED"));
+
+    // A tool that weighs nothing.
+    let weightless = kitchen(dir, &[("radius_m = 0.02\n", "radius_m = 0.02\nmass_kg = 0\n")]);
+    platewash(
+        dir,
+        &[
+            "plan",
+            "--scenario",
+            weightless.to_str().unwrap(),
+            "--out",
+            "light",
+            "--quiet",
+        ],
+    )
+    .done();
+    let ran = platewash(dir, &["export", "light/plan.json", "--to", "rapid", "--json"]);
+    assert!(
+        refused(&ran, "load", 2)["message"]
+            .as_str()
+            .unwrap()
+            .contains("mass_kg")
+    );
+}
+
+#[test]
+fn the_papers_program_is_not_handed_over() {
+    let folder = folder();
+    let dir = folder.path();
+    platewash(dir, &["plan", "--scenario", "paper-appendix", "--quiet"]).done();
+    refused(
+        &platewash(dir, &["export", "out/plan.json", "--to", "csv", "--json"]),
+        "uncertified",
+        4,
+    );
+}
+
+#[test]
+fn what_the_job_waives_is_accepted_by_name_and_not_otherwise() {
+    let folder = folder();
+    let dir = folder.path();
+    fs::write(dir.join("case.toml"), OVERLAPPING).unwrap();
+    platewash(dir, &["plan", "--scenario", "case.toml", "--quiet"]).done();
+    let export = |more: &[&str]| {
+        let mut arguments = vec!["export", "out/plan.json", "--to", "rapid", "--json"];
+        arguments.extend(more);
+        platewash(dir, &arguments)
+    };
+    let answer = refused(&export(&["--accept", "plates apart"]), "waived", 4);
+    assert!(answer["message"].as_str().unwrap().contains("every plate once"));
+    export(&["--accept", "plates apart", "--accept", "every plate once"]).done();
+    let path = module(&dir.join("out/rapid"));
+    assert!(fs::read_to_string(&path).unwrap().contains("BUT FOR"));
+    let said = platewash(dir, &["verify", "out/plan.json", "--program", path.to_str().unwrap()])
+        .done()
+        .stdout;
+    assert!(said.starts_with("HOLDS BUT FOR every plate once"), "{said}");
+}
+
+/// A washing by another make of arm, in its own language and in those that take any.
+#[test]
+fn another_arm_has_its_own_programs() {
+    let folder = folder();
+    let dir = folder.path();
+    let file = cell(dir, UR5_START, "[[0.55, 0.0]]", 0.2);
+    other_arms::run(dir, "plan", &file, UR5).done();
+    for (target, share) in [("urscript", "0.5"), ("ros2", "0.5"), ("csv", "0.35")] {
+        let asked = [
+            "export",
+            "o/plan.json",
+            "--urdf",
+            UR5,
+            "--to",
+            target,
+            "--speed-share",
+            share,
+            "--json",
+        ];
+        let answer = platewash(dir, &asked).done().json();
+        let files: Vec<_> = answer["files"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|file| file.as_str().unwrap())
+            .collect();
+        let mut asked = vec!["verify", "o/plan.json", "--urdf", UR5, "--json", "--program"];
+        asked.extend(&files);
+        let found = platewash(dir, &asked).done().json();
+        assert_eq!(
+            (&found["holds"], &found["unchanged"]),
+            (&true.into(), &true.into()),
+            "{found}"
+        );
+        // Each message, and the table without what explains it, tells the share of the speed by itself.
+        for file in files
+            .iter()
+            .filter(|file| !file.ends_with(".py") && !file.ends_with(".txt"))
+        {
+            let found = platewash(
+                dir,
+                &["verify", "o/plan.json", "--urdf", UR5, "--json", "--program", file],
+            )
+            .done()
+            .json();
+            assert_eq!(
+                (&found["holds"], &found["unchanged"]),
+                (&true.into(), &true.into()),
+                "{file}: {found}"
+            );
+        }
+    }
+    let asked = ["export", "o/plan.json", "--urdf", UR5, "--to", "rapid", "--json"];
+    refused(&platewash(dir, &asked), "arm", 2);
+    platewash(dir, &["export", "o/plan.json", "--to", "urscript"]).refused(2, &["--urdf"]);
+}
+
+#[test]
+fn programs_of_two_plans_do_not_stand_side_by_side() {
+    let folder = planned();
+    let dir = folder.path();
+    fs::create_dir_all(dir.join("out/rapid")).unwrap();
+    fs::write(dir.join("out/rapid/older.mod"), "MODULE older\nENDMODULE\n").unwrap();
+    platewash(dir, &["export", "out/plan.json", "--to", "rapid"]).refused(2, &["older.mod", "remove it"]);
+    assert_eq!(names(&dir.join("out/rapid")), ["older.mod"]);
+}
+
+#[test]
+fn bad_usage_says_what_was_expected() {
+    let folder = planned();
+    let dir = folder.path();
+    let ran = platewash(dir, &["export", "out/plan.json", "--to", "karel"]);
+    assert_eq!(ran.code, 2);
+    assert!(
+        ran.stderr.contains("expected one of") && ran.stderr.contains("rapid"),
+        "{}",
+        ran.stderr
+    );
+    for (option, value, words) in [
+        ("--stands", "1,2,3", "6 numbers"),
+        ("--stands", "0,0,0,0,nan,0", "finite"),
+        ("--tip", "0,0,150,2,0,0,0", "length 1"),
+        ("--accept", "everything", "no requirement"),
+    ] {
+        let ran = platewash(dir, &["export", "out/plan.json", "--to", "rapid", option, value]);
+        assert_eq!(ran.code, 2, "{option} {value}");
+        assert!(ran.stderr.contains(words), "{}", ran.stderr);
+    }
+    platewash(dir, &["verify", "out/plan.json", "--program", "none.mod"]).refused(2, &["none.mod", "cannot be read"]);
+    fs::write(dir.join("notes.txt"), "nothing").unwrap();
+    platewash(dir, &["verify", "out/plan.json", "--program", "notes.txt"]).refused(2, &["notes.txt", "no program of"]);
+}
