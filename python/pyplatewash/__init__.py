@@ -56,6 +56,7 @@ from ._core import (
 from ._edit import edit
 from ._errors import (
     DynamicsError,
+    ExportError,
     FileError,
     IkError,
     IkPathError,
@@ -89,6 +90,7 @@ __all__ = [
     "DynamicsModel",
     "Energy",
     "Execution",
+    "ExportError",
     "FileError",
     "IkBatch",
     "IkBranches",

@@ -165,7 +165,8 @@ class IkPathError(IkError):
 class PlanError(PlatewashError):
     """A job could not be carried out."""
 
-    #: Stage that failed: ``"robot"``, ``"job"``, ``"plan"``, ``"paper"``, ``"tracking"``, ``"ik"``, ``"clearance"`` or ``"coverage"``.
+    #: Stage that failed: ``"robot"``, ``"job"``, ``"plan"``, ``"paper"``, ``"tracking"``, ``"ik"``, ``"clearance"``, ``"coverage"`` or
+    #: ``"dry_run"``.
     stage: str | None = None
     #: Plate at fault.
     plate: int | None = None
@@ -184,6 +185,22 @@ class PlanError(PlatewashError):
 
 class ProveError(InputError):
     """A plan says nothing that could be judged, or its arm must be given. A plan that breaks a requirement is no error."""
+
+
+class ExportError(PlatewashError):
+    """A plan is not handed over to a robot."""
+
+    #: Why, in one word that stays: ``"uncertified"``, ``"waived"``, ``"arm"``, ``"load"``, ``"frame"``, ``"start"``, ``"segment_time"``, or
+    #: what the program does not keep: ``"joint_speed"``, ``"deviation"``, ``"clearance"``, ``"coverage"``, ``"contact"``, ``"not_kept"``.
+    code: str
+
+
+class ProgramFileError(FileError):
+    """A robot program or a bag cannot be written: none of its files is."""
+
+
+class ProgramNotFoundError(ProgramFileError, FileNotFoundError):
+    """The folder in which a program's folder or a bag shall be made is not there."""
 
 
 class DynamicsError(InputError):
@@ -221,7 +238,7 @@ class SimulationError(PlatewashError):
 class MissingError(PlatewashError, ImportError):
     """Something that this installation lacks is needed; the message says how to get it."""
 
-    #: What is missing: ``"matplotlib"``, ``"anywidget"`` or ``"page"``.
+    #: What is missing: ``"matplotlib"``, ``"anywidget"``, ``"rosbags"``, ``"ros2"`` or ``"page"``.
     name: str | None = None
 
 

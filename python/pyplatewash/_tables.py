@@ -68,6 +68,12 @@ def page(title: object, parts: Iterable[str]) -> str:
     return f'<div><strong>{shown(title)}</strong><div style="display:flex;flex-wrap:wrap;gap:1.5em;align-items:flex-start">{inner}</div></div>'
 
 
+def dry_run(of: _core.Plan) -> str | None:
+    """What must be read first of a dry run; None for what is none."""
+    stated = getattr(of.job, "dry_run", None)
+    return None if stated is None else f"DRY RUN of {stated.parent[:12]}, {1e3 * stated.height_m:g} mm above the plates, nothing is washed"
+
+
 def plan(of: _core.Plan) -> str:
     """A plan: it says nothing about a proof."""
     hash_ = "none" if of.hash is None else f"{of.hash[:12]}… ({'as sealed' if of.is_sealed() else 'NOT that of the contents'})"
@@ -80,7 +86,8 @@ def plan(of: _core.Plan) -> str:
         ("hash", hash_),
         ("proof", "none for a run of the paper's program" if of.process == "paper" else "see prove(plan)"),
     ]
-    return page(f"Plan: {of.provenance.scenario}", [table(rows), plan_picture(of)])
+    first = dry_run(of)
+    return page(f"{'' if first is None else f'{first}; '}Plan: {of.provenance.scenario}", [table(rows), plan_picture(of)])
 
 
 def planned(of: _core.Planned) -> str:

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import pyplatewash as pw
+from pyplatewash import _program_files
 from wheel_plans import paper_run, planned
 
 ROBOT = pw.Robot.irb120()
@@ -38,6 +39,7 @@ GOOD: dict[str, Any] = {
     "thickness_m": 0.02, "position_tolerance_m": 1e-6, "orientation_tolerance_rad": 1e-6, "max_iterations": 60, "max_qp_iterations": 30, "step_bound_rad": 0.7,
     "analytic_starts": True, "listed_starts": 4, "random_restarts": 0, "random_seed": 0, "data": {"a": 1},
     "kind": "layout", "ax": plt.figure().add_subplot(), "execution": pw.simulate(WASH.plan), "certificate": pw.prove(WASH.plan), "plate": 0, "prove": True, "simulate": False, "height": 300,
+    "to": "ros2", "out": None, "tolerance_m": 2e-4, "speed_share": 0.5, "speed_m_s": 0.1, "Plan.dry_run height_m": 0.05, "corner_m": 5e-3, "accept": ["coverage"], "stands_rad": WASH.plan.trajectory.q_rad[0], "tip": None,
     "html": "<p>a page", "Plan.view path": "page.html", "Page.save path": "page.html", "Page.open path": "page.html",
     "Robot.from_urdf text": ROBOT.urdf, "Robot.from_urdf srdf": ROBOT.srdf, "Plan.from_json text": PLAN.to_json(), "Scenario.parse text": "name = 'x'\n[layout]\nregion = 'text'\n",
     "Robot.ik seed": Q, "Robot.ik_path seed": Q, "Robot.ik_batch seeds": Q, "IkSolution start": "seed", "sweep scenario": "kitchen", "run_paper job": RUN.job, "prove plan": WASH.plan,
@@ -80,7 +82,7 @@ INSTANCES: dict[str, Callable[[], Any]] = {
     "PaperJob": lambda: RUN.job, "PaperRun": lambda: RUN, "WashJob": lambda: WASH.job, "Planned": lambda: WASH, "Certificate": lambda: pw.prove(WASH.plan), "DynamicsModel": lambda: pw.DynamicsModel(ROBOT),
     "ClearanceModel": lambda: pw.ClearanceModel(ROBOT, pw.Tool(length_m=0.15), [pw.Plate(x_m=0.3, y_m=0.0)]), "Execution": lambda: pw.simulate(PLAN), "PaperSpiral": pw.PaperSpiral,
     "WashCurve": lambda: pw.WashCurve(radius_m=0.1, turns=3.0), "Record": lambda: pw.Record({"a": 1}), "Layout": lambda: pw.place_plates("kitchen"),
-    "Plan.show": lambda: WASH.plan, "Plan.view": lambda: WASH.plan, "Plan.figure": lambda: WASH.plan, "Page": lambda: pw.Page("<p>a page"),
+    "Plan.export": lambda: WASH.plan, "Plan.to_joint_trajectory": lambda: WASH.plan, "Plan.dry_run": lambda: WASH.plan, "Plan.show": lambda: WASH.plan, "Plan.view": lambda: WASH.plan, "Plan.figure": lambda: WASH.plan, "Page": lambda: pw.Page("<p>a page"),
     "Scenario.paper_job": lambda: pw.Scenario.load("paper-appendix"),
 }  # fmt: skip
 MADE: dict[str, Any] = {}
@@ -122,6 +124,14 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Files of good names, in a folder that may be written to."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(webbrowser, "open", lambda address: True)
+    save = _program_files.save
+
+    def save_here(folder: Path, files: dict[str, str]) -> None:
+        if Path(folder).is_dir() and not Path(folder).resolve().is_relative_to(tmp_path):
+            raise pw.FileError("no folder of this test's")  # Whoever may write anywhere would find programs there.
+        save(folder, files)
+
+    monkeypatch.setattr(_program_files, "save", save_here)
     Path("arm.urdf").write_text(ROBOT.urdf)
     Path("arm.srdf").write_text(ROBOT.srdf or "")
     PLAN.save("plan.json")

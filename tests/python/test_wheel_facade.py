@@ -17,6 +17,7 @@ PYTHON = {
     # Modules of Rust's; their nouns are at the top.
     "certificate": None,
     "editor": "edit",
+    "export": "Plan.export",
     "kinematics": None,
     "paper": None,
     "planner": None,
@@ -113,7 +114,7 @@ def test_the_scenarios_and_verbs_are_the_commands(platewash: Path) -> None:
         assert getattr(pw, name).__doc__, f"{name} has no docstring"
 
 
-@pytest.mark.parametrize("module", ["", "._values", "._records", "._errors", "._page", "._words"])
+@pytest.mark.parametrize("module", ["", "._values", "._records", "._errors", "._page", "._words", ".ros"])
 def test_examples_in_docstrings_run(module: str) -> None:
     found = doctest.testmod(importlib.import_module("pyplatewash" + module))
     assert found.failed == 0

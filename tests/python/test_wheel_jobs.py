@@ -2,6 +2,7 @@
 
 import copy
 import json
+import math
 import pickle
 import subprocess
 from collections.abc import Callable
@@ -380,3 +381,44 @@ def test_a_plan_file_is_read_strictly(kitchen: pw.Planned) -> None:
         pw.Plan.from_json(json.dumps(table))
     with pytest.raises(pw.PlanFileError, match="platewash-plan/1.*plan its scenario again"):
         pw.Plan.from_json('{"format": "platewash-plan/1"}')
+
+
+def test_a_dry_run_is_the_commands_and_says_so(platewash: Path, tmp_path: Path, kitchen: pw.Planned) -> None:
+    dry = kitchen.plan.dry_run(height_m=0.03, speed_m_s=0.2)
+    (tmp_path / "plan.json").write_text(kitchen.plan.to_json(), encoding="utf-8", newline="")
+    asked = ["dry-run", "plan.json", "--height", "0.03", "--speed", "0.2", "--quiet"]
+    subprocess.run([platewash, *asked], cwd=tmp_path, check=True, capture_output=True)
+    assert dry.to_json() == (tmp_path / "out" / "dry-run" / "plan.json").read_text(encoding="utf-8")
+    parent = kitchen.plan.hash
+    assert parent is not None and dry.job.dry_run.parent == parent and dry.order == kitchen.plan.order
+    first = f"DRY RUN of {parent[:12]}"
+    certificate = pw.prove(dry)
+    assert certificate.proved and certificate.plates_washed == 0 and certificate.headline.startswith(first)
+    assert f"dry run of {parent[:12]}" in repr(dry) and "dry run" in repr(certificate)
+    for noun in (dry, certificate):
+        assert first in noun._repr_html_()
+    for noun in (kitchen.plan, pw.prove(kitchen.plan)):
+        assert "dry run" not in (repr(noun) + noun._repr_html_()).lower()
+    assert pickle.loads(pickle.dumps(dry)) == dry
+
+
+def test_what_has_no_dry_run_is_refused_by_what_is_wrong(kitchen: pw.Planned, run: pw.PaperRun) -> None:
+    plan = kitchen.plan
+    for height_m in (0.0, -1.0, 0.01, math.nan, math.inf, 1e4):
+        with pytest.raises(pw.InputError) as refused:
+            plan.dry_run(height_m=height_m)
+        assert refused.value.argument == "height_m"
+    for speed_m_s in (0.0, -1.0, 2.0, math.nan, math.inf):
+        with pytest.raises(pw.InputError) as refused:
+            plan.dry_run(speed_m_s=speed_m_s)
+        assert refused.value.argument == "speed_m_s"
+    with pytest.raises(pw.InputTypeError):
+        plan.dry_run("0.05")  # type: ignore[arg-type]
+    edited = pw.Plan.from_json(plan.to_json().replace('"coverage":0.995', '"coverage":0.5'))
+    for none, words in [(plan.dry_run(), "itself a dry run"), (run.plan(), "the paper's program"), (edited, "changed after it was sealed")]:
+        with pytest.raises(pw.PlanError, match=words) as caught:
+            none.dry_run()
+        assert caught.value.stage == "dry_run"
+    with pytest.raises(pw.PlanError) as caught:
+        plan.dry_run(height_m=0.0103)
+    assert (caught.value.stage, caught.value.plate) == ("plan", plan.order[0])

@@ -152,8 +152,10 @@ impl CertificateObject {
     fn __repr__(&self) -> String {
         let checks = self.inner.checks.len();
         let kept = checks - self.inner.broken().count();
+        let dry_run = self.inner.rests_on.dry_run.as_ref();
+        let dry_run = dry_run.map_or("", |_| "dry run, ");
         format!(
-            "Certificate('{}', {kept} of {checks} requirements kept)",
+            "Certificate('{}', {dry_run}{kept} of {checks} requirements kept)",
             self.verdict()
         )
     }

@@ -2,11 +2,14 @@
 
 use crate::argument;
 use crate::by_python::{ask, table};
+use crate::dry_run;
 use crate::errors::{self, FileOf, SystemWord};
+use crate::export;
 use crate::layout::plates;
 use crate::robot::Robot;
 use crate::trajectory::TrajectoryObject;
 use crate::value::{records, to_python, to_record};
+use platewash::export::ros2::{self, Ros2};
 use platewash::kinematics::urdf::file;
 use platewash::workcell::csv::table as csv_table;
 use platewash::workcell::plan::PlanFileError;
@@ -14,7 +17,7 @@ use platewash::workcell::trajectory::KnotError;
 use platewash::workcell::workcell::ArmId;
 use platewash::{Plan, RobotModel};
 use pyo3::prelude::*;
-use pyo3::types::{PyList, PyString, PyTuple, PyType};
+use pyo3::types::{PyDict, PyList, PyString, PyTuple, PyType};
 use std::sync::Arc;
 
 /// Longest plan file that is read \[bytes\].
@@ -269,6 +272,91 @@ impl PlanObject {
             .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
     }
 
+    /// A robot program of the plan, as a dictionary of its files' texts by their names: `"ros2"` and the other targets of the command's
+    /// `export`. The plan is proved, the program read back, interpreted and judged; what does not hold is not handed over.
+    ///
+    /// With `out`, a folder that is there or can be made, the files are written there, all of them or none. The tip may be `tolerance_m` from the plan [m]. The program
+    /// runs at `speed_share` of the plan's speed, and corners between its points have the radius `corner_m` [m], where it has corners. What
+    /// the certificate waives must be accepted by name: `accept`. `stands_rad` is where the arm stands now, shape (6,) [rad], `tip` the
+    /// tool's tip in the flange's frame as the controller has it, shape (4, 4): both are compared with the plan. `robot` is the arm, by default
+    /// the one that the plan was made for.
+    ///
+    /// Raises ExportError, with `code`, for a plan that is not handed over; InputError; FileError; ProveError for a plan whose arm must
+    /// be given.
+    #[pyo3(
+        signature = (
+            to, out=None, *, tolerance_m=None, speed_share=None, corner_m=None, accept=None, stands_rad=None, tip=None, robot=None
+        ),
+        text_signature = "($self, to, out=None, *, tolerance_m=0.0002, speed_share=1.0, corner_m=0.005, accept=(), stands_rad=None, \
+                          tip=None, robot=None)"
+    )]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn export<'py>(
+        &self,
+        py: Python<'py>,
+        to: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        tolerance_m: Option<&Bound<'py, PyAny>>,
+        speed_share: Option<&Bound<'py, PyAny>>,
+        corner_m: Option<&Bound<'py, PyAny>>,
+        accept: Option<&Bound<'py, PyAny>>,
+        stands_rad: Option<&Bound<'py, PyAny>>,
+        tip: Option<&Bound<'py, PyAny>>,
+        robot: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let given = export::Given {
+            tolerance_m,
+            speed_share,
+            corner_m,
+            accept,
+            stands_rad,
+            tip,
+        };
+        let (to, settings) = (export::dialect(to)?, given.settings()?);
+        let out = out.map(|out| argument::path("out", out)).transpose()?;
+        let arm = self.arm(py, Robot::given(robot)?)?;
+        let files = PyDict::new(py);
+        for file in export::files(py, &self.inner, arm, to, settings)? {
+            files.set_item(file.name, file.text)?;
+        }
+        if let Some(out) = out {
+            ask(py, "_program_files", "save", (out, &files))?;
+        }
+        Ok(files)
+    }
+
+    /// The plan as a `trajectory_msgs/JointTrajectory`, in plain dictionaries and lists: what `export("ros2")` has in
+    /// `joint_trajectory.json`. `pyplatewash.ros` makes a message of it where ROS 2 is at hand, and writes bags.
+    ///
+    /// Positions are in rad, speeds in rad/s; the first point is after a lead-in of half a second. Arguments and exceptions are those of
+    /// `export`.
+    #[pyo3(
+        signature = (speed_share=None, *, accept=None, stands_rad=None, robot=None),
+        text_signature = "($self, speed_share=1.0, *, accept=(), stands_rad=None, robot=None)"
+    )]
+    fn to_joint_trajectory<'py>(
+        &self,
+        py: Python<'py>,
+        speed_share: Option<&Bound<'py, PyAny>>,
+        accept: Option<&Bound<'py, PyAny>>,
+        stands_rad: Option<&Bound<'py, PyAny>>,
+        robot: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let given = export::Given {
+            tolerance_m: None,
+            speed_share,
+            corner_m: None,
+            accept,
+            stands_rad,
+            tip: None,
+        };
+        let (settings, arm) = (given.settings()?, self.arm(py, Robot::given(robot)?)?);
+        let files = export::files(py, &self.inner, arm, &Ros2, settings)?;
+        let message = files.into_iter().find(|file| file.name == ros2::TRAJECTORY_JSON);
+        let message = message.ok_or_else(|| errors::internal(py, "a ROS 2 program without its message"))?;
+        py.import("json")?.getattr("loads")?.call1((message.text,))
+    }
+
     /// Shows the plan in three dimensions: a `Page`, which a notebook shows in the cell and whose `open()` and `save(path)` do what
     /// they say. As the command's `view` does, it proves the plan and simulates it with its own settings, unless a `certificate` or an
     /// `execution` is given or `prove` or `simulate` is False; what is not proved says so. A run of the paper's program has no certificate.
@@ -349,6 +437,35 @@ impl PlanObject {
         ask(slf.py(), "_figures", "figure", (slf, kind, ax, of))
     }
 
+    /// The motion of the plan in the air, `height_m` above its plates [m] with the tip nowhere faster than `speed_m_s` [m/s]: the same
+    /// plates in the same order with the same wash paths, planned as a plan of its own, which names this one by its hash. This plan is
+    /// proved first; the one that is made is not: see `prove`. `robot` is the arm, by default the one that the plan was made for.
+    ///
+    /// Raises PlanError, with the stage `"dry_run"` for a plan that has no dry run, such as one that is not proved, else where no plan is
+    /// found at that height; InputError for a height or a speed that is none; ProveError for a plan whose arm must be given.
+    #[pyo3(
+        signature = (height_m=None, speed_m_s=None, *, robot=None),
+        text_signature = "($self, height_m=0.05, speed_m_s=0.1, *, robot=None)"
+    )]
+    fn dry_run(
+        &self,
+        py: Python<'_>,
+        height_m: Option<&Bound<'_, PyAny>>,
+        speed_m_s: Option<&Bound<'_, PyAny>>,
+        robot: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let number = |name, value: Option<&Bound<'_, PyAny>>, otherwise| {
+            value.map_or(Ok(otherwise), |value| argument::number(name, value))
+        };
+        let asked = dry_run::Asked {
+            height_m: number("height_m", height_m, dry_run::HEIGHT_M)?,
+            speed_m_s: number("speed_m_s", speed_m_s, dry_run::SPEED_M_S)?,
+        };
+        let robot = self.robot_for(py, Robot::given(robot)?)?;
+        let plan = dry_run::planned(py, &self.inner, robot.get().model(), asked)?;
+        Ok(Self::new(plan, Some(robot)))
+    }
+
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         table(slf, "plan")
     }
@@ -357,7 +474,9 @@ impl PlanObject {
         let hash = self.inner.hash.as_deref().and_then(|h| h.get(..8)).unwrap_or("none");
         let (name, seed) = (&self.inner.provenance.scenario, self.inner.job.seed);
         let duration_s = self.inner.duration_s();
-        format!("Plan('{name}', seed={seed}, {duration_s:.2} s, hash {hash}…)")
+        let dry_run = self.inner.job.dry_run.as_ref();
+        let dry_run = dry_run.map_or_else(String::new, |of| format!("dry run of {}…, ", of.parent_short()));
+        format!("Plan('{name}', {dry_run}seed={seed}, {duration_s:.2} s, hash {hash}…)")
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {

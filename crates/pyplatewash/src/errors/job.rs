@@ -10,6 +10,7 @@ use platewash::planner::transit::TransitError;
 use platewash::scenario::Problem;
 use platewash::workcell::job::JobError;
 use platewash::workcell::layout::LayoutError;
+use platewash::workcell::raised::DryRunError;
 use platewash::workcell::workcell::ArmId;
 use platewash::{Failure, PlanError, ScenarioError};
 use pyo3::prelude::*;
@@ -59,6 +60,22 @@ pub fn failure(py: Python<'_>, error: &Failure) -> PyErr {
         Failure::File(_) => named(py, "PlanFileError", &message),
         _ => named(py, "PlanError", &message),
     }
+}
+
+/// A plan that has no dry run of the kind that is asked for.
+pub fn dry_run(py: Python<'_>, error: &DryRunError) -> PyErr {
+    let message = error.to_string();
+    match error {
+        DryRunError::Height { .. } | DryRunError::TooLow { .. } => keyed(py, "height_m", &message),
+        DryRunError::Speed { .. } => keyed(py, "speed_m_s", &message),
+        DryRunError::Job(error) => job(py, error, &message),
+        _ => no_dry_run(py, &message),
+    }
+}
+
+/// A plan that has no dry run at all.
+pub fn no_dry_run(py: Python<'_>, message: &str) -> PyErr {
+    staged(py, "dry_run", message, Vec::new())
 }
 
 /// A job that failed at a stage.

@@ -10,7 +10,7 @@ mod simulation;
 
 pub use file::{FileOf, SystemWord, system_file, unread};
 pub use inverse::{cause, ik, ik_path};
-pub use job::{arm_needed, failure, scenario};
+pub use job::{arm_needed, dry_run, failure, no_dry_run, scenario};
 pub use simulation::dynamics;
 
 use pyo3::IntoPyObjectExt;
@@ -104,6 +104,11 @@ pub fn not_numbers(py: Python<'_>, argument: &str, error: &PyErr) -> PyErr {
 /// An exception of the given class without fields.
 pub fn named(py: Python<'_>, class: &'static str, message: &str) -> PyErr {
     raise(py, class, message, &[])
+}
+
+/// A plan that is not handed over; the code is stable.
+pub fn export(py: Python<'_>, code: &str, message: &str) -> PyErr {
+    raise(py, "ExportError", message, &[("code", any(py, code))])
 }
 
 /// Something that this installation lacks.

@@ -1,0 +1,64 @@
+//! The dry run of a plan.
+
+use crate::errors;
+use crate::work::patiently;
+use platewash::certificate::{CertifyError, certify_with};
+use platewash::planner::{PlanError, Watch, plan_in_order};
+use platewash::workcell::raised::{DryRunError, check_paths, dry_run_job};
+use platewash::{CancelToken, Failure, Plan, RobotModel};
+use pyo3::prelude::*;
+use std::sync::Arc;
+
+/// Height of a dry run that is asked for without one \[m\]; the command's.
+pub const HEIGHT_M: f64 = 0.05;
+
+/// The same of the tip's largest speed \[m/s\].
+pub const SPEED_M_S: f64 = 0.1;
+
+/// What is asked of a dry run.
+#[derive(Debug, Clone, Copy)]
+pub struct Asked {
+    /// How far above the plates it is \[m\].
+    pub height_m: f64,
+    /// Largest speed of the tip \[m/s\].
+    pub speed_m_s: f64,
+}
+
+/// The dry run of a plan, which is proved first.
+///
+/// # Errors
+/// `PlanError`; `InputError` for a height or a speed that is none; `ProveError`.
+pub fn planned(py: Python<'_>, parent: &Plan, arm: &Arc<RobotModel>, asked: Asked) -> PyResult<Plan> {
+    let (parent, arm) = (parent.clone(), arm.clone());
+    let work = move |cancel: &CancelToken| {
+        let job = dry_run_job(&parent, &arm, asked.height_m, asked.speed_m_s).map_err(Refused::DryRun)?;
+        let (parent, _) = certify_with(parent, &arm, cancel)
+            .map_err(Refused::Parent)?
+            .into_parts();
+        let planned = plan_in_order(&job, &parent.order, &Watch::silent(cancel)).map_err(Refused::Plan)?;
+        check_paths(&parent, &planned.plan).map_err(Refused::DryRun)?;
+        Ok(planned.plan)
+    };
+    patiently(py, work)?.map_err(|refused: Refused| refused.raised(py))
+}
+
+/// What stands against a dry run.
+enum Refused {
+    DryRun(DryRunError),
+    Parent(CertifyError),
+    Plan(PlanError),
+}
+
+impl Refused {
+    fn raised(self, py: Python<'_>) -> PyErr {
+        match self {
+            Self::DryRun(error) => errors::dry_run(py, &error),
+            Self::Parent(CertifyError::Prove(error)) => errors::failure(py, &error.into()),
+            Self::Parent(error) => {
+                let message = format!("{error}; a dry run is one of a proved plan; prove says more");
+                errors::no_dry_run(py, &message)
+            }
+            Self::Plan(error) => errors::failure(py, &Failure::from(error)),
+        }
+    }
+}
