@@ -5,7 +5,7 @@ use crate::file::ProgramFile;
 use crate::header;
 use crate::judged::{self, Judged};
 use crate::points::{Following, Source};
-use crate::program::{Point, Program};
+use crate::program::{Point, Program, START_WITHIN_DEG};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
@@ -16,9 +16,6 @@ use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::workcell::ArmId;
-
-/// How far the arm may stand from the start of the plan \[°\].
-pub const START_WITHIN_DEG: f64 = 0.5;
 
 /// How far a point that was read back may be from the one that was written \[°\], and its time \[s\].
 const READ_WITHIN: (f64, f64) = (1e-4, 1e-4);

@@ -52,6 +52,6 @@ mod tool_frame;
 pub mod urscript;
 
 pub use compare::{Change, CompareError, Compared, compare};
-pub use export::{ExportError, Exported, START_WITHIN_DEG, export};
+pub use export::{ExportError, Exported, export};
 pub use refusal::Refusal;
 pub use settings::{ExportSettings, requirement};

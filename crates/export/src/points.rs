@@ -185,10 +185,11 @@ impl<'a> Source<'a> {
         let step = |both: &[Point]| {
             let at = |i: usize| both[0].t_s + (both[1].t_s - both[0].t_s) * i as f64 / COMPARED as f64;
             let off = |t_s: f64| {
-                let planned = self.motion.at(t_s).map(|state| place(&state.q));
-                let from = |planned| move |there| (place(&there) - planned as nalgebra::Vector3<f64>).norm();
-                let moved = motions.iter().filter_map(|m| m.motion.at(t_s)).map(|[q, _]| q);
-                planned.map_or(f64::INFINITY, |planned| moved.map(from(planned)).fold(0.0, f64::max))
+                let Some(planned) = self.motion.at(t_s).map(|state| place(&state.q)) else {
+                    return f64::INFINITY;
+                };
+                let moved = motions.iter().filter_map(|m| m.motion.at(t_s));
+                moved.map(|[q, _]| (place(&q) - planned).norm()).fold(0.0, f64::max)
             };
             (0..=COMPARED).map(at).map(off).fold(0.0, f64::max)
         };

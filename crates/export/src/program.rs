@@ -4,6 +4,9 @@ use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::tool::Tool;
 
+/// How far the arm may stand from the start of the plan, joint by joint \[°\]: programs check it where they can.
+pub const START_WITHIN_DEG: f64 = 0.5;
+
 /// A program to be written: points in time, and what must be said with them.
 #[derive(Debug, Clone)]
 pub struct Program<'a> {

@@ -6,7 +6,7 @@ use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use proptest::prelude::*;
 use std::sync::OnceLock;
 
@@ -60,6 +60,14 @@ fn sampled_m(motion: &PiecewiseMotion, plan: &Plan, moments: usize) -> f64 {
     (0..moments).map(off).fold(0.0, f64::max)
 }
 
+/// The first wash of a plan.
+fn first_wash(plan: &Plan) -> &PlanSegment {
+    plan.segments
+        .iter()
+        .find(|segment| segment.kind == SegmentKind::Wash)
+        .unwrap()
+}
+
 #[test]
 fn the_plan_itself_holds() {
     let plan = good();
@@ -101,11 +109,7 @@ proptest! {
 #[test]
 fn a_bump_in_one_joint_is_found_where_it_is() {
     let plan = good();
-    let wash = plan
-        .segments
-        .iter()
-        .find(|segment| segment.kind == SegmentKind::Wash)
-        .unwrap();
+    let wash = first_wash(&plan);
     let there = 0.5 * (wash.t_start_s + wash.t_end_s);
     let bumped = |t: f64, mut q: JointVector| {
         if (t - there).abs() < 0.03 {
@@ -142,11 +146,7 @@ fn a_bump_in_one_joint_is_found_where_it_is() {
 #[test]
 fn a_wash_that_is_left_out_washes_nothing() {
     let plan = good();
-    let wash = plan
-        .segments
-        .iter()
-        .find(|segment| segment.kind == SegmentKind::Wash)
-        .unwrap();
+    let wash = first_wash(&plan);
     let (from, to) = (wash.t_start_s, wash.t_end_s);
     let motion = plan.knots.motion().unwrap();
     let skipped = |t: f64, q: JointVector| {

@@ -4,7 +4,7 @@
 //! `def` to its `end`. A stretch of the plan is a function of its own.
 
 use crate::comment::wrapped;
-use crate::program::{Point, Program};
+use crate::program::{Point, Program, START_WITHIN_DEG};
 use platewash_kinematics::rotation::{Rigid, rotation_vector};
 use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector};
@@ -15,9 +15,6 @@ const DECIMALS: usize = 9;
 
 /// Nanoseconds of a second: times are rounded as sums, so that rounding does not add up.
 const PER_S: f64 = 1e9;
-
-/// How far a joint may be from the start \[°\].
-const START_DEG: f64 = 0.5;
 
 /// How the program gets to its start, and to its end once more: acceleration \[rad/s²\] and speed \[rad/s\].
 const SLOWLY: &str = "a=0.1, v=0.05";
@@ -91,15 +88,15 @@ fn tool(program: &Program<'_>) -> String {
 /// Refuses to start from elsewhere, before anything is set or moved.
 fn start(q_rad: &JointVector) -> String {
     let mut text = format!(
-        "  # The arm must stand within {START_DEG} deg of the start.\n  start = {}\n  found = get_actual_joint_positions()\n",
+        "  # The arm must stand within {START_WITHIN_DEG} deg of the start.\n  start = {}\n  found = get_actual_joint_positions()\n",
         list(q_rad.iter().copied())
     );
     for joint in 0..AXES {
         let (number, deg) = (joint + 1, fixed(q_rad[joint].to_degrees(), 2));
         let said = format!(
-            "Joint {number} is more than {START_DEG} deg from the start: move it to {deg} deg, then start again."
+            "Joint {number} is more than {START_WITHIN_DEG} deg from the start: move it to {deg} deg, then start again."
         );
-        let most = fixed(START_DEG.to_radians(), DECIMALS);
+        let most = fixed(START_WITHIN_DEG.to_radians(), DECIMALS);
         text.push_str(&format!(
             "  if norm(found[{joint}] - start[{joint}]) > {most}:\n    \
              popup(\"{said}\", title=\"platewash\", error=True, blocking=True)\n    halt\n  end\n"

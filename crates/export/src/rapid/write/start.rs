@@ -4,12 +4,9 @@ use super::line::{Lines, number};
 use super::motion::{Routine, target, zone};
 use super::names::{MOST, RUNNING};
 use super::tool::tooldata;
-use crate::program::Program;
+use crate::program::{Program, START_WITHIN_DEG};
 use crate::rapid::interpret::SHARE;
 use platewash_kinematics::JointVector;
-
-/// How far each joint may be from the start \[°\].
-const START_DEG: f64 = 0.5;
 
 /// The tool, the share of the speed, the start, and a zone that has no name.
 pub fn data(lines: &mut Lines, program: &Program<'_>) {
@@ -53,7 +50,7 @@ pub fn main(lines: &mut Lines, routines: &[Routine]) {
     lines.line(2, "pwCheckStart;");
     lines.comment(
         2,
-        &format!("To the start itself, which is {START_DEG} deg away at most."),
+        &format!("To the start itself, which is {START_WITHIN_DEG} deg away at most."),
     );
     lines.line(2, "MoveAbsJ pwStart\\NoEOffs,v20,fine,pwTool\\WObj:=wobj0;");
     for routine in routines {
@@ -93,7 +90,7 @@ pub fn checks(lines: &mut Lines) {
     lines.line(1, "ENDPROC");
     lines.blank();
     lines.line(1, "PROC pwCheckJoint(num joint,num found,num expected)");
-    lines.line(2, &format!("IF Abs(found-expected)<={START_DEG} RETURN;"));
+    lines.line(2, &format!("IF Abs(found-expected)<={START_WITHIN_DEG} RETURN;"));
     lines.line(2, "TPErase;");
     lines.line(
         2,
@@ -102,7 +99,7 @@ pub fn checks(lines: &mut Lines) {
     lines.line(2, "TPWrite \"The program starts at \"+NumToStr(expected,4)+\" deg.\";");
     lines.line(
         2,
-        &format!("TPWrite \"That is more than {START_DEG} deg away: jog the arm there.\";"),
+        &format!("TPWrite \"That is more than {START_WITHIN_DEG} deg away: jog the arm there.\";"),
     );
     lines.line(
         2,
