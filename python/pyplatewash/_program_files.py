@@ -7,6 +7,7 @@ import secrets
 from pathlib import Path
 
 from ._errors import ProgramFileError, ProgramNotFoundError
+from ._whole_file import not_written, write_new
 
 
 def save(folder: str | os.PathLike[str], files: dict[str, str]) -> None:
@@ -24,23 +25,11 @@ def save(folder: str | os.PathLike[str], files: dict[str, str]) -> None:
                 raise IsADirectoryError(None, "there is a folder of that name")
             beside = place / f".platewash-{secrets.token_hex(8)}"
             staged.append((beside, at))
-            _write(beside, text)
+            write_new(beside, text)
         for beside, at in staged:
             os.replace(beside, at)
     except (OSError, ValueError) as error:
-        # A name with a zero in it is a ValueError.
-        number, words = (error.errno, error.strerror) if isinstance(error, OSError) else (None, None)
-        message = f"{at}: cannot be written: {words or error}"
-        kind = ProgramNotFoundError if isinstance(error, FileNotFoundError) else ProgramFileError
-        raise kind(message, filename=str(at), errno=number, strerror=message) from error
+        raise not_written(str(at), error, ProgramNotFoundError, ProgramFileError) from error
     finally:
         for beside, _ in staged:
             beside.unlink(missing_ok=True)
-
-
-def _write(file: Path, text: str) -> None:
-    handle = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
-    with os.fdopen(handle, "wb") as out:
-        out.write(text.encode())
-        out.flush()
-        os.fsync(out.fileno())

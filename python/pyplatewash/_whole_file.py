@@ -1,4 +1,4 @@
-"""A scenario's file, written whole or not at all."""
+"""Files, written whole or not at all."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ import secrets
 from pathlib import Path
 from typing import Any
 
-from ._errors import InputTypeError, ScenarioAccessError, ScenarioNotFoundError
+from ._errors import FileError, InputTypeError, ScenarioAccessError, ScenarioNotFoundError
 
 
 def save_text(path: Any, text: str) -> None:
-    """Writes a text beside its place and renames it; a link stays one, and a file that stands there gives it its rights.
+    """Writes a scenario beside its place and renames it; a link stays one, and a file that stands there gives it its rights.
 
     Raises ScenarioAccessError, a FileError.
     """
@@ -20,22 +20,32 @@ def save_text(path: Any, text: str) -> None:
     try:
         _replace(Path(path).resolve(), text)
     except (OSError, ValueError) as error:
-        # A name with a zero in it is a ValueError.
-        number, words = (error.errno, error.strerror) if isinstance(error, OSError) else (None, None)
-        message = f"{os.fspath(path)}: cannot be written: {words or error}"
-        kind = ScenarioNotFoundError if isinstance(error, FileNotFoundError) else ScenarioAccessError
-        raise kind(message, filename=os.fspath(path), errno=number, strerror=message) from error
+        raise not_written(os.fspath(path), error, ScenarioNotFoundError, ScenarioAccessError) from error
+
+
+def not_written(place: str, error: OSError | ValueError, missing: type[FileError], otherwise: type[FileError]) -> FileError:
+    """What to raise for a place that cannot be written: ``missing`` where something on the way there is not there."""
+    # A name with a zero in it is a ValueError.
+    number, words = (error.errno, error.strerror) if isinstance(error, OSError) else (None, None)
+    message = f"{place}: cannot be written: {words or error}"
+    kind = missing if isinstance(error, FileNotFoundError) else otherwise
+    return kind(message, filename=place, errno=number, strerror=message)
+
+
+def write_new(file: Path, text: str) -> None:
+    """Writes a text to a file that is not there yet, to the disk."""
+    handle = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+    with os.fdopen(handle, "wb") as out:
+        out.write(text.encode())
+        out.flush()
+        os.fsync(out.fileno())
 
 
 def _replace(place: Path, text: str) -> None:
     staged = place.parent / f".platewash-{secrets.token_hex(8)}"
     rights = place.stat().st_mode & 0o7777 if place.exists() else None
-    handle = os.open(staged, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
     try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(text.encode())
-            file.flush()
-            os.fsync(file.fileno())
+        write_new(staged, text)
         if rights is not None:
             os.chmod(staged, rights)
         os.replace(staged, place)

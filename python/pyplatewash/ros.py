@@ -20,6 +20,7 @@ import numpy.typing as npt
 
 from ._core import Plan
 from ._errors import InputError, InputTypeError, MissingError, ProgramFileError, ProgramNotFoundError
+from ._whole_file import not_written
 
 __all__ = ["sample", "to_message", "write_bag"]
 
@@ -128,10 +129,7 @@ def write_bag(
         _write(knots, staged / place.name, rate, start_ns, (trajectory_topic, states_topic))
         (staged / place.name).rename(place)
     except (OSError, ValueError) as error:
-        number, words = (error.errno, error.strerror) if isinstance(error, OSError) else (None, None)
-        message = f"{os.fspath(path)}: cannot be written: {words or error}"
-        kind = ProgramNotFoundError if isinstance(error, FileNotFoundError) else ProgramFileError
-        raise kind(message, filename=os.fspath(path), errno=number, strerror=message) from error
+        raise not_written(os.fspath(path), error, ProgramNotFoundError, ProgramFileError) from error
     finally:
         shutil.rmtree(staged, ignore_errors=True)
     return place
