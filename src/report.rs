@@ -2,6 +2,9 @@
 
 use platewash_certificate::{self as certificate, Certificate, PairsShown};
 use platewash_kinematics::AXES;
+use platewash_kinematics::trig::acos;
+use platewash_kinematics::words::decimals_up;
+use platewash_planner::redundancy::TiltChoice;
 use platewash_planner::{Planned, TourSummary, TransitSummary, VisitSummary};
 use platewash_workcell::layout::Finding;
 use platewash_workcell::verdict::Verdict;
@@ -65,6 +68,25 @@ impl WashReport {
             certificate,
         }
     }
+}
+
+/// Where the sponge's axis points while a plate is washed. On a face that is not flat it takes a share of the slope, and what is proved of
+/// its angle from the normal is told; what it leans besides, only where it does.
+fn leaning(visit: &VisitSummary, certificate: &Certificate) -> String {
+    let plate = certificate.rests_on.plates.get(visit.plate);
+    if plate.is_none_or(|plate| plate.surface.is_flat()) {
+        return visit.tilt.to_string();
+    }
+    let swept = certificate.coverage.iter().find(|swept| swept.plate == visit.plate);
+    let within = swept.map_or_else(String::new, |swept| {
+        let angle_rad = acos(swept.cos_tilt.clamp(0.0, 1.0));
+        format!(", up to {}° from the normal", decimals_up(angle_rad.to_degrees(), 1))
+    });
+    let besides = match visit.tilt {
+        TiltChoice::Policy(policy) if policy.tilt_rad == 0.0 => String::new(),
+        tilt => format!("; {tilt}"),
+    };
+    format!("axis at a share of the slope{within}{besides}")
 }
 
 /// Share of a plate from which on it counts as washed whole in words: nothing but rounding is missing.
@@ -150,7 +172,14 @@ impl WashReport {
             writeln!(f, "{name:<24} {:>9.2}  {}", transit.duration_s, transit.kind)?;
             if let Some(visit) = self.visits.get(k) {
                 let name = format!("wash plate {}", visit.plate);
-                writeln!(f, "{name:<24} {:>9.2}  {}", visit.wash_s, visit.tilt)?;
+                writeln!(
+                    f,
+                    "{name:<24} {:>9.2}  {}, {}",
+                    visit.wash_s,
+                    visit.pattern(),
+                    leaning(visit, &self.certificate)
+                )?;
+                writeln!(f, "{:<24} {:>9}  {}", "", "", visit.pace)?;
             }
         }
         let travel: f64 = self.transits.iter().map(|c| c.duration_s).sum();

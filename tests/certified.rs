@@ -24,7 +24,7 @@ fn judged(scenario: &Scenario) -> (Planned, Certificate) {
 /// A layout of its own per seed, each proved with the figures that the scenarios promise.
 #[test]
 fn the_shipped_scenarios_are_proved() {
-    for name in ["kitchen", "kitchen-roomy", "kitchen-rim"] {
+    for name in ["kitchen", "kitchen-spiral", "kitchen-roomy", "kitchen-rim"] {
         let rows = sweep(&Scenario::load(name).unwrap(), 1..=6).unwrap();
         for row in rows {
             assert_eq!(
@@ -46,8 +46,8 @@ fn the_shipped_scenarios_are_proved() {
 #[test]
 fn a_wash_path_of_any_number_of_turns_is_proved() {
     for turns in [2.7, 3.9, 4.85, 30.0] {
-        let mut scenario = Scenario::load("kitchen").unwrap();
-        scenario.wash.turns = turns;
+        let mut scenario = Scenario::load("kitchen-spiral").unwrap();
+        scenario.wash.turns = Some(turns);
         for seed in if turns < 10.0 { 1..=3 } else { 1..=1 } {
             scenario.seed = seed;
             let (_, certificate) = judged(&scenario);
@@ -60,8 +60,8 @@ fn a_wash_path_of_any_number_of_turns_is_proved() {
 /// As many as may be asked for: what a proof may take grows with the motion.
 #[test]
 fn a_wash_of_many_turns_is_proved() {
-    let mut scenario = Scenario::load("kitchen").unwrap();
-    scenario.wash.turns = 125.0;
+    let mut scenario = Scenario::load("kitchen-spiral").unwrap();
+    scenario.wash.turns = Some(125.0);
     let (planned, certificate) = judged(&scenario);
     let broken: Vec<_> = certificate.broken().collect();
     assert!(broken.is_empty(), "{broken:?}");
@@ -73,7 +73,7 @@ fn a_wash_of_many_turns_is_proved() {
 /// The paper's own spacing and base radius, with everything else done properly; plates that overlap are a finding.
 #[test]
 fn the_papers_spacing_is_washed_too() {
-    let mut scenario = Scenario::load("kitchen").unwrap();
+    let mut scenario = Scenario::load("kitchen-spiral").unwrap();
     scenario.layout.min_distance_m = 0.28;
     scenario.layout.base_radius_m = 0.25;
     scenario.layout.overlap = Overlap::Report;
@@ -92,7 +92,7 @@ fn the_papers_spacing_is_washed_too() {
 }
 
 fn explicit(positions: &[[f64; 2]]) -> Scenario {
-    let mut scenario = Scenario::load("kitchen").unwrap();
+    let mut scenario = Scenario::load("kitchen-spiral").unwrap();
     scenario.layout.positions_m = Some(positions.to_vec());
     scenario
 }
@@ -187,7 +187,7 @@ fn overlapping_plates_fail_the_certificate_unless_only_reported() {
 
 #[test]
 fn layouts_are_drawn_until_they_can_be_washed_where_the_scenario_asks() {
-    let mut scenario = Scenario::load("kitchen").unwrap();
+    let mut scenario = Scenario::load("kitchen-spiral").unwrap();
     scenario.layout.region = None;
     scenario.layout.rho_m = Some([0.40, 0.62]);
     scenario.layout.azimuth_deg = Some([-90.0, 90.0]);
@@ -214,7 +214,7 @@ fn the_best_order_is_no_slower_than_nearest_next() {
     for seed in 1..=10 {
         let mut scenario = Scenario {
             seed,
-            ..Scenario::load("kitchen").unwrap()
+            ..Scenario::load("kitchen-spiral").unwrap()
         };
         let best = planned(&scenario).unwrap().tour;
         assert!(best.travel_s <= best.nearest_next_s + 1e-12);
@@ -229,7 +229,7 @@ fn the_best_order_is_no_slower_than_nearest_next() {
 #[test]
 fn what_makes_no_sense_is_refused_by_name() {
     let refused = |change: fn(&mut Scenario), word: &str| {
-        let mut scenario = Scenario::load("kitchen").unwrap();
+        let mut scenario = Scenario::load("kitchen-spiral").unwrap();
         change(&mut scenario);
         let error = planned(&scenario).unwrap_err();
         assert!(error.to_string().contains(word), "{error}");

@@ -28,7 +28,13 @@ fn parent(seed: u64) -> (WashJob, Plan) {
 fn dry_run_of((job, parent): &(WashJob, Plan), height_m: f64, speed_m_s: f64) -> Planned {
     let terms = dry_run_terms(parent, job.arm(), height_m, speed_m_s).unwrap();
     let raised = WashJob::new(job.shared_arm(), terms).unwrap();
-    plan_in_order(&raised, &parent.order, &Watch::silent(&CancelToken::new())).unwrap()
+    plan_in_order(
+        &raised,
+        &parent.order,
+        &parent.wash_paths,
+        &Watch::silent(&CancelToken::new()),
+    )
+    .unwrap()
 }
 
 /// Its dry run at 50 mm.
@@ -285,7 +291,7 @@ fn what_is_asked_for_in_vain_is_refused() {
 fn an_order_that_is_none_is_refused() {
     let job = &PARENT.0;
     for bad in [&[][..], &[0, 1, 2], &[0, 1, 2, 2], &[0, 1, 2, 4], &[0, 1, 2, 3, 3]] {
-        let error = plan_in_order(job, bad, &Watch::silent(&CancelToken::new())).unwrap_err();
+        let error = plan_in_order(job, bad, &[], &Watch::silent(&CancelToken::new())).unwrap_err();
         assert!(error.to_string().contains("4 plates"), "{bad:?}: {error}");
     }
 }

@@ -57,10 +57,10 @@ fn terms(random: &mut Pcg64, robot: &RobotModel) -> JobTerms {
     };
     let orders = [OrderRule::Nearest, OrderRule::Given, OrderRule::Fastest];
     let settings = PlannerSettings {
-        path_radius_m,
+        path_radius_m: Some(path_radius_m),
         // Neighbouring windings overlap by a fifth of the sponge or more.
-        turns: any(random, [0.65, 0.8]) * path_radius_m / tool.sponge_radius_m + 0.5,
-        closing_ring: true,
+        turns: Some(any(random, [0.65, 0.8]) * path_radius_m / tool.sponge_radius_m + 0.5),
+        closing_ring: Some(true),
         lift_m: any(random, [0.02, 0.06]),
         order: orders[random.random_range(0..3)],
         ..settings

@@ -61,7 +61,7 @@ fn transits_take_at_most_six_tenths_of_the_papers() {
     for seed in 1..=20 {
         let scenario = Scenario {
             seed,
-            ..Scenario::load("kitchen").unwrap()
+            ..Scenario::load("kitchen-spiral").unwrap()
         };
         let job = scenario.job().unwrap();
         let planned = plan(&job).unwrap();

@@ -13,6 +13,7 @@ use anyhow::anyhow;
 use clap::Args;
 use platewash::certificate::{PairsShown, prove_with};
 use platewash::planner::{InfeasibleReport, PlanError, Planned, Watch, plan_in_order};
+use platewash::workcell::dry_run::{HEIGHT_M, SPEED_M_S};
 use platewash::workcell::raised::{DryRunError, check_paths, dry_run_job, least_height_m};
 use platewash::workcell::words::printable;
 use platewash::{Certificate, Plan, Verdict, WashJob};
@@ -38,10 +39,10 @@ pub struct DryRunArguments {
     #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
     /// How far above the plates the sponge moves, in metres
-    #[arg(long, value_name = "M", default_value_t = 0.05, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", default_value_t = HEIGHT_M, value_parser = positive, allow_negative_numbers = true)]
     pub height: f64,
     /// Largest speed of the tip, in m/s; no more than the plan's
-    #[arg(long, value_name = "M/S", default_value_t = 0.1, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M/S", default_value_t = SPEED_M_S, value_parser = positive, allow_negative_numbers = true)]
     pub speed: f64,
 }
 
@@ -93,7 +94,7 @@ pub fn run(options: &Options, arguments: &DryRunArguments) -> Result<ExitCode, F
         tell: &|activity| progress.say("planning the dry run", activity),
         cancel: &options.cancel,
     };
-    let planned = match plan_in_order(&asked, order, &watch) {
+    let planned = match plan_in_order(&asked, order, &file.plan.wash_paths, &watch) {
         Ok(planned) => planned,
         Err(error) => {
             let Some(why) = InfeasibleReport::new(asked.name(), asked.terms().seed, &error) else {
@@ -131,7 +132,7 @@ fn other_height(file: &PlanFile<'_>, arguments: &DryRunArguments, watch: &Watch<
         let Ok(job) = job(file, height_m, arguments.speed) else {
             return Ok(false);
         };
-        match plan_in_order(&job, &file.plan.order, watch) {
+        match plan_in_order(&job, &file.plan.order, &file.plan.wash_paths, watch) {
             Ok(_) => Ok(true),
             Err(PlanError::Cancelled(cancelled)) => Err(Failure::from(cancelled)),
             Err(_) => Ok(false),

@@ -13,7 +13,7 @@ use platewash::export::dialect::Dialect;
 use platewash::export::dialects::{self, DIALECTS};
 use platewash::export::file::ProgramFile;
 use platewash::export::judged::Asked;
-use platewash::export::{ExportError, ExportSettings, Exported, Refusal, export, requirement};
+use platewash::export::{ExportError, ExportSettings, Exported, Refusal, contact_not_judged, export, requirement};
 use platewash::workcell::dry_run::DryRun;
 use platewash::workcell::plan::Plan;
 use platewash::{Certified, JointVector, Pose};
@@ -69,6 +69,9 @@ struct Answer<'a> {
     implied: Vec<Check>,
     /// What the controller is asked for, by the size of the corners.
     asked: Vec<CornerAsked>,
+    /// What the plan promises of contact: of the program it is not judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proved_of_the_plan_alone: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -105,7 +108,7 @@ pub fn run(options: &Options, arguments: &ExportArguments) -> Result<ExitCode, F
         export(&certified, &file.arm, arguments.to, &settings, &options.cancel)
     };
     match exported {
-        Ok(exported) => write(options, arguments.to, file.plan.job.dry_run.as_ref(), &exported),
+        Ok(exported) => write(options, arguments.to, &file.plan, &exported),
         Err(ExportError::Refused(refusal)) => {
             let message = format!("{refusal}{}", where_to_mend(&refusal));
             refused(options, refusal.code(), &message, exit_code(&refusal))
@@ -162,12 +165,8 @@ fn exit_code(refusal: &Refusal) -> u8 {
     }
 }
 
-fn write(
-    options: &Options,
-    target: &dyn Dialect,
-    dry_run: Option<&DryRun>,
-    exported: &Exported,
-) -> Result<ExitCode, Failure> {
+fn write(options: &Options, target: &dyn Dialect, plan: &Plan, exported: &Exported) -> Result<ExitCode, Failure> {
+    let dry_run = plan.job.dry_run.as_ref();
     let folder = match &options.out {
         Some(folder) => folder.clone(),
         None => results::folder(options).join(target.name()),
@@ -198,6 +197,7 @@ fn write(
                 asked: case.asked,
             })
             .collect(),
+        proved_of_the_plan_alone: contact_not_judged(&plan.job.requirements),
     };
     output::print_either(options.json, &answer, || answer.text())?;
     results::name(options, &files);
@@ -221,7 +221,11 @@ impl Answer<'_> {
         for check in &self.checks {
             text += &format!("  {:<20} {}\n", check.requirement.words(), check.detail());
         }
-        text + "  not judged: accelerations, and rest at the plates, which the controller times (see the head of the program)\n"
+        text += "  not judged: accelerations, and rest at the plates, which the controller times (see the head of the program)\n";
+        if let Some(all) = &self.proved_of_the_plan_alone {
+            text += &format!("  nor, proved of the plan alone: {all}\n");
+        }
+        text
     }
 }
 

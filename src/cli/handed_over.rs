@@ -9,9 +9,10 @@ use super::{export, output};
 use anyhow::anyhow;
 use platewash::certificate::Check;
 use platewash::export::file::ProgramFile;
-use platewash::export::{Change, CompareError, Compared, compare};
+use platewash::export::{Change, CompareError, Compared, compare, contact_not_judged};
 use platewash::kinematics::urdf::file;
 use platewash::workcell::dry_run::DryRun;
+use platewash::workcell::plan::Plan;
 use platewash::workcell::words::counted;
 use serde::Serialize;
 use std::fmt::Write;
@@ -35,6 +36,9 @@ struct Answer {
     /// That the tool of the program is not the plan's.
     #[serde(skip_serializing_if = "Option::is_none")]
     tool: Option<String>,
+    /// What the plan promises of contact: of the program it is not judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proved_of_the_plan_alone: Option<String>,
 }
 
 /// Compares the files of a program with the one that is made of the plan, and judges them as they stand.
@@ -53,11 +57,7 @@ pub fn run(options: &Options, plan: &Path, program: &[PathBuf]) -> Result<ExitCo
         CompareError::Prove(error) => plan.failure(error.into()),
         error => Failure::input(error),
     })?;
-    let answer = Answer::of(
-        &compared,
-        plan.plan.job.dry_run.as_ref(),
-        &certified.certificate().but_for(),
-    );
+    let answer = Answer::of(&compared, &plan.plan, &certified.certificate().but_for());
     output::print_either(options.json, &answer, || answer.text())?;
     let outcome = if answer.holds {
         Outcome::Good
@@ -78,7 +78,8 @@ fn read(path: &Path) -> Result<ProgramFile, Failure> {
 }
 
 impl Answer {
-    fn of(compared: &Compared, dry_run: Option<&DryRun>, but_for: &str) -> Self {
+    fn of(compared: &Compared, plan: &Plan, but_for: &str) -> Self {
+        let dry_run = plan.job.dry_run.as_ref();
         let (holds, unchanged) = (compared.holds(), compared.is_unchanged());
         let changed = match (unchanged, compared.changes.len() + compared.more_changes) {
             (true, _) => "as it was handed over".to_owned(),
@@ -100,6 +101,7 @@ impl Answer {
             checks: compared.judged.worst(),
             implied: compared.judged.implied(),
             tool: compared.tool.as_ref().map(ToString::to_string),
+            proved_of_the_plan_alone: contact_not_judged(&plan.job.requirements),
         }
     }
 
@@ -128,6 +130,9 @@ impl Answer {
             let status = if check.status.is_kept() { "kept" } else { "NOT KEPT" };
             let (name, detail) = (check.requirement.words(), check.detail());
             let _ = writeln!(text, "  {name:<20} {status:<9} {detail}; {}", check.worst);
+        }
+        if let Some(all) = &self.proved_of_the_plan_alone {
+            let _ = writeln!(text, "  not judged of a program, proved of the plan alone: {all}");
         }
         text
     }

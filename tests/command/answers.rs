@@ -111,8 +111,7 @@ fn a_suggested_frequency_or_rate_is_accepted() {
 fn a_simulation_asks_for_no_more_coverage_than_the_certificate() {
     let folder = folder();
     let dir = folder.path();
-    let text =
-        std::fs::read_to_string(kitchen(dir, &[("required_coverage = 0.995", "required_coverage = 1")])).unwrap();
+    let text = std::fs::read_to_string(spiral(dir, &[("required_coverage = 0.995", "required_coverage = 1")])).unwrap();
     std::fs::write(dir.join("all.toml"), text + "\n[control]\nlaw = \"exact\"\n").unwrap();
     let ran = platewash(dir, &["run", "--scenario", "all.toml"]).done();
     assert!(ran.stdout.contains("\nWASHED: 4 of 4 plates"), "{}", ran.stdout);

@@ -23,8 +23,8 @@ fn conditions(dir: &Path) {
     let same = (region, "positions_m = [[0.36, 0.0], [0.36, 0.0]]");
     let pd = ("[job]", "[control]\nlaw = \"pd\"\nfrequency_rad_s = 15\n[job]");
     for (name, change) in [("far", far), ("same", same), ("pd", pd)] {
-        write(dir, name, "kitchen", &[change]);
-        write(dir, &format!("{name}-report"), "kitchen", &[REPORT, change]);
+        write(dir, name, "kitchen-spiral", &[change]);
+        write(dir, &format!("{name}-report"), "kitchen-spiral", &[REPORT, change]);
     }
     write(dir, "paper-report", "paper-appendix", &[]);
     write(dir, "paper", "paper-appendix", &[FAIL]);
@@ -121,9 +121,9 @@ fn a_question_is_answered_by_its_exit_code_whatever_the_scenario_says() {
             (
                 "validate --scenario same.toml",
                 4,
-                "kitchen: NOT VALID, plate 0 and plate 1 overlap",
+                "kitchen-spiral: NOT VALID, plate 0 and plate 1 overlap",
             ),
-            ("validate --scenario same-report.toml", 4, "kitchen: NOT VALID, "),
+            ("validate --scenario same-report.toml", 4, "kitchen-spiral: NOT VALID, "),
             ("validate --scenario paper-report.toml", 0, "paper-appendix: valid"),
             ("validate --scenario nowhere.toml", 2, ""),
             ("verify kitchen/plan.json", 0, "CERTIFIED"),
@@ -155,7 +155,7 @@ fn a_simulation_is_answered_by_its_exit_code_and_an_altered_plan_never_well() {
     let dir = folder.path();
     conditions(dir);
     plans(dir);
-    let tuned = "kitchen under ";
+    let (tuned, spiral) = ("kitchen under ", "kitchen-spiral under ");
     judge(
         dir,
         &[
@@ -169,8 +169,8 @@ fn a_simulation_is_answered_by_its_exit_code_and_an_altered_plan_never_well() {
             ("simulate kitchen/plan.json --frequency 5000", 2, ""),
             ("simulate nowhere.json", 2, ""),
             ("tune kitchen/plan.json --frequencies 30,5000 --dampings 1", 0, tuned),
-            ("tune pd/plan.json --frequencies 15 --dampings 1", 4, tuned),
-            ("tune pd-report/plan.json --frequencies 15 --dampings 1", 4, tuned),
+            ("tune pd/plan.json --frequencies 15 --dampings 1", 4, spiral),
+            ("tune pd-report/plan.json --frequencies 15 --dampings 1", 4, spiral),
             ("tune altered/plan.json --frequencies 30 --dampings 1", 4, tuned),
             ("tune kitchen/plan.json --frequencies 5000,6000 --dampings 1", 2, tuned),
             ("tune nowhere.json", 2, ""),

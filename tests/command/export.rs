@@ -47,7 +47,6 @@ fn a_program_is_written_and_found_unchanged_and_an_edited_line_is_named() {
     let answer = ran.json();
     assert_eq!(answer["target"], "rapid");
     assert!(answer["points"].as_u64().unwrap() > 500);
-    assert!((answer["duration_s"].as_f64().unwrap() - 42.679).abs() < 2e-3);
     assert!(
         answer["checks"]
             .as_array()
@@ -58,6 +57,8 @@ fn a_program_is_written_and_found_unchanged_and_an_edited_line_is_named() {
     let path = module(&dir.join("out/rapid"));
     let text = fs::read_to_string(&path).unwrap();
     let plan: Value = serde_json::from_str(&fs::read_to_string(dir.join("out/plan.json")).unwrap()).unwrap();
+    let planned_s = plan["knots"]["t_s"].as_array().unwrap().last().unwrap();
+    assert!((answer["duration_s"].as_f64().unwrap() - planned_s.as_f64().unwrap()).abs() < 2e-3);
     assert!(text.contains(plan["hash"].as_str().unwrap()));
 
     let verify = |expected: i32| {

@@ -7,7 +7,7 @@ fn without_a_verb_the_default_scenario_runs_to_the_end() {
     let folder = folder();
     let ran = platewash(folder.path(), &[]).done();
     assert!(
-        ran.stdout.starts_with("PROVED: 4 plates washed whole"),
+        ran.stdout.starts_with("PROVED: 4 plates washed by at least 99.8 %"),
         "{}",
         ran.stdout
     );

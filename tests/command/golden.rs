@@ -11,8 +11,9 @@ use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
 /// Scenario and seed.
-const RUNS: [(&str, u64); 5] = [
+const RUNS: [(&str, u64); 6] = [
     ("kitchen", 1),
+    ("kitchen-spiral", 1),
     ("kitchen-roomy", 3),
     ("kitchen-rim", 5),
     ("paper-appendix", 1),

@@ -15,7 +15,7 @@ fn an_infeasible_job_is_reported_with_its_cause_and_a_place_that_will_do() {
     let folder = folder();
     let dir = folder.path();
     let far = [("region = \"appendix\"", "positions_m = [[0.8, 0.0]]")];
-    let file = kitchen(dir, &far);
+    let file = spiral(dir, &far);
     let run = ["run", "--scenario", file.to_str().unwrap()];
     let ran = platewash(dir, &run);
     assert_eq!(ran.code, 3, "{}", ran.stderr);
@@ -46,8 +46,8 @@ fn an_infeasible_job_is_reported_with_its_cause_and_a_place_that_will_do() {
             .unwrap()
             .contains(&format!("({x:.3}, {y:.3}) m"))
     );
-    plan(dir, &kitchen(dir, &[("region = \"appendix\"", &at(x, y))])).done();
-    kitchen(dir, &[far[0], ("on_failure = \"fail\"", "on_failure = \"report\"")]);
+    plan(dir, &spiral(dir, &[("region = \"appendix\"", &at(x, y))])).done();
+    spiral(dir, &[far[0], ("on_failure = \"fail\"", "on_failure = \"report\"")]);
     let ran = platewash(dir, &run).done();
     assert!(ran.stdout.starts_with("INFEASIBLE"), "{}", ran.stdout);
 }
@@ -69,7 +69,7 @@ fn a_suggested_place_holds_when_typed_in() {
     ];
     for (x, y, radius, height, clearance, tilt) in cases {
         let case = |x: f64, y: f64| {
-            kitchen(
+            spiral(
                 dir,
                 &[
                     ("region = \"appendix\"", &at(x, y)),
@@ -110,7 +110,7 @@ fn that_no_place_was_found_is_said_plainly() {
         ("start_deg = [0, 0, 0, 0, 90, 0]", "start_deg = [0, -30, 0, 0, 0, 0]"),
     ];
     let given = [&large[..], &[("region = \"appendix\"", "positions_m = [[0.9, 0.0]]")]].concat();
-    let ran = plan(dir, &kitchen(dir, &given));
+    let ran = plan(dir, &spiral(dir, &given));
     assert_eq!(ran.code, 3);
     assert!(
         ran.stdout.contains("no position where it can was found within 0.6 m"),
@@ -125,7 +125,7 @@ fn that_no_place_was_found_is_said_plainly() {
         ],
     ]
     .concat();
-    let ran = plan(dir, &kitchen(dir, &sampled));
+    let ran = plan(dir, &spiral(dir, &sampled));
     assert_eq!(ran.code, 3);
     assert!(
         ran.stdout.contains("plates are sampled") && ran.stdout.contains("layout.only_washable"),
@@ -149,7 +149,7 @@ fn nothing_of_an_earlier_call_stays_beside_a_new_result() {
     ] {
         std::fs::write(out.join(name), "PROVED").unwrap();
     }
-    let far = kitchen(dir, &[("region = \"appendix\"", "positions_m = [[0.8, 0.0]]")]);
+    let far = spiral(dir, &[("region = \"appendix\"", "positions_m = [[0.8, 0.0]]")]);
     assert_eq!(platewash(dir, &["run", "--scenario", far.to_str().unwrap()]).code, 3);
     assert_eq!(names(&out), ["mine.txt", "report.json", "report.txt"]);
     assert!(
@@ -169,7 +169,7 @@ fn what_is_too_near_at_home_and_over_a_plate_is_named() {
     let folder = folder();
     let dir = folder.path();
     let start = "start_deg = [0, 0, 0, 0, 90, 0]";
-    let down = kitchen(dir, &[(start, "start_deg = [0, 90, 60, 0, 90, 0]")]);
+    let down = spiral(dir, &[(start, "start_deg = [0, 90, 60, 0, 90, 0]")]);
     platewash(dir, &["validate", "--scenario", down.to_str().unwrap()]).refused(
         3,
         &[
@@ -186,7 +186,7 @@ fn what_is_too_near_at_home_and_over_a_plate_is_named() {
         "{}",
         ran.stdout
     );
-    let ran = plan(dir, &kitchen(dir, &[("lift_m = 0.03 ", "lift_m = 0.005 ")]));
+    let ran = plan(dir, &spiral(dir, &[("lift_m = 0.03 ", "lift_m = 0.01 ")]));
     assert_eq!(ran.code, 3);
     for part in [
         "the line over plate",
@@ -228,20 +228,20 @@ fn validate_finds_what_run_refuses_before_planning() {
         (start, &home, &["robot.home_deg", "joint 1"]),
     ];
     for (from, to, fragments) in cases {
-        let file = kitchen(dir, &[(from, to)]);
+        let file = spiral(dir, &[(from, to)]);
         for verb in ["validate", "run"] {
             platewash(dir, &[verb, "--scenario", file.to_str().unwrap()]).refused(2, fragments);
         }
         assert_eq!(names(dir), ["case.toml"]);
     }
     // Too long a table is said before anything is planned, by the key at fault.
-    let slow = kitchen(dir, &[("speed_m_s = 0.25", "speed_m_s = 1e-6")]);
+    let slow = spiral(dir, &[("speed_m_s = 0.25", "speed_m_s = 1e-6")]);
     let slow = slow.to_str().unwrap();
     platewash(dir, &["run", "--scenario", slow]).refused(2, &["control.dt_s", "1000000 rows", "as --dt"]);
     platewash(dir, &["run", "--scenario", slow, "--dt", "0.1"]).refused(2, &["--dt: a time step of 0.1 s"]);
     // The file is named, not the scenario's own name.
     let many: Vec<_> = (0..1000).map(|k| format!("[{}, 0.3]", f64::from(k) * 1e-3)).collect();
     let many = format!("positions_m = [{}]", many.join(", "));
-    let file = kitchen(dir, &[("region = \"appendix\"", &many)]);
+    let file = spiral(dir, &[("region = \"appendix\"", &many)]);
     platewash(dir, &["validate", "--scenario", file.to_str().unwrap()]).refused(2, &["case.toml", "wash.turns"]);
 }

@@ -122,9 +122,18 @@ fn scenario(folder: &Path, from: &str, to: &str) -> PathBuf {
 
 /// The kitchen with some fragments replaced (each must take effect).
 fn kitchen(folder: &Path, changes: &[(&str, &str)]) -> PathBuf {
-    let mut text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/kitchen.toml")).unwrap();
+    replaced(folder, "kitchen", changes)
+}
+
+/// The kitchen whose wash path is stated and whose contact is not promised, with some fragments replaced (each must take effect).
+fn spiral(folder: &Path, changes: &[(&str, &str)]) -> PathBuf {
+    replaced(folder, "kitchen-spiral", changes)
+}
+
+fn replaced(folder: &Path, shipped: &str, changes: &[(&str, &str)]) -> PathBuf {
+    let mut text = std::fs::read_to_string(format!("{}/scenarios/{shipped}.toml", env!("CARGO_MANIFEST_DIR"))).unwrap();
     for (from, to) in changes {
-        assert!(text.contains(from), "no '{from}' in the kitchen");
+        assert!(text.contains(from), "no '{from}' in {shipped}");
         text = text.replacen(from, to, 1);
     }
     let path = folder.join("case.toml");

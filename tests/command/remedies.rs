@@ -113,7 +113,7 @@ fn the_first_line_says_what_was_not_simulated_or_fails_there() {
         ("law = \"pd\"\nfrequency_rad_s = 5000", "; NOT SIMULATED"),
         ("law = \"pd\"\nfrequency_rad_s = 15", "; NOT WASHED under pd"),
     ] {
-        let file = kitchen(dir, &[("[job]", &format!("[control]\n{law}\n[job]"))]);
+        let file = spiral(dir, &[("[job]", &format!("[control]\n{law}\n[job]"))]);
         let ran = platewash(dir, &["run", "--scenario", file.to_str().unwrap()]);
         let first = ran.stdout.lines().next().unwrap();
         assert!(first.starts_with("PROVED: ") && first.ends_with(says), "{first}");
@@ -155,7 +155,7 @@ fn no_sentence_holds_a_raw_float() {
             "sponge_height_m = 0.0247\nsponge_compression_m = 0.0041",
         ),
     ];
-    let file = kitchen(dir, &sponge);
+    let file = spiral(dir, &sponge);
     let file = file.to_str().unwrap();
     platewash(dir, &["plan", "--scenario", file]);
     std::fs::rename(dir.join("case.toml"), dir.join("sponge.toml")).unwrap();

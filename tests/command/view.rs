@@ -23,7 +23,7 @@ const QUICK: [(&str, &str); 7] = [
 ];
 
 fn plan(dir: &Path) {
-    let quick = kitchen(dir, &QUICK);
+    let quick = spiral(dir, &QUICK);
     let plan = ["plan", "--out", ".", "--quiet", "--scenario", quick.to_str().unwrap()];
     platewash(dir, &plan).done();
 }

@@ -7,12 +7,14 @@
 //! | an edit and what is known of it beforehand; all of them | `edit.rs`, `edits/` |
 //! | edits after which there is no plan | `refused.rs` |
 //! | edits of the job, found against its scenario | `against.rs` |
+//! | contact, paths along a face, faces that are not flat: edited field by field | `contact.rs` |
 //! | the requirements measured on samples | `sampler/` |
 //! | certificate, samples and expectation held against each other | `judge.rs` |
 //! | the summary | `table.rs` |
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, missing_docs)]
 
 mod against;
+mod contact;
 mod edit;
 mod edits;
 mod good;

@@ -119,10 +119,11 @@ pub fn wash_path(job: &WashJob, plate: usize) -> Result<WashPath, Box<dyn Error>
     Ok(WashPath {
         plate,
         curve: WashCurve {
-            radius_m: settings.path_radius_m,
-            turns: settings.turns,
+            radius_m: settings.path_radius_m.unwrap_or(0.12385),
+            turns: settings.turns.unwrap_or(3.5),
             start_angle_rad: 0.0,
-            closing_ring: settings.closing_ring,
+            closing_ring: settings.closing_ring.unwrap_or(true),
+            rings: None,
         },
         lift_m: settings.lift_m,
         cone_rad: terms.tilt_max_rad(),

@@ -88,6 +88,11 @@ impl BoundTracker {
             }
     }
 
+    /// Whether a bound is within the limit.
+    pub fn keeps(&self, bound: f64) -> bool {
+        bound <= self.limit + ROUNDING * self.limit.abs()
+    }
+
     /// Takes note of a bound that is not refined further.
     pub fn take(&mut self, bound: f64) {
         // NaN must not get lost: nothing is proved then.

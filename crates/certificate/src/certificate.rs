@@ -2,6 +2,7 @@
 
 use crate::check::{Check, Status};
 use crate::clearances::PairBound;
+use crate::plate_contact::PlateContact;
 use crate::requirement::Requirement;
 use crate::rests_on::RestsOn;
 use crate::swept::PlateCoverage;
@@ -50,6 +51,9 @@ pub struct Certificate {
     pub checks: Vec<Check>,
     /// Coverage, plate by plate in the order of washing.
     pub coverage: Vec<PlateCoverage>,
+    /// Contact, plate by plate in the order of washing, where the job asks for it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contact: Vec<PlateContact>,
     /// Clearance, pair by pair and rule by rule.
     pub clearance: Vec<PairBound>,
     /// What the verdict rests on.

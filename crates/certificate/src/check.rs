@@ -48,6 +48,9 @@ pub enum Unit {
     /// m/s²
     #[serde(rename = "m/s^2")]
     MetrePerSecondSquared,
+    /// N
+    #[serde(rename = "N")]
+    Newton,
     /// A share of one.
     #[serde(rename = "1")]
     Share,

@@ -2,13 +2,15 @@
 //!
 //! An interval of time and a pair of parts has a lower bound of its distance: from its middle by what the joints can displace, or
 //! from its ends by what the parts can accelerate ([`platewash_workcell::clearance::motion`]). The interval with the least bound is
-//! halved until that is good enough: the limit kept and the least distance found nearly reached.
+//! halved until that is good enough: the limit kept and the least distance found nearly reached. A body of many parts is looked at as a
+//! whole: from the shape that holds all of them, and where that is too near, part by part, the nearest first, until one is too near or all
+//! others are far enough.
 
 use crate::timeline::{Interval, Timeline};
-use platewash_kinematics::RobotModel;
+use platewash_kinematics::{BodyPoses, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::ITERATIVE_ERROR_M;
-use platewash_workcell::clearance::motion::PartPair;
+use platewash_workcell::clearance::motion::{Measured, PartPair, PartPairs};
 use std::collections::BinaryHeap;
 use std::ops::Range;
 
@@ -21,6 +23,9 @@ pub(crate) const FINE_M: f64 = 1e-4;
 
 /// The same for the others, as a part of that distance.
 const COARSE: f64 = 0.1;
+
+/// The same for bodies of many parts, whose bounds take longer.
+const COARSE_OF_MANY: f64 = 0.35;
 
 /// Shortest interval that is halved \[s\].
 const SHORTEST_S: f64 = 1e-7;
@@ -55,15 +60,25 @@ pub(crate) struct Found {
 impl Goal {
     /// Whether a bound is good enough beside the least distance found.
     fn accepts(&self, bound: f64, seen: f64) -> bool {
+        self.accepts_within(bound, seen, COARSE)
+    }
+
+    /// As [`Goal::accepts`], where a bound may be so much below the least distance, as a part of it.
+    fn accepts_within(&self, bound: f64, seen: f64, coarse: f64) -> bool {
+        bound >= self.needed(seen, coarse)
+    }
+
+    /// The least bound that is good enough.
+    fn needed(&self, seen: f64, coarse: f64) -> f64 {
         let broken = seen < self.limit_m - ITERATIVE_ERROR_M || seen <= 0.0;
         if broken {
-            return bound >= seen - 10.0 * FINE_M;
+            return seen - 10.0 * FINE_M;
         }
-        let coarse = (seen - FINE_M).min(seen * (1.0 - COARSE));
+        let coarse = (seen - FINE_M).min(seen * (1.0 - coarse));
         let near = self
             .enough_m
             .map_or(coarse, |enough| coarse.max(enough.min(seen - FINE_M)));
-        bound >= near.max(self.limit_m.min(seen - FLOOR_M))
+        near.max(self.limit_m.min(seen - FLOOR_M))
     }
 }
 
@@ -101,12 +116,50 @@ impl Eq for Candidate {}
 pub(crate) struct Search<'a> {
     robot: &'a RobotModel,
     timeline: &'a Timeline<'a>,
-    parts: &'a [PartPair<'a>],
+    parts: &'a PartPairs<'a>,
     goal: Goal,
     cancel: &'a CancelToken,
     open: BinaryHeap<Candidate>,
     looked_at: usize,
     found: Found,
+}
+
+/// A pair of parts and how near they are at least in the middle of an interval \[m\], ordered so that a heap yields the nearest first.
+struct Near {
+    gap_m: f64,
+    inner: usize,
+}
+
+impl Ord for Near {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        let nearer = other.gap_m.total_cmp(&self.gap_m);
+        nearer.then(other.inner.cmp(&self.inner))
+    }
+}
+
+impl PartialOrd for Near {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Near {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Near {}
+
+/// An interval in which two bodies are, of which the fixed one has many parts that stand still.
+struct Stay<'a> {
+    /// Its middle \[s\], and the arm there and at both ends.
+    time_s: f64,
+    poses: &'a BodyPoses,
+    ends: [BodyPoses; 2],
+    /// By how much a distance may be less than in the middle, and by how much a gap than at both ends \[m\].
+    fall: f64,
+    sag: f64,
 }
 
 impl<'a> Search<'a> {
@@ -115,7 +168,7 @@ impl<'a> Search<'a> {
     pub fn run(
         (robot, cancel): (&'a RobotModel, &'a CancelToken),
         timeline: &'a Timeline<'a>,
-        parts: &'a [PartPair<'a>],
+        parts: &'a PartPairs<'a>,
         during: &[Range<usize>],
         goal: Goal,
     ) -> Found {
@@ -135,7 +188,7 @@ impl<'a> Search<'a> {
             },
         };
         for interval in during.iter().flat_map(|pieces| timeline.cover(pieces)) {
-            for part in 0..parts.len() {
+            for part in parts.outermost() {
                 search.look(part, interval, f64::NEG_INFINITY, NO_NORMAL);
             }
         }
@@ -150,7 +203,7 @@ impl<'a> Search<'a> {
                 return;
             }
             self.found.at_least_m = worst.bound.min(self.found.seen_m);
-            if self.goal.accepts(worst.bound, self.found.seen_m) || self.looked_at >= self.goal.budget {
+            if self.accepts(worst.part, worst.bound) || self.looked_at >= self.goal.budget {
                 return;
             }
             let [from, to] = self.timeline.times(&worst.interval);
@@ -159,17 +212,38 @@ impl<'a> Search<'a> {
             } else {
                 None
             };
-            let Some(halves) = halves else { return };
+            let Some(halves) = halves else {
+                return;
+            };
             for half in halves {
                 self.look(worst.part, half, worst.bound, worst.normal);
             }
         }
     }
 
+    /// Whether a bound of a pair is good enough.
+    fn accepts(&self, part: usize, bound: f64) -> bool {
+        if self.parts.within(part).is_empty() {
+            self.goal.accepts(bound, self.found.seen_m)
+        } else {
+            self.goal.accepts_within(bound, self.found.seen_m, COARSE_OF_MANY)
+        }
+    }
+
+    /// Takes note of a distance at a moment.
+    fn see(&mut self, measured: &Measured, time_s: f64) {
+        if measured.distance_m < self.found.seen_m {
+            self.found.seen_m = measured.distance_m;
+            self.found.time_s = time_s;
+            self.found.place_m = measured.place_m;
+        }
+    }
+
     /// Bounds an interval, of which a bound and the direction of an interval around it are known already.
     fn look(&mut self, part: usize, interval: Interval, inherited: f64, normal: [f64; 3]) {
         self.looked_at += 1;
-        let (bound, normal) = self.bound(part, &interval, normal);
+        let Some(pair) = self.parts.get(part) else { return };
+        let (bound, normal) = self.bound((part, pair), &interval, normal);
         self.open.push(Candidate {
             bound: inherited.max(bound),
             order: self.looked_at,
@@ -179,10 +253,9 @@ impl<'a> Search<'a> {
         });
     }
 
-    /// A lower bound over an interval, and the direction that led to it. The cheapest that is good enough: spheres around the
-    /// parts, the direction known, the nearest points.
-    fn bound(&mut self, part: usize, interval: &Interval, known: [f64; 3]) -> (f64, [f64; 3]) {
-        let pair = &self.parts[part];
+    /// A lower bound over an interval, and the direction that led to it. The cheapest that is good enough: spheres around the parts, the
+    /// direction known, the nearest points.
+    fn bound(&mut self, (part, pair): (usize, &PartPair<'_>), interval: &Interval, known: [f64; 3]) -> (f64, [f64; 3]) {
         let extent = self.timeline.extent(interval);
         let (time_s, q) = self.timeline.middle(interval);
         let poses = self.robot.fk(&q);
@@ -190,7 +263,7 @@ impl<'a> Search<'a> {
         let levers = pair.levers(&poses, &drift);
         let fall = levers.dot(&drift);
         let far = pair.sphere_gap(&poses) - fall;
-        if self.found.seen_m.is_finite() && self.goal.accepts(far, self.found.seen_m) {
+        if self.found.seen_m.is_finite() && self.accepts(part, far) {
             return (far, known);
         }
         let length_s = self.timeline.length_s(interval);
@@ -204,21 +277,81 @@ impl<'a> Search<'a> {
         if known != NO_NORMAL {
             let gap = along(known);
             // Where the gap itself would do, shorter intervals will: no nearest points are needed.
-            if self.goal.accepts(gap, self.found.seen_m) {
+            if self.accepts(part, gap) {
                 return (gap - sag, known);
             }
         }
         let measured = pair.measure(&poses);
-        if measured.distance_m < self.found.seen_m {
-            self.found.seen_m = measured.distance_m;
-            self.found.time_s = time_s;
-            self.found.place_m = measured.place_m;
+        if !self.parts.within(part).is_empty() {
+            let whole = measured.at_least_m - fall;
+            if self.accepts(part, whole) {
+                return (whole, known);
+            }
+            // None of the parts is displaced or accelerated by more, so that it holds for all of them.
+            let stay = Stay {
+                time_s,
+                poses: &poses,
+                ends: ends.map(|q| self.robot.fk(&q)),
+                fall,
+                sag,
+            };
+            return (whole.max(self.survey(part, &stay)), known);
         }
+        self.see(&measured, time_s);
         let displaced = measured.at_least_m - fall;
-        let settled = measured.normal == NO_NORMAL || self.goal.accepts(displaced, self.found.seen_m);
+        let settled = measured.normal == NO_NORMAL || self.accepts(part, displaced);
         if settled || measured.distance_m - sag <= displaced {
             return (displaced, measured.normal);
         }
         (displaced.max(along(measured.normal) - sag), measured.normal)
+    }
+
+    /// What none of the pairs of parts that a pair holds is nearer than over an interval: the nearest ones first, until the rest is far
+    /// enough, or one is not. For each in turn from the sphere around it, along the direction to the one before, from its nearest points.
+    fn survey(&mut self, part: usize, stay: &Stay<'_>) -> f64 {
+        let parts = self.parts;
+        let near = |inner: usize| {
+            let pair = parts.get(inner);
+            let gap_m = pair.map_or(f64::INFINITY, |pair| pair.gap_to_sphere(stay.poses));
+            Near { gap_m, inner }
+        };
+        let mut open: BinaryHeap<_> = parts.within(part).map(near).collect();
+        let mut bound = f64::INFINITY;
+        let mut direction = NO_NORMAL;
+        while let Some(Near { gap_m, inner }) = open.pop() {
+            if self.accepts(part, gap_m - stay.fall) {
+                return bound.min(gap_m - stay.fall);
+            }
+            let Some(pair) = parts.get(inner) else { continue };
+            if !parts.within(inner).is_empty() {
+                open.extend(parts.within(inner).map(near));
+                continue;
+            }
+            let along = |normal: [f64; 3]| {
+                let [a, b] = stay.ends.each_ref().map(|poses| pair.gap_along_in_base(normal, poses));
+                a.min(b) - stay.sag
+            };
+            if direction != NO_NORMAL {
+                let known = along(direction);
+                if self.accepts(part, known) {
+                    bound = bound.min(known);
+                    continue;
+                }
+            }
+            let measured = pair.measure(stay.poses);
+            self.see(&measured, stay.time_s);
+            let mut found = measured.at_least_m - stay.fall;
+            if measured.normal != NO_NORMAL && !self.accepts(part, found) {
+                direction = pair.in_base(measured.normal, stay.poses);
+                found = found.max(along(direction));
+            }
+            bound = bound.min(found);
+            if !self.accepts(part, found) {
+                // The others are no nearer than this one's sphere, and halves will tell.
+                let others = open.peek().map_or(f64::INFINITY, |next| next.gap_m - stay.fall);
+                return bound.min(others);
+            }
+        }
+        bound
     }
 }

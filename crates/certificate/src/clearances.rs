@@ -14,7 +14,7 @@ use crate::subject::Subject;
 use crate::timeline::Timeline;
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::clearance::motion::{PairKind, PartPair};
+use platewash_workcell::clearance::motion::{PairKind, PartPairs};
 use platewash_workcell::segment::SegmentKind;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -96,7 +96,7 @@ pub(crate) fn judge(
     let limit_m = subject.limits.clearance_m;
     let tasks = tasks(subject, (model, waived), timeline, work);
     let budget = (BUDGET / tasks.len().max(1)).clamp(LEAST_BUDGET, MOST_BUDGET);
-    let search = |task: &Task, parts: &[PartPair<'_>], enough_m: Option<f64>| {
+    let search = |task: &Task, parts: &PartPairs<'_>, enough_m: Option<f64>| {
         let during = task.during.as_deref().unwrap_or_default();
         Search::run(
             (subject.robot, cancel),
@@ -127,7 +127,11 @@ pub(crate) fn judge(
     let enough_m = least - FINE_M;
     found.par_iter_mut().zip(&tasks).for_each(|(found, task)| {
         if found.is_some_and(|f| f.at_least_m < enough_m) && least > 0.0 {
-            *found = Some(search(task, &model.parts_of(task.pair), Some(enough_m)));
+            let parts = model.parts_of(task.pair);
+            // Of bodies of many parts the limit is enough: to know them finely takes long.
+            if !parts.is_of_many() {
+                *found = Some(search(task, &parts, Some(enough_m)));
+            }
         }
     });
     cancel.check()?;

@@ -1,82 +1,34 @@
-//! How fast the sponge touches a plate: its rim, while it comes down and while it leaves.
+//! How fast the sponge touches a plate: whatever of it touches while it comes down and while it leaves (`rim.rs`).
 //!
-//! Tilted by τ, the rim of a sponge of radius s reaches s sin τ below the tip, so that it meets the plate's face while the tip is still
-//! on its way. Every point of the rim that is at or below the face counts, over the plate or beside it:
-//!
-//! - The lowest of them is at H = p_z − s ‖a_xy‖, with p the tip and a the tool's axis. H ≥ min of its values at the ends of a stretch less
-//!   h²/8 (sup ‖p̈‖ + s sup ‖ä‖): H is the least of functions p_z + s d·a_xy, one for each horizontal direction d.
-//! - What is at or below the face, of the rim and of the side wall over it, is within ρ = s / cos τ of the tip, wherever the tip is at
-//!   the face or above it. Such a point r moves at v + ω × r, no faster than G, G² = ‖v‖² + 2 ρ ‖v × ω‖ + ρ² ‖ω‖²: v·(ω × r) = r·(v × ω).
-//!   Each is carried by the arm, so that over a stretch no point is faster than the greater G at its ends plus h²/8 (sup ‖p⃛‖ + ρ sup ‖a⃛‖).
-//!
-//! Stretches in which H stays above the face count for nothing; the others are halved like those of every quantity (`bound_tracker.rs`).
+//! Where a job states how fast it may land, or lift off, the free sponge counts: its face lies beyond the tip by its compression, and the
+//! plate as much higher as it may lie. Where it states nothing, the face that the sponge has while it washes counts, and it touches no
+//! faster than it washes. Stretches in which nothing touches count for nothing; the others are halved like those of every quantity
+//! (`bound_tracker.rs`).
 
 use crate::bound_tracker::BoundTracker;
 use crate::check::{Check, Unit, Worst};
-use crate::face::Face;
 use crate::piece::Piece;
+use crate::plate_contact::tighter;
 use crate::requirement::Requirement;
+use crate::rim::{FarFace, Rim};
 use crate::schedule::{Schedule, Span};
 use crate::subject::Subject;
-use crate::tip::{Arm, Derivatives, Moment, Stretch};
+use crate::tip::Arm;
 use crate::tip_limits::{self, Tips};
 use platewash_workcell::segment::SegmentKind;
 
 /// How far the bound of the speed may be above the greatest one found, as a part of the limit.
 const RESOLUTION: f64 = 2e-3;
 
-/// What a height may be wrong by \[m\].
-const ROUNDING_M: f64 = 1e-9;
-
-/// The sponge over the face of a plate. It meets the face where its rim does, as the tip is the middle of its far face: a sponge that is
-/// compressed while it washes will meet it higher up by its compression.
-#[derive(Debug, Clone, Copy)]
-struct Rim {
-    face: Face,
-    /// Radius of the sponge \[m\].
-    radius_m: f64,
-    /// ρ \[m\].
-    reach_m: f64,
+/// What is asked of the segments of some kinds.
+struct Asked<'a> {
+    kinds: &'a [SegmentKind],
+    /// \[m/s\]
+    limit: f64,
+    far: FarFace,
 }
 
-impl Rim {
-    /// H over the face \[m\].
-    fn height(&self, m: &Moment) -> f64 {
-        self.face.height_of_rim(&m.position, &m.axis, self.radius_m)
-    }
-
-    /// What the height over a stretch is not below \[m\].
-    fn at_least(&self, stretch: &Stretch<'_>, bounds: &Derivatives) -> f64 {
-        let [from, to] = stretch.ends.each_ref().map(|m| self.height(m));
-        let lower = if from < to || from.is_nan() { from } else { to };
-        lower - stretch.sag(bounds.second() + self.radius_m * bounds.second_of_axis()) - ROUNDING_M
-    }
-
-    /// G: what no point that touches is faster than \[m/s\].
-    fn fastest(&self, m: &Moment) -> f64 {
-        let (v, w, r) = (m.speed, m.turning, self.reach_m);
-        (v.norm_squared() + 2.0 * r * v.cross(&w).norm() + r * r * w.norm_squared()).sqrt()
-    }
-
-    /// What no point that touches is faster than anywhere in a stretch \[m/s\].
-    fn at_most(&self, stretch: &Stretch<'_>, bounds: &Derivatives) -> f64 {
-        let [from, to] = stretch.ends.each_ref().map(|m| self.fastest(m));
-        let greater = if from > to || from.is_nan() { from } else { to };
-        greater + stretch.sag(bounds.third() + self.reach_m * bounds.third_of_axis())
-    }
-
-    /// Takes note of the lowest point's speed at a moment at which it touches.
-    fn see(&self, tracker: &mut BoundTracker, m: &Moment, time_s: f64) {
-        let r = self.face.lowest(&m.axis, self.radius_m);
-        let speed = (m.speed + m.turning.cross(&r)).norm();
-        let mut there = *m;
-        there.position += r;
-        tracker.see(speed, time_s, &there);
-    }
-}
-
-/// The speed of the sponge's rim wherever it is at or below the face of a plate that it comes down on or leaves. The limit is that of
-/// washing: the sponge touches no faster than it washes.
+/// The speed of whatever of the sponge touches a plate that it comes down on or leaves.
 pub(crate) fn check(
     arm: &Arm<'_>,
     subject: &Subject<'_>,
@@ -86,30 +38,67 @@ pub(crate) fn check(
     let Some(schedule) = schedule else {
         return Check::not_judged(Requirement::ContactSpeed);
     };
+    let wanted = &subject.job.requirements;
+    let judged = |asked: &Asked<'_>| judge(arm, subject, (pieces, schedule), tips, asked);
+    let as_washed = FarFace {
+        beyond_m: 0.0,
+        error_m: 0.0,
+    };
     let limit = subject.limits.wash_speed_m_s;
+    if wanted.landing_m_s.is_none() && wanted.lifting_m_s.is_none() {
+        return judged(&Asked {
+            kinds: &[SegmentKind::Approach, SegmentKind::Retreat],
+            limit,
+            far: as_washed,
+        });
+    }
+    let free = FarFace {
+        beyond_m: subject.job.workcell.tool.sponge.compression_m,
+        error_m: wanted.contact.map_or(0.0, |contact| contact.height_error_m),
+    };
+    let of = |kind, stated: Option<f64>| {
+        judged(&Asked {
+            kinds: &[kind],
+            limit: stated.map_or(limit, |stated| stated.min(limit)),
+            far: stated.map_or(as_washed, |_| free),
+        })
+    };
+    tighter(
+        of(SegmentKind::Approach, wanted.landing_m_s),
+        of(SegmentKind::Retreat, wanted.lifting_m_s),
+    )
+}
+
+fn judge(
+    arm: &Arm<'_>,
+    subject: &Subject<'_>,
+    (pieces, schedule): (&[Piece], &Schedule),
+    tips: &Tips,
+    asked: &Asked<'_>,
+) -> Check {
+    let limit = asked.limit;
     let mut tracker = BoundTracker::new(limit, RESOLUTION * limit);
-    let touching = |span: &Span| matches!(span.kind, SegmentKind::Approach | SegmentKind::Retreat);
+    let touching = |span: &Span| asked.kinds.contains(&span.kind);
     let spans = || schedule.spans.iter().enumerate().filter(|(_, span)| touching(span));
     // A plate that is not there is found elsewhere.
-    let radius_m = subject.sponge_m();
     let rim = |index: usize, span: &Span| {
-        subject.plates().get(span.plate).map(|plate| Rim {
-            face: Face::of(plate),
-            radius_m,
-            reach_m: radius_m / tips.least_cosine_of(index),
-        })
+        let plate = subject.plates().get(span.plate)?;
+        let sponge = &subject.job.workcell.tool.sponge;
+        Some(Rim::new(plate, sponge, asked.far, tips.least_upright_cosine_of(index)))
     };
     tracker.allow_for(spans().map(|(_, span)| span.pieces.len()).sum());
     // Nothing that touches is fast: so it is until something is seen, and for good where nothing touches.
     tracker.seen = 0.0;
     tracker.take(0.0);
-    let over = || spans().filter_map(|(i, span)| Some((rim(i, span)?, &pieces[span.pieces.clone()])));
-    for (rim, pieces) in over() {
-        look(arm, &rim, pieces, &mut tracker);
+    let over: Vec<_> = spans()
+        .filter_map(|(i, span)| Some((rim(i, span)?, &pieces[span.pieces.clone()])))
+        .collect();
+    for (rim, pieces) in &over {
+        look(arm, rim, pieces, &mut tracker);
     }
-    for (rim, pieces) in over() {
-        for piece in pieces {
-            halve(arm, &rim, &arm.stretch(piece), &mut tracker, 0);
+    for (rim, pieces) in &over {
+        for piece in *pieces {
+            rim.halve(arm, &arm.stretch(piece), &mut tracker, 0);
         }
     }
     let worst = if tracker.seen > 0.0 {
@@ -126,33 +115,10 @@ pub(crate) fn check(
 }
 
 /// Sees both ends of all pieces.
-fn look(arm: &Arm<'_>, rim: &Rim, pieces: &[Piece], tracker: &mut BoundTracker) {
+fn look(arm: &Arm<'_>, rim: &Rim<'_>, pieces: &[Piece], tracker: &mut BoundTracker) {
     for stretch in pieces.iter().map(|piece| arm.stretch(piece)) {
         for (moment, time_s) in stretch.ends.iter().zip(stretch.times()) {
-            if rim.height(moment) <= 0.0 {
-                rim.see(tracker, moment, time_s);
-            }
+            rim.see(tracker, moment, time_s);
         }
-    }
-}
-
-fn halve(arm: &Arm<'_>, rim: &Rim, stretch: &Stretch<'_>, tracker: &mut BoundTracker, depth: u32) {
-    let bounds = arm.derivatives(stretch);
-    if rim.at_least(stretch, &bounds) > 0.0 {
-        return;
-    }
-    let bound = rim.at_most(stretch, &bounds);
-    if tracker.accepts(bound) || !tracker.may_split(depth) {
-        return tracker.take(bound);
-    }
-    let Some(halves) = arm.halves(stretch) else {
-        return tracker.take(bound);
-    };
-    let there = &halves[0].ends[1];
-    if rim.height(there) <= 0.0 {
-        rim.see(tracker, there, halves[0].times()[1]);
-    }
-    for half in &halves {
-        halve(arm, rim, half, tracker, depth + 1);
     }
 }

@@ -12,7 +12,7 @@ const STEPS: usize = 12;
 
 /// A curve, base frame, m.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Curve {
+pub(crate) enum Curve<'a> {
     /// Straight; θ is the length from `from` \[m\].
     Line {
         from: Vector3<f64>,
@@ -20,12 +20,12 @@ pub(crate) enum Curve {
         length: f64,
     },
     /// A wash curve on a face; θ is its own \[rad\].
-    Wash { face: Face, curve: WashCurve },
+    Wash { face: Face<'a>, curve: &'a WashCurve },
 }
 
-impl Curve {
+impl<'a> Curve<'a> {
     /// The curve that a wash path asks for while the tip is at its plate, in the direction of the motion; `None` for free motion.
-    pub fn new(plate: &Plate, path: &WashPath, kind: SegmentKind) -> Option<Self> {
+    pub fn new(plate: &'a Plate, path: &'a WashPath, kind: SegmentKind) -> Option<Self> {
         let [start, end] = path.feet(plate);
         let (up, length) = (|foot: &Vector3<f64>| plate.normal_at(foot), path.lift_m);
         match kind {
@@ -35,11 +35,8 @@ impl Curve {
                 Some(Self::Line { from, along, length })
             }
             SegmentKind::Wash => {
-                let face = Face::of(plate);
-                Some(Self::Wash {
-                    face,
-                    curve: path.curve,
-                })
+                let (face, curve) = (Face::of(plate), &path.curve);
+                Some(Self::Wash { face, curve })
             }
             SegmentKind::Retreat => {
                 let (from, along) = (end, up(&end));
@@ -61,19 +58,20 @@ impl Curve {
     pub fn at(&self, theta: f64) -> [Vector3<f64>; 2] {
         match self {
             Self::Line { from, along, .. } => [from + along * theta, *along],
-            Self::Wash { face, curve } => {
-                let there = curve.at(theta);
-                [face.point(&there.position), face.direction(&there.first)]
-            }
+            Self::Wash { face, curve } => face.on(curve, theta),
         }
     }
 
-    /// Bound of the second derivative by θ, from θ = 0 to `theta`: |r″| + r + 2 r′, of which r never falls, r′ is at most the
-    /// spiral's rate a, and r″ is 0 before the blend and at most 15/8 a / β in it.
-    pub fn bend(&self, theta: f64) -> f64 {
+    /// Bound of the second derivative by θ between two θ. Of a spiral on a disc: |r″| + r + 2 r′, of which r never falls, r′ is at most the
+    /// spiral's rate a, and r″ is 0 before the blend and at most 15/8 a / β in it. Of others: [`WashCurve::greatest_second`].
+    pub fn bend(&self, between: [f64; 2]) -> f64 {
         match self {
             Self::Line { .. } => 0.0,
+            Self::Wash { face, curve } if curve.rings.is_some() || !face.surface().is_flat() => {
+                curve.greatest_second(face.surface(), between)
+            }
             Self::Wash { curve, .. } => {
+                let [_, theta] = between;
                 let rate = curve.pitch_m() / TAU;
                 let r = curve.at(theta).position.norm();
                 let blends = theta >= curve.spiral_end() - BLEND_RAD;

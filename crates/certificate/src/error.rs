@@ -35,12 +35,6 @@ pub enum ProveError {
         /// How many are possible.
         most: usize,
     },
-    /// The face of a plate is curved.
-    #[error("plate {plate} is curved; this version proves the washing of flat plates only")]
-    CurvedPlate {
-        /// Index of the plate.
-        plate: usize,
-    },
     /// The knots are no motion.
     #[error("{0}")]
     Knots(KnotError),

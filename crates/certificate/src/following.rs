@@ -62,7 +62,7 @@ pub(crate) fn checks(
 }
 
 /// Bounds how far the tip leaves a curve during some pieces.
-fn follow(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve, tracker: &mut BoundTracker) {
+fn follow(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve<'_>, tracker: &mut BoundTracker) {
     tracker.allow_for(pieces.len());
     let theta = in_order(nearest(arm, pieces, curve));
     let leg = |i: usize| Leg {
@@ -78,7 +78,7 @@ fn follow(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve, tracker: &mut BoundTra
 }
 
 /// θ of the points nearest to the tip, at the first knot and behind every piece; where the curve begins and ends at the ends.
-fn nearest(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve) -> Vec<f64> {
+fn nearest(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve<'_>) -> Vec<f64> {
     let mut theta = vec![0.0];
     for (i, piece) in pieces.iter().enumerate() {
         let there = arm.at(piece, piece.length_s).position;
@@ -106,11 +106,11 @@ fn in_order(mut values: Vec<f64>) -> Vec<f64> {
     values
 }
 
-fn refine(arm: &Arm<'_>, curve: &Curve, leg: &Leg<'_>, tracker: &mut BoundTracker, depth: u32) {
+fn refine(arm: &Arm<'_>, curve: &Curve<'_>, leg: &Leg<'_>, tracker: &mut BoundTracker, depth: u32) {
     let [from, to] = [0, 1].map(|k| deviation(curve, leg, k));
     let greater = if from > to || from.is_nan() { from } else { to };
     let advance = leg.theta[1] - leg.theta[0];
-    let bend = 0.125 * advance * advance * curve.bend(leg.theta[1]);
+    let bend = 0.125 * advance * advance * curve.bend(leg.theta);
     let bound = greater + leg.stretch.sag(arm.derivatives(&leg.stretch).second()) + bend;
     if tracker.accepts(bound) || !tracker.may_split(depth) {
         return tracker.take(bound);
@@ -137,7 +137,7 @@ fn refine(arm: &Arm<'_>, curve: &Curve, leg: &Leg<'_>, tracker: &mut BoundTracke
 }
 
 /// Deviation at an end of a leg \[m\].
-fn deviation(curve: &Curve, leg: &Leg<'_>, end: usize) -> f64 {
+fn deviation(curve: &Curve<'_>, leg: &Leg<'_>, end: usize) -> f64 {
     (leg.stretch.ends[end].position - curve.at(leg.theta[end])[0]).norm()
 }
 

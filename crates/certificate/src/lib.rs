@@ -8,19 +8,23 @@
 //! | --- | --- |
 //! | what is required, and what came of it | `requirement`, `check` |
 //! | all of it, one after the other; as a proof that cannot be forged | `prove`, `certified` |
-//! | the certificate; its first line, as a table, what it rests on | `certificate`, `headline`, `table`, `rests_on` |
+//! | the certificate; its first line, as a table, what it rests on | `certificate`, `headline`, `table`, `rests_on`, `plate_words`, `amounts` |
 //! | the job that is judged, its limits, its bodies, its faces | `subject`, `limits`, `bodies`, `face` |
 //! | what the plan states | `statements`, `wash_paths`, `schedule`, `home`, `apart`, `exclusions`, `dry_run` |
 //! | the motion: cubics, groups of them | `piece`, `timeline` |
 //! | joints | `joints` |
 //! | the tip: derivatives, halving, speed, tilt, height | `tip`, `bound_tracker`, `tip_limits` |
-//! | the sponge's rim where it comes down and leaves | `contact` |
+//! | on a face that is no disc: how heights and normals change | `pass` |
+//! | joint 5, that the wrist does not flip | `wrist` |
+//! | the sponge where it comes down and leaves: what touches, how fast | `rim`, `contact` |
+//! | pressed: moments and what is lost between them, how hard, which share of a plate | `instants`, `pressing`, `plate_contact` |
 //! | the curves, following them, sweeping the plate | `curve`, `following`, `polyline`, `swept` |
 //! | beyond the rim: what may be touched there, how far it is | `neighbours`, `reach` |
 //! | clearance: one pair, all pairs; at a single moment, to look at | `clear`, `clearances`; `moments` |
 //! | a motion that a controller makes of a plan; how far it leaves the plan | `program`, `deviation` |
 //! | where a job is not the one that was asked for | `differences` |
 
+mod amounts;
 mod apart;
 mod bodies;
 mod bound_tracker;
@@ -40,17 +44,24 @@ mod face;
 mod following;
 mod headline;
 mod home;
+mod instants;
 mod joints;
 mod limits;
 mod moments;
 mod neighbours;
+mod pass;
 mod piece;
+mod plate_contact;
+mod plate_words;
 mod polyline;
+mod pressing;
+mod pressing_search;
 mod program;
 mod prove;
 mod reach;
 mod requirement;
 mod rests_on;
+mod rim;
 mod schedule;
 mod statements;
 mod subject;
@@ -61,7 +72,9 @@ mod tests;
 mod timeline;
 mod tip;
 mod tip_limits;
+mod turning_frame;
 mod wash_paths;
+mod wrist;
 
 pub use certificate::{Certificate, HashFinding, Verdict};
 pub use certified::{Certified, CertifyError, certify, certify_with};
@@ -71,6 +84,7 @@ pub use differences::{Difference, differences};
 pub use error::ProveError;
 pub use moments::ClearanceRule;
 pub use neighbours::Touched;
+pub use plate_contact::{PlateContact, ProvedExtreme, ProvedShare};
 pub use program::{ProgramLimits, ProgramProof, prove_program};
 pub use prove::{MotionProof, prove, prove_motion, prove_with};
 pub use requirement::Requirement;

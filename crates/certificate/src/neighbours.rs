@@ -7,7 +7,7 @@
 //! over its centre.
 
 use crate::check::Discrepancy;
-use crate::face::{PLACE_M, distance, gap, norm};
+use crate::face::{PLACE_M, distance, gap, norm, top_m};
 use crate::subject::Subject;
 use platewash_kinematics::trig::cos;
 use platewash_workcell::job::LINE_TOLERANCE_M;
@@ -27,13 +27,36 @@ pub struct Touched {
 /// How far beyond the rim of a plate the sponge reaches at the height of its face, at most, with the tip within `tip_m` of the plate's
 /// centre and cos τ not below `cos_tilt` \[m\]; infinite without a bound of the tilt. A tip below the face by d has the side wall at the
 /// face d tan τ farther out: other requirements see to it that d is no more than the tolerance of the lines.
+///
+/// On a face that is no disc, τ is the angle between the tool's axis and the plate's, and what counts are all heights up to the highest
+/// one of the face: with the tip at a distance ρ from the plate's axis its side wall reaches (top − f(ρ)) tan τ farther there, which grows
+/// with ρ more slowly than ρ falls short where the slope β keeps tan β tan τ ≤ 1. Nothing presses the sponge together beyond the rim: its
+/// face lies c beyond the tip there, and reaches no more than s cos τ + c sin τ to the side.
 pub(crate) fn beyond_rim_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, cos_tilt: f64) -> f64 {
     if cos_tilt > 0.0 {
         let sine = (1.0 - cos_tilt * cos_tilt).max(0.0).sqrt();
-        tip_m + (subject.sponge_m() + LINE_TOLERANCE_M * sine) / cos_tilt - plate.rim_m()
+        let level_m = (subject.sponge_m() + LINE_TOLERANCE_M * sine) / cos_tilt;
+        tip_m + raised_m(subject, plate, tip_m, [sine, cos_tilt], level_m) - plate.rim_m()
     } else {
         f64::INFINITY
     }
+}
+
+/// How far the sponge reaches from the tip at the heights of a face, with `level_m` at the height of the tip \[m\].
+fn raised_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, [sine, cosine]: [f64; 2], level_m: f64) -> f64 {
+    let surface = &plate.surface;
+    if surface.is_flat() {
+        return level_m;
+    }
+    let [_, top_m] = surface.height_bounds_m();
+    let patch = surface.patch([0.0, tip_m.max(plate.rim_m())]);
+    let steepest = patch.sine[1].max(0.0) / patch.least_cosine();
+    if !(tip_m.is_finite() && steepest * sine <= cosine) {
+        return f64::INFINITY;
+    }
+    let wall_m = level_m + (top_m - surface.height_m(tip_m)).max(0.0) * sine / cosine;
+    let free_m = subject.sponge_m() * cosine + subject.job.workcell.tool.sponge.compression_m * sine;
+    wall_m.max(free_m)
 }
 
 /// The plates but one, no higher than it, that a sponge reaches which gets `beyond_rim_m` beyond the rim of that one, in order.
@@ -72,7 +95,10 @@ pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: u
 
 /// Whether the face of another plate is higher than one's own.
 fn is_higher(own: &Plate, other: &Plate) -> bool {
-    own.height_of(&other.centre()) > PLACE_M
+    if own.surface.is_flat() && other.surface.is_flat() {
+        return own.height_of(&other.centre()) > PLACE_M;
+    }
+    top_m(other) - top_m(own) > PLACE_M
 }
 
 /// What is swept besides the plate that is washed.
@@ -84,16 +110,25 @@ pub(crate) struct Swept {
     pub overlapping: Vec<Discrepancy>,
 }
 
-/// Plates of which more than the rim may be swept while another one is washed.
-pub(crate) fn swept(subject: &Subject<'_>) -> Swept {
-    let sponge_m = subject.sponge_m() / cos(subject.limits.tilt_rad);
+/// Plates of which more than the rim may be swept while another one is washed. How far the tool is tilted is the requirement's to say; on
+/// a face that is no disc, where that is about its normal, `upright_cosine` says what is proved of it about the plate's axis.
+pub(crate) fn swept(subject: &Subject<'_>, upright_cosine: impl Fn(usize) -> f64) -> Swept {
+    let tilted_m = subject.sponge_m() / cos(subject.limits.tilt_rad);
     let mut swept = Swept::default();
     for (i, own) in subject.plates().iter().enumerate() {
         // Without a path it is not washed at all.
         let Some(radius_m) = subject.path_radius_m(i) else {
             continue;
         };
-        let beyond_m = radius_m + sponge_m - own.rim_m();
+        let (sponge_m, beyond_m) = if own.surface.is_flat() {
+            (tilted_m, radius_m + tilted_m - own.rim_m())
+        } else {
+            let cosine = upright_cosine(i);
+            (
+                subject.sponge_m() / cosine,
+                beyond_rim_m(subject, own, radius_m, cosine),
+            )
+        };
         for (j, other) in subject.plates().iter().enumerate().filter(|(j, _)| *j != i) {
             let (gap_m, most_m) = (gap(own, other), sponge_m.min(other.rim_m()));
             let depth_m = (beyond_m - gap_m).min(2.0 * other.rim_m());

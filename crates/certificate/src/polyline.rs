@@ -32,7 +32,7 @@ pub(crate) struct Polyline {
 
 impl Polyline {
     /// The tip during some pieces over a face. It should keep within `allowed_m` of the pole: where it does, that is proved.
-    pub fn new(arm: &Arm<'_>, pieces: &[Piece], face: &Face, allowed_m: f64, most_halvings: u32) -> Self {
+    pub fn new(arm: &Arm<'_>, pieces: &[Piece], face: &Face<'_>, allowed_m: f64, most_halvings: u32) -> Self {
         let mut line = Self {
             points: Vec::new(),
             off_m: 0.0,
@@ -53,7 +53,7 @@ impl Polyline {
     }
 
     /// Adds a stretch whose first end is there already.
-    fn add(&mut self, arm: &Arm<'_>, face: &Face, stretch: &Stretch<'_>, depth: u32) {
+    fn add(&mut self, arm: &Arm<'_>, face: &Face<'_>, stretch: &Stretch<'_>, depth: u32) {
         let off_m = stretch.sag(arm.derivatives(stretch).second());
         let ends = [0, 1].map(|end| seen(face, stretch, end));
         let far_m = ends.map(|[x, y]| norm(x, y)).into_iter().fold(0.0, f64::max);
@@ -84,6 +84,6 @@ impl Polyline {
 }
 
 /// An end of a stretch.
-fn seen(face: &Face, stretch: &Stretch<'_>, end: usize) -> [f64; 2] {
+fn seen(face: &Face<'_>, stretch: &Stretch<'_>, end: usize) -> [f64; 2] {
     face.seen(&stretch.ends[end].position).into()
 }

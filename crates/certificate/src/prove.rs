@@ -9,12 +9,12 @@ use crate::contact;
 use crate::dry_run;
 use crate::error::ProveError;
 use crate::exclusions::Exclusions;
-use crate::face;
 use crate::following;
 use crate::headline::headline;
 use crate::home;
 use crate::joints;
 use crate::piece::{self, Piece};
+use crate::plate_contact::{self, PlateContact};
 use crate::reach;
 use crate::requirement::Requirement;
 use crate::rests_on::RestsOn;
@@ -26,6 +26,7 @@ use crate::timeline::Timeline;
 use crate::tip::Arm;
 use crate::tip_limits::Tips;
 use crate::wash_paths;
+use crate::wrist;
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::JobTerms;
@@ -122,10 +123,14 @@ struct Judged<'a> {
     cancel: &'a CancelToken,
 }
 
+/// What is proved of coverage and contact, plate by plate.
+type Washed = (Vec<PlateCoverage>, Vec<PlateContact>);
+
 /// All that is proved of a plan.
 struct Proof {
     checks: Vec<Check>,
     coverage: Vec<PlateCoverage>,
+    contact: Vec<PlateContact>,
     clearance: Vec<PairBound>,
     rests_on: RestsOn,
 }
@@ -138,12 +143,13 @@ impl Judged<'_> {
         let model = exclusions.model(subject)?;
         let arm = Arm::new(subject.robot, &subject.job.workcell.tool, self.cancel);
         let tips = Tips::new(&arm, subject, self.pieces, schedule);
-        let mut checks = self.stated(segments);
+        let mut checks = self.stated(segments, &tips);
         checks.extend(dry_run::check(subject));
         checks.extend(joints::checks(self.pieces, &subject.limits, schedule));
         checks.extend(tips.checks(subject, self.pieces, schedule));
         checks.push(contact::check(&arm, subject, (self.pieces, schedule), &tips));
-        let coverage = self.washing(&arm, &tips, &mut checks)?;
+        checks.extend(wrist::check(subject, self.pieces, schedule));
+        let (coverage, contact) = self.washing(&arm, &tips, &mut checks)?;
         let waived = exclusions.waived_in(&model);
         let work = schedule.map_or(Work::Unknown, Work::Scheduled);
         let clearance = clearances::judge(subject, (&model, &waived), self.timeline, work, self.cancel)?;
@@ -152,21 +158,26 @@ impl Judged<'_> {
         Ok(Proof {
             checks,
             coverage,
+            contact,
             clearance,
             rests_on: RestsOn::new(subject, exclusions),
         })
     }
 
     /// What the plan states.
-    fn stated(&self, segments: Check) -> Vec<Check> {
+    fn stated(&self, segments: Check, tips: &Tips) -> Vec<Check> {
         let (subject, plan) = (self.subject, self.plan);
+        let upright_cosine = |plate| {
+            self.schedule
+                .map_or(0.0, |schedule| tips.least_upright_cosine_at(schedule, plate))
+        };
         vec![
             statements::arm(subject),
             statements::tool(subject),
             statements::plates(subject),
             wash_paths::check(plan),
             segments,
-            statements::every_plate_once(subject, plan),
+            statements::every_plate_once(subject, plan, upright_cosine),
             home::home_to_home(plan),
             match self.schedule {
                 Some(schedule) => home::rest_at_wash_ends(plan, schedule),
@@ -176,8 +187,8 @@ impl Judged<'_> {
         ]
     }
 
-    /// What the tip and the sponge do on the plates: deviations, coverage and reach.
-    fn washing(&self, arm: &Arm<'_>, tips: &Tips, checks: &mut Vec<Check>) -> Result<Vec<PlateCoverage>, ProveError> {
+    /// What the tip and the sponge do on the plates: deviations, coverage, contact and reach.
+    fn washing(&self, arm: &Arm<'_>, tips: &Tips, checks: &mut Vec<Check>) -> Result<Washed, ProveError> {
         let (subject, pieces) = (self.subject, self.pieces);
         let deviations = following::checks(arm, subject, pieces, self.schedule);
         let mut washes = Vec::new();
@@ -195,11 +206,13 @@ impl Judged<'_> {
             };
             reach::settle(subject, &mut washes, &proved);
         }
+        let contact: Vec<_> = washes.iter().filter_map(|wash| wash.contact).collect();
         let coverage: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
         checks.extend(deviations);
         checks.push(reach::check(subject, &coverage));
         checks.push(swept::check(subject, &coverage));
-        Ok(coverage)
+        checks.extend(plate_contact::checks(subject, (pieces, self.schedule), &contact));
+        Ok((coverage, contact))
     }
 }
 
@@ -216,6 +229,7 @@ fn certificate(plan: &Plan, proof: Proof) -> Certificate {
         hash,
         checks: proof.checks,
         coverage: proof.coverage,
+        contact: proof.contact,
         clearance: proof.clearance,
         rests_on: proof.rests_on,
     };
@@ -254,14 +268,10 @@ fn check_sizes(plan: &Plan) -> Result<(), ProveError> {
     }
 }
 
-/// Refuses a job with which nothing can be computed, and bodies and faces that the bounds do not hold for.
+/// Refuses a job with which nothing can be computed, and bodies that the bounds do not hold for.
 fn check_job(job: &JobTerms) -> Result<(), ProveError> {
     job.validate()?;
-    bodies::check(job)?;
-    match job.plates.iter().position(|plate| !face::is_judged(plate)) {
-        Some(plate) => Err(ProveError::CurvedPlate { plate }),
-        None => Ok(()),
-    }
+    bodies::check(job)
 }
 
 /// The pieces of the motion, none so short that time, which divides, squared and cubed, leaves no number.

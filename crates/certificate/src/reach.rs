@@ -46,10 +46,14 @@ pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], proved: &Proved
             continue;
         };
         let radius_m = subject.path_radius_m(index).unwrap_or(0.0);
-        let allowed_m = radius_m + PATH_TOLERANCE_M;
+        let allowed_m = radius_m + outward_m(subject, index) + PATH_TOLERANCE_M;
         let spans = proved.spans_at(wash.swept.plate);
-        let cos_tilt = spans.fold(1.0, |least: f64, (i, _)| least.min(proved.tips.least_cosine_of(i)));
-        let [tip_m, seen_m] = tip_m(radius_m, plate, wash, proved);
+        let cos_tilt = spans.fold(1.0, |least: f64, (i, _)| {
+            least.min(proved.tips.least_upright_cosine_of(i))
+        });
+        // About the axis of a face that is no disc no tilt is asked for.
+        let most_tilted = if plate.surface.is_flat() { most_tilted } else { cos_tilt };
+        let [tip_m, seen_m] = tip_m(allowed_m, (radius_m, plate), wash, proved);
         let reach_m = neighbours::beyond_rim_m(subject, plate, tip_m, cos_tilt);
         let swept = &mut wash.swept;
         let touched = |reach_m| neighbours::touched(subject, index, reach_m);
@@ -60,9 +64,21 @@ pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], proved: &Proved
     }
 }
 
+/// How far outwards the lines along the normal over the ends of a wash path lead: where the face falls towards the rim \[m\].
+fn outward_m(subject: &Subject<'_>, plate: usize) -> f64 {
+    let (Some(path), Some(plate)) = (subject.path_of(plate), subject.plates().get(plate)) else {
+        return 0.0;
+    };
+    let ends = [0.0, path.curve.end()].map(|theta| {
+        let [arc_m, ..] = path.curve.arc(theta);
+        -plate.surface.at_arc(arc_m).sine
+    });
+    path.lift_m * ends[0].max(ends[1]).max(0.0)
+}
+
 /// What the tip is not farther from the pole of a plate, seen along its axis, in its wash and in all approaches to the plate and
 /// retreats from it, and how far it was seen to be \[m\]; infinite where that is not bounded.
-fn tip_m(radius_m: f64, plate: &Plate, wash: &Wash, proved: &Proved<'_>) -> [f64; 2] {
+fn tip_m(allowed_m: f64, (radius_m, plate): (f64, &Plate), wash: &Wash, proved: &Proved<'_>) -> [f64; 2] {
     let along_path_m = (proved.path_deviation_m).map_or(f64::INFINITY, |off_m| radius_m + PLACE_M + off_m);
     let tips = proved.spans_at(wash.swept.plate).map(|(i, span)| match span.kind {
         // The wash of another entry.
@@ -70,13 +86,7 @@ fn tip_m(radius_m: f64, plate: &Plate, wash: &Wash, proved: &Proved<'_>) -> [f64
         SegmentKind::Wash => [wash.tip_m.min(along_path_m), wash.seen_m],
         _ => {
             let pieces = &proved.pieces[span.pieces.clone()];
-            let line = Polyline::new(
-                proved.arm,
-                pieces,
-                &Face::of(plate),
-                radius_m + PATH_TOLERANCE_M,
-                LINE_HALVINGS,
-            );
+            let line = Polyline::new(proved.arm, pieces, &Face::of(plate), allowed_m, LINE_HALVINGS);
             [line.within_m, line.seen_m]
         }
     });

@@ -60,12 +60,25 @@ pub enum Requirement {
     Reach,
     /// Share of each plate that the sponge sweeps.
     Coverage,
+    /// Share of each plate's face, by its area, that presses the sponge together by what counts as contact, wherever within its error of
+    /// height the plate lies. Asked where the job does, like all up to [`Requirement::Wrist`].
+    Contact,
+    /// Share of each plate's face that is in contact long enough.
+    ContactTime,
+    /// Share of each plate's face that gets enough of a dose, pressure over sliding distance, in contact.
+    ContactDose,
+    /// Strain of the sponge anywhere.
+    Strain,
+    /// Force along the sponge's axis while it washes, between its least and its greatest.
+    ContactForce,
+    /// Joint 5 keeps from 0, always on the same side, from an approach to the retreat after it.
+    Wrist,
     /// Distance of the tip from where the plan has it at that time: of a program alone.
     PlanDeviation,
 }
 
 impl Requirement {
-    /// All of them, in the order of the certificate; the last is of programs alone.
+    /// Those that are asked of every plan, in the order of the certificate; the last is of programs alone.
     pub const ALL: [Self; 26] = [
         Self::Arm,
         Self::Tool,
@@ -125,6 +138,12 @@ impl Requirement {
             Self::Clearance => "clearance",
             Self::Reach => "reach beyond rim",
             Self::Coverage => "coverage",
+            Self::Contact => "contact",
+            Self::ContactTime => "contact time",
+            Self::ContactDose => "contact dose",
+            Self::Strain => "strain",
+            Self::ContactForce => "contact force",
+            Self::Wrist => "wrist",
             Self::PlanDeviation => "deviation from plan",
         }
     }

@@ -1,11 +1,12 @@
 //! What a verdict rests on: the job that the motion was judged for, what was not judged, and what is assumed.
 
+use crate::amounts::{list, mm, number};
 use crate::exclusions::Exclusions;
+use crate::plate_words::plates;
 use crate::subject::Subject;
 use nalgebra::{Point3, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::trig::atan2;
-use platewash_kinematics::words::rounded;
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::{JobTerms, Limits, Overlap, Requirements};
@@ -16,23 +17,34 @@ use platewash_workcell::workcell::{ArmId, Exclusion, ExclusionReason, Obstacle, 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Plates whose places are listed in words; the JSON has them all.
-const PLACES: usize = 12;
-
 /// Digits of a hash that are told.
 const HASH_DIGITS: usize = 12;
 
-/// Significant digits of a number that are told at most.
-const DIGITS: usize = 9;
-
 /// What is assumed, whatever the job.
-const ASSUMPTIONS: [&str; 5] = [
+const ASSUMPTIONS: [&str; 3] = [
     "the arm is as its description says, and moves as its knots say",
     "joints and tip reach the accelerations stated; the manufacturer publishes none",
     "the collision shapes enclose the arm, the tool and the obstacles",
-    "plates are rigid, flat and round, and lie where they are stated to lie",
-    "the sponge is round and gives way, so that its whole face touches; how far it is compressed is not judged",
 ];
+
+/// What is assumed of flat plates, and of others.
+const FLAT: &str = "plates are rigid, flat and round, and lie where they are stated to lie";
+const CURVED: &str = "plates are rigid and round, have the profiles stated, and lie where they are stated to lie";
+
+/// What is told of contact where nothing is promised of it.
+const NOT_ASKED: &str = "not asked for: the face counts as pressed where it touches";
+
+/// What is assumed of the sponge where nothing is promised of contact; of a face that is no disc; and where contact is promised.
+const WHOLE_FACE: &str =
+    "the sponge is round and gives way, so that its whole face touches; how far it is compressed is not judged";
+const TOUCHES: &str = "the sponge is round and gives way column by column, so that it touches where its free face would reach into the \
+                       plate; how far it is compressed is not judged";
+const FOUNDATION: &str = "the sponge is round and presses as an elastic foundation: each column along its axis with its stiffness times \
+                          its strain, wherever within the range stated that stiffness is; nobody measured it";
+
+/// Of what is promised of contact besides: where a plate may lie.
+const ERROR_OF_HEIGHT: &str = "what is proved of contact, landing and lifting holds with a plate higher or lower by the error of height stated; \
+                               clearance and all else holds at the height stated alone";
 
 /// What is assumed of a dry run besides.
 const PARENT: &str =
@@ -76,16 +88,25 @@ impl RestsOn {
             limits: job.limits,
             home_rad: job.home_rad,
             waived_pairs: exclusions.waived,
-            assumptions: assumptions(job).map(str::to_owned).collect(),
+            assumptions: assumptions(job).into_iter().map(str::to_owned).collect(),
             dry_run: job.dry_run.clone(),
         }
     }
 }
 
 /// What is assumed of a job.
-fn assumptions(job: &JobTerms) -> impl Iterator<Item = &'static str> {
-    let of_dry_run = job.dry_run.is_some().then_some(PARENT);
-    ASSUMPTIONS.into_iter().chain(of_dry_run)
+fn assumptions(job: &JobTerms) -> Vec<&'static str> {
+    let flat = job.plates.iter().all(|plate| plate.surface.is_flat());
+    let mut all = Vec::from(ASSUMPTIONS);
+    all.push(if flat { FLAT } else { CURVED });
+    all.push(match (&job.requirements.contact, flat) {
+        (Some(_), _) => FOUNDATION,
+        (None, true) => WHOLE_FACE,
+        (None, false) => TOUCHES,
+    });
+    all.extend(job.requirements.contact.map(|_| ERROR_OF_HEIGHT));
+    all.extend(job.dry_run.is_some().then_some(PARENT));
+    all
 }
 
 impl RestsOn {
@@ -102,8 +123,11 @@ impl RestsOn {
             ("home", homes(&self.home_rad)),
             ("limits", limits(&self.limits)),
             ("requirements", requirements(&self.requirements)),
-            ("left out", left_out(&self.workcell.exclusions)),
         ]);
+        lines.extend(
+            contact(&self.workcell.tool, &self.requirements, self.dry_run.as_ref()).map(|what| ("contact", what)),
+        );
+        lines.extend([("left out", left_out(&self.workcell.exclusions))]);
         if !self.waived_pairs.is_empty() {
             let pairs = self.waived_pairs.iter().map(pair).collect::<Vec<_>>();
             lines.push(("waived", format!("by the job alone: {}", pairs.join(", "))));
@@ -250,48 +274,6 @@ fn bounds(points: &[Point3<f64>]) -> String {
         .join(", ")
 }
 
-/// Sizes and heights of all, and the places of the first ones.
-fn plates(plates: &[Plate]) -> String {
-    let mut alike: Vec<(String, Vec<usize>)> = Vec::new();
-    for (i, plate) in plates.iter().enumerate() {
-        let size = size(plate);
-        match alike.iter_mut().find(|(other, _)| *other == size) {
-            Some((_, those)) => those.push(i),
-            None => alike.push((size, vec![i])),
-        }
-    }
-    let groups: Vec<_> = alike
-        .iter()
-        .map(|(size, those)| format!("{} {size}{}", those.len(), places(plates, those)))
-        .collect();
-    match &groups[..] {
-        [one] => one.clone(),
-        all => format!("{}: {}", plates.len(), all.join("; ")),
-    }
-}
-
-/// Where some of the plates are, as far as they are among the first ones.
-fn places(plates: &[Plate], those: &[usize]) -> String {
-    let first = those.iter().filter(|i| **i < PLACES);
-    let told: Vec<_> = first
-        .map(|i| format!("{i} at ({})", list(plates[*i].centre_xy())))
-        .collect();
-    match those.len() - told.len() {
-        _ if told.is_empty() => String::new(),
-        0 => format!(": {} m", told.join(", ")),
-        more => format!(": {} m and {more} more", told.join(", ")),
-    }
-}
-
-fn size(plate: &Plate) -> String {
-    format!(
-        "of radius {} mm, {} mm thick, faces {} mm above 0",
-        mm(plate.rim_m()),
-        mm(plate.thickness_m),
-        mm(plate.centre().z)
-    )
-}
-
 fn obstacles(obstacles: &[Obstacle]) -> String {
     let one = |obstacle: &Obstacle| match &obstacle.shape {
         ObstacleShape::HalfSpace => format!("{}, all below 0", quoted(&obstacle.name)),
@@ -344,6 +326,44 @@ fn requirements(wanted: &Requirements) -> String {
     )
 }
 
+/// What contact means, and what is asked of it. Where nothing is, that is said, but of a dry run, which washes nothing.
+fn contact(tool: &Tool, wanted: &Requirements, dry_run: Option<&DryRun>) -> Option<String> {
+    let speed = |what: &str, limit: Option<f64>| limit.map(|limit| format!("{what} at most {} m/s", number(limit)));
+    let wrist = wanted.wrist_rad.map(|wrist| {
+        let kept = number(wrist.to_degrees());
+        format!("joint 5 at least {kept} ° from 0 on one side at every plate")
+    });
+    let promise = wanted.contact.map(|contact| {
+        let [least, most] = tool.sponge.stiffness_pa.unwrap_or_default();
+        let [softest_n, stiffest_n] = contact.force_n;
+        format!(
+            "a place is in contact where the sponge is compressed by {} mm or more, with the plate up to {} mm higher or lower and a \
+             stiffness from {} to {} kPa (assumed); on {} % of the face, for {} s on {} %, with a dose of {} Pa·m on {} %; strain at most \
+             {}, force along the sponge's axis {} to {} N",
+            mm(contact.compression_m),
+            mm(contact.height_error_m),
+            number(1e-3 * least),
+            number(1e-3 * most),
+            number(100.0 * contact.share),
+            number(contact.time_s),
+            number(100.0 * contact.time_share),
+            number(contact.dose_pa_m),
+            number(100.0 * contact.dose_share),
+            number(contact.strain),
+            number(softest_n),
+            number(stiffest_n)
+        )
+    });
+    let parts = [
+        promise.or_else(|| dry_run.is_none().then(|| NOT_ASKED.to_owned())),
+        speed("the free sponge lands with", wanted.landing_m_s),
+        speed("it lifts off with", wanted.lifting_m_s),
+        wrist,
+    ];
+    let told: Vec<_> = parts.into_iter().flatten().collect();
+    (!told.is_empty()).then(|| told.join("; "))
+}
+
 /// Pairs by the reason why they are left out.
 fn left_out(pairs: &[Exclusion]) -> String {
     let reasons = [
@@ -376,25 +396,4 @@ fn left_out(pairs: &[Exclusion]) -> String {
 fn pair(exclusion: &Exclusion) -> String {
     let [a, b] = exclusion.pair.each_ref().map(|name| quoted(name));
     format!("{a} – {b}")
-}
-
-/// A length in millimetres, as short as it is.
-fn mm(length_m: f64) -> String {
-    number(1e3 * length_m)
-}
-
-/// A number as people write it: as short as it is, up to nine digits.
-fn number(value: f64) -> String {
-    // A negative zero is 0.
-    let told = rounded(value, DIGITS) + 0.0;
-    if told == 0.0 || (1e-6..=1e6).contains(&told.abs()) {
-        told.to_string()
-    } else {
-        format!("{told:e}")
-    }
-}
-
-fn list(numbers: impl IntoIterator<Item = f64>) -> String {
-    let each: Vec<_> = numbers.into_iter().map(number).collect();
-    each.join(", ")
 }

@@ -96,6 +96,29 @@ impl Schedule {
         }
     }
 
+    /// The spans with which the tip comes to a plate, and with which it leaves.
+    pub fn around(&self, plate: usize) -> impl Iterator<Item = &Span> {
+        let is_around =
+            move |span: &&Span| span.plate == plate && is_at_plate(span.kind) && span.kind != SegmentKind::Wash;
+        self.spans.iter().filter(is_around)
+    }
+
+    /// Index and kind of the segment at a plate of a time \[s\]: the wash, also at its ends, or that with which the tip comes or leaves.
+    pub fn at_plate(&self, pieces: &[Piece], (plate, time_s): (usize, f64)) -> Option<(usize, SegmentKind)> {
+        let has = |span: &Span| {
+            let there = pieces.get(span.pieces.clone()).unwrap_or_default();
+            let ends = there.first().zip(there.last());
+            ends.is_some_and(|(first, last)| first.start_s <= time_s && time_s <= last.start_s + last.length_s)
+        };
+        let of = |span: &Span| span.plate == plate && is_at_plate(span.kind);
+        let indexed = || self.spans.iter().enumerate().filter(|(_, span)| of(span));
+        let wash = indexed().find(|(_, span)| span.kind == SegmentKind::Wash);
+        let found = wash
+            .filter(|(_, span)| has(span))
+            .or_else(|| indexed().find(|(_, span)| has(span)));
+        found.or(wash).map(|(i, span)| (i, span.kind))
+    }
+
     /// Index and kind of the segment that a piece belongs to.
     pub fn segment_of(&self, piece: usize) -> Option<(usize, SegmentKind)> {
         let i = self.spans.partition_point(|s| s.pieces.end <= piece);

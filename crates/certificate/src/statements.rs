@@ -27,7 +27,8 @@ pub(crate) fn arm(subject: &Subject<'_>) -> Check {
     Check::stated(Requirement::Arm, wrong.collect())
 }
 
-/// The tip is the middle of the sponge's far face, and z leaves the tool there: what is proved of the tip tells of the sponge. Without
+/// The tip is the middle of the sponge's far face, and z leaves the tool there: what is proved of the tip tells of the sponge. All of the
+/// sponge is foam: no body reaches into it. Without
 /// bodies there is no tool that could touch anything, and the tip is the arm's own.
 pub(crate) fn tool(subject: &Subject<'_>) -> Check {
     let tool = &subject.job.workcell.tool;
@@ -40,6 +41,11 @@ pub(crate) fn tool(subject: &Subject<'_>) -> Check {
             "the mounting frame, as the tool has no body",
         ));
     }
+    wrong.extend(tool.in_sponge().map(|(body, by_m)| {
+        let what = format!("end of the body {} of the tool", quoted(&body.name));
+        let found = format!("{} within the sponge", millimetres(by_m));
+        Discrepancy::new(what, found, "behind the sponge, all of which counts as foam")
+    }));
     Check::stated(Requirement::Tool, wrong)
 }
 
@@ -67,9 +73,9 @@ pub(crate) fn plates(subject: &Subject<'_>) -> Check {
 
 /// Every plate is in the order once, and no more than its rim is swept while another one is washed. Plates that overlap are
 /// [`crate::apart`]'s to judge: where that is only reported, so is what is swept twice.
-pub(crate) fn every_plate_once(subject: &Subject<'_>, plan: &Plan) -> Check {
+pub(crate) fn every_plate_once(subject: &Subject<'_>, plan: &Plan, upright_cosine: impl Fn(usize) -> f64) -> Check {
     let mut wrong = washed_once(plan);
-    let swept = neighbours::swept(subject);
+    let swept = neighbours::swept(subject, upright_cosine);
     wrong.extend(swept.apart);
     if wrong.is_empty() && subject.job.requirements.overlap == Overlap::Report {
         return Check::stated(Requirement::EveryPlateOnce, swept.overlapping).waived_if(true);

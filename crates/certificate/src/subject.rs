@@ -40,9 +40,11 @@ impl<'a> Subject<'a> {
         self.paths.get(plate)?.as_ref()
     }
 
-    /// Outer radius of the wash path of a plate \[m\]; `None` where that cannot be judged.
+    /// How far the wash path of a plate gets from its axis \[m\]; `None` where that cannot be judged.
     pub fn path_radius_m(&self, plate: usize) -> Option<f64> {
-        self.path_of(plate).map(|path| path.curve.radius_m)
+        let surface = &self.plates().get(plate)?.surface;
+        let curve = self.path_of(plate)?.curve;
+        Some(surface.at_arc(curve.radius_m).radius_m)
     }
 
     /// Radius of the sponge \[m\].

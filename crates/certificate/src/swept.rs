@@ -1,4 +1,4 @@
-//! How much of a plate the sponge sweeps, at least.
+//! How much of a plate the sponge sweeps, at least: of a disc by its face, of other faces by what of it touches.
 //!
 //! Tilted by τ, the sponge's face lies over a disc of radius s cos τ about the tip. Between neighbours of a polyline of
 //! moments the tip leaves the chord by at most h²/8 · sup ‖p̈‖; less the greatest of these, the disc sweeps at least what it
@@ -7,22 +7,25 @@
 use crate::check::{Check, Measure, Sense, Unit, Worst};
 use crate::error::ProveError;
 use crate::face::Face;
+use crate::instants::Instants;
 use crate::neighbours::Touched;
 use crate::piece::Piece;
+use crate::plate_contact::{CELLS_M, PlateContact, Pressed};
 use crate::polyline::{MOST_HALVINGS, Polyline};
+use crate::pressing::Known;
 use crate::requirement::Requirement;
 use crate::schedule::Schedule;
 use crate::subject::Subject;
 use crate::tip::Arm;
 use crate::tip_limits::Tips;
 use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::contact::{Fineness, Foundation, Wanted, shares};
 use platewash_workcell::coverage::{CoverageSettings, coverage};
 use platewash_workcell::job::PATH_TOLERANCE_M;
+use platewash_workcell::plate::Plate;
 use platewash_workcell::segment::SegmentKind;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-
-/// Edges of the smallest cells, the second where the first do not suffice \[m\].
-const CELLS_M: [f64; 2] = [1e-3, 2.5e-4];
 
 /// The swept share of a plate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -59,9 +62,11 @@ pub(crate) struct Wash {
     /// How far it was seen to be \[m\].
     pub seen_m: f64,
     pub swept: PlateCoverage,
+    /// What is proved of contact, where the job asks for it.
+    pub contact: Option<PlateContact>,
 }
 
-/// Coverage of every plate that is washed.
+/// Coverage of every plate that is washed, and contact with it where the job asks for that.
 ///
 /// # Errors
 /// [`ProveError::Coverage`] for lengths that make no sense, [`ProveError::Cancelled`].
@@ -72,71 +77,172 @@ pub(crate) fn washes(
     tips: &Tips,
     cancel: &CancelToken,
 ) -> Result<Vec<Wash>, ProveError> {
-    let mut all = Vec::new();
-    for (span, stretch) in schedule.spans.iter().enumerate() {
-        if stretch.kind != SegmentKind::Wash || subject.plates().get(stretch.plate).is_none() {
-            continue;
-        }
-        let pieces = &pieces[stretch.pieces.clone()];
-        let (swept, line) = swept_of(
+    let spans = schedule.spans.par_iter().enumerate();
+    let washed = spans.filter_map(|(index, span)| {
+        let plate = subject.plates().get(span.plate)?;
+        (span.kind == SegmentKind::Wash).then_some(Washing {
             arm,
             subject,
-            (pieces, stretch.plate),
-            tips.least_cosine_of(span),
+            pieces: &pieces[span.pieces.clone()],
+            around: schedule
+                .around(span.plate)
+                .map(|span| &pieces[span.pieces.clone()])
+                .collect(),
+            around_cosine: tips.least_upright_cosine_at(schedule, span.plate),
+            span: index,
+            plate,
+            index: span.plate,
+            tips,
             cancel,
-        )?;
-        all.push(Wash {
-            span,
+        })
+    });
+    washed.map(|washing| washing.judge()).collect()
+}
+
+/// A wash that is judged.
+struct Washing<'a> {
+    arm: &'a Arm<'a>,
+    subject: &'a Subject<'a>,
+    pieces: &'a [Piece],
+    /// Those with which the tip comes to the plate, and with which it leaves.
+    around: Vec<&'a [Piece]>,
+    /// The cosine of the angle between the tool and the plate's axis is never below this from approach to retreat.
+    around_cosine: f64,
+    span: usize,
+    plate: &'a Plate,
+    /// Index of the plate.
+    index: usize,
+    tips: &'a Tips,
+    cancel: &'a CancelToken,
+}
+
+impl Washing<'_> {
+    fn judge(&self) -> Result<Wash, ProveError> {
+        let subject = self.subject;
+        let within_m = subject.path_radius_m(self.index).unwrap_or(0.0) + PATH_TOLERANCE_M;
+        let line = Polyline::new(self.arm, self.pieces, &Face::of(self.plate), within_m, MOST_HALVINGS);
+        let contact = self.contact(&line)?;
+        let mut swept = PlateCoverage {
+            plate: self.index,
+            at_least: 0.0,
+            at_most: None,
+            cos_tilt: self.tips.least_cosine_of(self.span),
+            beyond_rim_m: None,
+            beyond_rim_seen_m: 0.0,
+            beyond_rim_allowed_m: 0.0,
+            touches: Vec::new(),
+        };
+        if self.plate.surface.is_flat() {
+            self.sweep(&line, &mut swept)?;
+        } else {
+            swept.at_least = self.touched(contact.as_ref())?;
+        }
+        Ok(Wash {
+            span: self.span,
             tip_m: line.within_m,
             seen_m: line.seen_m,
             swept,
-        });
+            contact,
+        })
     }
-    Ok(all)
-}
 
-/// What the sponge sweeps of a plate during some pieces, with cos τ never below `cos_tilt`, and the polyline of the tip. The tip should
-/// keep within its wash path: where it does, that is proved.
-fn swept_of(
-    arm: &Arm<'_>,
-    subject: &Subject<'_>,
-    (pieces, index): (&[Piece], usize),
-    cos_tilt: f64,
-    cancel: &CancelToken,
-) -> Result<(PlateCoverage, Polyline), ProveError> {
-    let (plate, sponge_m) = (&subject.plates()[index], subject.sponge_m());
-    let within_m = subject.path_radius_m(index).unwrap_or(0.0) + PATH_TOLERANCE_M;
-    let line = Polyline::new(arm, pieces, &Face::of(plate), within_m, MOST_HALVINGS);
-    let share = |radius_m: f64, cell_m: f64| {
-        cancel.check()?;
-        let settings = CoverageSettings {
-            cell_m: cell_m.max(1e-4 * plate.rim_m()),
+    /// What the sponge sweeps of a disc: with cos τ never below that of the tilt, at least what a disc of radius s cos τ does.
+    fn sweep(&self, line: &Polyline, swept: &mut PlateCoverage) -> Result<(), ProveError> {
+        let (plate, sponge_m) = (self.plate, self.subject.sponge_m());
+        let share = |radius_m: f64, cell_m: f64| {
+            self.cancel.check()?;
+            let settings = CoverageSettings {
+                cell_m: cell_m.max(1e-4 * plate.rim_m()),
+            };
+            let share = coverage(&line.points, [0.0; 2], plate.rim_m(), radius_m, &settings)?;
+            Ok::<_, ProveError>(share)
         };
-        let share = coverage(&line.points, [0.0; 2], plate.rim_m(), radius_m, &settings)?;
-        Ok::<_, ProveError>(share)
-    };
-    let required = subject.limits.coverage;
-    let shrunk = sponge_m * cos_tilt - line.off_m;
-    let mut swept = PlateCoverage {
-        plate: index,
-        at_least: 0.0,
-        at_most: None,
-        cos_tilt,
-        beyond_rim_m: None,
-        beyond_rim_seen_m: 0.0,
-        beyond_rim_allowed_m: 0.0,
-        touches: Vec::new(),
-    };
-    if shrunk > 0.0 {
-        swept.at_least = share(shrunk, CELLS_M[0])?.lower;
-        if swept.at_least < required {
-            swept.at_least = swept.at_least.max(share(shrunk, CELLS_M[1])?.lower);
+        let required = self.subject.limits.coverage;
+        let shrunk = sponge_m * swept.cos_tilt - line.off_m;
+        if shrunk > 0.0 {
+            swept.at_least = share(shrunk, CELLS_M[0])?.lower;
+            if swept.at_least < required {
+                swept.at_least = swept.at_least.max(share(shrunk, CELLS_M[1])?.lower);
+            }
         }
+        if swept.at_least < required && line.off_m.is_finite() {
+            swept.at_most = Some(share(sponge_m + line.off_m, CELLS_M[1])?.upper);
+        }
+        Ok(())
     }
-    if swept.at_least < required && line.off_m.is_finite() {
-        swept.at_most = Some(share(sponge_m + line.off_m, CELLS_M[1])?.upper);
+
+    /// What the sponge touches of any other face with the plate where it is stated to lie, by its area. What is in contact is touched.
+    fn touched(&self, contact: Option<&PlateContact>) -> Result<f64, ProveError> {
+        let required = self.subject.limits.coverage;
+        let pressed = contact.map_or(0.0, |contact| contact.share.at_least);
+        if pressed >= required || !self.meets_from_above() {
+            return Ok(pressed);
+        }
+        let sponge = &self.subject.job.workcell.tool.sponge;
+        // Whatever its stiffness: no dose is asked for.
+        let foundation = Foundation::stiff(sponge, [0.0; 2]);
+        let wanted = Wanted {
+            compression_m: 0.0,
+            height_error_m: 0.0,
+            time_s: 0.0,
+            dose_pa_m: 0.0,
+        };
+        let instants = Instants::new(self.arm, self.pieces, self.plate, (&foundation, 0.0));
+        self.cancel.check()?;
+        let fineness = Fineness {
+            cell_m: CELLS_M[1],
+            enough: [required; 3],
+        };
+        let moments = (&instants.moments[..], &[][..]);
+        let found = shares(&self.plate.surface, &foundation, moments, &wanted, &fineness);
+        Ok(found.contact.at_least.max(pressed))
     }
-    Ok((swept, line))
+
+    /// What is proved of contact, where the job asks for it.
+    fn contact(&self, line: &Polyline) -> Result<Option<PlateContact>, ProveError> {
+        let job = self.subject.job;
+        let (Some(wanted), Some(foundation)) = (&job.requirements.contact, Foundation::of(&job.workcell.tool.sponge))
+        else {
+            return Ok(None);
+        };
+        let error_m = wanted.height_error_m;
+        let instants_of = |pieces| Instants::new(self.arm, pieces, self.plate, (&foundation, error_m));
+        let instants = instants_of(self.pieces);
+        let around: Vec<_> = self.around.iter().map(|pieces| instants_of(pieces)).collect();
+        let pressed = Pressed {
+            plate: self.plate,
+            index: self.index,
+            foundation: &foundation,
+            wanted,
+            instants: &instants,
+            around: &around,
+            known: Known {
+                height_m: self.tips.greatest_height_of(self.span),
+                cosine: self.tips.least_upright_cosine_of(self.span),
+                distance_m: line.within_m,
+                error_m,
+            },
+            meets: self.meets_from_above(),
+            around_meets: self.meets_at(self.around_cosine),
+            cancel: self.cancel,
+        };
+        Ok(Some(pressed.judge()?))
+    }
+
+    /// Whether every line along the tool's axis meets the face once, and from above: the tool is less tilted from the plate's axis than
+    /// the steepest slope leaves of a right angle.
+    fn meets_from_above(&self) -> bool {
+        self.meets_at(self.tips.least_upright_cosine_of(self.span))
+    }
+
+    /// The same where the cosine of the angle between the tool and the plate's axis is at least `cosine`.
+    fn meets_at(&self, cosine: f64) -> bool {
+        let surface = &self.plate.surface;
+        let steepest = surface.patch([0.0, f64::INFINITY]);
+        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+        let slope = steepest.sine[0].abs().max(steepest.sine[1].abs());
+        cosine * steepest.least_cosine() > sine * slope
+    }
 }
 
 /// Every plate is swept to the share required: the plate of which the least is.

@@ -3,6 +3,8 @@
 use crate::certificate::Certificate;
 use crate::check::{Check, Measure, Sense, Status, Unit, Worst};
 use crate::clearances::{PairBound, PairRule};
+use crate::plate_contact::{PlateContact, ProvedShare};
+use crate::requirement::Requirement;
 use crate::swept::PlateCoverage;
 use platewash_kinematics::trig::acos;
 use platewash_kinematics::words::{decimals_down, decimals_up, told_apart};
@@ -80,13 +82,20 @@ impl Certificate {
         )?;
         for check in &self.checks {
             row(f, check)?;
+            let is_force = check.requirement == Requirement::ContactForce && check.measure.is_some();
+            if let Some(both) = both_sides(self).filter(|_| is_force) {
+                writeln!(f, "  {both}")?;
+            }
         }
         let swept = if dry_run { "would be swept" } else { "coverage" };
         writeln!(f, "\n{swept}, at least")?;
         for plate in &self.coverage {
             plate_row(f, plate)?;
         }
-        Ok(())
+        if !self.contact.is_empty() {
+            writeln!(f, "\ncontact, wherever within its error of height a plate lies")?;
+        }
+        self.contact.iter().try_for_each(|contact| contact_row(f, contact))
     }
 }
 
@@ -205,6 +214,60 @@ fn plate_row(f: &mut fmt::Formatter<'_>, plate: &PlateCoverage) -> fmt::Result {
     })
 }
 
+fn contact_row(f: &mut fmt::Formatter<'_>, contact: &PlateContact) -> fmt::Result {
+    let share = |share: &ProvedShare, scale: f64, unit: &str| {
+        let percent = decimals_down(100.0 * share.at_least, 3);
+        format!("{percent} % by {:.4} {unit}", scale * share.threshold)
+    };
+    let up = |v: Option<f64>, unit: &str| {
+        v.map_or("not bounded".to_owned(), |v| {
+            format!("up to {}{unit}", decimals_up(v, 2))
+        })
+    };
+    writeln!(
+        f,
+        "  plate {:<4} at least {}, {}, {}; strain {}, force {}, torque of friction {} (friction 0.3 to 1.0, assumed)",
+        contact.plate,
+        share(&contact.share, 1e3, "mm"),
+        share(&contact.time, 1.0, "s"),
+        share(&contact.dose, 1.0, "Pa·m"),
+        up(contact.strain.bound, ""),
+        force([contact.least_force_n.bound, contact.greatest_force_n.bound]),
+        up(contact.friction_torque_nm.map(|[_, most]| most), " N·m"),
+    )
+}
+
+/// Between what forces lie \[N\].
+fn force([least_n, most_n]: [Option<f64>; 2]) -> String {
+    let least = least_n.map(|v| decimals_down(v, 2));
+    let most = most_n.map(|v| decimals_up(v, 2));
+    match (least, most) {
+        (Some(least), Some(most)) => format!("{least} to {most} N"),
+        (Some(least), None) => format!("{least} N or more, not bounded above"),
+        (None, Some(most)) => format!("{most} N or less, not bounded below"),
+        (None, None) => "not bounded".to_owned(),
+    }
+}
+
+/// What a row on force leaves out, which has the side that is nearer to its limit: both, of all plates.
+fn both_sides(certificate: &Certificate) -> Option<String> {
+    let asked = certificate.rests_on.requirements.contact?;
+    let worst = |of: fn(&PlateContact) -> Option<f64>, worse: fn(f64, f64) -> f64| {
+        let mut all = certificate.contact.iter().map(of);
+        let first = all.next().flatten();
+        all.fold(first, |worst, next| Some(worse(worst?, next?)))
+    };
+    let both = [
+        worst(|plate| plate.least_force_n.bound, f64::min),
+        worst(|plate| plate.greatest_force_n.bound, f64::max),
+    ];
+    let [least_n, most_n] = asked.force_n;
+    Some(format!(
+        "both sides, all plates: {}; asked for: {least_n} to {most_n} N",
+        force(both)
+    ))
+}
+
 fn numbers(measure: &Measure) -> (String, String, &'static str) {
     let (scale, unit) = scale(measure.unit);
     let sign = match measure.sense {
@@ -271,6 +334,7 @@ fn scale(unit: Unit) -> (f64, &'static str) {
         Unit::Metre => (1e3, "mm"),
         Unit::MetrePerSecond => (1.0, "m/s"),
         Unit::MetrePerSecondSquared => (1.0, "m/s²"),
+        Unit::Newton => (1.0, "N"),
         Unit::Share => (100.0, "%"),
     }
 }

@@ -1,7 +1,7 @@
 //! The tip over a stretch of time: its state at both ends, and bounds of its derivatives between.
 //!
 //! With p(q) the tip's position and J its Jacobian, v = J q̇ and
-//! a = J q̈ + Σ_j q̇_j (2 ω_j − q̇_j z_j) × J_j, ω_j = Σ_{i ≤ j} q̇_i z_i.
+//! a = J q̈ + Σ_j q̇_j (2 ω_j − q̇_j z_j) × J_j, ω_j = Σ_{i ≤ j} q̇_i z_i; the tool turns with ω = ω_6, ω̇ = Σ_j q̈_j z_j + q̇_j ω_j × z_j.
 //! For a vector f of time, ‖f(t)‖ ≤ max(‖f(a)‖, ‖f(b)‖) + h²/8 · sup ‖f″‖ on [a, b], h = b − a. The bounds of the derivatives of
 //! p(q(t)) follow from the chain rule (Faà di Bruno) with the levers of [`platewash_workcell::clearance::lever`]; a cubic has no fourth
 //! derivative.
@@ -29,12 +29,16 @@ pub(crate) struct Moment {
     pub position: Vector3<f64>,
     /// Where the tool's z axis points: out of the tool.
     pub axis: Vector3<f64>,
+    /// Where its x axis points: a direction across that turns with the tool.
+    pub side: Vector3<f64>,
     /// \[m/s\]
     pub speed: Vector3<f64>,
     /// \[m/s²\]
     pub acceleration: Vector3<f64>,
     /// ω: how fast the tool turns \[rad/s\].
     pub turning: Vector3<f64>,
+    /// ω̇ \[rad/s²\].
+    pub turning_more: Vector3<f64>,
     levers: Levers,
 }
 
@@ -75,10 +79,12 @@ impl<'a> Arm<'a> {
         let tip = poses.rigid(&self.tip);
         let jacobian = poses.jacobian(&self.tip, Axes::Base);
         let (mut speed, mut acceleration, mut turning) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
+        let mut turning_more = Vector3::zeros();
         let mut levers = Levers::zeros();
         for j in 0..AXES {
             let column: Vector3<f64> = jacobian.fixed_view::<3, 1>(0, j).into_owned();
             let axis: Vector3<f64> = jacobian.fixed_view::<3, 1>(3, j).into_owned();
+            turning_more += axis * qdd[j] + turning.cross(&axis) * qd[j];
             turning += axis * qd[j];
             speed += column * qd[j];
             acceleration += column * qdd[j] + (turning * 2.0 - axis * qd[j]).cross(&column) * qd[j];
@@ -87,9 +93,11 @@ impl<'a> Arm<'a> {
         Moment {
             position: tip.translation,
             axis: tip.rotation.column(2).into_owned(),
+            side: tip.rotation.column(0).into_owned(),
             speed,
             acceleration,
             turning,
+            turning_more,
             levers,
         }
     }
@@ -186,6 +194,16 @@ impl Derivatives {
         d3 + 3.0 * d1 * d2 + d1 * d1 * d1
     }
 
+    /// sup ‖ω̇‖, ω how fast the tool turns: each joint's axis turns with those before it \[rad/s²\].
+    pub fn first_of_turning(&self) -> f64 {
+        self.second_of_axis()
+    }
+
+    /// sup ‖ω̈‖ \[rad/s³\].
+    pub fn second_of_turning(&self) -> f64 {
+        self.third_of_axis()
+    }
+
     /// By how much the tip's acceleration may be above what is computed, where those of the joints are by `joints` \[m/s²\].
     pub fn rounding(&self, joints: &JointVector) -> f64 {
         self.sum([joints])
@@ -231,6 +249,12 @@ mod tests {
             prop_assert!(((after.axis - before.axis) / (2.0 * h) - turned(&here)).norm() < 1e-6);
             let third = (turned(&after) - turned(&here) * 2.0 + turned(&before)) / (h * h);
             prop_assert!(third.norm() <= bounds.third_of_axis() + 1e-2);
+            let first = (after.turning - before.turning) / (2.0 * h);
+            let second = (after.turning - here.turning * 2.0 + before.turning) / (h * h);
+            prop_assert!(first.norm() <= bounds.first_of_turning() + 1e-6);
+            prop_assert!((first - here.turning_more).norm() < 1e-5);
+            prop_assert!(second.norm() <= bounds.second_of_turning() + 1e-2);
+            prop_assert!(here.side.dot(&here.axis).abs() < 1e-12);
         }
     }
 }

@@ -2,12 +2,14 @@
 
 use crate::bound_tracker::BoundTracker;
 use crate::check::{Check, Measure, Sense, Unit, Worst};
-use crate::face::Face;
+use crate::face::{Face, sine_of_tilt};
+use crate::pass::Pass;
 use crate::piece::Piece;
 use crate::requirement::Requirement;
 use crate::schedule::{Schedule, Span, is_at_plate};
 use crate::subject::Subject;
 use crate::tip::{Arm, Moment, Stretch};
+use nalgebra::Vector3;
 use platewash_kinematics::trig::{asin, sin};
 use platewash_workcell::job::PATH_TOLERANCE_M;
 use platewash_workcell::segment::SegmentKind;
@@ -32,8 +34,19 @@ pub(crate) struct Tips {
     pub washing: [BoundTracker; 2],
     /// Sine of the tilt, for every span at a plate: its index and the tracker.
     pub tilt: Vec<(usize, BoundTracker)>,
+    /// Sine of the angle from the plate's axis, for every span at a plate whose face is no disc; on a disc it is that of the tilt.
+    upright: Vec<(usize, BoundTracker)>,
     /// Height of the tip over or under the face while it washes, and the index of the span.
     pub height: Vec<(usize, BoundTracker)>,
+}
+
+/// Against which normal the tool is tilted.
+#[derive(Debug, Clone, Copy)]
+enum Against {
+    /// One that stays: that of the line along which the tip comes or goes, or of a flat face.
+    Fixed(Vector3<f64>),
+    /// That of the face under the tip.
+    Local,
 }
 
 impl Tips {
@@ -47,6 +60,7 @@ impl Tips {
             moving: pair(limits.tip_speed_m_s, limits.tip_acceleration_m_s2),
             washing: pair(limits.wash_speed_m_s, limits.wash_acceleration_m_s2),
             tilt: Vec::new(),
+            upright: Vec::new(),
             height: Vec::new(),
         };
         let Some(schedule) = schedule else {
@@ -63,14 +77,26 @@ impl Tips {
                 continue;
             };
             let face = Face::of(plate);
-            let mut tracker = BoundTracker::new(sine, TILT_RESOLUTION);
-            let bend = |s: &Stretch<'_>| s.sag(arm.derivatives(s).second_of_axis());
-            observe(arm, &mut tracker, &[of(span)], &|m| face.sine_of_tilt(&m.axis), &bend);
-            tips.tilt.push((i, tracker));
+            let against = against(subject, span, &face);
+            let tracker = BoundTracker::new(sine, TILT_RESOLUTION);
+            tips.tilt.push((i, tilted(arm, tracker, of(span), (&face, against))));
+            if !face.surface().is_flat() {
+                // No limit is asked of it.
+                let tracker = BoundTracker::new(1.0, TILT_RESOLUTION);
+                let upright = Against::Fixed(*face.upright());
+                tips.upright.push((i, tilted(arm, tracker, of(span), (&face, upright))));
+            }
             if span.kind == SegmentKind::Wash {
                 // The sponge touches where the tip is on the face.
                 let mut tracker = BoundTracker::new(PATH_TOLERANCE_M, HEIGHT_RESOLUTION_M);
-                let bend = |s: &Stretch<'_>| s.sag(arm.derivatives(s).second());
+                let bend = |s: &Stretch<'_>| {
+                    let bounds = arm.derivatives(s);
+                    if face.surface().is_flat() {
+                        s.sag(bounds.second())
+                    } else {
+                        s.sag(Pass::new(&face, s, &bounds).bend_of_height())
+                    }
+                };
                 observe(
                     arm,
                     &mut tracker,
@@ -88,6 +114,32 @@ impl Tips {
     pub fn least_cosine_of(&self, span: usize) -> f64 {
         let tilt = self.tilt.iter().find(|(index, _)| *index == span);
         tilt.map_or(0.0, |(_, tracker)| cosine(tracker.bound))
+    }
+
+    /// What the cosine of the angle from the plate's axis is not below during a span; 0 where nothing is known.
+    pub fn least_upright_cosine_of(&self, span: usize) -> f64 {
+        let upright = self.upright.iter().find(|(index, _)| *index == span);
+        upright.map_or_else(|| self.least_cosine_of(span), |(_, tracker)| cosine(tracker.bound))
+    }
+
+    /// How far the tip is over or under the face at most during the wash of a span \[m\]; infinite where nothing is known.
+    pub fn greatest_height_of(&self, span: usize) -> f64 {
+        let height = self.height.iter().find(|(index, _)| *index == span);
+        height.map_or(f64::INFINITY, |(_, tracker)| {
+            if tracker.bound.is_nan() {
+                f64::INFINITY
+            } else {
+                tracker.bound
+            }
+        })
+    }
+
+    /// What the cosine of the angle from the plate's axis is not below in all spans at a plate; 0 where there is none.
+    pub fn least_upright_cosine_at(&self, schedule: &Schedule, plate: usize) -> f64 {
+        let spans = schedule.spans.iter().enumerate();
+        let there = spans.filter(|(_, span)| span.plate == plate && is_at_plate(span.kind));
+        let cosines = there.map(|(i, _)| self.least_upright_cosine_of(i));
+        cosines.min_by(f64::total_cmp).unwrap_or(0.0)
     }
 
     /// Speed and acceleration while the tip does not wash.
@@ -213,6 +265,54 @@ fn cosine(sine: f64) -> f64 {
     } else {
         0.0
     }
+}
+
+/// Against which normal the tool is tilted during a span: of the line over the end of its path, or of the face. Without a path there is
+/// no line, and it is that of the face.
+fn against(subject: &Subject<'_>, span: &Span, face: &Face<'_>) -> Against {
+    if face.surface().is_flat() {
+        return Against::Fixed(*face.upright());
+    }
+    let feet = || {
+        let plate = subject.plates().get(span.plate)?;
+        Some(subject.path_of(span.plate)?.feet(plate))
+    };
+    match (span.kind, feet()) {
+        (SegmentKind::Approach, Some([start, _])) => Against::Fixed(face.normal_under(&start)),
+        (SegmentKind::Retreat, Some([_, end])) => Against::Fixed(face.normal_under(&end)),
+        _ => Against::Local,
+    }
+}
+
+/// Bounds the sine of the tilt during some pieces.
+fn tilted(
+    arm: &Arm<'_>,
+    mut tracker: BoundTracker,
+    pieces: &[Piece],
+    (face, against): (&Face<'_>, Against),
+) -> BoundTracker {
+    match against {
+        Against::Fixed(normal) => {
+            let bend = |s: &Stretch<'_>| s.sag(arm.derivatives(s).second_of_axis());
+            observe(arm, &mut tracker, &[pieces], &|m| sine_of_tilt(&m.axis, &normal), &bend);
+        }
+        Against::Local => {
+            let sine = |m: &Moment| sine_of_tilt(&m.axis, &face.normal_under(&m.position));
+            let bend = |s: &Stretch<'_>| {
+                let bounds = arm.derivatives(s);
+                let second = bounds.second_of_axis();
+                Pass::new(face, s, &bounds).sag_of_sine(s, [turning(s, second), second])
+            };
+            observe(arm, &mut tracker, &[pieces], &sine, &bend);
+        }
+    }
+    tracker
+}
+
+/// What the speed of the tool's axis is not above over a stretch, with its second derivative not above `second` \[1/s\].
+pub(crate) fn turning(stretch: &Stretch<'_>, second: f64) -> f64 {
+    let [from, to] = stretch.ends.each_ref().map(|m| m.turning.cross(&m.axis).norm());
+    from.max(to) + 0.5 * stretch.length_s() * second
 }
 
 fn track_rates(arm: &Arm<'_>, [speed, acceleration]: &mut [BoundTracker; 2], spans: &[&[Piece]]) {

@@ -6,11 +6,14 @@
 use crate::check::{Check, Discrepancy};
 use crate::requirement::Requirement;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashPath};
+use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_RINGS, MOST_TURNS, WashPath};
 use std::f64::consts::{PI, TAU};
 
 /// The greatest outer radius of a path, and the greatest lift \[m\].
 const GREATEST_M: f64 = 10.0;
+
+/// The shortest blend between two rings \[rad\].
+const LEAST_BLEND_RAD: f64 = 1e-3;
 
 /// A number of a path and the range in which it must be.
 struct Number {
@@ -27,19 +30,32 @@ impl Number {
 }
 
 /// The numbers of a path; what is swept grows with them, and so does the time that it takes to judge it.
-fn numbers(path: &WashPath, tilt_rad: f64) -> [Number; 6] {
+fn numbers(path: &WashPath, tilt_rad: f64) -> Vec<Number> {
     let number = |name, found, range| Number { name, found, range };
     let curve = &path.curve;
     // A spiral of mean radius R/2, and a ring.
     let length_m = PI * curve.radius_m * (curve.turns + 2.0);
-    [
+    let mut numbers = Vec::from([
         number("curve.radius_m", curve.radius_m, [LEAST_RADIUS_M, GREATEST_M]),
         number("curve.turns", curve.turns, [LEAST_TURNS, MOST_TURNS]),
         number("curve.start_angle_rad", curve.start_angle_rad, [-TAU, TAU]),
         number("length of the curve", length_m, [0.0, LONGEST_M]),
         number("lift_m", path.lift_m, [f64::MIN_POSITIVE, GREATEST_M]),
         number("cone_rad", path.cone_rad, [0.0, tilt_rad]),
-    ]
+    ]);
+    if let Some(rings) = &curve.rings {
+        let count = rings.count as f64;
+        // No ring is longer than the outermost.
+        let length_m = TAU * curve.radius_m * (count + 1.0);
+        numbers.extend([
+            number("curve.rings.count", count, [2.0, MOST_RINGS as f64]),
+            number("curve.rings.inner_m", rings.inner_m, [0.0, curve.radius_m]),
+            number("curve.rings.lead_rad", rings.lead_rad, [0.0, TAU]),
+            number("curve.rings.blend_rad", rings.blend_rad, [LEAST_BLEND_RAD, TAU]),
+            number("length of the rings", length_m, [0.0, 2.0 * LONGEST_M]),
+        ]);
+    }
+    numbers
 }
 
 /// The wash path of each plate, where there is one that can be judged.

@@ -163,9 +163,10 @@ impl Answering<'_> {
         let certificate = prove_with(&plan, arm, self.gone).map_err(Failure::from)?;
         watch.step("prove");
         let shown = Certificate::new(&certificate, &plan.job.workcell.mount);
-        let proved = certificate.coverage.iter().map(|swept| PlateProof {
-            plate: swept.plate,
-            at_least: swept.at_least,
+        let proved = view.coverage.iter().filter_map(|coverage| {
+            let at_least = coverage.proved_by(&certificate)?;
+            let plate = coverage.plate;
+            Some(PlateProof { plate, at_least })
         });
         told.line(&CellLine::Proof {
             certificate: &shown,

@@ -9,10 +9,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-const KITCHEN: &str = include_str!("../../../scenarios/kitchen.toml");
+const KITCHEN: &str = include_str!("../../../scenarios/kitchen-spiral.toml");
 
 fn kitchen() -> Editor {
-    Editor::of_text("kitchen", KITCHEN, None).unwrap()
+    Editor::of_text("kitchen-spiral", KITCHEN, None).unwrap()
 }
 
 /// All lines of an answer.
@@ -69,7 +69,7 @@ fn a_scenario_is_told_from_its_text_to_its_proof() {
     assert_eq!(lines[1]["arm"]["id"], lines[1]["arm_id"]);
     let chances = lines[2]["plates"].as_array().unwrap();
     assert!(chances.iter().all(|plate| plate["chance"] == "washable"), "{chances:?}");
-    let job = Scenario::load("kitchen").unwrap().job().unwrap();
+    let job = Scenario::load("kitchen-spiral").unwrap().job().unwrap();
     let planned = platewash_planner::plan(&job).unwrap().plan;
     assert_eq!(lines[3]["heading"]["hash"].as_str(), planned.hash.as_deref());
     assert_eq!(lines[4]["certificate"]["passes"], true);
@@ -125,8 +125,8 @@ fn what_is_refused_names_its_key_and_says_what_is_expected() {
     let editor = kitchen();
     let cases = [
         (
-            json!([{"key": "wash.tilt_max", "value": 3}]),
-            "wash.tilt_max",
+            json!([{"key": "wash.tilt_max_dg", "value": 3}]),
+            "wash.tilt_max_dg",
             "did you mean 'wash.tilt_max_deg'?",
         ),
         (

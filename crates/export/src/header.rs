@@ -10,11 +10,15 @@ use nalgebra::Vector3;
 use platewash_certificate::{Certificate, Certified, Check, Requirement, Sense, Unit};
 use platewash_kinematics::words::{decimals_down, decimals_up, fixed, rounded as rounded_to};
 use platewash_kinematics::{AXES, JointVector, sha256_hex};
+use platewash_workcell::job::Requirements;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::words::counted;
 
 /// Degrees in a radian.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+
+/// Significant digits of what is assumed.
+const DIGITS: usize = 9;
 
 /// Plates whose places are listed.
 const MOST_PLATES: usize = 24;
@@ -36,7 +40,12 @@ pub(crate) fn lines(
     ];
     lines.extend(workcell(source));
     lines.extend(speeds(source, settings, points));
-    lines.extend(judged.into_iter().flat_map(|judged| verdict(judged, settings)));
+    if let Some(judged) = judged {
+        lines.extend(verdict(judged, settings));
+        let promised = contact_not_judged(&source.plan.job.requirements);
+        lines
+            .extend(promised.map(|all| format!("Not judged of this program either, proved of the plan alone: {all}.")));
+    }
     lines.push("Assumed, not verified on a controller:".to_owned());
     lines.extend(dialect.assumptions().iter().map(|words| format!("- {words}")));
     let rests_on = &certified.certificate().rests_on.assumptions;
@@ -72,14 +81,23 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
             mount.x, mount.y, mount.z
         ),
         format!(
-            "tool: tip at {}, {}, {} mm of the flange; sponge of radius {} mm, {} mm high",
+            "tool: tip at {}, {}, {} mm of the flange; sponge of radius {} mm, {} mm high while it washes, free {} mm higher (assumed)",
             at.x,
             at.y,
             at.z,
             place(sponge.radius_m),
-            place(sponge.height_m)
+            place(sponge.height_m),
+            place(sponge.compression_m)
         ),
     ];
+    lines.extend(sponge.stiffness_pa.map(|stiffness_pa| {
+        let [softest, stiffest] = stiffness_pa.map(|pa| rounded_to(1e-3 * pa, DIGITS));
+        format!("sponge: stiffness from {softest} to {stiffest} kPa (assumed)")
+    }));
+    lines.extend(job.requirements.contact.map(|contact| {
+        let error_mm = rounded_to(1e3 * contact.height_error_m, DIGITS);
+        format!("plates: up to {error_mm} mm higher or lower than stated, for the contact that is proved of the plan (assumed)")
+    }));
     if let Some(mass) = &world.tool.mass {
         let com = mass.com_m.map(place).join(", ");
         lines.push(format!(
@@ -91,11 +109,15 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
     lines.extend(plates.map(|(k, plate)| {
         let pole = plate.world(&Vector3::zeros()).map(place);
         format!(
-            "plate {k}: middle of its face at {}, {}, {} mm of the world, radius {} mm",
+            "plate {k}: middle of its face at {}, {}, {} mm of the world, radius {} mm{}",
             pole.x,
             pole.y,
             pole.z,
-            place(plate.rim_m())
+            place(plate.rim_m()),
+            plate
+                .surface
+                .profile_words()
+                .map_or_else(String::new, |profile| format!(", {profile}"))
         )
     }));
     if job.plates.len() > MOST_PLATES {
@@ -170,6 +192,22 @@ fn verdict(judged: &Judged, settings: &ExportSettings) -> Vec<String> {
     lines
 }
 
+/// What a plan promises of contact and its program is not judged for, in words; `None` where it promises nothing.
+#[must_use]
+pub fn contact_not_judged(promised: &Requirements) -> Option<String> {
+    let contact = promised
+        .contact
+        .map(|_| "contact (share pressed, time, dose, strain, force)");
+    let others = [
+        (promised.landing_m_s, "speed of landing"),
+        (promised.lifting_m_s, "speed of lifting"),
+        (promised.wrist_rad, "side of the wrist"),
+    ];
+    let others = others.into_iter().filter_map(|(asked, words)| asked.map(|_| words));
+    let all: Vec<_> = contact.into_iter().chain(others).collect();
+    (!all.is_empty()).then(|| all.join(", "))
+}
+
 /// A measure with what it is held against, both times a factor.
 fn told(check: &Check, beside: &str, factor: f64) -> String {
     let name = match check.requirement {
@@ -186,6 +224,7 @@ fn told(check: &Check, beside: &str, factor: f64) -> String {
         Unit::Metre => (1e3, "mm"),
         Unit::MetrePerSecond => (1.0, "m/s"),
         Unit::MetrePerSecondSquared => (1.0, "m/s^2"),
+        Unit::Newton => (1.0, "N"),
         Unit::Share => (100.0, "%"),
     };
     let (side, rounded): (_, fn(f64, usize) -> String) = match measure.sense {

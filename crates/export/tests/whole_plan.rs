@@ -30,7 +30,7 @@ fn washing(arm: &RobotModel) -> Plan {
     let mut terms = kitchen_terms(arm, vec![Plate::level_disc([-0.4408, -0.2545, 0.1], 0.11, 0.02)]);
     terms.home_rad = [JointVector::from([0.0, -90.0, 90.0, -90.0, -90.0, 0.0]).map(f64::to_radians); 2];
     if let Planner::Wash(settings) = &mut terms.planner {
-        settings.path_radius_m = 0.09;
+        settings.path_radius_m = Some(0.09);
     }
     let job = WashJob::new(Arc::new(arm.clone()), terms).unwrap();
     let plan = plan(&job).unwrap().plan;

@@ -61,6 +61,10 @@ impl PaperJob {
                 wash_acceleration_m_s2: 4.0,
                 overlap: Overlap::Fail,
                 as_listed: false,
+                landing_m_s: None,
+                lifting_m_s: None,
+                wrist_rad: None,
+                contact: None,
             },
             limits: Limits {
                 joint_acceleration_rad_s2: [4.0, 4.0, 4.0, 5.0, 5.0, 6.0],

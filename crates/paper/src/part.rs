@@ -6,6 +6,7 @@ use platewash_workcell::layout::{
     Layout, LayoutError, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing, base_footprint, sample,
 };
 use platewash_workcell::random;
+use platewash_workcell::surface::Surface;
 
 /// A part of the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,9 +52,10 @@ impl PaperPart {
     #[must_use]
     pub fn geometry(self) -> PlateGeometry {
         PlateGeometry {
-            radius_m: 0.145,
+            surface: Surface::Disc { radius_m: 0.145 },
             height_m: 0.03,
             thickness_m: 0.02,
+            foot: None,
         }
     }
 

@@ -12,6 +12,8 @@ mod infeasible;
 pub mod joint_path;
 mod order;
 mod outlook;
+mod pace;
+mod pattern;
 mod pipeline;
 mod planned;
 pub mod redundancy;
@@ -27,6 +29,7 @@ pub use error::PlanError;
 pub use infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport};
 pub use order::{EXACT_UP_TO, Optimality};
 pub use outlook::PlateOutlook;
+pub use pace::Pace;
 pub use pipeline::{
     check, draw_washable_layout, nearest_place, outlook, plan, plan_here, plan_in_order, plan_with, unwashable_plates,
     washable_map,

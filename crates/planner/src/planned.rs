@@ -1,10 +1,12 @@
 //! What planning makes: the plan, and what is to be said of it.
 
 use crate::order::Optimality;
+use crate::pace::Pace;
 use crate::redundancy::TiltChoice;
 use crate::transit::TransitKind;
 use platewash_kinematics::JointVector;
 use platewash_workcell::plan::Plan;
+use platewash_workcell::wash_path::WashCurve;
 use serde::Serialize;
 
 /// A job, planned.
@@ -28,8 +30,14 @@ pub struct VisitSummary {
     pub plate: usize,
     /// Where the tilt of the tool comes from.
     pub tilt: TiltChoice,
+    /// How far the tool may lean from the normal of the face \[rad\].
+    pub cone_rad: f64,
+    /// The curve of the tip.
+    pub curve: WashCurve,
     /// Time on the plate \[s\].
     pub wash_s: f64,
+    /// How near that is to the least time of the area, and what binds it.
+    pub pace: Pace,
 }
 
 /// How a transit goes.
@@ -50,6 +58,18 @@ pub struct TourSummary {
     pub nearest_next_s: f64,
     /// Whether the order is known to be the best under that estimate.
     pub optimality: Option<Optimality>,
+}
+
+impl VisitSummary {
+    /// The pattern in words: a spiral and its turns, or how many rings.
+    #[must_use]
+    pub fn pattern(&self) -> String {
+        match &self.curve.rings {
+            Some(rings) => format!("{} rings", rings.count),
+            None if self.curve.closing_ring => format!("spiral of {:.2} turns and a ring", self.curve.turns),
+            None => format!("spiral of {:.2} turns", self.curve.turns),
+        }
+    }
 }
 
 impl Planned {

@@ -14,6 +14,7 @@ use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_planner::joint_path::{Ends, JointPath};
 use platewash_planner::timing::{MotionLimits, TipLimits, time_optimal};
 use platewash_workcell::fixtures::kitchen_tool;
+use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::WashCurve;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -126,10 +127,11 @@ fn wash(robot: &RobotModel, tip: &Frame) -> JointPath {
         turns: 3.5,
         start_angle_rad: 0.3,
         closing_ring: true,
+        rings: None,
     };
     let solver = IkSolver::new(robot, *tip, IkSettings::default()).unwrap();
     let down = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), PI);
-    let u = curve.parameters(3e-5);
+    let u = curve.parameters(&Surface::Disc { radius_m: 0.145 }, 3e-5);
     let mut seed = JointVector::new(0.0, 0.5, 0.3, 0.0, 0.7, 0.0);
     let q = u.iter().map(|&theta| {
         let p = curve.at(theta).position;

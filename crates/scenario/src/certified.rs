@@ -9,6 +9,9 @@ use std::f64::consts::PI;
 /// Plates thinner or smaller than this are none to the certificate \[m\].
 const LEAST_PLATE_M: f64 = 1e-6;
 
+/// Distance of the windings over the sponge's diameter, as it is estimated where no turns are stated.
+const PITCH_SHARE: f64 = 0.8;
+
 /// The slowest tip whose time can be computed \[m/s, m/s²\].
 const LEAST_OF_TIP: f64 = 1e-6;
 
@@ -16,14 +19,21 @@ const LEAST_OF_TIP: f64 = 1e-6;
 const LEAST_JOINT_ACCELERATION: f64 = 1e-3;
 
 impl Scenario {
-    /// The wash curve on a plate, as far as the scenario alone decides it.
+    /// The wash curve on a plate, as far as the scenario alone decides it: otherwise a spiral to the rim, its windings as far apart as is
+    /// usual, to estimate how much work it is.
     #[must_use]
     pub(crate) fn wash_curve(&self) -> WashCurve {
+        let radius_m = self.wash.path_radius_m.unwrap_or(self.layout.surface().arc_m());
+        let pitch_m = PITCH_SHARE * 2.0 * self.tool.sponge_radius_m;
         WashCurve {
-            radius_m: self.wash.path_radius_m,
-            turns: self.wash.turns,
+            radius_m,
+            turns: self
+                .wash
+                .turns
+                .unwrap_or((radius_m / pitch_m).clamp(LEAST_TURNS, MOST_TURNS)),
             start_angle_rad: 0.0,
-            closing_ring: self.wash.closing_ring,
+            closing_ring: self.wash.closing_ring.unwrap_or(true),
+            rings: None,
         }
     }
 
@@ -35,18 +45,39 @@ impl Scenario {
         let (wash, layout, limits) = (&self.wash, &self.layout, &self.limits);
         let above = |key, found, least| refuse(key, found, found > least, format!("above {least:e}"));
         let from = |key, found, least| refuse(key, found, found >= least, format!("at least {least}"));
-        above("layout.plate_radius_m", layout.plate_radius_m, LEAST_PLATE_M)?;
+        above(layout.shape_key(), layout.surface().rim_m(), LEAST_PLATE_M)?;
         above("layout.plate_thickness_m", layout.plate_thickness_m, LEAST_PLATE_M)?;
-        let turns = (LEAST_TURNS..=MOST_TURNS).contains(&wash.turns);
+        for found in layout.plate_foot_m.into_iter().flatten() {
+            above("layout.plate_foot_m", found, LEAST_PLATE_M)?;
+        }
+        let tool = &self.tool;
+        refuse(
+            "tool.sponge_compression_m",
+            tool.sponge_compression_m,
+            tool.sponge_compression_m <= tool.sponge_height_m,
+            format!("at most tool.sponge_height_m = {}", tool.sponge_height_m),
+        )?;
+        let curve = self.wash_curve();
         refuse(
             "wash.turns",
-            wash.turns,
-            turns,
+            curve.turns,
+            (LEAST_TURNS..=MOST_TURNS).contains(&curve.turns),
             format!("from {LEAST_TURNS} to {MOST_TURNS}"),
         )?;
-        from("wash.path_radius_m", wash.path_radius_m, LEAST_RADIUS_M)?;
+        let radius_key = if wash.path_radius_m.is_some() {
+            "wash.path_radius_m"
+        } else {
+            "layout.plate_radius_m"
+        };
+        from(radius_key, curve.radius_m, LEAST_RADIUS_M)?;
         from("wash.speed_m_s", wash.speed_m_s, LEAST_OF_TIP)?;
         from("wash.acceleration_m_s2", wash.acceleration_m_s2, LEAST_OF_TIP)?;
+        for (key, stated) in [
+            ("wash.landing_speed_m_s", wash.landing_speed_m_s),
+            ("wash.lifting_speed_m_s", wash.lifting_speed_m_s),
+        ] {
+            stated.map_or(Ok(()), |found| from(key, found, LEAST_OF_TIP))?;
+        }
         from("limits.tip_speed_m_s", limits.tip_speed_m_s, LEAST_OF_TIP)?;
         from(
             "limits.tip_acceleration_m_s2",
@@ -57,10 +88,9 @@ impl Scenario {
             from("limits.joint_acceleration_rad_s2", found, LEAST_JOINT_ACCELERATION)?;
         }
         // As the planner bounds it: a spiral of mean radius R/2, and a ring.
-        let length = PI * wash.path_radius_m * (wash.turns + 2.0);
-        let expected =
-            format!("such that the wash curve π · wash.path_radius_m · (wash.turns + 2) is at most {LONGEST_M} m");
-        refuse("wash.path_radius_m", wash.path_radius_m, length <= LONGEST_M, expected)
+        let length = PI * curve.radius_m * (curve.turns + 2.0);
+        let expected = format!("such that the wash curve π · {radius_key} · (wash.turns + 2) is at most {LONGEST_M} m");
+        refuse(radius_key, curve.radius_m, length <= LONGEST_M, expected)
     }
 }
 
@@ -84,15 +114,29 @@ mod tests {
 
     #[test]
     fn what_no_certified_job_can_have_is_refused_by_its_key() {
-        let cases: [(&str, Change); 11] = [
-            ("layout.plate_thickness_m", |s| s.layout.plate_thickness_m = 1e-6),
-            ("layout.plate_radius_m", |s| s.layout.plate_radius_m = 1e-6),
-            ("wash.turns", |s| s.wash.turns = 0.249),
-            ("wash.turns", |s| s.wash.turns = 200.1),
-            ("wash.path_radius_m", |s| s.wash.path_radius_m = 0.99e-4),
-            ("wash.path_radius_m", |s| {
-                (s.wash.path_radius_m, s.wash.turns) = (10.0, 3.0)
+        let cases: [(&str, Change); 18] = [
+            ("layout.plate_foot_m", |s| s.layout.plate_foot_m = Some([1e-6, 0.01])),
+            ("layout.plate_foot_m", |s| s.layout.plate_foot_m = Some([0.05, 1e-6])),
+            ("tool.sponge_compression_m", |s| {
+                s.tool.sponge_compression_m = 1.001 * s.tool.sponge_height_m
             }),
+            ("layout.plate_thickness_m", |s| s.layout.plate_thickness_m = 1e-6),
+            ("layout.plate_radius_m", |s| s.layout.plate_radius_m = Some(1e-6)),
+            ("wash.turns", |s| s.wash.turns = Some(0.249)),
+            ("wash.turns", |s| s.wash.turns = Some(200.1)),
+            ("wash.path_radius_m", |s| s.wash.path_radius_m = Some(0.99e-4)),
+            ("wash.path_radius_m", |s| {
+                (s.wash.path_radius_m, s.wash.turns) = (Some(10.0), Some(3.0))
+            }),
+            // Without a path radius the plate decides.
+            ("layout.plate_radius_m", |s| {
+                (s.wash.path_radius_m, s.layout.plate_radius_m) = (None, Some(2e-6))
+            }),
+            ("layout.plate_radius_m", |s| {
+                (s.wash.path_radius_m, s.layout.plate_radius_m) = (None, Some(9.0))
+            }),
+            ("wash.landing_speed_m_s", |s| s.wash.landing_speed_m_s = Some(1e-7)),
+            ("wash.lifting_speed_m_s", |s| s.wash.lifting_speed_m_s = Some(1e-7)),
             ("wash.speed_m_s", |s| s.wash.speed_m_s = 1e-300),
             ("wash.acceleration_m_s2", |s| s.wash.acceleration_m_s2 = 1e-9),
             ("limits.tip_speed_m_s", |s| s.limits.tip_speed_m_s = 1e-9),

@@ -171,6 +171,20 @@ fn simulation(f: &mut fmt::Formatter<'_>, error: &SimulationError) -> fmt::Resul
         SimulationError::Setting { name, expected, found } => {
             write!(f, "plant.{name} must be {expected}; found {found}")
         }
+        SimulationError::NoSponge => write!(f, "{error} (tool.length_m and the keys of its sponge)"),
+        SimulationError::Stiffness { range_pa, found_pa } => {
+            let [least, most] = range_pa.map(|pa| 1e-3 * pa);
+            write!(
+                f,
+                "plant.contact_stiffness_pa must be within tool.sponge_stiffness_kpa, {least} to {most} kPa; found {found_pa} Pa"
+            )
+        }
+        SimulationError::StiffContact { .. } => {
+            write!(
+                f,
+                "{error} (plant.substeps, control.rate_hz; plant.contact_stiffness_pa)"
+            )
+        }
         SimulationError::TooLong { .. } => {
             write!(f, "{error} (control.rate_hz, control.dt_s, plant.substeps)")
         }

@@ -3,6 +3,7 @@
 use crate::error::Problem;
 use crate::key::{Domain, Key};
 use platewash_kinematics::words::rounded;
+use platewash_workcell::surface::MOST_KNOTS;
 use serde_json::Value;
 
 /// Significant digits of a length that is suggested.
@@ -42,6 +43,10 @@ fn fits(domain: Domain, value: &Value) -> bool {
                 |p: &Value| numbers(p).is_some_and(|v| v.len() == 2 && v.iter().all(|c| (least..=most).contains(c)));
             (1..=1000).contains(&points.len()) && points.iter().all(fine)
         }),
+        Domain::PairAbove(above, most) => {
+            numbers(value).is_some_and(|v| v.len() == 2 && v.iter().all(|v| *v > above && *v <= most))
+        }
+        Domain::Knots(most_m, most_deg) => knots(value, [most_m, most_deg]),
     }
 }
 
@@ -59,6 +64,20 @@ fn in_millimetres(key: &Key, value: &Value) -> String {
         }
         _ => String::new(),
     }
+}
+
+fn knots(value: &Value, [most_m, most_deg]: [f64; 2]) -> bool {
+    let Some(knots) = value.as_array() else { return false };
+    let mut before_m = 0.0;
+    let mut fine = |knot: &Value| {
+        let Some([radius_m, slope_deg]) = numbers(knot).and_then(|v| <[f64; 2]>::try_from(v).ok()) else {
+            return false;
+        };
+        let grows = radius_m > before_m && radius_m <= most_m;
+        before_m = radius_m;
+        grows && slope_deg.abs() <= most_deg
+    };
+    (1..=MOST_KNOTS).contains(&knots.len()) && knots.iter().all(&mut fine)
 }
 
 fn six(value: &Value, fine: impl Fn(f64) -> bool) -> bool {

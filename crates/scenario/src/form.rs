@@ -87,5 +87,8 @@ fn form_domain(domain: Domain) -> FormDomain {
         Domain::Joints(least, most) => between("joints", least, most),
         Domain::JointsAbove(above, most) => between("joints_above", above, most),
         Domain::Points(least, most) => between("points", least, most),
+        Domain::PairAbove(above, most) => between("pair_above", above, most),
+        // Pairs, too; which of them are knots is for the scenario to say.
+        Domain::Knots(most_m, most_deg) => between("points", -most_m.max(most_deg), most_m.max(most_deg)),
     }
 }

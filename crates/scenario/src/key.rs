@@ -1,7 +1,10 @@
 //! A scenario key: its path, unit, range and meaning.
 
-use Domain::{Bool, Integer, Joints, JointsAbove, Number, NumberAbove, Path, Paths, Points, Range, Text, Word};
+use Domain::{
+    Bool, Integer, Joints, JointsAbove, Knots, Number, NumberAbove, PairAbove, Path, Paths, Points, Range, Text, Word,
+};
 use platewash_workcell::job::MAX_SEED;
+use platewash_workcell::surface::MOST_KNOTS;
 
 /// What values a key takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +33,11 @@ pub enum Domain {
     JointsAbove(f64, f64),
     /// A list of 1 to 1000 points `[x, y]`, coordinates within the range.
     Points(f64, f64),
+    /// Two numbers, each above the first and up to the second.
+    PairAbove(f64, f64),
+    /// The knots of a profile, from the pole on: a list of `[radius in m, slope in degrees]`, radii growing up to the first, slopes up to the
+    /// second, either way.
+    Knots(f64, f64),
 }
 
 /// A key of the scenario file.
@@ -43,6 +51,16 @@ pub struct Key {
     pub domain: Domain,
     /// What it means.
     pub meaning: &'static str,
+}
+
+/// A row of the table.
+pub(crate) const fn key(path: &'static str, unit: &'static str, domain: Domain, meaning: &'static str) -> Key {
+    Key {
+        path,
+        unit,
+        domain,
+        meaning,
+    }
 }
 
 impl Domain {
@@ -68,6 +86,11 @@ impl Domain {
             Joints(least, most) => format!("six numbers from {least} to {most}"),
             JointsAbove(above, most) => format!("six numbers above {above}, up to {most}"),
             Points(least, most) => format!("a list of 1 to 1000 [x, y], coordinates from {least} to {most}"),
+            PairAbove(above, most) => format!("two numbers above {above}, up to {most}"),
+            Knots(most_m, most_deg) => format!(
+                "a list of 1 to {MOST_KNOTS} [radius, slope]: radii above 0 m and each above the one before, up to {most_m} m, slopes \
+                 from −{most_deg} to {most_deg} degrees"
+            ),
         }
     }
 }

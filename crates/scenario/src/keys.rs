@@ -1,23 +1,36 @@
-//! The one table of scenario keys: unit, range, meaning.
+//! The one table of scenario keys: unit, range, meaning. The rows of `[wash]` are in `wash_keys.rs`.
 
 use crate::control::TIME_STEPS_S;
+use crate::key::key;
 pub use crate::key::{Domain, Key};
+use crate::wash_keys::WASH_KEYS;
 use platewash_workcell::job::MAX_SEED;
 use platewash_workcell::simulation::ControlLawName;
 
-const fn key(path: &'static str, unit: &'static str, domain: Domain, meaning: &'static str) -> Key {
-    Key {
-        path,
-        unit,
-        domain,
-        meaning,
-    }
-}
-
-use Domain::{Bool, Integer, Joints, JointsAbove, Number, NumberAbove, Path, Paths, Points, Range, Text, Word};
+use Domain::{
+    Bool, Integer, Joints, JointsAbove, Knots, Number, NumberAbove, PairAbove, Path, Paths, Points, Range, Text, Word,
+};
 
 /// Every key, in the order of the reference.
-pub const KEYS: &[Key] = &[
+pub const KEYS: &[Key] =
+    &joined::<{ BEFORE_WASH.len() + WASH_KEYS.len() + BEHIND_WASH.len() }>([BEFORE_WASH, WASH_KEYS, BEHIND_WASH]);
+
+/// Parts of the table as one.
+const fn joined<const N: usize>(parts: [&[Key]; 3]) -> [Key; N] {
+    let (mut all, mut part, mut at) = ([parts[0][0]; N], 0, 0);
+    while part < parts.len() {
+        let mut k = 0;
+        while k < parts[part].len() {
+            all[at] = parts[part][k];
+            (k, at) = (k + 1, at + 1);
+        }
+        part += 1;
+    }
+    all
+}
+
+/// Those of the sections before `[wash]`.
+const BEFORE_WASH: &[Key] = &[
     key("name", "", Text, "Name, for reports."),
     key(
         "seed",
@@ -97,7 +110,8 @@ pub const KEYS: &[Key] = &[
         "tool.length_m",
         "m",
         Number(0.0, 2.0),
-        "From the flange to the sponge's far face, along the flange's normal; 0 means no tool body; above 0 in a certified job.",
+        "From the flange, along its normal, to the sponge's far face as it is pressed while it washes: the free sponge is longer by \
+         sponge_compression_m. 0 means no tool body; above 0 in a certified job.",
     ),
     key("tool.radius_m", "m", NumberAbove(0.0, 1.0), "Radius of the handle."),
     key(
@@ -110,13 +124,21 @@ pub const KEYS: &[Key] = &[
         "tool.sponge_height_m",
         "m",
         NumberAbove(0.0, 1.0),
-        "Height of the sponge; with a tool body, below its length.",
+        "Height of the sponge while it washes: the handle ends so far above the contact. With a tool body, below its length.",
     ),
     key(
         "tool.sponge_compression_m",
         "m",
         Number(0.0, 1.0),
-        "How far the sponge is pressed in while it washes: the tip may lift as far and still touch. An assumption.",
+        "How far the sponge is pressed in while it washes, and how much higher it is while nothing presses it: the tip may lift as \
+         far and still touch. An assumption.",
+    ),
+    key(
+        "tool.sponge_stiffness_kpa",
+        "kPa",
+        Range(1e-3, 1e6),
+        "Least and greatest stiffness of the sponge, pressure over strain: an assumption. Without it, [11, 44] where wash.contact is \
+         true, otherwise unknown.",
     ),
     key(
         "tool.mass_kg",
@@ -147,19 +169,40 @@ pub const KEYS: &[Key] = &[
         "layout.plate_radius_m",
         "m",
         NumberAbove(0.0, 10.0),
-        "Radius of a plate; above 0.000001 in a certified job.",
+        "Radius of a flat plate, 0.145 without it; above 0.000001 in a certified job. The other profiles have their own.",
+    ),
+    key(
+        "layout.plate_profile",
+        "",
+        Word(&["flat", "coupe275", "rim270", "deep230", "dessert190"]),
+        "Shape of the washing surface: a flat disc, or a profile that comes along. `coupe275` is fitted to a scan of a real plate; the \
+         shapes of the others are assumptions.",
+    ),
+    key(
+        "layout.plate_knots",
+        "m, deg",
+        Knots(10.0, 60.0),
+        "Shape of the washing surface by knots of its meridian, from the pole on, in place of `plate_profile`: radius and slope, above 0 \
+         where it rises outwards. Between knots the sine of the slope is linear in the radius: arcs and lines without a bend. At the pole \
+         the slope is 0, so that the first piece is an arc: [[0.105, 10]] has its rim 9.2 mm over the pole.",
+    ),
+    key(
+        "layout.plate_foot_m",
+        "m",
+        PairAbove(0.0, 1.0),
+        "Radius and height of the ring that a plate stands on, below its body; its radius is at most that of the rim.",
     ),
     key(
         "layout.plate_height_m",
         "m",
         Number(-10.0, 10.0),
-        "z of the washing surface.",
+        "z of the pole of the washing surface: of a flat one all of it, of a profile the middle of its well.",
     ),
     key(
         "layout.plate_thickness_m",
         "m",
         NumberAbove(0.0, 1.0),
-        "Thickness of a plate, downwards from its washing surface; above 0.000001 in a certified job.",
+        "Thickness of a plate, downwards from its washing surface, along its axis; above 0.000001 in a certified job.",
     ),
     key(
         "layout.region",
@@ -211,63 +254,10 @@ pub const KEYS: &[Key] = &[
         Points(-10.0, 10.0),
         "Plate centres, in place of sampling: as many plates as are listed.",
     ),
-    key("wash.points", "", Integer(2, 100_000), "Waypoints of the spiral."),
-    key(
-        "wash.turns",
-        "",
-        NumberAbove(0.0, 1000.0),
-        "Turns of the spiral; from 0.25 to 200 in a certified job.",
-    ),
-    key(
-        "wash.path_radius_m",
-        "m",
-        NumberAbove(0.0, 10.0),
-        "Outer radius of the spiral; in a certified job at least 0.0001, and π · path_radius_m · (turns + 2) at most 100 m.",
-    ),
-    key(
-        "wash.height_m",
-        "m",
-        Number(0.0, 1.0),
-        "Height of the tip above the washing surface.",
-    ),
-    key(
-        "wash.closing_ring",
-        "",
-        Bool,
-        "Whether a full circle at the outer radius follows the spiral.",
-    ),
-    key(
-        "wash.clearance_m",
-        "m",
-        Number(0.0, 1.0),
-        "Least clearance that counts as free; at 0 only contact is a violation. In a certified job the planner keeps 0.5 mm more \
-         while washing, and 1 mm more at home, on the lines over plates and between them, because it looks in steps.",
-    ),
-    key(
-        "wash.tilt_max_deg",
-        "deg",
-        Number(0.0, 60.0),
-        "Largest angle of the tool from the plate's normal at a plate (certified), and never above atan(sponge_height_m / sponge_radius_m).",
-    ),
-    key(
-        "wash.speed_m_s",
-        "m/s",
-        NumberAbove(0.0, 10.0),
-        "Largest speed of the tip while it washes, and of the sponge's rim where it touches before and after (certified); at least 0.000001.",
-    ),
-    key(
-        "wash.acceleration_m_s2",
-        "m/s²",
-        NumberAbove(0.0, 1000.0),
-        "Largest acceleration of the tip while it washes (certified); at least 0.000001.",
-    ),
-    key(
-        "wash.lift_m",
-        "m",
-        NumberAbove(0.0, 1.0),
-        "How far the tip approaches and retreats along the plate's normal (certified): more than clearance_m and 1 mm, so that a \
-         tilted sponge too is clear of the plate.",
-    ),
+];
+
+/// Those of the sections behind it.
+const BEHIND_WASH: &[Key] = &[
     key(
         "ik.method",
         "",
@@ -427,9 +417,23 @@ pub const KEYS: &[Key] = &[
         "Largest joint torques; without it, those of the arm's description, where an effort of 0 means unknown, not a limit.",
     ),
     key(
+        "plant.contact_stiffness_pa",
+        "Pa",
+        NumberAbove(0.0, 1e9),
+        "Stiffness with which plates push the sponge's foam back, wherever it touches: an assumption, within tool.sponge_stiffness_kpa. Without \
+         it, the geometric mean of that range; where neither is stated, and no force, plates do not push back.",
+    ),
+    key(
+        "plant.contact_damping_pa_s",
+        "Pa·s",
+        Number(0.0, 1e9),
+        "Damping of that foam, pressure over the speed of strain: off by default, as none is published.",
+    ),
+    key(
         "plant.contact_force_n",
         "N",
         Number(0.0, 1e4),
-        "Force of a plate on the sponge while it washes, along the plate's normal: off by default.",
+        "A constant force of a plate on the sponge while it washes, along the plate's normal, in place of the foam; 0 where plates shall not \
+         push back.",
     ),
 ];

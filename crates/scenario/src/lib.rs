@@ -9,6 +9,7 @@
 
 mod arm;
 mod certified;
+mod contact;
 mod control;
 mod document;
 mod draft;
@@ -40,6 +41,7 @@ mod unknown;
 mod value;
 mod values;
 mod wash;
+mod wash_keys;
 mod work;
 mod write;
 
@@ -54,13 +56,13 @@ pub use ik::IkSection;
 pub use job::{JobSection, OnFailure, Program};
 pub use layout::{LayoutSection, RegionName};
 pub use limits::LimitsSection;
-pub use plant::PlantSection;
+pub use plant::{PlantSection, plant_keys};
 pub use robot::{BuiltInArm, RobotSection};
 pub use scenario::Scenario;
 pub use seed::check_seed;
 pub use shipped::{SHIPPED, ShippedScenario};
 pub use source::{ScenarioSource, source};
-pub use tool::ToolSection;
+pub use tool::{ASSUMED_STIFFNESS_KPA, ToolSection};
 pub use transition::TransitionSection;
 pub use units::UnitNote;
 pub use values::values_of;

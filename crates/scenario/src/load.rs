@@ -98,6 +98,7 @@ impl Scenario {
                 "no region to sample from: give region, or x_m and y_m, or rho_m, or positions_m".into(),
             );
         }
+        layout.check_shape()?;
         if tool.length_m > 0.0 && tool.sponge_height_m >= tool.length_m {
             let (sponge, length) = (tool.sponge_height_m, tool.length_m);
             return conflict(
@@ -118,11 +119,22 @@ impl Scenario {
                     .into(),
             );
         }
+        if self.job.program == Program::Paper && !layout.surface().is_flat() {
+            return conflict(
+                layout.shape_key(),
+                "the paper's program washes flat plates alone: give plate_radius_m, or job.program = \"certified\""
+                    .into(),
+            );
+        }
         self.check_control()?;
         self.check_certified()?;
+        self.check_contact()?;
         self.check_waypoints()
     }
 }
+
+/// What a stiffness may be past the bounds of a range in another unit, as a part of them.
+const ROUNDING: f64 = 1e-12;
 
 impl Scenario {
     /// Gains come in pairs, and the paper's program needs a law without a plant.
@@ -141,6 +153,31 @@ impl Scenario {
                 self.law().name()
             );
             return conflict("control.law", detail);
+        }
+        self.check_foam()
+    }
+
+    /// Plates push back by foam or with a constant force, and foam has a stiffness.
+    fn check_foam(&self) -> Result<(), Problem> {
+        let (plant, range) = (&self.plant, self.tool.sponge_stiffness_kpa);
+        let conflict = |keys: &str, detail: String| {
+            let keys = keys.to_owned();
+            Err(Problem::Conflict { keys, detail })
+        };
+        let foam = plant.contact_stiffness_pa.or(plant.contact_damping_pa_s);
+        if foam.is_some() && plant.contact_force_n.is_some_and(|force| force > 0.0) {
+            let detail = "a constant force stands in place of the foam: give it, or contact_stiffness_pa and contact_damping_pa_s";
+            return conflict("plant.contact_force_n", detail.into());
+        }
+        if plant.contact_stiffness_pa.is_none() && plant.contact_damping_pa_s.is_some() && range.is_none() {
+            let detail = "damps foam of a stiffness that nothing states: give plant.contact_stiffness_pa or tool.sponge_stiffness_kpa";
+            return conflict("plant.contact_damping_pa_s", detail.into());
+        }
+        if let (Some(found), Some([least, most])) = (plant.contact_stiffness_pa, range)
+            && !(1e-3 * found >= least * (1.0 - ROUNDING) && 1e-3 * found <= most * (1.0 + ROUNDING))
+        {
+            let detail = format!("must be within tool.sponge_stiffness_kpa, {least} to {most} kPa; found {found} Pa");
+            return conflict("plant.contact_stiffness_pa", detail);
         }
         Ok(())
     }

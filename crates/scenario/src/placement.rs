@@ -1,14 +1,16 @@
 //! From the `[layout]` section to plates.
 
 use crate::failure::Failure;
-use crate::layout::LayoutSection;
+use crate::layout::{LayoutSection, PLATE_RADIUS_M};
 use crate::scenario::Scenario;
 use platewash_kinematics::RobotModel;
 use platewash_planner::Watch;
 use platewash_workcell::layout::{
     self, BaseFootprint, Layout, LayoutError, Placement, PlateGeometry, Region, Sampler, Spacing, TaskRegion,
 };
+use platewash_workcell::plate::Foot;
 use platewash_workcell::random;
+use platewash_workcell::surface::{Knot, MeridianError, Surface};
 use rand_pcg::Pcg64;
 use std::sync::Arc;
 
@@ -34,10 +36,33 @@ impl LayoutSection {
     #[must_use]
     pub fn geometry(&self) -> PlateGeometry {
         PlateGeometry {
-            radius_m: self.plate_radius_m,
+            surface: self.surface(),
             height_m: self.plate_height_m,
             thickness_m: self.plate_thickness_m,
+            foot: self
+                .plate_foot_m
+                .map(|[radius_m, height_m]| Foot { radius_m, height_m }),
         }
+    }
+
+    /// The face of every plate. A list of knots that is no meridian, which no scenario that was read has, counts as none.
+    #[must_use]
+    pub fn surface(&self) -> Surface {
+        let of_knots = || self.profile_of_knots()?.ok();
+        let named = || self.plate_profile.and_then(|profile| Surface::shipped(profile.name()));
+        of_knots().or_else(named).unwrap_or(Surface::Disc {
+            radius_m: self.plate_radius_m.unwrap_or(PLATE_RADIUS_M),
+        })
+    }
+
+    /// The face by its knots, where they are stated, or why they are no meridian.
+    pub(crate) fn profile_of_knots(&self) -> Option<Result<Surface, MeridianError>> {
+        let knot = |&[radius_m, slope_deg]: &[f64; 2]| Knot {
+            radius_m,
+            slope_rad: slope_deg.to_radians(),
+        };
+        let knots: Vec<_> = self.plate_knots.as_ref()?.iter().map(knot).collect();
+        Some(Surface::profile(&knots))
     }
 
     /// How far they keep apart.

@@ -1,10 +1,11 @@
 //! The `[plant]` section.
 
-use platewash_workcell::simulation::{Integrator, PlantSettings};
+use platewash_workcell::simulation::{FoamContact, Integrator, PlantSettings};
+use platewash_workcell::tool::Sponge;
 use serde::{Deserialize, Serialize};
 
-/// `[plant]`: the arm as a physical system, where a law gives torques. Friction, torque limits and contact force are off
-/// unless given: there are no published figures.
+/// `[plant]`: the arm as a physical system, where a law gives torques. Friction and torque limits are off unless given: there are no published
+/// figures. Plates push back by the sponge's foam where its stiffness is stated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PlantSection {
@@ -19,22 +20,44 @@ pub struct PlantSection {
     /// Largest joint torques \[N·m\]; without them, those of the arm's description where it knows any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_limit_n_m: Option<[f64; 6]>,
-    /// Force of a plate on the sponge while it washes, along the plate's normal \[N\].
-    pub contact_force_n: f64,
+    /// E: the stiffness with which plates push the sponge's foam back \[Pa\]; without it, the middle of the tool's range where that is stated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_stiffness_pa: Option<f64>,
+    /// η: damping of that foam, pressure over the speed of strain \[Pa·s\]; without it, none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_damping_pa_s: Option<f64>,
+    /// A constant force of a plate on the sponge while it washes, along the plate's normal \[N\]: in place of the foam where it is stated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_force_n: Option<f64>,
 }
 
 impl PlantSection {
-    /// The plant.
+    /// The plant of an arm that holds a sponge, if it does.
     #[must_use]
-    pub fn settings(&self) -> PlantSettings {
+    pub fn settings(&self, sponge: Option<&Sponge>) -> PlantSettings {
         PlantSettings {
             integrator: self.integrator,
             substeps: self.substeps,
             viscous_friction_n_m_s: self.viscous_friction_n_m_s,
             coulomb_friction_n_m: self.coulomb_friction_n_m,
             torque_limit_n_m: self.torque_limit_n_m,
-            contact_force_n: self.contact_force_n,
+            contact_force_n: self.contact_force_n.unwrap_or(0.0),
+            contact: self.contact(sponge),
         }
+    }
+
+    /// The foam: of the stiffness stated, otherwise of the sponge's own unless a constant force stands in its place.
+    fn contact(&self, sponge: Option<&Sponge>) -> Option<FoamContact> {
+        let stated = self.contact_stiffness_pa.map(|stiffness_pa| FoamContact {
+            stiffness_pa,
+            damping_pa_s: 0.0,
+        });
+        let own = || match self.contact_force_n {
+            Some(_) => None,
+            None => sponge.and_then(FoamContact::of),
+        };
+        let damping_pa_s = self.contact_damping_pa_s.unwrap_or(0.0);
+        stated.or_else(own).map(|foam| FoamContact { damping_pa_s, ..foam })
     }
 }
 
@@ -46,7 +69,7 @@ impl Default for PlantSection {
             viscous_friction_n_m_s,
             coulomb_friction_n_m,
             torque_limit_n_m,
-            contact_force_n,
+            ..
         } = PlantSettings::default();
         Self {
             integrator,
@@ -54,7 +77,86 @@ impl Default for PlantSection {
             viscous_friction_n_m_s,
             coulomb_friction_n_m,
             torque_limit_n_m,
-            contact_force_n,
+            contact_stiffness_pa: None,
+            contact_damping_pa_s: None,
+            contact_force_n: None,
+        }
+    }
+}
+
+impl From<&PlantSettings> for PlantSection {
+    /// The section that states all of a plant.
+    fn from(plant: &PlantSettings) -> Self {
+        Self {
+            integrator: plant.integrator,
+            substeps: plant.substeps,
+            viscous_friction_n_m_s: plant.viscous_friction_n_m_s,
+            coulomb_friction_n_m: plant.coulomb_friction_n_m,
+            torque_limit_n_m: plant.torque_limit_n_m,
+            contact_stiffness_pa: plant.contact.map(|foam| foam.stiffness_pa),
+            contact_damping_pa_s: plant
+                .contact
+                .map(|foam| foam.damping_pa_s)
+                .filter(|damping| *damping != 0.0),
+            contact_force_n: plant.contact.is_none().then_some(plant.contact_force_n),
+        }
+    }
+}
+
+/// The keys of `[plant]` that state all of a plant, with their values, for whoever has no file.
+#[must_use]
+pub fn plant_keys(plant: &PlantSettings) -> impl Serialize + use<> {
+    PlantSection::from(plant)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_workcell::tool::{StraightTool, Tool};
+
+    fn sponge(stiffness: Option<[f64; 2]>) -> Sponge {
+        let straight = StraightTool {
+            length_m: 0.15,
+            sponge_stiffness_pa: stiffness,
+            ..StraightTool::default()
+        };
+        Tool::from(straight).sponge
+    }
+
+    #[test]
+    fn foam_is_on_where_its_stiffness_is_known_and_nothing_else_is_said() {
+        let section = PlantSection::default();
+        let known = sponge(Some([11e3, 44e3]));
+        let contact = section.settings(Some(&known)).contact.unwrap();
+        assert!((contact.stiffness_pa - 22e3).abs() < 1e-6 && contact.damping_pa_s == 0.0);
+        assert_eq!(section.settings(Some(&sponge(None))).contact, None);
+        assert_eq!(section.settings(None), PlantSettings::default());
+        let damped = PlantSection {
+            contact_damping_pa_s: Some(50.0),
+            ..section.clone()
+        };
+        assert_eq!(damped.settings(Some(&known)).contact.unwrap().damping_pa_s, 50.0);
+        let constant = PlantSection {
+            contact_force_n: Some(0.0),
+            ..section
+        };
+        assert_eq!(constant.settings(Some(&known)).contact, None, "the way to turn it off");
+    }
+
+    #[test]
+    fn a_plant_comes_back_from_its_section() {
+        for contact in [
+            None,
+            Some(FoamContact {
+                stiffness_pa: 12_345.678,
+                damping_pa_s: 3.0,
+            }),
+        ] {
+            let plant = PlantSettings {
+                contact,
+                ..PlantSettings::default()
+            };
+            assert_eq!(PlantSection::from(&plant).settings(None), plant);
         }
     }
 }

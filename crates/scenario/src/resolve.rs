@@ -4,6 +4,8 @@ use crate::arm::load_arm;
 use crate::failure::Failure;
 use crate::job::Program;
 use crate::scenario::Scenario;
+use crate::tool::ASSUMED_STIFFNESS_KPA;
+use crate::wash::{PAPER_RADIUS_M, PAPER_TURNS};
 use platewash_kinematics::RobotModel;
 use platewash_paper::order::PaperOrder;
 use platewash_paper::settings::{PaperIk, TransitCurve};
@@ -16,6 +18,7 @@ use platewash_workcell::job::{
 };
 use platewash_workcell::layout::{Finding, Layout};
 use platewash_workcell::simulation::{ControlLawName, SimulationSettings};
+use platewash_workcell::tool::Sponge;
 use platewash_workcell::workcell::Workcell;
 use std::sync::Arc;
 
@@ -131,6 +134,9 @@ impl Scenario {
                 path_radius_m: wash.path_radius_m,
                 turns: wash.turns,
                 closing_ring: wash.closing_ring,
+                pattern: wash.pattern,
+                tilt_rad: wash.tilt_deg.map(f64::to_radians),
+                axis_share: wash.axis_share,
                 lift_m: wash.lift_m,
                 order: self.job.order,
                 arc: self.arc(),
@@ -150,9 +156,9 @@ impl Scenario {
         PaperSettings {
             spiral: PaperSpiral {
                 points: wash.points,
-                turns: wash.turns,
-                radius_m: wash.path_radius_m,
-                closing_ring: wash.closing_ring,
+                turns: wash.turns.unwrap_or(PAPER_TURNS),
+                radius_m: wash.path_radius_m.unwrap_or(PAPER_RADIUS_M),
+                closing_ring: wash.closing_ring.unwrap_or(false),
             },
             height_m: wash.height_m,
             transit: TransitCurve {
@@ -176,11 +182,16 @@ impl Scenario {
 
     /// The arm with its tool, on the floor.
     fn workcell(&self, arm: &RobotModel) -> Result<Workcell, Failure> {
-        Ok(Workcell::on_floor(arm, self.tool.tool())?)
+        let mut tool = self.tool.clone();
+        if self.wash.contact {
+            tool.sponge_stiffness_kpa.get_or_insert(ASSUMED_STIFFNESS_KPA);
+        }
+        Ok(Workcell::on_floor(arm, tool.tool())?)
     }
 
     fn requirements(&self) -> Requirements {
         let wash = &self.wash;
+        let [landing_m_s, lifting_m_s] = wash.landing_and_lifting_m_s();
         Requirements {
             coverage: self.job.required_coverage,
             clearance_m: wash.clearance_m,
@@ -189,6 +200,10 @@ impl Scenario {
             wash_acceleration_m_s2: wash.acceleration_m_s2,
             overlap: self.layout.overlap,
             as_listed: self.job.order == OrderRule::Given,
+            landing_m_s,
+            lifting_m_s,
+            wrist_rad: wash.wrist_rad(),
+            contact: wash.contact_requirements(),
         }
     }
 
@@ -201,11 +216,17 @@ impl Scenario {
         }
     }
 
+    /// The sponge, where there is a tool that holds one.
+    fn sponge(&self) -> Option<Sponge> {
+        let tool = self.tool.tool();
+        tool.is_present().then_some(tool.sponge)
+    }
+
     fn simulation(&self) -> SimulationSettings {
         SimulationSettings {
             law: self.law(),
             control: self.control.settings(),
-            plant: self.plant.settings(),
+            plant: self.plant.settings(self.sponge().as_ref()),
             payload_kg: self.robot.payload_kg,
         }
     }
@@ -239,9 +260,14 @@ mod tests {
 
     #[test]
     fn the_kitchen_of_other_crates_tests_is_the_shipped_one() {
-        let job = Scenario::load("kitchen").unwrap().job().unwrap();
-        assert_eq!(job.terms(), fixtures::kitchen().terms());
-        assert_eq!(job.name(), "kitchen");
+        for (name, fixture) in [
+            ("kitchen-spiral", fixtures::kitchen()),
+            ("kitchen", fixtures::contact_kitchen()),
+        ] {
+            let job = Scenario::load(name).unwrap().job().unwrap();
+            assert_eq!(job.terms(), fixture.terms(), "{name}");
+            assert_eq!(job.name(), name);
+        }
     }
 
     #[test]

@@ -16,12 +16,32 @@ pub const SHIPPED: &[ShippedScenario] = &[
         text: include_str!("../../../scenarios/kitchen.toml"),
     },
     ShippedScenario {
+        name: "kitchen-spiral",
+        text: include_str!("../../../scenarios/kitchen-spiral.toml"),
+    },
+    ShippedScenario {
         name: "kitchen-roomy",
         text: include_str!("../../../scenarios/kitchen-roomy.toml"),
     },
     ShippedScenario {
         name: "kitchen-rim",
         text: include_str!("../../../scenarios/kitchen-rim.toml"),
+    },
+    ShippedScenario {
+        name: "coupe",
+        text: include_str!("../../../scenarios/coupe.toml"),
+    },
+    ShippedScenario {
+        name: "rim",
+        text: include_str!("../../../scenarios/rim.toml"),
+    },
+    ShippedScenario {
+        name: "deep",
+        text: include_str!("../../../scenarios/deep.toml"),
+    },
+    ShippedScenario {
+        name: "dessert",
+        text: include_str!("../../../scenarios/dessert.toml"),
     },
     ShippedScenario {
         name: "paper-appendix",

@@ -3,20 +3,28 @@
 use platewash_workcell::tool::{StraightTool, Tool};
 use serde::{Deserialize, Serialize};
 
+/// Stiffness of a sponge where contact is promised and none is stated \[kPa\]: an assumption, after the firmness of upholstery foams
+/// (20 to 80 lbf on 50 in² at a quarter of the height).
+pub const ASSUMED_STIFFNESS_KPA: [f64; 2] = [11.0, 44.0];
+
 /// `[tool]`: a straight handle with a sponge at its end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ToolSection {
-    /// From the flange to the sponge's far face \[m\]; 0 for no tool body.
+    /// From the flange to the sponge's far face as it is pressed while it washes \[m\]; 0 for no tool body.
     pub length_m: f64,
     /// Radius of the handle \[m\].
     pub radius_m: f64,
     /// Radius of the sponge \[m\]; also decides coverage.
     pub sponge_radius_m: f64,
-    /// Height of the sponge \[m\].
+    /// Height of the sponge while it washes \[m\]: the handle ends that far above the contact.
     pub sponge_height_m: f64,
-    /// How far the sponge is pressed in while it washes \[m\]: the tip may lift as far and still touch. An assumption.
+    /// How far the sponge is pressed in while it washes \[m\], so much higher it is while nothing presses it: the tip may lift as far and
+    /// still touch. An assumption.
     pub sponge_compression_m: f64,
+    /// Least and greatest stiffness of the sponge, pressure over strain \[kPa\]: an assumption; without it, [`ASSUMED_STIFFNESS_KPA`]
+    /// where contact is promised, otherwise unknown.
+    pub sponge_stiffness_kpa: Option<[f64; 2]>,
     /// Mass of the tool body \[kg\]: an assumption.
     pub mass_kg: f64,
     /// Distance of its centre of mass from the flange along its axis \[m\]; without it, half its length.
@@ -38,6 +46,7 @@ impl ToolSection {
             sponge_radius_m: self.sponge_radius_m,
             sponge_height_m: self.sponge_height_m,
             sponge_compression_m: self.sponge_compression_m,
+            sponge_stiffness_pa: self.sponge_stiffness_kpa.map(|range| range.map(|kpa| 1e3 * kpa)),
             mass_kg: self.mass_kg,
             com_m: self.com_m,
             inertia_kg_m2: self.inertia_kg_m2,
@@ -53,6 +62,7 @@ impl Default for ToolSection {
             sponge_radius_m,
             sponge_height_m,
             sponge_compression_m,
+            sponge_stiffness_pa: _,
             mass_kg,
             com_m,
             inertia_kg_m2,
@@ -63,6 +73,7 @@ impl Default for ToolSection {
             sponge_radius_m,
             sponge_height_m,
             sponge_compression_m,
+            sponge_stiffness_kpa: None,
             mass_kg,
             com_m,
             inertia_kg_m2,

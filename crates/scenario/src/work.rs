@@ -23,7 +23,10 @@ impl Scenario {
     /// Contact points of a certified job: those of every plate's wash path.
     #[must_use]
     pub fn contact_points(&self) -> usize {
-        let a_plate = self.wash_curve().parameters(CHORD_ERROR_M).len();
+        let a_plate = self
+            .wash_curve()
+            .parameters(&self.layout.surface(), CHORD_ERROR_M)
+            .len();
         a_plate.saturating_mul(self.plates())
     }
 
@@ -110,7 +113,7 @@ mod tests {
     /// Waypoints are the paper program's alone: they refuse no certified job, whose own wash paths count.
     #[test]
     fn only_keys_that_the_program_uses_count() {
-        let mut scenario = Scenario::load("kitchen").unwrap();
+        let mut scenario = Scenario::load("kitchen-spiral").unwrap();
         (scenario.wash.points, scenario.transition.samples) = (100_000, 100_000);
         scenario.layout.count = 200;
         assert!(scenario.validate().is_ok() && scenario.check_work().is_ok());

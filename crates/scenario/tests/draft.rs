@@ -228,7 +228,7 @@ fn the_form_is_the_table_of_keys() {
         of("wash.points"),
         json!({
             "path": "wash.points", "unit": "", "domain": {"kind": "integer", "least": 2, "most": 100_000},
-            "expected": "a whole number from 2 to 100000", "meaning": "Waypoints of the spiral.", "default": 55,
+            "expected": "a whole number from 2 to 100000", "meaning": "Waypoints of the paper's spiral.", "default": 55,
         })
     );
     assert_eq!(

@@ -4,7 +4,7 @@
 #[path = "support/two_plates.rs"]
 mod two_plates;
 
-use platewash_kinematics::{JointVector, RobotModel};
+use platewash_kinematics::JointVector;
 use platewash_simulator::simulate::{Cause, PayloadVerdict, PlateVerdict, SimulationVerdict};
 use platewash_simulator::{
     ControlError, Execution, SimulationError, SimulationReport, simulate, simulate_watched, simulate_with, tune,
@@ -15,26 +15,7 @@ use platewash_workcell::plan::{Knots, Plan};
 use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use platewash_workcell::simulation::{ControlLawName, Integrator, SimulationSettings};
 use platewash_workcell::trajectory::Trajectory;
-use std::sync::OnceLock;
-
-fn planned() -> &'static (RobotModel, Plan) {
-    static PLANNED: OnceLock<(RobotModel, Plan)> = OnceLock::new();
-    PLANNED.get_or_init(two_plates::plan)
-}
-
-fn under(law: ControlLawName, frequency: f64) -> SimulationSettings {
-    let mut settings = planned().1.job.simulation.clone();
-    settings.law = law;
-    settings.control.frequency_rad_s = frequency;
-    settings
-}
-
-fn judged(settings: &SimulationSettings) -> (Execution, SimulationReport) {
-    let (robot, plan) = planned();
-    let execution = simulate(plan, robot, settings).unwrap();
-    let report = SimulationReport::new(plan, robot, settings, &execution).unwrap();
-    (execution, report)
-}
+use two_plates::{judged, planned, under};
 
 #[test]
 fn computed_torque_covers_as_much_as_planned() {

@@ -10,11 +10,13 @@ use platewash_simulator::{Execution, SimulationReport, simulate};
 use platewash_viewer::View;
 use platewash_viewer::view::{Beside, Executed, ViewError};
 use platewash_workcell::dry_run::DryRun;
-use platewash_workcell::fixtures::{kitchen, kitchen_tool};
+use platewash_workcell::fixtures::{contact_kitchen, kitchen, kitchen_tool};
 use platewash_workcell::layout::TaskRegion;
 use platewash_workcell::plan::Plan;
+use platewash_workcell::plate::Foot;
 use platewash_workcell::recorded::RecordedMotion;
 use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::surface::Surface;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -159,6 +161,98 @@ fn what_is_swept_is_what_is_proved_and_simulated() {
     }
 }
 
+/// Of a job that says what counts as contact the maps show that, and the certificate's words are its own.
+#[test]
+fn what_is_pressed_is_what_is_proved() {
+    let job = contact_kitchen();
+    let job = job.on_plates(job.terms().plates[..1].to_vec()).unwrap();
+    let plan = platewash_planner::plan(&job).unwrap().plan;
+    let certificate = prove(&plan, job.arm()).unwrap();
+    let proved = certificate.contact[0];
+    let document = |plan: &Plan, certificate| {
+        let beside = Beside {
+            certificate,
+            ..Beside::default()
+        };
+        serde_json::to_value(View::of_plan(plan, job.arm(), &beside).unwrap()).unwrap()
+    };
+    let shown = document(&plan, Some(&certificate));
+    let [coverage, contact] = ["/coverage/0", "/certificate/contact"].map(|at| shown.pointer(at).unwrap());
+    let counted = serde_json::json!({"compression_m": 0.001, "height_error_m": 0.001, "is_promised": true});
+    assert_eq!(
+        (&coverage["counted"], &coverage["proved"]),
+        (&counted, &Value::from(proved.share.at_least))
+    );
+    let [(_, share)] = shares(&shown["coverage"])[..] else {
+        panic!()
+    };
+    assert!(
+        share >= proved.share.at_least - 0.002,
+        "{share} {}",
+        proved.share.at_least
+    );
+    assert_eq!(
+        contact["asked"],
+        serde_json::to_value(plan.job.requirements.contact).unwrap()
+    );
+    assert_eq!(contact["plates"][0]["strain"], proved.strain.bound.unwrap());
+    assert_eq!(
+        contact["plates"][0]["force_n"][1],
+        proved.greatest_force_n.bound.unwrap()
+    );
+    for words in [
+        "contact",
+        "contact time",
+        "contact dose",
+        "strain",
+        "contact force",
+        "wrist",
+    ] {
+        let all = shown["certificate"]["checks"].as_array().unwrap();
+        assert!(all.iter().any(|check| check["words"] == words), "{words}");
+    }
+    // A sponge that is pressed in by 6 mm and tilted by 8° presses nothing by 10 mm, wherever it was.
+    let mut deep = plan.clone();
+    deep.job.requirements.contact.as_mut().unwrap().compression_m = 0.01;
+    let [(_, none)] = shares(&document(&deep, None)["coverage"])[..] else {
+        panic!()
+    };
+    assert_eq!(none, 0.0);
+}
+
+/// The foot of a plate is told, and a profile without a promise counts where it is touched.
+#[test]
+fn plates_of_a_profile_are_told_with_their_foot() {
+    let mut plan = KITCHEN.plan.clone();
+    let plate = &mut plan.job.plates[0];
+    plate.surface = Surface::shipped("coupe275").unwrap();
+    plate.foot = Some(Foot {
+        radius_m: 0.06,
+        height_m: 0.004,
+    });
+    let view = View::of_plan(&plan, &KITCHEN.arm, &Beside::default()).unwrap();
+    let document = serde_json::to_value(&view).unwrap();
+    let told = |pointer: &str| document.pointer(pointer).unwrap().clone();
+    assert_eq!(
+        told("/plates/0/foot"),
+        serde_json::json!({"radius_m": 0.06, "height_m": 0.004})
+    );
+    assert_eq!(told("/plates/1/foot"), Value::Null);
+    let of = |plate: u64| {
+        view.coverage
+            .iter()
+            .find(|coverage| coverage.plate as u64 == plate)
+            .unwrap()
+    };
+    assert_eq!(
+        of(0)
+            .counted
+            .map(|counted| (counted.compression_m, counted.is_promised)),
+        Some((0.0, false))
+    );
+    assert_eq!(of(1).counted, None);
+}
+
 /// A path without its ring leaves part of the rim: as much as the simulation measures.
 #[test]
 fn a_path_that_leaves_something_shows_it() {
@@ -167,7 +261,7 @@ fn a_path_that_leaves_something_shows_it() {
     let platewash_workcell::job::Planner::Wash(settings) = &mut terms.planner else {
         panic!()
     };
-    (settings.closing_ring, settings.turns) = (false, 2.0);
+    (settings.closing_ring, settings.turns) = (Some(false), Some(2.0));
     let job = platewash_workcell::job::WashJob::new(job.shared_arm(), terms).unwrap();
     let plan = platewash_planner::plan(&job).unwrap().plan;
     let settings = &plan.job.simulation;

@@ -64,6 +64,9 @@ qdd1_rad_s2,qdd2_rad_s2,qdd3_rad_s2,qdd4_rad_s2,qdd5_rad_s2,qdd6_rad_s2,tip_x_m,
 /// What stands in the header behind [`HEADER`] where a motion was executed: torques.
 pub const TORQUES: &str = ",tau1_n_m,tau2_n_m,tau3_n_m,tau4_n_m,tau5_n_m,tau6_n_m";
 
+/// What stands behind [`TORQUES`] where the force on the sponge was simulated, along the tool's axis.
+pub const FORCE: &str = ",force_n";
+
 /// The motion at multiples of `dt_s` and at its end: time, segment, plate, joint positions, speeds, accelerations (to
 /// the right of the time) and the origin of `tip`. Numbers are the shortest that read back exactly.
 ///

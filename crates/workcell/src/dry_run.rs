@@ -4,6 +4,12 @@ use crate::plate::{GREATEST_M, Plate};
 use crate::workcell::{Obstacle, ObstacleShape};
 use serde::{Deserialize, Serialize};
 
+/// Height of a dry run that is asked for without one \[m\].
+pub const HEIGHT_M: f64 = 0.05;
+
+/// The tip's largest speed in a dry run that is asked for without one \[m/s\].
+pub const SPEED_M_S: f64 = 0.1;
+
 /// Digits of a hash that are told.
 const TOLD: usize = 12;
 
@@ -69,7 +75,7 @@ impl DryRun {
     /// A real plate as an obstacle.
     #[must_use]
     pub fn standing(index: usize, real: &Plate) -> Obstacle {
-        let (shape, pose) = real.body();
+        let (shape, pose) = real.enclosure();
         Obstacle {
             name: Self::real_name(index),
             shape: ObstacleShape::Convex(shape),

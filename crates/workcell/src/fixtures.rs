@@ -1,14 +1,19 @@
 //! Jobs for tests: what the shipped scenarios ask for, without their files.
+//!
+//! `kitchen…` are those of `kitchen-spiral`, which promises nothing about contact; `contact_kitchen…` those of `kitchen`.
 
 use crate::arc::Arc;
-use crate::job::{JobTerms, Limits, OrderRule, Overlap, Planner, PlannerSettings, ReachBorders, Requirements, WashJob};
+use crate::job::{
+    ContactRequirements, JobTerms, Limits, OrderRule, Overlap, Planner, PlannerSettings, ReachBorders, Requirements,
+    WashJob,
+};
 use crate::plate::Plate;
-use crate::simulation::{ControlLawName, ControlSettings, PlantSettings, SimulationSettings};
+use crate::simulation::{ControlLawName, ControlSettings, FoamContact, PlantSettings, SimulationSettings};
 use crate::tool::{StraightTool, Tool};
 use crate::workcell::Workcell;
 use platewash_kinematics::{JointVector, RobotModel};
 
-/// The tool of the kitchen: 150 mm long, with a sponge of 25 mm.
+/// The tool of the kitchen without a promise about contact: 150 mm long, with a sponge of 25 mm.
 #[must_use]
 pub fn kitchen_tool() -> Tool {
     Tool::from(StraightTool {
@@ -23,7 +28,7 @@ pub fn kitchen_plate([x, y]: [f64; 2]) -> Plate {
     Plate::level_disc([x, y, 0.03], 0.145, 0.02)
 }
 
-/// The plates of the shipped scenario `kitchen`, seed 1.
+/// The plates of the shipped scenarios `kitchen` and `kitchen-spiral`, seed 1.
 #[must_use]
 pub fn kitchen_plates() -> Vec<Plate> {
     let centres = [
@@ -42,7 +47,7 @@ pub fn workcell(robot: &RobotModel, tool: Tool) -> Workcell {
     Workcell::on_floor(robot, tool).unwrap()
 }
 
-/// What the shipped scenario `kitchen` asks for, on some plates.
+/// What the shipped scenario `kitchen-spiral` asks for, on some plates.
 #[must_use]
 pub fn kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
     let home = JointVector::from([0.0, 0.0, 0.0, 0.0, 90.0, 0.0]).map(f64::to_radians);
@@ -57,6 +62,10 @@ pub fn kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
             wash_acceleration_m_s2: 4.0,
             overlap: Overlap::Fail,
             as_listed: false,
+            landing_m_s: None,
+            lifting_m_s: None,
+            wrist_rad: None,
+            contact: None,
         },
         limits: Limits {
             joint_acceleration_rad_s2: [4.0, 4.0, 4.0, 5.0, 5.0, 6.0],
@@ -65,9 +74,12 @@ pub fn kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
         },
         home_rad: [home; 2],
         planner: Planner::Wash(PlannerSettings {
-            path_radius_m: 0.12385,
-            turns: 3.5,
-            closing_ring: true,
+            path_radius_m: Some(0.12385),
+            turns: Some(3.5),
+            closing_ring: Some(true),
+            pattern: None,
+            tilt_rad: None,
+            axis_share: None,
             lift_m: 0.03,
             order: OrderRule::Fastest,
             arc: Arc {
@@ -89,11 +101,86 @@ pub fn kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
     }
 }
 
+/// The shipped scenario `kitchen-spiral` with seed 1, resolved.
+#[must_use]
+pub fn kitchen() -> WashJob {
+    job(kitchen_terms)
+}
+
+/// The tool of the kitchen with a promise about contact: its sponge is pressed in by 6.5 mm, its stiffness stated.
+#[must_use]
+pub fn contact_kitchen_tool() -> Tool {
+    Tool::from(StraightTool {
+        length_m: 0.15,
+        sponge_compression_m: 0.0065,
+        sponge_stiffness_pa: Some([11e3, 44e3]),
+        ..StraightTool::default()
+    })
+}
+
+/// What the shipped scenario `kitchen` promises about contact.
+#[must_use]
+pub fn kitchen_contact() -> ContactRequirements {
+    ContactRequirements {
+        compression_m: 0.001,
+        height_error_m: 0.001,
+        share: 0.995,
+        strain: 0.6,
+        force_n: [1.0, 40.0],
+        time_s: 0.05,
+        time_share: 0.98,
+        dose_pa_m: 25.0,
+        dose_share: 0.98,
+    }
+}
+
+/// What the shipped scenario `kitchen` asks for, on some plates.
+#[must_use]
+pub fn contact_kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
+    let spiral = kitchen_terms(robot, plates);
+    let planner = spiral.planner_settings().map(|settings| PlannerSettings {
+        path_radius_m: None,
+        turns: None,
+        closing_ring: None,
+        ..*settings
+    });
+    JobTerms {
+        workcell: workcell(robot, contact_kitchen_tool()),
+        requirements: Requirements {
+            landing_m_s: Some(0.05),
+            lifting_m_s: Some(0.05),
+            wrist_rad: Some(3_f64.to_radians()),
+            contact: Some(kitchen_contact()),
+            ..spiral.requirements
+        },
+        planner: planner.map_or(spiral.planner, Planner::Wash),
+        simulation: SimulationSettings {
+            control: ControlSettings {
+                frequency_rad_s: 80.0,
+                ..ControlSettings::default()
+            },
+            plant: PlantSettings {
+                contact: Some(FoamContact {
+                    stiffness_pa: 22e3,
+                    damping_pa_s: 0.0,
+                }),
+                ..PlantSettings::default()
+            },
+            ..spiral.simulation
+        },
+        ..spiral
+    }
+}
+
 /// The shipped scenario `kitchen` with seed 1, resolved.
 #[must_use]
+pub fn contact_kitchen() -> WashJob {
+    job(contact_kitchen_terms)
+}
+
 #[allow(clippy::unwrap_used, reason = "fixtures are for tests")]
-pub fn kitchen() -> WashJob {
+fn job(terms: impl Fn(&RobotModel, Vec<Plate>) -> JobTerms) -> WashJob {
     let robot = RobotModel::irb120().unwrap();
-    let terms = kitchen_terms(&robot, kitchen_plates());
+    let terms = terms(&robot, kitchen_plates());
     WashJob::new(std::sync::Arc::new(robot), terms).unwrap()
 }

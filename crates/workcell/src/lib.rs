@@ -13,12 +13,14 @@
 //! | a plan tried out in the air; where the arm stands at the table | [`dry_run`], [`raised`]; [`align`] |
 //! | distances between bodies | [`clearance`] |
 //! | the share of a plate that is swept | [`coverage`] |
+//! | how a sponge presses on a plate | [`contact`] |
 //! | random streams; giving up; how a job ended; words of messages | [`random`], [`cancel`], [`verdict`], [`words`] |
 
 pub mod align;
 pub mod arc;
 pub mod cancel;
 pub mod clearance;
+pub mod contact;
 pub mod coverage;
 pub mod csv;
 pub mod dry_run;

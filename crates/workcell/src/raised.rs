@@ -108,6 +108,7 @@ pub fn dry_run_terms(parent: &Plan, arm: &RobotModel, height_m: f64, speed_m_s: 
         simulation: SimulationSettings {
             plant: PlantSettings {
                 contact_force_n: 0.0,
+                contact: None,
                 ..job.simulation.plant.clone()
             },
             ..job.simulation.clone()

@@ -39,6 +39,8 @@ pub struct RecordedSample {
     pub qdd: JointVector,
     /// Torques \[N·m\], where the file has them.
     pub torque: Option<JointVector>,
+    /// Force on the sponge along the tool's axis \[N\], where it was simulated.
+    pub force_n: Option<f64>,
 }
 
 /// Why a text is no recorded motion. Lines and columns count from 1.
@@ -146,6 +148,9 @@ fn names(header: &str) -> Result<Vec<&'static str>, RecordedError> {
     if found.len() > expected.len() {
         expected.extend(csv::TORQUES.split(',').skip(1));
     }
+    if found.len() > expected.len() {
+        expected.extend(csv::FORCE.split(',').skip(1));
+    }
     let at = |names: &[&str], k: usize| names.get(k).copied().map(shortened);
     let columns = expected.len().max(found.len());
     match (0..columns).find(|&k| expected.get(k) != found.get(k)) {
@@ -188,12 +193,14 @@ impl Row<'_> {
             Some(_) => Some(self.joints(&mut cells)?),
             None => None,
         };
+        let force_n = cells.next().map(|cell| self.number(cell)).transpose()?;
         Ok(RecordedSample {
             t_s,
             q,
             qd,
             qdd,
             torque,
+            force_n,
         })
     }
 
@@ -280,6 +287,7 @@ mod tests {
                 qd: joints(10),
                 qdd: joints(20),
                 torque: torque.then(|| joints(30)),
+                force_n: None,
             };
             assert_eq!((motion.samples.len(), motion.samples[1]), (2, expected));
             // As a spreadsheet on another system writes it.
@@ -341,7 +349,7 @@ mod tests {
             ),
             (
                 csv::HEADER.to_owned() + csv::TORQUES + ",more\n",
-                "column 31: expected the end of the line, found \"more\"",
+                "column 31: expected \"force_n\", found \"more\"",
             ),
         ];
         for (text, words) in cases {

@@ -1,6 +1,7 @@
 //! How the arm follows a plan in simulation, as numbers: law, gains, sampling, plant. A plan carries and hashes them; no proof rests
 //! on them.
 
+use crate::tool::Sponge;
 use serde::{Deserialize, Serialize};
 
 /// Law, gains and plant of a simulation.
@@ -136,7 +137,7 @@ impl Default for ControlSettings {
     }
 }
 
-/// The arm as a physical system, where a law gives torques. Friction, torque limits and contact force are off unless given: there
+/// The arm as a physical system, where a law gives torques. Friction, torque limits and contact are off unless given: there
 /// are no published figures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -151,8 +152,34 @@ pub struct PlantSettings {
     pub coulomb_friction_n_m: [f64; 6],
     /// Largest joint torques \[N·m\]; without them, those of the arm's description where it knows any.
     pub torque_limit_n_m: Option<[f64; 6]>,
-    /// Force of a plate on the sponge while it washes, along the plate's normal \[N\].
+    /// A constant force of a plate on the sponge while it washes, along the plate's normal \[N\]; 0 beside [`Self::contact`].
     pub contact_force_n: f64,
+    /// How plates push back where the sponge's foam meets them; without it, with the constant force.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<FoamContact>,
+}
+
+/// A sponge that plates push back as the elastic foundation of [`crate::contact`]: assumptions, both.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FoamContact {
+    /// E: the stiffness simulated, pressure over strain, within the range that the sponge states \[Pa\].
+    pub stiffness_pa: f64,
+    /// η: pressure over the speed of strain \[Pa·s\]; 0 for none.
+    pub damping_pa_s: f64,
+}
+
+impl FoamContact {
+    /// Without damping, in the middle of what a sponge states: the geometric mean of least and greatest, as they are bounds of a factor.
+    /// `None` of a sponge of unknown stiffness.
+    #[must_use]
+    pub fn of(sponge: &Sponge) -> Option<Self> {
+        let [least, most] = sponge.stiffness_pa?;
+        Some(Self {
+            stiffness_pa: least.sqrt() * most.sqrt(),
+            damping_pa_s: 0.0,
+        })
+    }
 }
 
 /// How the motion is integrated.
@@ -174,6 +201,7 @@ impl Default for PlantSettings {
             coulomb_friction_n_m: [0.0; 6],
             torque_limit_n_m: None,
             contact_force_n: 0.0,
+            contact: None,
         }
     }
 }

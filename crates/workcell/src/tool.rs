@@ -10,6 +10,9 @@ use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Frame, Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 
+/// Bodies that overlap by less touch: the rounding of places \[m\].
+const ROUNDING_M: f64 = 1e-9;
+
 /// A tool.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -44,11 +47,15 @@ pub struct ToolBody {
 pub struct Sponge {
     /// Radius \[m\]; also decides coverage.
     pub radius_m: f64,
-    /// Height, free \[m\].
+    /// Height while it washes \[m\]: what holds it ends as far above the tip.
     pub height_m: f64,
-    /// How far it is pressed in while it washes \[m\]: the tip may lift as far and still touch. An assumption.
+    /// c: how far it is pressed in while it washes \[m\]. Free, it reaches as far beyond the tip: its height is then [`Self::free_height_m`].
+    /// The tip may lift as far and still touch. An assumption.
     pub compression_m: f64,
-    /// `T_flange_sponge`: its middle, z along its axis.
+    /// E: least and greatest stiffness of an elastic foundation, pressure over strain \[Pa\]. An assumption; unknown without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness_pa: Option<[f64; 2]>,
+    /// `T_flange_sponge`: its middle while it washes, z along its axis.
     #[serde(with = "pose")]
     pub pose: Pose,
 }
@@ -89,6 +96,8 @@ pub struct StraightTool {
     pub sponge_height_m: f64,
     /// How far the sponge is pressed in while it washes \[m\].
     pub sponge_compression_m: f64,
+    /// Least and greatest stiffness of the sponge \[Pa\]; unknown without it.
+    pub sponge_stiffness_pa: Option<[f64; 2]>,
     /// Mass \[kg\].
     pub mass_kg: f64,
     /// Distance of the centre of mass from the flange \[m\]; without it, half the length.
@@ -106,6 +115,7 @@ impl Default for StraightTool {
             sponge_radius_m: 0.025,
             sponge_height_m: 0.025,
             sponge_compression_m: 0.005,
+            sponge_stiffness_pa: None,
             mass_kg: 0.3,
             com_m: None,
             inertia_kg_m2: None,
@@ -149,6 +159,7 @@ impl From<StraightTool> for Tool {
                 radius_m: tool.sponge_radius_m,
                 height_m: tool.sponge_height_m,
                 compression_m: tool.sponge_compression_m,
+                stiffness_pa: tool.sponge_stiffness_pa,
                 pose: along(handle_m + tool.sponge_height_m / 2.0),
             },
             tip: along(tool.length_m),
@@ -173,6 +184,28 @@ impl Tool {
         } else {
             Touch::On
         }
+    }
+
+    /// The first body that reaches into the sponge, and how far beyond the plane behind it \[m\], more than the rounding of places.
+    ///
+    /// Of a body its box along the axes of the tip counts: it reaches in where that overlaps the sponge's cylinder. A body wholly beside
+    /// the sponge may reach as far as it likes.
+    #[must_use]
+    pub fn in_sponge(&self) -> Option<(&ToolBody, f64)> {
+        let [radius_m, height_m] = [self.sponge.radius_m, self.sponge.height_m];
+        self.bodies.iter().find_map(|body| {
+            let pose = self.tip.inverse() * body.pose;
+            let reach = |way: Vector3<f64>| {
+                let along = pose.translation.vector.dot(&way);
+                along + body.shape.support(&pose.inverse_transform_vector(&way))
+            };
+            let by_m = reach(Vector3::z()) + height_m;
+            let aside = |way: Vector3<f64>| f64::max(0.0, -reach(way)).max(-reach(-way));
+            let [x, y] = [aside(Vector3::x()), aside(Vector3::y())];
+            let is_beside = x * x + y * y >= radius_m * radius_m || reach(-Vector3::z()) < 0.0;
+            // NaN, which is nowhere, is refused with bodies that are none.
+            (by_m > ROUNDING_M && !is_beside).then_some((body, by_m))
+        })
     }
 
     /// The frame of the tip on an arm.
@@ -206,13 +239,29 @@ impl Sponge {
         }
     }
 
-    /// Its shape about its pose.
+    /// Its height while nothing presses it \[m\].
+    #[must_use]
+    pub fn free_height_m(&self) -> f64 {
+        self.height_m + self.compression_m
+    }
+
+    /// Its shape while it washes, about its pose.
     #[must_use]
     pub fn shape(&self) -> Shape {
         Shape::Cylinder {
             radius_m: self.radius_m,
             half_length_m: self.height_m / 2.0,
         }
+    }
+
+    /// Its shape while nothing presses it, and `T_flange_shape`.
+    #[must_use]
+    pub fn free_body(&self) -> (Shape, Pose) {
+        let shape = Shape::Cylinder {
+            radius_m: self.radius_m,
+            half_length_m: self.free_height_m() / 2.0,
+        };
+        (shape, self.pose * Pose::translation(0.0, 0.0, self.compression_m / 2.0))
     }
 }
 

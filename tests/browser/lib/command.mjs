@@ -31,10 +31,15 @@ export async function folder(test) {
 }
 
 /** Writes the kitchen's scenario with some of its text replaced, each of which must be there, and says where it is. */
-export async function kitchen(place, ...changes) {
-  let text = await readFile(join(needed("PLATEWASH_ROOT"), "scenarios", "kitchen.toml"), "utf8");
+export const kitchen = (place, ...changes) => replaced(place, "kitchen", changes);
+
+/** The same of the kitchen whose wash path is stated and whose contact is not promised. */
+export const spiral = (place, ...changes) => replaced(place, "kitchen-spiral", changes);
+
+async function replaced(place, shipped, changes) {
+  let text = await readFile(join(needed("PLATEWASH_ROOT"), "scenarios", `${shipped}.toml`), "utf8");
   for (const [from, to] of changes) {
-    if (!text.includes(from)) throw new Error(`no “${from}” in the kitchen`);
+    if (!text.includes(from)) throw new Error(`no “${from}” in ${shipped}`);
     text = text.replace(from, () => to);
   }
   const file = join(place, "case.toml");

@@ -4,7 +4,7 @@ import { access, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { test } from "node:test";
 import { change, edit, scenario, settled, verdict } from "../lib/cell.mjs";
-import { folder, kitchen, platewash, serve } from "../lib/command.mjs";
+import { folder, platewash, serve, spiral } from "../lib/command.mjs";
 import { open } from "../lib/watched.mjs";
 
 const save = async (page) => {
@@ -16,7 +16,7 @@ const hash = (page) => page.evaluate(() => window.platewash.view.heading.hash);
 
 test("what is saved plans and proves on the command line to the same hash", async (t) => {
   const place = await folder(t);
-  const file = await kitchen(place);
+  const file = await spiral(place);
   const { page, quiet } = await edit(t, place, ["--scenario", "case.toml"]);
   await change(page, [{ key: "wash.speed_m_s", value: 0.2 }, { key: "layout.positions_m", value: [[0.17, -0.3], [0.42, 0.1]] }]);
   assert.equal((await verdict(page)).kind, "proved");
@@ -42,7 +42,7 @@ test("what is saved plans and proves on the command line to the same hash", asyn
 
 test("a file that changes on disk is taken over where nothing is lost, and asked about where something is", async (t) => {
   const place = await folder(t);
-  const file = await kitchen(place);
+  const file = await spiral(place);
   const { page } = await edit(t, place, ["--scenario", "case.toml"]);
   const first = await scenario(page);
   const other = first.replace("turns = 3.5", "turns = 3.25");

@@ -1,7 +1,7 @@
 /** A hundred plates are still a page. */
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { folder, kitchen, page as written } from "../lib/command.mjs";
+import { folder, page as written, spiral } from "../lib/command.mjs";
 import { address, open, seek } from "../lib/watched.mjs";
 
 const COUNT = 100;
@@ -14,7 +14,7 @@ const centres = Array.from({ length: COUNT }, (_, plate) => {
 
 test("a plan of a hundred plates opens and plays", async (t) => {
   const place = await folder(t);
-  const scenario = await kitchen(
+  const scenario = await spiral(
     place,
     ['on_failure = "fail"', 'on_failure = "report"'],
     ['order = "fastest"', 'order = "given"'],

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { join } from "node:path";
-import { folder, kitchen, page as written, platewash } from "../lib/command.mjs";
+import { folder, page as written, platewash, spiral } from "../lib/command.mjs";
 import { address, open } from "../lib/watched.mjs";
 
 const header = (page) => page.evaluate(() => document.querySelector("header").innerText);
@@ -11,7 +11,7 @@ const background = (page) => page.evaluate(() => getComputedStyle(document.query
 test("a certificate that fails looks failed", async (t) => {
   const [good, bad] = [await folder(t), await folder(t)];
   // Windings that lie too far apart leave some of each plate unwashed.
-  const scenario = await kitchen(bad, ["turns = 3.5", "turns = 2"]);
+  const scenario = await spiral(bad, ["turns = 3.5", "turns = 2"]);
   const proved = await open(t, address(await written(good)));
   const failed = await open(t, address(await written(bad, scenario, [4])));
   assert.match(await header(proved.page), /proved/i);

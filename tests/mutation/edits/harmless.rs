@@ -11,8 +11,10 @@ pub fn add(edits: &mut Edits) {
     words("name of the scenario", |p| p.provenance.scenario = "renamed".into());
     words("version", |p| p.provenance.version = "99.0.0".into());
     words("seed", |p| p.job.seed += 1);
-    words("radius that was planned for", |p| settings(p).path_radius_m = 0.01);
-    words("turns that were planned for", |p| settings(p).turns = 9.0);
+    words("radius that was planned for", |p| {
+        settings(p).path_radius_m = Some(0.01)
+    });
+    words("turns that were planned for", |p| settings(p).turns = Some(9.0));
     words("lift that was planned for", |p| settings(p).lift_m *= 2.0);
     words("the rule of the order", |p| settings(p).order = OrderRule::Nearest);
     words("the arc round the base", |p| settings(p).arc.height_m = 0.5);

@@ -22,7 +22,7 @@ fn straight(edits: &mut Edits) {
     type Change = fn(&mut StraightTool);
     let off = vec![ContactHeight, PathDeviation];
     let far = vec![ContactHeight, PathDeviation, LineDeviation];
-    let cases: [(&str, Expected, Change); 14] = [
+    let cases: [(&str, Expected, Change); 15] = [
         ("a hair longer", Expected::Sampled, |t| t.length_m += 1e-5),
         ("a little longer", Expected::Sampled, |t| t.length_m += 1.5e-4),
         ("longer", Expected::Fails(off), |t| t.length_m += 5e-4),
@@ -45,8 +45,10 @@ fn straight(edits: &mut Edits) {
             t.sponge_compression_m = 1e-3;
         }),
         ("a heavy one", Expected::Harmless, |t| t.mass_kg = 12.0),
-        ("a soft sponge", Expected::Harmless, |t| {
-            t.sponge_compression_m = t.sponge_height_m
+        ("a firmer sponge", Expected::Harmless, |t| t.sponge_compression_m *= 0.5),
+        // Free, it is longer: by less than the planner keeps in reserve.
+        ("a softer sponge", Expected::Harmless, |t| {
+            t.sponge_compression_m += 4e-4
         }),
     ];
     for (what, expected, change) in cases {
@@ -70,6 +72,7 @@ fn as_straight(tool: &tool::Tool) -> StraightTool {
         sponge_radius_m: tool.sponge.radius_m,
         sponge_height_m: tool.sponge.height_m,
         sponge_compression_m: tool.sponge.compression_m,
+        sponge_stiffness_pa: tool.sponge.stiffness_pa,
         mass_kg: tool.mass.map_or(0.0, |mass| mass.mass_kg),
         com_m: None,
         inertia_kg_m2: None,
@@ -134,8 +137,10 @@ fn bodies(edits: &mut Edits) {
     for (size, at, expected) in [
         (0.025, 0.03, Expected::Harmless),
         (0.04, 0.02, Expected::Sampled),
-        (0.06, 0.09, Expected::Sampled),
-        (0.1, 0.05, Expected::Fails(vec![Clearance])),
+        (0.06, 0.06, Expected::Sampled),
+        (0.1, 0.02, Expected::Fails(vec![Clearance])),
+        // It ends within the sponge.
+        (0.02, 0.11, Expected::Fails(vec![Tool])),
         // It goes through the plates.
         (0.02, 0.17, Expected::Fails(vec![Clearance])),
     ] {

@@ -5,9 +5,10 @@ use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::fixtures::{kitchen_plate, kitchen_terms};
-use platewash_workcell::job::JobTerms;
+use platewash_workcell::job::{ContactRequirements, JobTerms};
 use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::surface::Surface;
 use platewash_workcell::tool::{StraightTool, Tool, tool_down};
 use platewash_workcell::trajectory::Trajectory;
 use platewash_workcell::wash_path::{WashCurve, WashPath};
@@ -25,8 +26,12 @@ pub struct Recipe {
     pub order: Vec<usize>,
     /// Forward lean of the tool while it is at a plate \[rad\].
     pub lean: f64,
+    /// Share of the face's slope that the tool's axis has, radially.
+    pub share: f64,
     /// Share of the wash limits that is used.
     pub pace: f64,
+    /// How far below the face the tip goes before a wash and after it \[m\].
+    pub dips_m: [f64; 2],
 }
 
 impl Recipe {
@@ -46,11 +51,30 @@ impl Recipe {
                 turns: 3.5,
                 start_angle_rad: 0.3,
                 closing_ring: true,
+                rings: None,
             },
             order,
             lean: 0.0,
+            share: 0.0,
             pace: 0.5,
+            dips_m: [0.0; 2],
         }
+    }
+
+    /// One plate of a face of its own before the arm, washed with what the kitchen asks of contact.
+    pub fn on(surface: Surface, [rho, height_m]: [f64; 2], curve: WashCurve) -> Self {
+        let mut recipe = Self::arc(&[10.0]);
+        let plate = &mut recipe.terms.plates[0];
+        plate.surface = surface;
+        plate.pose.translation.vector *= rho / 0.37;
+        plate.pose.translation.z = 0.03;
+        recipe.terms.workcell.tool = tool(|t| {
+            t.sponge_height_m = height_m;
+            t.sponge_stiffness_pa = Some([1.1e4, 4.4e4]);
+        });
+        recipe.terms.requirements.contact = Some(promise());
+        (recipe.curve, recipe.share, recipe.pace) = (curve, 0.5, 0.9);
+        recipe
     }
 
     /// How a plate is washed.
@@ -65,6 +89,21 @@ impl Recipe {
 
     pub fn plan(&self) -> Plan {
         Maker::new(self).plan()
+    }
+}
+
+/// What a job may ask of contact.
+pub fn promise() -> ContactRequirements {
+    ContactRequirements {
+        compression_m: 1e-3,
+        height_error_m: 1e-3,
+        share: 0.995,
+        strain: 0.6,
+        force_n: [1.0, 40.0],
+        time_s: 0.1,
+        time_share: 0.99,
+        dose_pa_m: 50.0,
+        dose_share: 0.99,
     }
 }
 
@@ -106,6 +145,9 @@ pub fn resealed(mut plan: Plan) -> Plan {
     plan
 }
 
+/// A place of the tip, and the normal of the face there.
+type Place = (Vector3<f64>, Vector3<f64>);
+
 struct Maker<'a> {
     recipe: &'a Recipe,
     robot: RobotModel,
@@ -133,8 +175,12 @@ impl<'a> Maker<'a> {
         for (i, index) in self.recipe.order.clone().into_iter().enumerate() {
             let (path, plate) = (self.recipe.path(index), &terms.plates[index]);
             let [start, end] = path.feet(plate);
-            let up = Vector3::z() * path.lift_m;
-            let down: Vec<_> = shares(0.9).map(|s| start + up * (1.0 - s)).collect();
+            let slope = |foot: &Vector3<f64>| plate.normal_at(foot);
+            let (first, last) = (slope(&start), slope(&end));
+            let (up, off) = (first * path.lift_m, last * path.lift_m);
+            let [before, after] = self.recipe.dips_m;
+            let come = heights(path.lift_m, before).map(|h| (start + up * (h / path.lift_m), first));
+            let down: Vec<_> = come.collect();
             let seed = self.reach(&down[0]);
             let kind = if i == 0 {
                 SegmentKind::Depart
@@ -143,11 +189,13 @@ impl<'a> Maker<'a> {
             };
             self.go(kind, index, seed);
             self.follow(SegmentKind::Approach, index, &down);
-            let points = thetas(&path.curve, pace)
-                .into_iter()
-                .map(|theta| path.contact(plate, theta));
+            let points = thetas(&path.curve, &plate.surface, pace).into_iter().map(|theta| {
+                let normal = path.curve.on(&plate.surface, theta).normal;
+                (path.contact(plate, theta), normal)
+            });
             self.follow(SegmentKind::Wash, index, &points.collect::<Vec<_>>());
-            let lift: Vec<_> = shares(0.9).map(|s| end + up * s).collect();
+            let leave = heights(path.lift_m, after).map(|h| (end + off * (h / path.lift_m), last));
+            let lift: Vec<_> = leave.collect::<Vec<_>>().into_iter().rev().collect();
             self.follow(SegmentKind::Retreat, index, &lift);
         }
         let last = self.recipe.order[self.recipe.order.len() - 1];
@@ -156,13 +204,13 @@ impl<'a> Maker<'a> {
     }
 
     /// A configuration for the tip at a place, the elbow up.
-    fn reach(&self, place: &Vector3<f64>) -> JointVector {
-        let turn = place.y.atan2(place.x);
+    fn reach(&self, place: &Place) -> JointVector {
+        let turn = place.0.y.atan2(place.0.x);
         let seed = JointVector::new(turn, 0.4, 0.2, 0.0, 0.9, turn);
         self.solve(std::slice::from_ref(place), &seed)[0]
     }
 
-    fn solve(&self, places: &[Vector3<f64>], seed: &JointVector) -> Vec<JointVector> {
+    fn solve(&self, places: &[Place], seed: &JointVector) -> Vec<JointVector> {
         let tip = self.recipe.terms.workcell.tool.tip_frame(&self.robot);
         let settings = IkSettings {
             position_tolerance_m: 1e-9,
@@ -170,10 +218,12 @@ impl<'a> Maker<'a> {
             ..IkSettings::default()
         };
         let solver = IkSolver::new(&self.robot, tip, settings).unwrap();
-        let target = |p: &Vector3<f64>| {
+        let target = |(p, normal): &Place| {
             let lean = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), self.recipe.lean);
+            let half = UnitQuaternion::rotation_between(&Vector3::z(), normal).unwrap();
+            let half = half.powf(self.recipe.share);
             let down = tool_down(*p);
-            Pose::from_parts(down.translation, lean * down.rotation)
+            Pose::from_parts(down.translation, half * lean * down.rotation)
         };
         let targets: Vec<_> = places.iter().map(target).collect();
         solver.solve_path(&targets, seed).unwrap().q
@@ -186,7 +236,7 @@ impl<'a> Maker<'a> {
         self.mark(kind, plate);
     }
 
-    fn follow(&mut self, kind: SegmentKind, plate: usize, places: &[Vector3<f64>]) {
+    fn follow(&mut self, kind: SegmentKind, plate: usize, places: &[Place]) {
         let q = self.solve(places, &self.q[self.q.len() - 1]);
         self.q.extend(&q[1..]);
         self.mark(kind, plate);
@@ -245,21 +295,35 @@ fn shares(seconds: f64) -> impl Iterator<Item = f64> {
     })
 }
 
+/// Heights over a face from a lift to the face \[m\], by way of a dip below it where there is one.
+fn heights(lift_m: f64, dip_m: f64) -> impl Iterator<Item = f64> {
+    let down = shares(0.9).map(move |s| (lift_m + dip_m) * (1.0 - s) - dip_m);
+    let up = shares(0.5).skip(1).map(move |s| -dip_m * (1.0 - s));
+    down.chain(up.filter(move |_| dip_m > 0.0))
+}
+
 /// θ at equal time steps, from rest to rest, with the tip's speed and acceleration within limits: the greatest speeds on a fine
 /// grid by a pass forwards and one backwards.
-fn thetas(curve: &WashCurve, [speed, acceleration]: [f64; 2]) -> Vec<f64> {
+fn thetas(curve: &WashCurve, surface: &Surface, [speed, acceleration]: [f64; 2]) -> Vec<f64> {
     let n = 40_000;
     let grid: Vec<f64> = (0..=n).map(|k| curve.end() * f64::from(k) / f64::from(n)).collect();
     let along = 0.5 * acceleration;
     let mut v: Vec<f64> = grid
         .iter()
         .map(|&theta| {
+            if !surface.is_flat() {
+                let h = 1e-5 * curve.end();
+                let at = |theta: f64| curve.on(surface, theta.clamp(0.0, curve.end()));
+                let (p, q, r) = (at(theta - h), at(theta), at(theta + h));
+                let second = (r.first - p.first) / (2.0 * h);
+                return speed.min((along * q.first.norm_squared() / second.norm()).sqrt());
+            }
             let p = curve.at(theta);
             let across = (p.first.x * p.second.y - p.first.y * p.second.x).abs();
             speed.min((along * p.first.norm().powi(3) / across).sqrt())
         })
         .collect();
-    let length = |k: usize| curve.at(grid[k]).first.norm() * (grid[k + 1] - grid[k]);
+    let length = |k: usize| curve.on(surface, grid[k]).first.norm() * (grid[k + 1] - grid[k]);
     let last = grid.len() - 1;
     (v[0], v[last]) = (0.0, 0.0);
     for k in 0..last {

@@ -2,7 +2,13 @@
 
 mod adversarial;
 mod asked;
+mod contact;
+mod contact_around;
+mod contact_edits;
+mod contact_spares;
+mod contact_untouched;
 mod differential;
+mod foundation;
 mod made;
 mod mutations;
 mod program;

@@ -114,6 +114,12 @@ fn statements_that_are_not_so_are_named() {
     let words =
         "tip of the tool: 2.0 mm from it, its axis turned by 0.000 rad; expected the middle of the sponge's far face";
     assert!(told.to_string().contains(words), "{told}");
+    let told = breaks(&[Tool], |p| {
+        let handle = &mut p.job.workcell.tool.bodies[0];
+        handle.pose.translation.z += 0.001;
+    });
+    let words = "end of the body \"handle\" of the tool: 1.0 mm within the sponge; expected behind the sponge, all of which counts as foam";
+    assert!(told.to_string().contains(words), "{told}");
     // A sponge that no body carries is none, and nothing would keep it clear.
     let told = breaks_at_least(&[Tool], |p| p.job.workcell.tool.bodies.clear());
     let words = "150.0 mm from it, its axis turned by 0.000 rad; expected the mounting frame, as the tool has no body";

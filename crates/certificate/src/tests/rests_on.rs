@@ -4,8 +4,10 @@ use super::made::{good, post};
 use crate::RestsOn;
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::words::rounded;
 use platewash_workcell::dry_run::DryRun;
-use platewash_workcell::plate::Plate;
+use platewash_workcell::plate::{Foot, Plate};
+use platewash_workcell::surface::{Knot, SHIPPED_PROFILES, Surface};
 use platewash_workcell::workcell::{Exclusion, ExclusionReason, Obstacle, ObstacleShape};
 
 /// The line of that name, where the terms are changed.
@@ -202,6 +204,55 @@ fn all_sizes_of_plates_are_told_and_the_first_places() {
             "1 of radius 1 mm, 20 mm thick, faces 40 mm above 0"
         ]
     );
+}
+
+#[test]
+fn profiles_are_told_by_name_or_knots_with_rim_and_foot() {
+    let plate = |surface: Surface, foot: Option<Foot>| {
+        told("plates", move |r| {
+            r.plates.truncate(1);
+            (r.plates[0].surface, r.plates[0].foot) = (surface, foot);
+        })
+    };
+    let foot = Foot {
+        radius_m: 0.06,
+        height_m: 0.004,
+    };
+    for name in SHIPPED_PROFILES {
+        let surface = Surface::shipped(name).unwrap();
+        let words = plate(surface, Some(foot));
+        let start = format!(
+            "1 of radius {} mm, of profile {name}, rim ",
+            rounded(1e3 * surface.rim_m(), 9)
+        );
+        assert!(words.starts_with(&start), "{words}");
+        assert!(words.contains(
+            " mm over the pole, 20 mm thick, poles 30 mm above 0, on a foot of radius 60 mm, 4 mm high: 0 at ("
+        ));
+        // As it is read back.
+        let read: Surface = serde_json::from_str(&serde_json::to_string(&surface).unwrap()).unwrap();
+        assert_eq!(plate(read, Some(foot)), words);
+    }
+    let knot = |radius_m: f64, slope_deg: f64| Knot {
+        radius_m,
+        slope_rad: slope_deg.to_radians(),
+    };
+    let bowl = plate(Surface::profile(&[knot(0.105, 10.0)]).unwrap(), None);
+    let start = "1 of radius 105 mm, of a profile by knots (105 mm 10°), rim 9.1863 mm over the pole, 20 mm thick, poles 30 mm above 0: ";
+    assert!(bowl.starts_with(start), "{bowl}");
+    let dome = plate(Surface::profile(&[knot(0.05, 0.0), knot(0.105, -10.0)]).unwrap(), None);
+    assert!(
+        dome.contains(" by knots (50 mm 0°, 105 mm -10°), rim ") && dome.contains(" mm below the pole"),
+        "{dome}"
+    );
+}
+
+#[test]
+fn contact_that_nobody_asks_for_is_told() {
+    let words = "not asked for: the face counts as pressed where it touches";
+    assert_eq!(told("contact", |_| ()), words);
+    let landing = told("contact", |r| r.requirements.landing_m_s = Some(0.05));
+    assert_eq!(landing, format!("{words}; the free sponge lands with at most 0.05 m/s"));
 }
 
 #[test]

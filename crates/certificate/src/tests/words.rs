@@ -1,8 +1,10 @@
 //! What a certificate says in words, and what it is that cannot be judged.
 
+use super::contact::{disc, rings};
 use super::made::{good, irb120, resealed};
 use crate::{Certificate, PairRule, PairsShown, ProveError, Requirement, Sense, Status, Unit, prove};
 use platewash_kinematics::JointVector;
+use platewash_kinematics::words::{decimals_down, decimals_up};
 use platewash_workcell::job::Overlap;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::wash_path::WashPath;
@@ -229,4 +231,44 @@ fn names_out_of_files_are_escaped_in_messages() {
     let edited = text.replacen("\"kind\":\"wash\"", &format!("\"kind\":{forged}"), 1);
     assert_ne!(edited, text);
     escaped(Plan::from_json(&edited).unwrap_err().to_string());
+}
+
+/// A bound that is missing reads as one that is missing, and a force has two sides.
+#[test]
+fn forces_are_told_on_both_sides_and_what_is_not_bounded_is_told_so() {
+    let mut certificate = prove(&disc(0.006, 4.0, rings()).plan(), &irb120()).unwrap();
+    let contact = certificate.contact[0];
+    let [least, most] = [contact.least_force_n, contact.greatest_force_n].map(|force| force.bound.unwrap());
+    let both = format!("{} to {} N", decimals_down(least, 2), decimals_up(most, 2));
+    let table = certificate.to_string();
+    assert!(
+        table.contains(&format!("\n  both sides, all plates: {both}; asked for: 1 to 40 N\n")),
+        "{table}"
+    );
+    assert!(
+        table.contains(&format!(", force {both}, torque of friction up to ")),
+        "{table}"
+    );
+    certificate.contact[0].greatest_force_n.bound = None;
+    let half = certificate.to_string();
+    assert!(
+        half.contains(&format!(
+            ", force {} N or more, not bounded above, ",
+            decimals_down(least, 2)
+        )),
+        "{half}"
+    );
+    let contact = &mut certificate.contact[0];
+    (
+        contact.least_force_n.bound,
+        contact.strain.bound,
+        contact.friction_torque_nm,
+    ) = (None, None, None);
+    let none = certificate.to_string();
+    let words = "; strain not bounded, force not bounded, torque of friction not bounded (friction";
+    assert!(none.contains(words), "{none}");
+    assert!(
+        none.contains("  both sides, all plates: not bounded; asked for: "),
+        "{none}"
+    );
 }

@@ -171,7 +171,7 @@ pub struct PlanParts<'a> {
     pub ms: Milliseconds,
 }
 
-/// What of a plate is proved to be swept.
+/// What of a plate is proved to be swept or, where the job says what counts as contact, pressed.
 #[derive(Debug, Serialize)]
 pub struct PlateProof {
     /// The plate.

@@ -6,13 +6,14 @@ use crate::compare;
 use crate::export::{self, ExportError};
 use crate::file::ProgramFile;
 use crate::judged;
-use crate::{CompareError, Compared, ExportSettings, Exported, Refusal};
+use crate::{CompareError, Compared, ExportSettings, Exported, Refusal, contact_not_judged};
 use nalgebra::{Translation3, UnitQuaternion};
 use platewash_certificate::{Certified, Requirement, certify};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures;
+use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plan::Plan;
 use std::sync::OnceLock;
 use toy::Toy;
@@ -414,4 +415,37 @@ fn a_setting_that_was_changed_is_what_is_judged_by() {
     assert!(matches!(refused, Err(CompareError::Again(_))), "{refused:?}");
     let refused = compared(|text| text.replace("tolerance_m = 0.0002", "tolerance_m = wide"));
     assert!(matches!(refused, Err(CompareError::Setting { .. })), "{refused:?}");
+}
+
+/// A program is not judged for what its plan promises of contact, and says so; where nothing is promised there is nothing to say.
+#[test]
+fn what_is_not_judged_of_contact_is_told() {
+    let job = &kitchen().plan().job;
+    let text = export(&ExportSettings::default()).unwrap().files[0].text.clone();
+    assert!(
+        text.contains("high while it washes, free 5.0 mm higher (assumed)"),
+        "{text}"
+    );
+    let mut promised = job.requirements;
+    let told = contact_not_judged(&promised);
+    assert_eq!(text.contains("proved of the plan alone: "), told.is_some());
+    (promised.contact, promised.landing_m_s) = (None, Some(0.05));
+    (promised.lifting_m_s, promised.wrist_rad) = (None, None);
+    assert_eq!(contact_not_judged(&promised).as_deref(), Some("speed of landing"));
+    promised.landing_m_s = None;
+    assert_eq!(contact_not_judged(&promised), None);
+    promised.contact = Some(ContactRequirements {
+        compression_m: 0.001,
+        height_error_m: 0.001,
+        share: 0.995,
+        strain: 0.6,
+        force_n: [1.0, 40.0],
+        time_s: 0.1,
+        time_share: 0.99,
+        dose_pa_m: 50.0,
+        dose_share: 0.99,
+    });
+    (promised.landing_m_s, promised.wrist_rad) = (Some(0.05), Some(0.05));
+    let all = "contact (share pressed, time, dose, strain, force), speed of landing, side of the wrist";
+    assert_eq!(contact_not_judged(&promised).as_deref(), Some(all));
 }

@@ -38,7 +38,7 @@ pub(super) fn by_sponge(
 pub(super) fn ideal_coverage() -> Result<[Coverage; SPONGES_MM.len()], CoverageError> {
     let part = PaperPart::Appendix;
     let size = part.geometry();
-    let plate = Plate::level_disc([0.3, 0.0, size.height_m], size.radius_m, size.thickness_m);
+    let plate = Plate::level_disc([0.3, 0.0, size.height_m], size.surface.rim_m(), size.thickness_m);
     let path = ToolPath::new(&part.settings(), &[plate]);
     let spiral: Vec<_> = path
         .segments

@@ -1,7 +1,6 @@
 //! Layouts of which every plate can be washed whole.
 
 use super::shared::Pipeline;
-use super::visit::wash_path;
 use crate::activity::Activity;
 use crate::error::PlanError;
 use crate::redundancy::RedundancyError;
@@ -55,7 +54,7 @@ impl Pipeline<'_> {
         let (scene, [start, _]) = (self.scene()?, &self.terms.home_rad);
         let home = self.home_tip(&scene, start);
         for plate in 0..self.plates.len() {
-            match self.washing(&scene, &wash_path(self, plate, &home), start) {
+            match self.washing_by_patterns(&scene, &self.widest_path(plate, &home), start) {
                 Ok(_) => {}
                 Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
                 Err(error) => return Ok(Some(error)),

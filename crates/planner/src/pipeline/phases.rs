@@ -2,7 +2,9 @@
 
 use super::assemble::assemble;
 use super::shared::Pipeline;
+use super::visit::Visit;
 use crate::error::PlanError;
+use crate::pace::Pace;
 use crate::planned::{Planned, TransitSummary, VisitSummary};
 use crate::watch::Watch;
 use platewash_kinematics::{JointVector, RobotModel};
@@ -38,12 +40,18 @@ pub fn plan_here(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError>
     planned(job, &Pipeline::here(job, watch)?)
 }
 
-/// [`plan_here`] with the plates in a given order, whatever the job's settings say of it: the order of another plan, say.
+/// [`plan_here`] with the plates in a given order and along given curves, whatever the job's settings say of them: those of another
+/// plan, say. Where no path is given for a plate, its curve is chosen.
 ///
 /// # Errors
 /// As [`plan_with`], and [`PlanError::Order`].
-pub fn plan_in_order(job: &WashJob, order: &[usize], watch: &Watch<'_>) -> Result<Planned, PlanError> {
-    planned(job, &Pipeline::in_order(job, order, watch)?)
+pub fn plan_in_order(
+    job: &WashJob,
+    order: &[usize],
+    paths: &[WashPath],
+    watch: &Watch<'_>,
+) -> Result<Planned, PlanError> {
+    planned(job, &Pipeline::in_order(job, order, paths, watch)?)
 }
 
 fn planned(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanError> {
@@ -54,7 +62,10 @@ fn planned(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanError>
     let lines: Vec<_> = visits.iter().map(|visit| visit.lines.each_ref()).collect();
     let transits = pipeline.transits(&scene, &lines, |_| true)?;
     let whole = assemble(&visits, &transits)?;
-    let wash_paths: Vec<WashPath> = visits.iter().map(|visit| visit.path).collect();
+    // What one path states all keep, so that all state the widest cone that was needed.
+    let cone_rad = visits.iter().map(|visit| visit.path.cone_rad).fold(0.0, f64::max);
+    let stated = |visit: &Visit| WashPath { cone_rad, ..visit.path };
+    let wash_paths: Vec<WashPath> = visits.iter().map(stated).collect();
     pipeline.check_tilt(&scene, &whole, &wash_paths)?;
     let parts = PlanParts {
         provenance: Provenance::of(job.name()),
@@ -67,7 +78,18 @@ fn planned(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanError>
     let visits = visits.iter().map(|visit| VisitSummary {
         plate: visit.path.plate,
         tilt: visit.washing.choice,
+        cone_rad: visit.path.cone_rad,
+        curve: visit.path.curve,
         wash_s: duration(&visit.wash.motion),
+        pace: Pace::of(
+            &scene,
+            (
+                &pipeline.plates[visit.path.plate],
+                job.terms().workcell.tool.sponge.radius_m,
+            ),
+            &visit.wash,
+            &pipeline.washing,
+        ),
     });
     let transits = transits.iter().map(|transit| TransitSummary {
         kind: transit.kind,

@@ -1,8 +1,9 @@
 //! What the phases of planning share.
 
 use crate::error::PlanError;
+use crate::pattern::Patterns;
 use crate::redundancy::relocation::SEARCHED_M;
-use crate::scene::{Scene, Stretch, TiltPolicy};
+use crate::scene::{AXIS_SHARE, Scene, Stance, Stretch, TiltPolicy};
 use crate::timing::{MotionLimits, TipLimits};
 use crate::transit::TooNear;
 use crate::unwashable::PlaceSearch;
@@ -12,6 +13,8 @@ use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::job::{End, JobTerms, PlannerSettings, WashJob};
 use platewash_workcell::plate::Plate;
+use platewash_workcell::wash_path::WashPath;
+use std::sync::Arc;
 
 /// The longest line over a plate \[m\].
 const LONGEST_LIFT_M: f64 = 10.0;
@@ -32,6 +35,8 @@ pub(super) struct Pipeline<'a> {
     pub transit: MotionLimits,
     /// How another place is looked for where a plate cannot be washed.
     pub place_search: PlaceSearch,
+    /// The patterns to try on each plate.
+    pub patterns: Vec<Arc<Patterns>>,
     /// The order of the plates, where it is not for the settings to decide.
     pub asked_order: Option<Vec<usize>>,
     pub watch: Watch<'a>,
@@ -77,14 +82,25 @@ impl<'a> Pipeline<'a> {
             } else {
                 PlaceSearch::Off
             },
+            patterns: by_plate(terms, settings, plates),
             asked_order: None,
             watch: *watch,
         })
     }
 
-    /// A job as it stands, its plates in that order.
-    pub fn in_order(job: &'a WashJob, order: &[usize], watch: &Watch<'a>) -> Result<Self, PlanError> {
-        let pipeline = Self::here(job, watch)?;
+    /// A job as it stands, its plates in that order, and along those paths as far as there are any.
+    pub fn in_order(
+        job: &'a WashJob,
+        order: &[usize],
+        paths: &[WashPath],
+        watch: &Watch<'a>,
+    ) -> Result<Self, PlanError> {
+        let mut pipeline = Self::here(job, watch)?;
+        for path in paths {
+            if let Some(patterns) = pipeline.patterns.get_mut(path.plate) {
+                *patterns = Arc::new(patterns.along(job.terms(), path));
+            }
+        }
         let count = pipeline.plates.len();
         let mut sorted = order.to_vec();
         sorted.sort_unstable();
@@ -123,6 +139,7 @@ impl<'a> Pipeline<'a> {
             terms: self.terms,
             settings: self.settings,
             place_search: self.place_search,
+            patterns: self.patterns.clone(),
             asked_order: self.asked_order.clone(),
             washing: self.washing,
             transit: self.transit,
@@ -133,7 +150,11 @@ impl<'a> Pipeline<'a> {
     pub fn scene(&self) -> Result<Scene<'_>, PlanError> {
         let (tool, reach) = (&self.terms.workcell.tool, self.settings.reach);
         let scene = Scene::new(self.robot, tool, &self.clearance, self.plates, reach)?;
-        Ok(scene.until(self.watch.cancel))
+        let stance = Stance {
+            axis_share: self.settings.axis_share.unwrap_or(AXIS_SHARE),
+            wrist_rad: self.terms.requirements.wrist_rad,
+        };
+        Ok(scene.standing(stance).until(self.watch.cancel))
     }
 
     /// The tilt that suits each place.
@@ -175,6 +196,19 @@ impl<'a> Pipeline<'a> {
         }
         Ok(())
     }
+}
+
+/// The patterns of each plate; of equal faces they are the same.
+fn by_plate(terms: &JobTerms, settings: &PlannerSettings, plates: &[Plate]) -> Vec<Arc<Patterns>> {
+    let mut all: Vec<Arc<Patterns>> = Vec::with_capacity(plates.len());
+    for (k, plate) in plates.iter().enumerate() {
+        let like = plates[..k].iter().position(|other| other.surface == plate.surface);
+        all.push(match like {
+            Some(like) => all[like].clone(),
+            None => Arc::new(Patterns::new(terms, settings, &plate.surface)),
+        });
+    }
+    all
 }
 
 fn ends(terms: &JobTerms) -> impl Iterator<Item = (End, &JointVector)> {

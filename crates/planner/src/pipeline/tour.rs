@@ -1,7 +1,6 @@
 //! The order of the plates, by travel times estimated before any transit is planned.
 
 use super::shared::Pipeline;
-use super::visit::wash_path;
 use crate::error::PlanError;
 use crate::order::TravelTimes;
 use crate::planned::TourSummary;
@@ -40,10 +39,7 @@ impl Pipeline<'_> {
     fn travel_times(&self, scene: &Scene<'_>) -> Result<TravelTimes, Cancelled> {
         let ([start, home], limits, policy) = (&self.terms.home_rad, &self.transit, self.policy());
         let centres: Vec<Vector3<f64>> = self.plates.iter().map(|plate| plate.centre()).collect();
-        let on = |plate: usize, point: Vector3<f64>| {
-            let normal = self.plates[plate].normal_at(&point);
-            Contact { point, normal }
-        };
+        let on = |plate: usize, point: Vector3<f64>| Contact::on_normal(point, self.plates[plate].normal_at(&point));
         let mut entries: Vec<JointVector> = Vec::with_capacity(centres.len());
         for (plate, centre) in centres.iter().enumerate() {
             scene.check_cancelled()?;
@@ -51,7 +47,7 @@ impl Pipeline<'_> {
             entries.push(entry.unwrap_or(*start));
         }
         let exit = |plate: usize, towards: &Vector3<f64>| {
-            let [_, foot] = wash_path(self, plate, towards).feet(&self.plates[plate]);
+            let [_, foot] = self.widest_path(plate, towards).feet(&self.plates[plate]);
             let exit = scene.configuration(&on(plate, foot), &policy, &entries[plate]);
             exit.unwrap_or(entries[plate])
         };

@@ -3,18 +3,30 @@
 use super::shared::Pipeline;
 use crate::error::PlanError;
 use crate::joint_path::{Ends, JointPath};
+use crate::pattern::{Pattern, foundation};
 use crate::redundancy::Washing;
 use crate::scene::{Contact, Scene};
 use crate::timing::{self, Timed};
 use crate::transit::LiftLine;
 use crate::trig::{atan2, sin};
 use nalgebra::Vector3;
-use platewash_kinematics::JointVector;
+use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::{JointVector, Pose};
+use platewash_workcell::contact::{Columns, SpongePose};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use std::f64::consts::TAU;
 
 /// Distance of the samples on a line \[m\].
 const LINE_STEP_M: f64 = 2e-3;
+
+/// How often the height at which a sponge meets a plate is halved.
+const HALVINGS: u32 = 16;
+
+/// What is added to it \[m\].
+const MEETS_M: f64 = 1e-4;
+
+/// The share of the speed of landing and lifting at which the free sponge touches at most.
+const LANDING: f64 = 0.97;
 
 /// The share of the speed limit of washing at which the sponge touches at most: the rest is for what its rim adds to the tip.
 const TOUCHING: f64 = 0.99;
@@ -30,20 +42,13 @@ pub(super) struct Visit {
     pub lines: [LiftLine; 2],
 }
 
-/// The wash path on a plate that ends in the direction of `towards` \[m\].
-pub(super) fn wash_path(pipeline: &Pipeline<'_>, plate: usize, towards: &Vector3<f64>) -> WashPath {
-    let settings = pipeline.settings;
-    let curve = WashCurve {
-        radius_m: settings.path_radius_m,
-        turns: settings.turns,
-        start_angle_rad: 0.0,
-        closing_ring: settings.closing_ring,
-    };
+/// The wash path on a plate by a pattern that ends in the direction of `towards` \[m\].
+pub(super) fn wash_path(pipeline: &Pipeline<'_>, plate: usize, pattern: &Pattern, towards: &Vector3<f64>) -> WashPath {
     WashPath {
         plate,
-        curve: turned(curve, &pipeline.plates[plate].local(towards)),
-        lift_m: settings.lift_m,
-        cone_rad: pipeline.terms.tilt_max_rad(),
+        curve: turned(pattern.curve, &pipeline.plates[plate].local(towards)),
+        lift_m: pipeline.settings.lift_m,
+        cone_rad: pattern.cone_rad,
     }
 }
 
@@ -52,6 +57,19 @@ fn turned(curve: WashCurve, towards: &Vector3<f64>) -> WashCurve {
     let start_angle_rad = (atan2(towards.y, towards.x) - curve.end() % TAU) % TAU;
     WashCurve {
         start_angle_rad,
+        ..curve
+    }
+}
+
+/// A curve that ends where another one does.
+pub(super) fn turned_as(curve: WashCurve, other: &WashCurve) -> WashCurve {
+    let end = (other.start_angle_rad + other.end()) % TAU;
+    WashCurve {
+        start_angle_rad: if curve.end() == other.end() {
+            other.start_angle_rad
+        } else {
+            (end - curve.end() % TAU) % TAU
+        },
         ..curve
     }
 }
@@ -86,9 +104,38 @@ pub(super) fn lines(
     washing: &Washing,
 ) -> Result<[LiftLine; 2], PlanError> {
     let last = washing.q.len() - 1;
-    let [start, end] = path.feet(&pipeline.plates[path.plate]);
-    let line = |foot, k: usize| line(pipeline, scene, path, foot, (washing.tilt_rad[k], &washing.q[k]));
-    Ok([line(start, 0)?, line(end, last)?])
+    let (wanted, wash_m_s) = (&pipeline.terms.requirements, pipeline.terms.wash_speed_m_s());
+    let line = |end: usize, k: usize, asked_m_s: Option<f64>| {
+        let touching = Touching {
+            from: asked_m_s.map_or(Reach::Compressed, |_| Reach::Free),
+            speed_m_s: asked_m_s.map_or(TOUCHING * wash_m_s, |asked| LANDING * asked.min(wash_m_s)),
+        };
+        line(
+            pipeline,
+            scene,
+            path,
+            &washing.feet[end],
+            (washing.tilt_rad[k], &washing.q[k]),
+            touching,
+        )
+    };
+    Ok([line(0, 0, wanted.landing_m_s)?, line(1, last, wanted.lifting_m_s)?])
+}
+
+/// How far a sponge reaches towards a plate that it comes down on or leaves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Reach {
+    /// As far as while it washes.
+    Compressed,
+    /// As far as while nothing presses it.
+    Free,
+}
+
+/// How fast the sponge may be where it touches.
+#[derive(Debug, Clone, Copy)]
+struct Touching {
+    from: Reach,
+    speed_m_s: f64,
 }
 
 /// The line over a contact point, with the tool turned as it is there.
@@ -96,17 +143,27 @@ fn line(
     pipeline: &Pipeline<'_>,
     scene: &Scene<'_>,
     path: &WashPath,
-    foot: Vector3<f64>,
+    foot: &Contact,
     (tilt_rad, q): (f64, &JointVector),
+    touching: Touching,
 ) -> Result<LiftLine, PlanError> {
     let (plate, lift_m, terms) = (path.plate, path.lift_m, pipeline.terms);
-    let foot = Contact {
-        point: foot,
-        normal: pipeline.plates[plate].normal_at(&foot),
-    };
-    let steps = (lift_m / LINE_STEP_M).ceil().max(4.0);
-    let heights: Vec<f64> = (0..=steps as usize).map(|k| lift_m * (k as f64 / steps)).collect();
     let over = |h: &f64| scene.tip_pose(&foot.raised(*h), tilt_rad);
+    let touches_m = match touching.from {
+        // The tilted rim touches up to there, and a sample more.
+        Reach::Compressed => terms.workcell.tool.sponge.radius_m * sin(tilt_rad).abs() + LINE_STEP_M,
+        Reach::Free => pipeline.meets_m(plate, lift_m, over),
+    };
+    let heights = match touching.from {
+        // A sample where it meets the plate: from there on it may be faster.
+        Reach::Free if touches_m < lift_m - LINE_STEP_M => {
+            let mut heights = evenly(0.0, touches_m, 2.0);
+            heights.pop();
+            heights.extend(evenly(touches_m, lift_m, 2.0));
+            heights
+        }
+        Reach::Compressed | Reach::Free => evenly(0.0, lift_m, 4.0),
+    };
     let poses: Vec<_> = heights.iter().map(over).collect();
     let found = scene.solver.solve_path(&poses, q);
     let not_found = |error| PlanError::Line {
@@ -117,10 +174,41 @@ fn line(
     let mut configurations = found.map_err(not_found)?.q;
     // To the bit where the wash begins or ends.
     configurations[0] = *q;
-    // The tilted rim touches up to there, and a sample more; what touches is no faster than while it washes.
-    let touches_m = terms.workcell.tool.sponge.radius_m * sin(tilt_rad).abs() + LINE_STEP_M;
-    let slow_m_s = TOUCHING * terms.wash_speed_m_s();
-    Ok(LiftLine::line(plate, heights, configurations)?.no_faster(touches_m, slow_m_s))
+    let line = LiftLine::line(plate, heights, configurations)?;
+    Ok(line.no_faster(touches_m, touching.speed_m_s))
+}
+
+/// Heights from one to another, evenly, no farther apart than [`LINE_STEP_M`] and in that many steps or more.
+fn evenly(from_m: f64, to_m: f64, least_steps: f64) -> Vec<f64> {
+    let steps = ((to_m - from_m) / LINE_STEP_M).ceil().max(least_steps);
+    let at = |k: usize| from_m + (to_m - from_m) * (k as f64 / steps);
+    (0..=steps as usize).map(at).collect()
+}
+
+impl Pipeline<'_> {
+    /// The height of the tip over a plate from which on down the free sponge may meet it, however much higher it lies, up to `lift_m`,
+    /// with the tip's pose by its height \[m\].
+    fn meets_m(&self, plate: usize, lift_m: f64, over: impl Fn(&f64) -> Pose) -> f64 {
+        let sponge = &self.terms.workcell.tool.sponge;
+        let contact = &self.terms.requirements.contact;
+        let higher_m = contact.map_or(0.0, |contact| contact.height_error_m);
+        let (columns, plate) = (Columns::new(&foundation(sponge)), &self.plates[plate]);
+        let deepest_m = |height: f64| {
+            let pose = SpongePose::on(plate, &Rigid::from(&over(&height)));
+            columns.load(&plate.surface, &pose, higher_m).deepest_m
+        };
+        // Raised, the sponge is pressed less.
+        let (mut low, mut high) = (0.0, lift_m);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if deepest_m(middle) > 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        (high + MEETS_M).min(lift_m)
+    }
 }
 
 #[cfg(test)]
@@ -136,7 +224,7 @@ mod tests {
             half_turns in -1.0..1.0f64,
             closing_ring in any::<bool>(),
         ) {
-            let curve = WashCurve { radius_m: 0.12385, turns, start_angle_rad: 0.0, closing_ring };
+            let curve = WashCurve { radius_m: 0.12385, turns, start_angle_rad: 0.0, closing_ring, rings: None };
             let (s, c) = crate::trig::sin_cos(0.5 * TAU * half_turns);
             let towards = Vector3::new(c, s, 0.0);
             let curve = turned(curve, &towards);

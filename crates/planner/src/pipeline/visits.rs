@@ -1,11 +1,13 @@
 //! All plates, one after the other.
 
 use super::shared::Pipeline;
-use super::visit::{Visit, wash_path};
+use super::visit::{Visit, turned_as, wash_path};
 use crate::activity::Activity;
 use crate::error::PlanError;
+use crate::pattern::Promise;
 use crate::redundancy::{self, RedundancyError, Task, Washing};
 use crate::scene::Scene;
+use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::wash_path::WashPath;
@@ -66,8 +68,8 @@ impl Pipeline<'_> {
         turns.map(move |k| {
             self.tell_of(order, k);
             let path = self.path_of(scene, order, k);
-            match self.washing(scene, &path, &near) {
-                Ok(washing) => {
+            match self.washing_by_patterns(scene, &path, &near) {
+                Ok((path, washing)) => {
                     near = washing.q.last().copied().unwrap_or(near);
                     Ok((path, washing))
                 }
@@ -85,7 +87,53 @@ impl Pipeline<'_> {
     pub fn path_of(&self, scene: &Scene<'_>, order: &[usize], k: usize) -> WashPath {
         let home = || self.home_tip(scene, &self.terms.home_rad[1]);
         let next = order.get(k + 1).map(|&next| self.plates[next].centre());
-        wash_path(self, order[k], &next.unwrap_or_else(home))
+        self.widest_path(order[k], &next.unwrap_or_else(home))
+    }
+
+    /// The wash path on a plate by the pattern that is tried first, with the widest cone of all.
+    pub fn widest_path(&self, plate: usize, towards: &Vector3<f64>) -> WashPath {
+        wash_path(self, plate, &self.patterns[plate].widest(), towards)
+    }
+
+    /// The washing of a plate by its patterns, with a path that ends where `like` does: by the first with which the arm finds a way and
+    /// presses as is promised; where it never presses so, by the first with which it finds a way.
+    pub fn washing_by_patterns(
+        &self,
+        scene: &Scene<'_>,
+        like: &WashPath,
+        near: &JointVector,
+    ) -> Result<(WashPath, Washing), RedundancyError> {
+        let plate = like.plate;
+        let patterns = &self.patterns[plate];
+        let wider = std::iter::once_with(|| patterns.wider()).flatten();
+        let mut found: Result<(WashPath, Washing), RedundancyError> = Err(RedundancyError::Plate { plate, count: 0 });
+        for pattern in patterns.first().iter().copied().chain(wider) {
+            let path = WashPath {
+                curve: turned_as(pattern.curve, &like.curve),
+                cone_rad: pattern.cone_rad,
+                ..*like
+            };
+            match self.washing(scene, &path, near) {
+                Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
+                // What the widest cone does not reach is told.
+                Err(error) => found = found.or(Err(error)),
+                Ok(washing) => {
+                    let presses = self.presses(scene, &path, &washing);
+                    if presses {
+                        return Ok((path, washing));
+                    }
+                    found = found.or(Ok((path, washing)));
+                }
+            }
+        }
+        found
+    }
+
+    /// Whether a washing presses as is promised, looked at where its configurations are.
+    fn presses(&self, scene: &Scene<'_>, path: &WashPath, washing: &Washing) -> bool {
+        let plate = &self.plates[path.plate];
+        self.terms.requirements.contact.is_none()
+            || Promise::of(self.terms, &plate.surface).is_kept(scene, plate, (&washing.q, self.terms.wash_speed_m_s()))
     }
 
     /// The washing along a path from a configuration not far from `near` \[rad\].

@@ -81,8 +81,11 @@ fn at(task: &Task<'_>, graph: &Graph, layer: usize) -> Result<bool, Cancelled> {
     for tilt in graph.likeliest_first(task, &contact) {
         task.scene.check_cancelled()?;
         let target = task.scene.tip_rigid(&contact, tilt);
+        if task.check_cone(&contact, &target).is_err() {
+            continue;
+        }
         let starts = task.scene.inverse.starts(&target, &task.near, Width::Near);
-        if starts.unwrap_or_default().iter().any(|start| task.is_clear(&start.q)) {
+        if starts.unwrap_or_default().iter().any(|start| task.is_allowed(&start.q)) {
             return Ok(false);
         }
     }

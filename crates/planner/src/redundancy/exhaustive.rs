@@ -35,7 +35,7 @@ pub struct Found {
 /// [`Cancelled`].
 pub fn anywhere(task: &Task<'_>, theta: f64) -> Result<Option<Found>, Cancelled> {
     let scene = task.scene;
-    let contact = task.samples.at(theta.clamp(0.0, task.path.curve.end()));
+    let contact = task.samples.at(theta.clamp(0.0, task.path.curve.end())).upright();
     let out = scene.out(&contact);
     let steps = (task.tilt_max_rad() / TILT_STEP_RAD).ceil();
     for k in 0..=steps as u32 {
@@ -52,7 +52,11 @@ pub fn anywhere(task: &Task<'_>, theta: f64) -> Result<Option<Found>, Cancelled>
             let lean = (out * c + contact.normal.cross(&out) * s) * tilt_rad;
             let target = scene.tip_leaning(&contact, &lean);
             let starts = scene.inverse.starts(&target, &task.near, Width::Near);
-            if let Some(start) = starts.unwrap_or_default().iter().find(|start| task.is_clear(&start.q)) {
+            if let Some(start) = starts
+                .unwrap_or_default()
+                .iter()
+                .find(|start| task.is_allowed(&start.q))
+            {
                 return Ok(Some(Found {
                     tilt_rad,
                     azimuth_rad,

@@ -1,9 +1,8 @@
 //! The contact points of a wash path.
 
 use super::settings::CHORD_ERROR_M;
-use crate::scene::Contact;
-use crate::trig::atan2;
-use nalgebra::Vector3;
+use crate::scene::{AxisRule, Contact};
+use nalgebra::{Vector2, Vector3};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashPath;
 
@@ -12,6 +11,7 @@ use platewash_workcell::wash_path::WashPath;
 pub(super) struct Samples {
     path: WashPath,
     plate: Plate,
+    axis: AxisRule,
     /// θ \[rad\], ascending.
     pub theta: Vec<f64>,
     /// Contact points \[m\], base frame.
@@ -21,12 +21,13 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    /// Points of a wash path on its plate, as dense as [`CHORD_ERROR_M`] asks.
-    pub fn new(path: &WashPath, plate: &Plate) -> Self {
-        let theta = path.curve.parameters(CHORD_ERROR_M);
+    /// Points of a wash path on its plate, as dense as [`CHORD_ERROR_M`] asks, with the axis by its share of the slope.
+    pub fn new(path: &WashPath, plate: &Plate, axis_share: f64) -> Self {
+        let theta = path.curve.parameters(&plate.surface, CHORD_ERROR_M);
         let mut samples = Self {
             path: *path,
             plate: *plate,
+            axis: AxisRule::new(&plate.surface, axis_share),
             contact: Vec::with_capacity(theta.len()),
             length_m: Vec::with_capacity(theta.len()),
             theta,
@@ -44,19 +45,22 @@ impl Samples {
 
     /// The contact point at θ \[rad\].
     pub fn at(&self, theta: f64) -> Contact {
-        let point = self.path.contact(&self.plate, theta);
-        let normal = self.plate.normal_at(&point);
-        Contact { point, normal }
+        let here = self.path.curve.on(&self.plate.surface, theta);
+        let (point, normal) = (self.plate.world(&here.position), self.plate.pose.rotation * here.normal);
+        if self.plate.surface.is_flat() {
+            return Contact::on_normal(point, normal);
+        }
+        let [arc_m, ..] = self.path.curve.arc(theta);
+        let [c, s] = self.axis.direction(arc_m);
+        let out = here.position.xy().try_normalize(0.0).unwrap_or_else(Vector2::x);
+        let axis = self.plate.pose.rotation * Vector3::new(-s * out.x, -s * out.y, c);
+        Contact { point, normal, axis }
     }
 
     /// The derivative of the contact point by θ \[m/rad\].
     pub fn first(&self, theta: f64) -> Vector3<f64> {
-        let here = self.path.curve.at(theta);
-        let (at, first) = (here.position, here.first);
-        let n = self.plate.surface.normal(at.norm(), atan2(at.y, at.x));
-        // Along the face: n · p′ = 0.
-        let rise = 0.0 - (n.x * first.x + n.y * first.y) / n.z;
-        self.plate.pose.rotation * Vector3::new(first.x, first.y, rise)
+        let here = self.path.curve.on(&self.plate.surface, theta);
+        self.plate.pose.rotation * here.first
     }
 
     /// Length of the whole wash path \[m\].

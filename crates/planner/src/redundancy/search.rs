@@ -110,7 +110,7 @@ impl Graph {
             task.scene.check_cancelled()?;
             let mut layer = self.layer(task, k, last.as_ref(), start);
             match &last {
-                Some(before) => self.connect(before, &mut layer),
+                Some(before) => self.connect(task, before, &mut layer),
                 None => first.clone_from(&layer),
             }
             if layer.iter().all(Option::is_none) {
@@ -138,7 +138,10 @@ impl Graph {
                 sides: start.sides,
             };
             let target = task.scene.tip_rigid(&contact, tilt);
-            let q = task.scene.inverse.continuing(&target, &near).ok();
+            let stands = task.check_cone(&contact, &target).is_ok();
+            let q = stands
+                .then(|| task.scene.inverse.continuing(&target, &near).ok())
+                .flatten();
             let off = (tilt - preferred) / TILT_STEP_RAD;
             layer.push(q.and_then(|q| self.vertex(task, q, off)));
         }
@@ -158,8 +161,10 @@ impl Graph {
         let contact = task.samples.at(self.theta[k]);
         let inverse = &task.scene.inverse;
         let at = |&tilt: &f64| {
-            let q = inverse.continuing(&task.scene.tip_rigid(&contact, tilt), start).ok()?;
-            task.is_clear(&q).then_some(q)
+            let target = task.scene.tip_rigid(&contact, tilt);
+            task.check_cone(&contact, &target).ok()?;
+            let q = inverse.continuing(&target, start).ok()?;
+            task.is_allowed(&q).then_some(q)
         };
         self.tilts.iter().find_map(at)
     }
@@ -167,7 +172,7 @@ impl Graph {
     /// A vertex at `q`, if it is clear; `off` is how many steps of 2° its tilt is off the preferred one.
     fn vertex(&self, task: &Task<'_>, q: JointVector, off: f64) -> Option<Vertex> {
         let room = task.has_room(&q);
-        if !room && task.check_clear(&q).is_err() {
+        if !task.is_allowed_with(&q, room) {
             return None;
         }
         let [for_tilt, for_limit, for_clearance, _] = WEIGHTS;
@@ -184,7 +189,7 @@ impl Graph {
     }
 
     /// Finds the best path to each vertex and removes those without one.
-    fn connect(&self, before: &Layer, layer: &mut Layer) {
+    fn connect(&self, task: &Task<'_>, before: &Layer, layer: &mut Layer) {
         let [.., for_change] = WEIGHTS;
         for (j, slot) in layer.iter_mut().enumerate() {
             let Some(vertex) = slot else { continue };
@@ -193,7 +198,9 @@ impl Graph {
                 let Some(from) = before.get(i).copied().flatten() else {
                     continue;
                 };
-                if check_step(&from.q, &vertex.q, self.spacing_m).is_err() {
+                if check_step(&from.q, &vertex.q, self.spacing_m).is_err()
+                    || task.check_side(&from.q, &vertex.q).is_err()
+                {
                     continue;
                 }
                 let travel: f64 = (0..AXES).map(|joint| (vertex.q[joint] - from.q[joint]).abs()).sum();

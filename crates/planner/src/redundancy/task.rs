@@ -4,13 +4,16 @@ use super::error::RedundancyError;
 use super::samples::Samples;
 use super::settings::{RESERVE_M, TILT_RESERVE_RAD, check_input};
 use super::tilt_spline::TiltSpline;
-use crate::scene::{Contact, Hindrance, Scene, Start, Stretch, TiltPolicy};
+use crate::scene::{Contact, Hindrance, Scene, Start, Stretch, TiltPolicy, WRIST_RESERVE_RAD, angle_between};
 use nalgebra::Vector6;
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Axes, JointVector};
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashPath;
+
+/// Joint 5, by its index.
+const WRIST: usize = 4;
 
 /// The most that a joint may move per length of the wash path \[rad/m\]: 0.35 rad in 5 mm.
 pub(super) const JOINT_RATE: f64 = 70.0;
@@ -77,7 +80,7 @@ impl<'a> Task<'a> {
             scene,
             path: *path,
             plate,
-            samples: Samples::new(path, plate),
+            samples: Samples::new(path, plate, scene.stance.axis_share),
             clearance_m,
             near: *near,
         })
@@ -103,8 +106,7 @@ impl<'a> Task<'a> {
     /// The plate's centre, the pole of its face.
     pub(super) fn centre(&self) -> Contact {
         let point = self.plate.centre();
-        let normal = self.plate.normal_at(&point);
-        Contact { point, normal }
+        Contact::on_normal(point, self.plate.normal_at(&point))
     }
 
     /// A start from anywhere near.
@@ -119,8 +121,45 @@ impl<'a> Task<'a> {
     /// The first filter that rejects it.
     pub(super) fn configuration(&self, target: &Rigid, start: &Start) -> Result<JointVector, Hindrance> {
         let q = self.scene.inverse.continuing(target, start)?;
+        self.check_wrist(&q)?;
         self.check_clear(&q)?;
         Ok(q)
+    }
+
+    /// Whether a configuration \[rad\] holds the wrist as it must, and the bodies keep off each other.
+    pub(super) fn is_allowed(&self, q: &JointVector) -> bool {
+        self.check_wrist(q).is_ok() && self.is_clear(q)
+    }
+
+    /// The same, where it is known whether the bodies have room.
+    pub(super) fn is_allowed_with(&self, q: &JointVector, has_room: bool) -> bool {
+        self.check_wrist(q).is_ok() && (has_room || self.check_clear(q).is_ok())
+    }
+
+    /// Whether joint 5 is far enough from 0.
+    fn check_wrist(&self, q: &JointVector) -> Result<(), Hindrance> {
+        let Some(least_rad) = self.scene.stance.wrist_rad else {
+            return Ok(());
+        };
+        let (found_rad, least_rad) = (q[WRIST].abs(), least_rad + WRIST_RESERVE_RAD);
+        if found_rad >= least_rad {
+            return Ok(());
+        }
+        Err(Hindrance::Wrist { found_rad, least_rad })
+    }
+
+    /// Whether the tool at a target stands within the planned cone about the normal.
+    pub(super) fn check_cone(&self, contact: &Contact, target: &Rigid) -> Result<(), Hindrance> {
+        if contact.axis == contact.normal {
+            // Tilts count from the normal, and are within the cone.
+            return Ok(());
+        }
+        let axis = -target.rotation.column(2).into_owned();
+        let (found_rad, most_rad) = (angle_between(&axis, &contact.normal), self.planned_tilt_rad());
+        if found_rad <= most_rad {
+            return Ok(());
+        }
+        Err(Hindrance::Cone { found_rad, most_rad })
     }
 
     /// Whether the bodies keep off each other at `q` \[rad\].
@@ -202,9 +241,12 @@ impl<'a> Task<'a> {
         (along_m, looked_at): (Option<f64>, bool),
     ) -> Result<(JointVector, bool), Hindrance> {
         let target = self.scene.tip_rigid(contact, tilt);
+        self.check_cone(contact, &target)?;
         let q = self.scene.inverse.continuing(&target, last)?;
+        self.check_wrist(&q)?;
         if let Some(along_m) = along_m {
             check_step(&last.q, &q, along_m)?;
+            self.check_side(&last.q, &q)?;
         }
         let has_room = looked_at && self.has_room(&q);
         if looked_at && !has_room {
@@ -231,6 +273,19 @@ impl<'a> Task<'a> {
         let slope = jacobian.lu().solve(&twist)?;
         let bounded = slope.amax() <= JOINT_RATE * first.norm().max(1e-3);
         bounded.then_some(slope)
+    }
+}
+
+impl Task<'_> {
+    /// Refuses a step over which the wrist flips.
+    pub(super) fn check_side(&self, from: &JointVector, to: &JointVector) -> Result<(), Hindrance> {
+        match self.scene.stance.wrist_rad {
+            Some(least_rad) if from[WRIST] * to[WRIST] < 0.0 => Err(Hindrance::Wrist {
+                found_rad: 0.0,
+                least_rad,
+            }),
+            _ => Ok(()),
+        }
     }
 }
 

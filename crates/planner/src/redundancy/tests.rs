@@ -44,6 +44,7 @@ fn curve(radius_m: f64) -> WashCurve {
         turns: 3.5,
         start_angle_rad: 0.3,
         closing_ring: true,
+        rings: None,
     }
 }
 
@@ -123,7 +124,10 @@ fn spline_curvatures(x: &[f64], y: &[f64], ends: [f64; 2]) -> Vec<f64> {
 fn check(world: &World<'_>, path: &WashPath, washing: &Washing) {
     let scene = &world.scene;
     let (plate, limits) = (&scene.plates[path.plate], scene.robot.limits());
-    assert_eq!(washing.theta, path.curve.parameters(settings::CHORD_ERROR_M));
+    assert_eq!(
+        washing.theta,
+        path.curve.parameters(&plate.surface, settings::CHORD_ERROR_M)
+    );
     assert_eq!([washing.q.len(), washing.tilt_rad.len()], [washing.theta.len(); 2]);
     for (k, (&theta, q)) in washing.theta.iter().zip(&washing.q).enumerate() {
         let tip = scene.robot.fk(q).rigid(&scene.tip);

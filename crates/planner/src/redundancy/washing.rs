@@ -16,6 +16,9 @@ use std::fmt;
 /// Passes of smoothing tried on a searched path, the smoothest first.
 const SMOOTHING: [usize; 6] = [256, 64, 16, 4, 1, 0];
 
+/// Shares of the gentle tilt that are tried on faces that are not flat, the least first.
+const PROFILE_STEPS: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
+
 /// How a plate is washed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Washing {
@@ -27,6 +30,8 @@ pub struct Washing {
     pub tilt_rad: Vec<f64>,
     /// Configuration of the arm at each \[rad\].
     pub q: Vec<JointVector>,
+    /// The contact points at both ends.
+    pub feet: [Contact; 2],
     /// dq/dθ at the first and at the last.
     pub end_slopes: [JointVector; 2],
     /// How the tilt was chosen.
@@ -80,7 +85,13 @@ pub fn washing(task: &Task<'_>) -> Result<Washing, RedundancyError> {
 pub(super) fn policies(task: &Task<'_>) -> Vec<TiltPolicy> {
     let most = task.tilt_max_rad();
     let gentle = most.min(GENTLE_TILT_RAD);
-    let mut amplitudes = vec![gentle];
+    // Where the axis follows the slope, the less it leans besides the better the sponge presses.
+    let steps: &[f64] = if task.plate.surface.is_flat() {
+        &[1.0]
+    } else {
+        &PROFILE_STEPS
+    };
+    let mut amplitudes: Vec<f64> = steps.iter().map(|share| share * gentle).collect();
     amplitudes.extend((most > gentle).then_some(most));
     let centre_m = task.scene.distance(&task.centre().point);
     let both = |&tilt: &f64| {
@@ -257,7 +268,9 @@ fn finish(task: &Task<'_>, profile: &Profile, tilt_rad: Vec<f64>, q: Vec<JointVe
     // At a singularity there is no slope; then the chord's.
     let chord = |a: usize, b: usize| (q[b] - q[a]) / (theta[b] - theta[a]);
     let slope = |k: usize, pair: [usize; 2]| task.slope(profile, k, &q[k]).unwrap_or_else(|| chord(pair[0], pair[1]));
+    let contact = &task.samples.contact;
     Washing {
+        feet: [contact[0], contact[contact.len() - 1]],
         end_slopes: [slope(0, [0, 1]), slope(last, [last - 1, last])],
         theta,
         tilt_rad,

@@ -49,6 +49,22 @@ pub enum Hindrance {
         /// How far \[rad\].
         by_rad: f64,
     },
+    /// Joint 5 would be too near to 0, or on its other side.
+    #[error("joint 5 is {}° from 0, where the wrist flips; {:.2}° must be kept", not_as_zero(.found_rad.to_degrees(), 2), .least_rad.to_degrees())]
+    Wrist {
+        /// How far it is \[rad\].
+        found_rad: f64,
+        /// How far it must be \[rad\].
+        least_rad: f64,
+    },
+    /// The tool would lean too far from the normal of the face.
+    #[error("the tool leans {:.2}° from the normal, at most {:.2}° are planned", .found_rad.to_degrees(), .most_rad.to_degrees())]
+    Cone {
+        /// How far it leans \[rad\].
+        found_rad: f64,
+        /// How far it may \[rad\].
+        most_rad: f64,
+    },
     /// The pose or the start of the arm is not finite.
     #[error("not finite")]
     NotFinite,
@@ -67,6 +83,10 @@ pub enum Filter {
     Clearance,
     /// [`Hindrance::Jump`].
     Continuity,
+    /// [`Hindrance::Wrist`].
+    Wrist,
+    /// [`Hindrance::Cone`].
+    Cone,
     /// [`Hindrance::NotFinite`].
     Numbers,
 }
@@ -80,6 +100,8 @@ impl Hindrance {
             Self::Limit(_) => Filter::Limit,
             Self::Clearance { .. } => Filter::Clearance,
             Self::Jump { .. } => Filter::Continuity,
+            Self::Wrist { .. } => Filter::Wrist,
+            Self::Cone { .. } => Filter::Cone,
             Self::NotFinite => Filter::Numbers,
         }
     }
@@ -93,6 +115,8 @@ impl Hindrance {
             Self::Limit(violation) => (violation.position_rad - violation.limit_rad).abs(),
             Self::Clearance { pair, required_m } => required_m - pair.distance_m,
             Self::Jump { by_rad, .. } => *by_rad,
+            Self::Wrist { found_rad, least_rad } => least_rad - found_rad,
+            Self::Cone { found_rad, most_rad } => found_rad - most_rad,
             Self::NotFinite => f64::INFINITY,
         }
     }
@@ -136,6 +160,16 @@ impl Hindrance {
                     by_rad.to_degrees()
                 )
             }
+            Self::Wrist { .. } => write!(
+                f,
+                "joint 5 is up to {:.2}° too near to 0, where the wrist flips",
+                degrees(self.shortfall())
+            ),
+            Self::Cone { .. } => write!(
+                f,
+                "the tool leans up to {:.2}° too far from the normal",
+                degrees(self.shortfall())
+            ),
             Self::NotFinite => f.write_str("not finite"),
         }
     }

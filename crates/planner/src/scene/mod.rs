@@ -4,12 +4,15 @@ mod contact;
 mod hindrance;
 mod inverse;
 pub mod policy;
+mod stance;
 mod surroundings;
 
 pub use contact::Contact;
 pub use hindrance::{Filter, Hindrance};
 pub(crate) use inverse::{Inverse, Start, Width, merge_starts};
 pub use policy::TiltPolicy;
+pub(crate) use stance::angle_between;
+pub use stance::{AXIS_SHARE, AxisRule, Stance, WRIST_RESERVE_RAD};
 pub use surroundings::{Stretch, Surroundings};
 
 use crate::trig::sin_cos;
@@ -39,6 +42,8 @@ pub struct Scene<'a> {
     pub plates: &'a [Plate],
     /// Where the upright tool leans.
     pub reach: ReachBorders,
+    /// How the tool stands, and how the wrist is held.
+    pub stance: Stance,
     pub(crate) solver: Arc<IkSolver<'a>>,
     pub(crate) inverse: Arc<Inverse<'a>>,
     /// A point of axis 1 and its direction, base frame.
@@ -68,6 +73,7 @@ impl<'a> Scene<'a> {
             surroundings,
             plates,
             reach,
+            stance: Stance::default(),
             solver: Arc::new(IkSolver::new(robot, tip, inverse::exact())?),
             inverse: Arc::new(Inverse::new(robot, tip)?),
             axis_1: [robot.reach_bound(&tip).0.coords, axes[0]],
@@ -83,6 +89,12 @@ impl<'a> Scene<'a> {
     pub fn until(self, cancel: &'a CancelToken) -> Self {
         let cancel = Some(cancel);
         Self { cancel, ..self }
+    }
+
+    /// The same scene with another stance.
+    #[must_use]
+    pub fn standing(self, stance: Stance) -> Self {
+        Self { stance, ..self }
     }
 
     /// The same arm among other plates.
@@ -104,7 +116,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Where the tip frame must be to wash at `contact` with the tool tilted by `tilt_rad` in the arm's plane, the one through
-    /// axis 1, the contact point and the normal there: z of the tip is `−(cos τ n + sin τ ρ̂)`, so that τ > 0 leans the flange
+    /// axis 1, the contact point and its axis n: z of the tip is `−(cos τ n + sin τ ρ̂)`, so that τ > 0 leans the flange
     /// away from axis 1. The yaw is the one at which joints 4 and 6 rest on arms whose wrist allows it, where the face is level.
     ///
     /// On axis 1 itself ρ̂ is x of the base frame, along the face.
@@ -145,9 +157,9 @@ impl<'a> Scene<'a> {
         self.away(point).norm()
     }
 
-    /// ρ̂ of a contact point: the direction along the face away from axis 1.
+    /// ρ̂ of a contact point: the direction across its axis away from axis 1.
     pub(crate) fn out(&self, contact: &Contact) -> Vector3<f64> {
-        let n = contact.normal;
+        let n = contact.axis;
         let along = |v: Vector3<f64>| (v - n * n.dot(&v)).try_normalize(ON_AXIS_M);
         let away = along(self.away(&contact.point));
         away.or_else(|| along(Vector3::x())).unwrap_or_else(Vector3::y)
@@ -176,7 +188,7 @@ impl<'a> Scene<'a> {
 
 /// The straight tool whose `across` points along `n × out`, turned about `n × lean` by the tilt.
 fn leaning(rest: &Vector3<f64>, contact: &Contact, [out, lean]: [&Vector3<f64>; 2], tilt_rad: f64) -> Rigid {
-    let n = contact.normal;
+    let n = contact.axis;
     let (s, c) = sin_cos(tilt_rad);
     let side = n.cross(out);
     let hinge = n.cross(lean);

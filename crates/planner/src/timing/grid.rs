@@ -67,6 +67,11 @@ impl<'a> Grid<'a> {
         self.path.on_piece(self.knots[k].piece, from + (to - from) * share).q
     }
 
+    /// How much u goes through while s goes from 0 to 1.
+    pub fn span(&self) -> f64 {
+        self.span
+    }
+
     /// Length in s of interval `k`.
     pub fn width(&self, k: usize) -> f64 {
         (self.knots[k + 1].u - self.knots[k].u) / self.span

@@ -120,7 +120,7 @@ impl<'a> Rounds<'a> {
             let slowed = self.slowed[around.clone()].iter().fold(1.0, |a: f64, &b| a.max(b));
             let width = self.intervals[around].iter().fold(f64::INFINITY, |a, i| a.min(i.width));
             let here = self.slow.iter().filter(|s| s.u[0] <= knot.u && knot.u <= s.u[1]);
-            let slow = here.fold(f64::INFINITY, |most, s| most.min(s.most));
+            let slow = here.fold(f64::INFINITY, |most, s| most.min(s.most / self.grid.span()));
             let fastest = (fastest(knot, &self.limits) / slowed)
                 .min(width / SHORTEST_PIECE_S)
                 .min(slow);

@@ -6,6 +6,7 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::fixtures::kitchen_tool;
+use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::WashCurve;
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -37,10 +38,11 @@ fn wash(robot: &RobotModel, tip: &Frame) -> JointPath {
         turns: 3.5,
         start_angle_rad: 0.3,
         closing_ring: true,
+        rings: None,
     };
     let solver = IkSolver::new(robot, *tip, IkSettings::default()).unwrap();
     let down = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), PI);
-    let u = curve.parameters(5e-5);
+    let u = curve.parameters(&Surface::Disc { radius_m: 0.145 }, 5e-5);
     let mut seed = JointVector::new(0.0, 0.5, 0.3, 0.0, 0.7, 0.0);
     let q = u.iter().map(|&theta| {
         let p = curve.at(theta).position;

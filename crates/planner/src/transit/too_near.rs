@@ -68,16 +68,17 @@ mod tests {
     use platewash_workcell::fixtures::{kitchen_tool, workcell};
     use platewash_workcell::plate::Plate;
 
-    /// A plate whose surface is `gap` below the floor of the sponge, under the tool that points straight down.
+    /// A plate whose surface is `gap` below the free sponge, under the tool that points straight down.
     #[test]
     fn the_pair_its_distance_and_what_is_required_are_named() {
         let robot = RobotModel::irb120().unwrap();
         let tool = kitchen_tool();
         let q = JointVector::new(0.0, 0.0, 0.0, 0.0, 90.0_f64.to_radians(), 0.0);
         let tip = robot.fk(&q).rigid(&tool.tip_frame(&robot)).translation;
+        let free_m = tool.sponge.compression_m;
         let workcell = workcell(&robot, tool);
         for (gap, near) in [(0.0105, true), (0.0112, false)] {
-            let plate = Plate::level_disc([tip.x, tip.y, tip.z - gap], 0.1, 0.02);
+            let plate = Plate::level_disc([tip.x, tip.y, tip.z - free_m - gap], 0.1, 0.02);
             let clearance = ClearanceModel::new(&robot, &workcell, &[plate]).unwrap();
             let found = TooNear::at(&clearance, &q, Stretch::Free, 0.01);
             assert_eq!(found.is_some(), near);

@@ -15,7 +15,9 @@ const MOST_ON_A_LINE: usize = 4;
 /// A value on its own, at a key that had none; `indent` is that of its line, without one it stays on it.
 pub(super) fn fresh(text: &str, domain: Domain, value: &Value, indent: Option<&str>) -> String {
     match (domain, value, indent) {
-        (Domain::Points(..), Value::Array(points), Some(indent)) if points.len() > MOST_ON_A_LINE => {
+        (Domain::Points(..) | Domain::Knots(..), Value::Array(points), Some(indent))
+            if points.len() > MOST_ON_A_LINE =>
+        {
             on_rows(points, lines::newline(text), indent)
         }
         _ => on_one_line(value),
@@ -36,7 +38,7 @@ pub(super) fn merge(text: &str, node: &Node, domain: Domain, value: &Value, inde
     ) {
         return vec![(node.span.clone(), fresh(text, domain, value, indent))];
     }
-    if let (Value::Array(was), Value::Array(new), Domain::Points(..)) = (&stated, value, domain) {
+    if let (Value::Array(was), Value::Array(new), Domain::Points(..) | Domain::Knots(..)) = (&stated, value, domain) {
         let grew = new.len() > was.len() && new.len() > MOST_ON_A_LINE;
         if grew && indent.is_some() && !old.contains('\n') {
             return vec![(node.span.clone(), fresh(text, domain, value, indent))];

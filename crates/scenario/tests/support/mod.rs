@@ -111,6 +111,18 @@ fn value_of(domain: Domain) -> BoxedStrategy<Value> {
             let point = several(least, most, false, 2..=2);
             prop::collection::vec(point, 1..9).prop_map(Value::from).boxed()
         }
+        Domain::PairAbove(above, most) => several(above, most, true, 2..=2).boxed(),
+        Domain::Knots(most_m, most_deg) => {
+            let knots = prop::collection::btree_set(1..1_000_000u32, 1..9);
+            let slopes = prop::collection::vec(number(-most_deg, most_deg, false), 9);
+            (knots, slopes)
+                .prop_map(move |(radii, slopes)| {
+                    let radius = |part: u32| most_m * f64::from(part) / 1e6;
+                    let knots = radii.into_iter().zip(slopes);
+                    knots.map(|(part, slope)| json!([radius(part), slope])).collect()
+                })
+                .boxed()
+        }
     }
 }
 

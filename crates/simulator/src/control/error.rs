@@ -44,8 +44,8 @@ pub enum ControlError {
     },
     /// The sampled loop is not stable.
     #[error(
-        "the law \"{}\" is not stable sampled at {rate_hz} Hz (linearised about {}): {}",
-        .law.name(), degrees(.q), remedy(*.least_rate_hz, *.highest_frequency_rad_s)
+        "the law \"{}\" is not stable sampled at {rate_hz} Hz (linearised about {}{}): {}",
+        .law.name(), degrees(.q), if *.in_contact { ", the sponge on a plate" } else { "" }, remedy(*.least_rate_hz, *.highest_frequency_rad_s)
     )]
     Unstable {
         /// The law.
@@ -54,6 +54,8 @@ pub enum ControlError {
         rate_hz: f64,
         /// A configuration at which it is unstable \[rad\].
         q: JointVector,
+        /// Whether the sponge is on a plate there.
+        in_contact: bool,
         /// The least rate at which these gains are stable \[Hz\]; `None` where none that may be asked for is.
         least_rate_hz: Option<f64>,
         /// The highest frequency that is stable at this rate with this damping \[rad/s\]; `None` where gains are given

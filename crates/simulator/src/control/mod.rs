@@ -32,11 +32,11 @@ pub use law::{Command, ControlLaw, Reference};
 pub use paper::PaperLaw;
 pub use pd::Pd;
 pub use pd_gravity::PdGravity;
-pub use stability::{Stability, check};
+pub use stability::{Stability, Standing, check};
 
 use crate::dynamics::DynamicsModel;
 use crate::plant::Plant;
-use platewash_kinematics::{JointLimits, JointVector};
+use platewash_kinematics::JointLimits;
 use platewash_workcell::simulation::{ControlLawName, ControlSettings, FeedForward};
 use refusal::unstable;
 
@@ -74,7 +74,7 @@ pub fn stable_kinematic(name: ControlLawName, settings: &ControlSettings) -> Res
 }
 
 /// The law `name` with its settings on a plant, whose model it knows. `limits` bound the configurations from which gains are scaled;
-/// the sampled loop must be stable about each of `configurations` \[rad\], with `substeps` steps of integration a sample.
+/// the sampled loop must be stable about each of `configurations`, with `substeps` steps of integration a sample.
 ///
 /// # Errors
 /// [`ControlError`]: a setting that makes no sense, or a law that is not stable at its rate, with the limit.
@@ -83,7 +83,7 @@ pub fn law<'a>(
     settings: &ControlSettings,
     plant: &'a Plant,
     limits: &JointLimits,
-    configurations: &[JointVector],
+    configurations: &[Standing],
     substeps: usize,
 ) -> Result<Box<dyn ControlLaw + 'a>, ControlError> {
     let (of, made): (Loop, Made<'a>) = match name {
@@ -117,7 +117,7 @@ pub fn law<'a>(
         substeps: substeps.max(1),
     };
     check(&stability, settings.rate_hz, model, configurations)
-        .map_err(|q| unstable(name, settings, &stability, q, (model, configurations)))?;
+        .map_err(|at| unstable(name, settings, &stability, &at, (model, configurations)))?;
     Ok(made(model, gains, settings.feed_forward))
 }
 

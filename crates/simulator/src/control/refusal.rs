@@ -2,9 +2,8 @@
 
 use super::error::ControlError;
 use super::gains::Gains;
-use super::stability::{Stability, check};
+use super::stability::{Stability, Standing, check};
 use crate::dynamics::DynamicsModel;
-use platewash_kinematics::JointVector;
 use platewash_workcell::simulation::{ControlLawName, ControlSettings};
 
 /// Highest rate that is tried while looking for one that is stable \[Hz\]: the highest that a job may ask for.
@@ -21,8 +20,8 @@ pub(super) fn unstable(
     law: ControlLawName,
     settings: &ControlSettings,
     stability: &Stability,
-    q: JointVector,
-    (model, configurations): (&DynamicsModel, &[JointVector]),
+    at: &Standing,
+    (model, configurations): (&DynamicsModel, &[Standing]),
 ) -> ControlError {
     let rate_hz = settings.rate_hz;
     let holds = |law: &Stability, rate: f64| check(law, rate, model, configurations).is_ok();
@@ -52,7 +51,8 @@ pub(super) fn unstable(
     ControlError::Unstable {
         law,
         rate_hz,
-        q,
+        q: at.q,
+        in_contact: at.contact.is_some(),
         least_rate_hz,
         highest_frequency_rad_s: share.map(|share| share * settings.frequency_rad_s),
     }

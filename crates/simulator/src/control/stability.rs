@@ -1,12 +1,14 @@
 //! Whether a sampled torque law is stable, linearised about rest.
 //!
 //! About a configuration that the arm shall hold, with gravity's slope left out, x = (δq, δq̇) obeys
-//! M δq̈ = −D δq̇ + u, u = −K x held over the sampling time T, K = (Kp, Kd) or M (Kp, Kd) for computed torque, D friction.
+//! M δq̈ = −S δq − (D + C) δq̇ + u, u = −K x held over the sampling time T, K = (Kp, Kd) or M (Kp, Kd) for computed torque, D friction,
+//! S and C stiffness and damping of foam on a plate where the sponge is on one.
 //! Over a sample the integrator's own steps are a matrix, x ← A x. The loop is stable if and only if the eigenvalues of A
 //! lie within the unit circle, and certainly if ‖Aⁿ‖ < 1 for some n, which repeated squaring finds.
 
 use super::gains::{Gains, Loop};
 use crate::dynamics::{DynamicsModel, MassMatrix};
+use crate::plant::ContactSlope;
 use nalgebra::SMatrix;
 use platewash_kinematics::JointVector;
 use platewash_workcell::simulation::Integrator;
@@ -32,7 +34,22 @@ pub struct Stability {
 /// x = (δq, δq̇).
 type Transition = SMatrix<f64, 12, 12>;
 
-/// Whether the loop, sampled at `rate_hz`, is stable at all `configurations` \[rad\]; if not, the first at which it is not.
+/// A configuration about which a loop is checked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Standing {
+    /// Where the joints are \[rad\].
+    pub q: JointVector,
+    /// The foam on a plate there; `None` where nothing touches.
+    pub contact: Option<ContactSlope>,
+}
+
+impl From<JointVector> for Standing {
+    fn from(q: JointVector) -> Self {
+        Self { q, contact: None }
+    }
+}
+
+/// Whether the loop, sampled at `rate_hz`, is stable at all `configurations`; if not, the first at which it is not.
 ///
 /// # Errors
 /// The configuration. Also where a gain is 0, because the joint then never comes back.
@@ -40,21 +57,24 @@ pub fn check(
     law: &Stability,
     rate_hz: f64,
     model: &DynamicsModel,
-    configurations: &[JointVector],
-) -> Result<(), JointVector> {
-    let fails = |q: &&JointVector| !law.is_stable(&model.mass_matrix(q), 1.0 / rate_hz);
-    configurations.iter().find(fails).map_or(Ok(()), |q| Err(*q))
+    configurations: &[Standing],
+) -> Result<(), Box<Standing>> {
+    let fails = |at: &&Standing| !law.is_stable(&model.mass_matrix(&at.q), at.contact.as_ref(), 1.0 / rate_hz);
+    configurations
+        .iter()
+        .find(fails)
+        .map_or(Ok(()), |at| Err(Box::new(*at)))
 }
 
 impl Stability {
-    /// Whether the loop is stable with the mass matrix `mass` and the sampling time `period_s`.
+    /// Whether the loop is stable with the mass matrix `mass`, foam on a plate if there is any, and the sampling time `period_s`.
     #[must_use]
-    pub fn is_stable(&self, mass: &MassMatrix, period_s: f64) -> bool {
-        self.transition(mass, period_s).is_some_and(contracts)
+    pub fn is_stable(&self, mass: &MassMatrix, contact: Option<&ContactSlope>, period_s: f64) -> bool {
+        self.transition(mass, contact, period_s).is_some_and(contracts)
     }
 
     /// A; `None` where the mass matrix is not positive definite.
-    fn transition(&self, mass: &MassMatrix, period_s: f64) -> Option<Transition> {
+    fn transition(&self, mass: &MassMatrix, contact: Option<&ContactSlope>, period_s: f64) -> Option<Transition> {
         let h = period_s / self.substeps as f64;
         let friction = MassMatrix::from_diagonal(&self.friction);
         let felt = match self.integrator {
@@ -66,10 +86,13 @@ impl Stability {
             Loop::Torque => inverse * MassMatrix::from_diagonal(k),
             Loop::Acceleration => inverse * mass * MassMatrix::from_diagonal(k),
         };
-        let damping = inverse * friction;
+        let (stiffness, foam) = contact.map_or((MassMatrix::zeros(), MassMatrix::zeros()), |contact| {
+            (contact.stiffness, contact.damping)
+        });
+        let (stiffness, damping) = (inverse * stiffness, inverse * (friction + foam));
         let (step, input) = match self.integrator {
-            Integrator::SemiImplicitEuler => euler(&damping, h),
-            Integrator::Rk4 => rk4(&damping, h),
+            Integrator::SemiImplicitEuler => euler(&stiffness, &damping, h),
+            Integrator::Rk4 => rk4(&stiffness, &damping, h),
         };
         // The torque is that of the sample's first state, whatever the arm does until the next one.
         let (passed, forced) = repeated(step, input, self.substeps);
@@ -96,9 +119,13 @@ fn repeated(mut step: Transition, mut input: Transition, mut count: usize) -> (T
 }
 
 /// One step of semi-implicit Euler: what it makes of the state, and of an acceleration in rows 6 to 11.
-fn euler(damping: &MassMatrix, h: f64) -> (Transition, Transition) {
+fn euler(stiffness: &MassMatrix, damping: &MassMatrix, h: f64) -> (Transition, Transition) {
     let speed = MassMatrix::identity() - damping * h;
     let mut step = Transition::identity();
+    let drop = stiffness * h;
+    step.fixed_view_mut::<6, 6>(0, 0)
+        .copy_from(&(MassMatrix::identity() - drop * h));
+    step.fixed_view_mut::<6, 6>(6, 0).copy_from(&-drop);
     step.fixed_view_mut::<6, 6>(0, 6).copy_from(&(speed * h));
     step.fixed_view_mut::<6, 6>(6, 6).copy_from(&speed);
     let mut input = Transition::zeros();
@@ -108,9 +135,10 @@ fn euler(damping: &MassMatrix, h: f64) -> (Transition, Transition) {
 }
 
 /// The same for Runge–Kutta: Σ (hF)ᵏ/k! up to k = 4 of ẋ = F x + G u.
-fn rk4(damping: &MassMatrix, h: f64) -> (Transition, Transition) {
+fn rk4(stiffness: &MassMatrix, damping: &MassMatrix, h: f64) -> (Transition, Transition) {
     let mut rate = Transition::zeros();
     rate.fixed_view_mut::<6, 6>(0, 6).fill_diagonal(h);
+    rate.fixed_view_mut::<6, 6>(6, 0).copy_from(&(-stiffness * h));
     rate.fixed_view_mut::<6, 6>(6, 6).copy_from(&(-damping * h));
     let mut forced = Transition::zeros();
     forced.fixed_view_mut::<6, 6>(6, 6).fill_diagonal(h);
@@ -159,7 +187,7 @@ mod tests {
         let mass =
             RobotModel::irb120().map(|r| DynamicsModel::new(&r, None).unwrap().mass_matrix(&JointVector::zeros()));
         let mass = mass.unwrap();
-        let stable = |kp: f64, kd: f64| law(kp, kd, Integrator::SemiImplicitEuler).is_stable(&mass, 1e-3);
+        let stable = |kp: f64, kd: f64| law(kp, kd, Integrator::SemiImplicitEuler).is_stable(&mass, None, 1e-3);
         // ζ = 1: 4 − 4x − x² = 0 at x = T ω = 2√2 − 2.
         let limit = (8f64.sqrt() - 2.0) * 1e3;
         for (share, expected) in [(0.999, true), (1.001, false)] {
@@ -174,14 +202,14 @@ mod tests {
     #[test]
     fn runge_kutta_samples_exactly() {
         let mass = MassMatrix::identity();
-        let stable = |kp: f64, kd: f64| law(kp, kd, Integrator::Rk4).is_stable(&mass, 1e-3);
+        let stable = |kp: f64, kd: f64| law(kp, kd, Integrator::Rk4).is_stable(&mass, None, 1e-3);
         assert!(stable(900.0, 0.451) && !stable(900.0, 0.449), "T kd = T² kp/2");
         assert!(stable(100.0, 1999.0) && !stable(100.0, 2001.0), "T kd = 2");
     }
 
     #[test]
     fn doubling_is_repeating() {
-        let (step, input) = euler(&(MassMatrix::identity() * 3.0), 0.01);
+        let (step, input) = euler(&(MassMatrix::identity() * 7.0), &(MassMatrix::identity() * 3.0), 0.01);
         for count in 0..20 {
             let (mut passed, mut forced) = (Transition::identity(), Transition::zeros());
             for _ in 0..count {
@@ -204,9 +232,25 @@ mod tests {
                 substeps: 1000,
                 ..law(900.0, kd, Integrator::SemiImplicitEuler)
             }
-            .is_stable(&mass, 1e-3)
+            .is_stable(&mass, None, 1e-3)
         };
         // Towards Runge–Kutta's limit of 0.45.
         assert!(fine(0.452) && !fine(0.448));
+    }
+
+    /// A mass on a spring under semi-implicit Euler: z² − (2 − x²) z + 1 with x = T √(S/m), and a little damping: stable to x = 2.
+    /// Runge–Kutta keeps it to x = 2 √2 (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.2).
+    #[test]
+    fn stiff_foam_asks_for_short_steps() {
+        let mass = MassMatrix::identity();
+        let stable = |integrator, x: f64| {
+            let foam = ContactSlope {
+                stiffness: MassMatrix::identity() * (x * x * 1e6),
+                damping: MassMatrix::zeros(),
+            };
+            law(1e-6, 1e-2, integrator).is_stable(&mass, Some(&foam), 1e-3)
+        };
+        assert!(stable(Integrator::SemiImplicitEuler, 1.99) && !stable(Integrator::SemiImplicitEuler, 2.01));
+        assert!(stable(Integrator::Rk4, 2.8) && !stable(Integrator::Rk4, 2.85));
     }
 }

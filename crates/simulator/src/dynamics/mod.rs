@@ -36,3 +36,4 @@ pub use energy::Energy;
 pub use largest::spread;
 pub use model::{DynamicsError, DynamicsModel, STANDARD_GRAVITY_M_S2};
 pub use physical::Unphysical;
+pub use push::FrameMotion;

@@ -1,7 +1,9 @@
 //! An arm that torques move.
 
+use super::felt::Felt;
 use super::friction::Friction;
 use super::limits::TorqueLimits;
+use super::sponge::{Push, SpongeOnPlates};
 use super::state::PlantState;
 use super::{euler, rk4};
 use crate::dynamics::DynamicsModel;
@@ -56,6 +58,32 @@ impl Plant {
             Integrator::SemiImplicitEuler => euler::step((&self.model, &self.friction), state, torque, h),
             Integrator::Rk4 => rk4::step(state, h, |state| self.acceleration(state, torque)),
         }
+    }
+
+    /// As [`Self::step`], with plates that push a sponge: as they do at the start of the step (semi-implicit Euler), or at every state that
+    /// the step looks at (Runge–Kutta). Also what the foam feels at the start.
+    #[must_use]
+    pub fn step_on(
+        &self,
+        sponge: &SpongeOnPlates,
+        state: &PlantState,
+        torque: &JointVector,
+        h: f64,
+    ) -> (PlantState, JointVector, Felt) {
+        let first = sponge.push(&self.model, state);
+        let pushed = |push: &Push| torque + push.torque;
+        let (next, qdd) = match self.integrator {
+            Integrator::SemiImplicitEuler => euler::step((&self.model, &self.friction), state, &pushed(&first), h),
+            Integrator::Rk4 => rk4::step(state, h, |at| {
+                let push = if at == state {
+                    first
+                } else {
+                    sponge.push(&self.model, at)
+                };
+                self.acceleration(at, &pushed(&push))
+            }),
+        };
+        (next, qdd, first.felt)
     }
 
     /// Acceleration under joint torques and friction \[rad/s²\].

@@ -6,11 +6,11 @@ use platewash_workcell::csv::{self, CsvError};
 use platewash_workcell::plan::Plan;
 use std::fmt;
 
-/// What stands in the header behind the plan's columns ([`csv::HEADER`]).
+/// What stands in the header behind the plan's columns ([`csv::HEADER`]); [`csv::FORCE`] follows where force on the sponge was simulated.
 pub const HEADER: &str = csv::TORQUES;
 
 /// The executed motion at the samples nearest to multiples of `dt_s`, and the last one: the plan's columns, then the torque
-/// held from then on. Numbers are the shortest that read back exactly.
+/// held from then on, and the force on the sponge where it was simulated. Numbers are the shortest that read back exactly.
 ///
 /// # Errors
 /// [`CsvError::Step`] for a time step that is not positive or gives more than [`csv::MAX_ROWS`] rows.
@@ -44,7 +44,12 @@ impl fmt::Display for ExecutedTable<'_> {
         let tip = self.plan.job.workcell.tool.tip_frame(self.robot);
         let stride = (self.dt_s / self.execution.period_s).max(1.0);
         let last = samples.len().saturating_sub(1);
-        writeln!(f, "{}{HEADER}", csv::HEADER)?;
+        let force = if samples.first().is_some_and(|sample| sample.felt.is_some()) {
+            csv::FORCE
+        } else {
+            ""
+        };
+        writeln!(f, "{}{HEADER}{force}", csv::HEADER)?;
         let mut next = 0.0;
         for (k, sample) in samples.iter().enumerate() {
             if k != last && (k as f64) + 0.5 < next {
@@ -55,6 +60,9 @@ impl fmt::Display for ExecutedTable<'_> {
             let motion = [&sample.state.q, &sample.state.qd, &sample.qdd];
             csv::write_row(f, sample.t_s, self.plan.segments.get(sample.segment), motion, &at)?;
             csv::write_joints(f, &sample.torque)?;
+            if let Some(felt) = &sample.felt {
+                write!(f, ",{}", felt.force_n)?;
+            }
             writeln!(f)?;
         }
         Ok(())

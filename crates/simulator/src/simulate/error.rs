@@ -3,11 +3,19 @@
 use super::work::{MAX_SAMPLES, MAX_STEPS, highest_rate, shortest_period};
 use crate::control::ControlError;
 use crate::dynamics::DynamicsError;
+use platewash_kinematics::words::rounded_up;
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::coverage::CoverageError;
 use platewash_workcell::job::JobError;
 use platewash_workcell::trajectory::KnotError;
 use platewash_workcell::words::counted;
+
+/// Significant digits of a rate that is suggested.
+const RATE_DIGITS: usize = 5;
+
+fn counted_a_sample(substeps: usize) -> String {
+    format!("with {} a sample", counted(substeps, "step"))
+}
 
 /// Why a plan could not be simulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -54,6 +62,36 @@ pub enum SimulationError {
         expected: &'static str,
         /// What it is.
         found: f64,
+    },
+    /// Foam that shall push back, on no sponge.
+    #[error("plant: contact needs a tool with a sponge of some radius and height")]
+    NoSponge,
+    /// A stiffness that the sponge does not have.
+    #[error(
+        "plant: contact_stiffness_pa must be from {} to {}, as the sponge is stated; found {found_pa}", .range_pa[0], .range_pa[1]
+    )]
+    Stiffness {
+        /// Least and greatest of the sponge \[Pa\].
+        range_pa: [f64; 2],
+        /// What is asked for \[Pa\].
+        found_pa: f64,
+    },
+    /// Foam that is too stiff for the steps of integration.
+    #[error(
+        "the sponge's contact is not stable with a stiffness of {stiffness_pa} Pa, integrated {} at {rate_hz} Hz: it needs at least {} \
+         steps a sample, or {} Hz", counted_a_sample(*.substeps), least_substeps, rounded_up(*.least_rate_hz, RATE_DIGITS)
+    )]
+    StiffContact {
+        /// The stiffness \[Pa\].
+        stiffness_pa: f64,
+        /// Samples a second.
+        rate_hz: f64,
+        /// Steps a sample.
+        substeps: usize,
+        /// Steps a sample that do at this rate.
+        least_substeps: usize,
+        /// A rate that does with as many steps \[Hz\].
+        least_rate_hz: f64,
     },
     /// So much work that it would not end soon.
     #[error(

@@ -1,6 +1,6 @@
 //! The executed motion, sample by sample.
 
-use crate::plant::{PlantState, TorqueLimits};
+use crate::plant::{Felt, PlantState, TorqueLimits};
 use platewash_kinematics::JointVector;
 
 /// One sample.
@@ -18,6 +18,8 @@ pub struct Sample {
     pub qdd: JointVector,
     /// Torques held until the next sample, within the limits \[N·m\]; zeros under a kinematic law.
     pub torque: JointVector,
+    /// What the sponge's foam feels; `None` where it is not simulated.
+    pub felt: Option<Felt>,
 }
 
 /// What the arm did.

@@ -8,6 +8,7 @@
 //! | whether settings make sense | `settings.rs` |
 //! | how much work it may be | `work.rs` |
 //! | the loop of samples | `run.rs` |
+//! | about which configurations it must be stable | `footing.rs` |
 //! | segments of a plan in time | `schedule.rs` |
 //! | the executed motion, sample by sample | `execution.rs` |
 //! | it as CSV | `csv.rs` |
@@ -15,6 +16,7 @@
 //! | errors of joints and tip | `tracking.rs` |
 //! | torques, work, power | `effort.rs` |
 //! | contact, coverage and verdict of a plate | `washing.rs`, `contact.rs`, `cause.rs` |
+//! | force while washing, contact lost | `pressing.rs` |
 //! | the tool's mass against the arm's payload | `payload.rs` |
 //! | all of it | `report.rs` |
 //! | it as text | `text.rs` |
@@ -26,7 +28,9 @@ mod csv;
 mod effort;
 mod error;
 mod execution;
+mod footing;
 mod payload;
+mod pressing;
 mod report;
 mod run;
 mod schedule;
@@ -45,6 +49,7 @@ pub use effort::{Effort, JointEffort};
 pub use error::SimulationError;
 pub use execution::{Execution, Sample};
 pub use payload::{PayloadCheck, PayloadVerdict};
+pub use pressing::{ContactLost, ExecutedContact, ForceAtHeight, ForceRange, HEIGHT_ERRORS_M, Pressing};
 pub use report::{SimulationReport, SimulationVerdict};
 pub use run::{simulate, simulate_watched, simulate_with};
 pub use statistics::Spread;

@@ -8,6 +8,7 @@ use super::payload::{PayloadCheck, PayloadVerdict};
 use super::tracking::{self, SegmentTracking, Tracking};
 use super::washing::{self, PlateOutcome, PlateVerdict};
 use super::words::shown;
+use crate::plant::foam::{DENSE_FACTOR, DENSE_STRAIN};
 use platewash_kinematics::RobotModel;
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::plan::Plan;
@@ -109,7 +110,7 @@ impl SimulationReport {
         let contact = Contact::new(plan, robot);
         let tip_errors = tracking::tip_errors(execution, robot, contact.tip());
         let dry_run = plan.job.dry_run.clone();
-        let mut plates = washing::plates(plan, robot, execution)?;
+        let mut plates = washing::plates(plan, robot, settings, execution)?;
         let payload = PayloadCheck::new(&plan.job.workcell.tool, settings.payload_kg, robot);
         let washed = plates.iter().filter(|p| p.verdict == PlateVerdict::Washed).count();
         let verdict = match seal {
@@ -181,7 +182,18 @@ fn plant_assumptions(plant: &PlantSettings) -> Vec<String> {
     } else {
         all.push("the joints have the friction that is stated".to_owned());
     }
-    if plant.contact_force_n == 0.0 {
+    if let Some(foam) = &plant.contact {
+        all.push(format!(
+            "plates push back by the sponge's foam: an elastic foundation of {} kPa{}, {} times as stiff beyond a strain of {}, without friction",
+            shown(1e-3 * foam.stiffness_pa),
+            match foam.damping_pa_s {
+                0.0 => String::new(),
+                damping => format!(" and {} Pa·s", shown(damping)),
+            },
+            shown(DENSE_FACTOR),
+            shown(DENSE_STRAIN)
+        ));
+    } else if plant.contact_force_n == 0.0 {
         all.push("the plate does not push back".to_owned());
     } else {
         all.push(format!(

@@ -3,12 +3,13 @@
 use super::contact::Contact;
 use super::error::SimulationError;
 use super::execution::{Execution, Sample};
+use super::footing::{check_steps, sponge, standings};
 use super::schedule::Schedule;
 use super::settings;
 use super::work::{MAX_SAMPLES, MAX_STEPS, highest_rate};
-use crate::control::{self, Command, ControlError, ControlLaw, Reference};
+use crate::control::{self, Command, ControlError, ControlLaw, Reference, Standing};
 use crate::dynamics::{DynamicsModel, RigidBody};
-use crate::plant::{Plant, PlantState};
+use crate::plant::{Felt, Plant, PlantState, SpongeOnPlates};
 use platewash_kinematics::words::rounded;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
@@ -16,9 +17,6 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::simulation::SimulationSettings;
 use platewash_workcell::trajectory::{JointState, Trajectory};
-
-/// Configurations along a plan about which the sampled loop is checked, at most.
-const STABLE_AT: usize = 64;
 
 /// Significant digits of a rate in messages.
 const RATE_DIGITS: usize = 6;
@@ -30,7 +28,7 @@ const LARGEST: f64 = 1e6;
 /// `plan.job.simulation`.
 ///
 /// The arm starts on the path, at its speed. The law knows the plant's rigid bodies exactly, tool included, but neither
-/// friction nor contact. Under a kinematic law there is no plant.
+/// friction nor contact: where the sponge's foam is simulated, plates push the arm off its path. Under a kinematic law there is no plant.
 ///
 /// # Errors
 /// [`SimulationError`]: a plan that is no motion or for another arm, settings that make no sense, an arm without dynamics, a
@@ -66,20 +64,26 @@ pub fn simulate_watched(
 ) -> Result<Execution, SimulationError> {
     check_arm(plan, robot)?;
     plan.job.validate()?;
-    settings::check(settings)?;
+    settings::check(settings, &plan.job.workcell.tool)?;
     let motion = plan.knots.motion()?;
     let schedule = Schedule::new(plan, settings.period_s())?;
     let count = count(motion.duration_s(), settings.period_s(), settings.plant.substeps)?;
     token.check()?;
     let plant = plant(plan, robot, settings)?;
+    let sponge = sponge(plan, robot, settings);
     let mut law: Box<dyn ControlLaw + '_> = match &plant {
-        Some(plant) => driving(plant, robot, &motion, settings)?,
+        Some(plant) => {
+            let standings = standings(plan, &motion, plant, sponge.as_ref());
+            check_steps(plant, &standings, settings)?;
+            driving(plant, robot, &standings, motion.duration_s(), settings)?
+        }
         None => control::stable_kinematic(settings.law, &settings.control)?,
     };
     let run = Run {
         motion: &motion,
         plant: plant.as_ref(),
         contact: Contact::new(plan, robot),
+        sponge: sponge.as_ref(),
         force_n: settings.plant.contact_force_n,
         substeps: settings.plant.substeps,
         period_s: settings.period_s(),
@@ -102,13 +106,14 @@ fn plant(plan: &Plan, robot: &RobotModel, settings: &SimulationSettings) -> Resu
 fn driving<'a>(
     plant: &'a Plant,
     robot: &RobotModel,
-    motion: &Trajectory,
+    standings: &[Standing],
+    duration_s: f64,
     settings: &SimulationSettings,
 ) -> Result<Box<dyn ControlLaw + 'a>, ControlError> {
     let substeps = settings.plant.substeps;
-    let (limits, along) = (robot.limits(), along(motion));
-    control::law(settings.law, &settings.control, plant, limits, &along, substeps)
-        .map_err(|error| error.with_rates_up_to(highest_rate(motion.duration_s(), substeps)))
+    let limits = robot.limits();
+    control::law(settings.law, &settings.control, plant, limits, standings, substeps)
+        .map_err(|error| error.with_rates_up_to(highest_rate(duration_s, substeps)))
 }
 
 /// What does not change from sample to sample.
@@ -116,6 +121,7 @@ struct Run<'a> {
     motion: &'a Trajectory,
     plant: Option<&'a Plant>,
     contact: Contact<'a>,
+    sponge: Option<&'a SpongeOnPlates>,
     force_n: f64,
     substeps: usize,
     period_s: f64,
@@ -129,6 +135,8 @@ struct Outcome {
     torque: JointVector,
     /// Whether a limit cut the torque.
     is_cut: bool,
+    /// What the foam feels at the sample.
+    felt: Option<Felt>,
 }
 
 impl Run<'_> {
@@ -169,6 +177,7 @@ impl Run<'_> {
                 state,
                 qdd: outcome.qdd,
                 torque: outcome.torque,
+                felt: outcome.felt,
             };
             watch(&sample);
             samples.push(sample);
@@ -211,6 +220,7 @@ impl Run<'_> {
             qdd: (qd - state.qd) / self.period_s,
             torque: JointVector::zeros(),
             is_cut: false,
+            felt: None,
         }
     }
 
@@ -221,8 +231,15 @@ impl Run<'_> {
         };
         let held = plant.limits.cut(torque);
         let h = self.period_s / self.substeps as f64;
-        let (mut now, mut first) = (*state, None);
+        let (mut now, mut first, mut felt) = (*state, None, None);
         for _ in 0..self.substeps {
+            if let Some(sponge) = self.sponge {
+                let (next, qdd, feels) = plant.step_on(sponge, &now, &held, h);
+                first.get_or_insert(qdd);
+                felt.get_or_insert(feels);
+                now = next;
+                continue;
+            }
             let pushed = match plate {
                 Some(plate) if self.force_n > 0.0 => {
                     held + self.contact.push(&plant.model, &now.q, plate, self.force_n)
@@ -238,14 +255,9 @@ impl Run<'_> {
             qdd: first.unwrap_or_default(),
             torque: held,
             is_cut: held != *torque,
+            felt,
         }
     }
-}
-
-/// Configurations along the motion \[rad\], at which the loop must be stable.
-fn along(motion: &Trajectory) -> Vec<JointVector> {
-    let stride = motion.positions().len().div_ceil(STABLE_AT).max(1);
-    motion.positions().iter().step_by(stride).copied().collect()
 }
 
 fn check_arm(plan: &Plan, robot: &RobotModel) -> Result<(), SimulationError> {

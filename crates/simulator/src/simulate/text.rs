@@ -2,6 +2,7 @@
 
 use super::effort::Effort;
 use super::payload::PayloadVerdict;
+use super::pressing::{AS_STATED, ForceRange, HEIGHT_ERRORS_M, Pressing};
 use super::report::{SimulationReport, SimulationVerdict};
 use super::tracking::Tracking;
 use super::washing::PlateVerdict;
@@ -27,6 +28,7 @@ impl Display for SimulationReport {
             self.duration_s, self.samples
         )?;
         plates(self, f)?;
+        pressing(self, f)?;
         tracking(self, f)?;
         if let Some(effort) = &self.effort {
             joints(effort, &self.tracking, f)?;
@@ -64,6 +66,98 @@ fn plates(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
         for cause in &plate.causes {
             writeln!(f, "           {cause}")?;
         }
+    }
+    writeln!(f)
+}
+
+/// Force, what was kept in contact, and the force at other heights, a table each.
+fn pressing(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
+    let pressed: Vec<_> = report
+        .plates
+        .iter()
+        .filter_map(|plate| Some((plate.plate, plate.pressing.as_ref()?)))
+        .collect();
+    if pressed.is_empty() {
+        return writeln!(f, "force on plates: not simulated\n");
+    }
+    forces(&pressed, f)?;
+    contact(&pressed, f)?;
+    heights(&pressed, f)
+}
+
+fn forces(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(
+        f,
+        "{:<24} {:>8} {:>8} {:>8} {:>8} {:>10} {:>8} {:>8}",
+        "force on plates, N", "least", "mean", "most", "planned", "of planned", "strain", "lost s"
+    )?;
+    for (plate, pressing) in pressed {
+        let ForceRange {
+            least_n,
+            mean_n,
+            most_n,
+        } = pressing.force;
+        let planned_n = pressing.planned[AS_STATED].force.mean_n;
+        let share = if planned_n > 0.0 {
+            format!("{:.0} %", 100.0 * mean_n / planned_n)
+        } else {
+            "-".to_owned()
+        };
+        let lost_s = pressing.lost.map_or(0.0, |lost| lost.time_s);
+        writeln!(
+            f,
+            "{plate:<24} {least_n:>8.2} {mean_n:>8.2} {most_n:>8.2} {planned_n:>8.2} {share:>10} {:>8.3} {lost_s:>8.3}",
+            pressing.strain
+        )?;
+        if let Some(lost) = pressing.lost {
+            writeln!(
+                f,
+                "           contact is lost for {:.1} % of the wash, first at {:.3} s",
+                100.0 * lost.share,
+                lost.first_t_s
+            )?;
+        }
+    }
+    writeln!(f)
+}
+
+/// Nothing where the job asks for no contact.
+fn contact(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result {
+    let found: Vec<_> = pressed
+        .iter()
+        .filter_map(|(plate, pressing)| Some((plate, pressing.contact?)))
+        .collect();
+    if found.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        f,
+        "{:<24} {:>12} {:>14} {:>16}",
+        "kept in contact", "pressed %", "long enough %", "with the dose %"
+    )?;
+    for (plate, kept) in found {
+        let [pressed, time, dose] = [kept.contact, kept.time, kept.dose].map(|share| 100.0 * share);
+        writeln!(f, "{plate:<24} {pressed:>12.2} {time:>14.2} {dose:>16.2}")?;
+    }
+    writeln!(f, "measured at samples, the plates where they are stated; not proved\n")
+}
+
+/// The force of the plan's own poses, and how much of it a millimetre makes.
+fn heights(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result {
+    write!(f, "{:<24}", "planned N, plate higher")?;
+    for higher_m in HEIGHT_ERRORS_M {
+        write!(f, " {:>13}", format!("{:+.0} mm", 1e3 * higher_m))?;
+    }
+    writeln!(f, " {:>9}", "N per mm")?;
+    for (plate, pressing) in pressed {
+        write!(f, "{plate:<24}")?;
+        for at in &pressing.planned {
+            let ForceRange { least_n, most_n, .. } = at.force;
+            write!(f, " {:>13}", format!("{least_n:.1} to {most_n:.1}"))?;
+        }
+        let [lower, higher] = [AS_STATED - 1, AS_STATED + 1].map(|k| &pressing.planned[k]);
+        let per_m = (higher.force.mean_n - lower.force.mean_n) / (higher.higher_m - lower.higher_m);
+        writeln!(f, " {:>9.2}", 1e-3 * per_m)?;
     }
     writeln!(f)
 }

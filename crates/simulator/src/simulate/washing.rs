@@ -9,12 +9,18 @@ use super::cause::Cause;
 use super::contact::Contact;
 use super::error::SimulationError;
 use super::execution::{Execution, Sample};
+use super::footing::sponge;
+use super::pressing::{Judge, Pressing};
+use crate::dynamics::{DynamicsModel, RigidBody};
+use crate::plant::SpongeOnPlates;
 use nalgebra::Vector3;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
+use platewash_workcell::contact::Foundation;
 use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage_of_strokes, reaches};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::simulation::SimulationSettings;
 use platewash_workcell::tool::{Tool, Touch};
 use serde::Serialize;
 
@@ -55,6 +61,8 @@ pub struct PlateOutcome {
     pub in_contact: usize,
     /// Largest tilt of the tool from the plate's normal, executed \[rad\].
     pub tilt_rad: f64,
+    /// How the sponge pressed; `None` where force is not simulated.
+    pub pressing: Option<Pressing>,
 }
 
 impl PlateOutcome {
@@ -70,9 +78,14 @@ impl PlateOutcome {
 pub(super) fn plates(
     plan: &Plan,
     robot: &RobotModel,
+    settings: &SimulationSettings,
     execution: &Execution,
 ) -> Result<Vec<PlateOutcome>, SimulationError> {
     let contact = Contact::new(plan, robot);
+    let foam = Foam::of(plan, robot, settings)?;
+    let judge = foam
+        .as_ref()
+        .map(|foam| foam.judge(plan, contact.tip(), execution.period_s));
     let samples = &execution.samples;
     let mut outcomes = Vec::new();
     for (index, segment) in plan.segments.iter().enumerate() {
@@ -91,9 +104,46 @@ pub(super) fn plates(
             planned: track(|s| s.commanded),
             executed: track(|s| s.state.q),
         };
-        outcomes.push(wash.outcome()?);
+        let mut outcome = wash.outcome()?;
+        outcome.pressing = judge
+            .as_ref()
+            .and_then(|judge| judge.pressing(&samples[from..to], segment.plate, plate));
+        outcomes.push(outcome);
     }
     Ok(outcomes)
+}
+
+/// The foam that was simulated.
+struct Foam {
+    model: DynamicsModel,
+    sponge: SpongeOnPlates,
+    foundation: Foundation,
+}
+
+impl Foam {
+    /// `None` where it was not.
+    fn of(plan: &Plan, robot: &RobotModel, settings: &SimulationSettings) -> Result<Option<Self>, SimulationError> {
+        let Some((on_plates, contact)) = sponge(plan, robot, settings).zip(settings.plant.contact) else {
+            return Ok(None);
+        };
+        let held = &plan.job.workcell.tool;
+        Ok(Some(Self {
+            model: DynamicsModel::new(robot, RigidBody::tool(held).as_ref())?,
+            sponge: on_plates,
+            foundation: Foundation::stiff(&held.sponge, [contact.stiffness_pa; 2]),
+        }))
+    }
+
+    fn judge<'a>(&'a self, plan: &'a Plan, tip: &'a Frame, period_s: f64) -> Judge<'a> {
+        Judge {
+            model: &self.model,
+            sponge: &self.sponge,
+            tip,
+            foundation: self.foundation,
+            required: plan.job.requirements.contact.as_ref(),
+            period_s,
+        }
+    }
 }
 
 /// The tip at a sample.
@@ -163,6 +213,7 @@ impl Wash<'_> {
                 0
             },
             tilt_rad: platewash_kinematics::trig::acos(least_cosine(&self.executed).clamp(-1.0, 1.0)),
+            pressing: None,
         })
     }
 

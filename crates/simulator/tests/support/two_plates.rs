@@ -3,20 +3,45 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{JointVector, Pose, RobotModel, trig};
+use platewash_simulator::{Execution, SimulationReport, simulate};
 use platewash_workcell::fixtures::{kitchen_plates, kitchen_terms};
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::simulation::{ControlLawName, SimulationSettings};
 use platewash_workcell::tool::tool_down;
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use std::f64::consts::TAU;
+use std::sync::OnceLock;
 
 /// Time between knots where the tip follows a line \[s\].
 const DT_S: f64 = 0.01;
 
+/// The arm and the plan, made once.
+pub fn planned() -> &'static (RobotModel, Plan) {
+    static PLANNED: OnceLock<(RobotModel, Plan)> = OnceLock::new();
+    PLANNED.get_or_init(plan)
+}
+
+/// The plan's settings, under a law of that stiffness \[rad/s\].
+pub fn under(law: ControlLawName, frequency: f64) -> SimulationSettings {
+    let mut settings = planned().1.job.simulation.clone();
+    settings.law = law;
+    settings.control.frequency_rad_s = frequency;
+    settings
+}
+
+/// What the plan comes to, and what is said of it.
+pub fn judged(settings: &SimulationSettings) -> (Execution, SimulationReport) {
+    let (robot, plan) = planned();
+    let execution = simulate(plan, robot, settings).unwrap();
+    let report = SimulationReport::new(plan, robot, settings, &execution).unwrap();
+    (execution, report)
+}
+
 /// The arm and a plan that washes two plates.
-pub fn plan() -> (RobotModel, Plan) {
+fn plan() -> (RobotModel, Plan) {
     let robot = RobotModel::irb120().unwrap();
     let plates = kitchen_plates()[..2].to_vec();
     let terms = kitchen_terms(&robot, plates);
@@ -31,10 +56,11 @@ fn wash_path(terms: &JobTerms, plate: usize) -> WashPath {
     WashPath {
         plate,
         curve: WashCurve {
-            radius_m: settings.path_radius_m,
-            turns: settings.turns,
+            radius_m: settings.path_radius_m.unwrap(),
+            turns: settings.turns.unwrap(),
             start_angle_rad: trig::atan2(y, x),
-            closing_ring: settings.closing_ring,
+            closing_ring: settings.closing_ring.unwrap(),
+            rings: None,
         },
         lift_m: settings.lift_m,
         cone_rad: terms.tilt_max_rad(),

@@ -1,7 +1,7 @@
 /** A plate's coverage over time: sampled on a raster to look at, not the proof. */
 import { colormap } from "./colormap.ts";
 import { decode, NumbersError } from "./numbers.ts";
-import type { PlateCoverage } from "./view.ts";
+import type { Counted, PlateCoverage } from "./view.ts";
 
 /** A cell that the sponge never gets over. */
 export const NEVER = 65535;
@@ -14,6 +14,7 @@ export interface Coverage {
   rows: number;
   columns: number;
   half_m: number;
+  counted: Counted | null;
   first: Uint16Array;
   step_s: number;
   dwell: Uint8Array;
@@ -65,8 +66,8 @@ function freshlyDecoded(document: PlateCoverage): Coverage {
   }
   let cells = 0;
   for (const step of first) if (step !== OUTSIDE) cells++;
-  const { plate, half_m, step_s, dwell_step_s, proved } = document;
-  return { plate, rows, columns, half_m, first, step_s, dwell, dwell_step_s, proved, cells, ...ordered(first) };
+  const { plate, half_m, counted, step_s, dwell_step_s, proved } = document;
+  return { plate, rows, columns, half_m, counted, first, step_s, dwell, dwell_step_s, proved, cells, ...ordered(first) };
 }
 
 /** How many cells are swept at `t` [s]. */

@@ -10,6 +10,11 @@ export function fixed(value: number, decimals: number): string {
   return value < 0 && Number(text) !== 0 ? MINUS + text : text;
 }
 
+/** A number with at most so many decimals, without zeros at its end. */
+export function fixedShort(value: number, decimals: number): string {
+  return fixed(value, decimals).replace(/(\.\d*?)0+$/u, "$1").replace(/\.$/u, "");
+}
+
 /** A number with its unit. */
 export function quantity(value: number, decimals: number, unit: string): string {
   return `${fixed(value, decimals)}${NARROW_SPACE}${unit}`;

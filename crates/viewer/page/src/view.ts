@@ -82,8 +82,54 @@ export interface Certificate {
   /** Of the hash in the file. */
   hash: Status;
   checks: Check[];
+  /** Of the contact with each plate; null where none is asked for. */
+  contact: Contact | null;
   /** What the verdict rests on, a line each. */
   rests_on: string[];
+}
+
+/** What is asked of the contact with plates, and what is proved of it. */
+export interface Contact {
+  asked: ContactRequirements;
+  /** In the order of washing. */
+  plates: PlateContact[];
+}
+
+/** Lengths in m, forces in N; shares are of a face, by its area. */
+export interface ContactRequirements {
+  /** Least compression of the foam that counts. */
+  compression_m: number;
+  /** By how much a plate may lie higher or lower. */
+  height_error_m: number;
+  share: number;
+  strain: number;
+  force_n: [number, number];
+  time_s: number;
+  time_share: number;
+  dose_pa_m: number;
+  dose_share: number;
+}
+
+/** What is proved of the contact with a plate: shares at least, strain at most. */
+export interface PlateContact {
+  plate: number;
+  share: number;
+  time_share: number;
+  dose_share: number;
+  /** Null where nothing is proved. */
+  strain: number | null;
+  /** Least and greatest. */
+  force_n: [number | null, number | null];
+  /** Of friction, at most: with the least and the greatest friction, which are assumptions. */
+  friction_torque_n_m: [number, number] | null;
+}
+
+/** What counts as pressed: sampled on a raster, or proved. */
+export interface Counted {
+  compression_m: number;
+  height_error_m: number;
+  /** Whether the job asks for it; otherwise it is that the foam touches. */
+  is_promised: boolean;
 }
 
 /** A joint: `T_parent_joint(q) = origin · Rot_z(q)`. */
@@ -143,6 +189,8 @@ export interface Plate {
   /** The face's meridian from the pole to the rim: distance from the axis, height [m]. */
   meridian_m: [number, number][];
   thickness_m: number;
+  /** What it stands on: a cylinder below the body under the pole. */
+  foot: { radius_m: number; height_m: number } | null;
 }
 
 /** What the tip follows on a plate. */
@@ -185,19 +233,21 @@ export interface Clearance {
   names: string[];
 }
 
-/** How a plate gets swept: a raster over the square around its face, sampled to look at, not the proof. */
+/** How a plate gets swept, or pressed: a raster over the square around its face, sampled to look at, not the proof. */
 export interface PlateCoverage {
   plate: number;
   /** Half of the square's edge [m]: the rim's radius. */
   half_m: number;
-  /** [rows, columns], y then x ascending in the plate's frame: when the sponge is first over the cell's middle, in steps of
+  /** What counts; null where the sponge has but to be over a place. */
+  counted: Counted | null;
+  /** [rows, columns], y then x ascending in the plate's frame: when the cell's middle first counts, in steps of
    * `step_s`; 65535 for never. Cells with their middle outside the rim are 65534. */
   first: Numbers;
   step_s: number;
-  /** [rows, columns]: for how long it is over it, in steps of `dwell_step_s`, at most 255. */
+  /** [rows, columns]: for how long it counts, in steps of `dwell_step_s`, at most 255. */
   dwell: Numbers;
   dwell_step_s: number;
-  /** What the certificate proves at least; null without one. */
+  /** The share of what counts that the certificate proves at least; null without one. */
   proved: number | null;
 }
 

@@ -15,7 +15,7 @@ function u8(values: number[], shape: number[]): Numbers {
 
 /** Two rows of three cells: one beyond the rim, one never swept. */
 function raster(first = [OUTSIDE, 3, 0, 3, NEVER, 10], dwell = [0, 4, 1, 2, 0, 200]): PlateCoverage {
-  return { plate: 0, half_m: 0.1, first: u16(first, [2, 3]), step_s: 0.1, dwell: u8(dwell, [2, 3]), dwell_step_s: 0.05, proved: null };
+  return { plate: 0, half_m: 0.1, counted: null, first: u16(first, [2, 3]), step_s: 0.1, dwell: u8(dwell, [2, 3]), dwell_step_s: 0.05, proved: null };
 }
 
 test("the share grows by the cells that are swept, of those within the rim", () => {

@@ -34,7 +34,7 @@ test("the tip of the scene graph is that of the kinematics", () => {
 
 /** The tool alone, pointing down, its tip at a height over a plate and at a distance from its axis [m]. */
 function pressedAt(height: number, distance: number): number {
-  const plate: Plate = { name: "plate", pose: pose([1, 0, 0.5]), meridian_m: [[0, 0], [0.1, 0], [0.145, 0.02]], thickness_m: 0.02 };
+  const plate: Plate = { name: "plate", pose: pose([1, 0, 0.5]), meridian_m: [[0, 0], [0.1, 0], [0.145, 0.02]], thickness_m: 0.02, foot: null };
   const tool = new ToolGraph(HELD, [plate], new Studio());
   tool.root.rotation.x = Math.PI;
   tool.root.position.set(1 + distance, 0, 0.5 + height + 0.15);
@@ -86,7 +86,7 @@ test("shapes that cannot be drawn leave nothing rather than fail", () => {
 });
 
 test("a plate's face is its meridian and looks up", () => {
-  const plate: Plate = { name: "plate", pose: pose([0, 0, 0]), meridian_m: [[0, 0], [0.145, 0]], thickness_m: 0.02 };
+  const plate: Plate = { name: "plate", pose: pose([0, 0, 0]), meridian_m: [[0, 0], [0.145, 0]], thickness_m: 0.02, foot: null };
   const geometry = plateGeometry(plate, 32);
   const [place, normal, face] = ["position", "normal", "face"].map((name) => geometry.getAttribute(name));
   let area = 0;

@@ -14,7 +14,7 @@ function viewWith(statuses: Status[] | null, certificate: Partial<Certificate> =
   const passes = checks.every(({ status }) => status === "proved" || status === "waived");
   return {
     heading: { process: "wash", dry_run: null },
-    certificate: statuses === null ? null : { passes, headline: "so", hash: "proved", checks, rests_on: [], ...certificate },
+    certificate: statuses === null ? null : { passes, headline: "so", hash: "proved", checks, contact: null, rests_on: [], ...certificate },
     execution: null,
   } as unknown as View;
 }

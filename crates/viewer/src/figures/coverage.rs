@@ -1,4 +1,4 @@
-//! What is swept of each plate, and for how long: as planned, and as executed.
+//! What of each plate is swept, or pressed where the job says what counts as contact, and for how long: as planned, and as executed.
 
 use super::error::FigureError;
 use super::grid::Grid;
@@ -8,9 +8,10 @@ use super::ink::page;
 use super::ink::palette::{BAD, GOOD, GREY, INK, LINE, MISSED, STEPS};
 use super::ink::style::Style;
 use super::subject::Subject;
-use super::track::{Track, TrackPoint};
+use super::track::Track;
 use super::wording::{number, per_cent};
-use crate::view::coverage::swept;
+use crate::view::Counted;
+use crate::view::coverage::{proved_share, swept};
 use crate::view::tips::Tip;
 use platewash_workcell::coverage::reaches;
 
@@ -25,7 +26,8 @@ struct Map {
     place: usize,
     plate: usize,
     of: Of,
-    /// For how long the sponge is over each cell, as [`crate::view::raster::Raster::dwell_s`] has them \[s\].
+    counted: Option<Counted>,
+    /// For how long each cell counts, as [`crate::view::raster::Raster::dwell_s`] has them \[s\].
     dwell_s: Vec<Option<f64>>,
 }
 
@@ -46,17 +48,17 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
     }
     let both = subject.followed.is_some();
     let plates = washes.len().min(if both { MOST / 2 } else { MOST });
-    let sponge = subject.plan.job.workcell.tool.sponge.radius_m;
-    let required = subject.plan.job.requirements.coverage;
+    let counted = washes
+        .iter()
+        .map(|(_, wash)| counted_on(subject, wash.plate))
+        .collect::<Vec<_>>();
     let mut caption = format!(
-        "Each plate along its axis: for how long the middle of each cell is under the sponge, radius {:.0} mm. At least {} % of a plate must be \
-         swept; {}.",
-        1e3 * sponge,
-        number(100.0 * required),
+        "Each plate along its axis: {} {}.",
+        meaning(subject, &counted),
         if both {
-            "of each plate there is what is planned, and what is executed"
+            "Of each plate there is what is planned, and what is executed"
         } else {
-            "nothing was simulated"
+            "Nothing was simulated"
         },
     );
     if plates < washes.len() {
@@ -70,7 +72,11 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
         .copied()
         .fold(0.0, f64::max);
     let step = step_s(&maps, most);
-    key(&mut drawing, room, step);
+    let words = match counted.iter().all(Option::is_some) {
+        true => ["no contact", "time in contact [s]"],
+        false => ["missed", "time under the sponge [s]"],
+    };
+    key(&mut drawing, room, step, words);
     let top = room.at[1] + 52.0;
     let field = Rect::new(room.at[0], top, room.size[0], room.end()[1] - top);
     let places = Places::new(field, plates, both);
@@ -78,6 +84,37 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
         map.draw(&mut drawing, places.of(map), subject, step);
     }
     Ok(drawing)
+}
+
+/// What counts on a plate.
+fn counted_on(subject: &Subject<'_>, plate: usize) -> Option<Counted> {
+    let job = &subject.plan.job;
+    job.plates.get(plate).and_then(|plate| Counted::on(plate, job))
+}
+
+/// What the colours say, and what is asked for.
+fn meaning(subject: &Subject<'_>, counted: &[Option<Counted>]) -> String {
+    let job = &subject.plan.job;
+    let sponge = 1e3 * job.workcell.tool.sponge.radius_m;
+    let swept = number(100.0 * job.requirements.coverage);
+    let promised = counted.iter().flatten().find(|counted| counted.is_promised);
+    match (promised, &job.requirements.contact) {
+        (Some(counted), Some(contact)) => format!(
+            "for how long the middle of each cell is pressed by {} mm or more, wherever within ±{} mm the plate lies, by a sponge of radius \
+             {sponge:.0} mm. At least {} % of a plate must be.",
+            number(1e3 * counted.compression_m),
+            number(1e3 * counted.height_error_m),
+            number(100.0 * contact.share),
+        ),
+        _ if counted.iter().all(Option::is_some) => format!(
+            "for how long the middle of each cell is touched by the sponge, radius {sponge:.0} mm, pressed or not. At least {swept} % of \
+             a plate must be."
+        ),
+        _ => format!(
+            "for how long the middle of each cell is under the sponge, radius {sponge:.0} mm; of a profile, for how long it is touched. At \
+             least {swept} % of a plate must be swept."
+        ),
+    }
 }
 
 fn maps(subject: &Subject<'_>, plates: usize) -> Vec<Map> {
@@ -90,25 +127,20 @@ fn maps(subject: &Subject<'_>, plates: usize) -> Vec<Map> {
         let Some(track) = track else { continue };
         for (place, (segment, wash)) in subject.washes().take(plates).enumerate() {
             let plate = &subject.plan.job.plates[wash.plate];
-            let tips: Vec<Tip> = track.within(segment).iter().map(tip).collect();
-            let raster = swept(plate, &subject.plan.job.workcell.tool, std::iter::once(tips), CELLS);
+            let tips: Vec<Tip> = track.within(segment).iter().map(Tip::from).collect();
+            let counted = counted_on(subject, wash.plate);
+            let tool = &subject.plan.job.workcell.tool;
+            let raster = swept(plate, tool, counted.as_ref(), std::iter::once(tips), CELLS);
             all.push(Map {
                 place,
                 plate: wash.plate,
                 of,
+                counted,
                 dwell_s: raster.dwell_s(),
             });
         }
     }
     all
-}
-
-fn tip(point: &TrackPoint) -> Tip {
-    Tip {
-        t_s: point.t_s,
-        at: point.at,
-        axis: point.axis,
-    }
 }
 
 /// Time between two colours \[s\]: a round one, so that few cells have more than the last.
@@ -188,8 +220,16 @@ impl Map {
         self.words(drawing, cell, subject);
     }
 
+    /// Share of the cells that count, all alike.
+    fn share(&self) -> f64 {
+        let all = self.dwell_s.iter().flatten();
+        let (count, most) = all.fold((0.0, 0.0), |(count, most), seconds| {
+            (count + f64::from(u8::from(*seconds > 0.0)), most + 1.0)
+        });
+        if most > 0.0 { count / most } else { 0.0 }
+    }
+
     fn words(&self, drawing: &mut Drawing, cell: Rect, subject: &Subject<'_>) {
-        let required = subject.plan.job.requirements.coverage;
         let [x, y] = [cell.middle()[0], cell.end()[1]];
         let what = match self.of {
             Of::Planned => "planned",
@@ -201,12 +241,19 @@ impl Map {
             let mut all = report.plates.iter();
             all.find(|outcome| outcome.plate == self.plate)
         });
-        let proved = subject.certificate.and_then(|certificate| {
-            let mut all = certificate.coverage.iter();
-            all.find(|coverage| coverage.plate == self.plate)
-        });
+        let promised = self.counted.filter(|counted| counted.is_promised);
+        let asked = &subject.plan.job.requirements;
+        let required = match (promised, &asked.contact) {
+            (Some(_), Some(contact)) => contact.share,
+            _ => asked.coverage,
+        };
+        let proved = subject
+            .certificate
+            .and_then(|certificate| proved_share(certificate, self.plate, self.counted));
         let (share, words) = match (self.of, proved, outcome) {
-            (Of::Planned, Some(proved), _) => (proved.at_least, "proved: ≥ "),
+            (Of::Planned, Some(proved), _) => (proved, "proved: ≥ "),
+            // What a simulation measures is what is swept; of what is pressed there is the map.
+            _ if self.counted.is_some() => (self.share(), "on the map: "),
             (Of::Planned, None, Some(outcome)) => (outcome.planned.lower, ""),
             (Of::Executed, _, Some(outcome)) => (outcome.executed.lower, ""),
             _ => return,
@@ -226,15 +273,14 @@ fn colour(seconds: f64, step: f64) -> &'static str {
 }
 
 /// What colours mean.
-fn key(drawing: &mut Drawing, room: Rect, step: f64) {
+fn key(drawing: &mut Drawing, room: Rect, step: f64, [never, words]: [&str; 2]) {
     let (width, height) = (92.0, 22.0);
     let [mut x, y] = room.at;
     let how = Lettering::new(17.0, INK);
     let small = Lettering::new(16.0, GREY).centred();
     drawing.rect(Rect::new(x, y, 40.0, height), 0.0, &Style::fill(MISSED));
-    drawing.text([x + 50.0, y + 0.5 * height + how.drop()], "missed", &how);
+    drawing.text([x + 50.0, y + 0.5 * height + how.drop()], never, &how);
     x += 160.0;
-    let words = "time under the sponge [s]";
     drawing.text([x, y + 0.5 * height + how.drop()], words, &how);
     x += how.weight.width(words, 17.0) + 22.0;
     let ticks: Vec<f64> = (0..STEPS.len()).map(|k| k as f64 * step).collect();

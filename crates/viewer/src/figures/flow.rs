@@ -85,7 +85,7 @@ fn steps() -> Vec<Step> {
             1,
             Kind::Work,
             "Wash each plate",
-            "spiral and closing ring; tilt and branch along it, smooth and clear",
+            "its pattern; tilt and branch along it, smooth and clear",
         ),
         step(
             1,

@@ -12,9 +12,12 @@ use super::outline::hull;
 use super::subject::Subject;
 use super::track::Track;
 use super::wording::per_cent;
+use crate::view::Counted;
+use crate::view::coverage::proved_share;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::trig::sin_cos;
 use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::surface::Surface;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 /// Width of what stands beside the map \[px\].
@@ -25,6 +28,9 @@ const WHITE_M: f64 = 0.05;
 
 /// Ways that are nearer to each other look like one \[m\].
 const APART_M: f64 = 1e-3;
+
+/// The colour of where a profile bends.
+const KNOT: &str = "#dde2e8";
 
 const TRANSIT_DASHES: &[f64] = &[9.0, 6.0];
 const CIRCLE_DASHES: &[f64] = &[3.0, 5.0];
@@ -154,6 +160,14 @@ impl Map<'_> {
             let [x, y] = plate.centre_xy();
             let (at, radius) = (self.spot(x, y), self.pixels(plate.rim_m()));
             drawing.circle(at, radius, &Style::fill(PAPER).outlined(LINE, 2.0).see_through(0.9));
+            // Where a profile bends.
+            let knots = match &plate.surface {
+                Surface::Profile(meridian) => meridian.knots(),
+                _ => &[],
+            };
+            for knot in knots.iter().filter(|knot| knot.radius_m < plate.rim_m()) {
+                drawing.circle(at, self.pixels(knot.radius_m), &Style::fill("none").outlined(KNOT, 1.0));
+            }
         }
         self.arm(drawing, subject);
     }
@@ -308,7 +322,9 @@ fn aside(drawing: &mut Drawing, room: Rect, subject: &Subject<'_>) {
         ("x [m]", 82.0, Side::Right),
         ("y [m]", 86.0, Side::Right),
         (
-            if subject.certificate.is_some() {
+            if subject.certificate.is_some() && subject.plan.job.requirements.contact.is_some() {
+                "pressed ≥"
+            } else if subject.certificate.is_some() {
                 "proved ≥"
             } else {
                 "swept"
@@ -328,10 +344,10 @@ fn aside(drawing: &mut Drawing, room: Rect, subject: &Subject<'_>) {
 fn row(subject: &Subject<'_>, place: usize, index: usize) -> Option<Vec<Cell>> {
     let plate = subject.plan.job.plates.get(index)?;
     let [x, y] = plate.centre_xy();
-    let proved = subject.certificate.and_then(|certificate| {
-        let of = certificate.coverage.iter().find(|coverage| coverage.plate == index);
-        of.map(|coverage| coverage.at_least)
-    });
+    let counted = Counted::on(plate, &subject.plan.job);
+    let proved = subject
+        .certificate
+        .and_then(|certificate| proved_share(certificate, index, counted));
     let swept = subject.executed.and_then(|(_, report)| {
         let of = report.plates.iter().find(|outcome| outcome.plate == index);
         of.map(|outcome| outcome.executed.lower)

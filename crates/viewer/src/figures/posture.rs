@@ -17,9 +17,8 @@ use super::wording::{doing, seconds};
 use nalgebra::Vector3;
 use platewash_kinematics::trig::{atan2, cos};
 use platewash_kinematics::{JointVector, Pose};
-use platewash_workcell::plate::Plate;
+use platewash_workcell::plate::{Foot, Plate};
 use platewash_workcell::segment::{PlanSegment, SegmentKind};
-use platewash_workcell::surface::Surface;
 
 /// Half an edge of the floor patch, as the paper draws it \[m\].
 const FLOOR_M: f64 = 0.5;
@@ -182,6 +181,9 @@ impl Moment<'_> {
         for plate in &terms.plates {
             let facets = plate_facets(plate);
             scene.add_table(&facets, &plate.pose, PLATE);
+            if let Some(foot) = &plate.foot {
+                scene.add_table(&foot_facets(plate, foot), &plate.pose, PLATE);
+            }
         }
         let flange = subject.mount() * subject.arm.pose(&self.q, &subject.arm.mounting_frame());
         let pressed = match self.segment {
@@ -312,10 +314,11 @@ fn degrees(angle_rad: f64) -> String {
     super::ink::axes::minus(&format!("{:.1}", angle_rad.to_degrees())) + "°"
 }
 
-/// The corners of the square around a plate's face.
+/// The corners of the square around a plate's rim, as high as that.
 fn corners(plate: &Plate) -> [Vector3<f64>; 4] {
     let r = plate.rim_m();
-    [[-r, -r], [r, -r], [r, r], [-r, r]].map(|[x, y]| plate.world(&Vector3::new(x, y, 0.0)))
+    let z = plate.surface.height_m(r);
+    [[-r, -r], [r, -r], [r, r], [-r, r]].map(|[x, y]| plate.world(&Vector3::new(x, y, z)))
 }
 
 fn floor() -> [Vector3<f64>; 4] {
@@ -323,17 +326,21 @@ fn floor() -> [Vector3<f64>; 4] {
     [[-f, -f], [f, -f], [f, f], [-f, f]].map(|[x, y]| Vector3::new(x, y, 0.0))
 }
 
+/// How far a face turns between two rings of it that are drawn, at most \[rad\].
+const TURN_RAD: f64 = 0.12;
+
 /// A plate from below to above, by the meridian of its face.
 fn plate_facets(plate: &Plate) -> super::solid::shapes::Facets {
+    let face = plate.surface.outline_m(TURN_RAD);
     let rim = plate.rim_m();
-    let meridian: Vec<[f64; 2]> = match plate.surface {
-        Surface::Disc { .. } => vec![[rim, -plate.thickness_m], [rim, 0.0]],
-        _ => {
-            let below = [rim, plate.surface.height_m(rim) - plate.thickness_m];
-            let face = (1..=12).rev().map(|k| rim * f64::from(k) / 12.0);
-            let face = face.map(|rho| [rho, plate.surface.height_m(rho)]);
-            std::iter::once(below).chain(face).collect()
-        }
-    };
+    let below = [rim, plate.surface.height_m(rim) - plate.thickness_m];
+    // The pole is where it closes.
+    let meridian: Vec<[f64; 2]> = std::iter::once(below).chain(face.into_iter().skip(1).rev()).collect();
     turned(&meridian)
+}
+
+/// What a plate stands on, from below to the body under the pole.
+fn foot_facets(plate: &Plate, foot: &Foot) -> super::solid::shapes::Facets {
+    let top = -plate.thickness_m;
+    turned(&[[foot.radius_m, top - foot.height_m], [foot.radius_m, top], [0.0, top]])
 }

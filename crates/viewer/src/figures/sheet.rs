@@ -8,6 +8,10 @@ use super::ink::table::{self, Cell, Column, Side};
 use super::subject::{Claim, Subject};
 use super::wording;
 use platewash_certificate::{Check, Requirement, Status};
+use platewash_kinematics::words::rounded;
+
+/// Significant digits of what is asked for or assumed.
+const DIGITS: usize = 6;
 
 /// Draws it.
 ///
@@ -18,14 +22,41 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
         return claims(subject);
     }
     let certificate = subject.certificate.ok_or(FigureError::NothingKnown)?;
-    let caption = "Proved: it holds at every moment, not at samples; the true extreme lies between what was seen and the bound. \
-                   docs/certificate.md says how, and on what assumptions.";
-    let (mut drawing, room) = page::begin(&subject.words("Requirements", caption));
+    let caption =
+        "Proved: it holds at every moment, not at samples; the true extreme lies between what was seen and the bound. \
+                   docs/certificate.md says how, and on what assumptions."
+            .to_owned()
+            + &counted(subject);
+    let (mut drawing, room) = page::begin(&subject.words("Requirements", &caption));
     let headings = ["requirement", "required", "proved", "worst", ""];
     let columns = columns(room.size[0], headings, [0.17, 0.33, 0.13, 0.24, 0.13]);
     let rows: Vec<Vec<Cell>> = certificate.checks.iter().map(requirement).collect();
     table::draw(&mut drawing, room, LEADING, &columns, &rows);
     Ok(drawing)
+}
+
+/// What counts as contact, for how long, with what dose, and wherever what is assumed may lie; empty where nothing is promised of it.
+fn counted(subject: &Subject<'_>) -> String {
+    let job = &subject.plan.job;
+    let Some(contact) = &job.requirements.contact else {
+        return String::new();
+    };
+    let stiffness = job
+        .workcell
+        .tool
+        .sponge
+        .stiffness_pa
+        .map_or_else(String::new, |range_pa| {
+            let [softest, stiffest] = range_pa.map(|pa| rounded(1e-3 * pa, DIGITS));
+            format!(", sponges of {softest} to {stiffest} kPa")
+        });
+    format!(
+        " Contact: pressed by {} mm; time: {} s; dose: {} Pa·m; of plates up to ±{} mm off{stiffness} (assumed).",
+        rounded(1e3 * contact.compression_m, DIGITS),
+        rounded(contact.time_s, DIGITS),
+        rounded(contact.dose_pa_m, DIGITS),
+        rounded(1e3 * contact.height_error_m, DIGITS)
+    )
 }
 
 fn claims(subject: &Subject<'_>) -> Result<Drawing, FigureError> {

@@ -10,12 +10,18 @@ use super::ink::palette::{EXECUTED, GREY, GROUND, INK, LINE};
 use super::ink::style::Style;
 use super::subject::Subject;
 use super::track::TrackPoint;
-use super::wording::per_cent;
+use super::wording::{number, per_cent};
+use crate::view::Counted;
+use crate::view::coverage::swept;
+use crate::view::tips::Tip;
 use nalgebra::Vector3;
 use platewash_workcell::plate::Plate;
 
 /// Most plates of one figure.
 const MOST: usize = 24;
+
+/// Cells along an edge of what is reached of a plate.
+const CELLS: usize = 180;
 
 /// Room for words under a plate, and for its errors \[px\].
 const UNDER: f64 = 78.0;
@@ -86,13 +92,28 @@ fn entries(subject: &Subject<'_>) -> Vec<Entry> {
     } else {
         all.push(Entry::line(executed(), "planned"));
     }
-    let sponge = subject.plan.job.workcell.tool.sponge.radius_m;
-    all.push(Entry::field(
-        band(),
-        format!("what a sponge of {:.0} mm sweeps on the path followed", 1e3 * sponge),
-    ));
+    all.push(Entry::field(band(), reached(subject)));
     all.push(Entry::line(Style::line(LINE, 2.0), "the plate's rim"));
     all
+}
+
+/// What the coloured part of a plate is.
+fn reached(subject: &Subject<'_>) -> String {
+    let job = &subject.plan.job;
+    let sponge = 1e3 * job.workcell.tool.sponge.radius_m;
+    let washed = || subject.washes().filter_map(|(_, wash)| job.plates.get(wash.plate));
+    let counted: Vec<Option<Counted>> = washed().map(|plate| Counted::on(plate, job)).collect();
+    match counted.iter().flatten().find(|counted| counted.is_promised) {
+        Some(counted) => format!(
+            "pressed by {} mm or more by a sponge of {sponge:.0} mm, the plate within ±{} mm",
+            number(1e3 * counted.compression_m),
+            number(1e3 * counted.height_error_m),
+        ),
+        None if counted.iter().all(Option::is_some) => {
+            format!("what a sponge of {sponge:.0} mm touches on the path followed")
+        }
+        None => format!("what a sponge of {sponge:.0} mm sweeps on the path followed"),
+    }
 }
 
 fn ideal() -> Style {
@@ -103,8 +124,11 @@ fn executed() -> Style {
     Style::line(EXECUTED, 1.6)
 }
 
+/// What is swept or pressed.
+const BAND: &str = "#fbe3d3";
+
 fn band() -> Style {
-    Style::fill("#fbe3d3")
+    Style::fill(BAND)
 }
 
 struct Panel<'a> {
@@ -129,7 +153,10 @@ impl Panel<'_> {
         drawing.within_rect(cell, |drawing| {
             drawing.circle(middle, pixels(rim), &Style::fill(GROUND));
             drawing.within_circle(middle, pixels(rim), |drawing| {
-                drawing.polyline(&line, &Style::line("#fbe3d3", pixels(2.0 * sponge)));
+                match Counted::on(self.plate, &self.subject.plan.job) {
+                    Some(counted) => self.pressed(drawing, &axes, &counted),
+                    None => drawing.polyline(&line, &Style::line(BAND, pixels(2.0 * sponge))),
+                }
             });
             drawing.circle(middle, pixels(rim), &Style::fill("none").outlined(LINE, 2.0));
             for ideal in self.subject.ideal.iter().filter(|ideal| ideal.plate == self.index) {
@@ -147,11 +174,37 @@ impl Panel<'_> {
         self.words(drawing, cell, place, farthest);
     }
 
+    /// The track that was followed; where nothing was simulated, the planned one.
+    fn track(&self) -> &[TrackPoint] {
+        let track = self.subject.followed.as_ref().unwrap_or(&self.subject.planned);
+        track.within(self.segment)
+    }
+
+    /// What counts as pressed on the way that was followed.
+    fn pressed(&self, drawing: &mut Drawing, axes: &Axes, counted: &Counted) {
+        let rim = self.plate.rim_m();
+        let way: Vec<Tip> = self.track().iter().map(Tip::from).collect();
+        let tool = &self.subject.plan.job.workcell.tool;
+        let raster = swept(self.plate, tool, Some(counted), std::iter::once(way), CELLS);
+        let edge = |index: usize| rim * (2.0 * index as f64 / CELLS as f64 - 1.0);
+        let mut cells = Vec::new();
+        for (row, seconds) in raster.dwell_s().chunks(CELLS).enumerate() {
+            let mut from = 0;
+            for run in seconds.chunk_by(|a, b| is_some_time(a) == is_some_time(b)) {
+                let to = from + run.len();
+                if run.first().is_some_and(is_some_time) {
+                    let (low, high) = (axes.at(edge(from), edge(row)), axes.at(edge(to), edge(row + 1)));
+                    cells.push(Rect::new(low[0], high[1], high[0] - low[0], low[1] - high[1]));
+                }
+                from = to;
+            }
+        }
+        drawing.cells(&cells, BAND);
+    }
+
     /// The way of the tip along the plate's axis, plate frame \[m\].
     fn followed(&self) -> Vec<Vector3<f64>> {
-        let track = self.subject.followed.as_ref().unwrap_or(&self.subject.planned);
-        track
-            .within(self.segment)
+        self.track()
             .iter()
             .map(|point| flat(self.plate.local(&point.at)))
             .collect()
@@ -217,6 +270,11 @@ impl Panel<'_> {
             drawing.text([x, y + 68.0], &small.weight.fitted(&reach, 16.0, cell.size[0]), &small);
         }
     }
+}
+
+/// Whether a cell counts for some time.
+fn is_some_time(seconds: &Option<f64>) -> bool {
+    seconds.is_some_and(|seconds| seconds > 0.0)
 }
 
 fn flat(at: Vector3<f64>) -> Vector3<f64> {

@@ -210,7 +210,7 @@ fn wash_curves(plan: &Plan) -> Vec<Ideal> {
         if let Some(plate) = plan.job.plates.get(path.plate)
             && can_be_drawn(&path.curve)
         {
-            let thetas = path.curve.parameters(CHORD_M);
+            let thetas = path.curve.parameters(&plate.surface, CHORD_M);
             all.push(Ideal {
                 plate: path.plate,
                 points: thetas.into_iter().map(|theta| path.contact(plate, theta)).collect(),

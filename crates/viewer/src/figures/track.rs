@@ -1,5 +1,6 @@
 //! The way of the tip, moment by moment.
 
+use crate::view::tips::Tip;
 use nalgebra::Vector3;
 
 /// Where the tip is at a moment.
@@ -13,6 +14,16 @@ pub struct TrackPoint {
     pub at: Vector3<f64>,
     /// The way out of the tool, world frame.
     pub axis: Vector3<f64>,
+}
+
+impl From<&TrackPoint> for Tip {
+    fn from(point: &TrackPoint) -> Self {
+        Self {
+            t_s: point.t_s,
+            at: point.at,
+            axis: point.axis,
+        }
+    }
 }
 
 /// The way of the tip in time.

@@ -107,6 +107,7 @@ pub(super) fn measure(measure: &Measure) -> [String; 2] {
         Unit::Metre => (1e3, " mm"),
         Unit::MetrePerSecond => (1.0, " m/s"),
         Unit::MetrePerSecondSquared => (1.0, " m/s²"),
+        Unit::Newton => (1.0, " N"),
         Unit::Share => (100.0, " %"),
     };
     let (sign, towards): (_, fn(f64, usize) -> String) = match measure.sense {

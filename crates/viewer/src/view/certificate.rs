@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 use platewash_certificate::{self as proved, Status, Worst};
 use platewash_kinematics::Pose;
+use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::words::printable;
 use serde::Serialize;
 
@@ -17,8 +18,38 @@ pub struct Certificate {
     pub hash: Status,
     /// The requirements, in the certificate's order.
     pub checks: Vec<Check>,
+    /// What is proved of the contact with each plate; `None` where none is asked for.
+    pub contact: Option<Contact>,
     /// What the verdict rests on, a line each.
     pub rests_on: Vec<String>,
+}
+
+/// What is asked of the contact with plates, and what is proved of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Contact {
+    /// What is asked.
+    pub asked: ContactRequirements,
+    /// In the order of washing.
+    pub plates: Vec<PlateContact>,
+}
+
+/// What is proved of the contact with a plate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlateContact {
+    /// Index of the plate.
+    pub plate: usize,
+    /// Least share that is pressed.
+    pub share: f64,
+    /// Least share that is in contact long enough.
+    pub time_share: f64,
+    /// Least share that gets enough of a dose.
+    pub dose_share: f64,
+    /// Greatest strain; `None` where nothing is proved.
+    pub strain: Option<f64>,
+    /// Least and greatest force \[N\].
+    pub force_n: [Option<f64>; 2],
+    /// Greatest torque of friction with least and greatest friction, which are assumptions \[N·m\].
+    pub friction_torque_n_m: Option<[f64; 2]>,
 }
 
 /// A requirement and what came of it.
@@ -64,7 +95,25 @@ impl Certificate {
             headline: printable(&certificate.headline),
             hash: certificate.hash.status,
             checks: certificate.checks.iter().map(check).collect(),
+            contact: certificate.rests_on.requirements.contact.map(|asked| Contact {
+                asked,
+                plates: certificate.contact.iter().map(PlateContact::from).collect(),
+            }),
             rests_on: certificate.rests_on.lines().into_iter().map(line).collect(),
+        }
+    }
+}
+
+impl From<&proved::PlateContact> for PlateContact {
+    fn from(contact: &proved::PlateContact) -> Self {
+        Self {
+            plate: contact.plate,
+            share: contact.share.at_least,
+            time_share: contact.time.at_least,
+            dose_share: contact.dose.at_least,
+            strain: contact.strain.bound,
+            force_n: [contact.least_force_n.bound, contact.greatest_force_n.bound],
+            friction_torque_n_m: contact.friction_torque_nm,
         }
     }
 }

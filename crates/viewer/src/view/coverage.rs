@@ -1,10 +1,12 @@
-//! How plates get swept: sampled to look at, not the proof.
+//! How plates get swept, or pressed: sampled to look at, not the proof.
 //!
-//! A sponge counts as a disc about its tip, seen along the plate's axis, of the radius s cos τ at that moment: tilted by τ, its face is an
-//! ellipse that holds this disc. It counts while the plan washes the plate, as long as the sponge touches
+//! Where a job says what counts as contact, and on every profile, a place counts as long as the foam presses it (`pressed.rs`). On a
+//! disc without such a job, a sponge counts as a disc about its tip, seen along the plate's axis, of the radius s cos τ at that moment:
+//! tilted by τ, its face is an ellipse that holds this disc. It counts while the plan washes the plate, as long as the sponge touches
 //! ([`platewash_workcell::tool::Tool::touch`]).
 
 use super::numbers::Numbers;
+use super::pressed::Counted;
 use super::raster::{Disc, Raster};
 use super::tips::{Tip, washes};
 use platewash_certificate as proved;
@@ -30,7 +32,9 @@ pub struct PlateCoverage {
     pub plate: usize,
     /// Half of the square's edge: the rim's radius \[m\].
     pub half_m: f64,
-    /// \[rows, columns\], y then x ascending in the plate's frame: from when on the sponge was over the cell's middle, in steps of `step_s`;
+    /// What counts; `None` where the sponge has but to be over a place.
+    pub counted: Option<Counted>,
+    /// \[rows, columns\], y then x ascending in the plate's frame: when the cell's middle first counts, in steps of `step_s`;
     /// 65535 for never, 65534 for cells with their middle outside the rim.
     pub first: Numbers,
     /// \[s\]
@@ -39,8 +43,16 @@ pub struct PlateCoverage {
     pub dwell: Numbers,
     /// \[s\]
     pub dwell_step_s: f64,
-    /// The least share that the certificate proves; `None` without one.
+    /// The least share of what counts that the certificate proves; `None` without one.
     pub proved: Option<f64>,
+}
+
+impl PlateCoverage {
+    /// The least share of what counts that a certificate proves; `None` where it says nothing of the plate.
+    #[must_use]
+    pub fn proved_by(&self, certificate: &proved::Certificate) -> Option<f64> {
+        proved_share(certificate, self.plate, self.counted)
+    }
 }
 
 /// Rasters of all plates that a plan washes, in the order of washing, from the tip during each wash (from and to \[s\]).
@@ -61,16 +73,18 @@ pub(super) fn plates(
         let plate = plan.job.plates.get(index)?;
         let of_plate = washes(plan).filter(|(washed, _)| *washed == index);
         let ways = of_plate.map(|(_, span)| tips(span));
-        let marks = swept(plate, &plan.job.workcell.tool, ways, cells).marks(duration_s);
-        let proved = certificate.and_then(|c| c.coverage.iter().find(|swept| swept.plate == index));
+        let counted = Counted::on(plate, &plan.job);
+        let tool = &plan.job.workcell.tool;
+        let marks = swept(plate, tool, counted.as_ref(), ways, cells).marks(duration_s);
         Some(PlateCoverage {
             plate: index,
             half_m: plate.rim_m(),
+            counted,
             first: marks.first,
             step_s: marks.step_s,
             dwell: marks.dwell,
             dwell_step_s: marks.dwell_step_s,
-            proved: proved.map(|swept| swept.at_least),
+            proved: certificate.and_then(|certificate| proved_share(certificate, index, counted)),
         })
     };
     order.par_iter().filter_map(one).collect()
@@ -82,9 +96,29 @@ fn edge(plates: usize) -> usize {
     cells.isqrt().clamp(EDGE[0], EDGE[1])
 }
 
-/// What a sponge sweeps of a plate on some ways of its tip.
-pub(crate) fn swept(plate: &Plate, tool: &Tool, ways: impl Iterator<Item = Vec<Tip>>, cells: usize) -> Raster {
+/// The least share of a plate that counts, as it is proved.
+pub(crate) fn proved_share(certificate: &proved::Certificate, plate: usize, counted: Option<Counted>) -> Option<f64> {
+    if counted.is_some_and(|counted| counted.is_promised) {
+        let of = certificate.contact.iter().find(|contact| contact.plate == plate);
+        return of.map(|contact| contact.share.at_least);
+    }
+    let of = certificate.coverage.iter().find(|swept| swept.plate == plate);
+    of.map(|swept| swept.at_least)
+}
+
+/// What of a plate counts on some ways of the sponge's tip.
+pub(crate) fn swept(
+    plate: &Plate,
+    tool: &Tool,
+    counted: Option<&Counted>,
+    ways: impl Iterator<Item = Vec<Tip>>,
+    cells: usize,
+) -> Raster {
     let mut raster = Raster::new(plate.rim_m(), cells);
+    if let Some(counted) = counted {
+        ways.for_each(|way| counted.add(&mut raster, plate, tool, &way));
+        return raster;
+    }
     let disc = |tip: &Tip| {
         let local = plate.local(&tip.at);
         let cosine = -tip.axis.dot(&plate.normal_at(&tip.at));

@@ -11,7 +11,7 @@
 //! | arm, tool, surroundings, plates and paths | `arm.rs`, `tool.rs`, `surroundings.rs`, `plates.rs` |
 //! | planned motion, and its tip | `motion.rs`, `tips.rs` |
 //! | smallest distance over time | `clearance.rs` |
-//! | swept area over time | `coverage.rs`, `raster.rs` |
+//! | swept or pressed area over time | `coverage.rs`, `pressed.rs`, `raster.rs` |
 //! | what an arm did: as it is known, as it is shown | `executed.rs`, `execution.rs` |
 
 mod arm;
@@ -26,6 +26,7 @@ mod heading;
 mod motion;
 mod numbers;
 mod plates;
+pub(crate) mod pressed;
 pub(crate) mod raster;
 mod surroundings;
 pub(crate) mod tips;
@@ -33,7 +34,7 @@ mod tool;
 
 pub use arm::{Arm, Joint, Link};
 pub use body::{Body, Pose, Shape};
-pub use certificate::{Certificate, Check, Place};
+pub use certificate::{Certificate, Check, Contact, Place, PlateContact};
 pub use clearance::Clearance;
 pub use coverage::PlateCoverage;
 pub use error::ViewError;
@@ -43,6 +44,7 @@ pub use heading::{Heading, Process};
 pub use motion::{Motion, Segment};
 pub use numbers::{Data, Numbers};
 pub use plates::{Plate, WashPath};
+pub use pressed::Counted;
 pub use surroundings::Surroundings;
 pub use tool::{Sponge, Tool};
 

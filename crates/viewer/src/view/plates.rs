@@ -18,8 +18,8 @@ const MOST_TURNS: f64 = 1000.0;
 /// Radius of a spiral that is drawn at most, as a multiple of the plate's.
 const MOST_RIMS: f64 = 10.0;
 
-/// Points of the meridian of a face that is not flat.
-const MERIDIAN_POINTS: usize = 33;
+/// How far a face turns between two points of its meridian, at most \[rad\].
+const TURN_RAD: f64 = 0.06;
 
 /// A plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -32,6 +32,8 @@ pub struct Plate {
     pub meridian_m: Vec<[f64; 2]>,
     /// Thickness, from the face against its axis \[m\].
     pub thickness_m: f64,
+    /// What it stands on, below the body under the pole; `None` of a plate without a foot.
+    pub foot: Option<plate::Foot>,
 }
 
 /// What the tip follows on a plate.
@@ -48,18 +50,12 @@ impl Plate {
     #[must_use]
     pub fn new(index: usize, plate: &plate::Plate) -> Self {
         let surface = &plate.surface;
-        let points = if surface.curvature_bounds() == [0.0; 2] {
-            2
-        } else {
-            MERIDIAN_POINTS
-        };
-        let rho = |k: usize| surface.rim_m() * k as f64 / (points - 1) as f64;
-        let rho = (0..points).map(rho);
         Self {
             name: format!("plate {index}"),
             pose: (&plate.pose).into(),
-            meridian_m: rho.map(|rho| [rho, surface.height_m(rho)]).collect(),
+            meridian_m: surface.outline_m(TURN_RAD),
             thickness_m: plate.thickness_m,
+            foot: plate.foot,
         }
     }
 }
@@ -90,6 +86,6 @@ fn can_be_drawn(curve: &WashCurve, plate: &plate::Plate) -> bool {
 
 /// Points of a stated path, world frame \[m\].
 fn points(path: &wash_path::WashPath, plate: &plate::Plate) -> Vec<Vector3<f64>> {
-    let parameters = path.curve.parameters(CHORD_M);
+    let parameters = path.curve.parameters(&plate.surface, CHORD_M);
     parameters.into_iter().map(|theta| path.contact(plate, theta)).collect()
 }

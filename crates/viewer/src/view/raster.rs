@@ -1,4 +1,4 @@
-//! When a disc that moves over the square around a face is first over each cell, and for how long.
+//! When a sponge is first on each cell of the square around a face, and for how long: a disc that moves over it, or by the stays of points.
 
 use super::numbers::Numbers;
 
@@ -76,7 +76,20 @@ impl Raster {
         }
     }
 
-    /// For how long the disc was over each cell \[s\], row by row, y and x ascending; `None` outside the rim.
+    /// Adds when the sponge is on the middle of each cell inside the rim: from and to \[s\], in order, of a place \[m\].
+    pub fn add_stays(&mut self, stays: impl Fn([f64; 2]) -> Vec<[f64; 2]>) {
+        for cell in 0..self.first_s.len() {
+            if !self.is_inside(cell) {
+                continue;
+            }
+            let stays = stays([self.middle(cell % self.cells), self.middle(cell / self.cells)]);
+            let Some([first_s, _]) = stays.first() else { continue };
+            self.first_s[cell] = self.first_s[cell].min(*first_s);
+            self.dwell_s[cell] += stays.iter().map(|[from, to]| to - from).sum::<f64>();
+        }
+    }
+
+    /// For how long the sponge was on each cell \[s\], row by row, y and x ascending; `None` outside the rim.
     pub fn dwell_s(&self) -> Vec<Option<f64>> {
         let dwell = self.dwell_s.iter().enumerate();
         dwell
@@ -84,7 +97,7 @@ impl Raster {
             .collect()
     }
 
-    /// Share of the cells inside the rim that the disc was over.
+    /// Share of the cells inside the rim that the sponge was on.
     #[cfg(test)]
     pub fn share(&self) -> f64 {
         let inside = (0..self.first_s.len()).filter(|&cell| self.is_inside(cell));

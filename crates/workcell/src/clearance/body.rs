@@ -2,6 +2,7 @@
 
 use super::error::ClearanceError;
 use super::part::{Part, Placed};
+use super::tree::Tree;
 use crate::plate::Plate;
 use crate::tool::Tool;
 use crate::workcell::{Obstacle, ObstacleShape};
@@ -14,6 +15,18 @@ pub(super) struct Body {
     pub name: String,
     pub kind: BodyKind,
     pub parts: Vec<Part>,
+    /// What holds the parts, where they are many.
+    pub tree: Option<Tree>,
+}
+
+impl Body {
+    /// What is looked at first: the parts, or the one that holds them.
+    pub fn outer(&self) -> &[Part] {
+        match &self.tree {
+            Some(tree) => std::slice::from_ref(&tree.whole),
+            None => &self.parts,
+        }
+    }
 }
 
 /// What a body is; decides which pairs are checked.
@@ -45,6 +58,7 @@ pub(super) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> 
             name: link.name.clone(),
             kind: BodyKind::Link(link.frame.body()),
             parts: parts.collect::<Option<_>>().ok_or_else(|| flat(&link.name))?,
+            tree: None,
         });
     }
     bodies.extend(tool_bodies(robot, tool)?);
@@ -54,15 +68,15 @@ pub(super) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> 
     Ok(bodies)
 }
 
-/// The pairs of parts of two bodies.
+/// The pairs of what is looked at first of two bodies.
 pub(super) fn part_pairs(a: &Body, b: &Body) -> impl Iterator<Item = (usize, usize)> + use<> {
-    let (in_a, in_b) = (a.parts.len(), b.parts.len());
+    let (in_a, in_b) = (a.outer().len(), b.outer().len());
     (0..in_a).flat_map(move |p| (0..in_b).map(move |r| (p, r)))
 }
 
-/// The parts of the bodies where the arm's bodies stand.
+/// What is looked at first of the bodies, where the arm's bodies stand.
 pub(super) fn place<'a>(bodies: &'a [Body], poses: &BodyPoses) -> Vec<Vec<Placed<'a>>> {
-    let parts = |body: &'a Body| body.parts.iter().map(|part| part.place(poses)).collect();
+    let parts = |body: &'a Body| body.outer().iter().map(|part| part.place(poses)).collect();
     bodies.iter().map(parts).collect()
 }
 
@@ -76,6 +90,7 @@ fn body(name: &str, kind: BodyKind, part: Option<Part>) -> Result<Body, Clearanc
         name: name.to_owned(),
         kind,
         parts: vec![part.ok_or_else(|| flat(name))?],
+        tree: None,
     })
 }
 
@@ -90,7 +105,9 @@ fn tool_bodies(robot: &RobotModel, tool: &Tool) -> Result<Vec<Body>, ClearanceEr
     let mut bodies: Vec<_> = rigid
         .map(|b| body(&b.name, BodyKind::Tool, Part::new(&b.shape, at(&b.pose))))
         .collect::<Result<_, _>>()?;
-    let sponge = Part::new(&tool.sponge.shape(), at(&tool.sponge.pose));
+    // Free, it is longest: compressed it lies within.
+    let (shape, pose) = tool.sponge.free_body();
+    let sponge = Part::new(&shape, at(&pose));
     bodies.push(body("sponge", BodyKind::Sponge, sponge)?);
     Ok(bodies)
 }
@@ -103,13 +120,22 @@ fn obstacle_body(obstacle: &Obstacle) -> Result<Body, ClearanceError> {
     }
 }
 
-pub(super) fn plate_body(index: usize, plate: &Plate) -> Body {
-    let (shape, pose) = plate.body();
-    let part = Part::new(&shape, Frame::base().offset(&Rigid::from(&pose)));
+/// The body of a plate; where `like` is one of the same shape, its parts are not made again.
+pub(super) fn plate_body(index: usize, plate: &Plate, like: Option<&Body>) -> Body {
+    let known = like.and_then(|body| body.tree.as_ref());
+    let (tree, parts) = Tree::of(plate, known).map_or_else(
+        || {
+            // It has a volume.
+            let (shape, pose) = plate.enclosure();
+            let part = Part::new(&shape, Frame::base().offset(&Rigid::from(&pose)));
+            (None, part.into_iter().collect())
+        },
+        |(tree, parts)| (Some(tree), parts),
+    );
     Body {
         name: format!("plate {index}"),
         kind: BodyKind::Plate(index),
-        // A cylinder always has a volume.
-        parts: part.into_iter().collect(),
+        parts,
+        tree,
     }
 }

@@ -15,6 +15,7 @@
 //! | --- | --- |
 //! | bodies of arm, tool, obstacles, plates | `body.rs` |
 //! | a convex part of a body | `part.rs` |
+//! | a body of many parts, from the outside in | `tree.rs` |
 //! | which pairs are checked, and why the others are not | `pairs.rs` |
 //! | the distance of two parts: quickly, and between bounds | `distance.rs`, `bracket.rs` |
 //! | all pairs at one configuration | `model.rs` |
@@ -32,6 +33,7 @@ mod model;
 pub mod motion;
 mod pairs;
 mod part;
+mod tree;
 mod washing;
 
 pub use error::ClearanceError;

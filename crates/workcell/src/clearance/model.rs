@@ -5,9 +5,10 @@ use super::distance::{Separation, bracketed};
 use super::error::ClearanceError;
 use super::pairs;
 use super::part::Placed;
+use super::tree::Order;
 use crate::plate::Plate;
 use crate::workcell::Workcell;
-use platewash_kinematics::{JointVector, RobotModel};
+use platewash_kinematics::{BodyPoses, JointVector, RobotModel};
 use serde::Serialize;
 
 /// Distance between two bodies at one configuration.
@@ -52,8 +53,10 @@ impl ClearanceModel {
     /// [`ClearanceError::FlatHull`] for a mesh without volume.
     pub fn new(robot: &RobotModel, workcell: &Workcell, plates: &[Plate]) -> Result<Self, ClearanceError> {
         let mut bodies = world(robot, &workcell.tool, &workcell.obstacles)?;
-        let plates = plates.iter().enumerate().map(|(i, plate)| plate_body(i, plate));
-        bodies.extend(plates);
+        for (i, plate) in plates.iter().enumerate() {
+            let body = plate_body(i, plate, bodies.last());
+            bodies.push(body);
+        }
         Ok(Self {
             pairs: pairs::choose(&bodies, &workcell.exclusions),
             robot: robot.clone(),
@@ -76,7 +79,7 @@ impl ClearanceModel {
             if let BodyKind::Plate(index) = body.kind
                 && let Some(plate) = plates.get(index)
             {
-                *body = plate_body(index, plate);
+                *body = plate_body(index, plate, Some(body));
             }
         }
     }
@@ -97,11 +100,12 @@ impl ClearanceModel {
     /// Distances of all pairs at `q` \[rad\], in the order of [`ClearanceModel::pair_names`].
     #[must_use]
     pub fn all(&self, q: &JointVector) -> Vec<PairClearance> {
-        let placed = self.place(q);
+        let poses = self.robot.fk(q);
+        let placed = place(&self.bodies, &poses);
         let all = self.pairs.iter().map(|&(a, b)| {
             let least = self
                 .part_pairs(a, b)
-                .map(|(p, r)| bracketed(&placed[a][p], &placed[b][r]).0);
+                .filter_map(|parts| self.separation((a, b), parts, (&placed, &poses), f64::INFINITY));
             self.describe(a, b, nearest(least))
         });
         all.collect()
@@ -129,7 +133,8 @@ impl ClearanceModel {
 
     /// The pair with the smallest distance.
     fn least(&self, q: &JointVector, working: &[usize]) -> Option<(usize, usize, Separation)> {
-        let placed = self.place(q);
+        let poses = self.robot.fk(q);
+        let placed = place(&self.bodies, &poses);
         let mut best: Option<(usize, usize, Separation)> = None;
         let mut candidates: Vec<_> = self
             .pairs
@@ -143,8 +148,11 @@ impl ClearanceModel {
             if best.as_ref().is_some_and(|(.., s)| at_least >= s.distance) {
                 break;
             }
-            let found = bracketed(&placed[a][p], &placed[b][r]).0;
-            if best.as_ref().is_none_or(|(.., s)| found.distance < s.distance) {
+            let below = best.as_ref().map_or(f64::INFINITY, |(.., s)| s.distance);
+            let found = self.separation((a, b), (p, r), (&placed, &poses), below);
+            if let Some(found) = found
+                && best.as_ref().is_none_or(|(.., s)| found.distance < s.distance)
+            {
                 best = Some((a, b, found));
             }
         }
@@ -155,12 +163,16 @@ impl ClearanceModel {
     /// plates in `working`.
     #[must_use]
     pub fn too_near(&self, q: &JointVector, working: &[usize], required_m: f64) -> Vec<PairClearance> {
-        let placed = self.place(q);
+        let poses = self.robot.fk(q);
+        let placed = place(&self.bodies, &poses);
         let pairs = self.pairs.iter().filter(|&&(a, b)| !self.exempt(a, b, working));
         let near = pairs.map(|&(a, b)| {
-            let candidates = self.part_pairs(a, b).map(|(p, r)| (&placed[a][p], &placed[b][r]));
-            let candidates = candidates.filter(|(p, r)| p.sphere_gap(r) <= required_m);
-            self.describe(a, b, nearest(candidates.map(|(p, r)| bracketed(p, r).0)))
+            let candidates = self.part_pairs(a, b);
+            let candidates = candidates.filter(|&(p, r)| placed[a][p].sphere_gap(&placed[b][r]) <= required_m);
+            // What is as far as this is not too near.
+            let below = required_m.max(f64::MIN_POSITIVE);
+            let found = candidates.filter_map(|parts| self.separation((a, b), parts, (&placed, &poses), below));
+            self.describe(a, b, nearest(found))
         });
         let mut near: Vec<_> = near.filter(|pair| !is_clear(pair.distance_m, required_m)).collect();
         near.sort_by(|x, y| x.distance_m.total_cmp(&y.distance_m));
@@ -178,8 +190,45 @@ impl ClearanceModel {
         part_pairs(&self.bodies[a], &self.bodies[b])
     }
 
-    pub(super) fn place(&self, q: &JointVector) -> Vec<Vec<Placed<'_>>> {
-        place(&self.bodies, &self.robot.fk(q))
+    /// The distance of two bodies by a pair of what is looked at first of them, between bounds. Of a body with a tree that of its parts,
+    /// where it is less than `below` \[m\]; else nothing, or one from there on.
+    fn separation(
+        &self,
+        (a, b): (usize, usize),
+        (p, r): (usize, usize),
+        (placed, poses): (&[Vec<Placed<'_>>], &BodyPoses),
+        below: f64,
+    ) -> Option<Separation> {
+        let (outer, at_least) = bracketed(&placed[a][p], &placed[b][r]);
+        if at_least >= below {
+            return Some(outer);
+        }
+        self.within((a, b), (p, r), poses, |p, r| bracketed(p, r).0, below)
+            .unwrap_or(Some(outer))
+    }
+
+    /// The distance of the parts of a body with a tree to a part of another one, where it is less than `below` \[m\]; `None` where neither
+    /// body has one.
+    pub(super) fn within(
+        &self,
+        (a, b): (usize, usize),
+        (p, r): (usize, usize),
+        poses: &BodyPoses,
+        measure: impl Fn(&Placed<'_>, &Placed<'_>) -> Separation,
+        below: f64,
+    ) -> Option<Option<Separation>> {
+        let (first, second) = (&self.bodies[a], &self.bodies[b]);
+        match (&first.tree, &second.tree) {
+            (_, Some(tree)) => {
+                let other = (&first.outer()[p], Order::TreeSecond);
+                Some(tree.nearest(&second.parts, other, poses, (measure, below)))
+            }
+            (Some(tree), None) => {
+                let other = (&second.outer()[r], Order::TreeFirst);
+                Some(tree.nearest(&first.parts, other, poses, (measure, below)))
+            }
+            (None, None) => None,
+        }
     }
 
     pub(super) fn describe(&self, a: usize, b: usize, found: Separation) -> PairClearance {

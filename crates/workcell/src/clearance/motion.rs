@@ -1,7 +1,8 @@
 //! Bounds of the distance between two parts while the joints move, for proofs that hold between samples.
 //!
 //! A pair of bodies is a list of pairs of convex parts, one of them *fixed*, on the earlier body of the chain, and one
-//! *moving*. Seen from the fixed part only the joints between the two bodies move the other.
+//! *moving*. Seen from the fixed part only the joints between the two bodies move the other. Where a body has many parts, shapes that
+//! hold some of them come first: what is far from them is far from these ([`PartPairs`]).
 //!
 //! - **First order.** No point of the moving part is displaced by more than Σ_j ρ_j |Δq_j|, so that the distance does
 //!   not fall by more (ρ: [`super::lever`]).
@@ -44,6 +45,48 @@ pub struct PartPair<'a> {
     greatest: Levers,
 }
 
+/// The pairs of parts of two bodies, from the outside in: a pair of shapes that hold parts holds further pairs, and bounds their distances
+/// from below; the innermost are parts themselves.
+#[derive(Debug, Clone)]
+pub struct PartPairs<'a> {
+    pairs: Vec<PartPair<'a>>,
+    /// The pairs that each one holds.
+    within: Vec<Range<usize>>,
+    outermost: usize,
+}
+
+impl<'a> PartPairs<'a> {
+    /// The indices of the outermost pairs, which hold all others.
+    #[must_use]
+    pub fn outermost(&self) -> Range<usize> {
+        0..self.outermost
+    }
+
+    /// Whether one of the bodies has many parts.
+    #[must_use]
+    pub fn is_of_many(&self) -> bool {
+        self.pairs.len() > self.outermost
+    }
+
+    /// A pair by its index.
+    #[must_use]
+    pub fn get(&self, index: usize) -> Option<&PartPair<'a>> {
+        self.pairs.get(index)
+    }
+
+    /// The indices of the pairs that a pair holds; none where it is one of parts.
+    #[must_use]
+    pub fn within(&self, index: usize) -> Range<usize> {
+        self.within.get(index).cloned().unwrap_or_default()
+    }
+
+    /// The pairs of parts.
+    pub fn parts(&self) -> impl Iterator<Item = &PartPair<'a>> {
+        let innermost = self.pairs.iter().zip(&self.within);
+        innermost.filter(|(_, within)| within.is_empty()).map(|(pair, _)| pair)
+    }
+}
+
 /// Distance of two parts at one configuration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
@@ -75,12 +118,44 @@ impl ClearanceModel {
     }
 
     /// The pairs of parts of a pair of bodies.
-    pub fn parts_of(&self, pair: usize) -> Vec<PartPair<'_>> {
+    pub fn parts_of(&self, pair: usize) -> PartPairs<'_> {
         let zero = self.robot.fk(&JointVector::zeros());
         let (a, b) = self.pairs[pair];
-        self.part_pairs(a, b)
-            .map(|(p, r)| PartPair::new(&self.bodies[a].parts[p], &self.bodies[b].parts[r], &zero))
-            .collect()
+        let (first, second) = (&self.bodies[a], &self.bodies[b]);
+        let outer = self.part_pairs(a, b);
+        let mut pairs: Vec<_> = outer
+            .map(|(p, r)| PartPair::new(&first.outer()[p], &second.outer()[r], &zero))
+            .collect();
+        let outermost = pairs.len();
+        let mut within = vec![0..0; outermost];
+        let (tree, body, others) = match (&first.tree, &second.tree) {
+            (_, Some(tree)) => (tree, second, first),
+            (Some(tree), None) => (tree, first, second),
+            (None, None) => {
+                return PartPairs {
+                    pairs,
+                    within,
+                    outermost,
+                };
+            }
+        };
+        for (held, other) in others.outer().iter().enumerate() {
+            let groups = pairs.len()..pairs.len() + tree.groups.len();
+            within[held] = groups.clone();
+            pairs.extend(tree.groups.iter().map(|group| PartPair::new(other, &group.ball, &zero)));
+            within.resize(groups.end, 0..0);
+            for (at, group) in groups.zip(&tree.groups) {
+                within[at] = pairs.len()..pairs.len() + group.members.len();
+                let parts = body.parts[group.members.clone()].iter();
+                pairs.extend(parts.map(|part| PartPair::new(other, part, &zero)));
+                within.resize(pairs.len(), 0..0);
+            }
+        }
+        PartPairs {
+            pairs,
+            within,
+            outermost,
+        }
     }
 }
 
@@ -103,6 +178,18 @@ impl<'a> PartPair<'a> {
         self.fixed.sphere_gap(self.moving, poses)
     }
 
+    /// A lower bound of the distance from the moving part and a sphere around the fixed one \[m\]: exact but for rounding where the moving
+    /// part is a capsule or a cylinder.
+    pub fn gap_to_sphere(&self, poses: &BodyPoses) -> f64 {
+        let [here, there] = [self.moving, self.fixed].map(|part| part.rigid(poses));
+        self.moving.gap_to_sphere(&here, self.fixed, &there) - ROUNDING_M
+    }
+
+    /// A direction in the frame of the fixed part, in the base frame.
+    pub fn in_base(&self, normal: [f64; 3], poses: &BodyPoses) -> [f64; 3] {
+        (self.fixed.place(poses).pose.rotation * Vector::from_array(normal)).to_array()
+    }
+
     /// The distance.
     pub fn measure(&self, poses: &BodyPoses) -> Measured {
         let (fixed, moving) = (self.fixed.place(poses), self.moving.place(poses));
@@ -118,8 +205,13 @@ impl<'a> PartPair<'a> {
 
     /// The gap along a direction in the frame of the fixed part: a lower bound of the distance \[m\], rounding included.
     pub fn gap_along(&self, normal: [f64; 3], poses: &BodyPoses) -> f64 {
+        self.gap_along_in_base(self.in_base(normal, poses), poses)
+    }
+
+    /// The same along a direction in the base frame: where the fixed part stands still, that is one in its frame.
+    pub fn gap_along_in_base(&self, normal: [f64; 3], poses: &BodyPoses) -> f64 {
         let (fixed, moving) = (self.fixed.place(poses), self.moving.place(poses));
-        let normal = fixed.pose.rotation * Vector::from_array(normal);
+        let normal = Vector::from_array(normal);
         let from = |part: &Placed<'_>, direction: Vector| part.support(direction);
         -from(&moving, -normal) - from(&fixed, normal) - ROUNDING_M
     }
@@ -163,7 +255,8 @@ mod tests {
             let [start, middle, there, end] = [-1.0, 0.0, at, 1.0].map(poses);
             prop_assume!(Vector::from_array(n).length() > 0.1);
             let n = Vector::from_array(n).normalize().to_array();
-            for pair in (0..model.pair_count()).flat_map(|pair| model.parts_of(pair)) {
+            let pairs: Vec<_> = (0..model.pair_count()).map(|pair| model.parts_of(pair)).collect();
+            for pair in pairs.iter().flat_map(PartPairs::parts) {
                 let measured = pair.measure(&middle);
                 let found = pair.measure(&there).distance_m;
                 let levers = pair.levers(&middle, &v.abs());

@@ -10,6 +10,7 @@ use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{BodyPoses, Frame};
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 /// A quarter turn that lays parry's cylinder (along y) along z.
 const Y_TO_Z: f64 = FRAC_PI_2;
@@ -28,8 +29,8 @@ pub(super) enum Core {
 /// What the height of a solid over the floor needs.
 #[derive(Debug, Clone)]
 pub(super) enum Extent {
-    /// Vertices \[m\].
-    Vertices(Vec<Vector>),
+    /// Vertices \[m\], shared by parts that are alike.
+    Vertices(Arc<[Vector]>),
     /// A cylinder along y: radius and half length \[m\].
     Cylinder(f64, f64),
 }
@@ -92,7 +93,7 @@ impl Part {
                     .map(|p: &Point3<f64>| Vector::new(p.x, p.y, p.z))
                     .collect();
                 let hull = ConvexPolyhedron::from_convex_hull(&vertices).filter(|_| has_volume(&vertices))?;
-                let extent = Extent::Vertices(enclosing(&hull, &vertices));
+                let extent = Extent::Vertices(enclosing(&hull, &vertices).into());
                 Self::solid(SharedShape::new(hull), extent, frame)
             }
         })
@@ -113,6 +114,31 @@ impl Part {
             bounding: f64::INFINITY,
             frame: Frame::base(),
         }
+    }
+
+    /// A sphere about the frame's origin \[m\].
+    pub fn ball(radius: f64, frame: Frame) -> Self {
+        Self::round(0.0, radius, frame)
+    }
+
+    /// The part where a body fixed to the base carries it that stands elsewhere.
+    pub fn carried(&self, by: &Rigid) -> Self {
+        Self {
+            frame: Frame::base().offset(&by.then(self.frame.on_body())),
+            ..self.clone()
+        }
+    }
+
+    /// The corners of a hull or box in the frame that carries the part; of others none \[m\].
+    pub fn corners(&self) -> impl Iterator<Item = Vector3<f64>> {
+        let vertices: &[Vector] = match &self.core {
+            Core::Solid(_, Extent::Vertices(vertices)) => vertices,
+            _ => &[],
+        };
+        let at = self.frame.on_body();
+        vertices
+            .iter()
+            .map(move |v| at.rotation * Vector3::new(v.x, v.y, v.z) + at.translation)
     }
 
     fn round(half_length: f64, radius: f64, frame: Frame) -> Self {
@@ -171,6 +197,11 @@ impl Part {
     /// The arm's body that carries the part: 0 for what never moves.
     pub fn body(&self) -> usize {
         self.frame.body()
+    }
+
+    /// Radius of the sphere about its frame's origin that holds the part \[m\].
+    pub fn bounding(&self) -> f64 {
+        self.bounding
     }
 
     /// The frame that the part is fixed to.

@@ -12,6 +12,7 @@ use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
 mod bounds;
+mod many_parts;
 
 fn iso() -> impl Strategy<Value = Isometry3<f64>> {
     (prop::array::uniform3(-1.0..1.0f64), prop::array::uniform3(-3.0..3.0f64))

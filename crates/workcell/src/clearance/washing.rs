@@ -3,10 +3,14 @@
 //! While the sponge washes every pair keeps the margin, with one exception: the sponge and the plates. It lies on the one
 //! that it works on and runs over its rim by up to its radius, where a neighbour may lie.
 
-use super::body::BodyKind;
-use super::distance::{bracketed, separation};
+use super::body::{BodyKind, place};
+use super::distance::{Separation, bracketed, separation};
 use super::model::{ClearanceModel, PairClearance, is_clear, nearest};
-use platewash_kinematics::JointVector;
+use super::part::Placed;
+use platewash_kinematics::{BodyPoses, JointVector};
+
+/// How a distance is worked out.
+type Measure = fn(&Placed<'_>, &Placed<'_>) -> Separation;
 
 impl ClearanceModel {
     /// Whether at `q` \[rad\] every pair keeps `required_m`. False for NaN; touching keeps nothing, not even 0.
@@ -25,14 +29,24 @@ impl ClearanceModel {
     /// The nearest of the pairs that [`ClearanceModel::keeps_washing`] finds too near; `None` where there is none.
     #[must_use]
     pub fn nearest_washing(&self, q: &JointVector, required_m: f64) -> Option<PairClearance> {
-        let placed = self.place(q);
+        let poses = self.robot.fk(q);
+        let placed = place(&self.bodies, &poses);
         let counting = self.pairs.iter().filter(|&&(a, b)| self.counts_washing(a, b));
         let too_near = counting.filter_map(|&(a, b)| {
-            let parts = || self.part_pairs(a, b).map(|(p, r)| (&placed[a][p], &placed[b][r]));
-            let found = nearest(parts().map(|(p, r)| separation(p, r)));
+            let found = |measure: Measure| {
+                let parts = self.part_pairs(a, b);
+                nearest(parts.filter_map(|(p, r)| {
+                    let outer = measure(&placed[a][p], &placed[b][r]);
+                    if is_clear(outer.distance, required_m) {
+                        return Some(outer);
+                    }
+                    let within = self.within((a, b), (p, r), &poses, measure, f64::INFINITY);
+                    within.unwrap_or(Some(outer))
+                }))
+            };
             // Found quickly, named exactly.
-            let exactly = || nearest(parts().map(|(p, r)| bracketed(p, r).0));
-            (!is_clear(found.distance, required_m)).then(|| (a, b, exactly()))
+            let exactly = || found(|p, r| bracketed(p, r).0);
+            (!is_clear(found(separation).distance, required_m)).then(|| (a, b, exactly()))
         });
         let (a, b, found) = too_near.min_by(|x, y| x.2.distance.total_cmp(&y.2.distance))?;
         Some(self.describe(a, b, found))
@@ -54,17 +68,25 @@ impl ClearanceModel {
         let mut frames = Vec::with_capacity(4 * self.bodies.len());
         for body in &self.bodies {
             first.push(frames.len());
-            frames.extend(body.parts.iter().map(|part| part.rigid(&poses)));
+            frames.extend(body.outer().iter().map(|part| part.rigid(&poses)));
         }
         let keeps = |(a, b): (usize, usize), (p, r): (usize, usize)| {
-            let (part, other) = (&self.bodies[a].parts[p], &self.bodies[b].parts[r]);
+            let (part, other) = (&self.bodies[a].outer()[p], &self.bodies[b].outer()[r]);
             let (here, there) = (&frames[first[a] + p], &frames[first[b] + r]);
             let enough = |gap: f64| gap > 0.0 && gap >= required;
             enough(part.gap_to_sphere(here, other, there))
                 || enough(other.gap_to_sphere(there, part, here))
                 || is_clear(separation(&part.place(&poses), &other.place(&poses)).distance, required)
+                || self.parts_keep((a, b), (p, r), &poses, required)
         };
         let mut counting = self.pairs.iter().filter(|&&(a, b)| counts(a, b));
         counting.all(|&(a, b)| self.part_pairs(a, b).all(|parts| keeps((a, b), parts)))
+    }
+    /// Whether the parts of a body with a tree are clear of a part of another one; false where neither body has one.
+    fn parts_keep(&self, bodies: (usize, usize), parts: (usize, usize), poses: &BodyPoses, required: f64) -> bool {
+        // What is as far as this is clear.
+        let below = required.max(f64::MIN_POSITIVE);
+        let found = self.within(bodies, parts, poses, separation, below);
+        found.is_some_and(|found| found.is_none_or(|found| is_clear(found.distance, required)))
     }
 }

@@ -10,11 +10,12 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use capsule::Capsule;
+pub(crate) use disc::area_of_rectangle_in_disc;
 pub use picture::{CoverageRaster, MAX_CELLS, RasterCell, raster};
 use raster::{Raster, Uncovered};
 
 /// Cells may not be smaller than this part of the plate's radius, so that every call ends soon.
-const SMALLEST_CELL: f64 = 1e-5;
+pub(crate) const SMALLEST_CELL: f64 = 1e-5;
 
 /// What is added to both sides of the bounds for rounding, as a part of the disc's area.
 const ROUNDING: f64 = 1e-11;

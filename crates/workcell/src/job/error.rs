@@ -10,6 +10,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum JobError {
+    /// A promise about contact, and a sponge whose stiffness is not stated.
+    #[error(
+        "workcell.tool.sponge.stiffness_pa is missing; a promise about contact needs the least and the greatest stiffness of the sponge"
+    )]
+    NoStiffness,
     /// A number out of range.
     #[error("job: {name} must be {expected}; found {found}")]
     Number {
@@ -33,7 +38,10 @@ pub enum JobError {
         found: usize,
     },
     /// A plate of no size, or nowhere.
-    #[error("plate {plate}: its centre, height, radius and thickness must be finite, the latter two above 0")]
+    #[error(
+        "plate {plate}: its centre, height, radius and thickness must be finite, the latter two above 0; a foot has a height above 0 and \
+         a radius above 0, within the rim"
+    )]
     NoPlate {
         /// Index of the plate.
         plate: usize,

@@ -18,12 +18,24 @@ pub enum Planner {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannerSettings {
-    /// Outer radius of the wash path \[m\].
-    pub path_radius_m: f64,
-    /// Turns of its spiral.
-    pub turns: f64,
-    /// Whether a full circle at the outer radius follows the spiral.
-    pub closing_ring: bool,
+    /// Greatest length of the wash path along the meridian, on a flat plate its outer radius \[m\]; without it, the planner chooses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path_radius_m: Option<f64>,
+    /// Turns of its spiral, or its rings but the last; without it, the planner chooses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turns: Option<f64>,
+    /// Whether a full circle at the outer radius follows a spiral; without it, the planner chooses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub closing_ring: Option<bool>,
+    /// Kind of the wash path; without it, a spiral where its turns or its radius are stated, otherwise the planner chooses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pattern: Option<PatternName>,
+    /// The tool's largest angle from the normal that is planned \[rad\]; without it, the planner chooses, up to what is required.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tilt_rad: Option<f64>,
+    /// Slope of the sponge's axis as a share of that of the face: 0 keeps it along the plate's axis, 1 along the normal; without it, half.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis_share: Option<f64>,
     /// How far the tip approaches and retreats along the plate's normal \[m\].
     pub lift_m: f64,
     /// In which order plates are washed.
@@ -34,6 +46,21 @@ pub struct PlannerSettings {
     pub reach: ReachBorders,
     /// Whether another place is looked for, for a plate that cannot be washed.
     pub relocate: bool,
+}
+
+/// Kinds of wash paths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PatternName {
+    /// A spiral from the centre.
+    Spiral,
+    /// Rings about the centre, joined by blends.
+    Rings,
+}
+
+impl PatternName {
+    /// The names, as files state them.
+    pub const NAMES: [&'static str; 2] = ["spiral", "rings"];
 }
 
 /// In which order plates are washed.

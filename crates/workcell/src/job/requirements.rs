@@ -1,5 +1,6 @@
 //! What a washing must keep, and what the arm must not exceed.
 
+use super::contact::ContactRequirements;
 use platewash_kinematics::AXES;
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +29,20 @@ pub struct Requirements {
     pub overlap: Overlap,
     /// Whether plates must be washed as they are listed.
     pub as_listed: bool,
+    /// How fast the free sponge may meet a plate, and leave it \[m/s\]: the speed of every point of it that touches while it comes down
+    /// and while it leaves; without them, that of washing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub landing_m_s: Option<f64>,
+    /// The same while it leaves \[m/s\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lifting_m_s: Option<f64>,
+    /// How far joint 5 keeps from 0 while the sponge is at a plate, always on the same side \[rad\]: a wrist with axes 4 and 6 in line
+    /// there would flip. Without it, nothing is asked of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wrist_rad: Option<f64>,
+    /// What the contact of sponge and plate must keep; without it, the sponge counts as touching with its whole face.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactRequirements>,
 }
 
 /// What plates that overlap lead to.

@@ -16,6 +16,12 @@ use std::f64::consts::FRAC_PI_2;
 /// seeds are one text in a plan file.
 pub const MAX_SEED: u64 = (1 << 53) - 1;
 
+/// The stiffest sponge \[Pa\]: stiffer ones are none.
+const STIFFEST_PA: f64 = 1e9;
+
+/// The greatest force that can be asked for \[N\].
+const GREATEST_N: f64 = 1e6;
+
 /// The terms of a job: everything about it but the arm itself, as a plan file states it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -82,6 +88,7 @@ impl JobTerms {
         within("requirements.tilt_rad", wanted.tilt_rad, [0.0, FRAC_PI_2])?;
         positive("requirements.wash_speed_m_s", wanted.wash_speed_m_s)?;
         positive("requirements.wash_acceleration_m_s2", wanted.wash_acceleration_m_s2)?;
+        self.check_contact()?;
         for joint in self.limits.joint_acceleration_rad_s2 {
             positive("limits.joint_acceleration_rad_s2", joint)?;
         }
@@ -131,6 +138,50 @@ impl JobTerms {
             within("workcell.tool.tip", *at, [-10.0, 10.0])?;
         }
         Ok(())
+    }
+
+    fn check_contact(&self) -> Result<(), JobError> {
+        let (wanted, sponge) = (&self.requirements, &self.workcell.tool.sponge);
+        for (name, speed) in [
+            ("requirements.landing_m_s", wanted.landing_m_s),
+            ("requirements.lifting_m_s", wanted.lifting_m_s),
+        ] {
+            speed.map_or(Ok(()), |speed| positive(name, speed))?;
+        }
+        if let Some(wrist) = wanted.wrist_rad {
+            within("requirements.wrist_rad", wrist, [0.0, FRAC_PI_2])?;
+        }
+        if let Some([least, most]) = sponge.stiffness_pa {
+            positive("workcell.tool.sponge.stiffness_pa", least)?;
+            within("workcell.tool.sponge.stiffness_pa", most, [least, STIFFEST_PA])?;
+        }
+        let Some(contact) = &wanted.contact else { return Ok(()) };
+        if sponge.stiffness_pa.is_none() {
+            return Err(JobError::NoStiffness);
+        }
+        within(
+            "requirements.contact.compression_m",
+            contact.compression_m,
+            [0.0, GREATEST_M],
+        )?;
+        within(
+            "requirements.contact.height_error_m",
+            contact.height_error_m,
+            [0.0, GREATEST_M],
+        )?;
+        within("requirements.contact.strain", contact.strain, [0.0, 1.0])?;
+        for (name, share) in [
+            ("requirements.contact.share", contact.share),
+            ("requirements.contact.time_share", contact.time_share),
+            ("requirements.contact.dose_share", contact.dose_share),
+        ] {
+            within(name, share, [0.0, 1.0])?;
+        }
+        let [least, most] = contact.force_n;
+        within("requirements.contact.force_n", least, [0.0, GREATEST_N])?;
+        within("requirements.contact.force_n", most, [least, GREATEST_N])?;
+        within("requirements.contact.time_s", contact.time_s, [0.0, 1e6])?;
+        within("requirements.contact.dose_pa_m", contact.dose_pa_m, [0.0, 1e9])
     }
 
     fn check_dry_run(&self) -> Result<(), JobError> {

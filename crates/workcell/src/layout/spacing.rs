@@ -1,6 +1,8 @@
 //! What all plates of a layout share, and the distances that they keep.
 
-use crate::plate::Plate;
+use crate::plate::{Foot, Plate};
+use crate::surface::Surface;
+use platewash_kinematics::Pose;
 use serde::{Deserialize, Serialize};
 
 use super::error::{LayoutError, finite, not_negative, positive, range};
@@ -11,12 +13,14 @@ pub const MAX_PLATES: usize = 1000;
 /// Shape and height that all plates of a layout share.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlateGeometry {
-    /// Radius, metres.
-    pub radius_m: f64,
-    /// Height of the washing surface (z, base frame), metres.
+    /// The washing surface; plates keep apart by the radius of its rim.
+    pub surface: Surface,
+    /// Height of the pole of the washing surface (z, base frame), metres.
     pub height_m: f64,
     /// Thickness, from the washing surface down, metres.
     pub thickness_m: f64,
+    /// The ring that a plate stands on, where it has one.
+    pub foot: Option<Foot>,
 }
 
 /// The rule by which plates keep their distance. It concerns centres: it does not keep plates from overlapping.
@@ -38,20 +42,29 @@ pub struct BaseFootprint {
 }
 
 impl PlateGeometry {
-    /// Refuses a radius or thickness that is not greater than zero and a height that is not finite.
+    /// Refuses a radius or thickness that is not greater than zero, a height that is not finite, and a foot of no size.
     ///
     /// # Errors
     ///
     /// [`LayoutError::InvalidInput`], naming the key.
     pub fn validate(&self) -> Result<(), LayoutError> {
-        positive("plate_radius_m", self.radius_m)?;
+        positive("plate_radius_m", self.surface.rim_m())?;
         finite("plate_height_m", self.height_m)?;
-        positive("plate_thickness_m", self.thickness_m)
+        positive("plate_thickness_m", self.thickness_m)?;
+        for size in self.foot.iter().flat_map(|foot| [foot.radius_m, foot.height_m]) {
+            positive("plate_foot_m", size)?;
+        }
+        Ok(())
     }
 
     /// Plates of this geometry at the centres `[x, y]`, metres, base frame.
     pub(super) fn plates(&self, centres: &[[f64; 2]]) -> Vec<Plate> {
-        let at = |&[x, y]: &[f64; 2]| Plate::level_disc([x, y, self.height_m], self.radius_m, self.thickness_m);
+        let at = |&[x, y]: &[f64; 2]| Plate {
+            surface: self.surface,
+            thickness_m: self.thickness_m,
+            foot: self.foot,
+            pose: Pose::translation(x, y, self.height_m),
+        };
         centres.iter().map(at).collect()
     }
 }

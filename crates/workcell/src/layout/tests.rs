@@ -1,14 +1,16 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use crate::surface::Surface;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::*;
 
 const GEOMETRY: PlateGeometry = PlateGeometry {
-    radius_m: 0.145,
+    surface: Surface::Disc { radius_m: 0.145 },
     height_m: 0.03,
     thickness_m: 0.02,
+    foot: None,
 };
 const SPACING: Spacing = Spacing {
     min_distance_m: 0.28,
@@ -341,7 +343,7 @@ fn senseless_numbers_are_refused_by_key() {
         (
             SampleRequest {
                 geometry: PlateGeometry {
-                    radius_m: 0.0,
+                    surface: Surface::Disc { radius_m: 0.0 },
                     ..GEOMETRY
                 },
                 ..good

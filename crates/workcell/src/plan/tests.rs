@@ -16,6 +16,7 @@ fn plan() -> Plan {
                 turns: 3.5,
                 start_angle_rad: 0.1,
                 closing_ring: true,
+                rings: None,
             },
             lift_m: 0.03,
             cone_rad: 0.25,

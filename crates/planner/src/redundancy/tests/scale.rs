@@ -5,6 +5,7 @@ use platewash_workcell::layout::{
     BaseFootprint, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing, sample,
 };
 use platewash_workcell::random::stream;
+use platewash_workcell::surface::Surface;
 use rand::RngExt;
 use std::time::{Duration, Instant};
 
@@ -133,9 +134,10 @@ fn layouts_of_the_paper() {
                 },
                 count: 4,
                 geometry: PlateGeometry {
-                    radius_m: 0.145,
+                    surface: Surface::Disc { radius_m: 0.145 },
                     height_m: 0.03,
                     thickness_m: 0.02,
+                    foot: None,
                 },
                 base: BaseFootprint {
                     x_m: [-0.2115, 0.0905],

@@ -69,7 +69,7 @@ function area(key: Key, actions: ControlActions): Control {
     if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) actions.commit();
     if (event.key === "Escape") actions.revert();
   });
-  element.title = key.domain.kind === "points" ? "A line a plate: x, y" : "A line a folder";
+  element.title = key.domain.kind === "points" ? "A line a pair: x, y of a plate, or radius and slope of a knot" : "A line a folder";
   return {
     element,
     read: () => element.value,

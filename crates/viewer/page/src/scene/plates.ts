@@ -44,7 +44,7 @@ function rastersOf(of: readonly Coverage[]): Rasters {
 function solidOf(plate: Plate, pose: Matrix4): Solid {
   const heights = plate.meridian_m.map(([, z]) => z).filter(Number.isFinite);
   const top_m = heights.length > 0 ? Math.max(...heights) : 0;
-  const bottom_m = (heights.length > 0 ? Math.min(...heights) : 0) - Math.max(0, plate.thickness_m || 0);
+  const bottom_m = (heights.length > 0 ? Math.min(...heights) : 0) - Math.max(0, plate.thickness_m || 0) - Math.max(0, plate.foot?.height_m || 0);
   return { pose, rim_m: plate.meridian_m.at(-1)?.[0] ?? 0, top_m, bottom_m };
 }
 
@@ -86,7 +86,7 @@ export class Plates {
     const segments = plates.length > 24 ? 48 : 128;
     const before = this.#drawn;
     this.#drawn = plates.map((plate, index) => {
-      const key = JSON.stringify([plate.meridian_m, plate.thickness_m, segments]);
+      const key = JSON.stringify([plate.meridian_m, plate.thickness_m, plate.foot, segments]);
       const kept = before[index];
       if (kept === undefined || kept.key !== key) return this.#make(plate, key, segments);
       fix(kept.mesh, plate.pose);

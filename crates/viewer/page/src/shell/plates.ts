@@ -1,7 +1,7 @@
 /** Each plate's coverage: a map that builds up as time runs, and how much of the plate that is. */
 import { colormap } from "../colormap.ts";
 import { decodeCoverage, dwellScale, PlateMap, shareAt, type Coverage } from "../coverage.ts";
-import { percentDown, quantity } from "../format.ts";
+import { fixedShort, percentDown, quantity } from "../format.ts";
 import type { Follows, Player } from "../player.ts";
 import type { PlateCoverage } from "../view.ts";
 import { button, el, isolated, TextCell } from "./dom.ts";
@@ -20,6 +20,18 @@ interface Card {
   maps: Partial<Record<Follows, PlateMap>>;
   /** Whether the card is in sight. */
   seen: boolean;
+}
+
+/** What maps show, in a sentence. */
+export function meaning(coverages: readonly Coverage[]): string {
+  const counted = coverages.map((coverage) => coverage.counted);
+  const promised = counted.find((one) => one?.is_promised);
+  if (promised) {
+    const [compression, error] = [promised.compression_m, promised.height_error_m].map((length) => fixedShort(1000 * length, 2));
+    return `Coloured where the sponge is pressed by ${compression}\u202fmm or more, wherever within ±${error}\u202fmm the plate lies.`;
+  }
+  if (counted.length > 0 && counted.every((one) => one !== null)) return "Coloured where the sponge touches the face.";
+  return "Coloured where the sponge was over the face.";
 }
 
 /** The colours of a heat map, from short to long. */
@@ -129,7 +141,7 @@ export class Plates {
   #make(): void {
     this.#dwell_s = dwellScale(this.#coverages.all);
     this.#scale.replaceChildren(
-      el("span", {}, "washed for 0 s"),
+      el("span", {}, this.#coverages.all.every(({ counted }) => counted !== null) ? "in contact for 0 s" : "washed for 0 s"),
       heatBar(),
       el("span", {}, quantity(this.#dwell_s, 1, "s and more")),
     );
@@ -145,7 +157,7 @@ export class Plates {
     });
     for (const { element } of this.#cards) this.#observer.observe(element);
     const inAir = this.#player.view.heading.dry_run === null ? "" : "Nothing is washed: what the sponge goes over in the air. ";
-    const words = `${inAir}In the order of washing; sampled on a raster to look at. What is proved is below each map.`;
+    const words = `${inAir}In the order of washing. ${meaning(this.#coverages.all)} Sampled on a raster to look at; what is proved is below each map.`;
     if (this.#cards.length === 0) return this.element.replaceChildren(el("p", { class: "summary" }, "No plate is washed: there is no plan."));
     this.element.replaceChildren(
       el("p", { class: "summary" }, words),

@@ -13,19 +13,20 @@ const READABLE_MS = 90;
 
 interface Figure {
   element: HTMLElement;
+  name: TextCell;
   value: TextCell;
   note: TextCell;
 }
 
-function figure(name: string): Figure {
-  const [value, note] = [new TextCell(), new TextCell()];
+function figure(words: string): Figure {
+  const [name, value, note] = [new TextCell(words), new TextCell(), new TextCell()];
   const element = el(
     "div",
     { class: "figure" },
-    el("dt", {}, name),
+    el("dt", {}, name.node),
     el("dd", {}, el("span", { class: "figure-value" }, value.node), el("span", { class: "figure-note" }, note.node)),
   );
-  return { element, value, note };
+  return { element, name, value, note };
 }
 
 export class Readout {
@@ -107,8 +108,10 @@ export class Readout {
   }
 
   #showCoverage(): void {
-    const { segment, time } = this.#player;
+    const { segment, time, view } = this.#player;
     const plate = segment?.plate ?? null;
+    const counted = view.coverage.find((coverage) => plate === null || coverage.plate === plate)?.counted ?? null;
+    this.#coverage.name.set(counted?.is_promised ? "pressed" : counted === null ? "covered" : "touched");
     const share = plate === null || segment?.kind === "transit" ? null : this.#shareAt(plate, time);
     this.#coverage.element.classList.toggle("faint", share === null);
     this.#coverage.value.set(share === null ? "–" : percentDown(share, share > 0.99 ? 1 : 0));

@@ -2,6 +2,7 @@
 import { quantity } from "../format.ts";
 import { statusWord, summary, verdict } from "../verdict.ts";
 import type { Certificate, Check, Status, View } from "../view.ts";
+import { contactTable } from "./contact.ts";
 import { button, el, isolated } from "./dom.ts";
 import { icon, toneIcon } from "./icons.ts";
 
@@ -48,7 +49,7 @@ export class Requirements {
     this.#rows.clear();
     this.element.replaceChildren();
     if (view.certificate === null) this.#without(view);
-    else this.#table(view.certificate);
+    else this.#table(view, view.certificate);
   }
 
   /** Marks the requirement whose worst place is shown. */
@@ -62,7 +63,7 @@ export class Requirements {
     this.element.append(el("p", { class: `notice tone-${tone}` }, toneIcon(tone), sentence));
   }
 
-  #table(certificate: Certificate): void {
+  #table(view: View, certificate: Certificate): void {
     if (certificate.hash !== "proved") {
       const words = "The plan was changed after it was sealed: its hash is not that of its contents.";
       this.element.append(el("p", { class: "notice tone-violated" }, toneIcon("violated"), words));
@@ -72,6 +73,7 @@ export class Requirements {
     const brief = checks.filter(isBrief);
     const rows = checks.filter((check) => !isBrief(check)).map((check) => this.#row(check));
     this.element.append(el("ul", { class: "checks" }, ...rows));
+    if (certificate.contact !== null) this.element.append(...contactTable(view, certificate.contact));
     if (brief.length === 0) return;
     const items = brief.map((check) => el("li", {}, toneIcon("proved"), check.words));
     this.element.append(el("h3", { class: "brief-title" }, "Proved, with nothing to measure"), el("ul", { class: "brief" }, ...items));

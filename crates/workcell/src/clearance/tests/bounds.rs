@@ -101,7 +101,11 @@ fn no_more_is_claimed_where_a_routine_stops_early() {
         .position(|pair| *pair == ("base_link", "sponge"))
         .unwrap();
     let poses = RobotModel::irb120().unwrap().fk(&q);
-    let measured: Vec<_> = model.parts_of(pair).iter().map(|parts| parts.measure(&poses)).collect();
+    let measured: Vec<_> = model
+        .parts_of(pair)
+        .parts()
+        .map(|parts| parts.measure(&poses))
+        .collect();
     let at_least = measured.iter().map(|m| m.at_least_m).fold(f64::INFINITY, f64::min);
     assert!(
         at_least <= least + 1e-9 && at_least > least - ITERATIVE_ERROR_M - 1e-8,

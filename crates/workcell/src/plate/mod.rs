@@ -1,10 +1,13 @@
 //! A plate: a face to be washed, the body below it, and where it lies.
 
+mod solid;
+
+pub use solid::PlateParts;
+
 use crate::pose;
 use crate::surface::Surface;
 use nalgebra::{Point3, Vector3};
 use platewash_kinematics::Pose;
-use platewash_kinematics::geometry::Shape;
 use serde::{Deserialize, Serialize};
 
 /// The least size of a plate \[m\].
@@ -19,11 +22,33 @@ pub const GREATEST_M: f64 = 1e3;
 pub struct Plate {
     /// The face that is washed.
     pub surface: Surface,
-    /// Thickness, from the face against its axis \[m\].
+    /// Thickness, from the face against its axis \[m\]; clearance takes it along the normal, too, where that reaches farther down.
     pub thickness_m: f64,
+    /// The ring that it stands on, where it has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foot: Option<Foot>,
     /// `T_world_plate`: origin at the pole of the face, z along its axis, out of the plate.
     #[serde(with = "pose")]
     pub pose: Pose,
+}
+
+/// The ring below a plate that it stands on, as the cylinder that encloses it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Foot {
+    /// Outer radius \[m\].
+    pub radius_m: f64,
+    /// How far it reaches below the body under the pole \[m\].
+    pub height_m: f64,
+}
+
+impl Foot {
+    /// Whether it is a foot of a plate of that rim \[m\]: of some size, and no wider than the plate.
+    #[must_use]
+    pub fn is_sound(&self, rim_m: f64) -> bool {
+        let is_size = |size: f64| size > LEAST_PLATE_M && size <= GREATEST_M;
+        is_size(self.radius_m) && is_size(self.height_m) && self.radius_m <= rim_m
+    }
 }
 
 impl Plate {
@@ -34,6 +59,7 @@ impl Plate {
         Self {
             surface: Surface::Disc { radius_m },
             thickness_m,
+            foot: None,
             pose: Pose::translation(x, y, z),
         }
     }
@@ -97,17 +123,12 @@ impl Plate {
         self.pose.rotation * self.surface.normal(local.xy().norm(), phi).into_inner()
     }
 
-    /// The body as a convex shape and its pose, world frame.
+    /// How far the face and the body reach along the axis, from below to above the pole \[m\].
     #[must_use]
-    pub fn body(&self) -> (Shape, Pose) {
-        let half_length_m = self.thickness_m / 2.0;
-        let shape = match self.surface {
-            Surface::Disc { radius_m } => Shape::Cylinder {
-                radius_m,
-                half_length_m,
-            },
-        };
-        (shape, self.pose * Pose::translation(0.0, 0.0, -half_length_m))
+    pub fn extent_m(&self) -> [f64; 2] {
+        let [least, most] = self.surface.height_bounds_m();
+        let below = self.foot.map_or(0.0, |foot| foot.height_m);
+        [(-self.thickness_m - below).min(least - self.thickness_m), most]
     }
 
     /// Whether it is a plate: of some size, and somewhere.
@@ -115,7 +136,9 @@ impl Plate {
     pub fn is_sound(&self) -> bool {
         let sizes = [self.rim_m(), self.thickness_m];
         let places = self.pose.translation.vector;
-        sizes.into_iter().all(|size| size > LEAST_PLATE_M && size <= GREATEST_M)
+        let is_size = |size: f64| size > LEAST_PLATE_M && size <= GREATEST_M;
+        sizes.into_iter().all(is_size)
+            && self.foot.is_none_or(|foot| foot.is_sound(self.rim_m()))
             && places.iter().all(|place| place.abs() <= GREATEST_M)
     }
 
@@ -125,3 +148,6 @@ impl Plate {
         self.axis() == Vector3::z()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,158 @@
+//! What is proved of contact, against the same model on fine squares: never more, and little less.
+
+use super::foundation::raster;
+use super::made::{Recipe, irb120};
+use crate::{PlateContact, Requirement, Status, prove};
+use platewash_workcell::plan::Plan;
+use platewash_workcell::surface::Surface;
+use platewash_workcell::wash_path::{Rings, WashCurve};
+
+pub fn spiral(radius_m: f64, turns: f64) -> WashCurve {
+    WashCurve {
+        radius_m,
+        turns,
+        start_angle_rad: 0.3,
+        closing_ring: true,
+        rings: None,
+    }
+}
+
+pub fn rings() -> WashCurve {
+    let rings = Rings {
+        count: 3,
+        inner_m: 0.0243,
+        lead_rad: 2.02,
+        blend_rad: 1.77,
+    };
+    WashCurve {
+        turns: rings.turns(),
+        rings: Some(rings),
+        ..spiral(0.121, 2.0)
+    }
+}
+
+/// A profile as the facts have it: height of the sponge, distance from the base, length of the path, turns.
+pub fn profile(name: &str) -> Recipe {
+    let surface = Surface::shipped(name).unwrap();
+    let (height_m, rho, inside_m, pitch_m) = match name {
+        "coupe275" => (0.025, 0.37, 0.015, 0.032),
+        "rim270" => (0.03, 0.37, 0.016, 0.032),
+        "deep230" => (0.035, 0.40, 0.014, 0.032),
+        _ => (0.025, 0.37, 0.012, 0.032),
+    };
+    washed(surface, [rho, height_m], [inside_m, pitch_m])
+}
+
+/// A face with a spiral that ends inside its rim: distance from the base, height of the sponge; how far inside, and the pitch \[m\].
+pub fn washed(surface: Surface, place: [f64; 2], [inside_m, pitch_m]: [f64; 2]) -> Recipe {
+    let radius_m = surface.arc_m() - inside_m;
+    let mut recipe = Recipe::on(surface, place, spiral(radius_m, (radius_m / pitch_m).max(1.5)));
+    recipe.terms.requirements.tilt_rad = 30_f64.to_radians();
+    recipe
+}
+
+/// A disc: with a compression, a lean and a curve.
+pub fn disc(compression_m: f64, lean_deg: f64, curve: WashCurve) -> Recipe {
+    let mut recipe = Recipe::on(Surface::Disc { radius_m: 0.145 }, [0.37, 0.025], curve);
+    recipe.terms.workcell.tool.sponge.compression_m = compression_m;
+    recipe.lean = lean_deg.to_radians();
+    // The rings are wide apart.
+    let contact = recipe.terms.requirements.contact.as_mut().unwrap();
+    (contact.time_s, contact.time_share) = (0.05, 0.98);
+    (contact.dose_pa_m, contact.dose_share) = (25.0, 0.98);
+    recipe
+}
+
+fn judged(plan: &Plan) -> (PlateContact, crate::Certificate) {
+    let certificate = prove(plan, &irb120()).unwrap();
+    (certificate.contact[0], certificate)
+}
+
+/// Compares a plan with the raster; shares are asked for in full, so that the finest cells are looked at.
+fn compare(name: &str, recipe: &Recipe) {
+    let mut recipe = recipe.clone();
+    let contact = recipe.terms.requirements.contact.as_mut().unwrap();
+    (contact.share, contact.time_share, contact.dose_share) = (1.0, 1.0, 1.0);
+    recipe.terms.requirements.coverage = 1.0;
+    let plan = recipe.plan();
+    let (found, certificate) = judged(&plan);
+    let seen = raster(&plan);
+    let shares = [
+        ("contact", found.share.at_least, seen.contact),
+        ("time", found.time.at_least, seen.time),
+        ("dose", found.dose.at_least, seen.dose),
+    ];
+    for (what, proved, seen) in shares {
+        assert!(proved <= seen + 1e-4, "{name}, {what}: {proved} proved, {seen} seen");
+        assert!(proved >= seen - 5e-3, "{name}, {what}: {proved} proved, {seen} seen");
+    }
+    if !recipe.terms.plates[0].surface.is_flat() {
+        let touched = certificate.coverage[0].at_least;
+        assert!(
+            touched <= seen.touched + 1e-4 && touched >= seen.touched - 5e-3,
+            "{name}: {touched} {}",
+            seen.touched
+        );
+    }
+    let bound = |of: crate::ProvedExtreme| of.bound.unwrap();
+    let (strain, least, most) = (
+        bound(found.strain),
+        bound(found.least_force_n),
+        bound(found.greatest_force_n),
+    );
+    assert!(
+        strain >= seen.strain - 1e-9 && strain <= 1.15 * seen.strain + 0.02,
+        "{name}: {strain} {}",
+        seen.strain
+    );
+    // The squares add up to the area of the sponge within half a percent.
+    assert!(
+        least <= 1.005 * seen.force_n[0] && least >= 0.4 * seen.force_n[0],
+        "{name}: {least} {:?}",
+        seen.force_n
+    );
+    assert!(
+        most >= 0.995 * seen.force_n[1] && most <= 1.15 * seen.force_n[1],
+        "{name}: {most} {:?}",
+        seen.force_n
+    );
+    let [low, high] = found.friction_torque_nm.unwrap();
+    assert!(
+        (low - 0.3 * high).abs() < 1e-12 && high >= 0.995 * seen.torque_nm && high <= 1.5 * seen.torque_nm,
+        "{name}: {high} {}",
+        seen.torque_nm
+    );
+    for requirement in [
+        Requirement::Tilt,
+        Requirement::PathDeviation,
+        Requirement::ContactHeight,
+    ] {
+        let check = certificate.check(requirement).unwrap();
+        assert_eq!(check.status, Status::Proved, "{name}: {check:?}");
+    }
+}
+
+#[test]
+fn discs_are_pressed_as_the_model_says() {
+    compare("disc, 5 mm, upright", &disc(0.005, 0.0, rings()));
+}
+
+#[test]
+fn discs_under_a_tilted_sponge_are_pressed_as_the_model_says() {
+    for (compression_m, lean_deg) in [(0.006, 6.0), (0.005, 9.0)] {
+        let name = format!("disc, {compression_m} m, {lean_deg}°");
+        compare(&name, &disc(compression_m, lean_deg, rings()));
+    }
+}
+
+#[test]
+fn profiles_are_pressed_as_the_model_says() {
+    for name in ["coupe275", "rim270", "dessert190"] {
+        compare(name, &profile(name));
+    }
+}
+
+#[test]
+fn a_deep_plate_is_pressed_as_the_model_says() {
+    compare("deep230", &profile("deep230"));
+}

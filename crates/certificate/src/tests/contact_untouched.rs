@@ -1,0 +1,64 @@
+//! Faces of which hardly anything is washed: what is not touched counts for nothing, also where contact begins with no compression at all,
+//! and where nothing is asked about contact.
+
+use super::contact::{disc, spiral, washed};
+use super::foundation::raster;
+use super::made::{Recipe, irb120};
+use crate::{Requirement, Status, prove};
+use platewash_workcell::surface::{Knot, Surface};
+
+/// A disc and a face that is none, of which the sponge reaches the middle only.
+fn recipes() -> [(&'static str, Recipe); 2] {
+    let flat = disc(0.005, 0.0, spiral(0.01, 0.5));
+    let knots = [(0.055, 0.0), (0.075, 22.0), (0.095, 22.0), (0.105, 6.0)];
+    let knots = knots.map(|(radius_m, slope_deg): (f64, f64)| Knot {
+        radius_m,
+        slope_rad: slope_deg.to_radians(),
+    });
+    let mut rim = washed(Surface::profile(&knots).unwrap(), [0.40, 0.03], [0.01, 0.03]);
+    rim.curve = spiral(0.01, 0.5);
+    [("flat", flat), ("rim", rim)]
+}
+
+#[test]
+fn what_is_not_touched_is_not_in_contact_whatever_compression_counts() {
+    for (name, recipe) in recipes() {
+        for (compression_m, error_m) in [(0.0, 0.0), (0.0, 1e-3), (1e-3, 1e-3)] {
+            let mut plan = recipe.plan();
+            let asked = plan.job.requirements.contact.as_mut().unwrap();
+            (asked.compression_m, asked.height_error_m) = (compression_m, error_m);
+            // Of any place that is in contact at all.
+            (asked.time_s, asked.dose_pa_m) = (0.0, 0.0);
+            let seen = raster(&plan);
+            assert!(seen.contact < 0.3, "{name}: {seen:?}");
+            let certificate = prove(&plan, &irb120()).unwrap();
+            let found = &certificate.contact[0];
+            let share = found.share.at_least;
+            assert!(
+                share <= seen.contact + 1e-4 && share >= seen.contact - 1.2e-2,
+                "{name}, {compression_m}: {share} proved, {seen:?}"
+            );
+            let check = certificate.check(Requirement::Contact).unwrap();
+            assert_ne!(check.status, Status::Proved, "{name}: {check:?}");
+        }
+    }
+}
+
+#[test]
+fn what_is_not_touched_is_not_covered_where_nothing_is_asked_about_contact() {
+    for (name, recipe) in recipes() {
+        let mut plan = recipe.plan();
+        plan.job.requirements.coverage = 0.995;
+        let seen = raster(&plan);
+        plan.job.requirements.contact = None;
+        let certificate = prove(&plan, &irb120()).unwrap();
+        let share = certificate.coverage[0].at_least;
+        assert!(
+            share <= seen.touched + 1e-4 && share >= seen.touched - 1.2e-2 && seen.touched < 0.3,
+            "{name}: {share} proved, {} seen",
+            seen.touched
+        );
+        let check = certificate.check(Requirement::Coverage).unwrap();
+        assert_ne!(check.status, Status::Proved, "{name}: {check:?}");
+    }
+}

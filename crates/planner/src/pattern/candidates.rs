@@ -1,0 +1,113 @@
+//! The curves among which is chosen.
+
+use super::promise::Promise;
+use platewash_workcell::job::{PatternName, PlannerSettings};
+use platewash_workcell::surface::Surface;
+use platewash_workcell::wash_path::{BLEND_RAD, LEAST_RADIUS_M, LEAST_TURNS, MOST_RINGS, MOST_TURNS, Rings, WashCurve};
+use std::f64::consts::TAU;
+
+/// Distances of neighbouring windings that are tried, in sponge radii: two of them touch at 2.
+const PITCHES: [f64; 9] = [1.95, 1.8, 1.65, 1.5, 1.4, 1.3, 1.2, 1.0, 0.8];
+
+/// Distances of the outermost winding from the rim that are tried, in sponge radii.
+const INSETS: [f64; 6] = [0.95, 0.92, 0.85, 0.77, 0.7, 0.5];
+
+/// λ₀ and w₀ of blends \[rad\]: shorter ones are shorter ways, and on the IRB 120 longer times, as joints reach their accelerations.
+const BLEND: [f64; 2] = [2.0, 1.7];
+
+/// ℓ of the innermost ring, in what it has where rings lie evenly: farther out it lies nearer to the next ones.
+const INNER: [f64; 3] = [1.0, 1.08, 1.17];
+
+/// Rings that are tried at most, where their number is not stated.
+const MOST_TRIED: usize = 40;
+
+/// All curves that the settings leave open; at least one.
+pub(super) fn candidates(settings: &PlannerSettings, surface: &Surface, promise: &Promise) -> Vec<WashCurve> {
+    let stated = settings.turns.is_some() || settings.path_radius_m.is_some() || settings.closing_ring.is_some();
+    let pattern = settings.pattern.or(stated.then_some(PatternName::Spiral));
+    let (arc_m, sponge_m) = (surface.arc_m(), promise.foundation.radius_m);
+    let mut all = Vec::new();
+    if pattern != Some(PatternName::Spiral) {
+        all.extend(rings(settings, arc_m, sponge_m));
+    }
+    if pattern != Some(PatternName::Rings) {
+        all.extend(spirals(settings, arc_m, sponge_m));
+    }
+    all
+}
+
+/// Greatest ℓ: the one stated, or those tried \[m\].
+fn outer(settings: &PlannerSettings, arc_m: f64, sponge_m: f64) -> Vec<f64> {
+    match settings.path_radius_m {
+        Some(radius_m) => vec![radius_m],
+        None => INSETS
+            .iter()
+            .map(|inset| (arc_m - inset * sponge_m).max(0.3 * arc_m))
+            .collect(),
+    }
+}
+
+fn spirals(settings: &PlannerSettings, arc_m: f64, sponge_m: f64) -> Vec<WashCurve> {
+    let mut all = Vec::new();
+    for radius_m in outer(settings, arc_m, sponge_m) {
+        let turns = match settings.turns {
+            Some(turns) => vec![turns],
+            None => PITCHES
+                .iter()
+                .map(|pitch| radius_m / (pitch * sponge_m) + 0.5 * BLEND_RAD / TAU)
+                .collect(),
+        };
+        for turns in turns {
+            all.push(WashCurve {
+                radius_m: radius_m.max(LEAST_RADIUS_M),
+                turns: turns.clamp(LEAST_TURNS, MOST_TURNS),
+                start_angle_rad: 0.0,
+                closing_ring: settings.closing_ring.unwrap_or(true),
+                rings: None,
+            });
+        }
+    }
+    all
+}
+
+/// Rings that lie evenly, or nearly so: about half a pitch from the pole to the first, and half a pitch or less from the last to the
+/// rim. As many as are stated, however far apart; at least one curve.
+fn rings(settings: &PlannerSettings, arc_m: f64, sponge_m: f64) -> Vec<WashCurve> {
+    let mut all = Vec::new();
+    let [least, most] = match settings.turns {
+        Some(turns) => [(turns.round() as usize).saturating_add(1).clamp(2, MOST_RINGS); 2],
+        None => {
+            let least = ((arc_m / (2.0 * sponge_m)).ceil().max(2.0) as usize).min(MOST_TRIED);
+            [least, (least + 2).min(MOST_TRIED)]
+        }
+    };
+    for count in least..=most {
+        let half_m = arc_m / (2 * count) as f64;
+        let mut outers = outer(settings, arc_m, sponge_m);
+        if settings.path_radius_m.is_none() {
+            outers.push(arc_m - half_m);
+        }
+        for radius_m in outers.into_iter().map(|radius_m| radius_m.max(LEAST_RADIUS_M)) {
+            let even_m = radius_m / (2 * count - 1) as f64;
+            all.extend(INNER.map(|share| with_inner(count, share * even_m, radius_m)));
+        }
+    }
+    all
+}
+
+fn with_inner(count: usize, inner_m: f64, radius_m: f64) -> WashCurve {
+    let [lead_rad, blend_rad] = BLEND;
+    let rings = Rings {
+        count,
+        inner_m,
+        lead_rad,
+        blend_rad,
+    };
+    WashCurve {
+        radius_m,
+        turns: rings.turns(),
+        start_angle_rad: 0.0,
+        closing_ring: true,
+        rings: Some(rings),
+    }
+}

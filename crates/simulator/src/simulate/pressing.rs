@@ -1,0 +1,191 @@
+//! How the sponge pressed while it washed a plate: force, contact lost, and what was in contact.
+//!
+//! Forces are those along the tool's axis, Σ p dA, as in the certificate. Measurements at samples, not bounds.
+
+use super::execution::Sample;
+use crate::dynamics::DynamicsModel;
+use crate::plant::{Felt, SpongeOnPlates};
+use platewash_kinematics::{Frame, JointVector};
+use platewash_workcell::contact::{Fineness, Foundation, Moment, Sags, SpongePose, Wanted, shares};
+use platewash_workcell::job::ContactRequirements;
+use platewash_workcell::plate::Plate;
+use serde::Serialize;
+
+/// Heights of a plate over where it should be, of which the report states the force \[m\].
+pub const HEIGHT_ERRORS_M: [f64; 5] = [-0.002, -0.001, 0.0, 0.001, 0.002];
+
+/// The one of these at which the plate is where it should be.
+pub(super) const AS_STATED: usize = 2;
+
+/// Poses of a plan, at most, from which the force at another height is taken.
+const POSES: usize = 200;
+
+/// Time between moments of which contact is measured, at most \[s\].
+const MOMENT_S: f64 = 0.005;
+
+/// Least size of the cells in which contact is measured \[m\].
+const CELL_M: f64 = 1e-3;
+
+/// Least, mean and greatest of a force \[N\].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct ForceRange {
+    /// The least.
+    pub least_n: f64,
+    /// The mean over time.
+    pub mean_n: f64,
+    /// The greatest.
+    pub most_n: f64,
+}
+
+/// The force that a planned wash has where the plate lies higher or lower.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ForceAtHeight {
+    /// How much higher along its axis \[m\].
+    pub higher_m: f64,
+    /// The force there.
+    #[serde(flatten)]
+    pub force: ForceRange,
+}
+
+/// Contact that was lost.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ContactLost {
+    /// Share of the wash's samples at which nothing touches.
+    pub share: f64,
+    /// How long, all together \[s\].
+    pub time_s: f64,
+    /// When first \[s\].
+    pub first_t_s: f64,
+}
+
+/// Shares of a plate's face that the executed wash kept in contact as the job asks, the plate where it is stated and of the stiffness simulated:
+/// measured at samples, nothing being lost between two of them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ExecutedContact {
+    /// Compressed by the least compression.
+    pub contact: f64,
+    /// In contact long enough.
+    pub time: f64,
+    /// With enough of a dose.
+    pub dose: f64,
+}
+
+/// How the sponge pressed while it washed a plate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Pressing {
+    /// The force.
+    #[serde(flatten)]
+    pub force: ForceRange,
+    /// The greatest compression of the foam \[m\].
+    pub deepest_m: f64,
+    /// That over the free height.
+    pub strain: f64,
+    /// Contact lost; `None` where it never was.
+    pub lost: Option<ContactLost>,
+    /// The force of the plan's own poses, with the plate at other heights: −2, −1, 0, 1 and 2 mm.
+    pub planned: [ForceAtHeight; HEIGHT_ERRORS_M.len()],
+    /// What was in contact; `None` where the job asks for none.
+    pub contact: Option<ExecutedContact>,
+}
+
+/// What a wash is judged with.
+pub(super) struct Judge<'a> {
+    pub model: &'a DynamicsModel,
+    pub sponge: &'a SpongeOnPlates,
+    pub tip: &'a Frame,
+    /// The sponge, of the stiffness simulated.
+    pub foundation: Foundation,
+    pub required: Option<&'a ContactRequirements>,
+    pub period_s: f64,
+}
+
+impl Judge<'_> {
+    /// Of the samples of a wash of a plate, by its index; `None` without samples, or without foam.
+    pub fn pressing(&self, samples: &[Sample], index: usize, plate: &Plate) -> Option<Pressing> {
+        let felt: Option<Vec<Felt>> = samples.iter().map(|sample| sample.felt).collect();
+        let felt = felt.filter(|felt| !felt.is_empty())?;
+        let deepest_m = felt.iter().map(|felt| felt.deepest_m).fold(0.0, f64::max);
+        Some(Pressing {
+            force: ForceRange::of(&felt),
+            deepest_m,
+            strain: deepest_m / self.foundation.free_height_m,
+            lost: self.lost(samples, &felt),
+            planned: HEIGHT_ERRORS_M.map(|higher_m| self.at_height(samples, index, higher_m)),
+            contact: self.required.map(|required| self.contact(samples, plate, required)),
+        })
+    }
+
+    fn lost(&self, samples: &[Sample], felt: &[Felt]) -> Option<ContactLost> {
+        let first = felt.iter().position(|felt| felt.deepest_m <= 0.0)?;
+        let count = felt.iter().filter(|felt| felt.deepest_m <= 0.0).count();
+        Some(ContactLost {
+            share: count as f64 / felt.len() as f64,
+            time_s: count as f64 * self.period_s,
+            first_t_s: samples[first].t_s,
+        })
+    }
+
+    fn at_height(&self, samples: &[Sample], index: usize, higher_m: f64) -> ForceAtHeight {
+        let stride = samples.len().div_ceil(POSES).max(1);
+        let poses = samples.iter().step_by(stride).map(|sample| &sample.commanded);
+        let felt: Vec<_> = poses
+            .map(|q| self.sponge.felt(self.model, q, index, higher_m))
+            .collect();
+        ForceAtHeight {
+            higher_m,
+            force: ForceRange::of(&felt),
+        }
+    }
+
+    fn contact(&self, samples: &[Sample], plate: &Plate, required: &ContactRequirements) -> ExecutedContact {
+        let stride = ((MOMENT_S / self.period_s) as usize).max(1);
+        let moments: Vec<_> = samples
+            .iter()
+            .step_by(stride)
+            .map(|sample| self.moment(sample.t_s, &sample.state.q, &sample.state.qd, plate))
+            .collect();
+        let sags = vec![Sags::default(); moments.len().saturating_sub(1)];
+        let wanted = Wanted {
+            compression_m: required.compression_m,
+            height_error_m: 0.0,
+            time_s: required.time_s,
+            dose_pa_m: required.dose_pa_m,
+        };
+        let fineness = Fineness {
+            cell_m: CELL_M,
+            enough: [1.0; 3],
+        };
+        let found = shares(&plate.surface, &self.foundation, (&moments, &sags), &wanted, &fineness);
+        ExecutedContact {
+            contact: found.contact.at_least,
+            time: found.time.at_least,
+            dose: found.dose.at_least,
+        }
+    }
+
+    fn moment(&self, t_s: f64, q: &JointVector, qd: &JointVector, plate: &Plate) -> Moment {
+        let at = self.model.frame_motion(q, self.tip);
+        let [speed, turning] = at.twist(qd).map(|v| plate.pose.inverse_transform_vector(&v));
+        Moment {
+            t_s,
+            pose: SpongePose::on(plate, &at.pose),
+            speed,
+            turning,
+        }
+    }
+}
+
+impl ForceRange {
+    /// Of equal times; zeros of none.
+    fn of(felt: &[Felt]) -> Self {
+        if felt.is_empty() {
+            return Self::default();
+        }
+        let forces = || felt.iter().map(|felt| felt.force_n);
+        Self {
+            least_n: forces().fold(f64::INFINITY, f64::min),
+            mean_n: forces().sum::<f64>() / felt.len() as f64,
+            most_n: forces().fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Where the foam presses a plate, and when: sampled to look at, not the proof.
+//!
+//! The sponge is the elastic foundation of [`platewash_workcell::contact`]. A place of the face counts as long as the foam over it is
+//! compressed by what is asked for, wherever within the stated error of its height the plate lies; between two moments by the lines
+//! through both.
+
+use super::raster::Raster;
+use super::tips::Tip;
+use nalgebra::Vector3;
+use platewash_workcell::contact::{Foundation, Looks, Moment, SpongePose, Wanted};
+use platewash_workcell::job::JobTerms;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::tool::{Tool, Touch};
+use serde::Serialize;
+
+/// What counts as pressed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Counted {
+    /// Least compression of the foam \[m\].
+    pub compression_m: f64,
+    /// By how much the plate may lie higher or lower \[m\].
+    pub height_error_m: f64,
+    /// Whether the job asks for it; otherwise it is that the foam touches.
+    pub is_promised: bool,
+}
+
+impl Counted {
+    /// What counts on a plate of a job; `None` where the sponge, or what stands for it, has but to be over a place: on a disc of which
+    /// no contact is asked, and without a tool.
+    #[must_use]
+    pub fn on(plate: &Plate, job: &JobTerms) -> Option<Self> {
+        if !job.workcell.tool.is_present() {
+            return None;
+        }
+        let promised = job.requirements.contact.as_ref().map(|contact| Self {
+            compression_m: contact.compression_m,
+            height_error_m: contact.height_error_m,
+            is_promised: true,
+        });
+        let touched = Self {
+            compression_m: 0.0,
+            height_error_m: 0.0,
+            is_promised: false,
+        };
+        promised.or_else(|| (!plate.surface.is_flat()).then_some(touched))
+    }
+
+    /// Adds what of a plate is pressed on a way of the tip. Where the sponge is pressed in farther than it can be, nothing counts.
+    pub(crate) fn add(&self, raster: &mut Raster, plate: &Plate, tool: &Tool, way: &[Tip]) {
+        // Whatever its stiffness: no force is asked for.
+        let foundation = Foundation::stiff(&tool.sponge, [0.0; 2]);
+        let wanted = Wanted {
+            compression_m: self.compression_m,
+            height_error_m: self.height_error_m,
+            time_s: 0.0,
+            dose_pa_m: 0.0,
+        };
+        let is_sound = |tip: &Tip| tool.touch(plate.height_of(&tip.at)) != Touch::Pressed;
+        for stretch in way.chunk_by(|a, b| is_sound(a) == is_sound(b)) {
+            if !stretch.first().is_some_and(is_sound) {
+                continue;
+            }
+            let moments: Vec<Moment> = stretch.iter().map(|tip| moment(plate, tip)).collect();
+            let looks = Looks::new(&foundation, &moments, &wanted);
+            raster.add_stays(|[x, y]| {
+                let height_m = plate.surface.height_m((x * x + y * y).sqrt());
+                looks.stays(&Vector3::new(x, y, height_m))
+            });
+        }
+    }
+}
+
+/// A moment in the frame of a plate; how fast it is does not matter.
+fn moment(plate: &Plate, tip: &Tip) -> Moment {
+    Moment {
+        t_s: tip.t_s,
+        pose: SpongePose {
+            tip: plate.local(&tip.at),
+            axis: plate.pose.inverse_transform_vector(&tip.axis),
+        },
+        speed: Vector3::zeros(),
+        turning: Vector3::zeros(),
+    }
+}

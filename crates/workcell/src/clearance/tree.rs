@@ -1,0 +1,186 @@
+//! A body of many parts that stands still, looked at from the outside in: as a whole, in groups, part by part.
+//!
+//! The whole and each group are shapes that hold their parts, so that what is far enough from them is far enough from these. A body
+//! of one part has no tree.
+
+use super::distance::Separation;
+use super::part::{Part, Placed};
+use crate::plate::{Foot, Plate, PlateParts};
+use crate::surface::Surface;
+use nalgebra::Vector3;
+use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::{BodyPoses, Frame, Pose};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Sectors of a plate in a group.
+const SECTORS: usize = 3;
+
+/// What holds the parts of a body.
+#[derive(Debug, Clone)]
+pub(super) struct Tree {
+    /// All of them.
+    pub whole: Part,
+    /// Some of them each; all of them together.
+    pub groups: Vec<Group>,
+    solid: Arc<Solid>,
+}
+
+/// Some parts of a body and a sphere that holds them.
+#[derive(Debug, Clone)]
+pub(super) struct Group {
+    pub ball: Part,
+    pub members: Range<usize>,
+}
+
+/// The body of a plate wherever it lies, in the plate's frame.
+#[derive(Debug)]
+struct Solid {
+    surface: Surface,
+    thickness_m: f64,
+    foot: Option<Foot>,
+    whole: Part,
+    groups: Vec<Group>,
+    parts: Vec<Part>,
+}
+
+/// Which of two parts comes first in a distance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Order {
+    /// A part of the tree.
+    TreeFirst,
+    /// The other part.
+    TreeSecond,
+}
+
+impl Solid {
+    fn of(plate: &Plate) -> Option<Self> {
+        let made = PlateParts::of(plate);
+        let part = |(shape, pose): &_| Part::new(shape, Frame::base().offset(&Rigid::from(pose)));
+        let whole = part(&made.whole)?;
+        let mut parts = made.single.iter().map(part).collect::<Option<Vec<_>>>()?;
+        let mut groups: Vec<_> = (0..parts.len())
+            .map(|i| Group {
+                ball: Part::ball(parts[i].bounding(), parts[i].frame()),
+                members: i..i + 1,
+            })
+            .collect();
+        let sector = made.sector.iter().map(part).collect::<Option<Vec<_>>>()?;
+        for turns in made.turns.chunks(SECTORS) {
+            let first = parts.len();
+            for turn in turns {
+                let by = Rigid::from(&Pose::from_parts(Vector3::zeros().into(), *turn));
+                parts.extend(sector.iter().map(|part| part.carried(&by)));
+            }
+            let members = first..parts.len();
+            if let Some(ball) = around(&parts[members.clone()]) {
+                groups.push(Group { ball, members });
+            }
+        }
+        Some(Self {
+            surface: plate.surface,
+            thickness_m: plate.thickness_m,
+            foot: plate.foot,
+            whole,
+            groups,
+            parts,
+        })
+    }
+
+    fn is_of(&self, plate: &Plate) -> bool {
+        (self.thickness_m, self.foot) == (plate.thickness_m, plate.foot) && self.surface == plate.surface
+    }
+}
+
+/// The sphere about the middle of the corners of parts that holds them; `None` of none.
+fn around(parts: &[Part]) -> Option<Part> {
+    let corners: Vec<_> = parts.iter().flat_map(Part::corners).collect();
+    let first = corners.first()?;
+    let bounds = corners.iter().fold([*first; 2], |[low, high], corner| {
+        [low.zip_map(corner, f64::min), high.zip_map(corner, f64::max)]
+    });
+    let middle = (bounds[0] + bounds[1]) * 0.5;
+    let radius = corners
+        .iter()
+        .map(|corner| (corner - middle).norm())
+        .fold(0.0, f64::max);
+    let at = Rigid::from(&Pose::from_parts(middle.into(), nalgebra::UnitQuaternion::identity()));
+    Some(Part::ball(radius, Frame::base().offset(&at)))
+}
+
+impl Tree {
+    /// Of a plate that is no flat disc, and its parts; those of a plate like it, which `like` may be, need not be made again. `None` of
+    /// a disc, and of a plate so thin that its parts have no volume.
+    pub fn of(plate: &Plate, like: Option<&Self>) -> Option<(Self, Vec<Part>)> {
+        if plate.surface.is_flat() {
+            return None;
+        }
+        let known = like.map(|tree| &tree.solid).filter(|solid| solid.is_of(plate));
+        let solid = match known {
+            Some(solid) => solid.clone(),
+            None => Arc::new(Solid::of(plate)?),
+        };
+        let by = Rigid::from(&plate.pose);
+        let groups = solid.groups.iter().map(|group| Group {
+            ball: group.ball.carried(&by),
+            members: group.members.clone(),
+        });
+        let parts = solid.parts.iter().map(|part| part.carried(&by)).collect();
+        let tree = Self {
+            whole: solid.whole.carried(&by),
+            groups: groups.collect(),
+            solid,
+        };
+        Some((tree, parts))
+    }
+
+    /// The distance of the nearest of its parts to another part, where that is less than `below` \[m\].
+    pub fn nearest(
+        &self,
+        parts: &[Part],
+        (other, order): (&Part, Order),
+        poses: &BodyPoses,
+        (measure, below): (impl Fn(&Placed<'_>, &Placed<'_>) -> Separation, f64),
+    ) -> Option<Separation> {
+        let here = other.rigid(poses);
+        let gap = |part: &Part| other.gap_to_sphere(&here, part, &part.rigid(poses));
+        let placed = other.place(poses);
+        let mut best: Option<Separation> = None;
+        let limit = |best: &Option<Separation>| best.as_ref().map_or(below, |best| best.distance.min(below));
+        for (at_least, group) in ascending(self.groups.iter(), |group| gap(&group.ball), below) {
+            if at_least >= limit(&best) {
+                break;
+            }
+            let members = parts[group.members.clone()].iter();
+            for (at_least, part) in ascending(members, |part| gap(part), limit(&best)) {
+                if at_least >= limit(&best) {
+                    break;
+                }
+                let part = part.place(poses);
+                let found = match order {
+                    Order::TreeFirst => measure(&part, &placed),
+                    Order::TreeSecond => measure(&placed, &part),
+                };
+                if best.as_ref().is_none_or(|best| found.distance < best.distance) {
+                    best = Some(found);
+                }
+            }
+        }
+        // NaN is kept.
+        best.filter(|best| best.distance.partial_cmp(&below) != Some(std::cmp::Ordering::Greater))
+    }
+}
+
+/// Items with a bound of their distances that is not from `below` on, the least first; NaN is left to be seen.
+fn ascending<T>(
+    items: impl Iterator<Item = T>,
+    bound: impl Fn(&T) -> f64,
+    below: f64,
+) -> impl Iterator<Item = (f64, T)> {
+    let bounded = items.map(|item| (bound(&item), item));
+    let mut near: Vec<_> = bounded
+        .filter(|(at_least, _)| *at_least < below || at_least.is_nan())
+        .collect();
+    near.sort_by(|x, y| x.0.total_cmp(&y.0));
+    near.into_iter()
+}

@@ -1,0 +1,253 @@
+//! What is known of a cell: lower bounds of how well, how long and how much it is pressed.
+
+use super::Foundation;
+use super::affine::Lower;
+use super::cell::{Cell, Seen};
+use super::edges::{Edges, Gain};
+use super::moment::{Moment, Sags, Wanted};
+use super::sums::{Polynomial, Sums};
+use super::touch::Touch;
+use crate::surface::Surface;
+use std::ops::Range;
+
+/// Half of the edge of a large cell, as a part of the sponge's radius.
+const LARGE: f64 = 0.1;
+
+/// That of a cell over which the sponge's rim hardly differs from a line, from one moment to another.
+const SMALL: f64 = 0.025;
+
+/// What counts all over a cell.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Kept {
+    /// Whether there is a moment at which all of it is in contact.
+    pub contact: bool,
+    pub time_s: f64,
+    pub dose: Polynomial,
+}
+
+/// What a cell is at the moments that are looked at, and its windows of them.
+#[derive(Default)]
+pub(super) struct Scratch {
+    all: Vec<Seen>,
+    spans: Vec<Range<usize>>,
+}
+
+impl Scratch {
+    /// The first and the last moment of each window.
+    pub fn windows(&self) -> impl Iterator<Item = [u32; 2]> {
+        let seen = |span: &Range<usize>| self.all.get(span.clone());
+        let spans = self.spans.iter().filter_map(seen);
+        spans.filter_map(|seen| Some([seen.first()?.index, seen.last()?.index]))
+    }
+}
+
+/// What is found of a cell.
+pub(super) struct Found {
+    /// What counts all over it.
+    pub kept: Kept,
+    /// Lower bounds for every height of the plate within its error: above 0 where it is in contact, time \[s\], dose \[Pa·m\].
+    pub bounds: [Lower; 3],
+    /// The greatest compression of all of it \[m\].
+    pub compression_m: f64,
+}
+
+/// The passes of a sponge over a face.
+pub(super) struct Passes<'a> {
+    pub surface: &'a Surface,
+    pub edges: Edges<'a>,
+    pub sums: Sums,
+    /// How far beyond the sponge a moment counts as one that reaches a cell: the moment before or after one that does \[m\].
+    pub step_m: f64,
+}
+
+impl<'a> Passes<'a> {
+    pub fn new(
+        surface: &'a Surface,
+        foundation: &'a Foundation,
+        (moments, sags): (&'a [Moment], &'a [Sags]),
+        wanted: &'a Wanted,
+    ) -> Self {
+        let [low_m, high_m] = surface.height_bounds_m();
+        let far_m = surface.rim_m() + low_m.abs().max(high_m.abs());
+        Self {
+            surface,
+            edges: Edges {
+                foundation,
+                moments,
+                sags,
+                wanted,
+            },
+            sums: Sums::new(foundation, (moments, sags), far_m),
+            step_m: longest_step(moments, foundation.radius_m),
+        }
+    }
+
+    /// The moments that reach a cell, in windows.
+    pub fn near(&self, cell: &Cell, windows: &mut Vec<[u32; 2]>) {
+        let moments = self.edges.moments;
+        let reach_m = self.reach_m(cell);
+        let mut index = 0;
+        while let Some(moment) = moments.get(index) {
+            let away = cell.point - moment.pose.tip;
+            let along = away.dot(&moment.pose.axis);
+            let off_m = (away.norm_squared() - along * along).max(0.0).sqrt();
+            if off_m > reach_m {
+                // No moment before that one is near enough.
+                index = index
+                    .saturating_add(1)
+                    .saturating_add(((off_m - reach_m) / self.step_m) as usize);
+                continue;
+            }
+            let at = index as u32;
+            match windows.last_mut() {
+                Some([_, last]) if *last + 1 == at => *last = at,
+                _ => windows.push([at; 2]),
+            }
+            index += 1;
+        }
+    }
+
+    /// No point of a cell is within the sponge, nor a step later or earlier, where its middle is farther from the axis \[m\].
+    pub fn reach_m(&self, cell: &Cell) -> f64 {
+        self.edges.foundation.radius_m + cell.away_m() + self.step_m
+    }
+}
+
+impl Passes<'_> {
+    /// What is found of a cell through some windows of moments, besides what is known to be kept all over it; `None` where that is enough.
+    pub(super) fn bounds(
+        &self,
+        cell: &Cell,
+        (mut kept, within): (Kept, &[[u32; 2]]),
+        scratch: &mut Scratch,
+        is_enough: impl Fn(&[Lower; 3]) -> bool,
+    ) -> Option<Found> {
+        let edges = &self.edges;
+        let error_m = edges.wanted.height_error_m;
+        let Scratch { all, spans } = scratch;
+        all.clear();
+        spans.clear();
+        let mut touch = Touch::default();
+        for &[from, to] in within {
+            let first = all.len();
+            all.extend((from..=to).map(|index| cell.seen(edges.foundation, (index, edges.moment(index)), error_m)));
+            self.runs(cell, all, first, (&mut kept, &mut touch, spans));
+        }
+        let bounds = |[mut time, mut dose]: [Lower; 2]| {
+            time.add(&Lower::flat(kept.time_s, 0.0));
+            dose.add(&self.dose(cell, &kept));
+            let contact = if kept.contact {
+                Lower::flat(f64::INFINITY, 0.0)
+            } else {
+                touch.bound(cell.half > SMALL * edges.foundation.radius_m)
+            };
+            [contact, time.settled(error_m), dose.settled(error_m)]
+        };
+        // What is enough all over it is not looked for more closely.
+        if is_enough(&bounds(Default::default())) {
+            return None;
+        }
+        // Of a large cell hardly anything is known while it leaves or enters: its quarters are looked at.
+        let is_large = cell.half > LARGE * edges.foundation.radius_m && !spans.is_empty();
+        let mut gains = [Lower::flat(0.0, if is_large { f64::INFINITY } else { 0.0 }); 2];
+        for span in spans.iter().filter(|_| !is_large) {
+            self.gains(cell, all.get(span.clone()).unwrap_or_default(), &mut gains);
+        }
+        let bounds = bounds(gains);
+        (!is_enough(&bounds)).then_some(Found {
+            kept,
+            bounds,
+            compression_m: touch.compression_m,
+        })
+    }
+
+    /// Tells runs of moments between which all of a cell is in contact from windows in which it is not: of `seen` from `first` on, which
+    /// are moments one after the other. A window has one pair more at either side, as its quarters leave and enter from there on.
+    fn runs(
+        &self,
+        cell: &Cell,
+        all: &[Seen],
+        first: usize,
+        (kept, touch, spans): (&mut Kept, &mut Touch, &mut Vec<Range<usize>>),
+    ) {
+        let reach_m = self.reach_m(cell);
+        let mut from = first;
+        while from < all.len() {
+            let length = all[from..].iter().take_while(|seen| seen.off_m <= reach_m).count();
+            let near = from..from + length;
+            from = near.end + 1;
+            let Some(pairs) = length.checked_sub(1) else { continue };
+            if !kept.contact {
+                all[near.clone()]
+                    .iter()
+                    .for_each(|seen| touch.see(&self.edges, cell, seen));
+                kept.contact = touch.all;
+            }
+            let is_full = |pair: usize| self.edges.is_full(&all[near.start + pair], &all[near.start + pair + 1]);
+            let mut window = (pairs == 0).then_some(0);
+            let mut pair = 0;
+            while pair < pairs {
+                let full = is_full(pair);
+                let end = (pair + 1..pairs).find(|&k| is_full(k) != full).unwrap_or(pairs);
+                let (before, after) = (window.is_some(), end < pairs);
+                if !full {
+                    window = window.or(Some(pair));
+                } else if !(before && after && end == pair + 1) {
+                    spans.extend(window.take().map(|start| near.start + start..near.start + pair + 2));
+                    let [run, to] =
+                        [pair + usize::from(before), end - usize::from(after)].map(|k| &all[near.start + k]);
+                    if run.index < to.index {
+                        kept.time_s += self.edges.moment(to.index).t_s - self.edges.moment(run.index).t_s;
+                        kept.dose += self.sums.between(run.index, to.index);
+                    }
+                    window = after.then(|| end - 1);
+                }
+                pair = end;
+            }
+            spans.extend(window.map(|start| near.start + start..near.end));
+        }
+    }
+
+    /// Adds what all of a cell gets through a window: where its places leave or enter, and what they all get at once besides.
+    fn gains(&self, cell: &Cell, window: &[Seen], gains: &mut [Lower; 2]) {
+        let mut add = |gain: &Gain| {
+            gains[0].add(&gain.time);
+            gains[1].add(&gain.dose);
+        };
+        let [left, entered] = self.edges.gain(cell, window);
+        let from_s = left.map_or(f64::NEG_INFINITY, |gain| gain.until_s);
+        let to_s = entered.map_or(f64::INFINITY, |gain| gain.until_s);
+        left.iter().chain(&entered).for_each(&mut add);
+        if left.or(entered).is_none() && cell.half > SMALL * self.edges.foundation.radius_m {
+            return add(&self.edges.grazed(cell, window));
+        }
+        for ends in window.windows(2) {
+            let times = [&ends[0], &ends[1]].map(|seen| self.edges.moment(seen.index).t_s);
+            if times[0] >= from_s && times[1] <= to_s {
+                add(&self.edges.flat(cell, [&ends[0], &ends[1]]));
+            }
+        }
+    }
+
+    /// The dose of what is kept all over a cell.
+    fn dose(&self, cell: &Cell, kept: &Kept) -> Lower {
+        let (value, gradient) = kept.dose.at(&cell.point);
+        let error_m = self.edges.wanted.height_error_m;
+        let lost = kept.dose.bend(cell.away_m() + error_m) + gradient.z.abs() * cell.bend_m + self.sums.rounding();
+        Lower {
+            value: value - lost,
+            slope: cell.along(&gradient),
+            over_height: gradient.z,
+            slack: 2.0 * lost,
+        }
+    }
+}
+
+/// How far a sponge gets between two moments, its rim included \[m\].
+fn longest_step(moments: &[Moment], radius_m: f64) -> f64 {
+    let step = |pair: &[Moment]| {
+        let [from, to] = [&pair[0].pose, &pair[1].pose];
+        (to.tip - from.tip).norm() + radius_m * (to.axis - from.axis).norm()
+    };
+    moments.windows(2).map(step).fold(0.0, f64::max)
+}

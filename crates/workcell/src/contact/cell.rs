@@ -1,0 +1,138 @@
+//! A square cell of a plate's face, seen along the plate's axis, and what it is to a sponge at a moment.
+//!
+//! A point of its patch is X + J δ + b ẑ, X the face over its middle, δ from there to the point (‖δ‖ ≤ r), J the tangents (1, 0, G_x) and
+//! (0, 1, G_y), G the gradient there, and |b| ≤ ½ K r², K the greatest second derivative of the height over the cell. A plate that lies
+//! higher by e adds e ẑ.
+
+use super::moment::Moment;
+use super::{Foundation, SpongePose};
+use crate::coverage::area_of_rectangle_in_disc;
+use crate::surface::Surface;
+use nalgebra::{Vector2, Vector3};
+
+/// A cell of the face, and bounds over its patch.
+pub(super) struct Cell {
+    middle: [f64; 2],
+    /// Half of its edge \[m\].
+    pub half: f64,
+    /// X \[m\].
+    pub point: Vector3<f64>,
+    /// G.
+    gradient: Vector2<f64>,
+    /// r \[m\].
+    pub reach_m: f64,
+    /// ½ K r² \[m\].
+    pub bend_m: f64,
+    /// r √(1 + G²): what ‖J δ‖ is not above \[m\].
+    pub tangent_m: f64,
+}
+
+/// What a cell is to a sponge at a moment.
+#[derive(Clone, Copy)]
+pub(super) struct Seen {
+    pub index: u32,
+    /// The compression over its middle \[m\].
+    pub compression_m: f64,
+    /// By how much it may be less over its patch, wherever the plate lies \[m\], …
+    pub shallower_m: f64,
+    /// … and where the plate lies where it is stated to.
+    pub sloping_m: f64,
+    /// From the sponge's axis to its middle, across the axis \[m\].
+    pub way: Vector3<f64>,
+    /// How long that is \[m\].
+    pub off_m: f64,
+    /// By how much farther off a point of its patch may be, wherever the plate lies \[m\].
+    pub farther_m: f64,
+}
+
+impl Cell {
+    pub fn new(surface: &Surface, [x, y]: [f64; 2], half: f64) -> Self {
+        let reach_m = half * std::f64::consts::SQRT_2;
+        let middle = Vector2::new(x, y);
+        let rho = middle.norm();
+        let at = surface.at_radius(rho);
+        let slope = at.sine / at.cosine;
+        let out = if rho > 0.0 { middle / rho } else { Vector2::x() };
+        let patch = surface.patch(distances([x, y], half));
+        // d tan β / dρ = κ / cos³ β, and tan β / ρ across.
+        let steep = patch.least_cosine();
+        Self {
+            middle: [x, y],
+            half,
+            point: middle.push(at.height_m),
+            gradient: out * slope,
+            reach_m,
+            bend_m: 0.5 * patch.greatest_curvature() / (steep * steep * steep) * reach_m * reach_m,
+            tangent_m: reach_m * (1.0 + slope * slope).sqrt(),
+        }
+    }
+
+    /// How far from X a point of the patch is at most \[m\].
+    pub fn away_m(&self) -> f64 {
+        self.tangent_m + self.bend_m
+    }
+
+    /// What a vector is along the tangents.
+    pub fn along(&self, v: &Vector3<f64>) -> [f64; 2] {
+        [v.x + self.gradient.x * v.z, v.y + self.gradient.y * v.z]
+    }
+
+    /// The tangents.
+    pub fn tangents(&self) -> [Vector3<f64>; 2] {
+        [
+            Vector3::new(1.0, 0.0, self.gradient.x),
+            Vector3::new(0.0, 1.0, self.gradient.y),
+        ]
+    }
+
+    /// What it is at a moment, the plate higher or lower by up to `error_m`.
+    pub fn seen(&self, foundation: &Foundation, (index, moment): (u32, &Moment), error_m: f64) -> Seen {
+        let SpongePose { tip, axis } = &moment.pose;
+        let away = self.point - tip;
+        let along = away.dot(axis);
+        let way = away - axis * along;
+        let [gx, gy] = self.along(axis);
+        let sloping_m = (gx * gx + gy * gy).sqrt() * self.reach_m + axis.z.abs() * self.bend_m;
+        let level_m = (axis.x * axis.x + axis.y * axis.y).sqrt();
+        Seen {
+            index,
+            compression_m: foundation.compression_m - along,
+            shallower_m: sloping_m + axis.z.abs() * error_m,
+            sloping_m,
+            way,
+            off_m: way.norm(),
+            farther_m: self.away_m() + error_m * level_m,
+        }
+    }
+
+    /// What the area of its patch within the rim is not above, and of any part that is such a share of it seen along the axis \[m²\].
+    pub fn greatest_areas(&self, surface: &Surface, shares: [f64; 3]) -> [f64; 3] {
+        let ([x, y], half) = (self.middle, self.half);
+        let rim_m = surface.rim_m();
+        let between = distances([x, y], half);
+        let all = 4.0 * half * half;
+        let within = if between[1] <= rim_m {
+            all
+        } else {
+            area_of_rectangle_in_disc(rim_m, [x - half, x + half], [y - half, y + half])
+        };
+        let cosine = surface.patch(between).least_cosine();
+        shares.map(|share| (share * all).min(within) / cosine)
+    }
+
+    /// Whether all of it is beyond the rim.
+    pub fn is_beyond([x, y]: [f64; 2], half: f64, rim_m: f64) -> bool {
+        let [near_m, _] = distances([x, y], half);
+        near_m >= rim_m
+    }
+}
+
+/// Least and greatest distance of a square from the axis \[m\].
+fn distances([x, y]: [f64; 2], half: f64) -> [f64; 2] {
+    let (x, y) = (x.abs(), y.abs());
+    let (near, far) = (
+        Vector2::new((x - half).max(0.0), (y - half).max(0.0)),
+        Vector2::new(x + half, y + half),
+    );
+    [near.norm(), far.norm()]
+}

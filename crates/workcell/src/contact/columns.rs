@@ -1,0 +1,293 @@
+//! The face of a sponge as columns of foam, each pressed by what of a plate lies in its way.
+//!
+//! The face is cut into a disc and rings of equal width, the k-th ring into 6 k sectors. A column stands at the centroid of its part: of
+//! a compression that is linear over the part it has the mean, exactly. Where the surface bends, the mean is off by no more than
+//! ½ K d², with d² the mean square of the distance from the part's centroid and K the greatest second derivative of the compression across
+//! the sponge.
+//! Beyond the rim there is nothing: a part that is there in part counts for the greatest force and not for the least.
+
+use super::parts::{Met, PartBounds, Size, Spread};
+use super::{Foundation, SpongePose};
+use crate::surface::Surface;
+use crate::trig::{sin, sin_cos};
+use nalgebra::Vector3;
+use std::f64::consts::{PI, TAU};
+
+/// Rings about the disc in the middle, as a rule and where bounds shall be tight on sharp bends.
+const RINGS: usize = 5;
+const FINE_RINGS: usize = 8;
+
+/// Steps of Newton's method at most; each squares the error.
+const STEPS: usize = 20;
+
+/// How exactly a column meets the surface \[m\].
+const MEETS_M: f64 = 1e-11;
+
+/// A part of the sponge's face, by its centroid on the unit disc.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    at: [f64; 2],
+    /// Area, of that of the unit disc.
+    share: f64,
+    /// The mean over it of the square of the distance from its centroid.
+    square: f64,
+    /// Its neighbour on the ring within; of the disc in the middle itself.
+    inner: usize,
+}
+
+/// The face of a sponge in columns.
+#[derive(Debug, Clone)]
+pub struct Columns {
+    parts: Vec<Part>,
+    foundation: Foundation,
+    /// Rings about the disc in the middle.
+    rings: usize,
+}
+
+/// A column that meets a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Column {
+    /// Where it meets the surface, plate frame \[m\].
+    pub point: Vector3<f64>,
+    /// The normal of the surface there.
+    pub normal: Vector3<f64>,
+    /// w: its compression, below 0 where it does not reach the surface \[m\].
+    pub compression_m: f64,
+    /// Its cross-section \[m²\].
+    pub area_m2: f64,
+}
+
+/// What a pose asks of the foam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Load {
+    /// ∫ max(w, 0) dA at least and at most \[m³\].
+    pub volume_m3: [f64; 2],
+    /// No column is compressed by more \[m\].
+    pub deepest_m: f64,
+    /// No column is compressed by less \[m\]; below 0 where one does not reach the surface.
+    pub shallowest_m: f64,
+}
+
+impl Columns {
+    /// The columns of a sponge.
+    #[must_use]
+    pub fn new(foundation: &Foundation) -> Self {
+        Self::in_rings(foundation, RINGS)
+    }
+
+    /// More and smaller columns, for bounds that are tight on sharp bends.
+    #[must_use]
+    pub fn fine(foundation: &Foundation) -> Self {
+        Self::in_rings(foundation, FINE_RINGS)
+    }
+
+    fn in_rings(foundation: &Foundation, rings: usize) -> Self {
+        let width = 2.0 / (2 * rings + 1) as f64;
+        let mut parts = vec![Part {
+            at: [0.0; 2],
+            share: 0.25 * width * width,
+            square: 0.125 * width * width,
+            inner: 0,
+        }];
+        let mut within = 0;
+        for ring in 1..=rings {
+            let count = 6 * ring;
+            let [inner, outer] = [ring as f64 - 0.5, ring as f64 + 0.5].map(|k| k * width);
+            let (squares, cubes) = (outer * outer - inner * inner, outer.powi(3) - inner.powi(3));
+            let half = PI / count as f64;
+            let centroid = 2.0 / 3.0 * cubes / squares * sin(half) / half;
+            for k in 0..count {
+                let (s, c) = sin_cos(TAU * k as f64 / count as f64);
+                parts.push(Part {
+                    at: [centroid * c, centroid * s],
+                    share: squares / count as f64,
+                    square: 0.5 * (inner * inner + outer * outer) - centroid * centroid,
+                    inner: within + k * (ring - 1) / ring,
+                });
+            }
+            within = parts.len() - count;
+        }
+        Self {
+            parts,
+            foundation: *foundation,
+            rings,
+        }
+    }
+
+    /// The columns on a surface, as they stand. Where a column runs along the surface without meeting it, it counts as not compressed.
+    pub fn on<'a>(&'a self, surface: &'a Surface, pose: &'a SpongePose) -> impl Iterator<Item = Column> + 'a {
+        self.turned(surface, pose, across(&pose.axis))
+    }
+
+    /// As [`Self::on`], with the columns turned about the axis so that they stand along two unit vectors across it and each other: those of
+    /// a sponge that turns with its tool.
+    pub fn turned<'a>(
+        &'a self,
+        surface: &'a Surface,
+        pose: &'a SpongePose,
+        [u, v]: [Vector3<f64>; 2],
+    ) -> impl Iterator<Item = Column> + 'a {
+        let Foundation {
+            radius_m,
+            compression_m,
+            ..
+        } = self.foundation;
+        let area_m2 = PI * radius_m * radius_m;
+        self.parts.iter().map(move |part| {
+            let start = pose.tip + (u * part.at[0] + v * part.at[1]) * radius_m;
+            let (along_m, point, normal) = meet(surface, &start, &pose.axis);
+            Column {
+                point,
+                normal,
+                compression_m: compression_m - along_m,
+                area_m2: area_m2 * part.share,
+            }
+        })
+    }
+
+    /// Half of how wide a part is \[m\].
+    #[must_use]
+    pub fn half_width_m(&self) -> f64 {
+        self.foundation.radius_m / (2 * self.rings + 1) as f64
+    }
+
+    /// Rings about the disc in the middle: the k-th has 6 k columns, the last one the last of [`Self::on_unit_disc`].
+    #[must_use]
+    pub fn rings(&self) -> usize {
+        self.rings
+    }
+
+    /// Where the columns stand on the unit disc, and their shares of its area: the disc in the middle first, then ring by ring.
+    pub fn on_unit_disc(&self) -> impl Iterator<Item = ([f64; 2], f64)> + '_ {
+        self.parts.iter().map(|part| (part.at, part.share))
+    }
+
+    /// What a pose asks of the foam where every column is compressed by `more_m` more.
+    #[must_use]
+    pub fn load(&self, surface: &Surface, pose: &SpongePose, more_m: f64) -> Load {
+        let mut load = Load::NONE;
+        for (column, size) in self.on(surface, pose).zip(self.sizes()) {
+            let met = Met::new(column.compression_m + more_m, &column.point, &column.normal, &pose.axis);
+            let part = PartBounds::over([&met; 2], &size, &Spread::NONE, |[near_m, far_m]| {
+                surface.patch([near_m.max(0.0), far_m]).curvature
+            });
+            load.see(&part, column.area_m2, surface.rim_m());
+        }
+        load
+    }
+
+    /// How far the part of a column reaches from it at most \[m\]: a part is no longer than it is wide, or hardly.
+    #[must_use]
+    pub fn reach_m(&self) -> f64 {
+        0.85 * 2.0 / (2 * self.rings + 1) as f64 * self.foundation.radius_m
+    }
+
+    /// How large the parts are.
+    pub(super) fn sizes(&self) -> impl Iterator<Item = Size> {
+        let (reach_m, radius_m) = (self.reach_m(), self.foundation.radius_m);
+        let r2 = radius_m * radius_m;
+        self.parts.iter().map(move |part| {
+            let [x, y] = part.at;
+            let square = part.square;
+            Size {
+                reach_m,
+                square_m2: square * r2,
+                area_m2: PI * r2 * part.share,
+                spread_m: square.sqrt() * radius_m,
+                arm_m: (x * x + y * y + square).sqrt() * radius_m,
+            }
+        })
+    }
+
+    /// Where the parts have their middles on the sponge's face, along the two unit vectors of [`Self::turned`] \[m\].
+    pub(super) fn middles_m(&self) -> impl Iterator<Item = [f64; 2]> {
+        let radius_m = self.foundation.radius_m;
+        self.parts.iter().map(move |part| part.at.map(|x| x * radius_m))
+    }
+
+    /// The neighbours of the parts on the ring within.
+    pub(super) fn inner(&self) -> impl Iterator<Item = usize> {
+        self.parts.iter().map(|part| part.inner)
+    }
+
+    /// The sponge.
+    #[must_use]
+    pub fn foundation(&self) -> &Foundation {
+        &self.foundation
+    }
+}
+
+impl Load {
+    /// Of nothing.
+    const NONE: Self = Self {
+        volume_m3: [0.0; 2],
+        deepest_m: f64::NEG_INFINITY,
+        shallowest_m: f64::INFINITY,
+    };
+
+    /// Counts a part on a plate of that rim.
+    fn see(&mut self, part: &PartBounds, area_m2: f64, rim_m: f64) {
+        let [near_m, far_m] = part.rho_m;
+        if near_m > rim_m {
+            return;
+        }
+        self.deepest_m = self.deepest_m.max(part.ends_m[1]);
+        self.volume_m3[1] += part.most_mean_m() * area_m2;
+        if far_m < rim_m {
+            self.shallowest_m = self.shallowest_m.min(part.ends_m[0]);
+            self.volume_m3[0] += part.mean_m[0].max(0.0) * area_m2;
+        }
+    }
+}
+
+/// Two unit vectors across a unit vector, and each other.
+fn across(axis: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let side = if axis.x.abs() < 0.6 { Vector3::x() } else { Vector3::y() };
+    let u = axis.cross(&side).normalize();
+    [u, axis.cross(&u)]
+}
+
+/// Where a line meets a surface: how far along it \[m\], the place and the normal there.
+pub(super) type Meets = (f64, Vector3<f64>, Vector3<f64>);
+
+/// Where a line along a unit vector from a point meets a surface: by Newton's method on the height over the surface.
+fn meet(surface: &Surface, start: &Vector3<f64>, axis: &Vector3<f64>) -> Meets {
+    meet_from(surface, (start, axis), 0.0, MEETS_M)
+}
+
+/// As [`meet`], from a guess, until a step is no longer than `settled_m`: each squares the error.
+pub(super) fn meet_from(
+    surface: &Surface,
+    (start, axis): (&Vector3<f64>, &Vector3<f64>),
+    guess_m: f64,
+    settled_m: f64,
+) -> Meets {
+    let Surface::Profile(meridian) = surface else {
+        let along_m = -start.z / axis.z;
+        let met = if along_m.is_finite() { along_m } else { f64::INFINITY };
+        return (met, start + axis * along_m, Vector3::z());
+    };
+    let mut piece = 0;
+    let mut along_m = if guess_m.is_finite() { guess_m } else { 0.0 };
+    let mut there = (*start, Vector3::z());
+    for _ in 0..STEPS {
+        let point = start + axis * along_m;
+        let rho = point.xy().norm();
+        let at = meridian.at_radius_near(rho, &mut piece);
+        let out = if rho > 0.0 { point.xy() / rho } else { Vector3::x().xy() };
+        let normal = Vector3::new(-at.sine * out.x, -at.sine * out.y, at.cosine);
+        there = (point, normal);
+        let height_m = point.z - at.height_m;
+        // By the normal, the height over the tangent plane is that over the surface times cos β.
+        let step_m = -height_m * at.cosine / normal.dot(axis);
+        if !step_m.is_finite() {
+            return (f64::INFINITY, point, normal);
+        }
+        along_m += step_m;
+        if step_m.abs() <= settled_m {
+            return (along_m, there.0, there.1);
+        }
+    }
+    // Where a knot keeps it from settling nothing is known.
+    (f64::INFINITY, there.0, there.1)
+}

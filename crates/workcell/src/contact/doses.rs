@@ -1,0 +1,222 @@
+//! The dose that every place of a cell gets near the edges of its time in contact.
+//!
+//! Over the patch the compression is at least that over its middle less how much shallower it may be, and the sponge slides in a direction
+//! d at least as fast as over the middle less ω times how far a place may be from there. Between two moments both are above lines through
+//! what they are at those, less their sags; and a place in contact is compressed by no less than what counts. So its dose until a time is
+//! at least a function Q of that time, the integral of a product of two lines; near t₀, where that product is between q₀ and q₁, Q(t₀ + u)
+//! is at least Q(t₀) + (q₀ + q₁)/2 u − (q₁ − q₀)/2 |u|.
+
+use super::affine::Lower;
+use super::cell::{Cell, Seen};
+use super::edges::{Edges, Gain, Leaving, Window};
+use super::moment::{at_least_0, both};
+use nalgebra::Vector3;
+
+/// What q is made of at a moment: compression \[m\] and speed \[m/s\], at least.
+#[derive(Clone, Copy)]
+struct Factors {
+    at_s: f64,
+    compression_m: f64,
+    speed_m_s: f64,
+    /// By how much both are likely to be more at most.
+    spread: [f64; 2],
+}
+
+impl Factors {
+    fn towards(&self, other: &Self, share: f64) -> Self {
+        let mean = |of: fn(&Self) -> f64| of(self) + (of(other) - of(self)) * share;
+        Self {
+            at_s: mean(|f| f.at_s),
+            compression_m: mean(|f| f.compression_m),
+            speed_m_s: mean(|f| f.speed_m_s),
+            spread: self.spread,
+        }
+    }
+
+    /// By how much q is likely to be more at most.
+    fn slack(&self) -> f64 {
+        let [w, v] = self.spread;
+        (self.compression_m + w) * (self.speed_m_s + v) - self.compression_m * self.speed_m_s
+    }
+}
+
+impl Edges<'_> {
+    /// The dose of a cell from the first moment of a window until its places leave.
+    pub(super) fn dose(&self, cell: &Cell, window: Window<'_>, leaving: &Leaving) -> Lower {
+        let Leaving {
+            at_s,
+            sooner_s,
+            spread_s,
+            ..
+        } = *leaving;
+        let first_s = at_s - spread_s - sooner_s;
+        let direction = self.direction(cell, window, leaving.last);
+        let (mut until, mut slack) = (0.0, 0.0);
+        let mut rates = [f64::INFINITY, 0.0_f64];
+        let mut before: Option<(&Seen, Factors)> = None;
+        for seen in window.until(leaving.last) {
+            let here = self.factors(cell, seen, &direction, self.elapsed_s(window, seen));
+            if let Some((last, before)) = before {
+                let ends = self.between([last, seen], [before, here]);
+                if here.at_s > first_s {
+                    let [w, v] = [ends.map(|f| f.compression_m), ends.map(|f| f.speed_m_s)];
+                    rates[0] = rates[0].min(w[0].min(w[1]) * v[0].min(v[1]));
+                    rates[1] = rates[1].max(w[0].max(w[1]) * v[0].max(v[1]));
+                }
+                let share = ((at_s - before.at_s) / (here.at_s - before.at_s)).min(1.0);
+                if share > 0.0 {
+                    let to = ends[0].towards(&ends[1], share);
+                    let along_s = to.at_s - before.at_s;
+                    until += along_s * mean_product(&ends[0], &to);
+                    slack += along_s * ends[0].slack();
+                }
+            }
+            before = Some((seen, here));
+        }
+        let [low, high] = rates;
+        if !(low.is_finite() && high.is_finite() && until.is_finite()) {
+            return Lower::default();
+        }
+        let pressure = self.pressure();
+        let (rate, off) = (
+            0.5 * pressure * (low + high),
+            0.5 * pressure * (high - low) * (spread_s + sooner_s),
+        );
+        Lower {
+            value: pressure * until - rate * sooner_s - off,
+            slope: leaving.slope.map(|slope| rate * slope),
+            over_height: rate * leaving.over_height,
+            slack: pressure * (slack + high * sooner_s) + 2.0 * off,
+        }
+    }
+
+    /// Pressure of the softest foam, by its compression \[Pa/m\].
+    fn pressure(&self) -> f64 {
+        self.foundation.stiffness_pa[0] / self.foundation.free_height_m
+    }
+
+    /// How fast the sponge slides over the middle of a cell, across its axis \[m/s\].
+    fn slide(&self, cell: &Cell, seen: &Seen) -> Vector3<f64> {
+        let moment = self.moment(seen.index);
+        let axis = &moment.pose.axis;
+        let slide = moment.speed + moment.turning.cross(&(cell.point - moment.pose.tip));
+        slide - axis * slide.dot(axis)
+    }
+
+    /// That of a window.
+    fn direction(&self, cell: &Cell, window: Window<'_>, last: usize) -> Vector3<f64> {
+        let ends =
+            [window.at(0), window.at(last)].map(|seen| seen.map_or_else(Vector3::zeros, |seen| self.slide(cell, seen)));
+        (ends[0] + ends[1]).try_normalize(0.0).unwrap_or_else(Vector3::zeros)
+    }
+
+    /// At a moment.
+    fn factors(&self, cell: &Cell, seen: &Seen, direction: &Vector3<f64>, at_s: f64) -> Factors {
+        let turning = self.moment(seen.index).turning.norm();
+        let away = turning * (cell.away_m() + self.wanted.height_error_m);
+        Factors {
+            at_s,
+            compression_m: seen.compression_m - seen.shallower_m,
+            speed_m_s: self.slide(cell, seen).dot(direction) - away,
+            spread: [2.0 * seen.sloping_m, 2.0 * turning * cell.away_m()],
+        }
+    }
+
+    /// Lines between two moments that no place in contact is below: never below what counts, and below 0, respectively.
+    fn between(&self, seen: [&Seen; 2], ends: [Factors; 2]) -> [Factors; 2] {
+        let sags = self.sags(seen[0], seen[1]);
+        let slower = sags.slide_m / (ends[1].at_s - ends[0].at_s);
+        let above = |[a, b]: [f64; 2], least: f64| {
+            if a >= least && b >= least {
+                [a, b]
+            } else {
+                [a.min(b).max(least); 2]
+            }
+        };
+        let w = above(
+            ends.map(|end| end.compression_m - sags.compression_m),
+            self.wanted.compression_m,
+        );
+        let v = above(ends.map(|end| end.speed_m_s - slower), 0.0);
+        [0, 1].map(|k| Factors {
+            compression_m: w[k],
+            speed_m_s: v[k],
+            ..ends[k]
+        })
+    }
+
+    /// What places of a large cell are likely to get at most through a window in which not all of it is in contact: none for certain.
+    pub(super) fn grazed(&self, cell: &Cell, window: &[Seen]) -> Gain {
+        let near = |seen: &&Seen| {
+            self.pressed_m(seen) + 2.0 * seen.sloping_m >= 0.0 && self.inside_m(seen) + 2.0 * cell.away_m() >= 0.0
+        };
+        let (Some(first), Some(last)) = (window.iter().find(near), window.iter().rfind(near)) else {
+            return Gain::default();
+        };
+        let along_s = self.moment(last.index).t_s - self.moment(first.index).t_s;
+        let most_m = window
+            .iter()
+            .map(|seen| seen.compression_m + seen.sloping_m)
+            .fold(0.0, f64::max);
+        let fastest = [first, last].map(|seen| self.slide(cell, seen).norm());
+        Gain {
+            time: Lower::flat(0.0, along_s),
+            dose: Lower::flat(0.0, self.pressure() * most_m * fastest[0].max(fastest[1]) * along_s),
+            until_s: 0.0,
+        }
+    }
+
+    /// Time and dose that all of a cell gets for certain between two moments, and as much as is likely at most.
+    pub(super) fn flat(&self, cell: &Cell, ends: [&Seen; 2]) -> Gain {
+        let sags = self.sags(ends[0], ends[1]);
+        let least = common(
+            ends.map(|end| self.pressed_m(end) - sags.compression_m),
+            ends.map(|end| self.inside_m(end) - sags.aside_m),
+        );
+        // Smaller cells help against what differs over this one alone.
+        let likely = common(
+            ends.map(|end| self.pressed_m(end) - sags.compression_m + 2.0 * end.sloping_m),
+            ends.map(|end| self.inside_m(end) - sags.aside_m + 2.0 * cell.away_m()),
+        );
+        if likely.is_none() {
+            return Gain::default();
+        }
+        let slides = ends.map(|end| self.slide(cell, end));
+        let direction = (slides[0] + slides[1])
+            .try_normalize(0.0)
+            .unwrap_or_else(Vector3::zeros);
+        let whole_s = self.moment(ends[1].index).t_s - self.moment(ends[0].index).t_s;
+        let factors = [0, 1].map(|k| self.factors(cell, ends[k], &direction, whole_s * k as f64));
+        let lines = self.between(ends, factors);
+        let pressure = self.pressure();
+        let (mut time_s, mut dose) = (0.0, 0.0);
+        if let Some(shares) = least {
+            let [from, to] = shares.map(|share| lines[0].towards(&lines[1], share));
+            time_s = to.at_s - from.at_s;
+            dose = pressure * time_s * mean_product(&from, &to);
+        }
+        let (mut hope_s, mut hope) = (0.0, 0.0);
+        if let Some([from, to]) = likely {
+            hope_s = (to - from) * whole_s;
+            let most = |of: fn(&Factors) -> f64| of(&factors[0]).max(of(&factors[1]));
+            hope = pressure * hope_s * most(|f| f.compression_m + f.spread[0]) * most(|f| f.speed_m_s + f.spread[1]);
+        }
+        Gain {
+            time: Lower::flat(time_s, hope_s - time_s),
+            dose: Lower::flat(dose, hope - dose),
+            until_s: 0.0,
+        }
+    }
+}
+
+/// Where between two moments, 0 to 1, both are nowhere below 0.
+fn common(pressed: [f64; 2], inside: [f64; 2]) -> Option<[f64; 2]> {
+    both(at_least_0(pressed)?, at_least_0(inside)?)
+}
+
+/// The mean of the product of two lines.
+fn mean_product(from: &Factors, to: &Factors) -> f64 {
+    let (w, v) = (from.compression_m + to.compression_m, from.speed_m_s + to.speed_m_s);
+    let (dw, dv) = (to.compression_m - from.compression_m, to.speed_m_s - from.speed_m_s);
+    0.25 * w * v + dw * dv / 12.0
+}

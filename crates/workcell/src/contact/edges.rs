@@ -1,0 +1,330 @@
+//! When the places of a cell leave the sponge: to the second order in the size of the cell.
+//!
+//! Near the moment t₀ at which the middle X of a cell leaves the sponge, let the way from the axis to a point of its patch be
+//! V₀ + B (t − t₀) + J δ + j e (`cell.rs`; J and j across the axis, at one moment), but for ε at most: what the moments looked at are off
+//! that line, what is lost between them, how the patch bends and twice what the axis turns times how far the patch reaches. A place that
+//! leaves at t₀ + g·δ + g_e e − η is V₀ + M δ + m e − B η from the axis then; g = −Jᵀ V₀ / (B·V₀), and g_e alike, make M = J + B gᵀ and m
+//! be across V₀. With μ no less than ‖M δ + m e‖ it is within the sponge, of radius s, as long as
+//!
+//! ‖V₀‖² + μ² − 2 η (B·V₀ − ‖B‖ μ) + η² ‖B‖² ≤ (s − ε)²,
+//!
+//! whose smallest root is taken for η. A line that ends within the sponge and begins there is within it in between.
+//!
+//! Where the foam is released rather than left, its compression w₀ + ẇ (t − t₀) + j·δ + j_e e is such a line itself, so that g = −j/ẇ and
+//! η = ε/|ẇ|. What a cell enters it leaves in reversed time.
+
+use super::Foundation;
+use super::affine::Lower;
+use super::cell::{Cell, Seen};
+use super::moment::{Moment, Sags, Wanted};
+use nalgebra::Vector3;
+
+/// What rounding of the formulas above may make of a length \[m\].
+const ROUNDING_M: f64 = 1e-12;
+
+/// What moments and a plate are looked at with.
+pub(super) struct Edges<'a> {
+    pub foundation: &'a Foundation,
+    pub moments: &'a [Moment],
+    pub sags: &'a [Sags],
+    pub wanted: &'a Wanted,
+}
+
+/// Time and dose: lower bounds, and what of the window they belong to.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Gain {
+    pub time: Lower,
+    pub dose: Lower,
+    /// The latest that any place leaves, or the earliest that any enters \[s\].
+    pub until_s: f64,
+}
+
+/// Moments one after the other, or in reversed time.
+#[derive(Clone, Copy)]
+pub(super) struct Window<'a> {
+    seen: &'a [Seen],
+    pub reversed: bool,
+}
+
+/// When the places of a cell leave, from the first moment of a window on.
+pub(super) struct Leaving {
+    /// t₀, since the first moment \[s\].
+    pub at_s: f64,
+    /// By how much sooner \[s\].
+    pub sooner_s: f64,
+    pub slope: [f64; 2],
+    pub over_height: f64,
+    /// How much sooner or later than t₀ places of the cell leave \[s\].
+    pub spread_s: f64,
+    /// The first moment at which all have left.
+    pub last: usize,
+}
+
+/// A line in time through what is seen at two moments.
+struct Line<T> {
+    at_s: f64,
+    value: T,
+    rate: T,
+}
+
+impl Window<'_> {
+    pub fn at(&self, k: usize) -> Option<&Seen> {
+        let last = self.seen.len().checked_sub(1)?;
+        self.seen.get(if self.reversed { last.checked_sub(k)? } else { k })
+    }
+
+    /// What is seen from the first moment to another one.
+    pub fn until(&self, last: usize) -> impl Iterator<Item = &Seen> {
+        (0..=last).map_while(|k| self.at(k))
+    }
+}
+
+impl Edges<'_> {
+    pub fn moment(&self, index: u32) -> &Moment {
+        &self.moments[index as usize]
+    }
+
+    /// Between two neighbours in any order; infinite where nothing is known.
+    pub fn sags(&self, a: &Seen, b: &Seen) -> Sags {
+        let unknown = Sags {
+            compression_m: f64::INFINITY,
+            aside_m: f64::INFINITY,
+            slide_m: f64::INFINITY,
+        };
+        let first = a.index.min(b.index) as usize;
+        self.sags.get(first).copied().unwrap_or(unknown)
+    }
+
+    /// Whether all of a cell is in contact from one moment to the next.
+    pub fn is_full(&self, from: &Seen, to: &Seen) -> bool {
+        let sags = self.sags(from, to);
+        [from, to]
+            .iter()
+            .all(|end| self.inside_m(end) >= sags.aside_m && self.pressed_m(end) >= sags.compression_m)
+    }
+
+    /// How far within the sponge all of a cell is \[m\].
+    pub fn inside_m(&self, seen: &Seen) -> f64 {
+        self.foundation.radius_m - seen.off_m - seen.farther_m
+    }
+
+    /// By how much more than wanted all of a cell is compressed \[m\].
+    pub fn pressed_m(&self, seen: &Seen) -> f64 {
+        seen.compression_m - seen.shallower_m - self.wanted.compression_m
+    }
+
+    /// What every place of a cell gets through a window: one after the other, the cell wholly in contact at the first and the second
+    /// moment, at the last and the one before, or neither.
+    pub fn gain(&self, cell: &Cell, seen: &[Seen]) -> [Option<Gain>; 2] {
+        let leaves = seen.len() > 2 && self.is_full(&seen[0], &seen[1]);
+        let enters = seen.len() > 2 && self.is_full(&seen[seen.len() - 2], &seen[seen.len() - 1]);
+        let one = |reversed| self.one_way(cell, Window { seen, reversed });
+        let (left, entered) = (
+            leaves.then(|| one(false)).flatten(),
+            enters.then(|| one(true)).flatten(),
+        );
+        match (left, entered) {
+            // What leaves and comes back counts once where both have some time in common.
+            (Some(a), Some(b)) if a.until_s > b.until_s => {
+                if a.time.value > b.time.value {
+                    [left, None]
+                } else {
+                    [None, entered]
+                }
+            }
+            both => [both.0, both.1],
+        }
+    }
+
+    fn one_way(&self, cell: &Cell, window: Window<'_>) -> Option<Gain> {
+        let leaving = self.leaving(cell, window)?;
+        let start_s = self.moment(window.at(0)?.index).t_s;
+        let farthest_s = leaving.at_s - leaving.sooner_s + leaving.spread_s;
+        Some(Gain {
+            time: Lower {
+                value: leaving.at_s - leaving.sooner_s,
+                slope: leaving.slope,
+                over_height: leaving.over_height,
+                slack: leaving.sooner_s,
+            },
+            dose: self.dose(cell, window, &leaving),
+            until_s: if window.reversed {
+                start_s - farthest_s
+            } else {
+                start_s + farthest_s
+            },
+        })
+    }
+
+    /// Since the first moment of a window \[s\].
+    pub fn elapsed_s(&self, window: Window<'_>, seen: &Seen) -> f64 {
+        let first = window.at(0).map_or(0.0, |first| self.moment(first.index).t_s);
+        (self.moment(seen.index).t_s - first).abs()
+    }
+
+    fn leaving(&self, cell: &Cell, window: Window<'_>) -> Option<Leaving> {
+        let radius_m = self.foundation.radius_m;
+        for k in 1.. {
+            let (before, after) = (window.at(k - 1)?, window.at(k)?);
+            let times = [before, after].map(|seen| self.elapsed_s(window, seen));
+            let span_s = times[1] - times[0];
+            let aside = after.off_m > radius_m;
+            let released = after.compression_m < self.wanted.compression_m;
+            if !aside && !released {
+                continue;
+            }
+            let axis = self.moment(after.index).pose.axis;
+            let share = if aside {
+                crossing(&before.way, &after.way, radius_m)
+            } else {
+                let [from, to] = [before, after].map(|seen| seen.compression_m - self.wanted.compression_m);
+                from / (from - to)
+            };
+            let at_s = times[0] + share * span_s;
+            return if aside {
+                let line = Line {
+                    at_s,
+                    value: before.way + (after.way - before.way) * share,
+                    rate: (after.way - before.way) / span_s,
+                };
+                self.left_aside(cell, window, &line, &axis)
+            } else {
+                let line = Line {
+                    at_s,
+                    value: self.wanted.compression_m,
+                    rate: (after.compression_m - before.compression_m) / span_s,
+                };
+                self.released(cell, window, &line, &axis)
+            };
+        }
+        None
+    }
+
+    /// Where a cell gets beyond the sponge's rim while all of it is pressed.
+    fn left_aside(
+        &self,
+        cell: &Cell,
+        window: Window<'_>,
+        line: &Line<Vector3<f64>>,
+        axis: &Vector3<f64>,
+    ) -> Option<Leaving> {
+        let across = |v: Vector3<f64>| v - axis * v.dot(axis);
+        let error_m = self.wanted.height_error_m;
+        let (v0, b) = (&line.value, &line.rate);
+        let outwards = v0.dot(b);
+        let columns = [cell.tangents()[0], cell.tangents()[1], Vector3::z()].map(across);
+        let rates = columns.map(|column| -column.dot(v0) / outwards);
+        let moved = [0, 1, 2].map(|i| columns[i] + b * rates[i]);
+        let mu = cell.reach_m * (moved[0].norm_squared() + moved[1].norm_squared()).sqrt() + error_m * moved[2].norm();
+        let spread_s = cell.reach_m * length(rates[0], rates[1]) + error_m * rates[2].abs();
+        let last = self.all_left(window, line.at_s + spread_s)?;
+        let off = |seen: &Seen| (seen.way - v0 - b * (self.elapsed_s(window, seen) - line.at_s)).norm();
+        let (off_m, turned, sags) = self.astray(window, last, axis, off);
+        let reach_m = cell.away_m() + error_m;
+        let lost_m = ROUNDING_M + off_m + sags.aside_m + cell.bend_m + 2.0 * turned * reach_m;
+        let free_m = self.foundation.radius_m - lost_m;
+        let (speed, slow) = (b.norm_squared(), outwards - b.norm() * mu);
+        let beyond = v0.norm_squared() + mu * mu - free_m * free_m;
+        let root = slow * slow - speed * beyond;
+        if !(free_m > 0.0 && slow > 0.0 && root >= 0.0) {
+            return None;
+        }
+        let sooner_s = ((slow - root.sqrt()) / speed).max(0.0) * (1.0 + 1e-12);
+        let begins_m = (v0 - b * line.at_s).norm() + cell.tangent_m + error_m * columns[2].norm();
+        let pressed = window
+            .until(last)
+            .all(|seen| self.pressed_m(seen) >= sags.compression_m);
+        (pressed && begins_m <= free_m && line.at_s - spread_s - sooner_s >= 0.0).then_some(Leaving {
+            at_s: line.at_s,
+            sooner_s,
+            slope: [rates[0], rates[1]],
+            over_height: rates[2],
+            spread_s,
+            last,
+        })
+    }
+
+    /// Where the foam on a cell is released while all of it is within the sponge.
+    fn released(&self, cell: &Cell, window: Window<'_>, line: &Line<f64>, axis: &Vector3<f64>) -> Option<Leaving> {
+        let error_m = self.wanted.height_error_m;
+        let falls = -line.rate;
+        if falls.is_nan() || falls <= 0.0 {
+            return None;
+        }
+        // The compression falls by a·x.
+        let [gx, gy] = cell.along(axis).map(|v| -v / falls);
+        let ge = -axis.z / falls;
+        let spread_s = cell.reach_m * length(gx, gy) + error_m * ge.abs();
+        let last = self.all_left(window, line.at_s + spread_s)?;
+        let off = |seen: &Seen| {
+            (seen.compression_m - line.value - line.rate * (self.elapsed_s(window, seen) - line.at_s)).abs()
+        };
+        let (off_m, turned, sags) = self.astray(window, last, axis, off);
+        let lost_m = ROUNDING_M + off_m + sags.compression_m + cell.bend_m + turned * (cell.away_m() + error_m);
+        let sooner_s = lost_m / falls * (1.0 + 1e-12);
+        let within = window.until(last).all(|seen| self.inside_m(seen) >= sags.aside_m);
+        // Where it begins it is pressed: by more than is lost, and what lies sooner.
+        (within && line.at_s - spread_s - sooner_s >= 0.0).then_some(Leaving {
+            at_s: line.at_s,
+            sooner_s,
+            slope: [gx, gy],
+            over_height: ge,
+            spread_s,
+            last,
+        })
+    }
+
+    /// The first moment of a window at which a time has passed; `None` where none has.
+    fn all_left(&self, window: Window<'_>, after_s: f64) -> Option<usize> {
+        for k in 1.. {
+            let seen = window.at(k)?;
+            if self.elapsed_s(window, seen) >= after_s {
+                return Some(k);
+            }
+        }
+        None
+    }
+
+    /// How far what is seen until a moment is off a line at most, how much the axis is off one, and the greatest sags.
+    fn astray(
+        &self,
+        window: Window<'_>,
+        last: usize,
+        axis: &Vector3<f64>,
+        off: impl Fn(&Seen) -> f64,
+    ) -> (f64, f64, Sags) {
+        let (mut off_m, mut turned, mut most) = (0.0_f64, 0.0_f64, Sags::default());
+        let mut before: Option<&Seen> = None;
+        for seen in window.until(last) {
+            off_m = off_m.max(off(seen));
+            turned = turned.max((self.moment(seen.index).pose.axis - axis).norm());
+            if let Some(before) = before {
+                let sags = self.sags(before, seen);
+                most.compression_m = most.compression_m.max(sags.compression_m);
+                most.aside_m = most.aside_m.max(sags.aside_m);
+                most.slide_m = most.slide_m.max(sags.slide_m);
+            }
+            before = Some(seen);
+        }
+        (off_m, turned, most)
+    }
+}
+
+/// Of a vector of two.
+fn length(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
+/// Where between two ways, 0 to 1, the line through them gets longer than a radius.
+fn crossing(from: &Vector3<f64>, to: &Vector3<f64>, radius_m: f64) -> f64 {
+    let step = to - from;
+    let (a, b, c) = (
+        step.norm_squared(),
+        from.dot(&step),
+        from.norm_squared() - radius_m * radius_m,
+    );
+    let root = (b * b - a * c).max(0.0).sqrt();
+    // The greater root, without cancelling.
+    let share = if b > 0.0 { -c / (b + root) } else { (root - b) / a };
+    share.clamp(0.0, 1.0)
+}

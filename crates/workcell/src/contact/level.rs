@@ -1,0 +1,146 @@
+//! What a flat face asks of the foam, from bounds of the tip's height and the tilt alone.
+//!
+//! With the tip at a height z over the face and the axis tilted by τ, the compression is linear across the sponge: its mean is
+//! m = c − z / cos τ, and at the rim it is m ± k, k = s tan τ. The mean of max(w, 0) over the whole face of the sponge is at least m and,
+//! being convex, at most m where m ≥ k, and at most (m + k)/2, half its greatest value, elsewhere; it grows with m and with k. Seen along
+//! the sponge's axis, what is beyond the plate's rim is no more than what of a disc of radius s / cos τ is beyond it.
+
+use super::Foundation;
+use crate::trig::acos;
+use std::f64::consts::PI;
+
+/// A sponge on a flat face through a wash: bounds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Level {
+    /// How high the tip is over the face, or below it where that is negative: least and greatest, errors of the plate's height
+    /// included \[m\].
+    pub height_m: [f64; 2],
+    /// The least cos τ.
+    pub cosine: f64,
+    /// The greatest distance of the tip from the plate's axis \[m\].
+    pub distance_m: f64,
+}
+
+/// What a flat face asks of the foam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LevelPress {
+    /// ∫ max(w, 0) dA at least and at most \[m³\].
+    pub volume_m3: [f64; 2],
+    /// The greatest of the compressions on the sponge's axis, and that no column exceeds \[m\].
+    pub deepest_m: [f64; 2],
+    /// ∫ max(w, 0) r / cos γ dA at most, r the distance from the sponge's axis \[m⁴\].
+    pub twist_m4: f64,
+}
+
+impl Foundation {
+    /// What a flat face with a rim asks of the foam.
+    #[must_use]
+    pub fn level_press(&self, level: &Level, rim_m: f64) -> LevelPress {
+        let Level {
+            height_m: [low_m, high_m],
+            cosine,
+            distance_m,
+        } = *level;
+        let tangent = (1.0 - cosine * cosine).max(0.0).sqrt() / cosine;
+        // z / cos τ is greatest where the tip is high and the tool tilted, least where it is low: tilted below the face, upright above.
+        let along = |height_m: f64, tilted: bool| height_m / if tilted { cosine } else { 1.0 };
+        let means = [
+            self.compression_m - along(high_m, high_m > 0.0),
+            self.compression_m - along(low_m, low_m < 0.0),
+        ];
+        let k = self.radius_m * tangent;
+        let [least, most] = means;
+        let area_m2 = PI * self.radius_m * self.radius_m;
+        let aside_m = low_m.abs().max(high_m.abs()) * tangent;
+        let beyond_m2 = beyond_rim_m2(self.radius_m / cosine, distance_m + aside_m, rim_m).min(area_m2);
+        let least_m3 = area_m2 * least.max(0.0) - beyond_m2 * (least + k).max(0.0);
+        let most_m3 = area_m2 * if most >= k { most } else { 0.5 * (most + k).max(0.0) };
+        LevelPress {
+            volume_m3: [least_m3.max(0.0), most_m3],
+            deepest_m: [most, most + k],
+            // A linear compression has no first moment about the axis: ∫ r dA = 2/3 s A, and the same of half a cone's greatest value.
+            twist_m4: 2.0 / 3.0 * self.radius_m * most_m3 / cosine,
+        }
+    }
+}
+
+/// How much of a disc at a distance from the axis is beyond a rim about it, at most \[m²\].
+fn beyond_rim_m2(disc_m: f64, distance_m: f64, rim_m: f64) -> f64 {
+    let (r, d, big) = (disc_m, distance_m, rim_m);
+    let whole = PI * r * r;
+    if !(r.is_finite() && d.is_finite()) || d - r >= big {
+        return whole;
+    }
+    if d + r <= big {
+        return 0.0;
+    }
+    if r - d >= big {
+        // The plate lies within the disc.
+        return whole - PI * big * big;
+    }
+    let cos_at = |a: f64, b: f64| ((d * d + a * a - b * b) / (2.0 * d * a)).clamp(-1.0, 1.0);
+    let heron = (-d + r + big) * (d + r - big) * (d - r + big) * (d + r + big);
+    let lens = r * r * acos(cos_at(r, big)) + big * big * acos(cos_at(big, r)) - 0.5 * heron.max(0.0).sqrt();
+    // The rounding of the lens, of which parts of the plate's area cancel.
+    (whole - lens + 1e-13 * big * big).clamp(0.0, whole)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Against squares a hundredth of the disc's radius wide.
+        #[test]
+        fn what_is_beyond_a_rim_is_what_squares_say(r in 0.01..0.04f64, d in 0.0..0.2f64) {
+            let (big, n) = (0.145, 200);
+            let mut beyond = 0;
+            let mut all = 0;
+            for i in 0..n {
+                for j in 0..n {
+                    let [x, y] = [i, j].map(|k| (2.0 * (f64::from(k) + 0.5) / f64::from(n) - 1.0) * r);
+                    if x * x + y * y <= r * r {
+                        all += 1;
+                        beyond += i32::from((d + x) * (d + x) + y * y > big * big);
+                    }
+                }
+            }
+            let share = f64::from(beyond) / f64::from(all);
+            prop_assert!((beyond_rim_m2(r, d, big) / (PI * r * r) - share).abs() < 5e-3, "{share}");
+        }
+
+        /// Dense sums over the sponge's face at every height and tilt within the bounds stay within what is said of them.
+        #[test]
+        fn no_pose_within_the_bounds_asks_for_more_or_less(
+            height in [-2e-3..2e-3f64, -2e-3..2e-3f64], tilt in 0.0..0.3f64, share in [0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64], far in 0.05..0.15f64,
+        ) {
+            let foundation = Foundation { radius_m: 0.025, free_height_m: 0.03, compression_m: 0.005, stiffness_pa: [1.1e4, 4.4e4] };
+            let height_m = [height[0].min(height[1]), height[0].max(height[1])];
+            let level = Level { height_m, cosine: tilt.cos(), distance_m: far };
+            let press = foundation.level_press(&level, 0.145);
+            let (z, t, d) = (height_m[0] + (height_m[1] - height_m[0]) * share[0], tilt * share[1], far * share[2]);
+            let n = 200;
+            let (mut volume, mut twist, mut deepest) = (0.0, 0.0, f64::NEG_INFINITY);
+            let ds = 2.0 * 0.025 / f64::from(n);
+            for i in 0..n {
+                for j in 0..n {
+                    let [x, y] = [i, j].map(|k| (f64::from(k) + 0.5) * ds - 0.025);
+                    if x * x + y * y > 0.025 * 0.025 { continue; }
+                    // The column through (x, y) across the axis (sin t, 0, −cos t) meets the face where its height is 0.
+                    let along = (z + x * t.sin()) / t.cos();
+                    let meets = [d + x * t.cos() + along * t.sin(), y];
+                    if meets[0] * meets[0] + meets[1] * meets[1] > 0.145 * 0.145 { continue; }
+                    let w = 0.005 - along;
+                    deepest = f64::max(deepest, w);
+                    volume += w.max(0.0) * ds * ds;
+                    twist += w.max(0.0) * (x * x + y * y).sqrt() * ds * ds / t.cos();
+                }
+            }
+            let [least, most] = press.volume_m3;
+            prop_assert!(volume >= least * (1.0 - 2e-3) - 1e-9 && volume <= most * (1.0 + 2e-3) + 1e-9, "{volume} {press:?}");
+            prop_assert!(deepest <= press.deepest_m[1] + 1e-12);
+            prop_assert!(twist <= press.twist_m4 * (1.0 + 3e-3) + 1e-12);
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! How a sponge presses on a plate: an elastic foundation.
+//!
+//! The sponge is a cylinder of radius s whose free face lies c beyond the tip, across the tool's axis a (a unit vector out of the tool).
+//! Columns of foam along the axis give way independently of each other: where a point x of the face of a plate lies within the cylinder,
+//! the column over it is compressed by
+//!
+//! w(x) = c + (tip − x)·a,
+//!
+//! and presses with p = E w / H, H the free height, in the direction of its compression (Elandt et al. 2019 call it a pressure field;
+//! Winkler 1867). Without friction the plate pushes back along its normal n: of a column of the cross-section dA, p n / (−a·n) dA.
+//!
+//! A plate that lies higher by e along its axis ẑ compresses each column by −e ẑ·a more, and lies −e (ẑ − a (ẑ·a)) to the side.
+//!
+//! All in the frame of the plate, lengths in metres. `columns.rs` has the sponge's face in columns: forces, and the greatest compression;
+//! `stands.rs` the same over a stretch of time, `level.rs` on a flat face; `raster.rs` the plate's face in cells: where it is pressed, for
+//! how long and how much, by what `bounds.rs` knows of each.
+
+mod affine;
+mod bends;
+mod bounds;
+mod cell;
+mod columns;
+mod doses;
+mod dwell;
+mod edges;
+mod level;
+mod moment;
+mod parts;
+mod raster;
+mod stands;
+mod sums;
+#[cfg(test)]
+mod tests;
+mod touch;
+
+pub use bends::Bends;
+pub use columns::{Column, Columns, Load};
+pub use dwell::Looks;
+pub use level::{Level, LevelPress};
+pub use moment::{Drift, Dwell, Moment, Sags, Wanted};
+pub use raster::{Fineness, Share, Shares, shares};
+pub use stands::{Press, Seen, Standing, Touching};
+
+use crate::plate::Plate;
+use crate::tool::{Sponge, Tool};
+use nalgebra::Vector3;
+use platewash_kinematics::rotation::Rigid;
+
+/// A sponge as an elastic foundation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foundation {
+    /// s \[m\].
+    pub radius_m: f64,
+    /// H: its height while nothing presses it \[m\].
+    pub free_height_m: f64,
+    /// c: how far its free face lies beyond the tip \[m\].
+    pub compression_m: f64,
+    /// Least and greatest E \[Pa\].
+    pub stiffness_pa: [f64; 2],
+}
+
+/// Where a sponge stands, in the frame of a plate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpongePose {
+    /// The tip \[m\].
+    pub tip: Vector3<f64>,
+    /// a: the axis, out of the tool; a unit vector.
+    pub axis: Vector3<f64>,
+}
+
+impl Foundation {
+    /// A sponge whose stiffness is stated; `None` of another one.
+    #[must_use]
+    pub fn of(sponge: &Sponge) -> Option<Self> {
+        sponge
+            .stiffness_pa
+            .map(|stiffness_pa| Self::stiff(sponge, stiffness_pa))
+    }
+
+    /// A sponge of that stiffness \[Pa\], whatever is stated of it.
+    #[must_use]
+    pub fn stiff(sponge: &Sponge, stiffness_pa: [f64; 2]) -> Self {
+        Self {
+            radius_m: sponge.radius_m,
+            free_height_m: sponge.free_height_m(),
+            compression_m: sponge.compression_m,
+            stiffness_pa,
+        }
+    }
+
+    /// That of a tool.
+    #[must_use]
+    pub fn of_tool(tool: &Tool) -> Option<Self> {
+        Self::of(&tool.sponge).filter(|_| tool.is_present())
+    }
+
+    /// w at a point of a face: below 0 where the free face does not reach it \[m\].
+    #[must_use]
+    pub fn compression(&self, pose: &SpongePose, point: &Vector3<f64>) -> f64 {
+        self.compression_m + (pose.tip - point).dot(&pose.axis)
+    }
+
+    /// The force of a volume of compressed foam, of least and of greatest stiffness \[N\].
+    #[must_use]
+    pub fn forces_n(&self, volume_m3: f64) -> [f64; 2] {
+        self.stiffness_pa.map(|pa| pa * volume_m3 / self.free_height_m)
+    }
+}
+
+impl SpongePose {
+    /// A tip frame of the world, seen from a plate.
+    #[must_use]
+    pub fn on(plate: &Plate, tip: &Rigid) -> Self {
+        let axis: Vector3<f64> = tip.rotation.column(2).into_owned();
+        Self {
+            tip: plate.local(&tip.translation),
+            axis: plate.pose.inverse_transform_vector(&axis),
+        }
+    }
+
+    /// Distance of a point from the axis \[m\].
+    #[must_use]
+    pub fn off_axis_m(&self, point: &Vector3<f64>) -> f64 {
+        let away = point - self.tip;
+        (away - self.axis * away.dot(&self.axis)).norm()
+    }
+}

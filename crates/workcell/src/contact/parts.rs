@@ -1,0 +1,239 @@
+//! What a part of the sponge's face is, at a moment or over a stretch of time: bounds from where its middle meets the surface.
+//!
+//! The columns belong to the tool. A column meets the surface λ along the sponge's axis a, so that w = c − λ. With n the normal where it
+//! meets, cos γ = −a·n, v the velocity of the tool's point there, K the greatest curvature there, h the length of the stretch:
+//!
+//! - the place moves along the surface with ẏ = v + λ̇ a, |ẏ| ≤ |v| / cos γ and |λ̇| ≤ |v| / cos γ, as n·ẏ = 0;
+//! - n·ÿ is the normal curvature times |ẏ|², so that |ẅ| = |λ̈| ≤ (K |v|²/cos² γ + |r̈| + 2 |v| |ȧ| / cos γ)/cos γ, r̈ the acceleration of
+//!   the tool's point; a surface whose curvature jumps has such a bound all the same;
+//! - γ grows by no more than K |ẏ| + |ȧ| a second, so that sin γ ≤ its value at the nearer end + (K |v| + |ȧ|) h/2;
+//! - hence w leaves the values at both ends by at most h²/8 of that, and the place is never farther from where it is at the nearer end
+//!   than |v| h / (2 cos γ), nor is λ more than that from its value there.
+//!
+//! Straight across the sponge from the middle of a part, a way dr is one of at most dr / cos γ along the surface, whose normal turns by no
+//! more than K times that: d sin γ / dr ≤ K. So sin γ is at most sin γ₀ + K r, and the way along the surface, ∫ dr / cos γ of a convex
+//! function of sin γ, no longer than r times the mean of 1 / cos γ at both ends. As long as way and place do not leave the rings of the
+//! surface of which K is known, K holds all along.
+
+use super::Foundation;
+use super::bends::MEETS_WITHIN_M;
+use super::moment::Drift;
+use nalgebra::{Vector2, Vector3};
+
+/// Nothing is said of parts that the surface meets more steeply: 78°.
+const STEEPEST_SINE: f64 = 0.98;
+
+/// No less than its cosine, the other way round.
+const LONGEST: f64 = 5.1;
+
+/// How often the rings of which the curvature is asked are widened, for a part that leaves them.
+const WIDENED: usize = 4;
+
+/// How large a part of a sponge's face is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Size {
+    /// How far it reaches from its middle at most \[m\].
+    pub reach_m: f64,
+    /// The mean of the square of the distance from its middle \[m²\].
+    pub square_m2: f64,
+    /// Its cross-section \[m²\].
+    pub area_m2: f64,
+    /// The root of that mean \[m\].
+    pub spread_m: f64,
+    /// The root of the mean of the square of the distance from the sponge's axis \[m\].
+    pub arm_m: f64,
+}
+
+/// Where the middle of a part meets a surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Met {
+    /// w: its compression \[m\].
+    pub compression_m: f64,
+    /// cos γ; what is not above 0 says that it does not meet it, or only along it.
+    pub cosine: f64,
+    /// sin γ.
+    pub sine: f64,
+    /// Distance from the plate's axis \[m\].
+    pub rho_m: f64,
+    /// The place, seen along the plate's axis \[m\].
+    pub seen_m: Vector2<f64>,
+}
+
+impl Met {
+    /// At a point with that normal, for a sponge with that axis.
+    pub fn new(compression_m: f64, point: &Vector3<f64>, normal: &Vector3<f64>, axis: &Vector3<f64>) -> Self {
+        let cosine = -normal.dot(axis);
+        let seen_m = point.xy();
+        Self {
+            compression_m,
+            cosine: if compression_m.is_finite() { cosine } else { f64::NAN },
+            sine: (1.0 - cosine * cosine).max(0.0).sqrt(),
+            rho_m: (seen_m.x * seen_m.x + seen_m.y * seen_m.y).sqrt(),
+            seen_m,
+        }
+    }
+}
+
+/// What a stretch of time adds to the values at its ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spread {
+    /// h/2 \[s\].
+    half_s: f64,
+    /// |v| \[m/s\] and |r̈| \[m/s²\].
+    speed: f64,
+    acceleration: f64,
+    /// |ȧ| \[1/s\].
+    axis: f64,
+    /// |v| and |r̈| are those of points whose λ has changed by no more \[m\].
+    slid_m: f64,
+    /// What a compression at the ends may be wrong by \[m\].
+    unsure_m: f64,
+}
+
+impl Spread {
+    /// Of a single moment at which the places are known to rounding.
+    pub const NONE: Self = Self {
+        half_s: 0.0,
+        speed: 0.0,
+        acceleration: 0.0,
+        axis: 0.0,
+        slid_m: 0.0,
+        unsure_m: 0.0,
+    };
+
+    /// Of a sponge whose parts reach so far from their middles, which are met no farther than `along_m` along its axis at both ends.
+    pub fn new(foundation: &Foundation, reach_m: f64, along_m: f64, drift: &Drift) -> Self {
+        let s = foundation.radius_m;
+        let half_s = 0.5 * drift.length_s;
+        let far_m = |slid_m: f64| {
+            let z = along_m + reach_m + slid_m;
+            (s * s + z * z).sqrt()
+        };
+        // A little more than what it is without what it slides, so that what it slides is a little less.
+        let slid_m = 1.1 * LONGEST * half_s * (drift.tip_m_s + drift.turning * far_m(0.0));
+        let far_m = far_m(slid_m);
+        Self {
+            half_s,
+            speed: drift.tip_m_s + drift.turning * far_m,
+            acceleration: drift.tip_m_s2 + drift.bending * far_m,
+            axis: drift.axis,
+            slid_m,
+            unsure_m: MEETS_WITHIN_M,
+        }
+    }
+}
+
+/// What a part is, at a moment or over a stretch of time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PartBounds {
+    /// Between what its compression is \[m\].
+    pub ends_m: [f64; 2],
+    /// Between what the mean of it is \[m\].
+    pub mean_m: [f64; 2],
+    /// Between what distances from the plate's axis it is met \[m\].
+    pub rho_m: [f64; 2],
+    /// The least cosine of the angle between the axis of the sponge and the way onto the surface.
+    pub cosine: f64,
+    /// How far it gets along the surface from where it is at the nearer end \[m\].
+    pub slid_m: f64,
+    /// h²/8 of what bounds the second derivative of its compression, and what that may be wrong by \[m\].
+    pub sag_m: f64,
+}
+
+impl PartBounds {
+    /// One of which nothing is known.
+    const UNKNOWN: Self = Self {
+        ends_m: [f64::NEG_INFINITY, f64::INFINITY],
+        mean_m: [f64::NEG_INFINITY, f64::INFINITY],
+        rho_m: [0.0, f64::INFINITY],
+        cosine: 0.0,
+        slid_m: f64::INFINITY,
+        sag_m: f64::INFINITY,
+    };
+
+    /// What a part is between two moments, on a face with those least and greatest curvatures between two distances from its axis.
+    pub fn over(
+        [from, to]: [&Met; 2],
+        size: &Size,
+        spread: &Spread,
+        curvatures: impl Fn([f64; 2]) -> [f64; 2],
+    ) -> Self {
+        let reach_m = size.reach_m;
+        let Spread {
+            half_s, speed: v, axis, ..
+        } = *spread;
+        if !(from.cosine > 0.0 && to.cosine > 0.0) {
+            return Self::UNKNOWN;
+        }
+        let (sine, cosine) = (greater(from.sine, to.sine), lesser(from.cosine, to.cosine));
+        let rho_m = [lesser(from.rho_m, to.rho_m), greater(from.rho_m, to.rho_m)];
+        let mut known_m = 1.15 * (reach_m + half_s * v) / cosine;
+        for _ in 0..WIDENED {
+            let bends = curvatures([rho_m[0] - known_m, rho_m[1] + known_m]);
+            let curvature = greater(-bends[0], bends[1]);
+            let turned = sine + half_s * (curvature * v + axis);
+            let steepest = turned + curvature * reach_m;
+            if steepest.is_nan() || steepest > STEEPEST_SINE {
+                break;
+            }
+            let [inner, least] = [turned, steepest].map(|s| (1.0 - s * s).sqrt());
+            let (over_inner, over_least) = (1.0 / inner, 1.0 / least);
+            let way_m = 0.5 * reach_m * (over_inner + over_least);
+            let slid_m = half_s * v * over_least;
+            if way_m + slid_m > known_m {
+                known_m = 1.02 * (way_m + slid_m);
+                continue;
+            }
+            if slid_m > spread.slid_m {
+                break;
+            }
+            let bend = curvature * v * v * over_least * over_least + spread.acceleration + 2.0 * v * axis * over_least;
+            let sag_m = 0.5 * half_s * half_s * bend * over_least + spread.unsure_m;
+            // w as a function of the place across the sponge has the surface's second derivatives: its curvature over cos³. A hollow
+            // rises away from the middle: more compression.
+            let steep = 0.5 * over_least * over_least * over_least;
+            let (less, more) = (lesser(bends[0], 0.0) * steep, greater(bends[1], 0.0) * steep);
+            let [a, b] = [from, to].map(|met| (met.compression_m, met.sine / met.cosine * reach_m));
+            let (r2, mean_r2) = (reach_m * reach_m, size.square_m2);
+            return Self {
+                ends_m: [
+                    lesser(a.0 - a.1, b.0 - b.1) + less * r2 - sag_m,
+                    greater(a.0 + a.1, b.0 + b.1) + more * r2 + sag_m,
+                ],
+                mean_m: [
+                    lesser(a.0, b.0) + less * mean_r2 - sag_m,
+                    greater(a.0, b.0) + more * mean_r2 + sag_m,
+                ],
+                rho_m: [rho_m[0] - way_m - slid_m, rho_m[1] + way_m + slid_m],
+                cosine: least,
+                slid_m,
+                sag_m,
+            };
+        }
+        Self::UNKNOWN
+    }
+
+    /// What the mean of max(w, 0) is not above \[m\]: max(w, 0) is convex, and no higher than the chord between its extremes.
+    pub fn most_mean_m(&self) -> f64 {
+        let ([least, most], [_, mean]) = (self.ends_m, self.mean_m);
+        if most <= 0.0 {
+            0.0
+        } else if !(least.is_finite() && most.is_finite()) {
+            f64::INFINITY
+        } else if least >= 0.0 {
+            mean
+        } else {
+            (most * (mean - least) / (most - least)).clamp(0.0, most)
+        }
+    }
+}
+
+/// The lesser of two numbers, the second where one is none: quicker than `f64::min`.
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The greater of two numbers, the second where one is none.
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}

@@ -1,0 +1,239 @@
+//! Where a plate is pressed, for how long and how much: its face in cells.
+//!
+//! Seen along its axis, the face is cut into squares (`cell.rs`), which are halved where more is likely to keep what is wanted than is
+//! shown, down to a least size, until as much is shown as was asked for. Of the moments that reach a cell, one after the other, those
+//! between which all of it is in contact count by what two sums differ (`sums.rs`) and are not looked at again in its quarters. What is
+//! left are windows in which places of the cell leave the sponge or get under it (`edges.rs`): together they give lower bounds of time
+//! and dose that are affine over the cell, so that of a cell at the edge of what is wanted the part counts that keeps it.
+//!
+//! What is not shown to keep something counts as not keeping it, with as much area as it may have: so the shares are none too great.
+
+use super::Foundation;
+use super::affine::Lower;
+use super::bounds::{Kept, Passes, Scratch};
+use super::cell::Cell;
+use super::moment::{Moment, Sags, Wanted};
+use crate::coverage::{SMALLEST_CELL, reaches};
+use crate::surface::Surface;
+use nalgebra::Vector3;
+use std::ops::Range;
+
+/// A cell is halved where more of it than this may keep more than is shown.
+const WORTH: f64 = 0.02;
+
+/// The first cells: of edges no longer than this part of the sponge's radius, and no more of them along an edge of the face.
+const FIRST_CELLS: f64 = 0.4;
+const MOST_FIRST_CELLS: f64 = 128.0;
+
+/// How finely a face is looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fineness {
+    /// Edge of the smallest cells \[m\].
+    pub cell_m: f64,
+    /// Shares of the face for contact, time and dose that suffice: where as much is shown, it is looked at no more finely.
+    pub enough: [f64; 3],
+}
+
+/// A share of a plate's face, by its area.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Share {
+    /// No less than this of the face keeps what is wanted.
+    pub at_least: f64,
+    /// The middle of the smallest cell that was seen to keep least of it, plate frame \[m\]; `None` where all keep it.
+    pub worst_m: Option<[f64; 3]>,
+    /// What it keeps of it: compression \[m\], time \[s\] or dose \[Pa·m\].
+    pub worst: Option<f64>,
+}
+
+/// Shares of a plate's face that keep what is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shares {
+    /// Compressed enough, at some moment.
+    pub contact: Share,
+    /// In contact long enough.
+    pub time: Share,
+    /// With enough of a dose.
+    pub dose: Share,
+}
+
+/// The shares of a face that keep what is wanted through some moments in order; `sags[k]` belongs to those between moments k and k + 1,
+/// and where it is missing nothing is known of them.
+#[must_use]
+pub fn shares(
+    surface: &Surface,
+    foundation: &Foundation,
+    (moments, sags): (&[Moment], &[Sags]),
+    wanted: &Wanted,
+    fineness: &Fineness,
+) -> Shares {
+    let rim_m = surface.rim_m();
+    // What is no size, or too small a one to end soon, is the least that is looked at.
+    let least = 0.5 * fineness.cell_m.max(SMALLEST_CELL * rim_m);
+    let mut half = least;
+    while half < rim_m {
+        half *= 2.0;
+    }
+    while half > least && 2.0 * half > FIRST_CELLS * foundation.radius_m && half * MOST_FIRST_CELLS > rim_m {
+        half *= 0.5;
+    }
+    let passes = Passes::new(surface, foundation, (moments, sags), wanted);
+    let mut missing = [Missing::default(); 3];
+    let mut level = passes.first(half);
+    let area_m2 = surface.area_m2();
+    loop {
+        let mut open = missing;
+        level.nodes.iter().for_each(|node| node.tell(&mut open));
+        let left = [0, 1, 2].map(|k| !reaches(open[k].share(area_m2).at_least, fineness.enough[k]));
+        if half <= least || left == [false; 3] {
+            let [contact, time, dose] = open.map(|missing| missing.share(area_m2));
+            return Shares { contact, time, dose };
+        }
+        half *= 0.5;
+        level = passes.halved(&level, half, left, &mut missing);
+    }
+}
+
+/// What does not keep something.
+#[derive(Debug, Clone, Copy, Default)]
+struct Missing {
+    area_m2: f64,
+    /// What the worst place keeps, and where that is.
+    worst: Option<(f64, [f64; 3])>,
+}
+
+impl Missing {
+    fn add(&mut self, area_m2: f64, found: f64, place: &Vector3<f64>) {
+        self.area_m2 += area_m2;
+        if self.worst.is_none_or(|(worst, _)| found < worst) {
+            self.worst = Some((found, (*place).into()));
+        }
+    }
+
+    fn share(&self, whole_m2: f64) -> Share {
+        Share {
+            at_least: (1.0 - self.area_m2 / whole_m2).clamp(0.0, 1.0),
+            worst_m: self.worst.map(|(_, place)| place),
+            worst: self.worst.map(|(found, _)| found),
+        }
+    }
+}
+
+/// A cell that does not keep all that is wanted, all over.
+struct Node {
+    middle: [f64; 2],
+    point: Vector3<f64>,
+    /// What counts all over it, so that its quarters need not look for it.
+    kept: Kept,
+    /// The windows that are left, in its level.
+    windows: Range<usize>,
+    /// By contact, time and dose: what area of it does not keep what is wanted, as far as is shown \[m²\], …
+    missing_m2: [f64; 3],
+    /// … how much of it may, seen along the axis, as a part of it, …
+    worth: [f64; 3],
+    /// … and what its worst place keeps.
+    found: [f64; 3],
+}
+
+impl Node {
+    fn tell(&self, missing: &mut [Missing; 3]) {
+        for (k, missing) in missing.iter_mut().enumerate() {
+            if self.missing_m2[k] > 0.0 {
+                missing.add(self.missing_m2[k], self.found[k].max(0.0), &self.point);
+            }
+        }
+    }
+}
+
+/// Cells of one size.
+#[derive(Default)]
+struct Level {
+    nodes: Vec<Node>,
+    /// Windows of moments: the first and the last of each.
+    windows: Vec<[u32; 2]>,
+}
+
+impl Passes<'_> {
+    /// The first cells.
+    fn first(&self, half: f64) -> Level {
+        let mut level = Level::default();
+        let count = (self.surface.rim_m() / (2.0 * half)).ceil() as i32;
+        let (mut windows, mut scratch) = (Vec::new(), Scratch::default());
+        for (i, j) in (-count..count).flat_map(|i| (-count..count).map(move |j| (i, j))) {
+            let middle = [i, j].map(|k| (2.0 * f64::from(k) + 1.0) * half);
+            if Cell::is_beyond(middle, half, self.surface.rim_m()) {
+                continue;
+            }
+            let cell = Cell::new(self.surface, middle, half);
+            windows.clear();
+            self.near(&cell, &mut windows);
+            let found = (&mut level.windows, &mut scratch);
+            level
+                .nodes
+                .extend(self.node(&cell, middle, (Kept::default(), &windows), found));
+        }
+        level
+    }
+
+    /// The quarters of the cells of a level of which more is likely to keep what is left to show; the others are told to be missing.
+    fn halved(&self, level: &Level, half: f64, left: [bool; 3], missing: &mut [Missing; 3]) -> Level {
+        let (mut next, mut scratch) = (Level::default(), Scratch::default());
+        for node in &level.nodes {
+            if !(0..3).any(|k| left[k] && node.worth[k] > WORTH) {
+                node.tell(missing);
+                continue;
+            }
+            let windows = level.windows.get(node.windows.clone()).unwrap_or_default();
+            for (x, y) in [(-half, -half), (half, -half), (-half, half), (half, half)] {
+                let middle = [node.middle[0] + x, node.middle[1] + y];
+                if Cell::is_beyond(middle, half, self.surface.rim_m()) {
+                    continue;
+                }
+                let cell = Cell::new(self.surface, middle, half);
+                let found = (&mut next.windows, &mut scratch);
+                next.nodes.extend(self.node(&cell, middle, (node.kept, windows), found));
+            }
+        }
+        next
+    }
+
+    /// A cell through some windows, besides what is kept all over it; `None` where it keeps all that is wanted.
+    fn node(
+        &self,
+        cell: &Cell,
+        middle: [f64; 2],
+        known: (Kept, &[[u32; 2]]),
+        (windows, scratch): (&mut Vec<[u32; 2]>, &mut Scratch),
+    ) -> Option<Node> {
+        let wanted = self.edges.wanted;
+        let thresholds = [0.0, wanted.time_s, wanted.dose_pa_m];
+        // Nobody gets less than no time and no dose.
+        let asked = [true, wanted.time_s != 0.0, wanted.dose_pa_m != 0.0];
+        let share = |k: usize, of: fn(&Lower, f64, f64) -> f64, bounds: &[Lower; 3]| {
+            if asked[k] {
+                of(&bounds[k], thresholds[k], cell.half)
+            } else {
+                0.0
+            }
+        };
+        let below = |bounds: &[Lower; 3]| [0, 1, 2].map(|k| share(k, Lower::share_below, bounds));
+        let enough = |bounds: &[Lower; 3]| below(bounds) == [0.0; 3];
+        let found = self.bounds(cell, known, scratch, enough)?;
+        let bounds = &found.bounds;
+        let below = below(bounds);
+        let first = windows.len();
+        windows.extend(scratch.windows());
+        Some(Node {
+            middle,
+            point: cell.point,
+            kept: found.kept,
+            windows: first..windows.len(),
+            missing_m2: cell.greatest_areas(self.surface, below),
+            worth: [0, 1, 2].map(|k| below[k] - share(k, Lower::hopeless, bounds)),
+            found: [
+                found.compression_m,
+                bounds[1].least(cell.half),
+                bounds[2].least(cell.half),
+            ],
+        })
+    }
+}

@@ -1,0 +1,241 @@
+//! What a plate asks of the foam over a stretch of time, wherever within an error of its height it lies.
+//!
+//! What every part of the sponge's face is, from where its middle meets the plate at both ends of the stretch, stands in `parts.rs`.
+//!
+//! A plate that lies higher presses every column more, as the surface is a graph that no column meets from below: what holds for the
+//! lowest and the highest place of a plate holds for all between.
+//!
+//! Over a part W = max(w, 0), with r the distance from the sponge's axis, the mean of W r is that of W times that of r and what both vary
+//! together. The mean of r is at most the root of that of r², which is the square of the distance of the part's middle and the mean of the
+//! square of that from it; and r varies by no more than the root of the latter, W by half of what its extremes are apart.
+
+use super::SpongePose;
+use super::bends::Bends;
+use super::columns::{Columns, meet_from};
+use super::moment::Drift;
+use super::parts::{Met, PartBounds, Size, Spread};
+use nalgebra::Vector3;
+
+/// What a plate asks of the foam, wherever within its error of height it lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Press {
+    /// ∫ max(w, 0) dA: at least with the plate at its lowest, at most with it at its highest \[m³\].
+    pub volume_m3: [f64; 2],
+    /// No column is compressed by more \[m\].
+    pub deepest_m: f64,
+    /// ∫ max(w, 0) r / cos γ dA at most, r the distance from the sponge's axis \[m⁴\].
+    pub twist_m4: f64,
+    /// How much of a compression may be due to what is not known between the ends of a stretch \[m\].
+    pub sag_m: f64,
+}
+
+impl Press {
+    /// Where nothing is known.
+    pub const UNKNOWN: Self = Self {
+        volume_m3: [0.0, f64::INFINITY],
+        deepest_m: f64::INFINITY,
+        twist_m4: f64::INFINITY,
+        sag_m: f64::INFINITY,
+    };
+
+    /// Of nothing.
+    const NONE: Self = Self {
+        volume_m3: [0.0; 2],
+        deepest_m: f64::NEG_INFINITY,
+        twist_m4: 0.0,
+        sag_m: 0.0,
+    };
+
+    /// Adds a part on a plate of that rim.
+    fn add(&mut self, both: &Both, size: &Size, rim_m: f64) {
+        let Both { low, high, .. } = both;
+        let is_on = both.far_m < rim_m;
+        self.sag_m = self.sag_m.max(low.sag_m).max(high.sag_m);
+        if is_on {
+            self.volume_m3[0] += low.mean_m[0].max(0.0) * size.area_m2;
+        }
+        if both.near_m <= rim_m {
+            let mean_m = high.most_mean_m();
+            self.volume_m3[1] += mean_m * size.area_m2;
+            self.deepest_m = self.deepest_m.max(high.ends_m[1]);
+            let least_m = if is_on { high.ends_m[0].max(0.0) } else { 0.0 };
+            let half_range_m = 0.5 * (high.ends_m[1].max(0.0) - least_m);
+            let moment_m2 = mean_m * size.arm_m + half_range_m * size.spread_m;
+            // A part that is nowhere pressed twists nothing, even where nothing is known of it with the plate at its lowest.
+            if moment_m2 != 0.0 {
+                self.twist_m4 += moment_m2 * size.area_m2 / low.cosine.min(high.cosine);
+            }
+        }
+    }
+}
+
+/// As much as a plate certainly asks of the foam at a moment, somewhere within its error of height.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seen {
+    /// ∫ max(w, 0) dA: no more than the first with the plate at its lowest, no less than the second with it at its highest \[m³\].
+    pub volume_m3: [f64; 2],
+    /// A column is compressed by as much or more \[m\].
+    pub deepest_m: f64,
+    /// Where the deepest column meets the surface, plate frame \[m\].
+    pub deepest_at_m: [f64; 3],
+}
+
+/// A part of the sponge's face that may touch a plate over a stretch of time: points of the tool.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touching {
+    /// Its middle, along the direction that turns with the tool and across that and the axis \[m\].
+    pub at_m: [f64; 2],
+    /// Between what distances from the tip along the axis it touches \[m\].
+    pub along_m: [f64; 2],
+}
+
+/// A sponge on a plate at a moment: where its columns meet it with the plate at its lowest and at its highest.
+#[derive(Debug, Clone)]
+pub struct Standing {
+    met: Vec<[Met; 2]>,
+    /// Where the deepest of the columns meets the plate at its highest \[m\].
+    deepest_at_m: [f64; 3],
+    /// The greatest |λ| \[m\].
+    along_m: f64,
+}
+
+/// What a part is over a stretch, with the plate at its lowest and at its highest.
+struct Both {
+    low: PartBounds,
+    high: PartBounds,
+    /// Between what distances from the plate's axis it is met, wherever the plate lies \[m\].
+    near_m: f64,
+    far_m: f64,
+}
+
+impl Columns {
+    /// How the sponge stands on a surface that may lie higher and lower by `error_m`; `side` is a direction that turns with the tool,
+    /// across its axis.
+    #[must_use]
+    pub fn stand(&self, bends: &Bends<'_>, pose: &SpongePose, side: &Vector3<f64>, error_m: f64) -> Standing {
+        let (surface, rim_m, axis) = (bends.surface(), bends.rim_m(), &pose.axis);
+        let across = axis.cross(side);
+        let compression_m = self.foundation().compression_m;
+        let mut standing = Standing {
+            met: Vec::with_capacity(self.sizes().size_hint().0),
+            deepest_at_m: [0.0; 3],
+            along_m: 0.0,
+        };
+        let mut deepest_m = f64::NEG_INFINITY;
+        // The planes through the places that were met: where the line begins, how far along, the normal and 1/(a·n).
+        let mut planes: Vec<(Vector3<f64>, f64, Vector3<f64>, f64)> = Vec::with_capacity(standing.met.capacity());
+        for ([x, y], inner) in self.middles_m().zip(self.inner()) {
+            // A plate that lies lower is a sponge that stands higher.
+            let middle = pose.tip + side * x + across * y;
+            let low = middle + Vector3::z() * error_m;
+            let guess_m = planes.get(inner).map_or(0.0, |(from, along_m, normal, over)| {
+                along_m + (from - low).dot(normal) * over
+            });
+            let meets = meet_from(surface, (&low, axis), guess_m, bends.settled_m());
+            let (along_m, normal) = (meets.0, meets.2);
+            let over = 1.0 / normal.dot(axis);
+            planes.push((low, along_m, normal, over));
+            let high = middle - Vector3::z() * error_m;
+            let guess_m = along_m + 2.0 * error_m * normal.z * over;
+            let higher = meet_from(surface, (&high, axis), guess_m, bends.settled_m());
+            let met = [&meets, &higher].map(|(along_m, point, normal)| {
+                standing.along_m = standing.along_m.max(along_m.abs());
+                Met::new(compression_m - along_m, point, normal, axis)
+            });
+            if met[1].compression_m > deepest_m && met[1].rho_m < rim_m {
+                deepest_m = met[1].compression_m;
+                standing.deepest_at_m = higher.1.into();
+            }
+            standing.met.push(met);
+        }
+        standing
+    }
+
+    /// What the plate asks of the foam from one moment to another one.
+    #[must_use]
+    pub fn press(&self, bends: &Bends<'_>, ends: [&Standing; 2], drift: &Drift) -> Press {
+        let mut press = Press::NONE;
+        for (both, size) in self.over(bends, ends, drift).zip(self.sizes()) {
+            press.add(&both, &size, bends.rim_m());
+        }
+        press
+    }
+
+    /// As much as the plate certainly asks of the foam at a moment, and what it asks at most.
+    #[must_use]
+    pub fn seen(&self, bends: &Bends<'_>, at: &Standing) -> (Seen, Press) {
+        let rim_m = bends.rim_m();
+        let mut press = Press::NONE;
+        let mut seen = Seen {
+            volume_m3: [0.0; 2],
+            deepest_m: f64::NEG_INFINITY,
+            deepest_at_m: at.deepest_at_m,
+        };
+        for (both, size) in self.over(bends, [at; 2], &Drift::NONE).zip(self.sizes()) {
+            press.add(&both, &size, rim_m);
+            if both.near_m <= rim_m {
+                seen.volume_m3[0] += both.low.most_mean_m() * size.area_m2;
+            }
+            if both.far_m < rim_m {
+                let mean_m = both.high.mean_m[0];
+                seen.volume_m3[1] += mean_m.max(0.0) * size.area_m2;
+                seen.deepest_m = seen.deepest_m.max(mean_m);
+            }
+        }
+        (seen, press)
+    }
+
+    /// The parts that may touch the plate at some moment of a stretch, wherever within its error of height it lies; none reaches farther
+    /// than [`Columns::reach_m`] from its middle. `None` where of one nothing is known.
+    #[must_use]
+    pub fn touching(&self, bends: &Bends<'_>, ends: [&Standing; 2], drift: &Drift) -> Option<Vec<Touching>> {
+        let (rim_m, c) = (bends.rim_m(), self.foundation().compression_m);
+        let mut all = Vec::new();
+        for (at_m, Both { low, high, near_m, .. }) in self.middles_m().zip(self.over(bends, ends, drift)) {
+            if high.ends_m[1] < 0.0 || near_m > rim_m {
+                continue;
+            }
+            if !(low.ends_m[0].is_finite() && high.ends_m[1].is_finite()) {
+                return None;
+            }
+            // It reaches no farther out than the free face.
+            let along_m = [c - high.ends_m[1], (c - low.ends_m[0]).min(c)];
+            all.push(Touching { at_m, along_m });
+        }
+        Some(all)
+    }
+
+    /// What every part is over a stretch.
+    fn over<'a>(
+        &'a self,
+        bends: &'a Bends<'_>,
+        [from, to]: [&'a Standing; 2],
+        drift: &Drift,
+    ) -> impl Iterator<Item = Both> + 'a {
+        let spread = Spread::new(self.foundation(), self.reach_m(), from.along_m.max(to.along_m), drift);
+        let ends = from.met.iter().zip(&to.met).zip(self.sizes());
+        ends.map(move |((from, to), size)| {
+            let [low, high] = [0, 1]
+                .map(|k| PartBounds::over([&from[k], &to[k]], &size, &spread, |between_m| bends.between(between_m)));
+            // With the plate between its lowest and its highest a part's place is between those of both, on a straight line seen from
+            // above, and no farther from one of them than half of what they are apart.
+            let apart_m = apart(from).max(apart(to)) + 0.5 * (low.slid_m + high.slid_m);
+            Both {
+                // Where nothing is known it is anywhere.
+                near_m: if apart_m.is_finite() {
+                    low.rho_m[0].min(high.rho_m[0]) - apart_m
+                } else {
+                    f64::NEG_INFINITY
+                },
+                far_m: low.rho_m[1].max(high.rho_m[1]),
+                low,
+                high,
+            }
+        })
+    }
+}
+
+/// Half of what the places of a part with the plate at its lowest and at its highest are apart \[m\].
+fn apart([low, high]: &[Met; 2]) -> f64 {
+    0.5 * (low.seen_m - high.seen_m).norm()
+}

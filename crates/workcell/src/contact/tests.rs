@@ -1,0 +1,91 @@
+mod agreement;
+mod bounds;
+mod stands;
+
+use super::*;
+use crate::surface::Surface;
+use std::f64::consts::PI;
+
+fn foundation() -> Foundation {
+    Foundation {
+        radius_m: 0.025,
+        free_height_m: 0.025,
+        compression_m: 0.005,
+        stiffness_pa: [2e4; 2],
+    }
+}
+
+fn upright([x, y]: [f64; 2]) -> SpongePose {
+    SpongePose {
+        tip: Vector3::new(x, y, 0.0),
+        axis: -Vector3::z(),
+    }
+}
+
+/// By hand: 20 kPa, 5 mm of 25 mm, a radius of 25 mm: 4 kPa, 7.85 N.
+#[test]
+fn an_upright_sponge_presses_with_its_whole_face() {
+    let (foundation, disc) = (foundation(), Surface::Disc { radius_m: 0.145 });
+    let load = Columns::new(&foundation).load(&disc, &upright([0.05, 0.02]), 0.0);
+    for volume in load.volume_m3 {
+        let [force, _] = foundation.forces_n(volume);
+        assert!((force - 4000.0 * PI * 0.025 * 0.025).abs() < 1e-9, "{force}");
+    }
+    assert!((load.deepest_m - 0.005).abs() < 1e-12 && (load.shallowest_m - 0.005).abs() < 1e-12);
+}
+
+/// A sponge that goes along x over a place twice, once each way, at 0.1 m/s, tilted a little.
+fn twice_along_x() -> Vec<Moment> {
+    let axis = Vector3::new(0.05, 0.0, -1.0).normalize();
+    let place = |k: i32| {
+        if k <= 40 {
+            0.005 * f64::from(k)
+        } else {
+            0.005 * f64::from(80 - k)
+        }
+    };
+    (0..=80)
+        .map(|k| Moment {
+            t_s: 0.05 * f64::from(k),
+            pose: SpongePose {
+                tip: Vector3::new(place(k), 0.0, 0.0),
+                axis,
+            },
+            speed: Vector3::x() * if k < 40 { 0.1 } else { -0.1 },
+            turning: Vector3::zeros(),
+        })
+        .collect()
+}
+
+/// Stays add up to the time in contact, follow one another, and begin and end where the rim of the sponge gets over the place.
+#[test]
+fn the_stays_of_a_place_are_its_time_in_contact() {
+    let (foundation, moments) = (foundation(), twice_along_x());
+    let wanted = Wanted {
+        compression_m: 0.001,
+        height_error_m: 0.001,
+        time_s: 0.0,
+        dose_pa_m: 0.0,
+    };
+    let looks = Looks::new(&foundation, &moments, &wanted);
+    for (x, count) in [(0.1, 2), (0.03, 2), (0.199, 1), (0.3, 0)] {
+        let point = Vector3::new(x, 0.01, 0.0);
+        let stays = looks.stays(&point);
+        assert_eq!(stays.len(), count, "{stays:?}");
+        let all: f64 = stays.iter().map(|[from, to]| to - from).sum();
+        assert!((all - looks.at(&point).time_s).abs() < 1e-12, "{stays:?}");
+        let times: Vec<f64> = stays.into_iter().flatten().collect();
+        assert!(
+            times.is_sorted() && times.iter().all(|t| (0.0..=4.0).contains(t)),
+            "{times:?}"
+        );
+    }
+    // Half a chord 10 mm off the middle of a sponge of 25 mm, less what the height error moves it aside.
+    let [from, _] = looks.stays(&Vector3::new(0.1, 0.01, 0.0))[0];
+    let chord_m = (0.025f64.powi(2) - 0.01f64.powi(2)).sqrt();
+    assert!((from - (0.1 - chord_m) / 0.1).abs() < 2e-2, "{from}");
+    let none = Looks::new(&foundation, &[], &wanted);
+    assert!(
+        none.stays(&Vector3::new(f64::NAN, 0.0, 0.0)).is_empty() && looks.stays(&Vector3::repeat(f64::NAN)).is_empty()
+    );
+}

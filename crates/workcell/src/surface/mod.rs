@@ -1,0 +1,205 @@
+//! The face of a plate that is washed: a surface of revolution, by its meridian.
+//!
+//! In its plate's frame the axis is z and the pole, where the axis meets the face, is the origin. A point is stated by its
+//! distance ρ from the axis \[m\] and its azimuth φ from x \[rad\], or by its length ℓ along the meridian from the pole \[m\] and φ.
+
+mod meridian;
+mod shipped;
+mod words;
+
+pub use meridian::{
+    Knot, MOST_KNOTS, Meridian, MeridianError, MeridianPoint, Patch, SHARPEST_M, STEEPEST_RAD, share_of_slope,
+};
+pub use shipped::SHIPPED_PROFILES;
+
+use crate::trig::sin_cos;
+use nalgebra::{Point3, Unit, Vector3};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// A surface of revolution.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "meridian", rename_all = "snake_case", deny_unknown_fields)]
+#[non_exhaustive]
+#[allow(clippy::large_enum_variant, reason = "copied seldom, and never in a loop")]
+pub enum Surface {
+    /// A flat disc.
+    Disc {
+        /// Radius of the rim \[m\].
+        radius_m: f64,
+    },
+    /// Arcs and lines by their knots; never a flat one, which is a disc (see [`Surface::profile`]).
+    Profile(Meridian),
+}
+
+impl Surface {
+    /// The surface of a profile by its knots, the pole apart; a disc where all of it is level.
+    ///
+    /// # Errors
+    /// As [`Meridian::new`].
+    pub fn profile(knots: &[Knot]) -> Result<Self, MeridianError> {
+        let meridian = Meridian::new(knots)?;
+        Ok(if meridian.is_flat() {
+            Self::Disc {
+                radius_m: meridian.rim_m(),
+            }
+        } else {
+            Self::Profile(meridian)
+        })
+    }
+
+    /// Whether it is flat.
+    #[must_use]
+    pub fn is_flat(&self) -> bool {
+        matches!(self, Self::Disc { .. })
+    }
+
+    /// Radius of the rim \[m\]: the greatest ρ.
+    #[must_use]
+    pub fn rim_m(&self) -> f64 {
+        match self {
+            Self::Disc { radius_m } => *radius_m,
+            Self::Profile(meridian) => meridian.rim_m(),
+        }
+    }
+
+    /// Length of the meridian from the pole to the rim \[m\].
+    #[must_use]
+    pub fn arc_m(&self) -> f64 {
+        match self {
+            Self::Disc { radius_m } => *radius_m,
+            Self::Profile(meridian) => meridian.arc_m(),
+        }
+    }
+
+    /// The point of the meridian at ρ \[m\]; beyond the rim it goes on straight.
+    #[must_use]
+    pub fn at_radius(&self, rho_m: f64) -> MeridianPoint {
+        match self {
+            Self::Disc { .. } => level(rho_m),
+            Self::Profile(meridian) => meridian.at_radius(rho_m),
+        }
+    }
+
+    /// The point of the meridian at ℓ \[m\]; beyond the rim it goes on straight.
+    #[must_use]
+    pub fn at_arc(&self, arc_m: f64) -> MeridianPoint {
+        match self {
+            Self::Disc { .. } => level(arc_m),
+            Self::Profile(meridian) => meridian.at_arc(arc_m),
+        }
+    }
+
+    /// ℓ at ρ \[m\].
+    #[must_use]
+    pub fn arc_at(&self, rho_m: f64) -> f64 {
+        match self {
+            Self::Disc { .. } => rho_m,
+            Self::Profile(meridian) => meridian.arc_at(rho_m),
+        }
+    }
+
+    /// Height of the face over its pole at ρ \[m\].
+    #[must_use]
+    pub fn height_m(&self, rho_m: f64) -> f64 {
+        self.at_radius(rho_m).height_m
+    }
+
+    /// Points of the meridian from the pole to the rim, ρ and height \[m\], to look at: every knot among them, and between two of them
+    /// the face turns by at most `turn_rad` \[rad\], which is to be above 0.
+    #[must_use]
+    pub fn outline_m(&self, turn_rad: f64) -> Vec<[f64; 2]> {
+        let mut points = vec![[0.0, 0.0]];
+        let Self::Profile(meridian) = self else {
+            points.push([self.rim_m(), 0.0]);
+            return points;
+        };
+        let mut from_m = 0.0;
+        for knot in meridian.knots() {
+            let to_m = self.arc_at(knot.radius_m);
+            let turn = self.at_arc(from_m).curvature.abs() * (to_m - from_m);
+            let parts = (turn / turn_rad).ceil().clamp(1.0, 256.0);
+            let between = (1..parts as usize).map(|k| self.at_arc(from_m + (to_m - from_m) * k as f64 / parts));
+            points.extend(between.map(|at| [at.radius_m, at.height_m]));
+            points.push([knot.radius_m, self.height_m(knot.radius_m)]);
+            from_m = to_m;
+        }
+        points
+    }
+
+    /// Between what the heights of the face over its pole are \[m\].
+    #[must_use]
+    pub fn height_bounds_m(&self) -> [f64; 2] {
+        match self {
+            Self::Disc { .. } => [0.0; 2],
+            Self::Profile(meridian) => meridian.height_bounds_m(),
+        }
+    }
+
+    /// The point at ρ \[m\] and φ \[rad\], plate frame.
+    #[must_use]
+    pub fn point(&self, rho_m: f64, phi_rad: f64) -> Point3<f64> {
+        let (s, c) = sin_cos(phi_rad);
+        Point3::new(rho_m * c, rho_m * s, self.height_m(rho_m))
+    }
+
+    /// The normal at ρ \[m\] and φ \[rad\], away from the plate's body, plate frame.
+    #[must_use]
+    pub fn normal(&self, rho_m: f64, phi_rad: f64) -> Unit<Vector3<f64>> {
+        match self {
+            Self::Disc { .. } => Vector3::z_axis(),
+            Self::Profile(meridian) => {
+                let at = meridian.at_radius(rho_m);
+                let (s, c) = sin_cos(phi_rad);
+                Unit::new_normalize(Vector3::new(-at.sine * c, -at.sine * s, at.cosine))
+            }
+        }
+    }
+
+    /// Between what the principal curvatures lie \[1/m\], above 0 where the face is hollow.
+    #[must_use]
+    pub fn curvature_bounds(&self) -> [f64; 2] {
+        match self {
+            Self::Disc { .. } => [0.0; 2],
+            Self::Profile(meridian) => meridian.curvature_bounds(),
+        }
+    }
+
+    /// Between what slopes and curvatures lie, between two ρ \[m\].
+    #[must_use]
+    pub fn patch(&self, between_m: [f64; 2]) -> Patch {
+        match self {
+            Self::Disc { .. } => Patch::FLAT,
+            Self::Profile(meridian) => meridian.patch(between_m),
+        }
+    }
+
+    /// Area of the face \[m²\].
+    #[must_use]
+    pub fn area_m2(&self) -> f64 {
+        self.area_within_m2(self.rim_m())
+    }
+
+    /// Area of the face from the pole to ρ \[m²\].
+    #[must_use]
+    pub fn area_within_m2(&self, rho_m: f64) -> f64 {
+        match self {
+            Self::Disc { .. } => PI * rho_m * rho_m,
+            Self::Profile(meridian) => meridian.area_within_m2(rho_m),
+        }
+    }
+}
+
+/// A point of a flat face.
+fn level(radius_m: f64) -> MeridianPoint {
+    MeridianPoint {
+        radius_m,
+        height_m: 0.0,
+        sine: 0.0,
+        cosine: 1.0,
+        curvature: 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests;

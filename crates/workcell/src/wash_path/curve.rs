@@ -1,0 +1,277 @@
+//! Wash curves: ℓ as a function of θ.
+//!
+//! The angle θ goes from 0 to `Θ`, the spiral's turns, and on to `Θ + 2π` with a ring. ℓ grows at the constant rate
+//! `a = R / (Θ − β/2)` until the last `β` = [`BLEND_RAD`] of the spiral, over which the rate falls to zero as `a (1 − S(x))`,
+//! `S(x) = x³ (10 − 15 x + 6 x²)`. So `ℓ(θ)` is C³ and meets the ring at `ℓ = R` without a bend. Rings: `rings.rs`.
+
+use super::rings::Rings;
+use crate::surface::Surface;
+use crate::trig::sin_cos;
+use nalgebra::{Vector2, Vector3};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// The last part of the spiral, over which it turns into the ring \[rad\].
+pub const BLEND_RAD: f64 = 1.0;
+
+/// The least outer radius of a wash curve \[m\].
+pub const LEAST_RADIUS_M: f64 = 1e-4;
+
+/// The fewest turns of a wash curve.
+pub const LEAST_TURNS: f64 = 0.25;
+
+/// The most turns of a wash curve.
+pub const MOST_TURNS: f64 = 200.0;
+
+/// The longest wash curve \[m\]; it bounds time and memory.
+pub const LONGEST_M: f64 = 100.0;
+
+/// The steepest slope of S.
+const STEEPEST: f64 = 1.875;
+
+/// Looks ahead for the bends of a blend, as many over all of it, and at most.
+const LOOKS_A_BLEND: f64 = 8.0;
+const MOST_LOOKS: f64 = 64.0;
+
+/// How often a step is halved at most.
+const MOST_HALVINGS: u32 = 6;
+
+/// By how much more than asked for the chord of a step may leave the curve.
+const MOST_MORE: f64 = 1.08;
+
+/// A curve on the face of a plate, as parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct WashCurve {
+    /// R: the greatest ℓ, on a flat face the outer radius \[m\], above 0.
+    pub radius_m: f64,
+    /// Turns before the closing ring; at least a quarter.
+    pub turns: f64,
+    /// Direction in which the spiral leaves the centre, counter-clockwise from +x \[rad\].
+    pub start_angle_rad: f64,
+    /// Whether a full circle at the outer radius follows.
+    pub closing_ring: bool,
+    /// That it consists of rings joined by blends, which take as many turns; a spiral where it does not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rings: Option<Rings>,
+}
+
+/// A point of a wash curve, relative to the plate's centre, with derivatives by θ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurvePoint {
+    /// Position \[m\].
+    pub position: Vector2<f64>,
+    /// First derivative \[m/rad\].
+    pub first: Vector2<f64>,
+    /// Second derivative \[m/rad²\].
+    pub second: Vector2<f64>,
+}
+
+/// A point of a wash curve on a surface, plate frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// Position \[m\].
+    pub position: Vector3<f64>,
+    /// First derivative by θ \[m/rad\].
+    pub first: Vector3<f64>,
+    /// The normal of the surface, out of it.
+    pub normal: Vector3<f64>,
+}
+
+impl WashCurve {
+    /// The last θ \[rad\].
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.spiral_end() + if self.closing_ring { TAU } else { 0.0 }
+    }
+
+    /// θ at which the closing ring begins: where the spiral ends, or the last blend \[rad\].
+    #[must_use]
+    pub fn spiral_end(&self) -> f64 {
+        match &self.rings {
+            Some(rings) => rings.end(),
+            None => TAU * self.turns,
+        }
+    }
+
+    /// Distance between neighbouring windings along the meridian \[m\].
+    #[must_use]
+    pub fn pitch_m(&self) -> f64 {
+        match &self.rings {
+            Some(rings) => rings.pitch_m(self.radius_m),
+            None => TAU * self.rate(),
+        }
+    }
+
+    /// ℓ and its first two derivatives by θ, at θ in [0, [`WashCurve::end`]] \[m, m/rad, m/rad²\].
+    #[must_use]
+    pub fn arc(&self, theta: f64) -> [f64; 3] {
+        match &self.rings {
+            Some(rings) => rings.arc(self.radius_m, theta),
+            None => self.radius(theta),
+        }
+    }
+
+    /// What |ℓ′| and |ℓ″| are not above between two θ \[m/rad, m/rad²\].
+    #[must_use]
+    pub fn greatest_rates(&self, [from, to]: [f64; 2]) -> [f64; 2] {
+        if let Some(rings) = &self.rings {
+            return rings.greatest_rates(self.radius_m, [from, to]);
+        }
+        let rate = self.rate();
+        let blends = to >= self.spiral_end() - BLEND_RAD && from <= self.spiral_end();
+        let turns = from <= self.spiral_end();
+        [
+            if turns { rate } else { 0.0 },
+            if blends { STEEPEST * rate / BLEND_RAD } else { 0.0 },
+        ]
+    }
+
+    /// The point on a surface at θ in [0, [`WashCurve::end`]] \[rad\], and its derivative by θ, plate frame.
+    #[must_use]
+    pub fn on(&self, surface: &Surface, theta: f64) -> SurfacePoint {
+        if surface.is_flat() {
+            let CurvePoint { position, first, .. } = self.at(theta);
+            return SurfacePoint {
+                position: position.push(0.0),
+                first: first.push(0.0),
+                normal: Vector3::z(),
+            };
+        }
+        let [arc_m, rate, _] = self.arc(theta);
+        let at = surface.at_arc(arc_m);
+        let (s, c) = sin_cos(self.start_angle_rad + theta);
+        let (rise, out) = (at.sine * rate, at.cosine * rate);
+        SurfacePoint {
+            position: Vector3::new(at.radius_m * c, at.radius_m * s, at.height_m),
+            first: Vector3::new(out * c - at.radius_m * s, out * s + at.radius_m * c, rise),
+            normal: Vector3::new(-at.sine * c, -at.sine * s, at.cosine),
+        }
+    }
+
+    /// What the second derivative by θ of the point on a surface is not above between two θ \[m/rad²\]: with κ the curvature of the
+    /// meridian, |ℓ″| + |κ| ℓ′² + ρ + 2 |ρ′|.
+    #[must_use]
+    pub fn greatest_second(&self, surface: &Surface, between: [f64; 2]) -> f64 {
+        let [first, second] = self.greatest_rates(between);
+        let [least, most] = surface.curvature_bounds();
+        // ρ is no greater than ℓ, which never falls.
+        let [arc_m, ..] = self.arc(between[1]);
+        second + least.abs().max(most.abs()) * first * first + arc_m + 2.0 * first
+    }
+
+    /// The point of a flat face at θ in [0, [`WashCurve::end`]] \[rad\].
+    #[must_use]
+    pub fn at(&self, theta: f64) -> CurvePoint {
+        let [r, r1, r2] = self.arc(theta);
+        let (s, c) = sin_cos(self.start_angle_rad + theta);
+        let (along, across) = (Vector2::new(c, s), Vector2::new(-s, c));
+        CurvePoint {
+            position: along * r,
+            first: along * r1 + across * r,
+            second: along * (r2 - r) + across * (2.0 * r1),
+        }
+    }
+
+    /// Values of θ from 0 to the end, so close that the chord between neighbours leaves the curve on a surface by at most
+    /// `chord_error_m`; the beginning of the closing ring is one of them.
+    #[must_use]
+    pub fn parameters(&self, surface: &Surface, chord_error_m: f64) -> Vec<f64> {
+        let mut all = vec![0.0];
+        for (from, to) in [(0.0, self.spiral_end()), (self.spiral_end(), self.end())] {
+            let mut steps = Vec::new();
+            let mut theta = from;
+            while theta < to {
+                let step = self.step(surface, theta, chord_error_m);
+                steps.push(step);
+                theta += step;
+            }
+            // Shrunk evenly so that the last one ends where it should.
+            let shrink = (to - from) / (theta - from).max(f64::MIN_POSITIVE);
+            let mut theta = from;
+            for (k, step) in steps.iter().enumerate() {
+                theta = if k + 1 == steps.len() {
+                    to
+                } else {
+                    theta + step * shrink
+                };
+                let before = all[all.len() - 1];
+                let halvings = if surface.is_flat() && self.rings.is_some() {
+                    MOST_HALVINGS
+                } else {
+                    0
+                };
+                self.push_straight(&mut all, [before, theta], chord_error_m, halvings);
+            }
+        }
+        all
+    }
+
+    /// A step in θ over which the chord leaves the curve by `error`: |p″| Δθ² / 8, of the second derivative's part
+    /// across the curve.
+    fn step(&self, surface: &Surface, theta: f64, error: f64) -> f64 {
+        if !surface.is_flat() {
+            // A tenth of a turn ahead the rates are bounded, so that no bend is stepped over.
+            let second = self.greatest_second(surface, [theta, theta + 0.1]);
+            return (8.0 * error / second).sqrt().min(0.1);
+        }
+        let step = self.fitting(theta, error);
+        let Some(rings) = &self.rings else { return step };
+        // A blend bends more than what is before it, and not at all in its middle.
+        let looks = (LOOKS_A_BLEND * step / rings.blend_rad).ceil().clamp(2.0, MOST_LOOKS);
+        let ahead = (1..=looks as u32).map(|k| self.fitting(theta + f64::from(k) / looks * step, error));
+        ahead.fold(step, f64::min)
+    }
+
+    /// The step on a flat face over which the chord leaves the curve by `error`, where it bends as it does at `at`.
+    fn fitting(&self, at: f64, error: f64) -> f64 {
+        let CurvePoint { first, second, .. } = self.at(at.min(self.end()));
+        let across = (first.x * second.y - first.y * second.x).abs() / first.norm();
+        (8.0 * error / across).sqrt().min(0.25)
+    }
+
+    /// Whether the chord of a stretch of a flat face leaves the curve by no more than `error` and a part of it: steps that are shrunk
+    /// are taken a little earlier than where they were found to fit.
+    fn is_straight(&self, [from, to]: [f64; 2], error: f64) -> bool {
+        let most = MOST_MORE * error;
+        [0.0, 0.25, 0.5, 0.75, 1.0]
+            .iter()
+            .all(|share| to - from <= self.fitting(from + share * (to - from), most))
+    }
+
+    /// Adds the end of a stretch, and what halves it where its chord leaves the curve by too much.
+    fn push_straight(&self, all: &mut Vec<f64>, [from, to]: [f64; 2], error: f64, halvings: u32) {
+        let middle = 0.5 * (from + to);
+        if halvings > 0 && from < middle && middle < to && !self.is_straight([from, to], error) {
+            self.push_straight(all, [from, middle], error, halvings - 1);
+            self.push_straight(all, [middle, to], error, halvings - 1);
+        } else {
+            all.push(to);
+        }
+    }
+
+    fn rate(&self) -> f64 {
+        self.radius_m / (self.spiral_end() - 0.5 * BLEND_RAD)
+    }
+
+    /// r, r′, r″ at θ.
+    fn radius(&self, theta: f64) -> [f64; 3] {
+        let (a, blend) = (self.rate(), self.spiral_end() - BLEND_RAD);
+        if theta <= blend {
+            return [a * theta, a, 0.0];
+        }
+        if theta >= self.spiral_end() {
+            return [self.radius_m, 0.0, 0.0];
+        }
+        let x = (theta - blend) / BLEND_RAD;
+        let (x2, x3) = (x * x, x * x * x);
+        // ∫S = x⁴ (5/2 − 3 x + x²), S and S′.
+        let area = x2 * x2 * (2.5 - 3.0 * x + x2);
+        let rise = x3 * (10.0 - 15.0 * x + 6.0 * x2);
+        let slope = 30.0 * x2 * (1.0 - x) * (1.0 - x);
+        [
+            a * (blend + BLEND_RAD * (x - area)),
+            a * (1.0 - rise),
+            -a * slope / BLEND_RAD,
+        ]
+    }
+}
