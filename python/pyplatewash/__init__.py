@@ -77,7 +77,7 @@ from ._errors import (
 )
 from ._page import Page
 from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record
-from ._values import Coverage, IkSettings, PaperSpiral, Plate, Tool, WashCurve
+from ._values import Coverage, Foot, IkSettings, PaperSpiral, Plate, Rings, Tool, WashCurve
 
 __version__: str = _version("pyplatewash")
 
@@ -92,6 +92,7 @@ __all__ = [
     "Execution",
     "ExportError",
     "FileError",
+    "Foot",
     "IkBatch",
     "IkBranches",
     "IkError",
@@ -117,6 +118,7 @@ __all__ = [
     "PlatewashError",
     "ProveError",
     "Record",
+    "Rings",
     "Robot",
     "Scenario",
     "ScenarioError",

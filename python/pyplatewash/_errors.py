@@ -215,7 +215,7 @@ class DynamicsError(InputError):
 class SimulationError(PlatewashError):
     """A plan could not be simulated."""
 
-    #: ``"other_arm"``, ``"plan"``, ``"setting"``, ``"too_long"``, ``"unstable"``, ``"diverged"`` or ``"coverage"``.
+    #: ``"other_arm"``, ``"plan"``, ``"setting"``, ``"too_long"``, ``"unstable"``, ``"stiff_contact"``, ``"diverged"`` or ``"coverage"``.
     cause: str
     #: The key of the scenario at fault.
     key: str | None = None
@@ -229,8 +229,10 @@ class SimulationError(PlatewashError):
     t_s: float | None = None
     #: A configuration about which the sampled loop is not stable, shape (6,) [rad].
     q: npt.NDArray[np.float64] | None = None
-    #: The least rate at which these gains are stable [Hz], where there is one.
+    #: The least rate at which these gains, or the foam's contact, are stable [Hz], where there is one.
     least_rate_hz: float | None = None
+    #: Steps a sample with which the foam's contact is stable at the rate asked for.
+    least_substeps: int | None = None
     #: The highest frequency that is stable at this rate with this damping [rad/s], where there is one.
     highest_frequency_rad_s: float | None = None
 

@@ -11,7 +11,7 @@ import numpy as np
 from . import _core, _picture
 from ._errors import PlatewashError
 from ._figures.subject import Subject
-from ._values import Floats, WashCurve
+from ._values import Floats, Rings, WashCurve
 from ._words import percent
 
 if TYPE_CHECKING:
@@ -187,8 +187,15 @@ def wash_paths(of: _core.Plan) -> list[Floats]:
     paths: list[Floats] = []
     for path in of.wash_paths if len(of.plates) <= MOST_PATHS else ():
         curve, pose = path.curve, of.job.plates[path.plate].pose
-        shape = WashCurve(radius_m=curve.radius_m, turns=curve.turns, start_angle_rad=curve.start_angle_rad, closing_ring=curve.closing_ring)
-        points = shape.sample(1.5e-3)[1]
+        rings = curve.get("rings")
+        shape = WashCurve(
+            radius_m=curve.radius_m,
+            turns=curve.turns,
+            start_angle_rad=curve.start_angle_rad,
+            closing_ring=curve.closing_ring,
+            rings=None if rings is None else Rings(**rings),
+        )
+        points = shape.on(of.plates[path.plate], 1.5e-3)[1][:, :2]
         w, _, _, z = pose.quaternion_wxyz
         turn = np.array([[w * w - z * z, -2 * w * z], [2 * w * z, w * w - z * z]])
         paths.append(points @ turn.T + np.array(pose.position_m[:2]))

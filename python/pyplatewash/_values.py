@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -16,22 +17,25 @@ Floats = npt.NDArray[np.float64]
 class Tool:
     """A straight handle that leaves the flange along its normal, with a round sponge at its end.
 
-    The tip is the centre of the sponge's far face.
+    The tip is the centre of the sponge's far face as it is pressed while it washes: the free sponge is longer by the compression, and the
+    handle ends ``sponge_height_m`` above the contact.
 
     >>> Tool(length_m=0.15)
-    Tool(length_m=0.15, radius_m=0.02, sponge_radius_m=0.025, sponge_height_m=0.025, sponge_compression_m=0.005, mass_kg=0.3, com_m=None, inertia_kg_m2=None)
+    Tool(length_m=0.15, radius_m=0.02, sponge_radius_m=0.025, sponge_height_m=0.025, sponge_compression_m=0.005, sponge_stiffness_pa=None, mass_kg=0.3, com_m=None, inertia_kg_m2=None)
     """
 
-    #: From the flange to the sponge's far face [m]; 0 for no tool body.
+    #: From the flange to the sponge's far face as it is pressed [m]; 0 for no tool body.
     length_m: float = 0.0
     #: Radius of the handle [m].
     radius_m: float = 0.02
     #: Radius of the sponge [m]; also decides coverage.
     sponge_radius_m: float = 0.025
-    #: Height of the sponge [m].
+    #: Height of the sponge while it washes [m].
     sponge_height_m: float = 0.025
     #: How far the sponge is pressed in while it washes [m]: the tip may lift as far and still touch. An assumption.
     sponge_compression_m: float = 0.005
+    #: Least and greatest stiffness of the sponge, pressure over strain [Pa]: an assumption; unknown without it.
+    sponge_stiffness_pa: tuple[float, float] | None = None
     #: Mass [kg], none where the length is 0: an assumption.
     mass_kg: float = 0.3
     #: Distance of the centre of mass from the flange, along the handle [m]; without it, half the length.
@@ -44,21 +48,65 @@ class Tool:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Foot:
+    """The ring below a plate that it stands on, as the cylinder that encloses it."""
+
+    #: Outer radius [m].
+    radius_m: float
+    #: How far it reaches below the body under the pole [m].
+    height_m: float
+
+    def __post_init__(self) -> None:
+        _core._check("foot", self)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Plate:
-    """A level disc: a cylinder from ``z_m - thickness_m`` up to ``z_m``, where the face is that is washed. World frame."""
+    """A level plate: a disc, or the surface of revolution of a profile, ``thickness_m`` thick. World frame.
+
+    A profile goes through knots, each a radius [m] and a slope [rad], from the pole, (0, 0), outwards; the sine of the slope is linear in
+    the radius between. Its name will do for one that comes along: ``"coupe275"``, ``"rim270"``, ``"deep230"``, ``"dessert190"``.
+
+    >>> plate = Plate(x_m=0.3, y_m=0.0, profile="rim270", thickness_m=0.005)
+    >>> plate.radius_m, len(plate.profile)
+    (0.135, 5)
+    >>> plate == Plate(x_m=0.3, y_m=0.0, profile=plate.profile, thickness_m=0.005)
+    True
+    """
 
     #: Centre [m].
     x_m: float
     #: Centre [m].
     y_m: float
-    #: Height of the washing surface [m].
+    #: Height of the washing surface at its centre [m].
     z_m: float = 0.03
-    #: Radius [m].
+    #: Radius of the rim [m]; with a profile, that of its last knot, and to be left out.
     radius_m: float = 0.145
     #: Thickness [m].
     thickness_m: float = 0.02
+    #: Knots of the profile, the pole apart, or its name, which becomes its knots; none of a disc.
+    profile: tuple[tuple[float, float], ...] | None = None
+    #: The ring that it stands on, where it has one.
+    foot: Foot | None = None
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            x_m: float,
+            y_m: float,
+            z_m: float = 0.03,
+            radius_m: float = 0.145,
+            thickness_m: float = 0.02,
+            profile: str | npt.ArrayLike | None = None,
+            foot: Foot | None = None,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
+        profile, radius_m = _core._plate_profile(self)
+        object.__setattr__(self, "profile", profile)
+        object.__setattr__(self, "radius_m", radius_m)
         _core._check("plate", self)
 
 
@@ -127,8 +175,36 @@ class PaperSpiral:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Rings:
+    """Rings about the pole, evenly apart, joined by blends; blends farther out take less of a turn.
+
+    >>> round(Rings(count=3, inner_m=0.0243, lead_rad=2.02, blend_rad=1.77).turns, 3)
+    1.93
+    """
+
+    #: Rings in all, from 2 to 100.
+    count: int
+    #: Length along the meridian from the pole to the innermost ring [m].
+    inner_m: float
+    #: How long before a full turn the first blend begins [rad].
+    lead_rad: float
+    #: Over which angle the first blend goes [rad].
+    blend_rad: float
+
+    def __post_init__(self) -> None:
+        _core._check("rings", self)
+
+    @property
+    def turns(self) -> float:
+        """Turns before the closing ring, which is the last."""
+        return _core._rings_turns(self)
+
+
+@dataclass(frozen=True, kw_only=True)
 class WashCurve:
-    """A continuous spiral that runs tangentially into its closing ring: the curve of a wash path.
+    """A continuous spiral that runs tangentially into its closing ring, or rings joined by blends: the curve of a wash path.
+
+    Lengths are along the meridian of the face, on a disc from its centre.
 
     >>> theta, points = WashCurve(radius_m=0.124, turns=3.5).sample(1e-5)
     >>> points.shape == (len(theta), 2)
@@ -137,16 +213,23 @@ class WashCurve:
 
     #: Outer radius [m].
     radius_m: float
-    #: Turns of the spiral, at least a quarter.
+    #: Turns before the closing ring, at least a quarter; with rings, ``rings.turns``.
     turns: float
     #: Direction in which the spiral leaves the centre, counter-clockwise from +x [rad].
     start_angle_rad: float = 0.0
     #: Whether a full circle at the outer radius follows.
     closing_ring: bool = True
+    #: That it consists of rings; without them, it is a spiral.
+    rings: Rings | None = None
 
     def __post_init__(self) -> None:
         _core._check("wash_curve", self)
 
     def sample(self, chord_error_m: float = 1e-5) -> tuple[Floats, Floats]:
-        """Angles, shape (N,) [rad], and points, shape (N, 2) [m], whose chords leave the curve by at most ``chord_error_m``."""
+        """On a disc: angles, shape (N,) [rad], and points, shape (N, 2) [m], whose chords leave the curve by at most ``chord_error_m``."""
         return _core._wash_curve(self, chord_error_m)
+
+    def on(self, plate: Plate, chord_error_m: float = 1e-5) -> tuple[Floats, Floats, Floats]:
+        """The same on the face of a plate, in its frame, whose origin is the pole: angles, shape (N,) [rad], points and normals, each of shape
+        (N, 3) [m]."""
+        return _core._wash_curve_on(self, plate, chord_error_m)

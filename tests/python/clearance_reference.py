@@ -20,19 +20,21 @@ WORLD = "base_link"
 
 @dataclass(frozen=True)
 class Tool:
-    """A handle along +z of tool0, ending in a sponge."""
+    """A handle along +z of tool0, ending in a sponge: the free one, longer than the tool by what washing compresses it."""
 
     length_m: float
     radius_m: float
     sponge_radius_m: float
     sponge_height_m: float
+    compression_m: float
 
     def shapes(self) -> dict[str, Shape]:
         handle = self.length_m - self.sponge_height_m
-        sponge = handle + self.sponge_height_m / 2
+        free = self.sponge_height_m + self.compression_m
+        sponge = handle + free / 2
         return {
             "handle": Shape("handle", "cylinder", (self.radius_m, handle), pose([0, 0, handle / 2])),
-            "sponge": Shape("sponge", "cylinder", (self.sponge_radius_m, self.sponge_height_m), pose([0, 0, sponge])),
+            "sponge": Shape("sponge", "cylinder", (self.sponge_radius_m, free), pose([0, 0, sponge])),
         }
 
 

@@ -20,7 +20,7 @@ CLEARANCE_SAMPLES = 250
 COAL_M = 5e-5  # what coal's iteration and ours may differ by
 
 
-@pytest.fixture(scope="module", params=["kitchen", "kitchen-rim"])
+@pytest.fixture(scope="module", params=["kitchen-spiral", "kitchen-rim"])
 def run(request, platewash, tmp_path_factory):
     """Plan and certificate of a shipped scenario."""
     folder = tmp_path_factory.mktemp(request.param)
@@ -151,7 +151,8 @@ def test_the_tip_follows_the_wash_curve(plan, checks, motion, tip):
 def test_nothing_comes_closer_than_proved(run, plan, checks, motion, irb120_urdf):
     held, lying = plan["job"]["workcell"]["tool"], plan["job"]["plates"]
     handle = held["bodies"][0]["shape"]["cylinder"]["radius_m"]
-    tool = Tool(held["tip"]["position_m"][2], handle, held["sponge"]["radius_m"], held["sponge"]["height_m"])
+    sponge = held["sponge"]
+    tool = Tool(held["tip"]["position_m"][2], handle, sponge["radius_m"], sponge["height_m"], sponge["compression_m"])
     centres = [plate["pose"]["position_m"] for plate in lying]
     plates = Plates(lying[0]["surface"]["radius_m"], centres[0][2], lying[0]["thickness_m"], tuple((x, y) for x, y, _ in centres))
     reference, tree = Reference(bodies(irb120_urdf, tool, plates)), urdf_reader.Tree(irb120_urdf)

@@ -14,10 +14,10 @@ import pytest
 import urdf_reader
 from clearance_reference import FLOOR, Plates, Reference, Tool, bodies
 
-TOOL = Tool(length_m=0.15, radius_m=0.02, sponge_radius_m=0.025, sponge_height_m=0.025)
+TOOL = Tool(length_m=0.15, radius_m=0.02, sponge_radius_m=0.025, sponge_height_m=0.025, compression_m=0.004)
 PLATES = Plates(0.145, 0.03, 0.02, ((0.30, -0.25), (0.30, 0.25)))
 # Thinner than a millimetre, where routines of the kind stop up to 75 µm short.
-THIN = Tool(length_m=0.15, radius_m=4e-4, sponge_radius_m=3e-4, sponge_height_m=8e-4)
+THIN = Tool(length_m=0.15, radius_m=4e-4, sponge_radius_m=3e-4, sponge_height_m=8e-4, compression_m=2e-4)
 SCENARIO = """\
 name = "coal"
 seed = 1
@@ -26,6 +26,7 @@ length_m = {tool.length_m}
 radius_m = {tool.radius_m}
 sponge_radius_m = {tool.sponge_radius_m}
 sponge_height_m = {tool.sponge_height_m}
+sponge_compression_m = {tool.compression_m}
 [layout]
 plate_radius_m = 0.145
 plate_height_m = 0.03

@@ -19,11 +19,13 @@ LARGEST = 1e-9
 #: Gains as torques, for the laws that take none from the mass matrix [N m/rad, N m s/rad].
 KP = np.array([400.0, 600.0, 300.0, 60.0, 40.0, 10.0])
 KD = np.array([40.0, 60.0, 30.0, 4.0, 2.5, 0.5])
+#: Plates that do not push back, whatever the tool's stiffness.
+NO_PUSH = {"contact_stiffness_pa": None, "contact_damping_pa_s": None, "contact_force_n": None}
 
 
 @pytest.fixture(scope="module")
 def kitchen():
-    return plan("kitchen")
+    return plan("kitchen-spiral")
 
 
 def off(found: np.ndarray, wanted: np.ndarray) -> float:
@@ -65,7 +67,7 @@ def test_a_wrong_arm_would_be_noticed():
 
 @pytest.mark.parametrize("law", ["pd", "pd_gravity", "computed_torque"])
 def test_a_whole_wash_is_mujocos(kitchen, law):
-    settings = pw.SimulationSettings.of(kitchen).replace(law=law)
+    settings = pw.SimulationSettings.of(kitchen).replace(law=law, plant=NO_PUSH)
     if law == "computed_torque":
         frequency, damping = settings.control.frequency_rad_s, settings.control.damping_ratio
         kp, kd = frequency**2, 2 * damping * frequency
@@ -84,3 +86,37 @@ def test_a_whole_wash_is_mujocos(kitchen, law):
     asked = robot.fk(execution.commanded_rad, tool=tool)[:, :3, 3]
     least = {"pd": 1e-2, "pd_gravity": 1e-3, "computed_torque": 1e-9}[law]
     assert np.linalg.norm(ours - asked, axis=1).max() > least > apart.max()
+
+
+@pytest.mark.parametrize(("law", "stiffness_pa", "end"), [("computed_torque", 11e3, "landing"), ("computed_torque", 44e3, "lifting"), ("pd_gravity", 20e3, "lifting")])
+def test_the_force_on_a_plate_is_mujocos(kitchen, law, stiffness_pa, end):
+    """An end of the first plate's wash by MuJoCo's arm, with the foam's law written down once more: one at the rim, one in the middle."""
+    settings = pw.SimulationSettings.of(kitchen).replace(law=law, plant=NO_PUSH | {"contact_stiffness_pa": stiffness_pa})
+    if law == "computed_torque":
+        kp, kd = 60.0**2, 2 * 60.0
+        settings = settings.replace(control={"frequency_rad_s": 60.0, "damping_ratio": 1.0})
+    else:
+        kp, kd = KP * 3, KD
+        settings = settings.replace(control={"joint_kp": kp, "joint_kd": kd})
+    execution = pw.simulate(kitchen, settings=settings)
+    segments = kitchen.segments
+    first = next(k for k, segment in enumerate(segments) if segment.kind == "wash")
+    turn_s = segments[first].t_start_s if end == "landing" else segments[first].t_end_s
+    before_s, after_s = (0.3, 1.0) if end == "landing" else (1.0, 0.3)
+    rate_hz = settings.control.rate_hz
+    samples = slice(round((turn_s - before_s) * rate_hz), round((turn_s + after_s) * rate_hz))
+    foam = mujoco_run.Foam(kitchen.to_dict(), stiffness_pa)
+    start = execution.q_rad[samples.start], execution.qd_rad_s[samples.start]
+    tips, theirs = mujoco_run.run_on(kitchen.to_dict(), law, kp, kd, rate_hz, foam, samples, start)
+    ours, washing = execution.force_n[samples], execution.segment[samples] == first
+    assert (theirs[washing] > 0).all() and (ours[washing] > 0).all() and (theirs == 0).any()
+    apart = np.abs(ours - theirs)
+    print(f"{law} {stiffness_pa}: {theirs[washing].min():.2f} to {theirs[washing].max():.2f} N, apart {apart.max():.4f} N, {(apart[washing] / theirs[washing]).max():.2%}")
+    assert (apart[washing] < 0.01 * theirs[washing]).all()
+    assert apart.max() < 0.01 * theirs.max()
+    at = pw.Robot.irb120().fk(execution.q_rad[samples], tool=pw.Tool(length_m=0.15))[:, :3, 3]
+    assert np.linalg.norm(at - tips, axis=1).max() < 1e-4
+    pressing, whole = execution.report().plates[0].pressing, execution.segment == first
+    forces = execution.force_n[whole]
+    np.testing.assert_allclose([pressing.least_n, pressing.mean_n, pressing.most_n], [forces.min(), forces.mean(), forces.max()], rtol=1e-12)
+    assert pressing.deepest_m == pytest.approx(execution.compression_m[whole].max())

@@ -61,7 +61,7 @@ def test_exit_codes_come_back_from_the_call(capfd: pytest.CaptureFixture[str]) -
 # Work of several seconds: what it is done on, and the call.
 MANY = (
     "centres = [[0.2 + 0.02 * i, -0.4 + 0.02 * k] for i in range(8) for k in range(41)]; "
-    "job = kitchen.replace(layout={'region': None, 'positions_m': centres, 'plate_radius_m': 0.008}, wash={'path_radius_m': 0.006, 'turns': 1.0}, "
+    "job = pw.Scenario.load('kitchen-spiral').replace(layout={'region': None, 'positions_m': centres, 'plate_radius_m': 0.008}, wash={'path_radius_m': 0.006, 'turns': 1.0}, "
     "tool={'sponge_radius_m': 0.004, 'radius_m': 0.004}).job()"
 )
 DRAWN = (

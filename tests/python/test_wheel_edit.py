@@ -252,7 +252,7 @@ def test_what_is_set_in_python_is_shown_on_the_page(front: Front) -> None:
 
 def test_what_is_no_scenario_is_not_set(front: Front) -> None:
     cell, before = front.cell, state(front.cell)
-    for text in ("seed = 'x'", "[wash", "", "\x00", cell.text.replace("turns = 3.5", "turns = -1")):
+    for text in ("seed = 'x'", "[wash", "", "\x00", cell.text.replace("lift_m = 0.03", "lift_m = -1")):
         with pytest.raises(pw.ScenarioError):
             cell.text = text
     for name, wrong in [("text", 3), ("text", None), ("scenario", "kitchen"), ("plan", None), ("verdict", "proved")]:

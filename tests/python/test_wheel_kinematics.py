@@ -264,7 +264,7 @@ def test_copies_and_pickles_are_equal(robot: pw.Robot) -> None:
     answer = robot.ik(robot.fk([0.1] * 6))
     batch = robot.ik_batch(robot.fk([[0.1] * 6]))
     branches = robot.ik_all(robot.fk([0.1] * 6))
-    for thing in (robot, answer, batch, branches, pw.Tool(), pw.Plate(x_m=0.3, y_m=0), pw.IkSettings(), pw.PaperSpiral()):
+    for thing in (robot, answer, batch, branches, pw.Tool(), pw.Plate(x_m=0.3, y_m=0), pw.Plate(x_m=0.3, y_m=0, profile="deep230", foot=pw.Foot(radius_m=0.05, height_m=0.004)), pw.IkSettings(), pw.PaperSpiral()):
         assert pickle.loads(pickle.dumps(thing)) == thing == copy.copy(thing) == copy.deepcopy(thing)
         assert thing != 3 and not thing == "x"
         assert type(thing).__name__ in repr(thing)

@@ -146,7 +146,9 @@ def tips(q: Floats) -> Floats:
     return ROBOT.fk(q, tool=pw.Tool(length_m=TOOL_M))[:, :3, 3]
 
 
-def test_each_step_is_the_plants(plan: pw.Plan, execution: pw.Execution) -> None:
+def test_each_step_is_the_plants() -> None:
+    plan = planned("kitchen-spiral")  # its plates do not push back
+    execution = pw.simulate(plan)
     model = pw.DynamicsModel(ROBOT, pw.Tool(length_m=TOOL_M, mass_kg=plan.job.workcell.tool.mass.mass_kg))
     q, qd, qdd = execution.q_rad[:-1], execution.qd_rad_s[:-1], execution.qdd_rad_s2[:-1]
     np.testing.assert_allclose(model.forward_dynamics(q, qd, execution.torque_n_m[:-1]), qdd, rtol=1e-9, atol=1e-9)
@@ -156,7 +158,7 @@ def test_each_step_is_the_plants(plan: pw.Plan, execution: pw.Execution) -> None
 def test_laws_differ_as_they_should(plan: pw.Plan) -> None:
     rms = {}
     for law in ("pd", "pd_gravity", "computed_torque"):
-        settings = pw.SimulationSettings.of(plan).replace(law=law, control={"frequency_rad_s": 15.0})
+        settings = pw.SimulationSettings.of(plan).replace(law=law, control={"frequency_rad_s": 15.0}, plant={"contact_stiffness_pa": None})
         report = pw.simulate(plan, settings=settings).report()
         rms[law] = report.tracking.tip_m.rms
         assert report.law == law and (report.verdict == "washed") == (law != "pd"), report.headline
@@ -241,3 +243,42 @@ def test_the_papers_job_runs_under_its_own_law() -> None:
     assert execution.settings.law == "paper" and execution.torque_limit_n_m is None and not execution.torque_n_m.any()
     report = execution.report()
     assert report.verdict == "not_washed" and report.effort is None and str(report).startswith("NOT WASHED")
+
+
+def test_plates_push_back_where_it_is_stated(plan: pw.Plan) -> None:
+    none = pw.SimulationSettings.of(plan).replace(plant={"contact_stiffness_pa": None, "contact_damping_pa_s": None, "contact_force_n": None})
+    free = pw.simulate(plan, settings=none)
+    assert free.force_n is None and free.compression_m is None and free.report().plates[0].pressing is None
+    foam = none.replace(plant={"contact_stiffness_pa": 20e3})
+    assert foam.plant.contact_stiffness_pa == 20e3 and foam == copy.deepcopy(foam) == pickle.loads(pickle.dumps(foam)) != none
+    assert foam.replace(plant={"contact_stiffness_pa": None}) == none
+    damped = foam.replace(plant={"contact_damping_pa_s": 50})
+    assert damped.plant.contact_damping_pa_s == 50.0 and pickle.loads(pickle.dumps(damped)) == damped
+    execution = pw.simulate(plan, settings=foam)
+    force, compression = execution.force_n, execution.compression_m
+    assert force is not None and compression is not None and force.shape == compression.shape == execution.t_s.shape
+    assert ((force > 0) == (compression > 0)).all() and 1.0 < force.max() < 40.0
+    report = execution.report()
+    for outcome in report.plates:
+        pressing = outcome.pressing
+        assert 0 <= pressing.least_n < pressing.mean_n < pressing.most_n and 0 < pressing.strain < 0.6
+        assert [at.higher_m for at in pressing.planned] == [-0.002, -0.001, 0.0, 0.001, 0.002]
+        means = [at.mean_n for at in pressing.planned]
+        assert means == sorted(means) and means[0] > 0
+    assert execution.to_csv(0.1).splitlines()[0].endswith(",tau6_n_m,force_n")
+    kinematic = pw.simulate(plan, settings=foam.replace(law="exact"))
+    assert kinematic.force_n is None and "force on plates: not simulated" in str(kinematic.report())
+    with pytest.raises(pw.ScenarioError, match="contact_force_n"):
+        foam.replace(plant={"contact_force_n": 5.0})
+    with pytest.raises(pw.ScenarioError, match="contact_damping_pa_s"):
+        none.replace(plant={"contact_damping_pa_s": 5.0})
+    with pytest.raises(pw.ScenarioError, match="contact_stiffness_pa"):
+        none.replace(plant={"contact_stiffness_pa": 0.0})
+    with pytest.raises(pw.SimulationError, match="must be within tool.sponge_stiffness_kpa, 11 to 44 kPa"):
+        pw.simulate(plan, settings=foam.replace(plant={"contact_stiffness_pa": 1e9}))
+    stiff = planned(pw.Scenario.load("kitchen-spiral").replace(tool={"sponge_stiffness_kpa": [11, 1e6]}))
+    with pytest.raises(pw.SimulationError, match="is not stable") as caught:
+        pw.simulate(stiff, settings=foam.replace(plant={"contact_stiffness_pa": 1e9}, control={"rate_hz": 200.0}))
+    substeps, rate_hz = caught.value.least_substeps, caught.value.least_rate_hz
+    assert caught.value.cause == "stiff_contact" and substeps is not None and rate_hz is not None
+    assert substeps > 1 and rate_hz > 200.0

@@ -121,6 +121,14 @@ impl CertificateObject {
         records(py, &self.inner.coverage)
     }
 
+    /// Contact, plate by plate in the order of washing, where the job asks for it: `plate`; `share`, `time` and `dose`, each with what
+    /// is proved (`at_least`), `required`, `threshold` and, where they fall short, the worst place; `strain`, `least_force_n` and
+    /// `greatest_force_n`, each with `bound`, `seen`, `time_s` and `place_m`; `friction_torque_nm`. Empty where it does not.
+    #[getter]
+    fn contact<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        records(py, &self.inner.contact)
+    }
+
     /// Clearance, pair by pair and rule by rule.
     #[getter]
     fn clearance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {

@@ -3,8 +3,9 @@
 use crate::curves;
 use crate::errors;
 use crate::page;
+use crate::plate::{self, PlateFields};
 use crate::robot;
-use crate::tool::{PlateFields, ToolFields};
+use crate::tool::ToolFields;
 use pyo3::prelude::*;
 
 /// Checks one of Python's plain values when it is made, field by field; `kind` is its class in lower case.
@@ -15,9 +16,11 @@ pub fn _check(py: Python<'_>, kind: &str, value: &Bound<'_, PyAny>) -> PyResult<
     match kind {
         "tool" => ToolFields::of(value)?.tool(py).map(|_| ()),
         "plate" => PlateFields::of("plate", value)?.plate(py).map(|_| ()),
+        "foot" => plate::check_foot(py, value),
         "ik_settings" => robot::settings(value).map(|_| ()),
         "paper_spiral" => curves::spiral_of(value).map(|_| ()),
         "page" => page::check(value),
+        "rings" => curves::rings_of("rings", value).map(|_| ()),
         "wash_curve" => curves::curve_of(value).map(|_| ()),
         _ => Err(errors::internal(py, "no such kind of value")),
     }

@@ -4,18 +4,23 @@ use crate::argument;
 use crate::arrays;
 use crate::errors;
 use crate::made;
+use crate::plate::PlateFields;
 use nalgebra::Vector3;
 use numpy::PyArrayDyn;
 use platewash::paper::PaperSpiral;
 use platewash::paper::cubic::{self, Interpolation};
 use platewash::workcell::arc::{self, Arc};
-use platewash::workcell::wash_path::WashCurve;
+use platewash::workcell::surface::Surface;
+use platewash::workcell::wash_path::{MOST_RINGS, Rings, WashCurve};
 use pyo3::prelude::*;
+use std::f64::consts::TAU;
 
 /// Most points of a curve.
 const MOST_POINTS: u64 = 10_000_000;
 /// Most turns of a spiral.
 const MOST_TURNS: f64 = 1000.0;
+/// How far the turns of a curve may be from those of its rings.
+const SAME_TURNS: f64 = 1e-9;
 /// Largest length that is believed \[m\].
 const LARGEST_M: f64 = 100.0;
 
@@ -73,17 +78,77 @@ pub fn curve_of(value: &Bound<'_, PyAny>) -> PyResult<WashCurve> {
             within(name, value, range)
         })
     };
-    Ok(WashCurve {
+    let whole = ("curve", "a WashCurve");
+    let rings = argument::field(whole, value, ("curve", "rings"), |name, rings| {
+        (!rings.is_none()).then(|| rings_of(name, rings)).transpose()
+    });
+    let curve = WashCurve {
         radius_m: number("radius_m", [1e-6, LARGEST_M])?,
         turns: number("turns", [0.25, MOST_TURNS])?,
         start_angle_rad: number("start_angle_rad", [-1e3, 1e3])?,
-        closing_ring: argument::field(
-            ("curve", "a WashCurve"),
-            value,
-            ("curve", "closing_ring"),
-            argument::flag,
-        )?,
+        closing_ring: argument::field(whole, value, ("curve", "closing_ring"), argument::flag)?,
+        rings: rings?,
+    };
+    match curve.rings {
+        Some(rings) if (rings.turns() - curve.turns).abs() > SAME_TURNS => {
+            let problem = format!("must be those of its rings, {}; found {}", rings.turns(), curve.turns);
+            Err(errors::input(value.py(), "curve.turns", &problem))
+        }
+        Some(rings) if rings.inner_m >= curve.radius_m => {
+            let problem = format!(
+                "must be below curve.radius_m = {}; found {}",
+                curve.radius_m, rings.inner_m
+            );
+            Err(errors::input(value.py(), "rings.inner_m", &problem))
+        }
+        _ => Ok(curve),
+    }
+}
+
+/// The rings of Python's `Rings`, called `name`, field by field.
+///
+/// # Errors
+/// `InputTypeError`, `InputError`.
+pub fn rings_of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Rings> {
+    let whole = (name, "a Rings");
+    let number =
+        |field, range| argument::field(whole, value, ("rings", field), |name, value| within(name, value, range));
+    Ok(Rings {
+        count: argument::field(whole, value, ("rings", "count"), |name, count| {
+            argument::count(name, count, [2, MOST_RINGS as u64])
+        })?,
+        inner_m: number("inner_m", [0.0, LARGEST_M])?,
+        lead_rad: number("lead_rad", [0.0, TAU])?,
+        blend_rad: number("blend_rad", [1e-3, TAU])?,
     })
+}
+
+/// Turns that rings take before the closing one; see `Rings`.
+#[pyfunction]
+pub fn _rings_turns(rings: &Bound<'_, PyAny>) -> PyResult<f64> {
+    Ok(rings_of("rings", rings)?.turns())
+}
+
+/// A wash curve on the face of a plate, in its frame: parameters (N,), points (N, 3), normals (N, 3); see `WashCurve`.
+#[pyfunction]
+pub fn _wash_curve_on<'py>(
+    py: Python<'py>,
+    curve: &Bound<'py, PyAny>,
+    plate: &Bound<'py, PyAny>,
+    chord_error_m: &Bound<'py, PyAny>,
+) -> PyResult<(Array<'py>, Array<'py>, Array<'py>)> {
+    let curve = curve_of(curve)?;
+    let surface = PlateFields::of("plate", plate)?.plate(py)?.surface;
+    let range = [1e-8 * curve.radius_m, curve.radius_m];
+    let theta = curve.parameters(&surface, within("chord_error_m", chord_error_m, range)?);
+    let all: Vec<_> = theta.iter().map(|&t| curve.on(&surface, t)).collect();
+    let points: Vec<_> = all.iter().map(|at| at.position).collect();
+    let normals: Vec<_> = all.iter().map(|at| at.normal).collect();
+    Ok((
+        made::array(py, &[theta.len()], &theta)?,
+        vectors(py, &points)?,
+        vectors(py, &normals)?,
+    ))
 }
 
 /// Waypoints of the paper's spiral, shape (N, 2); see `PaperSpiral`.
@@ -109,7 +174,10 @@ pub fn _wash_curve<'py>(
 ) -> PyResult<(Array<'py>, Array<'py>)> {
     let curve = curve_of(curve)?;
     let range = [1e-8 * curve.radius_m, curve.radius_m];
-    let theta = curve.parameters(within("chord_error_m", chord_error_m, range)?);
+    let disc = Surface::Disc {
+        radius_m: curve.radius_m,
+    };
+    let theta = curve.parameters(&disc, within("chord_error_m", chord_error_m, range)?);
     let all: Vec<f64> = theta
         .iter()
         .flat_map(|&t| <[f64; 2]>::from(curve.at(t).position))

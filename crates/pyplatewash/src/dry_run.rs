@@ -9,12 +9,6 @@ use platewash::{CancelToken, Failure, Plan, RobotModel};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// Height of a dry run that is asked for without one \[m\]; the command's.
-pub const HEIGHT_M: f64 = 0.05;
-
-/// The same of the tip's largest speed \[m/s\].
-pub const SPEED_M_S: f64 = 0.1;
-
 /// What is asked of a dry run.
 #[derive(Debug, Clone, Copy)]
 pub struct Asked {
@@ -35,7 +29,8 @@ pub fn planned(py: Python<'_>, parent: &Plan, arm: &Arc<RobotModel>, asked: Aske
         let (parent, _) = certify_with(parent, &arm, cancel)
             .map_err(Refused::Parent)?
             .into_parts();
-        let planned = plan_in_order(&job, &parent.order, &Watch::silent(cancel)).map_err(Refused::Plan)?;
+        let planned =
+            plan_in_order(&job, &parent.order, &parent.wash_paths, &Watch::silent(cancel)).map_err(Refused::Plan)?;
         check_paths(&parent, &planned.plan).map_err(Refused::DryRun)?;
         Ok(planned.plan)
     };

@@ -37,17 +37,14 @@ impl Given<'_, '_> {
     /// `InputTypeError`, `InputError`, naming the argument.
     pub fn settings(&self) -> PyResult<ExportSettings> {
         let default = ExportSettings::default();
-        let number = |name, value: Option<&Bound<'_, PyAny>>, otherwise| {
-            value.map_or(Ok(otherwise), |value| argument::number(name, value))
-        };
         let accepted = self
             .accept
             .map(|value| argument::each("accept", value, "a list of names of requirements", accepted));
         let stands = self.stands_rad.map(|value| arrays::joint_vector("stands_rad", value));
         Ok(ExportSettings {
-            tolerance_m: number("tolerance_m", self.tolerance_m, default.tolerance_m)?,
-            speed_share: number("speed_share", self.speed_share, default.speed_share)?,
-            corner_m: number("corner_m", self.corner_m, default.corner_m)?,
+            tolerance_m: argument::number_or("tolerance_m", self.tolerance_m, default.tolerance_m)?,
+            speed_share: argument::number_or("speed_share", self.speed_share, default.speed_share)?,
+            corner_m: argument::number_or("corner_m", self.corner_m, default.corner_m)?,
             accepted: accepted.transpose()?.unwrap_or_default(),
             stands_rad: stands.transpose()?,
             tip: self.tip.map(tip).transpose()?,

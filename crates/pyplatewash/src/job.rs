@@ -3,11 +3,11 @@
 use crate::argument;
 use crate::by_python::table;
 use crate::errors;
-use crate::layout::{LayoutObject, plates};
+use crate::layout::LayoutObject;
 use crate::made;
+use crate::plate::{PlateFields, plates};
 use crate::robot::Robot;
 use crate::simulation::SettingsObject;
-use crate::tool::PlateFields;
 use crate::value::{to_python, to_record};
 use numpy::PyArrayDyn;
 use platewash::paper::PaperSettings;

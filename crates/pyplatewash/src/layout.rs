@@ -4,15 +4,13 @@ use crate::argument;
 use crate::by_python::table;
 use crate::errors;
 use crate::made;
+use crate::plate::plates;
 use crate::value::to_record;
 use numpy::PyArrayDyn;
 use platewash::workcell::words::counted;
 use platewash::{Layout, Plate};
 use pyo3::prelude::*;
-use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyDict, PyList, PyTuple, PyType};
-
-static PLATE: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+use pyo3::types::{PyList, PyTuple, PyType};
 
 /// Plates, and what is to be said about them. Base frame, metres.
 #[pyclass(frozen, eq, module = "pyplatewash", name = "Layout")]
@@ -42,26 +40,6 @@ impl LayoutObject {
     pub fn inner(&self) -> &Layout {
         &self.inner
     }
-}
-
-/// Plates as Python's.
-///
-/// # Errors
-/// Out of memory.
-pub fn plates<'py>(py: Python<'py>, all: &[Plate]) -> PyResult<Bound<'py, PyList>> {
-    let class = PLATE.import(py, "pyplatewash._values", "Plate")?;
-    let list = PyList::empty(py);
-    for plate in all {
-        let fields = PyDict::new(py);
-        let centre = plate.centre();
-        fields.set_item("x_m", centre.x)?;
-        fields.set_item("y_m", centre.y)?;
-        fields.set_item("z_m", centre.z)?;
-        fields.set_item("radius_m", plate.rim_m())?;
-        fields.set_item("thickness_m", plate.thickness_m)?;
-        list.append(class.call((), Some(&fields))?)?;
-    }
-    Ok(list)
 }
 
 #[pymethods]

@@ -26,6 +26,7 @@ mod page;
 mod paper;
 mod plan;
 mod planned;
+mod plate;
 mod pose;
 mod reproduce;
 mod robot;
@@ -56,7 +57,7 @@ mod _core {
     #[pymodule_export]
     use crate::coverage::{measure, picture};
     #[pymodule_export]
-    use crate::curves::{_paper_spiral, _wash_curve, cubic_samples, transit_waypoints};
+    use crate::curves::{_paper_spiral, _rings_turns, _wash_curve, _wash_curve_on, cubic_samples, transit_waypoints};
     #[pymodule_export]
     use crate::dynamics::DynamicsObject;
     #[pymodule_export]
@@ -71,6 +72,8 @@ mod _core {
     use crate::plan::PlanObject;
     #[pymodule_export]
     use crate::planned::{PlannedObject, plan};
+    #[pymodule_export]
+    use crate::plate::_plate_profile;
     #[pymodule_export]
     use crate::reproduce::reproduce;
     #[pymodule_export]

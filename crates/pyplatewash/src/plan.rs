@@ -5,13 +5,14 @@ use crate::by_python::{ask, table};
 use crate::dry_run;
 use crate::errors::{self, FileOf, SystemWord};
 use crate::export;
-use crate::layout::plates;
+use crate::plate::plates;
 use crate::robot::Robot;
 use crate::trajectory::TrajectoryObject;
 use crate::value::{records, to_python, to_record};
 use platewash::export::ros2::{self, Ros2};
 use platewash::kinematics::urdf::file;
 use platewash::workcell::csv::table as csv_table;
+use platewash::workcell::dry_run::{HEIGHT_M, SPEED_M_S};
 use platewash::workcell::plan::PlanFileError;
 use platewash::workcell::trajectory::KnotError;
 use platewash::workcell::workcell::ArmId;
@@ -454,12 +455,9 @@ impl PlanObject {
         speed_m_s: Option<&Bound<'_, PyAny>>,
         robot: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let number = |name, value: Option<&Bound<'_, PyAny>>, otherwise| {
-            value.map_or(Ok(otherwise), |value| argument::number(name, value))
-        };
         let asked = dry_run::Asked {
-            height_m: number("height_m", height_m, dry_run::HEIGHT_M)?,
-            speed_m_s: number("speed_m_s", speed_m_s, dry_run::SPEED_M_S)?,
+            height_m: argument::number_or("height_m", height_m, HEIGHT_M)?,
+            speed_m_s: argument::number_or("speed_m_s", speed_m_s, SPEED_M_S)?,
         };
         let robot = self.robot_for(py, Robot::given(robot)?)?;
         let plan = dry_run::planned(py, &self.inner, robot.get().model(), asked)?;

@@ -37,7 +37,7 @@ impl PlannedObject {
         PlanObject::new(self.inner.plan.clone(), Some(self.job.get().robot(py)))
     }
 
-    /// How each plate is washed, in the order of washing: `plate`, `tilt`, `wash_s`.
+    /// How each plate is washed, in the order of washing: `plate`, `tilt`, `cone_rad`, `curve`, `wash_s`, `pace`.
     #[getter]
     fn visits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         records(py, &self.inner.visits)

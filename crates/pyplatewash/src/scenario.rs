@@ -61,6 +61,10 @@ impl ScenarioObject {
             .and_then(Value::as_str)
             .unwrap_or("unnamed")
             .to_owned();
+        let mut table = table;
+        if let Some(Value::Object(tool)) = table.get_mut("tool") {
+            in_kilopascals(tool);
+        }
         let table = without_nulls(Value::Object(table));
         let text = toml::to_string(&table).map_err(|e| errors::input(py, "scenario", &e.to_string()))?;
         let inner = Scenario::parse(&text, &name).map_err(|mut e| {
@@ -81,6 +85,19 @@ impl ScenarioObject {
         warn(py, &inner.notes())?;
         Ok(Self { inner })
     }
+}
+
+/// The stiffness of Python's `Tool`, in pascals, as the key of a scenario states it.
+fn in_kilopascals(tool: &mut Map<String, Value>) {
+    let Some(mut stiffness) = tool.remove("sponge_stiffness_pa") else {
+        return;
+    };
+    for end in stiffness.as_array_mut().into_iter().flatten() {
+        if let Some(pa) = end.as_f64() {
+            *end = (pa / 1e3).into();
+        }
+    }
+    tool.insert("sponge_stiffness_kpa".to_owned(), stiffness);
 }
 
 /// Leaves out what is `None`.

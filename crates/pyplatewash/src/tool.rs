@@ -1,14 +1,17 @@
-//! Plain data of Python's side, read field by field: the tool and plates.
+//! Python's `Tool`, read field by field.
 
 use crate::argument::{self, TOOL};
 use crate::arrays;
 use crate::errors;
+use platewash::Tool;
 use platewash::workcell::tool::StraightTool;
-use platewash::{Plate, Tool};
 use pyo3::prelude::*;
 
 /// Largest length that is believed \[m\].
-const LARGEST_M: f64 = 100.0;
+pub const LARGEST_M: f64 = 100.0;
+
+/// Largest stiffness that is believed \[Pa\].
+const LARGEST_PA: f64 = 1e9;
 
 /// Largest mass that is believed \[kg\], and largest entry of an inertia \[kg·m²\].
 const LARGEST_KG: f64 = 1e4;
@@ -21,6 +24,7 @@ pub struct ToolFields {
     sponge_radius_m: f64,
     sponge_height_m: f64,
     sponge_compression_m: f64,
+    sponge_stiffness_pa: Option<[f64; 2]>,
     mass_kg: f64,
     com_m: Option<f64>,
     inertia_kg_m2: Option<[f64; 6]>,
@@ -36,6 +40,10 @@ impl ToolFields {
         let com_m = argument::field(("tool", TOOL), value, ("tool", "com_m"), |name, value| {
             (!value.is_none()).then(|| argument::number(name, value)).transpose()
         });
+        let sponge_stiffness_pa =
+            argument::field(("tool", TOOL), value, ("tool", "sponge_stiffness_pa"), |name, value| {
+                (!value.is_none()).then(|| arrays::fixed::<2>(name, value)).transpose()
+            });
         let inertia_kg_m2 = argument::field(("tool", TOOL), value, ("tool", "inertia_kg_m2"), |name, value| {
             (!value.is_none()).then(|| arrays::fixed::<6>(name, value)).transpose()
         });
@@ -45,6 +53,7 @@ impl ToolFields {
             sponge_radius_m: number("sponge_radius_m")?,
             sponge_height_m: number("sponge_height_m")?,
             sponge_compression_m: number("sponge_compression_m")?,
+            sponge_stiffness_pa: sponge_stiffness_pa?,
             mass_kg: number("mass_kg")?,
             com_m: com_m?,
             inertia_kg_m2: inertia_kg_m2?,
@@ -74,6 +83,7 @@ impl ToolFields {
             );
             return Err(errors::input(py, "tool.sponge_height_m", &problem));
         }
+        self.check_stiffness(py)?;
         self.check_masses(py)?;
         Ok(Tool::from(StraightTool {
             length_m: self.length_m,
@@ -81,10 +91,22 @@ impl ToolFields {
             sponge_radius_m: self.sponge_radius_m,
             sponge_height_m: self.sponge_height_m,
             sponge_compression_m: self.sponge_compression_m,
+            sponge_stiffness_pa: self.sponge_stiffness_pa,
             mass_kg: self.mass_kg,
             com_m: self.com_m,
             inertia_kg_m2: self.inertia_kg_m2,
         }))
+    }
+
+    fn check_stiffness(&self, py: Python<'_>) -> PyResult<()> {
+        match self.sponge_stiffness_pa {
+            Some([least, most]) if !(least > 0.0 && least <= most && most <= LARGEST_PA) => {
+                let problem =
+                    format!("must be (least, greatest), above 0 and up to {LARGEST_PA} Pa; found ({least}, {most})");
+                Err(errors::input(py, "tool.sponge_stiffness_pa", &problem))
+            }
+            _ => Ok(()),
+        }
     }
 
     fn check_masses(&self, py: Python<'_>) -> PyResult<()> {
@@ -103,66 +125,11 @@ impl ToolFields {
     }
 }
 
-/// Fields of Python's `Plate`.
-#[derive(Debug)]
-pub struct PlateFields {
-    x_m: f64,
-    y_m: f64,
-    z_m: f64,
-    radius_m: f64,
-    thickness_m: f64,
-}
-
-impl PlateFields {
-    /// The fields of the plate called `name`.
-    ///
-    /// # Errors
-    /// `InputTypeError` for what is no `Plate`, or a field of a wrong type.
-    pub fn of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let number = |field| argument::field((name, "a Plate"), value, ("plate", field), argument::number);
-        Ok(Self {
-            x_m: number("x_m")?,
-            y_m: number("y_m")?,
-            z_m: number("z_m")?,
-            radius_m: number("radius_m")?,
-            thickness_m: number("thickness_m")?,
-        })
-    }
-
-    /// The plate.
-    ///
-    /// # Errors
-    /// `InputError` for a number that makes no sense.
-    pub fn plate(&self, py: Python<'_>) -> PyResult<Plate> {
-        for (name, place_m) in [
-            ("plate.x_m", self.x_m),
-            ("plate.y_m", self.y_m),
-            ("plate.z_m", self.z_m),
-        ] {
-            if !(-LARGEST_M..=LARGEST_M).contains(&place_m) {
-                return Err(errors::input(
-                    py,
-                    name,
-                    &format!("must be within ±{LARGEST_M} m; found {place_m}"),
-                ));
-            }
-        }
-        for (name, length_m) in [
-            ("plate.radius_m", self.radius_m),
-            ("plate.thickness_m", self.thickness_m),
-        ] {
-            check_length(py, name, length_m)?;
-        }
-        Ok(Plate::level_disc(
-            [self.x_m, self.y_m, self.z_m],
-            self.radius_m,
-            self.thickness_m,
-        ))
-    }
-}
-
 /// Refuses what is no length from 0 to 100 m.
-fn check_length(py: Python<'_>, name: &str, length_m: f64) -> PyResult<()> {
+///
+/// # Errors
+/// `InputError`.
+pub fn check_length(py: Python<'_>, name: &str, length_m: f64) -> PyResult<()> {
     if (0.0..=LARGEST_M).contains(&length_m) {
         return Ok(());
     }

@@ -6,7 +6,7 @@
 
 mod scalar;
 
-pub use scalar::{ANY_COUNT, count, flag, number, seed, text, word};
+pub use scalar::{ANY_COUNT, count, flag, number, number_or, seed, text, word};
 
 use crate::errors;
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};

@@ -28,6 +28,14 @@ pub fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     value.extract().map_err(|e| refused(name, value, NEEDED, e))
 }
 
+/// A number, or another one where none is given.
+///
+/// # Errors
+/// As [`number`].
+pub fn number_or(name: &str, value: Option<&Bound<'_, PyAny>>, otherwise: f64) -> PyResult<f64> {
+    value.map_or(Ok(otherwise), |value| number(name, value))
+}
+
 /// Whether a value of NumPy's is an integer or a real number; true of anything else.
 fn real(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     let py = value.py();

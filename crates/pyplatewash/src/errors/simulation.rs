@@ -44,6 +44,16 @@ pub(super) fn simulation(py: Python<'_>, error: &SimulationError, message: &str)
         SimulationError::Setting { name, .. } => {
             vec![word(py, "setting"), ("key", any(py, format!("plant.{name}")))]
         }
+        SimulationError::Stiffness { .. } => vec![word(py, "setting"), ("key", any(py, "plant.contact_stiffness_pa"))],
+        SimulationError::StiffContact {
+            least_substeps,
+            least_rate_hz,
+            ..
+        } => vec![
+            word(py, "stiff_contact"),
+            ("least_substeps", any(py, *least_substeps)),
+            ("least_rate_hz", any(py, *least_rate_hz)),
+        ],
         SimulationError::TooLong { .. } => vec![word(py, "too_long")],
         SimulationError::Divergence { t_s, joint, .. } => {
             vec![word(py, "diverged"), ("t_s", any(py, *t_s)), ("joint", any(py, *joint))]

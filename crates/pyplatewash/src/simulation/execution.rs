@@ -11,6 +11,7 @@ use crate::robot::Robot;
 use crate::value::to_record;
 use crate::work::patiently;
 use numpy::{PyArray1, PyArrayDyn};
+use platewash::simulator::plant::Felt;
 use platewash::simulator::simulate::{Sample, table as csv_table};
 use platewash::simulator::simulate_with;
 use platewash::{Execution, JointVector, SimulationError, SimulationReport};
@@ -56,6 +57,11 @@ impl ExecutionObject {
 
     fn rows<'py>(&self, py: Python<'py>, of: impl Fn(&Sample) -> JointVector) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         made::joint_rows(py, &self.samples().iter().map(of).collect::<Vec<_>>())
+    }
+
+    fn felt<'py>(&self, py: Python<'py>, of: impl Fn(&Felt) -> f64) -> Option<Bound<'py, PyArray1<f64>>> {
+        let felt: Option<Vec<f64>> = self.samples().iter().map(|s| s.felt.as_ref().map(&of)).collect();
+        felt.map(|felt| made::line(py, felt))
     }
 }
 
@@ -119,6 +125,19 @@ impl ExecutionObject {
     #[getter]
     fn torque_n_m<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.rows(py, |s| s.torque)
+    }
+
+    /// Force on the sponge along the tool's axis at each sample, of all plates together, shape (N,) [N]; None where it is not simulated: without
+    /// foam (`contact_stiffness_pa`), and under `"paper"` and `"exact"`.
+    #[getter]
+    fn force_n<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        self.felt(py, |felt| felt.force_n)
+    }
+
+    /// Greatest compression of the sponge's foam at each sample, shape (N,) [m], 0 where nothing touches; None where force is not simulated.
+    #[getter]
+    fn compression_m<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        self.felt(py, |felt| felt.deepest_m)
     }
 
     /// Torque limits [N·m], None for a joint without; None under a law without a plant.

@@ -5,6 +5,7 @@ use crate::errors;
 use crate::plan::PlanObject;
 use crate::value::{from_mapping, to_python, to_record};
 use platewash::Scenario;
+use platewash::scenario::plant_keys;
 use platewash::workcell::simulation::{ControlLawName, SimulationSettings};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -16,7 +17,8 @@ use serde_json::{Map, Value, json};
 /// `law` is `"paper"`, `"exact"`, `"pd"`, `"pd_gravity"` or `"computed_torque"`. `control` and `plant` are dictionaries with keys, units
 /// and ranges of these sections of scenario files (docs/scenario.md); what is missing is default. Gains given outright
 /// (`joint_kp`, `joint_kd`) stand in place of those that follow from `frequency_rad_s` and `damping_ratio`. `payload_kg` is what the arm
-/// is rated for [kg]; without it, the built-in arm's figure counts for that arm.
+/// is rated for [kg]; without it, the built-in arm's figure counts for that arm. Plates push back where `plant` states it
+/// (`contact_stiffness_pa`, or `contact_force_n`): settings know no tool whose stiffness they could take.
 ///
 /// Raises ScenarioError with the key, what was expected and what was found.
 #[pyclass(frozen, eq, module = "pyplatewash", name = "SimulationSettings")]
@@ -74,7 +76,7 @@ impl SettingsObject {
         let inner = SimulationSettings {
             law,
             control: scenario.control.settings(),
-            plant: scenario.plant.settings(),
+            plant: scenario.plant.settings(None),
             payload_kg,
         };
         Ok(Self { inner })
@@ -149,7 +151,10 @@ impl SettingsObject {
         plant: Option<&Bound<'_, PyAny>>,
         payload_kg: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let (mut new_control, mut new_plant) = (table(py, &self.inner.control)?, table(py, &self.inner.plant)?);
+        let (mut new_control, mut new_plant) = (
+            table(py, &self.inner.control)?,
+            table(py, &plant_keys(&self.inner.plant))?,
+        );
         new_control.extend(given("control", control)?);
         new_plant.extend(given("plant", plant)?);
         let payload_kg = payload(payload_kg)?.or(self.inner.payload_kg);
@@ -172,7 +177,7 @@ impl SettingsObject {
     /// The plant; not used by the laws `"paper"` and `"exact"`.
     #[getter]
     fn plant<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        to_record(py, &self.inner.plant, None)
+        to_record(py, &plant_keys(&self.inner.plant), None)
     }
 
     /// What the arm is rated for [kg], where that is stated.
@@ -212,7 +217,7 @@ impl SettingsObject {
         let arguments = (
             settings.law.name(),
             to_python(py, &settings.control)?,
-            to_python(py, &settings.plant)?,
+            to_python(py, &plant_keys(&settings.plant))?,
             settings.payload_kg,
         );
         Ok((slf.get_type().getattr("_restore")?, arguments.into_pyobject(py)?))
