@@ -1,6 +1,6 @@
 //! What `[wash]` asks of the contact of sponge and plate, with its defaults, and keys of it that contradict each other.
 
-use crate::error::Problem;
+use crate::error::{Problem, conflict};
 use crate::job::Program;
 use crate::scenario::Scenario;
 use crate::tool::ASSUMED_STIFFNESS_KPA;
@@ -84,12 +84,12 @@ impl Scenario {
         if let Some(key) = wash.stated_contact_key().filter(|_| !wash.contact) {
             return conflict(
                 key,
-                "says how much contact there must be, which wash.contact = true asks for".into(),
+                "says how much contact there must be, which wash.contact = true asks for",
             );
         }
         if wash.contact && !certified {
             let detail = "contact is promised of a plan as a whole: it needs job.program = \"certified\"";
-            return conflict("wash.contact", detail.into());
+            return conflict("wash.contact", detail);
         }
         if let Some(planned) = wash.tilt_deg.filter(|planned| *planned > wash.tilt_max_deg) {
             let most = wash.tilt_max_deg;
@@ -159,7 +159,7 @@ impl Scenario {
         let wash = &self.wash;
         if wash.closing_ring == Some(false) {
             let detail = "rings end with one: leave it out, or state wash.pattern = \"spiral\"";
-            return conflict("wash.closing_ring", detail.into());
+            return conflict("wash.closing_ring", detail);
         }
         let most = (MOST_RINGS - 1) as f64;
         match wash.turns {
@@ -172,11 +172,6 @@ impl Scenario {
             _ => Ok(()),
         }
     }
-}
-
-fn conflict(keys: &str, detail: String) -> Result<(), Problem> {
-    let keys = keys.to_owned();
-    Err(Problem::Conflict { keys, detail })
 }
 
 #[cfg(test)]

@@ -89,6 +89,12 @@ impl Problem {
     }
 }
 
+/// Refuses keys that contradict each other.
+pub(crate) fn conflict(keys: impl Into<String>, detail: impl Into<String>) -> Result<(), Problem> {
+    let (keys, detail) = (keys.into(), detail.into());
+    Err(Problem::Conflict { keys, detail })
+}
+
 fn line_text(line: Option<usize>) -> String {
     line.map_or_else(String::new, |line| format!(", line {line}"))
 }

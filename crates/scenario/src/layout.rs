@@ -1,6 +1,6 @@
 //! The `[layout]` section: the plates and the rule by which they are placed.
 
-use crate::error::Problem;
+use crate::error::{Problem, conflict};
 use platewash_workcell::job::Overlap;
 use platewash_workcell::layout::Region;
 use serde::{Deserialize, Serialize};
@@ -121,10 +121,6 @@ impl LayoutSection {
 
     /// Refuses two shapes at once, knots that are no meridian, and a foot that is wider than its plate.
     pub(crate) fn check_shape(&self) -> Result<(), Problem> {
-        let conflict = |keys: &str, detail: String| {
-            let keys = keys.to_owned();
-            Err(Problem::Conflict { keys, detail })
-        };
         if let (Some(profile), Some(_)) = (self.plate_profile, &self.plate_knots) {
             return conflict(
                 "layout.plate_profile, layout.plate_knots",
@@ -138,7 +134,7 @@ impl LayoutSection {
             && self.shape_key() != "layout.plate_radius_m"
         {
             return conflict(
-                &format!("{}, layout.plate_radius_m", self.shape_key()),
+                format!("{}, layout.plate_radius_m", self.shape_key()),
                 format!(
                     "the profile has its own radius, {} m; found plate_radius_m = {radius_m}: leave one of them out",
                     self.surface().rim_m()
@@ -151,7 +147,7 @@ impl LayoutSection {
         let rim_m = self.surface().rim_m();
         match self.plate_foot_m {
             Some([radius_m, _]) if radius_m > rim_m => conflict(
-                &format!("layout.plate_foot_m, {}", self.shape_key()),
+                format!("layout.plate_foot_m, {}", self.shape_key()),
                 format!("the foot's radius must be at most that of the rim, {rim_m} m; found {radius_m}"),
             ),
             _ => Ok(()),

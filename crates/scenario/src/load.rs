@@ -1,6 +1,6 @@
 //! From a file or a shipped name to a checked [`Scenario`].
 
-use crate::error::{Problem, ScenarioError};
+use crate::error::{Problem, ScenarioError, conflict};
 use crate::fits::check;
 use crate::job::Program;
 use crate::keys::{KEYS, Key};
@@ -75,27 +75,23 @@ impl Scenario {
     }
 
     fn check_conflicts(&self) -> Result<(), Problem> {
-        let conflict = |keys: &str, detail: String| {
-            let keys = keys.to_owned();
-            Err(Problem::Conflict { keys, detail })
-        };
         let (layout, tool) = (&self.layout, &self.tool);
         let ranges = [layout.x_m, layout.y_m, layout.rho_m, layout.azimuth_deg];
         if layout.region.is_some() && ranges.iter().any(Option::is_some) {
             return conflict(
                 "layout.region",
-                "give either a named region or ranges (x_m, y_m, rho_m, azimuth_deg)".into(),
+                "give either a named region or ranges (x_m, y_m, rho_m, azimuth_deg)",
             );
         }
         if layout.azimuth_deg.is_some_and(|[from, to]| to - from > 360.0) {
-            return conflict("layout.azimuth_deg", "the range is more than a turn wide".into());
+            return conflict("layout.azimuth_deg", "the range is more than a turn wide");
         }
         let bounded =
             layout.region.is_some() || layout.rho_m.is_some() || (layout.x_m.is_some() && layout.y_m.is_some());
         if layout.positions_m.is_none() && !bounded {
             return conflict(
                 "layout",
-                "no region to sample from: give region, or x_m and y_m, or rho_m, or positions_m".into(),
+                "no region to sample from: give region, or x_m and y_m, or rho_m, or positions_m",
             );
         }
         layout.check_shape()?;
@@ -107,23 +103,18 @@ impl Scenario {
             );
         }
         if self.robot.urdf.is_none() && (self.robot.srdf.is_some() || !self.robot.package_path.is_empty()) {
-            return conflict(
-                "robot.urdf",
-                "robot.srdf and robot.package_path need a robot.urdf".into(),
-            );
+            return conflict("robot.urdf", "robot.srdf and robot.package_path need a robot.urdf");
         }
         if self.job.program == Program::Paper && self.job.order == OrderRule::Fastest {
             return conflict(
                 "job.order",
-                "\"fastest\" is for job.program = \"certified\"; the paper's program knows \"nearest\" and \"given\""
-                    .into(),
+                "\"fastest\" is for job.program = \"certified\"; the paper's program knows \"nearest\" and \"given\"",
             );
         }
         if self.job.program == Program::Paper && !layout.surface().is_flat() {
             return conflict(
                 layout.shape_key(),
-                "the paper's program washes flat plates alone: give plate_radius_m, or job.program = \"certified\""
-                    .into(),
+                "the paper's program washes flat plates alone: give plate_radius_m, or job.program = \"certified\"",
             );
         }
         self.check_control()?;
@@ -140,12 +131,8 @@ impl Scenario {
     /// Gains come in pairs, and the paper's program needs a law without a plant.
     fn check_control(&self) -> Result<(), Problem> {
         let control = &self.control;
-        let conflict = |keys: &str, detail: String| {
-            let keys = keys.to_owned();
-            Err(Problem::Conflict { keys, detail })
-        };
         if control.joint_kp.is_some() != control.joint_kd.is_some() {
-            return conflict("control.joint_kp", "give both joint_kp and joint_kd, or neither".into());
+            return conflict("control.joint_kp", "give both joint_kp and joint_kd, or neither");
         }
         if self.job.program == Program::Paper && !self.law().is_kinematic() {
             let detail = format!(
@@ -160,18 +147,14 @@ impl Scenario {
     /// Plates push back by foam or with a constant force, and foam has a stiffness.
     fn check_foam(&self) -> Result<(), Problem> {
         let (plant, range) = (&self.plant, self.tool.sponge_stiffness_kpa);
-        let conflict = |keys: &str, detail: String| {
-            let keys = keys.to_owned();
-            Err(Problem::Conflict { keys, detail })
-        };
         let foam = plant.contact_stiffness_pa.or(plant.contact_damping_pa_s);
         if foam.is_some() && plant.contact_force_n.is_some_and(|force| force > 0.0) {
             let detail = "a constant force stands in place of the foam: give it, or contact_stiffness_pa and contact_damping_pa_s";
-            return conflict("plant.contact_force_n", detail.into());
+            return conflict("plant.contact_force_n", detail);
         }
         if plant.contact_stiffness_pa.is_none() && plant.contact_damping_pa_s.is_some() && range.is_none() {
             let detail = "damps foam of a stiffness that nothing states: give plant.contact_stiffness_pa or tool.sponge_stiffness_kpa";
-            return conflict("plant.contact_damping_pa_s", detail.into());
+            return conflict("plant.contact_damping_pa_s", detail);
         }
         if let (Some(found), Some([least, most])) = (plant.contact_stiffness_pa, range)
             && !(1e-3 * found >= least * (1.0 - ROUNDING) && 1e-3 * found <= most * (1.0 + ROUNDING))

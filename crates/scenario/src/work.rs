@@ -1,6 +1,6 @@
 //! How much work a scenario asks for, known before any of it is done.
 
-use crate::error::{Problem, ScenarioError};
+use crate::error::{Problem, ScenarioError, conflict};
 use crate::job::Program;
 use crate::scenario::Scenario;
 use platewash_paper::WorkError;
@@ -45,7 +45,7 @@ impl Scenario {
 
     fn check_paper_work(&self) -> Result<(), Problem> {
         let plates = "layout.count or positions_m, ";
-        self.paper_settings().check_work(self.plates()).map_err(|error| {
+        self.paper_settings().check_work(self.plates()).or_else(|error| {
             let plates = if matches!(error, WorkError::Waypoints { .. }) {
                 ""
             } else {
@@ -65,8 +65,8 @@ impl Scenario {
              plates or contact points",
             counted(plates, "plate")
         );
-        let keys = "layout.count or positions_m, wash.turns, wash.path_radius_m".to_owned();
-        Err(conflict(keys, detail))
+        let keys = "layout.count or positions_m, wash.turns, wash.path_radius_m";
+        conflict(keys, detail)
     }
 
     /// Refuses more waypoints of the paper's program than are planned; a certified job has none.
@@ -75,12 +75,8 @@ impl Scenario {
             return Ok(());
         }
         let checked = self.paper_settings().check_waypoints(self.plates());
-        checked.map_err(|error| conflict(WAYPOINT_KEYS.to_owned(), error.to_string()))
+        checked.or_else(|error| conflict(WAYPOINT_KEYS, error.to_string()))
     }
-}
-
-fn conflict(keys: String, detail: String) -> Problem {
-    Problem::Conflict { keys, detail }
 }
 
 #[cfg(test)]
