@@ -24,7 +24,7 @@ fn judged(scenario: &Scenario) -> (Planned, Certificate) {
 /// A layout of its own per seed, each proved with the figures that the scenarios promise.
 #[test]
 fn the_shipped_scenarios_are_proved() {
-    for name in ["kitchen", "kitchen-spiral", "kitchen-roomy", "kitchen-rim"] {
+    for name in ["kitchen", "kitchen-spiral", "kitchen-roomy", "kitchen-rim", "sink"] {
         let rows = sweep(&Scenario::load(name).unwrap(), 1..=6).unwrap();
         for row in rows {
             assert_eq!(
@@ -241,13 +241,16 @@ fn what_makes_no_sense_is_refused_by_name() {
         "robot.home_deg: joint 2"
     ));
     assert!(!refused(
-        |s| s.robot.start_deg = [180.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        |s| s.robot.start_deg = Some([180.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
         "robot.start_deg: joint 1"
     ));
     assert!(!refused(|s| s.wash.tilt_max_deg = f64::NAN, "tilt_max_deg"));
     assert!(!refused(|s| s.wash.speed_m_s = 0.0, "speed_m_s"));
     // Home with the tool in the floor.
-    assert!(refused(|s| s.robot.start_deg = [0.0, 90.0, 0.0, 0.0, 0.0, 0.0], "home"));
+    assert!(refused(
+        |s| s.robot.start_deg = Some([0.0, 90.0, 0.0, 0.0, 0.0, 0.0]),
+        "home"
+    ));
     // More than the arm keeps from its own tool at home, which is looked at first.
     assert!(refused(|s| s.wash.clearance_m = 0.2, "201.00 mm must be kept"));
 }

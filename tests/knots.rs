@@ -29,7 +29,9 @@ fn file() -> PathBuf {
 
 fn hashes() -> Hashes {
     let of = |name: &str| {
-        let seeds: Vec<_> = SEEDS.collect();
+        // Where plates are listed, every seed has the same layout.
+        let seeds = SEEDS.filter(|seed| *seed == 1 || !Scenario::load(name).unwrap().lists_plates());
+        let seeds: Vec<_> = seeds.collect();
         let of_seed = |seed| motion(name, seed).map_or_else(|| UNWASHABLE.to_owned(), |knots| hash(&knots));
         seeds.into_par_iter().map(of_seed).collect()
     };
@@ -76,6 +78,10 @@ fn write() {
 fn the_shipped_scenarios_move_as_committed() {
     let committed: Hashes = serde_json::from_str(&std::fs::read_to_string(file()).unwrap()).unwrap();
     let found = hashes();
-    assert!(found.values().all(|motions| motions.len() == 50) && found.len() == SHIPPED.len());
+    let whole = |(name, motions): (&String, &Vec<String>)| {
+        let lists = Scenario::load(name).unwrap().lists_plates();
+        motions.len() == if lists { 1 } else { 50 }
+    };
+    assert!(found.iter().all(whole) && found.len() == SHIPPED.len());
     assert_eq!(committed, found);
 }

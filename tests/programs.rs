@@ -116,7 +116,11 @@ fn all_hold(name: &str, seeds: std::ops::RangeInclusive<u64>) {
 
 #[test]
 fn programs_of_the_shipped_scenarios_hold() {
-    scenarios().for_each(|name| all_hold(name, SEEDS));
+    for name in scenarios() {
+        // Where plates are listed, every seed has the same layout.
+        let lists = Scenario::load(name).unwrap().lists_plates();
+        all_hold(name, if lists { 1..=1 } else { SEEDS });
+    }
 }
 
 #[test]

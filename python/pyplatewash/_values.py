@@ -62,7 +62,7 @@ class Foot:
 
 @dataclass(frozen=True, kw_only=True)
 class Plate:
-    """A level plate: a disc, or the surface of revolution of a profile, ``thickness_m`` thick. World frame.
+    """A plate: a disc, or the surface of revolution of a profile, ``thickness_m`` thick. World frame; it lies level unless it is turned.
 
     A profile goes through knots, each a radius [m] and a slope [rad], from the pole, (0, 0), outwards; the sine of the slope is linear in
     the radius between. Its name will do for one that comes along: ``"coupe275"``, ``"rim270"``, ``"deep230"``, ``"dessert190"``.
@@ -88,6 +88,8 @@ class Plate:
     profile: tuple[tuple[float, float], ...] | None = None
     #: The ring that it stands on, where it has one.
     foot: Foot | None = None
+    #: How it is turned, as a unit quaternion (w, x, y, z): level, face up, as it is.
+    quaternion_wxyz: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
     if TYPE_CHECKING:
 
@@ -101,10 +103,12 @@ class Plate:
             thickness_m: float = 0.02,
             profile: str | npt.ArrayLike | None = None,
             foot: Foot | None = None,
+            quaternion_wxyz: npt.ArrayLike = (1.0, 0.0, 0.0, 0.0),
         ) -> None: ...
 
     def __post_init__(self) -> None:
-        profile, radius_m = _core._plate_profile(self)
+        profile, radius_m, quaternion_wxyz = _core._plate_made(self)
+        object.__setattr__(self, "quaternion_wxyz", quaternion_wxyz)
         object.__setattr__(self, "profile", profile)
         object.__setattr__(self, "radius_m", radius_m)
         _core._check("plate", self)

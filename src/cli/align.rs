@@ -64,6 +64,8 @@ struct Answer {
     fits: bool,
     tolerance_m: f64,
     mount: FramePose,
+    /// The mount as a scenario's keys in `[robot]` state it.
+    robot: MountKeys,
     /// Angle between the world's z and the base's.
     tilt_rad: f64,
     /// Whether that is so small that plates may be taken to lie level in the base frame.
@@ -77,6 +79,13 @@ struct Answer {
     stretch: f64,
     notes: Vec<String>,
     points: Vec<Carried>,
+}
+
+/// A mount as a scenario states it, to micrometres and 1e-7°.
+#[derive(Debug, Serialize)]
+struct MountKeys {
+    mount_m: [f64; 3],
+    mount_rpy_deg: [f64; 3],
 }
 
 /// What is left of a touched point.
@@ -202,6 +211,7 @@ impl Answer {
         Self {
             fits,
             tolerance_m,
+            robot: MountKeys::of(&FramePose::from(&alignment.mount)),
             mount: FramePose::from(&alignment.mount),
             tilt_rad: alignment.tilt_rad(),
             level: alignment.tilt_rad() <= TILTED_RAD,
@@ -237,6 +247,12 @@ impl Answer {
         let _ = writeln!(text, "  position, m        {}", row(self.mount.position_m, 6));
         let _ = writeln!(text, "  roll pitch yaw, °  {}", row(self.mount.rpy_deg, 5));
         let _ = writeln!(text, "  quaternion wxyz    {w}, {x}, {y}, {z}");
+        let MountKeys { mount_m, mount_rpy_deg } = &self.robot;
+        let _ = writeln!(
+            text,
+            "  in a scenario      [robot]\n                     mount_m = {mount_m:?}"
+        );
+        let _ = writeln!(text, "                     mount_rpy_deg = {mount_rpy_deg:?}");
         let _ = writeln!(
             text,
             "  tilt of the table against the base, °  {}\n",
@@ -271,6 +287,16 @@ impl Answer {
             let _ = writeln!(text, "note: {note}");
         }
         text
+    }
+}
+
+impl MountKeys {
+    fn of(mount: &FramePose) -> Self {
+        let rounded = |numbers: [f64; 3], unit: f64| numbers.map(|v| (v * unit).round() / unit + 0.0);
+        Self {
+            mount_m: rounded(mount.position_m, 1e6),
+            mount_rpy_deg: rounded(mount.rpy_deg, 1e7),
+        }
     }
 }
 
@@ -323,8 +349,8 @@ fn notes(
     let at = alignment.mount.translation.vector;
     let stands_elsewhere = at.norm() > NOTHING || alignment.mount.rotation.angle() > NOTHING;
     if stands_elsewhere {
-        let words = "scenarios of this version know only a level arm at the origin of the world: there state plates by their places in the \
-                     base frame (--point, --points)";
+        let words = "a scenario with the keys above states plates by their places in the drawing; one without them by those in the base frame \
+                     (--point, --points)";
         notes.push(words.to_owned());
     }
     notes.extend(out_of_level(alignment.tilt_rad()));

@@ -73,14 +73,15 @@ impl From<&Pose> for FramePose {
     }
 }
 
-/// Poses of all frames, limit margins, manipulability and clearances. With `--scenario`, its tool and plates count too.
+/// Poses of all frames, limit margins, manipulability and clearances. With `--scenario`, its tool, plates and obstacles count too.
 pub fn run(options: &Options, arguments: &FkArguments) -> Result<ExitCode, Failure> {
     let configurations = arguments.joints.configurations(arguments.file.as_ref())?;
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
     let clearance = if options.scenario.is_some() {
         let layout = scenario.layout(&robot).map_err(platewash::Failure::from)?;
-        robot::clearance(&robot, scenario.tool.tool(), &layout.plates)
+        let workcell = scenario.workcell(&robot, layout.plates.len())?;
+        ClearanceModel::new(&robot, &workcell, &layout.plates)
     } else {
         robot::clearance(&robot, robot::bare(), &[])
     };

@@ -180,7 +180,7 @@ fn text(answer: &Answer, arm: &RobotModel) -> String {
 fn frame(arm: &RobotModel, scenario: &Scenario, name: &str) -> anyhow::Result<Frame> {
     match ToolFrame::ALL.into_iter().find(|f| f.name() == name) {
         Some(known) => Ok(arm.tool_frame(known)?),
-        None if name == "tip" => Ok(scenario.tool.tool().tip_frame(arm)),
+        None if name == "tip" => Ok(scenario.tool_on(arm)?.tip_frame(arm)),
         None => Ok(arm.frame(name)?),
     }
 }

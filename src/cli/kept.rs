@@ -175,7 +175,7 @@ impl ScenarioFile {
     ) -> Result<(Vec<File<'static>>, String), Failure> {
         let (plan, arm) = (&washing.planned.plan, &washing.arm);
         let certificate = prove_with(plan, arm, &options.cancel).map_err(platewash::Failure::from)?;
-        let region = scenario.layout.task_region();
+        let region = scenario.task_region();
         let beside = Beside {
             certificate: Some(&certificate),
             region: Some(&region),

@@ -71,7 +71,7 @@ impl LiveArguments {
             serve: &self.serve,
             listener,
             bundle,
-            region: scenario.layout.task_region(),
+            region: scenario.task_region(),
         }))
     }
 }

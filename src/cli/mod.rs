@@ -40,6 +40,7 @@ mod robot;
 mod run;
 mod serve;
 mod simulate;
+mod suggest;
 mod sweep;
 mod text;
 mod time_step;
@@ -147,7 +148,11 @@ enum Verb {
     /// Inverse kinematics of one pose.
     Ik(ik::IkArguments),
     /// Show the arm: joints, limits, frames and the pairs checked for clearance.
-    Robot,
+    ///
+    /// With --suggest, find what suits it with the scenario's tool and plates: a home with clearance, and where such plates can be washed, in
+    /// numbers and as a picture (region.svg, region.png); and the pairs of links that need no check, as an SRDF that says why
+    /// (touching.srdf).
+    Robot(robot::RobotArguments),
     /// Plan and prove many layouts of a scenario, one a seed.
     Sweep(sweep::SweepArguments),
     /// Re-measure what the paper's program really does.
@@ -226,7 +231,8 @@ impl Verb {
             | Self::Figures(_)
             | Self::Sweep(_)
             | Self::Reproduce(_) => true,
-            Self::Layout | Self::Validate | Self::Align(_) | Self::Fk(_) | Self::Ik(_) | Self::Robot => false,
+            Self::Robot(arguments) => arguments.suggest,
+            Self::Layout | Self::Validate | Self::Align(_) | Self::Fk(_) | Self::Ik(_) => false,
         }
     }
 }
@@ -248,7 +254,8 @@ fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode, Failure> {
         Verb::Figures(arguments) => figures::run(options, &arguments),
         Verb::Fk(arguments) => fk::run(options, &arguments),
         Verb::Ik(arguments) => ik::run(options, &arguments),
-        Verb::Robot => robot::run(options),
+        Verb::Robot(arguments) if arguments.suggest => suggest::run(options),
+        Verb::Robot(_) => robot::run(options),
         Verb::Sweep(arguments) => sweep::run(options, &arguments),
         Verb::Reproduce(arguments) => reproduce::run(options, &arguments),
     }

@@ -35,7 +35,7 @@ impl MotionArguments {
         motion: &'a Trajectory,
         segments: &'a [PlanSegment],
     ) -> Result<MotionTable<'a>, Failure> {
-        let tip = scenario.tool.tool().tip_frame(arm);
+        let tip = scenario.tool_on(arm)?.tip_frame(arm);
         let dt_s = self.time_step.or(scenario.control.dt_s, motion.duration_s())?;
         Ok(csv::table(motion, segments, arm, &tip, dt_s)?)
     }

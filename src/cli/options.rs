@@ -21,7 +21,7 @@ const LOOK: Duration = Duration::from_millis(50);
 /// Options that every verb takes.
 #[derive(Debug, Clone, Args)]
 pub struct Options {
-    /// Scenario: a file, or a shipped name (kitchen, kitchen-spiral, kitchen-roomy, kitchen-rim, coupe, rim, deep, dessert, paper-appendix, paper-text) [default: kitchen]
+    /// Scenario: a file, or a shipped name (kitchen, kitchen-spiral, kitchen-roomy, kitchen-rim, coupe, rim, deep, dessert, angled-tool, bracket-tool, sink, pedestal, ceiling, wall, rack, sizes, paper-appendix, paper-text) [default: kitchen]
     #[arg(long, global = true, value_name = "FILE|NAME")]
     pub scenario: Option<String>,
     /// Seed in place of the scenario's, from 0 to 2^53 − 1

@@ -15,7 +15,7 @@ pub fn of_plan(plan: &Plan, arm: &RobotModel) -> TaskRegion {
     };
     scenario.seed = plan.job.seed;
     match scenario.layout(arm) {
-        Ok(layout) if layout.plates == plan.job.plates => scenario.layout.task_region(),
+        Ok(layout) if layout.plates == plan.job.plates => scenario.task_region(),
         _ => TaskRegion::default(),
     }
 }

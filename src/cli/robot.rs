@@ -4,12 +4,21 @@ use super::angles::Unit;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
+use clap::Args;
 use platewash::kinematics::AXES;
 use platewash::workcell::clearance::ClearanceError;
 use platewash::workcell::tool::StraightTool;
 use platewash::{ClearanceModel, Plate, RobotModel, Tool, Workcell};
 use serde::Serialize;
 use std::fmt::Write;
+
+/// Arguments of `robot`.
+#[derive(Debug, Args)]
+pub struct RobotArguments {
+    /// Find a home, where plates can be washed, and pairs of links that need no check
+    #[arg(long)]
+    pub suggest: bool,
+}
 
 #[derive(Serialize)]
 struct Answer {

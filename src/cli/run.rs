@@ -59,7 +59,7 @@ fn run_paper(options: &Options, scenario: &Scenario, arguments: &MotionArguments
     results::name(options, &files);
     let executed = followed.as_executed();
     let plan = followed.run.plan().map_err(platewash::Failure::from)?;
-    let region = scenario.layout.task_region();
+    let region = scenario.task_region();
     let beside = Beside {
         executed: Some(&executed),
         region: Some(&region),
@@ -109,7 +109,7 @@ fn run_washing(
     output::print_either(options.json, &report, || words.clone())?;
     results::name(options, &files);
     let executed = report.simulation.as_executed(execution.as_ref());
-    let region = scenario.layout.task_region();
+    let region = scenario.task_region();
     let beside = Beside {
         certificate: Some(&report.wash.certificate),
         executed: executed.as_ref(),

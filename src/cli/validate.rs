@@ -52,9 +52,9 @@ fn check(options: &Options, scenario: &Scenario) -> Result<ExitCode, Failure> {
     let arm = options.arm(scenario)?;
     let mut sampling = None;
     // What depends on where plates lie is known where they do.
-    let drawn_anew = scenario.layout.only_washable && scenario.layout.positions_m.is_none();
+    let drawn_anew = scenario.layout.only_washable && !scenario.lists_plates();
     let mut drawn = Vec::new();
-    if scenario.layout.positions_m.is_none() {
+    if !scenario.lists_plates() {
         let placed = scenario.layout(&arm);
         sampling = Some(Sampling::of(scenario, &placed)?);
         drawn = placed.map(|layout| layout.findings).unwrap_or_default();
@@ -82,7 +82,7 @@ fn check(options: &Options, scenario: &Scenario) -> Result<ExitCode, Failure> {
     } else {
         Outcome::NotVerified
     };
-    let overload = PayloadCheck::new(&scenario.tool.tool(), scenario.robot.payload_kg, &robot).overload();
+    let overload = PayloadCheck::new(&scenario.tool_on(&robot)?, scenario.robot.payload_kg, &robot).overload();
     let answer = Answer {
         valid: outcome == Outcome::Good,
         notes: scenario.notes().into_iter().chain(UnitNote::of_arm(&robot)).collect(),

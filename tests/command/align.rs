@@ -62,13 +62,21 @@ fn the_mount_is_found_and_points_are_carried_over() {
         "{}",
         ran.stdout
     );
+    for keys in ["mount_m = [0.1, 0.2, -0.03]\n", "mount_rpy_deg = [0.0, 0.0, 30.0]\n"] {
+        assert!(ran.stdout.contains(keys), "{keys}: {}", ran.stdout);
+    }
     assert!(
         ran.stdout
             .contains("0.000000, 0.000000, 0.000000; 0.000, 0.000, 0.000\n"),
         "{}",
         ran.stdout
     );
-    assert!(ran.stdout.contains("only a level arm at the origin"), "{}", ran.stdout);
+    assert!(
+        ran.stdout
+            .contains("a scenario with the keys above states plates by their places in the drawing"),
+        "{}",
+        ran.stdout
+    );
     let answer = platewash(dir, &["align", "touched.csv", "--points", "plates.csv", "--json"])
         .done()
         .json();

@@ -23,6 +23,7 @@ mod remedies;
 mod scenarios;
 mod served;
 mod simulate;
+mod suggest;
 mod units;
 mod verbs;
 mod verify;

@@ -28,7 +28,7 @@ SECTION: dict[str, float] = {}
 GOOD: dict[str, Any] = {
     "q": Q, "qd": Q, "qdd": Q, "torque": Q, "seed": 1, "seeds": [1], "frame": "tool0", "tool": pw.Tool(length_m=0.15), "axes": "local",
     "target": ROBOT.fk(Q), "targets": ROBOT.fk(Q)[None], "previous": Q, "settings": pw.IkSettings(), "robot": ROBOT, "plates": [pw.Plate(x_m=0.3, y_m=0.0)],
-    "working": [0], "required_m": 0.01, "gravity_m_s2": [0.0, 0.0, -9.81], "plan": PLAN, "job": WASH.job, "payload_kg": 3.0, "law": "pd", "control": SECTION, "plant": SECTION,
+    "working": [0], "required_m": 0.01, "quaternion_wxyz": [1.0, 0.0, 0.0, 0.0], "gravity_m_s2": [0.0, 0.0, -9.81], "plan": PLAN, "job": WASH.job, "payload_kg": 3.0, "law": "pd", "control": SECTION, "plant": SECTION,
     "frequencies_rad_s": [20.0], "damping_ratios": [1.0], "dt_s": 0.1, "executed": True, "t_s": [0.0, 1.0], "q_rad": np.zeros((2, 6)), "qd_rad_s": np.zeros((2, 6)),
     "polyline": [[0.0, 0.0], [0.1, 0.0]], "centre": [0.0, 0.0], "radius_m": 0.1, "sponge_radius_m": 0.02, "cell_m": 0.01, "cells": 9, "start": [0.3, 0.0, 0.1],
     "end": [0.0, 0.3, 0.1], "points": 5, "height_m": 0.25, "waypoints": np.eye(3), "samples": 20, "interpolation": "c2_spline", "scenario": "paper-appendix",

@@ -1,10 +1,11 @@
 //! The bodies that a job adds to the arm: whether distances to them can be worked out at all.
 
 use crate::error::ProveError;
+use nalgebra::Point3;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use platewash_workcell::job::JobTerms;
-use platewash_workcell::workcell::ObstacleShape;
+use platewash_workcell::workcell::{Obstacle, ObstacleShape};
 
 /// Bodies of the tool and obstacles, together, that a job may have at most.
 const MOST: usize = 1000;
@@ -27,9 +28,13 @@ pub(crate) fn check(job: &JobTerms) -> Result<(), ProveError> {
     }
     let tool = world.tool.bodies.iter().map(|b| (&b.name, Some(&b.shape), &b.pose));
     let obstacles = world.obstacles.iter().map(|o| match &o.shape {
-        ObstacleShape::HalfSpace => (&o.name, None, &o.pose),
+        ObstacleShape::HalfSpace | ObstacleShape::Parts(_) => (&o.name, None, &o.pose),
         ObstacleShape::Convex(shape) => (&o.name, Some(shape), &o.pose),
     });
+    if let Some(none) = world.obstacles.iter().find(|o| !has_sound_parts(o)) {
+        let name = none.name.clone();
+        return Err(ProveError::Body { name });
+    }
     let sponge = "sponge".to_owned();
     let tip = "tip of the tool".to_owned();
     let frames = [(&sponge, None, &world.tool.sponge.pose), (&tip, None, &world.tool.tip)];
@@ -41,9 +46,24 @@ pub(crate) fn check(job: &JobTerms) -> Result<(), ProveError> {
     }
 }
 
+/// Whether the parts of an obstacle that has some are hulls, not too many of them and of not too many points together.
+fn has_sound_parts(obstacle: &Obstacle) -> bool {
+    let ObstacleShape::Parts(hulls) = &obstacle.shape else {
+        return true;
+    };
+    let [_, most] = POINTS;
+    let points: usize = hulls.iter().map(Vec::len).sum();
+    (1..=MOST).contains(&hulls.len()) && points <= most && hulls.iter().all(|points| is_hull(points))
+}
+
+fn is_hull(points: &[Point3<f64>]) -> bool {
+    let [least, most] = POINTS;
+    let near = points.iter().flat_map(|p| p.iter()).all(|c| c.abs() <= GREATEST_M);
+    (least..=most).contains(&points.len()) && near
+}
+
 fn is_shape(shape: &Shape) -> bool {
     let size = |size: f64| size > 0.0 && size <= GREATEST_M;
-    let [least, most] = POINTS;
     match shape {
         Shape::Box { half_m } => half_m.iter().all(|half| size(*half)),
         Shape::Cylinder {
@@ -55,10 +75,7 @@ fn is_shape(shape: &Shape) -> bool {
             radius_m,
             half_length_m,
         } => size(*radius_m) && (0.0..=GREATEST_M).contains(half_length_m),
-        Shape::Hull { points } => {
-            let near = points.iter().flat_map(|p| p.iter()).all(|c| c.abs() <= GREATEST_M);
-            (least..=most).contains(&points.len()) && near
-        }
+        Shape::Hull { points } => is_hull(points),
     }
 }
 

@@ -90,7 +90,7 @@ pub struct Worst {
     /// \[s\]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
-    /// Place, base frame \[m\].
+    /// Place, world frame \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place_m: Option<[f64; 3]>,
     /// Joint index, 0 for joint 1.

@@ -57,6 +57,18 @@ pub(crate) struct Found {
     pub place_m: [f64; 3],
 }
 
+impl Found {
+    /// What is never nearer than this \[m\], and was not looked at any closer.
+    pub fn never_nearer(at_least_m: f64) -> Self {
+        Self {
+            at_least_m,
+            seen_m: f64::INFINITY,
+            time_s: 0.0,
+            place_m: [0.0; 3],
+        }
+    }
+}
+
 impl Goal {
     /// Whether a bound is good enough beside the least distance found.
     fn accepts(&self, bound: f64, seen: f64) -> bool {
@@ -180,12 +192,7 @@ impl<'a> Search<'a> {
             cancel,
             open: BinaryHeap::new(),
             looked_at: 0,
-            found: Found {
-                at_least_m: f64::INFINITY,
-                seen_m: f64::INFINITY,
-                time_s: 0.0,
-                place_m: [0.0; 3],
-            },
+            found: Found::never_nearer(f64::INFINITY),
         };
         for interval in during.iter().flat_map(|pieces| timeline.cover(pieces)) {
             for part in parts.outermost() {

@@ -7,6 +7,7 @@
 
 use crate::check::{Check, Measure, Sense, Status, Unit, Worst};
 use crate::clear::{FINE_M, Found, Goal, Search};
+use crate::far::far;
 use crate::neighbours;
 use crate::requirement::Requirement;
 use crate::schedule::{Schedule, Span, is_at_plate};
@@ -24,6 +25,10 @@ use std::ops::Range;
 const BUDGET: usize = 4_000_000;
 const LEAST_BUDGET: usize = 2_000;
 const MOST_BUDGET: usize = 400_000;
+
+/// What counts as far, as so many times the least distance among the others, and at least \[m\].
+const FAR: f64 = 2.0;
+const FAR_M: f64 = 0.02;
 
 /// What a pair must keep, during some part of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -58,7 +63,7 @@ pub struct PairBound {
     /// That moment \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
-    /// Half-way between the nearest points then, base frame \[m\].
+    /// Half-way between the nearest points then, world frame \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place_m: Option<[f64; 3]>,
 }
@@ -111,19 +116,36 @@ pub(crate) fn judge(
         )
     };
     let judged = |task: &Task| task.rule != PairRule::Touching && task.during.is_some();
+    let searched = |task: &Task| judged(task).then(|| search(task, &model.parts_of(task.pair), None));
+    let beside = |task: &Task| task.rule == PairRule::Clearance && model.is_beside_obstacle(task.pair);
     let mut found: Vec<Option<Found>> = tasks
         .par_iter()
-        .map(|task| judged(task).then(|| search(task, &model.parts_of(task.pair), None)))
+        .map(|task| if beside(task) { None } else { searched(task) })
         .collect();
+    // Obstacles that are never as near as what is nearest among the others need not be known any better.
+    let nearest_m = least_seen(&found, &tasks);
+    let beside_obstacles: Vec<_> = tasks.iter().filter(|task| beside(task)).map(|task| task.pair).collect();
+    if !beside_obstacles.is_empty() {
+        let near_m = if nearest_m.is_finite() {
+            nearest_m.max(limit_m)
+        } else {
+            limit_m
+        };
+        let needed_m = FAR * near_m.max(FAR_M);
+        let far = far((subject.robot, cancel), model, timeline, &beside_obstacles, needed_m);
+        found
+            .par_iter_mut()
+            .zip(&tasks)
+            .filter(|(_, task)| beside(task))
+            .for_each(|(found, task)| {
+                *found = match far.get(&task.pair) {
+                    Some(at_least_m) => Some(Found::never_nearer(*at_least_m)),
+                    None => searched(task),
+                };
+            });
+    }
     // The pairs that might be the nearest one, once more and finely.
-    let must = found
-        .iter()
-        .zip(&tasks)
-        .filter(|(_, task)| task.rule == PairRule::Clearance);
-    let least = must
-        .filter_map(|(found, _)| *found)
-        .map(|f| f.seen_m)
-        .fold(f64::INFINITY, f64::min);
+    let least = least_seen(&found, &tasks);
     let enough_m = least - FINE_M;
     found.par_iter_mut().zip(&tasks).for_each(|(found, task)| {
         if found.is_some_and(|f| f.at_least_m < enough_m) && least > 0.0 {
@@ -140,6 +162,16 @@ pub(crate) fn judge(
     Ok(lines
         .map(|(task, found)| line(names[task.pair], task, found, limit_m))
         .collect())
+}
+
+/// The least distance found at a single moment of those that must keep clear \[m\].
+fn least_seen(found: &[Option<Found>], tasks: &[Task]) -> f64 {
+    let must = found
+        .iter()
+        .zip(tasks)
+        .filter(|(_, task)| task.rule == PairRule::Clearance);
+    let seen = must.filter_map(|(found, _)| *found).map(|f| f.seen_m);
+    seen.fold(f64::INFINITY, f64::min)
 }
 
 fn line((a, b): (&str, &str), task: &Task, found: Option<Found>, limit_m: f64) -> PairBound {

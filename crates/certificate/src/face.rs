@@ -1,4 +1,4 @@
-//! The face of a plate that lies level, as the bounds see it: heights over it, and its normal.
+//! The face of a plate, as the bounds see it: heights over it, and its normal.
 //!
 //! Heights are along the plate's axis. The normal of a face that is no disc is the one under a place, seen along that axis; `pass.rs` has
 //! how fast it turns.
@@ -11,7 +11,7 @@ use platewash_workcell::wash_path::WashCurve;
 /// Plates that overlap by less than this touch, and places that differ by less are one: the rounding of places \[m\].
 pub(crate) const PLACE_M: f64 = 1e-9;
 
-/// The face of a plate that lies level.
+/// The face of a plate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Face<'a> {
     plate: &'a Plate,
@@ -100,27 +100,9 @@ fn across(axis: &Vector3<f64>, normal: &Vector3<f64>) -> f64 {
     (axis - normal * axis.dot(normal)).norm()
 }
 
-/// Height of the lowest point of a plate over the floor \[m\].
-pub(crate) fn underside_m(plate: &Plate) -> f64 {
-    let [below_m, _] = plate.extent_m();
-    plate.centre().z + below_m
-}
-
-/// Height of the highest point of the face of a plate over the floor \[m\].
-pub(crate) fn top_m(plate: &Plate) -> f64 {
-    let [_, above_m] = plate.surface.height_bounds_m();
-    plate.centre().z + above_m
-}
-
-/// Distance between the rims of two plates, negative where they overlap \[m\].
+/// Distance between the rims of two plates, seen along the axis of the first, negative where one lies over the other \[m\].
 pub(crate) fn gap(a: &Plate, b: &Plate) -> f64 {
-    distance(a, b) - a.rim_m() - b.rim_m()
-}
-
-/// Distance between the poles of two plates, seen from above \[m\].
-pub(crate) fn distance(a: &Plate, b: &Plate) -> f64 {
-    let ([x, y], [u, v]) = (a.centre_xy(), b.centre_xy());
-    norm(x - u, y - v)
+    a.aside_m(b) - a.rim_m() - b.rim_m()
 }
 
 /// √(x² + y²), the same bits on every machine.

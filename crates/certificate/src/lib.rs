@@ -22,6 +22,7 @@
 //! | beyond the rim: what may be touched there, how far it is | `neighbours`, `reach` |
 //! | clearance: one pair, all pairs; at a single moment, to look at | `clear`, `clearances`; `moments` |
 //! | a motion that a controller makes of a plan; how far it leaves the plan | `program`, `deviation` |
+//! | places, told in the world | `world` |
 //! | where a job is not the one that was asked for | `differences` |
 
 mod amounts;
@@ -41,6 +42,7 @@ mod dry_run;
 mod error;
 mod exclusions;
 mod face;
+mod far;
 mod following;
 mod headline;
 mod home;
@@ -74,6 +76,7 @@ mod tip;
 mod tip_limits;
 mod turning_frame;
 mod wash_paths;
+mod world;
 mod wrist;
 
 pub use certificate::{Certificate, HashFinding, Verdict};

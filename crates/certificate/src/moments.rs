@@ -26,6 +26,7 @@ impl ClearanceRule {
     /// [`ProveError`] for a job with which nothing can be computed, or a shape that is none.
     pub fn new(plan: &Plan, arm: &RobotModel) -> Result<Self, ProveError> {
         plan.job.validate()?;
+        let plan = &*plan.seen_from_base();
         let subject = Subject::new(&plan.job, arm, wash_paths::by_plate(plan));
         let exclusions = Exclusions::of(&subject)?;
         let world = Workcell {

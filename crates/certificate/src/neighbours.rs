@@ -7,7 +7,7 @@
 //! over its centre.
 
 use crate::check::Discrepancy;
-use crate::face::{PLACE_M, distance, gap, norm, top_m};
+use crate::face::{PLACE_M, gap, norm};
 use crate::subject::Subject;
 use platewash_kinematics::trig::cos;
 use platewash_workcell::job::LINE_TOLERANCE_M;
@@ -59,13 +59,13 @@ fn raised_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, [sine, cosine]: [f
     wall_m.max(free_m)
 }
 
-/// The plates but one, no higher than it, that a sponge reaches which gets `beyond_rim_m` beyond the rim of that one, in order.
+/// The plates but one, beside it and no higher ([`Plate::may_touch_beside`]), that a sponge reaches which gets `beyond_rim_m` beyond the rim of that one, in order.
 pub(crate) fn touched(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) -> Vec<Touched> {
     let Some(own) = subject.plates().get(plate) else {
         return Vec::new();
     };
     let others = subject.plates().iter().enumerate();
-    let others = others.filter(|(index, other)| *index != plate && !is_higher(own, other));
+    let others = others.filter(|(index, other)| *index != plate && own.may_touch_beside(other));
     let depths = others.map(|(plate, other)| Touched {
         plate,
         depth_m: beyond_rim_m - gap(own, other),
@@ -74,8 +74,8 @@ pub(crate) fn touched(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) ->
 }
 
 /// Whether the sponge, tilted as it likes, may come nearer to one plate than the clearance while it works on another. Of a plate whose
-/// face is higher than that of the one it works on it keeps clear: how fast it touches, and how far beyond the rim it reaches, is
-/// bounded at the height of the plate that it works on and below.
+/// face is higher than that of the one it works on, stands at an angle to it or lies under it, it keeps clear, but for the other face of the same disc: how fast it touches, and
+/// how far beyond the rim it reaches, is bounded at the height of the plate that it works on and below.
 pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: usize) -> bool {
     let (Some(own), Some(other)) = (subject.plates().get(working_on), subject.plates().get(plate)) else {
         return false;
@@ -83,22 +83,17 @@ pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: u
     let Some(radius_m) = subject.path_radius_m(working_on) else {
         return false;
     };
-    if is_higher(own, other) {
+    if own.is_back_of(other) {
+        return true;
+    }
+    if !own.may_touch_beside(other) {
         return false;
     }
     // No point of the sponge is farther from the tip.
     let sponge = &subject.job.workcell.tool.sponge;
     let sponge_m = norm(sponge.radius_m, sponge.height_m);
     let reach_m = radius_m + LINE_TOLERANCE_M + sponge_m + subject.limits.clearance_m;
-    distance(own, other) - other.rim_m() <= reach_m
-}
-
-/// Whether the face of another plate is higher than one's own.
-fn is_higher(own: &Plate, other: &Plate) -> bool {
-    if own.surface.is_flat() && other.surface.is_flat() {
-        return own.height_of(&other.centre()) > PLACE_M;
-    }
-    top_m(other) - top_m(own) > PLACE_M
+    own.aside_m(other) - other.rim_m() <= reach_m
 }
 
 /// What is swept besides the plate that is washed.
@@ -129,7 +124,10 @@ pub(crate) fn swept(subject: &Subject<'_>, upright_cosine: impl Fn(usize) -> f64
                 beyond_rim_m(subject, own, radius_m, cosine),
             )
         };
-        for (j, other) in subject.plates().iter().enumerate().filter(|(j, _)| *j != i) {
+        // Of a plate at an angle to it, or all under or over it, the sponge keeps clear.
+        let beside = |other: &Plate| own.is_parallel(other) && !own.is_over(other) && !other.is_over(own);
+        let others = subject.plates().iter().enumerate();
+        for (j, other) in others.filter(|(j, other)| *j != i && beside(other)) {
             let (gap_m, most_m) = (gap(own, other), sponge_m.min(other.rim_m()));
             let depth_m = (beyond_m - gap_m).min(2.0 * other.rim_m());
             if depth_m <= most_m + PLACE_M {

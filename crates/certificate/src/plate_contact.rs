@@ -35,7 +35,7 @@ pub struct ProvedShare {
     /// What the place that was seen to get least gets of it; `None` where all get enough.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst: Option<f64>,
-    /// That place, base frame \[m\].
+    /// That place, world frame \[m\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst_m: Option<[f64; 3]>,
 }
@@ -51,7 +51,7 @@ pub struct ProvedExtreme {
     pub seen: Option<f64>,
     /// When \[s\].
     pub time_s: f64,
-    /// Where on the plate or, of a force, where the tip is then, base frame \[m\].
+    /// Where on the plate or, of a force, where the tip is then, world frame \[m\].
     pub place_m: [f64; 3],
 }
 
@@ -77,6 +77,16 @@ pub struct PlateContact {
     /// where nothing is proved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_torque_nm: Option<[f64; 2]>,
+}
+
+impl PlateContact {
+    /// Every place that is told of.
+    pub(crate) fn places_mut(&mut self) -> impl Iterator<Item = &mut [f64; 3]> {
+        let shares = [&mut self.share, &mut self.time, &mut self.dose];
+        let extremes = [&mut self.strain, &mut self.least_force_n, &mut self.greatest_force_n];
+        let worst = shares.into_iter().filter_map(|share| share.worst_m.as_mut());
+        worst.chain(extremes.into_iter().map(|extreme| &mut extreme.place_m))
+    }
 }
 
 /// A wash that is judged for its contact.

@@ -21,6 +21,7 @@ use crate::swept::{self, PlateCoverage};
 use crate::tip::Arm;
 use crate::tip_limits::{self, Tips};
 use crate::wash_paths;
+use crate::world::World;
 use platewash_kinematics::RobotModel;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::PATH_TOLERANCE_M;
@@ -86,7 +87,8 @@ pub fn prove_program(
     limits: &ProgramLimits,
     cancel: &CancelToken,
 ) -> Result<ProgramProof, ProveError> {
-    let plan = certified.plan();
+    let world = World::of(&certified.plan().job.workcell.mount);
+    let plan = &*certified.plan().seen_from_base();
     let ends_s = plan.segments.iter().map(|segment| segment.t_end_s);
     let motion = motion.clone().resting_until(plan.duration_s()).cut_at(ends_s, NEAR_S);
     let pieces: Vec<Piece> = motion.pieces().iter().map(Piece::from).collect();
@@ -113,7 +115,7 @@ pub fn prove_program(
     let model = exclusions.model(&subject)?;
     let waived = exclusions.waived_in(&model);
     let work = Work::Scheduled(&schedule);
-    let clearance = clearances::judge(&subject, (&model, &waived), &timeline, work, cancel)?;
+    let mut clearance = clearances::judge(&subject, (&model, &waived), &timeline, work, cancel)?;
     let judged = deviation::check(&tip, (&pieces, &schedule), &planned, limits.deviation_m);
     let mut checks = vec![
         position,
@@ -126,6 +128,8 @@ pub fn prove_program(
     // A tip is where it should be at any tilt, and the sponge is not.
     checks.extend(tilt);
     cancel.check()?;
+    world.tell_checks(&mut checks);
+    world.tell_pairs(&mut clearance);
     let is_implied = |check: &Check| {
         use Requirement::{TipSpeed, WashSpeed};
         matches!(check.requirement, TipSpeed | WashSpeed)

@@ -26,6 +26,7 @@ use crate::timeline::Timeline;
 use crate::tip::Arm;
 use crate::tip_limits::Tips;
 use crate::wash_paths;
+use crate::world::World;
 use crate::wrist;
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::cancel::CancelToken;
@@ -66,15 +67,17 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     }
     check_sizes(plan)?;
     check_job(&plan.job)?;
-    let subject = Subject::new(&plan.job, arm, wash_paths::by_plate(plan));
-    let pieces = read(&plan.knots)?;
-    let timeline = timeline(&pieces, plan.knots.t_s.len())?;
-    let (schedule, gaps) = match Schedule::new(plan, &pieces) {
+    // Judged in the frame of the arm's base, told in the world.
+    let seen = &*plan.seen_from_base();
+    let subject = Subject::new(&seen.job, arm, wash_paths::by_plate(seen));
+    let pieces = read(&seen.knots)?;
+    let timeline = timeline(&pieces, seen.knots.t_s.len())?;
+    let (schedule, gaps) = match Schedule::new(seen, &pieces) {
         Ok(schedule) => (Some(schedule), Vec::new()),
         Err(gaps) => (None, gaps),
     };
     let judged = Judged {
-        plan,
+        plan: seen,
         subject: &subject,
         pieces: &pieces,
         timeline: &timeline,
@@ -84,7 +87,11 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     let mut proof = judged.proof(Check::stated(Requirement::Segments, gaps))?;
     cancel.check()?;
     proof.checks.sort_by_key(|check| check.requirement);
-    Ok(certificate(plan, proof))
+    let world = World::of(&plan.job.workcell.mount);
+    world.tell_checks(&mut proof.checks);
+    world.tell_pairs(&mut proof.clearance);
+    world.tell_contact(&mut proof.contact);
+    Ok(certificate(plan, arm, proof))
 }
 
 /// Judges a motion alone: limits of the joints and of the tip, and the clearance of every pair all the time, the sponge and the plates
@@ -99,17 +106,20 @@ pub fn prove_motion(
     cancel: &CancelToken,
 ) -> Result<MotionProof, ProveError> {
     check_job(job)?;
+    let (world, job) = (World::of(&job.workcell.mount), &*job.seen_from_base());
     let subject = Subject::new(job, arm, Vec::new());
     let pieces = read(knots)?;
     let timeline = timeline(&pieces, knots.t_s.len())?;
     let model = Exclusions::of(&subject)?.model(&subject)?;
     let carrier = Arm::new(arm, &job.workcell.tool, cancel);
     let tips = Tips::new(&carrier, &subject, &pieces, None);
-    let clearance = clearances::judge(&subject, (&model, &[]), &timeline, Work::Nothing, cancel)?;
+    let mut clearance = clearances::judge(&subject, (&model, &[]), &timeline, Work::Nothing, cancel)?;
     cancel.check()?;
     let mut checks = Vec::from(joints::checks(&pieces, &subject.limits, None));
     checks.extend(tips.moving_checks(&subject, &pieces, None));
     checks.push(clearances::check(subject.limits.clearance_m, &clearance));
+    world.tell_checks(&mut checks);
+    world.tell_pairs(&mut clearance);
     Ok(MotionProof { checks, clearance })
 }
 
@@ -132,7 +142,7 @@ struct Proof {
     coverage: Vec<PlateCoverage>,
     contact: Vec<PlateContact>,
     clearance: Vec<PairBound>,
-    rests_on: RestsOn,
+    exclusions: Exclusions,
 }
 
 impl Judged<'_> {
@@ -143,7 +153,7 @@ impl Judged<'_> {
         let model = exclusions.model(subject)?;
         let arm = Arm::new(subject.robot, &subject.job.workcell.tool, self.cancel);
         let tips = Tips::new(&arm, subject, self.pieces, schedule);
-        let mut checks = self.stated(segments, &tips);
+        let mut checks = self.stated(segments, &tips)?;
         checks.extend(dry_run::check(subject));
         checks.extend(joints::checks(self.pieces, &subject.limits, schedule));
         checks.extend(tips.checks(subject, self.pieces, schedule));
@@ -160,18 +170,18 @@ impl Judged<'_> {
             coverage,
             contact,
             clearance,
-            rests_on: RestsOn::new(subject, exclusions),
+            exclusions,
         })
     }
 
     /// What the plan states.
-    fn stated(&self, segments: Check, tips: &Tips) -> Vec<Check> {
+    fn stated(&self, segments: Check, tips: &Tips) -> Result<Vec<Check>, ProveError> {
         let (subject, plan) = (self.subject, self.plan);
         let upright_cosine = |plate| {
             self.schedule
                 .map_or(0.0, |schedule| tips.least_upright_cosine_at(schedule, plate))
         };
-        vec![
+        Ok(vec![
             statements::arm(subject),
             statements::tool(subject),
             statements::plates(subject),
@@ -183,8 +193,8 @@ impl Judged<'_> {
                 Some(schedule) => home::rest_at_wash_ends(plan, schedule),
                 None => Check::not_judged(Requirement::RestAtWashEnds),
             },
-            apart::check(subject),
-        ]
+            apart::check(subject)?,
+        ])
     }
 
     /// What the tip and the sponge do on the plates: deviations, coverage, contact and reach.
@@ -216,7 +226,7 @@ impl Judged<'_> {
     }
 }
 
-fn certificate(plan: &Plan, proof: Proof) -> Certificate {
+fn certificate(plan: &Plan, arm: &RobotModel, proof: Proof) -> Certificate {
     let hash = hash(plan);
     let sound = hash.status == Status::Proved && proof.checks.iter().all(|check| check.status.is_kept());
     let waived = proof.checks.iter().filter(|check| check.status == Status::Waived);
@@ -231,7 +241,7 @@ fn certificate(plan: &Plan, proof: Proof) -> Certificate {
         coverage: proof.coverage,
         contact: proof.contact,
         clearance: proof.clearance,
-        rests_on: proof.rests_on,
+        rests_on: RestsOn::new(&plan.job, arm, proof.exclusions),
     };
     certificate.headline = headline(&certificate);
     certificate

@@ -3,11 +3,10 @@
 use crate::amounts::{list, mm, number};
 use crate::exclusions::Exclusions;
 use crate::plate_words::plates;
-use crate::subject::Subject;
 use nalgebra::{Point3, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::trig::atan2;
-use platewash_kinematics::{JointVector, Pose};
+use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::{JobTerms, Limits, Overlap, Requirements};
 use platewash_workcell::plate::Plate;
@@ -75,11 +74,10 @@ pub struct RestsOn {
 }
 
 impl RestsOn {
-    pub(crate) fn new(subject: &Subject<'_>, exclusions: Exclusions) -> Self {
-        let job = subject.job;
+    pub(crate) fn new(job: &JobTerms, arm: &RobotModel, exclusions: Exclusions) -> Self {
         Self {
             workcell: Workcell {
-                arm: ArmId::of(subject.robot),
+                arm: ArmId::of(arm),
                 exclusions: exclusions.own,
                 ..job.workcell.clone()
             },
@@ -275,13 +273,26 @@ fn bounds(points: &[Point3<f64>]) -> String {
 }
 
 fn obstacles(obstacles: &[Obstacle]) -> String {
-    let one = |obstacle: &Obstacle| match &obstacle.shape {
-        ObstacleShape::HalfSpace => format!("{}, all below 0", quoted(&obstacle.name)),
-        ObstacleShape::Convex(solid) => {
+    let one = |obstacle: &Obstacle| {
+        let at = || {
             let at = list(obstacle.pose.translation.vector.iter().copied());
-            let (name, shape) = (quoted(&obstacle.name), shape(solid));
-            format!("{name}, {shape} at ({at}) m{}", turned(&obstacle.pose))
-        }
+            format!("at ({at}) m{}", turned(&obstacle.pose))
+        };
+        let body = match &obstacle.shape {
+            ObstacleShape::HalfSpace => beyond(&obstacle.pose),
+            ObstacleShape::Convex(solid) => format!("{} {}", shape(solid), at()),
+            ObstacleShape::Parts(hulls) => {
+                let (count, points) = (counted(hulls.len(), "hull"), hulls.concat());
+                let together = counted(points.len(), "point");
+                format!("{count} of {together} together, {} mm, {}", bounds(&points), at())
+            }
+        };
+        format!(
+            "{}, {body}{}{}",
+            quoted(&obstacle.name),
+            grown(obstacle.margin_m),
+            holding(&obstacle.holds_plates)
+        )
     };
     let mut parts: Vec<_> = obstacles.iter().map(one).collect();
     if !obstacles.iter().any(|o| o.shape == ObstacleShape::HalfSpace) {
@@ -291,6 +302,39 @@ fn obstacles(obstacles: &[Obstacle]) -> String {
         parts.insert(0, "none".to_owned());
     }
     parts.join("; ")
+}
+
+/// That an obstacle is grown, where it is.
+fn grown(margin_m: f64) -> String {
+    if margin_m == 0.0 {
+        return String::new();
+    }
+    format!(", grown by {} mm", mm(margin_m))
+}
+
+/// Which plates an obstacle holds, where it does.
+fn holding(plates: &[usize]) -> String {
+    match plates {
+        [] => String::new(),
+        [plate] => format!(", holding plate {plate}"),
+        plates => format!(", holding plates {}", list(plates.iter().map(|plate| *plate as f64))),
+    }
+}
+
+/// The half-space z ≤ 0 of a pose.
+fn beyond(pose: &Pose) -> String {
+    let (at, up) = (pose.translation.vector, pose.rotation * Vector3::z());
+    if up == Vector3::z() && at.z == 0.0 {
+        return "all below 0".to_owned();
+    }
+    if up == Vector3::z() {
+        return format!("all below {} m", number(at.z));
+    }
+    format!(
+        "all behind the plane through ({}) m that faces ({})",
+        list(at.iter().copied()),
+        list(up.iter().copied())
+    )
 }
 
 fn homes([start, end]: &[JointVector; 2]) -> String {

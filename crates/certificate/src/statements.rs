@@ -1,7 +1,7 @@
 //! What the plan states about its arm, its tool, its plates and their order, compared with what must be so.
 
 use crate::check::{Check, Discrepancy};
-use crate::face::{PLACE_M, underside_m};
+use crate::face::PLACE_M;
 use crate::neighbours;
 use crate::requirement::Requirement;
 use crate::subject::Subject;
@@ -9,8 +9,8 @@ use nalgebra::Vector3;
 use platewash_kinematics::Pose;
 use platewash_workcell::job::Overlap;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::words::millimetres;
-use platewash_workcell::workcell::ArmId;
+use platewash_workcell::words::{millimetres, printable};
+use platewash_workcell::workcell::{ArmId, ObstacleShape};
 
 /// The plan is for this arm.
 pub(crate) fn arm(subject: &Subject<'_>) -> Check {
@@ -60,15 +60,27 @@ fn off(expected: &Pose, tip: &Pose, words: &str) -> Vec<Discrepancy> {
     vec![Discrepancy::new("tip of the tool", found, words)]
 }
 
-/// No plate reaches below the floor.
+/// No plate reaches below the floor, or into another half-space.
 pub(crate) fn plates(subject: &Subject<'_>) -> Check {
-    let low = subject.plates().iter().map(underside_m).enumerate();
-    let below = low.filter(|(_, underside_m)| *underside_m < -PLACE_M);
-    let wrong = below.map(|(i, underside_m)| {
-        let what = format!("height of the underside of plate {i} over the floor");
-        Discrepancy::new(what, millimetres(underside_m), "none below 0")
-    });
-    Check::stated(Requirement::Plates, wrong.collect())
+    let mut wrong = Vec::new();
+    for obstacle in &subject.job.workcell.obstacles {
+        if obstacle.shape != ObstacleShape::HalfSpace {
+            continue;
+        }
+        let up = obstacle.pose.rotation * Vector3::z();
+        let level_m = obstacle.pose.translation.vector.dot(&up);
+        for (i, plate) in subject.plates().iter().enumerate() {
+            let underside_m = -plate.reach_along_m(&-up) - level_m;
+            if underside_m < -PLACE_M {
+                let what = format!(
+                    "height of the underside of plate {i} over the {}",
+                    printable(&obstacle.name)
+                );
+                wrong.push(Discrepancy::new(what, millimetres(underside_m), "none below 0"));
+            }
+        }
+    }
+    Check::stated(Requirement::Plates, wrong)
 }
 
 /// Every plate is in the order once, and no more than its rim is swept while another one is washed. Plates that overlap are

@@ -115,7 +115,7 @@ impl Answering<'_> {
             layout,
             job,
         } = placed;
-        let view = View::of_job(job, &scenario.layout.task_region());
+        let view = View::of_job(job, &scenario.task_region());
         let id = loaded.id.as_str();
         let is_new = self.question.arm.as_deref() != Some(id);
         let plates = &layout.plates;
@@ -129,7 +129,7 @@ impl Answering<'_> {
             plates: &view.plates,
             centres_m: plates.iter().map(|plate| plate.centre_xy()).collect(),
             radius_m: plates.iter().map(|plate| plate.rim_m()).collect(),
-            listed: scenario.layout.positions_m.is_some(),
+            listed: scenario.lists_plates(),
             pose_rad: view.pose_rad,
             findings: layout.findings.iter().map(FindingLine::from).collect(),
             ms: watch.all(),
@@ -162,7 +162,7 @@ impl Answering<'_> {
         watch.step("tell plan");
         let certificate = prove_with(&plan, arm, self.gone).map_err(Failure::from)?;
         watch.step("prove");
-        let shown = Certificate::new(&certificate, &plan.job.workcell.mount);
+        let shown = Certificate::new(&certificate);
         let proved = view.coverage.iter().filter_map(|coverage| {
             let at_least = coverage.proved_by(&certificate)?;
             let plate = coverage.plate;

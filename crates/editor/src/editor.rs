@@ -11,6 +11,7 @@ use crate::sessions::{Lane, Sessions, Turn, is_name};
 use crate::subject::{Latest, Subject};
 use crate::told::Told;
 use crate::{cell, map};
+use platewash_kinematics::JointVector;
 use platewash_scenario::{Draft, Scenario, source};
 use platewash_viewer::bundle::Bundle;
 use platewash_viewer::page;
@@ -129,7 +130,7 @@ impl Editor {
             None => Draft::new(&subject.text)?.scenario(&subject.name, self.folder())?,
         };
         let arm = subject.arms.of(&scenario)?.arm;
-        let mut view = View::of_configuration(&arm, None, &scenario.homes()[0]);
+        let mut view = View::of_configuration(&arm, None, &scenario.homes()[0].unwrap_or_else(JointVector::zeros));
         view.heading.scenario.clone_from(&scenario.name);
         Ok(view)
     }

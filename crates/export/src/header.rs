@@ -6,10 +6,10 @@ use crate::judged::{Case, Judged};
 use crate::points::Source;
 use crate::program::Point;
 use crate::settings::ExportSettings;
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 use platewash_certificate::{Certificate, Certified, Check, Requirement, Sense, Unit};
 use platewash_kinematics::words::{decimals_down, decimals_up, fixed, rounded as rounded_to};
-use platewash_kinematics::{AXES, JointVector, sha256_hex};
+use platewash_kinematics::{AXES, JointVector, Pose, sha256_hex};
 use platewash_workcell::job::Requirements;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::words::counted;
@@ -64,6 +64,17 @@ fn hash(certificate: &Certificate) -> String {
     serde_json_canonicalizer::to_vec(certificate).map_or_else(|_| "none".to_owned(), |text| sha256_hex(&text))
 }
 
+/// How a base stands. What is not turned at all needs nothing; a controller must know how its arm is turned, for its dynamics, and no program
+/// tells it.
+fn attitude(mount: &Pose) -> String {
+    if mount.rotation == UnitQuaternion::identity() {
+        return "upright".to_owned();
+    }
+    let q = mount.rotation.quaternion();
+    let parts = [q.w, q.i, q.j, q.k].map(|part| fixed(part, 6)).join(", ");
+    format!("turned by the quaternion (w, x, y, z) = ({parts}): the controller must be set up for that mount")
+}
+
 /// Arm, mount, tool, and what stands around them.
 fn workcell(source: &Source<'_>) -> Vec<String> {
     let job = &source.plan.job;
@@ -77,8 +88,11 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
     let mut lines = vec![
         format!("arm: {}, URDF sha256 {}", world.arm.name, world.arm.urdf_sha256),
         format!(
-            "mount: base at {}, {}, {} mm of the world, upright",
-            mount.x, mount.y, mount.z
+            "mount: base at {}, {}, {} mm of the world, {}",
+            mount.x,
+            mount.y,
+            mount.z,
+            attitude(&world.mount)
         ),
         format!(
             "tool: tip at {}, {}, {} mm of the flange; sponge of radius {} mm, {} mm high while it washes, free {} mm higher (assumed)",
@@ -90,6 +104,9 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
             place(sponge.compression_m)
         ),
     ];
+    if world.mount != Pose::identity() {
+        lines.push("positions: in the frame of the arm's base; places of plates and obstacles in the world".to_owned());
+    }
     lines.extend(sponge.stiffness_pa.map(|stiffness_pa| {
         let [softest, stiffest] = stiffness_pa.map(|pa| rounded_to(1e-3 * pa, DIGITS));
         format!("sponge: stiffness from {softest} to {stiffest} kPa (assumed)")

@@ -100,6 +100,13 @@ impl RobotModel {
         self.last_link
     }
 
+    /// The arm without its list of link pairs that need no collision check.
+    #[must_use]
+    pub fn without_disabled_pairs(self) -> Self {
+        let disabled = None;
+        Self { disabled, ..self }
+    }
+
     /// Link pairs that need no collision check, where a list was given.
     #[must_use]
     pub fn disabled_pairs(&self) -> Option<&DisabledPairs> {

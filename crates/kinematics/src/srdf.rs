@@ -2,6 +2,7 @@
 //! MoveIt's set-up assistant writes).
 
 use crate::sha256_hex;
+use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 use std::collections::{BTreeMap, BTreeSet};
@@ -126,13 +127,13 @@ fn not_a_robot(tag: &BytesStart<'_>) -> SrdfError {
 }
 
 fn attribute(tag: &BytesStart<'_>, name: &'static str, position: u64) -> Result<String, SrdfError> {
-    tag.try_get_attribute(name)
-        .map_err(|e| xml(position, &e))?
-        .map(|a| a.value.into_owned())
-        .ok_or(SrdfError::MissingAttribute {
-            position,
-            attribute: name,
-        })
+    let missing = SrdfError::MissingAttribute {
+        position,
+        attribute: name,
+    };
+    let found = tag.try_get_attribute(name).map_err(|e| xml(position, &e))?;
+    let value = found.ok_or(missing)?.normalized_value(XmlVersion::Implicit1_0);
+    Ok(value.map_err(|e| xml(position, &e))?.into_owned())
 }
 
 #[cfg(test)]

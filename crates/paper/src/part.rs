@@ -84,7 +84,7 @@ impl PaperPart {
             spacing: self.spacing(),
             count: self.plate_count(),
             geometry: self.geometry(),
-            base: base_footprint(arm),
+            base: Some(base_footprint(arm)),
         };
         sample(
             &request,

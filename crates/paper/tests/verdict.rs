@@ -20,7 +20,14 @@ const START_DEG: [f64; 6] = [0.0, 39.507074, 26.156277, 0.0, 24.336649, 0.0];
 
 fn plates_at(arm: &RobotModel, centres_m: &[[f64; 2]]) -> Layout {
     let part = PaperPart::Appendix;
-    check_explicit(centres_m, None, &part.spacing(), &part.geometry(), &base_footprint(arm)).unwrap()
+    check_explicit(
+        centres_m,
+        None,
+        &part.spacing(),
+        &part.geometry(),
+        Some(&base_footprint(arm)),
+    )
+    .unwrap()
 }
 
 /// One plate in front of the arm, a 150 mm tool on its surface, from a start over its centre, slowly and exactly.

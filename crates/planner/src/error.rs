@@ -73,6 +73,14 @@ pub enum PlanError {
         /// The bodies.
         too_near: Box<TooNear>,
     },
+    /// No end configuration was stated, and none was found that is clear.
+    #[error(
+        "no home was found: none of {tried} configurations over all of the joints' limits keeps clear of everything"
+    )]
+    NoHome {
+        /// Configurations that were tried.
+        tried: usize,
+    },
     /// The arm holds nothing that could touch a plate.
     #[error("the arm holds no tool; washing needs one that touches the plates")]
     NoTool,
@@ -173,7 +181,7 @@ impl PlanError {
             Self::Layout(error) => error.infeasibility(),
             Self::HomeNotClear { .. } | Self::Transit(TransitError::Home { .. }) => found(true),
             Self::Unwashable(plate) => found(plate.conclusion.is_proved()),
-            Self::NoneWashable { .. } | Self::Line { .. } | Self::Tilt { .. } => found(false),
+            Self::NoHome { .. } | Self::NoneWashable { .. } | Self::Line { .. } | Self::Tilt { .. } => found(false),
             Self::Transit(error) if error.is_infeasible() => found(false),
             _ => None,
         }

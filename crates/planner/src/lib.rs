@@ -18,6 +18,7 @@ mod pipeline;
 mod planned;
 pub mod redundancy;
 pub mod scene;
+pub mod suggest;
 pub mod timing;
 pub mod transit;
 mod unwashable;

@@ -69,6 +69,7 @@ impl MapArea {
         let count = terms.plates.len();
         let lies = terms.plates.get(plate).ok_or(PlanError::Plate { plate, count })?;
         let (from, bound_m) = arm.reach_bound(&terms.workcell.tool.tip_frame(arm));
+        let from = terms.workcell.mount * from;
         let up_m = lies.centre().z - from.z;
         let reach_m = (bound_m * bound_m - up_m * up_m).max(0.0).sqrt();
         Ok(Self::about([from.x, from.y], reach_m))

@@ -77,7 +77,7 @@ fn motion(robot: &Arc<RobotModel>, scenario: &str, seed: u64) -> String {
             thickness_m: 0.02,
             foot: None,
         },
-        base: layout::base_footprint(robot),
+        base: Some(layout::base_footprint(robot)),
     };
     let mut rng = random::stream(seed, "layout");
     terms.plates = layout::sample(&request, &SampleSettings::default(), &mut rng)

@@ -73,7 +73,7 @@ mod _core {
     #[pymodule_export]
     use crate::planned::{PlannedObject, plan};
     #[pymodule_export]
-    use crate::plate::_plate_profile;
+    use crate::plate::_plate_made;
     #[pymodule_export]
     use crate::reproduce::reproduce;
     #[pymodule_export]

@@ -72,7 +72,7 @@ fn view(
     if done.as_ref().is_some_and(|done| done.question.plan != *plan.inner()) {
         return Err(errors::input(py, "execution", "is one of another plan"));
     }
-    let region = scenario.map(|scenario| scenario.inner().layout.task_region());
+    let region = scenario.map(|scenario| scenario.inner().task_region());
     let (plan, arm) = (plan.inner().clone(), robot.model().clone());
     let made = patiently(py, move |_| {
         let executed = done.map(|done| executed(&done)).transpose()?;

@@ -4,9 +4,10 @@ use crate::argument;
 use crate::arrays;
 use crate::errors;
 use crate::tool::{LARGEST_M, check_length};
-use platewash::Plate;
+use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use platewash::workcell::plate::Foot;
 use platewash::workcell::surface::{Knot, SHIPPED_PROFILES, Surface};
+use platewash::{Plate, Pose};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyList, PyString, PyTuple, PyType};
@@ -23,6 +24,12 @@ const SAME_M: f64 = 1e-12;
 /// The profile of a level disc, by its name.
 const FLAT: &str = "flat";
 
+/// Profile, radius and quaternion of a plate, as Python's.
+type Made<'py> = (Option<Bound<'py, PyTuple>>, f64, (f64, f64, f64, f64));
+
+/// How far the length of a quaternion may be from 1.
+const UNIT: f64 = 1e-9;
+
 /// Knots as radius \[m\] and slope \[rad\].
 type Knots = Vec<[f64; 2]>;
 
@@ -36,6 +43,7 @@ pub struct PlateFields {
     thickness_m: f64,
     profile: Option<Knots>,
     foot: Option<[f64; 2]>,
+    quaternion_wxyz: [f64; 4],
 }
 
 impl PlateFields {
@@ -55,6 +63,12 @@ impl PlateFields {
             foot: argument::field((name, "a Plate"), value, ("plate", "foot"), |_, foot| {
                 (!foot.is_none()).then(|| foot_of(foot)).transpose()
             })?,
+            quaternion_wxyz: argument::field(
+                (name, "a Plate"),
+                value,
+                ("plate", "quaternion_wxyz"),
+                arrays::fixed::<4>,
+            )?,
         })
     }
 
@@ -83,12 +97,19 @@ impl PlateFields {
         for (name, length_m) in foot.iter().flat_map(lengths) {
             check_length(py, name, length_m)?;
         }
-        let centre_m = [self.x_m, self.y_m, self.z_m];
-        let surface = self.surface(py)?;
+        let [w, x, y, z] = self.quaternion_wxyz;
+        let quaternion = Quaternion::new(w, x, y, z);
+        let off = (quaternion.norm() - 1.0).abs();
+        if off.is_nan() || off > UNIT {
+            let problem = format!("must have length 1; found {}", quaternion.norm());
+            return Err(errors::input(py, "plate.quaternion_wxyz", &problem));
+        }
+        let at = Translation3::new(self.x_m, self.y_m, self.z_m);
         Ok(Plate {
-            surface,
+            surface: self.surface(py)?,
+            thickness_m: self.thickness_m,
             foot,
-            ..Plate::level_disc(centre_m, surface.rim_m(), self.thickness_m)
+            pose: Pose::from_parts(at, UnitQuaternion::new_unchecked(quaternion)),
         })
     }
 
@@ -158,12 +179,14 @@ fn profile(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Knots>> {
     }
 }
 
-/// What a plate with a profile is made of: its knots as tuples, or `None` where it is level after all, and its radius \[m\].
+/// What a plate is made of besides numbers that are taken as they are: the knots of its profile as tuples, or `None` where it is flat after
+/// all, its radius \[m\] and its quaternion.
 #[pyfunction]
-pub fn _plate_profile<'py>(py: Python<'py>, plate: &Bound<'py, PyAny>) -> PyResult<(Option<Bound<'py, PyTuple>>, f64)> {
+pub fn _plate_made<'py>(py: Python<'py>, plate: &Bound<'py, PyAny>) -> PyResult<Made<'py>> {
     let fields = PlateFields::of("plate", plate)?;
     let surface = fields.surface(py)?;
-    Ok((knots(py, &surface)?, surface.rim_m()))
+    let [w, x, y, z] = fields.quaternion_wxyz;
+    Ok((knots(py, &surface)?, surface.rim_m(), (w, x, y, z)))
 }
 
 /// The knots of a profile, as Python's; `None` of a disc.
@@ -194,6 +217,8 @@ pub fn plates<'py>(py: Python<'py>, all: &[Plate]) -> PyResult<Bound<'py, PyList
         fields.set_item("thickness_m", plate.thickness_m)?;
         fields.set_item("profile", knots(py, &plate.surface)?)?;
         fields.set_item("foot", plate.foot.map(|foot| foot_object(py, &foot)).transpose()?)?;
+        let q = plate.pose.rotation.quaternion();
+        fields.set_item("quaternion_wxyz", (q.w, q.i, q.j, q.k))?;
         list.append(class.call((), Some(&fields))?)?;
     }
     Ok(list)

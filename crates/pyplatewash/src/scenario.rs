@@ -6,13 +6,13 @@ use crate::job::{PaperJobObject, WashJobObject};
 use crate::layout::LayoutObject;
 use crate::notes::warn;
 use crate::robot::Robot;
-use crate::value::{from_mapping, to_python, to_record};
+use crate::value::{from_mapping, records, to_python, to_record};
 use crate::work::patiently;
 use platewash::planner::Watch;
 use platewash::scenario::{Program, SHIPPED};
 use platewash::{Failure, Layout, RobotModel, Scenario};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple, PyType};
+use pyo3::types::{PyDict, PyList, PyTuple, PyType};
 use serde_json::{Map, Value};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ impl ScenarioObject {
         &self.inner
     }
 
-    fn table(&self, py: Python<'_>) -> PyResult<Map<String, Value>> {
+    fn as_table(&self, py: Python<'_>) -> PyResult<Map<String, Value>> {
         match serde_json::to_value(&self.inner) {
             Ok(Value::Object(map)) => Ok(map),
             Ok(_) => Err(errors::internal(py, "a scenario is a table")),
@@ -50,7 +50,7 @@ impl ScenarioObject {
     }
 
     fn section<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        let table = self.table(py)?;
+        let table = self.as_table(py)?;
         to_record(py, &table.get(name).unwrap_or(&Value::Null), None)
     }
 
@@ -169,7 +169,7 @@ impl ScenarioObject {
     /// Raises ScenarioError.
     #[pyo3(signature = (**changes))]
     fn replace(&self, py: Python<'_>, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let mut table = self.table(py)?;
+        let mut table = self.as_table(py)?;
         let changes = changes.map_or_else(|| Ok(Map::new()), |changes| from_mapping("", changes))?;
         for (key, value) in changes {
             match (table.get_mut(&key), value) {
@@ -262,7 +262,7 @@ impl ScenarioObject {
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, key: &Bound<'_, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let table = self.table(py)?;
+        let table = self.as_table(py)?;
         let key = argument::text("key", key, "a key")?;
         match table.get(&key) {
             Some(Value::Object(section)) => to_record(py, section, None),
@@ -285,6 +285,24 @@ impl ScenarioObject {
     #[getter]
     fn tool<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.section(py, "tool")
+    }
+
+    /// The floor of the room.
+    #[getter]
+    fn floor<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "floor")
+    }
+
+    /// A table.
+    #[getter]
+    fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "table")
+    }
+
+    /// What else stands around, one after the other.
+    #[getter]
+    fn obstacle<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        records(py, &self.inner.obstacle)
     }
 
     /// Where the plates lie.

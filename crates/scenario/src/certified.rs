@@ -2,7 +2,9 @@
 
 use crate::error::Problem;
 use crate::job::Program;
+use crate::plates::ShapeKeys;
 use crate::scenario::Scenario;
+use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve};
 use std::f64::consts::PI;
 
@@ -22,8 +24,8 @@ impl Scenario {
     /// The wash curve on a plate, as far as the scenario alone decides it: otherwise a spiral to the rim, its windings as far apart as is
     /// usual, to estimate how much work it is.
     #[must_use]
-    pub(crate) fn wash_curve(&self) -> WashCurve {
-        let radius_m = self.wash.path_radius_m.unwrap_or(self.layout.surface().arc_m());
+    pub(crate) fn wash_curve_on(&self, surface: &Surface) -> WashCurve {
+        let radius_m = self.wash.path_radius_m.unwrap_or(surface.arc_m());
         let pitch_m = PITCH_SHARE * 2.0 * self.tool.sponge_radius_m;
         WashCurve {
             radius_m,
@@ -42,13 +44,18 @@ impl Scenario {
         if self.job.program != Program::Certified {
             return Ok(());
         }
-        let (wash, layout, limits) = (&self.wash, &self.layout, &self.limits);
-        let above = |key, found, least| refuse(key, found, found > least, format!("above {least:e}"));
+        let (wash, limits) = (&self.wash, &self.limits);
         let from = |key, found, least| refuse(key, found, found >= least, format!("at least {least}"));
-        above(layout.shape_key(), layout.surface().rim_m(), LEAST_PLATE_M)?;
-        above("layout.plate_thickness_m", layout.plate_thickness_m, LEAST_PLATE_M)?;
-        for found in layout.plate_foot_m.into_iter().flatten() {
-            above("layout.plate_foot_m", found, LEAST_PLATE_M)?;
+        for (layout, keys) in self.shapes() {
+            let above = |key: &str, found: f64| {
+                let expected = format!("above {LEAST_PLATE_M:e}");
+                refuse(&keys.called(key), found, found > LEAST_PLATE_M, expected)
+            };
+            above(layout.shape_key(), layout.surface().rim_m())?;
+            above("layout.plate_thickness_m", layout.plate_thickness_m)?;
+            for found in layout.plate_foot_m.into_iter().flatten() {
+                above("layout.plate_foot_m", found)?;
+            }
         }
         let tool = &self.tool;
         refuse(
@@ -57,19 +64,9 @@ impl Scenario {
             tool.sponge_compression_m <= tool.sponge_height_m,
             format!("at most tool.sponge_height_m = {}", tool.sponge_height_m),
         )?;
-        let curve = self.wash_curve();
-        refuse(
-            "wash.turns",
-            curve.turns,
-            (LEAST_TURNS..=MOST_TURNS).contains(&curve.turns),
-            format!("from {LEAST_TURNS} to {MOST_TURNS}"),
-        )?;
-        let radius_key = if wash.path_radius_m.is_some() {
-            "wash.path_radius_m"
-        } else {
-            "layout.plate_radius_m"
-        };
-        from(radius_key, curve.radius_m, LEAST_RADIUS_M)?;
+        for (layout, keys) in self.shapes() {
+            self.check_curve(&layout.surface(), keys)?;
+        }
         from("wash.speed_m_s", wash.speed_m_s, LEAST_OF_TIP)?;
         from("wash.acceleration_m_s2", wash.acceleration_m_s2, LEAST_OF_TIP)?;
         for (key, stated) in [
@@ -87,10 +84,28 @@ impl Scenario {
         for found in limits.joint_acceleration_rad_s2 {
             from("limits.joint_acceleration_rad_s2", found, LEAST_JOINT_ACCELERATION)?;
         }
+        Ok(())
+    }
+
+    /// Refuses a wash curve on a face that cannot be computed with.
+    fn check_curve(&self, surface: &Surface, keys: ShapeKeys) -> Result<(), Problem> {
+        let curve = self.wash_curve_on(surface);
+        refuse(
+            "wash.turns",
+            curve.turns,
+            (LEAST_TURNS..=MOST_TURNS).contains(&curve.turns),
+            format!("from {LEAST_TURNS} to {MOST_TURNS}"),
+        )?;
+        let radius_key = match self.wash.path_radius_m {
+            Some(_) => "wash.path_radius_m".to_owned(),
+            None => keys.called("layout.plate_radius_m"),
+        };
+        let expected = format!("at least {LEAST_RADIUS_M}");
+        refuse(&radius_key, curve.radius_m, curve.radius_m >= LEAST_RADIUS_M, expected)?;
         // As the planner bounds it: a spiral of mean radius R/2, and a ring.
         let length = PI * curve.radius_m * (curve.turns + 2.0);
         let expected = format!("such that the wash curve π · {radius_key} · (wash.turns + 2) is at most {LONGEST_M} m");
-        refuse(radius_key, curve.radius_m, length <= LONGEST_M, expected)
+        refuse(&radius_key, curve.radius_m, length <= LONGEST_M, expected)
     }
 }
 

@@ -7,6 +7,7 @@ use crate::tool::ASSUMED_STIFFNESS_KPA;
 use crate::wash::WashSection;
 use platewash_kinematics::trig::sin_cos;
 use platewash_workcell::job::{ContactRequirements, PATH_TOLERANCE_M, PatternName};
+use platewash_workcell::tool::Tool;
 use platewash_workcell::wash_path::MOST_RINGS;
 use std::f64::consts::PI;
 
@@ -113,7 +114,7 @@ impl Scenario {
     /// is the sponge pressed by more than its greatest strain, and its force is then E π s² times that at most. With the plate at its lowest
     /// an inclined sponge presses a flat one by c − δ cos τ + s tan τ at most, which grows with τ; other faces may be hollow.
     fn check_promise(&self, wanted: &ContactRequirements) -> Result<(), Problem> {
-        let sponge = self.tool.tool().sponge;
+        let sponge = Tool::from(self.tool.straight()).sponge;
         let (c, error_m, s) = (sponge.compression_m, wanted.height_error_m, sponge.radius_m);
         let (sine, cosine) = sin_cos(self.wash.tilt_max_deg.to_radians().min(sponge.greatest_tilt_rad()));
         let (most_m, free_m) = (c + error_m * cosine, sponge.free_height_m());
@@ -129,7 +130,7 @@ impl Scenario {
             );
         }
         let least_m = c + PATH_TOLERANCE_M - error_m * cosine + s * sine / cosine;
-        if self.layout.surface().is_flat() && least_m < wanted.compression_m {
+        if self.kinds().iter().any(|(_, geometry)| geometry.surface.is_flat()) && least_m < wanted.compression_m {
             return conflict(
                 "tool.sponge_compression_m, wash.contact_compression_m, wash.contact_height_error_m",
                 format!(

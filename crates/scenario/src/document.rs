@@ -1,6 +1,8 @@
 //! The reference of scenario keys (`docs/scenario.md`), made from the table and the types' defaults.
 
+use crate::key::Key;
 use crate::keys::KEYS;
+use crate::lists::LISTS;
 use crate::scenario::Scenario;
 use crate::values::values_of;
 use crate::write::on_one_line;
@@ -12,13 +14,13 @@ pub fn reference() -> String {
     let defaults = values_of(&Scenario::default());
     let mut text = String::from(HEAD);
     let mut section = None;
-    for key in KEYS {
+    for (key, is_listed) in in_order() {
         let (here, name) = key.path.rsplit_once('.').unwrap_or(("", key.path));
         if section != Some(here) {
-            let title = if here.is_empty() {
-                "Top level".to_owned()
-            } else {
-                format!("`[{here}]`")
+            let title = match (here, is_listed) {
+                ("", _) => "Top level".to_owned(),
+                (_, false) => format!("`[{here}]`"),
+                (_, true) => format!("`[[{here}]]`, as often as there are any"),
             };
             // Writing to a String cannot fail.
             let _ = write!(
@@ -40,6 +42,19 @@ pub fn reference() -> String {
     text
 }
 
+/// Every key, and whether it is one of a list: a list stands behind the section that its name begins with, or at the end.
+fn in_order() -> Vec<(&'static Key, bool)> {
+    let mut keys: Vec<_> = KEYS.iter().map(|key| (key, false)).collect();
+    for list in LISTS {
+        let section = |key: &Key| key.path.split_once('.').map_or("", |(section, _)| section);
+        let owner = list.name.split('_').next();
+        let behind = keys.iter().rposition(|(key, _)| Some(section(key)) == owner);
+        let at = behind.map_or(keys.len(), |last| last + 1);
+        keys.splice(at..at, list.keys.iter().map(|key| (key, true)));
+    }
+    keys
+}
+
 const HEAD: &str = "# The scenario file
 
 A TOML file that decides a job in full. Unknown keys, values out of range, NaN and infinity are refused with the line, the
@@ -59,6 +74,9 @@ mod tests {
         for (name, v) in value.as_table().unwrap() {
             match v {
                 toml::Value::Table(_) => leaves(v, &format!("{prefix}{name}."), into),
+                toml::Value::Array(all) if all.first().is_some_and(toml::Value::is_table) => {
+                    leaves(&all[0], &format!("{prefix}{name}."), into);
+                }
                 _ => {
                     into.insert(format!("{prefix}{name}"));
                 }
@@ -72,10 +90,41 @@ mod tests {
         let mut full = Scenario::default();
         (full.robot.urdf, full.robot.srdf) = (Some("a".into()), Some("b".into()));
         full.robot.package_path = vec!["c".into()];
-        full.robot.home_deg = Some([0.0; 6]);
+        (full.robot.start_deg, full.robot.home_deg) = (Some([0.0; 6]), Some([0.0; 6]));
         full.robot.payload_kg = Some(3.0);
         (full.tool.com_m, full.tool.inertia_kg_m2) = (Some(0.1), Some([0.0; 6]));
         full.tool.sponge_stiffness_kpa = Some([11.0, 44.0]);
+        full.tool_body = vec![crate::ToolBodySection {
+            shape: Some(crate::BodyShape::Box),
+            size_m: Some([0.1; 3]),
+            radius_m: Some(0.1),
+            length_m: Some(0.1),
+            mass_kg: Some(0.1),
+            ..crate::ToolBodySection::default()
+        }];
+        full.obstacle = vec![crate::ObstacleSection {
+            shape: Some(crate::ObstacleShapeName::Box),
+            size_m: Some([0.1; 3]),
+            radius_m: Some(0.1),
+            length_m: Some(0.1),
+            mesh: Some("a.stl".into()),
+            mesh_scale: Some([1.0; 3]),
+            mesh_parts: Some(crate::MeshPartsName::Hull),
+            holds_plates: Some(crate::HeldPlates::These(vec![0])),
+            ..crate::ObstacleSection::default()
+        }];
+        full.table.size_m = Some([1.0; 2]);
+        full.plate = vec![crate::PlateSection {
+            at_m: Some([0.3, 0.0, 0.03]),
+            rpy_deg: Some([0.0; 3]),
+            faces: Some(crate::Faces::Both),
+            count: Some(2),
+            radius_m: Some(0.1),
+            profile: Some(crate::layout::ProfileName::Flat),
+            knots: Some(vec![[0.1, 0.0]]),
+            foot_m: Some([0.05, 0.01]),
+            thickness_m: Some(0.02),
+        }];
         let wash = &mut full.wash;
         (wash.pattern, wash.turns) = (Some(platewash_workcell::job::PatternName::Rings), Some(2.0));
         (wash.path_radius_m, wash.closing_ring) = (Some(0.1), Some(true));
@@ -100,9 +149,10 @@ mod tests {
         full.transition.mid_radius_m = Some(0.3);
         let mut of_types = BTreeSet::new();
         leaves(&toml::Value::try_from(full).unwrap(), "", &mut of_types);
-        let of_table: BTreeSet<_> = KEYS.iter().map(|k| k.path.to_owned()).collect();
+        let rows = in_order();
+        let of_table: BTreeSet<_> = rows.iter().map(|(key, _)| key.path.to_owned()).collect();
         assert_eq!(of_table, of_types);
-        assert_eq!(of_table.len(), KEYS.len(), "no key twice");
+        assert_eq!(of_table.len(), rows.len(), "no key twice");
     }
 
     #[test]

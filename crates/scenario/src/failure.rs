@@ -4,6 +4,8 @@
 
 use crate::arm::ArmError;
 use crate::error::ScenarioError;
+use crate::obstacle_error::ObstacleError;
+use crate::tool_body::tool_keys;
 use platewash_certificate::ProveError;
 use platewash_paper::PaperError;
 use platewash_paper::tracking::TrackingError;
@@ -15,6 +17,7 @@ use platewash_workcell::clearance::ClearanceError;
 use platewash_workcell::job::{End, JobError};
 use platewash_workcell::layout::LayoutError;
 use platewash_workcell::plan::PlanFileError;
+use platewash_workcell::tool_chain::ToolError;
 use platewash_workcell::verdict::Infeasibility;
 use std::fmt;
 
@@ -33,6 +36,10 @@ pub enum Failure {
         /// Its height over them \[m\].
         height_m: f64,
     },
+    /// The bodies of the tool are no tool.
+    Tool(ToolError),
+    /// An obstacle could not be made.
+    Obstacle(ObstacleError),
     /// The terms are no job.
     Job(JobError),
     /// The washing could not be planned.
@@ -82,6 +89,8 @@ impl fmt::Display for Failure {
                 f,
                 "wash.height_m must be 0 in a certified job, whose sponge touches the plates; found {height_m}"
             ),
+            Self::Tool(error) => write!(f, "{}: {error}", tool_keys(error)),
+            Self::Obstacle(error) => write!(f, "{error}"),
             Self::Job(error) => job(f, error),
             Self::Plan(error) => plan(f, error),
             Self::Paper(error) => paper(f, error),
@@ -228,6 +237,18 @@ impl From<ArmError> for Failure {
 impl From<LayoutError> for Failure {
     fn from(error: LayoutError) -> Self {
         Self::Layout(error)
+    }
+}
+
+impl From<ToolError> for Failure {
+    fn from(error: ToolError) -> Self {
+        Self::Tool(error)
+    }
+}
+
+impl From<ObstacleError> for Failure {
+    fn from(error: ObstacleError) -> Self {
+        Self::Obstacle(error)
     }
 }
 

@@ -6,6 +6,9 @@ use platewash_kinematics::words::rounded;
 use platewash_workcell::surface::MOST_KNOTS;
 use serde_json::Value;
 
+/// More plates than any job has.
+const MOST_PLATES: u64 = 1000;
+
 /// Significant digits of a length that is suggested.
 const METRE_DIGITS: usize = 6;
 
@@ -36,16 +39,19 @@ fn fits(domain: Domain, value: &Value) -> bool {
         Domain::Range(least, most) => {
             numbers(value).is_some_and(|v| matches!(v[..], [a, b] if least <= a && a < b && b <= most))
         }
-        Domain::Joints(least, most) => six(value, |v| (least..=most).contains(&v)),
-        Domain::JointsAbove(above, most) => six(value, |v| v > above && v <= most),
+        Domain::Joints(least, most) => several(value, 6, |v| (least..=most).contains(&v)),
+        Domain::JointsAbove(above, most) => several(value, 6, |v| v > above && v <= most),
         Domain::Points(least, most) => value.as_array().is_some_and(|points| {
             let fine =
                 |p: &Value| numbers(p).is_some_and(|v| v.len() == 2 && v.iter().all(|c| (least..=most).contains(c)));
             (1..=1000).contains(&points.len()) && points.iter().all(fine)
         }),
-        Domain::PairAbove(above, most) => {
-            numbers(value).is_some_and(|v| v.len() == 2 && v.iter().all(|v| *v > above && *v <= most))
-        }
+        Domain::PairAbove(above, most) => several(value, 2, |v| v > above && v <= most),
+        Domain::Pair(least, most) => several(value, 2, |v| (least..=most).contains(&v)),
+        Domain::Scale(least, most) => several(value, 3, |v| v != 0.0 && (least..=most).contains(&v)),
+        Domain::Plates => value.as_str() == Some("all") || plates(value),
+        Domain::Triple(least, most) => several(value, 3, |v| (least..=most).contains(&v)),
+        Domain::TripleAbove(above, most) => several(value, 3, |v| v > above && v <= most),
         Domain::Knots(most_m, most_deg) => knots(value, [most_m, most_deg]),
     }
 }
@@ -80,8 +86,14 @@ fn knots(value: &Value, [most_m, most_deg]: [f64; 2]) -> bool {
     (1..=MOST_KNOTS).contains(&knots.len()) && knots.iter().all(&mut fine)
 }
 
-fn six(value: &Value, fine: impl Fn(f64) -> bool) -> bool {
-    numbers(value).is_some_and(|v| v.len() == 6 && v.into_iter().all(fine))
+fn plates(value: &Value) -> bool {
+    let Some(all) = value.as_array() else { return false };
+    let all: Option<Vec<_>> = all.iter().map(Value::as_u64).collect();
+    all.is_some_and(|all| all.windows(2).all(|pair| pair[0] < pair[1]) && all.iter().all(|plate| *plate < MOST_PLATES))
+}
+
+fn several(value: &Value, count: usize, fine: impl Fn(f64) -> bool) -> bool {
+    numbers(value).is_some_and(|v| v.len() == count && v.into_iter().all(fine))
 }
 
 fn numbers(value: &Value) -> Option<Vec<f64>> {

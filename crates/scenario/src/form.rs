@@ -88,6 +88,11 @@ fn form_domain(domain: Domain) -> FormDomain {
         Domain::JointsAbove(above, most) => between("joints_above", above, most),
         Domain::Points(least, most) => between("points", least, most),
         Domain::PairAbove(above, most) => between("pair_above", above, most),
+        Domain::Pair(least, most) => between("pair", least, most),
+        Domain::Scale(least, most) => between("triple", least, most),
+        Domain::Plates => bare("text"),
+        Domain::Triple(least, most) => between("triple", least, most),
+        Domain::TripleAbove(above, most) => between("triple_above", above, most),
         // Pairs, too; which of them are knots is for the scenario to say.
         Domain::Knots(most_m, most_deg) => between("points", -most_m.max(most_deg), most_m.max(most_deg)),
     }

@@ -1,7 +1,8 @@
 //! A scenario key: its path, unit, range and meaning.
 
 use Domain::{
-    Bool, Integer, Joints, JointsAbove, Knots, Number, NumberAbove, PairAbove, Path, Paths, Points, Range, Text, Word,
+    Bool, Integer, Joints, JointsAbove, Knots, Number, NumberAbove, Pair, PairAbove, Path, Paths, Plates, Points,
+    Range, Scale, Text, Triple, TripleAbove, Word,
 };
 use platewash_workcell::job::MAX_SEED;
 use platewash_workcell::surface::MOST_KNOTS;
@@ -35,6 +36,16 @@ pub enum Domain {
     Points(f64, f64),
     /// Two numbers, each above the first and up to the second.
     PairAbove(f64, f64),
+    /// Two numbers, each within the range.
+    Pair(f64, f64),
+    /// Three numbers, each within the range.
+    Triple(f64, f64),
+    /// Three numbers, each above the first and up to the second.
+    TripleAbove(f64, f64),
+    /// Three numbers that are not 0, each within the range.
+    Scale(f64, f64),
+    /// `"all"`, or a list of plates by their index, each once and growing.
+    Plates,
     /// The knots of a profile, from the pole on: a list of `[radius in m, slope in degrees]`, radii growing up to the first, slopes up to the
     /// second, either way.
     Knots(f64, f64),
@@ -87,6 +98,11 @@ impl Domain {
             JointsAbove(above, most) => format!("six numbers above {above}, up to {most}"),
             Points(least, most) => format!("a list of 1 to 1000 [x, y], coordinates from {least} to {most}"),
             PairAbove(above, most) => format!("two numbers above {above}, up to {most}"),
+            Pair(least, most) => format!("two numbers from {least} to {most}"),
+            Scale(least, most) => format!("three numbers from {least} to {most}, none of them 0"),
+            Plates => "\"all\" or a list of plates by their index from 0, growing".to_owned(),
+            Triple(least, most) => format!("three numbers from {least} to {most}"),
+            TripleAbove(above, most) => format!("three numbers above {above}, up to {most}"),
             Knots(most_m, most_deg) => format!(
                 "a list of 1 to {MOST_KNOTS} [radius, slope]: radii above 0 m and each above the one before, up to {most_m} m, slopes \
                  from −{most_deg} to {most_deg} degrees"

@@ -1,22 +1,29 @@
-//! The one table of scenario keys: unit, range, meaning. The rows of `[wash]` are in `wash_keys.rs`.
+//! The one table of scenario keys: unit, range, meaning. The rows of `[wash]` are in `wash_keys.rs`, those of
+//! `[floor]` and `[table]` in `room.rs`.
 
 use crate::control::TIME_STEPS_S;
 use crate::key::key;
 pub use crate::key::{Domain, Key};
+use crate::room::ROOM_KEYS;
 use crate::wash_keys::WASH_KEYS;
 use platewash_workcell::job::MAX_SEED;
 use platewash_workcell::simulation::ControlLawName;
 
 use Domain::{
-    Bool, Integer, Joints, JointsAbove, Knots, Number, NumberAbove, PairAbove, Path, Paths, Points, Range, Text, Word,
+    Bool, Integer, Joints, JointsAbove, Knots, Number, NumberAbove, PairAbove, Path, Paths, Points, Range, Text,
+    Triple, Word,
 };
 
 /// Every key, in the order of the reference.
-pub const KEYS: &[Key] =
-    &joined::<{ BEFORE_WASH.len() + WASH_KEYS.len() + BEHIND_WASH.len() }>([BEFORE_WASH, WASH_KEYS, BEHIND_WASH]);
+pub const KEYS: &[Key] = &joined::<{ BEFORE_WASH.len() + WASH_KEYS.len() + ROOM_KEYS.len() + BEHIND_WASH.len() }, 4>([
+    BEFORE_WASH,
+    WASH_KEYS,
+    ROOM_KEYS,
+    BEHIND_WASH,
+]);
 
 /// Parts of the table as one.
-const fn joined<const N: usize>(parts: [&[Key]; 3]) -> [Key; N] {
+const fn joined<const N: usize, const PARTS: usize>(parts: [&[Key]; PARTS]) -> [Key; N] {
     let (mut all, mut part, mut at) = ([parts[0][0]; N], 0, 0);
     while part < parts.len() {
         let mut k = 0;
@@ -92,13 +99,25 @@ const BEFORE_WASH: &[Key] = &[
         "robot.start_deg",
         "deg",
         Joints(-36000.0, 36000.0),
-        "Joint positions at the start, within the arm's limits.",
+        "Joint positions at the start, within the arm's limits; without it, a clear home that is looked for (certified), or 0 (paper).",
     ),
     key(
         "robot.home_deg",
         "deg",
         Joints(-36000.0, 36000.0),
         "Joint positions at the end, within the arm's limits; without it, those at the start (certified).",
+    ),
+    key(
+        "robot.mount_m",
+        "m",
+        Triple(-10.0, 10.0),
+        "Where the arm's base is in the world, whose z = 0 is the floor and whose z points up: 0.4 above it on a pedestal of that height.",
+    ),
+    key(
+        "robot.mount_rpy_deg",
+        "deg",
+        Triple(-360.0, 360.0),
+        "How the base is turned there: roll, pitch and yaw about the fixed axes x, y, z of the world; [180, 0, 0] hangs from a ceiling.",
     ),
     key(
         "robot.payload_kg",
@@ -111,9 +130,28 @@ const BEFORE_WASH: &[Key] = &[
         "m",
         Number(0.0, 2.0),
         "From the flange, along its normal, to the sponge's far face as it is pressed while it washes: the free sponge is longer by \
-         sponge_compression_m. 0 means no tool body; above 0 in a certified job.",
+         sponge_compression_m. 0 means no tool body; above 0 in a certified job. From mount_m on where the tool is mounted elsewhere.",
     ),
     key("tool.radius_m", "m", NumberAbove(0.0, 1.0), "Radius of the handle."),
+    key(
+        "tool.handle",
+        "",
+        Word(&["round", "none"]),
+        "What is between flange and sponge: a round handle, or nothing but the bodies of [[tool_body]].",
+    ),
+    key(
+        "tool.mount_m",
+        "m",
+        Triple(-1.0, 1.0),
+        "Where the tool begins, in the mounting frame of the flange: handle, sponge, tip, centre of mass and inertia follow it.",
+    ),
+    key(
+        "tool.mount_rpy_deg",
+        "deg",
+        Triple(-360.0, 360.0),
+        "How the tool is turned there: roll, pitch and yaw about the fixed axes x, y, z of the mounting frame. Unturned, it leaves the flange \
+         along its normal.",
+    ),
     key(
         "tool.sponge_radius_m",
         "m",
@@ -144,20 +182,20 @@ const BEFORE_WASH: &[Key] = &[
         "tool.mass_kg",
         "kg",
         Number(0.0, 1e4),
-        "Mass of the tool body (none where length_m is 0): an assumption.",
+        "Mass of the tool, all its bodies together (none where length_m is 0): an assumption.",
     ),
     key(
         "tool.com_m",
         "m",
         Number(-10.0, 10.0),
-        "Distance of the tool's centre of mass from the flange, along its axis; without it, half its length.",
+        "Distance of the tool's centre of mass from where it begins, along its axis; without it, half its length, or what its bodies come to.",
     ),
     key(
         "tool.inertia_kg_m2",
         "kg·m²",
         Joints(-1e4, 1e4),
         "Inertia of the tool about its centre of mass: ixx, ixy, ixz, iyy, iyz, izz, z along the tool; without it, that of a \
-         uniform cylinder.",
+         uniform cylinder, or of its bodies.",
     ),
     key(
         "layout.count",

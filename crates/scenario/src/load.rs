@@ -5,11 +5,15 @@ use crate::fits::check;
 use crate::job::Program;
 use crate::keys::{KEYS, Key};
 use crate::line::line_at;
+use crate::listed::{Misfit, check_list};
+use crate::lists::LISTS;
 use crate::scenario::Scenario;
 use crate::seed::check_seed;
 use crate::source::source;
+use crate::surroundings::in_folder;
 use crate::unknown::unknown;
 use crate::value::{describe, json_of};
+use platewash_kinematics::Pose;
 use platewash_workcell::job::OrderRule;
 use std::path::Path;
 use toml::Spanned;
@@ -72,9 +76,13 @@ impl Scenario {
         for path in files.chain(&mut self.robot.package_path) {
             *path = folder.join(&*path);
         }
+        for mesh in self.obstacle.iter_mut().filter_map(|obstacle| obstacle.mesh.as_mut()) {
+            *mesh = in_folder(mesh, folder);
+        }
     }
 
     fn check_conflicts(&self) -> Result<(), Problem> {
+        self.check_plates()?;
         let (layout, tool) = (&self.layout, &self.tool);
         let ranges = [layout.x_m, layout.y_m, layout.rho_m, layout.azimuth_deg];
         if layout.region.is_some() && ranges.iter().any(Option::is_some) {
@@ -88,13 +96,12 @@ impl Scenario {
         }
         let bounded =
             layout.region.is_some() || layout.rho_m.is_some() || (layout.x_m.is_some() && layout.y_m.is_some());
-        if layout.positions_m.is_none() && !bounded {
+        if !self.lists_plates() && !bounded {
             return conflict(
                 "layout",
-                "no region to sample from: give region, or x_m and y_m, or rho_m, or positions_m",
+                "no region to sample from: give region, or x_m and y_m, or rho_m, or positions_m, or [[plate]] sections with at_m",
             );
         }
-        layout.check_shape()?;
         if tool.length_m > 0.0 && tool.sponge_height_m >= tool.length_m {
             let (sponge, length) = (tool.sponge_height_m, tool.length_m);
             return conflict(
@@ -102,6 +109,7 @@ impl Scenario {
                 format!("must be below tool.length_m = {length}; found {sponge}"),
             );
         }
+        self.check_tool()?;
         if self.robot.urdf.is_none() && (self.robot.srdf.is_some() || !self.robot.package_path.is_empty()) {
             return conflict("robot.urdf", "robot.srdf and robot.package_path need a robot.urdf");
         }
@@ -111,12 +119,19 @@ impl Scenario {
                 "\"fastest\" is for job.program = \"certified\"; the paper's program knows \"nearest\" and \"given\"",
             );
         }
+        if self.job.program == Program::Paper && self.robot.mount() != Pose::identity() {
+            return conflict(
+                "robot.mount_m, robot.mount_rpy_deg",
+                "the paper's arm stands at the origin of the world: leave them out, or state job.program = \"certified\"",
+            );
+        }
         if self.job.program == Program::Paper && !layout.surface().is_flat() {
             return conflict(
                 layout.shape_key(),
                 "the paper's program washes flat plates alone: give plate_radius_m, or job.program = \"certified\"",
             );
         }
+        self.check_surroundings()?;
         self.check_control()?;
         self.check_certified()?;
         self.check_contact()?;
@@ -166,13 +181,15 @@ impl Scenario {
     }
 }
 
-type Misfit = (usize, Problem);
-
 fn check_table(table: &DeTable<'_>, prefix: &str) -> Result<(), Misfit> {
     for (name, value) in table {
         let path = format!("{prefix}{}", name.get_ref());
         let inside = format!("{path}.");
         let is_section = KEYS.iter().any(|k| k.path.starts_with(&inside));
+        if let Some(list) = LISTS.iter().find(|list| list.name == path) {
+            check_list(list, value)?;
+            continue;
+        }
         match (KEYS.iter().find(|k| k.path == path), value.get_ref()) {
             (Some(key), _) => check_value(key, value)?,
             (None, DeValue::Table(section)) if is_section => check_table(section, &inside)?,

@@ -74,15 +74,6 @@ impl LayoutSection {
         }
     }
 
-    /// Where plates are drawn, to look at.
-    #[must_use]
-    pub fn task_region(&self) -> TaskRegion {
-        TaskRegion {
-            base_circle_m: (self.base_radius_m > 0.0).then_some(self.base_radius_m),
-            polygon_m: self.region().map(|region| region.outline_m()),
-        }
-    }
-
     /// The region stated; `None` where none is (explicit positions only).
     #[must_use]
     pub fn region(&self) -> Option<Region> {
@@ -97,10 +88,6 @@ impl LayoutSection {
             azimuth_deg: self.azimuth_deg,
         })
     }
-
-    fn draw(&self, base: &BaseFootprint, rng: &mut Pcg64) -> Result<Layout, LayoutError> {
-        self.placement().place(&self.spacing(), &self.geometry(), base, rng)
-    }
 }
 
 impl Scenario {
@@ -109,8 +96,62 @@ impl Scenario {
     /// # Errors
     /// [`LayoutError`].
     pub fn layout(&self, arm: &RobotModel) -> Result<Layout, LayoutError> {
-        let base = layout::base_footprint(arm);
-        self.layout.draw(&base, &mut random::stream(self.seed, "layout"))
+        let base = layout::mounted_footprint(arm, &self.robot.mount());
+        self.draw(base.as_ref(), &mut random::stream(self.seed, "layout"))
+    }
+
+    /// A layout, in the world. It is drawn about the foot of the arm's mount, along the world's axes: there the rules of spacing hold.
+    fn draw(&self, base: Option<&BaseFootprint>, rng: &mut Pcg64) -> Result<Layout, LayoutError> {
+        if let Some(plates) = self.listed_plates() {
+            return Ok(Layout::listed(plates, self.foot_m(), base));
+        }
+        let (foot_m, kinds) = (self.foot_m(), self.kinds());
+        let placement = match self.layout.placement() {
+            Placement::Given { centres_m, region } => Placement::Given {
+                centres_m: centres_m.iter().map(|[x, y]| [x - foot_m[0], y - foot_m[1]]).collect(),
+                region,
+            },
+            Placement::Sampled {
+                region, washable_only, ..
+            } => Placement::Sampled {
+                region,
+                count: self.plates(),
+                washable_only,
+            },
+        };
+        let mut layout = placement.place(&self.layout.spacing(), &self.layout.geometry(), base, rng)?;
+        if !self.plate.is_empty() {
+            layout = layout.of_kinds(&kinds, base);
+        }
+        if foot_m != [0.0; 2] {
+            layout = layout.moved_by(foot_m);
+            // To the bit where they are said to be.
+            for (plate, centre_m) in layout.plates.iter_mut().zip(self.layout.positions_m.iter().flatten()) {
+                *plate = plate.moved_to(*centre_m);
+            }
+        }
+        Ok(layout)
+    }
+
+    /// The foot of the arm's mount, seen from above \[m\].
+    fn foot_m(&self) -> [f64; 2] {
+        let [x, y, _] = self.robot.mount_m;
+        [x, y]
+    }
+
+    /// Where plates are drawn, to look at: in the world.
+    #[must_use]
+    pub fn task_region(&self) -> TaskRegion {
+        let ([x, y], layout) = (self.foot_m(), &self.layout);
+        let moved = |outline: Vec<[f64; 2]>| outline.into_iter().map(|[u, v]| [u + x, v + y]).collect();
+        let drawn = self.listed_plates().is_none();
+        TaskRegion {
+            base_circle_m: (drawn && layout.base_radius_m > 0.0).then_some(layout.base_radius_m),
+            polygon_m: layout
+                .region()
+                .filter(|_| drawn)
+                .map(|region| moved(region.outline_m())),
+        }
     }
 
     /// Places the plates round an arm; where `layout.only_washable` asks for it, layouts are drawn until every plate can be washed
@@ -119,13 +160,13 @@ impl Scenario {
     /// # Errors
     /// [`Failure`]: no room, too much work, or none of the layouts drawn will do.
     pub fn place(&self, arm: &Arc<RobotModel>, watch: &Watch<'_>) -> Result<Layout, Failure> {
-        if !self.layout.placement().needs_planner() {
+        if self.lists_plates() || !self.layout.placement().needs_planner() {
             return Ok(self.layout(arm)?);
         }
         self.check_work()?;
-        let base = layout::base_footprint(arm);
+        let base = layout::mounted_footprint(arm, &self.robot.mount());
         let mut rng = random::stream(self.seed, "layout");
-        let mut draw = || self.layout.draw(&base, &mut rng);
+        let mut draw = || self.draw(base.as_ref(), &mut rng);
         let terms = self.terms(arm, &Layout::of(Vec::new()))?;
         Ok(platewash_planner::draw_washable_layout(arm, &terms, &mut draw, watch)?)
     }
@@ -133,6 +174,7 @@ impl Scenario {
     /// Refuses a region in which not even one plate has room.
     pub(crate) fn check_region(&self) -> Result<(), LayoutError> {
         match self.layout.placement() {
+            _ if self.lists_plates() => Ok(()),
             Placement::Given { .. } => Ok(()),
             Placement::Sampled { region, .. } => Sampler::new(&region, &self.layout.spacing()).map(|_| ()),
         }

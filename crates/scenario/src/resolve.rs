@@ -4,13 +4,13 @@ use crate::arm::load_arm;
 use crate::failure::Failure;
 use crate::job::Program;
 use crate::scenario::Scenario;
-use crate::tool::ASSUMED_STIFFNESS_KPA;
 use crate::wash::{PAPER_RADIUS_M, PAPER_TURNS};
-use platewash_kinematics::RobotModel;
+use platewash_kinematics::{JointVector, RobotModel};
 use platewash_paper::order::PaperOrder;
 use platewash_paper::settings::{PaperIk, TransitCurve};
 use platewash_paper::{PaperJob, PaperSettings, PaperSpiral};
 use platewash_planner::Watch;
+use platewash_planner::suggest::suggest_home;
 use platewash_workcell::arc::Arc as ArcRoundBase;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::{
@@ -18,7 +18,7 @@ use platewash_workcell::job::{
 };
 use platewash_workcell::layout::{Finding, Layout};
 use platewash_workcell::simulation::{ControlLawName, SimulationSettings};
-use platewash_workcell::tool::Sponge;
+use platewash_workcell::tool::{Sponge, Tool};
 use platewash_workcell::workcell::Workcell;
 use std::sync::Arc;
 
@@ -72,10 +72,10 @@ impl Scenario {
         Ok(PaperJob {
             name: self.name.clone(),
             arm: arm.clone(),
-            workcell: self.workcell(arm)?,
+            workcell: self.workcell(arm, layout.plates.len())?,
             layout,
             seed: self.seed,
-            start_rad: start,
+            start_rad: start.unwrap_or_else(JointVector::zeros),
             requirements: self.requirements(),
             limits: self.limits(),
             settings: self.paper_settings(),
@@ -93,7 +93,7 @@ impl Scenario {
     pub fn check(&self) -> Result<(Arc<RobotModel>, Vec<Finding>), Failure> {
         self.validate()?;
         let arm = self.arm()?;
-        let given = self.layout.positions_m.is_some();
+        let given = self.lists_plates();
         let layout = if given {
             self.layout(&arm)?
         } else {
@@ -101,7 +101,7 @@ impl Scenario {
             Layout::of(Vec::new())
         };
         let [start, _] = self.homes();
-        if let Some(violation) = arm.limits().violation(&start) {
+        if let Some(violation) = start.and_then(|start| arm.limits().violation(&start)) {
             return Err(JobError::Home {
                 end: End::Start,
                 violation,
@@ -114,7 +114,7 @@ impl Scenario {
         Ok((arm, layout.findings))
     }
 
-    /// The terms of the job on some plates.
+    /// The terms of the job on some plates; where no home is stated, one is found for them.
     ///
     /// # Errors
     /// [`Failure`]: a tip that washes off the plates, or an arm with a shape that is none.
@@ -124,12 +124,14 @@ impl Scenario {
             return Err(Failure::NoContact { height_m });
         }
         let wash = &self.wash;
-        Ok(JobTerms {
-            workcell: self.workcell(arm)?,
+        let [start, end] = self.homes();
+        let zeros = JointVector::zeros;
+        let mut terms = JobTerms {
+            workcell: self.workcell(arm, layout.plates.len())?,
             plates: layout.plates.clone(),
             requirements: self.requirements(),
             limits: self.limits(),
-            home_rad: self.homes(),
+            home_rad: [start.unwrap_or_else(zeros), end.unwrap_or_else(zeros)],
             planner: Planner::Wash(PlannerSettings {
                 path_radius_m: wash.path_radius_m,
                 turns: wash.turns,
@@ -141,12 +143,17 @@ impl Scenario {
                 order: self.job.order,
                 arc: self.arc(),
                 reach: ReachBorders::IRB_120,
-                relocate: self.layout.positions_m.is_some(),
+                relocate: self.lists_plates(),
             }),
             seed: self.seed,
             simulation: self.simulation(),
             dry_run: None,
-        })
+        };
+        if start.is_none() {
+            let found = suggest_home(arm, &terms, &CancelToken::new())?.q_rad();
+            terms.home_rad = [found, end.unwrap_or(found)];
+        }
+        Ok(terms)
     }
 
     /// The settings of the paper's program.
@@ -180,13 +187,14 @@ impl Scenario {
         }
     }
 
-    /// The arm with its tool, on the floor.
-    fn workcell(&self, arm: &RobotModel) -> Result<Workcell, Failure> {
-        let mut tool = self.tool.clone();
-        if self.wash.contact {
-            tool.sponge_stiffness_kpa.get_or_insert(ASSUMED_STIFFNESS_KPA);
-        }
-        Ok(Workcell::on_floor(arm, tool.tool())?)
+    /// The arm with its tool where it is mounted, and what stands around it, among so many plates.
+    ///
+    /// # Errors
+    /// [`Failure`]: an obstacle that is none, or an arm with a shape that is none.
+    pub fn workcell(&self, arm: &RobotModel, plates: usize) -> Result<Workcell, Failure> {
+        let tool = self.tool_on(arm)?;
+        let obstacles = self.obstacles(arm, &tool, plates)?;
+        Ok(Workcell::new(arm, tool, self.robot.mount(), obstacles)?)
     }
 
     fn requirements(&self) -> Requirements {
@@ -218,7 +226,7 @@ impl Scenario {
 
     /// The sponge, where there is a tool that holds one.
     fn sponge(&self) -> Option<Sponge> {
-        let tool = self.tool.tool();
+        let tool = Tool::from(self.tool.straight());
         tool.is_present().then_some(tool.sponge)
     }
 

@@ -2,15 +2,19 @@
 
 use crate::control::ControlSection;
 use crate::ik::IkSection;
-use crate::job::JobSection;
+use crate::job::{JobSection, Program};
 use crate::layout::LayoutSection;
 use crate::limits::LimitsSection;
+use crate::obstacle::ObstacleSection;
 use crate::plant::PlantSection;
+use crate::plate::PlateSection;
 use crate::robot::RobotSection;
+use crate::room::{FloorSection, TableSection};
 use crate::tool::ToolSection;
+use crate::tool_body::ToolBodySection;
 use crate::transition::TransitionSection;
 use crate::wash::WashSection;
-use platewash_kinematics::JointVector;
+use platewash_kinematics::{AXES, JointVector};
 use serde::{Deserialize, Serialize};
 
 /// A job in full: what a scenario file states, with defaults filled in. Ranges are checked by
@@ -28,8 +32,21 @@ pub struct Scenario {
     pub robot: RobotSection,
     /// What it holds.
     pub tool: ToolSection,
+    /// Further bodies of it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tool_body: Vec<ToolBodySection>,
+    /// The floor of the room.
+    pub floor: FloorSection,
+    /// A table.
+    pub table: TableSection,
+    /// What else stands around.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub obstacle: Vec<ObstacleSection>,
     /// Where the plates lie.
     pub layout: LayoutSection,
+    /// Plates one by one, or kinds of them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub plate: Vec<PlateSection>,
     /// The path on a plate.
     pub wash: WashSection,
     /// Inverse kinematics along the path.
@@ -45,11 +62,13 @@ pub struct Scenario {
 }
 
 impl Scenario {
-    /// Joint positions at the start and at the end \[rad\].
+    /// Joint positions at the start and at the end \[rad\]; `None` where a certified job leaves them to be found.
     #[must_use]
-    pub fn homes(&self) -> [JointVector; 2] {
-        let start = self.robot.start_deg;
-        [start, self.robot.home_deg.unwrap_or(start)].map(|deg| JointVector::from(deg).map(f64::to_radians))
+    pub fn homes(&self) -> [Option<JointVector>; 2] {
+        let of_paper = (self.job.program == Program::Paper).then_some([0.0; AXES]);
+        let start = self.robot.start_deg.or(of_paper);
+        let radians = |deg: [f64; AXES]| JointVector::from(deg).map(f64::to_radians);
+        [start, self.robot.home_deg.or(start)].map(|deg| deg.map(radians))
     }
 }
 
@@ -61,7 +80,12 @@ impl Default for Scenario {
             job: JobSection::default(),
             robot: RobotSection::default(),
             tool: ToolSection::default(),
+            tool_body: Vec::new(),
+            floor: FloorSection::default(),
+            table: TableSection::default(),
+            obstacle: Vec::new(),
             layout: LayoutSection::default(),
+            plate: Vec::new(),
             wash: WashSection::default(),
             ik: IkSection::default(),
             transition: TransitionSection::default(),

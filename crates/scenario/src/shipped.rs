@@ -44,6 +44,38 @@ pub const SHIPPED: &[ShippedScenario] = &[
         text: include_str!("../../../scenarios/dessert.toml"),
     },
     ShippedScenario {
+        name: "angled-tool",
+        text: include_str!("../../../scenarios/angled-tool.toml"),
+    },
+    ShippedScenario {
+        name: "bracket-tool",
+        text: include_str!("../../../scenarios/bracket-tool.toml"),
+    },
+    ShippedScenario {
+        name: "sink",
+        text: include_str!("../../../scenarios/sink.toml"),
+    },
+    ShippedScenario {
+        name: "pedestal",
+        text: include_str!("../../../scenarios/pedestal.toml"),
+    },
+    ShippedScenario {
+        name: "ceiling",
+        text: include_str!("../../../scenarios/ceiling.toml"),
+    },
+    ShippedScenario {
+        name: "wall",
+        text: include_str!("../../../scenarios/wall.toml"),
+    },
+    ShippedScenario {
+        name: "rack",
+        text: include_str!("../../../scenarios/rack.toml"),
+    },
+    ShippedScenario {
+        name: "sizes",
+        text: include_str!("../../../scenarios/sizes.toml"),
+    },
+    ShippedScenario {
         name: "paper-appendix",
         text: include_str!("../../../scenarios/paper-appendix.toml"),
     },

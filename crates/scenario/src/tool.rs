@@ -1,13 +1,15 @@
 //! The `[tool]` section.
 
-use platewash_workcell::tool::{StraightTool, Tool};
+use platewash_workcell::tool::StraightTool;
+use platewash_workcell::tool_chain::Handle;
 use serde::{Deserialize, Serialize};
 
 /// Stiffness of a sponge where contact is promised and none is stated \[kPa\]: an assumption, after the firmness of upholstery foams
 /// (20 to 80 lbf on 50 in² at a quarter of the height).
 pub const ASSUMED_STIFFNESS_KPA: [f64; 2] = [11.0, 44.0];
 
-/// `[tool]`: a straight handle with a sponge at its end.
+/// `[tool]`: a straight handle with a sponge at its end, mounted anywhere on the flange. Further bodies are
+/// [`ToolBodySection`](crate::ToolBodySection)s.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ToolSection {
@@ -15,6 +17,12 @@ pub struct ToolSection {
     pub length_m: f64,
     /// Radius of the handle \[m\].
     pub radius_m: f64,
+    /// What is between flange and sponge.
+    pub handle: HandleName,
+    /// Where it begins, mounting frame \[m\].
+    pub mount_m: [f64; 3],
+    /// How it is turned there: roll, pitch and yaw about the mounting frame's axes x, y, z \[deg\].
+    pub mount_rpy_deg: [f64; 3],
     /// Radius of the sponge \[m\]; also decides coverage.
     pub sponge_radius_m: f64,
     /// Height of the sponge while it washes \[m\]: the handle ends that far above the contact.
@@ -36,11 +44,30 @@ pub struct ToolSection {
     pub inertia_kg_m2: Option<[f64; 6]>,
 }
 
+/// What a tool is held by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum HandleName {
+    /// A round handle.
+    Round,
+    /// Nothing but further bodies.
+    None,
+}
+
+impl From<HandleName> for Handle {
+    fn from(name: HandleName) -> Self {
+        match name {
+            HandleName::Round => Self::Round,
+            HandleName::None => Self::None,
+        }
+    }
+}
+
 impl ToolSection {
-    /// The tool.
+    /// The tool in its own frame, further bodies apart.
     #[must_use]
-    pub fn tool(&self) -> Tool {
-        Tool::from(StraightTool {
+    pub fn straight(&self) -> StraightTool {
+        StraightTool {
             length_m: self.length_m,
             radius_m: self.radius_m,
             sponge_radius_m: self.sponge_radius_m,
@@ -50,7 +77,7 @@ impl ToolSection {
             mass_kg: self.mass_kg,
             com_m: self.com_m,
             inertia_kg_m2: self.inertia_kg_m2,
-        })
+        }
     }
 }
 
@@ -70,6 +97,9 @@ impl Default for ToolSection {
         Self {
             length_m,
             radius_m,
+            handle: HandleName::Round,
+            mount_m: [0.0; 3],
+            mount_rpy_deg: [0.0; 3],
             sponge_radius_m,
             sponge_height_m,
             sponge_compression_m,

@@ -1,4 +1,4 @@
-//! Values that were probably meant in another unit: notes, not errors, because they make sense as they stand.
+//! Values that were probably meant in another unit, and a home that is left open: notes, not errors, because they make sense as they stand.
 
 use crate::scenario::Scenario;
 use platewash_kinematics::words::rounded;
@@ -13,7 +13,7 @@ const LONGEST_REACH_M: f64 = 20.0;
 /// Significant digits of what is suggested.
 const DIGITS: usize = 4;
 
-/// A value that was probably meant in another unit.
+/// A value that was probably meant in another unit, or one that is looked for.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
@@ -28,6 +28,8 @@ pub enum UnitNote {
         /// It in degrees, if radians were meant \[deg\].
         meant_deg: [f64; AXES],
     },
+    /// A certified job without a home: one is looked for.
+    HomeLeftOpen,
     /// An arm that reaches tens of metres and more: URDF states metres, millimetres were probably meant.
     ArmInMillimetres {
         /// Name of the arm.
@@ -42,14 +44,13 @@ impl Scenario {
     #[must_use]
     pub fn notes(&self) -> Vec<UnitNote> {
         let robot = &self.robot;
-        let homes = [
-            ("robot.start_deg", Some(robot.start_deg)),
-            ("robot.home_deg", robot.home_deg),
-        ];
+        let homes = [("robot.start_deg", robot.start_deg), ("robot.home_deg", robot.home_deg)];
         let notes = homes
             .into_iter()
             .filter_map(|(key, home)| UnitNote::of_home(key, home?));
-        notes.collect()
+        let [start, _] = self.homes();
+        let open = start.is_none().then_some(UnitNote::HomeLeftOpen);
+        notes.chain(open).collect()
     }
 }
 
@@ -87,6 +88,9 @@ impl fmt::Display for UnitNote {
                 "{key} = {found_deg:?} is taken in degrees; radians were probably meant, as all of it lies within ±2π: write \
                  {meant_deg:?}"
             ),
+            Self::HomeLeftOpen => f.write_str(
+                "robot.start_deg is not stated: a clear home is looked for, and stands in the plan; `platewash robot --suggest` shows one",
+            ),
             Self::ArmInMillimetres { robot, reach_m } => write!(
                 f,
                 "robot {robot} reaches {} m: URDF states metres; millimetres were probably meant",
@@ -105,7 +109,7 @@ mod tests {
 
     fn with_home(start_deg: [f64; AXES]) -> Scenario {
         let mut scenario = Scenario::load("kitchen").unwrap();
-        scenario.robot.start_deg = start_deg;
+        scenario.robot.start_deg = Some(start_deg);
         scenario
     }
 

@@ -1,22 +1,18 @@
-//! Keys that do not exist, and the nearest ones that do.
+//! Keys that do not exist.
 
 use crate::error::Problem;
 use crate::keys::KEYS;
+use crate::lists::LISTS;
+use crate::nearest::nearest;
 use platewash_workcell::words::printable;
-
-/// Less like any key than this, nothing is suggested.
-const LEAST_LIKENESS: f64 = 0.6;
 
 /// What is said of a key that does not exist.
 pub(crate) fn unknown(key: &str) -> Problem {
-    let ranked = KEYS
+    let known = KEYS
         .iter()
-        .map(|k| (strsim::normalized_damerau_levenshtein(k.path, key), k.path));
-    let nearest = ranked
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .filter(|(likeness, _)| *likeness > LEAST_LIKENESS);
-    Problem::UnknownKey {
-        key: printable(key),
-        nearest: nearest.map(|(_, path)| path.to_owned()),
-    }
+        .map(|key| key.path)
+        .chain(LISTS.iter().map(|list| list.name));
+    let nearest = nearest(key, known).map(str::to_owned);
+    let key = printable(key);
+    Problem::UnknownKey { key, nearest }
 }

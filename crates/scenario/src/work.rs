@@ -5,6 +5,7 @@ use crate::job::Program;
 use crate::scenario::Scenario;
 use platewash_paper::WorkError;
 use platewash_planner::redundancy::settings::CHORD_ERROR_M;
+use platewash_workcell::layout::PlateGeometry;
 use platewash_workcell::words::counted;
 
 /// Most checks of a contact point of a certified job against a plate: a minute or so of planning.
@@ -14,20 +15,16 @@ pub const MAX_CONTACT_CHECKS: usize = 25_000_000;
 const WAYPOINT_KEYS: &str = "wash.points, transition.samples";
 
 impl Scenario {
-    /// Plates that are asked for.
-    #[must_use]
-    pub fn plates(&self) -> usize {
-        self.layout.positions_m.as_ref().map_or(self.layout.count, Vec::len)
-    }
-
     /// Contact points of a certified job: those of every plate's wash path.
     #[must_use]
     pub fn contact_points(&self) -> usize {
-        let a_plate = self
-            .wash_curve()
-            .parameters(&self.layout.surface(), CHORD_ERROR_M)
-            .len();
-        a_plate.saturating_mul(self.plates())
+        let of_kind = |(count, geometry): (usize, PlateGeometry)| {
+            let curve = self.wash_curve_on(&geometry.surface);
+            let a_plate = curve.parameters(&geometry.surface, CHORD_ERROR_M).len();
+            a_plate.saturating_mul(count)
+        };
+        let kinds = self.kinds().into_iter().map(of_kind);
+        kinds.fold(0, usize::saturating_add)
     }
 
     /// Refuses a job whose clearances would take minutes: many plates, each of which is checked at every waypoint or contact

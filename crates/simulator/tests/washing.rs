@@ -462,7 +462,7 @@ fn plans_and_settings_that_make_no_sense_are_refused() {
     }
     assert!(refusal(plan, &paper).to_string().contains("180"), "the limit is named");
     assert!(matches!(
-        with(&|p| p.job.workcell.mount.translation.z = 0.5),
+        with(&|p| p.job.workcell.mount.translation.z = f64::NAN),
         SimulationError::Job(JobError::Mount)
     ));
 }

@@ -76,10 +76,6 @@ impl DryRun {
     #[must_use]
     pub fn standing(index: usize, real: &Plate) -> Obstacle {
         let (shape, pose) = real.enclosure();
-        Obstacle {
-            name: Self::real_name(index),
-            shape: ObstacleShape::Convex(shape),
-            pose,
-        }
+        Obstacle::new(&Self::real_name(index), ObstacleShape::Convex(shape), pose)
     }
 }

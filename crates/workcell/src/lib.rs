@@ -4,7 +4,7 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | mount, arm, tool, obstacles, pairs that are left out | [`workcell`], [`tool`] |
+//! | mount, arm, tool, obstacles, pairs that are left out | [`workcell`], [`tool`], [`tool_chain`] |
 //! | plates, and where they lie | [`plate`], [`surface`], [`layout`] |
 //! | what is asked, resolved | [`job`], [`simulation`] |
 //! | how a plate is washed; the arc between plates | [`wash_path`], [`arc`] |
@@ -14,6 +14,7 @@
 //! | distances between bodies | [`clearance`] |
 //! | the share of a plate that is swept | [`coverage`] |
 //! | how a sponge presses on a plate | [`contact`] |
+//! | mass, centre and inertia of shapes | [`uniform`] |
 //! | random streams; giving up; how a job ended; words of messages | [`random`], [`cancel`], [`verdict`], [`words`] |
 
 pub mod align;
@@ -28,7 +29,8 @@ pub mod dry_run;
 pub mod fixtures;
 pub mod job;
 pub mod layout;
-mod on_floor;
+mod mounted;
+pub mod obstacle;
 pub mod piecewise;
 pub mod plan;
 pub mod plate;
@@ -40,7 +42,9 @@ pub mod segment;
 pub mod simulation;
 pub mod surface;
 pub mod tool;
+pub mod tool_chain;
 pub mod trajectory;
+pub mod uniform;
 pub mod verdict;
 pub mod wash_path;
 pub mod words;

@@ -8,6 +8,16 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 /// How far the norm of a quaternion may be from 1.
 const UNIT: f64 = 1e-9;
 
+/// Whether a pose is somewhere: finite, its quaternion of length 1.
+pub(crate) fn is_sound(pose: &Pose) -> bool {
+    pose.translation.vector.iter().all(|c| c.is_finite()) && is_unit(pose.rotation.quaternion())
+}
+
+/// NaN is no unit.
+fn is_unit(q: &Quaternion<f64>) -> bool {
+    (q.norm() - 1.0).abs() <= UNIT
+}
+
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct InFile {
@@ -30,8 +40,7 @@ pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<
         quaternion_wxyz: [w, x, y, z],
     } = InFile::deserialize(deserializer)?;
     let q = Quaternion::new(w, x, y, z);
-    let off = (q.norm() - 1.0).abs();
-    if off.is_nan() || off > UNIT {
+    if !is_unit(&q) {
         return Err(D::Error::custom(format!(
             "quaternion_wxyz must have length 1; found {}",
             q.norm()

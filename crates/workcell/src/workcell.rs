@@ -1,8 +1,8 @@
 //! The world that an arm works in.
 
+pub use crate::obstacle::{Obstacle, ObstacleShape};
 use crate::pose;
 use crate::tool::Tool;
-use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::{Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 
@@ -35,29 +35,6 @@ pub struct ArmId {
     pub srdf_sha256: Option<String>,
 }
 
-/// Something that stands still and must not be touched.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Obstacle {
-    /// Its name, in messages.
-    pub name: String,
-    /// Its shape.
-    pub shape: ObstacleShape,
-    /// `T_world_obstacle`.
-    #[serde(with = "pose")]
-    pub pose: Pose,
-}
-
-/// Shape of an obstacle.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ObstacleShape {
-    /// All of z ≤ 0.
-    HalfSpace,
-    /// A convex body.
-    Convex(Shape),
-}
-
 /// Two bodies that need not keep clear of each other.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -84,18 +61,6 @@ pub enum ExclusionReason {
     NeitherMoves,
     /// It turns about the vertical, over the floor.
     KeepsItsHeight,
-}
-
-impl Obstacle {
-    /// The floor of the room: all of z ≤ 0.
-    #[must_use]
-    pub fn floor() -> Self {
-        Self {
-            name: "floor".to_owned(),
-            shape: ObstacleShape::HalfSpace,
-            pose: Pose::identity(),
-        }
-    }
 }
 
 impl ArmId {

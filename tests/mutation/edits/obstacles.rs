@@ -20,11 +20,9 @@ pub fn add(edits: &mut Edits) {
 
 /// An obstacle with its middle at a place \[m\]; what need not keep clear of it follows.
 fn put(plan: &mut Plan, name: &str, shape: Shape, [x, y, z]: [f64; 3]) {
-    plan.job.workcell.obstacles.push(Obstacle {
-        name: name.to_owned(),
-        shape: ObstacleShape::Convex(shape),
-        pose: Pose::translation(x, y, z),
-    });
+    let pose = Pose::translation(x, y, z);
+    let body = Obstacle::new(name, ObstacleShape::Convex(shape), pose);
+    plan.job.workcell.obstacles.push(body);
     restate(plan);
 }
 
@@ -139,6 +137,8 @@ fn left_out(edits: &mut Edits) {
             half_length_m: 0.3,
         };
         put(p, "post", post, [0.4, 0.0, 0.3]);
+        // Where it stands in a plate it holds that.
+        p.job.workcell.obstacles[1].holds_plates = (0..p.job.plates.len()).collect();
     };
     edits.add(
         Kind::Obstacles,

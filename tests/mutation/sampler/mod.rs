@@ -11,6 +11,7 @@ mod moments;
 mod places;
 mod rates;
 mod schedule;
+mod standing;
 mod swept;
 mod tests;
 
@@ -53,6 +54,7 @@ impl<'a> Sampler<'a> {
         let mut findings = Findings::default();
         places::ends(plan, &mut findings);
         places::apart(plan, &mut findings);
+        standing::standing(plan, &mut findings);
         rates::joints(plan, self.robot, &pieces, &moments, &mut findings);
         rates::tip(plan, &moments, &mut findings);
         self.distances.look(plan, &pieces, is_sound, also_at, &mut findings);

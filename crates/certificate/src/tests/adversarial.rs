@@ -68,7 +68,10 @@ fn huge_numbers_end_in_a_clear_word() {
     assert!(job(|p| p.job.workcell.tool.tip.translation.x = 1e300));
     assert!(job(|p| p.job.requirements.clearance_m = f64::NAN));
     assert!(job(|p| p.job.limits.tip_speed_m_s = f64::INFINITY));
-    assert!(job(|p| p.job.workcell.mount.translation.z = 0.1));
+    assert!(job(|p| p.job.workcell.mount.translation.z = f64::NAN));
+    assert!(job(|p| p.job.workcell.mount.translation.z = 1e300));
+    // An arm that is mounted elsewhere has its plates elsewhere.
+    fails(|p| p.job.workcell.mount.translation.z = 1e-3);
     assert!(job(|p| p.job.plates.clear()));
 }
 

@@ -129,14 +129,11 @@ pub fn tool(change: impl FnOnce(&mut StraightTool)) -> Tool {
 
 /// A slim obstacle that stands on the floor before the arm.
 pub fn post(name: &str) -> Obstacle {
-    Obstacle {
-        name: name.to_owned(),
-        shape: ObstacleShape::Convex(Shape::Cylinder {
-            radius_m: 0.02,
-            half_length_m: 0.3,
-        }),
-        pose: Pose::translation(0.4, 0.0, 0.3),
-    }
+    let shape = Shape::Cylinder {
+        radius_m: 0.02,
+        half_length_m: 0.3,
+    };
+    Obstacle::new(name, ObstacleShape::Convex(shape), Pose::translation(0.4, 0.0, 0.3))
 }
 
 /// Sealed again.

@@ -11,6 +11,7 @@ mod differential;
 mod foundation;
 mod made;
 mod mutations;
+mod obstacles;
 mod program;
 mod proofs;
 mod rests_on;

@@ -205,7 +205,7 @@ fn names_out_of_files_are_escaped_in_messages() {
     };
     let half_space = |p: &mut Plan| {
         let mut floor = Obstacle::floor();
-        (floor.name, floor.pose.translation.z) = (FORGED.into(), 0.1);
+        (floor.name, floor.pose.translation.z) = (FORGED.into(), f64::NAN);
         p.job.workcell.obstacles.push(floor);
     };
     escaped(refused(half_space).to_string());

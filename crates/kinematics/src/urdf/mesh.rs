@@ -1,8 +1,8 @@
 //! Meshes: found through package folders; those that can touch are read as vertices (their convex hull is what counts), those that
-//! are looked at as triangles.
+//! are looked at, or whose surface counts, as triangles.
 
 use super::error::UrdfError;
-use super::numbers::length;
+use super::numbers::{LARGEST_LENGTH_M, length};
 use super::{file, triangles, vertices};
 use crate::geometry::Triangle;
 use nalgebra::Point3;
@@ -10,6 +10,9 @@ use std::path::{Path, PathBuf};
 
 /// Longest mesh file that is read \[bytes\].
 const MAX_BYTES: u64 = 64 << 20;
+
+/// Most triangles of a mesh whose surface counts.
+const MAX_SOLID: usize = 200_000;
 
 /// Where mesh files are looked for.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -39,8 +42,8 @@ impl MeshSource {
     pub(super) fn vertices(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<Vec<Point3<f64>>, UrdfError> {
         let file = self.read(link, name, scale)?;
         let points = match file.format()? {
-            Format::Stl => vertices::stl(&file.bytes),
-            Format::Obj => vertices::obj(&file.bytes),
+            Format::Stl => vertices::stl(file.bytes()),
+            Format::Obj => vertices::obj(file.bytes()),
         };
         let points = file.scaled(points.map_err(|detail| file.wrong(detail))?)?;
         if points.len() < 4 {
@@ -60,8 +63,8 @@ impl MeshSource {
     ) -> Result<Vec<Triangle>, UrdfError> {
         let file = self.read(link, name, scale)?;
         let corners = match file.format()? {
-            Format::Stl => triangles::stl(&file.bytes),
-            Format::Obj => triangles::obj(&file.bytes, most),
+            Format::Stl => triangles::stl(file.bytes()),
+            Format::Obj => triangles::obj(file.bytes(), most),
         };
         let corners = corners.map_err(|detail| file.wrong(detail))?;
         let count = corners.len() / 3;
@@ -79,11 +82,39 @@ impl MeshSource {
         Ok(corners.chunks_exact(3).map(triangle).collect())
     }
 
+    /// The scaled triangles of a mesh file \[m\], three corners each, in the order in which the file has them: those of a mirrored part
+    /// are seen from inside.
+    ///
+    /// # Errors
+    /// [`MeshError`]: the file is not there, not STL or OBJ, damaged, has no triangles or too many, or coordinates that are no lengths.
+    pub fn solid(&self, name: &str, scale: [f64; 3]) -> Result<Vec<[Point3<f64>; 3]>, MeshError> {
+        let file = self.open(name, scale)?;
+        let corners = match file.format()? {
+            Format::Stl => triangles::stl(&file.bytes),
+            Format::Obj => triangles::obj(&file.bytes, MAX_SOLID),
+        };
+        let corners = corners.map_err(|detail| file.wrong(detail))?;
+        let count = corners.len() / 3;
+        if count == 0 || count > MAX_SOLID {
+            let found = if count == 0 { "no" } else { "too many" };
+            return Err(file.wrong(format!("it has {found} triangles; from 1 to {MAX_SOLID} can be judged")));
+        }
+        let corners = file.scaled(corners)?;
+        Ok(corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect())
+    }
+
+    /// A mesh file of a link, with its scale.
+    fn read(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<OfLink, UrdfError> {
+        let of = |error: MeshError| error.of(link);
+        let file = self.open(name, scale).map_err(of)?;
+        let link = link.to_owned();
+        Ok(OfLink { link, file })
+    }
+
     /// A mesh file, with its scale.
-    fn read(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<MeshFile, UrdfError> {
-        let path = self.find(link, name)?;
+    fn open(&self, name: &str, scale: [f64; 3]) -> Result<MeshFile, MeshError> {
+        let path = self.find(name)?;
         let mut file = MeshFile {
-            link: link.to_owned(),
             path,
             scale,
             bytes: Vec::new(),
@@ -97,14 +128,13 @@ impl MeshSource {
         Ok(file)
     }
 
-    fn find(&self, link: &str, file: &str) -> Result<PathBuf, UrdfError> {
+    fn find(&self, file: &str) -> Result<PathBuf, MeshError> {
         let candidates = self.candidates(file);
         candidates
             .iter()
             .find(|path| path.is_file())
             .cloned()
-            .ok_or_else(|| UrdfError::MeshNotFound {
-                link: link.to_owned(),
+            .ok_or_else(|| MeshError::NotFound {
                 file: file.to_owned(),
                 searched: candidates.iter().map(|path| path.display().to_string()).collect(),
             })
@@ -134,24 +164,90 @@ enum Format {
     Obj,
 }
 
+/// Why a mesh was not read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// It is nowhere.
+    #[error("mesh '{file}' was not found; looked for {}", searched_in(.searched))]
+    NotFound {
+        /// As it was asked for.
+        file: String,
+        /// Where it was looked for.
+        searched: Vec<String>,
+    },
+    /// What the file holds is no mesh.
+    #[error("mesh '{file}': {detail}")]
+    Wrong {
+        /// The file.
+        file: String,
+        /// Why.
+        detail: String,
+    },
+}
+
+impl MeshError {
+    fn of(self, link: &str) -> UrdfError {
+        let link = link.to_owned();
+        match self {
+            Self::NotFound { file, searched } => UrdfError::MeshNotFound { link, file, searched },
+            Self::Wrong { file, detail } => UrdfError::Mesh { link, file, detail },
+        }
+    }
+}
+
+fn searched_in(places: &[String]) -> String {
+    match places {
+        [] => "it in no folder: none is given for packages".to_owned(),
+        places => places.join(", "),
+    }
+}
+
 /// A mesh file that was found.
 struct MeshFile {
-    link: String,
     path: PathBuf,
     scale: [f64; 3],
     bytes: Vec<u8>,
 }
 
-impl MeshFile {
+/// A mesh file of a link.
+struct OfLink {
+    link: String,
+    file: MeshFile,
+}
+
+impl OfLink {
     fn wrong(&self, detail: String) -> UrdfError {
-        UrdfError::Mesh {
-            link: self.link.clone(),
+        self.file.wrong(detail).of(&self.link)
+    }
+
+    fn format(&self) -> Result<Format, UrdfError> {
+        self.file.format().map_err(|error| error.of(&self.link))
+    }
+
+    fn bytes(&self) -> &[u8] {
+        &self.file.bytes
+    }
+
+    fn scaled(&self, mut points: Vec<Point3<f64>>) -> Result<Vec<Point3<f64>>, UrdfError> {
+        let at = format!("link '{}'", self.link);
+        self.file.scale(&mut points);
+        for point in &points {
+            length(&at, "mesh vertex", point.coords.as_slice())?;
+        }
+        Ok(points)
+    }
+}
+
+impl MeshFile {
+    fn wrong(&self, detail: String) -> MeshError {
+        MeshError::Wrong {
             file: self.path.display().to_string(),
             detail,
         }
     }
 
-    fn format(&self) -> Result<Format, UrdfError> {
+    fn format(&self) -> Result<Format, MeshError> {
         let extension = self.path.extension().and_then(|e| e.to_str()).unwrap_or_default();
         match extension.to_lowercase().as_str() {
             "stl" => Ok(Format::Stl),
@@ -160,13 +256,21 @@ impl MeshFile {
         }
     }
 
-    fn scaled(&self, mut points: Vec<Point3<f64>>) -> Result<Vec<Point3<f64>>, UrdfError> {
+    fn scale(&self, points: &mut [Point3<f64>]) {
         let [x, y, z] = self.scale;
-        let at = format!("link '{}'", self.link);
-        for point in &mut points {
+        for point in points {
             *point = Point3::new(point.x * x, point.y * y, point.z * z);
-            length(&at, "mesh vertex", point.coords.as_slice())?;
         }
-        Ok(points)
+    }
+
+    fn scaled(&self, mut points: Vec<Point3<f64>>) -> Result<Vec<Point3<f64>>, MeshError> {
+        self.scale(&mut points);
+        match points.iter().find(|p| !p.iter().all(|c| c.abs() <= LARGEST_LENGTH_M)) {
+            Some(p) => Err(self.wrong(format!(
+                "its vertex ({}, {}, {}) is none: coordinates must be numbers up to {LARGEST_LENGTH_M} m either way",
+                p.x, p.y, p.z
+            ))),
+            None => Ok(points),
+        }
     }
 }

@@ -24,7 +24,7 @@ mod vertices;
 mod visual;
 
 pub use error::UrdfError;
-pub use mesh::MeshSource;
+pub use mesh::{MeshError, MeshSource};
 pub use scan::MAX_BYTES;
 pub use visual::{MAX_TRIANGLES, MAX_VISUALS};
 

@@ -5,7 +5,7 @@ use crate::Pose;
 use crate::rotation::{Rigid, from_rpy};
 
 /// Largest length that is believed \[m\]; beyond it the file is probably in millimetres.
-const LARGEST_LENGTH_M: f64 = 100.0;
+pub(super) const LARGEST_LENGTH_M: f64 = 100.0;
 
 pub(super) fn rigid(origin: &urdf_rs::Pose, at: &str) -> Result<Rigid, UrdfError> {
     length(at, "origin xyz", &origin.xyz.0)?;

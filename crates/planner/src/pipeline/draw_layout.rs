@@ -24,7 +24,7 @@ pub fn draw_washable_layout(
     draw: &mut dyn FnMut() -> Result<Layout, LayoutError>,
     watch: &Watch<'_>,
 ) -> Result<Layout, PlanError> {
-    Pipeline::new(arm, terms, &[], watch)?.check_homes()?;
+    Pipeline::new(arm, (&terms.seen_from_base(), &terms.workcell.mount), &[], watch)?.check_homes()?;
     let (mut drawn, most) = (0, MOST_LAYOUTS);
     loop {
         watch.cancel.check()?;
@@ -36,7 +36,7 @@ pub fn draw_washable_layout(
             ..terms.clone()
         };
         let job = WashJob::new(arm.clone(), terms)?;
-        let pipeline = Pipeline::new(job.arm(), job.terms(), &layout.plates, watch)?;
+        let pipeline = Pipeline::of(&job, watch)?;
         match pipeline.first_unwashable()? {
             None => return Ok(layout),
             Some(last) if drawn == most => {

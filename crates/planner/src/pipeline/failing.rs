@@ -90,7 +90,7 @@ impl Pipeline<'_> {
         };
         Ok(UnwashablePlate {
             plate,
-            centre_m: self.plates[plate].centre_xy(),
+            centre_m: scene.centre_in_world(&self.plates[plate]),
             error,
             conclusion,
             share,

@@ -94,7 +94,7 @@ impl Pipeline<'_> {
     /// it. Other plates that cannot be washed are left out.
     fn washes_at(&self, plate: usize, centre_m: [f64; 2]) -> Result<bool, PlanError> {
         let mut plates = self.plates.to_vec();
-        plates[plate] = plates[plate].moved_to(centre_m);
+        plates[plate] = self.scene()?.moved(&plates[plate], centre_m);
         let moved = self.among(&plates);
         moved.check_homes()?;
         let scene = moved.scene()?;

@@ -9,7 +9,7 @@ use crate::planned::{Planned, TransitSummary, VisitSummary};
 use crate::watch::Watch;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::job::{JobTerms, WashJob};
+use platewash_workcell::job::{JobError, JobTerms, WashJob};
 use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::trajectory::Trajectory;
 use platewash_workcell::wash_path::WashPath;
@@ -27,7 +27,7 @@ pub fn plan(job: &WashJob) -> Result<Planned, PlanError> {
 /// # Errors
 /// As [`plan`], and [`PlanError::Cancelled`].
 pub fn plan_with(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError> {
-    planned(job, &Pipeline::new(job.arm(), job.terms(), &job.terms().plates, watch)?)
+    planned(job, &Pipeline::of(job, watch)?)
 }
 
 /// [`plan_with`] for whoever does not wait: where a plate cannot be washed, no other place is looked for, whatever the job asks for.
@@ -105,14 +105,19 @@ fn planned(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanError>
 }
 
 /// Refuses what is known to fail before anything is searched for: an end configuration beyond its limits or too near something, an
-/// arm without a tool. Plates may be left out where they are not known yet.
+/// arm without a tool, obstacles that reach into plates or the base. Plates may be left out where they are not known yet.
 ///
 /// # Errors
 /// [`PlanError`].
 pub fn check(arm: &RobotModel, terms: &JobTerms) -> Result<(), PlanError> {
     let cancel = CancelToken::new();
     let watch = Watch::silent(&cancel);
-    Pipeline::new(arm, terms, &terms.plates, &watch)?.check_homes()
+    let seen = &*terms.seen_from_base();
+    let overlaps = terms.standing_overlaps(arm)?;
+    if !overlaps.is_empty() {
+        return Err(JobError::Standing(overlaps).into());
+    }
+    Pipeline::new(arm, (seen, &terms.workcell.mount), &seen.plates, &watch)?.check_homes()
 }
 
 fn largest_jerk(motion: &Trajectory) -> JointVector {

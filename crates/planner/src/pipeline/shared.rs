@@ -9,7 +9,7 @@ use crate::transit::TooNear;
 use crate::unwashable::PlaceSearch;
 use crate::watch::Watch;
 use nalgebra::Vector3;
-use platewash_kinematics::{JointVector, RobotModel};
+use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::job::{End, JobTerms, PlannerSettings, WashJob};
 use platewash_workcell::plate::Plate;
@@ -26,6 +26,8 @@ const MOST_ARC_POINTS: f64 = 1e4;
 #[derive(Debug)]
 pub(super) struct Pipeline<'a> {
     pub robot: &'a RobotModel,
+    /// `T_world_base`: everything else is in the frame of the base.
+    pub mount: Pose,
     pub terms: &'a JobTerms,
     pub settings: &'a PlannerSettings,
     pub plates: &'a [Plate],
@@ -43,10 +45,16 @@ pub(super) struct Pipeline<'a> {
 }
 
 impl<'a> Pipeline<'a> {
-    /// Terms on plates, which need not be those of the terms.
+    /// A job as its arm sees it.
+    pub fn of(job: &'a WashJob, watch: &Watch<'a>) -> Result<Self, PlanError> {
+        let (seen, mount) = (job.seen_from_base(), &job.terms().workcell.mount);
+        Self::new(job.arm(), (seen, mount), &seen.plates, watch)
+    }
+
+    /// Terms on plates, which need not be those of the terms, both in the frame of the base, and `T_world_base`.
     pub fn new(
         robot: &'a RobotModel,
-        terms: &'a JobTerms,
+        (terms, mount): (&'a JobTerms, &Pose),
         plates: &'a [Plate],
         watch: &Watch<'a>,
     ) -> Result<Self, PlanError> {
@@ -71,6 +79,7 @@ impl<'a> Pipeline<'a> {
         };
         Ok(Self {
             robot,
+            mount: *mount,
             terms,
             settings,
             plates,
@@ -98,7 +107,7 @@ impl<'a> Pipeline<'a> {
         let mut pipeline = Self::here(job, watch)?;
         for path in paths {
             if let Some(patterns) = pipeline.patterns.get_mut(path.plate) {
-                *patterns = Arc::new(patterns.along(job.terms(), path));
+                *patterns = Arc::new(patterns.along(job.seen_from_base(), path));
             }
         }
         let count = pipeline.plates.len();
@@ -115,7 +124,7 @@ impl<'a> Pipeline<'a> {
 
     /// A job as it stands: no other place is looked for.
     pub fn here(job: &'a WashJob, watch: &Watch<'a>) -> Result<Self, PlanError> {
-        let pipeline = Self::new(job.arm(), job.terms(), &job.terms().plates, watch)?;
+        let pipeline = Self::of(job, watch)?;
         let place_search = match pipeline.place_search {
             PlaceSearch::Within(_) => PlaceSearch::Later,
             never => never,
@@ -136,6 +145,7 @@ impl<'a> Pipeline<'a> {
             clearance: self.clearance.among(plates),
             watch: Watch::silent(self.watch.cancel),
             robot: self.robot,
+            mount: self.mount,
             terms: self.terms,
             settings: self.settings,
             place_search: self.place_search,
@@ -154,7 +164,7 @@ impl<'a> Pipeline<'a> {
             axis_share: self.settings.axis_share.unwrap_or(AXIS_SHARE),
             wrist_rad: self.terms.requirements.wrist_rad,
         };
-        Ok(scene.standing(stance).until(self.watch.cancel))
+        Ok(scene.mounted(self.mount).standing(stance).until(self.watch.cancel))
     }
 
     /// The tilt that suits each place.

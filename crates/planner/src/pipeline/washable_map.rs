@@ -40,7 +40,7 @@ pub fn washable_map(
     let path = pipeline.path_of(&scene, &order, turn);
     let [near, _] = &pipeline.terms.home_rad;
     let asked = pipeline.elsewhere(&scene, &path, near);
-    let here = Vector2::from(pipeline.plates[plate].centre_xy());
+    let here = Vector2::from(scene.centre_in_world(&pipeline.plates[plate]));
     let mut levels = Levels::new(map);
     while let Some((step_m, mut squares)) = levels.next() {
         let away = |square: &Square| (Vector2::from(levels.centre(step_m, *square)) - here).norm();

@@ -65,7 +65,7 @@ pub(super) fn between(task: &Task<'_>, stop: Stop) -> RedundancyError {
     let plate = task.path.plate;
     let end = DeadEnd {
         theta: task.samples.theta[stop.sample],
-        position_m: task.samples.contact[stop.sample].point,
+        position_m: task.scene.in_world(&task.samples.contact[stop.sample].point),
         reasons: reasons([stop.hindrance]),
     };
     RedundancyError::Between { plate, end }
@@ -84,7 +84,7 @@ pub(super) fn dead_end(task: &Task<'_>, graph: &Graph, layer: usize, near: &Star
     };
     DeadEnd {
         theta,
-        position_m: contact.point,
+        position_m: task.scene.in_world(&contact.point),
         reasons: reasons(graph.tilts.iter().filter_map(hindrance)),
     }
 }

@@ -6,7 +6,7 @@ use super::washing::by_policy;
 use crate::scene::{Scene, Width};
 use nalgebra::Vector2;
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::clearance::{ClearanceModel, gap_of_plates};
 use platewash_workcell::layout::base_footprint;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashPath;
@@ -69,10 +69,10 @@ impl<'a> Trial<'a> {
             .plates
             .get_mut(plate)
             .ok_or(RedundancyError::Plate { plate, count })?;
-        let moved = lies.moved_to((*centre).into());
+        let moved = scene.moved(lies, (*centre).into());
         *lies = moved;
         let mut others = self.plates.iter().enumerate().filter(|(i, _)| *i != path.plate);
-        if others.any(|(_, other)| overlap(&moved, other)) || meets_base(scene.robot, &moved) {
+        if others.any(|(_, other)| overlap(scene.robot, &moved, other)) || meets_base(scene.robot, &moved) {
             return Ok(false);
         }
         self.clearance.lay(&self.plates);
@@ -82,14 +82,21 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// Whether two plates share a place: seen from above they do, and neither lies over the other.
-fn overlap(a: &Plate, b: &Plate) -> bool {
-    let apart = (a.centre() - b.centre()).xy().norm();
-    let above = |top: &Plate, bottom: &Plate| top.centre().z - top.thickness_m > bottom.centre().z;
-    apart < a.rim_m() + b.rim_m() && !above(a, b) && !above(b, a)
+/// Whether two plates share a place: parallel ones where they do seen along their axis and neither lies over the other, others where their
+/// bodies do.
+fn overlap(robot: &RobotModel, a: &Plate, b: &Plate) -> bool {
+    if !a.is_parallel(b) {
+        return !a.is_back_of(b) && gap_of_plates(robot, a, b) < 0.0;
+    }
+    a.aside_m(b) < a.rim_m() + b.rim_m() && !a.is_over(b) && !b.is_over(a)
 }
 
+/// Whether a plate that lies level with the base is over it.
 fn meets_base(robot: &RobotModel, plate: &Plate) -> bool {
+    let level = Plate::level_disc([0.0; 3], 1.0, 1.0);
+    if !plate.is_parallel(&level) {
+        return false;
+    }
     let (foot, [x, y], rim_m) = (base_footprint(robot), plate.centre_xy(), plate.rim_m());
     let beside = |[least, most]: [f64; 2], at: f64| (least - at).max(at - most).max(0.0);
     let (dx, dy) = (beside(foot.x_m, x), beside(foot.y_m, y));

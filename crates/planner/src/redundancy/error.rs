@@ -10,7 +10,7 @@ use std::fmt;
 pub struct DeadEnd {
     /// Parameter of the wash path \[rad\].
     pub theta: f64,
-    /// The contact point \[m\], base frame.
+    /// The contact point \[m\], world frame.
     pub position_m: Vector3<f64>,
     /// What stood in the way, one entry a filter: the most frequent first.
     pub reasons: Vec<Reason>,

@@ -33,6 +33,8 @@ mod dead_ends;
 pub mod elsewhere;
 mod error;
 pub mod exhaustive;
+mod free_lines;
+mod lines;
 mod outlook;
 pub mod relocation;
 mod samples;

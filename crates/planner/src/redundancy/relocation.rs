@@ -49,7 +49,7 @@ pub fn nearest_washable(
     let (plate, plates) = (asked.path.plate, asked.scene.plates);
     let count = plates.len();
     let here = plates.get(plate).ok_or(RedundancyError::Plate { plate, count })?;
-    let here = Vector2::from(here.centre_xy());
+    let here = Vector2::from(asked.scene.centre_in_world(here));
     let mut trial = Trial::new(asked);
     let at_rest = on_grid(&here);
     if trial.suits(&at_rest)? && holds(&at_rest) {

@@ -109,6 +109,9 @@ impl Graph {
         for k in 0..self.theta.len() {
             task.scene.check_cancelled()?;
             let mut layer = self.layer(task, k, last.as_ref(), start);
+            if k == 0 || k + 1 == self.theta.len() {
+                self.leave_lines(task, k, &mut layer, start);
+            }
             match &last {
                 Some(before) => self.connect(task, before, &mut layer),
                 None => first.clone_from(&layer),
@@ -146,6 +149,16 @@ impl Graph {
             layer.push(q.and_then(|q| self.vertex(task, q, off)));
         }
         layer
+    }
+
+    /// Leaves the vertices of an end of the wash path over which there is a line.
+    fn leave_lines(&self, task: &Task<'_>, k: usize, layer: &mut Layer, start: &Start) {
+        let contact = task.samples.at(self.theta[k]);
+        for (slot, &tilt) in layer.iter_mut().zip(&self.tilts) {
+            if slot.is_some_and(|vertex| !task.has_line(&contact, tilt, &vertex.q, start)) {
+                *slot = None;
+            }
+        }
     }
 
     /// The tilts, those near to what a contact point prefers first \[rad\].

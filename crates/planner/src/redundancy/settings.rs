@@ -6,9 +6,6 @@ use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashPath};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Added to the clearance asked for, so that the motion between the points checked keeps it too \[m\].
-pub const RESERVE_M: f64 = 5e-4;
-
 /// What the largest tilt planned stays below the largest allowed \[rad\], 0.057°: between the points solved, the joints follow
 /// curves through them and then cubics, which turn the tool a little further.
 pub const TILT_RESERVE_RAD: f64 = 1e-3;

@@ -1,8 +1,9 @@
 //! One plate to wash: whether a contact point can be washed at a tilt, and a whole wash path at a profile of tilts.
 
 use super::error::RedundancyError;
+use super::free_lines::Lines;
 use super::samples::Samples;
-use super::settings::{RESERVE_M, TILT_RESERVE_RAD, check_input};
+use super::settings::{TILT_RESERVE_RAD, check_input};
 use super::tilt_spline::TiltSpline;
 use crate::scene::{Contact, Hindrance, Scene, Start, Stretch, TiltPolicy, WRIST_RESERVE_RAD, angle_between};
 use nalgebra::Vector6;
@@ -46,7 +47,8 @@ pub struct Task<'a> {
     pub(super) path: WashPath,
     pub(super) plate: &'a Plate,
     pub(super) samples: Samples,
-    clearance_m: f64,
+    pub(super) clearance_m: f64,
+    pub(super) lines: Lines,
     /// The configuration not far from which it starts \[rad\].
     pub(super) near: JointVector,
 }
@@ -62,7 +64,7 @@ pub(super) struct Stop {
 
 impl<'a> Task<'a> {
     /// The task of washing along a path, from a configuration not far from `near` \[rad\]. Every pair but the sponge and the
-    /// plates keeps `clearance_m`, in [0, 1], and [`RESERVE_M`] more; the tool stays in the path's cone.
+    /// plates keeps `clearance_m`, in [0, 1], and [`Stretch::reserve_m`] more; the tool stays in the path's cone.
     ///
     /// # Errors
     /// [`RedundancyError::Input`] and [`RedundancyError::Plate`].
@@ -82,13 +84,27 @@ impl<'a> Task<'a> {
             plate,
             samples: Samples::new(path, plate, scene.stance.axis_share),
             clearance_m,
+            lines: Lines::clear(),
             near: *near,
         })
     }
 
+    /// The same task, whose lines over the ends of the path need not be clear.
+    pub(super) fn with_any_lines(&self) -> Self {
+        Self {
+            lines: Lines::any(),
+            ..self.clone()
+        }
+    }
+
     /// What every pair but the sponge and the plates must keep, with its reserve \[m\].
     pub(super) fn required_m(&self) -> f64 {
-        self.clearance_m + RESERVE_M
+        self.clearance_m + self.stretch().reserve_m()
+    }
+
+    /// It is at its plate.
+    pub(super) fn stretch(&self) -> Stretch {
+        Stretch::AtPlate(self.path.plate)
     }
 
     /// The largest tilt allowed \[rad\].
@@ -137,7 +153,7 @@ impl<'a> Task<'a> {
     }
 
     /// Whether joint 5 is far enough from 0.
-    fn check_wrist(&self, q: &JointVector) -> Result<(), Hindrance> {
+    pub(super) fn check_wrist(&self, q: &JointVector) -> Result<(), Hindrance> {
         let Some(least_rad) = self.scene.stance.wrist_rad else {
             return Ok(());
         };
@@ -165,7 +181,7 @@ impl<'a> Task<'a> {
     /// Whether the bodies keep off each other at `q` \[rad\].
     pub(super) fn is_clear(&self, q: &JointVector) -> bool {
         let surroundings = self.scene.surroundings;
-        surroundings.is_clear(q, Stretch::AtPlate, self.required_m())
+        surroundings.is_clear(q, self.stretch(), self.required_m())
     }
 
     /// The same, with what does not.
@@ -174,7 +190,7 @@ impl<'a> Task<'a> {
             return Ok(());
         }
         let required_m = self.required_m();
-        match self.scene.surroundings.too_near(q, Stretch::AtPlate, required_m) {
+        match self.scene.surroundings.too_near(q, self.stretch(), required_m) {
             Some(pair) => Err(Hindrance::Clearance { pair, required_m }),
             None => Ok(()),
         }
@@ -183,7 +199,7 @@ impl<'a> Task<'a> {
     /// Whether the bodies keep [`ROOM_M`] more than they must.
     pub(super) fn has_room(&self, q: &JointVector) -> bool {
         let surroundings = self.scene.surroundings;
-        surroundings.is_clear(q, Stretch::AtPlate, self.required_m() + ROOM_M)
+        surroundings.is_clear(q, self.stretch(), self.required_m() + ROOM_M)
     }
 
     /// Tilt \[rad\] at a contact point at the length `s` \[m\] along the wash path.
@@ -204,7 +220,8 @@ impl<'a> Task<'a> {
             .collect()
     }
 
-    /// Configurations at all samples, continued from `start`; or the first sample that cannot be washed so, and why.
+    /// Configurations at all samples, continued from `start`; or the first sample that cannot be washed so, or the end whose line cannot be
+    /// followed so, and why.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -229,7 +246,7 @@ impl<'a> Task<'a> {
                 Err(hindrance) => return Ok(Err(Stop { sample, hindrance })),
             }
         }
-        Ok(Ok(all))
+        Ok(self.check_lines(tilts, &all, start).map(|()| all))
     }
 
     /// The configuration at a contact point so far along from `last` \[m\], and whether it was seen to have room.

@@ -19,6 +19,7 @@ use platewash_workcell::tool::{StraightTool, Tool};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use proptest::prelude::*;
 
+mod held;
 mod input;
 mod other_arms;
 mod scale;
@@ -274,9 +275,9 @@ proptest! {
             }
             assert_eq!(world.clearance.keeps(&q, required), !all.iter().any(near));
             all.retain(|pair| !(pair.a == "sponge" && pair.b.starts_with("plate")) && near(pair));
-            assert_eq!(world.clearance.keeps_washing(&q, required), all.is_empty());
+            assert_eq!(world.clearance.keeps_washing(&q, 0, required), all.is_empty());
             let least = all.iter().map(|pair| pair.distance_m).fold(f64::INFINITY, f64::min);
-            match world.clearance.nearest_washing(&q, required) {
+            match world.clearance.nearest_washing(&q, 0, required) {
                 Some(pair) => assert_eq!(pair.distance_m, least),
                 None => assert!(all.is_empty()),
             }

@@ -128,7 +128,7 @@ pub fn washable_part(task: &Task<'_>) -> Result<Washable, Cancelled> {
 /// The contact points of a survey, by whether their layer is among the `unwashed`.
 fn points(task: &Task<'_>, graph: &Graph, unwashed: &[Unwashed]) -> Points {
     let dead = |k: &usize| unwashed.binary_search_by_key(k, |(layer, _)| *layer).is_ok();
-    let place = |k: usize| task.samples.at(graph.theta[k]).point.into();
+    let place = |k: usize| task.scene.in_world(&task.samples.at(graph.theta[k]).point).into();
     let (dead, free): (Vec<usize>, Vec<usize>) = graph.surveyed().partition(dead);
     Points {
         free_m: free.into_iter().map(place).collect(),

@@ -74,6 +74,16 @@ impl Washing {
 /// # Errors
 /// [`RedundancyError`]: the contact points where nothing will do, and why; or the search was given up.
 pub fn washing(task: &Task<'_>) -> Result<Washing, RedundancyError> {
+    let found = washing_by_any(task);
+    match found {
+        // What stands in the way of the lines is for whoever plans them to tell.
+        Err(_) if task.lines.stood_in_the_way() => washing_by_any(&task.with_any_lines()),
+        found => found,
+    }
+}
+
+/// By a policy, or by the search.
+fn washing_by_any(task: &Task<'_>) -> Result<Washing, RedundancyError> {
     match by_policy(task, Width::Everywhere)? {
         Some(washing) => Ok(washing),
         None => by_search(task),

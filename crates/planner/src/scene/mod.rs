@@ -16,7 +16,7 @@ pub use stance::{AXIS_SHARE, AxisRule, Stance, WRIST_RESERVE_RAD};
 pub use surroundings::{Stretch, Surroundings};
 
 use crate::trig::sin_cos;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 use platewash_kinematics::ik::{IkSettingsError, IkSolver};
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
@@ -28,6 +28,12 @@ use std::sync::Arc;
 
 /// A distance from axis 1 along a face below which it has no direction \[m\].
 const ON_AXIS_M: f64 = 1e-9;
+
+/// Sine of the angle to axis 1 up to which a face lies level with the base.
+const LEVEL: f64 = 1e-9;
+
+/// The sine of the angle from which on a tool leans from axis 6.
+const LEAST_LEAN: f64 = 0.02;
 
 /// What everything is planned in: the arm with its tool, and the bodies around them.
 #[derive(Debug, Clone)]
@@ -44,6 +50,8 @@ pub struct Scene<'a> {
     pub reach: ReachBorders,
     /// How the tool stands, and how the wrist is held.
     pub stance: Stance,
+    /// `T_world_base`, for places that are told; all else is in the frame of the base.
+    pub mount: Pose,
     pub(crate) solver: Arc<IkSolver<'a>>,
     pub(crate) inverse: Arc<Inverse<'a>>,
     /// A point of axis 1 and its direction, base frame.
@@ -74,13 +82,14 @@ impl<'a> Scene<'a> {
             plates,
             reach,
             stance: Stance::default(),
+            mount: Pose::identity(),
             solver: Arc::new(IkSolver::new(robot, tip, inverse::exact())?),
             inverse: Arc::new(Inverse::new(robot, tip)?),
             axis_1: [robot.reach_bound(&tip).0.coords, axes[0]],
             across: Vector3::y(),
             cancel: None,
         };
-        scene.across = scene.across_at_rest(&axes[4]);
+        scene.across = scene.across_at_rest([&axes[4], &axes[5]]);
         Ok(scene)
     }
 
@@ -95,6 +104,44 @@ impl<'a> Scene<'a> {
     #[must_use]
     pub fn standing(self, stance: Stance) -> Self {
         Self { stance, ..self }
+    }
+
+    /// The same scene of an arm mounted at `T_world_base`.
+    #[must_use]
+    pub fn mounted(self, mount: Pose) -> Self {
+        Self { mount, ..self }
+    }
+
+    /// A point of the base frame in the world \[m\].
+    #[must_use]
+    pub fn in_world(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        if self.mount == Pose::identity() {
+            return *point;
+        }
+        self.mount.transform_point(&Point3::from(*point)).coords
+    }
+
+    /// The pole of a plate seen from above in the world \[m\].
+    #[must_use]
+    pub fn centre_in_world(&self, plate: &Plate) -> [f64; 2] {
+        self.in_world(&plate.centre()).xy().into()
+    }
+
+    /// A plate with its pole over another place of the world's floor, as high as before \[m\].
+    #[must_use]
+    pub fn moved(&self, plate: &Plate, centre_m: [f64; 2]) -> Plate {
+        if self.mount == Pose::identity() {
+            return plate.moved_to(centre_m);
+        }
+        let in_world = plate.seen_from(&self.mount).moved_to(centre_m);
+        in_world.seen_from(&self.mount.inverse())
+    }
+
+    /// The same scene with the tool half a turn about its axis.
+    #[cfg(test)]
+    pub(crate) fn half_turned(self) -> Self {
+        let across = -self.across;
+        Self { across, ..self }
     }
 
     /// The same arm among other plates.
@@ -157,12 +204,25 @@ impl<'a> Scene<'a> {
         self.away(point).norm()
     }
 
-    /// ρ̂ of a contact point: the direction across its axis away from axis 1.
+    /// ρ̂ of a contact point: the direction across its axis n away from axis 1, where n is along that.
+    ///
+    /// Where it is not, that direction vanishes on faces that look towards axis 1, and so does the one across n and the arm's plane on faces
+    /// that look along the way round; each is as long as the sine of the angle to the direction that it is cut from. What is taken is
+    /// along their sum, which changes steadily over a face: both are one where n is in the arm's plane.
     pub(crate) fn out(&self, contact: &Contact) -> Vector3<f64> {
-        let n = contact.axis;
-        let along = |v: Vector3<f64>| (v - n * n.dot(&v)).try_normalize(ON_AXIS_M);
-        let away = along(self.away(&contact.point));
-        away.or_else(|| along(Vector3::x())).unwrap_or_else(Vector3::y)
+        let (n, [_, a]) = (contact.axis, self.axis_1);
+        let across = |v: Vector3<f64>| v - n * n.dot(&v);
+        let along = |v: Vector3<f64>| across(v).try_normalize(ON_AXIS_M);
+        let away = self.away(&contact.point);
+        if n.cross(&a).norm() <= LEVEL {
+            return along(away).or_else(|| along(Vector3::x())).unwrap_or_else(Vector3::y);
+        }
+        let upwards = 1.0_f64.copysign(n.dot(&a) + LEVEL);
+        let out = away.try_normalize(ON_AXIS_M).and_then(|away| {
+            let inwards = a.cross(&away).cross(&n) * upwards;
+            (across(away) + inwards).try_normalize(LEVEL)
+        });
+        out.or_else(|| along(a)).unwrap_or_else(Vector3::y)
     }
 
     /// The vector from axis 1 to a point \[m\].
@@ -172,9 +232,15 @@ impl<'a> Scene<'a> {
         away - direction * direction.dot(&away)
     }
 
-    /// Axis 5 at q = 0 in the tip frame, across the tool, in the sense that it has against ẑ × ρ̂ there.
-    fn across_at_rest(&self, axis_5: &Vector3<f64>) -> Vector3<f64> {
+    /// Of a tool along axis 6: axis 5 at q = 0 in the tip frame, across the tool, in the sense that it has against ẑ × ρ̂ there. Of a tool
+    /// that leans from axis 6: across both, so that both lie in the arm's plane, the flange pointing back towards axis 1. The wrist is bent by
+    /// as much more there: the other way round it would be near its singularity.
+    fn across_at_rest(&self, [axis_5, axis_6]: [&Vector3<f64>; 2]) -> Vector3<f64> {
         let tip = self.robot.fk(&JointVector::zeros()).rigid(&self.tip);
+        let leans = Vector3::z().cross(&tip.rotation.tr_mul(axis_6));
+        if let Some(across) = leans.try_normalize(LEAST_LEAN) {
+            return across;
+        }
         let inside = tip.rotation.tr_mul(axis_5);
         let across = Vector3::new(inside.x, inside.y, 0.0);
         let Some(across) = across.try_normalize(1e-6) else {

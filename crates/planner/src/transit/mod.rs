@@ -32,4 +32,4 @@ pub use kind::TransitKind;
 pub use lift_line::{LiftLine, LiftLineError};
 pub use rules::{BaseArc, TransitRules};
 pub use search::{Transit, plan};
-pub use too_near::{RESERVE_M, TooNear};
+pub use too_near::TooNear;

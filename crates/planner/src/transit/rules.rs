@@ -1,6 +1,6 @@
 //! What a transit must keep, and what it may try.
 
-use super::too_near::{RESERVE_M, TooNear};
+use super::too_near::TooNear;
 use crate::scene::{Scene, Stretch, TiltPolicy};
 use crate::timing::MotionLimits;
 use platewash_kinematics::JointVector;
@@ -13,7 +13,7 @@ pub struct TransitRules<'a> {
     pub scene: &'a Scene<'a>,
     /// Limits of the motion.
     pub limits: &'a MotionLimits,
-    /// The clearance asked for \[m\]; [`RESERVE_M`] is kept on top of it.
+    /// The clearance asked for \[m\]; [`Stretch::reserve_m`] is kept on top of it.
     pub clearance_m: f64,
     /// The arc round the base, where it may be tried.
     pub arc: Option<BaseArc>,
@@ -31,7 +31,7 @@ pub struct BaseArc {
 impl TransitRules<'_> {
     /// Whether a configuration \[rad\] keeps its clearance.
     pub(super) fn is_clear(&self, q: &JointVector, stretch: Stretch) -> bool {
-        let required_m = self.clearance_m + RESERVE_M;
+        let required_m = self.clearance_m + stretch.reserve_m();
         self.scene.surroundings.is_clear(q, stretch, required_m)
     }
 

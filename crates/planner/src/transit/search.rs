@@ -146,7 +146,7 @@ fn is_too_fast(rules: &TransitRules<'_>, timed: &Timed, slow: &Slow) -> bool {
 fn check_line(rules: &TransitRules<'_>, end: &LiftLine) -> Result<(), TransitError> {
     let (heights, configurations) = end.samples();
     let stretch = |k: usize| match end.plate() {
-        Some(_) if k + 1 < heights.len() => Stretch::AtPlate,
+        Some(plate) if k + 1 < heights.len() => Stretch::AtPlate(plate),
         _ => Stretch::Free,
     };
     let blocked = (0..heights.len()).find(|&k| !rules.is_clear(&configurations[k], stretch(k)));

@@ -6,24 +6,28 @@ use platewash_kinematics::words::told_apart;
 use platewash_workcell::clearance::PairClearance;
 use std::fmt;
 
-/// What transits and the rests at home keep beyond the clearance asked for, because they are looked at in steps \[m\].
-pub const RESERVE_M: f64 = 1e-3;
-
 /// Two bodies nearer than a transit may bring them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TooNear {
     /// The bodies and their distance.
     pub pair: PairClearance,
-    /// The clearance asked for \[m\]; [`RESERVE_M`] is kept on top of it.
+    /// The clearance asked for \[m\].
     pub asked_m: f64,
+    /// What is kept on top of it \[m\]: [`Stretch::reserve_m`].
+    pub reserve_m: f64,
 }
 
 impl TooNear {
     /// The nearest of the pairs that count at `q` \[rad\], where it is too near.
     #[must_use]
     pub fn at(surroundings: &dyn Surroundings, q: &JointVector, stretch: Stretch, asked_m: f64) -> Option<Self> {
-        let pair = surroundings.too_near(q, stretch, asked_m + RESERVE_M)?;
-        Some(Self { pair, asked_m })
+        let reserve_m = stretch.reserve_m();
+        let pair = surroundings.too_near(q, stretch, asked_m + reserve_m)?;
+        Some(Self {
+            pair,
+            asked_m,
+            reserve_m,
+        })
     }
 }
 
@@ -37,14 +41,14 @@ impl fmt::Display for TooNear {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let PairClearance { a, b, distance_m, .. } = &self.pair;
         let mm = |m: f64| 1e3 * m;
-        let [distance, required] = told_apart(mm(*distance_m), mm(self.asked_m + RESERVE_M), 2);
-        if *distance_m > 0.0 && self.asked_m + RESERVE_M - distance_m < ALIKE_M {
+        let [distance, required] = told_apart(mm(*distance_m), mm(self.asked_m + self.reserve_m), 2);
+        if *distance_m > 0.0 && self.asked_m + self.reserve_m - distance_m < ALIKE_M {
             write!(f, "{a} is a little nearer to {b} than allowed")?;
             return write!(
                 f,
                 "; {:.2} mm must be kept: {KEPT} {:.2} mm in reserve",
-                mm(self.asked_m + RESERVE_M),
-                mm(RESERVE_M)
+                mm(self.asked_m + self.reserve_m),
+                mm(self.reserve_m)
             );
         }
         if *distance_m > 0.0 {
@@ -55,7 +59,7 @@ impl fmt::Display for TooNear {
         write!(
             f,
             "; {required} mm must be kept: {KEPT} {:.2} mm in reserve",
-            mm(RESERVE_M)
+            mm(self.reserve_m)
         )
     }
 }
@@ -82,7 +86,7 @@ mod tests {
             let clearance = ClearanceModel::new(&robot, &workcell, &[plate]).unwrap();
             let found = TooNear::at(&clearance, &q, Stretch::Free, 0.01);
             assert_eq!(found.is_some(), near);
-            let at_plate = TooNear::at(&clearance, &q, Stretch::AtPlate, 0.01);
+            let at_plate = TooNear::at(&clearance, &q, Stretch::AtPlate(0), 0.01);
             assert_eq!(at_plate, None, "the sponge may be near a plate");
             if let Some(found) = found {
                 let message = found.to_string();

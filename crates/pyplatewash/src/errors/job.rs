@@ -52,6 +52,7 @@ pub fn failure(py: Python<'_>, error: &Failure) -> PyErr {
         Failure::Arm(_) => staged(py, "robot", &message, Vec::new()),
         Failure::Layout(error) => layout(py, error, &message),
         Failure::NoContact { .. } => keyed(py, "wash.height_m", &message),
+        Failure::Obstacle(_) => keyed(py, "obstacle", &message),
         Failure::Job(error) => job(py, error, &message),
         Failure::Plan(error) => plan(py, error, &message),
         Failure::Paper(error) => paper(py, error, &message),
@@ -120,9 +121,8 @@ fn job(py: Python<'_>, error: &JobError, message: &str) -> PyErr {
             staged(py, "job", message, fields)
         }
         JobError::Clearance(_) => staged(py, "clearance", message, Vec::new()),
-        JobError::PlateCount { .. } | JobError::NoPlate { .. } | JobError::TiltedPlate { .. } => {
-            keyed(py, "plates", message)
-        }
+        JobError::PlateCount { .. } | JobError::NoPlate { .. } => keyed(py, "plates", message),
+        JobError::Obstacle { .. } | JobError::Standing(_) => keyed(py, "obstacle", message),
         _ => keyed(py, "job", message),
     }
 }

@@ -17,6 +17,7 @@ use crate::error::{Problem, ScenarioError};
 use crate::fits::check;
 use crate::key::{Domain, Key};
 use crate::keys::KEYS;
+use crate::lists::{LISTS, List};
 use crate::scenario::Scenario;
 use crate::source::MAX_BYTES;
 use crate::unknown::unknown;
@@ -127,7 +128,7 @@ impl Draft {
             (Some(found), Some(value)) => merge::same(&found, value),
             (found, value) => found.is_none() && value.is_none(),
         };
-        fits && before == after
+        fits && before == after && listed(text) == listed(&self.text)
     }
 }
 
@@ -141,6 +142,31 @@ fn stated(text: &str) -> Option<BTreeMap<String, Value>> {
         Some((key.path.to_owned(), json_or_words(value)))
     };
     Some(KEYS.iter().filter_map(found).collect())
+}
+
+/// The sections of lists that a text states, which no edit changes; `None` where it is no TOML.
+fn listed(text: &str) -> Option<Vec<Option<Value>>> {
+    let table = DeTable::parse(text).ok()?;
+    let of = |list: &List| {
+        table
+            .get_ref()
+            .get(list.name)
+            .map(|value| with_sections(value.get_ref()))
+    };
+    Some(LISTS.iter().map(of).collect())
+}
+
+fn with_sections(value: &DeValue<'_>) -> Value {
+    match value {
+        DeValue::Array(array) => array.iter().map(|v| with_sections(v.get_ref())).collect(),
+        DeValue::Table(table) => {
+            let names = table
+                .iter()
+                .map(|(name, v)| (name.get_ref().to_string(), with_sections(v.get_ref())));
+            Value::Object(names.collect())
+        }
+        other => json_or_words(other),
+    }
 }
 
 fn json_or_words(value: &DeValue<'_>) -> Value {

@@ -111,6 +111,13 @@ fn value_of(domain: Domain) -> BoxedStrategy<Value> {
             let point = several(least, most, false, 2..=2);
             prop::collection::vec(point, 1..9).prop_map(Value::from).boxed()
         }
+        Domain::Pair(least, most) => several(least, most, false, 2..=2).boxed(),
+        Domain::Triple(least, most) => several(least, most, false, 3..=3).boxed(),
+        Domain::TripleAbove(above, most) => several(above, most, true, 3..=3).boxed(),
+        Domain::Scale(_, most) => several(0.0, most, true, 3..=3).boxed(),
+        Domain::Plates => prop::collection::btree_set(0..1000_u32, 0..5)
+            .prop_map(|plates| json!(plates))
+            .boxed(),
         Domain::PairAbove(above, most) => several(above, most, true, 2..=2).boxed(),
         Domain::Knots(most_m, most_deg) => {
             let knots = prop::collection::btree_set(1..1_000_000u32, 1..9);

@@ -8,7 +8,7 @@ use super::body::RigidBody;
 use super::physical::{self, Unphysical};
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::rotation::Rigid;
-use platewash_kinematics::{AXES, Link, RobotModel};
+use platewash_kinematics::{AXES, Link, Pose, RobotModel};
 
 /// Standard gravity as rigid-body codes round it \[m/s²\].
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.81;
@@ -113,6 +113,16 @@ impl DynamicsModel {
             bodies: bodies.map(|body| Body::new(&body)),
             gravity: Vector3::new(0.0, 0.0, -STANDARD_GRAVITY_M_S2),
         })
+    }
+
+    /// The same for an arm mounted at `T_world_base`, with gravity along −z of the world.
+    ///
+    /// # Errors
+    /// As [`DynamicsModel::new`], and [`DynamicsError::Gravity`] for a mount that is no pose.
+    pub fn mounted(robot: &RobotModel, tool: Option<&RigidBody>, mount: &Pose) -> Result<Self, DynamicsError> {
+        let model = Self::new(robot, tool)?;
+        let down = mount.inverse_transform_vector(&model.gravity);
+        model.with_gravity(down)
     }
 
     /// The same arm under another gravity, the acceleration of free fall in the base frame \[m/s²\].

@@ -107,6 +107,7 @@ impl SimulationReport {
         execution: &Execution,
         seal: Seal,
     ) -> Result<Self, SimulationError> {
+        let plan = &*plan.seen_from_base();
         let contact = Contact::new(plan, robot);
         let tip_errors = tracking::tip_errors(execution, robot, contact.tip());
         let dry_run = plan.job.dry_run.clone();

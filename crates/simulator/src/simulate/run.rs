@@ -11,7 +11,7 @@ use crate::control::{self, Command, ControlError, ControlLaw, Reference, Standin
 use crate::dynamics::{DynamicsModel, RigidBody};
 use crate::plant::{Felt, Plant, PlantState, SpongeOnPlates};
 use platewash_kinematics::words::rounded;
-use platewash_kinematics::{JointVector, RobotModel};
+use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::segment::SegmentKind;
@@ -64,12 +64,14 @@ pub fn simulate_watched(
 ) -> Result<Execution, SimulationError> {
     check_arm(plan, robot)?;
     plan.job.validate()?;
+    let mount = plan.job.workcell.mount;
+    let plan = &*plan.seen_from_base();
     settings::check(settings, &plan.job.workcell.tool)?;
     let motion = plan.knots.motion()?;
     let schedule = Schedule::new(plan, settings.period_s())?;
     let count = count(motion.duration_s(), settings.period_s(), settings.plant.substeps)?;
     token.check()?;
-    let plant = plant(plan, robot, settings)?;
+    let plant = plant(plan, robot, (settings, &mount))?;
     let sponge = sponge(plan, robot, settings);
     let mut law: Box<dyn ControlLaw + '_> = match &plant {
         Some(plant) => {
@@ -93,12 +95,16 @@ pub fn simulate_watched(
 }
 
 /// The arm with its tool; `None` under a kinematic law.
-fn plant(plan: &Plan, robot: &RobotModel, settings: &SimulationSettings) -> Result<Option<Plant>, SimulationError> {
+fn plant(
+    plan: &Plan,
+    robot: &RobotModel,
+    (settings, mount): (&SimulationSettings, &Pose),
+) -> Result<Option<Plant>, SimulationError> {
     if settings.law.is_kinematic() {
         return Ok(None);
     }
     let tool = RigidBody::tool(&plan.job.workcell.tool);
-    let model = DynamicsModel::new(robot, tool.as_ref())?;
+    let model = DynamicsModel::mounted(robot, tool.as_ref(), mount)?;
     Ok(Some(Plant::new(model, robot.limits(), &settings.plant)))
 }
 

@@ -1,7 +1,7 @@
 //! The bodies of a workcell at one configuration, to be drawn.
 
 use super::solid::light::Rgb;
-use super::solid::shapes::{Facets, facets, mesh};
+use super::solid::shapes::{Facets, facets, hull, mesh};
 use platewash_kinematics::geometry::VisualShape;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::tool::Tool;
@@ -73,13 +73,17 @@ pub(super) fn tool(tool: &Tool, flange: &Pose, pressed_m: f64) -> Vec<Placed> {
 /// What stands around, the floor apart.
 pub(super) fn obstacles(workcell: &Workcell) -> Vec<Placed> {
     let all = workcell.obstacles.iter();
-    all.filter_map(|obstacle| match &obstacle.shape {
-        ObstacleShape::HalfSpace => None,
-        ObstacleShape::Convex(shape) => Some(Placed {
-            facets: facets(shape),
+    all.flat_map(|obstacle| {
+        let shapes = match &obstacle.shape {
+            ObstacleShape::HalfSpace => Vec::new(),
+            ObstacleShape::Convex(shape) => vec![facets(shape)],
+            ObstacleShape::Parts(hulls) => hulls.iter().map(|points| hull(points)).collect(),
+        };
+        shapes.into_iter().map(|facets| Placed {
+            facets,
             pose: obstacle.pose,
             colour: OBSTACLE,
-        }),
+        })
     })
     .collect()
 }

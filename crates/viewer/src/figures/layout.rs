@@ -14,8 +14,10 @@ use super::track::Track;
 use super::wording::per_cent;
 use crate::view::Counted;
 use crate::view::coverage::proved_share;
+use nalgebra::{UnitQuaternion, Vector3};
 use platewash_kinematics::JointVector;
 use platewash_kinematics::trig::sin_cos;
+use platewash_workcell::plate::Plate;
 use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::surface::Surface;
 use std::f64::consts::{FRAC_PI_4, TAU};
@@ -29,8 +31,18 @@ const WHITE_M: f64 = 0.05;
 /// Ways that are nearer to each other look like one \[m\].
 const APART_M: f64 = 1e-3;
 
+/// How far obstacles are shown beyond everything else \[m\].
+const AROUND_M: f64 = 0.12;
+
+/// The colour of what stands around.
+const OBSTACLE: &str = "#d5d8df";
+
 /// The colour of where a profile bends.
 const KNOT: &str = "#dde2e8";
+
+/// Sine of the angle to the vertical up to which a plate lies level; corners of the rim of one that does not.
+const LEVEL: f64 = 1e-6;
+const RIM: u32 = 96;
 
 const TRANSIT_DASHES: &[f64] = &[9.0, 6.0];
 const CIRCLE_DASHES: &[f64] = &[3.0, 5.0];
@@ -38,9 +50,7 @@ const REGION_DASHES: &[f64] = &[12.0, 5.0];
 
 /// Draws it.
 pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
-    let caption = "Seen from above, from behind the arm: x leads away from it, y to its left. Numbers say in which order the plates \
-                   are washed.";
-    let (mut drawing, room) = page::begin(&subject.words("Layout", caption));
+    let (mut drawing, room) = page::begin(&subject.words("Layout", caption(subject)));
     let [left, top] = room.at;
     let map = Rect::new(left + 62.0, top, room.size[0] - BESIDE - 92.0, room.size[1] - 58.0);
     let axes = map_axes(subject, map);
@@ -49,6 +59,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
     drawing.within_rect(axes.frame, |drawing| {
         let map = Map { axes: &axes };
         map.ground(drawing, subject);
+        map.obstacles(drawing, subject);
         map.plates(drawing, subject);
         map.ways(drawing, subject);
         map.numbers(drawing, subject);
@@ -62,6 +73,15 @@ pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
     let beside = Rect::new(from, top, room.end()[0] - from, room.size[1]);
     aside(&mut drawing, beside, subject);
     drawing
+}
+
+/// How it is looked at: where the arm is not turned, from behind it.
+fn caption(subject: &Subject<'_>) -> &'static str {
+    if subject.mount().rotation == UnitQuaternion::identity() {
+        "Seen from above, from behind the arm: x leads away from it, y to its left. Numbers say in which order the plates are washed."
+    } else {
+        "Seen from above: the room's x leads up the page, its y to the left. Numbers say in which order the plates are washed."
+    }
 }
 
 /// World x upwards, world y to the left, at one scale.
@@ -106,7 +126,31 @@ fn extent(subject: &Subject<'_>) -> [[f64; 2]; 2] {
     hold([base.x, base.y], subject.base_circle_m.unwrap_or(0.12));
     let region = subject.region_m.iter().flatten();
     region.for_each(|&corner| hold(corner, 0.0));
+    // Of what stands around, what is near to all that.
+    let near = [low.map(|c| c - AROUND_M), high.map(|c| c + AROUND_M)];
+    for body in bodies::obstacles(&subject.plan.job.workcell) {
+        for corner in seen_from_above(&body) {
+            let corner = [0, 1].map(|k| corner[k].clamp(near[0][k], near[1][k]));
+            low = [0, 1].map(|k| low[k].min(corner[k]));
+            high = [0, 1].map(|k| high[k].max(corner[k]));
+        }
+    }
     [low.map(|c| c - WHITE_M), high.map(|c| c + WHITE_M)]
+}
+
+fn seen_from_above(body: &bodies::Placed) -> Vec<[f64; 2]> {
+    let corners = body.facets.points.iter();
+    corners.map(|at| (body.pose * at).xy().coords.into()).collect()
+}
+
+/// Both rims of a plate that does not lie level.
+fn tilted(plate: &Plate) -> Vec<[f64; 2]> {
+    let [below_m, above_m] = plate.extent_m();
+    let rim = (0..RIM).flat_map(|k| {
+        let (s, c) = sin_cos(TAU * f64::from(k) / f64::from(RIM));
+        [below_m, above_m].map(|z| plate.world(&Vector3::new(plate.rim_m() * c, plate.rim_m() * s, z)))
+    });
+    rim.map(|at| at.xy().into()).collect()
 }
 
 struct Map<'a> {
@@ -143,21 +187,34 @@ impl Map<'_> {
         let home: JointVector = subject.plan.job.home_rad[0];
         drawing.layer(0.55, |drawing| {
             for part in bodies::arm(subject.arm, subject.mount(), &home) {
-                let seen: Vec<[f64; 2]> = part
-                    .facets
-                    .points
-                    .iter()
-                    .map(|at| (part.pose * at).xy().coords.into())
-                    .collect();
-                let outline = hull(&seen);
+                let outline = hull(&seen_from_above(&part));
                 drawing.polygon(&self.line(&outline), &Style::fill("#f5a867").outlined("#f5a867", 0.8));
             }
         });
     }
 
+    /// What stands around, as wide as it is anywhere.
+    fn obstacles(&self, drawing: &mut Drawing, subject: &Subject<'_>) {
+        for body in bodies::obstacles(&subject.plan.job.workcell) {
+            let outline = hull(&seen_from_above(&body));
+            drawing.polygon(
+                &self.line(&outline),
+                &Style::fill(OBSTACLE).outlined(LINE, 1.2).see_through(0.8),
+            );
+        }
+    }
+
     fn plates(&self, drawing: &mut Drawing, subject: &Subject<'_>) {
         for plate in &subject.plan.job.plates {
             let [x, y] = plate.centre_xy();
+            if plate.axis().xy().norm() > LEVEL {
+                let outline = hull(&tilted(plate));
+                drawing.polygon(
+                    &self.line(&outline),
+                    &Style::fill(PAPER).outlined(LINE, 2.0).see_through(0.9),
+                );
+                continue;
+            }
             let (at, radius) = (self.spot(x, y), self.pixels(plate.rim_m()));
             drawing.circle(at, radius, &Style::fill(PAPER).outlined(LINE, 2.0).see_through(0.9));
             // Where a profile bends.
@@ -396,6 +453,10 @@ fn entries(subject: &Subject<'_>) -> Vec<Entry> {
         Style::fill("#f5a867").see_through(0.55),
         "the arm at home",
     ));
+    if !bodies::obstacles(&subject.plan.job.workcell).is_empty() {
+        let style = Style::fill(OBSTACLE).outlined(LINE, 1.2).see_through(0.8);
+        all.push(Entry::field(style, "what stands around"));
+    }
     if let Some(radius) = subject.base_circle_m {
         let style = Style::line(GREY, 1.6).dashed(CIRCLE_DASHES);
         all.push(Entry::line(

@@ -13,6 +13,7 @@
 //! | what is swept, and for how long | `coverage.rs` |
 //! | what is required or claimed, and what came of it | `sheet.rs` |
 //! | the flow of the program (Fig. 1) | `flow.rs` |
+//! | where an arm washes plates | `region.rs` |
 //! | words, fields and outlines that figures share | `wording.rs`, `grid.rs`, `outline.rs` |
 //! | lines, letters, diagrams, tables | `ink/` |
 //! | bodies in projection | `solid/` |
@@ -28,6 +29,7 @@ mod layout;
 mod names;
 mod outline;
 mod posture;
+mod region;
 mod sheet;
 mod solid;
 mod spiral;
@@ -38,6 +40,7 @@ mod wording;
 pub use error::FigureError;
 pub use ink::png::PngError;
 pub use names::{Figure, UnknownFigure};
+pub use region::{RegionMap, RegionSheet, draw_region};
 pub use subject::{Claim, Ideal, Subject};
 
 use ink::drawing::Drawing;

@@ -1,8 +1,10 @@
 //! Shapes and where they are.
 
 use super::numbers::Numbers;
+use nalgebra::Point3;
 use platewash_kinematics::Pose as Rigid;
 use platewash_kinematics::geometry::{self, Triangle, VisualShape};
+use platewash_workcell::clearance::hull_triangles;
 use platewash_workcell::workcell::ObstacleShape;
 use serde::Serialize;
 
@@ -52,6 +54,9 @@ impl From<&ObstacleShape> for Shape {
         match shape {
             ObstacleShape::HalfSpace => Self::HalfSpace {},
             ObstacleShape::Convex(shape) => shape.into(),
+            ObstacleShape::Parts(hulls) => Self::Mesh {
+                triangles: hulls_corners(hulls),
+            },
         }
     }
 }
@@ -72,6 +77,25 @@ fn corners(triangles: &[Triangle]) -> Numbers {
         .iter()
         .flatten()
         .flat_map(|corner| corner.coords.iter().copied());
+    Numbers::f32_shaped(vec![triangles.len(), 3, 3], coordinates)
+}
+
+/// The surfaces of some hulls; one without volume has none.
+fn hulls_corners(hulls: &[Vec<Point3<f64>>]) -> Numbers {
+    let surfaces = hulls.iter().filter_map(|points| hull_triangles(points));
+    let triangles: Vec<[Point3<f64>; 3]> = surfaces
+        .flat_map(|hull| {
+            let corner = move |k: usize| hull.corners[k];
+            hull.triangles
+                .clone()
+                .into_iter()
+                .map(move |triangle| triangle.map(&corner))
+        })
+        .collect();
+    let coordinates = triangles
+        .iter()
+        .flatten()
+        .flat_map(|corner| corner.coords.iter().map(|c| *c as f32));
     Numbers::f32_shaped(vec![triangles.len(), 3, 3], coordinates)
 }
 

@@ -1,8 +1,6 @@
 //! What is proved, in the words of the certificate.
 
-use nalgebra::Point3;
 use platewash_certificate::{self as proved, Status, Worst};
-use platewash_kinematics::Pose;
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::words::printable;
 use serde::Serialize;
@@ -79,15 +77,15 @@ pub struct Place {
 }
 
 impl Certificate {
-    /// As it is shown; `mount` is `T_world_base`.
+    /// As it is shown.
     #[must_use]
-    pub fn new(certificate: &proved::Certificate, mount: &Pose) -> Self {
+    pub fn new(certificate: &proved::Certificate) -> Self {
         let check = |check: &proved::Check| Check {
             requirement: check.requirement,
             words: check.requirement.words(),
             status: check.status,
             detail: check.detail(),
-            worst: place(&check.worst, mount),
+            worst: place(&check.worst),
         };
         let line = |(name, what): (&str, String)| format!("{name}: {what}");
         Self {
@@ -119,7 +117,7 @@ impl From<&proved::PlateContact> for PlateContact {
 }
 
 /// A worst place; `None` where nothing is said.
-fn place(worst: &Worst, mount: &Pose) -> Option<Place> {
+fn place(worst: &Worst) -> Option<Place> {
     let in_words = Worst {
         time_s: None,
         place_m: None,
@@ -127,9 +125,7 @@ fn place(worst: &Worst, mount: &Pose) -> Option<Place> {
     };
     (*worst != Worst::default()).then(|| Place {
         time_s: worst.time_s,
-        place_m: worst
-            .place_m
-            .map(|at| mount.transform_point(&Point3::from(at)).coords.into()),
+        place_m: worst.place_m,
         words: in_words.to_string(),
     })
 }

@@ -136,7 +136,7 @@ impl View {
             format: FORMAT,
             version: env!("CARGO_PKG_VERSION"),
             heading: Heading::of_plan(plan),
-            certificate: certificate.map(|certificate| Certificate::new(certificate, mount)),
+            certificate: certificate.map(Certificate::new),
             arm: Arm::new(robot, mount, Some(job.limits.joint_acceleration_rad_s2)),
             tool: Some((&workcell.tool).into()),
             surroundings: Surroundings::new(&workcell.obstacles, beside.region.unwrap_or(&TaskRegion::default())),

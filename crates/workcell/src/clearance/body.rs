@@ -7,7 +7,7 @@ use crate::plate::Plate;
 use crate::tool::Tool;
 use crate::workcell::{Obstacle, ObstacleShape};
 use platewash_kinematics::rotation::Rigid;
-use platewash_kinematics::{BodyPoses, Frame, Pose, RobotModel};
+use platewash_kinematics::{BodyPoses, Frame, JointVector, Pose, RobotModel};
 
 /// Something that must not be touched or must not touch.
 #[derive(Debug, Clone)]
@@ -20,6 +20,15 @@ pub(super) struct Body {
 }
 
 impl Body {
+    /// Whether it never gets away from an obstacle: the base, and over a half-space what joint 1 turns there.
+    pub fn stays_beside(&self, obstacle: &Self, robot: &RobotModel) -> bool {
+        match self.kind {
+            BodyKind::Link(0) => true,
+            BodyKind::Link(1) => obstacle.kind == BodyKind::Floor && keeps_its_height(robot, obstacle),
+            _ => false,
+        }
+    }
+
     /// What is looked at first: the parts, or the one that holds them.
     pub fn outer(&self) -> &[Part] {
         match &self.tree {
@@ -40,10 +49,18 @@ pub(super) enum BodyKind {
     Sponge,
     /// An obstacle.
     Obstacle,
-    /// All of z ≤ 0, an obstacle.
+    /// An obstacle that is a half-space.
     Floor,
     /// A plate.
     Plate(usize),
+}
+
+/// Whether what joint 1 moves keeps its height over a half-space: it turns about what is upright there.
+pub(super) fn keeps_its_height(robot: &RobotModel, floor: &Body) -> bool {
+    let poses = robot.fk(&JointVector::zeros());
+    let [axis_1, ..] = poses.joint_axes();
+    let upright = |part: &Part| axis_1.dot(&part.rigid(&poses).rotation.column(2)).abs() > 1.0 - 1e-12;
+    floor.parts.iter().all(upright)
 }
 
 /// The bodies of a world without plates.
@@ -112,12 +129,28 @@ fn tool_bodies(robot: &RobotModel, tool: &Tool) -> Result<Vec<Body>, ClearanceEr
     Ok(bodies)
 }
 
-fn obstacle_body(obstacle: &Obstacle) -> Result<Body, ClearanceError> {
+/// The body of an obstacle.
+pub(super) fn obstacle_body(obstacle: &Obstacle) -> Result<Body, ClearanceError> {
     let frame = Frame::base().offset(&Rigid::from(&obstacle.pose));
-    match &obstacle.shape {
-        ObstacleShape::HalfSpace => body(&obstacle.name, BodyKind::Floor, Some(Part::floor())),
+    let grown = |part: Part| part.grown(obstacle.margin_m);
+    let made = match &obstacle.shape {
+        ObstacleShape::HalfSpace => body(&obstacle.name, BodyKind::Floor, Some(Part::half_space(frame))),
         ObstacleShape::Convex(shape) => body(&obstacle.name, BodyKind::Obstacle, Part::new(shape, frame)),
-    }
+        ObstacleShape::Parts(hulls) => {
+            let (tree, parts) = Tree::of_hulls(hulls, frame).ok_or_else(|| flat(&obstacle.name))?;
+            Ok(Body {
+                name: obstacle.name.clone(),
+                kind: BodyKind::Obstacle,
+                parts,
+                tree,
+            })
+        }
+    }?;
+    Ok(Body {
+        tree: made.tree.map(|tree| tree.grown(obstacle.margin_m)),
+        parts: made.parts.into_iter().map(grown).collect(),
+        ..made
+    })
 }
 
 /// The body of a plate; where `like` is one of the same shape, its parts are not made again.

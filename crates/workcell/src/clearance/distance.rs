@@ -59,8 +59,8 @@ pub(super) fn separation(a: &Placed<'_>, b: &Placed<'_>) -> Separation {
         };
     }
     let (p, q) = match (a.core, b.core) {
-        (Core::Floor, _) => return over_floor(b, 1.0),
-        (_, Core::Floor) => return over_floor(a, -1.0),
+        (Core::HalfSpace, _) => return over_half_space(a, b, 1.0),
+        (_, Core::HalfSpace) => return over_half_space(b, a, -1.0),
         (Core::Segment(half_a), Core::Segment(half_b)) => segments(a, *half_a, b, *half_b),
         (Core::Segment(half), Core::Solid(solid, _)) => segment_and_solid(a, *half, b, solid),
         (Core::Solid(solid, _), Core::Segment(half)) => {
@@ -89,6 +89,19 @@ fn segments(a: &Placed<'_>, half_a: f64, b: &Placed<'_>, half_b: f64) -> Nearest
     }
 }
 
+/// The point of a part's core that is nearest to a point, base frame; of a half-space, the point itself.
+pub(super) fn nearest_to(part: &Placed<'_>, point: Vector) -> Vector {
+    match part.core {
+        Core::Segment(half) => {
+            let axis = part.pose.rotation * Vector::Z;
+            let along = axis.dot(point - part.pose.translation).clamp(-half, *half);
+            part.pose.translation + axis * along
+        }
+        Core::Solid(solid, _) => solid.project_point(&part.pose, point, true).point,
+        Core::HalfSpace => point,
+    }
+}
+
 /// Segment or point against a solid: a point has a projection, a segment goes through the iterative routine.
 fn segment_and_solid(a: &Placed<'_>, half: f64, b: &Placed<'_>, solid: &SharedShape) -> Nearest {
     let segment = a.segment(half);
@@ -108,11 +121,13 @@ fn iterative(pose_a: &Pose, a: &dyn Shape, pose_b: &Pose, b: &dyn Shape) -> Near
     }
 }
 
-/// Height of a part over the floor z = 0, a closed form; `up` is the sign of the normal, 1 when the floor comes first.
-fn over_floor(part: &Placed<'_>, up: f64) -> Separation {
+/// Height of a part over a half-space, a closed form; `towards` is 1 when the half-space comes first, else −1.
+fn over_half_space(space: &Placed<'_>, part: &Placed<'_>, towards: f64) -> Separation {
+    let up = space.pose.rotation * Vector::Z;
+    let height = |p: &Vector| space.height_of(*p);
     let lowest = |points: &mut dyn Iterator<Item = Vector>| {
         points
-            .min_by(|p, q| p.z.total_cmp(&q.z))
+            .min_by(|p, q| height(p).total_cmp(&height(q)))
             .unwrap_or(part.pose.translation)
     };
     let low = match part.core {
@@ -121,27 +136,36 @@ fn over_floor(part: &Placed<'_>, up: f64) -> Separation {
             lowest(&mut [segment.a, segment.b].into_iter())
         }
         Core::Solid(_, Extent::Vertices(vertices)) => lowest(&mut vertices.iter().map(|v| part.pose * *v)),
-        Core::Solid(_, Extent::Cylinder(radius, half)) => lowest_of_cylinder(part, *radius, *half),
-        Core::Floor => part.pose.translation,
+        Core::Solid(_, Extent::Cylinder(radius, half)) => lowest_of_cylinder(part, *radius, *half, up),
+        Core::HalfSpace => part.pose.translation,
     };
-    let distance = low.z - part.radius;
+    let high = height(&low);
+    let distance = high - part.radius;
     Separation {
         distance,
-        place: [low.x, low.y, distance * 0.5],
-        normal: [0.0, 0.0, up],
+        place: (low - up * high + up * (distance * 0.5)).to_array(),
+        normal: (up * towards).to_array(),
     }
 }
 
-/// Lowest point of a cylinder: down along its axis, then down the steepest way across.
-fn lowest_of_cylinder(part: &Placed<'_>, radius: f64, half: f64) -> Vector {
+/// Some unit vector that is level where `up` is up: x, where that is.
+fn level_direction(up: Vector) -> Vector {
+    let side = if up.x.abs() < 0.9 { Vector::X } else { Vector::Y };
+    (side - up * side.dot(up)).normalize()
+}
+
+/// The point of a cylinder that is lowest where `up` is up: down along its axis, then down the steepest way across.
+fn lowest_of_cylinder(part: &Placed<'_>, radius: f64, half: f64, up: Vector) -> Vector {
     let axis = part.pose.rotation * Vector::Y;
-    let down_axis = if axis.z > 0.0 { -axis } else { axis };
-    // −z less its part along the axis, written so that nothing cancels when the axis is nearly upright.
-    let steep = (axis.x * axis.x + axis.y * axis.y).sqrt();
+    let along = axis.dot(up);
+    let down_axis = if along > 0.0 { -axis } else { axis };
+    // −up less its part along the axis, written so that nothing cancels when the axis is nearly upright.
+    let level = axis.cross(up);
+    let steep = level.length();
     let across = if steep > 0.0 {
-        Vector::new(axis.x * axis.z / steep, axis.y * axis.z / steep, -steep)
+        up.cross(level) * along / steep - up * steep
     } else {
-        Vector::X
+        level_direction(up)
     };
     part.pose.translation + down_axis * half + across * radius
 }

@@ -1,9 +1,8 @@
 //! The facets of a convex hull, to look at.
 
-use super::part::has_volume;
+use super::convex::ConvexHull;
 use nalgebra::Point3;
 use parry3d_f64::math::Vector;
-use parry3d_f64::shape::ConvexPolyhedron;
 
 /// A body by its triangles.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -18,8 +17,7 @@ pub struct Triangulated {
 #[must_use]
 pub fn hull_triangles(points: &[Point3<f64>]) -> Option<Triangulated> {
     let vertices: Vec<_> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
-    let hull = ConvexPolyhedron::from_convex_hull(&vertices).filter(|_| has_volume(&vertices))?;
-    let (corners, triangles) = hull.to_trimesh();
+    let (corners, triangles) = ConvexHull::of(&vertices)?.solid.to_trimesh();
     let corners = corners.into_iter().map(|c| Point3::new(c.x, c.y, c.z));
     let triangles = triangles
         .into_iter()

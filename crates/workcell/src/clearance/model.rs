@@ -8,7 +8,7 @@ use super::part::Placed;
 use super::tree::Order;
 use crate::plate::Plate;
 use crate::workcell::Workcell;
-use platewash_kinematics::{BodyPoses, JointVector, RobotModel};
+use platewash_kinematics::{BodyPoses, JointVector, Pose, RobotModel};
 use serde::Serialize;
 
 /// Distance between two bodies at one configuration.
@@ -41,10 +41,14 @@ pub struct ClearanceModel {
     pub(super) robot: RobotModel,
     pub(super) bodies: Vec<Body>,
     pub(super) pairs: Vec<(usize, usize)>,
+    /// `T_base_world`, where the arm's base is not the world.
+    to_base: Option<Pose>,
+    /// The plates in the world.
+    plates: Vec<Plate>,
 }
 
 impl ClearanceModel {
-    /// An arm in its workcell, with the plates.
+    /// An arm in its workcell, with the plates, both in the world.
     ///
     /// Pairs: links with each other; the tool's bodies with the links; everything that moves with the obstacles and the plates. Those
     /// that the workcell excludes are left out.
@@ -52,15 +56,18 @@ impl ClearanceModel {
     /// # Errors
     /// [`ClearanceError::FlatHull`] for a mesh without volume.
     pub fn new(robot: &RobotModel, workcell: &Workcell, plates: &[Plate]) -> Result<Self, ClearanceError> {
-        let mut bodies = world(robot, &workcell.tool, &workcell.obstacles)?;
+        let to_base = (!workcell.is_in_base_frame()).then(|| workcell.mount.inverse());
+        let mut bodies = world(robot, &workcell.tool, &workcell.obstacles_from_base())?;
         for (i, plate) in plates.iter().enumerate() {
-            let body = plate_body(i, plate, bodies.last());
+            let body = plate_body(i, &from_base(to_base.as_ref(), plate), bodies.last());
             bodies.push(body);
         }
         Ok(Self {
             pairs: pairs::choose(&bodies, &workcell.exclusions),
             robot: robot.clone(),
             bodies,
+            to_base,
+            plates: plates.to_vec(),
         })
     }
 
@@ -75,11 +82,14 @@ impl ClearanceModel {
 
     /// [`ClearanceModel::among`] in place.
     pub fn lay(&mut self, plates: &[Plate]) {
+        for (here, plate) in self.plates.iter_mut().zip(plates) {
+            *here = *plate;
+        }
         for body in &mut self.bodies {
             if let BodyKind::Plate(index) = body.kind
                 && let Some(plate) = plates.get(index)
             {
-                *body = plate_body(index, plate, Some(body));
+                *body = plate_body(index, &from_base(self.to_base.as_ref(), plate), Some(body));
             }
         }
     }
@@ -179,6 +189,12 @@ impl ClearanceModel {
         near
     }
 
+    /// Whether the sponge may be near a plate while it works on another one, or on that one itself.
+    pub(super) fn may_touch(&self, working_on: usize, plate: usize) -> bool {
+        let beside = || self.plates.get(working_on).zip(self.plates.get(plate));
+        working_on == plate || beside().is_some_and(|(own, other)| own.may_touch_beside(other) || own.is_back_of(other))
+    }
+
     fn exempt(&self, a: usize, b: usize, working: &[usize]) -> bool {
         match (self.bodies[a].kind, self.bodies[b].kind) {
             (BodyKind::Sponge, BodyKind::Plate(i)) | (BodyKind::Plate(i), BodyKind::Sponge) => working.contains(&i),
@@ -239,6 +255,11 @@ impl ClearanceModel {
             place_m: found.place,
         }
     }
+}
+
+/// A plate of the world in the base frame.
+fn from_base(to_base: Option<&Pose>, plate: &Plate) -> Plate {
+    to_base.map_or(*plate, |to_base| plate.seen_from(to_base))
 }
 
 /// Whether a distance \[m\] keeps the clearance asked for \[m\]; at 0 only contact breaks it. NaN keeps nothing.

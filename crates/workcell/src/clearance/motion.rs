@@ -23,7 +23,7 @@ use platewash_kinematics::{BodyPoses, JointVector};
 use std::ops::Range;
 
 /// What a closed form or a support function may be wrong by \[m\].
-const ROUNDING_M: f64 = 1e-9;
+pub(super) const ROUNDING_M: f64 = 1e-9;
 
 /// What a pair is, for rules that depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,6 +115,12 @@ impl ClearanceModel {
             }
             _ => PairKind::Other,
         }
+    }
+
+    /// Whether one of a pair is an obstacle with an end: a half-space is none.
+    pub fn is_beside_obstacle(&self, pair: usize) -> bool {
+        let (a, b) = self.pairs[pair];
+        [a, b].iter().any(|&body| self.bodies[body].kind == BodyKind::Obstacle)
     }
 
     /// The pairs of parts of a pair of bodies.
@@ -211,7 +217,10 @@ impl<'a> PartPair<'a> {
     /// The same along a direction in the base frame: where the fixed part stands still, that is one in its frame.
     pub fn gap_along_in_base(&self, normal: [f64; 3], poses: &BodyPoses) -> f64 {
         let (fixed, moving) = (self.fixed.place(poses), self.moving.place(poses));
-        let normal = Vector::from_array(normal);
+        // Over a half-space there is one direction with a gap, which is fixed to it.
+        let outwards = || moving.outwards().map(|outwards| -outwards);
+        let only = fixed.outwards().or_else(outwards);
+        let normal = only.unwrap_or_else(|| Vector::from_array(normal));
         let from = |part: &Placed<'_>, direction: Vector| part.support(direction);
         -from(&moving, -normal) - from(&fixed, normal) - ROUNDING_M
     }

@@ -1,17 +1,18 @@
 //! Which pairs of bodies are checked, and why the others are not.
 
-use super::body::{Body, BodyKind, part_pairs, place, world};
+use super::body::{Body, BodyKind, keeps_its_height, part_pairs, place, world};
 use super::distance::separation;
 use super::error::ClearanceError;
+use super::round::is_round_about_axis_6;
 use crate::tool::Tool;
 use crate::workcell::{Exclusion, ExclusionReason, Obstacle};
 use platewash_kinematics::{JointVector, RobotModel};
 
 /// Configurations sampled to find pairs that always touch.
-const SAMPLES: usize = 64;
+pub(super) const SAMPLES: usize = 64;
 
-/// Bodies of the arm from here on carry the tool: it is not checked against them.
-const WRIST: usize = 5;
+/// The body of the arm that carries joint 6: it is checked against what joint 6 moves relative to it.
+const CARRIER: usize = 5;
 
 /// All pairs (indices of bodies) that can meet, but for those excluded.
 pub(super) fn choose(bodies: &[Body], exclusions: &[Exclusion]) -> Vec<(usize, usize)> {
@@ -30,17 +31,18 @@ pub(super) fn choose(bodies: &[Body], exclusions: &[Exclusion]) -> Vec<(usize, u
 /// The pairs that need not keep clear, with the reason: those that follow from an arm, its SRDF, its tool and what stands around it.
 ///
 /// With an SRDF the pairs of links that it disables; without one, neighbours and pairs that touch in every configuration sampled.
-/// The tool and the wrist that carries it; the base, which moves as little as the obstacles; what joint 1 turns about the vertical,
-/// over the floor.
+/// The tool and the flange; what of the tool is round about axis 6 and the link that carries joint 6, as it turns on the spot there; the
+/// base, which moves as little as the obstacles; what joint 1 turns about the vertical of a half-space, over it.
 ///
 /// # Errors
 /// [`ClearanceError`] for a shape that is none.
 pub fn exclusions(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> Result<Vec<Exclusion>, ClearanceError> {
     let bodies = world(robot, tool, obstacles)?;
     let pairs: Vec<_> = candidates(&bodies).collect();
+    let moves = |body: &Body| !turns_on_the_spot(robot, tool, body);
     let mut reasons: Vec<_> = pairs
         .iter()
-        .map(|&(a, b)| reason(robot, &bodies[a], &bodies[b]))
+        .map(|&(a, b)| reason(robot, &bodies[a], &bodies[b], moves))
         .collect();
     if robot.disabled_pairs().is_none() {
         let links = |(a, b): (usize, usize)| [a, b].map(|i| matches!(bodies[i].kind, BodyKind::Link(_)));
@@ -75,8 +77,23 @@ fn can_meet(a: &Body, b: &Body) -> bool {
     }
 }
 
-/// Why a pair need not keep clear, as far as the bodies alone tell.
-fn reason(robot: &RobotModel, first: &Body, second: &Body) -> Option<ExclusionReason> {
+/// Whether all bodies of the tool by the name of one are round about axis 6.
+fn turns_on_the_spot(robot: &RobotModel, tool: &Tool, body: &Body) -> bool {
+    match body.kind {
+        BodyKind::Tool => {
+            let mut named = tool.bodies.iter().filter(|other| other.name == body.name);
+            named.all(|other| is_round_about_axis_6(robot, &other.shape, &other.pose))
+        }
+        BodyKind::Sponge => {
+            let (shape, pose) = tool.sponge.free_body();
+            is_round_about_axis_6(robot, &shape, &pose)
+        }
+        _ => false,
+    }
+}
+
+/// Why a pair need not keep clear, as far as the bodies alone tell, and whether a body of the tool moves relative to what carries joint 6.
+fn reason(robot: &RobotModel, first: &Body, second: &Body, moves: impl Fn(&Body) -> bool) -> Option<ExclusionReason> {
     use BodyKind::{Floor, Link, Obstacle, Sponge, Tool};
     match (first.kind, second.kind) {
         (Link(i), Link(j)) => match robot.disabled_pairs() {
@@ -85,17 +102,18 @@ fn reason(robot: &RobotModel, first: &Body, second: &Body) -> Option<ExclusionRe
                 .then_some(ExclusionReason::Srdf),
             None => (i.abs_diff(j) <= 1).then_some(ExclusionReason::Neighbours),
         },
-        (Link(i), Tool | Sponge) | (Tool | Sponge, Link(i)) => (i >= WRIST).then_some(ExclusionReason::CarriesTool),
+        (Link(i), Tool | Sponge) => carries(i, second, moves),
+        (Tool | Sponge, Link(i)) => carries(i, first, moves),
         (Link(0), Floor | Obstacle) => Some(ExclusionReason::NeitherMoves),
-        (Link(1), Floor) => axis_1_is_vertical(robot).then_some(ExclusionReason::KeepsItsHeight),
+        (Link(1), Floor) => keeps_its_height(robot, second).then_some(ExclusionReason::KeepsItsHeight),
         _ => None,
     }
 }
 
-/// Whether what joint 1 moves keeps its height over the floor.
-fn axis_1_is_vertical(robot: &RobotModel) -> bool {
-    let [axis_1, ..] = robot.fk(&JointVector::zeros()).joint_axes();
-    axis_1.z.abs() > 1.0 - 1e-12
+/// Whether a link carries a body of the tool, which does not move relative to it.
+fn carries(link: usize, held: &Body, moves: impl Fn(&Body) -> bool) -> Option<ExclusionReason> {
+    let still = link > CARRIER || (link == CARRIER && !moves(held));
+    still.then_some(ExclusionReason::CarriesTool)
 }
 
 /// Of some pairs, by their index, those that touch in every configuration sampled: neighbouring links of a description without a list

@@ -2,10 +2,11 @@
 //!
 //! A sphere is a point with a radius and a capsule a segment with one, so that their distances have closed forms.
 
+use super::convex::ConvexHull;
 use super::lever::Levers;
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::{Pose, Vector};
-use parry3d_f64::shape::{ConvexPolyhedron, Cuboid, Cylinder, Segment, SharedShape};
+use parry3d_f64::shape::{Cuboid, Cylinder, Segment, SharedShape};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{BodyPoses, Frame};
@@ -22,11 +23,11 @@ pub(super) enum Core {
     Segment(f64),
     /// A solid of the collision library.
     Solid(SharedShape, Extent),
-    /// The half-space z ≤ 0 of the base frame.
-    Floor,
+    /// The half-space z ≤ 0 of the part's own frame.
+    HalfSpace,
 }
 
-/// What the height of a solid over the floor needs.
+/// What the height of a solid over a half-space needs.
 #[derive(Debug, Clone)]
 pub(super) enum Extent {
     /// Vertices \[m\], shared by parts that are alike.
@@ -39,6 +40,7 @@ pub(super) enum Extent {
 #[derive(Debug, Clone)]
 pub(super) struct Part {
     core: Core,
+    /// All within this distance of the core belongs to the part \[m\].
     radius: f64,
     /// Radius of the sphere about the origin that holds the part \[m\].
     bounding: f64,
@@ -58,7 +60,7 @@ impl std::fmt::Debug for Core {
         match self {
             Self::Segment(half) => write!(f, "Segment({half})"),
             Self::Solid(_, extent) => write!(f, "Solid({extent:?})"),
-            Self::Floor => write!(f, "Floor"),
+            Self::HalfSpace => write!(f, "HalfSpace"),
         }
     }
 }
@@ -92,9 +94,12 @@ impl Part {
                     .iter()
                     .map(|p: &Point3<f64>| Vector::new(p.x, p.y, p.z))
                     .collect();
-                let hull = ConvexPolyhedron::from_convex_hull(&vertices).filter(|_| has_volume(&vertices))?;
-                let extent = Extent::Vertices(enclosing(&hull, &vertices).into());
-                Self::solid(SharedShape::new(hull), extent, frame)
+                let hull = ConvexHull::of(&vertices)?;
+                Self::solid(
+                    SharedShape::new(hull.solid),
+                    Extent::Vertices(hull.corners.into()),
+                    frame,
+                )
             }
         })
     }
@@ -106,13 +111,22 @@ impl Part {
         Self::solid(SharedShape::new(Cylinder::new(half_length, radius)), extent, frame)
     }
 
-    /// The floor; it needs no frame of its own.
-    pub fn floor() -> Self {
+    /// All of z ≤ 0 of a frame.
+    pub fn half_space(frame: Frame) -> Self {
         Self {
-            core: Core::Floor,
+            core: Core::HalfSpace,
             radius: 0.0,
             bounding: f64::INFINITY,
-            frame: Frame::base(),
+            frame,
+        }
+    }
+
+    /// The part with all that is within `margin_m` of it.
+    pub fn grown(self, margin_m: f64) -> Self {
+        Self {
+            radius: self.radius + margin_m,
+            bounding: self.bounding + margin_m,
+            ..self
         }
     }
 
@@ -174,12 +188,12 @@ impl Part {
         self.distance_to_point(here, &there.translation) - other.bounding
     }
 
-    /// Distance of a point of the base frame from the part \[m\]: exact for capsules, cylinders and the floor, otherwise a
-    /// lower bound from the bounding sphere.
+    /// Distance of a point of the base frame from the part \[m\]: exact for capsules, cylinders and half-spaces, below 0
+    /// within the latter; otherwise a lower bound from the bounding sphere.
     fn distance_to_point(&self, here: &Rigid, point: &Vector3<f64>) -> f64 {
         let away = point - here.translation;
         match &self.core {
-            Core::Floor => point.z,
+            Core::HalfSpace => here.rotation.column(2).dot(&away) - self.radius,
             Core::Segment(half) => {
                 let axis = here.rotation.column(2);
                 (away - axis * axis.dot(&away).clamp(-half, *half)).norm() - self.radius
@@ -188,7 +202,7 @@ impl Part {
                 let along = here.rotation.column(2).dot(&away);
                 let across = (away.norm_squared() - along * along).max(0.0).sqrt();
                 let (over, beside) = ((along.abs() - half).max(0.0), (across - radius).max(0.0));
-                (over * over + beside * beside).sqrt()
+                (over * over + beside * beside).sqrt() - self.radius
             }
             Core::Solid(..) => away.norm() - self.bounding,
         }
@@ -217,11 +231,11 @@ impl Part {
 
     /// [`Placed::sphere_gap`] without placing the parts.
     pub fn sphere_gap(&self, other: &Self, poses: &BodyPoses) -> f64 {
-        let centre = |part: &Self| poses.rigid(&part.frame).translation;
+        let (here, there) = (poses.rigid(&self.frame), poses.rigid(&other.frame));
         match (&self.core, &other.core) {
-            (Core::Floor, _) => centre(other).z - other.bounding,
-            (_, Core::Floor) => centre(self).z - self.bounding,
-            _ => (centre(self) - centre(other)).norm() - self.bounding - other.bounding,
+            (Core::HalfSpace, _) => self.gap_to_sphere(&here, other, &there),
+            (_, Core::HalfSpace) => other.gap_to_sphere(&there, self, &here),
+            _ => (here.translation - there.translation).norm() - self.bounding - other.bounding,
         }
     }
 
@@ -241,66 +255,37 @@ impl Part {
     }
 }
 
-/// What a point may be outside of a face by rounding, and how thin a hull may be, as a part of its size.
-const HULL_ROUNDING: f64 = 1e-12;
-const THINNEST_HULL: f64 = 1e-9;
-
-/// The vertices of a hull, and those of the points it was made of that it left outside: a hull that the collision library makes may be
-/// too small, down to a flat one for a body that is much wider than high. What reaches farthest along a direction is among these,
-/// whatever became of the hull, so that a gap along a direction is never overstated.
-fn enclosing(hull: &ConvexPolyhedron, points: &[Vector]) -> Vec<Vector> {
-    let size = points.iter().map(|p| p.length()).fold(0.0, f64::max);
-    let corner = |first: u32| hull.points()[hull.vertices_adj_to_face()[first as usize] as usize];
-    let faces: Vec<_> = hull
-        .faces()
-        .iter()
-        .map(|f| (f.normal, corner(f.first_vertex_or_edge)))
-        .collect();
-    let is_outside = |point: &&Vector| {
-        let beyond = |(normal, corner): &(Vector, Vector)| normal.dot(**point - *corner);
-        // NaN is outside.
-        !faces.iter().map(beyond).all(|beyond| beyond <= HULL_ROUNDING * size)
-    };
-    let outside = points.iter().filter(is_outside);
-    hull.points().iter().chain(outside).copied().collect()
-}
-
-/// Whether points span a volume: some of them is off the plane through three that are far apart.
-pub(super) fn has_volume(points: &[Vector]) -> bool {
-    let Some(first) = points.first().copied() else {
-        return false;
-    };
-    let farthest = |distance: &dyn Fn(Vector) -> f64| {
-        let far = points
-            .iter()
-            .copied()
-            .max_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-        far.map_or((first, 0.0), |point| (point, distance(point)))
-    };
-    let (second, size) = farthest(&|p| (p - first).length());
-    let along = (second - first) / size;
-    let (third, width) = farthest(&|p| (p - first).cross(along).length());
-    let normal = along.cross(third - first).normalize_or_zero();
-    let (_, height) = farthest(&|p| (p - first).dot(normal).abs());
-    width > THINNEST_HULL * size && height > THINNEST_HULL * size
-}
-
 impl Placed<'_> {
-    /// Whether the distance to another part is right to rounding: over the floor and between two spheres. Between segments
+    /// Whether the distance to another part is right to rounding: over a half-space and between two spheres. Between segments
     /// the closed form takes nearly parallel ones for parallel, which costs more the shorter they are.
     pub fn is_exact_with(&self, other: &Self) -> bool {
         let is_sphere = |core: &Core| matches!(core, Core::Segment(half) if *half == 0.0);
         match (self.core, other.core) {
-            (Core::Floor, _) | (_, Core::Floor) => true,
+            (Core::HalfSpace, _) | (_, Core::HalfSpace) => true,
             (a, b) => is_sphere(a) && is_sphere(b),
         }
     }
 
-    /// How far the part reaches along a unit direction from the base frame's origin \[m\].
+    /// The unit vector out of a half-space, base frame; `None` of other parts, which are bounded.
+    pub fn outwards(&self) -> Option<Vector> {
+        matches!(self.core, Core::HalfSpace).then(|| self.pose.rotation * Vector::Z)
+    }
+
+    /// The axis of what is round about one, base frame.
+    pub fn axis(&self) -> Option<Vector> {
+        match self.core {
+            Core::Segment(half) if *half > 0.0 => Some(self.pose.rotation * Vector::Z),
+            Core::Solid(_, Extent::Cylinder(..)) => Some(self.pose.rotation * Vector::Y),
+            _ => None,
+        }
+    }
+
+    /// How far the part reaches along a unit direction from the base frame's origin \[m\]; a half-space is asked along
+    /// [`Placed::outwards`] alone, as there is no end to it along any other.
     pub fn support(&self, direction: Vector) -> f64 {
         let local = self.pose.rotation.inverse() * direction;
         let beyond = match self.core {
-            Core::Segment(half) => half * local.z.abs() + self.radius,
+            Core::Segment(half) => half * local.z.abs(),
             Core::Solid(_, Extent::Vertices(vertices)) => {
                 vertices.iter().map(|v| v.dot(local)).fold(f64::NEG_INFINITY, f64::max)
             }
@@ -308,14 +293,12 @@ impl Placed<'_> {
             Core::Solid(_, Extent::Cylinder(radius, half)) => {
                 half * local.y.abs() + radius * (local.x * local.x + local.z * local.z).sqrt()
             }
-            // The half-space z ≤ 0 is bounded upwards alone.
-            Core::Floor if direction.x == 0.0 && direction.y == 0.0 && direction.z > 0.0 => 0.0,
-            Core::Floor => f64::INFINITY,
+            Core::HalfSpace => 0.0,
         };
-        self.pose.translation.dot(direction) + beyond
+        self.pose.translation.dot(direction) + (beyond + self.radius)
     }
 
-    /// The point of the core that is farthest along a direction, base frame; that of the floor is not defined.
+    /// The point of the core that is farthest along a direction, base frame; that of a half-space is not defined.
     pub fn extreme(&self, direction: Vector) -> Vector {
         let local = self.pose.rotation.inverse() * direction;
         let point = match self.core {
@@ -330,7 +313,7 @@ impl Placed<'_> {
                 let out = if across > 0.0 { radius / across } else { 0.0 };
                 Vector::new(local.x * out, half.copysign(local.y), local.z * out)
             }
-            Core::Floor => Vector::ZERO,
+            Core::HalfSpace => Vector::ZERO,
         };
         self.pose * point
     }
@@ -341,11 +324,17 @@ impl Placed<'_> {
         Segment::new(end(-half), end(half))
     }
 
+    /// How far a point is from the plane of a half-space, below 0 within \[m\].
+    pub fn height_of(&self, point: Vector) -> f64 {
+        let normal = self.pose.rotation * Vector::Z;
+        normal.dot(point - self.pose.translation) - self.radius
+    }
+
     /// A lower bound of the distance to another part, from bounding spheres \[m\].
     pub fn sphere_gap(&self, other: &Self) -> f64 {
         match (self.core, other.core) {
-            (Core::Floor, _) => other.pose.translation.z - other.bounding,
-            (_, Core::Floor) => self.pose.translation.z - self.bounding,
+            (Core::HalfSpace, _) => self.height_of(other.pose.translation) - other.bounding,
+            (_, Core::HalfSpace) => other.height_of(self.pose.translation) - self.bounding,
             _ => (self.pose.translation - other.pose.translation).length() - self.bounding - other.bounding,
         }
     }

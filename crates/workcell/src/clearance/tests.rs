@@ -12,6 +12,7 @@ use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
 mod bounds;
+mod half_spaces;
 mod many_parts;
 
 fn iso() -> impl Strategy<Value = Isometry3<f64>> {
@@ -132,7 +133,7 @@ proptest! {
             (Shape::Box { half_m: [0.1, 0.2, 0.3] }, z - row[0] * 0.1 - row[1] * 0.2 - row[2] * 0.3),
         ];
         for (shape, expected) in cases {
-            let found = gap(&part(&shape, &high), &Part::floor());
+            let found = gap(&part(&shape, &high), &Part::half_space(Frame::base()));
             prop_assert!((found.distance - expected).abs() < 1e-12, "{shape:?}: {} {expected}", found.distance);
             prop_assert!(found.distance > 0.0);
         }
@@ -355,6 +356,10 @@ fn nearest_points_lie_on_the_bodies() {
             "{found:?}"
         );
     }
-    let over_floor = gap(&Part::floor(), &part(&ball, &Isometry3::translation(0.3, 0.2, 0.5))).points();
+    let over_floor = gap(
+        &Part::half_space(Frame::base()),
+        &part(&ball, &Isometry3::translation(0.3, 0.2, 0.5)),
+    )
+    .points();
     assert_eq!(over_floor, [[0.3, 0.2, 0.0], [0.3, 0.2, 0.4]]);
 }

@@ -7,7 +7,8 @@ use super::distance::Separation;
 use super::part::{Part, Placed};
 use crate::plate::{Foot, Plate, PlateParts};
 use crate::surface::Surface;
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
+use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{BodyPoses, Frame, Pose};
 use std::ops::Range;
@@ -23,7 +24,8 @@ pub(super) struct Tree {
     pub whole: Part,
     /// Some of them each; all of them together.
     pub groups: Vec<Group>,
-    solid: Arc<Solid>,
+    /// Of a plate, what it has wherever it lies.
+    solid: Option<Arc<Solid>>,
 }
 
 /// Some parts of a body and a sphere that holds them.
@@ -115,7 +117,9 @@ impl Tree {
         if plate.surface.is_flat() {
             return None;
         }
-        let known = like.map(|tree| &tree.solid).filter(|solid| solid.is_of(plate));
+        let known = like
+            .and_then(|tree| tree.solid.as_ref())
+            .filter(|solid| solid.is_of(plate));
         let solid = match known {
             Some(solid) => solid.clone(),
             None => Arc::new(Solid::of(plate)?),
@@ -129,9 +133,47 @@ impl Tree {
         let tree = Self {
             whole: solid.whole.carried(&by),
             groups: groups.collect(),
-            solid,
+            solid: Some(solid),
         };
         Some((tree, parts))
+    }
+
+    /// Of some hulls in a frame that stands still, and their parts; no tree where there is one hull only. `None` where there is
+    /// none, or one has no volume.
+    pub fn of_hulls(hulls: &[Vec<Point3<f64>>], frame: Frame) -> Option<(Option<Self>, Vec<Part>)> {
+        let hull = |points: Vec<Point3<f64>>| Part::new(&Shape::Hull { points }, frame);
+        let parts = hulls
+            .iter()
+            .map(|points| hull(points.clone()))
+            .collect::<Option<Vec<_>>>()?;
+        let whole = hull(hulls.concat())?;
+        if parts.len() == 1 {
+            return Some((None, parts));
+        }
+        let groups = parts.iter().enumerate().filter_map(|(i, part)| {
+            let ball = around(std::slice::from_ref(part))?;
+            let members = i..i + 1;
+            Some(Group { ball, members })
+        });
+        let tree = Self {
+            whole,
+            groups: groups.collect(),
+            solid: None,
+        };
+        Some((Some(tree), parts))
+    }
+
+    /// The tree of parts that are all grown by so much \[m\].
+    pub fn grown(self, margin_m: f64) -> Self {
+        let groups = self.groups.into_iter().map(|group| Group {
+            ball: group.ball.grown(margin_m),
+            ..group
+        });
+        Self {
+            whole: self.whole.grown(margin_m),
+            groups: groups.collect(),
+            solid: self.solid,
+        }
     }
 
     /// The distance of the nearest of its parts to another part, where that is less than `below` \[m\].

@@ -1,7 +1,9 @@
 //! Clearance decided early: a quick yes or no, and what stands in the way.
 //!
-//! While the sponge washes every pair keeps the margin, with one exception: the sponge and the plates. It lies on the one
-//! that it works on and runs over its rim by up to its radius, where a neighbour may lie.
+//! While the sponge washes every pair keeps the margin, with one exception: the sponge and some plates. It lies on the one
+//! that it works on and runs over its rim by up to its radius, where a neighbour may lie ([`Plate::may_touch_beside`]).
+//!
+//! [`Plate::may_touch_beside`]: crate::plate::Plate::may_touch_beside
 
 use super::body::{BodyKind, place};
 use super::distance::{Separation, bracketed, separation};
@@ -19,19 +21,22 @@ impl ClearanceModel {
         self.all_keep(q, required_m, |_, _| true)
     }
 
-    /// Whether at `q` \[rad\] every pair but the sponge and the plates keeps `required_m`; otherwise as
-    /// [`ClearanceModel::keeps`].
+    /// Whether at `q` \[rad\] every pair keeps `required_m` but the sponge and the plates that it may touch while it works on one;
+    /// otherwise as [`ClearanceModel::keeps`].
     #[must_use]
-    pub fn keeps_washing(&self, q: &JointVector, required_m: f64) -> bool {
-        self.all_keep(q, required_m, |a, b| self.counts_washing(a, b))
+    pub fn keeps_washing(&self, q: &JointVector, working_on: usize, required_m: f64) -> bool {
+        self.all_keep(q, required_m, |a, b| self.counts_washing(working_on, a, b))
     }
 
     /// The nearest of the pairs that [`ClearanceModel::keeps_washing`] finds too near; `None` where there is none.
     #[must_use]
-    pub fn nearest_washing(&self, q: &JointVector, required_m: f64) -> Option<PairClearance> {
+    pub fn nearest_washing(&self, q: &JointVector, working_on: usize, required_m: f64) -> Option<PairClearance> {
         let poses = self.robot.fk(q);
         let placed = place(&self.bodies, &poses);
-        let counting = self.pairs.iter().filter(|&&(a, b)| self.counts_washing(a, b));
+        let counting = self
+            .pairs
+            .iter()
+            .filter(|&&(a, b)| self.counts_washing(working_on, a, b));
         let too_near = counting.filter_map(|&(a, b)| {
             let found = |measure: Measure| {
                 let parts = self.part_pairs(a, b);
@@ -52,13 +57,13 @@ impl ClearanceModel {
         Some(self.describe(a, b, found))
     }
 
-    /// Whether a pair must keep clear while the sponge washes.
-    fn counts_washing(&self, a: usize, b: usize) -> bool {
+    /// Whether a pair must keep clear while the sponge washes a plate.
+    fn counts_washing(&self, working_on: usize, a: usize, b: usize) -> bool {
         use BodyKind::{Plate, Sponge};
-        !matches!(
-            (self.bodies[a].kind, self.bodies[b].kind),
-            (Sponge, Plate(_)) | (Plate(_), Sponge)
-        )
+        match (self.bodies[a].kind, self.bodies[b].kind) {
+            (Sponge, Plate(plate)) | (Plate(plate), Sponge) => !self.may_touch(working_on, plate),
+            _ => true,
+        }
     }
 
     /// Stops at the first pair that is too near, and asks for a distance only where bounding spheres leave it open.

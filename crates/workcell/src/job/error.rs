@@ -1,7 +1,10 @@
 //! Why a job is none.
 
-use crate::clearance::ClearanceError;
+use crate::clearance::{ClearanceError, StandingOverlap};
 use crate::layout::MAX_PLATES;
+use crate::obstacle::ObstacleFault;
+use crate::plate::GREATEST_M;
+use crate::words::{millimetres, printable};
 use crate::workcell::ArmId;
 use platewash_kinematics::LimitViolation;
 use serde::{Deserialize, Serialize};
@@ -46,21 +49,22 @@ pub enum JobError {
         /// Index of the plate.
         plate: usize,
     },
-    /// A plate that does not lie level.
-    #[error("plate {plate} is tilted; this version washes level plates only")]
-    TiltedPlate {
-        /// Index of the plate.
-        plate: usize,
-    },
-    /// The arm is not mounted at the world's origin.
-    #[error("the arm must be mounted at the origin of the world; this version knows no other mount")]
+    /// The arm is mounted nowhere.
+    #[error(
+        "the mount of the arm must be a place within {GREATEST_M} m of the world's origin along each axis, and a rotation"
+    )]
     Mount,
-    /// A half-space that is not the floor.
-    #[error("obstacle \"{name}\": a half-space must be z ≤ 0 of the world; this version knows no other")]
-    HalfSpace {
+    /// An obstacle that is none.
+    #[error("obstacle '{}': {fault}", printable(.name))]
+    Obstacle {
         /// The obstacle.
         name: String,
+        /// Why.
+        fault: ObstacleFault,
     },
+    /// Obstacles that reach into plates or the arm's base.
+    #[error("{}", overlaps(.0))]
+    Standing(Vec<StandingOverlap>),
     /// A dry run of the paper's program.
     #[error("a run of the paper's program is no dry run")]
     PaperDryRun,
@@ -86,6 +90,28 @@ pub enum JobError {
     /// A shape of the arm is none.
     #[error(transparent)]
     Clearance(#[from] ClearanceError),
+}
+
+/// What stands where it cannot, the first few.
+fn overlaps(all: &[StandingOverlap]) -> String {
+    const FEW: usize = 3;
+    let one = |overlap: &StandingOverlap| {
+        let StandingOverlap { obstacle, other, by_m } = overlap;
+        format!(
+            "obstacle '{}' reaches {} into {}",
+            printable(obstacle),
+            millimetres(*by_m),
+            printable(other)
+        )
+    };
+    let few: Vec<_> = all.iter().take(FEW).map(one).collect();
+    let more = all.len().saturating_sub(FEW);
+    let more = if more > 0 {
+        format!("; and {more} more")
+    } else {
+        String::new()
+    };
+    format!("{}{more}", few.join("; "))
 }
 
 /// An end of a motion.

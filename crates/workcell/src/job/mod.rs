@@ -3,6 +3,7 @@
 
 mod contact;
 mod error;
+mod from_base;
 mod planner;
 mod requirements;
 mod terms;

@@ -3,12 +3,14 @@
 use super::error::JobError;
 use super::planner::{Planner, PlannerSettings};
 use super::requirements::{Limits, Requirements};
+use crate::clearance::{ClearanceError, StandingOverlap, standing_overlaps};
 use crate::dry_run::DryRun;
 use crate::layout::MAX_PLATES;
 use crate::plate::{GREATEST_M, Plate};
+use crate::pose;
 use crate::simulation::SimulationSettings;
-use crate::workcell::{ObstacleShape, Workcell};
-use platewash_kinematics::{JointVector, Pose};
+use crate::workcell::Workcell;
+use platewash_kinematics::{JointVector, Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
@@ -75,6 +77,15 @@ impl JobTerms {
     pub fn wash_acceleration_m_s2(&self) -> f64 {
         let anywhere = self.limits.tip_acceleration_m_s2;
         self.requirements.wash_acceleration_m_s2.min(anywhere)
+    }
+
+    /// Obstacles that reach into plates or the base of the arm: see [`standing_overlaps`].
+    ///
+    /// # Errors
+    /// [`ClearanceError`] for a shape that is none.
+    pub fn standing_overlaps(&self, arm: &RobotModel) -> Result<Vec<StandingOverlap>, ClearanceError> {
+        let seen = self.seen_from_base();
+        standing_overlaps(arm, &seen.workcell, &seen.plates, seen.dry_run.as_ref())
     }
 
     /// Refuses terms with which nothing can be computed, NaN and infinity included.
@@ -199,19 +210,18 @@ impl JobTerms {
     /// What this version can judge of a world.
     fn check_world(&self) -> Result<(), JobError> {
         let workcell = &self.workcell;
-        if workcell.mount != Pose::identity() {
+        let is_near = |pose: &Pose| pose.translation.vector.iter().all(|at| at.abs() <= GREATEST_M);
+        if !(pose::is_sound(&workcell.mount) && is_near(&workcell.mount)) {
             return Err(JobError::Mount);
         }
-        let floor = |shape: &ObstacleShape| *shape == ObstacleShape::HalfSpace;
-        let tilted = |pose: &Pose| *pose != Pose::identity();
-        if let Some(other) = workcell.obstacles.iter().find(|o| floor(&o.shape) && tilted(&o.pose)) {
-            let name = other.name.clone();
-            return Err(JobError::HalfSpace { name });
+        let plates = self.plates.len();
+        for obstacle in &workcell.obstacles {
+            if let Some(fault) = obstacle.fault(plates) {
+                let name = obstacle.name.clone();
+                return Err(JobError::Obstacle { name, fault });
+            }
         }
-        match self.plates.iter().position(|plate| !plate.is_level()) {
-            Some(plate) => Err(JobError::TiltedPlate { plate }),
-            None => Ok(()),
-        }
+        Ok(())
     }
 }
 
@@ -237,7 +247,6 @@ mod tests {
     use crate::fixtures::{kitchen, kitchen_terms};
     use crate::job::WashJob;
     use crate::workcell::Obstacle;
-    use platewash_kinematics::RobotModel;
 
     type Change = fn(&mut JobTerms);
 
@@ -262,19 +271,19 @@ mod tests {
             ("seed", |t| t.seed = MAX_SEED + 1),
             ("0 plates", |t| t.plates.clear()),
             ("plate 2", |t| t.plates[2].thickness_m = 0.0),
-            ("plate 1 is tilted", |t| {
-                t.plates[1].pose.rotation = nalgebra::UnitQuaternion::from_euler_angles(0.1, 0.0, 0.0)
+            ("plate 1", |t| {
+                t.plates[1].pose.rotation = nalgebra::UnitQuaternion::new_unchecked([0.0, 0.0, 0.1, 1.0].into())
             }),
             ("sponge.radius_m", |t| t.workcell.tool.sponge.radius_m = 1000.1),
             ("sponge.radius_m", |t| t.workcell.tool.sponge.radius_m = 0.0),
             ("sponge.height_m", |t| t.workcell.tool.sponge.height_m = 1000.1),
             ("sponge.height_m", |t| t.workcell.tool.sponge.height_m = f64::NAN),
             ("sponge.compression_m", |t| t.workcell.tool.sponge.compression_m = 1.0),
-            ("mounted at the origin", |t| t.workcell.mount.translation.z = 0.5),
-            ("obstacle \"wall\"", |t| {
+            ("mount", |t| t.workcell.mount.translation.z = f64::NAN),
+            ("obstacle 'wall'", |t| {
                 let wall = Obstacle {
                     name: "wall".to_owned(),
-                    pose: Pose::translation(0.0, 0.0, -1.0),
+                    pose: Pose::translation(0.0, f64::NAN, -1.0),
                     ..Obstacle::floor()
                 };
                 t.workcell.obstacles.push(wall);

@@ -5,6 +5,7 @@ use super::terms::JobTerms;
 use crate::plate::Plate;
 use crate::workcell::ArmId;
 use platewash_kinematics::RobotModel;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A job with its arm.
@@ -13,13 +14,16 @@ pub struct WashJob {
     name: String,
     arm: Arc<RobotModel>,
     terms: JobTerms,
+    /// The terms in the frame of the arm's base, where that is not the world's.
+    from_base: Option<Box<JobTerms>>,
 }
 
 impl WashJob {
     /// The terms with the arm that they are for.
     ///
     /// # Errors
-    /// [`JobError`]: terms with which nothing can be computed, another arm, or an end configuration beyond its limits.
+    /// [`JobError`]: terms with which nothing can be computed, another arm, an end configuration beyond its limits, or obstacles that reach
+    /// into plates or the arm's base.
     pub fn new(arm: Arc<RobotModel>, terms: JobTerms) -> Result<Self, JobError> {
         terms.validate()?;
         let given = ArmId::of(&arm);
@@ -33,8 +37,20 @@ impl WashJob {
                 return Err(JobError::Home { end, violation });
             }
         }
-        let name = "unnamed".to_owned();
-        Ok(Self { name, arm, terms })
+        let overlaps = terms.standing_overlaps(&arm)?;
+        if !overlaps.is_empty() {
+            return Err(JobError::Standing(overlaps));
+        }
+        let from_base = match terms.seen_from_base() {
+            Cow::Borrowed(_) => None,
+            Cow::Owned(seen) => Some(Box::new(seen)),
+        };
+        Ok(Self {
+            name: "unnamed".to_owned(),
+            arm,
+            terms,
+            from_base,
+        })
     }
 
     /// The same job under the name of a scenario, for reports and the plan's provenance.
@@ -66,6 +82,12 @@ impl WashJob {
     #[must_use]
     pub fn terms(&self) -> &JobTerms {
         &self.terms
+    }
+
+    /// The terms in the frame of the arm's base ([`JobTerms::seen_from_base`]): those to compute with.
+    #[must_use]
+    pub fn seen_from_base(&self) -> &JobTerms {
+        self.from_base.as_deref().unwrap_or(&self.terms)
     }
 
     /// The same job on other plates.

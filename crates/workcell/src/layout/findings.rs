@@ -114,17 +114,33 @@ impl fmt::Display for Finding {
     }
 }
 
-/// Plates that overlap each other or the base.
-pub(super) fn overlaps(plates: &[Plate], base: &BaseFootprint) -> Vec<Finding> {
+impl Finding {
+    /// The same of a layout about another origin, so much farther \[m\].
+    pub(super) fn move_by(&mut self, [x, y]: [f64; 2]) {
+        if let Self::LeavesRegion { x_m, y_m, .. } = self {
+            (*x_m, *y_m) = (*x_m + x, *y_m + y);
+        }
+    }
+}
+
+/// Plates that overlap each other or the base: those that are parallel, seen along their axis, and those that lie level over the base. What
+/// plates at an angle meet is for their bodies to tell.
+pub(super) fn overlaps(plates: &[Plate], base: Option<&BaseFootprint>) -> Vec<Finding> {
     let mut findings = Vec::new();
+    let level = Plate::level_disc([0.0; 3], 1.0, 1.0);
     for (i, plate) in plates.iter().enumerate() {
-        let overlap_m = plate.rim_m() - signed_distance(base, plate.centre_xy());
+        let base = base.filter(|_| plate.is_parallel(&level));
+        let overlap_m = base.map_or(0.0, |base| plate.rim_m() - signed_distance(base, plate.centre_xy()));
         if overlap_m > 0.0 {
             findings.push(Finding::OverlapsBase { plate: i, overlap_m });
         }
     }
-    for (a, b, distance_m) in pairs(plates) {
-        let overlap_m = plates[a].rim_m() + plates[b].rim_m() - distance_m;
+    for (a, b, _) in pairs(plates) {
+        let (first, second) = (&plates[a], &plates[b]);
+        if !first.is_parallel(second) || first.is_over(second) || second.is_over(first) {
+            continue;
+        }
+        let overlap_m = first.rim_m() + second.rim_m() - first.aside_m(second);
         if overlap_m > 0.0 {
             findings.push(Finding::PlatesOverlap { a, b, overlap_m });
         }

@@ -1,6 +1,7 @@
 //! Where the plates lie: drawn at random or given, and what is wrong with the result.
 //!
-//! All positions are in the base frame: origin on the base axis at floor level, z up, metres.
+//! All positions are in the frame of the layout: origin on the base axis, axes along those of the world, z = 0 at the height 0 of the
+//! world, metres. Of an arm that stands at the world's origin that is its base frame.
 
 mod cells;
 mod discs;
@@ -18,12 +19,13 @@ mod task_region;
 mod wedge;
 
 use crate::plate::Plate;
+use platewash_kinematics::Pose;
 use rand::Rng;
 use serde::{Deserialize, Serialize};
 
 pub use error::{EmptyReason, InputProblem, LayoutError};
 pub use findings::Finding;
-pub use footprint::base_footprint;
+pub use footprint::{base_footprint, mounted_footprint};
 pub use packing::packing_bound;
 pub use placement::Placement;
 pub use region::Region;
@@ -69,6 +71,46 @@ impl Layout {
             findings: Vec::new(),
         }
     }
+
+    /// Plates given one by one in the world, and which of them overlap; `foot_m` is the foot of the arm's mount.
+    #[must_use]
+    pub fn listed(plates: Vec<Plate>, [x, y]: [f64; 2], base: Option<&BaseFootprint>) -> Self {
+        let to_foot = Pose::translation(-x, -y, 0.0);
+        let about_foot: Vec<_> = plates.iter().map(|plate| plate.seen_from(&to_foot)).collect();
+        Self {
+            findings: findings::overlaps(&about_foot, base),
+            ..Self::of(plates)
+        }
+    }
+
+    /// The same places with plates of several kinds, so many of each, in their order.
+    #[must_use]
+    pub fn of_kinds(self, kinds: &[(usize, PlateGeometry)], base: Option<&BaseFootprint>) -> Self {
+        let each = kinds.iter().flat_map(|(count, kind)| std::iter::repeat_n(kind, *count));
+        let centres = self.plates.iter().map(Plate::centre_xy);
+        let plates: Vec<_> = centres
+            .zip(each)
+            .flat_map(|(centre, kind)| kind.plates(&[centre]))
+            .collect();
+        Self {
+            findings: findings::overlaps(&plates, base),
+            plates,
+            ..self
+        }
+    }
+
+    /// The same about another origin: everything is farther by as much \[m\].
+    #[must_use]
+    pub fn moved_by(mut self, [x, y]: [f64; 2]) -> Self {
+        let by = Pose::translation(x, y, 0.0);
+        for plate in &mut self.plates {
+            *plate = plate.seen_from(&by);
+        }
+        for finding in &mut self.findings {
+            finding.move_by([x, y]);
+        }
+        self
+    }
 }
 
 /// What to draw.
@@ -82,8 +124,8 @@ pub struct SampleRequest {
     pub count: usize,
     /// Shape and height of the plates.
     pub geometry: PlateGeometry,
-    /// What the robot's base covers, for [`Finding::OverlapsBase`] alone.
-    pub base: BaseFootprint,
+    /// What the robot's base covers, for [`Finding::OverlapsBase`] alone; `None` where no plate is level with it.
+    pub base: Option<BaseFootprint>,
 }
 
 /// When to stop trying.
@@ -139,7 +181,7 @@ pub fn sample<R: Rng + ?Sized>(
     } = request;
     let count = *count;
     geometry.validate()?;
-    base.validate()?;
+    base.as_ref().map_or(Ok(()), BaseFootprint::validate)?;
     check_count(count)?;
     let sampler = Sampler::new(region, spacing)?;
     let upper_bound = packing_bound(region, spacing.min_distance_m);
@@ -153,7 +195,7 @@ pub fn sample<R: Rng + ?Sized>(
         match sampler.attempt_counting(count, rng, &mut work) {
             Attempt::Placed(centres) => {
                 let plates = geometry.plates(&centres);
-                let findings = findings::overlaps(&plates, base);
+                let findings = findings::overlaps(&plates, base.as_ref());
                 let source = LayoutSource::Sampled {
                     restarts,
                     draws: work.draws,
@@ -190,12 +232,12 @@ pub fn check_explicit(
     region: Option<&Region>,
     spacing: &Spacing,
     geometry: &PlateGeometry,
-    base: &BaseFootprint,
+    base: Option<&BaseFootprint>,
 ) -> Result<Layout, LayoutError> {
     region.map_or(Ok(()), Region::validate)?;
     spacing.validate()?;
     geometry.validate()?;
-    base.validate()?;
+    base.map_or(Ok(()), BaseFootprint::validate)?;
     check_count(positions_m.len())?;
     if let Some(plate) = positions_m.iter().position(|p| !p.iter().all(|c| c.is_finite())) {
         return Err(LayoutError::InvalidPosition { plate });

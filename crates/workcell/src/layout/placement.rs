@@ -48,7 +48,7 @@ impl Placement {
         &self,
         spacing: &Spacing,
         geometry: &PlateGeometry,
-        base: &BaseFootprint,
+        base: Option<&BaseFootprint>,
         rng: &mut R,
     ) -> Result<Layout, LayoutError> {
         match self {
@@ -59,7 +59,7 @@ impl Placement {
                     spacing: *spacing,
                     count: *count,
                     geometry: *geometry,
-                    base: *base,
+                    base: base.copied(),
                 };
                 sample(&request, &SampleSettings::default(), rng)
             }

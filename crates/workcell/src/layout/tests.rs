@@ -27,7 +27,7 @@ fn request(region: Region, count: usize) -> SampleRequest {
         spacing: SPACING,
         count,
         geometry: GEOMETRY,
-        base: BASE,
+        base: Some(BASE),
     }
 }
 
@@ -49,7 +49,7 @@ fn centres(layout: &Layout) -> Vec<[f64; 2]> {
 }
 
 fn explicit(positions_m: &[[f64; 2]], region: Option<&Region>) -> Layout {
-    check_explicit(positions_m, region, &SPACING, &GEOMETRY, &BASE).unwrap()
+    check_explicit(positions_m, region, &SPACING, &GEOMETRY, Some(&BASE)).unwrap()
 }
 
 fn invalid(key: &'static str, problem: InputProblem) -> LayoutError {
@@ -105,7 +105,7 @@ fn a_thousand_plates_are_placed() {
         Some(&request.region),
         &request.spacing,
         &GEOMETRY,
-        &BASE,
+        Some(&BASE),
     )
     .unwrap();
     assert_eq!(again.findings, layout.findings);
@@ -357,7 +357,7 @@ fn senseless_numbers_are_refused_by_key() {
     for (request, key, problem) in cases {
         assert_eq!(draw(&request, 1), Err(invalid(key, problem)));
     }
-    let nan = check_explicit(&[[0.0, 0.0], [0.0, f64::NAN]], None, &SPACING, &GEOMETRY, &BASE);
+    let nan = check_explicit(&[[0.0, 0.0], [0.0, f64::NAN]], None, &SPACING, &GEOMETRY, Some(&BASE));
     assert_eq!(nan, Err(LayoutError::InvalidPosition { plate: 1 }));
     assert_eq!(
         invalid("x_m", Reversed).to_string(),

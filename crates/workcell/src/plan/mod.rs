@@ -14,6 +14,7 @@ use crate::wash_path::WashPath;
 use format::BEFORE;
 use platewash_kinematics::{JointVector, sha256_hex};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// A plan file, `"format": "platewash-plan/2"`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -136,6 +137,16 @@ impl Plan {
         };
         plan.hash = Some(plan.seal()?);
         Ok(plan)
+    }
+
+    /// The same plan with its job in the frame of the arm's base ([`JobTerms::seen_from_base`]), to compute with: its hash is that of
+    /// the plan itself.
+    #[must_use]
+    pub fn seen_from_base(&self) -> Cow<'_, Self> {
+        match self.job.seen_from_base() {
+            Cow::Borrowed(_) => Cow::Borrowed(self),
+            Cow::Owned(job) => Cow::Owned(Self { job, ..self.clone() }),
+        }
     }
 
     /// Duration of the motion \[s\].

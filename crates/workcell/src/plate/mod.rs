@@ -1,5 +1,6 @@
 //! A plate: a face to be washed, the body below it, and where it lies.
 
+mod beside;
 mod solid;
 
 pub use solid::PlateParts;
@@ -72,6 +73,15 @@ impl Plate {
         self
     }
 
+    /// The same plate in another frame, by the pose that takes the frame of its own pose there.
+    #[must_use]
+    pub fn seen_from(&self, by: &Pose) -> Self {
+        Self {
+            pose: by * self.pose,
+            ..*self
+        }
+    }
+
     /// The pole of the face, world frame \[m\].
     #[must_use]
     pub fn centre(&self) -> Vector3<f64> {
@@ -140,12 +150,7 @@ impl Plate {
         sizes.into_iter().all(is_size)
             && self.foot.is_none_or(|foot| foot.is_sound(self.rim_m()))
             && places.iter().all(|place| place.abs() <= GREATEST_M)
-    }
-
-    /// Whether it lies level: its axis is vertical.
-    #[must_use]
-    pub fn is_level(&self) -> bool {
-        self.axis() == Vector3::z()
+            && pose::is_sound(&self.pose)
     }
 }
 

@@ -139,10 +139,10 @@ fn layouts_of_the_paper() {
                     thickness_m: 0.02,
                     foot: None,
                 },
-                base: BaseFootprint {
+                base: Some(BaseFootprint {
                     x_m: [-0.2115, 0.0905],
                     y_m: [-0.0905, 0.0905],
-                },
+                }),
             };
             for _ in 0..200 {
                 let plates = sample(&request, &SampleSettings::default(), &mut random)

@@ -28,7 +28,7 @@ export function valueText(value: Value): string {
 
 /** Whether a number is within a domain. */
 function within(value: number, domain: Extract<Domain, { least: number }>): boolean {
-  const above = domain.kind === "number_above" || domain.kind === "joints_above" || domain.kind === "pair_above";
+  const above = domain.kind === "number_above" || domain.kind === "joints_above" || domain.kind === "pair_above" || domain.kind === "triple_above";
   return (above ? value > domain.least : value >= domain.least) && value <= domain.most;
 }
 
@@ -62,7 +62,10 @@ export function readValue({ domain }: Pick<Key, "domain">, text: string): Read {
     case "range":
     case "joints":
     case "joints_above":
+    case "pair":
     case "pair_above":
+    case "triple":
+    case "triple_above":
     case "points":
       return list(numbers(text), domain);
   }
@@ -76,7 +79,8 @@ function scalar(value: number | null, domain: Extract<Domain, { least: number }>
 function list(values: number[] | null, domain: Extract<Domain, { least: number }>): Read {
   if (values === null || !values.every((value) => within(value, domain))) return WRONG;
   if (domain.kind === "range") return values.length === 2 && values[0]! < values[1]! ? { value: values } : WRONG;
-  if (domain.kind === "pair_above") return values.length === 2 ? { value: values } : WRONG;
+  if (domain.kind === "pair" || domain.kind === "pair_above") return values.length === 2 ? { value: values } : WRONG;
+  if (domain.kind === "triple" || domain.kind === "triple_above") return values.length === 3 ? { value: values } : WRONG;
   if (domain.kind !== "points") return values.length === 6 ? { value: values } : WRONG;
   if (values.length < 2 || values.length > 2000 || values.length % 2 !== 0) return WRONG;
   return { value: Array.from({ length: values.length / 2 }, (_, k) => [values[2 * k]!, values[2 * k + 1]!]) };

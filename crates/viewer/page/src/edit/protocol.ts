@@ -14,7 +14,7 @@ export type Value = string | number | boolean | readonly Value[];
 export type Domain =
   | { kind: "text" | "path" | "paths" | "bool" }
   | { kind: "word"; words: string[] }
-  | { kind: "integer" | "number" | "number_above" | "range" | "joints" | "joints_above" | "pair_above" | "points"; least: number; most: number };
+  | { kind: "integer" | "number" | "number_above" | "range" | "joints" | "joints_above" | "pair" | "pair_above" | "triple" | "triple_above" | "points"; least: number; most: number };
 
 /** A row of the table of keys. */
 export interface Key {

@@ -36,13 +36,17 @@ pub fn facets(shape: &Shape) -> Facets {
             radius_m,
             half_length_m,
         } => turned(&capsule(*radius_m, *half_length_m)),
-        Shape::Hull { points } => {
-            let hull = hull_triangles(points).unwrap_or_default();
-            let (points, faces) = (hull.corners, hull.triangles);
-            let faces = faces.into_iter().map(|triangle| triangle.to_vec()).collect();
-            Facets { points, faces }
-        }
+        Shape::Hull { points } => hull(points),
     }
+}
+
+/// The facets of the hull of points; of one that has no volume none.
+#[must_use]
+pub fn hull(points: &[Point3<f64>]) -> Facets {
+    let hull = hull_triangles(points).unwrap_or_default();
+    let (points, faces) = (hull.corners, hull.triangles);
+    let faces = faces.into_iter().map(|triangle| triangle.to_vec()).collect();
+    Facets { points, faces }
 }
 
 /// The facets of a mesh's triangles; corners at the same place are one.

@@ -27,11 +27,7 @@ fn in_pieces(world: &Workcell, plate: &Plate) -> Workcell {
         .bodies()
         .into_iter()
         .enumerate()
-        .map(|(i, (shape, pose))| Obstacle {
-            name: format!("piece {i}"),
-            shape: ObstacleShape::Convex(shape),
-            pose,
-        });
+        .map(|(i, (shape, pose))| Obstacle::new(&format!("piece {i}"), ObstacleShape::Convex(shape), pose));
     Workcell {
         obstacles: pieces.collect(),
         ..world.clone()
@@ -86,11 +82,11 @@ proptest! {
         // Where it is not a matter of rounding.
         if all.iter().all(|pair| (pair.distance_m - required).abs() > 1e-4 && pair.distance_m.abs() > 1e-4) {
             prop_assert_eq!(model.keeps(&q, required), keeps[0]);
-            prop_assert_eq!(model.keeps_washing(&q, required), keeps[1]);
+            prop_assert_eq!(model.keeps_washing(&q, 0, required), keeps[1]);
             let near: Vec<_> = all.iter().filter(|pair| !is_clear(pair.distance_m, required)).collect();
             let too_near = model.too_near(&q, &[], required);
             prop_assert_eq!(too_near.len(), near.len());
-            prop_assert_eq!(model.nearest_washing(&q, required).is_none(), keeps[1]);
+            prop_assert_eq!(model.nearest_washing(&q, 0, required).is_none(), keeps[1]);
         }
         let smallest = model.smallest(&q, &[]).unwrap().distance_m;
         let expected = all.iter().map(|pair| pair.distance_m).fold(f64::INFINITY, f64::min);
@@ -145,6 +141,6 @@ fn nan_keeps_nothing_clear_of_many_parts() {
     let world = workcell(&robot, kitchen_tool());
     let model = ClearanceModel::new(&robot, &world, &plates(1, 0.03)).unwrap();
     let q = JointVector::new(f64::NAN, 0.0, 0.0, 0.0, 0.0, 0.0);
-    assert!(!model.keeps(&q, 0.0) && !model.keeps_washing(&q, 0.0));
-    assert!(model.nearest_washing(&q, 0.01).is_some());
+    assert!(!model.keeps(&q, 0.0) && !model.keeps_washing(&q, 0, 0.0));
+    assert!(model.nearest_washing(&q, 0, 0.01).is_some());
 }

@@ -1,0 +1,69 @@
+//! The lines over the ends of a wash path: on them the wrist is held as on the path, and bodies keep off each other.
+
+use super::task::{Stop, Task};
+use crate::scene::{Contact, Hindrance, Start, Stretch};
+use platewash_kinematics::JointVector;
+use platewash_workcell::clearance::PairClearance;
+
+/// Places on a line that are looked at.
+const PLACES: u32 = 8;
+
+impl Task<'_> {
+    /// Refuses a wash of which the line over an end cannot be followed ([`Task::check_line`]).
+    pub(super) fn check_lines(&self, tilts: &[f64], all: &[JointVector], start: &Start) -> Result<(), Stop> {
+        let Some(last) = all.len().checked_sub(1) else {
+            return Ok(());
+        };
+        for sample in [0, last] {
+            let (contact, from) = (&self.samples.contact[sample], self.started(all[sample], start));
+            self.check_line(contact, tilts[sample], from)
+                .map_err(|hindrance| Stop { sample, hindrance })?;
+        }
+        Ok(())
+    }
+
+    /// Whether the line over a contact point that a wash begins or ends at can be followed.
+    pub(super) fn has_line(&self, contact: &Contact, tilt: f64, q: &JointVector, start: &Start) -> bool {
+        self.check_line(contact, tilt, self.started(*q, start)).is_ok()
+    }
+
+    fn started(&self, q: JointVector, start: &Start) -> Start {
+        Start { q, ..*start }
+    }
+
+    /// Refuses a line on which the wrist comes too near to 0, or to its other side, or bodies too near to each other, with the tool turned as
+    /// it is at its foot. A line that the arm does not follow at all is for whoever plans it to tell.
+    fn check_line(&self, contact: &Contact, tilt: f64, mut from: Start) -> Result<(), Hindrance> {
+        self.check_apart(&from.q, self.stretch())?;
+        for k in 1..=PLACES {
+            let height_m = self.path.lift_m * f64::from(k) / f64::from(PLACES);
+            let target = self.scene.tip_rigid(&contact.raised(height_m), tilt);
+            let Ok(q) = self.scene.inverse.continuing(&target, &from) else {
+                break;
+            };
+            self.check_wrist(&q)?;
+            self.check_side(&from.q, &q)?;
+            let stretch = if k < PLACES { self.stretch() } else { Stretch::Free };
+            self.check_apart(&q, stretch)?;
+            from.q = q;
+        }
+        Ok(())
+    }
+
+    /// Refuses bodies too near to each other, where that counts.
+    fn check_apart(&self, q: &JointVector, stretch: Stretch) -> Result<(), Hindrance> {
+        let (surroundings, required_m) = (self.scene.surroundings, self.clearance_m + stretch.reserve_m());
+        if !self.lines.must_be_clear() || surroundings.is_clear(q, stretch, required_m) {
+            return Ok(());
+        }
+        self.lines.stand_in_the_way();
+        let named = || surroundings.too_near(q, stretch, required_m);
+        let pair = named().unwrap_or(PairClearance {
+            a: String::new(),
+            b: String::new(),
+            distance_m: required_m,
+            place_m: [0.0; 3],
+        });
+        Err(Hindrance::Clearance { pair, required_m })
+    }
+}

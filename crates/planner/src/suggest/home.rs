@@ -1,0 +1,296 @@
+//! A home with clearance: the tool points down over the plates, far from everything, from limits and singularities.
+
+use crate::error::PlanError;
+use crate::scene::Stretch;
+use crate::scene::{Contact, Scene, Width};
+use crate::trig::{atan2, sin_cos};
+use nalgebra::Vector3;
+use platewash_kinematics::halton;
+use platewash_kinematics::jacobian::manipulability;
+use platewash_kinematics::{AXES, Axes, JointVector, RobotModel};
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::clearance::{ClearanceModel, PairClearance};
+use platewash_workcell::job::JobTerms;
+use platewash_workcell::plate::Plate;
+use rayon::prelude::*;
+use std::f64::consts::FRAC_PI_6;
+
+/// Places of the tip that are tried, where all branches are known; fewer where each is a search.
+const PLACES: u32 = 256;
+const SEARCHED_PLACES: u32 = 64;
+
+/// Configurations that are tried where the tool points down at none of the places.
+const ANYWHERE: u32 = 4000;
+
+/// Distance of the tip from axis 1, and its height above the highest plate, as parts of the arm's reach.
+const AWAY: [f64; 2] = [0.3, 0.65];
+const ABOVE: [f64; 2] = [0.08, 0.35];
+
+/// How far beside the middle of plates that do not lie level with the base the tip is at most, as a part of the arm's reach; and the least
+/// cosine of the angle to the axis of the base of those that do.
+const BESIDE: f64 = 0.2;
+const LEVEL: f64 = 0.99;
+
+/// More clearance of a pair than this \[m\], or than it has anywhere; farther from a limit than this \[rad\], and more manipulable than this part of the best is of no use.
+const ENOUGH_M: f64 = 0.1;
+const ENOUGH_RAD: f64 = FRAC_PI_6;
+const ENOUGH_MANIPULABLE: f64 = 0.5;
+
+/// A configuration to start from and return to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SuggestedHome {
+    /// Joint positions in whole degrees \[deg\].
+    pub q_deg: [f64; AXES],
+    /// The nearest bodies there; `None` where nothing could touch.
+    pub nearest: Option<PairClearance>,
+    /// How far the joint nearest to a limit is from it \[rad\]; infinite without limits.
+    pub margin_rad: f64,
+    /// The angle between the tool and the way straight onto the plates \[rad\].
+    pub tilt_rad: f64,
+    /// Configurations that were clear, out of which it is the best.
+    pub clear: usize,
+}
+
+impl SuggestedHome {
+    /// Joint positions \[rad\].
+    #[must_use]
+    pub fn q_rad(&self) -> JointVector {
+        JointVector::from(self.q_deg).map(f64::to_radians)
+    }
+}
+
+/// A candidate.
+struct Candidate {
+    q_deg: [f64; AXES],
+    /// Distances of all pairs \[m\].
+    distances_m: Vec<f64>,
+    margin_rad: f64,
+    manipulability: f64,
+}
+
+/// A home for terms whose own is of no account: of many configurations whose tool points down over the plates, the one that is best in
+/// clearance, pair by pair, distance from limits and manipulability together, each up to what is of use. It keeps the clearance asked for among the
+/// plates of the terms.
+///
+/// The search draws nothing: the same arm, tool, obstacles and plates have the same home, for any number of threads.
+///
+/// # Errors
+/// [`PlanError::NoHome`] where no configuration that was tried is clear, and [`PlanError`] for an arm or a tool with which nothing can be
+/// planned.
+pub fn suggest_home(robot: &RobotModel, terms: &JobTerms, cancel: &CancelToken) -> Result<SuggestedHome, PlanError> {
+    let terms = &*terms.seen_from_base();
+    let clearance = ClearanceModel::new(robot, &terms.workcell, &terms.plates)?;
+    let reach = terms.planner_settings().ok_or(PlanError::PaperJob)?.reach;
+    let scene = Scene::new(robot, &terms.workcell.tool, &clearance, &terms.plates, reach)?.until(cancel);
+    let search = Search {
+        scene: &scene,
+        terms,
+        clearance: &clearance,
+    };
+    let mut found = search.over_plates()?;
+    if found.is_empty() {
+        found = search.anywhere()?;
+    }
+    let most = found.iter().map(|c| c.manipulability).fold(0.0, f64::max);
+    // Some pairs are near in every configuration: a forearm and the tool before it.
+    let pairs = clearance.pair_names().len();
+    let widest = |pair: usize| found.iter().map(|c| c.distances_m[pair]).fold(0.0, f64::max);
+    let enough: Vec<f64> = (0..pairs).map(|pair| widest(pair).min(ENOUGH_M)).collect();
+    let score = |c: &Candidate| {
+        let share = |value: f64, enough: f64| (value / enough).min(1.0);
+        let clear = c
+            .distances_m
+            .iter()
+            .zip(&enough)
+            .map(|(at, enough)| share(*at, *enough));
+        clear.fold(1.0, f64::min) * share(c.margin_rad, ENOUGH_RAD) * share(c.manipulability, ENOUGH_MANIPULABLE * most)
+    };
+    // Of equals the first: places come in the order of the sequence.
+    let best = found.iter().rev().max_by(|a, b| score(a).total_cmp(&score(b)));
+    let best = best.ok_or(PlanError::NoHome {
+        tried: ANYWHERE as usize,
+    })?;
+    let q = JointVector::from(best.q_deg).map(f64::to_radians);
+    let tool = robot.fk(&q).rigid(&scene.tip).rotation.column(2).into_owned();
+    let down = -search.out();
+    Ok(SuggestedHome {
+        q_deg: best.q_deg,
+        nearest: clearance.smallest(&q, &[]),
+        margin_rad: best.margin_rad,
+        tilt_rad: atan2(tool.cross(&down).norm(), tool.dot(&down)),
+        clear: found.len(),
+    })
+}
+
+/// Two directions across another one.
+fn spanning(out: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let least = if out.x.abs() < out.y.abs() {
+        Vector3::x()
+    } else {
+        Vector3::y()
+    };
+    let across = out.cross(&least).normalize();
+    [across, out.cross(&across)]
+}
+
+struct Search<'a> {
+    scene: &'a Scene<'a>,
+    terms: &'a JobTerms,
+    clearance: &'a ClearanceModel,
+}
+
+impl Search<'_> {
+    /// The clear configurations whose tool points down at places around the middle of the plates.
+    fn over_plates(&self) -> Result<Vec<Candidate>, PlanError> {
+        let scene = self.scene;
+        let places = if scene.inverse.knows_all_branches() {
+            PLACES
+        } else {
+            SEARCHED_PLACES
+        };
+        let near = JointVector::from_fn(|joint, _| {
+            let [lower, upper] = scene.robot.limits().sampling_range(joint);
+            0.0_f64.clamp(lower, upper)
+        });
+        let at = |k: u32| {
+            scene.check_cancelled()?;
+            let target = scene.tip_rigid(&Contact::on_normal(self.place(k), self.out()), 0.0);
+            let starts = scene.inverse.starts(&target, &near, Width::Near).unwrap_or_default();
+            Ok(starts.iter().filter_map(|start| self.candidate(&start.q)).collect())
+        };
+        let found: Result<Vec<Vec<Candidate>>, PlanError> = (1..=places).into_par_iter().map(at).collect();
+        Ok(found?.into_iter().flatten().collect())
+    }
+
+    /// The clear configurations of an even spread within the limits.
+    fn anywhere(&self) -> Result<Vec<Candidate>, PlanError> {
+        let limits = self.scene.robot.limits();
+        let at = |k: u32| {
+            self.scene.check_cancelled()?;
+            let share = halton::point(k);
+            let q = JointVector::from_fn(|joint, _| {
+                let [lower, upper] = limits.sampling_range(joint);
+                lower + share[joint] * (upper - lower)
+            });
+            Ok(self.candidate(&q))
+        };
+        let found: Result<Vec<Option<Candidate>>, PlanError> = (1..=ANYWHERE).into_par_iter().map(at).collect();
+        Ok(found?.into_iter().flatten().collect())
+    }
+
+    /// The way out of the plates, taken together; up where there are none, or where they face all ways.
+    fn out(&self) -> Vector3<f64> {
+        let sum: Vector3<f64> = self.scene.plates.iter().map(Plate::axis).sum();
+        sum.try_normalize(1e-3).unwrap_or_else(Vector3::z)
+    }
+
+    /// Place `k` of the tip \[m\]: over the plates' middle, beside it by up to a part of the reach. Where plates lie level with the base, in
+    /// the direction of their middle, or of x where they lie around the base, give or take 30°.
+    fn place(&self, k: u32) -> Vector3<f64> {
+        let (from, reach_m) = self.scene.robot.reach_bound(&self.scene.tip);
+        let (plates, out) = (self.scene.plates, self.out());
+        let count = plates.len().max(1) as f64;
+        let sum: Vector3<f64> = plates.iter().map(|plate| plate.centre() - from.coords).sum();
+        let top_m = plates.iter().map(|plate| plate.centre().dot(&out)).reduce(f64::max);
+        let top_m = top_m.map_or(0.0, |top_m| if out.z > LEVEL { top_m.max(0.0) } else { top_m });
+        let [a, b, c, ..] = halton::point(k);
+        let within = |[least, most]: [f64; 2], share: f64| reach_m * (least + share * (most - least));
+        let height_m = top_m + within(ABOVE, c);
+        if out.z.abs() < LEVEL {
+            let [across, along] = spanning(&out);
+            let middle = from.coords + sum / count;
+            let beside = across * ((2.0 * a - 1.0) * BESIDE * reach_m) + along * ((2.0 * b - 1.0) * BESIDE * reach_m);
+            return middle + beside + out * (height_m - middle.dot(&out));
+        }
+        let middle = sum.xy() / count;
+        let towards = if middle.norm() > 0.1 * reach_m {
+            atan2(middle.y, middle.x)
+        } else {
+            0.0
+        };
+        let (s, cosine) = sin_cos(towards + (2.0 * b - 1.0) * FRAC_PI_6);
+        let away = within(AWAY, a);
+        Vector3::new(from.x + away * cosine, from.y + away * s, height_m * out.z.signum())
+    }
+
+    /// The configuration in whole degrees, where it is within the limits and clear.
+    fn candidate(&self, q: &JointVector) -> Option<Candidate> {
+        let q_deg = q.map(|rad| rad.to_degrees().round() + 0.0);
+        let q = q_deg.map(f64::to_radians);
+        let limits = self.scene.robot.limits();
+        let required_m = self.terms.requirements.clearance_m + Stretch::Free.reserve_m();
+        if !limits.contain(&q) || !self.clearance.keeps(&q, required_m) {
+            return None;
+        }
+        let jacobian = self.scene.robot.fk(&q).jacobian(&self.scene.tip, Axes::Base);
+        Some(Candidate {
+            q_deg: q_deg.into(),
+            distances_m: self.clearance.all(&q).iter().map(|pair| pair.distance_m).collect(),
+            margin_rad: limits.margins(&q).min(),
+            manipulability: manipulability(&jacobian),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_kinematics::Pose;
+    use platewash_kinematics::geometry::Shape;
+    use platewash_workcell::fixtures::{kitchen, kitchen_plate};
+    use platewash_workcell::job::WashJob;
+    use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+
+    fn home(terms: &JobTerms) -> Result<SuggestedHome, PlanError> {
+        suggest_home(kitchen().arm(), terms, &CancelToken::new())
+    }
+
+    /// The home of a job is of no account, and the one found is one for the job: it can be planned from there.
+    #[test]
+    fn the_home_is_clear_points_down_and_is_the_same_again() {
+        let job = kitchen();
+        let mut terms = job.terms().clone();
+        let found = home(&terms).unwrap();
+        terms.home_rad = [JointVector::zeros(); 2];
+        assert_eq!(home(&terms).unwrap(), found);
+        // The handle is never farther than 24 mm from the forearm's shape.
+        let nearest = found.nearest.as_ref().unwrap();
+        assert!(
+            [&*nearest.a, &*nearest.b] == ["link_4", "handle"] && nearest.distance_m > 0.019,
+            "{found:?}"
+        );
+        assert!(found.tilt_rad < 0.05 && found.margin_rad > 0.25, "{found:?}");
+        terms.home_rad = [found.q_rad(); 2];
+        crate::plan(&WashJob::new(job.shared_arm(), terms).unwrap()).unwrap();
+    }
+
+    /// Plates behind the arm turn it round.
+    #[test]
+    fn the_home_is_over_the_plates() {
+        let mut terms = kitchen().terms().clone();
+        for [x, y] in [[0.3, 0.0], [-0.05, 0.35], [-0.05, -0.35]] {
+            terms.plates = vec![kitchen_plate([x, y])];
+            let q = home(&terms).unwrap().q_rad();
+            let job = kitchen();
+            let tip = job
+                .arm()
+                .fk(&q)
+                .rigid(&terms.workcell.tool.tip_frame(job.arm()))
+                .translation;
+            let between = (tip.y * x - tip.x * y).atan2(tip.x * x + tip.y * y);
+            assert!(between.abs() < FRAC_PI_6 + 0.1, "{x} {y}: {tip}");
+        }
+    }
+
+    /// A box around all that the arm can reach.
+    #[test]
+    fn where_nothing_is_clear_there_is_no_home() {
+        let mut terms = kitchen().terms().clone();
+        let block = ObstacleShape::Convex(Shape::Box { half_m: [2.0; 3] });
+        terms
+            .workcell
+            .obstacles
+            .push(Obstacle::new("block", block, Pose::identity()));
+        assert!(matches!(home(&terms), Err(PlanError::NoHome { .. })));
+    }
+}

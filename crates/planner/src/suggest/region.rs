@@ -1,0 +1,319 @@
+//! Where an arm with its tool washes a plate: a map of squares, and the widest sector about axis 1 within them.
+
+use crate::error::PlanError;
+use crate::pipeline::washable_map;
+use crate::trig::sin_cos;
+use crate::washable_map::{MapArea, MapPatch};
+use crate::watch::Watch;
+use nalgebra::Vector3;
+use platewash_kinematics::{Pose, RobotModel};
+use platewash_workcell::job::WashJob;
+use platewash_workcell::tool::Tool;
+use std::collections::BTreeMap;
+
+/// Finest squares across the radius of the map.
+const ACROSS: f64 = 24.0;
+
+/// Steps of a sector: directions in a turn, and distances across the radius of the map.
+const DIRECTIONS: usize = 72;
+const DISTANCES: usize = 48;
+
+/// Where a plate lies in front of an arm, as a part of the arm's reach; its coordinates are rounded to so much \[m\].
+const IN_FRONT: f64 = 0.45;
+const PLACE_M: f64 = 1e-3;
+
+/// Sine of the angle to the vertical up to which axis 1 is vertical.
+const UPRIGHT: f64 = 1e-9;
+
+/// A square of the map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RegionSquare {
+    /// Its middle \[m\].
+    pub centre_m: [f64; 2],
+    /// Its edge \[m\].
+    pub edge_m: f64,
+    /// Whether the plate could be washed with its centre there.
+    pub is_washable: bool,
+}
+
+/// A part of a ring about axis 1 for the centres of plates, as a layout states it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sector {
+    /// Distances from axis 1 \[m\].
+    pub rho_m: [f64; 2],
+    /// Directions from the world's x \[deg\], no more than a turn.
+    pub azimuth_deg: [f64; 2],
+}
+
+/// Where a plate can be washed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SuggestedRegion {
+    /// The map: coarse squares, and finer ones along the border.
+    pub squares: Vec<RegionSquare>,
+    /// Edge of the finest squares \[m\].
+    pub step_m: f64,
+    /// What squares with a washable plate cover together \[m²\].
+    pub area_m2: f64,
+    /// Least and greatest distance of their middles from axis 1 \[m\]; `None` where there is none, or axis 1 is not vertical.
+    pub rho_m: Option<[f64; 2]>,
+    /// The largest sector that lies within them; `None` where there is none, or axis 1 is not vertical.
+    pub sector: Option<Sector>,
+}
+
+/// A place in front of an arm mounted at `T_world_base` with its tool, seen from above in the world \[m\]: along x of its base, or along
+/// axis 1 where that is more level.
+#[must_use]
+pub fn place_in_front(arm: &RobotModel, tool: &Tool, mount: &Pose) -> [f64; 2] {
+    let (from, reach_m) = arm.reach_bound(&tool.tip_frame(arm));
+    let from = mount * from;
+    let [along_x, along_axis] = [Vector3::x(), Vector3::z()].map(|way| (mount.rotation * way).xy());
+    let ahead = if along_x.norm() + PLACE_M < along_axis.norm() {
+        along_axis
+    } else {
+        along_x
+    };
+    let place = |from: f64, away: f64| ((from + away * IN_FRONT * reach_m) / PLACE_M).round() * PLACE_M;
+    [place(from.x, ahead.x), place(from.y, ahead.y)]
+}
+
+/// Where the first plate of a job could be washed from its home, were it alone: a map that takes a second or two, and what it comes to. A
+/// guess, as [`washable_map`] is: transits are not looked at, and a search may wash more.
+///
+/// # Errors
+/// As [`washable_map`].
+pub fn suggest_region(job: &WashJob, watch: &Watch<'_>) -> Result<SuggestedRegion, PlanError> {
+    let alone = job.on_plates(job.terms().plates.iter().take(1).copied().collect())?;
+    let reach = MapArea::within_reach(&alone, 0)?;
+    let area = MapArea {
+        step_m: reach.radius_m / ACROSS,
+        ..reach
+    };
+    let mut map = Map::of(&area);
+    washable_map(&alone, 0, &area, &mut |patch| map.add(&patch), watch)?;
+    let axis = alone.terms().workcell.mount.rotation * Vector3::z();
+    let (region, is_vertical) = (map.region(), axis.xy().norm() <= UPRIGHT);
+    Ok(SuggestedRegion {
+        // Seen from above, only a vertical axis 1 is a place.
+        sector: region.sector.filter(|_| is_vertical),
+        rho_m: region.rho_m.filter(|_| is_vertical),
+        ..region
+    })
+}
+
+/// The squares told of, by their edge: the finest last.
+#[derive(Debug)]
+struct Map<'a> {
+    area: &'a MapArea,
+    levels: Vec<(f64, BTreeMap<[i64; 2], bool>)>,
+}
+
+impl<'a> Map<'a> {
+    fn of(area: &'a MapArea) -> Self {
+        let levels = Vec::new();
+        Self { area, levels }
+    }
+
+    fn add(&mut self, patch: &MapPatch) {
+        if self.levels.last().is_none_or(|(step_m, _)| *step_m != patch.step_m) {
+            self.levels.push((patch.step_m, BTreeMap::new()));
+        }
+        let area = self.area;
+        let Some((step_m, squares)) = self.levels.last_mut() else {
+            return;
+        };
+        for (centres, answer) in [(&patch.washable_m, true), (&patch.unwashable_m, false)] {
+            squares.extend(centres.iter().map(|centre| (square(area, *step_m, *centre), answer)));
+        }
+    }
+
+    /// Whether the plate could be washed with its centre there \[m\]: what the finest square told.
+    fn at(&self, place: [f64; 2]) -> bool {
+        let told = self.levels.iter().rev();
+        let mut answers = told.filter_map(|(step_m, squares)| squares.get(&square(self.area, *step_m, place)));
+        answers.next().copied().unwrap_or(false)
+    }
+
+    fn region(&self) -> SuggestedRegion {
+        let mut squares = Vec::new();
+        for (level, (edge_m, told)) in self.levels.iter().enumerate() {
+            for (&[column, row], &is_washable) in told {
+                let [x, y] = self.area.centre_m;
+                let middle = |from: f64, k: i64| from + edge_m * (k as f64 + 0.5);
+                let centre_m = [middle(x, column), middle(y, row)];
+                // One of its quarters stands for it.
+                let quarter_m = [centre_m[0] - 0.25 * edge_m, centre_m[1] - 0.25 * edge_m];
+                let finer = self.levels.get(level + 1);
+                let is_quartered =
+                    finer.is_some_and(|(step_m, told)| told.contains_key(&square(self.area, *step_m, quarter_m)));
+                if !is_quartered {
+                    squares.push(RegionSquare {
+                        centre_m,
+                        edge_m: *edge_m,
+                        is_washable,
+                    });
+                }
+            }
+        }
+        let washable: Vec<_> = squares.iter().filter(|square| square.is_washable).collect();
+        let [x, y] = self.area.centre_m;
+        let rho = washable.iter().map(|s| (s.centre_m[0] - x).hypot(s.centre_m[1] - y));
+        let ends = rho.fold([f64::INFINITY, 0.0_f64], |[least, most], rho| {
+            [least.min(rho), most.max(rho)]
+        });
+        SuggestedRegion {
+            step_m: self.area.step_m,
+            area_m2: washable.iter().map(|square| square.edge_m * square.edge_m).sum(),
+            rho_m: (!washable.is_empty()).then_some(ends),
+            sector: self.sector(),
+            squares,
+        }
+    }
+
+    /// The sector of the greatest area all of whose steps are washable.
+    fn sector(&self) -> Option<Sector> {
+        let step_m = self.area.radius_m / DISTANCES as f64;
+        let degrees = 360.0 / DIRECTIONS as f64;
+        // By distance and by direction from −180° on: how many washable steps in a row end there.
+        let [x, y] = self.area.centre_m;
+        let ways: Vec<_> = (0..DIRECTIONS)
+            .map(|direction| sin_cos((degrees * direction as f64 - 180.0).to_radians()))
+            .collect();
+        let mut run = vec![0; DIRECTIONS];
+        let mut runs: Vec<Vec<usize>> = Vec::with_capacity(DISTANCES);
+        for k in 0..DISTANCES {
+            let away = step_m * k as f64;
+            for (run, (s, c)) in run.iter_mut().zip(&ways) {
+                *run = if self.at([x + away * c, y + away * s]) {
+                    *run + 1
+                } else {
+                    0
+                };
+            }
+            runs.push(run.clone());
+        }
+        let mut best: Option<(f64, Sector)> = None;
+        for (far, ends) in runs.iter().enumerate() {
+            for near in 1..far {
+                let fits = |direction: usize| ends[direction % DIRECTIONS] > far - near;
+                let Some((first, count)) = longest(fits) else { continue };
+                let [a, b] = [near, far].map(|k| step_m * k as f64);
+                let area = (b * b - a * a) * (count - 1) as f64;
+                if best.as_ref().is_none_or(|(most, _)| area > *most) {
+                    let from = degrees * first as f64 - 180.0;
+                    let azimuth_deg = [from, from + degrees * (count - 1) as f64];
+                    let rho_m = [a, b];
+                    best = Some((area, Sector { rho_m, azimuth_deg }));
+                }
+            }
+        }
+        best.filter(|(area, _)| *area > 0.0).map(|(_, sector)| sector)
+    }
+}
+
+/// The first direction of the longest run of those that fit, round the turn, and how many these are.
+fn longest(fits: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
+    let mut best: Option<(usize, usize)> = None;
+    for first in 0..DIRECTIONS {
+        if !fits(first) || (first > 0 && fits(first - 1)) {
+            continue;
+        }
+        let count = (0..DIRECTIONS).take_while(|k| fits(first + k)).count();
+        if best.is_none_or(|(_, most)| count > most) {
+            best = Some((first, count));
+        }
+    }
+    best
+}
+
+/// The square of an edge that a place lies in.
+fn square(area: &MapArea, step_m: f64, place: [f64; 2]) -> [i64; 2] {
+    let [x, y] = area.centre_m;
+    [(x, place[0]), (y, place[1])].map(|(from, at)| ((at - from) / step_m).floor() as i64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_workcell::cancel::CancelToken;
+    use platewash_workcell::fixtures::kitchen;
+
+    const AREA: MapArea = MapArea {
+        centre_m: [0.0, 0.0],
+        radius_m: 1.0,
+        step_m: 0.04,
+    };
+
+    /// All squares of one level, washable where a rule says so.
+    fn map(rule: impl Fn(f64, f64) -> bool) -> SuggestedRegion {
+        let mut map = Map::of(&AREA);
+        let places = (-25..25).flat_map(|i| (-25..25).map(move |k| [i, k].map(|n| 0.04 * (f64::from(n) + 0.5))));
+        let (washable_m, unwashable_m) = places.partition(|[x, y]| rule(*x, *y));
+        map.add(&MapPatch {
+            step_m: 0.04,
+            washable_m,
+            unwashable_m,
+            done: 2500,
+            of: 2500,
+        });
+        map.region()
+    }
+
+    #[test]
+    fn the_sector_of_a_ring_is_the_ring() {
+        let region = map(|x, y| (0.3..0.7).contains(&x.hypot(y)));
+        let sector = region.sector.unwrap();
+        assert!(
+            (sector.rho_m[0] - 0.3).abs() < 0.05 && (sector.rho_m[1] - 0.7).abs() < 0.05,
+            "{sector:?}"
+        );
+        assert_eq!(sector.azimuth_deg[1] - sector.azimuth_deg[0], 355.0);
+        assert!((region.area_m2 - std::f64::consts::PI * (0.49 - 0.09)).abs() < 0.05);
+    }
+
+    /// Behind −x, where directions begin, too.
+    #[test]
+    fn the_sector_of_a_wedge_lies_in_it() {
+        for middle in [0.0_f64, 90.0, 180.0] {
+            let (s, c) = middle.to_radians().sin_cos();
+            let region = map(|x, y| (0.3..0.7).contains(&x.hypot(y)) && (x * c + y * s) / x.hypot(y) > 0.5);
+            let Sector {
+                azimuth_deg: [from, to],
+                ..
+            } = region.sector.unwrap();
+            assert!(
+                (0.5 * (from + to) - middle)
+                    .rem_euclid(360.0)
+                    .min((middle - 0.5 * (from + to)).rem_euclid(360.0))
+                    < 6.0,
+                "{from} {to}"
+            );
+            assert!((to - from - 120.0).abs() < 16.0, "{from} {to}");
+        }
+        assert_eq!(map(|_, _| false).sector, None);
+        assert_eq!(map(|_, _| false).rho_m, None);
+    }
+
+    /// What the sector holds, planning washes: four places on its border and one within.
+    #[test]
+    fn plates_in_the_sector_are_washed() {
+        let (job, cancel) = (kitchen(), CancelToken::new());
+        let region = suggest_region(&job, &Watch::silent(&cancel)).unwrap();
+        let sector = region.sector.unwrap();
+        let [near, far] = sector.rho_m;
+        let [from, to] = sector.azimuth_deg;
+        assert!(far - near > 0.05 && to - from > 60.0, "{sector:?}");
+        let places = [
+            (near, from),
+            (near, to),
+            (far, from),
+            (far, to),
+            (0.5 * (near + far), 0.5 * (from + to)),
+        ];
+        let washed = places.iter().filter(|(rho, azimuth)| {
+            let (s, c) = azimuth.to_radians().sin_cos();
+            let plate = platewash_workcell::fixtures::kitchen_plate([rho * c, rho * s]);
+            crate::plan_here(&job.on_plates(vec![plate]).unwrap(), &Watch::silent(&cancel)).is_ok()
+        });
+        assert_eq!(washed.count(), places.len(), "{sector:?}");
+    }
+}

@@ -1,0 +1,241 @@
+//! The plates that a scenario states one by one or kind by kind: how many of which shape, and what is checked of them.
+
+use crate::error::{Problem, conflict};
+use crate::job::Program;
+use crate::layout::LayoutSection;
+use crate::plate::PlateSection;
+use crate::scenario::Scenario;
+use platewash_workcell::layout::{MAX_PLATES, PlateGeometry};
+use platewash_workcell::plate::Plate;
+
+impl Scenario {
+    /// Whether plates are given one by one: by `[[plate]]` or `layout.positions_m`.
+    #[must_use]
+    pub fn lists_plates(&self) -> bool {
+        let given = |plate: &PlateSection| plate.at_m.is_some();
+        self.layout.positions_m.is_some() || (!self.plate.is_empty() && self.plate.iter().all(given))
+    }
+
+    /// Plates that are asked for.
+    #[must_use]
+    pub fn plates(&self) -> usize {
+        self.kinds().iter().map(|(count, _)| count).sum()
+    }
+
+    /// The plates that `[[plate]]` gives one by one, if it does.
+    pub(crate) fn listed_plates(&self) -> Option<Vec<Plate>> {
+        let rows = self.plate.iter();
+        let plates: Option<Vec<_>> = rows.map(|row| row.faces_of(&row.of(&self.layout).geometry())).collect();
+        Some(plates?.concat()).filter(|plates| !plates.is_empty())
+    }
+
+    /// How many plates there are of which shape, in the order in which they come.
+    pub(crate) fn kinds(&self) -> Vec<(usize, PlateGeometry)> {
+        let layout = &self.layout;
+        let listed = layout.positions_m.as_ref().map_or(layout.count, Vec::len);
+        if self.plate.is_empty() {
+            return vec![(listed, layout.geometry())];
+        }
+        let faces = |row: &PlateSection| if row.has_both() { 2 } else { 1 };
+        let kind = |row: &PlateSection| (row.count.unwrap_or(faces(row)), row.of(layout).geometry());
+        self.plate.iter().map(kind).collect()
+    }
+
+    /// The `[layout]` that each shape of plates is stated by, and the words for its keys.
+    pub(crate) fn shapes(&self) -> Vec<(LayoutSection, ShapeKeys)> {
+        if self.plate.is_empty() {
+            return vec![(self.layout.clone(), ShapeKeys(None))];
+        }
+        let rows = self.plate.iter().enumerate();
+        rows.map(|(index, row)| (row.of(&self.layout), ShapeKeys(Some(index))))
+            .collect()
+    }
+
+    /// Refuses sections that state no plates.
+    pub(crate) fn check_plates(&self) -> Result<(), Problem> {
+        for (layout, keys) in self.shapes() {
+            layout.check_shape().map_err(|problem| keys.of_problem(problem))?;
+        }
+        if self.plate.is_empty() {
+            return Ok(());
+        }
+        if self.layout.positions_m.is_some() {
+            return conflict(
+                "plate, layout.positions_m",
+                "give [[plate]] sections or positions_m, not both",
+            );
+        }
+        if self.job.program == Program::Paper {
+            let detail =
+                "the paper's program washes plates of one kind: state them in [layout], or job.program = \"certified\"";
+            return conflict("plate", detail);
+        }
+        let first_is_given = self.plate[0].at_m.is_some();
+        for (index, row) in self.plate.iter().enumerate() {
+            let at = |name: &str| format!("plate[{index}].{name}");
+            match (row.at_m, row.count) {
+                (None, None) => conflict(
+                    at("at_m"),
+                    "is missing: say where the plate is, or how many of its kind are sampled (count)",
+                )?,
+                (Some(_), Some(_)) => conflict(
+                    at("count"),
+                    "is for plates that are sampled; this one has its place, at_m",
+                )?,
+                (Some(_), None) if first_is_given => {}
+                (None, Some(_)) if !first_is_given => {}
+                _ => conflict(
+                    at("at_m"),
+                    "either every [[plate]] has its place, at_m, or every one a count",
+                )?,
+            }
+            let geometry = row.of(&self.layout).geometry();
+            if row.has_both() && (!geometry.surface.is_flat() || geometry.foot.is_some() || row.count.is_some()) {
+                let detail = "both faces are those of a flat plate without a foot that has its place, at_m";
+                conflict(at("faces"), detail)?;
+            }
+            if row.count.is_some() && row.rpy_deg.is_some() {
+                conflict(
+                    at("rpy_deg"),
+                    "plates that are sampled lie level: give at_m to tilt one",
+                )?;
+            }
+        }
+        let found = self.plates();
+        if found > MAX_PLATES {
+            return conflict(
+                "plate.count",
+                format!("there may be at most {MAX_PLATES} plates in all; found {found}"),
+            );
+        }
+        Ok(())
+    }
+}
+
+/// What the keys of a plate's shape are called: those of `[layout]`, or those of a `[[plate]]` by its index.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ShapeKeys(Option<usize>);
+
+impl ShapeKeys {
+    /// A key of `[layout]`, as it is called here.
+    pub fn called(self, key: &str) -> String {
+        match self.0 {
+            Some(index) => key.replace("layout.plate_", &format!("plate[{index}].")),
+            None => key.to_owned(),
+        }
+    }
+
+    /// The same problem with the keys as they are called here.
+    fn of_problem(self, problem: Problem) -> Problem {
+        match problem {
+            Problem::Conflict { keys, detail } => Problem::Conflict {
+                keys: self.called(&keys),
+                detail: self.called(&detail).replace("plate_radius_m", "radius_m"),
+            },
+            other => other,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_kinematics::RobotModel;
+
+    fn refused(text: &str) -> String {
+        Scenario::parse(text, "case").unwrap_err().to_string()
+    }
+
+    #[test]
+    fn sections_that_state_no_plates_are_named() {
+        let row = "[[plate]]\nat_m = [0.3, 0, 0.03]\n";
+        let sampled = "layout.rho_m = [0.28, 0.38]\n[[plate]]\ncount = 2\n";
+        for (text, words) in [
+            (
+                format!("{row}[[plate]]\nat_n = 1\n"),
+                "line 4: unknown key 'plate[1].at_n'; did you mean 'plate[1].at_m'?",
+            ),
+            (
+                format!("{row}[[plate]]\nat_m = [0.3, 0]\n"),
+                "plate[1].at_m must be three numbers",
+            ),
+            (
+                format!("{row}[[plate]]\nat_m = [0.3, nan, 0]\n"),
+                "plate[1].at_m must be three numbers",
+            ),
+            (format!("{row}[[plate]]\n"), "plate[1].at_m: is missing"),
+            (
+                format!("{row}count = 2\n"),
+                "plate[0].count: is for plates that are sampled",
+            ),
+            (
+                format!("{row}[[plate]]\ncount = 2\n"),
+                "plate[1].at_m: either every [[plate]] has its place",
+            ),
+            (
+                format!("{sampled}rpy_deg = [0, 0, 0]\n"),
+                "plate[0].rpy_deg: plates that are sampled lie level",
+            ),
+            (
+                format!("layout.positions_m = [[0.3, 0]]\n{row}"),
+                "plate, layout.positions_m: give [[plate]]",
+            ),
+            (
+                format!("{row}radius_m = 0.1\nprofile = \"rim270\"\n"),
+                "plate[0].profile, plate[0].radius_m: the profile has its own",
+            ),
+            (
+                format!("{row}radius_m = 0.1\nfoot_m = [0.2, 0.01]\n"),
+                "plate[0].foot_m, plate[0].radius_m: the foot's radius",
+            ),
+            (
+                format!("{row}faces = \"both\"\nprofile = \"rim270\"\n"),
+                "plate[0].faces: both faces are those of a flat plate",
+            ),
+            (
+                format!("{row}thickness_m = 0\n"),
+                "plate[0].thickness_m must be a number above 0",
+            ),
+            (format!("{row}radius_m = 1e-7\n"), "plate[0].radius_m must be"),
+            (
+                "layout.rho_m = [0.28, 0.38]\n[[plate]]\ncount = 600\n[[plate]]\ncount = 600\n".to_owned(),
+                "at most 1000 plates in all; found 1200",
+            ),
+            (
+                format!("job.program = \"paper\"\n{row}"),
+                "plate: the paper's program washes plates of one kind",
+            ),
+            ("[[plate]]\ncount = 2\n".to_owned(), "no region to sample from"),
+        ] {
+            let said = refused(&text);
+            assert!(said.contains(words), "{words}: {said}");
+        }
+    }
+
+    #[test]
+    fn each_plate_has_its_own_shape_and_place() {
+        let text = "layout.plate_radius_m = 0.1\n[[plate]]\nat_m = [0.3, 0, 0.2]\nrpy_deg = [0, -90, 0]\n[[plate]]\nat_m = [0, 0.4, 0.03]\n\
+                    profile = \"dessert190\"\nthickness_m = 0.005\n";
+        let scenario = Scenario::parse(text, "case").unwrap();
+        assert_eq!(scenario.validate(), Ok(()));
+        assert!(scenario.lists_plates() && scenario.plates() == 2);
+        let plates = scenario.layout(&RobotModel::irb120().unwrap()).unwrap().plates;
+        assert!((plates[0].rim_m() - 0.1).abs() < 1e-15 && plates[0].thickness_m == 0.02);
+        // Face up turned by −90° about y: it looks along −x.
+        assert!((plates[0].axis() + nalgebra::Vector3::x()).norm() < 1e-15);
+        assert!(!plates[1].surface.is_flat() && plates[1].thickness_m == 0.005 && plates[1].centre().y == 0.4);
+    }
+
+    #[test]
+    fn kinds_are_sampled_in_order_by_the_rules_of_the_layout() {
+        let text = "layout = { rho_m = [0.3, 0.4], min_distance_m = 0.25 }\n[[plate]]\ncount = 2\nradius_m = 0.12\n[[plate]]\ncount = 1\nradius_m = 0.08\n";
+        let scenario = Scenario::parse(text, "case").unwrap();
+        assert!(!scenario.lists_plates());
+        let plates = scenario.layout(&RobotModel::irb120().unwrap()).unwrap().plates;
+        let rims: Vec<_> = plates.iter().map(Plate::rim_m).collect();
+        assert_eq!(rims, [0.12, 0.12, 0.08]);
+        for (a, b) in [(0, 1), (0, 2), (1, 2)] {
+            assert!(plates[a].aside_m(&plates[b]) > 0.25);
+        }
+    }
+}

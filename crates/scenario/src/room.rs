@@ -1,0 +1,176 @@
+//! The `[floor]` and `[table]` sections: what most cells stand on.
+
+use crate::key::Domain::{Bool, Number, NumberAbove, Pair, PairAbove};
+use crate::key::{Key, key};
+use crate::poses::pose;
+use platewash_kinematics::Pose;
+use platewash_kinematics::geometry::Shape;
+use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use serde::{Deserialize, Serialize};
+
+/// The keys of `[floor]` and `[table]`.
+pub(crate) const ROOM_KEYS: &[Key] = &[
+    key(
+        "floor.present",
+        "",
+        Bool,
+        "Whether there is a floor: all below its height is an obstacle.",
+    ),
+    key("floor.height_m", "m", Number(-10.0, 10.0), "z of the floor."),
+    key(
+        "floor.margin_m",
+        "m",
+        Number(0.0, 1.0),
+        "How far arm and tool keep from the floor, beyond wash.clearance_m.",
+    ),
+    key(
+        "table.size_m",
+        "m",
+        PairAbove(0.0, 100.0),
+        "Edges of the table's top along its x and y. Without it there is no table.",
+    ),
+    key(
+        "table.height_m",
+        "m",
+        Number(-10.0, 10.0),
+        "z of the table's upper side.",
+    ),
+    key(
+        "table.thickness_m",
+        "m",
+        NumberAbove(0.0, 10.0),
+        "Thickness of the top, downwards.",
+    ),
+    key("table.at_m", "m", Pair(-100.0, 100.0), "x and y of its middle."),
+    key(
+        "table.yaw_deg",
+        "deg",
+        Number(-720.0, 720.0),
+        "How it is turned about the vertical, counter-clockwise.",
+    ),
+    key(
+        "table.margin_m",
+        "m",
+        Number(0.0, 1.0),
+        "How far arm and tool keep from the table, beyond wash.clearance_m.",
+    ),
+];
+
+/// `[floor]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FloorSection {
+    /// Whether there is one.
+    pub present: bool,
+    /// Its z \[m\].
+    pub height_m: f64,
+    /// How far it is grown \[m\].
+    pub margin_m: f64,
+}
+
+/// `[table]`: a box whose upper side is level.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TableSection {
+    /// Edges of its top \[m\]; without them there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size_m: Option<[f64; 2]>,
+    /// z of its upper side \[m\].
+    pub height_m: f64,
+    /// Thickness of the top, downwards \[m\].
+    pub thickness_m: f64,
+    /// x and y of its middle \[m\].
+    pub at_m: [f64; 2],
+    /// How it is turned about the vertical \[deg\].
+    pub yaw_deg: f64,
+    /// How far it is grown \[m\].
+    pub margin_m: f64,
+}
+
+/// Name of the table, in messages.
+pub(crate) const TABLE: &str = "table";
+
+impl FloorSection {
+    /// The floor, where there is one.
+    pub(crate) fn obstacle(&self) -> Option<Obstacle> {
+        self.present.then(|| Obstacle {
+            pose: Pose::translation(0.0, 0.0, self.height_m),
+            margin_m: self.margin_m,
+            ..Obstacle::floor()
+        })
+    }
+}
+
+impl TableSection {
+    /// The table, where there is one.
+    pub(crate) fn obstacle(&self) -> Option<Obstacle> {
+        let [x, y] = self.size_m?;
+        let half_m = [x, y, self.thickness_m].map(|edge_m| 0.5 * edge_m);
+        let [at_x, at_y] = self.at_m;
+        let middle = [at_x, at_y, self.height_m - half_m[2]];
+        let shape = ObstacleShape::Convex(Shape::Box { half_m });
+        Some(Obstacle {
+            margin_m: self.margin_m,
+            ..Obstacle::new(TABLE, shape, pose(middle, [0.0, 0.0, self.yaw_deg]))
+        })
+    }
+}
+
+impl Default for FloorSection {
+    fn default() -> Self {
+        Self {
+            present: true,
+            height_m: 0.0,
+            margin_m: 0.0,
+        }
+    }
+}
+
+impl Default for TableSection {
+    fn default() -> Self {
+        Self {
+            size_m: None,
+            height_m: 0.0,
+            thickness_m: 0.03,
+            at_m: [0.0; 2],
+            yaw_deg: 0.0,
+            margin_m: 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Point3, Vector3};
+
+    #[test]
+    fn the_floor_of_a_file_that_says_nothing_is_the_plain_one() {
+        assert_eq!(FloorSection::default().obstacle(), Some(Obstacle::floor()));
+        assert_eq!(TableSection::default().obstacle(), None);
+        let none = FloorSection {
+            present: false,
+            ..FloorSection::default()
+        };
+        assert_eq!(none.obstacle(), None);
+    }
+
+    /// By hand: a table of 1 m by 0.6 m turned by 90° about its middle at (0.5, 0).
+    #[test]
+    fn a_table_ends_below_its_height() {
+        let table = TableSection {
+            size_m: Some([1.0, 0.6]),
+            height_m: 0.4,
+            thickness_m: 0.1,
+            at_m: [0.5, 0.0],
+            yaw_deg: 90.0,
+            ..TableSection::default()
+        };
+        let table = table.obstacle().unwrap();
+        let ObstacleShape::Convex(Shape::Box { half_m }) = table.shape else {
+            panic!("{:?}", table.shape)
+        };
+        let corner = table.pose * Point3::from(Vector3::from(half_m));
+        assert!((corner - Point3::new(0.2, 0.5, 0.4)).norm() < 1e-12, "{corner}");
+    }
+}

@@ -1,0 +1,118 @@
+//! What suits the arm and the tool of a scenario: a home, where plates like its own are washed, and pairs of links that need no check.
+
+use crate::failure::Failure;
+use crate::job::Program;
+use crate::obstacle::HeldPlates;
+use crate::scenario::Scenario;
+use platewash_kinematics::RobotModel;
+use platewash_planner::Watch;
+use platewash_planner::suggest::{SuggestedHome, SuggestedRegion, place_in_front, suggest_home, suggest_region};
+use platewash_workcell::clearance::TouchingPairs;
+use platewash_workcell::job::JobError;
+use platewash_workcell::plate::Plate;
+use std::sync::Arc;
+
+/// What suits an arm with its tool.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Suggestion {
+    /// A home for a plate in front of the arm.
+    pub home: SuggestedHome,
+    /// That plate, in the world.
+    pub plate: Plate,
+    /// Where plates like it can be washed from there, each alone.
+    pub region: SuggestedRegion,
+    /// Pairs of links that need no check.
+    pub pairs: TouchingPairs,
+}
+
+impl Scenario {
+    /// What suits the arm with the scenario's tool, plates like its own, and what it requires; its own home and places are of no account.
+    ///
+    /// # Errors
+    /// [`Failure`]: no home, or a scenario that is refused.
+    pub fn suggest(&self, arm: &Arc<RobotModel>, watch: &Watch<'_>) -> Result<Suggestion, Failure> {
+        let mut alone = self.clone();
+        alone.job.program = Program::Certified;
+        (alone.robot.start_deg, alone.robot.home_deg) = (None, None);
+        let plate_m = match alone.plate.first().and_then(|plate| plate.at_m) {
+            Some([x, y, _]) => [x, y],
+            None => place_in_front(arm, &self.tool_on(arm)?, &alone.robot.mount()),
+        };
+        let layout = &mut alone.layout;
+        // One that stands at an angle stays where it is said to be.
+        alone.plate.truncate(1);
+        for obstacle in &mut alone.obstacle {
+            let holds = obstacle.held(1).contains(&0);
+            obstacle.holds_plates = holds.then(|| HeldPlates::These(vec![0]));
+        }
+        layout.positions_m = None;
+        match alone.plate.first_mut() {
+            Some(kind) if kind.at_m.is_none() => {
+                let [x, y] = plate_m;
+                (kind.at_m, kind.count) = (Some([x, y, layout.plate_height_m]), None);
+            }
+            Some(_) => {}
+            None => layout.positions_m = Some(vec![plate_m]),
+        }
+        (layout.region, layout.only_washable) = (None, false);
+        (layout.x_m, layout.y_m, layout.rho_m, layout.azimuth_deg) = (None, None, None, None);
+        let placed = alone.layout(arm)?;
+        let job = alone.job_on(arm, &placed)?;
+        let [plate, ..] = job.terms().plates[..] else {
+            return Err(JobError::PlateCount { found: 0 }.into());
+        };
+        Ok(Suggestion {
+            home: suggest_home(arm, job.terms(), watch.cancel)?,
+            plate,
+            region: suggest_region(&job, watch)?,
+            pairs: TouchingPairs::of(arm)?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::UnitNote;
+    use platewash_workcell::cancel::CancelToken;
+
+    #[test]
+    fn a_certified_job_without_a_home_has_the_one_suggested_and_says_so() {
+        let mut scenario = Scenario::load("kitchen").unwrap();
+        scenario.robot.start_deg = None;
+        assert_eq!(scenario.validate(), Ok(()));
+        assert!(
+            matches!(scenario.notes()[..], [UnitNote::HomeLeftOpen]),
+            "{:?}",
+            scenario.notes()
+        );
+        let job = scenario.job().unwrap();
+        let found = suggest_home(job.arm(), job.terms(), &CancelToken::new()).unwrap();
+        assert_eq!(job.terms().home_rad, [found.q_rad(); 2]);
+        scenario.robot.home_deg = Some([0.0, 0.0, 0.0, 0.0, 90.0, 0.0]);
+        let [start, end] = scenario.job().unwrap().terms().home_rad;
+        assert_eq!((start, end[4]), (found.q_rad(), 90_f64.to_radians()));
+    }
+
+    #[test]
+    fn the_papers_program_starts_at_0_where_nothing_is_stated() {
+        let mut scenario = Scenario::load("paper-text").unwrap();
+        scenario.robot.start_deg = None;
+        assert_eq!(scenario.notes(), []);
+        assert_eq!(scenario.paper_job().unwrap().start_rad.amax(), 0.0);
+    }
+
+    #[test]
+    fn what_is_suggested_suits() {
+        let (scenario, cancel) = (Scenario::load("angled-tool").unwrap(), CancelToken::new());
+        let arm = scenario.arm().unwrap();
+        let suggestion = scenario.suggest(&arm, &Watch::silent(&cancel)).unwrap();
+        let sector = suggestion.region.sector.unwrap();
+        let mut like = scenario.clone();
+        like.robot.start_deg = Some(suggestion.home.q_deg);
+        like.layout.region = None;
+        (like.layout.rho_m, like.layout.azimuth_deg) = (Some(sector.rho_m), Some(sector.azimuth_deg));
+        like.layout.count = 2;
+        platewash_planner::plan(&like.job().unwrap()).unwrap();
+    }
+}

@@ -1,0 +1,149 @@
+//! Convex hulls, and whether they are to be relied on.
+//!
+//! A hull that the collision library makes may be too small, down to a flat one for a body that is much wider than high, or bent inwards. So
+//! it is held against its points, and where it fails made once more of the same points drawn out to be as high as wide: a hull stays
+//! one under any such map.
+
+use parry3d_f64::math::Vector;
+use parry3d_f64::shape::ConvexPolyhedron;
+use parry3d_f64::transformation::try_convex_hull;
+use std::collections::HashMap;
+
+/// What a point may be outside of a face by rounding, and how thin a hull may be, as a part of its size.
+const HULL_ROUNDING: f64 = 1e-12;
+const THINNEST_HULL: f64 = 1e-9;
+
+/// How far a point that counts as one within a hull may be from it \[m\]: less than [`super::motion`] allows for rounding.
+const LEFT_OUT_M: f64 = 1e-10;
+
+/// The convex hull of points.
+pub(super) struct ConvexHull {
+    /// As the collision library has it.
+    pub solid: ConvexPolyhedron,
+    /// Points whose hull holds all points: what reaches farthest along a direction is among these, whatever became of the solid, so that a gap
+    /// along a direction is never overstated.
+    pub corners: Vec<Vector>,
+    /// Whether the faces of the solid are those of the hull: its corners are all there are.
+    pub is_sound: bool,
+}
+
+impl ConvexHull {
+    /// That of points; `None` where they have no volume.
+    pub fn of(points: &[Vector]) -> Option<Self> {
+        let frame = Frame::of(points)?;
+        let plain = ConvexPolyhedron::from_convex_hull(points).map(|solid| Self::held(solid, points));
+        if plain.as_ref().is_some_and(|hull| hull.is_sound) {
+            return plain;
+        }
+        let drawn_out = frame.hull(points).map(|solid| Self::held(solid, points));
+        drawn_out.filter(|hull| hull.is_sound).or(plain)
+    }
+
+    /// A hull held against the points it was made of. Points are left out only of one whose faces close it, and behind each of which all its
+    /// vertices are. Where it holds a ball of radius r about c, a point p that is ε beyond faces at most is no farther from it than ε ‖p − c‖/r:
+    /// drawn towards c by r/(r + ε) it is behind all of them.
+    fn held(solid: ConvexPolyhedron, points: &[Vector]) -> Self {
+        let size = points.iter().map(|p| p.length()).fold(0.0, f64::max);
+        let planes = planes(&solid);
+        // The middle of the vertices is within.
+        let middle = solid.points().iter().fold(Vector::ZERO, |sum, p| sum + *p) / solid.points().len() as f64;
+        let depth = planes.iter().map(|(normal, at)| at - normal.dot(middle));
+        let ball = depth.fold(f64::INFINITY, f64::min);
+        let rounding = (HULL_ROUNDING * size).min(LEFT_OUT_M * ball / (2.0 * size));
+        // NaN is outside.
+        let is_behind = |point: &Vector| planes.iter().all(|(normal, at)| normal.dot(*point) - at <= rounding);
+        if !(ball > 0.0 && is_closed(&solid) && solid.points().iter().all(is_behind)) {
+            let corners = points.to_vec();
+            return Self {
+                solid,
+                corners,
+                is_sound: false,
+            };
+        }
+        let outside: Vec<_> = points.iter().filter(|point| !is_behind(point)).copied().collect();
+        Self {
+            is_sound: outside.is_empty(),
+            corners: solid.points().iter().copied().chain(outside).collect(),
+            solid,
+        }
+    }
+
+    /// The planes of its faces: unit normals outwards and their distances from the origin \[m\]; of a hull that is not to be relied on none.
+    pub fn planes(&self) -> Vec<(Vector, f64)> {
+        if self.is_sound { planes(&self.solid) } else { Vec::new() }
+    }
+}
+
+fn planes(solid: &ConvexPolyhedron) -> Vec<(Vector, f64)> {
+    let corner = |first: u32| solid.points()[solid.vertices_adj_to_face()[first as usize] as usize];
+    let plane = |normal: Vector, first: u32| (normal, normal.dot(corner(first)));
+    let faces = solid.faces().iter();
+    faces
+        .map(|face| plane(face.normal, face.first_vertex_or_edge))
+        .collect()
+}
+
+/// Whether the faces of a hull have no border: each of their edges is one of two faces.
+fn is_closed(hull: &ConvexPolyhedron) -> bool {
+    let mut faces_of: HashMap<[u32; 2], usize> = HashMap::new();
+    for face in hull.faces() {
+        let first = face.first_vertex_or_edge as usize;
+        let corners = &hull.vertices_adj_to_face()[first..first + face.num_vertices_or_edges as usize];
+        let next = corners.iter().cycle().skip(1);
+        for (a, b) in corners.iter().zip(next) {
+            *faces_of.entry([*a.min(b), *a.max(b)]).or_default() += 1;
+        }
+    }
+    !faces_of.is_empty() && faces_of.values().all(|count| *count == 2)
+}
+
+/// Axes along which points extend, the longest first, and how far.
+struct Frame {
+    origin: Vector,
+    axes: [Vector; 3],
+    lengths: [f64; 3],
+}
+
+impl Frame {
+    /// That of points; `None` where they have no volume: none of them is off the plane through three that are far apart.
+    fn of(points: &[Vector]) -> Option<Self> {
+        let origin = points.first().copied()?;
+        let farthest = |distance: &dyn Fn(Vector) -> f64| {
+            let far = points
+                .iter()
+                .copied()
+                .max_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+            far.map_or((origin, 0.0), |point| (point, distance(point)))
+        };
+        let (second, size) = farthest(&|p| (p - origin).length());
+        let along = (second - origin) / size;
+        let (third, width) = farthest(&|p| (p - origin).cross(along).length());
+        let normal = along.cross(third - origin).normalize_or_zero();
+        let (_, height) = farthest(&|p| (p - origin).dot(normal).abs());
+        let has_volume = width > THINNEST_HULL * size && height > THINNEST_HULL * size;
+        has_volume.then(|| Self {
+            origin,
+            axes: [along, normal.cross(along), normal],
+            lengths: [size, width, height],
+        })
+    }
+
+    /// The hull of points, made where they are as high as wide.
+    fn hull(&self, points: &[Vector]) -> Option<ConvexPolyhedron> {
+        let [x, y, z] = [0, 1, 2].map(|k| self.axes[k] / self.lengths[k]);
+        let drawn_out: Vec<_> = points
+            .iter()
+            .map(|p| *p - self.origin)
+            .map(|p| Vector::new(p.dot(x), p.dot(y), p.dot(z)))
+            .collect();
+        let (corners, faces) = try_convex_hull(&drawn_out).ok()?;
+        let [x, y, z] = [0, 1, 2].map(|k| self.axes[k] * self.lengths[k]);
+        let back = |p: Vector| self.origin + x * p.x + y * p.y + z * p.z;
+        ConvexPolyhedron::from_convex_mesh(corners.into_iter().map(back).collect(), &faces)
+    }
+}
+
+/// Whether points span a volume.
+pub(super) fn has_volume(points: &[Vector]) -> bool {
+    Frame::of(points).is_some()
+}

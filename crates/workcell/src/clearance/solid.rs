@@ -1,0 +1,261 @@
+//! The convex parts of a mesh: one hull, or several that together enclose its surface.
+//!
+//! Where the mesh is cut is a proposal (VHACD, Mamou & Ghorbel 2009, by the collision library): cells that overlap at will. Of each triangle
+//! what is within a cell goes to the part of that cell, which is the hull of all that. Then each triangle is cut by the planes of each part, and what
+//! is left in none of them is added to the nearest: so the parts enclose the surface, whatever was proposed. A part without thickness, as
+//! of a mesh that is a sheet, gets one.
+
+use super::convex::{ConvexHull, has_volume};
+use nalgebra::Point3;
+use parry3d_f64::math::Vector;
+use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
+
+/// Most triangles of a mesh that is decomposed.
+const MOST_TRIANGLES: usize = 20_000;
+
+/// Most parts of a mesh.
+const MOST_PARTS: u32 = 64;
+
+/// Cells along the longest edge of a mesh when it is looked at where to cut it.
+const CELLS: u32 = 64;
+
+/// How deep a part may be hollow, as a share of the mesh's hull.
+const HOLLOW: f64 = 0.004;
+
+/// Half of the thickness that a part without one gets \[m\].
+const SHEET_M: f64 = 5e-5;
+
+/// What a piece of a surface may be beyond a plane and count as behind it, as a part of the mesh's size.
+const ROUNDING: f64 = 1e-12;
+
+/// What counts of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SolidParts {
+    /// Its convex hull.
+    Hull,
+    /// Convex parts that together enclose its surface.
+    Decomposed,
+}
+
+/// Why a mesh is no body.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolidError {
+    /// It has no triangle.
+    #[error("it has no triangles")]
+    Empty,
+    /// A coordinate is no number.
+    #[error("a corner of triangle {triangle} is no number")]
+    NotFinite {
+        /// Which, from 0.
+        triangle: usize,
+    },
+    /// All of it lies in a plane.
+    #[error("it is flat; a body needs a volume")]
+    Flat,
+    /// Too many triangles.
+    #[error("it has {found} triangles; at most {MOST_TRIANGLES} can be decomposed (its hull may have more)")]
+    TooMany {
+        /// How many.
+        found: usize,
+    },
+}
+
+/// The corners of the convex parts of a mesh's triangles \[m\]: whatever a triangle holds is in one of their hulls, to rounding. A mesh need not be
+/// closed: its surface counts, and of its inside what the parts enclose.
+///
+/// # Errors
+/// [`SolidError`].
+pub fn solid_parts(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> Result<Vec<Vec<Point3<f64>>>, SolidError> {
+    if triangles.is_empty() {
+        return Err(SolidError::Empty);
+    }
+    let finite = |triangle: &[Point3<f64>; 3]| triangle.iter().all(|corner| corner.iter().all(|c| c.is_finite()));
+    if let Some(triangle) = triangles.iter().position(|triangle| !finite(triangle)) {
+        return Err(SolidError::NotFinite { triangle });
+    }
+    let corners: Vec<[Vector; 3]> = triangles
+        .iter()
+        .map(|triangle| triangle.map(|p| Vector::new(p.x, p.y, p.z)))
+        .collect();
+    let points = distinct(corners.iter().flatten().copied());
+    if !has_volume(&points) {
+        return Err(SolidError::Flat);
+    }
+    let found = match parts {
+        SolidParts::Hull => vec![Part::around(points).corners],
+        SolidParts::Decomposed => {
+            let found = triangles.len();
+            if found > MOST_TRIANGLES {
+                return Err(SolidError::TooMany { found });
+            }
+            decomposed(&corners, &points)
+        }
+    };
+    let point = |v: Vector| Point3::new(v.x, v.y, v.z);
+    Ok(found
+        .into_iter()
+        .map(|part| part.into_iter().map(point).collect())
+        .collect())
+}
+
+/// A convex part: its corners, and the planes that it is behind.
+struct Part {
+    corners: Vec<Vector>,
+    /// Unit normals outwards, and their distances from the origin; none where the hull is none to rely on.
+    planes: Vec<(Vector, f64)>,
+}
+
+impl Part {
+    fn around(points: Vec<Vector>) -> Self {
+        match ConvexHull::of(&points) {
+            Some(hull) => Self {
+                planes: hull.planes(),
+                corners: hull.corners,
+            },
+            None => Self {
+                corners: points,
+                planes: Vec::new(),
+            },
+        }
+    }
+
+    /// Cuts a polygon into what is within the part and pieces of what is not.
+    fn cut(&self, polygon: &[Vector], rounding: f64) -> (Vec<Vector>, Vec<Vec<Vector>>) {
+        let (mut within, mut without) = (polygon.to_vec(), Vec::new());
+        if self.planes.is_empty() {
+            return (Vec::new(), vec![within]);
+        }
+        for (normal, at) in &self.planes {
+            let height = |p: &Vector| normal.dot(*p) - at;
+            if within.iter().all(|p| height(p) <= rounding) {
+                continue;
+            }
+            let (behind, beyond) = split(&within, height);
+            without.push(beyond);
+            within = behind;
+            if within.is_empty() {
+                break;
+            }
+        }
+        (within, without)
+    }
+
+    fn middle(&self) -> Vector {
+        self.corners.iter().fold(Vector::ZERO, |sum, p| sum + *p) / self.corners.len().max(1) as f64
+    }
+}
+
+/// The parts of a convex polygon behind a plane and beyond it, both with what lies in it.
+fn split(polygon: &[Vector], height: impl Fn(&Vector) -> f64) -> (Vec<Vector>, Vec<Vector>) {
+    let (mut behind, mut beyond) = (Vec::new(), Vec::new());
+    for (i, p) in polygon.iter().enumerate() {
+        let q = &polygon[(i + 1) % polygon.len()];
+        let (here, there) = (height(p), height(q));
+        if here <= 0.0 {
+            behind.push(*p);
+        }
+        if here >= 0.0 {
+            beyond.push(*p);
+        }
+        if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
+            let between = *p + (*q - *p) * (here / (here - there));
+            behind.push(between);
+            beyond.push(between);
+        }
+    }
+    (behind, beyond)
+}
+
+fn decomposed(triangles: &[[Vector; 3]], points: &[Vector]) -> Vec<Vec<Vector>> {
+    let size = points.iter().map(|p| p.length()).fold(0.0, f64::max);
+    let rounding = ROUNDING * size;
+    let mut found: Vec<Vec<Vector>> = cells(triangles)
+        .iter()
+        .map(|cell| {
+            let within = triangles.iter().flat_map(|triangle| cell.cut(triangle, rounding).0);
+            distinct(within)
+        })
+        .filter(|part| !part.is_empty())
+        .collect();
+    if found.is_empty() {
+        found.push(points.to_vec());
+    }
+    let mut parts: Vec<Part> = found.into_iter().map(|part| Part::around(thick(part))).collect();
+    // What is in none of them is added, and the rest stays enclosed: parts only grow.
+    let mut missing: Vec<Vec<Vector>> = vec![Vec::new(); parts.len()];
+    for triangle in triangles {
+        for piece in uncovered(triangle, &parts, rounding) {
+            let middle = piece.iter().fold(Vector::ZERO, |sum, p| sum + *p) / piece.len() as f64;
+            let nearest = (0..parts.len()).min_by(|&a, &b| {
+                let far = |k: usize| (parts[k].middle() - middle).length();
+                far(a).total_cmp(&far(b))
+            });
+            missing[nearest.unwrap_or(0)].extend(piece);
+        }
+    }
+    parts
+        .drain(..)
+        .zip(missing)
+        .map(|(part, more)| {
+            if more.is_empty() {
+                return part.corners;
+            }
+            Part::around(distinct(part.corners.into_iter().chain(more))).corners
+        })
+        .collect()
+}
+
+/// What of a triangle is in none of the parts.
+fn uncovered(triangle: &[Vector; 3], parts: &[Part], rounding: f64) -> Vec<Vec<Vector>> {
+    let mut left = vec![triangle.to_vec()];
+    for part in parts {
+        left = left.iter().flat_map(|piece| part.cut(piece, rounding).1).collect();
+        if left.is_empty() {
+            break;
+        }
+    }
+    left
+}
+
+/// Where a mesh could be cut into parts that are nearly convex.
+fn cells(triangles: &[[Vector; 3]]) -> Vec<Part> {
+    let corners: Vec<Vector> = triangles.iter().flatten().copied().collect();
+    let indices: Vec<[u32; 3]> = (0..triangles.len() as u32)
+        .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
+        .collect();
+    let wanted = VHACDParameters {
+        concavity: HOLLOW,
+        resolution: CELLS,
+        max_convex_hulls: MOST_PARTS,
+        ..VHACDParameters::default()
+    };
+    let found = VHACD::decompose(&wanted, &corners, &indices, false);
+    let hulls = found.compute_convex_hulls(1).into_iter();
+    hulls.map(|(points, _)| Part::around(points)).collect()
+}
+
+/// The points of a part with a volume; of one in a plane with a thickness.
+fn thick(points: Vec<Vector>) -> Vec<Vector> {
+    if has_volume(&points) {
+        return points;
+    }
+    let steps = [Vector::X, Vector::Y, Vector::Z].map(|axis| axis * SHEET_M);
+    let about = |p: &Vector| {
+        let p = *p;
+        steps.into_iter().flat_map(move |step| [p + step, p - step])
+    };
+    points.iter().flat_map(about).collect()
+}
+
+fn distinct(points: impl Iterator<Item = Vector>) -> Vec<Vector> {
+    let mut seen = std::collections::BTreeSet::new();
+    // Of two zeros one is negative.
+    points
+        .map(|p| p + Vector::ZERO)
+        .filter(|p| seen.insert([p.x, p.y, p.z].map(f64::to_bits)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,157 @@
+//! What stands still stands apart: obstacles from plates and from the arm's base.
+//!
+//! Two convex parts reach into each other by no more than max n·a − min n·b along any direction n, from the first to the second. So parts are apart
+//! where one of the directions that are tried says so: those of their faces and axes, of their nearest points, and the one in which the collision library
+//! would push them apart. The least that is found is stated as how far they reach into each other.
+//!
+//! The margins of obstacles do not count here: they are for what moves. Nor does the arm in the floor at height 0 that a job has where nothing is said
+//! of one.
+
+use super::body::{Body, obstacle_body, place, plate_body, world};
+use super::distance::bracketed;
+use super::error::ClearanceError;
+use super::part::{Core, Extent, Placed};
+use crate::dry_run::DryRun;
+use crate::plate::Plate;
+use crate::workcell::{Obstacle, Workcell};
+use parry3d_f64::math::Vector;
+use parry3d_f64::query;
+use platewash_kinematics::{BodyPoses, JointVector, RobotModel};
+
+/// How far bodies that touch may reach into each other by rounding \[m\].
+pub const TOUCH_M: f64 = 1e-6;
+
+/// Two bodies that stand still and reach into each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StandingOverlap {
+    /// The obstacle.
+    pub obstacle: String,
+    /// The plate, or the link of the arm.
+    pub other: String,
+    /// How far the one reaches into the other, at most \[m\].
+    pub by_m: f64,
+}
+
+/// The obstacles of a workcell that reach into its plates, but for those that they hold, or into what of the arm they can never get away from: its
+/// base, and of half-spaces what joint 1 turns above them. The raised plates of a dry
+/// run are not there; its real ones are those of its parent.
+///
+/// # Errors
+/// [`ClearanceError`] for a shape that is none.
+pub fn standing_overlaps(
+    robot: &RobotModel,
+    workcell: &Workcell,
+    plates: &[Plate],
+    dry_run: Option<&DryRun>,
+) -> Result<Vec<StandingOverlap>, ClearanceError> {
+    let is_real_plate = |obstacle: &Obstacle| {
+        let named = |i| obstacle.name == DryRun::real_name(i);
+        dry_run.is_some() && (0..plates.len()).any(named)
+    };
+    let counts = |obstacle: &&Obstacle| !is_real_plate(obstacle);
+    let counting: Vec<_> = workcell.obstacles.iter().filter(counts).collect();
+    if counting.is_empty() {
+        return Ok(Vec::new());
+    }
+    let poses = robot.fk(&JointVector::zeros());
+    let arm = world(robot, &workcell.tool, &[])?;
+    let standing = if dry_run.is_some() { &[] } else { plates };
+    let mut bodies: Vec<Body> = Vec::with_capacity(standing.len());
+    for (i, plate) in standing.iter().enumerate() {
+        let body = plate_body(i, plate, bodies.last());
+        bodies.push(body);
+    }
+    let mut found = Vec::new();
+    for obstacle in counting {
+        let body = obstacle_body(&Obstacle {
+            margin_m: 0.0,
+            ..obstacle.clone()
+        })?;
+        // What an arm's description lets down below its own ground is in no floor that nothing is said of.
+        let stays = |link: &&Body| !obstacle.is_plain_floor() && link.stays_beside(&body, robot);
+        let free = bodies
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| !obstacle.holds_plates.contains(i));
+        for other in free.map(|(_, plate)| plate).chain(arm.iter().filter(stays)) {
+            let by_m = overlap(&body, other, &poses);
+            // NaN is no overlap that could be told: poses are finite.
+            if by_m > TOUCH_M {
+                let (obstacle, other) = (obstacle.name.clone(), other.name.clone());
+                found.push(StandingOverlap { obstacle, other, by_m });
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// How far two bodies reach into each other at most; 0 where they do not \[m\].
+fn overlap(a: &Body, b: &Body, poses: &BodyPoses) -> f64 {
+    let outer = [a, b].map(|body| place(std::slice::from_ref(body), poses).remove(0));
+    let near = |p: &Placed<'_>, r: &Placed<'_>| p.sphere_gap(r) <= 0.0;
+    let [first, second] = &outer;
+    let meet = first
+        .iter()
+        .any(|p| second.iter().any(|r| near(p, r) && depth(p, r) > 0.0));
+    if !meet {
+        return 0.0;
+    }
+    let [first, second] = [a, b].map(|body| body.parts.iter().map(|part| part.place(poses)).collect::<Vec<_>>());
+    let pairs = first.iter().flat_map(|p| second.iter().map(move |r| (p, r)));
+    pairs
+        .filter(|(p, r)| near(p, r))
+        .map(|(p, r)| depth(p, r))
+        .fold(0.0, f64::max)
+}
+
+/// How far two parts reach into each other, at most; 0 or less where they do not \[m\].
+fn depth(a: &Placed<'_>, b: &Placed<'_>) -> f64 {
+    let (found, at_least) = bracketed(a, b);
+    if a.outwards().is_some() || b.outwards().is_some() || at_least > 0.0 {
+        return -found.distance;
+    }
+    let mut least = if found.normal == [0.0; 3] {
+        f64::INFINITY
+    } else {
+        -found.distance
+    };
+    let pushed = match (&a.core, &b.core) {
+        (Core::Solid(p, _), Core::Solid(r, _)) => query::contact(&a.pose, &**p, &b.pose, &**r, 0.0).ok().flatten(),
+        _ => None,
+    };
+    let pushed = pushed.map(|contact| contact.normal1);
+    let directions = faces(a).chain(faces(b)).flat_map(|n| [n, -n]);
+    for n in directions.chain(pushed).chain(between(a, b)) {
+        least = least.min(a.support(n) + b.support(-n));
+    }
+    least
+}
+
+/// Directions between the middles of two parts: as they are, and across the axes of both, which part what is round.
+fn between(a: &Placed<'_>, b: &Placed<'_>) -> impl Iterator<Item = Vector> {
+    let way = b.pose.translation - a.pose.translation;
+    let across = [a, b].map(|part| {
+        let axis = part.axis().unwrap_or(Vector::ZERO);
+        way - axis * axis.dot(way)
+    });
+    let ways = [way, across[0], across[1]].into_iter();
+    ways.map(|way| way.normalize_or_zero())
+        .filter(|way| *way != Vector::ZERO)
+}
+
+/// The directions of a part's faces, and of its axis where it has one; either way.
+fn faces(part: &Placed<'_>) -> std::vec::IntoIter<Vector> {
+    let own: Vec<Vector> = match part.core {
+        Core::Solid(solid, Extent::Vertices(_)) => match solid.as_convex_polyhedron() {
+            Some(hull) => hull.faces().iter().map(|face| face.normal).collect(),
+            None => vec![Vector::X, Vector::Y, Vector::Z],
+        },
+        Core::Solid(_, Extent::Cylinder(..)) => vec![Vector::Y],
+        Core::Segment(_) | Core::HalfSpace => Vec::new(),
+    };
+    let turned: Vec<_> = own.into_iter().map(|n| part.pose.rotation * n).collect();
+    turned.into_iter()
+}
+
+#[cfg(test)]
+mod tests;

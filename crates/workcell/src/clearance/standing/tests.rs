@@ -1,0 +1,111 @@
+use super::*;
+use crate::dry_run::DryRun;
+use crate::fixtures::{kitchen_plate, kitchen_terms};
+use crate::workcell::ObstacleShape;
+use nalgebra::{Point3, UnitQuaternion, Vector3};
+use platewash_kinematics::Pose;
+use platewash_kinematics::geometry::Shape;
+use proptest::prelude::*;
+
+fn block(name: &str, half_m: [f64; 3], [x, y, z]: [f64; 3]) -> Obstacle {
+    let shape = ObstacleShape::Convex(Shape::Box { half_m });
+    Obstacle::new(name, shape, Pose::translation(x, y, z))
+}
+
+fn found(obstacles: Vec<Obstacle>) -> Vec<StandingOverlap> {
+    let robot = RobotModel::irb120().unwrap();
+    let mut terms = kitchen_terms(&robot, vec![kitchen_plate([0.3, 0.2]), kitchen_plate([0.3, -0.2])]);
+    terms.workcell.obstacles.extend(obstacles);
+    standing_overlaps(&robot, &terms.workcell, &terms.plates, None).unwrap()
+}
+
+/// By hand: plates are 20 mm thick and lie at 30 mm, the base stands on 0.
+#[test]
+fn what_touches_stands_and_what_reaches_in_is_named() {
+    // A table whose top is at the plates' undersides, and one at the foot of the arm.
+    let under = |top: f64| block("table", [1.0, 1.0, 0.1], [1.12, 0.0, top - 0.1]);
+    let foot = block("slab", [1.0, 1.0, 0.1], [0.0, 0.0, -0.1]);
+    assert_eq!(found(vec![under(0.01), foot]), []);
+    let wrong = found(vec![under(0.0101)]);
+    let names: Vec<_> = wrong.iter().map(|w| (w.obstacle.as_str(), w.other.as_str())).collect();
+    assert_eq!(names, [("table", "plate 0"), ("table", "plate 1")]);
+    assert!((wrong[0].by_m - 1e-4).abs() < 1e-9, "{}", wrong[0].by_m);
+    // Beside a plate, touching its round wall, and 10 µm into it.
+    let beside = |x: f64| block("wall", [0.01, 0.3, 0.2], [x + 0.01, 0.2, 0.2]);
+    assert_eq!(found(vec![beside(0.445)]), []);
+    let wrong = found(vec![beside(0.44499)]);
+    assert_eq!(wrong.len(), 1);
+    assert!((wrong[0].by_m - 1e-5).abs() < 1e-8, "{}", wrong[0].by_m);
+}
+
+#[test]
+fn what_holds_a_plate_may_reach_into_it() {
+    let mut rack = block("rack", [0.2, 0.2, 0.02], [0.3, 0.2, 0.02]);
+    assert_eq!(found(vec![rack.clone()]).len(), 1);
+    rack.holds_plates = vec![0];
+    assert_eq!(found(vec![rack.clone()]), []);
+    rack.holds_plates = vec![1];
+    assert_eq!(found(vec![rack]).len(), 1);
+}
+
+#[test]
+fn what_reaches_into_the_base_is_named() {
+    let wrong = found(vec![block("box", [0.05; 3], [-0.1, 0.0, 0.05])]);
+    assert_eq!(
+        (wrong[0].obstacle.as_str(), wrong[0].other.as_str()),
+        ("box", "base_link")
+    );
+    // A ceiling under the shoulder, of which joint 1 never gets out.
+    let turned = UnitQuaternion::from_scaled_axis(Vector3::new(std::f64::consts::PI, 0.0, 0.0));
+    let ceiling = |z: f64| {
+        let pose = Pose::from_parts(Vector3::new(0.0, 0.0, z).into(), turned);
+        Obstacle::new("ceiling", ObstacleShape::HalfSpace, pose)
+    };
+    assert_eq!(found(vec![ceiling(1.5)]), []);
+    let wrong = found(vec![ceiling(0.2)]);
+    assert_eq!(wrong.len(), 1, "{wrong:?}");
+    assert_eq!(wrong[0].other, "link_1");
+}
+
+#[test]
+fn margins_are_for_what_moves() {
+    let mut table = block("table", [1.0, 1.0, 0.1], [1.12, 0.0, -0.09]);
+    table.margin_m = 0.05;
+    assert_eq!(found(vec![table]), []);
+}
+
+#[test]
+fn raised_plates_are_not_there() {
+    let robot = RobotModel::irb120().unwrap();
+    let mut terms = kitchen_terms(&robot, vec![kitchen_plate([0.3, 0.2])]);
+    terms.workcell.obstacles.push(DryRun::standing(0, &terms.plates[0]));
+    let overlaps = |dry_run| standing_overlaps(&robot, &terms.workcell, &terms.plates, dry_run).unwrap();
+    assert_eq!(overlaps(None).len(), 1);
+    let dry_run = DryRun {
+        parent: "0".repeat(64),
+        height_m: 0.01,
+    };
+    assert_eq!(overlaps(Some(&dry_run)), []);
+}
+
+proptest! {
+    /// A box turned at will, of which one corner is pushed into a box by so much, or kept away.
+    #[test]
+    fn corners_are_seen_as_deep_as_they_are(turn in prop::array::uniform3(-3.0..3.0f64), by in -1e-2..1e-2f64) {
+        let pose = Pose::from_parts(Vector3::zeros().into(), UnitQuaternion::from_scaled_axis(turn.into()));
+        let half = Vector3::new(0.1, 0.05, 0.07);
+        let lowest = (pose.rotation.to_rotation_matrix().matrix().row(2).abs() * half)[0];
+        let points: Vec<_> = (0..8).map(|k| {
+            let sign = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+            Point3::new(sign(0) * half.x, sign(1) * half.y, sign(2) * half.z)
+        }).collect();
+        let body = |shape, pose| obstacle_body(&Obstacle::new("body", ObstacleShape::Convex(shape), pose)).unwrap();
+        let above = Pose::translation(0.0, 0.0, lowest - by) * pose;
+        let table = body(Shape::Box { half_m: [1.0, 1.0, 0.2] }, Pose::translation(0.0, 0.0, -0.2));
+        let poses = RobotModel::irb120().unwrap().fk(&JointVector::zeros());
+        for shape in [Shape::Box { half_m: half.into() }, Shape::Hull { points }] {
+            let found = overlap(&body(shape, above), &table, &poses);
+            prop_assert!((found - by.max(0.0)).abs() < 1e-9, "{found} {by}");
+        }
+    }
+}

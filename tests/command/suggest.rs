@@ -1,0 +1,66 @@
+//! `platewash robot --suggest`: what it suggests can be used.
+
+use super::*;
+use serde_json::Value;
+
+#[test]
+fn what_is_suggested_makes_a_cell_that_is_proved() {
+    let folder = folder();
+    let dir = folder.path();
+    let ran = platewash(dir, &["robot", "--suggest", "--json", "--out", "found"]);
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    let answer: Value = serde_json::from_str(&ran.stdout).unwrap();
+    let found = dir.join("found");
+    assert!(std::fs::read(found.join("region.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(
+        std::fs::read_to_string(found.join("region.svg"))
+            .unwrap()
+            .contains("Where plates can be washed")
+    );
+    let srdf = std::fs::read_to_string(found.join("touching.srdf")).unwrap();
+    assert!(srdf.contains("<!-- adjacent: the links share a joint -->"), "{srdf}");
+    // Two plates in the sector, from the home, with the list.
+    let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/urdf/irb120.urdf");
+    let text = include_str!("../../scenarios/kitchen-spiral.toml")
+        .replace(
+            "start_deg = [0, 0, 0, 0, 90, 0]",
+            &format!("start_deg = {}", answer["start_deg"]),
+        )
+        .replace(
+            "model = \"irb120\"",
+            &format!("urdf = {urdf:?}\nsrdf = \"found/touching.srdf\"\npayload_kg = 3"),
+        )
+        .replace(
+            "region = \"appendix\"",
+            &format!("rho_m = {}\nazimuth_deg = {}", answer["rho_m"], answer["azimuth_deg"]),
+        )
+        .replace("count = 4", "count = 2");
+    std::fs::write(dir.join("cell.toml"), text).unwrap();
+    let ran = platewash(dir, &["run", "--scenario", "cell.toml"]);
+    assert_eq!(ran.code, 0, "{}{}", ran.stdout, ran.stderr);
+    assert!(ran.stdout.starts_with("PROVED: 2 plates"), "{}", ran.stdout);
+    let said = platewash(dir, &["robot", "--suggest"]).stdout;
+    assert!(
+        said.contains("start_deg = [") && said.contains("wrote suggested/region.svg"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_cell_without_a_home_is_run_from_one_that_is_found() {
+    let folder = folder();
+    let dir = folder.path();
+    let text = include_str!("../../scenarios/kitchen-spiral.toml").replace("start_deg = [0, 0, 0, 0, 90, 0]", "");
+    std::fs::write(dir.join("cell.toml"), text).unwrap();
+    let ran = platewash(dir, &["plan", "--scenario", "cell.toml"]);
+    assert_eq!(ran.code, 0, "{}{}", ran.stdout, ran.stderr);
+    assert!(
+        ran.stderr
+            .contains("robot.start_deg is not stated: a clear home is looked for"),
+        "{}",
+        ran.stderr
+    );
+    // The same again: what is verified is the job of the scenario.
+    let ran = platewash(dir, &["verify", "out/plan.json", "--against", "cell.toml"]);
+    assert_eq!(ran.code, 0, "{}{}", ran.stdout, ran.stderr);
+}
