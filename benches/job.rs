@@ -1,17 +1,23 @@
-//! The certified job on one core: `kitchen`, stage by stage and whole, and the timing of smooth paths of two lengths.
+//! The certified job on one core: `kitchen`, bare and with obstacles that nothing comes near, stage by stage and whole, and the timing of smooth paths of two lengths.
 //!
 //!     cargo bench --bench job
 #![allow(missing_docs)]
 
 use criterion::{BenchmarkId, Criterion};
+use platewash::Scenario;
 use platewash::kinematics::trig;
 use platewash::planner::joint_path::{Ends, JointPath};
 use platewash::planner::timing::{MotionLimits, TipLimits, time_optimal};
 use platewash::{JointVector, RobotModel, ToolFrame};
+use platewash_problems::crowded::crowded;
 use platewash_problems::stages::{Stage, Stages};
 use std::error::Error;
 use std::hint::black_box;
 use std::time::Duration;
+
+/// Obstacles more, and what they keep from all that moves \[m\].
+const OBSTACLES: usize = 50;
+const FAR_M: f64 = 0.05;
 
 fn main() -> Result<(), Box<dyn Error>> {
     // One thread, whatever the machine has.
@@ -24,8 +30,17 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn stages(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
-    let stages = Stages::new("kitchen")?;
-    let mut group = criterion.benchmark_group("kitchen");
+    let kitchen = Scenario::load("kitchen")?;
+    let crowd = crowded(&kitchen, OBSTACLES, FAR_M)?;
+    for (name, scenario) in [("kitchen", kitchen), ("kitchen with far obstacles", crowd)] {
+        of_scenario(criterion, name, scenario)?;
+    }
+    Ok(())
+}
+
+fn of_scenario(criterion: &mut Criterion, name: &str, scenario: Scenario) -> Result<(), Box<dyn Error>> {
+    let stages = Stages::of(scenario)?;
+    let mut group = criterion.benchmark_group(name);
     group.sample_size(20).measurement_time(Duration::from_secs(4));
     for (stage, name) in Stage::ALL {
         // Beforehand once, so that an error ends the benchmark.

@@ -75,7 +75,7 @@ impl WashReport {
 fn leaning(visit: &VisitSummary, certificate: &Certificate) -> String {
     let plate = certificate.rests_on.plates.get(visit.plate);
     if plate.is_none_or(|plate| plate.surface.is_flat()) {
-        return visit.tilt.to_string();
+        return tilt(visit);
     }
     let swept = certificate.coverage.iter().find(|swept| swept.plate == visit.plate);
     let within = swept.map_or_else(String::new, |swept| {
@@ -83,10 +83,19 @@ fn leaning(visit: &VisitSummary, certificate: &Certificate) -> String {
         format!(", up to {}° from the normal", decimals_up(angle_rad.to_degrees(), 1))
     });
     let besides = match visit.tilt {
-        TiltChoice::Policy(policy) if policy.tilt_rad == 0.0 => String::new(),
-        tilt => format!("; {tilt}"),
+        TiltChoice::Policy(policy) if policy.tilt_rad == 0.0 && visit.aside_rad == 0.0 => String::new(),
+        _ => format!("; {}", tilt(visit)),
     };
     format!("axis at a share of the slope{within}{besides}")
+}
+
+/// How the tool tilts in the arm's plane, and across it where it does.
+fn tilt(visit: &VisitSummary) -> String {
+    let aside = visit.aside_rad.abs().to_degrees();
+    if aside == 0.0 {
+        return visit.tilt.to_string();
+    }
+    format!("{}, and {aside:.1}° aside", visit.tilt)
 }
 
 /// Share of a plate from which on it counts as washed whole in words: nothing but rounding is missing.

@@ -8,6 +8,7 @@ use platewash::workcell::cancel::CancelToken;
 use platewash::workcell::job::{OrderRule, Overlap};
 use platewash::workcell::verdict::Infeasibility;
 use platewash::{Failure, PlanError, Scenario, SweepOutcome, plan, prove, sweep};
+use rayon::prelude::*;
 use std::sync::Mutex;
 
 fn planned(scenario: &Scenario) -> Result<Planned, Failure> {
@@ -253,4 +254,28 @@ fn what_makes_no_sense_is_refused_by_name() {
     ));
     // More than the arm keeps from its own tool at home, which is looked at first.
     assert!(refused(|s| s.wash.clearance_m = 0.2, "201.00 mm must be kept"));
+}
+
+/// A job without a promise about contact that leaves the pattern open: however large the plates, what is chosen sweeps the share required.
+#[test]
+fn what_is_chosen_sweeps_plates_of_any_size() {
+    let radii = [0.05, 0.06, 0.07, 0.08, 0.09, 0.1, 0.11, 0.12, 0.13, 0.145];
+    let swept: Vec<_> = radii
+        .into_par_iter()
+        .map(|radius_m| {
+            let mut scenario = Scenario::load("kitchen-spiral").unwrap();
+            scenario.layout.plate_radius_m = Some(radius_m);
+            scenario.layout.positions_m = Some(vec![[0.35, 0.1]]);
+            scenario.layout.region = None;
+            (
+                scenario.wash.path_radius_m,
+                scenario.wash.turns,
+                scenario.wash.closing_ring,
+            ) = (None, None, None);
+            let (_, certificate) = judged(&scenario);
+            (radius_m, certificate.passes(), certificate.headline)
+        })
+        .collect();
+    let not: Vec<_> = swept.iter().filter(|(_, passes, _)| !passes).collect();
+    assert!(not.is_empty(), "{not:?}");
 }

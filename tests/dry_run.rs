@@ -20,6 +20,10 @@ static PARENT: LazyLock<(WashJob, Plan)> = LazyLock::new(|| parent(1));
 fn parent(seed: u64) -> (WashJob, Plan) {
     let mut scenario = Scenario::load("kitchen").unwrap();
     scenario.seed = seed;
+    planned(&scenario)
+}
+
+fn planned(scenario: &Scenario) -> (WashJob, Plan) {
     let job = scenario.job().unwrap();
     let plan = plan(&job).unwrap().plan;
     (job, plan)
@@ -46,6 +50,15 @@ fn dry_run() -> Plan {
 
 fn judged(plan: &Plan) -> Certificate {
     prove(plan, PARENT.0.arm()).unwrap()
+}
+
+/// Plates that lean are raised along their own axes, so that the next one lies in another direction: the paths are the parent's all the same.
+#[test]
+fn paths_on_plates_that_lean_are_the_parents() {
+    let rack = planned(&Scenario::load("rack").unwrap());
+    let raised = dry_run_of(&rack, 0.024, 0.1).plan;
+    assert_eq!(raised.wash_paths, rack.1.wash_paths);
+    assert_eq!(prove(&raised, rack.0.arm()).unwrap().verdict, Verdict::Pass);
 }
 
 /// A change, sealed again, so that the hash does not give it away.

@@ -68,7 +68,7 @@ struct Answer {
     robot: MountKeys,
     /// Angle between the world's z and the base's.
     tilt_rad: f64,
-    /// Whether that is so small that plates may be taken to lie level in the base frame.
+    /// Whether that is so small that plates may be taken to lie level without the keys of the mount.
     level: bool,
     rms_m: f64,
     largest_m: f64,
@@ -117,8 +117,16 @@ fn tolerance(text: &str) -> anyhow::Result<f64> {
 
 /// Finds the mount, tells how well it fits, and carries points over.
 pub fn run(options: &Options, arguments: &AlignArguments) -> Result<ExitCode, Failure> {
-    options.refuse_scenario()?;
-    options.refuse_seed()?;
+    for (name, given) in [
+        ("--scenario", options.scenario.is_some()),
+        ("--seed", options.seed.is_some()),
+    ] {
+        if given {
+            return Err(Failure::input(anyhow!(
+                "{name}: align works from the points of its file alone, without a scenario or a seed; leave it out"
+            )));
+        }
+    }
     let touched = touched(&arguments.file).map_err(Failure::input)?;
     let wanted = wanted(arguments).map_err(Failure::input)?;
     let touches: Vec<Touch> = touched.iter().map(|point| point.touch).collect();
@@ -373,6 +381,6 @@ fn out_of_level(tilt_rad: f64) -> Option<String> {
         tilt if tilt > TILTED_RAD => format!("{:.1} mm in a metre", 1e3 * tilt),
         _ => return None,
     };
-    let words = "plates are taken to lie level in the base frame: level the table, or the base";
+    let words = "without robot.mount_m and robot.mount_rpy_deg plates are taken to lie level with the base: state both, or level the table or the base";
     Some(format!("the table is out of level by {by}; {words}"))
 }

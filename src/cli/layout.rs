@@ -42,7 +42,14 @@ fn text(layout: &Layout) -> String {
     );
     for (i, plate) in layout.plates.iter().enumerate() {
         let (at, radius_m) = (plate.centre(), plate.rim_m());
-        let _ = writeln!(text, "{i:<6} {:>9.4} {:>9.4} {:>9.4} {radius_m:>9.4}", at.x, at.y, at.z);
+        let tilted = plate
+            .tilt_words()
+            .map_or_else(String::new, |tilted| format!("  {tilted}"));
+        let _ = writeln!(
+            text,
+            "{i:<6} {:>9.4} {:>9.4} {:>9.4} {radius_m:>9.4}{tilted}",
+            at.x, at.y, at.z
+        );
     }
     for finding in &layout.findings {
         let _ = writeln!(text, "  - {finding}");

@@ -216,7 +216,10 @@ fn dispatch(arguments: Arguments, token: impl FnOnce() -> CancelToken) -> Result
     if verb.gives_up() {
         options.cancel = token();
     }
-    options.set_up()?.install(|| carry_out(&options, verb))
+    options
+        .set_up()?
+        .install(|| carry_out(&options, verb))
+        .map_err(|failure| options.in_file(failure))
 }
 
 impl Verb {

@@ -4,8 +4,10 @@ use super::failure::Failure;
 use super::output;
 use anyhow::{Context, anyhow, ensure};
 use clap::Args;
+use platewash::planner::PlanError;
 use platewash::scenario::{SHIPPED, ScenarioError, UnitNote};
 use platewash::workcell::job::MAX_SEED;
+use platewash::workcell::words::printable;
 use platewash::{CancelToken, RobotModel, Scenario};
 use rayon::ThreadPool;
 use std::path::PathBuf;
@@ -123,6 +125,17 @@ impl Options {
         }
     }
 
+    /// The failure with the scenario's file in front, where a file was given and the failure is one of what it states.
+    pub fn in_file(&self, failure: Failure) -> Failure {
+        match (&self.scenario, failure) {
+            (Some(file), Failure::Wrong { code, error }) if error.downcast_ref().is_some_and(is_of_job) => {
+                let error = error.context(format!("scenario {}", printable(file)));
+                Failure::Wrong { code, error }
+            }
+            (_, failure) => failure,
+        }
+    }
+
     /// Waits until it is told to end.
     pub fn wait(&self) {
         while !self.cancel.is_cancelled() {
@@ -151,6 +164,19 @@ impl Options {
             source_name: self.scenario_name().to_owned(),
             ..error
         }
+    }
+}
+
+/// Whether a job was refused for what its scenario states, in a message that does not say which scenario that is.
+fn is_of_job(failure: &platewash::Failure) -> bool {
+    use platewash::Failure::{Body, Job, NoContact, Plan, Tool};
+    match failure {
+        Job(_) | NoContact { .. } | Body(_) | Tool(_) => true,
+        Plan(error) => matches!(
+            error,
+            PlanError::Job(_) | PlanError::Home { .. } | PlanError::HomeNotClear { .. } | PlanError::NoTool
+        ),
+        _ => false,
     }
 }
 

@@ -8,5 +8,6 @@ await import("./test/hostile.mjs");
 await import("./test/many.mjs");
 await import("./test/live.mjs");
 await import("./test/edit.mjs");
+await import("./test/edit-cells.mjs");
 await import("./test/edit-files.mjs");
 await import("./test/edit-foreign.mjs");

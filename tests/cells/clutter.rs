@@ -2,7 +2,7 @@
 
 use super::{Outcome, judged};
 use platewash::Scenario;
-use platewash::scenario::{ObstacleSection, ObstacleShapeName};
+use platewash::scenario::{BodyShape, ObstacleSection, StatedShape};
 use platewash::workcell::random::stream;
 use rand::RngExt;
 
@@ -31,15 +31,14 @@ fn cell(seed: u64, bodies: usize) -> Scenario {
         let is_box = rng.random_bool(0.5);
         scenario.obstacle.push(ObstacleSection {
             name: format!("body {}", scenario.obstacle.len()),
-            shape: Some(if is_box {
-                ObstacleShapeName::Box
-            } else {
-                ObstacleShapeName::Cylinder
-            }),
-            size_m: is_box.then_some([a, b, h]),
-            radius_m: (!is_box).then_some(0.5 * a),
-            length_m: (!is_box).then_some(h),
-            at_m: [x, y, z],
+            body: StatedShape {
+                shape: Some(if is_box { BodyShape::Box } else { BodyShape::Cylinder }),
+                size_m: is_box.then_some([a, b, h]),
+                radius_m: (!is_box).then_some(0.5 * a),
+                length_m: (!is_box).then_some(h),
+                ..StatedShape::default()
+            },
+            at_m: Some([x, y, z]),
             rpy_deg: [0.0, 0.0, rng.random_range(-180.0..180.0)],
             ..ObstacleSection::default()
         });

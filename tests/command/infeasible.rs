@@ -113,7 +113,8 @@ fn that_no_place_was_found_is_said_plainly() {
     let ran = plan(dir, &spiral(dir, &given));
     assert_eq!(ran.code, 3);
     assert!(
-        ran.stdout.contains("no position where it can was found within 0.6 m"),
+        ran.stdout
+            .contains("no position where the arm can follow its wash path was found within 0.6 m"),
         "{}",
         ran.stdout
     );

@@ -5,6 +5,7 @@ mod against;
 mod align;
 mod answers;
 mod arms;
+mod cells;
 mod dry_run;
 mod edit;
 mod exit_codes;

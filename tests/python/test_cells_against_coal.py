@@ -7,7 +7,6 @@ Distances agree within the tolerance; those to a mesh in parts, which enclose it
 
 import json
 import os
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass, field
@@ -17,24 +16,10 @@ import coal
 import numpy as np
 
 import urdf_reader
-from clearance_reference import Plates, Reference, Tool, bodies
+from clearance_reference import Plates, Reference, bodies
+from clearances_said import TOLERANCE_M, TOOL, said
 
-TOOL = Tool(length_m=0.15, radius_m=0.02, sponge_radius_m=0.025, sponge_height_m=0.025, compression_m=0.004)
 NO_PLATES = Plates(0.145, 0.03, 0.02, ())
-# As in test_clearance_against_coal.py: the command says 2e-6 m, coal stops at 1e-6 and is seen within 2e-6 m of others.
-TOLERANCE_M = 5e-6
-HEAD = """\
-name = "cell"
-seed = 1
-[tool]
-length_m = {tool.length_m}
-radius_m = {tool.radius_m}
-sponge_radius_m = {tool.sponge_radius_m}
-sponge_height_m = {tool.sponge_height_m}
-sponge_compression_m = {tool.compression_m}
-[layout]
-positions_m = [[5, 5]]
-"""
 SIGNS = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
 # Corners of a box by SIGNS, as faces of four.
 FACES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -120,12 +105,12 @@ def scene(rng, folder: Path, index: int) -> list[Obstacle]:
     return everything
 
 
-def text(obstacles: list[Obstacle]) -> str:
+def sections(obstacles: list[Obstacle]) -> str:
     def value(v):
         return json.dumps(v)
 
     tables = ("[[obstacle]]\n" + "".join(f"{k} = {value(v)}\n" for k, v in o.keys.items()) for o in obstacles)
-    return HEAD.format(tool=TOOL) + "".join(tables)
+    return "[layout]\npositions_m = [[5, 5]]\n" + "".join(tables)
 
 
 def support(shape, T, direction) -> float:
@@ -169,24 +154,15 @@ class Cell:
         return (self.least(body, o.hull) - o.margin_m if o.hull else most), most
 
 
-def said(platewash: Path, folder: Path, configurations) -> dict:
-    lines = (" ".join(repr(float(v)) for v in q) for q in configurations)
-    (folder / "q.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    command = [str(platewash), "fk", "--rad", "--file", "q.txt", "--scenario", "cell.toml", "--json"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=500, check=False)
-    assert done.returncode == 0, f"{' '.join(command)}\n{done.stderr}"
-    return json.loads(done.stdout)
-
-
 def compared(platewash: Path, urdf: Path, folder: Path, configurations, seed: int) -> tuple[int, list[str], float]:
     """How many distances were compared, those that are wrong, the greatest difference where neither overlaps."""
     rng = np.random.default_rng(seed)
     obstacles = scene(rng, folder, seed)
-    (folder / "cell.toml").write_text(text(obstacles), encoding="utf-8")
     cell, tree = Cell(urdf, obstacles), urdf_reader.Tree(urdf)
     names = [joint.name for joint in tree.chain("link_6")]
+    report = said(platewash, folder, TOOL, sections(obstacles), configurations)
     count, wrong, worst = 0, [], 0.0
-    for stated, q in zip(said(platewash, folder, configurations)["configurations"], configurations, strict=True):
+    for stated, q in zip(report["configurations"], configurations, strict=True):
         cell.reference.move(tree.poses(dict(zip(names, q))))
         for pair in stated["clearance"]:
             if pair["b"] not in cell.obstacles:

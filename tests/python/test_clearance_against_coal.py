@@ -3,9 +3,6 @@
 The reference itself is held against MuJoCo and closed forms.
 """
 
-import json
-import subprocess
-
 import mujoco
 import numpy as np
 import pinocchio as pin
@@ -13,30 +10,18 @@ import pytest
 
 import urdf_reader
 from clearance_reference import FLOOR, Plates, Reference, Tool, bodies
+from clearances_said import TOLERANCE_M, TOOL, said
 
-TOOL = Tool(length_m=0.15, radius_m=0.02, sponge_radius_m=0.025, sponge_height_m=0.025, compression_m=0.004)
 PLATES = Plates(0.145, 0.03, 0.02, ((0.30, -0.25), (0.30, 0.25)))
 # Thinner than a millimetre, where routines of the kind stop up to 75 µm short.
 THIN = Tool(length_m=0.15, radius_m=4e-4, sponge_radius_m=3e-4, sponge_height_m=8e-4, compression_m=2e-4)
-SCENARIO = """\
-name = "coal"
-seed = 1
-[tool]
-length_m = {tool.length_m}
-radius_m = {tool.radius_m}
-sponge_radius_m = {tool.sponge_radius_m}
-sponge_height_m = {tool.sponge_height_m}
-sponge_compression_m = {tool.compression_m}
+LAYOUT = """\
 [layout]
 plate_radius_m = 0.145
 plate_height_m = 0.03
 plate_thickness_m = 0.02
 positions_m = [[0.30, -0.25], [0.30, 0.25]]
 """
-
-# The command says to be right to 2e-6 m. coal stops at 1e-6 and is seen within 2e-6 m of MuJoCo and of closed forms here. A wrong
-# radius, frame or end point of the model shows as more.
-TOLERANCE_M = 5e-6
 
 SELF_PAIRS = {frozenset((a, b)) for a in ("base_link", "link_1") for b in ("link_3", "link_4", "link_5", "link_6")}
 HANDLE_PAIRS = {frozenset(("handle", link)) for link in ("base_link", "link_1", "link_2", "link_3")}
@@ -78,21 +63,10 @@ def poses(tree, configurations):
     return [tree.poses(dict(zip(names, q))) for q in configurations]
 
 
-def said(platewash, configurations, tool: Tool, folder) -> dict:
-    """What the command says about configurations of the arm with a tool."""
-    (folder / "coal.toml").write_text(SCENARIO.format(tool=tool), encoding="utf-8")
-    lines = (" ".join(repr(float(v)) for v in q) for q in configurations)
-    (folder / "q.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    command = [str(platewash), "fk", "--rad", "--file", "q.txt", "--scenario", "coal.toml", "--json"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=50, check=False)
-    assert done.returncode == 0, f"{' '.join(command)}\n{done.stderr}"
-    return json.loads(done.stdout)
-
-
 @pytest.fixture(scope="module")
 def report(platewash, configurations, tmp_path_factory) -> dict:
     """What the command says about the configurations."""
-    return said(platewash, configurations, TOOL, tmp_path_factory.mktemp("coal"))
+    return said(platewash, tmp_path_factory.mktemp("coal"), TOOL, LAYOUT, configurations)
 
 
 def test_command_read_the_configurations(report, configurations):
@@ -151,7 +125,7 @@ def test_clearances_agree_with_coal(report, reference, poses):
 
 
 def test_clearances_of_a_thin_tool_agree_with_coal(platewash, irb120_urdf, configurations, poses, tmp_path):
-    report = said(platewash, configurations, THIN, tmp_path)
+    report = said(platewash, tmp_path, THIN, LAYOUT, configurations)
     wrong = differences(report, Reference(bodies(irb120_urdf, THIN, PLATES)), poses)
     assert not wrong, f"{len(wrong)} distances differ, the worst first:\n" + "\n".join(wrong[:10])
 

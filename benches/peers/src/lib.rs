@@ -8,5 +8,6 @@ pub mod edges;
 pub mod interleaved;
 pub mod judged;
 pub mod plain_fk;
+pub mod scene;
 pub mod solvers;
 pub mod tilts;

@@ -1,15 +1,18 @@
 //! What the benchmarks measure: inverse-kinematics problems with the solvers of this project, and the stages of the
-//! certified job. The benchmarks at the root and those beside the peers (`benches/peers`) measure these same problems.
+//! certified job, cells with a wall in them. The benchmarks at the root and those beside the peers (`benches/peers`) measure these same problems.
 //!
 //! A time says little without what it bought, so every solver's answers are checked by platewash's own
 //! forward kinematics, to the same tolerances and the joint limits, and the share that passes stands beside
 //! its time ([`score`]).
 
+pub mod crowded;
 pub mod ours;
 pub mod problems;
 pub mod score;
 pub mod solver;
 pub mod stages;
+pub mod transits;
+pub mod walls;
 
 /// Largest accepted distance from a target, the same for every solver.
 #[derive(Debug, Clone, Copy, PartialEq)]

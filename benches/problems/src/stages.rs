@@ -19,6 +19,8 @@ use std::hint::black_box;
 pub enum Stage {
     /// The plates are placed.
     Layout,
+    /// The bodies of arm, tool, plates and obstacles, and their pairs.
+    Bodies,
     /// Tilt, yaw and branch along the wash path of one plate.
     Redundancy,
     /// The motion along one plate's wash path.
@@ -35,8 +37,9 @@ pub enum Stage {
 
 impl Stage {
     /// All, in the order of the job, with the names that benchmarks give them.
-    pub const ALL: [(Self, &'static str); 7] = [
+    pub const ALL: [(Self, &'static str); 8] = [
         (Self::Layout, "layout"),
+        (Self::Bodies, "bodies and their pairs"),
         (Self::Redundancy, "configurations of one plate"),
         (Self::Timing, "timing of one wash"),
         (Self::Plan, "plan, from home to home"),
@@ -51,6 +54,7 @@ impl Stage {
 pub struct Stages {
     scenario: Scenario,
     job: WashJob,
+    surroundings: ClearanceModel,
     path: JointPath,
     limits: MotionLimits,
     plan: Plan,
@@ -63,9 +67,17 @@ impl Stages {
     /// # Errors
     /// Those of planning.
     pub fn new(scenario: &str) -> Result<Self, Box<dyn Error>> {
-        let scenario = Scenario::load(scenario)?;
+        Self::of(Scenario::load(scenario)?)
+    }
+
+    /// The stages of a scenario.
+    ///
+    /// # Errors
+    /// Those of planning.
+    pub fn of(scenario: Scenario) -> Result<Self, Box<dyn Error>> {
         let job = scenario.job()?;
-        let washed = first_plate(&job)?;
+        let surroundings = surroundings(&job)?;
+        let washed = configurations(&job, &surroundings, &wash_path(&job, 0)?)?;
         let plan = plan(&job)?.plan;
         let terms = job.terms();
         Ok(Self {
@@ -81,6 +93,7 @@ impl Stages {
             text: plan.to_json()?,
             scenario,
             job,
+            surroundings,
             plan,
         })
     }
@@ -93,7 +106,11 @@ impl Stages {
         let arm = self.job.arm();
         match stage {
             Stage::Layout => drop(black_box(self.scenario.layout(arm)?)),
-            Stage::Redundancy => drop(black_box(first_plate(&self.job)?)),
+            Stage::Bodies => drop(black_box(surroundings(&self.job)?)),
+            Stage::Redundancy => {
+                let path = wash_path(&self.job, 0)?;
+                drop(black_box(configurations(&self.job, &self.surroundings, &path)?));
+            }
             Stage::Timing => {
                 let tip = self.job.terms().workcell.tool.tip_frame(arm);
                 drop(black_box(timing::time_optimal(&self.path, arm, &tip, &self.limits)?));
@@ -161,9 +178,4 @@ pub fn configurations(
     )?;
     let task = Task::new(&scene, path, terms.requirements.clearance_m, &terms.home_rad[0])?;
     Ok(washing(&task)?)
-}
-
-/// Those for the first plate, from nothing.
-fn first_plate(job: &WashJob) -> Result<Washing, Box<dyn Error>> {
-    configurations(job, &surroundings(job)?, &wash_path(job, 0)?)
 }

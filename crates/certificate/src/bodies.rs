@@ -5,10 +5,7 @@ use nalgebra::Point3;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use platewash_workcell::job::JobTerms;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
-
-/// Bodies of the tool and obstacles, together, that a job may have at most.
-const MOST: usize = 1000;
+use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape};
 
 /// The greatest size of a body, and the greatest distance of one from its frame, along each axis \[m\].
 const GREATEST_M: f64 = 1e3;
@@ -16,16 +13,12 @@ const GREATEST_M: f64 = 1e3;
 /// Points of a hull at least and at most.
 const POINTS: [usize; 2] = [4, 100_000];
 
-/// Refuses shapes that are none, places that are nowhere, and more bodies than can be judged soon.
+/// Refuses shapes that are none and places that are nowhere.
 ///
 /// # Errors
-/// [`ProveError::TooManyBodies`], [`ProveError::Body`].
+/// [`ProveError::Body`].
 pub(crate) fn check(job: &JobTerms) -> Result<(), ProveError> {
     let world = &job.workcell;
-    let found = world.tool.bodies.len() + world.obstacles.len();
-    if found > MOST {
-        return Err(ProveError::TooManyBodies { found, most: MOST });
-    }
     let tool = world.tool.bodies.iter().map(|b| (&b.name, Some(&b.shape), &b.pose));
     let obstacles = world.obstacles.iter().map(|o| match &o.shape {
         ObstacleShape::HalfSpace | ObstacleShape::Parts(_) => (&o.name, None, &o.pose),
@@ -53,7 +46,7 @@ fn has_sound_parts(obstacle: &Obstacle) -> bool {
     };
     let [_, most] = POINTS;
     let points: usize = hulls.iter().map(Vec::len).sum();
-    (1..=MOST).contains(&hulls.len()) && points <= most && hulls.iter().all(|points| is_hull(points))
+    (1..=MOST_BODIES).contains(&hulls.len()) && points <= most && hulls.iter().all(|points| is_hull(points))
 }
 
 fn is_hull(points: &[Point3<f64>]) -> bool {

@@ -27,14 +27,6 @@ pub enum ProveError {
         /// Its name.
         name: String,
     },
-    /// More bodies of the tool and obstacles than can be judged soon.
-    #[error("{found} bodies of the tool and obstacles; {most} can be judged at most")]
-    TooManyBodies {
-        /// How many.
-        found: usize,
-        /// How many are possible.
-        most: usize,
-    },
     /// The knots are no motion.
     #[error("{0}")]
     Knots(KnotError),

@@ -100,11 +100,6 @@ fn across(axis: &Vector3<f64>, normal: &Vector3<f64>) -> f64 {
     (axis - normal * axis.dot(normal)).norm()
 }
 
-/// Distance between the rims of two plates, seen along the axis of the first, negative where one lies over the other \[m\].
-pub(crate) fn gap(a: &Plate, b: &Plate) -> f64 {
-    a.aside_m(b) - a.rim_m() - b.rim_m()
-}
-
 /// √(x² + y²), the same bits on every machine.
 pub(crate) fn norm(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()

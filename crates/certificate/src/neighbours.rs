@@ -7,7 +7,7 @@
 //! over its centre.
 
 use crate::check::Discrepancy;
-use crate::face::{PLACE_M, gap, norm};
+use crate::face::{PLACE_M, norm};
 use crate::subject::Subject;
 use platewash_kinematics::trig::cos;
 use platewash_workcell::job::LINE_TOLERANCE_M;
@@ -68,7 +68,7 @@ pub(crate) fn touched(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) ->
     let others = others.filter(|(index, other)| *index != plate && own.may_touch_beside(other));
     let depths = others.map(|(plate, other)| Touched {
         plate,
-        depth_m: beyond_rim_m - gap(own, other),
+        depth_m: beyond_rim_m - own.gap_beside_m(other),
     });
     depths.filter(|touched| touched.depth_m > 0.0).collect()
 }
@@ -128,7 +128,7 @@ pub(crate) fn swept(subject: &Subject<'_>, upright_cosine: impl Fn(usize) -> f64
         let beside = |other: &Plate| own.is_parallel(other) && !own.is_over(other) && !other.is_over(own);
         let others = subject.plates().iter().enumerate();
         for (j, other) in others.filter(|(j, other)| *j != i && beside(other)) {
-            let (gap_m, most_m) = (gap(own, other), sponge_m.min(other.rim_m()));
+            let (gap_m, most_m) = (own.gap_beside_m(other), sponge_m.min(other.rim_m()));
             let depth_m = (beyond_m - gap_m).min(2.0 * other.rim_m());
             if depth_m <= most_m + PLACE_M {
                 continue;

@@ -39,7 +39,7 @@ fn places(plates: &[Plate], those: &[usize]) -> String {
     }
 }
 
-/// Shape and height: a flat face has one height, of a profile the pole's is told.
+/// Shape, height and, where it does not lie level, tilt: a flat face has one height, of a profile the pole's is told.
 fn size(plate: &Plate) -> String {
     let (rim, thick, height) = (mm(plate.rim_m()), mm(plate.thickness_m), mm(plate.centre().z));
     let size = match plate.surface.profile_words() {
@@ -54,4 +54,7 @@ fn size(plate: &Plate) -> String {
         )
     });
     size + &foot
+        + &plate
+            .tilt_words()
+            .map_or_else(String::new, |tilted| format!(", {tilted}"))
 }

@@ -3,6 +3,7 @@
 use crate::deadline::Deadline;
 use crate::draft::changed;
 use crate::end::End;
+use crate::moves::moves;
 use crate::placed::{Placed, placed};
 use crate::protocol::{
     ArmLine, CellLine, CellParts, CellQuestion, FindingLine, PlanParts, PlateChance, PlateProof, Refusal, Want,
@@ -130,6 +131,7 @@ impl Answering<'_> {
             centres_m: plates.iter().map(|plate| plate.centre_xy()).collect(),
             radius_m: plates.iter().map(|plate| plate.rim_m()).collect(),
             listed: scenario.lists_plates(),
+            moves: moves(scenario),
             pose_rad: view.pose_rad,
             findings: layout.findings.iter().map(FindingLine::from).collect(),
             ms: watch.all(),

@@ -61,7 +61,9 @@ pub fn stated(subject: &Subject, text: &str) -> Result<Scenario, Refusal> {
 
 fn in_folder(subject: &Subject, draft: &Draft) -> Result<Scenario, Refusal> {
     let scenario = draft.scenario(&subject.name, subject.folder.as_deref());
-    scenario.map_err(|error| of_scenario(&error))
+    let mut scenario = scenario.map_err(|error| of_scenario(&error))?;
+    scenario.solids = subject.solids.clone();
+    Ok(scenario)
 }
 
 /// A scenario that a page may ask for.
@@ -80,14 +82,10 @@ pub fn accepted(subject: &Subject, scenario: Scenario) -> Result<Scenario, Refus
 
 /// Refuses files that a page which other machines can reach may not name.
 pub fn may_name_its_files(subject: &Subject, scenario: &Scenario) -> Result<(), Refusal> {
-    if !subject.may_name_files() {
-        let files = [&scenario.robot.urdf, &scenario.robot.srdf];
-        let named = files.into_iter().flatten().chain(&scenario.robot.package_path);
-        if named.into_iter().any(|path| !subject.names(path)) {
-            let words = "robot.urdf, robot.srdf, robot.package_path: a page that other machines can reach names no files but those of the \
-                         scenario on disk; change them there";
-            return Err(at("robot.urdf", words));
-        }
+    if !subject.may_name_files() && !subject.names_all_of(scenario) {
+        let words = "robot.urdf, robot.srdf, robot.package_path, meshes: a page that other machines can reach names no files but those of \
+                     the scenario on disk; change them there";
+        return Err(at("robot.urdf", words));
     }
     Ok(())
 }

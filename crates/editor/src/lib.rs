@@ -32,6 +32,7 @@ mod end;
 mod error;
 mod keep;
 mod map;
+mod moves;
 mod placed;
 pub mod protocol;
 mod refusal;

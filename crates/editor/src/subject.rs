@@ -2,8 +2,9 @@
 
 use crate::arms::Arms;
 use platewash_certificate::Certificate;
-use platewash_scenario::Scenario;
+use platewash_scenario::{Draft, Scenario, Solids};
 use platewash_workcell::plan::Plan;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -22,6 +23,8 @@ pub struct Subject {
     pub remembers: bool,
     /// Arms that were loaded.
     pub arms: Arms,
+    /// Meshes that were cut.
+    pub solids: Solids,
     latest: Mutex<Option<Latest>>,
 }
 
@@ -68,17 +71,11 @@ impl Subject {
         !self.is_open_to_others
     }
 
-    /// Whether the scenario, as it was opened, names a file.
-    pub fn names(&self, path: &Path) -> bool {
-        let Ok(opened) = Scenario::parse(&self.text, &self.name) else {
-            return false;
-        };
-        let robot = &opened.robot;
-        let own = [&robot.urdf, &robot.srdf]
-            .into_iter()
-            .flatten()
-            .chain(&robot.package_path);
-        let folder = self.folder.clone().unwrap_or_default();
-        own.into_iter().any(|own| folder.join(own) == path)
+    /// Whether the scenario, as it was opened, names all files that another one names.
+    pub fn names_all_of(&self, scenario: &Scenario) -> bool {
+        let opened = Draft::new(&self.text).and_then(|draft| draft.scenario(&self.name, self.folder.as_deref()));
+        let opened = opened.ok();
+        let named: HashSet<&Path> = opened.iter().flat_map(Scenario::files).collect();
+        scenario.files().all(|path| named.contains(path))
     }
 }

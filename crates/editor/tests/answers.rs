@@ -300,6 +300,67 @@ fn nobody_works_for_who_has_left() {
 }
 
 #[test]
+fn a_mesh_is_a_file_like_others() {
+    for section in ["obstacle", "tool_body"] {
+        let mesh = |file: &str| {
+            format!(
+                "{KITCHEN}\n[[{section}]]\nname = \"thing\"\nshape = \"mesh\"\nat_m = [0.8, 0, 0]\nmesh = \"{file}\"\n"
+            )
+        };
+        let words = |editor: &Editor, text: &str| {
+            let lines = ask(editor, "/cell", &cell(text, &json!([])));
+            lines.last().unwrap().to_string()
+        };
+        let opened = || Editor::of_text("cell", &mesh("a.stl"), Some(Path::new("/nowhere"))).unwrap();
+        let said = words(&opened().open_to_others(), &mesh("/etc/b.stl"));
+        assert!(said.contains("other machines"), "{said}");
+        let said = words(&opened().open_to_others(), &mesh("a.stl"));
+        assert!(said.contains("was not found") && said.contains("a.stl"), "{said}");
+        assert!(words(&opened(), &mesh("/etc/b.stl")).contains("was not found"));
+    }
+}
+
+#[test]
+fn keys_of_sections_are_changed_and_said_to_be_where_things_are() {
+    let text = "# a rack\n[tool]\nlength_m = 0.15\n[job]\nprogram = \"certified\"\n[wash]\nheight_m = 0\n\n[[plate]]  # one\nat_m = [0.4, 0, 0.03] # here\n\n\
+                [[obstacle]]\nname = \"post\"\nshape = \"box\"\nsize_m = [0.02, 0.02, 0.02]\nat_m = [0.8, 0, 0.05]\n";
+    let editor = Editor::of_text("cell", text, None).unwrap();
+    let edits = json!([
+        {"key": "plate[0].at_m", "value": [0.41, 0.02, 0.03]},
+        {"key": "obstacle[0].at_m", "value": [0.9, -0.1, 0.05]},
+    ]);
+    let mut question = cell(text, &edits);
+    question["want"] = json!("preview");
+    let lines = ask(&editor, "/cell", &question);
+    let moved = text
+        .replace("[0.4, 0, 0.03] # here", "[0.41, 0.02, 0.03] # here")
+        .replace("[0.8, 0, 0.05]", "[0.9, -0.1, 0.05]");
+    assert_eq!(lines[0]["text"], json!(moved));
+    let moves = &lines[1]["moves"];
+    assert_eq!(
+        moves["plates"],
+        json!({"by": "sections", "sections": [0], "at_m": [[0.41, 0.02, 0.03]]})
+    );
+    assert_eq!(
+        moves["bodies"][1],
+        json!({"key": "obstacle[0].at_m", "at_m": [0.9, -0.1, 0.05], "words": null})
+    );
+    assert!(moves["bodies"][0]["key"].is_null() && moves["bodies"][0]["words"].is_string());
+    let lines = ask(
+        &editor,
+        "/cell",
+        &cell(text, &json!([{"key": "plate[1].at_m", "value": [0, 0, 0]}])),
+    );
+    assert!(
+        lines[0]["words"]
+            .as_str()
+            .unwrap()
+            .contains("no such [[plate]] section"),
+        "{lines:?}"
+    );
+}
+
+#[test]
 fn a_page_that_others_reach_names_no_files() {
     let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/../../urdf/irb120.urdf");
     let other = |editor: &Editor, text: &str| {

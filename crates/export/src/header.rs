@@ -126,7 +126,7 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
     lines.extend(plates.map(|(k, plate)| {
         let pole = plate.world(&Vector3::zeros()).map(place);
         format!(
-            "plate {k}: middle of its face at {}, {}, {} mm of the world, radius {} mm{}",
+            "plate {k}: middle of its face at {}, {}, {} mm of the world, radius {} mm{}{}",
             pole.x,
             pole.y,
             pole.z,
@@ -134,7 +134,10 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
             plate
                 .surface
                 .profile_words()
-                .map_or_else(String::new, |profile| format!(", {profile}"))
+                .map_or_else(String::new, |profile| format!(", {profile}")),
+            plate
+                .tilt_words()
+                .map_or_else(String::new, |tilted| format!(", {tilted}"))
         )
     }));
     if job.plates.len() > MOST_PLATES {
@@ -147,7 +150,7 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
         names.join(", ")
     };
     lines.push(format!(
-        "the world of the proof is the arm, the tool, the plates and: {others}. Tables, fences, cables and people are not in it."
+        "the world of the proof is the arm, the tool, the plates and: {others}. What else stands or moves there, cables and people, is not in it."
     ));
     lines
 }

@@ -16,7 +16,7 @@ use platewash_workcell::plan::PlanFileError;
 use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::trajectory::KnotError;
 use platewash_workcell::verdict::Infeasibility;
-use platewash_workcell::words::millimetres;
+use platewash_workcell::words::{millimetres, printable};
 
 /// Why a job could not be planned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -75,11 +75,14 @@ pub enum PlanError {
     },
     /// No end configuration was stated, and none was found that is clear.
     #[error(
-        "no home was found: none of {tried} configurations over all of the joints' limits keeps clear of everything"
+        "no home was found: none of {tried} configurations over all of the joints' limits keeps clear of everything{}",
+        most_often(.in_the_way.as_ref())
     )]
     NoHome {
         /// Configurations that were tried.
         tried: usize,
+        /// The pair of bodies that is too near in most of them, and in how many.
+        in_the_way: Option<([String; 2], usize)>,
     },
     /// The arm holds nothing that could touch a plate.
     #[error("the arm holds no tool; washing needs one that touches the plates")]
@@ -208,4 +211,12 @@ impl From<TransitError> for PlanError {
             error => Self::Transit(error),
         }
     }
+}
+
+/// Which pair is in the way most often, where one is.
+fn most_often(in_the_way: Option<&([String; 2], usize)>) -> String {
+    in_the_way.map_or_else(String::new, |([a, b], count)| {
+        let [a, b] = [a, b].map(|name| printable(name));
+        format!("; most often too near are {a} and {b}, in {count} of them")
+    })
 }

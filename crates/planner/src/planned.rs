@@ -30,6 +30,10 @@ pub struct VisitSummary {
     pub plate: usize,
     /// Where the tilt of the tool comes from.
     pub tilt: TiltChoice,
+    /// How far the tool leans across the arm's plane besides: [`Stance::aside_rad`](crate::scene::Stance::aside_rad) \[rad\]. Left out
+    /// where it is 0.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub aside_rad: f64,
     /// How far the tool may lean from the normal of the face \[rad\].
     pub cone_rad: f64,
     /// The curve of the tip.
@@ -38,6 +42,10 @@ pub struct VisitSummary {
     pub wash_s: f64,
     /// How near that is to the least time of the area, and what binds it.
     pub pace: Pace,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 /// How a transit goes.

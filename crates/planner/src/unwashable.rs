@@ -87,9 +87,15 @@ impl fmt::Display for UnwashablePlate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.why().fmt(f)?;
         match (self.nearest_m, self.place_search) {
-            (Some([x, y]), _) => write!(f, "; the nearest position found where it can is ({x:.3}, {y:.3}) m"),
+            (Some([x, y]), _) => write!(
+                f,
+                "; the nearest position found where the arm can follow its wash path is ({x:.3}, {y:.3}) m"
+            ),
             (None, PlaceSearch::Within(most_m)) => {
-                write!(f, "; no position where it can was found within {most_m} m of it")
+                write!(
+                    f,
+                    "; no position where the arm can follow its wash path was found within {most_m} m of it"
+                )
             }
             (None, PlaceSearch::Off) => f.write_str("; no other position was looked for"),
             (None, PlaceSearch::Later) => f.write_str("; another position was not looked for here"),

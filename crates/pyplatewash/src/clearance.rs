@@ -3,27 +3,45 @@
 use crate::argument::{self, ANY_COUNT, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
 use crate::errors;
+use crate::job::{PaperJobObject, WashJobObject};
 use crate::made;
+use crate::plan::PlanObject;
 use crate::plate::PlateFields;
 use crate::robot::Robot;
 use crate::tool::ToolFields;
 use crate::value::to_record;
 use crate::work::{STRETCH, alone, released};
+use nalgebra::Point3;
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
 use platewash::workcell::tool::StraightTool;
-use platewash::{ClearanceModel, JointVector, PairClearance, Tool, Workcell};
+use platewash::workcell::words::counted;
+use platewash::{ClearanceModel, Failure, JobTerms, JointVector, PairClearance, Pose, RobotModel, Tool, Workcell};
 use pyo3::prelude::*;
-use pyo3::types::{PyList, PyTuple};
+use pyo3::types::{PyList, PyString, PyTuple, PyType};
 use rayon::prelude::*;
+use std::sync::Arc;
 
-/// The bodies and pairs of one workcell: the arm, its tool, the floor and the plates.
+/// The bodies and pairs of one workcell: the arm, its tool, what stands around and the plates.
 ///
-/// Without a tool there is no tool body. Distances are metres, ≤ 0 when two bodies touch.
+/// Made of an arm, a tool and plates, it is the cell whose arm stands on the floor at the origin; `ClearanceModel.of` makes that of a job. Without a tool
+/// there is no tool body. Distances are metres, ≤ 0 when two bodies touch; places are in the world, as plates are.
 #[pyclass(frozen, module = "pyplatewash", name = "ClearanceModel")]
 pub struct ClearanceObject {
     inner: ClearanceModel,
-    arguments: (Py<Robot>, Option<Py<PyAny>>, Py<PyTuple>),
+    /// `T_world_base`, where the base is not the world.
+    mount: Option<Pose>,
+    made_of: MadeOf,
 }
+
+/// What a model was made of.
+enum MadeOf {
+    /// Robot, tool, plates.
+    Arguments(Py<Robot>, Option<Py<PyAny>>, Py<PyTuple>),
+    /// A job, or a plan.
+    Job(Py<PyAny>),
+}
+
+const JOB: &str = "a WashJob, a PaperJob, a Plan or the path of a plan file";
 
 fn finite(py: Python<'_>, q: &[JointVector]) -> PyResult<()> {
     match q.iter().position(|q| !q.iter().all(|v| v.is_finite())) {
@@ -39,12 +57,36 @@ fn indices(working: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<usize>> {
     Ok(working.map(read).transpose()?.unwrap_or_default())
 }
 
-fn record<'py>(py: Python<'py>, pair: &PairClearance) -> PyResult<Bound<'py, PyAny>> {
-    let text = format!("{} – {}: {:.1} mm", pair.a, pair.b, 1e3 * pair.distance_m);
-    to_record(py, pair, Some(text))
+/// The arm and the terms of a job or a plan, and the object that is kept of it.
+fn terms_of<'py>(job: &Bound<'py, PyAny>) -> PyResult<(Arc<RobotModel>, JobTerms, Bound<'py, PyAny>)> {
+    let py = job.py();
+    if let Ok(wash) = job.cast::<WashJobObject>() {
+        let inner = wash.get().inner();
+        return Ok((inner.shared_arm(), inner.terms().clone(), job.clone()));
+    }
+    if let Ok(paper) = job.cast::<PaperJobObject>() {
+        let paper = paper.get();
+        return Ok((paper.inner().arm.clone(), paper.terms(py)?, job.clone()));
+    }
+    if !(job.is_instance_of::<PlanObject>() || job.is_instance_of::<PyString>() || job.hasattr("__fspath__")?) {
+        return Err(argument::wrong_type("job", job, JOB));
+    }
+    let plan = PlanObject::given("job", job)?;
+    let (arm, terms) = (plan.get().arm(py, None)?, plan.get().inner().job.clone());
+    Ok((arm, terms, plan.into_any()))
 }
 
 impl ClearanceObject {
+    fn record<'py>(&self, py: Python<'py>, pair: &PairClearance) -> PyResult<Bound<'py, PyAny>> {
+        let text = format!("{} – {}: {:.1} mm", pair.a, pair.b, 1e3 * pair.distance_m);
+        let Some(mount) = &self.mount else {
+            return to_record(py, pair, Some(text));
+        };
+        let mut pair = pair.clone();
+        pair.place_m = (mount * Point3::from(pair.place_m)).coords.into();
+        to_record(py, &pair, Some(text))
+    }
+
     fn one(q: &Bound<'_, PyAny>) -> PyResult<JointVector> {
         let found = arrays::joint_vector("q", q)?;
         finite(q.py(), &[found])?;
@@ -78,12 +120,40 @@ impl ClearanceObject {
             ClearanceModel::new(&model, &workcell, &plates)
         })?;
         let inner = inner.map_err(|e| errors::input(py, "robot", &e.to_string()))?;
-        let arguments = (
-            robot.clone().unbind(),
-            tool.map(Bound::unbind),
-            PyTuple::new(py, given)?.unbind(),
-        );
-        Ok(Self { inner, arguments })
+        let plates = PyTuple::new(py, given)?.unbind();
+        Ok(Self {
+            inner,
+            mount: None,
+            made_of: MadeOf::Arguments(robot.clone().unbind(), tool.map(Bound::unbind), plates),
+        })
+    }
+
+    /// The model of a job's cell, or of a plan's: its arm where it is mounted, its tool with all its bodies, floor, table, obstacles and plates,
+    /// without the pairs that the job leaves out. An obstacle with a margin is as large as it is with that.
+    ///
+    /// Raises PlanError for a plan whose numbers make no cell, ArmError for one whose arm is not at hand.
+    #[classmethod]
+    fn of(_class: &Bound<'_, PyType>, job: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let py = job.py();
+        let (arm, terms, job) = terms_of(job)?;
+        let made = alone(py, || -> Result<_, Failure> {
+            terms.validate()?;
+            let model = ClearanceModel::new(&arm, &terms.workcell, &terms.plates)?;
+            let workcell = &terms.workcell;
+            Ok((model, (!workcell.is_in_base_frame()).then_some(workcell.mount)))
+        })?;
+        let (inner, mount) = made.map_err(|e| errors::failure(py, &e))?;
+        Ok(Self {
+            inner,
+            mount,
+            made_of: MadeOf::Job(job.unbind()),
+        })
+    }
+
+    /// Names of the bodies: links, the tool's, what stands around, plates.
+    #[getter]
+    fn bodies(&self) -> Vec<&str> {
+        self.inner.body_names()
     }
 
     /// The pairs of bodies that are checked, by name; P of them.
@@ -140,7 +210,7 @@ impl ClearanceObject {
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let (q, working) = (Self::one(q)?, indices(working)?);
         let found = alone(py, || self.inner.smallest(&q, &working))?;
-        found.map(|pair| record(py, &pair)).transpose()
+        found.map(|pair| self.record(py, &pair)).transpose()
     }
 
     /// All pairs nearer than `required_m` or in contact at `q`, shape (6,), nearest first. The sponge may touch the plates in
@@ -158,24 +228,26 @@ impl ClearanceObject {
         let found = alone(py, || self.inner.too_near(&q, &working, required_m))?;
         let list = PyList::empty(py);
         for pair in &found {
-            list.append(record(py, pair)?)?;
+            list.append(self.record(py, pair)?)?;
         }
         Ok(list)
     }
 
     fn __repr__(&self) -> String {
-        format!("ClearanceModel({} pairs)", self.inner.pair_names().len())
+        let bodies = match self.inner.body_names().len() {
+            1 => "1 body".to_owned(),
+            count => format!("{count} bodies"),
+        };
+        format!(
+            "ClearanceModel({bodies}, {})",
+            counted(self.inner.pair_names().len(), "pair")
+        )
     }
 
     fn __eq__(&self, py: Python<'_>, other: &Self) -> PyResult<bool> {
-        let of = |s: &Self| {
-            (
-                s.arguments.0.clone_ref(py),
-                s.arguments.1.as_ref().map(|t| t.clone_ref(py)),
-                s.arguments.2.clone_ref(py),
-            )
-        };
-        of(self).into_pyobject(py)?.eq(of(other).into_pyobject(py)?)
+        let of = |s: &Self| Ok::<_, PyErr>((s.is_of_job(), s.source(py)?));
+        let ((job, own), (of_job, theirs)) = (of(self)?, of(other)?);
+        Ok(job == of_job && own.eq(theirs)?)
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {
@@ -186,8 +258,26 @@ impl ClearanceObject {
         slf
     }
 
-    fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let (robot, tool, plates) = &self.arguments;
-        (robot, tool, plates).into_pyobject(py)
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (class, model) = (slf.get_type(), slf.get());
+        let make = match model.is_of_job() {
+            true => class.getattr("of")?,
+            false => class.into_any(),
+        };
+        Ok((make, model.source(slf.py())?))
+    }
+}
+
+impl ClearanceObject {
+    fn is_of_job(&self) -> bool {
+        matches!(self.made_of, MadeOf::Job(_))
+    }
+
+    /// What it was made of, as arguments.
+    fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        match &self.made_of {
+            MadeOf::Arguments(robot, tool, plates) => (robot, tool, plates).into_pyobject(py),
+            MadeOf::Job(job) => (job,).into_pyobject(py),
+        }
     }
 }

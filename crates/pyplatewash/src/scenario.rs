@@ -177,7 +177,9 @@ impl ScenarioObject {
                 (_, value) => drop(table.insert(key, value)),
             }
         }
-        Self::checked(py, table)
+        let mut changed = Self::checked(py, table)?;
+        changed.inner.solids = self.inner.solids.clone();
+        Ok(changed)
     }
 
     /// Everything as plain dictionaries and lists.

@@ -1,10 +1,76 @@
-//! Shapes of bodies by their words and sizes.
+//! Shapes of bodies as sections state them: a word with its sizes, or a mesh out of a file.
 
-use crate::error::Problem;
+use crate::error::{Problem, conflict};
+use crate::paths;
 use platewash_kinematics::geometry::Shape;
 use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
 
-/// A convex shape by its name.
+/// The keys of a section with a shape: those before, those of the shape with the words it may be, the greatest edge and radius \[m\], and what else
+/// belongs to a mesh, those behind.
+macro_rules! with_shape_keys {
+    ($section:literal, [$($before:expr,)*], $words:expr, $meaning:literal, [$edge_m:literal, $radius_m:literal], [$($of_mesh:expr,)*], [$($behind:expr,)*]) => {
+        &[
+            $($before,)*
+            $crate::key::key(concat!($section, ".shape"), "", $crate::key::Domain::Word($words), $meaning),
+            $crate::key::key(concat!($section, ".size_m"), "m", $crate::key::Domain::TripleAbove(0.0, $edge_m), "Edges of a box."),
+            $crate::key::key(
+                concat!($section, ".radius_m"),
+                "m",
+                $crate::key::Domain::NumberAbove(0.0, $radius_m),
+                "Radius of a cylinder, a capsule or a sphere.",
+            ),
+            $crate::key::key(
+                concat!($section, ".length_m"),
+                "m",
+                $crate::key::Domain::NumberAbove(0.0, $edge_m),
+                "Length of a cylinder; of a capsule, that between the centres of its round ends.",
+            ),
+            $crate::key::key(
+                concat!($section, ".mesh"),
+                "",
+                $crate::key::Domain::Path,
+                "STL or OBJ file of a mesh, in metres unless mesh_scale says otherwise; relative to the scenario's folder, or `package://` in \
+                 robot.package_path.",
+            ),
+            $crate::key::key(
+                concat!($section, ".mesh_scale"),
+                "",
+                $crate::key::Domain::Scale(-1e6, 1e6),
+                "What the coordinates of a mesh are multiplied by: [0.001, 0.001, 0.001] where they are millimetres. Without it, 1.",
+            ),
+            $($of_mesh,)*
+            $($behind,)*
+        ]
+    };
+}
+pub(crate) use with_shape_keys;
+
+/// A shape, as far as a section states it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct StatedShape {
+    /// Its word.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shape: Option<BodyShape>,
+    /// Edges of a box \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size_m: Option<[f64; 3]>,
+    /// Radius of a cylinder, a capsule or a sphere \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius_m: Option<f64>,
+    /// Length of a cylinder, and of the straight part of a capsule \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_m: Option<f64>,
+    /// File of a mesh.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "paths::lossy")]
+    pub mesh: Option<PathBuf>,
+    /// What its coordinates are multiplied by.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh_scale: Option<[f64; 3]>,
+}
+
+/// A shape by its word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BodyShape {
@@ -16,6 +82,10 @@ pub enum BodyShape {
     Capsule,
     /// A ball.
     Sphere,
+    /// All below its own z = 0; obstacles alone may be one.
+    HalfSpace,
+    /// What a file holds.
+    Mesh,
 }
 
 impl BodyShape {
@@ -25,52 +95,96 @@ impl BodyShape {
             Self::Cylinder => "a cylinder",
             Self::Capsule => "a capsule",
             Self::Sphere => "a sphere",
+            Self::HalfSpace => "a half-space",
+            Self::Mesh => "a mesh",
+        }
+    }
+
+    /// Whether it has edges, a radius, a length.
+    fn sizes(self) -> [bool; 3] {
+        match self {
+            Self::Box => [true, false, false],
+            Self::Cylinder | Self::Capsule => [false, true, true],
+            Self::Sphere => [false, true, false],
+            Self::HalfSpace | Self::Mesh => [false; 3],
         }
     }
 }
 
-/// The shape of the section called `at`, with the sizes that it states \[m\]: no more and no fewer than the shape has.
-pub(crate) fn convex(
-    at: &str,
-    shape: Option<BodyShape>,
-    size_m: Option<[f64; 3]>,
-    radius_m: Option<f64>,
-    length_m: Option<f64>,
-) -> Result<Shape, Problem> {
-    let wrong = |key: &str, detail: String| Problem::Conflict {
-        keys: format!("{at}.{key}"),
-        detail,
-    };
-    let shape = shape.ok_or_else(|| wrong("shape", "is missing; every body has one".to_owned()))?;
-    let missing = |key: &str| wrong(key, format!("is missing; {} has one", shape.words()));
-    let spare = |key: &str, stated: bool| match stated {
-        true => Err(wrong(key, format!("is no size of {}", shape.words()))),
-        false => Ok(()),
-    };
-    if shape == BodyShape::Box {
-        spare("radius_m", radius_m.is_some())?;
-    } else {
-        spare("size_m", size_m.is_some())?;
+/// What a shape is, as far as its section says it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Stated<'a> {
+    HalfSpace,
+    Convex(Shape),
+    Mesh { file: &'a Path, scale: [f64; 3] },
+}
+
+impl StatedShape {
+    /// The shape of the section called `at` with the sizes that it states: no more and no fewer than the shape has.
+    pub(crate) fn stated(&self, at: &str) -> Result<Stated<'_>, Problem> {
+        let wrong = |key: &str, detail: String| Problem::Conflict {
+            keys: format!("{at}.{key}"),
+            detail,
+        };
+        let Some(shape) = self.shape else {
+            return Err(wrong("shape", "is missing; every body has one".to_owned()));
+        };
+        self.check_sizes(at, shape)?;
+        let missing = |key: &str| wrong(key, format!("is missing; {} has one", shape.words()));
+        let radius_m = || self.radius_m.ok_or_else(|| missing("radius_m"));
+        let half_length_m = || self.length_m.map(|m| 0.5 * m).ok_or_else(|| missing("length_m"));
+        Ok(Stated::Convex(match shape {
+            BodyShape::Box => {
+                let edges_m = self.size_m.ok_or_else(|| missing("size_m"))?;
+                let half_m = edges_m.map(|edge_m| 0.5 * edge_m);
+                Shape::Box { half_m }
+            }
+            BodyShape::Cylinder => Shape::Cylinder {
+                radius_m: radius_m()?,
+                half_length_m: half_length_m()?,
+            },
+            BodyShape::Capsule => Shape::Capsule {
+                radius_m: radius_m()?,
+                half_length_m: half_length_m()?,
+            },
+            BodyShape::Sphere => Shape::Sphere { radius_m: radius_m()? },
+            BodyShape::HalfSpace => return Ok(Stated::HalfSpace),
+            BodyShape::Mesh => {
+                let file = self.mesh.as_deref();
+                return Ok(Stated::Mesh {
+                    file: file.ok_or_else(|| wrong("mesh", "is missing; it names the file".to_owned()))?,
+                    scale: self.mesh_scale.unwrap_or([1.0; 3]),
+                });
+            }
+        }))
     }
-    if matches!(shape, BodyShape::Box | BodyShape::Sphere) {
-        spare("length_m", length_m.is_some())?;
-    }
-    let radius_m = || radius_m.ok_or_else(|| missing("radius_m"));
-    let half_length_m = || length_m.map(|m| 0.5 * m).ok_or_else(|| missing("length_m"));
-    Ok(match shape {
-        BodyShape::Box => {
-            let edges_m = size_m.ok_or_else(|| missing("size_m"))?;
-            let half_m = edges_m.map(|edge_m| 0.5 * edge_m);
-            Shape::Box { half_m }
+
+    /// Refuses sizes that are none of the shape.
+    fn check_sizes(&self, at: &str, shape: BodyShape) -> Result<(), Problem> {
+        let of_mesh = [("mesh", self.mesh.is_some()), ("mesh_scale", self.mesh_scale.is_some())];
+        for (key, _) in of_mesh.iter().filter(|(_, is_stated)| *is_stated) {
+            only_of_mesh(at, key, Some(shape))?;
         }
-        BodyShape::Cylinder => Shape::Cylinder {
-            radius_m: radius_m()?,
-            half_length_m: half_length_m()?,
-        },
-        BodyShape::Capsule => Shape::Capsule {
-            radius_m: radius_m()?,
-            half_length_m: half_length_m()?,
-        },
-        BodyShape::Sphere => Shape::Sphere { radius_m: radius_m()? },
-    })
+        let sizes = [
+            ("size_m", self.size_m.is_some()),
+            ("radius_m", self.radius_m.is_some()),
+            ("length_m", self.length_m.is_some()),
+        ];
+        let spare = sizes
+            .iter()
+            .zip(shape.sizes())
+            .find(|((_, stated), has)| *stated && !has);
+        match spare {
+            Some(((key, _), _)) => conflict(format!("{at}.{key}"), format!("is no size of {}", shape.words())),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Refuses a key of the section called `at` that is for meshes where the shape is another one.
+pub(crate) fn only_of_mesh(at: &str, key: &str, shape: Option<BodyShape>) -> Result<(), Problem> {
+    if shape == Some(BodyShape::Mesh) {
+        return Ok(());
+    }
+    conflict(format!("{at}.{key}"), "is for shape = \"mesh\" alone")
 }

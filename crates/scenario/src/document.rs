@@ -61,8 +61,9 @@ A TOML file that decides a job in full. Unknown keys, values out of range, NaN a
 key, what was expected and what was found. `platewash validate --scenario FILE` checks one without running it. Files in
 `scenarios/` are shipped: their names work in place of a path.
 
-This page is made from the program's own table of keys by `cargo xtask docs`; a test keeps it current. Frames: base frame of
-the arm, z up, origin on the base axis at floor level.
+This page is made from the program's own table of keys by `cargo xtask docs`; a test keeps it current. Places are
+those of the world, in metres, z up. The arm's base stands at its origin unless robot.mount_m and robot.mount_rpy_deg say otherwise, and
+the floor is at z = 0 unless floor.height_m does. Where a key is in another frame, its row says so.
 ";
 
 #[cfg(test)]
@@ -94,26 +95,35 @@ mod tests {
         full.robot.payload_kg = Some(3.0);
         (full.tool.com_m, full.tool.inertia_kg_m2) = (Some(0.1), Some([0.0; 6]));
         full.tool.sponge_stiffness_kpa = Some([11.0, 44.0]);
-        full.tool_body = vec![crate::ToolBodySection {
+        let every = crate::StatedShape {
             shape: Some(crate::BodyShape::Box),
-            size_m: Some([0.1; 3]),
-            radius_m: Some(0.1),
-            length_m: Some(0.1),
-            mass_kg: Some(0.1),
-            ..crate::ToolBodySection::default()
-        }];
-        full.obstacle = vec![crate::ObstacleSection {
-            shape: Some(crate::ObstacleShapeName::Box),
             size_m: Some([0.1; 3]),
             radius_m: Some(0.1),
             length_m: Some(0.1),
             mesh: Some("a.stl".into()),
             mesh_scale: Some([1.0; 3]),
+        };
+        full.tool_body = vec![crate::ToolBodySection {
+            body: every.clone(),
+            mass_kg: Some(0.1),
+            ..crate::ToolBodySection::default()
+        }];
+        full.obstacle = vec![crate::ObstacleSection {
+            body: every,
             mesh_parts: Some(crate::MeshPartsName::Hull),
+            at_m: Some([1.0; 3]),
             holds_plates: Some(crate::HeldPlates::These(vec![0])),
             ..crate::ObstacleSection::default()
         }];
-        full.table.size_m = Some([1.0; 2]);
+        (full.floor.height_m, full.floor.margin_m) = (Some(0.0), Some(0.0));
+        full.table = crate::TableSection {
+            size_m: Some([1.0; 2]),
+            height_m: Some(0.7),
+            thickness_m: Some(0.03),
+            at_m: Some([0.0; 2]),
+            yaw_deg: Some(0.0),
+            margin_m: Some(0.0),
+        };
         full.plate = vec![crate::PlateSection {
             at_m: Some([0.3, 0.0, 0.03]),
             rpy_deg: Some([0.0; 3]),

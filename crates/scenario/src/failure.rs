@@ -3,8 +3,8 @@
 //! Whoever plans, proves or simulates knows no keys: the errors name things of the domain. Here each gets the keys that decide it.
 
 use crate::arm::ArmError;
+use crate::body_error::BodyError;
 use crate::error::ScenarioError;
-use crate::obstacle_error::ObstacleError;
 use crate::tool_body::tool_keys;
 use platewash_certificate::ProveError;
 use platewash_paper::PaperError;
@@ -38,8 +38,8 @@ pub enum Failure {
     },
     /// The bodies of the tool are no tool.
     Tool(ToolError),
-    /// An obstacle could not be made.
-    Obstacle(ObstacleError),
+    /// An obstacle or a body of the tool could not be made.
+    Body(BodyError),
     /// The terms are no job.
     Job(JobError),
     /// The washing could not be planned.
@@ -90,7 +90,7 @@ impl fmt::Display for Failure {
                 "wash.height_m must be 0 in a certified job, whose sponge touches the plates; found {height_m}"
             ),
             Self::Tool(error) => write!(f, "{}: {error}", tool_keys(error)),
-            Self::Obstacle(error) => write!(f, "{error}"),
+            Self::Body(error) => write!(f, "{error}"),
             Self::Job(error) => job(f, error),
             Self::Plan(error) => plan(f, error),
             Self::Paper(error) => paper(f, error),
@@ -246,9 +246,9 @@ impl From<ToolError> for Failure {
     }
 }
 
-impl From<ObstacleError> for Failure {
-    fn from(error: ObstacleError) -> Self {
-        Self::Obstacle(error)
+impl From<BodyError> for Failure {
+    fn from(error: BodyError) -> Self {
+        Self::Body(error)
     }
 }
 

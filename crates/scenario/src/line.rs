@@ -1,4 +1,6 @@
-//! Lines of a text by their numbers.
+//! Lines of a text by their numbers, and where a text states a key.
+
+use toml::de::{DeTable, DeValue};
 
 /// The line of a byte, from 1.
 pub(crate) fn line_at(text: &str, byte: usize) -> usize {
@@ -6,4 +8,51 @@ pub(crate) fn line_at(text: &str, byte: usize) -> usize {
         .iter()
         .filter(|b| **b == b'\n')
         .count()
+}
+
+/// Where a text states a key such as `layout.count` or `obstacle[1].name`; of a key that it leaves out the section, where that is one of a list or
+/// states something else. `None` where there is neither.
+pub(crate) fn byte_of(table: &DeTable<'_>, key: &str) -> Option<usize> {
+    let (first, rest) = key
+        .split_once('.')
+        .map_or((key, None), |(first, rest)| (first, Some(rest)));
+    let (name, index) = match first.split_once('[') {
+        Some((name, index)) => (name, index.trim_end_matches(']').parse::<usize>().ok()),
+        None => (first, None),
+    };
+    let (stated, value) = table.iter().find(|(stated, _)| stated.get_ref() == name)?;
+    let (at, value) = match (index, value.get_ref()) {
+        (Some(index), DeValue::Array(all)) => all.get(index).map(|one| (one.span().start, one.get_ref()))?,
+        (_, value) => (stated.span().start, value),
+    };
+    match (rest, value) {
+        (Some(rest), DeValue::Table(section)) => byte_of(section, rest).or(Some(at)),
+        _ => Some(at),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_is_found_where_it_stands_or_in_its_section() {
+        let text = "seed = 1\nlayout.count = 2\n[wash]\nturns = 1\n[[plate]]\ncount = 1\n\n[[plate]]\ncount = 2\n";
+        let table = DeTable::parse(text).unwrap();
+        let line = |key: &str| byte_of(table.get_ref(), key).map(|at| line_at(text, at));
+        for (key, expected) in [
+            ("seed", Some(1)),
+            ("layout.count", Some(2)),
+            ("wash.turns", Some(4)),
+            ("wash.lift_m", Some(3)),
+            ("plate[1].count", Some(9)),
+            ("plate[1].at_m", Some(8)),
+            ("plate[7].at_m", None),
+            ("tool.length_m", None),
+            ("", None),
+            ("plate[x].count", Some(5)),
+        ] {
+            assert_eq!(line(key), expected, "{key}");
+        }
+    }
 }

@@ -4,6 +4,7 @@ use crate::key::Key;
 use crate::obstacle::OBSTACLE_KEYS;
 use crate::plate::PLATE_KEYS;
 use crate::tool_body::TOOL_BODY_KEYS;
+use platewash_workcell::workcell::MOST_BODIES;
 
 /// A section that may be stated several times.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +31,7 @@ pub const LISTS: &[List] = &[
     },
     List {
         name: "obstacle",
-        most: 1000,
+        most: MOST_BODIES,
         keys: OBSTACLE_KEYS,
     },
 ];

@@ -4,7 +4,7 @@ use crate::error::{Problem, ScenarioError, conflict};
 use crate::fits::check;
 use crate::job::Program;
 use crate::keys::{KEYS, Key};
-use crate::line::line_at;
+use crate::line::{byte_of, line_at};
 use crate::listed::{Misfit, check_list};
 use crate::lists::LISTS;
 use crate::scenario::Scenario;
@@ -51,9 +51,10 @@ impl Scenario {
             ScenarioError::new(source_name, line, problem)
         })?;
         let scenario: Self = toml::from_str(text).map_err(syntax)?;
-        scenario
-            .check_conflicts()
-            .map_err(|problem| ScenarioError::new(source_name, None, problem))?;
+        scenario.check_conflicts().map_err(|problem| {
+            let at = problem.key().and_then(|key| byte_of(table.get_ref(), key));
+            ScenarioError::new(source_name, at.map(|at| line_at(text, at)), problem)
+        })?;
         Ok(scenario)
     }
 
@@ -76,7 +77,9 @@ impl Scenario {
         for path in files.chain(&mut self.robot.package_path) {
             *path = folder.join(&*path);
         }
-        for mesh in self.obstacle.iter_mut().filter_map(|obstacle| obstacle.mesh.as_mut()) {
+        let of_tool = self.tool_body.iter_mut().map(|section| &mut section.body);
+        let bodies = of_tool.chain(self.obstacle.iter_mut().map(|section| &mut section.body));
+        for mesh in bodies.filter_map(|body| body.mesh.as_mut()) {
             *mesh = in_folder(mesh, folder);
         }
     }

@@ -29,6 +29,15 @@ impl Scenario {
         Some(plates?.concat()).filter(|plates| !plates.is_empty())
     }
 
+    /// Of each plate the `[[plate]]` section that says where it is, counted from 0; `None` where none does.
+    #[must_use]
+    pub fn plate_sections(&self) -> Option<Vec<usize>> {
+        let listed = !self.plate.is_empty() && self.plate.iter().all(|row| row.at_m.is_some());
+        let faces = |row: &PlateSection| if row.has_both() { 2 } else { 1 };
+        let rows = self.plate.iter().enumerate();
+        listed.then(|| rows.flat_map(|(index, row)| vec![index; faces(row)]).collect())
+    }
+
     /// How many plates there are of which shape, in the order in which they come.
     pub(crate) fn kinds(&self) -> Vec<(usize, PlateGeometry)> {
         let layout = &self.layout;

@@ -109,7 +109,11 @@ impl Scenario {
             .into());
         }
         if self.job.program == Program::Certified {
-            platewash_planner::check(&arm, &self.terms(&arm, &layout)?)?;
+            let terms = self.terms(&arm, &layout)?;
+            platewash_planner::check(&arm, &terms)?;
+            if given {
+                terms.validate()?;
+            }
         }
         Ok((arm, layout.findings))
     }
@@ -123,11 +127,13 @@ impl Scenario {
             let height_m = self.wash.height_m;
             return Err(Failure::NoContact { height_m });
         }
+        let workcell = self.workcell(arm, layout.plates.len())?;
+        self.check_bodies(&workcell)?;
         let wash = &self.wash;
         let [start, end] = self.homes();
         let zeros = JointVector::zeros;
         let mut terms = JobTerms {
-            workcell: self.workcell(arm, layout.plates.len())?,
+            workcell,
             plates: layout.plates.clone(),
             requirements: self.requirements(),
             limits: self.limits(),
@@ -150,6 +156,11 @@ impl Scenario {
             dry_run: None,
         };
         if start.is_none() {
+            // What stands where it cannot leaves no home either, and is the better reason.
+            let overlaps = terms.standing_overlaps(arm)?;
+            if !overlaps.is_empty() {
+                return Err(JobError::Standing(overlaps).into());
+            }
             let found = suggest_home(arm, &terms, &CancelToken::new())?.q_rad();
             terms.home_rad = [found, end.unwrap_or(found)];
         }

@@ -1,5 +1,6 @@
 //! The `[floor]` and `[table]` sections: what most cells stand on.
 
+use crate::error::{Problem, conflict};
 use crate::key::Domain::{Bool, Number, NumberAbove, Pair, PairAbove};
 use crate::key::{Key, key};
 use crate::poses::pose;
@@ -16,43 +17,53 @@ pub(crate) const ROOM_KEYS: &[Key] = &[
         Bool,
         "Whether there is a floor: all below its height is an obstacle.",
     ),
-    key("floor.height_m", "m", Number(-10.0, 10.0), "z of the floor."),
+    key(
+        "floor.height_m",
+        "m",
+        Number(-10.0, 10.0),
+        "z of the floor. Without it, 0.",
+    ),
     key(
         "floor.margin_m",
         "m",
         Number(0.0, 1.0),
-        "How far arm and tool keep from the floor, beyond wash.clearance_m.",
+        "How far arm and tool keep from the floor, beyond wash.clearance_m. Without it, 0.",
     ),
     key(
         "table.size_m",
         "m",
         PairAbove(0.0, 100.0),
-        "Edges of the table's top along its x and y. Without it there is no table.",
+        "Edges of the table's top along its x and y. Without it there is no table, and none of the other keys of one is stated.",
     ),
     key(
         "table.height_m",
         "m",
         Number(-10.0, 10.0),
-        "z of the table's upper side.",
+        "z of the table's upper side. Without it, 0.",
     ),
     key(
         "table.thickness_m",
         "m",
         NumberAbove(0.0, 10.0),
-        "Thickness of the top, downwards.",
+        "Thickness of the top, downwards. Without it, 0.03.",
     ),
-    key("table.at_m", "m", Pair(-100.0, 100.0), "x and y of its middle."),
+    key(
+        "table.at_m",
+        "m",
+        Pair(-100.0, 100.0),
+        "x and y of its middle. Without it, the origin.",
+    ),
     key(
         "table.yaw_deg",
         "deg",
         Number(-720.0, 720.0),
-        "How it is turned about the vertical, counter-clockwise.",
+        "How it is turned about the vertical, counter-clockwise. Without it, 0.",
     ),
     key(
         "table.margin_m",
         "m",
         Number(0.0, 1.0),
-        "How far arm and tool keep from the table, beyond wash.clearance_m.",
+        "How far arm and tool keep from the table, beyond wash.clearance_m. Without it, 0.",
     ),
 ];
 
@@ -62,56 +73,98 @@ pub(crate) const ROOM_KEYS: &[Key] = &[
 pub struct FloorSection {
     /// Whether there is one.
     pub present: bool,
-    /// Its z \[m\].
-    pub height_m: f64,
-    /// How far it is grown \[m\].
-    pub margin_m: f64,
+    /// Its z \[m\]; 0 where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height_m: Option<f64>,
+    /// How far it is grown \[m\]; 0 where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub margin_m: Option<f64>,
 }
 
 /// `[table]`: a box whose upper side is level.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TableSection {
     /// Edges of its top \[m\]; without them there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size_m: Option<[f64; 2]>,
-    /// z of its upper side \[m\].
-    pub height_m: f64,
-    /// Thickness of the top, downwards \[m\].
-    pub thickness_m: f64,
-    /// x and y of its middle \[m\].
-    pub at_m: [f64; 2],
-    /// How it is turned about the vertical \[deg\].
-    pub yaw_deg: f64,
-    /// How far it is grown \[m\].
-    pub margin_m: f64,
+    /// z of its upper side \[m\]; 0 where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height_m: Option<f64>,
+    /// Thickness of the top, downwards \[m\]; 0.03 where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness_m: Option<f64>,
+    /// x and y of its middle \[m\]; the origin where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_m: Option<[f64; 2]>,
+    /// How it is turned about the vertical \[deg\]; 0 where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub yaw_deg: Option<f64>,
+    /// How far it is grown \[m\]; 0 where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub margin_m: Option<f64>,
 }
 
 /// Name of the table, in messages.
 pub(crate) const TABLE: &str = "table";
 
+/// Thickness of a table's top of which none is stated \[m\].
+const TOP_M: f64 = 0.03;
+
 impl FloorSection {
+    /// Refuses where and how far a floor is that is not there.
+    pub(crate) fn check(&self) -> Result<(), Problem> {
+        let of_floor = [("height_m", self.height_m), ("margin_m", self.margin_m)];
+        let stated = of_floor.into_iter().find(|(_, stated)| stated.is_some());
+        match stated.filter(|_| !self.present) {
+            Some((key, _)) => conflict(
+                format!("floor.{key}"),
+                "says nothing where there is no floor: leave it out, or floor.present = false",
+            ),
+            None => Ok(()),
+        }
+    }
+
     /// The floor, where there is one.
     pub(crate) fn obstacle(&self) -> Option<Obstacle> {
         self.present.then(|| Obstacle {
-            pose: Pose::translation(0.0, 0.0, self.height_m),
-            margin_m: self.margin_m,
+            pose: Pose::translation(0.0, 0.0, self.height_m.unwrap_or(0.0)),
+            margin_m: self.margin_m.unwrap_or(0.0),
             ..Obstacle::floor()
         })
     }
 }
 
 impl TableSection {
+    /// Refuses where and how a table is that has no size.
+    pub(crate) fn check(&self) -> Result<(), Problem> {
+        let of_table = [
+            ("height_m", self.height_m.is_some()),
+            ("thickness_m", self.thickness_m.is_some()),
+            ("at_m", self.at_m.is_some()),
+            ("yaw_deg", self.yaw_deg.is_some()),
+            ("margin_m", self.margin_m.is_some()),
+        ];
+        let stated = of_table.into_iter().find(|(_, stated)| *stated);
+        match stated.filter(|_| self.size_m.is_none()) {
+            Some((key, _)) => conflict(
+                "table.size_m",
+                format!("is missing; table.{key} is stated, and a table without a size is none"),
+            ),
+            None => Ok(()),
+        }
+    }
+
     /// The table, where there is one.
     pub(crate) fn obstacle(&self) -> Option<Obstacle> {
         let [x, y] = self.size_m?;
-        let half_m = [x, y, self.thickness_m].map(|edge_m| 0.5 * edge_m);
-        let [at_x, at_y] = self.at_m;
-        let middle = [at_x, at_y, self.height_m - half_m[2]];
+        let half_m = [x, y, self.thickness_m.unwrap_or(TOP_M)].map(|edge_m| 0.5 * edge_m);
+        let [at_x, at_y] = self.at_m.unwrap_or_default();
+        let middle = [at_x, at_y, self.height_m.unwrap_or(0.0) - half_m[2]];
         let shape = ObstacleShape::Convex(Shape::Box { half_m });
         Some(Obstacle {
-            margin_m: self.margin_m,
-            ..Obstacle::new(TABLE, shape, pose(middle, [0.0, 0.0, self.yaw_deg]))
+            margin_m: self.margin_m.unwrap_or(0.0),
+            ..Obstacle::new(TABLE, shape, pose(middle, [0.0, 0.0, self.yaw_deg.unwrap_or(0.0)]))
         })
     }
 }
@@ -120,21 +173,8 @@ impl Default for FloorSection {
     fn default() -> Self {
         Self {
             present: true,
-            height_m: 0.0,
-            margin_m: 0.0,
-        }
-    }
-}
-
-impl Default for TableSection {
-    fn default() -> Self {
-        Self {
-            size_m: None,
-            height_m: 0.0,
-            thickness_m: 0.03,
-            at_m: [0.0; 2],
-            yaw_deg: 0.0,
-            margin_m: 0.0,
+            height_m: None,
+            margin_m: None,
         }
     }
 }
@@ -160,10 +200,10 @@ mod tests {
     fn a_table_ends_below_its_height() {
         let table = TableSection {
             size_m: Some([1.0, 0.6]),
-            height_m: 0.4,
-            thickness_m: 0.1,
-            at_m: [0.5, 0.0],
-            yaw_deg: 90.0,
+            height_m: Some(0.4),
+            thickness_m: Some(0.1),
+            at_m: Some([0.5, 0.0]),
+            yaw_deg: Some(90.0),
             ..TableSection::default()
         };
         let table = table.obstacle().unwrap();

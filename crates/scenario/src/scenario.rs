@@ -10,12 +10,14 @@ use crate::plant::PlantSection;
 use crate::plate::PlateSection;
 use crate::robot::RobotSection;
 use crate::room::{FloorSection, TableSection};
+use crate::solids::Solids;
 use crate::tool::ToolSection;
 use crate::tool_body::ToolBodySection;
 use crate::transition::TransitionSection;
 use crate::wash::WashSection;
 use platewash_kinematics::{AXES, JointVector};
 use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
 
 /// A job in full: what a scenario file states, with defaults filled in. Ranges are checked by
 /// [`Scenario::parse`] and [`Scenario::validate`].
@@ -59,6 +61,9 @@ pub struct Scenario {
     pub control: ControlSection,
     /// The arm as a physical system.
     pub plant: PlantSection,
+    /// No part of what is stated: meshes that were cut before, for scenarios that name the same.
+    #[serde(skip)]
+    pub solids: Solids,
 }
 
 impl Scenario {
@@ -69,6 +74,19 @@ impl Scenario {
         let start = self.robot.start_deg.or(of_paper);
         let radians = |deg: [f64; AXES]| JointVector::from(deg).map(f64::to_radians);
         [start, self.robot.home_deg.or(start)].map(|deg| deg.map(radians))
+    }
+
+    /// Every file and folder that the scenario names: descriptions of the arm, folders of packages, meshes.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        let robot = &self.robot;
+        let of_arm = [&robot.urdf, &robot.srdf]
+            .into_iter()
+            .flatten()
+            .chain(&robot.package_path);
+        let of_tool = self.tool_body.iter().map(|section| &section.body);
+        let bodies = of_tool.chain(self.obstacle.iter().map(|section| &section.body));
+        let meshes = bodies.filter_map(|body| body.mesh.as_ref());
+        of_arm.chain(meshes).map(PathBuf::as_path)
     }
 }
 
@@ -92,6 +110,7 @@ impl Default for Scenario {
             limits: LimitsSection::default(),
             control: ControlSection::default(),
             plant: PlantSection::default(),
+            solids: Solids::default(),
         }
     }
 }

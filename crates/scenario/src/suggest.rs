@@ -1,5 +1,6 @@
 //! What suits the arm and the tool of a scenario: a home, where plates like its own are washed, and pairs of links that need no check.
 
+use crate::error::{Problem, ScenarioError};
 use crate::failure::Failure;
 use crate::job::Program;
 use crate::obstacle::HeldPlates;
@@ -31,6 +32,17 @@ impl Scenario {
     /// # Errors
     /// [`Failure`]: no home, or a scenario that is refused.
     pub fn suggest(&self, arm: &Arc<RobotModel>, watch: &Watch<'_>) -> Result<Suggestion, Failure> {
+        if self.job.program == Program::Paper && self.wash.height_m != 0.0 {
+            let height_m = self.wash.height_m;
+            let (keys, detail) = (
+                "wash.height_m".to_owned(),
+                format!(
+                    "what is suggested is for a certified job, whose sponge touches the plates: it needs wash.height_m = 0; the paper's \
+                     program of this scenario hovers at {height_m} m"
+                ),
+            );
+            return Err(ScenarioError::new(&self.name, None, Problem::Conflict { keys, detail }).into());
+        }
         let mut alone = self.clone();
         alone.job.program = Program::Certified;
         (alone.robot.start_deg, alone.robot.home_deg) = (None, None);

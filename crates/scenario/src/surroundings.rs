@@ -1,17 +1,20 @@
 //! From the sections of floor, table and obstacles to the bodies that stand around the arm.
 
+use crate::body_error::{BodyError, BodyFault, BodySection};
+use crate::body_shape::Stated;
 use crate::error::{Problem, ScenarioError, conflict};
 use crate::failure::Failure;
-use crate::obstacle::{MeshPartsName, ObstacleSection, Stated};
-use crate::obstacle_error::ObstacleError;
+use crate::obstacle::{MeshPartsName, ObstacleSection};
 use crate::poses::pose;
 use crate::room::TABLE;
 use crate::scenario::Scenario;
 use platewash_kinematics::RobotModel;
+use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::urdf::MeshSource;
-use platewash_workcell::clearance::{SolidParts, solid_parts};
+use platewash_workcell::clearance::SolidParts;
 use platewash_workcell::tool::Tool;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::words::counted;
+use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcell};
 use std::path::{Path, PathBuf};
 
 /// A mesh's path as a file in a folder states it: those of packages stay as they are.
@@ -25,7 +28,8 @@ pub(crate) fn in_folder(mesh: &Path, folder: &Path) -> PathBuf {
 }
 
 impl Scenario {
-    /// Refuses obstacles without a name or with one that another has, and shapes without their sizes.
+    /// Refuses obstacles without a name or with one that another has, without a place, and shapes without their sizes; plates held that
+    /// are not there; and what is stated of a floor or a table that is not there.
     pub(crate) fn check_surroundings(&self) -> Result<(), Problem> {
         for (index, obstacle) in self.obstacle.iter().enumerate() {
             let at = format!("obstacle[{index}]");
@@ -41,8 +45,19 @@ impl Scenario {
                 )?;
             }
             obstacle.stated(&at)?;
+            if obstacle.at_m.is_none() {
+                conflict(format!("{at}.at_m"), "is missing; every obstacle has its place")?;
+            }
+            let plates = self.plates();
+            if let Some(plate) = obstacle.held(plates).into_iter().find(|plate| *plate >= plates) {
+                let there = counted(plates, "plate");
+                let are = if plates == 1 { "is" } else { "are" };
+                let found = format!("it holds plate {plate}; there {are} {there}, counted from 0");
+                conflict(format!("{at}.holds_plates"), found)?;
+            }
         }
-        Ok(())
+        self.floor.check()?;
+        self.table.check()
     }
 
     /// What stands around an arm with its tool, among so many plates.
@@ -53,18 +68,35 @@ impl Scenario {
         let mut all: Vec<_> = self.floor.obstacle().into_iter().chain(self.table.obstacle()).collect();
         for (index, section) in self.obstacle.iter().enumerate() {
             if let Some(of) = self.owner(&section.name, arm, tool) {
-                let name = section.name.clone();
-                return Err(ObstacleError::NameTaken { index, name, of }.into());
+                return Err(obstacle_error(index, section, BodyFault::NameTaken { of }).into());
             }
             all.push(Obstacle {
                 name: section.name.clone(),
                 shape: self.shape(index, section)?,
-                pose: pose(section.at_m, section.rpy_deg),
+                pose: pose(section.at_m.unwrap_or_default(), section.rpy_deg),
                 margin_m: section.margin_m,
                 holds_plates: section.held(plates),
             });
         }
         Ok(all)
+    }
+
+    /// Refuses more bodies than can be judged soon.
+    pub(crate) fn check_bodies(&self, world: &Workcell) -> Result<(), ScenarioError> {
+        if world.bodies() <= MOST_BODIES {
+            return Ok(());
+        }
+        let found = self.obstacle.len();
+        let others = world.bodies().saturating_sub(found);
+        let problem = Problem::Value {
+            key: "obstacle".to_owned(),
+            expected: format!(
+                "a list of at most {} sections: {MOST_BODIES} bodies can be judged, and {others} of them are floor, table and tool",
+                MOST_BODIES.saturating_sub(others)
+            ),
+            found: format!("{found} of them"),
+        };
+        Err(ScenarioError::new(&self.name, None, problem))
     }
 
     /// Which other body has a name.
@@ -87,33 +119,30 @@ impl Scenario {
     fn shape(&self, index: usize, section: &ObstacleSection) -> Result<ObstacleShape, Failure> {
         let refused = |problem| ScenarioError::new(&self.name, None, problem);
         let stated = section.stated(&format!("obstacle[{index}]")).map_err(refused)?;
-        let (file, scale, parts) = match stated {
+        let (file, scale) = match stated {
             Stated::HalfSpace => return Ok(ObstacleShape::HalfSpace),
             Stated::Convex(shape) => return Ok(ObstacleShape::Convex(shape)),
-            Stated::Mesh { file, scale, parts } => (file, scale, parts),
+            Stated::Mesh { file, scale } => (file, scale),
         };
-        let name = || section.name.clone();
-        let source = MeshSource::new(&self.robot.package_path, None);
-        let triangles = source.solid(&file.to_string_lossy(), scale).map_err(|why| {
-            let name = name();
-            ObstacleError::Mesh { index, name, why }
-        })?;
-        let parts = match parts {
+        let parts = match section.mesh_parts.unwrap_or_default() {
             MeshPartsName::Hull => SolidParts::Hull,
             MeshPartsName::Decomposed => SolidParts::Decomposed,
         };
-        let mut hulls = solid_parts(&triangles, parts).map_err(|why| ObstacleError::Solid {
-            index,
-            name: name(),
-            file: file.display().to_string(),
-            why,
-        })?;
-        if hulls.len() == 1 {
-            let points = hulls.swap_remove(0);
-            return Ok(ObstacleShape::Convex(platewash_kinematics::geometry::Shape::Hull {
-                points,
-            }));
-        }
-        Ok(ObstacleShape::Parts(hulls))
+        let source = MeshSource::new(&self.robot.package_path, None);
+        let hulls = self.solids.parts(&source, file, scale, parts);
+        let hulls = hulls.map_err(|why| obstacle_error(index, section, why))?;
+        Ok(match hulls.as_slice() {
+            [points] => ObstacleShape::Convex(Shape::Hull { points: points.clone() }),
+            hulls => ObstacleShape::Parts(hulls.to_vec()),
+        })
+    }
+}
+
+fn obstacle_error(index: usize, section: &ObstacleSection, why: BodyFault) -> BodyError {
+    BodyError {
+        section: BodySection::Obstacle,
+        index,
+        name: section.name.clone(),
+        why,
     }
 }

@@ -1,14 +1,23 @@
 //! The tool that a scenario states, on an arm.
 
+use crate::body_error::{BodyError, BodyFault, BodySection};
+use crate::body_shape::Stated;
 use crate::error::{Problem, ScenarioError, conflict};
 use crate::failure::Failure;
 use crate::poses::pose;
 use crate::scenario::Scenario;
 use crate::tool::ASSUMED_STIFFNESS_KPA;
-use crate::tool_body::tool_keys;
+use crate::tool_body::{ToolBodySection, tool_keys};
 use platewash_kinematics::RobotModel;
+use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::urdf::MeshSource;
+use platewash_workcell::clearance::SolidParts;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::tool_chain::{ToolChain, ToolError};
+use std::path::Path;
+
+/// How far a mesh of the tool may reach from its origin \[m\], as other bodies by the ranges of their sizes.
+const GREATEST_M: f64 = 2.0;
 
 impl Scenario {
     /// Refuses bodies that make no tool.
@@ -19,32 +28,74 @@ impl Scenario {
             let key = if moved { "tool.mount_m" } else { "tool_body" };
             return conflict(key, "there is no tool: tool.length_m is 0");
         }
-        self.tool_chain()?
+        let mut shapes = Vec::new();
+        for (index, section) in self.tool_body.iter().enumerate() {
+            shapes.push(section_shape(index, section)?);
+        }
+        // What a mesh weighs and fills is known once its file is read.
+        let shapes: Option<Vec<_>> = shapes.into_iter().map(BodyOf::convex).collect();
+        let Some(shapes) = shapes else {
+            return Ok(());
+        };
+        self.tool_chain(shapes)
             .tool()
             .map_or_else(|error| conflict(tool_keys(&error), error.to_string()), |_| Ok(()))
     }
 
-    fn tool_chain(&self) -> Result<ToolChain, Problem> {
+    /// The chain of bodies of these shapes, one a section.
+    fn tool_chain(&self, shapes: Vec<Shape>) -> ToolChain {
         let mount = pose(self.tool.mount_m, self.tool.mount_rpy_deg);
-        let bodies = self.tool_body.iter().enumerate();
-        Ok(ToolChain {
+        let bodies = self.tool_body.iter().zip(shapes);
+        ToolChain {
             straight: self.tool.straight(),
             mount,
             handle: self.tool.handle.into(),
-            bodies: bodies
-                .map(|(index, body)| body.body(index, &mount))
-                .collect::<Result<_, _>>()?,
-        })
+            bodies: bodies.map(|(section, shape)| section.body(shape, &mount)).collect(),
+        }
+    }
+
+    /// The shapes of the bodies, hulls of meshes among them.
+    fn tool_shapes(&self) -> Result<Vec<Shape>, Failure> {
+        let refused = |problem| ScenarioError::new(&self.name, None, problem);
+        let mut shapes = Vec::new();
+        for (index, section) in self.tool_body.iter().enumerate() {
+            shapes.push(match section_shape(index, section).map_err(refused)? {
+                BodyOf::Convex(shape) => shape,
+                BodyOf::Mesh { file, scale } => self.tool_hull(index, section, (file, scale))?,
+            });
+        }
+        Ok(shapes)
+    }
+
+    fn tool_hull(
+        &self,
+        index: usize,
+        section: &ToolBodySection,
+        (file, scale): (&Path, [f64; 3]),
+    ) -> Result<Shape, BodyError> {
+        let source = MeshSource::new(&self.robot.package_path, None);
+        let hulls = self.solids.parts(&source, file, scale, SolidParts::Hull);
+        let error = |why| BodyError {
+            section: BodySection::ToolBody,
+            index,
+            name: section.name.clone(),
+            why,
+        };
+        let points: Vec<_> = hulls.map_err(error)?.iter().flatten().copied().collect();
+        let reach_m = points.iter().map(|point| point.coords.norm()).fold(0.0, f64::max);
+        if reach_m > GREATEST_M {
+            let (file, most_m) = (file.display().to_string(), GREATEST_M);
+            return Err(error(BodyFault::Large { file, reach_m, most_m }));
+        }
+        Ok(Shape::Hull { points })
     }
 
     /// The tool that an arm holds; where contact is promised its sponge has a stiffness.
     ///
     /// # Errors
-    /// [`Failure`]: bodies that make no tool.
+    /// [`Failure`]: bodies that make no tool, a mesh that cannot be read or is no body.
     pub fn tool_on(&self, arm: &RobotModel) -> Result<Tool, Failure> {
-        let mut chain = self
-            .tool_chain()
-            .map_err(|problem| ScenarioError::new(&self.name, None, problem))?;
+        let mut chain = self.tool_chain(self.tool_shapes()?);
         if self.wash.contact {
             let assumed = ASSUMED_STIFFNESS_KPA.map(|kpa| 1e3 * kpa);
             chain.straight.sponge_stiffness_pa.get_or_insert(assumed);
@@ -59,6 +110,34 @@ impl Scenario {
             None => Ok(tool),
         }
     }
+}
+
+/// What a body of the tool is, as far as its section says it.
+enum BodyOf<'a> {
+    Convex(Shape),
+    Mesh { file: &'a Path, scale: [f64; 3] },
+}
+
+impl BodyOf<'_> {
+    fn convex(self) -> Option<Shape> {
+        match self {
+            Self::Convex(shape) => Some(shape),
+            Self::Mesh { .. } => None,
+        }
+    }
+}
+
+fn section_shape(index: usize, section: &ToolBodySection) -> Result<BodyOf<'_>, Problem> {
+    let at = format!("tool_body[{index}]");
+    section.check_name(&at)?;
+    Ok(match section.body.stated(&at)? {
+        Stated::Convex(shape) => BodyOf::Convex(shape),
+        Stated::Mesh { file, scale } => BodyOf::Mesh { file, scale },
+        Stated::HalfSpace => {
+            let (keys, detail) = (format!("{at}.shape"), "a half-space is no body of a tool".to_owned());
+            return Err(Problem::Conflict { keys, detail });
+        }
+    })
 }
 
 #[cfg(test)]

@@ -53,6 +53,14 @@ const CASES: &[(&str, &str, &str, &str)] = &[
     ("[wash]\nturns = 3\npoints = 9", "wash.points", "null", "[wash]\nturns = 3"),
     ("[wash]\nturns = 3\n", "wash.points", "null", "[wash]\nturns = 3\n"),
     ("name = \"\"\"\na\"\"\" # n\nseed = 1\n", "name", "null", "seed = 1\n"),
+    // Sections of lists.
+    ("# a\n[[plate]] # one\nat_m = [0.3, 0, 0.03] # here\n\n[[plate]]\nat_m = [0, 0.3, 0.03]\n", "plate[1].at_m", "[0.01, 0.3, 0.03]", "# a\n[[plate]] # one\nat_m = [0.3, 0, 0.03] # here\n\n[[plate]]\nat_m = [0.01, 0.3, 0.03]\n"),
+    ("[[plate]]\nat_m = [0.3, 0, 0.03] # here\n[[plate]]\nat_m = [0, 0.3, 0.03]\n", "plate[0].at_m", "[0.31, -0.5, 0.03]", "[[plate]]\nat_m = [0.31, -0.5, 0.03] # here\n[[plate]]\nat_m = [0, 0.3, 0.03]\n"),
+    ("[[plate]]\nat_m = [0.3, 0, 0.03] # here\n", "plate[0].at_m", "[0.3, 0.0, 0.03]", "[[plate]]\nat_m = [0.3, 0, 0.03] # here\n"),
+    ("[[plate]]\n  at_m = [0.3, 0, 0.03]\n\n# walls\n[[obstacle]]\n", "plate[0].rpy_deg", "[0, 45, 0]", "[[plate]]\n  at_m = [0.3, 0, 0.03]\n  rpy_deg = [0, 45, 0]\n\n# walls\n[[obstacle]]\n"),
+    ("[[obstacle]]\n[[tool_body]]\nname = \"a\"\n[[obstacle]]\n", "obstacle[1].at_m", "[1, 2, 3]", "[[obstacle]]\n[[tool_body]]\nname = \"a\"\n[[obstacle]]\nat_m = [1, 2, 3]\n"),
+    ("[[plate]]\nat_m = [0.3, 0, 0.03]\nrpy_deg = [0, 1, 0] # t\n[wash]\n", "plate[0].rpy_deg", "null", "[[plate]]\nat_m = [0.3, 0, 0.03]\n[wash]\n"),
+    ("plate = [{ at_m = [0.3, 0, 0.03] }, { at_m = [0, 0.3, 0.03] }] # p\n", "plate[1].at_m", "[0, 0.4, 0.03]", "plate = [{ at_m = [0.3, 0, 0.03] }, { at_m = [0, 0.4, 0.03] }] # p\n"),
     // Braces.
     ("wash = { turns = 3 } # w\n", "wash.points", "9", "wash = { turns = 3, points = 9 } # w\n"),
     ("wash = {}\n", "wash.points", "9", "wash = { points = 9 }\n"),
@@ -253,4 +261,29 @@ fn the_form_is_the_table_of_keys() {
             row.domain.kind
         );
     }
+}
+
+#[test]
+fn keys_of_sections_that_are_not_there_are_refused() {
+    let text = "[[plate]]\nat_m = [0.3, 0, 0.03]\n";
+    for (key, words) in [
+        (
+            "plate[1].at_m",
+            "plate[1].at_m cannot be changed: there is no such [[plate]] section",
+        ),
+        ("obstacle[0].at_m", "there is no such [[obstacle]] section"),
+        ("plate[0].at_n", "unknown key 'plate[0].at_n'"),
+        ("plate[00].at_m", "unknown key"),
+        ("plate[-1].at_m", "unknown key"),
+        ("plate[18446744073709551616].at_m", "unknown key"),
+        ("plate.at_m", "unknown key"),
+        ("plates[0].at_m", "unknown key"),
+    ] {
+        let said = refused(text, key, json!([0.1, 0.2, 0.3])).to_string();
+        assert!(said.contains(words), "{key}: {said}");
+    }
+    let said = refused(text, "plate[0].at_m", json!([0.1, 11, 0.3])).to_string();
+    assert!(said.starts_with("plate[0].at_m must be three numbers"), "{said}");
+    let nested = refused("[[plate]]\n[plate.at_m]\nx = 1\n", "plate[0].at_m", json!([0, 0, 0]));
+    assert!(matches!(nested, EditError::Blocked { line: 2, .. }), "{nested}");
 }

@@ -4,7 +4,7 @@
 
 use platewash_kinematics::geometry::Shape;
 use platewash_scenario::{Draft, Failure, Scenario};
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape};
 use std::path::Path;
 
 const LAYOUT: &str = "wash.height_m = 0\ntool.length_m = 0.15\nlayout.positions_m = [[0.35, 0.2], [0.35, -0.2]]\nlayout.min_distance_m = 0.3\n";
@@ -165,6 +165,30 @@ fn what_is_wrong_is_named_with_its_key_and_line() {
             "obstacle[0].mesh: is missing",
         ),
         (
+            "[[obstacle]]\nname = \"a\"\nshape = \"half_space\"\n",
+            "obstacle[0].at_m: is missing; every obstacle has its place",
+        ),
+        (
+            "[[obstacle]]\nname = \"a\"\nshape = \"sphere\"\nradius_m = 0.1\nat_m = [1, 1, 1]\nholds_plates = [5]\n",
+            "obstacle[0].holds_plates: it holds plate 5; there are 2 plates, counted from 0",
+        ),
+        (
+            "[table]\nheight_m = 0\n",
+            "table.size_m: is missing; table.height_m is stated",
+        ),
+        (
+            "[table]\nat_m = [0, 0]\n",
+            "table.size_m: is missing; table.at_m is stated",
+        ),
+        (
+            "[floor]\npresent = false\nmargin_m = 0.05\n",
+            "floor.margin_m: says nothing where there is no floor",
+        ),
+        (
+            "[floor]\nheight_m = 0\npresent = false\n",
+            "floor.height_m: says nothing where there is no floor",
+        ),
+        (
             "[obstacle]\nname = \"a\"\n",
             "obstacle must be a list of at most 1000 sections: write [[obstacle]] for each",
         ),
@@ -231,6 +255,29 @@ fn what_stands_in_a_plate_or_in_the_base_is_refused_by_both_names() {
     );
     let said = refused(&named("rack", &format!("{rack}\nholds_plates = [2]")));
     assert!(said.contains("it holds plate 2; there are 2"), "{said}");
+}
+
+/// One more than can be judged, with floor and tool, is refused wherever a scenario is checked; as many as can be are none too many.
+#[test]
+fn more_bodies_than_can_be_judged_are_refused_by_their_key() {
+    let ball = |k: usize| {
+        let far = format!(
+            "shape = \"sphere\"\nradius_m = 0.005\nat_m = [2, 2, {}]",
+            0.01 * (k + 1) as f64
+        );
+        named(&format!("o{k}"), &far)
+    };
+    let crowd = |count: usize| scenario(&(0..count).map(ball).collect::<String>());
+    let others = crowd(0).job().unwrap().terms().workcell.bodies();
+    let words = format!("obstacle must be a list of at most {} sections", MOST_BODIES - others);
+    let many = crowd(MOST_BODIES - others + 1);
+    for failure in [many.check().unwrap_err(), many.job().map(|_| ()).unwrap_err()] {
+        assert!(failure.to_string().contains(&words), "{failure}");
+    }
+    assert_eq!(
+        crowd(MOST_BODIES - others).job().unwrap().terms().workcell.bodies(),
+        MOST_BODIES
+    );
 }
 
 /// The arm at home, in an obstacle: named with what it is in.
@@ -342,7 +389,10 @@ fn meshes_that_are_none_are_refused_by_obstacle_and_file() {
     );
     std::fs::write(
         folder.path().join("b.toml"),
-        text(&named("thing", "shape = \"mesh\"\nmesh = \"none.stl\"")),
+        text(&named(
+            "thing",
+            "shape = \"mesh\"\nmesh = \"none.stl\"\nat_m = [1, 0, 0]",
+        )),
     )
     .unwrap();
     let absent = Scenario::load(&folder.path().join("b.toml").to_string_lossy()).unwrap();
@@ -394,7 +444,7 @@ fn drafts_leave_obstacles_as_they_are() {
     let scenario = draft.scenario("case", None).unwrap();
     assert_eq!(
         (scenario.seed, scenario.obstacle.len(), scenario.floor.height_m),
-        (7, 1, -0.5)
+        (7, 1, Some(-0.5))
     );
     assert_eq!(
         (scenario.wash.clearance_m, scenario.table.size_m),

@@ -11,12 +11,9 @@ use crate::plan::{Plan, Process};
 use crate::plate::GREATEST_M;
 use crate::simulation::{PlantSettings, SimulationSettings};
 use crate::words::quoted;
-use crate::workcell::{Exclusion, Workcell};
+use crate::workcell::{Exclusion, MOST_BODIES, Workcell};
 use platewash_kinematics::RobotModel;
 use std::sync::Arc;
-
-/// Obstacles and bodies of the tool that a dry run may have at most: as many as a certificate judges.
-const MOST_BODIES: usize = 1000;
 
 /// Why a plan has no dry run of that kind.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -6,6 +6,9 @@ use crate::tool::Tool;
 use platewash_kinematics::{Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 
+/// Bodies of the tool and obstacles, together, that a workcell has at most.
+pub const MOST_BODIES: usize = 1000;
+
 /// An arm, what it holds, where it stands and what stands around it, the plates apart.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -21,6 +24,14 @@ pub struct Workcell {
     pub obstacles: Vec<Obstacle>,
     /// Pairs of bodies that need not keep clear of each other.
     pub exclusions: Vec<Exclusion>,
+}
+
+impl Workcell {
+    /// Bodies of the tool and obstacles, together.
+    #[must_use]
+    pub fn bodies(&self) -> usize {
+        self.tool.bodies.len() + self.obstacles.len()
+    }
 }
 
 /// An arm by its description.

@@ -155,7 +155,7 @@ fn bodies_that_are_none_are_refused_by_name() {
     let crowd = changed(|p| p.job.workcell.obstacles = vec![post("post"); 1000]).unwrap_err();
     assert_eq!(
         crowd.to_string(),
-        "1001 bodies of the tool and obstacles; 1000 can be judged at most"
+        "the plan's job: 1001 bodies of the tool and obstacles; 1000 can be judged at most"
     );
 }
 

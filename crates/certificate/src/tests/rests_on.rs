@@ -207,6 +207,20 @@ fn all_sizes_of_plates_are_told_and_the_first_places() {
 }
 
 #[test]
+fn plates_that_are_tilted_say_how() {
+    let leaning = told("plates", |r| {
+        r.plates = vec![Plate::level_disc([0.5, 0.0, 0.03], 0.145, 0.02); 2];
+        r.plates[1].pose.rotation = nalgebra::UnitQuaternion::from_euler_angles(0.0, -45_f64.to_radians(), 0.0);
+    });
+    let size = "of radius 145 mm, 20 mm thick, faces 30 mm above 0";
+    let axis = "tilted by 45°, axis (-0.707106781, 0, 0.707106781)";
+    assert_eq!(
+        leaning,
+        format!("2: 1 {size}: 0 at (0.5, 0) m; 1 {size}, {axis}: 1 at (0.5, 0) m")
+    );
+}
+
+#[test]
 fn profiles_are_told_by_name_or_knots_with_rim_and_foot() {
     let plate = |surface: Surface, foot: Option<Foot>| {
         told("plates", move |r| {

@@ -113,12 +113,54 @@ pub struct CellParts<'a> {
     pub radius_m: Vec<f64>,
     /// Whether the text lists the plates.
     pub listed: bool,
+    /// How plates and what stands around are moved.
+    pub moves: Moves,
     /// Where the arm is at home \[rad\].
     pub pose_rad: [f64; 6],
     /// What is to be said about how plates lie.
     pub findings: Vec<FindingLine>,
     /// How long it took.
     pub ms: Milliseconds,
+}
+
+/// How the things of a cell are moved.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Moves {
+    /// Plates.
+    pub plates: PlateMoves,
+    /// What stands around, body by body.
+    pub bodies: Vec<BodyMove>,
+}
+
+/// What says where plates are.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "by", rename_all = "snake_case")]
+pub enum PlateMoves {
+    /// `layout.positions_m`, which lists all of them.
+    Positions,
+    /// The `[[plate]]` sections.
+    Sections {
+        /// Of each plate its section.
+        sections: Vec<usize>,
+        /// Of each section its place \[m\].
+        at_m: Vec<[f64; 3]>,
+    },
+    /// They are not moved.
+    Nothing {
+        /// Why.
+        words: &'static str,
+    },
+}
+
+/// What says where a body is that stands around.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BodyMove {
+    /// The key; none where it is not moved.
+    pub key: Option<String>,
+    /// Its value \[m\], x and y first.
+    pub at_m: Vec<f64>,
+    /// Why it is not moved.
+    pub words: Option<String>,
 }
 
 /// An arm and its id.

@@ -4,8 +4,8 @@ mod line;
 mod question;
 
 pub use line::{
-    ArmLine, CellLine, CellParts, DiskLine, FindingLine, HelloLine, MapLine, PlanParts, PlateChance, PlateProof,
-    Refusal, SaveLine, Unwashable,
+    ArmLine, BodyMove, CellLine, CellParts, DiskLine, FindingLine, HelloLine, MapLine, Moves, PlanParts, PlateChance,
+    PlateMoves, PlateProof, Refusal, SaveLine, Unwashable,
 };
 pub use question::{CellQuestion, DiskQuestion, Edit, MapQuestion, SaveQuestion, Want};
 

@@ -48,11 +48,9 @@ impl Estimate {
 
     /// Whether on the bare face, with the tool by its rule, it brings about what is promised.
     pub fn keeps(&self, promise: &Promise, surface: &Surface, (rule, cone_rad): (&AxisRule, f64)) -> bool {
-        promise.seems_kept(
-            surface,
-            &self.moments(surface, rule, LEAN * cone_rad),
-            &Margin::BARE_FACE,
-        )
+        let swept = promise.swept_within(surface, cone_rad);
+        let (promise, lean_rad) = swept.as_ref().map_or((promise, LEAN * cone_rad), |swept| (swept, 0.0));
+        promise.seems_kept(surface, &self.moments(surface, rule, lean_rad), &Margin::BARE_FACE)
     }
 
     /// The sponge along the curve at the speed of washing, the tool by its rule.

@@ -5,7 +5,7 @@ use crate::trig::sin_cos;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
 use platewash_workcell::contact::{Columns, Foundation, Looks, Moment, SpongePose, Wanted};
-use platewash_workcell::job::JobTerms;
+use platewash_workcell::job::{JobTerms, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::tool::Sponge;
@@ -94,6 +94,21 @@ impl Promise {
 }
 
 impl Promise {
+    /// The same of a face that is to be swept alone, where nothing tells which way the tool leans: of the sponge's face counts what is over the
+    /// disc whose radius is that of the sponge times the cosine of the cone, less what the tip may be off its path, as in the certificate.
+    /// `None` of all others.
+    pub(super) fn swept_within(&self, surface: &Surface, cone_rad: f64) -> Option<Self> {
+        let (_, cosine) = sin_cos(cone_rad);
+        let is_swept = surface.is_flat() && self.wanted.compression_m == ANY_M;
+        is_swept.then(|| Self {
+            foundation: Foundation {
+                radius_m: (self.foundation.radius_m * cosine - PATH_TOLERANCE_M).max(0.0),
+                ..self.foundation
+            },
+            ..*self
+        })
+    }
+
     /// Whether it is kept by an arm in some configurations along a wash, at a constant speed: looked at there, not between.
     #[must_use]
     pub fn is_kept(&self, scene: &Scene<'_>, plate: &Plate, (along, speed_m_s): (&[JointVector], f64)) -> bool {

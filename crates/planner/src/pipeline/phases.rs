@@ -78,6 +78,7 @@ fn planned(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanError>
     let visits = visits.iter().map(|visit| VisitSummary {
         plate: visit.path.plate,
         tilt: visit.washing.choice,
+        aside_rad: visit.washing.aside_rad,
         cone_rad: visit.path.cone_rad,
         curve: visit.path.curve,
         wash_s: duration(&visit.wash.motion),

@@ -41,6 +41,8 @@ pub(super) struct Pipeline<'a> {
     pub patterns: Vec<Arc<Patterns>>,
     /// The order of the plates, where it is not for the settings to decide.
     pub asked_order: Option<Vec<usize>>,
+    /// Paths to follow as they are, whatever lies where they end.
+    pub asked_paths: Vec<WashPath>,
     pub watch: Watch<'a>,
 }
 
@@ -93,6 +95,7 @@ impl<'a> Pipeline<'a> {
             },
             patterns: by_plate(terms, settings, plates),
             asked_order: None,
+            asked_paths: Vec::new(),
             watch: *watch,
         })
     }
@@ -118,6 +121,7 @@ impl<'a> Pipeline<'a> {
         }
         Ok(Self {
             asked_order: Some(order.to_vec()),
+            asked_paths: paths.to_vec(),
             ..pipeline
         })
     }
@@ -151,6 +155,7 @@ impl<'a> Pipeline<'a> {
             place_search: self.place_search,
             patterns: self.patterns.clone(),
             asked_order: self.asked_order.clone(),
+            asked_paths: self.asked_paths.clone(),
             washing: self.washing,
             transit: self.transit,
         }
@@ -163,6 +168,7 @@ impl<'a> Pipeline<'a> {
         let stance = Stance {
             axis_share: self.settings.axis_share.unwrap_or(AXIS_SHARE),
             wrist_rad: self.terms.requirements.wrist_rad,
+            aside_rad: 0.0,
         };
         Ok(scene.mounted(self.mount).standing(stance).until(self.watch.cancel))
     }

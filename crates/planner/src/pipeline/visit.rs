@@ -104,6 +104,7 @@ pub(super) fn lines(
     washing: &Washing,
 ) -> Result<[LiftLine; 2], PlanError> {
     let last = washing.q.len() - 1;
+    let scene = &scene.clone().leaning_aside(washing.aside_rad);
     let (wanted, wash_m_s) = (&pipeline.terms.requirements, pipeline.terms.wash_speed_m_s());
     let line = |end: usize, k: usize, asked_m_s: Option<f64>| {
         let touching = Touching {
@@ -151,7 +152,7 @@ fn line(
     let over = |h: &f64| scene.tip_pose(&foot.raised(*h), tilt_rad);
     let touches_m = match touching.from {
         // The tilted rim touches up to there, and a sample more.
-        Reach::Compressed => terms.workcell.tool.sponge.radius_m * sin(tilt_rad).abs() + LINE_STEP_M,
+        Reach::Compressed => terms.workcell.tool.sponge.radius_m * sin(scene.stance.lean_rad(tilt_rad)) + LINE_STEP_M,
         Reach::Free => pipeline.meets_m(plate, lift_m, over),
     };
     let heights = match touching.from {

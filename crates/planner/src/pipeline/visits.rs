@@ -83,11 +83,16 @@ impl Pipeline<'_> {
         (self.watch.tell)(&Activity::Wash { plate, turn, of });
     }
 
-    /// The wash path on the `k`-th plate of an order: it ends towards the next one, or home.
+    /// The wash path on the `k`-th plate of an order: the one asked for, or one that ends towards the next plate, or home.
     pub fn path_of(&self, scene: &Scene<'_>, order: &[usize], k: usize) -> WashPath {
         let home = || self.home_tip(scene, &self.terms.home_rad[1]);
         let next = order.get(k + 1).map(|&next| self.plates[next].centre());
-        self.widest_path(order[k], &next.unwrap_or_else(home))
+        let path = self.widest_path(order[k], &next.unwrap_or_else(home));
+        let asked = self.asked_paths.iter().find(|asked| asked.plate == path.plate);
+        asked.map_or(path, |asked| WashPath {
+            curve: asked.curve,
+            ..path
+        })
     }
 
     /// The wash path on a plate by the pattern that is tried first, with the widest cone of all.

@@ -4,6 +4,7 @@
 //! before it. The points farthest from the plate's centre are the likeliest: the farthest from axis 1 may be out of reach, the
 //! nearest too close to the base. So the last turn is looked at, on every branch and at every tilt that the search would try.
 
+use super::aside;
 use super::dead_ends::dead_end;
 use super::error::RedundancyError;
 use super::search::Graph;
@@ -22,12 +23,30 @@ const POINTS: u32 = 16;
 /// [`Cancelled`].
 pub fn is_blocked(task: &Task<'_>) -> Result<bool, Cancelled> {
     let graph = Graph::new(task);
-    for layer in last_turn(task, &graph) {
-        if at(task, &graph, layer)? {
-            return Ok(true);
+    let Some(layer) = first_dead(task, &graph)? else {
+        return Ok(false);
+    };
+    if !aside::may_help_at(task, &dead_end(task, &graph, layer, &task.anywhere_near())) {
+        return Ok(true);
+    }
+    for aside_rad in aside::leans(task) {
+        let scene = task.scene.clone().leaning_aside(aside_rad);
+        let leaning = task.in_scene(&scene);
+        if first_dead(&leaning, &Graph::new(&leaning))?.is_none() {
+            return Ok(false);
         }
     }
-    Ok(false)
+    Ok(true)
+}
+
+/// The first layer of the last turn without a configuration.
+fn first_dead(task: &Task<'_>, graph: &Graph) -> Result<Option<usize>, Cancelled> {
+    for layer in last_turn(task, graph) {
+        if at(task, graph, layer)? {
+            return Ok(Some(layer));
+        }
+    }
+    Ok(None)
 }
 
 /// Why no search can find anything, if points of the last turn show it.

@@ -5,7 +5,7 @@ use super::task::Task;
 use super::washing::by_policy;
 use crate::scene::{Scene, Width};
 use nalgebra::Vector2;
-use platewash_kinematics::{JointVector, RobotModel};
+use platewash_kinematics::JointVector;
 use platewash_workcell::clearance::{ClearanceModel, gap_of_plates};
 use platewash_workcell::layout::base_footprint;
 use platewash_workcell::plate::Plate;
@@ -72,33 +72,17 @@ impl<'a> Trial<'a> {
         let moved = scene.moved(lies, (*centre).into());
         *lies = moved;
         let mut others = self.plates.iter().enumerate().filter(|(i, _)| *i != path.plate);
-        if others.any(|(_, other)| overlap(scene.robot, &moved, other)) || meets_base(scene.robot, &moved) {
+        let meets = |gap_m: f64| gap_m < 0.0;
+        let over_base = base_footprint(scene.robot).gap_m(&moved).is_some_and(meets);
+        if over_base || others.any(|(_, other)| meets(gap_of_plates(scene.robot, &moved, other))) {
             return Ok(false);
         }
         self.clearance.lay(&self.plates);
+        if self.clearance.plate_in_base(path.plate).is_some() {
+            return Ok(false);
+        }
         let scene = scene.among(&self.clearance, &self.plates);
         let task = Task::new(&scene, path, clearance_m, near)?;
         Ok(by_policy(&task, Width::Near)?.is_some())
     }
-}
-
-/// Whether two plates share a place: parallel ones where they do seen along their axis and neither lies over the other, others where their
-/// bodies do.
-fn overlap(robot: &RobotModel, a: &Plate, b: &Plate) -> bool {
-    if !a.is_parallel(b) {
-        return !a.is_back_of(b) && gap_of_plates(robot, a, b) < 0.0;
-    }
-    a.aside_m(b) < a.rim_m() + b.rim_m() && !a.is_over(b) && !b.is_over(a)
-}
-
-/// Whether a plate that lies level with the base is over it.
-fn meets_base(robot: &RobotModel, plate: &Plate) -> bool {
-    let level = Plate::level_disc([0.0; 3], 1.0, 1.0);
-    if !plate.is_parallel(&level) {
-        return false;
-    }
-    let (foot, [x, y], rim_m) = (base_footprint(robot), plate.centre_xy(), plate.rim_m());
-    let beside = |[least, most]: [f64; 2], at: f64| (least - at).max(at - most).max(0.0);
-    let (dx, dy) = (beside(foot.x_m, x), beside(foot.y_m, y));
-    dx * dx + dy * dy < rim_m * rim_m
 }

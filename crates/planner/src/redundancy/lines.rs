@@ -3,7 +3,6 @@
 use super::task::{Stop, Task};
 use crate::scene::{Contact, Hindrance, Start, Stretch};
 use platewash_kinematics::JointVector;
-use platewash_workcell::clearance::PairClearance;
 
 /// Places on a line that are looked at.
 const PLACES: u32 = 8;
@@ -52,18 +51,10 @@ impl Task<'_> {
 
     /// Refuses bodies too near to each other, where that counts.
     fn check_apart(&self, q: &JointVector, stretch: Stretch) -> Result<(), Hindrance> {
-        let (surroundings, required_m) = (self.scene.surroundings, self.clearance_m + stretch.reserve_m());
-        if !self.lines.must_be_clear() || surroundings.is_clear(q, stretch, required_m) {
+        if !self.lines.must_be_clear() {
             return Ok(());
         }
-        self.lines.stand_in_the_way();
-        let named = || surroundings.too_near(q, stretch, required_m);
-        let pair = named().unwrap_or(PairClearance {
-            a: String::new(),
-            b: String::new(),
-            distance_m: required_m,
-            place_m: [0.0; 3],
-        });
-        Err(Hindrance::Clearance { pair, required_m })
+        let clear = self.check_clear_in(q, stretch);
+        clear.inspect_err(|_| self.lines.stand_in_the_way())
     }
 }

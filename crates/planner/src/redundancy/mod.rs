@@ -10,7 +10,7 @@
 //!
 //! The sponge is round, so yaw is free: it is chosen such that joints 4 and 6 rest, which takes the least joint travel
 //! ([`Scene::tip_pose`](crate::scene::Scene::tip_pose)). Of the two directions in which the tool can tilt, the one in the arm's
-//! own plane is the useful one.
+//! own plane is the useful one, but for what stands beside the arm.
 //!
 //! # How
 //!
@@ -21,12 +21,15 @@
 //!
 //! Before the second, a few points of the last turn tell (`blocked`) whether it can find anything at all.
 //!
+//! Where an obstacle stands in the way of both, they are tried again with the tool leaning across the arm's plane besides (`aside`).
+//!
 //! Each is tried on every branch of the arm, elbow up in front first; on arms without a closed form, on every branch that a
 //! search finds ([`platewash_kinematics::ik::spread`]). Whatever answers has been checked for limits and steps at
 //! every contact point, and for clearance at every one but those within 4 mm behind one with 8 mm to spare. Between the
 //! points nothing is proved here. Where nothing answers, the error names contact points and what stands in the way there;
 //! [`Conclusion`] tells whether there is no configuration or none was found.
 
+mod aside;
 mod blocked;
 mod conclusion;
 mod dead_ends;

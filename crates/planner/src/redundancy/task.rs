@@ -107,15 +107,32 @@ impl<'a> Task<'a> {
         Stretch::AtPlate(self.path.plate)
     }
 
-    /// The largest tilt allowed \[rad\].
-    pub(super) fn tilt_max_rad(&self) -> f64 {
-        self.path.cone_rad
+    /// The task with the arm in another scene, its lines not looked at yet.
+    pub(super) fn in_scene<'b>(&self, scene: &'b Scene<'b>) -> Task<'b>
+    where
+        'a: 'b,
+    {
+        Task {
+            scene,
+            lines: Lines::clear(),
+            ..self.clone()
+        }
     }
 
-    /// The largest tilt at the points that are solved \[rad\]: [`TILT_RESERVE_RAD`] less than allowed, or half of what is allowed
-    /// where that is more.
+    /// The largest tilt allowed in the arm's plane \[rad\].
+    pub(super) fn tilt_max_rad(&self) -> f64 {
+        self.scene.stance.tilt_rad(self.path.cone_rad)
+    }
+
+    /// The largest tilt in the arm's plane at the points that are solved \[rad\].
     pub(super) fn planned_tilt_rad(&self) -> f64 {
-        let most = self.tilt_max_rad();
+        self.scene.stance.tilt_rad(self.planned_lean_rad())
+    }
+
+    /// How far the tool leans at most, in all, at the points that are solved \[rad\]: [`TILT_RESERVE_RAD`] less than allowed, or half of
+    /// what is allowed where that is more.
+    pub(super) fn planned_lean_rad(&self) -> f64 {
+        let most = self.path.cone_rad;
         (most - TILT_RESERVE_RAD).max(0.5 * most)
     }
 
@@ -171,7 +188,7 @@ impl<'a> Task<'a> {
             return Ok(());
         }
         let axis = -target.rotation.column(2).into_owned();
-        let (found_rad, most_rad) = (angle_between(&axis, &contact.normal), self.planned_tilt_rad());
+        let (found_rad, most_rad) = (angle_between(&axis, &contact.normal), self.planned_lean_rad());
         if found_rad <= most_rad {
             return Ok(());
         }
@@ -186,11 +203,16 @@ impl<'a> Task<'a> {
 
     /// The same, with what does not.
     pub(super) fn check_clear(&self, q: &JointVector) -> Result<(), Hindrance> {
-        if self.is_clear(q) {
+        self.check_clear_in(q, self.stretch())
+    }
+
+    /// The same in another stretch.
+    pub(super) fn check_clear_in(&self, q: &JointVector, stretch: Stretch) -> Result<(), Hindrance> {
+        let (surroundings, required_m) = (self.scene.surroundings, self.clearance_m + stretch.reserve_m());
+        if surroundings.is_clear(q, stretch, required_m) {
             return Ok(());
         }
-        let required_m = self.required_m();
-        match self.scene.surroundings.too_near(q, self.stretch(), required_m) {
+        match surroundings.too_near(q, stretch, required_m) {
             Some(pair) => Err(Hindrance::Clearance { pair, required_m }),
             None => Ok(()),
         }

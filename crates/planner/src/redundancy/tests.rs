@@ -4,7 +4,7 @@ use super::relocation::{MOST_CHECKS, nearest_washable, on_grid};
 use super::search::Graph;
 use super::task::Profile;
 use super::washable::{Cause, Points, Washable, washable};
-use super::washing::{by_search, policies, search_starts};
+use super::washing::{by_policy, by_search, policies, search_starts};
 use super::*;
 use crate::scene::{Contact, Filter, Inverse, Scene, TiltPolicy, Width, policy};
 use crate::trig::sin_cos;
@@ -19,6 +19,7 @@ use platewash_workcell::tool::{StraightTool, Tool};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use proptest::prelude::*;
 
+mod aside;
 mod held;
 mod input;
 mod other_arms;
@@ -130,14 +131,16 @@ fn check(world: &World<'_>, path: &WashPath, washing: &Washing) {
         path.curve.parameters(&plate.surface, settings::CHORD_ERROR_M)
     );
     assert_eq!([washing.q.len(), washing.tilt_rad.len()], [washing.theta.len(); 2]);
+    let stance = scene.clone().leaning_aside(washing.aside_rad).stance;
     for (k, (&theta, q)) in washing.theta.iter().zip(&washing.q).enumerate() {
         let tip = scene.robot.fk(q).rigid(&scene.tip);
         let contact = plate.pose.rotation * path.curve.at(theta).position.push(0.0) + plate.centre();
         assert!((tip.translation - contact).norm() < 1e-9, "point {k}");
         let tool = tip.rotation.column(2);
         let lean = tool.cross(&plate.axis()).norm().atan2(-tool.dot(&plate.axis()));
+        let stated = stance.lean_rad(washing.tilt_rad[k]);
         assert!(
-            (lean - washing.tilt_rad[k].abs()).abs() < 1e-9,
+            (lean - stated).abs() < 1e-9,
             "tilt at {k}: {lean} {}",
             washing.tilt_rad[k]
         );

@@ -1,5 +1,6 @@
 //! How a plate is washed: the policies in turn, then the search.
 
+use super::aside;
 use super::blocked::blocked;
 use super::dead_ends;
 use super::error::RedundancyError;
@@ -26,8 +27,10 @@ pub struct Washing {
     /// [`WashCurve::parameters`](platewash_workcell::wash_path::WashCurve::parameters) gives them for
     /// [`super::settings::CHORD_ERROR_M`] \[rad\].
     pub theta: Vec<f64>,
-    /// Tilt of the tool at each: its angle from the plate's normal, positive where the flange leans away from axis 1 \[rad\].
+    /// Tilt of the tool in the arm's plane at each: its angle from the plate's normal there, positive where the flange leans away from axis 1 \[rad\].
     pub tilt_rad: Vec<f64>,
+    /// How far the tool leans across the arm's plane besides, all along: [`Stance::aside_rad`](crate::scene::Stance::aside_rad) \[rad\].
+    pub aside_rad: f64,
     /// Configuration of the arm at each \[rad\].
     pub q: Vec<JointVector>,
     /// The contact points at both ends.
@@ -75,11 +78,24 @@ impl Washing {
 /// [`RedundancyError`]: the contact points where nothing will do, and why; or the search was given up.
 pub fn washing(task: &Task<'_>) -> Result<Washing, RedundancyError> {
     let found = washing_by_any(task);
-    match found {
-        // What stands in the way of the lines is for whoever plans them to tell.
-        Err(_) if task.lines.stood_in_the_way() => washing_by_any(&task.with_any_lines()),
-        found => found,
+    let Err(error) = &found else {
+        return found;
+    };
+    if aside::may_help(task, error) {
+        for aside_rad in aside::leans(task) {
+            let scene = task.scene.clone().leaning_aside(aside_rad);
+            match washing_by_any(&task.in_scene(&scene)) {
+                Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
+                Err(_) => {}
+                washing => return washing,
+            }
+        }
     }
+    // What stands in the way of the lines is for whoever plans them to tell.
+    if task.lines.stood_in_the_way() {
+        return washing_by_any(&task.with_any_lines());
+    }
+    found
 }
 
 /// By a policy, or by the search.
@@ -284,6 +300,7 @@ fn finish(task: &Task<'_>, profile: &Profile, tilt_rad: Vec<f64>, q: Vec<JointVe
         end_slopes: [slope(0, [0, 1]), slope(last, [last - 1, last])],
         theta,
         tilt_rad,
+        aside_rad: task.scene.stance.aside_rad,
         q,
         choice,
     }

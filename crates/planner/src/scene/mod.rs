@@ -106,6 +106,13 @@ impl<'a> Scene<'a> {
         Self { stance, ..self }
     }
 
+    /// The same scene with the tool leaning so far across the arm's plane ([`Stance::aside_rad`]).
+    #[must_use]
+    pub fn leaning_aside(mut self, aside_rad: f64) -> Self {
+        self.stance.aside_rad = aside_rad;
+        self
+    }
+
     /// The same scene of an arm mounted at `T_world_base`.
     #[must_use]
     pub fn mounted(self, mount: Pose) -> Self {
@@ -164,7 +171,7 @@ impl<'a> Scene<'a> {
 
     /// Where the tip frame must be to wash at `contact` with the tool tilted by `tilt_rad` in the arm's plane, the one through
     /// axis 1, the contact point and its axis n: z of the tip is `−(cos τ n + sin τ ρ̂)`, so that τ > 0 leans the flange
-    /// away from axis 1. The yaw is the one at which joints 4 and 6 rest on arms whose wrist allows it, where the face is level.
+    /// away from axis 1. A stance that leans aside adds to that. The yaw is the one at which joints 4 and 6 rest on arms whose wrist allows it, where the face is level.
     ///
     /// On axis 1 itself ρ̂ is x of the base frame, along the face.
     #[must_use]
@@ -187,7 +194,11 @@ impl<'a> Scene<'a> {
 
     pub(crate) fn tip_rigid(&self, contact: &Contact, tilt_rad: f64) -> Rigid {
         let out = self.out(contact);
-        leaning(&self.across, contact, [&out, &out], tilt_rad)
+        let aside_rad = self.stance.aside_rad;
+        if aside_rad == 0.0 {
+            return leaning(&self.across, contact, [&out, &out], tilt_rad);
+        }
+        self.tip_leaning(contact, &(out * tilt_rad + contact.axis.cross(&out) * aside_rad))
     }
 
     /// The tip with the flange leaning towards `lean`, along the face, by its length \[rad\].

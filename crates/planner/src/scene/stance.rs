@@ -21,6 +21,8 @@ pub struct Stance {
     pub axis_share: f64,
     /// How far joint 5 keeps from 0, always on one side \[rad\]; `None` where nothing is asked of it.
     pub wrist_rad: Option<f64>,
+    /// How far the tool leans across the arm's plane, besides any tilt in it: towards n × ρ̂ where that is positive \[rad\].
+    pub aside_rad: f64,
 }
 
 impl Default for Stance {
@@ -28,7 +30,28 @@ impl Default for Stance {
         Self {
             axis_share: AXIS_SHARE,
             wrist_rad: None,
+            aside_rad: 0.0,
         }
+    }
+}
+
+impl Stance {
+    /// How far the tool leans in all at a tilt in the arm's plane \[rad\].
+    #[must_use]
+    pub fn lean_rad(&self, tilt_rad: f64) -> f64 {
+        if self.aside_rad == 0.0 {
+            return tilt_rad.abs();
+        }
+        (tilt_rad * tilt_rad + self.aside_rad * self.aside_rad).sqrt()
+    }
+
+    /// The largest tilt in the arm's plane with which the tool leans by `most_rad` in all \[rad\].
+    #[must_use]
+    pub fn tilt_rad(&self, most_rad: f64) -> f64 {
+        if self.aside_rad == 0.0 {
+            return most_rad;
+        }
+        (most_rad * most_rad - self.aside_rad * self.aside_rad).max(0.0).sqrt()
     }
 }
 

@@ -32,6 +32,11 @@ pub trait Surroundings: Debug + Sync {
 
     /// The nearest of the pairs that do not; `None` where there is none.
     fn too_near(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> Option<PairClearance>;
+
+    /// Whether the body of that name stands around the arm: it is not of the arm, its tool or the plates.
+    fn is_obstacle(&self, _name: &str) -> bool {
+        false
+    }
 }
 
 impl Surroundings for ClearanceModel {
@@ -47,5 +52,9 @@ impl Surroundings for ClearanceModel {
             Stretch::AtPlate(plate) => self.nearest_washing(q, plate, required_m),
             Stretch::Free => ClearanceModel::too_near(self, q, &[], required_m).into_iter().next(),
         }
+    }
+
+    fn is_obstacle(&self, name: &str) -> bool {
+        ClearanceModel::is_obstacle(self, name)
     }
 }

@@ -107,9 +107,11 @@ pub fn suggest_home(robot: &RobotModel, terms: &JobTerms, cancel: &CancelToken) 
     };
     // Of equals the first: places come in the order of the sequence.
     let best = found.iter().rev().max_by(|a, b| score(a).total_cmp(&score(b)));
-    let best = best.ok_or(PlanError::NoHome {
-        tried: ANYWHERE as usize,
-    })?;
+    let Some(best) = best else {
+        let tried = ANYWHERE as usize;
+        let in_the_way = search.in_the_way()?;
+        return Err(PlanError::NoHome { tried, in_the_way });
+    };
     let q = JointVector::from(best.q_deg).map(f64::to_radians);
     let tool = robot.fk(&q).rigid(&scene.tip).rotation.column(2).into_owned();
     let down = -search.out();
@@ -164,18 +166,44 @@ impl Search<'_> {
 
     /// The clear configurations of an even spread within the limits.
     fn anywhere(&self) -> Result<Vec<Candidate>, PlanError> {
-        let limits = self.scene.robot.limits();
         let at = |k: u32| {
             self.scene.check_cancelled()?;
-            let share = halton::point(k);
-            let q = JointVector::from_fn(|joint, _| {
-                let [lower, upper] = limits.sampling_range(joint);
-                lower + share[joint] * (upper - lower)
-            });
-            Ok(self.candidate(&q))
+            Ok(self.candidate(&self.spread(k)))
         };
         let found: Result<Vec<Option<Candidate>>, PlanError> = (1..=ANYWHERE).into_par_iter().map(at).collect();
         Ok(found?.into_iter().flatten().collect())
+    }
+
+    /// Configuration `k` of an even spread within the limits \[rad\].
+    fn spread(&self, k: u32) -> JointVector {
+        let (limits, share) = (self.scene.robot.limits(), halton::point(k));
+        JointVector::from_fn(|joint, _| {
+            let [lower, upper] = limits.sampling_range(joint);
+            lower + share[joint] * (upper - lower)
+        })
+    }
+
+    /// The pair that is too near in most of these configurations, of equals the first, and in how many; `None` where none is in any.
+    fn in_the_way(&self) -> Result<Option<([String; 2], usize)>, PlanError> {
+        let pairs = self.clearance.pair_names();
+        let at = |k: u32| {
+            self.scene.check_cancelled()?;
+            let all = self.clearance.all(&self.spread(k));
+            Ok(all.iter().map(|pair| pair.distance_m < self.required_m()).collect())
+        };
+        let near: Result<Vec<Vec<bool>>, PlanError> = (1..=ANYWHERE).into_par_iter().map(at).collect();
+        let near = near?;
+        let count = |pair: usize| near.iter().filter(|near| near.get(pair) == Some(&true)).count();
+        let counts = pairs.iter().enumerate().map(|(pair, names)| (names, count(pair)));
+        let most = counts.rev().max_by_key(|(_, count)| *count);
+        Ok(most
+            .filter(|(_, count)| *count > 0)
+            .map(|((a, b), count)| ([(*a).to_owned(), (*b).to_owned()], count)))
+    }
+
+    /// What all pairs keep at a home \[m\].
+    fn required_m(&self) -> f64 {
+        self.terms.requirements.clearance_m + Stretch::Free.reserve_m()
     }
 
     /// The way out of the plates, taken together; up where there are none, or where they face all ways.
@@ -218,8 +246,7 @@ impl Search<'_> {
         let q_deg = q.map(|rad| rad.to_degrees().round() + 0.0);
         let q = q_deg.map(f64::to_radians);
         let limits = self.scene.robot.limits();
-        let required_m = self.terms.requirements.clearance_m + Stretch::Free.reserve_m();
-        if !limits.contain(&q) || !self.clearance.keeps(&q, required_m) {
+        if !limits.contain(&q) || !self.clearance.keeps(&q, self.required_m()) {
             return None;
         }
         let jacobian = self.scene.robot.fk(&q).jacobian(&self.scene.tip, Axes::Base);
@@ -291,6 +318,9 @@ mod tests {
             .workcell
             .obstacles
             .push(Obstacle::new("block", block, Pose::identity()));
-        assert!(matches!(home(&terms), Err(PlanError::NoHome { .. })));
+        let refused = home(&terms).unwrap_err();
+        assert!(matches!(refused, PlanError::NoHome { .. }));
+        let said = refused.to_string();
+        assert!(said.contains(" and block, in 4000 of them"), "{said}");
     }
 }

@@ -16,30 +16,40 @@ const GROWTH_RAD: f64 = 0.15;
 const SHORTCUTS: usize = 150;
 /// Length of the parameter per radian of the fastest joint \[m/rad\].
 const LENGTH_M_RAD: f64 = 0.3;
-/// Distance of the samples through which the smooth path is laid \[rad of the fastest joint\].
-const SPACING_RAD: f64 = 0.12;
+/// Distances of the samples through which a smooth path is laid \[rad of the fastest joint\], those to be tried first first: the closer
+/// they lie, the less it leaves the straight lines that were found to be free, and the more it slows down at their corners.
+pub(super) const SPACINGS_RAD: [f64; 3] = [0.12, 0.06, 0.03];
+
+/// Straight lines of the joints that are free, one after the other.
+#[derive(Debug)]
+pub(super) struct FreeLines {
+    /// Where they meet, with both ends \[rad\].
+    corners: Vec<JointVector>,
+    /// Configurations that were sampled for them.
+    pub nodes: usize,
+}
 
 struct Node {
     q: JointVector,
     parent: usize,
 }
 
-/// A path from `from` to `to` \[rad\]; otherwise how many configurations were sampled in vain.
+/// Free lines from `from` to `to` \[rad\]; otherwise how many configurations were sampled in vain.
 ///
 /// # Errors
 /// [`Cancelled`].
-pub(super) fn path(
+pub(super) fn lines(
     rules: &TransitRules<'_>,
     from: &JointVector,
     to: &JointVector,
     rng: &mut Pcg64,
-) -> Result<Result<FreePath, usize>, Cancelled> {
-    let mut corners = match connect(rules, from, to, rng)? {
-        Ok(corners) => corners,
+) -> Result<Result<FreeLines, usize>, Cancelled> {
+    let mut lines = match connect(rules, from, to, rng)? {
+        Ok(lines) => lines,
         Err(nodes) => return Ok(Err(nodes)),
     };
-    shorten(rules, &mut corners, rng)?;
-    Ok(Ok(dense(&corners)))
+    shorten(rules, &mut lines.corners, rng)?;
+    Ok(Ok(lines))
 }
 
 fn connect(
@@ -47,7 +57,7 @@ fn connect(
     from: &JointVector,
     to: &JointVector,
     rng: &mut Pcg64,
-) -> Result<Result<Vec<JointVector>, usize>, Cancelled> {
+) -> Result<Result<FreeLines, usize>, Cancelled> {
     let root = |q: &JointVector| vec![Node { q: *q, parent: 0 }];
     let mut trees = [root(from), root(to)];
     // Which of the trees grows towards the sample; the other one then tries to meet it.
@@ -59,7 +69,9 @@ fn connect(
         if let Some(q) = grown(rules, &trees[growing][near].q, &aim) {
             trees[growing].push(Node { q, parent: near });
             if meet(rules, &mut trees[1 - growing], &q) {
-                return Ok(Ok(joined(&trees)));
+                let nodes = trees.iter().map(Vec::len).sum();
+                let corners = joined(&trees);
+                return Ok(Ok(FreeLines { corners, nodes }));
             }
         } else {
             // Counts as sampled, so that the search ends in a closed pocket too.
@@ -156,20 +168,22 @@ fn shorten(rules: &TransitRules<'_>, corners: &mut Vec<JointVector>, rng: &mut P
     Ok(())
 }
 
-/// Samples along the corners, both ends left out, so close that a spline through them keeps near the straight lines.
-fn dense(corners: &[JointVector]) -> FreePath {
-    let (mut u, mut q, mut length) = (Vec::new(), Vec::new(), 0.0);
-    for ends in corners.windows(2) {
-        let (a, b) = (ends[0], ends[1]);
-        let distance = (b - a).amax();
-        let count = (distance / SPACING_RAD).ceil().max(1.0);
-        for k in 1..=count as usize {
-            u.push(length + distance * LENGTH_M_RAD * (k as f64 / count));
-            q.push(a + (b - a) * (k as f64 / count));
+impl FreeLines {
+    /// Samples along them, both ends left out, no farther apart than `spacing_rad` of the fastest joint.
+    pub(super) fn dense(&self, spacing_rad: f64) -> FreePath {
+        let (mut u, mut q, mut length) = (Vec::new(), Vec::new(), 0.0);
+        for ends in self.corners.windows(2) {
+            let (a, b) = (ends[0], ends[1]);
+            let distance = (b - a).amax();
+            let count = (distance / spacing_rad).ceil().max(1.0);
+            for k in 1..=count as usize {
+                u.push(length + distance * LENGTH_M_RAD * (k as f64 / count));
+                q.push(a + (b - a) * (k as f64 / count));
+            }
+            length += distance * LENGTH_M_RAD;
         }
-        length += distance * LENGTH_M_RAD;
+        u.pop();
+        q.pop();
+        FreePath { u, q, length }
     }
-    u.pop();
-    q.pop();
-    FreePath { u, q, length }
 }

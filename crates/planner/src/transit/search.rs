@@ -18,6 +18,8 @@ use rand_pcg::Pcg64;
 const PACES_RAD_M: [f64; 3] = [2.0, 3.5, 6.0];
 /// How far a raised path goes towards the raised configuration, in steps.
 const RAISES_RAD: [f64; 3] = [0.15, 0.35, 0.6];
+/// Ways from top to top that are sampled, where a smooth path along the first ones is not free.
+const SAMPLED_WAYS: usize = 8;
 /// Shortest path between two tops, in the parameter \[m\].
 const SHORTEST_M: f64 = 0.02;
 
@@ -64,18 +66,12 @@ pub fn plan(
     {
         search.consider(TransitKind::Arc, &path)?;
     }
-    if let Some(best) = search.best {
-        return Ok(best);
-    }
-    let found = sampled::path(rules, from.top(), to.top(), rng)?;
-    if let Ok(path) = &found {
-        search.consider(TransitKind::Sampled, path)?;
-    }
+    let nodes = search.sampled(rng)?;
     let Search { best, blocked, .. } = search;
     best.ok_or_else(|| TransitError::NotFound {
         from: from.plate(),
         to: to.plate(),
-        nodes: found.err().unwrap_or(0),
+        nodes,
         blocked: blocked.and_then(|q| what_blocks(rules, &q)).map(Box::new),
     })
 }
@@ -125,6 +121,30 @@ impl Search<'_> {
             self.best = Some(Transit { kind, timed, free });
         }
         Ok(())
+    }
+}
+
+impl Search<'_> {
+    /// Considers sampled paths until one is free; how many configurations were sampled. A smooth path may leave what is free where the
+    /// lines that it follows do not: then it is laid closer to them, and at last along others.
+    fn sampled(&mut self, rng: &mut Pcg64) -> Result<usize, TransitError> {
+        let (mut nodes, [from, to]) = (0, self.ends);
+        for _ in 0..SAMPLED_WAYS {
+            if self.best.is_some() {
+                break;
+            }
+            let lines = match sampled::lines(self.rules, from.top(), to.top(), rng)? {
+                Ok(lines) => lines,
+                Err(in_vain) => return Ok(nodes + in_vain),
+            };
+            nodes += lines.nodes;
+            for spacing_rad in sampled::SPACINGS_RAD {
+                if self.best.is_none() {
+                    self.consider(TransitKind::Sampled, &lines.dense(spacing_rad))?;
+                }
+            }
+        }
+        Ok(nodes)
     }
 }
 

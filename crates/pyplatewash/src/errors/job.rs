@@ -52,7 +52,7 @@ pub fn failure(py: Python<'_>, error: &Failure) -> PyErr {
         Failure::Arm(_) => staged(py, "robot", &message, Vec::new()),
         Failure::Layout(error) => layout(py, error, &message),
         Failure::NoContact { .. } => keyed(py, "wash.height_m", &message),
-        Failure::Obstacle(_) => keyed(py, "obstacle", &message),
+        Failure::Body(error) => keyed(py, error.section.name(), &message),
         Failure::Job(error) => job(py, error, &message),
         Failure::Plan(error) => plan(py, error, &message),
         Failure::Paper(error) => paper(py, error, &message),

@@ -4,9 +4,9 @@ use super::error::EditError;
 use super::lines::{self, Splices};
 use super::list;
 use super::merge::{fresh, merge};
-use super::place::{Place, place};
+use super::place::Place;
 use super::statement::{Kind, Statement, statements};
-use crate::key::Key;
+use super::target::Target;
 use crate::keys::KEYS;
 use crate::line::line_at;
 use crate::write::on_one_line;
@@ -16,11 +16,10 @@ use serde_json::Value;
 const LONGEST: usize = 40;
 
 /// What changes where a key gets a value that it takes.
-pub(super) fn set(text: &str, key: &Key, value: &Value) -> Result<Splices, EditError> {
+pub(super) fn set(text: &str, target: &Target, value: &Value) -> Result<Splices, EditError> {
     let statements = statements(text);
-    let (section, name) = parts(key.path);
-    let domain = key.domain;
-    Ok(match place(&statements, section, name) {
+    let (section, name, domain) = (target.section(), target.name(), target.key.domain);
+    Ok(match target.place(&statements) {
         Place::Line { statement, value: old } => {
             let indent = lines::indent(text, statement.span.start);
             merge(text, old, domain, value, Some(indent))
@@ -28,7 +27,7 @@ pub(super) fn set(text: &str, key: &Key, value: &Value) -> Result<Splices, EditE
         Place::Braces { items, at, .. } => merge(text, &items[at].value, domain, value, None),
         Place::Behind { statement, dotted } => {
             let indent = lines::indent(text, statement.span.start);
-            let name = if dotted { key.path } else { name };
+            let name = if dotted { target.key.path } else { name };
             let at = lines::tail(text, statement.span.end);
             let value = fresh(text, domain, value, Some(indent));
             vec![(at..at, format!("{}{indent}{name} = {value}", lines::newline(text)))]
@@ -46,6 +45,10 @@ pub(super) fn set(text: &str, key: &Key, value: &Value) -> Result<Splices, EditE
             block(text, &new, statements.first())
         }
         Place::NoSection => {
+            if let Some((list, _)) = target.row {
+                let key = target.path();
+                return Err(EditError::NoRow { key, list });
+            }
             let value = fresh(text, domain, value, Some(""));
             let new = format!(
                 "[{}]{}{name} = {value}",
@@ -54,15 +57,14 @@ pub(super) fn set(text: &str, key: &Key, value: &Value) -> Result<Splices, EditE
             );
             block(text, &new, following(&statements, section))
         }
-        Place::Blocked { by } => return Err(blocked(text, key, by)),
+        Place::Blocked { by } => return Err(blocked(text, target, by)),
     })
 }
 
 /// What changes where a key is taken out.
-pub(super) fn remove(text: &str, key: &Key) -> Result<Splices, EditError> {
+pub(super) fn remove(text: &str, target: &Target) -> Result<Splices, EditError> {
     let statements = statements(text);
-    let (section, name) = parts(key.path);
-    Ok(match place(&statements, section, name) {
+    Ok(match target.place(&statements) {
         Place::Line { statement, .. } => {
             let mut start = lines::start(text, statement.span.start);
             let end = lines::next(text, statement.span.end);
@@ -74,19 +76,18 @@ pub(super) fn remove(text: &str, key: &Key) -> Result<Splices, EditError> {
             vec![(start..end, String::new())]
         }
         Place::Braces { braces, items, at } => list::remove(text, braces, items, at..at + 1),
-        Place::Blocked { by } => return Err(blocked(text, key, by)),
+        Place::Blocked { by } => return Err(blocked(text, target, by)),
         Place::Behind { .. } | Place::Within { .. } | Place::Top | Place::NoSection => Vec::new(),
     })
 }
 
-fn parts(path: &str) -> (Option<&str>, &str) {
-    path.rsplit_once('.')
-        .map_or((None, path), |(section, name)| (Some(section), name))
+fn section_of(path: &str) -> Option<&str> {
+    path.rsplit_once('.').map(|(section, _)| section)
 }
 
 /// The section in the text that a new one goes before, in the order of the table of keys; none where it goes to the end.
 fn following<'a>(statements: &'a [Statement], section: Option<&str>) -> Option<&'a Statement> {
-    let rank = |section: Option<&str>| KEYS.iter().position(|key| parts(key.path).0 == section);
+    let rank = |section: Option<&str>| KEYS.iter().position(|key| section_of(key.path) == section);
     let own = rank(section);
     let headers: Vec<_> = statements
         .iter()
@@ -125,14 +126,14 @@ fn block(text: &str, new: &str, before: Option<&Statement>) -> Splices {
     vec![(at..at, block)]
 }
 
-fn blocked(text: &str, key: &Key, by: &Statement) -> EditError {
+fn blocked(text: &str, target: &Target, by: &Statement) -> EditError {
     let found = &text[by.span.start..lines::end(text, by.span.start)];
     let found = found
         .char_indices()
         .nth(LONGEST)
         .map_or(found, |(end, _)| &found[..end]);
     EditError::Blocked {
-        key: key.path.to_owned(),
+        key: target.path(),
         line: line_at(text, by.span.start),
         found: found.to_owned(),
     }

@@ -20,6 +20,14 @@ pub enum EditError {
         /// How that line begins.
         found: String,
     },
+    /// A list has no such section.
+    #[error("{key} cannot be changed: there is no such [[{list}]] section; sections are counted from 0")]
+    NoRow {
+        /// The key.
+        key: String,
+        /// The list.
+        list: &'static str,
+    },
     /// The text would become longer than is read.
     #[error("{key} cannot be changed: the scenario would be longer than {limit} bytes, the most that are read")]
     TooLong {
@@ -42,7 +50,10 @@ impl EditError {
     pub fn key(&self) -> Option<&str> {
         match self {
             Self::Refused(problem) => problem.key(),
-            Self::Blocked { key, .. } | Self::TooLong { key, .. } | Self::Unplaced { key } => Some(key),
+            Self::Blocked { key, .. }
+            | Self::NoRow { key, .. }
+            | Self::TooLong { key, .. }
+            | Self::Unplaced { key } => Some(key),
         }
     }
 }

@@ -9,10 +9,13 @@ mod lines;
 mod list;
 mod merge;
 mod place;
+mod row;
 mod statement;
+mod target;
 
 pub use error::EditError;
 
+use self::target::Target;
 use crate::error::{Problem, ScenarioError};
 use crate::fits::check;
 use crate::key::{Domain, Key};
@@ -65,7 +68,7 @@ impl Draft {
         &self.text
     }
 
-    /// Gives a key of the table a value, or takes it out of the text.
+    /// Gives a key of the table, or one of a section of a list that is there, as `plate[1].at_m`, a value, or takes it out of the text.
     ///
     /// Everything else in the text stays byte for byte, and all of it does where the value is there already. A key that is not stated yet
     /// goes to the end of its section, a section to where the table has it. A key that is taken out takes the comment behind it with it.
@@ -73,29 +76,30 @@ impl Draft {
     /// # Errors
     /// [`EditError`]; the text stays as it was.
     pub fn set(&mut self, key: &str, value: Option<&Value>) -> Result<(), EditError> {
-        let Some(row) = KEYS.iter().find(|row| row.path == key) else {
+        let Some(target) = Target::of(key) else {
             return Err(EditError::Refused(unknown(key)));
         };
-        let value = value.map(|value| whole(row.domain, value));
+        let value = value.map(|value| whole(target.key.domain, value));
         if let Some(value) = &value {
-            check(row, value, || describe_json(value)).map_err(EditError::Refused)?;
+            let checked = check(target.key, value, || describe_json(value));
+            checked.map_err(|problem| EditError::Refused(target.of_problem(problem)))?;
         }
         let splices = match &value {
-            Some(value) => change::set(&self.text, row, value)?,
-            None => change::remove(&self.text, row)?,
+            Some(value) => change::set(&self.text, &target, value)?,
+            None => change::remove(&self.text, &target)?,
         };
         if splices.is_empty() {
             return Ok(());
         }
         let text = lines::spliced(&self.text, splices);
-        let key = || row.path.to_owned();
+        let key = || target.path();
         if text.len() as u64 > MAX_BYTES {
             return Err(EditError::TooLong {
                 key: key(),
                 limit: MAX_BYTES,
             });
         }
-        if !self.becomes(&text, row, value.as_ref()) {
+        if !self.becomes(&text, &target, value.as_ref()) {
             return Err(EditError::Unplaced { key: key() });
         }
         self.text = text;
@@ -118,18 +122,36 @@ impl Draft {
     }
 
     /// Whether another text states the value of a key, and of all others what this one does.
-    fn becomes(&self, text: &str, key: &Key, value: Option<&Value>) -> bool {
-        let Some(mut after) = stated(text) else {
+    fn becomes(&self, text: &str, target: &Target, value: Option<&Value>) -> bool {
+        let (Some([mut before, mut rows_before]), Some([mut after, mut rows_after])) = (all(&self.text), all(text))
+        else {
             return false;
         };
-        let mut before = self.stated();
-        before.remove(key.path);
-        let fits = match (after.remove(key.path), value) {
+        let taken = match target.row {
+            None => {
+                before.remove(target.key.path);
+                after.remove(target.key.path)
+            }
+            Some((list, index)) => {
+                let own = |rows: &mut BTreeMap<String, Value>| {
+                    let section = rows.get_mut(list)?.get_mut(index)?;
+                    section.as_object_mut()?.remove(target.name())
+                };
+                own(&mut rows_before);
+                own(&mut rows_after)
+            }
+        };
+        let fits = match (taken, value) {
             (Some(found), Some(value)) => merge::same(&found, value),
             (found, value) => found.is_none() && value.is_none(),
         };
-        fits && before == after && listed(text) == listed(&self.text)
+        fits && before == after && rows_before == rows_after
     }
+}
+
+/// What a text states: the keys of the table, and the sections of lists; `None` where it is no TOML.
+fn all(text: &str) -> Option<[BTreeMap<String, Value>; 2]> {
+    Some([stated(text)?, listed(text)?])
 }
 
 /// The keys of the table that a text states; `None` where it is no TOML.
@@ -144,16 +166,14 @@ fn stated(text: &str) -> Option<BTreeMap<String, Value>> {
     Some(KEYS.iter().filter_map(found).collect())
 }
 
-/// The sections of lists that a text states, which no edit changes; `None` where it is no TOML.
-fn listed(text: &str) -> Option<Vec<Option<Value>>> {
+/// The sections of lists that a text states, list by list; `None` where it is no TOML.
+fn listed(text: &str) -> Option<BTreeMap<String, Value>> {
     let table = DeTable::parse(text).ok()?;
     let of = |list: &List| {
-        table
-            .get_ref()
-            .get(list.name)
-            .map(|value| with_sections(value.get_ref()))
+        let value = table.get_ref().get(list.name)?;
+        Some((list.name.to_owned(), with_sections(value.get_ref())))
     };
-    Some(LISTS.iter().map(of).collect())
+    Some(LISTS.iter().filter_map(of).collect())
 }
 
 fn with_sections(value: &DeValue<'_>) -> Value {

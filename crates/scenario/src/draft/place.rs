@@ -66,7 +66,7 @@ pub(super) fn place<'a>(statements: &'a [Statement], section: Option<&str>, name
     }
 }
 
-fn in_braces<'a>(statement: &'a Statement, braces: &'a Node, name: &str) -> Place<'a> {
+pub(super) fn in_braces<'a>(statement: &'a Statement, braces: &'a Node, name: &str) -> Place<'a> {
     let Inside::Section(items) = &braces.inside else {
         return Place::Blocked { by: statement };
     };

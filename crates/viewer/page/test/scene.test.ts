@@ -4,6 +4,7 @@ import { Vector3 } from "three";
 import { Kinematics } from "../src/kinematics.ts";
 import { ArmGraph } from "../src/scene/arm.ts";
 import { geometryOf } from "../src/scene/bodies.ts";
+import { marksHeight, patchAt } from "../src/scene/floor.ts";
 import { plateGeometry } from "../src/scene/plate-shape.ts";
 import { Studio } from "../src/scene/studio.ts";
 import { ToolGraph } from "../src/scene/tool.ts";
@@ -99,4 +100,15 @@ test("a plate's face is its meridian and looks up", () => {
   geometry.computeBoundingBox();
   const { min, max } = geometry.boundingBox!;
   assert.ok(Math.abs(max.x - 0.145) < 1e-6 && Math.abs(min.z + 0.02) < 1e-6 && Math.abs(max.z) < 1e-6);
+});
+
+test("the patch is below an arm on the floor, and the marks under the plates where these lie level", () => {
+  const on = (at: [number, number, number], quaternion?: [number, number, number, number]): { arm: ReturnType<typeof irb120> } => ({ arm: irb120(pose(at, quaternion)) });
+  assert.deepEqual(patchAt(on([0, 0, 0])), [0, 0]);
+  assert.deepEqual(patchAt(on([1, 2, 0], [Math.SQRT1_2, 0, 0, Math.SQRT1_2])), [1, 2]);
+  assert.equal(patchAt(on([1, 2, 0.7])), null);
+  assert.equal(patchAt(on([0, 0, 0], [0, 1, 0, 0])), null);
+  const plate = (z: number, tilted = false): Plate => ({ name: "p", pose: pose([0.3, 0, z], tilted ? [Math.SQRT1_2, Math.SQRT1_2, 0, 0] : undefined), meridian_m: [[0, 0], [0.1, 0]], thickness_m: 0.02, foot: null });
+  const height = (...plates: Plate[]): number => Number(marksHeight({ plates }).toFixed(6));
+  assert.deepEqual([height(), height(plate(0.03)), height(plate(0.72), plate(0.92)), height(plate(0.72, true))], [0.0015, 0.0015, 0.7015, 0.0015]);
 });

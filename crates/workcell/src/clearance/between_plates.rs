@@ -7,10 +7,21 @@ use crate::plate::Plate;
 use nalgebra::Vector6;
 use platewash_kinematics::{BodyPoses, RobotModel};
 
-/// What the distance of the bodies of two plates is not below \[m\]; ≤ 0 where they touch or overlap. An arm lends its frames, whose base
-/// is where both lie.
+/// How far two plates are apart at least, negative where they share a place \[m\]: those that are parallel, seen along their axis, all others by
+/// their bodies; 0 where one lies over the other, or both are faces of one disc. An arm lends its frames, whose base is where both lie.
 #[must_use]
 pub fn gap_of_plates(robot: &RobotModel, a: &Plate, b: &Plate) -> f64 {
+    if a.is_over(b) || b.is_over(a) || a.is_back_of(b) {
+        return 0.0;
+    }
+    if a.is_parallel(b) {
+        return a.gap_beside_m(b);
+    }
+    gap_of_bodies(robot, a, b)
+}
+
+/// What the distance of the bodies of two plates is not below \[m\].
+fn gap_of_bodies(robot: &RobotModel, a: &Plate, b: &Plate) -> f64 {
     let poses = robot.fk(&Vector6::zeros());
     let [a, b] = [a, b].map(|plate| plate_body(0, plate, None));
     let whole = least(a.outer(), b.outer(), &poses);

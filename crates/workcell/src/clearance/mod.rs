@@ -33,6 +33,7 @@ mod between_plates;
 mod body;
 mod bracket;
 mod convex;
+mod crowd;
 mod distance;
 mod error;
 mod hull;
@@ -54,7 +55,7 @@ pub use hull::{Triangulated, hull_triangles};
 pub use model::{ClearanceModel, Nearest, PairClearance, is_clear};
 pub use pairs::exclusions;
 pub use solid::{SolidError, SolidParts, solid_parts};
-pub use standing::{StandingOverlap, standing_overlaps};
+pub use standing::{Standing, StandingOverlap, standing_overlaps};
 pub use touching::TouchingPairs;
 
 /// How far apart the bounds of a distance between solids are that is stated \[m\].

@@ -1,6 +1,7 @@
 //! Distances of all pairs at one configuration.
 
 use super::body::{Body, BodyKind, part_pairs, place, plate_body, world};
+use super::crowd::{Crowd, Pairs};
 use super::distance::{Separation, bracketed};
 use super::error::ClearanceError;
 use super::pairs;
@@ -41,10 +42,13 @@ pub struct ClearanceModel {
     pub(super) robot: RobotModel,
     pub(super) bodies: Vec<Body>,
     pub(super) pairs: Vec<(usize, usize)>,
+    /// Those with obstacles that have an end, and all others.
+    pub(super) crowd: Crowd,
+    pub(super) others: Pairs,
     /// `T_base_world`, where the arm's base is not the world.
-    to_base: Option<Pose>,
+    pub(super) to_base: Option<Pose>,
     /// The plates in the world.
-    plates: Vec<Plate>,
+    pub(super) plates: Vec<Plate>,
 }
 
 impl ClearanceModel {
@@ -62,8 +66,12 @@ impl ClearanceModel {
             let body = plate_body(i, &from_base(to_base.as_ref(), plate), bodies.last());
             bodies.push(body);
         }
+        let pairs = pairs::choose(&bodies, &workcell.exclusions);
+        let (crowd, others) = Crowd::among(&bodies, &pairs, &robot.fk(&JointVector::zeros()));
         Ok(Self {
-            pairs: pairs::choose(&bodies, &workcell.exclusions),
+            pairs,
+            crowd,
+            others,
             robot: robot.clone(),
             bodies,
             to_base,
@@ -105,6 +113,13 @@ impl ClearanceModel {
     #[must_use]
     pub fn body_names(&self) -> Vec<&str> {
         self.bodies.iter().map(|body| body.name.as_str()).collect()
+    }
+
+    /// Whether the body of that name is an obstacle: not of the arm, its tool or the plates.
+    #[must_use]
+    pub fn is_obstacle(&self, name: &str) -> bool {
+        let stands_around = |body: &Body| matches!(body.kind, BodyKind::Obstacle | BodyKind::Floor);
+        self.bodies.iter().any(|body| body.name == name && stands_around(body))
     }
 
     /// Distances of all pairs at `q` \[rad\], in the order of [`ClearanceModel::pair_names`].
@@ -258,7 +273,7 @@ impl ClearanceModel {
 }
 
 /// A plate of the world in the base frame.
-fn from_base(to_base: Option<&Pose>, plate: &Plate) -> Plate {
+pub(super) fn from_base(to_base: Option<&Pose>, plate: &Plate) -> Plate {
     to_base.map_or(*plate, |to_base| plate.seen_from(to_base))
 }
 

@@ -256,6 +256,11 @@ impl Part {
 }
 
 impl Placed<'_> {
+    /// Radius of the sphere about its frame's origin that holds the part \[m\].
+    pub fn bounding(&self) -> f64 {
+        self.bounding
+    }
+
     /// Whether the distance to another part is right to rounding: over a half-space and between two spheres. Between segments
     /// the closed form takes nearly parallel ones for parallel, which costs more the shorter they are.
     pub fn is_exact_with(&self, other: &Self) -> bool {

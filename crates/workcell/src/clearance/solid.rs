@@ -13,6 +13,9 @@ use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 /// Most triangles of a mesh that is decomposed.
 const MOST_TRIANGLES: usize = 20_000;
 
+/// Most distinct corners of a mesh: a hull that has them all is made in seconds.
+const MOST_CORNERS: usize = 10_000;
+
 /// Most parts of a mesh.
 const MOST_PARTS: u32 = 64;
 
@@ -53,6 +56,12 @@ pub enum SolidError {
     /// All of it lies in a plane.
     #[error("it is flat; a body needs a volume")]
     Flat,
+    /// Too many corners.
+    #[error("it has {found} distinct corners; at most {MOST_CORNERS} can be judged: simplify the mesh")]
+    TooManyCorners {
+        /// How many.
+        found: usize,
+    },
     /// Too many triangles.
     #[error("it has {found} triangles; at most {MOST_TRIANGLES} can be decomposed (its hull may have more)")]
     TooMany {
@@ -79,6 +88,10 @@ pub fn solid_parts(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> Result<
         .map(|triangle| triangle.map(|p| Vector::new(p.x, p.y, p.z)))
         .collect();
     let points = distinct(corners.iter().flatten().copied());
+    if points.len() > MOST_CORNERS {
+        let found = points.len();
+        return Err(SolidError::TooManyCorners { found });
+    }
     if !has_volume(&points) {
         return Err(SolidError::Flat);
     }

@@ -1,4 +1,4 @@
-//! What stands still stands apart: obstacles from plates and from the arm's base.
+//! What stands still stands apart: obstacles from plates and from the arm's base, plates at an angle to it from the base.
 //!
 //! Two convex parts reach into each other by no more than max n·a − min n·b along any direction n, from the first to the second. So parts are apart
 //! where one of the directions that are tried says so: those of their faces and axes, of their nearest points, and the one in which the collision library
@@ -7,25 +7,48 @@
 //! The margins of obstacles do not count here: they are for what moves. Nor does the arm in the floor at height 0 that a job has where nothing is said
 //! of one.
 
-use super::body::{Body, obstacle_body, place, plate_body, world};
+use super::body::{Body, BodyKind, obstacle_body, place, plate_body, world};
 use super::distance::bracketed;
 use super::error::ClearanceError;
+use super::model::{ClearanceModel, from_base};
 use super::part::{Core, Extent, Placed};
 use crate::dry_run::DryRun;
 use crate::plate::Plate;
-use crate::workcell::{Obstacle, Workcell};
+use crate::words::printable;
+use crate::workcell::{Obstacle, ObstacleShape, Workcell};
 use parry3d_f64::math::Vector;
 use parry3d_f64::query;
 use platewash_kinematics::{BodyPoses, JointVector, RobotModel};
+use std::fmt;
 
 /// How far bodies that touch may reach into each other by rounding \[m\].
 pub const TOUCH_M: f64 = 1e-6;
 
+/// What stands where it cannot.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Standing {
+    /// An obstacle, by its name.
+    Obstacle(String),
+    /// An obstacle of several convex parts, by its name.
+    Parts(String),
+    /// A plate, by its index.
+    Plate(usize),
+}
+
+impl fmt::Display for Standing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Obstacle(name) | Self::Parts(name) => write!(f, "obstacle '{}'", printable(name)),
+            Self::Plate(index) => write!(f, "plate {index}"),
+        }
+    }
+}
+
 /// Two bodies that stand still and reach into each other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StandingOverlap {
-    /// The obstacle.
-    pub obstacle: String,
+    /// The one.
+    pub standing: Standing,
     /// The plate, or the link of the arm.
     pub other: String,
     /// How far the one reaches into the other, at most \[m\].
@@ -33,8 +56,10 @@ pub struct StandingOverlap {
 }
 
 /// The obstacles of a workcell that reach into its plates, but for those that they hold, or into what of the arm they can never get away from: its
-/// base, and of half-spaces what joint 1 turns above them. The raised plates of a dry
-/// run are not there; its real ones are those of its parent.
+/// base, and of half-spaces what joint 1 turns above them; and the plates that reach into the base. Of plates that lie level with the base
+/// [`BaseFootprint::gap_m`] tells. The raised plates of a dry run are not there; its real ones are those of its parent.
+///
+/// [`BaseFootprint::gap_m`]: crate::layout::BaseFootprint::gap_m
 ///
 /// # Errors
 /// [`ClearanceError`] for a shape that is none.
@@ -50,18 +75,21 @@ pub fn standing_overlaps(
     };
     let counts = |obstacle: &&Obstacle| !is_real_plate(obstacle);
     let counting: Vec<_> = workcell.obstacles.iter().filter(counts).collect();
-    if counting.is_empty() {
-        return Ok(Vec::new());
-    }
     let poses = robot.fk(&JointVector::zeros());
-    let arm = world(robot, &workcell.tool, &[])?;
     let standing = if dry_run.is_some() { &[] } else { plates };
+    let tilted: Vec<_> = (0..standing.len()).filter(|&i| !standing[i].is_level()).collect();
+    // Where all plates lie level on the plain floor no link counts: the arm's bodies need not be made.
+    let arm = match tilted.is_empty() && counting.iter().all(|obstacle| obstacle.is_plain_floor()) {
+        true => Vec::new(),
+        false => world(robot, &workcell.tool, &[])?,
+    };
     let mut bodies: Vec<Body> = Vec::with_capacity(standing.len());
     for (i, plate) in standing.iter().enumerate() {
         let body = plate_body(i, plate, bodies.last());
         bodies.push(body);
     }
-    let mut found = Vec::new();
+    let in_base = |&i: &usize| in_base(i, &bodies[i], &arm, &poses);
+    let mut found: Vec<_> = tilted.iter().filter_map(in_base).collect();
     for obstacle in counting {
         let body = obstacle_body(&Obstacle {
             margin_m: 0.0,
@@ -77,12 +105,43 @@ pub fn standing_overlaps(
             let by_m = overlap(&body, other, &poses);
             // NaN is no overlap that could be told: poses are finite.
             if by_m > TOUCH_M {
-                let (obstacle, other) = (obstacle.name.clone(), other.name.clone());
-                found.push(StandingOverlap { obstacle, other, by_m });
+                let (name, other) = (obstacle.name.clone(), other.name.clone());
+                let standing = match obstacle.shape {
+                    ObstacleShape::Parts(_) => Standing::Parts(name),
+                    _ => Standing::Obstacle(name),
+                };
+                found.push(StandingOverlap { standing, other, by_m });
             }
         }
     }
     Ok(found)
+}
+
+impl ClearanceModel {
+    /// Where a plate that does not lie level with the base reaches into it.
+    #[must_use]
+    pub fn plate_in_base(&self, plate: usize) -> Option<StandingOverlap> {
+        let here = self.bodies.iter().find(|body| body.kind == BodyKind::Plate(plate))?;
+        let poses = self.robot.fk(&JointVector::zeros());
+        let tilted = self
+            .plates
+            .get(plate)
+            .filter(|plate| !from_base(self.to_base.as_ref(), plate).is_level());
+        tilted.and_then(|_| in_base(plate, here, &self.bodies, &poses))
+    }
+}
+
+/// Where a plate reaches into the base, which is among some bodies.
+fn in_base(index: usize, plate: &Body, bodies: &[Body], poses: &BodyPoses) -> Option<StandingOverlap> {
+    let mut base = bodies.iter().filter(|body| body.kind == BodyKind::Link(0));
+    base.find_map(|link| {
+        let by_m = overlap(plate, link, poses);
+        (by_m > TOUCH_M).then(|| StandingOverlap {
+            standing: Standing::Plate(index),
+            other: link.name.clone(),
+            by_m,
+        })
+    })
 }
 
 /// How far two bodies reach into each other at most; 0 where they do not \[m\].

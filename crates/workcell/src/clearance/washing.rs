@@ -66,27 +66,43 @@ impl ClearanceModel {
         }
     }
 
-    /// Stops at the first pair that is too near, and asks for a distance only where bounding spheres leave it open.
+    /// Stops at the first pair that is too near, and asks for a distance only where boxes and bounding spheres leave it open.
     fn all_keep(&self, q: &JointVector, required: f64, counts: impl Fn(usize, usize) -> bool) -> bool {
         let poses = self.robot.fk(q);
+        let is_enough = |gap: f64| gap > 0.0 && gap >= required;
         let mut first = Vec::with_capacity(self.bodies.len());
         let mut frames = Vec::with_capacity(4 * self.bodies.len());
         for body in &self.bodies {
             first.push(frames.len());
-            frames.extend(body.outer().iter().map(|part| part.rigid(&poses)));
+            // Of obstacles few are looked at, if any.
+            let looked_at = body.outer().iter().filter(|_| body.kind != BodyKind::Obstacle);
+            frames.extend(looked_at.map(|part| part.rigid(&poses)));
         }
+        let rigid = |body: usize, part: usize| match &self.bodies[body] {
+            stands if stands.kind == BodyKind::Obstacle => stands.outer()[part].rigid(&poses),
+            _ => frames[first[body] + part],
+        };
         let keeps = |(a, b): (usize, usize), (p, r): (usize, usize)| {
             let (part, other) = (&self.bodies[a].outer()[p], &self.bodies[b].outer()[r]);
-            let (here, there) = (&frames[first[a] + p], &frames[first[b] + r]);
-            let enough = |gap: f64| gap > 0.0 && gap >= required;
-            enough(part.gap_to_sphere(here, other, there))
-                || enough(other.gap_to_sphere(there, part, here))
+            let (here, there) = (rigid(a, p), rigid(b, r));
+            is_enough(part.gap_to_sphere(&here, other, &there))
+                || is_enough(other.gap_to_sphere(&there, part, &here))
                 || is_clear(separation(&part.place(&poses), &other.place(&poses)).distance, required)
                 || self.parts_keep((a, b), (p, r), &poses, required)
         };
-        let mut counting = self.pairs.iter().filter(|&&(a, b)| counts(a, b));
+        let mut counting = self.others.iter().filter(|&&(a, b)| counts(a, b));
+        // Obstacles always count.
+        let keeps_from_obstacles = |(a, leaves): &(usize, Vec<bool>)| {
+            self.bodies[*a].outer().iter().enumerate().all(|(p, part)| {
+                let placed = part.place(&poses);
+                let mut near = self.crowd.near(leaves, &placed, is_enough);
+                near.all(|b| (0..self.bodies[b].outer().len()).all(|r| keeps((*a, b), (p, r))))
+            })
+        };
         counting.all(|&(a, b)| self.part_pairs(a, b).all(|parts| keeps((a, b), parts)))
+            && self.crowd.moving.iter().all(keeps_from_obstacles)
     }
+
     /// Whether the parts of a body with a tree are clear of a part of another one; false where neither body has one.
     fn parts_keep(&self, bodies: (usize, usize), parts: (usize, usize), poses: &BodyPoses, required: f64) -> bool {
         // What is as far as this is clear.

@@ -1,11 +1,11 @@
 //! Why a job is none.
 
-use crate::clearance::{ClearanceError, StandingOverlap};
+use crate::clearance::{ClearanceError, Standing, StandingOverlap};
 use crate::layout::MAX_PLATES;
 use crate::obstacle::ObstacleFault;
 use crate::plate::GREATEST_M;
 use crate::words::{millimetres, printable};
-use crate::workcell::ArmId;
+use crate::workcell::{ArmId, MOST_BODIES};
 use platewash_kinematics::LimitViolation;
 use serde::{Deserialize, Serialize};
 
@@ -54,6 +54,12 @@ pub enum JobError {
         "the mount of the arm must be a place within {GREATEST_M} m of the world's origin along each axis, and a rotation"
     )]
     Mount,
+    /// More bodies than can be judged soon.
+    #[error("{found} bodies of the tool and obstacles; {MOST_BODIES} can be judged at most")]
+    TooManyBodies {
+        /// How many there are.
+        found: usize,
+    },
     /// An obstacle that is none.
     #[error("obstacle '{}': {fault}", printable(.name))]
     Obstacle {
@@ -62,7 +68,7 @@ pub enum JobError {
         /// Why.
         fault: ObstacleFault,
     },
-    /// Obstacles that reach into plates or the arm's base.
+    /// Obstacles that reach into plates or the arm's base, plates that reach into the base.
     #[error("{}", overlaps(.0))]
     Standing(Vec<StandingOverlap>),
     /// A dry run of the paper's program.
@@ -96,10 +102,13 @@ pub enum JobError {
 fn overlaps(all: &[StandingOverlap]) -> String {
     const FEW: usize = 3;
     let one = |overlap: &StandingOverlap| {
-        let StandingOverlap { obstacle, other, by_m } = overlap;
+        let StandingOverlap { standing, other, by_m } = overlap;
+        let parts = match standing {
+            Standing::Parts(_) => " (in convex parts, which hold more than the mesh)",
+            Standing::Obstacle(_) | Standing::Plate(_) => "",
+        };
         format!(
-            "obstacle '{}' reaches {} into {}",
-            printable(obstacle),
+            "{standing} reaches {} into {}{parts}",
             millimetres(*by_m),
             printable(other)
         )

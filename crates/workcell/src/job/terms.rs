@@ -9,7 +9,7 @@ use crate::layout::MAX_PLATES;
 use crate::plate::{GREATEST_M, Plate};
 use crate::pose;
 use crate::simulation::SimulationSettings;
-use crate::workcell::Workcell;
+use crate::workcell::{MOST_BODIES, Workcell};
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
@@ -79,7 +79,7 @@ impl JobTerms {
         self.requirements.wash_acceleration_m_s2.min(anywhere)
     }
 
-    /// Obstacles that reach into plates or the base of the arm: see [`standing_overlaps`].
+    /// Obstacles that reach into plates or the base of the arm, plates that reach into the base: see [`standing_overlaps`].
     ///
     /// # Errors
     /// [`ClearanceError`] for a shape that is none.
@@ -213,6 +213,10 @@ impl JobTerms {
         let is_near = |pose: &Pose| pose.translation.vector.iter().all(|at| at.abs() <= GREATEST_M);
         if !(pose::is_sound(&workcell.mount) && is_near(&workcell.mount)) {
             return Err(JobError::Mount);
+        }
+        let found = workcell.bodies();
+        if found > MOST_BODIES {
+            return Err(JobError::TooManyBodies { found });
         }
         let plates = self.plates.len();
         for obstacle in &workcell.obstacles {

@@ -127,10 +127,8 @@ impl Finding {
 /// plates at an angle meet is for their bodies to tell.
 pub(super) fn overlaps(plates: &[Plate], base: Option<&BaseFootprint>) -> Vec<Finding> {
     let mut findings = Vec::new();
-    let level = Plate::level_disc([0.0; 3], 1.0, 1.0);
     for (i, plate) in plates.iter().enumerate() {
-        let base = base.filter(|_| plate.is_parallel(&level));
-        let overlap_m = base.map_or(0.0, |base| plate.rim_m() - signed_distance(base, plate.centre_xy()));
+        let overlap_m = base.and_then(|base| base.gap_m(plate)).map_or(0.0, |gap_m| -gap_m);
         if overlap_m > 0.0 {
             findings.push(Finding::OverlapsBase { plate: i, overlap_m });
         }
@@ -140,7 +138,7 @@ pub(super) fn overlaps(plates: &[Plate], base: Option<&BaseFootprint>) -> Vec<Fi
         if !first.is_parallel(second) || first.is_over(second) || second.is_over(first) {
             continue;
         }
-        let overlap_m = first.rim_m() + second.rim_m() - first.aside_m(second);
+        let overlap_m = -first.gap_beside_m(second);
         if overlap_m > 0.0 {
             findings.push(Finding::PlatesOverlap { a, b, overlap_m });
         }
@@ -187,12 +185,4 @@ fn pairs(plates: &[Plate]) -> impl Iterator<Item = (usize, usize, f64)> {
             (a, b, (dx * dx + dy * dy).sqrt())
         })
     })
-}
-
-/// Distance of a point from a rectangle, negative inside.
-fn signed_distance(base: &BaseFootprint, [x, y]: [f64; 2]) -> f64 {
-    let beyond = |value: f64, [low, high]: [f64; 2]| (low - value).max(value - high);
-    let (dx, dy) = (beyond(x, base.x_m), beyond(y, base.y_m));
-    let (outside_x, outside_y) = (dx.max(0.0), dy.max(0.0));
-    (outside_x * outside_x + outside_y * outside_y).sqrt() + dx.max(dy).min(0.0)
 }

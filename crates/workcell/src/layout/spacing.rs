@@ -91,4 +91,20 @@ impl BaseFootprint {
         range("base footprint x", self.x_m)?;
         range("base footprint y", self.y_m)
     }
+
+    /// How far a plate that lies level with the base is apart from it, seen from above; negative where it lies over it \[m\]. `None` of a plate
+    /// that does not lie level: what it meets is for the bodies to tell.
+    #[must_use]
+    pub fn gap_m(&self, plate: &Plate) -> Option<f64> {
+        let away_m = plate.is_level().then(|| self.signed_distance(plate.centre_xy()));
+        away_m.map(|away_m| away_m - plate.rim_m())
+    }
+
+    /// Distance of a point \[m\], negative inside.
+    fn signed_distance(&self, [x, y]: [f64; 2]) -> f64 {
+        let beyond = |value: f64, [low, high]: [f64; 2]| (low - value).max(value - high);
+        let (dx, dy) = (beyond(x, self.x_m), beyond(y, self.y_m));
+        let (outside_x, outside_y) = (dx.max(0.0), dy.max(0.0));
+        (outside_x * outside_x + outside_y * outside_y).sqrt() + dx.max(dy).min(0.0)
+    }
 }

@@ -25,6 +25,18 @@ impl Plate {
         (away - axis * axis.dot(&away)).norm()
     }
 
+    /// Distance between the rims of two plates, seen along this one's axis; negative where the one lies over the other \[m\].
+    #[must_use]
+    pub fn gap_beside_m(&self, other: &Self) -> f64 {
+        self.aside_m(other) - self.rim_m() - other.rim_m()
+    }
+
+    /// Whether it lies as the base of the arm stands: its axis is that of the base.
+    #[must_use]
+    pub fn is_level(&self) -> bool {
+        self.is_parallel(&Self::level_disc([0.0; 3], 1.0, 1.0))
+    }
+
     /// Whether all of this plate is over all of another one that is parallel to it, along their axis.
     #[must_use]
     pub fn is_over(&self, other: &Self) -> bool {

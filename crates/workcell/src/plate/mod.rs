@@ -2,6 +2,7 @@
 
 mod beside;
 mod solid;
+mod words;
 
 pub use solid::PlateParts;
 

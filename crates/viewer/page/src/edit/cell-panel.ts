@@ -51,7 +51,8 @@ export class CellPanel {
     this.#findings.replaceChildren(...(seen.drawn?.findings ?? []).map(({ words }) => el("li", {}, isolated(words))));
     this.#map.hidden = mapWords === null;
     if (this.#mapWords.textContent !== mapWords) this.#mapWords.textContent = mapWords;
-    const hint = seen.drawn?.listed === false ? "These plates are drawn from a region by the seed: moving one lists them all where they are." : "Drag plates in the scene, or move them with the arrow keys.";
+    const stuck = cell.unmoved();
+    const hint = stuck !== null ? stuck : seen.drawn?.listed === false ? "These plates are drawn from a region by the seed: moving one lists them all where they are." : "Drag plates in the scene, or move them with the arrow keys; an obstacle once it is clicked.";
     if (this.#hint.textContent !== hint) this.#hint.textContent = hint;
   }
 }

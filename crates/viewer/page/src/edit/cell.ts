@@ -3,6 +3,7 @@ import type { Answers } from "./answers.ts";
 import { Asker, type AskerSettings } from "./asker.ts";
 import { History, type Step } from "./history.ts";
 import type { Asked } from "./lane.ts";
+import { placing, putting, together, unmoved, type Put } from "./placing.ts";
 import type { Seen } from "./seen.ts";
 import { standing, type Activity, type Standing } from "./standing.ts";
 import type { Timing } from "./timings.ts";
@@ -12,8 +13,6 @@ export type Centre = [number, number];
 
 /** Changes of one thing that follow each other within this are one step [ms]. */
 export const BURST_MS = 1000;
-
-export const POSITIONS = "layout.positions_m";
 
 export interface CellSettings extends AskerSettings {
   steps: readonly Step[];
@@ -25,8 +24,9 @@ export interface CellSettings extends AskerSettings {
 interface Drag {
   from: Version;
   to: Version;
-  /** Where plates were before. */
+  /** Where plates were before, and the body that had been put somewhere. */
   were: readonly Centre[];
+  had: Put | null;
 }
 
 interface Burst {
@@ -44,6 +44,8 @@ export class Cell {
   #burst: Burst | null = null;
   /** Where plates were put, until whoever plans has drawn them there. */
   #centres: readonly Centre[] | null = null;
+  /** Where a body was put that stands around, until whoever plans has drawn it there. */
+  #put: Put | null = null;
 
   constructor(settings: CellSettings) {
     this.#settings = settings;
@@ -87,6 +89,16 @@ export class Cell {
   /** Where plates are [m]. */
   get centres(): readonly Centre[] {
     return this.#centres ?? this.seen.drawn?.centres_m ?? [];
+  }
+
+  /** The body that was put somewhere else than it is drawn; null for none. */
+  get put(): Put | null {
+    return this.#put;
+  }
+
+  /** Why so many plates cannot be where hands would put them; null where they can. */
+  unmoved(count = this.centres.length): string | null {
+    return unmoved(this.seen.drawn?.moves?.plates, count);
   }
 
   /** What was answered about the version that counts. */
@@ -157,16 +169,40 @@ export class Cell {
 
   /** Plates are somewhere else; the others exactly where they are. */
   place(centres: readonly Centre[], label: string, burst: string | null = null): void {
-    if (centres.length === 0) return;
-    this.#centres = centres.map(([x, y]): Centre => [x, y]);
-    this.change([{ key: POSITIONS, value: this.#centres }], label, burst);
+    if (centres.length === 0 || this.unmoved(centres.length) !== null) return;
+    const moves = this.seen.drawn?.moves?.plates;
+    this.#centres = together(moves, this.centres, centres);
+    this.change(placing(moves, this.#centres), label, burst);
+  }
+
+  /** A body that stands around is somewhere else. */
+  placeBody(put: Put, label: string, burst: string | null = null): void {
+    const edits = putting(this.seen.drawn?.moves?.bodies[put.body], put.centre_m);
+    if (edits.length === 0) return;
+    this.#put = put;
+    this.change(edits, label, burst);
   }
 
   /** Plates are on their way. */
   drag(centres: readonly Centre[]): void {
-    const { from, were } = this.#drag ?? { from: this.#history.version, were: this.centres };
-    this.#centres = centres.map(([x, y]): Centre => [x, y]);
-    this.#drag = { from, were, to: changed(from, [{ key: POSITIONS, value: this.#centres }]) };
+    if (this.unmoved(centres.length) !== null) return;
+    const [moves, were] = [this.seen.drawn?.moves?.plates, this.centres];
+    const to = together(moves, were, centres);
+    this.#carry(placing(moves, to));
+    this.#centres = to;
+  }
+
+  /** A body that stands around is on its way. */
+  dragBody(put: Put): void {
+    const edits = putting(this.seen.drawn?.moves?.bodies[put.body], put.centre_m);
+    if (edits.length === 0) return;
+    this.#carry(edits);
+    this.#put = put;
+  }
+
+  #carry(edits: readonly Edit[]): void {
+    const { from, were, had } = this.#drag ?? { from: this.#history.version, were: this.centres, had: this.#put };
+    this.#drag = { from, were, had, to: changed(from, edits) };
     this.#burst = null;
     this.#asker.moved();
     this.#settings.onChange();
@@ -189,7 +225,7 @@ export class Cell {
     this.#drag = null;
     this.#asker.stopLooking();
     this.#elsewhere();
-    if (this.planned?.answers.cell == null) this.#centres = drag.were;
+    if (this.planned?.answers.cell == null) [this.#centres, this.#put] = [drag.were, drag.had];
   }
 
   /** A change from elsewhere ends a drag where it is. */
@@ -199,7 +235,7 @@ export class Cell {
 
   #elsewhere(): void {
     this.#burst = null;
-    this.#centres = null;
+    [this.#centres, this.#put] = [null, null];
     this.#ask();
   }
 
@@ -215,6 +251,6 @@ export class Cell {
       this.#history.settle({ text: scenario.text, edits: [] });
       asked.version = this.#history.version;
     }
-    if (cell !== null) this.#centres = null;
+    if (cell !== null) [this.#centres, this.#put] = [null, null];
   }
 }

@@ -3,7 +3,8 @@ import { announce } from "../shell/announcer.ts";
 import type { View } from "../view.ts";
 import type { Cell, Centre } from "./cell.ts";
 import { onFloor, plateIndices, roomFor, shifted, turned, type Selected } from "./moves.ts";
-import type { EditedScene, Hands } from "./scene.ts";
+import { bodyAt } from "./placing.ts";
+import type { EditedScene, Hands, Phase } from "./scene.ts";
 
 export class Commands implements Hands {
   readonly #cell: Cell;
@@ -13,9 +14,12 @@ export class Commands implements Hands {
   /** The axis that plates are turned about, seen from above [m]. */
   readonly #axis: () => Centre;
   readonly #changed: () => void;
+  readonly #say: (words: string) => void;
+  /** The body that is selected among those that stand around. */
+  #body: number | null = null;
   #selected: Selected = null;
 
-  constructor(cell: Cell, view: () => View, scene: () => EditedScene, size: () => Centre, changed: () => void) {
+  constructor(cell: Cell, view: () => View, scene: () => EditedScene, size: () => Centre, changed: () => void, say: (words: string) => void) {
     this.#cell = cell;
     this.#scene = scene;
     this.#size = size;
@@ -24,6 +28,12 @@ export class Commands implements Hands {
       return [x, y];
     };
     this.#changed = changed;
+    this.#say = say;
+  }
+
+  /** Whether there is something to move. */
+  get active(): boolean {
+    return this.#selected !== null || this.#body !== null;
   }
 
   get selected(): Selected {
@@ -31,10 +41,41 @@ export class Commands implements Hands {
   }
 
   select(plate: Selected): void {
+    if (plate !== null) this.selectBody(null);
     if (plate === this.#selected) return;
     this.#selected = plate;
     this.#scene().select(plate);
     this.#changed();
+  }
+
+  selectBody(body: number | null): void {
+    if (body === this.#body) return;
+    const words = body === null ? null : this.#cell.seen.drawn?.moves?.bodies[body]?.words;
+    if (words) return this.#say(words);
+    this.#body = body;
+    if (body !== null) {
+      this.select(null);
+      announce(`${this.#nameOf(body)} selected: drag it, or move it with the arrow keys`);
+    }
+    this.#scene().selectBody(body);
+    this.#changed();
+  }
+
+  moveBody(body: number, centre_m: Centre, phase: Phase): void {
+    if (phase === "cancel") return this.#cell.cancelDrag();
+    if (phase !== "start") this.#cell.dragBody({ body, centre_m });
+    if (phase === "end") this.#cell.drop(`Move ${this.#nameOf(body)}`);
+  }
+
+  mayMove(): boolean {
+    return this.#isFree(this.#cell.centres.length);
+  }
+
+  /** Whether so many plates can be where hands put them; says why not. */
+  #isFree(count: number): boolean {
+    const words = this.#cell.unmoved(count);
+    if (words !== null) this.#say(words);
+    return words === null;
   }
 
   move(to: { plates: number[]; centres_m: Centre[] }, phase: "start" | "drag" | "end" | "cancel"): void {
@@ -46,6 +87,7 @@ export class Commands implements Hands {
 
   /** Puts a plate where it can be washed. */
   take(plate: number): void {
+    if (!this.mayMove()) return;
     const nearest = this.#cell.answers.places.find((place) => place.plate === plate)?.nearest_m;
     if (!nearest) return;
     this.place(plate, nearest, "Take the nearest place of");
@@ -53,6 +95,7 @@ export class Commands implements Hands {
   }
 
   place(plate: number, centre: Centre, verb = "Move"): void {
+    if (!this.mayMove()) return;
     const centres = this.#cell.centres.map((one, k): Centre => (k === plate ? centre : one));
     this.#cell.place(centres, this.#label(verb, [plate]), `place ${plate}`);
   }
@@ -70,20 +113,31 @@ export class Commands implements Hands {
   /** Shifts what is selected to the right and upwards on the screen. */
   shift(right_m: number, up_m: number): void {
     const plates = this.#plates;
+    if (this.#body !== null) return this.#shiftBody(this.#body, onFloor(right_m, up_m, this.#ahead()));
+    if (!this.mayMove()) return;
     const [dx_m, dy_m] = onFloor(right_m, up_m, this.#ahead());
     this.#cell.place(shifted(this.#cell.centres, plates, dx_m, dy_m), this.#label("Move", plates), `move ${this.#selected}`);
     this.#sayPlace();
   }
 
+  #shiftBody(body: number, [dx_m, dy_m]: Centre): void {
+    const at = bodyAt(this.#cell, body);
+    if (at === null) return;
+    const [centre_m] = shifted([at], [0], dx_m, dy_m);
+    this.#cell.placeBody({ body, centre_m: centre_m! }, `Move ${this.#nameOf(body)}`, `move body ${body}`);
+    announce(centre_m!.map((c) => c.toFixed(3)).join(", "));
+  }
+
   turn(angle_rad: number): void {
     const plates = this.#plates;
+    if (plates.length === 0 || !this.mayMove()) return;
     this.#cell.place(turned(this.#cell.centres, plates, this.#axis(), angle_rad), this.#label("Turn", plates), `turn ${this.#selected}`);
     this.#sayPlace();
   }
 
   add(): void {
     const { drawn } = this.#cell.seen;
-    if (drawn === null) return;
+    if (drawn === null || !this.#isFree(this.#cell.centres.length + 1)) return;
     const keepOff = (drawn.surroundings.base_circle_m ?? 0.2) + 0.01;
     const room = roomFor(this.#cell.centres, Math.max(0.001, ...drawn.radius_m), this.#axis(), keepOff);
     this.#cell.place([...this.#cell.centres, room], "Add a plate");
@@ -94,10 +148,15 @@ export class Commands implements Hands {
   remove(plate: number): void {
     const centres = this.#cell.centres.filter((_, k) => k !== plate);
     if (centres.length === 0 || centres.length === this.#cell.centres.length) return;
+    if (!this.#isFree(centres.length)) return;
     const label = this.#label("Remove", [plate]);
     this.select(this.#selected === "all" ? "all" : null);
     this.#cell.place(centres, label);
     announce(`plate ${plate} removed; ${centres.length} left, numbered anew`);
+  }
+
+  #nameOf(body: number): string {
+    return this.#cell.seen.drawn?.surroundings.obstacles[body]?.name ?? "the obstacle";
   }
 
   get #plates(): number[] {

@@ -85,7 +85,7 @@ export class Editor {
       changed: touch,
     });
     this.#shown = new CellShown(view, () => host.scene(), (next) => host.replace(next));
-    this.#commands = new Commands(this.#cell, () => this.#shown.view, () => host.scene(), () => host.size(), touch);
+    this.#commands = new Commands(this.#cell, () => this.#shown.view, () => host.scene(), () => host.size(), touch, (words) => this.#say(words));
     this.#map = new MapAsker(channel, session, () => host.scene(), touch);
     this.#drawings = new Drawings(this.#cell);
     this.#toolbar = new Toolbar({ undo: () => this.#travel("Undone"), redo: () => this.#travel("Done again"), save: () => this.#save() });
@@ -184,7 +184,7 @@ export class Editor {
     const commands = this.#commands;
     const one = (): number | null => (typeof commands.selected === "number" ? commands.selected : null);
     const used = plateKey(event, {
-      active: () => commands.selected !== null,
+      active: () => commands.active,
       next: (step) => commands.next(step),
       shift: (right, up) => commands.shift(right, up),
       turn: (angle) => commands.turn(angle),
@@ -200,7 +200,10 @@ export class Editor {
   #cancel(): void {
     if (this.#cell.dragging) this.#cell.cancelDrag();
     else if (this.#map.words !== null) this.#map.clear();
-    else this.#commands.select(null);
+    else {
+      this.#commands.select(null);
+      this.#commands.selectBody(null);
+    }
   }
 
   /** Saves, with what is being typed. */

@@ -97,6 +97,8 @@ export type CellLine =
       radius_m: number[];
       /** Whether the text lists the plates, or they are drawn from a region. */
       listed: boolean;
+      /** How plates and what stands around are moved. */
+      moves: Moves;
       pose_rad: number[];
       /** What is to be said about how plates lie. */
       findings: { words: string; plates: number[] }[];
@@ -134,6 +136,31 @@ export type CellLine =
   | { kind: "superseded" }
   /** Too much work, or a fault of the program. */
   | { kind: "failed"; words: string };
+
+/** How the things of a cell are moved. */
+export interface Moves {
+  plates: PlateMoves;
+  /** Of each body of `surroundings.obstacles`. */
+  bodies: BodyMove[];
+}
+
+/** What says where plates are: `layout.positions_m`, or a `[[plate]]` section each. */
+export type PlateMoves =
+  | { by: "positions" }
+  /** `sections`: of each plate its section; `at_m`: of each section its place [m]. */
+  | { by: "sections"; sections: number[]; at_m: [number, number, number][] }
+  /** They are not moved, and why. */
+  | { by: "nothing"; words: string };
+
+/** What says where a body is that stands around. */
+export interface BodyMove {
+  /** Null where it is not moved. */
+  key: string | null;
+  /** Its value [m], x and y first. */
+  at_m: number[];
+  /** Why it is not moved. */
+  words: string | null;
+}
 
 /** A plate that cannot be washed, or that no way to wash was found for. */
 export interface Unwashable {

@@ -11,6 +11,11 @@ export interface Hands {
   /** Centres of those plates, in their order. */
   move(to: { plates: number[]; centres_m: Centre[] }, phase: Phase): void;
   take(plate: number): void;
+  /** Whether plates may be moved; says why not. */
+  mayMove(): boolean;
+  /** A body that stands around was clicked; null for none. */
+  selectBody(body: number | null): void;
+  moveBody(body: number, centre_m: Centre, phase: Phase): void;
 }
 
 export interface Offending {
@@ -29,6 +34,10 @@ export interface EditedScene {
   edit(hands: Hands): void;
   select(selected: Selected): void;
   preview(centres_m: Centre[] | null): void;
+  /** The body that is selected among those that stand around. */
+  selectBody(body: number | null): void;
+  /** Shows a body elsewhere; null where it is. */
+  previewBody(put: { body: number; centre_m: Centre } | null): void;
   chances(list: { plate: number; chance: Chance }[] | null): void;
   offending(list: Offending[]): void;
   ghosts(list: { plate: number; centre_m: [number, number] }[]): void;
@@ -44,6 +53,8 @@ export const NO_SCENE: EditedScene = {
   edit: nothing,
   select: nothing,
   preview: nothing,
+  selectBody: nothing,
+  previewBody: nothing,
   chances: nothing,
   offending: nothing,
   ghosts: nothing,

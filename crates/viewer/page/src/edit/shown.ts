@@ -18,6 +18,7 @@ export class CellShown {
   #since = 0;
   #waits: CellDrawn | null = null;
   #centres: readonly Centre[] | null = null;
+  #put: Cell["put"] = null;
   #chances: Answers["preview"] | null = null;
   #unplanned: Answers["unplanned"] = null;
   #places: Answers["places"] = [];
@@ -60,11 +61,16 @@ export class CellShown {
     if (view === this.#view) return;
     this.#view = view;
     this.#centres = null;
+    this.#put = null;
     this.#replace(view);
   }
 
-  /** Plates where they were put, while what is drawn has them elsewhere. */
+  /** Plates and a body where they were put, while what is drawn has them elsewhere. */
   #updatePlaces(cell: Cell): void {
+    if (cell.put !== this.#put) {
+      this.#put = cell.put;
+      this.#scene().previewBody(cell.put);
+    }
     const elsewhere = cell.centres.length === this.#view.plates.length && cell.centres.some((centre, k) => !isAt(this.#view, k, centre));
     const centres = elsewhere ? cell.centres : null;
     if (centres === this.#centres) return;

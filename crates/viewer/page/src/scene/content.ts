@@ -57,6 +57,9 @@ export class Content {
   get tool(): ToolGraph {
     return this.#tool;
   }
+  get obstacles(): Obstacles {
+    return this.#obstacles;
+  }
   get paths(): Paths {
     return this.#paths;
   }
@@ -101,7 +104,7 @@ export class Content {
     }
     if (!kept.floor) {
       this.#retire(this.#floor?.ground, this.#floor?.region);
-      this.#floor = new Floor(view.surroundings, view.arm.mount.position_m, this.#studio);
+      this.#floor = new Floor(view, this.#studio);
       this.root.add(this.#floor.ground, this.#floor.region);
     }
     if (!kept.extent) this.#extent = extentOf(view, this.#obstacles.bounds());

@@ -8,7 +8,7 @@ import { Handles, type Phase, type Picked, type Touched } from "./handles.ts";
 import { WashMap, type MapPatch } from "./map.ts";
 import { Outlines } from "./outlines.ts";
 import type { Palette } from "./palette.ts";
-import { nearest, onPlane, type Solid } from "./pick.ts";
+import { nearest, nearestAt, onPlane, type Solid } from "./pick.ts";
 import { RingHandle, partOf, ringThrough } from "./ring.ts";
 import { Signs } from "./signs.ts";
 import type { Studio } from "./studio.ts";
@@ -24,6 +24,12 @@ export interface EditActions {
   move(to: { plates: number[]; centres_m: Centre[] }, phase: Phase): void;
   /** The ghost of a plate was clicked. */
   take(plate: number): void;
+  /** Whether plates may be moved; says why not. */
+  mayMove(): boolean;
+  /** A body that stands around was clicked; null for none. */
+  selectBody(body: number | null): void;
+  /** Where a body is on its way. */
+  moveBody(body: number, centre_m: Centre, phase: Phase): void;
 }
 
 /** What editing needs of the scene. */
@@ -67,6 +73,9 @@ export class Editing implements Touched {
   /** Plates in the hand, which lie where it holds them whatever else is shown. */
   #carried = new Map<number, Centre>();
   #offending: readonly Offending[] = [];
+  /** The body that is selected among those that stand around, and where one is shown elsewhere. */
+  #body: number | null = null;
+  #put: { body: number; centre_m: Centre } | null = null;
 
   constructor(surface: Surface, actions: EditActions) {
     this.#surface = surface;
@@ -92,8 +101,11 @@ export class Editing implements Touched {
     const { count } = this.#surface.content.plates;
     if ([...this.#carried.keys()].some((plate) => plate >= count)) this.#handles.cancel();
     if (typeof this.#selection === "number" && this.#selection >= count) this.#selection = null;
+    if (this.#body !== null && this.#surface.content.obstacles.placeOf(this.#body) === null) this.#body = null;
+    this.#surface.content.obstacles.select(this.#body);
     this.#hovered = null;
     this.#preview = null;
+    if (!this.dragging) this.#put = null;
     this.#lay();
     this.#washability.setOffending(this.#offending, this.#solids);
     this.#arrange();
@@ -108,6 +120,18 @@ export class Editing implements Touched {
     this.#preview = centres_m;
     this.#lay();
     this.#arrange();
+  }
+
+  selectBody(body: number | null): void {
+    this.#body = body;
+    this.#surface.content.obstacles.select(body);
+    this.#surface.changed(false);
+  }
+
+  previewBody(put: { body: number; centre_m: Centre } | null): void {
+    if (this.#put !== null) this.#surface.content.obstacles.move(this.#put.body, null);
+    this.#put = put;
+    this.#lay();
   }
 
   chances(list: readonly { plate: number; chance: Chance }[]): void {
@@ -133,7 +157,8 @@ export class Editing implements Touched {
 
   /** Lays the plates where they are held, previewed, or where the document has them. */
   #lay(): void {
-    const { plates, paths } = this.#surface.content;
+    const { plates, paths, obstacles } = this.#surface.content;
+    if (this.#put !== null) obstacles.move(this.#put.body, this.#put.centre_m);
     for (let plate = 0; plate < plates.count; plate++) plates.move(plate, this.#carried.get(plate) ?? this.#preview?.[plate] ?? null);
     paths.fade(plates.moved);
     this.#surface.changed(true);
@@ -179,11 +204,14 @@ export class Editing implements Touched {
 
   pick(x: number, y: number, coarse: boolean): Picked | null {
     const ray = this.#surface.ray(x, y);
-    const plate = nearest(ray, this.#solids);
+    const met = nearestAt(ray, this.#solids);
+    const plate = met?.index ?? null;
     const ghost = this.#ghosts.plates[nearest(ray, this.#ghosts.solids) ?? -1];
     const ring = this.#overRing(ray, coarse);
     if (ring === "arrow") return { kind: "ring" };
     if (ghost !== undefined && (ghost !== plate || this.#nearGhost(ghost, x, y))) return { kind: "ghost", plate: ghost };
+    const body = this.#surface.content.obstacles.nearest(ray);
+    if (body !== null && body.along_m < (met?.along_m ?? Infinity)) return { kind: "body", body: body.index };
     if (plate !== null) return { kind: "plate", plate };
     return ring === null ? null : { kind: "ring" };
   }
@@ -214,6 +242,7 @@ export class Editing implements Touched {
 
   grab(picked: Picked, x: number, y: number): { grab: Grab; height_m: number } | null {
     if (picked.kind === "ghost") return null;
+    if (picked.kind === "body") return this.#grabBody(picked.body, x, y);
     const plates = picked.kind === "ring" || this.#selection === "all" ? this.#selected : [picked.plate];
     const [solid] = picked.kind === "ring" ? [] : [this.#solids[picked.plate]];
     const height_m = solid === undefined ? this.#ring.height_m : solid.pose.elements[14]! + solid.top_m;
@@ -223,12 +252,34 @@ export class Editing implements Touched {
     return { grab: { plates, starts_m, from_m, about_m: picked.kind === "ring" ? this.#axis : null }, height_m };
   }
 
+  /** A body that is selected, in the plane through where it is held. */
+  #grabBody(body: number, x: number, y: number): { grab: Grab; height_m: number } | null {
+    const { obstacles } = this.#surface.content;
+    const [ray, place] = [this.#surface.ray(x, y), obstacles.placeOf(body)];
+    const met = obstacles.nearest(ray);
+    if (body !== this.#body || place === null || met === null) return null;
+    const height_m = ray.origin.z + met.along_m * ray.direction.z;
+    const from_m = this.toPlane(x, y, height_m);
+    if (from_m === null) return null;
+    return { grab: { plates: [], body, starts_m: [[place[0], place[1]]], from_m, about_m: null }, height_m };
+  }
+
+  begin({ body }: Grab): boolean {
+    return body !== undefined || this.#actions.mayMove();
+  }
+
   toPlane(x: number, y: number, height_m: number): Centre | null {
     return onPlane(this.#surface.ray(x, y), height_m);
   }
 
   /** Moves the plates in the hand at once, and tells of it. Let go, they stay until another document is shown. */
-  carry(plates: readonly number[], centres_m: readonly Centre[], phase: Phase): void {
+  carry({ plates, body }: Grab, centres_m: readonly Centre[], phase: Phase): void {
+    const [centre] = centres_m;
+    if (body !== undefined && centre !== undefined) {
+      this.previewBody({ body, centre_m: centre });
+      this.#actions.moveBody(body, [centre[0], centre[1]], phase);
+      return;
+    }
     this.#carried = new Map(plates.map((plate, k) => [plate, centres_m[k]!]));
     if (phase === "end" || phase === "cancel") {
       this.#preview = this.#solids.map((solid, plate) => this.#carried.get(plate) ?? centreOf(solid));
@@ -245,7 +296,9 @@ export class Editing implements Touched {
   }
 
   click(picked: Picked | null): void {
-    if (picked === null) this.#choose(null);
+    if (picked === null || picked.kind !== "body") this.#actions.selectBody(null);
+    if (picked?.kind === "body") this.#actions.selectBody(picked.body);
+    else if (picked === null) this.#choose(null);
     else if (picked.kind === "ghost") this.#actions.take(picked.plate);
     else if (picked.kind === "plate" && this.#selection === "all") this.#choose(picked.plate);
   }

@@ -3,10 +3,13 @@ import { Box3, Sphere, Vector3 } from "three";
 import { Kinematics, matrixOf } from "../kinematics.ts";
 import { floats } from "../numbers.ts";
 import type { View } from "../view.ts";
-import { PATCH_M } from "./floor.ts";
+import { PATCH_M, patchAt } from "./floor.ts";
+import { matrix4 } from "./pose.ts";
 
 /** How thick an arm is reckoned about the frames of its joints [m]. */
 const THICK_M = 0.09;
+const ABOVE = [new Vector3(0, 0, THICK_M)];
+const AROUND = [...ABOVE, ...[[0, 0, -1], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]].map((way) => new Vector3(...way).multiplyScalar(THICK_M))];
 /** Places farther out are not shown [m]. */
 const FARTHEST_M = 50;
 
@@ -38,19 +41,21 @@ function motionPoints(view: View): Vector3[] {
   const step = Math.max(1, Math.floor(rows.length / axes / 64));
   const pose = new Float64Array(16);
   const points: Vector3[] = [];
+  // An arm that stands on the floor is seen from above; of others any side may be the outermost.
+  const about = patchAt(view) === null ? AROUND : ABOVE;
   for (let k = 0; (k + 1) * axes <= rows.length; k += step) {
-    kinematics.frames(rows, k * axes, (frame) => points.push(new Vector3(frame[12], frame[13], frame[14]! + THICK_M)));
+    kinematics.frames(rows, k * axes, (frame) => points.push(...about.map((way) => new Vector3(frame[12], frame[13], frame[14]).add(way))));
     kinematics.tip(rows, pose, k * axes);
     points.push(new Vector3(pose[12], pose[13], pose[14]));
   }
   return points;
 }
 
-/** The arm's foot, and the corners of the patch that it stands on. */
+/** The arm's foot, and the corners of the patch where it stands on one. */
 function floorPoints(view: View): Vector3[] {
-  const base = new Vector3(...view.arm.mount.position_m);
-  const square = (half: number): Vector3[] => [-half, half].flatMap((x) => [-half, half].map((y) => new Vector3(x, y, 0)));
-  return [...square(0.2).map((corner) => corner.add(base)), ...square(PATCH_M)];
+  const mount = matrix4(view.arm.mount);
+  const square = (half: number): Vector3[] => [-half, half].flatMap((x) => [-half, half].map((y) => new Vector3(x, y, 0).applyMatrix4(mount)));
+  return [...square(0.2), ...(patchAt(view) === null ? [] : square(PATCH_M))];
 }
 
 /** Corners of a box of a size that can be shown. */

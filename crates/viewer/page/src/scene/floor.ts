@@ -1,6 +1,6 @@
 /** The floor: the paper's grey patch, a grid that fades, shadows, and what the job keeps to: base circle and region. */
 import { Group, Mesh, PlaneGeometry, ShadowMaterial, Shape, ShapeGeometry, Vector2, Color, MeshBasicMaterial } from "three";
-import type { Surroundings } from "../view.ts";
+import type { View } from "../view.ts";
 import { Lines, stretches } from "./lines.ts";
 import type { Palette } from "./palette.ts";
 import type { Studio } from "./studio.ts";
@@ -9,6 +9,24 @@ import type { Studio } from "./studio.ts";
 export const PATCH_M = 0.5;
 /** How far the ground lies below the patch [m]. */
 const GROUND_M = 0.0015;
+
+/** How far over what they are on base circle and region are drawn [m]. */
+const OVER_M = 0.0015;
+/** Plates whose undersides are lower than this are taken to lie on the floor [m]. */
+const RAISED_M = 0.1;
+
+/** Where the middle of the patch is: below an arm that stands upright on the floor; nowhere for one that is mounted elsewhere. */
+export function patchAt({ arm }: Pick<View, "arm">): [number, number] | null {
+  const { position_m: [x, y, z], quaternion_wxyz: [, i, j] } = arm.mount;
+  return Math.abs(z) < 1e-3 && Math.hypot(i, j) < 1e-6 ? [x, y] : null;
+}
+
+/** Height at which base circle and region are drawn [m]: on the floor, or under plates that lie level on something higher. */
+export function marksHeight({ plates }: Pick<View, "plates">): number {
+  const level = plates.every(({ pose: { quaternion_wxyz: [, i, j] } }) => Math.hypot(i, j) < 1e-6);
+  const under = Math.min(...plates.map((plate) => plate.pose.position_m[2] - plate.thickness_m - (plate.foot?.height_m ?? 0)));
+  return (level && Number.isFinite(under) && under > RAISED_M ? under : 0) + OVER_M;
+}
 
 const GRID_VERTEX = /* glsl */ `
 #include <worldpos_vertex>
@@ -60,10 +78,14 @@ export class Floor {
   readonly #fill: MeshBasicMaterial | null = null;
   readonly #plane: Mesh;
 
-  constructor(surroundings: Surroundings, base: readonly [number, number, number], studio: Studio) {
+  constructor(view: View, studio: Studio) {
+    const { surroundings, arm: { mount: { position_m: base } } } = view;
+    const [middle, height] = [patchAt(view), marksHeight(view)];
     this.#patch = studio.material({ roughness: 0.9 });
     const patch = new Mesh(roundedPatch(), this.#patch);
     patch.receiveShadow = true;
+    patch.visible = middle !== null;
+    patch.position.set(middle?.[0] ?? 0, middle?.[1] ?? 0, 0);
     this.#plane = new Mesh(new PlaneGeometry(1, 1), this.#shadow);
     this.#plane.position.z = -GROUND_M;
     this.#plane.receiveShadow = true;
@@ -78,16 +100,16 @@ export class Floor {
     };
     this.ground.add(this.#plane, patch);
     const { base_circle_m: radius, region_m: region } = surroundings;
-    if (radius !== null && radius > 0) this.#outline(circle(radius, 0.0015).map((x, i) => x + (i % 3 < 2 ? base[i % 3]! : 0)), [0.02, 0.014]);
-    if (region !== null && region.length > 2) this.#fill = this.#area(region);
+    if (radius !== null && radius > 0) this.#outline(circle(radius, height).map((x, i) => x + (i % 3 < 2 ? base[i % 3]! : 0)), [0.02, 0.014]);
+    if (region !== null && region.length > 2) this.#fill = this.#area(region, height);
   }
 
-  #area(region: [number, number][]): MeshBasicMaterial {
+  #area(region: [number, number][], height: number): MeshBasicMaterial {
     const fill = new MeshBasicMaterial({ transparent: true, opacity: 0.07, depthWrite: false, toneMapped: false });
     const mesh = new Mesh(new ShapeGeometry(new Shape(region.map(([x, y]) => new Vector2(x, y)))), fill);
-    mesh.position.z = 0.001;
+    mesh.position.z = height - 0.0005;
     this.region.add(mesh);
-    this.#outline([...region, region[0]!].flatMap(([x, y]) => [x, y, 0.0015]));
+    this.#outline([...region, region[0]!].flatMap(([x, y]) => [x, y, height]));
     return fill;
   }
 

@@ -12,6 +12,8 @@ export interface Grab {
   from_m: Centre;
   /** Null: they are shifted. Else they are turned about this place, the base axis. */
   about_m: Centre | null;
+  /** In place of plates a body that stands around. */
+  body?: number;
 }
 
 /** Steps of centres and of turns, and those of a hand that wants it finer. */

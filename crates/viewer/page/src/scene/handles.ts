@@ -2,7 +2,7 @@
 import { carried, type Centre, type Grab } from "./grab.ts";
 
 /** What a pointer is over. */
-export type Picked = { kind: "plate" | "ghost"; plate: number } | { kind: "ring" };
+export type Picked = { kind: "plate" | "ghost"; plate: number } | { kind: "ring" } | { kind: "body"; body: number };
 
 /** How a drag goes on. */
 export type Phase = "start" | "drag" | "end" | "cancel";
@@ -16,7 +16,9 @@ export interface Touched {
   grab(picked: Picked, x: number, y: number): { grab: Grab; height_m: number } | null;
   /** Where a place on the canvas is in a level plane [m]; null where it is not in it. */
   toPlane(x: number, y: number, height_m: number): Centre | null;
-  carry(plates: readonly number[], centres_m: readonly Centre[], phase: Phase): void;
+  /** What is held begins to move; whether it may. */
+  begin(grab: Grab): boolean;
+  carry(grab: Grab, centres_m: readonly Centre[], phase: Phase): void;
   /** Something was pressed: null for nothing. */
   press(picked: Picked | null): void;
   /** It was pressed and let go without having been moved. */
@@ -74,7 +76,8 @@ export class Handles {
     const picked = this.#touched.pick(...at, event.pointerType !== "mouse");
     const hold = picked === null ? null : this.#touched.grab(picked, ...at);
     this.#held = { pointer: event.pointerId, picked, grab: hold?.grab ?? null, height_m: hold?.height_m ?? 0, at, moved: false, centres_m: [] };
-    if (picked === null) return;
+    // A body that is not selected lets the camera turn: it may be all that is in sight.
+    if (picked === null || (picked.kind === "body" && hold === null)) return;
     this.#touched.setCamera(false);
     this.#canvas.setPointerCapture(event.pointerId);
     if (hold !== null) this.#canvas.style.cursor = "grabbing";
@@ -96,9 +99,10 @@ export class Handles {
 
   #begin(held: Held): void {
     held.moved = true;
+    if (held.grab !== null && !this.#touched.begin(held.grab)) held.grab = null;
     if (held.grab === null) return;
     held.centres_m = held.grab.starts_m;
-    this.#touched.carry(held.grab.plates, held.centres_m, "start");
+    this.#touched.carry(held.grab, held.centres_m, "start");
   }
 
   #drag(held: Held, at: [number, number], fine: boolean): void {
@@ -107,7 +111,7 @@ export class Handles {
     const centres = place === null ? null : carried(held.grab, place, fine);
     if (centres === null || String(centres) === String(held.centres_m)) return;
     held.centres_m = centres;
-    this.#touched.carry(held.grab.plates, centres, "drag");
+    this.#touched.carry(held.grab, centres, "drag");
   }
 
   readonly #up = (event: PointerEvent): void => {
@@ -116,7 +120,7 @@ export class Handles {
     if (held.moved) this.#drag(held, this.#place(event), event.altKey);
     this.#release();
     if (!held.moved) this.#touched.click(held.picked);
-    else if (held.grab !== null) this.#touched.carry(held.grab.plates, held.centres_m, "end");
+    else if (held.grab !== null) this.#touched.carry(held.grab, held.centres_m, "end");
     if (event.pointerType === "mouse") this.#hover(event);
   };
 
@@ -140,7 +144,7 @@ export class Handles {
     const held = this.#held;
     if (held === null) return;
     this.#release();
-    if (held.moved && held.grab !== null) this.#touched.carry(held.grab.plates, held.grab.starts_m, "cancel");
+    if (held.moved && held.grab !== null) this.#touched.carry(held.grab, held.grab.starts_m, "cancel");
   }
 
   #release(): void {
@@ -155,7 +159,7 @@ export class Handles {
   #hover(event: PointerEvent): void {
     const picked = this.#touched.pick(...this.#place(event), event.pointerType !== "mouse");
     this.#touched.hover(picked);
-    this.#canvas.style.cursor = picked === null ? "" : picked.kind === "ghost" ? "pointer" : "grab";
+    this.#canvas.style.cursor = picked === null ? "" : picked.kind === "ghost" || picked.kind === "body" ? "pointer" : "grab";
   }
 
   dispose(): void {

@@ -175,6 +175,16 @@ export class Scene {
     this.#editing?.select(selection);
   }
 
+  /** Brings out a body that stands around; null for none. */
+  selectBody(body: number | null): void {
+    this.#editing?.selectBody(body);
+  }
+
+  /** Shows a body that stands around elsewhere; null where it is. */
+  previewBody(put: { body: number; centre_m: Centre } | null): void {
+    this.#editing?.previewBody(put);
+  }
+
   /** Shows plates at other centres than the document's, until it is replaced; null where the document has them. */
   preview(centres_m: readonly Centre[] | null): void {
     this.#editing?.preview(centres_m);

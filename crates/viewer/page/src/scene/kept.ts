@@ -1,5 +1,6 @@
 /** What of a scene stays as it is where another document takes the place of the one shown. */
 import type { View } from "../view.ts";
+import { marksHeight } from "./floor.ts";
 
 /** True for what is kept. */
 export interface Kept {
@@ -43,7 +44,8 @@ export function keptOf(before: View, after: View): Kept {
     floor:
       same(before.arm.mount, after.arm.mount) &&
       before.surroundings.base_circle_m === after.surroundings.base_circle_m &&
-      same(before.surroundings.region_m, after.surroundings.region_m),
+      same(before.surroundings.region_m, after.surroundings.region_m) &&
+      marksHeight(before) === marksHeight(after),
     plates,
     planned: sameList(before.coverage, after.coverage),
     executed: execution,

@@ -1,9 +1,9 @@
 /** Bodies that stand still. */
-import { Box3, DoubleSide, Group, Mesh } from "three";
+import { Box3, Color, DoubleSide, Group, Matrix4, Mesh, Raycaster, type MeshStandardMaterial, type Ray } from "three";
 import type { Body } from "../view.ts";
 import { geometryOf } from "./bodies.ts";
 import type { Palette } from "./palette.ts";
-import { fix } from "./pose.ts";
+import { fix, matrix4 } from "./pose.ts";
 import type { Studio } from "./studio.ts";
 
 /** Whether a body is the floor at z = 0, which is drawn as such. */
@@ -15,10 +15,19 @@ function isFloor(body: Body): boolean {
 /** The obstacles but the floor. */
 export class Obstacles {
   readonly root = new Group();
-  readonly #plain: { color: { set(colour: string): void } }[] = [];
+  readonly #plain: MeshStandardMaterial[] = [];
+  /** What is drawn of each body; nothing of the floor. */
+  readonly #meshes: (Mesh | null)[];
+  /** Where each body is. */
+  readonly #poses: Matrix4[];
+  readonly #caster = new Raycaster();
+  readonly #held = new Color();
+  #selected: number | null = null;
 
   constructor(bodies: readonly Body[], studio: Studio) {
-    for (const body of bodies.filter((body) => !isFloor(body))) {
+    this.#poses = bodies.map(({ pose }) => matrix4(pose));
+    this.#meshes = bodies.map((body) => {
+      if (isFloor(body)) return null;
       const flat = "half_space" in body.shape;
       const alpha = flat ? 0.25 : (body.rgba?.[3] ?? 1);
       const material = studio.material({ roughness: 0.7, transparent: alpha < 1, opacity: alpha, depthWrite: alpha >= 1, ...(flat ? { side: DoubleSide } : {}) });
@@ -28,7 +37,41 @@ export class Obstacles {
       mesh.castShadow = !flat;
       mesh.receiveShadow = true;
       this.root.add(mesh);
-    }
+      return mesh;
+    });
+  }
+
+  /** The body with an end that a ray meets first, and how far along it [m]. */
+  nearest(ray: Ray): { index: number; along_m: number } | null {
+    if (!this.root.visible) return null;
+    this.#caster.ray.copy(ray);
+    const drawn = this.#meshes.filter((mesh): mesh is Mesh => mesh !== null && mesh.castShadow);
+    const [hit] = this.#caster.intersectObjects(drawn, false);
+    return hit === undefined ? null : { index: this.#meshes.indexOf(hit.object as Mesh), along_m: hit.distance };
+  }
+
+  /** Where a body is as drawn, world frame [m]; null where it is not drawn. */
+  placeOf(body: number): [number, number, number] | null {
+    const at = this.#meshes[body]?.matrix.elements;
+    return at === undefined ? null : [at[12]!, at[13]!, at[14]!];
+  }
+
+  /** Draws a body elsewhere, seen from above [m]; null where it is. */
+  move(body: number, centre_m: readonly [number, number] | null): void {
+    const [mesh, pose] = [this.#meshes[body], this.#poses[body]];
+    if (!mesh || pose === undefined) return;
+    mesh.matrix.copy(pose);
+    if (centre_m !== null) mesh.matrix.setPosition(centre_m[0], centre_m[1], pose.elements[14]!);
+    mesh.matrixWorldNeedsUpdate = true;
+  }
+
+  /** Brings out a body. */
+  select(body: number | null): void {
+    this.#selected = body;
+    this.#meshes.forEach((mesh, k) => {
+      const material = mesh?.material as MeshStandardMaterial | undefined;
+      material?.emissive.copy(k === body ? this.#held : new Color(0)).multiplyScalar(0.35);
+    });
   }
 
   /** A box about all obstacles with an end, empty without any. */
@@ -40,5 +83,7 @@ export class Obstacles {
 
   setPalette(palette: Palette): void {
     for (const material of this.#plain) material.color.set(palette.obstacle);
+    this.#held.set(palette.selected);
+    this.select(this.#selected);
   }
 }

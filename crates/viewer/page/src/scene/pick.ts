@@ -51,10 +51,15 @@ const local = new Ray(new Vector3(), new Vector3());
 
 /** The index of the solid that a ray meets first. */
 export function nearest(ray: Ray, solids: readonly Solid[]): number | null {
+  return nearestAt(ray, solids)?.index ?? null;
+}
+
+/** The same with how far along the ray that is [m]. */
+export function nearestAt(ray: Ray, solids: readonly Solid[]): { index: number; along_m: number } | null {
   let [found, least]: [number | null, number] = [null, Infinity];
   solids.forEach((solid, index) => {
     const at = entry(local.copy(ray).applyMatrix4(inverse.copy(solid.pose).invert()), solid);
     if (at !== null && at < least) [found, least] = [index, at];
   });
-  return found;
+  return found === null ? null : { index: found, along_m: least };
 }

@@ -139,3 +139,21 @@ proptest! {
         }
     }
 }
+
+/// As many corners as would take minutes are refused before a hull is made, whatever counts of the mesh; as many as are allowed are not.
+#[test]
+fn more_corners_than_can_be_judged_are_refused() {
+    let spread = |count: usize| -> Mesh {
+        let corner = |k: usize| Point3::new((k % 40) as f64, (k / 40 % 40) as f64, (k / 1600) as f64) * 0.01;
+        (0..count / 3).map(|t| [0, 1, 2].map(|i| corner(3 * t + i))).collect()
+    };
+    for parts in [SolidParts::Hull, SolidParts::Decomposed] {
+        let refused = solid_parts(&spread(MOST_CORNERS + 2), parts).unwrap_err();
+        let said = refused.to_string();
+        assert!(
+            said.contains("10002 distinct corners; at most 10000 can be judged: simplify the mesh"),
+            "{said}"
+        );
+    }
+    assert!(solid_parts(&spread(MOST_CORNERS - 1), SolidParts::Hull).is_ok());
+}

@@ -1,0 +1,61 @@
+/** Places of plates and of what stands around, as changes of the scenario. */
+import type { Cell, Centre } from "./cell.ts";
+import type { BodyMove, PlateMoves } from "./protocol.ts";
+import type { Edit } from "./version.ts";
+
+export const POSITIONS = "layout.positions_m";
+
+/** Digits of a coordinate that follows another [1/m]. */
+const DIGITS = 1e9;
+
+const follow = (value: number, from: number, to: number): number => (from === to ? value : Math.round((value + to - from) * DIGITS) / DIGITS + 0);
+
+/** Why plates are not moved there; null where they are. So many plates as before are moved, where each has a section of its own. */
+export function unmoved(moves: PlateMoves | undefined, count: number): string | null {
+  if (moves?.by === "nothing") return moves.words;
+  if (moves?.by === "sections" && moves.sections.length !== count) return "Each of these plates is a [[plate]] section: add or remove one in the text.";
+  return null;
+}
+
+/** The faces of one plate move together: where one was moved, the other follows. */
+export function together(moves: PlateMoves | undefined, were: readonly Centre[], centres: readonly Centre[]): Centre[] {
+  const to = centres.map(([x, y]): Centre => [x, y]);
+  if (moves?.by !== "sections") return to;
+  const stays = (plate: number): boolean => String(were[plate]) === String(centres[plate]);
+  moves.sections.forEach((section, plate) => {
+    const other = moves.sections.findIndex((one, k) => one === section && k !== plate);
+    if (other < 0 || stays(plate) || !stays(other)) return;
+    const [from, at] = [were[plate]!, centres[plate]!];
+    to[other] = [follow(to[other]![0], from[0], at[0]), follow(to[other]![1], from[1], at[1])];
+  });
+  return to;
+}
+
+/** The changes that put plates there. Their heights stay. */
+export function placing(moves: PlateMoves | undefined, centres: readonly Centre[]): Edit[] {
+  if (moves?.by !== "sections") return [{ key: POSITIONS, value: centres.map(([x, y]): Centre => [x, y]) }];
+  return moves.at_m.flatMap((at, section) => {
+    // Of a plate with two faces the first is where the section says.
+    const centre = centres[moves.sections.indexOf(section)];
+    return centre === undefined ? [] : [{ key: `plate[${section}].at_m`, value: [...centre, at[2]] }];
+  });
+}
+
+/** A body that stands around, put somewhere. */
+export interface Put {
+  body: number;
+  centre_m: Centre;
+}
+
+/** The change that puts a body there; none for one that is not moved. */
+export function putting(move: BodyMove | undefined, [x, y]: Centre): Edit[] {
+  return move === undefined || move.key === null ? [] : [{ key: move.key, value: [x, y, ...move.at_m.slice(2)] }];
+}
+
+/** Where a body is that stands around [m]; null where that is not known. */
+export function bodyAt(cell: Cell, body: number): Centre | null {
+  const put = cell.put;
+  if (put?.body === body) return put.centre_m;
+  const [x, y] = cell.seen.drawn?.moves?.bodies[body]?.at_m ?? [];
+  return x === undefined || y === undefined ? null : [x, y];
+}

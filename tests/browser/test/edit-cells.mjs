@@ -1,0 +1,76 @@
+/** Cells with plates in sections of their own, and with obstacles: what hands move there, and where the text has it. */
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { centres, edit, onScreen, scenario, settled, verdict } from "../lib/cell.mjs";
+import { folder } from "../lib/command.mjs";
+import { text } from "../lib/watched.mjs";
+
+/** Drags from place to place of the world, at one height. */
+async function dragged(page, from_m, to_m) {
+  const [[x0, y0], [x1, y1]] = [await onScreen(page, from_m), await onScreen(page, to_m)];
+  await page.mouse.move(x0, y0);
+  await page.mouse.down();
+  for (let step = 1; step <= 8; step++) await page.mouse.move(x0 + ((x1 - x0) * step) / 8, y0 + ((y1 - y0) * step) / 8);
+  await page.mouse.up();
+  await settled(page);
+}
+
+/** Lines that differ, of two texts of as many lines. */
+function changedLines(before, after) {
+  const [a, b] = [before.split("\n"), after.split("\n")];
+  assert.equal(a.length, b.length);
+  return b.filter((line, k) => line !== a[k]);
+}
+
+const placeOf = (page, obstacle) =>
+  page.evaluate((name) => window.platewash.view.surroundings.obstacles.find((one) => one.name === name).pose.position_m, obstacle);
+
+test("a plate with a section is moved by its section, and undoing gives the text back", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t), ["--scenario", "rack"]);
+  const [before, at] = [await scenario(page), (await centres(page))[2]];
+  const height = await page.evaluate(() => window.platewash.view.plates[2].pose.position_m[2]);
+  await dragged(page, [...at, height], [at[0] + 0.02, at[1] + 0.03, height]);
+  const [line, ...more] = changedLines(before, await scenario(page));
+  assert.deepEqual(more, []);
+  const moved = (await centres(page))[2];
+  assert.equal(line, `at_m = [${moved[0]}, ${moved[1]}, ${height}]`);
+  assert.ok(Math.hypot(moved[0] - at[0] - 0.02, moved[1] - at[1] - 0.03) < 0.015, `${moved}`);
+  await page.getByRole("button", { name: "Add plate" }).click();
+  assert.match(await text(page), /add or remove one in the text/);
+  await page.evaluate(() => window.platewash.edit.undo());
+  await settled(page);
+  assert.equal(await scenario(page), before);
+  quiet();
+});
+
+test("an obstacle is moved once it is clicked, and refused where it stands in a plate", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t), ["--scenario", "sink"]);
+  const before = await scenario(page);
+  const at = await placeOf(page, "near side");
+  const to = [at[0] + 0.1, at[1], at[2]];
+  // Not clicked: the view turns.
+  await dragged(page, at, to);
+  assert.equal(await scenario(page), before);
+  await page.mouse.click(...(await onScreen(page, at)));
+  await dragged(page, at, to);
+  const [line, ...more] = changedLines(before, await scenario(page));
+  assert.deepEqual(more, []);
+  assert.match(line, /^at_m = \[0\.2\d*, -?0(\.0\d*)?, 0\.05\]/);
+  assert.equal((await verdict(page)).kind, "refused");
+  assert.match((await verdict(page)).words, /'near side' reaches/);
+  await page.evaluate(() => window.platewash.edit.undo());
+  await settled(page);
+  assert.equal(await scenario(page), before);
+  assert.deepEqual(await placeOf(page, "near side"), at);
+  assert.equal((await verdict(page)).kind, "proved");
+  quiet();
+});
+
+test("plates of a kind that the seed draws stay, and the page says why", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t), ["--scenario", "sizes"]);
+  const [before, at] = [await scenario(page), await page.evaluate(() => window.platewash.view.plates[0].pose.position_m)];
+  await dragged(page, at, [at[0] + 0.08, at[1], at[2]]);
+  assert.equal(await scenario(page), before);
+  assert.match(await text(page), /give each section its at_m/);
+  quiet();
+});
