@@ -32,6 +32,7 @@ pub use platewash_paper as paper;
 pub use platewash_planner as planner;
 pub use platewash_scenario as scenario;
 pub use platewash_simulator as simulator;
+pub use platewash_study as study;
 pub use platewash_viewer as viewer;
 pub use platewash_workcell as workcell;
 

@@ -2,6 +2,7 @@
 
 use super::text::text;
 use platewash::scenario::ScenarioError;
+use platewash::study::StudyError;
 use platewash::workcell::cancel::Cancelled;
 use platewash::workcell::csv::CsvError;
 use std::io::Write;
@@ -106,6 +107,15 @@ impl From<platewash::Failure> for Failure {
 impl From<Cancelled> for Failure {
     fn from(_: Cancelled) -> Self {
         Self::Interrupted
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Cancelled(_) => Self::Interrupted,
+            error => Self::input(error),
+        }
     }
 }
 

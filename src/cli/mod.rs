@@ -40,6 +40,8 @@ mod robot;
 mod run;
 mod serve;
 mod simulate;
+mod study;
+mod study_text;
 mod suggest;
 mod sweep;
 mod text;
@@ -155,6 +157,8 @@ enum Verb {
     Robot(robot::RobotArguments),
     /// Plan and prove many layouts of a scenario, one a seed.
     Sweep(sweep::SweepArguments),
+    /// Plan and prove scenarios by the thousand, as a study file states them, and keep every row as soon as it is done.
+    Study(study::StudyArguments),
     /// Re-measure what the paper's program really does.
     Reproduce(reproduce::ReproduceArguments),
 }
@@ -233,6 +237,7 @@ impl Verb {
             | Self::DryRun(_)
             | Self::Figures(_)
             | Self::Sweep(_)
+            | Self::Study(_)
             | Self::Reproduce(_) => true,
             Self::Robot(arguments) => arguments.suggest,
             Self::Layout | Self::Validate | Self::Align(_) | Self::Fk(_) | Self::Ik(_) => false,
@@ -260,6 +265,7 @@ fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode, Failure> {
         Verb::Robot(arguments) if arguments.suggest => suggest::run(options),
         Verb::Robot(_) => robot::run(options),
         Verb::Sweep(arguments) => sweep::run(options, &arguments),
+        Verb::Study(arguments) => study::run(options, &arguments),
         Verb::Reproduce(arguments) => reproduce::run(options, &arguments),
     }
 }

@@ -87,6 +87,21 @@ impl Progress {
         *self.doing.lock().unwrap_or_else(PoisonError::into_inner) = text;
     }
 
+    /// Notes how far a study is.
+    pub fn rows(&self, at: &platewash::study::Progress) {
+        if self.bar.length().is_none() {
+            style(&self.bar, "{bar:40} {msg}");
+        }
+        self.bar.set_length(at.rows);
+        self.bar.set_position(at.done);
+        let text = format!(
+            "{} of {} rows, {:.1} rows/s, {:.0} s left",
+            at.done, at.rows, at.per_s, at.left_s
+        );
+        self.bar.set_message(text.clone());
+        *self.doing.lock().unwrap_or_else(PoisonError::into_inner) = text;
+    }
+
     /// Notes how much is done.
     pub fn note(&self, done: usize, total: usize) {
         if self.bar.length().is_none() {

@@ -24,6 +24,7 @@ mod remedies;
 mod scenarios;
 mod served;
 mod simulate;
+mod study;
 mod suggest;
 mod units;
 mod verbs;

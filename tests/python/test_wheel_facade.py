@@ -23,6 +23,7 @@ PYTHON = {
     "planner": None,
     "scenario": None,
     "simulator": None,
+    "study": "run_command",  # by its verb, so far
     "workcell": None,
     "viewer": "Plan.show",  # the page, and figures by matplotlib
     "cli": "run_command",

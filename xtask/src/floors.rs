@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 /// The project's own packages, and what each may depend on among them; the root package may know all that are below it.
 ///
 /// Packages that are not named here are no part of the product: the chores and what the benchmarks need.
-const FLOORS: [(&str, &[&str]); 12] = [
+const FLOORS: [(&str, &[&str]); 13] = [
     ("platewash-kinematics", &[]),
     ("platewash-workcell", &["platewash-kinematics"]),
     ("platewash-certificate", &["platewash-kinematics", "platewash-workcell"]),
@@ -52,6 +52,16 @@ const FLOORS: [(&str, &[&str]); 12] = [
         ],
     ),
     (
+        "platewash-study",
+        &[
+            "platewash-kinematics",
+            "platewash-workcell",
+            "platewash-certificate",
+            "platewash-planner",
+            "platewash-scenario",
+        ],
+    ),
+    (
         "platewash",
         &[
             "platewash-kinematics",
@@ -64,6 +74,7 @@ const FLOORS: [(&str, &[&str]); 12] = [
             "platewash-viewer",
             "platewash-export",
             "platewash-editor",
+            "platewash-study",
         ],
     ),
     ("pyplatewash", &["platewash"]),
@@ -73,8 +84,8 @@ const FLOORS: [(&str, &[&str]); 12] = [
 const OF_SECTIONS: &str = "platewash-scenario";
 /// The wheel, which is named after Python's way.
 const WHEEL: &str = "pyplatewash";
-/// The crates beyond it that may name a whole scenario: those that people change or make one with.
-const OF_SCENARIOS: [&str; 2] = ["platewash-editor", WHEEL];
+/// The crates beyond it that may name a whole scenario: those that people change or make one with, or many.
+const OF_SCENARIOS: [&str; 3] = ["platewash-editor", "platewash-study", WHEEL];
 
 /// Largest share of the library's lines that one package may have: one in this many.
 const SHARES: usize = 4;

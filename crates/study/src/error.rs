@@ -1,0 +1,87 @@
+//! Why a study was refused, or could not go on.
+
+use platewash_workcell::cancel::Cancelled;
+use platewash_workcell::words::printable;
+use std::path::{Path, PathBuf};
+
+/// Why a study was refused, or could not go on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// The study file is none.
+    #[error("study {}{}: {problem}", printable(.file), line.map_or_else(String::new, |line| format!(", line {line}")))]
+    File {
+        /// The file.
+        file: String,
+        /// Its line at fault, from 1.
+        line: Option<usize>,
+        /// What is wrong, with the key.
+        problem: String,
+    },
+    /// The folder keeps another study.
+    #[error(
+        "{}: keeps another study: {what} is {kept} there and {given} here; give another folder",
+        .folder.display()
+    )]
+    Other {
+        /// The folder.
+        folder: PathBuf,
+        /// What differs.
+        what: &'static str,
+        /// What the folder has.
+        kept: String,
+        /// What was given.
+        given: String,
+    },
+    /// The folder keeps something that is no study of this program.
+    #[error("{}: {problem}", .file.display())]
+    Kept {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// Somebody else works on the study.
+    #[error("{}: another process works on this study", .folder.display())]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A file could not be read or written.
+    #[error("{}: {doing}: {cause}", .file.display())]
+    Disk {
+        /// The file.
+        file: PathBuf,
+        /// What was tried.
+        doing: &'static str,
+        /// Why not.
+        cause: std::io::Error,
+    },
+    /// There is no such row.
+    #[error("there is no row {index}; the study has {rows}, counted from 0")]
+    NoRow {
+        /// The row that was asked for.
+        index: u64,
+        /// How many there are.
+        rows: u64,
+    },
+    /// A row states no scenario.
+    #[error("row {index}: {problem}")]
+    Row {
+        /// The row.
+        index: u64,
+        /// Why not.
+        problem: String,
+    },
+    /// It was told to give up; the rows that were done are kept.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl StudyError {
+    /// A file that could not be read or written.
+    pub(crate) fn disk(file: &Path, doing: &'static str) -> impl FnOnce(std::io::Error) -> Self {
+        let file = file.to_owned();
+        move |cause| Self::Disk { file, doing, cause }
+    }
+}

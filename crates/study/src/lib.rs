@@ -1,0 +1,27 @@
+//! Studies: scenarios × axes, each row planned and proved, and kept as soon as it is done.
+//!
+//! A study file ([`Study`]) states which rows there are; [`Resolver`] makes one of them a [`Row`], which depends on nothing but the study;
+//! [`Journal`] keeps rows in a folder, where a study that was ended goes on; [`run`] works on those that are missing, on rayon's threads.
+//! The rows of a study are the same bytes for every number of threads and every order in which they were done.
+
+mod axis;
+mod error;
+mod journal;
+mod lines;
+mod manifest;
+mod resolve;
+mod row;
+mod run;
+mod statement;
+mod study;
+mod summary;
+
+pub use axis::Axis;
+pub use error::StudyError;
+pub use journal::{Journal, export, read_manifest};
+pub use manifest::{Manifest, ManifestAxis, ManifestScenario};
+pub use resolve::Resolver;
+pub use row::{Outcome, Place, ROW_SCHEMA, Row};
+pub use run::{Progress, run};
+pub use study::{Base, MOST_ROWS, RowAddress, Study};
+pub use summary::{Summary, summary};

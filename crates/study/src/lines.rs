@@ -1,0 +1,160 @@
+//! A file of whole lines that only grows: a line that was torn at its end is dropped when it is opened again.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Time between two calls that wait until the disk has what was written.
+const SYNC: Duration = Duration::from_secs(5);
+
+/// What a file of lines is written to; a file, and in tests one that fails.
+pub(crate) trait Sink: Write + Send {
+    /// Cuts it to its first bytes, and goes on there.
+    fn cut(&mut self, length: u64) -> io::Result<()>;
+    /// Waits until all of it is kept.
+    fn sync(&mut self) -> io::Result<()>;
+}
+
+impl Sink for File {
+    fn cut(&mut self, length: u64) -> io::Result<()> {
+        self.set_len(length)?;
+        self.seek(SeekFrom::Start(length)).map(|_| ())
+    }
+
+    fn sync(&mut self) -> io::Result<()> {
+        self.sync_data()
+    }
+}
+
+/// Lines that are appended, each whole.
+pub(crate) struct Lines<S> {
+    sink: S,
+    /// Length of the lines that are whole \[bytes\].
+    whole: u64,
+    synced: Instant,
+}
+
+/// Opens a file for reading and appending, made where there is none.
+pub(crate) fn open(path: &Path) -> io::Result<File> {
+    OpenOptions::new()
+        .read(true)
+        .write(true)
+        .create(true)
+        .truncate(false)
+        .open(path)
+}
+
+/// Reads whole lines, one after the other, with their place in the file; the length of all of them.
+pub(crate) fn read<E>(
+    from: impl io::Read,
+    cannot: impl FnOnce(io::Error) -> E,
+    mut each: impl FnMut(u64, &[u8]) -> Result<(), E>,
+) -> Result<u64, E> {
+    let (mut from, mut line, mut whole) = (BufReader::new(from), Vec::new(), 0);
+    loop {
+        line.clear();
+        match from.read_until(b'\n', &mut line) {
+            Ok(length) if line.ends_with(b"\n") => {
+                each(whole, &line[..length - 1])?;
+                whole += length as u64;
+            }
+            Ok(_) => return Ok(whole),
+            Err(error) => return Err(cannot(error)),
+        }
+    }
+}
+
+impl<S: Sink> Lines<S> {
+    /// Goes on behind so many bytes of whole lines; what is beyond them goes.
+    pub fn after(mut sink: S, whole: u64) -> io::Result<Self> {
+        sink.cut(whole)?;
+        Ok(Self {
+            sink,
+            whole,
+            synced: Instant::now(),
+        })
+    }
+
+    /// Appends a line, which is handed to the system before this returns. Where that fails, what was written of it is taken away again,
+    /// as far as that can be done.
+    pub fn append(&mut self, line: &str) -> io::Result<()> {
+        let line = format!("{line}\n");
+        if let Err(error) = self.sink.write_all(line.as_bytes()).and_then(|()| self.sink.flush()) {
+            // A torn line that stays is dropped when the file is opened again.
+            let _ = self.sink.cut(self.whole);
+            return Err(error);
+        }
+        self.whole += line.len() as u64;
+        if self.synced.elapsed() >= SYNC {
+            self.sync()?;
+        }
+        Ok(())
+    }
+
+    /// Waits until all lines are kept.
+    pub fn sync(&mut self) -> io::Result<()> {
+        self.synced = Instant::now();
+        self.sink.sync()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A disk with room for so many bytes.
+    struct Full(Vec<u8>, usize);
+
+    impl Write for Full {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            let room = (self.1 - self.0.len()).min(bytes.len());
+            if room == 0 {
+                return Err(io::ErrorKind::StorageFull.into());
+            }
+            self.0.extend(&bytes[..room]);
+            Ok(room)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    impl Sink for Full {
+        fn cut(&mut self, length: u64) -> io::Result<()> {
+            self.0.truncate(length as usize);
+            Ok(())
+        }
+
+        fn sync(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_full_disk_is_an_error_and_keeps_the_lines_before_whole() {
+        let mut lines = Lines::after(Full(Vec::new(), 8), 0).unwrap();
+        lines.append("one").unwrap();
+        let error = lines.append("three").unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::StorageFull);
+        assert_eq!(lines.sink.0, b"one\n");
+        lines.append("two").unwrap();
+        assert_eq!(lines.sink.0, b"one\ntwo\n");
+    }
+
+    #[test]
+    fn a_torn_line_does_not_count() {
+        let mut told = Vec::new();
+        let whole = read(
+            &b"one\ntwo\nthr"[..],
+            |error| error,
+            |at, line| {
+                told.push((at, line.to_vec()));
+                Ok(())
+            },
+        );
+        assert_eq!(whole.unwrap(), 8);
+        assert_eq!(told, [(0, b"one".to_vec()), (4, b"two".to_vec())]);
+    }
+}

@@ -1,0 +1,90 @@
+//! Many rows at once: rayon's threads make them, one thread of its own keeps them.
+
+use crate::error::StudyError;
+use crate::journal::Journal;
+use crate::row::Row;
+use crate::study::Study;
+use platewash_workcell::cancel::{CancelToken, Cancelled};
+use rayon::prelude::*;
+use std::sync::mpsc::{Receiver, sync_channel};
+use std::time::{Duration, Instant};
+
+/// Rows that may wait to be kept.
+const WAITING: usize = 64;
+
+/// How far a study is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Rows that are kept, those of earlier calls among them.
+    pub done: u64,
+    /// All rows.
+    pub rows: u64,
+    /// Rows a second in this call.
+    pub per_s: f64,
+    /// What is left at this rate \[s\].
+    pub left_s: f64,
+}
+
+/// Works on the rows that the journal does not have, on rayon's threads, and keeps each as soon as it is done; `told` hears of each.
+/// `make` is [`Resolver::row`](crate::Resolver::row), or whatever else makes a row: `None` where it was told to give up.
+///
+/// # Errors
+/// [`StudyError`]: a row could not be made or kept, or the token cancelled. The rows that were kept by then stay.
+pub fn run(
+    study: &Study,
+    journal: &mut Journal,
+    cancel: &CancelToken,
+    make: impl Fn(u64, &CancelToken) -> Result<Option<Row>, StudyError> + Sync,
+    told: impl FnMut(Progress) + Send,
+) -> Result<(), StudyError> {
+    let missing = journal.missing(study);
+    let (sender, receiver) = sync_channel(WAITING);
+    let rows = study.rows();
+    std::thread::scope(|scope| {
+        let keeping = scope.spawn(move || keep(&receiver, journal, rows, told));
+        // A bridge hands the rows out one after the other, so that the first ones are done first.
+        let made = missing.par_bridge().try_for_each_with(sender, |sender, index| {
+            let began = Instant::now();
+            let row = cancel
+                .check()
+                .map_err(StudyError::from)
+                .and_then(|()| make(index, cancel));
+            match row {
+                // Where nobody keeps rows any more, that is told below.
+                Ok(Some(row)) => sender.send((row, began.elapsed())).map_err(|_| None),
+                Ok(None) => Err(Some(StudyError::from(Cancelled))),
+                Err(error) => Err(Some(error)),
+            }
+        });
+        match keeping.join() {
+            Ok(kept) => kept?,
+            Err(panic) => std::panic::resume_unwind(panic),
+        }
+        match made {
+            Err(Some(error)) => Err(error),
+            Ok(()) | Err(None) => Ok(()),
+        }
+    })
+}
+
+/// Keeps rows until nobody makes any more.
+fn keep(
+    rows: &Receiver<(Row, Duration)>,
+    journal: &mut Journal,
+    total: u64,
+    mut told: impl FnMut(Progress),
+) -> Result<(), StudyError> {
+    let (began, before) = (Instant::now(), journal.done());
+    for (row, took) in rows {
+        journal.append(&row, took)?;
+        let done = journal.done();
+        let per_s = (done - before) as f64 / began.elapsed().as_secs_f64().max(1e-9);
+        told(Progress {
+            done,
+            rows: total,
+            per_s,
+            left_s: (total - done) as f64 / per_s,
+        });
+    }
+    journal.sync()
+}

@@ -1,0 +1,63 @@
+//! What a study file states, as TOML has it: types and names of keys are checked here, what they mean is not.
+
+use crate::error::StudyError;
+use serde::Deserialize;
+use std::ops::Range;
+use toml::Spanned;
+
+/// What `format` must be.
+pub(crate) const FORMAT: &str = "platewash-study/1";
+
+/// A study file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Statement {
+    pub format: Spanned<String>,
+    pub name: Spanned<String>,
+    pub scenario: Spanned<OneOrMore>,
+    #[serde(default)]
+    pub axis: Vec<Spanned<AxisStatement>>,
+    #[serde(default)]
+    pub rows: Vec<Spanned<toml::Table>>,
+}
+
+/// A scenario or several.
+#[derive(Debug, Deserialize)]
+#[serde(untagged, expecting = "scenario must be a name or a file, or a list of them")]
+pub(crate) enum OneOrMore {
+    One(String),
+    More(Vec<String>),
+}
+
+/// `[[axis]]`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AxisStatement {
+    pub key: Spanned<String>,
+    pub values: Option<Spanned<Vec<toml::Value>>>,
+    pub range: Option<Spanned<(f64, f64, u32)>>,
+    pub seeds: Option<Spanned<String>>,
+}
+
+/// A study file's text, and where errors are in it.
+pub(crate) struct Source<'a> {
+    pub file: &'a str,
+    pub text: &'a str,
+}
+
+impl Source<'_> {
+    /// What the text states.
+    pub fn statement(&self) -> Result<Statement, StudyError> {
+        toml::from_str(self.text).map_err(|error| self.wrong(error.span(), error.message()))
+    }
+
+    /// An error at a stretch of the text; its words become one line.
+    pub fn wrong(&self, span: Option<Range<usize>>, problem: &str) -> StudyError {
+        let line = span.map(|span| 1 + self.text.bytes().take(span.start).filter(|b| *b == b'\n').count());
+        StudyError::File {
+            file: self.file.to_owned(),
+            line,
+            problem: problem.split_whitespace().collect::<Vec<_>>().join(" "),
+        }
+    }
+}

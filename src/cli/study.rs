@@ -1,0 +1,166 @@
+//! `platewash study`: scenarios by the thousand, each planned and proved, every row kept as soon as it is done.
+
+use super::failure::{self, ExitCode, Failure};
+use super::options::Options;
+use super::output;
+use super::progress::Progress;
+use super::study_text;
+use anyhow::{Context, anyhow};
+use clap::{Args, Subcommand};
+use platewash::study::{self, Journal, Resolver, Study, StudyError};
+use std::io::{BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// Arguments of `study`.
+#[derive(Debug, Args)]
+pub struct StudyArguments {
+    #[command(subcommand)]
+    verb: StudyVerb,
+}
+
+#[derive(Debug, Subcommand)]
+enum StudyVerb {
+    /// Work on the rows that are missing in the folder of --out, and keep each as soon as it is done.
+    ///
+    /// Ended by whatever, it goes on where it was when it is called again. Exit code 0 where all rows are done, however they ended; 1
+    /// where the program itself failed on one.
+    Run {
+        /// The study file
+        file: PathBuf,
+    },
+    /// Say what the rows in a folder come to: outcomes by axis, durations, the rows to look at.
+    Show {
+        /// The study's folder
+        folder: PathBuf,
+    },
+    /// Write the rows in a folder as JSON Lines in the order of their indices, the same bytes however they came to be.
+    Export {
+        /// The study's folder
+        folder: PathBuf,
+        /// File to write, in place of standard output
+        #[arg(long, value_name = "FILE")]
+        to: Option<PathBuf>,
+    },
+    /// Print the scenario of a row, to plan it alone.
+    Scenario {
+        /// The study file
+        file: PathBuf,
+        /// Index of the row, from 0
+        #[arg(long, value_name = "N")]
+        row: u64,
+    },
+}
+
+/// Does what is asked of a study.
+pub fn run(options: &Options, arguments: &StudyArguments) -> Result<ExitCode, Failure> {
+    let given = [
+        ("--scenario", options.scenario.is_some()),
+        ("--seed", options.seed.is_some()),
+        ("--urdf", options.urdf.is_some()),
+    ];
+    if let Some((name, _)) = given.into_iter().find(|(_, given)| *given) {
+        return Err(Failure::input(anyhow!(
+            "{name}: the study file states its scenarios and seeds; leave it out"
+        )));
+    }
+    let is_run = matches!(arguments.verb, StudyVerb::Run { .. });
+    if options.out.is_some() && !is_run {
+        return Err(Failure::input(anyhow!(
+            "--out: is of study run alone; export writes where --to says"
+        )));
+    }
+    match &arguments.verb {
+        StudyVerb::Run { file } => work(options, file),
+        StudyVerb::Show { folder } => show(options, folder),
+        StudyVerb::Export { folder, to } => export(options, folder, to.as_deref()),
+        StudyVerb::Scenario { file, row } => {
+            output::print(&Study::load(file)?.scenario_text(*row)?)?;
+            Ok(ExitCode::SUCCESS)
+        }
+    }
+}
+
+fn work(options: &Options, file: &Path) -> Result<ExitCode, Failure> {
+    let folder = options
+        .out
+        .as_deref()
+        .context("study run needs --out DIR, where rows are kept");
+    let folder = folder.map_err(Failure::input)?;
+    let study = Study::load(file)?;
+    let mut journal = Journal::open(folder, &study, &file.display().to_string())?;
+    let (before, rows) = (journal.done(), study.rows());
+    if before == rows {
+        output::message(
+            options.quiet,
+            &format!("{}: the study is finished, all {rows} rows are there", folder.display()),
+        );
+    } else {
+        if before > 0 {
+            output::message(options.quiet, &format!("going on: {before} of {rows} rows are there"));
+        }
+        let resolver = Resolver::new(&study);
+        let progress = Progress::new(options.quiet, "planning and proving");
+        let made = study::run(
+            &study,
+            &mut journal,
+            &options.cancel,
+            |index, cancel| resolver.row(index, cancel),
+            |at| progress.rows(&at),
+        );
+        drop(progress);
+        if let Err(error) = made {
+            let kept = format!(
+                "{} of {rows} rows are kept; the same command goes on with the others",
+                journal.done()
+            );
+            output::message(options.quiet, &kept);
+            return Err(error.into());
+        }
+    }
+    let summary = study::summary(folder)?;
+    output::print_either(options.json, &summary, || study_text::outcomes(&summary))?;
+    Ok(match summary.outcomes.get("crashed") {
+        Some(_) => ExitCode::from(failure::INTERNAL),
+        None => ExitCode::SUCCESS,
+    })
+}
+
+fn show(options: &Options, folder: &Path) -> Result<ExitCode, Failure> {
+    let summary = study::summary(folder)?;
+    output::print_either(options.json, &summary, || study_text::shown(&summary))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn export(options: &Options, folder: &Path, to: Option<&Path>) -> Result<ExitCode, Failure> {
+    let written = match to {
+        Some(to) => {
+            let beside = to.parent().filter(|beside| !beside.as_os_str().is_empty());
+            let staged = tempfile::Builder::new()
+                .prefix(".platewash-")
+                .tempfile_in(beside.unwrap_or(Path::new(".")));
+            let cannot = || format!("{}: cannot be written", to.display());
+            let staged = staged.with_context(cannot).map_err(Failure::input)?;
+            let written = study::export(folder, &mut BufWriter::new(&staged), to)?;
+            staged.persist(to).with_context(cannot).map_err(Failure::input)?;
+            written
+        }
+        None => {
+            let out = &mut BufWriter::new(std::io::stdout().lock()) as &mut dyn Write;
+            match study::export(folder, out, Path::new("standard output")) {
+                // A reader that has gone away is no error.
+                Err(StudyError::Disk { cause, .. }) if cause.kind() == ErrorKind::BrokenPipe => {
+                    return Ok(ExitCode::SUCCESS);
+                }
+                written => written?,
+            }
+        }
+    };
+    let rows = study::read_manifest(folder)?.rows;
+    if written < rows {
+        output::message(
+            options.quiet,
+            &format!("warning: the study is not finished: {written} of {rows} rows"),
+        );
+    }
+    Ok(ExitCode::SUCCESS)
+}

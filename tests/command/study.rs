@@ -1,0 +1,85 @@
+//! Studies: run, ended and gone on with, shown, exported, refused.
+
+use super::*;
+
+const STUDY: &str = "format = \"platewash-study/1\"
+name = \"tools\"
+scenario = \"kitchen-spiral\"
+[[axis]]
+key = \"tool.length_m\"
+values = [0.12, 0.15]
+[[axis]]
+key = \"seed\"
+seeds = \"1..2\"
+";
+
+fn rows(text: &str) -> Vec<Value> {
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+/// A journal cut short goes on to the same rows, and what is finished stays as it is.
+#[test]
+fn a_study_goes_on_where_it_ended() {
+    let folder = folder();
+    let dir = folder.path();
+    std::fs::write(dir.join("study.toml"), STUDY).unwrap();
+    let run =
+        |out: &str, threads: &str| platewash(dir, &["study", "run", "study.toml", "--out", out, "--threads", threads]);
+    let ran = run("a", "2");
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    let whole = platewash(dir, &["study", "export", "a"]).stdout;
+    let found = rows(&whole);
+    let lengths: Vec<_> = found
+        .iter()
+        .map(|row| row["axes"]["tool.length_m"].as_f64().unwrap())
+        .collect();
+    assert_eq!(lengths, [0.12, 0.12, 0.15, 0.15]);
+    assert!(
+        found
+            .iter()
+            .all(|row| row["outcome"] == "proved" && row["coverage"].as_f64().unwrap() >= 0.995),
+        "{whole}"
+    );
+
+    // The last row torn, another one gone.
+    let journal = dir.join("a/rows.jsonl");
+    let kept = std::fs::read_to_string(&journal).unwrap();
+    let lines: Vec<_> = kept.lines().collect();
+    let out = dir.join("b");
+    assert_eq!(run("b", "1").code, 0);
+    assert_eq!(platewash(dir, &["study", "export", "b"]).stdout, whole);
+    let torn = format!("{}\n{}\n{}", lines[0], lines[1], &lines[2][..20]);
+    std::fs::write(out.join("rows.jsonl"), torn).unwrap();
+    assert_eq!(run("b", "2").code, 0);
+    assert_eq!(platewash(dir, &["study", "export", "b"]).stdout, whole);
+
+    let before = std::fs::read(&journal).unwrap();
+    assert_eq!(run("a", "2").code, 0);
+    assert_eq!(std::fs::read(&journal).unwrap(), before);
+    let shown = platewash(dir, &["study", "show", "a"]);
+    assert!(shown.stdout.contains("4 of 4 proved"), "{}", shown.stdout);
+}
+
+#[test]
+fn what_a_study_states_is_refused_by_file_line_and_key() {
+    let folder = folder();
+    let dir = folder.path();
+    let refused = |change: (&str, &str), words: &[&str]| {
+        std::fs::write(dir.join("study.toml"), STUDY.replace(change.0, change.1)).unwrap();
+        platewash(dir, &["study", "run", "study.toml", "--out", "out"]).refused(2, words);
+        assert!(!dir.join("out").exists());
+    };
+    refused(
+        ("0.15]", "\"long\"]"),
+        &["study.toml", "line 5", "tool.length_m", "\"long\""],
+    );
+    refused(("tool.length_m", "tool.lenght_m"), &["study.toml", "tool.lenght_m"]);
+    refused(("1..2", "2..1"), &["study.toml", "2..1"]);
+    refused(("kitchen-spiral", "kitchn"), &["kitchn"]);
+    std::fs::write(dir.join("study.toml"), STUDY).unwrap();
+    for global in [["--seed", "1"], ["--scenario", "kitchen"]] {
+        let mut words = vec!["study", "run", "study.toml", "--out", "out"];
+        words.extend(global);
+        platewash(dir, &words).refused(2, &[global[0], "study"]);
+    }
+}
