@@ -42,7 +42,7 @@ pub use platewash_planner::{PlanError, Planned, plan};
 pub use platewash_scenario::{Failure, Scenario, ScenarioError};
 pub use platewash_simulator::{Execution, SimulationError, SimulationReport, SimulationVerdict, simulate, tune};
 pub use report::{WashReport, WashText};
-pub use sweep::{SWEEP_HEADER, SweepOutcome, SweepRow, sweep, sweep_csv, sweep_each};
+pub use sweep::{SWEEP_HEADER, SweepRow, sweep, sweep_csv, sweep_each};
 
 // What they speak of.
 pub use platewash_kinematics::ik::{IkError, IkFailure, IkSettings, IkSolution, IkSolver};

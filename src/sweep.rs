@@ -1,46 +1,16 @@
 //! Many layouts of one scenario, each planned and proved.
 
-use platewash_certificate::{self as certificate, Certificate, Requirement, prove_with};
+use platewash_certificate::{Certificate, Requirement};
 use platewash_kinematics::RobotModel;
-use platewash_planner::{Planned, Watch, plan_with};
+use platewash_planner::Planned;
 use platewash_scenario::{Failure, Scenario, ScenarioError, check_seed};
+use platewash_study::{Outcome, judged};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::verdict::Infeasibility;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::ops::{ControlFlow, RangeInclusive};
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// How one layout ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum SweepOutcome {
-    /// Planned, and every requirement proved.
-    Proved,
-    /// Planned, but a requirement is violated or not proved.
-    NotProved,
-    /// The layout cannot be washed.
-    Infeasible,
-    /// No way to wash the layout was found; there may be one.
-    NotFound,
-    /// The numbers of this seed cannot be computed with.
-    Error,
-}
-
-impl SweepOutcome {
-    /// Its name, as in the table.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Proved => "proved",
-            Self::NotProved => "not_proved",
-            Self::Infeasible => "infeasible",
-            Self::NotFound => "not_found",
-            Self::Error => "error",
-        }
-    }
-}
 
 /// One layout.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -48,7 +18,7 @@ pub struct SweepRow {
     /// The scenario's seed.
     pub seed: u64,
     /// How it ended.
-    pub outcome: SweepOutcome,
+    pub outcome: Outcome,
     /// Duration of the motion \[s\].
     pub duration_s: Option<f64>,
     /// Sum of the transits \[s\].
@@ -139,33 +109,15 @@ fn row(scenario: &Scenario, arm: &Arc<RobotModel>, seed: u64, cancel: &CancelTok
         seed,
         ..scenario.clone()
     };
-    let row = planned(&scenario, arm, cancel).and_then(|planned| {
-        let certificate = prove_with(&planned.plan, arm, cancel)?;
-        Ok(SweepRow::planned(seed, &planned, &certificate))
-    });
-    match row {
-        Ok(row) => Some(row),
+    match judged(&scenario, arm, cancel) {
+        Ok((planned, certificate)) => Some(SweepRow::planned(seed, &planned, &certificate)),
         Err(error) if error.is_cancelled() => None,
-        Err(error) => {
-            let outcome = match error.infeasibility() {
-                Some(Infeasibility::Proved) => SweepOutcome::Infeasible,
-                Some(Infeasibility::NotFound) => SweepOutcome::NotFound,
-                None => SweepOutcome::Error,
-            };
-            Some(SweepRow::nothing(seed, outcome, error.to_string()))
-        }
+        Err(error) => Some(SweepRow::nothing(seed, Outcome::from(&error), error.to_string())),
     }
 }
 
-fn planned(scenario: &Scenario, arm: &Arc<RobotModel>, cancel: &CancelToken) -> Result<Planned, Failure> {
-    let watch = Watch::silent(cancel);
-    let layout = scenario.place(arm, &watch)?;
-    let job = scenario.job_on(arm, &layout)?;
-    Ok(plan_with(&job, &watch)?)
-}
-
 impl SweepRow {
-    fn nothing(seed: u64, outcome: SweepOutcome, reason: String) -> Self {
+    fn nothing(seed: u64, outcome: Outcome, reason: String) -> Self {
         Self {
             seed,
             outcome,
@@ -183,10 +135,7 @@ impl SweepRow {
         let bound = |name| certificate.check(name)?.measure?.bound;
         Self {
             seed,
-            outcome: match certificate.verdict {
-                certificate::Verdict::Pass => SweepOutcome::Proved,
-                certificate::Verdict::Fail => SweepOutcome::NotProved,
-            },
+            outcome: Outcome::judged(certificate.verdict),
             duration_s: Some(planned.plan.duration_s()),
             transits_s: Some(planned.transits.iter().map(|c| c.duration_s).sum()),
             coverage: bound(Requirement::Coverage),
@@ -208,7 +157,7 @@ impl SweepRow {
         let numbers = [self.duration_s, self.transits_s, self.coverage, self.clearance_m]
             .map(number)
             .join(",");
-        format!("{},{},{numbers},\"{reason}\"\n", self.seed, self.outcome.name())
+        format!("{},{},{numbers},\"{reason}\"\n", self.seed, self.outcome.code())
     }
 }
 
@@ -236,7 +185,7 @@ mod tests {
             flow: ControlFlow::Continue(()),
             done: &mut tell,
         };
-        let row = |seed| SweepRow::nothing(seed, SweepOutcome::Error, "a \"b\"".to_owned());
+        let row = |seed| SweepRow::nothing(seed, Outcome::Error, "a \"b\"".to_owned());
         assert!(in_order.add(2, row(12)).is_continue());
         assert!(in_order.rows.is_empty());
         assert!(in_order.add(0, row(10)).is_continue());

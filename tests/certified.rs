@@ -4,10 +4,11 @@
 use platewash::certificate::{Certificate, Requirement};
 use platewash::planner::{Activity, Planned, Watch, plan_with};
 use platewash::scenario::RegionName;
+use platewash::study::Outcome;
 use platewash::workcell::cancel::CancelToken;
 use platewash::workcell::job::{OrderRule, Overlap};
 use platewash::workcell::verdict::Infeasibility;
-use platewash::{Failure, PlanError, Scenario, SweepOutcome, plan, prove, sweep};
+use platewash::{Failure, PlanError, Scenario, plan, prove, sweep};
 use rayon::prelude::*;
 use std::sync::Mutex;
 
@@ -30,7 +31,7 @@ fn the_shipped_scenarios_are_proved() {
         for row in rows {
             assert_eq!(
                 row.outcome,
-                SweepOutcome::Proved,
+                Outcome::Proved,
                 "{name}, seed {}: {:?}",
                 row.seed,
                 row.reason
@@ -83,7 +84,7 @@ fn the_papers_spacing_is_washed_too() {
         for row in sweep(&scenario, 1..=6).unwrap() {
             assert_eq!(
                 row.outcome,
-                SweepOutcome::Proved,
+                Outcome::Proved,
                 "{region:?}, seed {}: {:?}",
                 row.seed,
                 row.reason
@@ -195,7 +196,7 @@ fn layouts_are_drawn_until_they_can_be_washed_where_the_scenario_asks() {
     scenario.layout.count = 2;
     let proved = |scenario: &Scenario| {
         let rows = sweep(scenario, 1..=8).unwrap();
-        rows.iter().filter(|row| row.outcome == SweepOutcome::Proved).count()
+        rows.iter().filter(|row| row.outcome == Outcome::Proved).count()
     };
     assert!(proved(&scenario) < 8);
     scenario.layout.only_washable = true;

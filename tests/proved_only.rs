@@ -184,7 +184,7 @@ fn what_is_waived_is_in_the_first_line_and_in_the_data() {
         );
     }
     let rows = sweep(&scenario, 1..=1).unwrap();
-    assert_eq!(rows[0].outcome.name(), "proved");
+    assert_eq!(rows[0].outcome.code(), "proved");
     assert!(rows[0].reason.as_ref().unwrap().contains(apart), "{:?}", rows[0].reason);
     // Nothing of the kind where nothing is waived.
     let certificate = judged(&one_plate()).1;

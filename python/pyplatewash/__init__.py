@@ -36,6 +36,7 @@ from ._core import (
     Robot,
     Scenario,
     SimulationSettings,
+    Study,
     Trajectory,
     WashJob,
     coverage,
@@ -56,6 +57,7 @@ from ._core import (
 from ._edit import edit
 from ._errors import (
     DynamicsError,
+    EngineError,
     ExportError,
     FileError,
     IkError,
@@ -73,10 +75,13 @@ from ._errors import (
     ScenarioError,
     ShapeError,
     SimulationError,
+    StudyError,
     UrdfError,
 )
 from ._page import Page
 from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record
+from ._studies.samples import samples
+from ._studies.rows import StudyRows
 from ._values import Coverage, Foot, IkSettings, PaperSpiral, Plate, Rings, Tool, WashCurve
 
 __version__: str = _version("pyplatewash")
@@ -89,6 +94,7 @@ __all__ = [
     "DynamicsError",
     "DynamicsModel",
     "Energy",
+    "EngineError",
     "Execution",
     "ExportError",
     "FileError",
@@ -125,6 +131,9 @@ __all__ = [
     "ShapeError",
     "SimulationError",
     "SimulationSettings",
+    "Study",
+    "StudyError",
+    "StudyRows",
     "Tool",
     "Trajectory",
     "UrdfError",
@@ -141,6 +150,7 @@ __all__ = [
     "reproduce",
     "run_command",
     "run_paper",
+    "samples",
     "simulate",
     "sweep",
     "transit_waypoints",

@@ -121,6 +121,27 @@ class PageNotFoundError(FileError, FileNotFoundError):
     """The folder that a page shall be written to is not there."""
 
 
+class StudyError(InputError):
+    """A study was refused, or its folder keeps something else, or somebody else works on it."""
+
+    #: The file, or the folder.
+    source: str | None = None
+    #: Line in the file, from 1.
+    line: int | None = None
+
+
+class StudyAccessError(StudyError, FileError):
+    """A file of a study cannot be read or written."""
+
+
+class StudyNotFoundError(StudyAccessError, FileNotFoundError):
+    """A study's file or folder is not there."""
+
+
+class EngineError(PlatewashError):
+    """The workers of a study cannot be had, or are of another version; the rows that were done are kept."""
+
+
 class LayoutError(PlatewashError):
     """The plates could not be placed."""
 
@@ -240,7 +261,8 @@ class SimulationError(PlatewashError):
 class MissingError(PlatewashError, ImportError):
     """Something that this installation lacks is needed; the message says how to get it."""
 
-    #: What is missing: ``"matplotlib"``, ``"anywidget"``, ``"rosbags"``, ``"ros2"`` or ``"page"``.
+    #: What is missing: ``"matplotlib"``, ``"anywidget"``, ``"rosbags"``, ``"ros2"``, ``"distributed"``, ``"ray"``, ``"pandas"``,
+    #: ``"pyarrow"``, ``"scipy"`` or ``"page"``.
     name: str | None = None
 
 

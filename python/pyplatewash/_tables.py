@@ -16,6 +16,7 @@ from ._words import percent
 
 if TYPE_CHECKING:
     from ._records import Record
+    from ._studies.rows import StudyRows
 
 #: Most characters of a text and most lines of a table.
 MOST_CHARACTERS, MOST_LINES = 400, 60
@@ -150,6 +151,16 @@ def robot(of: _core.Robot) -> str:
         for name, low, high, speed, effort in zip(of.joint_names, *degrees.round(3), of.effort)
     ]
     return page(f"Robot: {of.name}", [table(rows, ("joint", "position", "speed", "torque"))])
+
+
+def study_rows(of: StudyRows) -> str:
+    """How many rows ended how, in all and by the values of axes."""
+    told = of.summary()
+    codes = list(told.outcomes)
+    parts = [table([("all", *(told.outcomes[code] for code in codes))], ("rows", *codes))]
+    for key, values in told.by_axis.to_dict().items():
+        parts.append(table([(value, *(counts.get(code, 0) for code in codes)) for value, counts in values.items()], (key, *codes)))
+    return page(f"Study {of.manifest.get('name', '')}: {of.done} of {of.rows} rows", parts)
 
 
 def record(of: Record) -> str:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import os
 import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +42,29 @@ def write_new(file: Path, text: str) -> None:
         out.write(text.encode())
         out.flush()
         os.fsync(out.fileno())
+
+
+@contextmanager
+def staged(place: Path, *, as_folder: bool = False) -> Iterator[Path]:
+    """A path beside a place, of a new file or folder, which takes the place where all goes well, and else goes. A folder takes the place of
+    none but an empty one."""
+    beside = place.parent / f".platewash-{secrets.token_hex(8)}"
+    try:
+        if as_folder:
+            beside.mkdir()
+        yield beside
+        for file in beside.iterdir() if as_folder else (beside,):
+            with open(file, "rb+") as kept:
+                os.fsync(kept.fileno())
+        if as_folder and place.is_dir():
+            place.rmdir()
+        os.replace(beside, place)
+    except BaseException:
+        if as_folder:
+            shutil.rmtree(beside, ignore_errors=True)
+        else:
+            beside.unlink(missing_ok=True)
+        raise
 
 
 def _replace(place: Path, text: str) -> None:

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::options::Options;
 use anyhow::anyhow;
-use platewash::kinematics::urdf::file;
+use platewash::kinematics::urdf::{Files, file};
 use platewash::scenario::{UnitNote, load_description};
 use platewash::workcell::workcell::ArmId;
 use platewash::{Plan, RobotModel};
@@ -76,7 +76,7 @@ fn refused(path: &Path, error: impl Display) -> Failure {
 /// The arm of a plan. A plan carries the hashes of its description and its SRDF alone.
 fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>) -> anyhow::Result<Arc<RobotModel>> {
     if let Some(urdf) = &options.urdf {
-        let arm = load_description(urdf, options.srdf.as_deref(), &options.package_path)?;
+        let arm = load_description(urdf, options.srdf.as_deref(), &options.package_path, &Files::default())?;
         refuse_other(wanted, &ArmId::of(&arm))?;
         return Ok(Arc::new(arm));
     }

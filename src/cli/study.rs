@@ -10,6 +10,7 @@ use clap::{Args, Subcommand};
 use platewash::study::{self, Journal, Resolver, Study, StudyError};
 use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Arguments of `study`.
 #[derive(Debug, Args)]
@@ -25,7 +26,7 @@ enum StudyVerb {
     /// Ended by whatever, it goes on where it was when it is called again. Exit code 0 where all rows are done, however they ended; 1
     /// where the program itself failed on one.
     Run {
-        /// The study file
+        /// The study file, or a study's folder, for which no other file is needed
         file: PathBuf,
     },
     /// Say what the rows in a folder come to: outcomes by axis, durations, the rows to look at.
@@ -43,7 +44,7 @@ enum StudyVerb {
     },
     /// Print the scenario of a row, to plan it alone.
     Scenario {
-        /// The study file
+        /// The study file, or the study's folder
         file: PathBuf,
         /// Index of the row, from 0
         #[arg(long, value_name = "N")]
@@ -86,10 +87,11 @@ fn work(options: &Options, file: &Path) -> Result<ExitCode, Failure> {
         .as_deref()
         .context("study run needs --out DIR, where rows are kept");
     let folder = folder.map_err(Failure::input)?;
-    let study = Study::load(file)?;
-    let mut journal = Journal::open(folder, &study, &file.display().to_string())?;
+    let study = Arc::new(Study::load(file)?);
+    let mut journal = Journal::open(folder, &study)?;
     let (before, rows) = (journal.done(), study.rows());
     if before == rows {
+        journal.finish()?;
         output::message(
             options.quiet,
             &format!("{}: the study is finished, all {rows} rows are there", folder.display()),
@@ -98,7 +100,7 @@ fn work(options: &Options, file: &Path) -> Result<ExitCode, Failure> {
         if before > 0 {
             output::message(options.quiet, &format!("going on: {before} of {rows} rows are there"));
         }
-        let resolver = Resolver::new(&study);
+        let resolver = Resolver::new(study.clone());
         let progress = Progress::new(options.quiet, "planning and proving");
         let made = study::run(
             &study,
@@ -127,7 +129,7 @@ fn work(options: &Options, file: &Path) -> Result<ExitCode, Failure> {
 
 fn show(options: &Options, folder: &Path) -> Result<ExitCode, Failure> {
     let summary = study::summary(folder)?;
-    output::print_either(options.json, &summary, || study_text::shown(&summary))?;
+    output::print_either(options.json, &summary, || study_text::shown(&summary, folder))?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -2,6 +2,7 @@
 
 use platewash::study::{Outcome, Row, Summary};
 use std::fmt::Write;
+use std::path::Path;
 
 /// How the rows ended, a line.
 pub fn outcomes(of: &Summary) -> String {
@@ -21,8 +22,8 @@ pub fn outcomes(of: &Summary) -> String {
     )
 }
 
-/// All of it.
-pub fn shown(of: &Summary) -> String {
+/// All of what the rows in a folder come to.
+pub fn shown(of: &Summary, folder: &Path) -> String {
     let mut text = outcomes(of);
     for (axis, values) in &of.by_axis {
         let _ = writeln!(text, "\n{axis}");
@@ -47,7 +48,7 @@ pub fn shown(of: &Summary) -> String {
             text,
             "\na row alone, here row {}:\n  platewash study scenario {} --row {} > row.toml && platewash run --scenario row.toml",
             row.index,
-            quoted(&of.manifest.file),
+            quoted(&folder.display().to_string()),
             row.index
         );
     }

@@ -10,7 +10,7 @@ use anyhow::{Context, ensure};
 use clap::Args;
 use platewash::scenario::Program;
 use platewash::workcell::job::MAX_SEED;
-use platewash::{SWEEP_HEADER, Scenario, SweepOutcome, SweepRow, sweep_csv, sweep_each};
+use platewash::{SWEEP_HEADER, Scenario, SweepRow, study, sweep_csv, sweep_each};
 use std::io::IsTerminal;
 use std::ops::{ControlFlow, RangeInclusive};
 
@@ -56,11 +56,11 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Fa
     }
     let count = |outcome| rows.iter().filter(|row: &&SweepRow| row.outcome == outcome).count();
     let [proved, not_proved, infeasible, not_found, failed] = [
-        SweepOutcome::Proved,
-        SweepOutcome::NotProved,
-        SweepOutcome::Infeasible,
-        SweepOutcome::NotFound,
-        SweepOutcome::Error,
+        study::Outcome::Proved,
+        study::Outcome::NotProved,
+        study::Outcome::Infeasible,
+        study::Outcome::NotFound,
+        study::Outcome::Error,
     ]
     .map(count);
     let total = rows.len();

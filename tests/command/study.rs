@@ -50,6 +50,18 @@ fn a_study_goes_on_where_it_ended() {
     assert_eq!(platewash(dir, &["study", "export", "b"]).stdout, whole);
     let torn = format!("{}\n{}\n{}", lines[0], lines[1], &lines[2][..20]);
     std::fs::write(out.join("rows.jsonl"), torn).unwrap();
+    // It was finished, and is evidence.
+    for words in [
+        ["study", "run", "study.toml", "--out", "b"].as_slice(),
+        &["study", "show", "b"],
+        &["study", "export", "b"],
+    ] {
+        platewash(dir, words).refused(2, &["rows.jsonl", "changed since the study was finished"]);
+    }
+    let manifest = out.join("manifest.json");
+    let mut stated: Value = serde_json::from_slice(&std::fs::read(&manifest).unwrap()).unwrap();
+    stated.as_object_mut().unwrap().remove("rows_sha256").unwrap();
+    std::fs::write(&manifest, stated.to_string()).unwrap();
     assert_eq!(run("b", "2").code, 0);
     assert_eq!(platewash(dir, &["study", "export", "b"]).stdout, whole);
 
@@ -58,6 +70,11 @@ fn a_study_goes_on_where_it_ended() {
     assert_eq!(std::fs::read(&journal).unwrap(), before);
     let shown = platewash(dir, &["study", "show", "a"]);
     assert!(shown.stdout.contains("4 of 4 proved"), "{}", shown.stdout);
+    // A row of it needs the folder alone.
+    assert!(shown.stdout.contains("study scenario a --row"), "{}", shown.stdout);
+    std::fs::remove_file(dir.join("study.toml")).unwrap();
+    let alone = platewash(dir, &["study", "scenario", "a", "--row", "2"]);
+    assert!(alone.stdout.contains("length_m = 0.15"), "{}", alone.stdout);
 }
 
 #[test]

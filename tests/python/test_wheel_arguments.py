@@ -14,7 +14,9 @@ import numpy as np
 import pytest
 
 import pyplatewash as pw
-from pyplatewash import _program_files
+import study_folders
+from pyplatewash import _core, _program_files
+from pyplatewash._studies import run as runs
 from wheel_plans import paper_run, planned
 
 ROBOT = pw.Robot.irb120()
@@ -23,6 +25,8 @@ RUN = paper_run("paper-appendix")
 PLAN = RUN.plan()
 WASH = planned("kitchen")
 SECTION: dict[str, float] = {}
+STUDY = pw.Study("kitchen", rows=[{"seed": 3}])
+KEPT = pw.Study("kitchen", rows=[{"seed": 1, "wash.contact_force_n": [1, 40]}])  # Two numbers are a place, too.
 
 # A good value for each argument, by its name; by the call's too, where the name alone does not say.
 GOOD: dict[str, Any] = {
@@ -44,6 +48,10 @@ GOOD: dict[str, Any] = {
     "html": "<p>a page", "Plan.view path": "page.html", "Page.save path": "page.html", "Page.open path": "page.html",
     "Robot.from_urdf text": ROBOT.urdf, "Robot.from_urdf srdf": ROBOT.srdf, "Plan.from_json text": PLAN.to_json(), "Scenario.parse text": "name = 'x'\n[layout]\nregion = 'text'\n",
     "Robot.ik seed": Q, "Robot.ik_path seed": Q, "Robot.ik_batch seeds": Q, "IkSolution start": "seed", "sweep scenario": "kitchen", "run_paper job": RUN.job, "prove plan": WASH.plan,
+    "Study scenario": "kitchen", "Study axes": {"seed": [1]}, "rows": None, "name": "a study", "plans": "none", "Study.load path": "study.toml", "Study.parse text": STUDY.to_toml(), "Study.run out": "out",
+    "engine": "threads", "workers": 1, "client": None, "address": None, "progress": False,
+    "ranges": {"tool.length_m": (0.1, 0.2)}, "samples method": "random", "log": ["tool.length_m"], "StudyRows folder": "study", "index": 0, "partial": True, "timings": True, "at": "wash.contact_force_n",
+    "value": "outcome", "by": ["seed"], "region": None, "StudyRows.export path": "rows.jsonl", "StudyRows.to_parquet path": "rows.parquet", "StudyRows.map ax": None,
     "simulate settings": pw.SimulationSettings("exact"), "tune settings": pw.SimulationSettings("pd"), "Record.__getitem__ key": "a", "Record text": "words",
 }  # fmt: skip
 # Classes of answers, which users are given: whoever makes one is trusted. Exceptions take any words.
@@ -84,7 +92,8 @@ INSTANCES: dict[str, Callable[[], Any]] = {
     "ClearanceModel": lambda: pw.ClearanceModel(ROBOT, pw.Tool(length_m=0.15), [pw.Plate(x_m=0.3, y_m=0.0)]), "Execution": lambda: pw.simulate(PLAN), "PaperSpiral": pw.PaperSpiral,
     "WashCurve": lambda: pw.WashCurve(radius_m=0.1, turns=3.0), "Rings": lambda: pw.Rings(count=3, inner_m=0.02, lead_rad=2.0, blend_rad=1.8), "Record": lambda: pw.Record({"a": 1}), "Layout": lambda: pw.place_plates("kitchen"),
     "Plan.export": lambda: WASH.plan, "Plan.to_joint_trajectory": lambda: WASH.plan, "Plan.dry_run": lambda: WASH.plan, "Plan.show": lambda: WASH.plan, "Plan.view": lambda: WASH.plan, "Plan.figure": lambda: WASH.plan, "Page": lambda: pw.Page("<p>a page"),
-    "Scenario.paper_job": lambda: pw.Scenario.load("paper-appendix"),
+    "Scenario.paper_job": lambda: pw.Scenario.load("paper-appendix"), "StudyRows": lambda: pw.StudyRows("study"),
+    "Study": lambda: STUDY,
 }  # fmt: skip
 MADE: dict[str, Any] = {}
 
@@ -133,9 +142,25 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         save(folder, files)
 
     monkeypatch.setattr(_program_files, "save", save_here)
+    monkeypatch.setattr(runs, "run", lambda study, out, *others: run_here(tmp_path, study, out, *others))
+    Path("study.toml").write_text(STUDY.to_toml())
     Path("arm.urdf").write_text(ROBOT.urdf)
     Path("arm.srdf").write_text(ROBOT.srdf or "")
     PLAN.save("plan.json")
+    row = study_folders.row(0, KEPT.row(0).axes, key=KEPT.row(0).key)
+    journal = _core.StudyJournal("study", KEPT)
+    journal.append(study_folders.line(row).strip(), 0.1, PLAN.to_json().encode())
+    journal.close()
+
+
+RUN_STUDY = runs.run
+
+
+def run_here(here: Path, study: pw.Study, out: Path, *others: Any) -> pw.StudyRows:
+    """Runs a study in a folder below this one, and in no other that could be made."""
+    if "\0" not in str(out) and not out.resolve().is_relative_to(here):
+        raise pw.FileError("no folder of this test's")
+    return RUN_STUDY(study, out, *others)
 
 
 @pytest.mark.filterwarnings("ignore")

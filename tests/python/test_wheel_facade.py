@@ -23,7 +23,7 @@ PYTHON = {
     "planner": None,
     "scenario": None,
     "simulator": None,
-    "study": "run_command",  # by its verb, so far
+    "study": "Study",
     "workcell": None,
     "viewer": "Plan.show",  # the page, and figures by matplotlib
     "cli": "run_command",
@@ -50,7 +50,6 @@ PYTHON = {
     "WashReport": "Planned.report",
     "WashText": "Planned.report",
     "SWEEP_HEADER": None,  # the columns are the records' keys
-    "SweepOutcome": "sweep",
     "SweepRow": "sweep",
     "sweep": "sweep",
     "sweep_csv": None,  # pandas.DataFrame makes a table of the records
@@ -115,7 +114,7 @@ def test_the_scenarios_and_verbs_are_the_commands(platewash: Path) -> None:
         assert getattr(pw, name).__doc__, f"{name} has no docstring"
 
 
-@pytest.mark.parametrize("module", ["", "._values", "._records", "._errors", "._page", "._words", ".ros"])
+@pytest.mark.parametrize("module", ["", "._values", "._records", "._errors", "._page", "._words", "._studies.samples", "._figures.table_map", ".ros"])
 def test_examples_in_docstrings_run(module: str) -> None:
     found = doctest.testmod(importlib.import_module("pyplatewash" + module))
     assert found.failed == 0

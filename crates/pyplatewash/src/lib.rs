@@ -33,6 +33,7 @@ mod robot;
 mod scenario;
 mod shown;
 mod simulation;
+mod study;
 mod sweep;
 mod tool;
 mod trajectory;
@@ -84,6 +85,8 @@ mod _core {
     use crate::shown::{_figure_arguments, _show_arguments};
     #[pymodule_export]
     use crate::simulation::{ExecutionObject, SettingsObject, simulate, tune};
+    #[pymodule_export]
+    use crate::study::{_study_summary, StudyJournalObject, StudyObject, StudyWorkerObject};
     #[pymodule_export]
     use crate::sweep::sweep;
     #[pymodule_export]

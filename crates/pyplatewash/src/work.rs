@@ -80,8 +80,34 @@ pub fn patiently<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&CancelToken) -> T + Send + 'static,
 ) -> PyResult<T> {
-    let pool = pool(py)?;
-    let cancel = CancelToken::new();
+    patiently_on(py, pool(py)?, &CancelToken::new(), work)
+}
+
+/// The same on so many threads of its own, with a token of the caller's, who may cancel it too.
+///
+/// # Errors
+/// As [`patiently`].
+pub fn patiently_by<T: Send + 'static>(
+    py: Python<'_>,
+    threads: usize,
+    cancel: &CancelToken,
+    work: impl FnOnce(&CancelToken) -> T + Send + 'static,
+) -> PyResult<T> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .stack_size(STACK_BYTES)
+        .num_threads(threads);
+    let pool = pool
+        .build()
+        .map_err(|e| errors::internal(py, &format!("no threads: {e}")))?;
+    patiently_on(py, Arc::new(pool), cancel, work)
+}
+
+fn patiently_on<T: Send + 'static>(
+    py: Python<'_>,
+    pool: Arc<ThreadPool>,
+    cancel: &CancelToken,
+    work: impl FnOnce(&CancelToken) -> T + Send + 'static,
+) -> PyResult<T> {
     let (answer, waiting) = channel();
     let heard = cancel.clone();
     let run = move || {

@@ -2,7 +2,7 @@
 
 use crate::robot::{BuiltInArm, RobotSection};
 use platewash_kinematics::irb120::EmbeddedModelError;
-use platewash_kinematics::urdf::{MAX_BYTES, MeshSource, file};
+use platewash_kinematics::urdf::{Files, MAX_BYTES, MeshSource};
 use platewash_kinematics::{DisabledPairs, RobotModel, SrdfError, UrdfError};
 use std::path::{Path, PathBuf};
 
@@ -39,13 +39,13 @@ pub enum ArmError {
     },
 }
 
-/// The arm that the section asks for.
+/// The arm that the section asks for, out of files of the disk or of what was read before.
 ///
 /// # Errors
 /// [`ArmError`] with the file and what is wrong in it.
-pub fn load_arm(section: &RobotSection) -> Result<RobotModel, ArmError> {
+pub fn load_arm(section: &RobotSection, files: &Files) -> Result<RobotModel, ArmError> {
     match (&section.urdf, section.model) {
-        (Some(urdf), _) => load_description(urdf, section.srdf.as_deref(), &section.package_path),
+        (Some(urdf), _) => load_description(urdf, section.srdf.as_deref(), &section.package_path, files),
         (None, BuiltInArm::Irb120) => Ok(RobotModel::irb120()?),
     }
 }
@@ -55,10 +55,15 @@ pub fn load_arm(section: &RobotSection) -> Result<RobotModel, ArmError> {
 ///
 /// # Errors
 /// [`ArmError`] with the file and what is wrong in it.
-pub fn load_description(urdf: &Path, srdf: Option<&Path>, package_path: &[PathBuf]) -> Result<RobotModel, ArmError> {
+pub fn load_description(
+    urdf: &Path,
+    srdf: Option<&Path>,
+    package_path: &[PathBuf],
+    files: &Files,
+) -> Result<RobotModel, ArmError> {
     let file = urdf.display().to_string();
-    let meshes = MeshSource::new(package_path, urdf.parent());
-    let robot = RobotModel::from_urdf(&read(urdf)?, &meshes).map_err(|error| ArmError::Urdf { file, error })?;
+    let meshes = MeshSource::new(package_path, urdf.parent()).reading(files);
+    let robot = RobotModel::from_urdf(&read(urdf, files)?, &meshes).map_err(|error| ArmError::Urdf { file, error })?;
     let Some(path) = srdf else {
         return Ok(robot);
     };
@@ -67,13 +72,15 @@ pub fn load_description(urdf: &Path, srdf: Option<&Path>, package_path: &[PathBu
         error,
     };
     robot
-        .with_disabled_pairs(DisabledPairs::parse(&read(path)?).map_err(srdf)?)
+        .with_disabled_pairs(DisabledPairs::parse(&read(path, files)?).map_err(srdf)?)
         .map_err(srdf)
 }
 
-fn read(path: &Path) -> Result<String, ArmError> {
-    file::read_text(path, MAX_BYTES as u64).map_err(|e| ArmError::Unreadable {
-        file: path.display().to_string(),
-        detail: e.to_string(),
-    })
+fn read(path: &Path, files: &Files) -> Result<String, ArmError> {
+    files
+        .read_text(path, MAX_BYTES as u64)
+        .map_err(|e| ArmError::Unreadable {
+            file: path.display().to_string(),
+            detail: e.to_string(),
+        })
 }

@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::job::Program;
 use crate::scenario::Scenario;
 use crate::wash::{PAPER_RADIUS_M, PAPER_TURNS};
+use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_paper::order::PaperOrder;
 use platewash_paper::settings::{PaperIk, TransitCurve};
@@ -28,7 +29,24 @@ impl Scenario {
     /// # Errors
     /// [`Failure::Arm`].
     pub fn arm(&self) -> Result<Arc<RobotModel>, Failure> {
-        Ok(Arc::new(load_arm(&self.robot)?))
+        Ok(Arc::new(load_arm(&self.robot, &self.files)?))
+    }
+
+    /// Reads every file that the scenario names, as its job would. What is wrong with one is for the job to tell.
+    pub fn read_files(&self) {
+        // Errors are dropped on purpose.
+        let _ = self.arm();
+        let of_tool = self.tool_body.iter().map(|section| &section.body);
+        for body in of_tool.chain(self.obstacle.iter().map(|section| &section.body)) {
+            if let Some(mesh) = &body.mesh {
+                let _ = self.meshes().solid(&mesh.to_string_lossy(), [1.0; 3]);
+            }
+        }
+    }
+
+    /// Where the meshes of its bodies are.
+    pub(crate) fn meshes(&self) -> MeshSource {
+        MeshSource::new(&self.robot.package_path, None).reading(&self.files)
     }
 
     /// The washing that the scenario asks for, resolved: the arm loaded, the plates placed.

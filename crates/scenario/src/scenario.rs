@@ -15,6 +15,7 @@ use crate::tool::ToolSection;
 use crate::tool_body::ToolBodySection;
 use crate::transition::TransitionSection;
 use crate::wash::WashSection;
+use platewash_kinematics::urdf::Files;
 use platewash_kinematics::{AXES, JointVector};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -64,6 +65,9 @@ pub struct Scenario {
     /// No part of what is stated: meshes that were cut before, for scenarios that name the same.
     #[serde(skip)]
     pub solids: Solids,
+    /// No part of it either: where the files that it names come from.
+    #[serde(skip)]
+    pub files: Files,
 }
 
 impl Scenario {
@@ -111,6 +115,7 @@ impl Default for Scenario {
             control: ControlSection::default(),
             plant: PlantSection::default(),
             solids: Solids::default(),
+            files: Files::default(),
         }
     }
 }

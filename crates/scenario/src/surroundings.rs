@@ -10,7 +10,6 @@ use crate::room::TABLE;
 use crate::scenario::Scenario;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::urdf::MeshSource;
 use platewash_workcell::clearance::SolidParts;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::words::counted;
@@ -128,7 +127,7 @@ impl Scenario {
             MeshPartsName::Hull => SolidParts::Hull,
             MeshPartsName::Decomposed => SolidParts::Decomposed,
         };
-        let source = MeshSource::new(&self.robot.package_path, None);
+        let source = self.meshes();
         let hulls = self.solids.parts(&source, file, scale, parts);
         let hulls = hulls.map_err(|why| obstacle_error(index, section, why))?;
         Ok(match hulls.as_slice() {

@@ -10,7 +10,6 @@ use crate::tool::ASSUMED_STIFFNESS_KPA;
 use crate::tool_body::{ToolBodySection, tool_keys};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::urdf::MeshSource;
 use platewash_workcell::clearance::SolidParts;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::tool_chain::{ToolChain, ToolError};
@@ -73,7 +72,7 @@ impl Scenario {
         section: &ToolBodySection,
         (file, scale): (&Path, [f64; 3]),
     ) -> Result<Shape, BodyError> {
-        let source = MeshSource::new(&self.robot.package_path, None);
+        let source = self.meshes();
         let hulls = self.solids.parts(&source, file, scale, SolidParts::Hull);
         let error = |why| BodyError {
             section: BodySection::ToolBody,

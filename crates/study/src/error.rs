@@ -57,6 +57,12 @@ pub enum StudyError {
         /// Why not.
         cause: std::io::Error,
     },
+    /// What was sent is neither a row of this study nor a study.
+    #[error("what was sent is not of this study: {problem}")]
+    Sent {
+        /// Why not.
+        problem: String,
+    },
     /// There is no such row.
     #[error("there is no row {index}; the study has {rows}, counted from 0")]
     NoRow {

@@ -5,23 +5,41 @@
 //! The rows of a study are the same bytes for every number of threads and every order in which they were done.
 
 mod axis;
+mod base;
+mod done;
 mod error;
 mod journal;
+mod keep;
+mod kept;
 mod lines;
+mod load;
+mod made;
 mod manifest;
+mod named_files;
+mod outcome;
+mod parts;
+mod place;
 mod resolve;
 mod row;
 mod run;
 mod statement;
 mod study;
 mod summary;
+mod whole;
 
 pub use axis::Axis;
+pub use base::Base;
 pub use error::StudyError;
-pub use journal::{Journal, export, read_manifest};
-pub use manifest::{Manifest, ManifestAxis, ManifestScenario};
-pub use resolve::Resolver;
-pub use row::{Outcome, Place, ROW_SCHEMA, Row};
+pub use journal::Journal;
+pub use keep::Keep;
+pub use kept::{export, read_manifest};
+pub use made::Made;
+pub use manifest::{Manifest, ManifestAxis, ManifestFile, ManifestScenario};
+pub use outcome::Outcome;
+pub use parts::{PartsFile, StudyParts};
+pub use place::Place;
+pub use resolve::{Resolver, judged};
+pub use row::{ROW_SCHEMA, Row};
 pub use run::{Progress, run};
-pub use study::{Base, MOST_ROWS, RowAddress, Study};
+pub use study::{MOST_ROWS, RowAddress, Study};
 pub use summary::{Summary, summary};

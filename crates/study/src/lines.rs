@@ -18,7 +18,10 @@ pub(crate) trait Sink: Write + Send {
 
 impl Sink for File {
     fn cut(&mut self, length: u64) -> io::Result<()> {
-        self.set_len(length)?;
+        // What is as long as it should be is not touched.
+        if self.metadata()?.len() != length {
+            self.set_len(length)?;
+        }
         self.seek(SeekFrom::Start(length)).map(|_| ())
     }
 

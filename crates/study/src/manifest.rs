@@ -1,9 +1,14 @@
 //! What a folder keeps a study of: enough to tell it from every other.
 
+use crate::base::Base;
+use crate::error::StudyError;
 use crate::row::ROW_SCHEMA;
 use crate::study::Study;
+use crate::whole::write_whole;
 use platewash_kinematics::fingerprint::sha256_hex;
 use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// What `format` says.
 pub(crate) const FORMAT: &str = "platewash-study-manifest/1";
@@ -28,8 +33,13 @@ pub struct Manifest {
     pub scenarios: Vec<ManifestScenario>,
     /// Its axes.
     pub axes: Vec<ManifestAxis>,
+    /// The files that its rows name: descriptions of arms, meshes.
+    pub files: Vec<ManifestFile>,
     /// The study file as it was given, for commands that reproduce a row; it is no part of what tells studies apart.
     pub file: String,
+    /// SHA-256 of all rows, as they are exported: there as soon as the study is finished.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rows_sha256: Option<String>,
 }
 
 /// A scenario of a study.
@@ -39,6 +49,16 @@ pub struct ManifestScenario {
     /// As the study names it.
     pub name: String,
     /// SHA-256 of its text.
+    pub sha256: String,
+}
+
+/// A file that rows name.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ManifestFile {
+    /// Its path, from the study file's folder where it lies below it.
+    pub path: String,
+    /// SHA-256 of what it held.
     pub sha256: String,
 }
 
@@ -53,12 +73,18 @@ pub struct ManifestAxis {
 }
 
 impl Manifest {
-    /// The manifest of a study that is read from `file`.
+    /// The manifest of a study without any row.
     #[must_use]
-    pub fn of(study: &Study, file: &str) -> Self {
-        let scenario = |base: &crate::study::Base| ManifestScenario {
+    pub fn of(study: &Study) -> Self {
+        let scenario = |base: &Base| ManifestScenario {
             name: base.name.clone(),
             sha256: sha256_hex(base.text.as_bytes()),
+        };
+        // The same however the study file is called: from another working folder, or by its whole path.
+        let folder = Path::new(&study.file).parent().unwrap_or(Path::new(""));
+        let file = |(path, bytes): (&PathBuf, &Arc<[u8]>)| ManifestFile {
+            path: path.strip_prefix(folder).unwrap_or(path).display().to_string(),
+            sha256: sha256_hex(bytes),
         };
         let listed = study.listed.first().into_iter().flat_map(|row| row.keys());
         let listed = listed.map(|key| ManifestAxis {
@@ -78,8 +104,19 @@ impl Manifest {
             study_sha256: sha256_hex(study.text.as_bytes()),
             scenarios: study.bases.iter().map(scenario).collect(),
             axes: axes.chain(listed).collect(),
-            file: file.to_owned(),
+            files: study.files.iter().map(file).collect(),
+            file: study.file.clone(),
+            rows_sha256: None,
         }
+    }
+
+    /// Writes it, whole.
+    pub(crate) fn write(&self, path: &Path) -> Result<(), StudyError> {
+        let text = serde_json::to_string_pretty(self).map_err(|error| StudyError::Kept {
+            file: path.to_owned(),
+            problem: error.to_string(),
+        })?;
+        write_whole(path, format!("{text}\n").as_bytes())
     }
 
     /// What tells this study from another one, with what each of them has.
@@ -88,16 +125,28 @@ impl Manifest {
             let text = |scenario: &ManifestScenario| format!("{} {}", scenario.name, &scenario.sha256);
             of.scenarios.iter().map(text).collect::<Vec<_>>().join(", ")
         };
-        let facts = |of: &Self| {
+        let named = |of: &Self| {
+            let text = |file: &ManifestFile| format!("{} {}", file.path, &file.sha256);
+            of.files.iter().map(text).collect::<Vec<_>>()
+        };
+        // Of many files, those that are not the same.
+        let files = |of: &Self, other: &Self| {
+            let other = named(other);
+            let mine = named(of).into_iter().filter(|file| !other.contains(file));
+            let mine = mine.collect::<Vec<_>>().join(", ");
+            if mine.is_empty() { "none".to_owned() } else { mine }
+        };
+        let facts = |of: &Self, other: &Self| {
             [
                 ("its version of the program", of.version.clone()),
                 ("its version of rows", of.row_schema.to_string()),
                 ("the study file (by its SHA-256)", of.study_sha256.clone()),
                 ("a scenario (by its SHA-256)", texts(of)),
+                ("a file that rows name (by its SHA-256)", files(of, other)),
                 ("the number of rows", of.rows.to_string()),
             ]
         };
-        let mut pairs = facts(self).into_iter().zip(facts(other));
+        let mut pairs = facts(self, other).into_iter().zip(facts(other, self));
         pairs.find_map(|((what, mine), (_, its))| (mine != its).then_some((what, mine, its)))
     }
 }

@@ -1,12 +1,16 @@
 //! From a row's values to what came of them: planned and proved, by the row alone.
 
+use crate::base::changed;
 use crate::error::StudyError;
-use crate::row::{Outcome, Row};
-use crate::study::{RowAddress, Study, changed};
-use platewash_certificate::prove_with;
+use crate::made::Made;
+use crate::outcome::Outcome;
+use crate::row::Row;
+use crate::study::{RowAddress, Study};
+use platewash_certificate::{Certificate, prove_with};
 use platewash_kinematics::RobotModel;
-use platewash_planner::{Watch, plan_with};
-use platewash_scenario::{Draft, Failure, Scenario};
+use platewash_kinematics::urdf::Files;
+use platewash_planner::{Planned, Watch, plan_with};
+use platewash_scenario::{Draft, Failure, Scenario, Solids};
 use platewash_workcell::cancel::CancelToken;
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
@@ -20,24 +24,49 @@ const MOST_ARMS: usize = 64;
 /// The files of an arm: URDF, SRDF, folders of its meshes.
 type ArmFiles = (Option<PathBuf>, Option<PathBuf>, Vec<PathBuf>);
 
+/// A scenario's layout, planned and proved, with an arm that was loaded for it.
+///
+/// # Errors
+/// [`Failure`] of the layout, of planning or of the proof; cancelled.
+pub fn judged(
+    scenario: &Scenario,
+    arm: &Arc<RobotModel>,
+    cancel: &CancelToken,
+) -> Result<(Planned, Certificate), Failure> {
+    let watch = Watch::silent(cancel);
+    let layout = scenario.place(arm, &watch)?;
+    let planned = plan_with(&scenario.job_on(arm, &layout)?, &watch)?;
+    let certificate = prove_with(&planned.plan, arm, cancel)?;
+    Ok((planned, certificate))
+}
+
 /// Makes rows of a study. What many rows share is kept: arms, and the scenario of rows that differ in their seed alone.
-pub struct Resolver<'a> {
-    study: &'a Study,
+pub struct Resolver {
+    study: Arc<Study>,
+    /// Meshes that were cut, for all scenarios.
+    solids: Solids,
     arms: Mutex<HashMap<ArmFiles, Arc<RobotModel>>>,
     last: Mutex<Option<Read>>,
+    /// [`judged`]; a test has another.
+    judge: Judge,
 }
+
+/// From a scenario with its arm to a plan and its certificate.
+type Judge = fn(&Scenario, &Arc<RobotModel>, &CancelToken) -> Result<(Planned, Certificate), Failure>;
 
 /// A scenario with the values that it was made of, but for the seed.
 type Read = ((usize, BTreeMap<String, Value>), Arc<Scenario>);
 
-impl<'a> Resolver<'a> {
+impl Resolver {
     /// Of a study; nothing is read yet.
     #[must_use]
-    pub fn new(study: &'a Study) -> Self {
+    pub fn new(study: Arc<Study>) -> Self {
         Self {
             study,
+            solids: Solids::default(),
             arms: Mutex::default(),
             last: Mutex::default(),
+            judge: judged,
         }
     }
 
@@ -45,31 +74,40 @@ impl<'a> Resolver<'a> {
     ///
     /// # Errors
     /// [`StudyError::NoRow`].
-    pub fn row(&self, index: u64, cancel: &CancelToken) -> Result<Option<Row>, StudyError> {
+    pub fn row(&self, index: u64, cancel: &CancelToken) -> Result<Option<Made>, StudyError> {
         let address = self.study.row(index)?;
         let name = self.study.bases[address.base].name.clone();
         let row = Row::new(index, address.key.clone(), name, address.axes.clone());
         let done = catch_unwind(AssertUnwindSafe(|| self.done(row.clone(), &address, cancel)));
-        Ok(done.unwrap_or_else(|panic| Some(row.ended(Outcome::Crashed, words_of(&*panic)))))
+        Ok(done.unwrap_or_else(|panic| Some(row.ended(Outcome::Crashed, words_of(&*panic)).into())))
     }
 
-    fn done(&self, row: Row, address: &RowAddress, cancel: &CancelToken) -> Option<Row> {
+    fn done(&self, row: Row, address: &RowAddress, cancel: &CancelToken) -> Option<Made> {
         let scenario = match self.scenario(address) {
             Ok(scenario) => scenario,
-            Err(problem) => return Some(row.ended(Outcome::Error, problem)),
+            Err(problem) => return Some(row.ended(Outcome::Error, problem).into()),
         };
-        let watch = Watch::silent(cancel);
-        let planned = || -> Result<_, Failure> {
-            let arm = self.arm(&scenario)?;
-            let layout = scenario.place(&arm, &watch)?;
-            let planned = plan_with(&scenario.job_on(&arm, &layout)?, &watch)?;
-            let certificate = prove_with(&planned.plan, &arm, cancel)?;
-            Ok((planned, certificate))
-        };
-        match planned() {
-            Ok((planned, certificate)) => Some(row.planned(&planned, &certificate)),
+        let judged = self
+            .arm(&scenario)
+            .and_then(|arm| (self.judge)(&scenario, &arm, cancel));
+        match judged {
+            Ok((planned, certificate)) => Some(self.made(row.planned(&planned, &certificate), &planned)),
             Err(error) if error.is_cancelled() => None,
-            Err(error) => Some(row.failed(&error)),
+            Err(error) => Some(row.failed(&error).into()),
+        }
+    }
+
+    /// A row with its plan, where the study keeps it.
+    fn made(&self, row: Row, planned: &Planned) -> Made {
+        if !self.study.plans.wants(&row) {
+            return row.into();
+        }
+        match planned.plan.to_json() {
+            Ok(plan) => Made {
+                row,
+                plan: Some(plan.into_bytes()),
+            },
+            Err(error) => row.ended(Outcome::Error, error.to_string()).into(),
         }
     }
 
@@ -86,7 +124,10 @@ impl<'a> Resolver<'a> {
                 let base = &self.study.bases[address.base];
                 let text = changed(&base.text, &what.1)?;
                 let draft = Draft::new(&text).and_then(|draft| draft.scenario(&base.name, base.folder.as_deref()));
-                let scenario = Arc::new(draft.map_err(|error| error.to_string())?);
+                let mut scenario = draft.map_err(|error| error.to_string())?;
+                scenario.solids = self.solids.clone();
+                scenario.files = Files::held(self.study.files.clone());
+                let scenario = Arc::new(scenario);
                 *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some((what, scenario.clone()));
                 scenario
             }
@@ -126,4 +167,68 @@ fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
         "the program failed: {}",
         text.as_deref().unwrap_or("it does not say why")
     )
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic)]
+mod tests {
+    use super::*;
+    use crate::journal::Journal;
+    use crate::kept::rows;
+    use crate::run::run;
+    use platewash_workcell::cancel::Cancelled;
+    use std::path::Path;
+
+    /// A planner that fails on seed 2, and else has no plan.
+    fn broken(scenario: &Scenario, _: &Arc<RobotModel>, _: &CancelToken) -> Result<(Planned, Certificate), Failure> {
+        match scenario.seed {
+            2 => panic!("index {} is none", 7),
+            _ => Err(Failure::NoContact { height_m: 0.0 }),
+        }
+    }
+
+    #[test]
+    fn a_planner_that_panics_is_the_outcome_of_its_row_and_the_others_go_on() {
+        let text = "format = \"platewash-study/1\"\nname = \"p\"\nscenario = \"kitchen\"\n[[axis]]\nkey = \"seed\"\nseeds = \"1..4\"\n";
+        let study = Arc::new(Study::parse(text, "p.toml", Path::new("")).unwrap());
+        let resolver = Resolver {
+            judge: broken,
+            ..Resolver::new(study.clone())
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let mut journal = Journal::open(folder.path(), &study).unwrap();
+        let cancel = CancelToken::new();
+        run(
+            &study,
+            &mut journal,
+            &cancel,
+            |index, cancel| resolver.row(index, cancel),
+            |_| (),
+        )
+        .unwrap();
+        let mut ended = vec![None; 4];
+        rows(folder.path(), |row| {
+            ended[row.index as usize] = Some((row.outcome, row.reason.clone()))
+        })
+        .unwrap();
+        let crashed = Some("the program failed: index 7 is none".to_owned());
+        assert_eq!(ended[1], Some((Outcome::Crashed, crashed)));
+        for index in [0, 2, 3] {
+            assert_eq!(ended[index].as_ref().map(|(outcome, _)| *outcome), Some(Outcome::Error));
+        }
+    }
+
+    #[test]
+    fn a_row_that_is_given_up_is_none() {
+        fn given_up(_: &Scenario, _: &Arc<RobotModel>, _: &CancelToken) -> Result<(Planned, Certificate), Failure> {
+            Err(Failure::Prove(platewash_certificate::ProveError::Cancelled(Cancelled)))
+        }
+        let text = "format = \"platewash-study/1\"\nname = \"p\"\nscenario = \"kitchen\"\n";
+        let study = Arc::new(Study::parse(text, "p.toml", Path::new("")).unwrap());
+        let resolver = Resolver {
+            judge: given_up,
+            ..Resolver::new(study)
+        };
+        assert_eq!(resolver.row(0, &CancelToken::new()).unwrap(), None);
+    }
 }

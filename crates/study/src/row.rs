@@ -1,75 +1,16 @@
 //! A row: what came of one scenario of a study. `docs/studies.md` says what each field means; they change with [`ROW_SCHEMA`] alone.
 
-use platewash_certificate::{self as certificate, Certificate, Requirement};
-use platewash_planner::{InfeasibleReport, PlanError, Planned};
+use crate::outcome::Outcome;
+use crate::place::Place;
+use platewash_certificate::{Certificate, Requirement};
+use platewash_planner::Planned;
 use platewash_scenario::Failure;
-use platewash_workcell::verdict::Infeasibility;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// The version of rows. Fields are added, taken away or given another meaning only with another number.
 pub const ROW_SCHEMA: u32 = 1;
-
-/// How a row ended. The words are those of `sweep`, and one more.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Outcome {
-    /// Planned, and every requirement proved.
-    Proved,
-    /// Planned, but a requirement is violated or not proved.
-    NotProved,
-    /// The job cannot be done.
-    Infeasible,
-    /// No way to do it was found; there may be one.
-    NotFound,
-    /// The values of this row state no job.
-    Error,
-    /// The program failed on this row, which is a fault of the program.
-    Crashed,
-}
-
-impl Outcome {
-    /// All of them.
-    pub const ALL: [Self; 6] = [
-        Self::Proved,
-        Self::NotProved,
-        Self::Infeasible,
-        Self::NotFound,
-        Self::Error,
-        Self::Crashed,
-    ];
-
-    /// Its code, as in rows.
-    #[must_use]
-    pub fn code(self) -> &'static str {
-        match self {
-            Self::Proved => "proved",
-            Self::NotProved => "not_proved",
-            Self::Infeasible => "infeasible",
-            Self::NotFound => "not_found",
-            Self::Error => "error",
-            Self::Crashed => "crashed",
-        }
-    }
-}
-
-/// The place of a reason; what does not apply is `None`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Place {
-    /// The requirement that is not kept, as in a certificate.
-    pub requirement: Option<Requirement>,
-    /// Index of the plate.
-    pub plate: Option<usize>,
-    /// Index of the plan's segment.
-    pub segment: Option<usize>,
-    /// Time in the plan \[s\].
-    pub time_s: Option<f64>,
-    /// The place, world frame \[m\]: of a plan, where it is worst; of a plate that cannot be washed, the first point of its wash path
-    /// for which no configuration was found.
-    pub point_m: Option<[f64; 3]>,
-}
 
 /// What came of one scenario of a study. It depends on the study and the program's version alone: how long it took is kept elsewhere.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -126,26 +67,23 @@ impl Row {
         }
     }
 
+    /// The row as a line of JSON, without its end: the same bytes for the same row.
+    #[must_use]
+    pub fn line(&self) -> String {
+        // Its keys are texts, and its numbers finite or null: there is nothing that JSON cannot say.
+        serde_json::to_string(self).unwrap_or_default()
+    }
+
     /// With what came of a plan.
     pub(crate) fn planned(self, planned: &Planned, certificate: &Certificate) -> Self {
         let bound = |name| certificate.check(name)?.measure?.bound.filter(|v| v.is_finite());
         let waived = certificate.but_for();
         let waived = Some(waived.trim()).filter(|waived| !waived.is_empty());
-        let place = certificate.broken().next().map(|check| Place {
-            requirement: Some(check.requirement),
-            plate: check.worst.plate,
-            segment: check.worst.segment.map(|(index, _)| index),
-            time_s: check.worst.time_s,
-            point_m: check.worst.place_m,
-        });
         let clearance = certificate.check(Requirement::Clearance);
         Self {
-            outcome: match certificate.verdict {
-                certificate::Verdict::Pass => Outcome::Proved,
-                certificate::Verdict::Fail => Outcome::NotProved,
-            },
+            outcome: Outcome::judged(certificate.verdict),
             reason: certificate.not_kept().or(waived.map(str::to_owned)),
-            place: place.unwrap_or_default(),
+            place: Place::of_certificate(certificate),
             duration_s: Some(planned.plan.duration_s()),
             coverage: bound(Requirement::Coverage),
             contact: bound(Requirement::Contact),
@@ -158,22 +96,9 @@ impl Row {
 
     /// With why there is no plan.
     pub(crate) fn failed(self, error: &Failure) -> Self {
-        let outcome = match error.infeasibility() {
-            Some(Infeasibility::Proved) => Outcome::Infeasible,
-            Some(Infeasibility::NotFound) => Outcome::NotFound,
-            None => Outcome::Error,
-        };
-        let mut place = Place::default();
-        if let Failure::Plan(error) = error {
-            let report = InfeasibleReport::new("", 0, error);
-            place.plate = report.and_then(|report| Some(report.plates.first()?.plate));
-            if let PlanError::Unwashable(plate) = error {
-                place.point_m = plate.dead_m.first().copied();
-            }
-        }
         Self {
-            place,
-            ..self.ended(outcome, error.to_string())
+            place: Place::of_failure(error),
+            ..self.ended(Outcome::from(error), error.to_string())
         }
     }
 

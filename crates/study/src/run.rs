@@ -2,7 +2,7 @@
 
 use crate::error::StudyError;
 use crate::journal::Journal;
-use crate::row::Row;
+use crate::made::Made;
 use crate::study::Study;
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use rayon::prelude::*;
@@ -34,7 +34,7 @@ pub fn run(
     study: &Study,
     journal: &mut Journal,
     cancel: &CancelToken,
-    make: impl Fn(u64, &CancelToken) -> Result<Option<Row>, StudyError> + Sync,
+    make: impl Fn(u64, &CancelToken) -> Result<Option<Made>, StudyError> + Sync,
     told: impl FnMut(Progress) + Send,
 ) -> Result<(), StudyError> {
     let missing = journal.missing(study);
@@ -69,14 +69,14 @@ pub fn run(
 
 /// Keeps rows until nobody makes any more.
 fn keep(
-    rows: &Receiver<(Row, Duration)>,
+    rows: &Receiver<(Made, Duration)>,
     journal: &mut Journal,
     total: u64,
     mut told: impl FnMut(Progress),
 ) -> Result<(), StudyError> {
     let (began, before) = (Instant::now(), journal.done());
-    for (row, took) in rows {
-        journal.append(&row, took)?;
+    for (made, took) in rows {
+        journal.append(&made, took)?;
         let done = journal.done();
         let per_s = (done - before) as f64 / began.elapsed().as_secs_f64().max(1e-9);
         told(Progress {
@@ -86,5 +86,7 @@ fn keep(
             left_s: (total - done) as f64 / per_s,
         });
     }
-    journal.sync()
+    journal.sync()?;
+    journal.finish()?;
+    Ok(())
 }

@@ -1,6 +1,7 @@
 //! What a study file states, as TOML has it: types and names of keys are checked here, what they mean is not.
 
 use crate::error::StudyError;
+use crate::keep::Keep;
 use serde::Deserialize;
 use std::ops::Range;
 use toml::Spanned;
@@ -16,6 +17,8 @@ pub(crate) struct Statement {
     pub name: Spanned<String>,
     pub scenario: Spanned<OneOrMore>,
     #[serde(default)]
+    pub plans: Keep,
+    #[serde(default)]
     pub axis: Vec<Spanned<AxisStatement>>,
     #[serde(default)]
     pub rows: Vec<Spanned<toml::Table>>,
@@ -23,10 +26,50 @@ pub(crate) struct Statement {
 
 /// A scenario or several.
 #[derive(Debug, Deserialize)]
-#[serde(untagged, expecting = "scenario must be a name or a file, or a list of them")]
+#[serde(
+    untagged,
+    expecting = "scenario must be a name, a file or a table { name, text } with a scenario's text, or a list of them"
+)]
 pub(crate) enum OneOrMore {
-    One(String),
-    More(Vec<String>),
+    // Lists first: one of two texts would do as a table's name and text.
+    More(Vec<ScenarioStatement>),
+    One(ScenarioStatement),
+}
+
+/// A scenario by its name or file, or by its text.
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum ScenarioStatement {
+    Named(String),
+    Text(TextStatement),
+}
+
+/// A scenario's text, and what the study calls it.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TextStatement {
+    pub name: String,
+    pub text: String,
+}
+
+impl OneOrMore {
+    /// All of them.
+    pub fn all(&self) -> &[ScenarioStatement] {
+        match self {
+            Self::One(one) => std::slice::from_ref(one),
+            Self::More(all) => all,
+        }
+    }
+}
+
+impl ScenarioStatement {
+    /// What the study calls it.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Named(name) => name,
+            Self::Text(stated) => &stated.name,
+        }
+    }
 }
 
 /// `[[axis]]`.

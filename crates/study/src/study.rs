@@ -1,45 +1,46 @@
 //! A study: scenarios × axes, or rows one by one, checked and counted; which values a row has.
 
 use crate::axis::{Axis, Values, canonical, spaced};
+use crate::base::{Base, changed};
 use crate::error::StudyError;
-use crate::statement::{AxisStatement, FORMAT, OneOrMore, Source};
+use crate::keep::Keep;
+use crate::named_files;
+use crate::outcome::Outcome;
+use crate::parts::{PartsFile, StudyParts};
+use crate::row::Row;
+use crate::statement::{AxisStatement, FORMAT, OneOrMore, ScenarioStatement, Source, Statement};
+use base64::prelude::{BASE64_STANDARD, Engine};
 use platewash_kinematics::fingerprint::sha256_hex;
-use platewash_kinematics::urdf::file::read_text;
-use platewash_scenario::{Draft, Program, check_seed, source};
+use platewash_kinematics::urdf::HeldFiles;
+use platewash_scenario::{Draft, Program, ScenarioError, check_seed, source};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::Arc;
 
 /// Most rows of a study.
 pub const MOST_ROWS: u64 = 10_000_000;
-/// Longest study file that is read \[bytes\].
-const MOST_BYTES: u64 = 16 << 20;
 /// Most values that an axis lists; seeds are counted, not listed.
 const MOST_LISTED: usize = 10_000;
-
-/// A scenario that rows begin from.
-#[derive(Debug, Clone)]
-pub struct Base {
-    /// As the study names it: a shipped name, or a file relative to the study's.
-    pub name: String,
-    /// Its text.
-    pub text: String,
-    /// The folder to which paths in it are relative.
-    pub folder: Option<PathBuf>,
-}
 
 /// A study, checked: its keys are those of scenarios, its values within their ranges, one by one.
 #[derive(Debug, Clone)]
 pub struct Study {
     /// Its name.
     pub name: String,
+    /// The file, as it was given.
+    pub file: String,
     /// The file's text.
     pub text: String,
+    /// Whose plans are kept.
+    pub plans: Keep,
     /// The scenarios, the slowest of all axes.
     pub bases: Vec<Base>,
     /// The axes, the last one the fastest; none where rows are listed.
     pub axes: Vec<Axis>,
+    /// All files that its rows name, as they were when it was read.
+    pub files: Arc<HeldFiles>,
     pub(crate) listed: Vec<BTreeMap<String, Value>>,
     rows: u64,
 }
@@ -56,35 +57,71 @@ pub struct RowAddress {
 }
 
 impl Study {
-    /// Reads a study file.
-    ///
-    /// # Errors
-    /// [`StudyError::File`] with the line and the key.
-    pub fn load(file: &Path) -> Result<Self, StudyError> {
-        let name = file.display().to_string();
-        let text = read_text(file, MOST_BYTES).map_err(|error| StudyError::File {
-            file: name.clone(),
-            line: None,
-            problem: error.to_string(),
-        })?;
-        Self::parse(&text, &name, file.parent().unwrap_or(Path::new("")))
-    }
-
     /// A study out of a text; files of scenarios are relative to the folder.
     ///
     /// # Errors
     /// As [`Study::load`].
     pub fn parse(text: &str, file: &str, folder: &Path) -> Result<Self, StudyError> {
         let from = Source { file, text };
-        let stated = from.statement()?;
-        if stated.format.get_ref() != FORMAT {
-            let problem = format!("format must be \"{FORMAT}\"; found {:?}", stated.format.get_ref());
-            return Err(from.wrong(Some(stated.format.span()), &problem));
+        let stated = statement(&from)?;
+        let bases = bases(&from, stated.scenario.span(), stated.scenario.get_ref(), folder)?;
+        let study = Self::of(&from, stated, bases)?;
+        let files = named_files::read(&study.bases, &study.axes, &study.listed);
+        let files = files.map_err(|problem| from.wrong(None, &problem))?;
+        Ok(Self {
+            files: Arc::new(files),
+            ..study
+        })
+    }
+
+    /// A study from its parts: the one that they were taken of.
+    ///
+    /// # Errors
+    /// As [`Study::load`], for parts of no study.
+    pub fn from_parts(parts: StudyParts) -> Result<Self, StudyError> {
+        let from = Source {
+            file: &parts.file,
+            text: &parts.text,
+        };
+        let stated = statement(&from)?;
+        let named = stated.scenario.get_ref().all().iter().map(ScenarioStatement::name);
+        if !named.eq(parts.bases.iter().map(|base| base.name.as_str())) {
+            return Err(from.wrong(Some(stated.scenario.span()), "scenario: the parts hold others"));
         }
-        if stated.name.get_ref().trim().is_empty() {
-            return Err(from.wrong(Some(stated.name.span()), "name must not be empty"));
+        let study = Self::of(&from, stated, parts.bases)?;
+        let bytes = |file: PartsFile| {
+            let bytes = BASE64_STANDARD.decode(&file.base64);
+            bytes.map(|bytes| (file.path, bytes.into())).map_err(|error| {
+                let problem = format!("a part of it is no file: {error}");
+                from.wrong(None, &problem)
+            })
+        };
+        let files = parts.files.into_iter().map(bytes).collect::<Result<_, _>>()?;
+        Ok(Self {
+            files: Arc::new(files),
+            ..study
+        })
+    }
+
+    /// All of it, for whoever has no files.
+    #[must_use]
+    pub fn parts(&self) -> StudyParts {
+        StudyParts {
+            file: self.file.clone(),
+            text: self.text.clone(),
+            bases: self.bases.clone(),
+            files: self
+                .files
+                .iter()
+                .map(|(path, bytes)| PartsFile {
+                    path: path.clone(),
+                    base64: BASE64_STANDARD.encode(bytes),
+                })
+                .collect(),
         }
-        let bases = bases(&from, stated.scenario.span(), stated.scenario.into_inner(), folder)?;
+    }
+
+    fn of(from: &Source<'_>, stated: Statement, bases: Vec<Base>) -> Result<Self, StudyError> {
         if let (Some(row), false) = (stated.rows.first(), stated.axis.is_empty()) {
             let problem = "rows: a study has [[axis]] sections, which multiply, or [[rows]], which do not; found both";
             return Err(from.wrong(Some(row.span()), problem));
@@ -92,11 +129,11 @@ impl Study {
         let mut axes: Vec<Axis> = Vec::new();
         for axis in stated.axis {
             let span = axis.get_ref().key.span();
-            let axis = read_axis(&from, axis.span(), axis.into_inner())?;
+            let axis = read_axis(from, axis.span(), axis.into_inner())?;
             if axes.iter().any(|other| other.key == axis.key) {
                 return Err(from.wrong(Some(span), &format!("key: there is an axis of {} before", axis.key)));
             }
-            check_values(&from, span, &bases, &axis)?;
+            check_values(from, span, &bases, &axis)?;
             axes.push(axis);
         }
         let mut listed = Vec::new();
@@ -110,7 +147,7 @@ impl Study {
                 return Err(wrong("rows: every row states the same keys, at least one"));
             }
             for (key, value) in &row {
-                check_value(&bases, key, value).map_err(|problem| wrong(&problem))?;
+                check_value(&bases, key, value, listed.len()).map_err(|problem| wrong(&problem))?;
             }
             if !seen.insert(row.values().map(canonical).collect::<Vec<_>>()) {
                 return Err(wrong("rows: this row is there before"));
@@ -125,7 +162,10 @@ impl Study {
         };
         Ok(Self {
             name: stated.name.into_inner(),
-            text: text.to_owned(),
+            file: from.file.to_owned(),
+            text: from.text.to_owned(),
+            plans: stated.plans,
+            files: Arc::default(),
             bases,
             axes,
             listed,
@@ -165,6 +205,16 @@ impl Study {
         Ok(RowAddress { base, axes, key })
     }
 
+    /// A row that is not worked on, with why.
+    ///
+    /// # Errors
+    /// [`StudyError::NoRow`].
+    pub fn ended(&self, index: u64, outcome: Outcome, reason: &str) -> Result<Row, StudyError> {
+        let address = self.row(index)?;
+        let name = self.bases[address.base].name.clone();
+        Ok(Row::new(index, address.key, name, address.axes).ended(outcome, reason.to_owned()))
+    }
+
     /// The text of a row's scenario: that of its base, all but the axes as it stands there.
     ///
     /// # Errors
@@ -175,54 +225,70 @@ impl Study {
     }
 }
 
-/// A scenario's text with other values.
-pub(crate) fn changed<'a>(
-    text: &str,
-    values: impl IntoIterator<Item = (&'a String, &'a Value)>,
-) -> Result<String, String> {
-    let mut draft = Draft::new(text).map_err(|error| error.to_string())?;
-    for (key, value) in values {
-        draft.set(key, Some(value)).map_err(|error| error.to_string())?;
+fn statement(from: &Source<'_>) -> Result<Statement, StudyError> {
+    let stated = from.statement()?;
+    if stated.format.get_ref() != FORMAT {
+        let problem = format!("format must be \"{FORMAT}\"; found {:?}", stated.format.get_ref());
+        return Err(from.wrong(Some(stated.format.span()), &problem));
     }
-    Ok(draft.text().to_owned())
+    if stated.name.get_ref().trim().is_empty() {
+        return Err(from.wrong(Some(stated.name.span()), "name must not be empty"));
+    }
+    Ok(stated)
 }
 
-fn bases(from: &Source<'_>, span: Range<usize>, stated: OneOrMore, folder: &Path) -> Result<Vec<Base>, StudyError> {
-    let names = match stated {
-        OneOrMore::One(name) => vec![name],
-        OneOrMore::More(names) => names,
-    };
+fn bases(from: &Source<'_>, span: Range<usize>, stated: &OneOrMore, folder: &Path) -> Result<Vec<Base>, StudyError> {
     let wrong = |problem: String| from.wrong(Some(span.clone()), &format!("scenario: {problem}"));
-    if names.is_empty() {
+    if stated.all().is_empty() {
         return Err(wrong("the list is empty".to_owned()));
     }
     let mut bases: Vec<Base> = Vec::new();
-    for name in names {
-        if bases.iter().any(|base| base.name == name) {
-            return Err(wrong(format!("{name} is there twice")));
+    for one in stated.all() {
+        let name = one.name();
+        if name.trim().is_empty() || bases.iter().any(|base| base.name == name) {
+            return Err(wrong(match name.trim() {
+                "" => "a name must not be empty".to_owned(),
+                _ => format!("{name} is there twice"),
+            }));
         }
-        // A file beside the study goes before a shipped name only where it is one: shipped names are no paths.
-        let shipped = platewash_scenario::SHIPPED.iter().any(|shipped| shipped.name == name);
-        let place = if shipped {
-            name.clone()
-        } else {
-            folder.join(&name).display().to_string()
+        let (base, place) = match one {
+            ScenarioStatement::Named(name) => named(name, folder).map_err(|error| wrong(error.to_string()))?,
+            ScenarioStatement::Text(stated) => {
+                let base = Base {
+                    name: name.to_owned(),
+                    text: stated.text.clone(),
+                    folder: Some(folder.to_owned()),
+                };
+                (base, name.to_owned())
+            }
         };
-        let read = source(&place).map_err(|error| wrong(error.to_string()))?;
-        let draft = Draft::new(&read.text).and_then(|draft| draft.scenario(&place, read.folder.as_deref()));
+        let draft = Draft::new(&base.text).and_then(|draft| draft.scenario(&place, base.folder.as_deref()));
         let scenario = draft.map_err(|error| wrong(error.to_string()))?;
         if scenario.job.program == Program::Paper {
             return Err(wrong(format!(
                 "a study plans certified jobs; {name} has job.program = \"paper\""
             )));
         }
-        bases.push(Base {
-            name,
-            text: read.text,
-            folder: read.folder,
-        });
+        bases.push(base);
     }
     Ok(bases)
+}
+
+/// A scenario by its name or file, with what errors call it.
+fn named(name: &str, folder: &Path) -> Result<(Base, String), ScenarioError> {
+    // A file beside the study goes before a shipped name only where it is one: shipped names are no paths.
+    let shipped = platewash_scenario::SHIPPED.iter().any(|shipped| shipped.name == name);
+    let place = match shipped {
+        true => name.to_owned(),
+        false => folder.join(name).display().to_string(),
+    };
+    let read = source(&place)?;
+    let base = Base {
+        name: name.to_owned(),
+        text: read.text,
+        folder: read.folder,
+    };
+    Ok((base, place))
 }
 
 fn read_axis(from: &Source<'_>, whole: Range<usize>, stated: AxisStatement) -> Result<Axis, StudyError> {
@@ -287,15 +353,20 @@ fn check_values(from: &Source<'_>, span: Range<usize>, bases: &[Base], axis: &Ax
         // All of them are seeds.
         Values::Seeds { .. } => &first,
     };
-    for value in values {
-        check_value(bases, &axis.key, value).map_err(|problem| from.wrong(Some(span.clone()), &problem))?;
+    for (place, value) in values.iter().enumerate() {
+        check_value(bases, &axis.key, value, place).map_err(|problem| from.wrong(Some(span.clone()), &problem))?;
     }
     Ok(())
 }
 
-/// Whether every base has the key, and the key takes the value.
-fn check_value(bases: &[Base], key: &str, value: &Value) -> Result<(), String> {
-    for base in bases {
+/// Whether every base has the key, and the key takes the value. That the texts have a place for the key is tried out with its first two values,
+/// of which one may be there already; the others are looked at by themselves, as a text is read again with every change.
+fn check_value(bases: &[Base], key: &str, value: &Value, place: usize) -> Result<(), String> {
+    let tried_out = if place < 2 { bases.len() } else { 0 };
+    if let Some(base) = bases.get(tried_out) {
+        Draft::check(key, value).map_err(|problem| format!("{}: {problem}", base.name))?;
+    }
+    for base in &bases[..tried_out] {
         changed(&base.text, [(&key.to_owned(), value)]).map_err(|problem| format!("{}: {problem}", base.name))?;
     }
     Ok(())

@@ -1,9 +1,10 @@
 //! What the rows of a study come to: outcomes by axis, durations, the rows to look at.
 
 use crate::error::StudyError;
-use crate::journal::{read_manifest, rows};
+use crate::kept::{check_unchanged, read_manifest, rows};
 use crate::manifest::Manifest;
-use crate::row::{Outcome, Row};
+use crate::outcome::Outcome;
+use crate::row::Row;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -38,9 +39,10 @@ pub struct Summary {
 /// Sums a folder up, row by row.
 ///
 /// # Errors
-/// [`StudyError`]: no study, or a file that cannot be read.
+/// [`StudyError`]: no study, rows that were changed since it was finished, or a file that cannot be read.
 pub fn summary(folder: &Path) -> Result<Summary, StudyError> {
     let manifest = read_manifest(folder)?;
+    check_unchanged(folder, &manifest)?;
     let few: Vec<_> = manifest.axes.iter().filter(|axis| axis.count <= MOST_VALUES).collect();
     let mut outcomes = Counts::new();
     let mut by_axis: BTreeMap<String, BTreeMap<String, Counts>> = BTreeMap::new();

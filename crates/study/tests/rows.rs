@@ -1,12 +1,13 @@
 //! Rows are the same bytes however they were made, and none is lost.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
-use platewash_study::{Journal, Outcome, Resolver, Row, Study, StudyError, export, run, summary};
+use platewash_study::{Journal, Made, Outcome, Resolver, Row, Study, StudyError, export, run, summary};
 use platewash_workcell::cancel::CancelToken;
 use proptest::prelude::*;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 const GRID: &str = "format = \"platewash-study/1\"\nname = \"grid\"\nscenario = [\"kitchen\", \"sink\"]\n[[axis]]\nkey = \"wash.clearance_m\"\nrange = [0.001, 0.004, 4]\n[[axis]]\nkey = \"seed\"\nseeds = \"1..5\"\n";
@@ -16,7 +17,7 @@ fn study(text: &str) -> Result<Study, StudyError> {
 }
 
 /// A row of a planner that does nothing.
-fn empty(study: &Study, index: u64) -> Row {
+fn empty(study: &Study, index: u64) -> Made {
     let address = study.row(index).unwrap();
     let text = format!(
         "{{\"schema\":1,\"index\":{index},\"key\":\"{}\",\"scenario\":\"{}\",\"axes\":{},\"outcome\":\"not_found\",\"reason\":\"none\",\
@@ -25,7 +26,7 @@ fn empty(study: &Study, index: u64) -> Row {
         study.bases[address.base].name,
         serde_json::to_string(&address.axes).unwrap()
     );
-    serde_json::from_str(&text).unwrap()
+    serde_json::from_str::<Row>(&text).unwrap().into()
 }
 
 fn exported(folder: &Path) -> Vec<u8> {
@@ -36,7 +37,7 @@ fn exported(folder: &Path) -> Vec<u8> {
 
 fn undisturbed(study: &Study) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
-    let mut journal = Journal::open(folder.path(), study, "grid.toml").unwrap();
+    let mut journal = Journal::open(folder.path(), study).unwrap();
     for index in 0..study.rows() {
         journal.append(&empty(study, index), Duration::ZERO).unwrap();
     }
@@ -56,7 +57,7 @@ proptest! {
     ) {
         let study = study(GRID).unwrap();
         let folder = tempfile::tempdir().unwrap();
-        let mut journal = Journal::open(folder.path(), &study, "grid.toml").unwrap();
+        let mut journal = Journal::open(folder.path(), &study).unwrap();
         for index in &order[..done] {
             journal.append(&empty(&study, *index), Duration::ZERO).unwrap();
         }
@@ -65,7 +66,7 @@ proptest! {
         let length = rows.metadata().unwrap().len();
         rows.set_len(length.saturating_sub(torn)).unwrap();
         drop(rows);
-        let mut journal = Journal::open(folder.path(), &study, "grid.toml").unwrap();
+        let mut journal = Journal::open(folder.path(), &study).unwrap();
         prop_assert!(journal.done() <= done as u64);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| run(&study, &mut journal, &CancelToken::new(), |i, _| Ok(Some(empty(&study, i))), |_| ())).unwrap();
@@ -158,24 +159,21 @@ fn rows_one_by_one() {
 fn a_folder_keeps_one_study_and_one_process_at_a_time() {
     let folder = tempfile::tempdir().unwrap();
     let first = study(GRID).unwrap();
-    let mut journal = Journal::open(folder.path(), &first, "grid.toml").unwrap();
+    let mut journal = Journal::open(folder.path(), &first).unwrap();
     assert!(matches!(
-        Journal::open(folder.path(), &first, "grid.toml"),
+        Journal::open(folder.path(), &first),
         Err(StudyError::Busy { .. })
     ));
     journal.append(&empty(&first, 3), Duration::ZERO).unwrap();
     journal.append(&empty(&first, 3), Duration::ZERO).unwrap();
     drop(journal);
     let other = study(&GRID.replace("1..5", "1..6")).unwrap();
-    let error = Journal::open(folder.path(), &other, "grid.toml")
-        .err()
-        .unwrap()
-        .to_string();
+    let error = Journal::open(folder.path(), &other).err().unwrap().to_string();
     assert!(
         error.contains("another study") && error.contains("the study file"),
         "{error}"
     );
-    assert_eq!(Journal::open(folder.path(), &first, "grid.toml").unwrap().done(), 1);
+    assert_eq!(Journal::open(folder.path(), &first).unwrap().done(), 1);
     let path = folder.path().join("rows.jsonl");
     let line = fs::read(&path).unwrap();
     fs::OpenOptions::new()
@@ -184,17 +182,14 @@ fn a_folder_keeps_one_study_and_one_process_at_a_time() {
         .unwrap()
         .write_all(&line)
         .unwrap();
-    let error = Journal::open(folder.path(), &first, "grid.toml")
-        .err()
-        .unwrap()
-        .to_string();
+    let error = Journal::open(folder.path(), &first).err().unwrap().to_string();
     assert!(error.contains("line 2: row 3 is there before"), "{error}");
 }
 
 #[test]
 fn rows_that_were_kept_stay_where_it_is_told_to_give_up() {
     let (folder, study, cancel) = (tempfile::tempdir().unwrap(), study(GRID).unwrap(), CancelToken::new());
-    let mut journal = Journal::open(folder.path(), &study, "grid.toml").unwrap();
+    let mut journal = Journal::open(folder.path(), &study).unwrap();
     let make = |index, _: &CancelToken| {
         if index == 17 {
             cancel.cancel();
@@ -208,15 +203,55 @@ fn rows_that_were_kept_stay_where_it_is_told_to_give_up() {
 }
 
 #[test]
+fn a_scenario_may_be_a_text() {
+    let kitchen = platewash_scenario::source("kitchen").unwrap().text;
+    let text = |scenario: &str| {
+        format!(
+            "format = \"platewash-study/1\"\nname = \"texts\"\nscenario = [\"kitchen\", {scenario}]\n[[axis]]\nkey = \"seed\"\nvalues = [3]\n"
+        )
+    };
+    let own = format!("{{ name = \"own\", text = '''{kitchen}''' }}");
+    let two = Arc::new(study(&text(&own)).unwrap());
+    let of = |index| {
+        Resolver::new(two.clone())
+            .row(index, &CancelToken::new())
+            .unwrap()
+            .unwrap()
+            .row
+    };
+    let (shipped, own) = (of(0), of(1));
+    assert_eq!((shipped.scenario.as_str(), own.scenario.as_str()), ("kitchen", "own"));
+    assert_eq!(
+        (own.clearance_m, own.duration_s),
+        (shipped.clearance_m, shipped.duration_s)
+    );
+    assert_ne!(own.key, shipped.key);
+    for (wrong, words) in [
+        ("{ name = \"kitchen\", text = \"\" }", "kitchen is there twice"),
+        ("{ name = \" \", text = \"\" }", "a name must not be empty"),
+        ("{ name = \"own\", text = \"x = 1\" }", "own"),
+        ("{ name = \"own\" }", "scenario must be a name, a file or a table"),
+    ] {
+        let said = study(&text(wrong)).unwrap_err().to_string();
+        assert!(said.contains(words) && said.contains("line 3"), "{said}");
+    }
+}
+
+#[test]
 fn a_row_is_what_its_scenario_says_alone() {
     let text = "format = \"platewash-study/1\"\nname = \"tools\"\nscenario = \"kitchen\"\n[[axis]]\nkey = \"tool.length_m\"\nvalues = [0.1, 0]\n[[axis]]\nkey = \"seed\"\nvalues = [1, 2]\n";
-    let study = study(text).unwrap();
-    let of = |index| Resolver::new(&study).row(index, &CancelToken::new()).unwrap().unwrap();
-    let (shared, cancel) = (Resolver::new(&study), CancelToken::new());
+    let study = Arc::new(study(text).unwrap());
+    let of = |index| {
+        Resolver::new(study.clone())
+            .row(index, &CancelToken::new())
+            .unwrap()
+            .unwrap()
+    };
+    let (shared, cancel) = (Resolver::new(study.clone()), CancelToken::new());
     for index in [3, 0, 2, 1] {
         assert_eq!(shared.row(index, &cancel).unwrap().unwrap(), of(index));
     }
-    let row = of(1);
+    let row = of(1).row;
     assert_eq!(row.outcome, Outcome::Proved, "{row:?}");
     assert!(
         row.coverage.unwrap() > 0.9
@@ -224,7 +259,7 @@ fn a_row_is_what_its_scenario_says_alone() {
             && row.clearance_pair.is_some()
             && row.plan.is_some()
     );
-    let refused = of(3);
+    let refused = of(3).row;
     assert!(
         refused.outcome != Outcome::Proved && refused.reason.is_some() && refused.plan.is_none(),
         "{refused:?}"

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 #: From an axes down to a legend below its labels [in].
 BELOW_IN = 0.5
+#: Width of a legend's column [in].
+LABEL_IN = 2.4
 
 MISSING = "figures need matplotlib, which is not installed: pip install 'pyplatewash[viz]'"
 
@@ -29,6 +31,8 @@ class Panels:
     finish: Callable[[list[Axes]], None] | None = None
     #: Whether they stand below one another, on one axis of time.
     stacked: bool = False
+    #: Most axes that stand beside one another.
+    columns: int = 4
     #: Whether there is one axes by nature, not one of a list.
     single: bool = False
     #: Whether the legend stands below the axes, not beside them.
@@ -49,7 +53,7 @@ def axes_for(panels: Panels, given: Any) -> list[Axes]:
     if given is not None:
         return _checked(given, len(panels.draw))
     count = len(panels.draw)
-    columns = 1 if panels.stacked else min(count, 4)
+    columns = 1 if panels.stacked else min(count, panels.columns)
     rows = -(-count // columns)
     width_in, height_in = panels.size_in
     _, grid = plt.subplots(
@@ -77,7 +81,9 @@ def add_legend(panels: Panels, axes: list[Axes], given: bool) -> None:
         where: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "bbox_transform": below, "borderaxespad": 0.0}
         one.legend(handles.values(), handles.keys(), ncols=min(len(handles), 3), **where, **style)
     elif panels.legend_below:
-        axes[0].figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=min(len(handles), 4), **style)
+        figure = axes[0].figure
+        fitting = max(int(figure.get_figwidth() / LABEL_IN), 1)  # type: ignore[union-attr]  # pyright: ignore[reportAttributeAccessIssue]
+        figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=min(len(handles), fitting, 4), **style)
     else:
         axes[0].figure.legend(handles.values(), handles.keys(), loc="outside right upper", **style)
 

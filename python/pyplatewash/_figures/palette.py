@@ -18,3 +18,10 @@ LIMIT = "#d55e00"
 JOINTS = ("#0072b2", "#e69f00", "#009e73", "#1b1f24", "#cc79a7", "#56b4e9")
 #: Cells that are missed, swept in part, swept.
 MISSED, PARTLY, SWEPT = "#d55e00", "#f0e442", "#56b4e9"
+#: Outcomes of rows, what is known to be impossible and what was not found well apart; and rows that ended in several ways.
+OUTCOMES = {
+    "proved": "#009e73", "not_proved": "#f0e442", "not_found": "#56b4e9", "infeasible": "#d55e00", "error": "#cc79a7", "crashed": "#1b1f24",
+}  # fmt: skip
+SEVERAL = "#8c959f"
+#: Places where nothing is proved.
+NOTHING = "#c8ccd1"

@@ -60,7 +60,12 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
 /// # Errors
 /// [`FileError`], without the file's name.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
-    String::from_utf8(read_bytes(path, limit)?).map_err(|e| FileError::NotText {
+    text(read_bytes(path, limit)?)
+}
+
+/// The text that bytes are.
+pub(super) fn text(bytes: Vec<u8>) -> Result<String, FileError> {
+    String::from_utf8(bytes).map_err(|e| FileError::NotText {
         position: e.utf8_error().valid_up_to(),
     })
 }

@@ -2,8 +2,9 @@
 //! are looked at, or whose surface counts, as triangles.
 
 use super::error::UrdfError;
+use super::files::Files;
 use super::numbers::{LARGEST_LENGTH_M, length};
-use super::{file, triangles, vertices};
+use super::{triangles, vertices};
 use crate::geometry::Triangle;
 use nalgebra::Point3;
 use std::path::{Path, PathBuf};
@@ -19,6 +20,7 @@ const MAX_SOLID: usize = 200_000;
 pub struct MeshSource {
     package_paths: Vec<PathBuf>,
     urdf_folder: Option<PathBuf>,
+    files: Files,
 }
 
 impl MeshSource {
@@ -35,6 +37,16 @@ impl MeshSource {
         Self {
             package_paths: package_paths.to_vec(),
             urdf_folder: urdf_folder.map(Path::to_path_buf),
+            files: Files::default(),
+        }
+    }
+
+    /// The same, with files that come from elsewhere than the disk.
+    #[must_use]
+    pub fn reading(self, files: &Files) -> Self {
+        Self {
+            files: files.clone(),
+            ..self
         }
     }
 
@@ -124,7 +136,10 @@ impl MeshSource {
         }
         // What cannot be read anyway is not read at all.
         file.format()?;
-        file.bytes = file::read_bytes(&file.path, MAX_BYTES).map_err(|e| file.wrong(e.to_string()))?;
+        file.bytes = self
+            .files
+            .read_bytes(&file.path, MAX_BYTES)
+            .map_err(|e| file.wrong(e.to_string()))?;
         Ok(file)
     }
 
@@ -132,7 +147,7 @@ impl MeshSource {
         let candidates = self.candidates(file);
         candidates
             .iter()
-            .find(|path| path.is_file())
+            .find(|path| self.files.is_file(path))
             .cloned()
             .ok_or_else(|| MeshError::NotFound {
                 file: file.to_owned(),

@@ -14,6 +14,7 @@ mod culprit;
 mod element;
 mod error;
 pub mod file;
+mod files;
 mod limit;
 mod mesh;
 mod numbers;
@@ -24,6 +25,7 @@ mod vertices;
 mod visual;
 
 pub use error::UrdfError;
+pub use files::{Files, HeldFiles};
 pub use mesh::{MeshError, MeshSource};
 pub use scan::MAX_BYTES;
 pub use visual::{MAX_TRIANGLES, MAX_VISUALS};

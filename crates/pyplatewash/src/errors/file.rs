@@ -17,6 +17,8 @@ pub enum FileOf {
     Scenario,
     /// A page.
     Page,
+    /// A study: its file, or what its folder keeps.
+    Study,
 }
 
 /// What the system says of a file.
@@ -47,10 +49,12 @@ pub fn system_file(py: Python<'_>, of: FileOf, word: SystemWord, filename: &str,
         (FileOf::Plan, SystemWord::NotFound) => ("PlanNotFoundError", Some(ENOENT)),
         (FileOf::Scenario, SystemWord::NotFound) => ("ScenarioNotFoundError", Some(ENOENT)),
         (FileOf::Page, SystemWord::NotFound) => ("PageNotFoundError", Some(ENOENT)),
+        (FileOf::Study, SystemWord::NotFound) => ("StudyNotFoundError", Some(ENOENT)),
         (FileOf::Urdf, SystemWord::Refused(number)) => ("UrdfAccessError", number),
         (FileOf::Plan, SystemWord::Refused(number)) => ("PlanAccessError", number),
         (FileOf::Scenario, SystemWord::Refused(number)) => ("ScenarioAccessError", number),
         (FileOf::Page, SystemWord::Refused(number)) => ("FileError", number),
+        (FileOf::Study, SystemWord::Refused(number)) => ("StudyAccessError", number),
     };
     let fields = [
         ("filename", any(py, filename)),
@@ -78,6 +82,7 @@ pub fn unread(py: Python<'_>, of: FileOf, path: &Path, error: &FileError) -> PyE
             FileOf::Plan => named(py, "PlanFileError", &message),
             FileOf::Scenario => named(py, "ScenarioError", &message),
             FileOf::Page => named(py, "FileError", &message),
+            FileOf::Study => named(py, "StudyError", &message),
         },
     }
 }

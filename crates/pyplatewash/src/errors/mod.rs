@@ -7,11 +7,13 @@ mod file;
 mod inverse;
 mod job;
 mod simulation;
+mod study;
 
 pub use file::{FileOf, SystemWord, system_file, unread};
 pub use inverse::{cause, ik, ik_path};
 pub use job::{arm_needed, dry_run, failure, no_dry_run, scenario};
 pub use simulation::dynamics;
+pub use study::study;
 
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;

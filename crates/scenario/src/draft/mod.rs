@@ -76,14 +76,8 @@ impl Draft {
     /// # Errors
     /// [`EditError`]; the text stays as it was.
     pub fn set(&mut self, key: &str, value: Option<&Value>) -> Result<(), EditError> {
-        let Some(target) = Target::of(key) else {
-            return Err(EditError::Refused(unknown(key)));
-        };
-        let value = value.map(|value| whole(target.key.domain, value));
-        if let Some(value) = &value {
-            let checked = check(target.key, value, || describe_json(value));
-            checked.map_err(|problem| EditError::Refused(target.of_problem(problem)))?;
-        }
+        let target = target(key)?;
+        let value = value.map(|value| taken(&target, value)).transpose()?;
         let splices = match &value {
             Some(value) => change::set(&self.text, &target, value)?,
             None => change::remove(&self.text, &target)?,
@@ -104,6 +98,20 @@ impl Draft {
         }
         self.text = text;
         Ok(())
+    }
+
+    /// Whether a key takes a value, in whatever text; that a text has a place for it is not said.
+    ///
+    /// # Errors
+    /// [`EditError::Refused`], as [`Draft::set`] has it.
+    pub fn check(key: &str, value: &Value) -> Result<(), EditError> {
+        taken(&target(key)?, value).map(|_| ())
+    }
+
+    /// Whether the values of a key are paths of files or folders.
+    #[must_use]
+    pub fn names_files(key: &str) -> bool {
+        Target::of(key).is_some_and(|target| matches!(target.key.domain, Domain::Path | Domain::Paths))
     }
 
     /// The scenario that the text states; paths in it are relative to the folder, without one they stay as they are.
@@ -147,6 +155,19 @@ impl Draft {
         };
         fits && before == after && rows_before == rows_after
     }
+}
+
+/// The key that a path names.
+fn target(key: &str) -> Result<Target, EditError> {
+    Target::of(key).ok_or_else(|| EditError::Refused(unknown(key)))
+}
+
+/// A value as the key takes it.
+fn taken(target: &Target, value: &Value) -> Result<Value, EditError> {
+    let value = whole(target.key.domain, value);
+    let checked = check(target.key, &value, || describe_json(&value));
+    checked.map_err(|problem| EditError::Refused(target.of_problem(problem)))?;
+    Ok(value)
 }
 
 /// What a text states: the keys of the table, and the sections of lists; `None` where it is no TOML.

@@ -1,0 +1,142 @@
+//! Where input files come from: the disk, or what was read of it before, for whoever has none of them.
+
+use super::file::{self, FileError};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Files by their names, as they were read.
+pub type HeldFiles = BTreeMap<PathBuf, Arc<[u8]>>;
+
+/// Where input files come from. It decides nothing about what is stated, and all of them are equal.
+#[derive(Debug, Clone, Default)]
+pub struct Files(From);
+
+#[derive(Debug, Clone, Default)]
+enum From {
+    #[default]
+    Disk,
+    /// The disk, and what is read of it is kept; what could not be read, too.
+    Recorded(Arc<Mutex<Record>>),
+    Held(Arc<HeldFiles>),
+}
+
+#[derive(Debug, Default)]
+struct Record {
+    held: HeldFiles,
+    refused: Option<(PathBuf, FileError)>,
+}
+
+impl PartialEq for Files {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Eq for Files {}
+
+impl Files {
+    /// The disk, of which everything that is read is kept: [`recorded`](Self::recorded) gives it.
+    #[must_use]
+    pub fn recording() -> Self {
+        Self(From::Recorded(Arc::default()))
+    }
+
+    /// Files that were read before, under the names that they were read by; no others are there.
+    #[must_use]
+    pub fn held(files: Arc<HeldFiles>) -> Self {
+        Self(From::Held(files))
+    }
+
+    /// What was read so far, where it is recorded.
+    ///
+    /// # Errors
+    /// The first file that is there and could not be read, and why.
+    pub fn recorded(&self) -> Result<HeldFiles, (PathBuf, FileError)> {
+        let From::Recorded(record) = &self.0 else {
+            return Ok(HeldFiles::new());
+        };
+        let record = record.lock().unwrap_or_else(PoisonError::into_inner);
+        match &record.refused {
+            Some(refused) => Err(refused.clone()),
+            None => Ok(record.held.clone()),
+        }
+    }
+
+    /// Whether there is such a regular file.
+    #[must_use]
+    pub fn is_file(&self, path: &Path) -> bool {
+        match &self.0 {
+            From::Disk => path.is_file(),
+            From::Held(files) => files.contains_key(path),
+            From::Recorded(record) => {
+                let is_there = path.is_file();
+                if is_there {
+                    // It may be refused by its name alone, which whoever has no files must do, too.
+                    let mut record = record.lock().unwrap_or_else(PoisonError::into_inner);
+                    record.held.entry(path.to_owned()).or_insert_with(|| Arc::from([]));
+                }
+                is_there
+            }
+        }
+    }
+
+    /// As [`file::read_bytes`].
+    ///
+    /// # Errors
+    /// [`FileError`], without the file's name.
+    pub fn read_bytes(&self, path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
+        match &self.0 {
+            From::Disk => file::read_bytes(path, limit),
+            From::Recorded(record) => {
+                let read = file::read_bytes(path, limit);
+                let mut record = record.lock().unwrap_or_else(PoisonError::into_inner);
+                match &read {
+                    Ok(bytes) => drop(record.held.insert(path.to_owned(), bytes.as_slice().into())),
+                    Err(error) => drop(record.refused.get_or_insert_with(|| (path.to_owned(), error.clone()))),
+                }
+                read
+            }
+            From::Held(files) => match files.get(path) {
+                Some(bytes) if bytes.len() as u64 > limit => Err(FileError::TooLong { limit }),
+                Some(bytes) => Ok(bytes.to_vec()),
+                None => Err(FileError::System {
+                    detail: "it is not among the files that were read before".to_owned(),
+                    kind: std::io::ErrorKind::NotFound,
+                    code: None,
+                }),
+            },
+        }
+    }
+
+    /// As [`file::read_text`].
+    ///
+    /// # Errors
+    /// [`FileError`], without the file's name.
+    pub fn read_text(&self, path: &Path, limit: u64) -> Result<String, FileError> {
+        file::text(self.read_bytes(path, limit)?)
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_read_is_held_when_the_disk_has_forgotten_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let [path, none] = ["a.urdf", "none"].map(|name| folder.path().join(name));
+        std::fs::write(&path, "abc").unwrap();
+        let recording = Files::recording();
+        assert_eq!(recording.read_text(&path, 3).unwrap(), "abc");
+        let held = Files::held(Arc::new(recording.recorded().unwrap()));
+        std::fs::remove_file(&path).unwrap();
+        assert!(held.is_file(&path) && !held.is_file(&none) && !recording.is_file(&path));
+        assert_eq!(held.read_bytes(&path, 3).unwrap(), b"abc");
+        assert_eq!(held.read_bytes(&path, 2), Err(FileError::TooLong { limit: 2 }));
+        assert!(matches!(held.read_text(&none, 3), Err(FileError::System { .. })));
+        assert!(recording.read_bytes(&none, 3).is_err());
+        assert_eq!(recording.recorded().unwrap_err().0, none);
+    }
+}

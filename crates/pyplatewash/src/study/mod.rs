@@ -1,0 +1,239 @@
+//! `Study`: many scenarios as one value. Its rows are worked on by `journal` and `worker`, which Python's engines drive
+//! (`python/pyplatewash/_studies/`).
+
+mod journal;
+mod stated;
+mod worker;
+
+pub use journal::StudyJournalObject;
+pub use worker::StudyWorkerObject;
+
+use crate::argument;
+use crate::by_python::ask;
+use crate::errors;
+use crate::scenario::ScenarioObject;
+use crate::value::to_record;
+use crate::work::patiently;
+use platewash::kinematics::urdf::Files;
+use platewash::scenario::Draft;
+use platewash::study::{self, Study, StudyParts};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyTuple, PyType};
+use std::path::Path;
+use std::sync::Arc;
+
+/// What a study that no file states is called in messages.
+const UNSAVED: &str = "study";
+
+/// Many scenarios, each to be planned and proved: the rows of a study file (docs/studies.md), as a value that travels to whoever
+/// works on it. Everything that it names is read when it is made: rows do not depend on what becomes of files later.
+///
+/// `scenario` is a Scenario, the name of a shipped one, a file, or a list of them. `axes` maps keys of scenarios to their values, as
+/// `{"tool.length_m": [0.1, 0.15], "seed": range(1, 501)}`: they multiply, the last one is the fastest. `rows` states keys and values
+/// row by row instead (`samples` draws some). `plans` says whose plans are kept: "none", "failed" (planned, but not proved) or "all".
+///
+/// Raises StudyError for what is no study; ScenarioError does not arise: a scenario's fault is told as the study's.
+#[pyclass(frozen, module = "pyplatewash", name = "Study")]
+pub struct StudyObject {
+    inner: Arc<Study>,
+}
+
+impl StudyObject {
+    /// The study of the argument `study`.
+    ///
+    /// # Errors
+    /// `InputTypeError`.
+    pub fn given(value: &Bound<'_, PyAny>) -> PyResult<Arc<Study>> {
+        Ok(argument::object::<Self>("study", value, "a Study")?.get().inner.clone())
+    }
+
+    fn of_text(py: Python<'_>, text: &str, file: &str, folder: &Path) -> PyResult<Self> {
+        match Study::parse(text, file, folder) {
+            Ok(study) => Ok(Self { inner: Arc::new(study) }),
+            Err(error) => Err(errors::study(py, error)),
+        }
+    }
+
+    /// An index of a row.
+    fn index(&self, index: &Bound<'_, PyAny>) -> PyResult<u64> {
+        Ok(argument::count("index", index, [0, self.inner.rows() - 1])? as u64)
+    }
+}
+
+#[pymethods]
+impl StudyObject {
+    #[new]
+    #[pyo3(signature = (scenario, axes=None, rows=None, *, name=None, plans=None), text_signature = "(scenario, axes=None, rows=None, *, name='study', plans='none')")]
+    fn new(
+        py: Python<'_>,
+        scenario: &Bound<'_, PyAny>,
+        axes: Option<&Bound<'_, PyAny>>,
+        rows: Option<&Bound<'_, PyAny>>,
+        name: Option<&Bound<'_, PyAny>>,
+        plans: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let text = stated::text(py, scenario, (axes, rows), name, plans)?;
+        match Study::parse(&text, UNSAVED, Path::new("")) {
+            Ok(study) => Ok(Self { inner: Arc::new(study) }),
+            Err(error) => Err(errors::study(py, stated::without_line(error))),
+        }
+    }
+
+    /// The study of a file, or the one that a folder keeps the rows of, which needs no other file.
+    ///
+    /// Raises StudyError with the line and the key; where the file cannot be read, it is a FileError, too.
+    #[classmethod]
+    fn load(_class: &Bound<'_, PyType>, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let path = argument::path("path", path)?;
+        match Study::load(&path) {
+            Ok(study) => Ok(Self { inner: Arc::new(study) }),
+            Err(error) => Err(errors::study(py, error)),
+        }
+    }
+
+    /// A study from TOML text; files that it names are relative to the working folder.
+    ///
+    /// Raises StudyError.
+    #[classmethod]
+    fn parse(_class: &Bound<'_, PyType>, py: Python<'_>, text: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let text = argument::text("text", text, "TOML text")?;
+        Self::of_text(py, &text, UNSAVED, Path::new(""))
+    }
+
+    /// Its name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.inner.name
+    }
+
+    /// The scenarios, as the study names them.
+    #[getter]
+    fn scenarios(&self) -> Vec<&str> {
+        self.inner.bases.iter().map(|base| base.name.as_str()).collect()
+    }
+
+    /// How many values each axis takes, by its key; empty where rows are listed.
+    #[getter]
+    fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let axes = PyDict::new(py);
+        for axis in &self.inner.axes {
+            axes.set_item(&axis.key, axis.count())?;
+        }
+        Ok(axes)
+    }
+
+    /// The study as a TOML file's text, which the command takes too: `platewash study run FILE --out DIR`.
+    fn to_toml(&self) -> &str {
+        &self.inner.text
+    }
+
+    fn __len__(&self) -> usize {
+        usize::try_from(self.inner.rows()).unwrap_or(usize::MAX)
+    }
+
+    /// What is known of a row before it is worked on: `index`, `key`, `scenario` and the values of the `axes`.
+    fn row<'py>(&self, py: Python<'py>, index: &Bound<'_, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let index = self.index(index)?;
+        let row = self.inner.row(index).map_err(|error| errors::study(py, error))?;
+        let base = &self.inner.bases[row.base].name;
+        let known = serde_json::json!({"index": index, "key": row.key, "scenario": base, "axes": row.axes});
+        to_record(py, &known, None)
+    }
+
+    /// The scenario of a row, to plan it alone, with the files that the study names as they were.
+    ///
+    /// Raises StudyError where the row's values do not go together.
+    fn scenario(&self, py: Python<'_>, index: &Bound<'_, PyAny>) -> PyResult<ScenarioObject> {
+        let index = self.index(index)?;
+        let text = self
+            .inner
+            .scenario_text(index)
+            .map_err(|error| errors::study(py, error))?;
+        let row = self.inner.row(index).map_err(|error| errors::study(py, error))?;
+        let base = &self.inner.bases[row.base];
+        let scenario = Draft::new(&text).and_then(|draft| draft.scenario(&base.name, base.folder.as_deref()));
+        let mut scenario = scenario.map_err(|error| errors::scenario(py, &error))?;
+        if !self.inner.files.is_empty() {
+            scenario.files = Files::held(self.inner.files.clone());
+        }
+        Ok(scenario.into())
+    }
+
+    /// Works on the rows that are missing in the folder `out`, and keeps each as soon as it is done: ended by whatever, the same call goes
+    /// on where it was. The answer is what was found.
+    ///
+    /// `engine` is "threads" (of this process), "processes" (of this machine), "dask" or "ray" (a cluster); the rows are the same
+    /// for each. `workers` says how many, all processors without it, and is for a cluster that is started here; an existing one is named by
+    /// `client` (a `distributed.Client`) or `address`. `progress` draws a bar, by tqdm where it is installed, or is called with (done, rows).
+    ///
+    /// Raises StudyError where the folder keeps another study, or another process works on it; EngineError where workers cannot be had;
+    /// MissingError without the package of an engine.
+    #[pyo3(signature = (out, *, engine=None, workers=None, client=None, address=None, progress=None), text_signature = "($self, out, *, engine='threads', workers=None, client=None, address=None, progress=True)")]
+    #[allow(clippy::too_many_arguments)]
+    fn run<'py>(
+        slf: &Bound<'py, Self>,
+        out: &Bound<'py, PyAny>,
+        engine: Option<&Bound<'py, PyAny>>,
+        workers: Option<&Bound<'py, PyAny>>,
+        client: Option<&Bound<'py, PyAny>>,
+        address: Option<&Bound<'py, PyAny>>,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = slf.py();
+        let out = argument::path("out", out)?;
+        let names = ["threads", "processes", "dask", "ray"].map(|name| (name, name));
+        let engine = engine.map_or(Ok("threads"), |engine| argument::word("engine", engine, &names))?;
+        let workers = workers
+            .map(|workers| argument::count("workers", workers, [1, 1 << 16]))
+            .transpose()?;
+        let address = address.map(|address| argument::text("address", address, "the address of a cluster"));
+        let address = address.transpose()?;
+        let arguments = (slf, out, engine, workers, client, address, progress);
+        ask(py, "_studies.run", "run", arguments)
+    }
+
+    /// All of it, for workers without its files.
+    fn _parts<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, self.inner.parts().to_json().as_bytes())
+    }
+
+    #[classmethod]
+    fn _restored(_class: &Bound<'_, PyType>, py: Python<'_>, parts: &Bound<'_, PyBytes>) -> PyResult<Self> {
+        Ok(Self {
+            inner: restored(py, parts)?,
+        })
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        let other = other.cast::<Self>();
+        other.is_ok_and(|other| other.get().inner.parts() == self.inner.parts())
+    }
+
+    fn __hash__(&self) -> u64 {
+        self.inner.rows() ^ self.inner.text.len() as u64
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Study('{}', {} rows)", self.inner.name, self.inner.rows())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let parts = slf.get()._parts(slf.py());
+        Ok((slf.get_type().getattr("_restored")?, PyTuple::new(slf.py(), [parts])?))
+    }
+}
+
+/// What the rows in a folder come to.
+#[pyfunction]
+pub fn _study_summary<'py>(py: Python<'py>, folder: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let folder = argument::path("folder", folder)?;
+    let summary = patiently(py, move |_| study::summary(&folder))?;
+    to_record(py, &summary.map_err(|error| errors::study(py, error))?, None)
+}
+
+/// A study from its parts.
+fn restored(py: Python<'_>, parts: &Bound<'_, PyBytes>) -> PyResult<Arc<Study>> {
+    let text = String::from_utf8_lossy(parts.as_bytes());
+    let study = StudyParts::from_json(&text).and_then(Study::from_parts);
+    study.map(Arc::new).map_err(|error| errors::study(py, error))
+}

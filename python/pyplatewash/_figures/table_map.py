@@ -1,0 +1,226 @@
+"""The table from above: what came of a study's rows at each place of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from .. import _arguments
+from .._errors import InputError
+from .._studies.folder import Folder
+from .._studies.table import as_json
+from . import around, palette
+from .canvas import Panels, add_legend, axes_for
+from .places import Place, Tally, gathered
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: What a map may show: its words on the scale of colours, and what a value is multiplied by.
+SCALES = {
+    "washable": ("rows that are proved [%]", 100.0),
+    "clearance": ("least clearance of what is proved [mm]", 1e3),
+    "coverage": ("least coverage of what is proved [%]", 100.0),
+    "duration": ("mean duration of what is proved [s]", 1.0),
+}
+VALUES = (*SCALES, "outcome")
+#: What the legend says of an outcome, and of places whose rows ended in several ways.
+WORDS = {
+    "proved": "proved",
+    "not_proved": "planned, not proved",
+    "not_found": "no way found: there may be one",
+    "infeasible": "infeasible: known to be",
+    "error": "error: no job",
+    "crashed": "crashed",
+    "several": "several of these",
+}
+COLOURS = {**palette.OUTCOMES, "several": palette.SEVERAL}
+#: Most maps of a figure, and most cells of one, as a multiple of its places.
+MOST_MAPS, MOST_CELLS = 64, 25
+#: Most maps beside one another.
+MOST_ACROSS = 8
+#: Units that keys end with.
+UNITS = {"_m": "m", "_deg": "°", "_m_s": "m/s", "_m_s2": "m/s²", "_s": "s", "_n": "N", "_kg": "kg", "_pa": "Pa", "_hz": "Hz", "_rad": "rad"}
+
+#: Left, right, bottom and top [m].
+View: TypeAlias = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Places on a grid."""
+
+    #: Rows and columns.
+    shape: tuple[int, int]
+    extent: View
+
+
+def draw(of: Folder, given: tuple[Any, Any, Any, Any], ax: Any) -> Axes | list[Axes]:
+    """What ``StudyRows.map`` says, of ``at``, ``value``, ``by`` and ``region``."""
+    keys = [axis["key"] for axis in of.manifest["axes"]]
+    at, value = _arguments.word("at", given[0], keys), _arguments.word("value", given[1], VALUES)
+    by = [_arguments.word("by", key, ["scenario", *(k for k in keys if k != at)]) for key in _arguments.texts("by", given[2])]
+    if len(set(by)) < len(by):
+        raise InputError(f"by: different axes are needed; found {', '.join(by)}", argument="by")
+    stand = around.Stand.of(of, given[3])
+    maps = gathered(of, at, by, MOST_MAPS)
+    every = [tally for places in maps.values() for tally in places.values()]
+    numbers = [shown for tally in every if (shown := _number(tally, value)) is not None]
+    limits = (0.0, 100.0) if value == "washable" else (min(numbers), max(numbers)) if numbers else (0.0, 1.0)
+    grid = _grid([place for places in maps.values() for place in places])
+    titles = {values: "\n".join(titled(key, one) for key, one in zip(by, values)) for values in maps}
+    view = _view([place for places in maps.values() for place in places], grid, stand)
+    across = len({as_json(values[-1]) for values in maps}) if by else 1
+    lines = [partial(_draw, (places, grid), value, limits, titles[values], (stand, view)) for values, places in maps.items()]
+    finish = None if value == "outcome" else partial(_scale, SCALES[value][0], limits)
+    panels = Panels(
+        lines, size_in=_size_in(view, len(by)), finish=finish, legend_below=True, single=not by, columns=across if across <= MOST_ACROSS else 4
+    )
+    axes = axes_for(panels, ax)
+    for panel, one in zip(panels.draw, axes):
+        panel(one)
+    if ax is None:
+        for one in axes:
+            one.label_outer()
+    if panels.finish is not None:
+        panels.finish(axes)
+    add_legend(panels, axes, ax is not None)
+    return axes[0] if panels.single else axes
+
+
+def titled(key: str, value: Any) -> str:
+    """An axis with its value and unit.
+
+    >>> titled("tool.length_m", 0.1), titled("seed", 3), titled("wash.pattern", "rings")
+    ('tool.length 0.1 m', 'seed 3', 'wash.pattern rings')
+    """
+    shown = value if isinstance(value, str) else as_json(value)
+    for ending in sorted(UNITS, key=len, reverse=True):
+        if key.endswith(ending) and not isinstance(value, str):
+            return f"{key.removesuffix(ending)} {shown} {UNITS[ending]}"
+    return f"{key} {shown}"
+
+
+def _number(tally: Tally, value: str) -> float | None:
+    """What a place has on the scale of colours; None where nothing is proved there."""
+    if value == "washable":
+        return 100.0 * tally.proved / tally.rows
+    if value == "outcome" or not tally.proved:
+        return None
+    found = {"clearance": tally.clearance_m, "coverage": tally.coverage, "duration": tally.duration_s}[value]
+    return None if found is None else SCALES[value][1] * found
+
+
+def _outcome(tally: Tally) -> str:
+    return next(iter(tally.outcomes)) if len(tally.outcomes) == 1 else "several"
+
+
+def _draw(
+    over: tuple[dict[Place, Tally], Grid | None],
+    value: str,
+    limits: tuple[float, float],
+    title: str,
+    frame: tuple[around.Stand, View],
+    ax: Axes,
+) -> None:
+    """World frame, x to the right, y up."""
+    from matplotlib.colors import ListedColormap
+
+    places, grid = over
+    tallies = list(places.values())
+    at = np.array(list(places), dtype=float).reshape(-1, 2)
+    if value == "outcome":
+        for code, colour in COLOURS.items():
+            chosen = np.array([_outcome(tally) == code for tally in tallies], dtype=bool)
+            if chosen.any():
+                _cells(ax, at, grid, np.where(chosen, 0.0, np.nan), cmap=ListedColormap([colour]))
+                ax.plot([], [], marker="s", linestyle="none", color=colour, label=WORDS[code])
+    else:
+        shown = np.array([np.nan if (one := _number(tally, value)) is None else one for tally in tallies], dtype=float)
+        _cells(ax, at, grid, shown, cmap="cividis", vmin=limits[0], vmax=limits[1])
+        if np.isnan(shown).any():
+            _cells(ax, at, grid, np.where(np.isnan(shown), 0.0, np.nan), cmap=ListedColormap([palette.NOTHING]))
+            ax.plot([], [], marker="s", linestyle="none", color=palette.NOTHING, label="nothing proved")
+    stand, (left, right, bottom, top) = frame
+    stand.draw(ax)
+    if title:
+        ax.set_title(title, fontsize="small", parse_math=False)
+    ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", xlim=(left, right), ylim=(bottom, top))
+
+
+def _cells(ax: Axes, at: npt.NDArray[np.float64], grid: Grid | None, values: npt.NDArray[np.float64], **colours: Any) -> None:
+    """Colours places that have a value: squares of a grid, else dots."""
+    if grid is None:
+        chosen = ~np.isnan(values)
+        ax.scatter(at[chosen, 0], at[chosen, 1], c=values[chosen], s=14.0, linewidths=0.0, **colours)
+        return
+    image = np.full(grid.shape, np.nan)
+    columns, rows = _cell_of(at, grid)
+    image[rows, columns] = values
+    ax.imshow(np.ma.masked_invalid(image), origin="lower", extent=grid.extent, interpolation="nearest", zorder=0, **colours)
+
+
+def _cell_of(at: npt.NDArray[np.float64], grid: Grid) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    left, right, bottom, top = grid.extent
+    high, wide = grid.shape
+    columns = np.floor((at[:, 0] - left) / (right - left) * wide).astype(np.int64)
+    rows = np.floor((at[:, 1] - bottom) / (top - bottom) * high).astype(np.int64)
+    return columns, rows
+
+
+def _grid(places: Sequence[Place]) -> Grid | None:
+    """The grid on which places are; None where they are on none."""
+    at = np.array(sorted(set(places)), dtype=float).reshape(-1, 2)
+    if not len(at):
+        return None
+    steps = [_step(at[:, k]) for k in range(2)]
+    known = [step for step in steps if step is not None]
+    dx, dy = (known[0] if step is None else step for step in steps) if known else (0.02, 0.02)
+    low, high = at.min(axis=0), at.max(axis=0)
+    cells = (at - low) / (dx, dy)
+    whole = np.rint(cells).astype(np.int64)
+    wide, tall = (whole.max(axis=0) + 1).tolist()
+    if np.abs(cells - whole).max() > 1e-3 or wide * tall > MOST_CELLS * len(at) + 64:
+        return None
+    extent = (float(low[0] - dx / 2), float(high[0] + dx / 2), float(low[1] - dy / 2), float(high[1] + dy / 2))
+    return Grid((tall, wide), extent)
+
+
+def _step(values: npt.NDArray[np.float64]) -> float | None:
+    """The least distance of two coordinates; None where there is one alone."""
+    apart = np.diff(np.unique(values.round(9)))
+    return float(apart.min()) if len(apart) else None
+
+
+def _view(places: Sequence[Place], grid: Grid | None, stand: around.Stand) -> View:
+    """What of the table is shown: all places and the arm's base, with some room."""
+    at = np.array([*places, *([] if stand.mount is None else [stand.mount[:2]])], dtype=float).reshape(-1, 2)
+    corners = [] if grid is None else [(grid.extent[0], grid.extent[2]), (grid.extent[1], grid.extent[3])]
+    at = np.concatenate([at, np.array(corners, dtype=float).reshape(-1, 2)])
+    low, high = at.min(axis=0), at.max(axis=0)
+    room = max(0.05 * float((high - low).max()), 0.02)
+    return float(low[0] - room), float(high[0] + room), float(low[1] - room), float(high[1] + room)
+
+
+def _size_in(view: View, lines: int) -> tuple[float, float]:
+    """The size of one map with its labels [in], for axes whose edges are those of the view."""
+    wide, tall = view[1] - view[0], view[3] - view[2]
+    edge_in = 3.4 if lines else 4.2
+    inch = edge_in / max(wide, tall)
+    return max(wide * inch, 1.3) + (0.9 if lines else 1.6), max(tall * inch, 1.2) + 0.7 + 0.16 * lines
+
+
+def _scale(words: str, limits: tuple[float, float], axes: list[Axes]) -> None:
+    """One scale of colours for all, or one a figure where the caller's axes are in several."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    for figure in dict.fromkeys(ax.figure for ax in axes):
+        mine = [ax for ax in axes if ax.figure is figure]
+        wide = 0.05 if len(mine) > 1 else 0.1
+        figure.colorbar(ScalarMappable(Normalize(*limits), "cividis"), ax=mine, label=words, shrink=0.8, fraction=wide, aspect=30)

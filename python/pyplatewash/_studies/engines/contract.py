@@ -1,0 +1,40 @@
+"""What an engine is: somebody else's workers, to whom shares of rows are sent."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+from .worker import Made, Share
+
+
+class Died(Exception):
+    """The worker process died while it had the share; the rows are not there."""
+
+
+class Engine(Protocol):
+    """Workers. What is not for a share of rows to say, such as a cluster that is gone, raises EngineError."""
+
+    #: Shares that are sent for each worker: more than one where the way to it takes long.
+    depth: int
+    #: Whether a worker's death tells of no other share than the one that it worked on.
+    blames_exactly: bool
+
+    def slots(self) -> int:
+        """How many workers there are now."""
+        ...
+
+    def send(self, share: Share) -> Any:
+        """Sends a share to whoever is free next: a future of the engine's, with ``add_done_callback``."""
+        ...
+
+    def rows(self, answer: Any) -> list[Made]:
+        """What came of a share that ended. Raises Died; KeyboardInterrupt never."""
+        ...
+
+    def stop(self) -> None:
+        """Tells all workers to give up; what they have made comes back soon."""
+        ...
+
+    def close(self) -> None:
+        """Lets the workers go; ends those that this engine began."""
+        ...

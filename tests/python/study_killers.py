@@ -1,0 +1,29 @@
+"""Workers that die at certain rows, for engines that are tested with them."""
+
+import os
+import pickle
+import signal
+
+from pyplatewash._studies.engines import processes, worker
+from pyplatewash._studies.engines.worker import Kit, Made, Share
+
+#: The row that nobody survives.
+DEADLY = 5
+
+
+def work(kit: Kit, share: Share) -> list[Made]:
+    """As a worker does, but for one row."""
+    if DEADLY in share.indices:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return worker.work(kit, share)
+
+
+def packed(kit: Kit, share: Share) -> bytes:
+    """The same as bytes."""
+    return pickle.dumps(work(kit, share))
+
+
+def main() -> None:
+    """A worker process that works so."""
+    vars(processes)["work"] = work
+    processes.main()
