@@ -130,17 +130,14 @@ impl SweepRow {
     }
 
     fn planned(seed: u64, planned: &Planned, certificate: &Certificate) -> Self {
-        let waived = certificate.but_for();
-        let waived = Some(waived.trim()).filter(|waived| !waived.is_empty());
-        let bound = |name| certificate.check(name)?.measure?.bound;
         Self {
             seed,
             outcome: Outcome::judged(certificate.verdict),
             duration_s: Some(planned.plan.duration_s()),
             transits_s: Some(planned.transits.iter().map(|c| c.duration_s).sum()),
-            coverage: bound(Requirement::Coverage),
-            clearance_m: bound(Requirement::Clearance),
-            reason: certificate.not_kept().or(waived.map(str::to_owned)),
+            coverage: certificate.bound(Requirement::Coverage),
+            clearance_m: certificate.bound(Requirement::Clearance),
+            reason: certificate.reason(),
         }
     }
 }

@@ -1,25 +1,14 @@
 //! Ctrl-C in the middle of long work.
 #![cfg(unix)]
 
+use super::served::{command, interrupt, spawn};
 use super::*;
 use std::io::{BufRead, BufReader, Read};
-use std::process::{Child, Stdio};
+use std::process::Child;
 use std::time::{Duration, Instant};
 
 /// Long after anything that gives up has given up, and long before the work would be done.
 const PATIENCE: Duration = Duration::from_secs(20);
-
-fn start(folder: &Path, arguments: &[&str]) -> Child {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_platewash"));
-    command.env("PLATEWASH_MAKE_PAGE", "0");
-    let command = command.args(arguments).current_dir(folder);
-    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
-}
-
-fn interrupt(child: &Child) {
-    let kill = ["-INT", &child.id().to_string()];
-    assert!(Command::new("kill").args(kill).status().unwrap().success());
-}
 
 /// The exit code and what was said on standard error.
 #[track_caller]
@@ -42,7 +31,7 @@ fn end(mut child: Child) -> (Option<i32>, String) {
 fn a_sweep_that_is_interrupted_gives_up_and_writes_nothing() {
     let folder = folder();
     let line = ["sweep", "--seeds", "1..100000", "--threads", "1", "--out", "s"];
-    let mut child = start(folder.path(), &line);
+    let mut child = spawn(&mut command(folder.path(), &line));
     let mut rows = BufReader::new(child.stdout.take().unwrap()).lines();
     assert!(rows.next().unwrap().unwrap().starts_with("seed,"));
     interrupt(&child);
@@ -67,7 +56,7 @@ fn a_measurement_that_is_interrupted_leaves_nothing() {
             "r",
             "--quiet",
         ];
-        let child = start(folder.path(), &line);
+        let child = spawn(&mut command(folder.path(), &line));
         std::thread::sleep(Duration::from_secs(1));
         interrupt(&child);
         assert_eq!(end(child), (Some(130), "interrupted\n".to_owned()));
@@ -85,7 +74,10 @@ fn a_run_that_is_interrupted_leaves_what_was_there() {
     let before = |name: &str| std::fs::read(out.join(name)).unwrap();
     let files: Vec<_> = names(&out).into_iter().map(|name| (before(&name), name)).collect();
     let many = scenario(dir, "points = 55", "points = 49000");
-    let child = start(dir, &["run", "--quiet", "--scenario", many.to_str().unwrap()]);
+    let child = spawn(&mut command(
+        dir,
+        &["run", "--quiet", "--scenario", many.to_str().unwrap()],
+    ));
     std::thread::sleep(Duration::from_secs(1));
     interrupt(&child);
     assert_eq!(end(child), (Some(130), "interrupted\n".to_owned()));

@@ -4,6 +4,7 @@ use super::*;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, ChildStderr, ChildStdout, Stdio};
+use std::sync::Once;
 use std::time::Duration;
 
 /// Long after anything that answers has answered.
@@ -32,8 +33,27 @@ pub fn command(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
+/// These tests may have been started to ignore Ctrl-C, in the background of a shell: that is handed on to what they start. A handler
+/// is not.
+fn heed_ctrl_c() {
+    static HEEDED: Once = Once::new();
+    HEEDED.call_once(|| ctrlc::set_handler(|| std::process::exit(130)).unwrap());
+}
+
+/// A command whose outputs are read; it heeds Ctrl-C, however these tests were started.
+pub fn spawn(command: &mut Command) -> Child {
+    heed_ctrl_c();
+    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+#[cfg(unix)]
+pub fn interrupt(child: &Child) {
+    let kill = ["-INT", &child.id().to_string()];
+    assert!(Command::new("kill").args(kill).status().unwrap().success());
+}
+
 pub fn start(command: &mut Command) -> Running {
-    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut child = spawn(command);
     Running {
         stdout: BufReader::new(child.stdout.take().unwrap()),
         stderr: BufReader::new(child.stderr.take().unwrap()),
@@ -57,8 +77,7 @@ pub fn line_after(lines: &mut impl BufRead, begin: &str) -> String {
 impl Running {
     #[cfg(unix)]
     pub fn interrupt(&self) {
-        let kill = ["-INT", &self.child.id().to_string()];
-        assert!(Command::new("kill").args(kill).status().unwrap().success());
+        interrupt(&self.child);
     }
 
     /// The exit code, and the rest of what was said.

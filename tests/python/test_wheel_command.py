@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from ctrl_c import heed_ctrl_c, no_sigint
 
 import pyplatewash as pw
 
@@ -105,20 +106,12 @@ except KeyboardInterrupt:
 """
 
 
-def heed_ctrl_c() -> None:
-    """For ``preexec_fn``: the child heeds Ctrl-C, even where these tests were started to ignore it."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
 @pytest.fixture
 def started_in_the_background() -> Iterator[None]:
     """What a shell does to a job in its background, and nohup: this process, and whatever it starts, ignores Ctrl-C."""
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     yield
     signal.signal(signal.SIGINT, before)
-
-
-no_sigint = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for another process")
 
 
 def ends_at_ctrl_c(work: str, folder: Path) -> None:

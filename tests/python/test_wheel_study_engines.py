@@ -18,6 +18,7 @@ import pytest
 
 import pyplatewash as pw
 import study_killers
+from ctrl_c import heed_ctrl_c, no_sigint
 from pyplatewash import _core
 from pyplatewash._studies.engines import drive as driven
 from pyplatewash._studies.engines import processes
@@ -275,10 +276,11 @@ open("done.txt", "w").write(str(journal.done))
 """
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for another process")
+@no_sigint
 @pytest.mark.parametrize("engine", ["threads", *ENGINES])
 def test_ctrl_c_ends_all_workers_and_lets_the_folder_go(engine: str, tmp_path: Path) -> None:
-    done = subprocess.run([sys.executable, "-c", INTERRUPTED, engine], cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    line = [sys.executable, "-c", INTERRUPTED, engine]
+    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False, preexec_fn=heed_ctrl_c)
     assert done.returncode == 0, done.stderr
     assert 3 <= int((tmp_path / "done.txt").read_text()) < 60, done.stderr
 

@@ -324,7 +324,7 @@ def test_rows_that_were_changed_since_are_no_evidence(tmp_path: Path) -> None:
     changed = [*mixed()[:6], mixed()[6] | {"coverage": 1.0}]
     rows = pw.StudyRows(folder(tmp_path / "bad", AXES, changed, 7, rows_sha256=sha256))
     for write, name in ((rows.export, "bad.jsonl"), (rows.to_parquet, "bad.parquet")):
-        with pytest.raises(pw.StudyError, match=f"was changed since the study was finished: SHA-256 must be {sha256}"):
+        with pytest.raises(pw.StudyError, match=f"the rows were changed since the study was finished: .* states {sha256}"):
             write(tmp_path / name)
         assert not (tmp_path / name).exists()
 
@@ -482,15 +482,15 @@ def test_places_on_no_grid_are_dots(tmp_path: Path) -> None:
 
 
 def test_maps_say_what_is_wrong(tmp_path: Path, rows: pw.StudyRows) -> None:
-    with pytest.raises(pw.InputError, match=r"at: one of plate\[0\].at_m, robot.model, tool.length_m is needed; found 'seed'"):
+    with pytest.raises(pw.InputError, match='at: one of "plate.0..at_m", "robot.model", "tool.length_m" is needed; found .seed.'):
         rows.map("seed")
     with pytest.raises(pw.InputError, match="at: an axis of places is needed, .* tool.length_m, whose value in row 0 is 0.1"):
         rows.map("tool.length_m")
-    with pytest.raises(pw.InputError, match="by: one of scenario, robot.model, tool.length_m is needed"):
+    with pytest.raises(pw.InputError, match='by: one of "scenario", "robot.model", "tool.length_m" is needed'):
         rows.map("plate[0].at_m", by="plate[0].at_m")
     with pytest.raises(pw.InputError, match="by: different axes are needed"):
         rows.map("plate[0].at_m", by=["scenario", "scenario"])
-    with pytest.raises(pw.InputError, match="value: one of washable, clearance, coverage, duration, outcome is needed; found 'speed'"):
+    with pytest.raises(pw.InputError, match='value: one of "washable", "clearance", "coverage", "duration", "outcome" is needed; found .speed.'):
         rows.map("plate[0].at_m", "speed")  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     none = pw.StudyRows(folder(tmp_path / "none", AXES, (), 7))
     with pytest.raises(pw.InputError, match="rows to draw are needed"):

@@ -67,6 +67,15 @@ impl Certificate {
         self.checks.iter().find(|check| check.requirement == requirement)
     }
 
+    /// What is guaranteed of a requirement, in its unit; `None` where nothing finite is.
+    #[must_use]
+    pub fn bound(&self, requirement: Requirement) -> Option<f64> {
+        self.check(requirement)?
+            .measure?
+            .bound
+            .filter(|bound| bound.is_finite())
+    }
+
     /// The requirements that are violated or not proved.
     pub fn broken(&self) -> impl Iterator<Item = &Check> {
         self.checks.iter().filter(|check| !check.status.is_kept())

@@ -26,7 +26,7 @@ impl Certificate {
     /// where nothing is waived.
     #[must_use]
     pub fn but_for(&self) -> String {
-        waived(self).map_or_else(String::new, |waived| format!(" BUT FOR {waived} (waived by the job)"))
+        but_for(self).map_or_else(String::new, |but_for| format!(" {but_for}"))
     }
 
     /// The same at the end of a verdict that fails, where "but for" would read as if the rest were kept.
@@ -45,6 +45,16 @@ impl Certificate {
             (Verdict::Fail, false) => Some(broken.join(", ")),
         }
     }
+
+    /// What there is to say of the verdict in a table: what is not kept, else what is waived.
+    #[must_use]
+    pub fn reason(&self) -> Option<String> {
+        self.not_kept().or_else(|| but_for(self))
+    }
+}
+
+fn but_for(certificate: &Certificate) -> Option<String> {
+    waived(certificate).map(|waived| format!("BUT FOR {waived} (waived by the job)"))
 }
 
 fn waived(certificate: &Certificate) -> Option<String> {

@@ -46,6 +46,11 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = false)]
 mod _core {
     #[pymodule_export]
+    use crate::argument::{
+        _argument_count, _argument_flag, _argument_number, _argument_path, _argument_shown, _argument_texts,
+        _argument_word,
+    };
+    #[pymodule_export]
     use crate::cell::{_edit_arguments, CellEditorObject, CellQuestionObject};
     #[pymodule_export]
     use crate::certificate::{CertificateObject, differences, prove};
@@ -86,7 +91,7 @@ mod _core {
     #[pymodule_export]
     use crate::simulation::{ExecutionObject, SettingsObject, simulate, tune};
     #[pymodule_export]
-    use crate::study::{_study_summary, StudyJournalObject, StudyObject, StudyWorkerObject};
+    use crate::study::{_study_check, _study_summary, StudyJournalObject, StudyObject, StudyWorkerObject};
     #[pymodule_export]
     use crate::sweep::sweep;
     #[pymodule_export]

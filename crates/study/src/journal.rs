@@ -164,28 +164,21 @@ impl Journal {
             .map_err(StudyError::disk(&path, "cannot be written"))
     }
 
-    /// Ends the study where all its rows are there, which its manifest says from then on, with their hash. Whether they are.
+    /// Waits until the disk has all rows, and ends the study where they are all there, which its manifest says from then on, with their
+    /// hash. Whether they are.
     ///
     /// # Errors
     /// [`StudyError::Disk`].
     pub fn finish(&mut self) -> Result<bool, StudyError> {
+        let path = self.folder.join(ROWS);
+        self.rows.sync().map_err(StudyError::disk(&path, "cannot be written"))?;
         if self.done.count() < self.manifest.rows {
             return Ok(false);
         }
         if self.manifest.rows_sha256.is_none() {
-            self.sync()?;
             self.manifest.rows_sha256 = Some(rows_sha256(&self.folder)?);
             self.manifest.write(&self.folder.join(MANIFEST))?;
         }
         Ok(true)
-    }
-
-    /// Waits until the disk has all rows.
-    ///
-    /// # Errors
-    /// [`StudyError::Disk`].
-    pub fn sync(&mut self) -> Result<(), StudyError> {
-        let path = self.folder.join(ROWS);
-        self.rows.sync().map_err(StudyError::disk(&path, "cannot be written"))
     }
 }

@@ -50,7 +50,7 @@ pub(crate) fn rows(folder: &Path, mut each: impl FnMut(&Row)) -> Result<(), Stud
 /// [`StudyError`]: no study; rows that were changed since it was finished, of which nothing is written; or a disk that fails: `to` is
 /// called `name` then.
 pub fn export(folder: &Path, to: &mut dyn Write, name: &Path) -> Result<u64, StudyError> {
-    check_unchanged(folder, &read_manifest(folder)?)?;
+    check(folder)?;
     in_order(folder, to, name)
 }
 
@@ -85,7 +85,15 @@ pub(crate) fn rows_sha256(folder: &Path) -> Result<String, StudyError> {
     Ok(hash.0.hex())
 }
 
-/// Refuses a finished study whose rows are not those that it was finished with.
+/// Refuses the folder of a finished study whose rows are not those that it was finished with.
+///
+/// # Errors
+/// [`StudyError`]: these rows; no study; or a file that cannot be read.
+pub fn check(folder: &Path) -> Result<(), StudyError> {
+    check_unchanged(folder, &read_manifest(folder)?)
+}
+
+/// [`check`], for a manifest that was read.
 pub(crate) fn check_unchanged(folder: &Path, manifest: &Manifest) -> Result<(), StudyError> {
     let Some(stated) = &manifest.rows_sha256 else {
         return Ok(());

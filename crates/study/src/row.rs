@@ -76,18 +76,15 @@ impl Row {
 
     /// With what came of a plan.
     pub(crate) fn planned(self, planned: &Planned, certificate: &Certificate) -> Self {
-        let bound = |name| certificate.check(name)?.measure?.bound.filter(|v| v.is_finite());
-        let waived = certificate.but_for();
-        let waived = Some(waived.trim()).filter(|waived| !waived.is_empty());
         let clearance = certificate.check(Requirement::Clearance);
         Self {
             outcome: Outcome::judged(certificate.verdict),
-            reason: certificate.not_kept().or(waived.map(str::to_owned)),
+            reason: certificate.reason(),
             place: Place::of_certificate(certificate),
             duration_s: Some(planned.plan.duration_s()),
-            coverage: bound(Requirement::Coverage),
-            contact: bound(Requirement::Contact),
-            clearance_m: bound(Requirement::Clearance),
+            coverage: certificate.bound(Requirement::Coverage),
+            contact: certificate.bound(Requirement::Contact),
+            clearance_m: certificate.bound(Requirement::Clearance),
             clearance_pair: clearance.and_then(|check| check.worst.pair.clone()),
             plan: planned.plan.hash.clone(),
             ..self

@@ -86,7 +86,6 @@ fn keep(
             left_s: (total - done) as f64 / per_s,
         });
     }
-    journal.sync()?;
     journal.finish()?;
     Ok(())
 }

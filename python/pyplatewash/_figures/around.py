@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
-from .._arguments import found, path
+from .._arguments import path, shown
 from .._errors import InputTypeError, PlatewashError
 from .._studies.folder import Folder
 from . import palette
@@ -31,7 +31,7 @@ class Stand:
         """Of a study's rows, or of the scenario whose region is drawn. Raises ScenarioError, InputTypeError."""
         if region is not None:
             if not isinstance(region, (_core.Scenario, str)) and not hasattr(region, "__fspath__"):
-                words = f"region: a Scenario, the name of a shipped one or the path of a file is needed; {found(region)}"
+                words = f"region: a Scenario, the name of a shipped one or the path of a file is needed; found {shown(region)}"
                 raise InputTypeError(words, argument="region")
             scenario = region if isinstance(region, _core.Scenario) else _core.Scenario.load(path("region", region))
             return cls(_mount(scenario), scenario.to_dict().get("layout", {}))

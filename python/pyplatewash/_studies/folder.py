@@ -163,7 +163,7 @@ def _manifest(file: Path) -> dict[str, Any]:
         text = file.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         raise StudyError(f"{file}: is no manifest: {error}", source=str(file)) from error
-    except OSError as error:
+    except (OSError, ValueError) as error:
         raise refused(file, "cannot be read, so that this is no study's folder", error) from error
     try:
         manifest = json.loads(text, parse_constant=_no_number)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from .. import _arguments
-from .._arguments import found
+from .._arguments import shown
 from .._errors import InputError, InputTypeError, MissingError
 from .table import as_json
 
@@ -56,8 +56,8 @@ def samples(
 
     Raises InputError, InputTypeError; MissingError, an ImportError, without SciPy.
     """
-    rows = _arguments.whole("count", count, 1, MOST_ROWS)
-    way, start = _arguments.word("method", method, METHODS), _arguments.whole("seed", seed, 0, 2**53 - 1)
+    rows = _arguments.count("count", count, 1, MOST_ROWS)
+    way, start = _arguments.word("method", method, METHODS), _arguments.count("seed", seed, 0, 2**53 - 1)
     draws = _draws(ranges, log)
     different = math.prod(draw.values for draw in draws.values())
     if different < rows:
@@ -106,14 +106,14 @@ def _engine(method: str, numbers: int, seed: int) -> Callable[[int], Floats]:
 
 def _draws(ranges: Any, log: Any) -> dict[str, Draw]:
     if not isinstance(ranges, Mapping):
-        raise InputTypeError(f"ranges: a dictionary of keys and ranges is needed; {found(ranges)}", argument="ranges")
+        raise InputTypeError(f"ranges: a dictionary of keys and ranges is needed; found {shown(ranges)}", argument="ranges")
     if not ranges:
         raise InputError("ranges: at least one key is needed; found none", argument="ranges")
     by_logarithm = set(_arguments.texts("log", list(log) if isinstance(log, (set, frozenset, dict)) else log))
     draws = {}
     for key, stated in ranges.items():
         if not isinstance(key, str):
-            raise InputTypeError(f"ranges: keys of scenarios are needed; {found(key)}", argument="ranges")
+            raise InputTypeError(f"ranges: keys of scenarios are needed; found {shown(key)}", argument="ranges")
         draws[key] = _draw(f"ranges[{key!r:.60}]", stated, key in by_logarithm)
         by_logarithm.discard(key)
     if by_logarithm:
@@ -130,7 +130,7 @@ def _draw(name: str, stated: Any, by_logarithm: bool) -> Draw:
             raise InputError(f"{name}: a range is needed for a key in log; found a list", argument=name)
         return _choice(name, stated)
     if not isinstance(stated, tuple):
-        raise InputTypeError(f"{wanted}; {found(stated)}", argument=name)
+        raise InputTypeError(f"{wanted}; found {shown(stated)}", argument=name)
     if not any(isinstance(part, tuple) for part in stated):
         return _range(name, stated, by_logarithm, wanted)
     named = [(f"{name}[{place}]", part) for place, part in enumerate(stated)]
@@ -159,16 +159,10 @@ def _range(name: str, stated: tuple[Any, ...], by_logarithm: bool, wanted: str) 
 
 def _given(name: str, value: Any) -> Draw:
     """A number that is not drawn."""
-    number = value.item() if isinstance(value, (np.floating, np.integer)) else value
-    if isinstance(number, bool) or not isinstance(number, (int, float)):
-        raise InputTypeError(f"{name}: a number is needed; {found(value)}", argument=name)
-    try:
-        finite = float(number)
-    except OverflowError:
-        finite = math.inf
-    if not math.isfinite(finite):
-        raise InputError(f"{name}: a finite number is needed; {found(value)[:120]}", argument=name)
-    return Draw(0, lambda _: finite, 1)
+    number = _arguments.number(name, value)
+    if not math.isfinite(number):
+        raise InputError(f"{name}: a finite number is needed; found {shown(value)}", argument=name)
+    return Draw(0, lambda _: number, 1)
 
 
 def _choice(name: str, stated: Sequence[Any]) -> Draw:
@@ -193,6 +187,6 @@ def _plain(name: str, value: Any) -> Any:
     if isinstance(value, (str, bool)):
         return value
     if not isinstance(value, (int, float)):
-        raise InputTypeError(f"{name}: a number, a text, True, False or a list of them is needed; {found(value)}", argument=name)
+        raise InputTypeError(f"{name}: a number, a text, True, False or a list of them is needed; found {shown(value)}", argument=name)
     _given(name, value)
     return value

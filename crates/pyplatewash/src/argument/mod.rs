@@ -4,8 +4,12 @@
 //! is refused in one form: the argument's name, what is needed, what was found. A wrong type is an `InputTypeError`, a wrong
 //! value an `InputError`. What a foreign object raises itself, such as an iterator of the caller's, is passed on.
 
+mod for_python;
 mod scalar;
 
+pub use for_python::{
+    _argument_count, _argument_flag, _argument_number, _argument_path, _argument_shown, _argument_texts, _argument_word,
+};
 pub use scalar::{ANY_COUNT, count, flag, number, number_or, seed, text, word};
 
 use crate::errors;

@@ -94,10 +94,7 @@ impl StudyJournalObject {
 
     /// Waits until the disk has all rows, and ends the study where they are all there. Whether they are.
     fn finish(&self, py: Python<'_>) -> PyResult<bool> {
-        self.with(py, |held, _| {
-            held.journal.sync()?;
-            held.journal.finish()
-        })
+        self.with(py, |held, _| held.journal.finish())
     }
 
     /// Works on all rows that are missing on so many threads; `told` is called with (done, rows) now and then.

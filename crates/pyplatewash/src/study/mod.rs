@@ -223,6 +223,13 @@ impl StudyObject {
     }
 }
 
+/// Refuses the folder of a finished study whose rows are not those that it was finished with.
+#[pyfunction]
+pub fn _study_check(py: Python<'_>, folder: &Bound<'_, PyAny>) -> PyResult<()> {
+    let folder = argument::path("folder", folder)?;
+    patiently(py, move |_| study::check(&folder))?.map_err(|error| errors::study(py, error))
+}
+
 /// What the rows in a folder come to.
 #[pyfunction]
 pub fn _study_summary<'py>(py: Python<'py>, folder: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
