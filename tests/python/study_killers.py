@@ -1,5 +1,6 @@
 """Workers that die at certain rows, for engines that are tested with them."""
 
+import importlib
 import os
 import pickle
 import signal
@@ -21,6 +22,12 @@ def work(kit: Kit, share: Share) -> list[Made]:
 def packed(kit: Kit, share: Share) -> bytes:
     """The same as bytes."""
     return pickle.dumps(work(kit, share))
+
+
+def lacking(kit: Kit, share: Share) -> bytes:
+    """What becomes of a worker without the package."""
+    importlib.import_module("pyplatewash.none")
+    return packed(kit, share)
 
 
 def main() -> None:

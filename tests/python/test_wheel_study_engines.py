@@ -147,6 +147,30 @@ def test_a_row_that_kills_its_workers_is_recorded(engine: Any, tmp_path: Path, m
     assert "died twice" in crashed[0]["reason"]
 
 
+def test_workers_that_cannot_begin_are_told_and_no_row_is_blamed(study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for begin, executable, words in (
+        ("import sys; sys.exit(7)", sys.executable, "ended 3 times before it was ready, with 7"),
+        ("print('hello')", sys.executable, "ended 3 times before it was ready"),
+        ("", str(tmp_path / "none"), "none': No such file"),
+    ):
+        monkeypatch.setattr(processes, "BEGIN", begin)
+        monkeypatch.setattr(sys, "executable", executable)
+        with pytest.raises(pw.EngineError, match=f"no worker process begins: '.*{words}"):
+            study.run(tmp_path / "out", engine="processes", workers=2, progress=False)
+    assert not (tmp_path / "out" / "rows.jsonl").read_bytes()
+
+
+@pytest.mark.parametrize("engine", ["dask", "ray"])
+def test_what_a_clusters_worker_lacks_is_told_as_the_clusters(engine: Any, study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    name = {"dask": "_packed", "ray": "work"}[engine]
+    monkeypatch.setattr(importlib.import_module(f"pyplatewash._studies.engines.{engine}"), name, study_killers.lacking)
+    if engine == "ray":
+        ray: Any = importlib.import_module("ray")
+        ray.cloudpickle.register_pickle_by_value(study_killers)
+    with pytest.raises(pw.EngineError, match="(?is)gave a share back: .*No module named 'pyplatewash.none'"):
+        study.run(tmp_path / "out", engine=engine, workers=1, progress=False)
+
+
 class Fake:
     """An engine on threads: ``fate`` says what becomes of a share."""
 

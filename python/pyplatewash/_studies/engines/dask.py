@@ -6,7 +6,7 @@ import pickle
 import time
 from typing import Any
 
-from ..._errors import EngineError, MissingError
+from ..._errors import EngineError, MissingError, PlatewashError
 from .contract import Died
 from .worker import Kit, Made, Share, stop, work
 
@@ -72,8 +72,10 @@ class Dask:
         error = answer.exception()
         if isinstance(error, self._killed):
             raise Died(str(error))
-        if error is not None:
+        if isinstance(error, PlatewashError):
             raise error
+        if error is not None:
+            raise EngineError(f"Dask gave a share back: {type(error).__name__}: {error}") from error
         made: list[Made] = pickle.loads(answer.result())
         answer.release()
         return made

@@ -11,11 +11,18 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 from typing import IO, Any
 
+from ..._errors import EngineError
 from .contract import Died
 from .worker import Kit, Made, Share, stop, work
 
 #: What a process runs, which imports what this one would.
 BEGIN = f"import sys; sys.path[:] = {{path!r}}; from {__name__} import main; main()"
+#: What a process says once it has begun: one that dies before tells of no row.
+READY = b"ready"
+#: How often a process is begun that dies at once.
+MOST_STARTS = 3
+#: What the end of a process shows as.
+FAULTS = (OSError, EOFError, pickle.UnpicklingError, ValueError)
 #: How long a process that was told to stop is waited for [s].
 LONGEST_S = 10.0
 
@@ -74,22 +81,18 @@ class _Seat:
         self._lock = threading.Lock()
 
     def work(self, share: Share) -> list[Made]:
-        """What the process makes of a share. Raises Died, and what it raised."""
-        with self._lock:
-            if self._is_stopped:
-                return []
-            process = self._process or self._begun()
+        """What the process makes of a share. Raises Died, EngineError where no process begins, and what it raised."""
+        process = self._at_work()
+        if process is None:
+            return []
         try:
             _write(process.stdin, share)
             answer = _read(process.stdout)
-        except (OSError, EOFError, pickle.UnpicklingError, ValueError):
-            process.kill()
-            process.wait()
-            with self._lock:
-                self._process = None
+        except FAULTS:
+            code = self._let_go(process)
             if self._is_stopped:
                 return []
-            raise Died(f"a worker process ended with {process.returncode}") from None
+            raise Died(f"a worker process ended with {code}") from None
         if isinstance(answer, BaseException):
             raise answer
         made: list[Made] = answer
@@ -119,16 +122,41 @@ class _Seat:
         if process.stdout is not None:
             process.stdout.close()
 
-    def _begun(self) -> subprocess.Popen[bytes]:
-        line = [sys.executable, "-c", BEGIN.format(path=sys.path)]
-        # A session of its own, or on Windows a group (CREATE_NEW_PROCESS_GROUP): Ctrl-C of a terminal is for whoever reads what comes back.
-        windows = sys.platform == "win32"
-        process = subprocess.Popen(
+    def _at_work(self) -> subprocess.Popen[bytes] | None:
+        """The process, begun where there is none; None where it was told to stop."""
+        code = None
+        for _ in range(MOST_STARTS):
+            with self._lock:
+                if self._is_stopped or self._process is not None:
+                    return None if self._is_stopped else self._process
+                process = self._process = _begun()
+            try:
+                _write(process.stdin, self._kit)
+                if _read(process.stdout) == READY:
+                    return process
+            except FAULTS:
+                pass
+            code = self._let_go(process)
+        raise EngineError(f"no worker process begins: '{sys.executable}' ended {MOST_STARTS} times before it was ready, with {code}")
+
+    def _let_go(self, process: subprocess.Popen[bytes]) -> int:
+        """Ends a process that is of no use; how it ended."""
+        process.kill()
+        with self._lock:
+            self._process = None
+        return process.wait()
+
+
+def _begun() -> subprocess.Popen[bytes]:
+    # A session of its own, or on Windows a group (CREATE_NEW_PROCESS_GROUP): Ctrl-C of a terminal is for whoever reads what comes back.
+    windows = sys.platform == "win32"
+    line = [sys.executable or "python", "-c", BEGIN.format(path=sys.path)]
+    try:
+        return subprocess.Popen(
             line, stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=not windows, creationflags=0x200 if windows else 0
         )
-        self._process = process
-        _write(process.stdin, self._kit)
-        return process
+    except OSError as error:
+        raise EngineError(f"no worker process begins: '{line[0]}': {error.strerror}") from error
 
 
 def _write(stream: IO[bytes] | None, what: object) -> None:
@@ -147,7 +175,11 @@ def main() -> None:
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # Whatever is printed goes where messages go.
     questions = sys.stdin.buffer
-    kit: Kit = _read(questions)
+    try:
+        kit: Kit = _read(questions)
+    except EOFError:
+        return  # It was told to stop.
+    _write(answers, READY)
     shares: queue.SimpleQueue[Share | None] = queue.SimpleQueue()
 
     def listen() -> None:

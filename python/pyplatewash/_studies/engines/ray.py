@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from ..._errors import EngineError, MissingError
+from ..._errors import EngineError, MissingError, PlatewashError
 from .contract import Died
 from .worker import Kit, Made, Share, work
 
@@ -65,7 +65,8 @@ class Ray:
         if isinstance(error, self._ray.exceptions.RayTaskError):
             if isinstance(error.cause, KeyboardInterrupt):
                 return []  # It was told to stop.
-            raise error.as_instanceof_cause()
+            if isinstance(error.cause, PlatewashError):
+                raise error.cause
         if error is not None:
             raise EngineError(f"Ray gave a share back: {error}") from error
         made: list[Made] = answer.result()
