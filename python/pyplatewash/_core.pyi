@@ -56,6 +56,7 @@ __all__ = [
     "_show_arguments",
     "_study_check",
     "_study_summary",
+    "_task_region",
     "_wash_curve",
     "_wash_curve_on",
     "coverage",
@@ -825,6 +826,9 @@ def _show_arguments(
 def _figure_arguments(
     plan: Plan, kind: object, of: tuple[object, object, object, object]
 ) -> tuple[tuple[Robot, Scenario | None], str, int | None]: ...
+def _task_region(
+    name: str, scenario: object
+) -> tuple[tuple[float, float], float | None, list[tuple[float, float]] | None]: ...
 def _save_page(page: Page, path: _Path) -> None: ...
 def _argument_number(name: str, value: object) -> float: ...
 def _argument_count(name: str, value: object, least: int, most: int) -> int: ...

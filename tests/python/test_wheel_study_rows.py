@@ -456,21 +456,18 @@ def test_what_was_not_found_is_told_from_what_is_impossible(tmp_path: Path) -> N
     assert len(set(palette.OUTCOMES.values()) | {palette.SEVERAL, palette.NOTHING}) == 8
 
 
-def test_a_region_is_that_of_a_page(tmp_path: Path) -> None:
-    from pyplatewash import _core
-    from pyplatewash._figures.around import NAMED
-
-    plan, robot = pw.plan(pw.Scenario.load("kitchen").job()).plan, pw.Robot.irb120()
-    for name, (x_m, y_m) in NAMED.items():
-        region = _core._plan_view(plan, robot, None, pw.Scenario.load("kitchen").replace(layout={"region": name}))["surroundings"]["region_m"]
-        assert (min(region), max(region)) == ([x_m[0], y_m[0]], [x_m[1], y_m[1]])
+def test_a_region_is_where_plates_are_drawn(tmp_path: Path) -> None:
     ax = table(tmp_path).map("plate[0].at_m", region="kitchen")
     assert isinstance(ax, Axes) and labels(ax) >= {"base", "region of plate centres", "no plate centre within 280 mm"}
-    turned = pw.Scenario.load("kitchen").replace(robot={"mount_m": [1, 2, 0], "mount_rpy_deg": [0, 0, 90]})
-    ax = pw.StudyRows(tmp_path / "table").map("plate[0].at_m", region=turned)
+    # Plates are drawn about the foot of the mount, along the world's axes.
+    moved = pw.Scenario.load("kitchen").replace(robot={"mount_m": [1, 2, 0], "mount_rpy_deg": [0, 0, 90]})
+    ax = pw.StudyRows(tmp_path / "table").map("plate[0].at_m", region=moved)
     assert isinstance(ax, Axes)
-    corners: Any = ax.patches[0].get_path().vertices
-    assert corners[0].tolist() == pytest.approx([1.38, 2.0])
+    corners: Any = next(patch for patch in ax.patches if patch.get_label() == "region of plate centres").get_path().vertices
+    drawn = np.array([(plate.x_m, plate.y_m) for seed in range(1, 31) for plate in pw.place_plates(moved.replace(seed=seed)).plates])
+    assert corners.min(axis=0).tolist() == pytest.approx([1.0, 1.62]) and corners.max(axis=0).tolist() == pytest.approx([1.3, 2.38])
+    assert (corners.min(axis=0) <= drawn.min(axis=0)).all() and (drawn.max(axis=0) <= corners.max(axis=0)).all()
+    assert (drawn.min(axis=0) < corners.min(axis=0) + 0.1).all()
 
 
 def test_places_on_no_grid_are_dots(tmp_path: Path) -> None:

@@ -85,7 +85,7 @@ mod _core {
     #[pymodule_export]
     use crate::robot::{IkSolutionRecord, Robot};
     #[pymodule_export]
-    use crate::scenario::{ScenarioObject, place_plates};
+    use crate::scenario::{_task_region, ScenarioObject, place_plates};
     #[pymodule_export]
     use crate::shown::{_figure_arguments, _show_arguments};
     #[pymodule_export]

@@ -373,13 +373,16 @@ impl ScenarioObject {
 /// # Errors
 /// `InputTypeError` for anything else, `ScenarioError`.
 pub fn given(value: &Bound<'_, PyAny>) -> PyResult<Scenario> {
+    called("scenario", value)
+}
+
+/// [`given`], of an argument of another name.
+fn called(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Scenario> {
     if let Ok(object) = value.cast::<ScenarioObject>() {
         return Ok(object.get().inner.clone());
     }
     const NEEDED: &str = "a Scenario, the name of a shipped one or the path of a file";
-    let path: PathBuf = value
-        .extract()
-        .map_err(|e| argument::refused("scenario", value, NEEDED, e))?;
+    let path: PathBuf = value.extract().map_err(|e| argument::refused(name, value, NEEDED, e))?;
     let scenario = Scenario::load(&path.to_string_lossy()).map_err(|e| errors::scenario(value.py(), &e))?;
     warn(value.py(), &scenario.notes())?;
     Ok(scenario)
@@ -419,4 +422,16 @@ pub fn place_plates(py: Python<'_>, scenario: &Bound<'_, PyAny>) -> PyResult<Lay
         scenario.place(&arm, &Watch::silent(cancel))
     })?;
     Ok(placed.map_err(|e| errors::failure(py, &e))?.into())
+}
+
+/// Foot of the arm's mount, radius about it, and outline: where plates are drawn.
+type Region = ([f64; 2], Option<f64>, Option<Vec<[f64; 2]>>);
+
+/// Where a scenario draws plates, in the world [m]: the foot of the arm's mount, the radius about it that their centres keep away from,
+/// and the outline of their region. `name` is that of the argument.
+#[pyfunction]
+pub fn _task_region(name: &str, scenario: &Bound<'_, PyAny>) -> PyResult<Region> {
+    let scenario = called(name, scenario)?;
+    let region = scenario.task_region();
+    Ok((scenario.foot_m(), region.base_circle_m, region.polygon_m))
 }

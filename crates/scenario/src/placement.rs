@@ -133,8 +133,9 @@ impl Scenario {
         Ok(layout)
     }
 
-    /// The foot of the arm's mount, seen from above \[m\].
-    fn foot_m(&self) -> [f64; 2] {
+    /// The foot of the arm's mount, seen from above, in the world \[m\].
+    #[must_use]
+    pub fn foot_m(&self) -> [f64; 2] {
         let [x, y, _] = self.robot.mount_m;
         [x, y]
     }

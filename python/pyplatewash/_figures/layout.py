@@ -8,6 +8,7 @@ import numpy as np
 
 from .._values import Floats
 from . import palette
+from .around import Stand
 from .canvas import Panels
 from .subject import Subject
 
@@ -32,7 +33,7 @@ def draw(subject: Subject, ax: Axes) -> None:
             bbox={"boxstyle": "circle,pad=0.25", "facecolor": "white", "edgecolor": palette.OUTLINE, "alpha": 0.9},
         )  # fmt: skip
     _ways(subject, ax)
-    _base(subject, ax)
+    _around(subject).draw(ax)
     plates = f"{len(plan.order)} plate{'s' if len(plan.order) != 1 else ''}"
     ax.set_title(f"{subject.title}: {plates} in {plan.duration_s:.1f} s", parse_math=False)
     ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
@@ -54,19 +55,12 @@ def _ways(subject: Subject, ax: Axes) -> None:
         ax.plot(tip[:, 0], tip[:, 1], color=palette.EXECUTED, linewidth=0.7, label="executed")
 
 
-def _base(subject: Subject, ax: Axes) -> None:
-    from matplotlib.patches import Circle, Polygon
-
+def _around(subject: Subject) -> Stand:
     x_m, y_m = subject.tip.mount[1][:2]
-    ax.plot([x_m], [y_m], marker="^", markersize=10, color=palette.EXECUTED, linestyle="none", label="base")
     if subject.scenario is None:
-        return
+        return Stand((x_m, y_m))
     around = subject.document["surroundings"]
-    if around["base_circle_m"] is not None:
-        label = f"no plate centre within {1e3 * around['base_circle_m']:g} mm"
-        ax.add_patch(Circle((x_m, y_m), around["base_circle_m"], fill=False, edgecolor=palette.LIMIT, linestyle=":", linewidth=1.4, label=label))
-    if around["region_m"] is not None:
-        ax.add_patch(Polygon(around["region_m"], closed=True, fill=False, edgecolor=palette.OUTLINE, linestyle="-.", linewidth=1.1, label="region of plate centres"))
+    return Stand((x_m, y_m), around["base_circle_m"], around["region_m"])
 
 
 def _joined(pieces: list[Floats]) -> Floats:

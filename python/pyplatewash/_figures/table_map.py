@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from .. import _arguments
-from .._errors import InputError
+from .. import _arguments, _core
+from .._errors import InputError, PlatewashError
 from .._studies.folder import Folder
 from .._studies.table import as_json
-from . import around, palette
+from . import palette
+from .around import Stand
 from .canvas import Panels, add_legend, axes_for
 from .places import Place, Tally, gathered
 
@@ -67,7 +68,7 @@ def draw(of: Folder, given: tuple[Any, Any, Any, Any], ax: Any) -> Axes | list[A
     by = [_arguments.word("by", key, ["scenario", *(k for k in keys if k != at)]) for key in _arguments.texts("by", given[2])]
     if len(set(by)) < len(by):
         raise InputError(f"by: different axes are needed; found {', '.join(by)}", argument="by")
-    stand = around.Stand.of(of, given[3])
+    stand = _stand(of, given[3])
     maps = gathered(of, at, by, MOST_MAPS)
     every = [tally for places in maps.values() for tally in places.values()]
     numbers = [shown for tally in every if (shown := _number(tally, value)) is not None]
@@ -120,12 +121,25 @@ def _outcome(tally: Tally) -> str:
     return next(iter(tally.outcomes)) if len(tally.outcomes) == 1 else "several"
 
 
+def _stand(of: Folder, region: Any) -> Stand | None:
+    """Of a study's rows, or of the scenario whose region is drawn; None where the arm's place is not known, or differs by row."""
+    if region is not None:
+        return Stand(*_core._task_region("region", region))
+    if any(axis["key"].startswith("robot.mount") for axis in of.manifest["axes"]) or len(of.manifest["scenarios"]) > 1:
+        return None
+    try:
+        return Stand(_core._task_region("scenario", _core.Study.load(of.path).scenario(next(of.each())["index"]))[0])
+    except (PlatewashError, StopIteration):
+        # The study is damaged, or of another version: what came of the rows is there, and is drawn.
+        return None
+
+
 def _draw(
     over: tuple[dict[Place, Tally], Grid | None],
     value: str,
     limits: tuple[float, float],
     title: str,
-    frame: tuple[around.Stand, View],
+    frame: tuple[Stand | None, View],
     ax: Axes,
 ) -> None:
     """World frame, x to the right, y up."""
@@ -147,7 +161,8 @@ def _draw(
             _cells(ax, at, grid, np.where(np.isnan(shown), 0.0, np.nan), cmap=ListedColormap([palette.NOTHING]))
             ax.plot([], [], marker="s", linestyle="none", color=palette.NOTHING, label="nothing proved")
     stand, (left, right, bottom, top) = frame
-    stand.draw(ax)
+    if stand is not None:
+        stand.draw(ax)
     if title:
         ax.set_title(title, fontsize="small", parse_math=False)
     ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", xlim=(left, right), ylim=(bottom, top))
@@ -197,9 +212,9 @@ def _step(values: npt.NDArray[np.float64]) -> float | None:
     return float(apart.min()) if len(apart) else None
 
 
-def _view(places: Sequence[Place], grid: Grid | None, stand: around.Stand) -> View:
+def _view(places: Sequence[Place], grid: Grid | None, stand: Stand | None) -> View:
     """What of the table is shown: all places and the arm's base, with some room."""
-    at = np.array([*places, *([] if stand.mount is None else [stand.mount[:2]])], dtype=float).reshape(-1, 2)
+    at = np.array([*places, *([] if stand is None else [stand.foot_m])], dtype=float).reshape(-1, 2)
     corners = [] if grid is None else [(grid.extent[0], grid.extent[2]), (grid.extent[1], grid.extent[3])]
     at = np.concatenate([at, np.array(corners, dtype=float).reshape(-1, 2)])
     low, high = at.min(axis=0), at.max(axis=0)
