@@ -131,7 +131,7 @@ pub fn check_places(files: &[PathBuf]) -> Result<(), Failure> {
 
 /// Refuses a file whose folder can neither be written nor made.
 fn refuse_place(path: &Path) -> anyhow::Result<()> {
-    refuse_folder(path)?;
+    refuse_taken(path)?;
     let folder = folder_of(path);
     let place = place(folder).with_context(|| format!("{}: cannot be written", path.display()))?;
     // A link that leads nowhere does not exist, but stands in the way.
@@ -155,11 +155,14 @@ fn refuse_place(path: &Path) -> anyhow::Result<()> {
     })
 }
 
-fn refuse_folder(path: &Path) -> anyhow::Result<()> {
-    if path.is_dir() {
-        anyhow::bail!("{}: cannot be written: it is a folder", path.display());
-    }
-    Ok(())
+/// Refuses a place where something stands that no file may take the place of.
+fn refuse_taken(path: &Path) -> anyhow::Result<()> {
+    let what = match path.metadata() {
+        Ok(found) if found.is_dir() => "a folder",
+        Ok(found) if !found.is_file() => "no regular file",
+        _ => return Ok(()),
+    };
+    anyhow::bail!("{}: cannot be written: it is {what}", path.display());
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -169,13 +172,29 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-fn stage(path: &Path, content: &Content<'_>) -> anyhow::Result<NamedTempFile> {
+/// Writes a file by what makes it piece by piece: whole or not at all.
+pub fn write_to<T>(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<T, Failure>) -> Result<T, Failure> {
+    let cannot = || format!("{}: cannot be written", path.display());
+    let mut staged = BufWriter::new(begun(path).map_err(Failure::input)?);
+    let written = write(&mut staged)?;
+    let staged = staged.into_inner().map_err(IntoInnerError::into_error);
+    let renamed = staged.and_then(|staged| staged.persist(path).map_err(|error| error.error));
+    renamed.with_context(cannot).map_err(Failure::input)?;
+    Ok(written)
+}
+
+/// A file beside a place, to take it once it is complete.
+fn begun(path: &Path) -> anyhow::Result<NamedTempFile> {
     let folder = folder_of(path);
     std::fs::create_dir_all(folder).with_context(|| format!("{}: folder cannot be made", folder.display()))?;
-    refuse_folder(path)?;
+    refuse_taken(path)?;
+    let staged = temporary().tempfile_in(folder);
+    staged.with_context(|| format!("{}: cannot be written", path.display()))
+}
+
+fn stage(path: &Path, content: &Content<'_>) -> anyhow::Result<NamedTempFile> {
     let cannot = || format!("{}: cannot be written", path.display());
-    let staged = temporary().tempfile_in(folder).with_context(cannot)?;
-    let mut buffered = BufWriter::new(staged);
+    let mut buffered = BufWriter::new(begun(path)?);
     let written = match content {
         Content::Text(text) => write!(buffered, "{text}"),
         Content::Bytes(bytes) => buffered.write_all(bytes),

@@ -41,6 +41,9 @@ enum StudyVerb {
         /// File to write, in place of standard output
         #[arg(long, value_name = "FILE")]
         to: Option<PathBuf>,
+        /// Write the rows that are there, of a study that is not finished
+        #[arg(long)]
+        partial: bool,
     },
     /// Print the scenario of a row, to plan it alone.
     Scenario {
@@ -73,7 +76,7 @@ pub fn run(options: &Options, arguments: &StudyArguments) -> Result<ExitCode, Fa
     match &arguments.verb {
         StudyVerb::Run { file } => work(options, file),
         StudyVerb::Show { folder } => show(options, folder),
-        StudyVerb::Export { folder, to } => export(options, folder, to.as_deref()),
+        StudyVerb::Export { folder, to, partial } => export(folder, to.as_deref(), *partial),
         StudyVerb::Scenario { file, row } => {
             output::print(&Study::load(file)?.scenario_text(*row)?)?;
             Ok(ExitCode::SUCCESS)
@@ -111,6 +114,9 @@ fn work(options: &Options, file: &Path) -> Result<ExitCode, Failure> {
         );
         drop(progress);
         if let Err(error) = made {
+            if journal.done() == rows {
+                return Err(error.into());
+            }
             let kept = format!(
                 "{} of {rows} rows are kept; the same command goes on with the others",
                 journal.done()
@@ -133,36 +139,35 @@ fn show(options: &Options, folder: &Path) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn export(options: &Options, folder: &Path, to: Option<&Path>) -> Result<ExitCode, Failure> {
-    let written = match to {
+fn export(folder: &Path, to: Option<&Path>, partial: bool) -> Result<ExitCode, Failure> {
+    let (done, rows) = study::counted(folder)?;
+    if done < rows && !partial {
+        return Err(Failure::input(anyhow!(
+            "{}: the study is not finished: {done} of {rows} rows; go on with it, or take what is there: --partial",
+            folder.display()
+        )));
+    }
+    match to {
         Some(to) => {
-            let beside = to.parent().filter(|beside| !beside.as_os_str().is_empty());
-            let staged = tempfile::Builder::new()
-                .prefix(".platewash-")
-                .tempfile_in(beside.unwrap_or(Path::new(".")));
             let cannot = || format!("{}: cannot be written", to.display());
-            let staged = staged.with_context(cannot).map_err(Failure::input)?;
-            let written = study::export(folder, &mut BufWriter::new(&staged), to)?;
-            staged.persist(to).with_context(cannot).map_err(Failure::input)?;
-            written
+            let places = output::place(to).and_then(|to| Ok((to, output::place(&folder.join("rows.jsonl"))?)));
+            let (place, kept) = places.with_context(cannot).map_err(Failure::input)?;
+            if kept.parent().is_some_and(|folder| place.starts_with(folder)) {
+                return Err(Failure::input(anyhow!(
+                    "{}: it is in the study's folder, which is kept as it is",
+                    cannot()
+                )));
+            }
+            output::write_to(to, |out| Ok(study::export(folder, out, to)?))?;
         }
         None => {
             let out = &mut BufWriter::new(std::io::stdout().lock()) as &mut dyn Write;
             match study::export(folder, out, Path::new("standard output")) {
                 // A reader that has gone away is no error.
-                Err(StudyError::Disk { cause, .. }) if cause.kind() == ErrorKind::BrokenPipe => {
-                    return Ok(ExitCode::SUCCESS);
-                }
-                written => written?,
+                Err(StudyError::Disk { cause, .. }) if cause.kind() == ErrorKind::BrokenPipe => {}
+                written => drop(written?),
             }
         }
-    };
-    let rows = study::read_manifest(folder)?.rows;
-    if written < rows {
-        output::message(
-            options.quiet,
-            &format!("warning: the study is not finished: {written} of {rows} rows"),
-        );
     }
     Ok(ExitCode::SUCCESS)
 }

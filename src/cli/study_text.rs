@@ -48,11 +48,24 @@ pub fn shown(of: &Summary, folder: &Path) -> String {
             text,
             "\na row alone, here row {}:\n  platewash study scenario {} --row {} > row.toml && platewash run --scenario row.toml",
             row.index,
-            quoted(&folder.display().to_string()),
+            quoted(&path_argument(folder)),
             row.index
         );
+        if !of.manifest.files.is_empty() {
+            text.push_str("  (it names files: write row.toml beside the study's scenario; in Python, StudyRows.scenario needs none of them)\n");
+        }
     }
     text
+}
+
+/// A path that is not taken for an option.
+fn path_argument(path: &Path) -> String {
+    let path = path.display().to_string();
+    if path.starts_with('-') {
+        format!("./{path}")
+    } else {
+        path
+    }
 }
 
 fn list(text: &mut String, of: &Summary, title: &str, rows: &[Row]) {

@@ -93,10 +93,96 @@ fn what_a_study_states_is_refused_by_file_line_and_key() {
     refused(("tool.length_m", "tool.lenght_m"), &["study.toml", "tool.lenght_m"]);
     refused(("1..2", "2..1"), &["study.toml", "2..1"]);
     refused(("kitchen-spiral", "kitchn"), &["kitchn"]);
+    refused(
+        (
+            "key = \"seed\"\nseeds = \"1..2\"",
+            "key = \"job.program\"\nvalues = [\"certified\", \"paper\"]",
+        ),
+        &["line 8", "job.program", "certified jobs", "paper"],
+    );
+    refused(("\"tools\"", "3"), &["line 2", "name: invalid type"]);
+    refused(
+        ("\"tools\"", "\"two\\nlines\""),
+        &["line 2", "name must be a line of text"],
+    );
+    for range in [
+        "[0.1, 0.2]",
+        "[0.1, 0.2, -1]",
+        "[0.1, 0.2, 2.5]",
+        "[0.1, 0.1, 3]",
+        "[0.1, nan, 3]",
+        "[-1e308, 1e308, 3]",
+    ] {
+        refused(
+            ("values = [0.12, 0.15]", &format!("range = {range}")),
+            &["line 6", "tool.length_m: must be [from, to, count]", "found ["],
+        );
+    }
+    std::fs::write(
+        dir.join("study.toml"),
+        STUDY.split("[[axis]]").next().unwrap().to_owned() + "rows = []\n",
+    )
+    .unwrap();
+    platewash(dir, &["study", "run", "study.toml", "--out", "out"]).refused(2, &["rows: the list is empty"]);
     std::fs::write(dir.join("study.toml"), STUDY).unwrap();
     for global in [["--seed", "1"], ["--scenario", "kitchen"]] {
         let mut words = vec!["study", "run", "study.toml", "--out", "out"];
         words.extend(global);
         platewash(dir, &words).refused(2, &[global[0], "study"]);
     }
+}
+
+/// What an export may not take the place of, and what it is not made of.
+#[test]
+fn an_export_takes_no_place_that_is_not_its_own() {
+    let folder = folder();
+    let dir = folder.path();
+    let one = STUDY
+        .split("[[axis]]")
+        .next()
+        .unwrap()
+        .replace("kitchen-spiral", "kitchen");
+    std::fs::write(dir.join("study.toml"), &one).unwrap();
+    platewash(dir, &["study", "run", "study.toml", "--out", "-a"]).refused(2, &["-a"]);
+    assert_eq!(platewash(dir, &["study", "run", "study.toml", "--out", "./-a"]).code, 0);
+    let shown = platewash(dir, &["study", "show", "./-a"]).stdout;
+    assert!(shown.contains("study scenario ./-a --row 0"), "{shown}");
+    for place in ["./-a/rows.jsonl", "./-a/manifest.json", "./-a/../-a/new"] {
+        let before = std::fs::read(dir.join(place)).ok();
+        platewash(dir, &["study", "export", "./-a", "--to", place]).refused(2, &["it is in the study's folder"]);
+        assert_eq!(std::fs::read(dir.join(place)).ok(), before);
+    }
+    #[cfg(unix)]
+    {
+        std::os::unix::net::UnixListener::bind(dir.join("socket")).unwrap();
+        platewash(dir, &["study", "export", "./-a", "--to", "socket"]).refused(2, &["it is no regular file"]);
+    }
+    assert_eq!(
+        platewash(dir, &["study", "export", "./-a", "--to", "new/rows.jsonl"]).code,
+        0
+    );
+    assert_eq!(
+        std::fs::read(dir.join("new/rows.jsonl")).unwrap(),
+        std::fs::read(dir.join("-a/rows.jsonl")).unwrap()
+    );
+
+    let more = format!("{one}[[axis]]\nkey = \"layout.positions_m\"\nvalues = [[[0.9, 0.9]], [[0.8, 0.9]]]\n");
+    std::fs::write(dir.join("study.toml"), more).unwrap();
+    assert_eq!(
+        platewash(dir, &["study", "run", "study.toml", "--out", "b", "--quiet"]).code,
+        0
+    );
+    let rows = std::fs::read_to_string(dir.join("b/rows.jsonl")).unwrap();
+    std::fs::write(dir.join("b/rows.jsonl"), rows.lines().next().unwrap().to_owned() + "\n").unwrap();
+    let manifest = std::fs::read_to_string(dir.join("b/manifest.json")).unwrap();
+    let (stated, _) = manifest.split_once(",\n  \"rows_sha256\"").unwrap();
+    std::fs::write(dir.join("b/manifest.json"), format!("{stated}\n}}\n")).unwrap();
+    platewash(dir, &["study", "export", "b", "--quiet"]).refused(2, &["1 of 2 rows", "--partial"]);
+    assert_eq!(
+        platewash(dir, &["study", "export", "b", "--partial"])
+            .stdout
+            .lines()
+            .count(),
+        1
+    );
 }

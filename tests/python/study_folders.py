@@ -8,7 +8,7 @@ from typing import Any
 
 import pyplatewash as pw
 
-NO_PLACE = {"requirement": None, "plate": None, "segment": None, "time_s": None, "point_m": None}
+NO_PLACE = {"requirement": None, "plate": None, "segment": None, "waypoint": None, "time_s": None, "point_m": None}
 
 
 def row(index: int, axes: Mapping[str, Any], outcome: str = "proved", **fields: Any) -> dict[str, Any]:

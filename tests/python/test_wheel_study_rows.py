@@ -51,11 +51,11 @@ def mixed() -> list[dict[str, Any]]:
     at = [[0.3, 0.1 * k, 0.03] for k in range(7)]
     axes: list[dict[str, Any]] = [{"plate[0].at_m": place, "robot.model": "irb120", "tool.length_m": 0.1 + 0.01 * k} for k, place in enumerate(at)]
     pair, hash_ = ["handle", "link_4"], 64 * "a"
-    broken = {"requirement": "contact_dose", "plate": 0, "segment": 2, "time_s": 1.5, "point_m": [0.1, 0.2, 0.03]}
-    plate = {"requirement": None, "plate": 3, "segment": None, "time_s": None, "point_m": [0.4, 0.5, 0.03]}
+    broken = {"requirement": "contact_dose", "plate": 0, "segment": 2, "waypoint": None, "time_s": 1.5, "point_m": [0.1, 0.2, 0.03]}
+    plate = {"requirement": None, "plate": 3, "segment": None, "waypoint": None, "time_s": None, "point_m": [0.4, 0.5, 0.03]}
     return [
         row(0, axes[0], duration_s=8.5, coverage=0.998, contact=0.999, clearance_m=0.0191, clearance_pair=pair, plan=hash_),
-        row(1, axes[1], "not_proved", reason="contact dose", place=broken, duration_s=9, coverage=1, clearance_m=0.02, clearance_pair=pair, plan=hash_),
+        row(1, axes[1], "not_proved", reason="contact dose", place=broken, duration_s=9.0, coverage=1.0, clearance_m=0.02, clearance_pair=pair, plan=hash_),
         row(2, axes[2], "infeasible", reason="out of reach,\n„weit“ weg", place=plate),
         row(3, axes[3], "not_found", reason="no way was found"),
         row(4, axes[4], "error", reason="the values state no job"),
@@ -149,10 +149,10 @@ def test_a_damaged_folder_is_read_or_refused(file: str, at: int, cut: int, put: 
     try:
         rows = pw.StudyRows(where)
         assert len(list(rows)) == len(rows.to_frame()) == rows.summary().done == rows.done
-        rows.export(where / "out.jsonl", partial=True)
+        rows.export(where.with_suffix(".jsonl"), partial=True)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            rows.to_parquet(where / "out.parquet", partial=True)
+            rows.to_parquet(where.with_suffix(".parquet"), partial=True)
     except pw.StudyError as error:
         assert str(where / file) in str(error)
 
@@ -314,6 +314,26 @@ def test_what_is_not_finished_is_written_where_that_is_allowed(tmp_path: Path) -
         write(tmp_path / name, partial=True)
     assert (tmp_path / "a.jsonl").read_bytes() == b"".join(map(line, mixed()[:3]))
     assert pq.read_metadata(tmp_path / "a.parquet").num_rows == 3 and len(rows.to_frame()) == 3
+
+
+def test_nothing_is_written_into_the_folder(tmp_path: Path) -> None:
+    rows = pw.StudyRows(folder(tmp_path / "s", AXES, mixed(), 7))
+    before = {file: file.read_bytes() for file in (tmp_path / "s").iterdir()}
+    for write, name in ((rows.export, "rows.jsonl"), (rows.export, "../s/new"), (rows.to_parquet, "manifest.json"), (rows.to_parquet, "a/new.parquet")):
+        with pytest.raises(pw.FileError, match="it is in the study's folder, which is kept as it is"):
+            write(tmp_path / "s" / name)
+    assert {file: file.read_bytes() for file in (tmp_path / "s").iterdir()} == before
+
+
+def test_a_rows_scenario_needs_no_file_of_its_arm(tmp_path: Path, root: Path) -> None:
+    text = (root / "examples" / "studies" / "one-plate.toml").read_text().replace('model = "irb120"', 'urdf = "arm.urdf"')
+    (tmp_path / "base.toml").write_text(text)
+    arm = tmp_path / "arm.urdf"
+    arm.write_bytes((root / "urdf" / "irb120.urdf").read_bytes())
+    study = f'format = "platewash-study/1"\nname = "s"\nscenario = "{tmp_path.as_posix()}/base.toml"\n'
+    rows = pw.Study.parse(study).run(tmp_path / "out", progress=False)
+    arm.unlink()
+    assert pw.plan(pw.StudyRows(tmp_path / "out").scenario(0).job()).plan.hash == rows.row(0)["plan"] != None
 
 
 def test_rows_that_were_changed_since_are_no_evidence(tmp_path: Path) -> None:

@@ -16,6 +16,15 @@ impl Done {
         }
     }
 
+    /// All of so many.
+    pub fn all_of(rows: u64) -> Self {
+        let mut all = Self::none_of(rows);
+        for index in 0..rows {
+            all.add(index);
+        }
+        all
+    }
+
     /// How many there are.
     pub fn count(&self) -> u64 {
         self.count

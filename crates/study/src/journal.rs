@@ -22,79 +22,89 @@ const PLANS: &str = "plans";
 pub struct Journal {
     folder: PathBuf,
     manifest: Manifest,
+    done: Done,
+    /// Where rows are appended; nothing of a study that is finished is touched.
+    files: Option<Appended>,
+}
+
+struct Appended {
     rows: Lines<File>,
     timings: Lines<File>,
-    done: Done,
 }
 
 impl Journal {
-    /// Opens the folder of a study, made where there is none. Rows that it has are done; a last one that is torn goes.
+    /// Opens the folder of a study, made where there is none. Rows that it has are done; a last one that is torn goes. Of a study that is
+    /// finished nothing is touched.
     ///
     /// # Errors
-    /// [`StudyError`]: the folder keeps another study, or rows that are none of this one; another process works on it; the disk.
+    /// [`StudyError`]: the folder keeps another study, files of another origin, or rows that are none of this one; another process works on it;
+    /// the disk.
     pub fn open(folder: &Path, study: &Study) -> Result<Self, StudyError> {
         fs::create_dir_all(folder).map_err(StudyError::disk(folder, "cannot be made"))?;
-        let given = Manifest::of(study);
-        let [manifest, rows] = [MANIFEST, ROWS].map(|name| folder.join(name));
-        let mut kept = given;
-        if manifest.exists() {
-            let given = std::mem::replace(&mut kept, read_manifest(folder)?);
-            if let Some((what, kept, given)) = kept.difference(&given) {
-                let folder = folder.to_owned();
-                return Err(StudyError::Other {
-                    folder,
-                    what,
-                    kept,
-                    given,
-                });
-            }
-            check_unchanged(folder, &kept)?;
-        } else if rows.exists() && fs::metadata(&rows).is_ok_and(|found| found.len() > 0) {
-            return Err(StudyError::Kept {
-                file: rows,
-                problem: format!("has rows, and no {MANIFEST} beside it says of which study; give another folder"),
+        let kept = kept_manifest(folder, study)?;
+        if let Some(manifest) = kept.filter(|manifest| manifest.rows_sha256.is_some()) {
+            check_unchanged(folder, &manifest)?;
+            return Ok(Self {
+                folder: folder.to_owned(),
+                done: Done::all_of(manifest.rows),
+                manifest,
+                files: None,
             });
         }
-        let opened = lines::open(&rows).map_err(StudyError::disk(&rows, "cannot be opened"))?;
-        match opened.try_lock() {
+        let path = folder.join(ROWS);
+        let rows = lines::open(&path).map_err(StudyError::disk(&path, "cannot be opened"))?;
+        match rows.try_lock() {
             Ok(()) => {}
             Err(fs::TryLockError::WouldBlock) => {
                 let folder = folder.to_owned();
                 return Err(StudyError::Busy { folder });
             }
-            Err(fs::TryLockError::Error(error)) => return Err(StudyError::disk(&rows, "cannot be locked")(error)),
+            Err(fs::TryLockError::Error(error)) => return Err(StudyError::disk(&path, "cannot be locked")(error)),
         }
-        if !manifest.exists() {
-            write_whole(&folder.join(STUDY), study.text.as_bytes())?;
-            write_whole(&folder.join(PARTS), study.parts().to_json().as_bytes())?;
-            kept.write(&manifest)?;
+        // Somebody else may have been here until now.
+        let manifest = match kept_manifest(folder, study)? {
+            Some(manifest) if manifest.rows_sha256.is_some() => return Self::open(folder, study),
+            Some(manifest) => manifest,
+            None => Manifest::of(study),
+        };
+        for (name, bytes) in texts(study) {
+            let file = folder.join(name);
+            if !file.exists() {
+                write_whole(&file, bytes.as_bytes())?;
+            }
+        }
+        let stated = folder.join(MANIFEST);
+        if !stated.exists() {
+            manifest.write(&stated)?;
         }
         let mut done = Done::none_of(study.rows());
-        let whole = each_row(&rows, &opened, |_, row, line| {
-            let is_of_study = study.row(row.index).is_ok_and(|address| address.key == row.key);
-            if is_of_study && done.add(row.index) {
-                return Ok(());
+        let whole = each_row((&path, &rows), study.rows(), |_, row, line| {
+            let of_study = study.row(row.index)?;
+            let scenario = &study.bases[of_study.base].name;
+            if (&of_study.key, scenario, &of_study.axes) != (&row.key, &row.scenario, &row.axes) {
+                return Err(StudyError::Kept {
+                    file: path.clone(),
+                    problem: format!(
+                        "line {line}: row {} with key {} is none of this study",
+                        row.index, row.key
+                    ),
+                });
             }
-            let problem = match is_of_study {
-                true => format!("line {line}: row {} is there before", row.index),
-                false => format!(
-                    "line {line}: row {} with key {} is none of this study",
-                    row.index, row.key
-                ),
-            };
-            let file = rows.clone();
-            Err(StudyError::Kept { file, problem })
+            done.add(row.index);
+            Ok(())
         })?;
-        let path = folder.join(TIMINGS);
-        let cannot = || StudyError::disk(&path, "cannot be opened");
-        let timings = lines::open(&path).map_err(cannot())?;
-        let timed = lines::read(&timings, cannot(), |_, _| Ok(()))?;
+        let timed = folder.join(TIMINGS);
+        let cannot = || StudyError::disk(&timed, "cannot be opened");
+        let timings = lines::open(&timed).map_err(cannot())?;
+        let timings_whole = lines::read(&timings, cannot(), |_, _| Ok(()))?;
         Ok(Self {
             folder: folder.to_owned(),
-            manifest: kept,
-            rows: Lines::after(opened, whole).map_err(StudyError::disk(&rows, "cannot be written"))?,
-            timings: Lines::after(timings, timed).map_err(cannot())?,
+            manifest,
             done,
+            files: Some(Appended {
+                rows: Lines::after(rows, whole).map_err(StudyError::disk(&path, "cannot be written"))?,
+                timings: Lines::after(timings, timings_whole).map_err(cannot())?,
+            }),
         })
     }
 
@@ -143,9 +153,9 @@ impl Journal {
     }
 
     fn keep(&mut self, index: u64, line: &str, plan: Option<&[u8]>, took: Duration) -> Result<(), StudyError> {
-        if self.done.has(index) {
+        let Some(files) = self.files.as_mut().filter(|_| !self.done.has(index)) else {
             return Ok(());
-        }
+        };
         // Before its row: where that is, the plan is.
         if let Some(plan) = plan {
             let plans = self.folder.join(PLANS);
@@ -153,13 +163,15 @@ impl Journal {
             write_whole(&plans.join(format!("{index}.json")), plan)?;
         }
         let path = self.folder.join(ROWS);
-        self.rows
+        files
+            .rows
             .append(line)
             .map_err(StudyError::disk(&path, "cannot be written"))?;
         self.done.add(index);
         let timing = format!("{{\"index\":{index},\"wall_s\":{:?}}}", took.as_secs_f64());
         let path = self.folder.join(TIMINGS);
-        self.timings
+        files
+            .timings
             .append(&timing)
             .map_err(StudyError::disk(&path, "cannot be written"))
     }
@@ -170,15 +182,71 @@ impl Journal {
     /// # Errors
     /// [`StudyError::Disk`].
     pub fn finish(&mut self) -> Result<bool, StudyError> {
+        let Some(files) = &mut self.files else {
+            return Ok(true);
+        };
         let path = self.folder.join(ROWS);
-        self.rows.sync().map_err(StudyError::disk(&path, "cannot be written"))?;
+        files
+            .rows
+            .sync()
+            .map_err(StudyError::disk(&path, "cannot be written"))?;
         if self.done.count() < self.manifest.rows {
             return Ok(false);
         }
-        if self.manifest.rows_sha256.is_none() {
-            self.manifest.rows_sha256 = Some(rows_sha256(&self.folder)?);
-            self.manifest.write(&self.folder.join(MANIFEST))?;
+        // What stands there is what counts.
+        let (count, sha256) = rows_sha256(&self.folder, &self.manifest)?;
+        if count < self.manifest.rows {
+            return Err(StudyError::Kept {
+                file: path,
+                problem: format!(
+                    "has {count} rows, though {} were written: somebody else has changed it; the same command makes those that are gone",
+                    self.manifest.rows
+                ),
+            });
         }
+        self.manifest.rows_sha256 = Some(sha256);
+        self.manifest.write(&self.folder.join(MANIFEST))?;
+        self.files = None;
         Ok(true)
+    }
+}
+
+/// What stands in a study's folder beside its manifest from the beginning.
+fn texts(study: &Study) -> [(&'static str, String); 2] {
+    [(STUDY, study.text.clone()), (PARTS, study.parts().to_json())]
+}
+
+/// The manifest in a folder, where there is one.
+///
+/// # Errors
+/// [`StudyError`]: it is of another study; without one, there are files of another origin by the names of a study's.
+fn kept_manifest(folder: &Path, study: &Study) -> Result<Option<Manifest>, StudyError> {
+    if folder.join(MANIFEST).exists() {
+        let kept = read_manifest(folder)?;
+        return match kept.difference(&Manifest::of(study)) {
+            None => Ok(Some(kept)),
+            Some((what, kept, given)) => Err(StudyError::Other {
+                folder: folder.to_owned(),
+                what,
+                kept,
+                given,
+            }),
+        };
+    }
+    // Whoever was ended before the manifest was there has left these.
+    let texts = texts(study);
+    let own = texts.iter().map(|(name, text)| (*name, text.as_bytes()));
+    let own = own.chain([(ROWS, &b""[..]), (TIMINGS, b"")]);
+    let is_other = |(name, own): &(&str, &[u8])| {
+        let file = folder.join(name);
+        let length = fs::metadata(&file).map(|found| found.len());
+        length.is_ok_and(|length| length != own.len() as u64 || fs::read(&file).is_ok_and(|found| found != *own))
+    };
+    match { own }.find(is_other) {
+        None => Ok(None),
+        Some((name, _)) => Err(StudyError::Kept {
+            file: folder.join(name),
+            problem: format!("is there, and no {MANIFEST} beside it says of which study; give another folder"),
+        }),
     }
 }

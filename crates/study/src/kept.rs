@@ -1,9 +1,11 @@
 //! What a folder keeps, read: its manifest, its rows in the order in which they were done or in that of their indices.
 
+use crate::done::Done;
 use crate::error::StudyError;
 use crate::lines;
 use crate::manifest::{FORMAT, Manifest};
-use crate::row::Row;
+use crate::row::{ROW_SCHEMA, Row};
+use crate::study::MOST_ROWS;
 use platewash_kinematics::fingerprint::Sha256;
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
@@ -22,7 +24,10 @@ pub(crate) const ROWS: &str = "rows.jsonl";
 /// [`StudyError`]: there is none, or one that this program does not know.
 pub fn read_manifest(folder: &Path) -> Result<Manifest, StudyError> {
     let file = folder.join(MANIFEST);
-    let text = fs::read_to_string(&file).map_err(StudyError::disk(&file, "cannot be read"))?;
+    let text = fs::read_to_string(&file).map_err(StudyError::disk(
+        &file,
+        "cannot be read, so that this is no study's folder",
+    ))?;
     let wrong = |problem: String| StudyError::Kept {
         file: file.clone(),
         problem,
@@ -31,17 +36,37 @@ pub fn read_manifest(folder: &Path) -> Result<Manifest, StudyError> {
     if manifest.format != FORMAT {
         return Err(wrong(format!("format must be {FORMAT}; found {:?}", manifest.format)));
     }
+    if !(1..=MOST_ROWS).contains(&manifest.rows) {
+        return Err(wrong(format!(
+            "rows must be from 1 to {MOST_ROWS}; found {}",
+            manifest.rows
+        )));
+    }
     Ok(manifest)
 }
 
 /// Tells the rows of a folder, in the order in which they were done.
-pub(crate) fn rows(folder: &Path, mut each: impl FnMut(&Row)) -> Result<(), StudyError> {
+pub(crate) fn rows(folder: &Path, manifest: &Manifest, mut each: impl FnMut(&Row)) -> Result<(), StudyError> {
     let (path, file) = opened(folder)?;
-    each_row(&path, &file, |_, row, _| {
+    each_row((&path, &file), manifest.rows, |_, row, _| {
         each(&row);
         Ok(())
     })?;
     Ok(())
+}
+
+/// How many rows a folder has, and how many its study has.
+///
+/// # Errors
+/// As [`export`].
+pub fn counted(folder: &Path) -> Result<(u64, u64), StudyError> {
+    let (manifest, mut done) = (read_manifest(folder)?, 0);
+    check_unchanged(folder, &manifest)?;
+    if manifest.rows_sha256.is_some() {
+        return Ok((manifest.rows, manifest.rows));
+    }
+    rows(folder, &manifest, |_| done += 1)?;
+    Ok((done, manifest.rows))
 }
 
 /// Writes the rows of a folder as JSON Lines in the order of their indices: the same bytes, however they came to be. How many there are.
@@ -50,14 +75,15 @@ pub(crate) fn rows(folder: &Path, mut each: impl FnMut(&Row)) -> Result<(), Stud
 /// [`StudyError`]: no study; rows that were changed since it was finished, of which nothing is written; or a disk that fails: `to` is
 /// called `name` then.
 pub fn export(folder: &Path, to: &mut dyn Write, name: &Path) -> Result<u64, StudyError> {
-    check(folder)?;
-    in_order(folder, to, name)
+    let manifest = read_manifest(folder)?;
+    check_unchanged(folder, &manifest)?;
+    in_order(folder, &manifest, to, name)
 }
 
-fn in_order(folder: &Path, to: &mut dyn Write, name: &Path) -> Result<u64, StudyError> {
+fn in_order(folder: &Path, manifest: &Manifest, to: &mut dyn Write, name: &Path) -> Result<u64, StudyError> {
     let (path, file) = opened(folder)?;
     let mut places = Vec::new();
-    each_row(&path, &file, |at, row, _| {
+    each_row((&path, &file), manifest.rows, |at, row, _| {
         places.push((row.index, at));
         Ok(())
     })?;
@@ -78,11 +104,11 @@ fn in_order(folder: &Path, to: &mut dyn Write, name: &Path) -> Result<u64, Study
     Ok(places.len() as u64)
 }
 
-/// SHA-256 of the rows of a folder as [`export`] writes them.
-pub(crate) fn rows_sha256(folder: &Path) -> Result<String, StudyError> {
+/// How many rows a folder has, and the SHA-256 of them as [`export`] writes them.
+pub(crate) fn rows_sha256(folder: &Path, manifest: &Manifest) -> Result<(u64, String), StudyError> {
     let mut hash = Hash::default();
-    in_order(folder, &mut hash, folder)?;
-    Ok(hash.0.hex())
+    let count = in_order(folder, manifest, &mut hash, folder)?;
+    Ok((count, hash.0.hex()))
 }
 
 /// Refuses the folder of a finished study whose rows are not those that it was finished with.
@@ -98,7 +124,7 @@ pub(crate) fn check_unchanged(folder: &Path, manifest: &Manifest) -> Result<(), 
     let Some(stated) = &manifest.rows_sha256 else {
         return Ok(());
     };
-    let found = rows_sha256(folder)?;
+    let (_, found) = rows_sha256(folder, manifest)?;
     if found == *stated {
         return Ok(());
     }
@@ -130,19 +156,36 @@ fn opened(folder: &Path) -> Result<(PathBuf, File), StudyError> {
     Ok((path, file))
 }
 
-/// Tells each row with its place in the file and its line, from 1; the length of all whole lines.
+/// Tells each row of a study of so many with its place in the file and its line, from 1; the length of all whole lines. Each of them is there
+/// once at most, as this program writes it.
 pub(crate) fn each_row(
-    path: &Path,
-    file: &File,
+    (path, file): (&Path, &File),
+    rows: u64,
     mut each: impl FnMut(u64, Row, usize) -> Result<(), StudyError>,
 ) -> Result<u64, StudyError> {
-    let mut number = 0;
+    let (mut number, mut seen) = (0, Done::none_of(rows));
     lines::read(file, StudyError::disk(path, "cannot be read"), |at, line| {
         number += 1;
-        let row = serde_json::from_slice(line).map_err(|error| StudyError::Kept {
+        let wrong = |problem: String| StudyError::Kept {
             file: path.to_owned(),
-            problem: format!("line {number} is no row: {error}"),
-        })?;
+            problem: format!("line {number}: {problem}"),
+        };
+        let row: Row = serde_json::from_slice(line).map_err(|error| wrong(format!("is no row: {error}")))?;
+        if row.schema != ROW_SCHEMA {
+            return Err(wrong(format!(
+                "is a row of schema {}; this program reads schema {ROW_SCHEMA}",
+                row.schema
+            )));
+        }
+        if row.index >= rows {
+            return Err(wrong(format!("row {} is none of {rows}, counted from 0", row.index)));
+        }
+        if row.line().as_bytes() != line {
+            return Err(wrong(format!("row {} is not as it was written", row.index)));
+        }
+        if !seen.add(row.index) {
+            return Err(wrong(format!("row {} is there before", row.index)));
+        }
         each(at, row, number)
     })
 }

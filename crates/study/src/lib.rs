@@ -32,7 +32,7 @@ pub use base::Base;
 pub use error::StudyError;
 pub use journal::Journal;
 pub use keep::Keep;
-pub use kept::{check, export, read_manifest};
+pub use kept::{check, counted, export, read_manifest};
 pub use made::Made;
 pub use manifest::{Manifest, ManifestAxis, ManifestFile, ManifestScenario};
 pub use outcome::Outcome;

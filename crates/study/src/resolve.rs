@@ -174,7 +174,7 @@ fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
 mod tests {
     use super::*;
     use crate::journal::Journal;
-    use crate::kept::rows;
+    use crate::kept::{read_manifest, rows};
     use crate::run::run;
     use platewash_workcell::cancel::Cancelled;
     use std::path::Path;
@@ -207,7 +207,8 @@ mod tests {
         )
         .unwrap();
         let mut ended = vec![None; 4];
-        rows(folder.path(), |row| {
+        let manifest = read_manifest(folder.path()).unwrap();
+        rows(folder.path(), &manifest, |row| {
             ended[row.index as usize] = Some((row.outcome, row.reason.clone()))
         })
         .unwrap();

@@ -18,10 +18,8 @@ pub(crate) struct Statement {
     pub scenario: Spanned<OneOrMore>,
     #[serde(default)]
     pub plans: Keep,
-    #[serde(default)]
-    pub axis: Vec<Spanned<AxisStatement>>,
-    #[serde(default)]
-    pub rows: Vec<Spanned<toml::Table>>,
+    pub axis: Option<Spanned<Vec<Spanned<AxisStatement>>>>,
+    pub rows: Option<Spanned<Vec<Spanned<toml::Table>>>>,
 }
 
 /// A scenario or several.
@@ -78,7 +76,7 @@ impl ScenarioStatement {
 pub(crate) struct AxisStatement {
     pub key: Spanned<String>,
     pub values: Option<Spanned<Vec<toml::Value>>>,
-    pub range: Option<Spanned<(f64, f64, u32)>>,
+    pub range: Option<Spanned<Vec<toml::Value>>>,
     pub seeds: Option<Spanned<String>>,
 }
 
@@ -91,7 +89,19 @@ pub(crate) struct Source<'a> {
 impl Source<'_> {
     /// What the text states.
     pub fn statement(&self) -> Result<Statement, StudyError> {
-        toml::from_str(self.text).map_err(|error| self.wrong(error.span(), error.message()))
+        toml::from_str(self.text).map_err(|error| {
+            let key = error.span().and_then(|span| self.key_at(span.start));
+            match key.filter(|key| !error.message().contains(key)) {
+                Some(key) => self.wrong(error.span(), &format!("{key}: {}", error.message())),
+                None => self.wrong(error.span(), error.message()),
+            }
+        })
+    }
+
+    /// The key whose value begins at a place of the text, where both stand on one line.
+    fn key_at(&self, place: usize) -> Option<&str> {
+        let line = self.text.get(..place)?.lines().next_back()?;
+        line.split_once('=').map(|(key, _)| key.trim())
     }
 
     /// An error at a stretch of the text; its words become one line.

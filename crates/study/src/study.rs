@@ -18,6 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
+use toml::Spanned;
 
 /// Most rows of a study.
 pub const MOST_ROWS: u64 = 10_000_000;
@@ -122,12 +123,19 @@ impl Study {
     }
 
     fn of(from: &Source<'_>, stated: Statement, bases: Vec<Base>) -> Result<Self, StudyError> {
-        if let (Some(row), false) = (stated.rows.first(), stated.axis.is_empty()) {
+        if let (Some(rows), Some(_)) = (&stated.rows, &stated.axis) {
             let problem = "rows: a study has [[axis]] sections, which multiply, or [[rows]], which do not; found both";
-            return Err(from.wrong(Some(row.span()), problem));
+            return Err(from.wrong(Some(rows.span()), problem));
+        }
+        let empty = |name: &str| format!("{name}: the list is empty; leave it out for a study of one row a scenario");
+        if let Some(span) = stated.axis.as_ref().filter(|axis| axis.get_ref().is_empty()) {
+            return Err(from.wrong(Some(span.span()), &empty("axis")));
+        }
+        if let Some(span) = stated.rows.as_ref().filter(|rows| rows.get_ref().is_empty()) {
+            return Err(from.wrong(Some(span.span()), &empty("rows")));
         }
         let mut axes: Vec<Axis> = Vec::new();
-        for axis in stated.axis {
+        for axis in stated.axis.map(Spanned::into_inner).unwrap_or_default() {
             let span = axis.get_ref().key.span();
             let axis = read_axis(from, axis.span(), axis.into_inner())?;
             if axes.iter().any(|other| other.key == axis.key) {
@@ -138,7 +146,7 @@ impl Study {
         }
         let mut listed = Vec::new();
         let mut seen = BTreeSet::new();
-        for row in stated.rows {
+        for row in stated.rows.map(Spanned::into_inner).unwrap_or_default() {
             let span = row.span();
             let row = flat(&row.into_inner()).map_err(|problem| from.wrong(Some(span.clone()), &problem))?;
             let wrong = |problem: &str| from.wrong(Some(span.clone()), problem);
@@ -158,7 +166,10 @@ impl Study {
         let counts = [bases.len() as u64, listed.len().max(1) as u64];
         let rows = counts.into_iter().chain(of_axes).try_fold(1_u64, u64::checked_mul);
         let Some(rows) = rows.filter(|rows| *rows <= MOST_ROWS) else {
-            return Err(from.wrong(None, &format!("axis: the study has more than {MOST_ROWS} rows")));
+            return Err(from.wrong(
+                None,
+                &format!("axis: the study has more than {MOST_ROWS} rows, which is the most"),
+            ));
         };
         Ok(Self {
             name: stated.name.into_inner(),
@@ -231,8 +242,10 @@ fn statement(from: &Source<'_>) -> Result<Statement, StudyError> {
         let problem = format!("format must be \"{FORMAT}\"; found {:?}", stated.format.get_ref());
         return Err(from.wrong(Some(stated.format.span()), &problem));
     }
-    if stated.name.get_ref().trim().is_empty() {
-        return Err(from.wrong(Some(stated.name.span()), "name must not be empty"));
+    let name = stated.name.get_ref();
+    if name.trim().is_empty() || name.chars().any(char::is_control) {
+        let problem = format!("name must be a line of text; found {name:?}");
+        return Err(from.wrong(Some(stated.name.span()), &problem));
     }
     Ok(stated)
 }
@@ -308,15 +321,15 @@ fn read_axis(from: &Source<'_>, whole: Range<usize>, stated: AxisStatement) -> R
             Values::Listed(listed)
         }
         (None, Some(range), None) => {
-            let (from_value, to, count) = *range.get_ref();
-            let good = from_value.is_finite() && to.is_finite() && (to - from_value).is_finite();
-            let steps = (2..=MOST_LISTED).contains(&(count as usize)) && from_value != to;
-            let listed = spaced(from_value, to, if good && steps { count as usize } else { 0 });
+            let listed = evenly(range.get_ref());
             let distinct: BTreeSet<_> = listed.iter().map(canonical).collect();
             if listed.is_empty() || distinct.len() != listed.len() {
+                let word =
+                    |value: &toml::Value| value.as_float().map_or_else(|| value.to_string(), |v| format!("{v:?}"));
+                let found: Vec<_> = range.get_ref().iter().map(word).collect();
                 let problem = format!(
-                    "range of {key}: must be [from, to, count], two finite numbers that differ and from 2 to {MOST_LISTED} values; found \
-                     [{from_value}, {to}, {count}]"
+                    "range of {key}: must be [from, to, count], two finite numbers that differ and from 2 to {MOST_LISTED} values; found [{:.80}]",
+                    found.join(", ")
                 );
                 return Err(from.wrong(Some(range.span()), &problem));
             }
@@ -346,6 +359,23 @@ fn read_axis(from: &Source<'_>, whole: Range<usize>, stated: AxisStatement) -> R
     Ok(Axis { key, values })
 }
 
+/// The values of a range; none where it is no range.
+fn evenly(stated: &[toml::Value]) -> Vec<Value> {
+    let number = |value: &toml::Value| value.as_float().or_else(|| value.as_integer().map(|v| v as f64));
+    let [from, to, count] = stated else {
+        return Vec::new();
+    };
+    let count = count.as_integer().and_then(|count| usize::try_from(count).ok());
+    match (number(from), number(to), count) {
+        (Some(from), Some(to), Some(count))
+            if from != to && (to - from).is_finite() && (2..=MOST_LISTED).contains(&count) =>
+        {
+            spaced(from, to, count)
+        }
+        _ => Vec::new(),
+    }
+}
+
 fn check_values(from: &Source<'_>, span: Range<usize>, bases: &[Base], axis: &Axis) -> Result<(), StudyError> {
     let first = axis.value(0).into_iter().collect();
     let values = match &axis.values {
@@ -362,6 +392,9 @@ fn check_values(from: &Source<'_>, span: Range<usize>, bases: &[Base], axis: &Ax
 /// Whether every base has the key, and the key takes the value. That the texts have a place for the key is tried out with its first two values,
 /// of which one may be there already; the others are looked at by themselves, as a text is read again with every change.
 fn check_value(bases: &[Base], key: &str, value: &Value, place: usize) -> Result<(), String> {
+    if key == "job.program" && value != "certified" {
+        return Err(format!("{key}: a study plans certified jobs; found {value}"));
+    }
     let tried_out = if place < 2 { bases.len() } else { 0 };
     if let Some(base) = bases.get(tried_out) {
         Draft::check(key, value).map_err(|problem| format!("{}: {problem}", base.name))?;

@@ -48,7 +48,7 @@ pub fn summary(folder: &Path) -> Result<Summary, StudyError> {
     let mut by_axis: BTreeMap<String, BTreeMap<String, Counts>> = BTreeMap::new();
     let (mut durations, mut done) = (Vec::new(), 0);
     let mut worst: BTreeMap<Outcome, Vec<Row>> = BTreeMap::new();
-    rows(folder, |row| {
+    rows(folder, &manifest, |row| {
         done += 1;
         let code = row.outcome.code();
         *outcomes.entry(code).or_default() += 1;

@@ -14,8 +14,7 @@ fn empty(study: &Study, index: u64) -> Row {
 
 #[test]
 fn what_is_finished_is_not_written_any_more_and_a_change_is_refused() {
-    let text = "format = \"platewash-study/1\"\nname = \"p\"\nscenario = \"kitchen\"\n[[axis]]\nkey = \"seed\"\nseeds = \"1..4\"\n";
-    let study = Study::parse(text, "p.toml", Path::new("")).unwrap();
+    let study = four();
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path();
     let mut journal = Journal::open(out, &study).unwrap();
@@ -41,6 +40,9 @@ fn what_is_finished_is_not_written_any_more_and_a_change_is_refused() {
     run(&study, &mut journal, &cancel, make, |_| ()).unwrap();
     drop(journal);
     assert_eq!(state(), before);
+    fs::remove_file(out.join("timings.jsonl")).unwrap();
+    assert_eq!(Journal::open(out, &study).unwrap().done(), 4);
+    assert!(!out.join("timings.jsonl").exists());
     let mut bytes = Vec::new();
     assert_eq!(export(out, &mut bytes, Path::new("bytes")).unwrap(), 4);
 
@@ -73,6 +75,112 @@ fn what_is_finished_is_not_written_any_more_and_a_change_is_refused() {
     )
     .unwrap();
     assert_eq!(export(out, &mut bytes, Path::new("bytes")).unwrap(), 4);
+}
+
+fn four() -> Study {
+    let text = "format = \"platewash-study/1\"\nname = \"p\"\nscenario = \"kitchen\"\n[[axis]]\nkey = \"seed\"\nseeds = \"1..4\"\n";
+    Study::parse(text, "p.toml", Path::new("")).unwrap()
+}
+
+/// An editor that saves, or a copy that comes back.
+#[test]
+fn rows_that_somebody_takes_away_meanwhile_are_missed_and_made_again() {
+    let (study, folder) = (four(), tempfile::tempdir().unwrap());
+    let out = folder.path();
+    let mut journal = Journal::open(out, &study).unwrap();
+    for index in 0..4 {
+        journal.append(&empty(&study, index).into(), Duration::ZERO).unwrap();
+        if index == 1 {
+            let [rows, copy] = ["rows.jsonl", "copy"].map(|name| out.join(name));
+            fs::copy(&rows, &copy).unwrap();
+            fs::rename(&copy, &rows).unwrap();
+        }
+    }
+    let error = journal.finish().unwrap_err().to_string();
+    assert!(
+        error.contains("rows.jsonl: has 2 rows, though 4 were written"),
+        "{error}"
+    );
+    assert_eq!(read_manifest(out).unwrap().rows_sha256, None);
+    drop(journal);
+    let mut journal = Journal::open(out, &study).unwrap();
+    assert_eq!(journal.missing(&study).collect::<Vec<_>>(), [2, 3]);
+    for index in [2, 3] {
+        journal.append(&empty(&study, index).into(), Duration::ZERO).unwrap();
+    }
+    assert!(journal.finish().unwrap());
+    assert_eq!(export(out, &mut Vec::new(), Path::new("bytes")).unwrap(), 4);
+}
+
+#[test]
+fn files_of_another_origin_are_not_written_over() {
+    let study = four();
+    for name in ["study.toml", "study.json", "rows.jsonl", "timings.jsonl"] {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join(name), "mine\n").unwrap();
+        let error = Journal::open(folder.path(), &study).err().unwrap().to_string();
+        assert!(error.contains(name) && error.contains("give another folder"), "{error}");
+        assert_eq!(fs::read_to_string(folder.path().join(name)).unwrap(), "mine\n");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+    // Whoever was ended at the very beginning has left its own.
+    let folder = tempfile::tempdir().unwrap();
+    drop(Journal::open(folder.path(), &study).unwrap());
+    for gone in ["manifest.json", "study.json"] {
+        fs::remove_file(folder.path().join(gone)).unwrap();
+        assert_eq!(Journal::open(folder.path(), &study).unwrap().done(), 0);
+        assert!(folder.path().join(gone).is_file());
+    }
+}
+
+#[test]
+fn rows_under_way_that_are_not_as_they_were_written_are_refused_by_whoever_reads() {
+    let (study, folder) = (four(), tempfile::tempdir().unwrap());
+    let out = folder.path();
+    let mut journal = Journal::open(out, &study).unwrap();
+    for index in 0..2 {
+        journal.append(&empty(&study, index).into(), Duration::ZERO).unwrap();
+    }
+    drop(journal);
+    let path = out.join("rows.jsonl");
+    let kept = fs::read_to_string(&path).unwrap();
+    let first = kept.lines().next().unwrap();
+    let anyone: [(String, &str); 5] = [
+        (kept.replace('\n', "\r\n"), "line 1: row 0 is not as it was written"),
+        (
+            kept.replacen("\"index\":1", "\"index\": 1", 1),
+            "line 2: row 1 is not as it was written",
+        ),
+        (
+            kept.replacen("\"schema\":1", "\"schema\":2", 1),
+            "line 1: is a row of schema 2",
+        ),
+        (
+            kept.replacen("\"index\":1", "\"index\":4", 1),
+            "line 2: row 4 is none of 4",
+        ),
+        (format!("{kept}{first}\n"), "line 3: row 0 is there before"),
+    ];
+    let only_the_study: [(String, &str); 2] = [
+        (kept.replacen("\"seed\":2", "\"seed\":3", 1), "line 2: row 1"),
+        (
+            kept.replacen("\"scenario\":\"kitchen\"", "\"scenario\":\"sink\"", 1),
+            "line 1: row 0",
+        ),
+    ];
+    for (place, (changed, words)) in anyone.iter().chain(&only_the_study).enumerate() {
+        assert_ne!(*changed, kept);
+        fs::write(&path, changed).unwrap();
+        let mut errors = vec![Journal::open(out, &study).err()];
+        if place < anyone.len() {
+            errors.extend([summary(out).err(), export(out, &mut Vec::new(), Path::new("b")).err()]);
+        }
+        for error in errors {
+            let error = error.unwrap().to_string();
+            assert!(error.contains("rows.jsonl: ") && error.contains(words), "{error}");
+        }
+        assert_eq!(fs::read_to_string(&path).unwrap(), *changed);
+    }
 }
 
 #[test]

@@ -98,7 +98,7 @@ class StudyRows:
         row = self.row(index)
         file = self.folder / "plans" / f"{row['index']}.json"
         if not file.is_file():
-            why = "it has none" if row.get("plan") is None else "the study does not keep it"
+            why = "it has none" if row.get("plan") is None else "the study does not keep it, or it was taken away"
             raise NoKeyError(f"index: there is no plan of row {row['index']} in {file.parent}: {why}", argument="index")
         return _core.Plan.load(file)
 
@@ -117,7 +117,7 @@ class StudyRows:
         Raises StudyError; FileError where the file cannot be written.
         """
         place = self._ready(path, partial)
-        _free(place, as_folder=False)
+        _free(place, self.folder, as_folder=False)
         try:
             with staged(place) as beside:
                 with open(beside, "xb") as out:
@@ -155,7 +155,7 @@ class StudyRows:
         place = self._ready(path, partial)
         parquet.imported()
         as_folder = place.suffix != ".parquet"
-        _free(place, as_folder)
+        _free(place, self.folder, as_folder)
         of = self._columns(with_timings)
         try:
             with staged(place, as_folder=as_folder) as beside:
@@ -213,9 +213,11 @@ class StudyRows:
             yield row
 
 
-def _free(place: Path, as_folder: bool) -> None:
-    """Raises FileError for a place that a file, or a folder, cannot take."""
+def _free(place: Path, kept: Path, as_folder: bool) -> None:
+    """Raises FileError for a place that a file, or a folder, cannot take; in the study's folder there is none."""
     try:
+        if kept.resolve() in place.resolve().parents:
+            raise FileExistsError(errno.EEXIST, "it is in the study's folder, which is kept as it is")
         taken = place.exists() and (not place.is_dir() or next(place.iterdir(), None) is not None) if as_folder else place.is_dir()
     except (OSError, ValueError) as error:
         raise refused(place, "cannot be written", error) from error

@@ -15,6 +15,7 @@ use crate::notes::warn;
 use crate::tool::ToolFields;
 use numpy::PyArrayDyn;
 use platewash::Scenario;
+use platewash::kinematics::urdf::Files;
 use platewash::scenario::UnitNote;
 use platewash::{Axes, Frame, IkSolver, RobotModel, ToolFrame};
 use pyo3::prelude::*;
@@ -165,7 +166,7 @@ impl Robot {
         let urdf = argument::path("urdf", urdf)?;
         let srdf = srdf.map(|srdf| argument::path("srdf", srdf)).transpose()?;
         let package_path = argument::paths("package_path", package_path)?;
-        let source = Source::files(py, &urdf, srdf.as_deref(), package_path)?;
+        let source = Source::files(py, &urdf, srdf.as_deref(), package_path, &Files::default())?;
         let model = Arc::new(source.load(py)?);
         warn(py, UnitNote::of_arm(&model).as_slice())?;
         Ok(Self::new(model, source))

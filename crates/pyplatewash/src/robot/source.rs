@@ -5,7 +5,7 @@ use platewash::RobotModel;
 use platewash::Scenario;
 use platewash::kinematics::DisabledPairs;
 use platewash::kinematics::irb120::{IRB120_SRDF, IRB120_URDF};
-use platewash::kinematics::urdf::{MAX_BYTES, MeshSource, file};
+use platewash::kinematics::urdf::{Files, MAX_BYTES, MeshSource};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use std::path::{Path, PathBuf};
@@ -43,9 +43,17 @@ impl Source {
     ///
     /// # Errors
     /// `UrdfError` for a file that cannot be read.
-    pub fn files(py: Python<'_>, urdf: &Path, srdf: Option<&Path>, package_path: Vec<PathBuf>) -> PyResult<Self> {
+    pub fn files(
+        py: Python<'_>,
+        urdf: &Path,
+        srdf: Option<&Path>,
+        package_path: Vec<PathBuf>,
+        files: &Files,
+    ) -> PyResult<Self> {
         let read = |path: &Path| {
-            file::read_text(path, MAX_BYTES as u64).map_err(|e| errors::unread(py, FileOf::Urdf, path, &e))
+            files
+                .read_text(path, MAX_BYTES as u64)
+                .map_err(|e| errors::unread(py, FileOf::Urdf, path, &e))
         };
         // A path without folder is in the working folder, which may be another one when the arm is restored.
         let folder = std::path::absolute(urdf)
@@ -67,7 +75,10 @@ impl Source {
         let section = &scenario.robot;
         match &section.urdf {
             None => Ok(Self::BuiltIn),
-            Some(urdf) => Self::files(py, urdf, section.srdf.as_deref(), section.package_path.clone()),
+            Some(urdf) => {
+                let srdf = section.srdf.as_deref();
+                Self::files(py, urdf, srdf, section.package_path.clone(), &scenario.files)
+            }
         }
     }
 
