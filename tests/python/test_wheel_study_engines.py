@@ -100,6 +100,15 @@ def test_an_engine_that_is_not_installed_is_named(study: pw.Study, tmp_path: Pat
     assert study.run(tmp_path / "out", progress=False).finished  # The folder was let go.
 
 
+def test_a_dask_cluster_that_does_not_begin_is_told(study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def unguarded(**_: Any) -> None:
+        raise RuntimeError("Nanny failed to start.")
+
+    monkeypatch.setattr(importlib.import_module("distributed"), "LocalCluster", unguarded)
+    with pytest.raises(pw.EngineError, match="no Dask cluster begins on this machine: Nanny failed to start.; .* if __name__ == '__main__':"):
+        study.run(tmp_path / "out", engine="dask", workers=1, progress=False)
+
+
 def test_workers_of_another_version_are_refused(study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(runs, "__version__", "0.0.0")
     with pytest.raises(pw.EngineError, match=r"a worker has pyplatewash .*, and the study was sent by 0\.0\.0"):
@@ -117,6 +126,8 @@ def test_what_does_not_go_together_is_refused(study: pw.Study, tmp_path: Path) -
     wrong: list[tuple[dict[str, Any], str]] = [
         ({"address": "tcp://nowhere:1"}, "address: is of a cluster"),
         ({"engine": "dask", "client": 3}, "client: a distributed.Client is needed"),
+        ({"engine": "dask", "address": ""}, "address: the address of a cluster is needed; found ''"),
+        ({"engine": "ray", "address": " "}, "address: the address of a cluster is needed; found ' '"),
         ({"progress": 3}, "progress: True, False or a function"),
         ({"workers": 0}, "workers: an integer from 1"),
         ({"engine": "mpi"}, "engine: "),

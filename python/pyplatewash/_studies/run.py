@@ -74,6 +74,8 @@ def _check(engine: str, client: Any, address: str | None, progress: Any) -> None
         raise InputTypeError(f"progress: True, False or a function is needed; found a value of type {type(progress).__name__}", argument="progress")
     if address is not None and engine not in ("dask", "ray"):
         raise InputError(f"address: is of a cluster, and engine '{engine}' has none", argument="address")
+    if address is not None and not address.strip():
+        raise InputError(f"address: the address of a cluster is needed; found {address!r}", argument="address")
     if client is None:
         return
     if not hasattr(client, "submit") or not hasattr(client, "nthreads"):

@@ -11,6 +11,8 @@ from .contract import Died
 from .worker import Kit, Made, Share, stop, work
 
 MISSING = "engine 'dask' needs distributed, which is not installed: pip install 'pyplatewash[dask]'"
+#: What keeps a program from its own workers, which import it.
+GUARD = "a program that calls this states what it does below: if __name__ == '__main__':"
 #: Time between two questions of how many workers there are [s].
 LOOK_S = 2.0
 
@@ -43,7 +45,10 @@ class Dask:
         self._cluster: Any = None
         self._is_own = client is None
         if client is None and address is None:
-            self._cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
+            try:
+                self._cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
+            except (OSError, RuntimeError) as error:
+                raise EngineError(f"no Dask cluster begins on this machine: {error}; {GUARD}") from error
         try:
             self._client: Any = client or distributed.Client(address or self._cluster)
         except (OSError, ValueError) as error:
