@@ -63,7 +63,7 @@ class Record(Mapping[str, Any]):
     def _repr_html_(self) -> str:
         from ._tables import record
 
-        return record(self)
+        return record(self, None if self._text is None else str(self._text))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (Record, (self._data, self._text))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -13,10 +13,6 @@ from ._errors import PlatewashError
 from ._figures.subject import Subject
 from ._values import Floats, Rings, WashCurve
 from ._words import percent
-
-if TYPE_CHECKING:
-    from ._records import Record
-    from ._studies.rows import StudyRows
 
 #: Most characters of a text and most lines of a table.
 MOST_CHARACTERS, MOST_LINES = 400, 60
@@ -153,21 +149,19 @@ def robot(of: _core.Robot) -> str:
     return page(f"Robot: {of.name}", [table(rows, ("joint", "position", "speed", "torque"))])
 
 
-def study_rows(of: StudyRows) -> str:
+def study_rows(title: str, outcomes: Mapping[str, int], by_axis: Mapping[str, Mapping[str, Mapping[str, int]]]) -> str:
     """How many rows ended how, in all and by the values of axes."""
-    told = of.summary()
-    codes = list(told.outcomes)
-    parts = [table([("all", *(told.outcomes[code] for code in codes))], ("rows", *codes))]
-    for key, values in told.by_axis.to_dict().items():
+    codes = list(outcomes)
+    parts = [table([("all", *outcomes.values())], ("rows", *codes))]
+    for key, values in by_axis.items():
         parts.append(table([(value, *(counts.get(code, 0) for code in codes)) for value, counts in values.items()], (key, *codes)))
-    return page(f"Study {of.manifest.get('name', '')}: {of.done} of {of.rows} rows", parts)
+    return page(title, parts)
 
 
-def record(of: Record) -> str:
+def record(of: Mapping[str, object], text: str | None) -> str:
     """A report as its text; any other record as its keys and values."""
-    text = of._text
     if text is not None:
-        return f'<pre style="white-space:pre-wrap">{html.escape(str(text))}</pre>'
+        return f'<pre style="white-space:pre-wrap">{html.escape(text)}</pre>'
     return str(table((key, _brief(value)) for key, value in of.items()))
 
 

@@ -79,7 +79,8 @@ class StudyRows:
     def _repr_html_(self) -> str:
         from .._tables import study_rows
 
-        return study_rows(self)
+        told = self.summary().to_dict()
+        return study_rows(f"Study {self.manifest['name']}: {told['done']} of {told['rows']} rows", told["outcomes"], told["by_axis"])
 
     def row(self, index: int) -> dict[str, Any]:
         """A row by its index, from 0. Raises InputError for one that the study has not, NoKeyError for one that is not done."""

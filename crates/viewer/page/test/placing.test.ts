@@ -1,9 +1,8 @@
 /** Places as changes of the scenario: one list, a section each, not at all. */
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Centre } from "../src/edit/cell.ts";
 import type { PlateMoves } from "../src/edit/protocol.ts";
-import { placing, putting, together, unmoved } from "../src/edit/placing.ts";
+import { placing, putting, together, unmoved, type Centre } from "../src/edit/placing.ts";
 import { CELL, newCell, PLAN, PROOF, written } from "./fake-cell.ts";
 
 /** The first plate has two faces, 20 mm apart along x. */

@@ -1,7 +1,8 @@
 /** The panel of the cell: what can be done with it, and its plates. */
 import { button, el, isolated } from "../shell/dom.ts";
-import type { Cell, Centre } from "./cell.ts";
+import type { Cell } from "./cell.ts";
 import type { Selected } from "./moves.ts";
+import type { Centre } from "./placing.ts";
 import { plateState } from "./plate-state.ts";
 import { Rows, type RowActions } from "./rows.ts";
 

@@ -3,13 +3,11 @@ import type { Answers } from "./answers.ts";
 import { Asker, type AskerSettings } from "./asker.ts";
 import { History, type Step } from "./history.ts";
 import type { Asked } from "./lane.ts";
-import { placing, putting, together, unmoved, type Put } from "./placing.ts";
+import { placing, putting, together, unmoved, type Centre, type Put } from "./placing.ts";
 import type { Seen } from "./seen.ts";
 import { standing, type Activity, type Standing } from "./standing.ts";
 import type { Timing } from "./timings.ts";
 import { changed, sameVersion, type Edit, type Version } from "./version.ts";
-
-export type Centre = [number, number];
 
 /** Changes of one thing that follow each other within this are one step [ms]. */
 export const BURST_MS = 1000;
@@ -94,6 +92,13 @@ export class Cell {
   /** The body that was put somewhere else than it is drawn; null for none. */
   get put(): Put | null {
     return this.#put;
+  }
+
+  /** Where a body is that stands around [m]; null where that is not known. */
+  bodyAt(body: number): Centre | null {
+    if (this.#put?.body === body) return this.#put.centre_m;
+    const [x, y] = this.seen.drawn?.moves?.bodies[body]?.at_m ?? [];
+    return x === undefined || y === undefined ? null : [x, y];
   }
 
   /** Why so many plates cannot be where hands would put them; null where they can. */

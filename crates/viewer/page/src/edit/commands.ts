@@ -1,9 +1,9 @@
 /** What hands, keys and buttons do to the plates of a live cell. */
 import { announce } from "../shell/announcer.ts";
 import type { View } from "../view.ts";
-import type { Cell, Centre } from "./cell.ts";
+import type { Cell } from "./cell.ts";
 import { onFloor, plateIndices, roomFor, shifted, turned, type Selected } from "./moves.ts";
-import { bodyAt } from "./placing.ts";
+import type { Centre } from "./placing.ts";
 import type { EditedScene, Hands, Phase } from "./scene.ts";
 
 export class Commands implements Hands {
@@ -121,7 +121,7 @@ export class Commands implements Hands {
   }
 
   #shiftBody(body: number, [dx_m, dy_m]: Centre): void {
-    const at = bodyAt(this.#cell, body);
+    const at = this.#cell.bodyAt(body);
     if (at === null) return;
     const [centre_m] = shifted([at], [0], dx_m, dy_m);
     this.#cell.placeBody({ body, centre_m: centre_m! }, `Move ${this.#nameOf(body)}`, `move body ${body}`);

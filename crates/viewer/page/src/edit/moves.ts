@@ -1,5 +1,5 @@
 /** Where plates go when they are shifted, turned, added. */
-import type { Centre } from "./cell.ts";
+import type { Centre } from "./placing.ts";
 
 /** Digits that are kept of a place [m]: a micrometre. */
 const PLACE = 1e6;

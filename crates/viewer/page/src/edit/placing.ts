@@ -1,7 +1,9 @@
 /** Places of plates and of what stands around, as changes of the scenario. */
-import type { Cell, Centre } from "./cell.ts";
 import type { BodyMove, PlateMoves } from "./protocol.ts";
 import type { Edit } from "./version.ts";
+
+/** Of a plate or a body, seen from above [m]. */
+export type Centre = [number, number];
 
 export const POSITIONS = "layout.positions_m";
 
@@ -50,12 +52,4 @@ export interface Put {
 /** The change that puts a body there; none for one that is not moved. */
 export function putting(move: BodyMove | undefined, [x, y]: Centre): Edit[] {
   return move === undefined || move.key === null ? [] : [{ key: move.key, value: [x, y, ...move.at_m.slice(2)] }];
-}
-
-/** Where a body is that stands around [m]; null where that is not known. */
-export function bodyAt(cell: Cell, body: number): Centre | null {
-  const put = cell.put;
-  if (put?.body === body) return put.centre_m;
-  const [x, y] = cell.seen.drawn?.moves?.bodies[body]?.at_m ?? [];
-  return x === undefined || y === undefined ? null : [x, y];
 }

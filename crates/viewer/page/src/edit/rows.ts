@@ -3,9 +3,9 @@ import { millimetres } from "../format.ts";
 import { button, el, isolated, TextCell } from "../shell/dom.ts";
 import { icon, toneIcon } from "../shell/icons.ts";
 import type { Tone } from "../verdict.ts";
-import type { Centre } from "./cell.ts";
 import { numberText, readNumber } from "./domain.ts";
 import type { Selected } from "./moves.ts";
+import type { Centre } from "./placing.ts";
 import type { PlateState } from "./plate-state.ts";
 
 export interface RowActions {

@@ -1,6 +1,6 @@
 /** What a live cell asks of the scene. Where there is no scene, all of it is done to nothing. */
-import type { Centre } from "./cell.ts";
 import type { Selected } from "./moves.ts";
+import type { Centre } from "./placing.ts";
 import type { Chance } from "./protocol.ts";
 
 export type Phase = "start" | "drag" | "end" | "cancel";

@@ -1,7 +1,8 @@
 /** Brings the scene up to what is known of the cell: every call changes only what is different. */
 import type { View } from "../view.ts";
 import type { Answers, CellDrawn, PlanLine, ProofLine } from "./answers.ts";
-import type { Cell, Centre } from "./cell.ts";
+import type { Cell } from "./cell.ts";
+import type { Centre } from "./placing.ts";
 import type { EditedScene } from "./scene.ts";
 import { ViewMaker } from "./view.ts";
 
