@@ -80,7 +80,7 @@ class StudyRows:
         from .._tables import study_rows
 
         told = self.summary().to_dict()
-        return study_rows(f"Study {self.manifest['name']}: {told['done']} of {told['rows']} rows", told["outcomes"], told["by_axis"])
+        return study_rows(f"Study {self.manifest['name']}: {told['done']} of {self.rows} rows", told["outcomes"], told["by_axis"])
 
     def row(self, index: int) -> dict[str, Any]:
         """A row by its index, from 0. Raises InputError for one that the study has not, NoKeyError for one that is not done."""
