@@ -57,6 +57,7 @@ def draw(rows, to):
     import pyplatewash as pw
 
     read = pw.StudyRows(rows)
+    to.mkdir(parents=True, exist_ok=True)
     for name, (value, by) in MAPS.items():
         axes = read.map(PLACE, value, by=by, region="kitchen")
         axes[0].figure.savefig(to / name, dpi=80, metadata={"Software": None})

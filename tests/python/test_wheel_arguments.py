@@ -147,7 +147,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     Path("arm.urdf").write_text(ROBOT.urdf)
     Path("arm.srdf").write_text(ROBOT.srdf or "")
     PLAN.save("plan.json")
-    row = study_folders.row(0, KEPT.row(0).axes, key=KEPT.row(0).key)
+    row = study_folders.row(0, KEPT.row(0).axes, key=KEPT.row(0).key, plan=PLAN.hash)
     journal = _core.StudyJournal("study", KEPT)
     journal.append(study_folders.line(row).strip(), 0.1, PLAN.to_json().encode())
     journal.close()

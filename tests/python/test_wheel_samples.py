@@ -76,6 +76,10 @@ def test_lists_alone_are_drawn_without_one_row_twice(method: Any) -> None:
         pw.samples({"a": [1, 2, 3], "b": ["x", "y"]}, 7, method)
 
 
+#: A list that is within itself.
+NESTED: list[Any] = []
+NESTED.append(NESTED)
+
 BAD: list[tuple[Any, dict[str, Any], str]] = [
     ({}, {}, "ranges: at least one key is needed"),
     ({"a": 3}, {}, r"ranges\['a'\]: \(least, greatest\), a list of values.* found 3 \(int\)"),
@@ -90,6 +94,8 @@ BAD: list[tuple[Any, dict[str, Any], str]] = [
     ({"a": []}, {}, r"ranges\['a'\]: at least one value is needed"),
     ({"a": [1, 2, 1]}, {}, r"ranges\['a'\]: different values are needed; 1 is there twice"),
     ({"a": [1, math.inf]}, {}, r"ranges\['a'\]\[1\]: a finite number is needed"),
+    ({"a": range(10**30)}, {}, r"ranges\['a'\]: integers up to 9007199254740991 are needed; found range\(0, 1000"),
+    ({"a": [NESTED]}, {}, r"ranges\['a'\]\[0\](\[0\]){10}: lists are needed that are at most 10 deep in each other"),
     ({"a": [None]}, {}, r"ranges\['a'\]\[0\]: a number, a text, True, False or a list of them is needed"),
     ({3: (0, 1)}, {}, "ranges: keys of scenarios are needed; found 3"),
     ({"a": (0, 1)}, {"log": ["a"]}, r"ranges\['a'\]: numbers above 0 are needed for a key in log"),
@@ -107,6 +113,14 @@ BAD: list[tuple[Any, dict[str, Any], str]] = [
 def test_what_can_be_no_range_is_named(ranges: Any, others: dict[str, Any], words: str) -> None:
     with pytest.raises((pw.InputError, pw.InputTypeError), match=words):
         pw.samples(ranges, **{"count": 2, **others})
+
+
+@pytest.mark.parametrize("method", ["sobol", "latin_hypercube", "random"])
+def test_a_range_may_be_as_wide_as_numbers_are(method: Any) -> None:
+    ends = (5e-324, sys.float_info.max)
+    drawn = [row["a"] for row in pw.samples({"a": ends}, 256, method, log=["a"])]
+    assert all(ends[0] <= value <= ends[1] for value in drawn) and len(set(drawn)) == 256
+    assert sum(value < 1e-7 for value in drawn) == pytest.approx(128, abs=30)  # The middle, by the logarithm, is about 3e-8.
 
 
 def test_without_scipy_the_message_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:

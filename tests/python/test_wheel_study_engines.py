@@ -5,6 +5,7 @@ import json
 import os
 import random
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -91,6 +92,62 @@ def test_a_dask_cluster_that_is_there_is_used_and_stays(by: str, study: pw.Study
     assert exported(tmp_path / "out") == exported(by_threads)
 
 
+@pytest.mark.parametrize("moment", ["before", "meanwhile"])
+def test_a_dask_cluster_that_goes_away_is_told(moment: str, study: pw.Study, tmp_path: Path) -> None:
+    distributed: Any = importlib.import_module("distributed")
+    cluster = distributed.LocalCluster(processes=False, n_workers=1, threads_per_worker=1, dashboard_address=None)
+    client = distributed.Client(cluster)
+
+    def told(done: int, of: int) -> None:
+        if done == 1:
+            client.close()
+
+    if moment == "before":
+        client.close()
+    try:
+        with pytest.raises(pw.EngineError, match="the Dask cluster does not answer any more: "):
+            study.run(tmp_path / "out", engine="dask", client=client, progress=told)
+    finally:
+        client.close()
+        cluster.close()
+    assert study.run(tmp_path / "out", progress=False).finished  # The folder was let go.
+
+
+@pytest.mark.parametrize("moment", ["before", "meanwhile"])
+def test_a_ray_cluster_that_goes_away_is_told(moment: str, study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    ray: Any = importlib.import_module("ray")
+    monkeypatch.setattr(driven, "LAST_S", 0.5)
+    if moment == "before":
+        # Whoever has a session may end it at any time.
+        monkeypatch.setattr(ray, "is_initialized", lambda: True)
+    with pytest.raises(pw.EngineError, match="the Ray cluster does not answer any more: "):
+        study.run(tmp_path / "out", engine="ray", progress=lambda done, of: ray.shutdown())
+    assert study.run(tmp_path / "out", progress=False).finished  # The folder was let go.
+
+
+def test_an_address_where_nobody_answers_is_told_soon(study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))  # Nobody listens.
+        port = taken.getsockname()[1]
+        for address in (f"127.0.0.1:{port}", f"ray://127.0.0.1:{port}"):
+            with pytest.raises(pw.EngineError, match=f"address: no Ray cluster answers at '{address}': .*refused"):
+                study.run(tmp_path / "out", engine="ray", address=address, progress=False)
+        monkeypatch.setenv("RAY_ADDRESS", f"127.0.0.1:{port}")
+        with pytest.raises(pw.EngineError, match=f"address: no Ray cluster answers at '127.0.0.1:{port}': .*refused"):
+            study.run(tmp_path / "out", engine="ray", progress=False)
+        with pytest.raises(pw.InputError, match="workers: is for workers that are begun here"):
+            study.run(tmp_path / "out", engine="ray", workers=2, progress=False)
+    with pytest.raises(pw.EngineError, match="address: no Ray cluster answers at 'here:there': "):
+        study.run(tmp_path / "out", engine="ray", address="here:there", progress=False)
+
+
+@pytest.mark.parametrize("given", [{"address": "127.0.0.1:6379"}, {"workers": 2}])
+def test_what_a_ray_session_that_is_there_does_not_heed_is_refused(given: dict[str, Any], study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(importlib.import_module("ray"), "is_initialized", lambda: True)
+    with pytest.raises(pw.InputError, match=f"{next(iter(given))}: this process has a Ray session already"):
+        study.run(tmp_path / "out", engine="ray", progress=False, **given)
+
+
 def test_an_engine_that_is_not_installed_is_named(study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for engine, package in (("dask", "distributed"), ("ray", "ray")):
         monkeypatch.setitem(sys.modules, package, None)
@@ -128,6 +185,8 @@ def test_what_does_not_go_together_is_refused(study: pw.Study, tmp_path: Path) -
         ({"engine": "dask", "client": 3}, "client: a distributed.Client is needed"),
         ({"engine": "dask", "address": ""}, "address: the address of a cluster is needed; found ''"),
         ({"engine": "ray", "address": " "}, "address: the address of a cluster is needed; found ' '"),
+        ({"engine": "dask", "address": "tcp://127.0.0.1:1", "workers": 2}, "workers: is for workers that are begun here; a cluster that is there"),
+        ({"engine": "ray", "address": "127.0.0.1:1", "workers": 2}, "workers: is for workers that are begun here; a cluster that is there"),
         ({"progress": 3}, "progress: True, False or a function"),
         ({"workers": 0}, "workers: an integer from 1"),
         ({"engine": "mpi"}, "engine: "),
@@ -136,6 +195,32 @@ def test_what_does_not_go_together_is_refused(study: pw.Study, tmp_path: Path) -
         with pytest.raises(pw.PlatewashError, match=words):
             study.run(tmp_path / "none", **arguments)
     assert not (tmp_path / "none").exists()
+
+
+def test_values_that_have_no_order_or_no_end_are_refused() -> None:
+    wrong: list[tuple[Any, str]] = [
+        ({"tool.length_m": {0.1, 0.2}}, r"axes\[tool.length_m\]: a list of values is needed; found a value of type (set|dict)"),
+        ({"tool.length_m": frozenset({0.1})}, r"axes\[tool.length_m\]: a list of values is needed; found a value of type frozenset"),
+        ({"tool.length_m": {0.1: 1}}, r"axes\[tool.length_m\]: a list of values is needed; found a value of type (set|dict)"),
+        ({"seed": range(10**30)}, r"axes\[seed\]: a range of seeds up to 2⁵³ − 1 is needed; found a value of type range"),
+        ({"seed": range(0, 10**30, 2)}, r"axes\[seed\]: a range of seeds"),
+        ({"seed": range(2**60, 2**60 + 2)}, "seeds: .*9007199254740991"),
+        ({"seed": range(-3, 3)}, "seeds: must be"),
+    ]
+    for axes, words in wrong:
+        with pytest.raises(pw.PlatewashError, match=words):
+            pw.Study("kitchen", axes)
+
+
+def test_an_empty_path_is_not_the_working_folder(study: pw.Study) -> None:
+    for call in (study.run, pw.StudyRows, pw.Study.load):
+        with pytest.raises(pw.InputError, match=r"(out|folder|path): a path is needed; found ''"):
+            call("")
+
+
+@pytest.mark.parametrize("engine", ["threads", "processes"])
+def test_no_more_workers_begin_than_there_are_rows(engine: Any, study: pw.Study, tmp_path: Path) -> None:
+    assert study.run(tmp_path / "out", engine=engine, workers=65536, progress=False).finished
 
 
 @pytest.mark.parametrize("engine", ["processes", "dask", "ray"])
@@ -273,6 +358,22 @@ def test_a_fault_keeps_what_was_made(tmp_path: Path) -> None:
     with pytest.raises(pw.EngineError, match="gone"):
         driven.drive(Fake(study, fate), journal, 500, lambda done, of: None)
     assert 0 < journal.done < 500
+
+
+def test_a_cluster_without_workers_is_waited_for_and_that_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(driven, "LACKING_S", 0.5)
+    study = pw.Study("kitchen", {"seed": range(1, 4)})
+    come = threading.Event()
+
+    def fate(share: Share) -> list[int]:
+        come.wait(20.0)
+        return list(share.indices)
+
+    journal = _core.StudyJournal(tmp_path, study)
+    threading.Timer(2.0, come.set).start()
+    with pytest.warns(RuntimeWarning, match="study: the cluster has no workers; they are waited for") as said:
+        driven.drive(Fake(study, fate, slots=0), journal, 3, lambda done, of: None)
+    assert len(said) == 1 and journal.done == 3
 
 
 def test_shares_grow_with_what_rows_take_and_shrink_towards_the_end() -> None:

@@ -109,7 +109,8 @@ def test_a_study_under_way_is_read_up_to_its_last_whole_line(tmp_path: Path) -> 
     assert rows.done == 2 and [one["index"] for one in rows] == [0, 2]  # As they were.
     assert [one["index"] for one in pw.StudyRows(rows.folder)] == [0, 1, 2, 3]
     none = pw.StudyRows(folder(tmp_path / "none", AXES, (), 7))
-    assert list(none) == [] and none.to_frame().shape == (0, len(rows.to_frame().columns) - 2)  # Nobody knows of how many parts a place is.
+    assert list(none) == [] and len(none.to_frame()) == 0
+    assert none.to_frame().dtypes.to_dict() == rows.to_frame().dtypes.to_dict()
 
 
 DAMAGED = {
@@ -125,6 +126,9 @@ DAMAGED = {
     line(mixed()[1] | {"clearance_m": "1"}): "is no row: clearance_m must be a number or null; found '1'",
     line(mixed()[1] | {"place": {"point_m": [1, "2", 3]}}): r"is no row: place.point_m must be three numbers or null; found \[1, '2', 3\]",
     line(mixed()[1] | {"place": {"plate": 0.5}}): "is no row: place.plate must be an integer or null; found 0.5",
+    line(mixed()[1] | {"axes": {"seed": 1}}): r"is no row: axes must be plate\[0\].at_m, robot.model, tool.length_m; found seed",
+    line(mixed()[1] | {"axes": mixed()[1]["axes"] | {"tool.length_m": "long"}}): "is no row: axes: tool.length_m is of other values in the manifest, of kind number; found 'long'",
+    line(mixed()[1] | {"axes": mixed()[1]["axes"] | {"plate[0].at_m": [0, 1]}}): r"is no row: axes: plate\[0\].at_m is of other values",
     line(mixed()[1] | {"clearance_pair": ["a"]}): r"is no row: clearance_pair must be two texts or null; found \['a'\]",
     b"\xff\xfe\n": "is no row",
 }
@@ -166,6 +170,9 @@ def test_what_is_no_studys_folder_is_refused(tmp_path: Path) -> None:
         ({"row_schema": 2}, "row_schema must be 1; found 2"),
         ({"rows": True}, "rows must be an integer from 1"),
         ({"axes": [{}]}, "axes must be a list, each with its key"),
+        ({"axes": 2 * [{"key": "seed", "count": 7, "kind": "whole"}]}, "axes must be a list of different ones; found one twice"),
+        ({"axes": [{"key": "seed", "count": 7, "kind": "odd"}]}, "axes: the kind of seed must be one that docs/studies.md names; found 'odd'"),
+        ({"axes": [{"key": "seed", "count": 7, "kind": {"numbers": 0}}]}, "axes: the kind of seed must be"),
     ]
     for place, (changed, words) in enumerate(wrong):
         with pytest.raises(pw.StudyError, match=words):
@@ -246,7 +253,8 @@ def test_axes_of_every_kind_have_columns(tmp_path: Path) -> None:
         {"seed": 1, "wash.contact": True, "wash.turns": 3, "wash.pattern": "rings", "layout.plate_knots": [[0.1, 10]], "wash.contact_force_n": [1, 40], "robot.home_deg": "a"},
         {"seed": 2**53 - 1, "wash.contact": False, "wash.turns": 2.5, "wash.pattern": "ß", "layout.plate_knots": [[0.1, 9], [1, 2]], "wash.contact_force_n": [0.5, 1], "robot.home_deg": [0]},
     ]
-    rows = pw.StudyRows(folder(tmp_path / "s", several[0], [row(k, axes) for k, axes in enumerate(several)], 2))
+    kinds = ["whole", "flag", "number", "text", "json", {"numbers": 2}, "json"]
+    rows = pw.StudyRows(folder(tmp_path / "s", dict(zip(several[0], kinds, strict=True)), [row(k, axes) for k, axes in enumerate(several)], 2))
     frame = rows.to_frame()
     assert frame["seed"].tolist() == [1, 2**53 - 1] and str(frame["seed"].dtype) == "Int64"
     assert frame["wash.contact"].tolist() == [True, False] and frame["wash.turns"].tolist() == [3.0, 2.5]
@@ -341,12 +349,33 @@ def test_rows_that_were_changed_since_are_no_evidence(tmp_path: Path) -> None:
     rows = pw.StudyRows(folder(tmp_path / "good", AXES, reversed(mixed()), 7, rows_sha256=sha256))
     rows.export(tmp_path / "good.jsonl")
     rows.to_parquet(tmp_path / "good.parquet")
+    refused = f"the rows were changed since the study was finished: .* states {sha256}"
     changed = [*mixed()[:6], mixed()[6] | {"coverage": 1.0}]
-    rows = pw.StudyRows(folder(tmp_path / "bad", AXES, changed, 7, rows_sha256=sha256))
-    for write, name in ((rows.export, "bad.jsonl"), (rows.to_parquet, "bad.parquet")):
-        with pytest.raises(pw.StudyError, match=f"the rows were changed since the study was finished: .* states {sha256}"):
+    with pytest.raises(pw.StudyError, match=refused):
+        pw.StudyRows(folder(tmp_path / "bad", AXES, changed, 7, rows_sha256=sha256))
+    (rows.folder / "rows.jsonl").write_bytes((tmp_path / "bad" / "rows.jsonl").read_bytes())
+    for write, name in ((rows.export, "bad.jsonl"), (rows.to_parquet, "bad.parquet")):  # Even by who has read them before.
+        with pytest.raises(pw.StudyError, match=refused):
             write(tmp_path / name)
         assert not (tmp_path / name).exists()
+
+
+@pytest.mark.parametrize("wrong", ["--1", "1e999", "nan", "-1.0", "1e400", "1."])
+def test_a_timing_that_is_none_is_told_by_its_line(wrong: str, tmp_path: Path) -> None:
+    at = folder(tmp_path / "s", AXES, mixed(), 7)
+    (at / "timings.jsonl").write_text(f'{{"index":0,"wall_s":1.5e-7}}\n{{"index":1,"wall_s":{wrong}}}\n')
+    with pytest.raises(pw.StudyError, match=r"timings\.jsonl:2: is no timing"):
+        pw.StudyRows(at).to_frame()
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no FIFO on this system")
+def test_what_is_no_file_is_not_replaced(rows: pw.StudyRows, tmp_path: Path) -> None:
+    place = tmp_path / "pipe.parquet"
+    os.mkfifo(place)
+    for write in (rows.export, rows.to_parquet):
+        with pytest.raises(pw.FileError, match=r"pipe\.parquet: cannot be written: it is no regular file"):
+            write(place)
+    assert place.is_fifo()
 
 
 # The command's, and what a row is made of.
@@ -391,14 +420,27 @@ def test_a_rows_scenario_needs_the_folder_alone(tmp_path: Path) -> None:
 
 def test_a_plan_is_given_where_it_is_kept(tmp_path: Path) -> None:
     plan = pw.plan(pw.Scenario.load("kitchen").job()).plan
-    rows = pw.StudyRows(folder(tmp_path / "s", AXES, [row(0, {}, plan=plan.hash), row(1, {"seed": 2}, plan=plan.hash), row(2, {"seed": 3}, "error")], 3))
-    (rows.folder / "plans").mkdir()
-    plan.save(rows.folder / "plans" / "0.json")
+    proved = [row(seed, {"seed": seed}, plan=plan.hash) for seed in range(2)]
+    rows = pw.StudyRows(folder(tmp_path / "s", ["seed"], [*proved, row(2, {"seed": 2}, "error"), row(3, {"seed": 3}, plan=64 * "a")], 4))
+    plans = rows.folder / "plans"
+    plans.mkdir()
+    for index in (0, 2, 3):
+        plan.save(plans / f"{index}.json")
     assert rows.plan(0) == plan
     with pytest.raises(KeyError, match="there is no plan of row 1 .*: the study does not keep it"):
         rows.plan(1)
+    with pytest.raises(pw.StudyError, match=f"3.json: is not the plan of row 3, whose hash is aaa.*; found {plan.hash}"):
+        rows.plan(3)
+    with pytest.raises(pw.StudyError, match="2.json: is not the plan of row 2, whose hash is None"):
+        rows.plan(2)
+    (plans / "2.json").unlink()
     with pytest.raises(KeyError, match="there is no plan of row 2 .*: it has none"):
         rows.plan(2)
+    other = json.loads((plans / "0.json").read_text())
+    other["order"].reverse()
+    (plans / "0.json").write_text(json.dumps(other))
+    with pytest.raises(pw.StudyError, match="is not the plan of row 0, whose hash is .*; found this one over other contents"):
+        rows.plan(0)
 
 
 # Maps.
@@ -512,7 +554,7 @@ def test_maps_say_what_is_wrong(tmp_path: Path, rows: pw.StudyRows) -> None:
     none = pw.StudyRows(folder(tmp_path / "none", AXES, (), 7))
     with pytest.raises(pw.InputError, match="rows to draw are needed"):
         none.map("plate[0].at_m")
-    many = pw.StudyRows(folder(tmp_path / "many", ["plate[0].at_m", "seed"], [row(k, {"plate[0].at_m": [0, 0], "seed": k}) for k in range(65)], 65))
+    many = pw.StudyRows(folder(tmp_path / "many", {"plate[0].at_m": {"numbers": 2}, "seed": "whole"}, [row(k, {"plate[0].at_m": [0, 0], "seed": k}) for k in range(65)], 65))
     with pytest.raises(pw.InputError, match="by: axes with at most 64 combinations"):
         many.map("plate[0].at_m", by=["seed"])
 

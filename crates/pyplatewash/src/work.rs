@@ -86,7 +86,7 @@ pub fn patiently<T: Send + 'static>(
 /// The same on so many threads of its own, with a token of the caller's, who may cancel it too.
 ///
 /// # Errors
-/// As [`patiently`].
+/// As [`patiently`]; `EngineError` where the system has not so many threads.
 pub fn patiently_by<T: Send + 'static>(
     py: Python<'_>,
     threads: usize,
@@ -96,9 +96,13 @@ pub fn patiently_by<T: Send + 'static>(
     let pool = rayon::ThreadPoolBuilder::new()
         .stack_size(STACK_BYTES)
         .num_threads(threads);
-    let pool = pool
-        .build()
-        .map_err(|e| errors::internal(py, &format!("no threads: {e}")))?;
+    let pool = pool.build().map_err(|e| {
+        errors::named(
+            py,
+            "EngineError",
+            &format!("no {threads} threads begin: {e}; give fewer workers"),
+        )
+    })?;
     patiently_on(py, Arc::new(pool), cancel, work)
 }
 

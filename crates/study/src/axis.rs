@@ -1,5 +1,6 @@
 //! An axis of a study: a key and the values that it takes, one after the other.
 
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 /// An axis: a scenario's key, and its values in order.
@@ -24,7 +25,63 @@ pub(crate) enum Values {
     },
 }
 
+/// What an axis's values have in common, by which tables have their columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AxisKind {
+    /// True or false.
+    Flag,
+    /// Integers.
+    Whole,
+    /// Numbers.
+    Number,
+    /// Texts.
+    Text,
+    /// Lists of numbers, so many each.
+    Numbers(usize),
+    /// Anything else, or values of several kinds.
+    Json,
+}
+
+impl AxisKind {
+    /// Of values, of which there is one at least.
+    pub(crate) fn of_all<'a>(values: impl IntoIterator<Item = &'a Value>) -> Self {
+        let kinds = values.into_iter().map(Self::of);
+        kinds.reduce(Self::with).unwrap_or(Self::Json)
+    }
+
+    fn of(value: &Value) -> Self {
+        match value {
+            Value::Bool(_) => Self::Flag,
+            Value::Number(number) if number.is_i64() => Self::Whole,
+            Value::Number(_) => Self::Number,
+            Value::String(_) => Self::Text,
+            Value::Array(parts) if !parts.is_empty() && parts.iter().all(Value::is_number) => {
+                Self::Numbers(parts.len())
+            }
+            _ => Self::Json,
+        }
+    }
+
+    fn with(self, other: Self) -> Self {
+        match (self, other) {
+            (one, other) if one == other => one,
+            (Self::Whole | Self::Number, Self::Whole | Self::Number) => Self::Number,
+            _ => Self::Json,
+        }
+    }
+}
+
 impl Axis {
+    /// What its values have in common.
+    #[must_use]
+    pub fn kind(&self) -> AxisKind {
+        match &self.values {
+            Values::Listed(values) => AxisKind::of_all(values),
+            Values::Seeds { .. } => AxisKind::Whole,
+        }
+    }
+
     /// How many values there are.
     #[must_use]
     pub fn count(&self) -> u64 {
@@ -76,6 +133,26 @@ mod tests {
         assert_eq!((&values[0], &values[2]), (&Value::from(0.1), &Value::from(0.3)));
         assert_eq!(values.len(), 3);
         assert_eq!(spaced(0.1, 0.1, 1), [Value::from(0.1)]);
+    }
+
+    #[test]
+    fn the_kind_is_what_all_values_have_in_common() {
+        let of = |text: &str| AxisKind::of_all(&serde_json::from_str::<Vec<Value>>(text).unwrap());
+        let (number, json) = (AxisKind::Number, AxisKind::Json);
+        for (values, kind) in [
+            ("[true, false]", AxisKind::Flag),
+            ("[-1, 9007199254740993]", AxisKind::Whole),
+            ("[1, 0.15]", number),
+            ("[18446744073709551615]", number),
+            ("[\"a\"]", AxisKind::Text),
+            ("[[1, 2.5], [0.1, 0]]", AxisKind::Numbers(2)),
+            ("[[1, 2], [1, 2, 3]]", json),
+            ("[[], [[1]]]", json),
+            ("[1, true]", json),
+            ("[1, \"1\", 2]", json),
+        ] {
+            assert_eq!(of(values), kind, "{values}");
+        }
     }
 
     #[test]

@@ -4,11 +4,14 @@ use crate::done::Done;
 use crate::error::StudyError;
 use crate::kept::{MANIFEST, PARTS, ROWS, check_unchanged, each_row, read_manifest, rows_sha256};
 use crate::lines::{self, Lines};
+use crate::load::of_parts;
 use crate::made::Made;
 use crate::manifest::Manifest;
+use crate::outcome::Outcome;
 use crate::row::Row;
 use crate::study::Study;
 use crate::whole::write_whole;
+use platewash_kinematics::fingerprint::sha256_hex;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -67,18 +70,13 @@ impl Journal {
             Some(manifest) => manifest,
             None => Manifest::of(study),
         };
-        for (name, bytes) in texts(study) {
-            let file = folder.join(name);
-            if !file.exists() {
-                write_whole(&file, bytes.as_bytes())?;
-            }
-        }
+        restate(folder, study, &manifest)?;
         let stated = folder.join(MANIFEST);
         if !stated.exists() {
             manifest.write(&stated)?;
         }
         let mut done = Done::none_of(study.rows());
-        let whole = each_row((&path, &rows), study.rows(), |_, row, line| {
+        let whole = each_row((&path, &rows), &manifest, |_, row, line| {
             let of_study = study.row(row.index)?;
             let scenario = &study.bases[of_study.base].name;
             if (&of_study.key, scenario, &of_study.axes) != (&row.key, &row.scenario, &row.axes) {
@@ -126,7 +124,22 @@ impl Journal {
     /// # Errors
     /// [`StudyError::Disk`]; the rows before stay whole.
     pub fn append(&mut self, made: &Made, took: Duration) -> Result<(), StudyError> {
-        self.keep(made.row.index, &made.row.line(), made.plan.as_deref(), took)
+        self.keep(made.row.index, &made.row.line(), made.plan.as_deref(), Some(took))
+    }
+
+    /// Appends a row that is not worked on any more, with why. Nobody knows how long it took.
+    ///
+    /// # Errors
+    /// [`StudyError::NoRow`]; [`StudyError::Disk`].
+    pub fn append_ended(
+        &mut self,
+        study: &Study,
+        index: u64,
+        outcome: Outcome,
+        reason: &str,
+    ) -> Result<(), StudyError> {
+        let row = study.ended(index, outcome, reason)?;
+        self.keep(index, &row.line(), None, None)
     }
 
     /// Appends a row that another process made, by its [line](Row::line), as [`append`](Self::append) would.
@@ -149,10 +162,10 @@ impl Journal {
                 problem: format!("row {index} with key {key} is none of this study"),
             });
         }
-        self.keep(index, &row.line(), plan, took)
+        self.keep(index, &row.line(), plan, Some(took))
     }
 
-    fn keep(&mut self, index: u64, line: &str, plan: Option<&[u8]>, took: Duration) -> Result<(), StudyError> {
+    fn keep(&mut self, index: u64, line: &str, plan: Option<&[u8]>, took: Option<Duration>) -> Result<(), StudyError> {
         let Some(files) = self.files.as_mut().filter(|_| !self.done.has(index)) else {
             return Ok(());
         };
@@ -168,6 +181,9 @@ impl Journal {
             .append(line)
             .map_err(StudyError::disk(&path, "cannot be written"))?;
         self.done.add(index);
+        let Some(took) = took else {
+            return Ok(());
+        };
         let timing = format!("{{\"index\":{index},\"wall_s\":{:?}}}", took.as_secs_f64());
         let path = self.folder.join(TIMINGS);
         files
@@ -209,6 +225,18 @@ impl Journal {
         self.files = None;
         Ok(true)
     }
+}
+
+/// Writes the study anew where the folder does not have it whole any more. Paths may stand there by another name of the same file.
+fn restate(folder: &Path, study: &Study, manifest: &Manifest) -> Result<(), StudyError> {
+    let text_is_there = fs::read(folder.join(STUDY)).is_ok_and(|text| sha256_hex(&text) == manifest.study_sha256);
+    if text_is_there && of_parts(&folder.join(PARTS), manifest).is_ok() {
+        return Ok(());
+    }
+    for (name, text) in texts(study) {
+        write_whole(&folder.join(name), text.as_bytes())?;
+    }
+    Ok(())
 }
 
 /// What stands in a study's folder beside its manifest from the beginning.

@@ -48,7 +48,7 @@ pub fn read_manifest(folder: &Path) -> Result<Manifest, StudyError> {
 /// Tells the rows of a folder, in the order in which they were done.
 pub(crate) fn rows(folder: &Path, manifest: &Manifest, mut each: impl FnMut(&Row)) -> Result<(), StudyError> {
     let (path, file) = opened(folder)?;
-    each_row((&path, &file), manifest.rows, |_, row, _| {
+    each_row((&path, &file), manifest, |_, row, _| {
         each(&row);
         Ok(())
     })?;
@@ -82,7 +82,7 @@ pub fn export(folder: &Path, to: &mut dyn Write, name: &Path) -> Result<u64, Stu
 fn in_order(folder: &Path, manifest: &Manifest, to: &mut dyn Write, name: &Path) -> Result<u64, StudyError> {
     let (path, file) = opened(folder)?;
     let mut places = Vec::new();
-    each_row((&path, &file), manifest.rows, |at, row, _| {
+    each_row((&path, &file), manifest, |at, row, _| {
         places.push((row.index, at));
         Ok(())
     })?;
@@ -155,14 +155,17 @@ fn opened(folder: &Path) -> Result<(PathBuf, File), StudyError> {
     Ok((path, file))
 }
 
-/// Tells each row of a study of so many with its place in the file and its line, from 1; the length of all whole lines. Each of them is there
+/// Tells each row of a study with its place in the file and its line, from 1; the length of all whole lines. Each of them is there
 /// once at most, as this program writes it.
 pub(crate) fn each_row(
     (path, file): (&Path, &File),
-    rows: u64,
+    manifest: &Manifest,
     mut each: impl FnMut(u64, Row, usize) -> Result<(), StudyError>,
 ) -> Result<u64, StudyError> {
+    let rows = manifest.rows;
     let (mut number, mut seen) = (0, Done::none_of(rows));
+    let mut axes: Vec<_> = manifest.axes.iter().map(|axis| &axis.key).collect();
+    axes.sort_unstable();
     lines::read(file, StudyError::disk(path, "cannot be read"), |at, line| {
         number += 1;
         let wrong = |problem: String| StudyError::Kept {
@@ -178,6 +181,12 @@ pub(crate) fn each_row(
         }
         if row.index >= rows {
             return Err(wrong(format!("row {} is none of {rows}, counted from 0", row.index)));
+        }
+        if !row.axes.keys().eq(axes.iter().copied()) {
+            return Err(wrong(format!(
+                "row {} has other axes than {MANIFEST} states",
+                row.index
+            )));
         }
         if row.line().as_bytes() != line {
             return Err(wrong(format!("row {} is not as it was written", row.index)));

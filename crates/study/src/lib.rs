@@ -27,7 +27,7 @@ mod study;
 mod summary;
 mod whole;
 
-pub use axis::Axis;
+pub use axis::{Axis, AxisKind};
 pub use base::Base;
 pub use error::StudyError;
 pub use journal::Journal;

@@ -38,12 +38,15 @@ impl Study {
 
 /// The study that a folder keeps, with all that it names.
 fn of_folder(folder: &Path) -> Result<Study, StudyError> {
-    let manifest = read_manifest(folder)?;
-    let file = folder.join(PARTS);
-    let text = fs::read_to_string(&file).map_err(StudyError::disk(&file, "cannot be read"))?;
+    of_parts(&folder.join(PARTS), &read_manifest(folder)?)
+}
+
+/// The study of a file of parts, which the manifest is of.
+pub(crate) fn of_parts(file: &Path, manifest: &Manifest) -> Result<Study, StudyError> {
+    let text = fs::read_to_string(file).map_err(StudyError::disk(file, "cannot be read"))?;
     let study = StudyParts::from_json(&text).and_then(Study::from_parts);
     let wrong = |problem: String| StudyError::Kept {
-        file: file.clone(),
+        file: file.to_owned(),
         problem,
     };
     let study = study.map_err(|error| wrong(error.to_string()))?;

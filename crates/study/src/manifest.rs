@@ -1,5 +1,6 @@
 //! What a folder keeps a study of: enough to tell it from every other.
 
+use crate::axis::AxisKind;
 use crate::base::Base;
 use crate::error::StudyError;
 use crate::row::ROW_SCHEMA;
@@ -70,6 +71,8 @@ pub struct ManifestAxis {
     pub key: String,
     /// How many values it takes.
     pub count: u64,
+    /// What they have in common.
+    pub kind: AxisKind,
 }
 
 impl Manifest {
@@ -90,10 +93,12 @@ impl Manifest {
         let listed = listed.map(|key| ManifestAxis {
             key: key.clone(),
             count: study.listed.len() as u64,
+            kind: AxisKind::of_all(study.listed.iter().filter_map(|row| row.get(key))),
         });
         let axes = study.axes.iter().map(|axis| ManifestAxis {
             key: axis.key.clone(),
             count: axis.count(),
+            kind: axis.kind(),
         });
         Self {
             format: FORMAT.to_owned(),
@@ -136,6 +141,10 @@ impl Manifest {
             let mine = mine.collect::<Vec<_>>().join(", ");
             if mine.is_empty() { "none".to_owned() } else { mine }
         };
+        let axes = |of: &Self| {
+            let text = |axis: &ManifestAxis| format!("{} ({} values, {:?})", axis.key, axis.count, axis.kind);
+            of.axes.iter().map(text).collect::<Vec<_>>().join(", ")
+        };
         let facts = |of: &Self, other: &Self| {
             [
                 ("its version of the program", of.version.clone()),
@@ -144,6 +153,7 @@ impl Manifest {
                 ("a scenario (by its SHA-256)", texts(of)),
                 ("a file that rows name (by its SHA-256)", files(of, other)),
                 ("the number of rows", of.rows.to_string()),
+                ("an axis", axes(of)),
             ]
         };
         let mut pairs = facts(self, other).into_iter().zip(facts(other, self));

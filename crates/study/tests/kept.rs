@@ -184,6 +184,64 @@ fn rows_under_way_that_are_not_as_they_were_written_are_refused_by_whoever_reads
 }
 
 #[test]
+fn a_study_that_is_torn_in_its_folder_is_stated_anew_until_it_is_finished() {
+    let (study, folder) = (four(), tempfile::tempdir().unwrap());
+    let out = folder.path();
+    drop(Journal::open(out, &study).unwrap());
+    for name in ["study.json", "study.toml"] {
+        let whole = fs::read(out.join(name)).unwrap();
+        for torn in [&whole[..whole.len() / 2], b""] {
+            fs::write(out.join(name), torn).unwrap();
+            drop(Journal::open(out, &study).unwrap());
+            assert_eq!(fs::read(out.join(name)).unwrap(), whole, "{name}");
+        }
+    }
+    assert_eq!(Study::load(out).unwrap().parts(), study.parts());
+}
+
+#[test]
+fn a_manifest_of_other_axes_is_refused() {
+    let (study, folder) = (four(), tempfile::tempdir().unwrap());
+    let out = folder.path();
+    let mut journal = Journal::open(out, &study).unwrap();
+    journal.append(&empty(&study, 0).into(), Duration::ZERO).unwrap();
+    drop(journal);
+    let whole = fs::read_to_string(out.join("manifest.json")).unwrap();
+    let begin = whole.find("\"axes\": [").unwrap() + 9;
+    let end = begin + whole[begin..].find(']').unwrap();
+    let axis = whole[begin..end].trim();
+    for axes in [String::new(), format!("{axis}, {axis}")] {
+        fs::write(
+            out.join("manifest.json"),
+            format!("{}{axes}{}", &whole[..begin], &whole[end..]),
+        )
+        .unwrap();
+        let error = Journal::open(out, &study).err().unwrap().to_string();
+        assert!(error.contains("an axis"), "{error}");
+        for error in [summary(out).err(), export(out, &mut Vec::new(), Path::new("b")).err()] {
+            let error = error.unwrap().to_string();
+            assert!(
+                error.contains("line 1: row 0 has other axes than manifest.json states"),
+                "{error}"
+            );
+        }
+    }
+}
+
+/// Nobody knows how long a row took that killed its worker.
+#[test]
+fn a_row_that_is_ended_has_no_time() {
+    let (study, folder) = (four(), tempfile::tempdir().unwrap());
+    let out = folder.path();
+    let mut journal = Journal::open(out, &study).unwrap();
+    journal.append_ended(&study, 1, Outcome::Crashed, "gone").unwrap();
+    journal.append(&empty(&study, 0).into(), Duration::ZERO).unwrap();
+    assert_eq!(journal.done(), 2);
+    let timings = fs::read_to_string(out.join("timings.jsonl")).unwrap();
+    assert_eq!(timings, "{\"index\":0,\"wall_s\":0.0}\n");
+}
+
+#[test]
 fn ten_thousand_values_are_looked_at_and_the_last_is_told() {
     let values: Vec<_> = (0..10_000)
         .map(|k| format!("{}", 0.001 + 1e-7 * f64::from(k)))

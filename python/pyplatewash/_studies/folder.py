@@ -15,7 +15,9 @@ from typing import Any, NoReturn
 import numpy as np
 import numpy.typing as npt
 
+from .. import _core
 from .._errors import StudyAccessError, StudyError, StudyNotFoundError
+from .kind import Kind, is_kind
 from .row import Row, problem
 
 #: What a manifest and a row state that this program reads.
@@ -26,18 +28,22 @@ AT_A_TIME = 10_000
 MOST_ROWS = 10_000_000
 
 _BEGINNING = re.compile(rb'\{"schema":(\d{1,9}),"index":(\d{1,18}),"key":"[0-9a-f]{16}",')
-_TIMING = re.compile(rb'\{"index":(\d{1,18}),"wall_s":([-+.0-9eE]{1,40})\}\n')
+_TIMING = re.compile(rb'\{"index":(\d{1,18}),"wall_s":(\d{1,18}(?:\.\d{1,30})?(?:e-?\d{1,2})?)\}\n')
 
 
 class Folder:
     """A study's folder."""
 
     def __init__(self, path: Path) -> None:
-        """Raises StudyError for what is no study's folder, or one whose rows are damaged."""
+        """Raises StudyError for what is no study's folder, or one whose rows are damaged, or were changed since it was finished."""
         self.path = path
         self.rows_file = path / "rows.jsonl"
         self.manifest = _manifest(path / "manifest.json")
         self.rows: int = self.manifest["rows"]
+        #: The kind of each axis, by its key.
+        self.axes: dict[str, Kind] = {axis["key"]: axis["kind"] for axis in self.manifest["axes"]}
+        if "rows_sha256" in self.manifest:
+            _core._study_check(path)
         #: Indices of the rows that are there, growing, and where each of them begins in the file [bytes].
         self.indices, self._places = self._scanned()
 
@@ -77,7 +83,7 @@ class Folder:
             row: Any = None
             try:
                 row = json.loads(line, parse_constant=_no_number)
-                wrong = problem(row, index)
+                wrong = problem(row, index, self.axes)
             except (ValueError, RecursionError) as error:
                 wrong = str(error)
             if wrong is not None:
@@ -188,6 +194,11 @@ def _manifest_problem(manifest: Any) -> str | None:
         listed = manifest.get(name)
         if not isinstance(listed, list) or not all(isinstance(one, dict) and isinstance(one.get(part), str) for one in listed):
             return f"{name} must be a list, each with its {part}"
+        if len({one[part] for one in listed}) < len(listed):
+            return f"{name} must be a list of different ones; found one twice"
+    wrong = [axis for axis in manifest["axes"] if not is_kind(axis.get("kind"))]
+    if wrong:
+        return f"axes: the kind of {wrong[0]['key']} must be one that docs/studies.md names; found {wrong[0].get('kind')!r:.60}"
     return None
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
+
+from .kind import Kind, fits
 
 #: A row, by the names of ``docs/studies.md``.
 Row: TypeAlias = dict[str, Any]
@@ -58,8 +60,8 @@ PLACE: dict[str, Check] = {
 }
 
 
-def problem(row: Any, index: int) -> str | None:
-    """What is wrong with the row of an index; None where nothing is."""
+def problem(row: Any, index: int, axes: Mapping[str, Kind]) -> str | None:
+    """What is wrong with the row of an index, of a study with these axes; None where nothing is."""
     if not isinstance(row, dict) or row.get("index") != index:
         return f"index must be {index}: the file was changed meanwhile"
     if row.get("outcome") not in OUTCOMES:
@@ -70,6 +72,11 @@ def problem(row: Any, index: int) -> str | None:
     for name in ("key", "scenario"):
         if not isinstance(row.get(name), str):
             return f"{name} must be a text; found {row.get(name)!r:.60}"
+    if row["axes"].keys() != axes.keys():
+        return f"axes must be {', '.join(axes) or 'none'}; found {', '.join(row['axes']) or 'none':.200}"
+    for key, kind in axes.items():
+        if not fits(kind, row["axes"][key]):
+            return f"axes: {key} is of other values in the manifest, of kind {kind}; found {row['axes'][key]!r:.60}"
     for prefix, fields, of in (("", ROW, row), ("place.", PLACE, row["place"])):
         for name, (is_one, words) in fields.items():
             value = of.get(name)

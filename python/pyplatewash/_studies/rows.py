@@ -30,8 +30,8 @@ class StudyRows:
     Iteration gives the rows that are there, as dictionaries, in the order of their indices; ``docs/studies.md`` says what each field
     means. Nothing but where a row stands is kept in memory: 16 bytes each. A last line that is torn, or is being written, is left out.
 
-    Raises StudyError for what is no study's folder, and for damaged lines, as ``FILE:LINE: …``; what cannot be read at all is a
-    FileError, too.
+    Raises StudyError for what is no study's folder, for damaged lines, as ``FILE:LINE: …``, and for rows that were changed since the
+    study was finished; what cannot be read at all is a FileError, too.
     """
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
@@ -50,7 +50,7 @@ class StudyRows:
     @property
     def axes(self) -> list[str]:
         """Keys of the axes."""
-        return [axis["key"] for axis in self._of.manifest["axes"]]
+        return list(self._of.axes)
 
     @property
     def rows(self) -> int:
@@ -95,13 +95,20 @@ class StudyRows:
         return _core._study_summary(self.folder)
 
     def plan(self, index: int) -> _core.Plan:
-        """The plan of a row, where the study keeps it. Raises NoKeyError where it does not."""
+        """The plan of a row, where the study keeps it.
+
+        Raises NoKeyError where it does not; StudyError for a plan that is not the row's, by its hash; PlanError for what is none.
+        """
         row = self.row(index)
         file = self.folder / "plans" / f"{row['index']}.json"
         if not file.is_file():
             why = "it has none" if row.get("plan") is None else "the study does not keep it, or it was taken away"
             raise NoKeyError(f"index: there is no plan of row {row['index']} in {file.parent}: {why}", argument="index")
-        return _core.Plan.load(file)
+        plan = _core.Plan.load(file)
+        if plan.hash != row["plan"] or not plan.is_sealed():
+            found = plan.hash if plan.hash != row["plan"] else "this one over other contents"
+            raise StudyError(f"{file}: is not the plan of row {row['index']}, whose hash is {row['plan']}; found {found}", source=str(file))
+        return plan
 
     def scenario(self, index: int) -> _core.Scenario:
         """The scenario of a row, to plan it alone: that of the study, with the values of the row. The folder holds all that it takes.
@@ -134,8 +141,8 @@ class StudyRows:
         Lists are spread over columns of numbers by their place: ``plate[0].at_m.0`` is x, ``.1`` y and ``.2`` z, so that they can be
         sorted by, joined and drawn; so are ``clearance_pair.0``, ``.1`` and ``place.point_m.0`` … ``.2``. What a field has within it is called
         by both: ``place.requirement``. Lists of anything else but numbers, and axes of values of several kinds, are texts of JSON. There
-        are the same columns, of the same types, whatever is null in these rows; ``wall_s`` is how long a row took [s], unless ``timings``
-        is False. ``frame.attrs["manifest"]`` is the manifest.
+        are the same columns, of the same types, whichever rows are done and whatever is null in them; ``wall_s`` is how long a row took [s],
+        missing where nobody knows, unless ``timings`` is False. ``frame.attrs["manifest"]`` is the manifest.
 
         Raises MissingError, an ImportError, without pandas.
         """
@@ -202,7 +209,7 @@ class StudyRows:
 
     def _columns(self, timings: bool) -> list[Column]:
         took = [Column("wall_s", "number", lambda row: row["wall_s"])] if timings else []
-        return [*columns(self.axes, self), *took]
+        return [*columns(self._of.axes), *took]
 
     def _timed(self, timings: bool) -> Iterator[Row]:
         if not timings:
@@ -219,9 +226,9 @@ def _free(place: Path, kept: Path, as_folder: bool) -> None:
     try:
         if kept.resolve() in place.resolve().parents:
             raise FileExistsError(errno.EEXIST, "it is in the study's folder, which is kept as it is")
-        taken = place.exists() and (not place.is_dir() or next(place.iterdir(), None) is not None) if as_folder else place.is_dir()
+        taken = place.exists() and (not place.is_dir() or next(place.iterdir(), None) is not None if as_folder else not place.is_file())
     except (OSError, ValueError) as error:
         raise refused(place, "cannot be written", error) from error
     if taken:
-        why = "there is a file of that name, or a folder with files" if as_folder else "there is a folder of that name"
+        why = "there is a file of that name, or a folder with files" if as_folder else f"it is {'a folder' if place.is_dir() else 'no regular file'}"
         raise refused(place, "cannot be written", FileExistsError(errno.EEXIST, why))

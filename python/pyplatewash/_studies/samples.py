@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -22,6 +23,12 @@ MISSING = "samples need SciPy, which is not installed: pip install 'pyplatewash[
 METHODS = ("sobol", "latin_hypercube", "random")
 #: Most rows, as of a study; most numbers that are drawn for a row.
 MOST_ROWS, MOST_NUMBERS = 10_000_000, 1000
+#: Greatest integer, as of a seed.
+MOST_WHOLE = 2**53 - 1
+#: Deepest that lists of a value are in lists.
+DEEPEST = 10
+#: Greatest logarithm of a number.
+MOST_LOG = math.log(sys.float_info.max)
 #: How often rows that are there before are drawn anew.
 ROUNDS = 100
 
@@ -57,7 +64,7 @@ def samples(
     Raises InputError, InputTypeError; MissingError, an ImportError, without SciPy.
     """
     rows = _arguments.count("count", count, 1, MOST_ROWS)
-    way, start = _arguments.word("method", method, METHODS), _arguments.count("seed", seed, 0, 2**53 - 1)
+    way, start = _arguments.word("method", method, METHODS), _arguments.count("seed", seed, 0, MOST_WHOLE)
     draws = _draws(ranges, log)
     different = math.prod(draw.values for draw in draws.values())
     if different < rows:
@@ -153,8 +160,8 @@ def _range(name: str, stated: tuple[Any, ...], by_logarithm: bool, wanted: str) 
         return Draw(1, lambda numbers: min(max(least + float(numbers[0]) * (greatest - least), least), greatest), math.inf)
     if least <= 0:
         raise InputError(f"{name}: numbers above 0 are needed for a key in log; found ({least}, {greatest})", argument=name)
-    times = math.log(greatest) - math.log(least)
-    return Draw(1, lambda numbers: min(max(least * math.exp(float(numbers[0]) * times), least), greatest), math.inf)
+    begin, times = math.log(least), math.log(greatest) - math.log(least)
+    return Draw(1, lambda numbers: min(max(math.exp(min(begin + float(numbers[0]) * times, MOST_LOG)), least), greatest), math.inf)
 
 
 def _given(name: str, value: Any) -> Draw:
@@ -166,9 +173,11 @@ def _given(name: str, value: Any) -> Draw:
 
 
 def _choice(name: str, stated: Sequence[Any]) -> Draw:
-    if not len(stated):
+    if not stated:
         raise InputError(f"{name}: at least one value is needed; found none", argument=name)
     if isinstance(stated, range):
+        if max(abs(stated[0]), abs(stated[-1])) > MOST_WHOLE:
+            raise InputError(f"{name}: integers up to {MOST_WHOLE} are needed; found {stated!r:.80}", argument=name)
         return Draw(1, lambda numbers: stated[int(float(numbers[0]) * len(stated))], len(stated))
     values = [_plain(f"{name}[{place}]", value) for place, value in enumerate(stated)]
     texts = [as_json(value) for value in values]
@@ -178,12 +187,14 @@ def _choice(name: str, stated: Sequence[Any]) -> Draw:
     return Draw(1, lambda numbers: values[int(float(numbers[0]) * len(values))], len(values))
 
 
-def _plain(name: str, value: Any) -> Any:
-    """A value that a scenario can state."""
+def _plain(name: str, value: Any, depth: int = 0) -> Any:
+    """A value that a scenario can state, within so many lists."""
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, (list, tuple)):
-        return [_plain(f"{name}[{place}]", part) for place, part in enumerate(value)]
+        if depth == DEEPEST:
+            raise InputError(f"{name}: lists are needed that are at most {DEEPEST} deep in each other; found one more", argument=name)
+        return [_plain(f"{name}[{place}]", part, depth + 1) for place, part in enumerate(value)]
     if isinstance(value, (str, bool)):
         return value
     if not isinstance(value, (int, float)):

@@ -1,19 +1,17 @@
 """Rows of a study as a table of columns: which there are, of which kind, and what each has of a row.
 
-The columns follow from the study's axes, never from which fields of its rows are null, so that every study of the same axes has the same ones.
+The columns follow from the study's axes, which its manifest states, never from which rows are done or which of their fields are null.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from .kind import Kind
 from .row import Row
-
-#: Least integer that an axis of whole numbers does not take.
-TOO_LARGE = 2**63
 
 
 @dataclass(frozen=True)
@@ -26,32 +24,18 @@ class Column:
     of: Callable[[Row], Any]
 
 
-def columns(axes: Iterable[str], rows: Iterable[Row]) -> list[Column]:
-    """The columns of rows whose axes have these keys: ``index``, ``key``, ``scenario``, the axes, then the fields of rows in their order. A
-    field within another is called by both, as ``place.plate``, and parts of a list by their place from 0, as ``plate[0].at_m.0``."""
+def columns(axes: Mapping[str, Kind]) -> list[Column]:
+    """The columns of rows with these axes: ``index``, ``key``, ``scenario``, the axes, then the fields of rows in their order. A field
+    within another is called by both, as ``place.plate``, and parts of a list by their place from 0, as ``plate[0].at_m.0``."""
     own = [_field("index", "whole"), _field("key", "text"), _field("scenario", "text")]
-    for key, kind in axis_kinds(axes, rows).items():
-        own += _axis(key, kind)
+    for key in sorted(axes):
+        own += _axis(key, axes[key])
     own += [_field("outcome", "text"), _field("reason", "text"), _within("place", "requirement", "text")]
-    own += [_within("place", name, "whole") for name in ("plate", "waypoint", "segment")]
+    own += [_within("place", name, "whole") for name in ("plate", "segment", "waypoint")]
     own += [_within("place", "time_s", "number"), *(_part("place.point_m", _at("place", "point_m"), k, "number") for k in range(3))]
     own += [_field(name, "number") for name in ("duration_s", "coverage", "contact", "clearance_m")]
     own += [_part("clearance_pair", _at("clearance_pair"), k, "text") for k in range(2)]
     return [*own, _field("plan", "text")]
-
-
-def axis_kinds(axes: Iterable[str], rows: Iterable[Row]) -> dict[str, str]:
-    """The kind of each axis, by its values in all rows: that of a column, ``list:N`` for lists of N numbers each, or ``json``."""
-    kinds: dict[str, str | None] = {key: None for key in sorted(axes)}
-    open_ = set(kinds)
-    for row in rows:
-        for key in open_:
-            kinds[key] = _both(kinds[key], _kind(row["axes"].get(key)))
-        # Nothing changes any more.
-        open_ = {key for key in open_ if kinds[key] != "json"}
-        if not open_:
-            break
-    return {key: kind or "json" for key, kind in kinds.items()}
 
 
 def batches(rows: Iterable[Row], of: list[Column], size: int) -> Iterator[list[list[Any]]]:
@@ -69,30 +53,10 @@ def batches(rows: Iterable[Row], of: list[Column], size: int) -> Iterator[list[l
         yield gathered
 
 
-def _kind(value: Any) -> str:
-    if isinstance(value, bool):
-        return "flag"
-    if isinstance(value, int):
-        return "whole" if -TOO_LARGE <= value < TOO_LARGE else "number"
-    if isinstance(value, float):
-        return "number"
-    if isinstance(value, str):
-        return "text"
-    if isinstance(value, list) and value and all(type(part) in (int, float) for part in value):
-        return f"list:{len(value)}"
-    return "json"
-
-
-def _both(one: str | None, other: str) -> str:
-    if one is None or one == other:
-        return other
-    return "number" if {one, other} == {"whole", "number"} else "json"
-
-
-def _axis(key: str, kind: str) -> list[Column]:
+def _axis(key: str, kind: Kind) -> list[Column]:
     value = _at("axes", key)
-    if kind.startswith("list:"):
-        return [_part(key, value, place, "number") for place in range(int(kind.removeprefix("list:")))]
+    if isinstance(kind, dict):
+        return [_part(key, value, place, "number") for place in range(kind["numbers"])]
     if kind == "json":
         return [Column(key, "text", lambda row: as_json(value(row)))]
     if kind == "number":

@@ -110,13 +110,17 @@ pub fn unmasked(name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
     }
 }
 
-/// A path: a string or a path object.
+/// A path: a string or a path object. An empty one would be the working folder.
 ///
 /// # Errors
-/// `InputTypeError`.
+/// `InputTypeError`; `InputError` for an empty one.
 pub fn path(name: &str, value: &Bound<'_, PyAny>) -> PyResult<PathBuf> {
     const NEEDED: &str = "a path";
-    value.extract().map_err(|e| refused(name, value, NEEDED, e))
+    let path: PathBuf = value.extract().map_err(|e| refused(name, value, NEEDED, e))?;
+    match path.as_os_str().is_empty() {
+        true => Err(wrong_value(name, value, NEEDED)),
+        false => Ok(path),
+    }
 }
 
 /// A path or several, none for `None`.

@@ -87,8 +87,7 @@ impl StudyJournalObject {
     /// Keeps that a row killed its workers.
     fn killed(&self, py: Python<'_>, index: u64) -> PyResult<()> {
         self.with(py, |held, study| {
-            let row = study.ended(index, Outcome::Crashed, KILLED)?;
-            held.journal.append(&row.into(), Duration::ZERO)
+            held.journal.append_ended(study, index, Outcome::Crashed, KILLED)
         })
     }
 

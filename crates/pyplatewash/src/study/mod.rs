@@ -163,8 +163,9 @@ impl StudyObject {
     /// on where it was. The answer is what was found.
     ///
     /// `engine` is "threads" (of this process), "processes" (of this machine), "dask" or "ray" (a cluster); the rows are the same
-    /// for each. `workers` says how many, all processors without it, and is for a cluster that is started here; an existing one is named by
-    /// `client` (a `distributed.Client`) or `address`. `progress` draws a bar, by tqdm where it is installed, or is called with (done, rows).
+    /// for each. `workers` says how many, all processors without it, and is refused with a cluster that is there, which is named by
+    /// `client` (a `distributed.Client`) or `address`, or is the process's Ray session. `progress` draws a bar, by tqdm where it is
+    /// installed, or is called with (done, rows).
     ///
     /// Raises StudyError where the folder keeps another study, or another process works on it; EngineError where workers cannot be had;
     /// MissingError without the package of an engine.

@@ -6,7 +6,7 @@ use crate::scenario::ScenarioObject;
 use crate::value::from_mapping;
 use platewash::study::StudyError;
 use pyo3::prelude::*;
-use pyo3::types::{PyMapping, PyRange, PyRangeMethods, PyString};
+use pyo3::types::{PyFrozenSet, PyMapping, PyRange, PyRangeMethods, PySet, PyString};
 use serde_json::{Map, Value, json};
 
 /// The keys of `plans`.
@@ -94,16 +94,23 @@ fn each_axis(axes: &Bound<'_, PyAny>) -> PyResult<Vec<Value>> {
 
 /// One axis. Seeds in a row are a range of the file, which is not listed.
 fn axis(key: &str, values: &Bound<'_, PyAny>) -> PyResult<Value> {
+    let at = format!("axes[{key}]");
     if let Ok(range) = values.cast::<PyRange>()
         && key == "seed"
-        && range.step()? == 1
-        && range.start()? < range.stop()?
     {
-        let seeds = format!("{}..{}", range.start()?, range.stop()? - 1);
-        return Ok(json!({"key": key, "seeds": seeds}));
+        let wide = |e| argument::refused(&at, values, "a range of seeds up to 2⁵³ − 1", e);
+        let (first, end, step) = (
+            range.start().map_err(wide)?,
+            range.stop().map_err(wide)?,
+            range.step().map_err(wide)?,
+        );
+        if step == 1 && first < end {
+            return Ok(json!({"key": key, "seeds": format!("{first}..{}", end - 1)}));
+        }
     }
-    let at = format!("axes[{key}]");
-    if values.is_instance_of::<PyString>() {
+    // A set has no order, so that each start of the interpreter gave other rows.
+    let is_unordered = values.is_instance_of::<PySet>() || values.is_instance_of::<PyFrozenSet>();
+    if is_unordered || values.is_instance_of::<PyString>() || values.cast::<PyMapping>().is_ok() {
         return Err(argument::wrong_type(&at, values, "a list of values"));
     }
     let py = values.py();

@@ -2,13 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any, Protocol
 
+from ..._errors import EngineError, PlatewashError
 from .worker import Made, Share
+
+
+#: Why a number of workers is refused.
+WORKERS = "workers: is for workers that are begun here; a cluster that is there has its own"
 
 
 class Died(Exception):
     """The worker process died while it had the share; the rows are not there."""
+
+
+@contextmanager
+def asking(cluster: str) -> Iterator[None]:
+    """Tells as EngineError what the package of a cluster raises when it is asked: the cluster is gone, or the way to it was closed."""
+    try:
+        yield
+    except (PlatewashError, Died):
+        raise
+    except Exception as error:
+        raise EngineError(f"the {cluster} cluster does not answer any more: {type(error).__name__}: {error}") from error
 
 
 class Engine(Protocol):

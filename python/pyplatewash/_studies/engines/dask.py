@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import pickle
 import time
+from contextlib import suppress
 from typing import Any
 
 from ..._errors import EngineError, MissingError, PlatewashError
-from .contract import Died
+from .contract import Died, asking
+from .here import processors
 from .worker import Kit, Made, Share, stop, work
 
 MISSING = "engine 'dask' needs distributed, which is not installed: pip install 'pyplatewash[dask]'"
@@ -33,7 +35,7 @@ class Dask:
     # A worker's death is put down to every share that it had.
     blames_exactly = False
 
-    def __init__(self, kit: Kit, workers: int, client: Any, address: str | None) -> None:
+    def __init__(self, kit: Kit, workers: int | None, client: Any, address: str | None) -> None:
         try:
             import distributed as package
         except ModuleNotFoundError as error:
@@ -46,7 +48,7 @@ class Dask:
         self._is_own = client is None
         if client is None and address is None:
             try:
-                self._cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
+                self._cluster = distributed.LocalCluster(n_workers=workers or processors(), threads_per_worker=1, dashboard_address=None)
             except (OSError, RuntimeError) as error:
                 raise EngineError(f"no Dask cluster begins on this machine: {error}; {GUARD}") from error
         try:
@@ -55,46 +57,54 @@ class Dask:
             raise EngineError(f"address: no Dask scheduler answers at '{address}': {error}") from error
         self._token = kit.token
         # A task, not data that is scattered: where the workers that have it are lost, it is made again.
-        self._kit = self._client.submit(_same, kit, key=f"platewash-{kit.token}-kit", pure=False)
+        with asking("Dask"):
+            self._kit = self._client.submit(_same, kit, key=f"platewash-{kit.token}-kit", pure=False)
         self._sent = 0
         self._looked, self._slots = -LOOK_S, 0
         self._futures: set[Any] = set()
 
     def slots(self) -> int:
         if time.monotonic() - self._looked >= LOOK_S:
-            self._slots = sum(self._client.nthreads().values())
+            with asking("Dask"):
+                self._slots = sum(self._client.nthreads().values())
             self._looked = time.monotonic()
         return self._slots
 
     def send(self, share: Share) -> Any:
         self._sent += 1
-        future = self._client.submit(_packed, self._kit, share, key=f"platewash-{self._token}-{self._sent}", pure=False)
+        with asking("Dask"):
+            future = self._client.submit(_packed, self._kit, share, key=f"platewash-{self._token}-{self._sent}", pure=False)
         self._futures.add(future)
         return future
 
     def rows(self, answer: Any) -> list[Made]:
         self._futures.discard(answer)
-        error = answer.exception()
+        with asking("Dask"):
+            error = answer.exception()
         if isinstance(error, self._killed):
             raise Died(str(error))
         if isinstance(error, PlatewashError):
             raise error
         if error is not None:
             raise EngineError(f"Dask gave a share back: {type(error).__name__}: {error}") from error
-        made: list[Made] = pickle.loads(answer.result())
-        answer.release()
+        with asking("Dask"):
+            made: list[Made] = pickle.loads(answer.result())
+            answer.release()
         return made
 
     def stop(self) -> None:
         if self._client.status != "running":
             return
         # Workers answer this beside what they work on; what waits for one is given up where it begins.
-        self._client.run(stop, self._token, on_error="ignore")
+        with suppress(Exception):
+            self._client.run(stop, self._token, on_error="ignore")
 
     def close(self) -> None:
+        # What a cluster says that is gone was told before.
         for future in [*self._futures, self._kit]:
-            future.release()
-        if self._is_own:
-            self._client.close()
-        if self._cluster is not None:
-            self._cluster.close()
+            with suppress(Exception):
+                future.release()
+        for mine in [self._client if self._is_own else None, self._cluster]:
+            with suppress(Exception):
+                if mine is not None:
+                    mine.close()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import queue
 import time
+import warnings
 from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -26,6 +27,8 @@ NEWEST = 0.3
 MOST_DEATHS = 2
 #: How long rows are waited for that workers have made when they are told to stop [s].
 LAST_S = 5.0
+#: How long workers may be lacking before that is said [s].
+LACKING_S = 10.0
 #: Time between two looks for signals [s].
 LOOK_S = 0.2
 
@@ -92,14 +95,25 @@ class _Driver:
         # Whether a row is at work that nobody else may be beside.
         self._is_alone = False
         self._deaths: dict[int, int] = {}
+        # When there were workers last, or it was said that there are none.
+        self._staffed: float | None = time.monotonic()
 
     def work(self) -> None:
         while self._send():
             try:
                 ended = self._ended.get(timeout=LOOK_S)
             except queue.Empty:
-                continue  # Workers may have come.
+                self._look()
+                continue
             self._take(ended)
+
+    def _look(self) -> None:
+        """Says once that there are no workers; some may come."""
+        if self._engine.slots() > 0:
+            self._staffed = time.monotonic()
+        elif self._staffed is not None and time.monotonic() - self._staffed >= LACKING_S:
+            self._staffed = None
+            warnings.warn("study: the cluster has no workers; they are waited for", RuntimeWarning, stacklevel=2)
 
     def drain(self) -> None:
         """Keeps what comes back within some seconds."""

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import os
+import socket
 import time
+from contextlib import suppress
 from typing import Any
+from urllib.parse import urlsplit
 
-from ..._errors import EngineError, MissingError, PlatewashError
-from .contract import Died
+from ..._errors import EngineError, InputError, MissingError, PlatewashError
+from .contract import WORKERS, Died, asking
+from .here import processors
 from .worker import Kit, Made, Share, work
 
 MISSING = "engine 'ray' needs ray, which is not installed: pip install 'pyplatewash[ray]'"
 #: Time between two questions of how many processors there are [s].
 LOOK_S = 2.0
+#: How long somebody is waited for who answers at an address [s].
+ANSWER_S = 10.0
 
 
 class Ray:
@@ -21,7 +28,7 @@ class Ray:
     # A worker has one task at a time.
     blames_exactly = True
 
-    def __init__(self, kit: Kit, workers: int, address: str | None) -> None:
+    def __init__(self, kit: Kit, workers: int | None, address: str | None) -> None:
         try:
             import ray as package
         except ModuleNotFoundError as error:
@@ -32,32 +39,35 @@ class Ray:
         self._ray = ray
         self._is_own = not ray.is_initialized()
         if self._is_own:
-            try:
-                own: dict[str, Any] = {} if address else {"num_cpus": workers, "include_dashboard": False}
-                ray.init(address=address, log_to_driver=False, **own)
-            except (ConnectionError, ValueError, RuntimeError) as error:
-                raise EngineError(f"address: no Ray cluster answers at '{address}': {error}") from error
+            # As `ray.init` itself would.
+            _begin(ray, workers, address or os.environ.get("RAY_ADDRESS"))
+        else:
+            _refuse_beside_a_session(workers, address)
         self._died = (ray.exceptions.WorkerCrashedError, ray.exceptions.NodeDiedError, ray.exceptions.OutOfMemoryError)
         self._work: Any = ray.remote(num_cpus=1, max_retries=0)(work)
-        self._kit = ray.put(kit)
+        with asking("Ray"):
+            self._kit = ray.put(kit)
         self._refs: dict[Any, Any] = {}
         self._looked, self._slots = -LOOK_S, 0
 
     def slots(self) -> int:
         if time.monotonic() - self._looked >= LOOK_S:
-            self._slots = int(self._ray.cluster_resources().get("CPU", 0))
+            with asking("Ray"):
+                self._slots = int(self._ray.cluster_resources().get("CPU", 0))
             self._looked = time.monotonic()
         return self._slots
 
     def send(self, share: Share) -> Any:
-        ref = self._work.remote(self._kit, share)
-        future = ref.future()
+        with asking("Ray"):
+            ref = self._work.remote(self._kit, share)
+            future = ref.future()
         self._refs[future] = ref
         return future
 
     def rows(self, answer: Any) -> list[Made]:
         self._refs.pop(answer, None)
-        error = answer.exception()
+        with asking("Ray"):
+            error = answer.exception()
         if isinstance(error, self._died):
             raise Died(str(error))
         if isinstance(error, self._ray.exceptions.TaskCancelledError):
@@ -74,9 +84,33 @@ class Ray:
 
     def stop(self) -> None:
         for ref in list(self._refs.values()):
-            self._ray.cancel(ref)
+            with suppress(Exception):
+                self._ray.cancel(ref)
 
     def close(self) -> None:
         self._refs.clear()
         if self._is_own:
             self._ray.shutdown()
+
+
+def _begin(ray: Any, workers: int | None, address: str | None) -> None:
+    """Begins a session: with the cluster at an address, or with one of this machine."""
+    own: dict[str, Any] = {} if address else {"num_cpus": workers or processors(), "include_dashboard": False}
+    if address and workers is not None:
+        raise InputError(WORKERS, argument="workers")
+    try:
+        # Ray itself takes minutes to find out that nobody is there.
+        place = urlsplit(address if address and "//" in address else f"//{address or ''}")
+        if place.hostname and place.port:
+            socket.create_connection((place.hostname, place.port), ANSWER_S).close()
+        ray.init(address=address, log_to_driver=False, **own)
+    except (OSError, ValueError, RuntimeError) as error:
+        where = f"address: no Ray cluster answers at '{address}'" if address else "no Ray cluster begins on this machine"
+        raise EngineError(f"{where}: {error}") from error
+
+
+def _refuse_beside_a_session(workers: int | None, address: str | None) -> None:
+    for name, given in (("workers", workers), ("address", address)):
+        if given is not None:
+            words = f"{name}: this process has a Ray session already, whose workers are taken; leave it out, or end the session by ray.shutdown()"
+            raise InputError(words, argument=name)
