@@ -126,9 +126,9 @@ DAMAGED = {
     line(mixed()[1] | {"clearance_m": "1"}): "is no row: clearance_m must be a number or null; found '1'",
     line(mixed()[1] | {"place": {"point_m": [1, "2", 3]}}): r"is no row: place.point_m must be three numbers or null; found \[1, '2', 3\]",
     line(mixed()[1] | {"place": {"plate": 0.5}}): "is no row: place.plate must be an integer or null; found 0.5",
-    line(mixed()[1] | {"axes": {"seed": 1}}): r"is no row: axes must be plate\[0\].at_m, robot.model, tool.length_m; found seed",
-    line(mixed()[1] | {"axes": mixed()[1]["axes"] | {"tool.length_m": "long"}}): "is no row: axes: tool.length_m is of other values in the manifest, of kind number; found 'long'",
-    line(mixed()[1] | {"axes": mixed()[1]["axes"] | {"plate[0].at_m": [0, 1]}}): r"is no row: axes: plate\[0\].at_m is of other values",
+    line(mixed()[1] | {"axes": {"seed": 1}}): r"is no row: axes must be those of manifest.json, plate\[0\].at_m, robot.model, tool.length_m; found seed",
+    line(mixed()[1] | {"axes": mixed()[1]["axes"] | {"tool.length_m": "long"}}): "is no row: axes: tool.length_m must be of the kind that manifest.json states, number; found 'long'",
+    line(mixed()[1] | {"axes": mixed()[1]["axes"] | {"plate[0].at_m": [0, 1]}}): r"is no row: axes: plate\[0\].at_m must be of the kind",
     line(mixed()[1] | {"clearance_pair": ["a"]}): r"is no row: clearance_pair must be two texts or null; found \['a'\]",
     b"\xff\xfe\n": "is no row",
 }
@@ -158,7 +158,8 @@ def test_a_damaged_folder_is_read_or_refused(file: str, at: int, cut: int, put: 
             warnings.simplefilter("ignore")
             rows.to_parquet(where.with_suffix(".parquet"), partial=True)
     except pw.StudyError as error:
-        assert str(where / file) in str(error)
+        # Where rows and manifest differ, nobody knows which of them is damaged.
+        assert str(where / file) in str(error) or (file == "manifest.json" and "manifest.json" in str(error))
 
 
 def test_what_is_no_studys_folder_is_refused(tmp_path: Path) -> None:

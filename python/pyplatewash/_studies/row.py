@@ -73,10 +73,10 @@ def problem(row: Any, index: int, axes: Mapping[str, Kind]) -> str | None:
         if not isinstance(row.get(name), str):
             return f"{name} must be a text; found {row.get(name)!r:.60}"
     if row["axes"].keys() != axes.keys():
-        return f"axes must be {', '.join(axes) or 'none'}; found {', '.join(row['axes']) or 'none':.200}"
+        return f"axes must be those of manifest.json, {', '.join(axes) or 'none'}; found {', '.join(row['axes']) or 'none':.200}"
     for key, kind in axes.items():
         if not fits(kind, row["axes"][key]):
-            return f"axes: {key} is of other values in the manifest, of kind {kind}; found {row['axes'][key]!r:.60}"
+            return f"axes: {key} must be of the kind that manifest.json states, {kind}; found {row['axes'][key]!r:.60}"
     for prefix, fields, of in (("", ROW, row), ("place.", PLACE, row["place"])):
         for name, (is_one, words) in fields.items():
             value = of.get(name)
