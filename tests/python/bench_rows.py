@@ -1,5 +1,6 @@
 """What reading many rows of a study costs, each way in a process of its own. By hand: python tests/python/bench_rows.py 100000"""
 
+import hashlib
 import random
 import resource
 import subprocess
@@ -7,6 +8,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 import pyplatewash as pw
 import study_folders
@@ -15,11 +17,18 @@ WAYS = ["open", "iterate", "summary", "export", "to_parquet", "to_frame"]
 
 
 def made(at: Path, count: int) -> None:
-    """A folder with so many rows, in an order by chance."""
+    """The folder of a finished study with so many rows, in an order by chance."""
     order = list(range(count))
     random.Random(1).shuffle(order)
     fields = {"reason": 100 * "x", "duration_s": 9.5, "coverage": 0.99, "clearance_m": 0.01, "clearance_pair": ["link_4", "handle"], "plan": 64 * "a"}
-    study_folders.folder(at, ["tool.length_m", "seed"], (study_folders.row(k, {"tool.length_m": 0.1, "seed": k}, **fields) for k in order), count)
+
+    def row(k: int) -> dict[str, Any]:
+        return study_folders.row(k, {"seed": k, "tool.length_m": 0.1}, **fields)
+
+    sha256 = hashlib.sha256()
+    for k in range(count):
+        sha256.update(study_folders.line(row(k)))
+    study_folders.folder(at, ["tool.length_m", "seed"], map(row, order), count, rows_sha256=sha256.hexdigest())
 
 
 def measured(way: str, at: Path) -> str:
@@ -29,9 +38,9 @@ def measured(way: str, at: Path) -> str:
     if way == "iterate":
         assert sum(1 for _ in rows) == len(rows)
     elif way == "to_parquet":
-        rows.to_parquet(at / "rows.parquet")
+        rows.to_parquet(at.parent / "rows.parquet")
     elif way == "export":
-        rows.export(at / "rows.export")
+        rows.export(at.parent / "rows.export")
     elif way != "open":
         getattr(rows, way)()
     most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
