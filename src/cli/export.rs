@@ -13,7 +13,7 @@ use platewash::export::dialect::Dialect;
 use platewash::export::dialects::{self, DIALECTS};
 use platewash::export::file::ProgramFile;
 use platewash::export::judged::Asked;
-use platewash::export::{ExportError, ExportSettings, Exported, Refusal, contact_not_judged, export, requirement};
+use platewash::export::{ExportError, ExportSettings, Exported, Refusal, contact_not_judged, export};
 use platewash::workcell::dry_run::DryRun;
 use platewash::workcell::plan::Plan;
 use platewash::{Certified, JointVector, Pose};
@@ -257,7 +257,7 @@ fn target(name: &str) -> Result<&'static dyn Dialect, String> {
 }
 
 fn waived(name: &str) -> Result<Requirement, String> {
-    requirement(name).ok_or_else(|| "no requirement of a certificate has that name".to_owned())
+    Requirement::named(name).ok_or_else(|| "no requirement of a certificate has that name".to_owned())
 }
 
 /// As many finite numbers as asked, between commas.

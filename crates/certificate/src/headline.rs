@@ -67,7 +67,7 @@ fn waived(certificate: &Certificate) -> Option<String> {
 fn cases(check: &Check) -> String {
     let name = check.requirement.words();
     let Some((first, others)) = check.discrepancies.split_first() else {
-        return name.to_owned();
+        return name;
     };
     let first = format!("{name}, {} {}", first.what, first.stated);
     match others.len() + check.more_discrepancies {

@@ -2,149 +2,133 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What is required of a plan, in the order of the certificate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Requirement {
+/// The one list of requirements: the enum, [`Requirement::ALL`] and the names in files and settings follow from it, so that none can be
+/// missing from any of them.
+macro_rules! requirements {
+    ($($(#[$doc:meta])* $requirement:ident = $name:literal,)*) => {
+        /// What is required of a plan, in the order of the certificate.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+        #[non_exhaustive]
+        pub enum Requirement {
+            $($(#[$doc])* #[serde(rename = $name)] $requirement,)*
+        }
+
+        impl Requirement {
+            /// All, in the order of the certificate. Some are asked of some plans alone.
+            pub const ALL: &'static [Self] = &[$(Self::$requirement,)*];
+
+            /// Name in JSON, settings and Python.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$requirement => $name,)*
+                }
+            }
+        }
+    };
+}
+
+requirements! {
     /// The plan is for this arm: its name and the hashes of its description and its SRDF.
-    Arm,
+    Arm = "arm",
     /// The tip is the middle of the sponge's far face.
-    Tool,
+    Tool = "tool",
     /// No plate reaches below the floor.
-    Plates,
+    Plates = "plates",
     /// A dry run's plates are raised, and the real ones stand below them as obstacles. Asked of dry runs alone.
-    DryRun,
+    DryRun = "dry_run",
     /// The pairs that are left out are those that follow from the arm and its SRDF; any other keeps clear all the same, or is waived.
-    Exclusions,
+    Exclusions = "exclusions",
     /// Every plate has a wash path that can be judged.
-    WashPaths,
+    WashPaths = "wash_paths",
     /// The segments follow one another from home to home.
-    Segments,
+    Segments = "segments",
     /// Every plate is washed once and the order says so; while another one is washed no more than its rim is swept.
-    EveryPlateOnce,
+    EveryPlateOnce = "every_plate_once",
     /// The motion starts and ends at rest in the job's home positions.
-    HomeToHome,
+    HomeToHome = "home_to_home",
     /// The arm rests where a wash begins and where it ends. A tilted sponge touches before and after: see
     /// [`Requirement::ContactSpeed`].
-    RestAtWashEnds,
+    RestAtWashEnds = "rest_at_wash_ends",
     /// No plate overlaps another or the base.
-    PlatesApart,
+    PlatesApart = "plates_apart",
     /// Joint positions, as the margin to the nearest limit.
-    JointPosition,
+    JointPosition = "joint_position",
     /// Joint speeds.
-    JointSpeed,
+    JointSpeed = "joint_speed",
     /// Joint accelerations.
-    JointAcceleration,
+    JointAcceleration = "joint_acceleration",
     /// Speed of the tip, wherever it does not wash.
-    TipSpeed,
+    TipSpeed = "tip_speed",
     /// Acceleration of the tip, wherever it does not wash.
-    TipAcceleration,
+    TipAcceleration = "tip_acceleration",
     /// Speed of the tip while it washes.
-    WashSpeed,
+    WashSpeed = "wash_speed",
     /// Acceleration of the tip while it washes.
-    WashAcceleration,
+    WashAcceleration = "wash_acceleration",
     /// Angle of the tool from the plate's normal while it approaches, washes and retreats.
-    Tilt,
+    Tilt = "tilt",
     /// Height of the tip over or under the plate while it washes.
-    ContactHeight,
+    ContactHeight = "contact_height",
     /// Speed of the sponge's rim, at every point at or below the plate's face, while it comes down and while it leaves.
-    ContactSpeed,
+    ContactSpeed = "contact_speed",
     /// Distance of the tip from the wash path while it washes, the whole of it in order.
-    PathDeviation,
+    PathDeviation = "path_deviation",
     /// Distance of the tip from the plate's normal while it approaches and retreats.
-    LineDeviation,
+    LineDeviation = "line_deviation",
     /// Clearance of every pair.
-    Clearance,
-    /// How far the sponge reaches beyond the rim of the plate that it washes.
-    Reach,
+    Clearance = "clearance",
+    /// Reach of the sponge beyond the rim of the plate that it washes.
+    Reach = "reach",
     /// Share of each plate that the sponge sweeps.
-    Coverage,
+    Coverage = "coverage",
     /// Share of each plate's face, by its area, that presses the sponge together by what counts as contact, wherever within its error of
     /// height the plate lies. Asked where the job does, like all up to [`Requirement::Wrist`].
-    Contact,
+    Contact = "contact",
     /// Share of each plate's face that is in contact long enough.
-    ContactTime,
+    ContactTime = "contact_time",
     /// Share of each plate's face that gets enough of a dose, pressure over sliding distance, in contact.
-    ContactDose,
+    ContactDose = "contact_dose",
     /// Strain of the sponge anywhere.
-    Strain,
+    Strain = "strain",
     /// Force along the sponge's axis while it washes, between its least and its greatest.
-    ContactForce,
+    ContactForce = "contact_force",
     /// Joint 5 keeps from 0, always on the same side, from an approach to the retreat after it.
-    Wrist,
+    Wrist = "wrist",
     /// Distance of the tip from where the plan has it at that time: of a program alone.
-    PlanDeviation,
+    PlanDeviation = "plan_deviation",
 }
 
 impl Requirement {
-    /// Those that are asked of every plan, in the order of the certificate; the last is of programs alone.
-    pub const ALL: [Self; 26] = [
-        Self::Arm,
-        Self::Tool,
-        Self::Plates,
-        Self::Exclusions,
-        Self::WashPaths,
-        Self::Segments,
-        Self::EveryPlateOnce,
-        Self::HomeToHome,
-        Self::RestAtWashEnds,
-        Self::PlatesApart,
-        Self::JointPosition,
-        Self::JointSpeed,
-        Self::JointAcceleration,
-        Self::TipSpeed,
-        Self::TipAcceleration,
-        Self::WashSpeed,
-        Self::WashAcceleration,
-        Self::Tilt,
-        Self::ContactHeight,
-        Self::ContactSpeed,
-        Self::PathDeviation,
-        Self::LineDeviation,
-        Self::Clearance,
-        Self::Reach,
-        Self::Coverage,
-        Self::PlanDeviation,
-    ];
-
-    /// The words used in tables.
+    /// The name with spaces, as tables, sentences and pages show it.
     #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Arm => "arm",
-            Self::Tool => "tool",
-            Self::Plates => "plates",
-            Self::DryRun => "dry run",
-            Self::Exclusions => "exclusions",
-            Self::WashPaths => "wash paths",
-            Self::Segments => "segments",
-            Self::EveryPlateOnce => "every plate once",
-            Self::HomeToHome => "home to home",
-            Self::RestAtWashEnds => "rest at wash ends",
-            Self::PlatesApart => "plates apart",
-            Self::JointPosition => "joint position",
-            Self::JointSpeed => "joint speed",
-            Self::JointAcceleration => "joint acceleration",
-            Self::TipSpeed => "tip speed",
-            Self::TipAcceleration => "tip acceleration",
-            Self::WashSpeed => "wash speed",
-            Self::WashAcceleration => "wash acceleration",
-            Self::Tilt => "tilt",
-            Self::ContactHeight => "contact height",
-            Self::ContactSpeed => "contact speed",
-            Self::PathDeviation => "path deviation",
-            Self::LineDeviation => "line deviation",
-            Self::Clearance => "clearance",
-            Self::Reach => "reach beyond rim",
-            Self::Coverage => "coverage",
-            Self::Contact => "contact",
-            Self::ContactTime => "contact time",
-            Self::ContactDose => "contact dose",
-            Self::Strain => "strain",
-            Self::ContactForce => "contact force",
-            Self::Wrist => "wrist",
-            Self::PlanDeviation => "deviation from plan",
+    pub fn words(self) -> String {
+        self.name().replace('_', " ")
+    }
+
+    /// The requirement of a name, with underscores or spaces; `None` where none has it.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        let name = name.trim().replace(' ', "_");
+        Self::ALL.iter().copied().find(|requirement| requirement.name() == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Requirement;
+
+    #[test]
+    fn every_requirement_is_found_by_its_one_name() {
+        for requirement in Requirement::ALL {
+            let json = serde_json::to_value(requirement).unwrap();
+            assert_eq!(json, requirement.name());
+            assert_eq!(serde_json::from_value::<Requirement>(json).unwrap(), *requirement);
+            for name in [requirement.name(), &requirement.words()] {
+                assert_eq!(Requirement::named(name), Some(*requirement), "{name}");
+            }
         }
+        assert!(Requirement::ALL.is_sorted(), "the order of the certificate");
+        assert_eq!(Requirement::named("deviation from plan"), None);
     }
 }

@@ -100,7 +100,7 @@ fn check(certified: &Certified<Plan>, arm: &RobotModel, settings: &ExportSetting
     if !waived.is_empty() {
         let waived = waived
             .into_iter()
-            .map(|requirement| requirement.words().to_owned())
+            .map(|requirement| requirement.words())
             .collect();
         return Err(Refusal::Waived { waived });
     }

@@ -231,7 +231,7 @@ pub fn contact_not_judged(promised: &Requirements) -> Option<String> {
 /// A measure with what it is held against, both times a factor.
 fn told(check: &Check, beside: &str, factor: f64) -> String {
     let name = match check.requirement {
-        Requirement::JointPosition => "distance from the joints' limits",
+        Requirement::JointPosition => "distance from the joints' limits".to_owned(),
         requirement => requirement.words(),
     };
     let Some(measure) = check.measure else {

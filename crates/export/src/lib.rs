@@ -55,4 +55,4 @@ pub use compare::{Change, CompareError, Compared, compare};
 pub use export::{ExportError, Exported, export};
 pub use header::contact_not_judged;
 pub use refusal::Refusal;
-pub use settings::{ExportSettings, requirement};
+pub use settings::ExportSettings;

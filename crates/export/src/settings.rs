@@ -75,7 +75,7 @@ impl ExportSettings {
 
     /// The settings that shape the text, a line each.
     pub(crate) fn lines(&self) -> Vec<String> {
-        let accepted: Vec<_> = self.accepted.iter().map(|r| r.words().replace(' ', "_")).collect();
+        let accepted: Vec<_> = self.accepted.iter().map(|requirement| requirement.name()).collect();
         let mut lines = vec![
             format!("{SETTING} tolerance_m = {}", self.tolerance_m),
             format!("{SETTING} speed_share = {}", self.speed_share),
@@ -102,7 +102,7 @@ impl ExportSettings {
                 "tolerance_m" => settings.tolerance_m = number()?,
                 "speed_share" => settings.speed_share = number()?,
                 "corner_m" => settings.corner_m = number()?,
-                "accepted" => settings.accepted = value.split(',').map(requirement).collect::<Option<_>>()?,
+                "accepted" => settings.accepted = value.split(',').map(Requirement::named).collect::<Option<_>>()?,
                 _ => return None,
             }
         }
@@ -112,12 +112,3 @@ impl ExportSettings {
 
 /// What such a line begins with.
 const SETTING: &str = "platewash setting:";
-
-/// A requirement by its words, joined by underscores or spaces.
-#[must_use]
-pub fn requirement(name: &str) -> Option<Requirement> {
-    let name = name.trim().replace('_', " ");
-    Requirement::ALL
-        .into_iter()
-        .find(|requirement| requirement.words() == name)
-}

@@ -9,7 +9,7 @@ use platewash::certificate::{CertifyError, Requirement, certify_with};
 use platewash::export::dialect::Dialect;
 use platewash::export::dialects::DIALECTS;
 use platewash::export::file::ProgramFile;
-use platewash::export::{ExportError, ExportSettings, Refusal, export, requirement};
+use platewash::export::{ExportError, ExportSettings, Refusal, export};
 use platewash::{CancelToken, Plan, Pose, ProveError, RobotModel};
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -54,7 +54,7 @@ impl Given<'_, '_> {
 
 fn accepted(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Requirement> {
     const NEEDED: &str = "the name of a requirement, as certificates have it,";
-    let found = requirement(&argument::text(name, value, NEEDED)?);
+    let found = Requirement::named(&argument::text(name, value, NEEDED)?);
     found.ok_or_else(|| argument::wrong_value(name, value, NEEDED))
 }
 

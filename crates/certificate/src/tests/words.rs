@@ -125,7 +125,7 @@ fn the_table_says_no_more_than_is_proved() {
             Sense::AtLeast => ("≥", -1.0),
             Sense::Above => (">", -1.0),
         };
-        let is_its = |line: &&str| line.starts_with(check.requirement.words()) && line.contains(sign);
+        let is_its = |line: &&str| line.starts_with(&check.requirement.words()) && line.contains(sign);
         let line = table.lines().find(is_its).unwrap();
         let (told, bound) = (number(line, sign), measure.bound.unwrap() * scale);
         let as_limit = format!("{told:.4}") == format!("{:.4}", measure.limit * scale);

@@ -126,7 +126,7 @@ fn the_same_plan_gives_the_same_bytes_and_says_what_it_is() {
         &plan.job.workcell.arm.urdf_sha256,
         "certificate sha256:",
         "HOLDS",
-        "deviation from plan: at most 0.19",
+        "plan deviation: at most 0.19",
         "not a safety function",
         "nothing of it is true",
         "0.3 kg",

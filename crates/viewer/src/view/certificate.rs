@@ -56,7 +56,7 @@ pub struct Check {
     /// Its name in the certificate's file.
     pub requirement: proved::Requirement,
     /// In words.
-    pub words: &'static str,
+    pub words: String,
     /// What came of it.
     pub status: Status,
     /// Bound, limit, what was found, and what does not agree; empty where there is nothing to add.
