@@ -208,7 +208,11 @@ fn a_height_that_does_not_work_is_told_with_one_that_does() {
     // Within what the tool's tilt and the planner's reserve take, a little higher is found.
     let ran = platewash(dir, &["dry-run", "out/plan.json", "--height", "0.0102"]);
     assert_eq!(ran.code, 3, "{}", ran.stderr);
-    assert!(ran.stdout.contains("too near real plate"), "{}", ran.stdout);
+    assert!(
+        ran.stdout.contains(" passes real plate") && ran.stdout.contains(" mm required"),
+        "{}",
+        ran.stdout
+    );
     let (_, works) = ran.stdout.split_once("; --height ").unwrap();
     let (works, _) = works.split_once(" was found to work\n").unwrap();
     assert!((0.0102..0.05).contains(&works.parse::<f64>().unwrap()), "{works}");

@@ -53,14 +53,24 @@ pub struct InfeasiblePart {
     pub share: f64,
     /// Least and greatest distance of the part from axis 1 \[m\].
     pub from_axis_m: [f64; 2],
+    /// What hinders at the most of the tilts.
+    #[serde(flatten)]
+    pub first: InfeasibleHindrance,
+    /// What hinders at the other ones.
+    pub others: Vec<InfeasibleHindrance>,
+    /// The same in words.
+    pub cause: String,
+}
+
+/// What hinders on a part of a wash path, at its worst.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InfeasibleHindrance {
     /// The kind of hindrance.
     pub kind: Filter,
     /// By how much the worst point is missed \[m\]; `None` for joints.
     pub shortfall_m: Option<f64>,
     /// By how much the worst joint is off \[rad\]; `None` for lengths.
     pub shortfall_rad: Option<f64>,
-    /// The same in words.
-    pub cause: String,
 }
 
 impl InfeasibleReport {
@@ -147,7 +157,7 @@ impl From<&UnwashablePlate> for InfeasiblePlate {
             causes: plate
                 .causes
                 .iter()
-                .map(|cause| InfeasiblePart::new(cause, plate.conclusion))
+                .filter_map(|cause| InfeasiblePart::new(cause, plate.conclusion))
                 .collect(),
             nearest_m: plate.nearest_m,
             place_search: Some(plate.place_search),
@@ -156,20 +166,32 @@ impl From<&UnwashablePlate> for InfeasiblePlate {
 }
 
 impl InfeasiblePart {
-    fn new(cause: &Cause, conclusion: Conclusion) -> Self {
-        let shortfall = cause.worst.shortfall();
-        let (shortfall_m, shortfall_rad) = match cause.worst {
-            Hindrance::Limit(_) | Hindrance::Jump { .. } => (None, Some(shortfall)),
-            Hindrance::NotFinite => (None, None),
-            _ => (Some(shortfall), None),
-        };
-        Self {
+    fn new(cause: &Cause, conclusion: Conclusion) -> Option<Self> {
+        let (first, others) = cause.worst.split_first()?;
+        Some(Self {
             share: cause.share,
             from_axis_m: cause.from_axis_m,
-            kind: cause.worst.filter(),
+            first: first.into(),
+            others: others.iter().map(InfeasibleHindrance::from).collect(),
+            cause: cause.words(conclusion),
+        })
+    }
+}
+
+impl From<&Hindrance> for InfeasibleHindrance {
+    fn from(worst: &Hindrance) -> Self {
+        let shortfall = worst.shortfall();
+        let (shortfall_m, shortfall_rad) = match worst {
+            Hindrance::Limit(_) | Hindrance::Jump { .. } | Hindrance::Wrist { .. } | Hindrance::Cone { .. } => {
+                (None, Some(shortfall))
+            }
+            Hindrance::NotFinite => (None, None),
+            Hindrance::Reach(_) | Hindrance::Unsolved { .. } | Hindrance::Clearance { .. } => (Some(shortfall), None),
+        };
+        Self {
+            kind: worst.filter(),
             shortfall_m,
             shortfall_rad,
-            cause: cause.words(conclusion),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::task::Profile;
 use super::washable::{Cause, Points, Washable, washable};
 use super::washing::{by_policy, by_search, policies, search_starts};
 use super::*;
-use crate::scene::{Contact, Filter, Inverse, Scene, TiltPolicy, Width, policy};
+use crate::scene::{Contact, Filter, Hindrance, Inverse, Scene, TiltPolicy, Width, policy};
 use crate::trig::sin_cos;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use platewash_kinematics::{JointVector, RobotModel, rotation::Rigid};
@@ -406,14 +406,20 @@ fn a_failure_is_the_arms_own() {
                 };
                 assert!(causes.iter().any(within), "{from_axis_m}");
             }
-            let filters: Vec<_> = causes.iter().map(|cause| cause.worst.filter()).collect();
+            let all = causes.iter().flat_map(|cause| &cause.worst);
+            let filters: Vec<_> = all.map(Hindrance::filter).collect();
             assert!(expected.iter().all(|filter| filters.contains(filter)), "{causes:?}");
-            for Cause {
-                from_axis_m: [least, most],
-                share,
-                worst,
-            } in causes
-            {
+            // Every dead point is in one part.
+            let parts: f64 = causes.iter().map(|cause| cause.share).sum();
+            assert!((parts + share - 1.0).abs() < 1e-9, "{parts} {share}");
+            let worst_of = |filter: Filter| {
+                let all = causes.iter().flat_map(|cause| &cause.worst);
+                let of_filter = all.filter(|worst| worst.filter() == filter);
+                of_filter
+                    .max_by(|a, b| a.shortfall().total_cmp(&b.shortfall()))
+                    .unwrap()
+            };
+            for worst in filters.into_iter().map(worst_of) {
                 // The largest shortfall, not the least, which lies at the edge of what can be washed.
                 let of_kind = ends.iter().flat_map(|end| &end.reasons);
                 let of_kind = of_kind.filter(|reason| reason.least.filter() == worst.filter());
@@ -423,7 +429,10 @@ fn a_failure_is_the_arms_own() {
                         assert!(reason.least.shortfall() <= worst.shortfall() + 1e-12, "{worst}");
                     }
                 }
-                assert!(least <= most && rho - 0.146 <= least && most <= rho + 0.146 && share > 0.0);
+            }
+            for Cause { from_axis_m, share, .. } in &causes {
+                let [least, most] = from_axis_m;
+                assert!(least <= most && rho - 0.146 <= *least && *most <= rho + 0.146 && *share > 0.0);
             }
         });
     }

@@ -6,7 +6,7 @@ use super::error::Reason;
 use super::search::Graph;
 use super::task::Task;
 use super::washing::{by_policy, search_starts};
-use crate::scene::{Hindrance, Start, Width};
+use crate::scene::{Filter, Hindrance, Start, Width};
 use platewash_workcell::cancel::Cancelled;
 use std::fmt;
 
@@ -20,8 +20,7 @@ pub enum Washable {
     Part {
         /// Share of the wash path for which configurations were found, on the best branch of the arm.
         share: f64,
-        /// What stands in the way of the rest, the most frequent first. Where several filters leave no tilt together, each
-        /// is counted.
+        /// The parts of the rest, by what stands in their way, the largest first: they add up to the rest.
         causes: Vec<Cause>,
         /// Whether the rest cannot be washed, or was only not found to be.
         conclusion: Conclusion,
@@ -46,11 +45,12 @@ pub struct Cause {
     pub share: f64,
     /// Least and greatest distance of that part from axis 1 \[m\].
     pub from_axis_m: [f64; 2],
-    /// The greatest of the hindrances there, at each point that of the best tilt: without it all of the part could be washed.
-    pub worst: Hindrance,
+    /// Of each filter that leaves no tilt there, together with the others, the greatest of its hindrances, at each point that of the
+    /// best tilt.
+    pub worst: Vec<Hindrance>,
 }
 
-/// A [`Cause`] in words: the part in percent, where it lies, and by how much it is missed at most, rounded up.
+/// A [`Cause`] in words: the part in percent, where it lies, and by how much it is missed at most, rounded to the worse.
 struct Words<'a>(&'a Cause, Conclusion);
 
 impl fmt::Display for Words<'_> {
@@ -64,7 +64,14 @@ impl fmt::Display for Words<'_> {
             "no configuration found"
         };
         write!(f, "{share:.1} %, {near:.3} to {far:.3} m from axis 1, {verdict} (")?;
-        cause.worst.fmt_worst(f)?;
+        for (k, worst) in cause.worst.iter().enumerate() {
+            f.write_str(match k {
+                0 if cause.worst.len() == 1 => "",
+                0 => "at some tilts ",
+                _ => ", at others ",
+            })?;
+            worst.fmt_worst(f)?;
+        }
         f.write_str(")")
     }
 }
@@ -161,30 +168,37 @@ fn survey(
     Ok(Some(unwashed))
 }
 
-/// Points, each with its distance from axis 1 \[m\], gathered by what stands in their way.
+/// Points, each with its distance from axis 1 \[m\], gathered by what stands in their way: by the set of the filters.
 fn causes(unwashed: Vec<(f64, Vec<Reason>)>, tried: f64) -> Vec<Cause> {
-    let mut found: Vec<Cause> = Vec::new();
-    let of_point = |(r, reasons): (f64, Vec<Reason>)| reasons.into_iter().map(move |reason| (r, reason.least));
-    let each = unwashed.into_iter().flat_map(of_point);
-    for (r, hindrance) in each {
-        match found
-            .iter_mut()
-            .find(|cause| cause.worst.filter() == hindrance.filter())
-        {
-            Some(cause) => {
+    let mut found: Vec<(Vec<Filter>, Cause)> = Vec::new();
+    for (r, reasons) in unwashed.into_iter().filter(|(_, reasons)| !reasons.is_empty()) {
+        let mut filters: Vec<Filter> = reasons.iter().map(|reason| reason.least.filter()).collect();
+        filters.sort_unstable();
+        let here = reasons.into_iter().map(|reason| reason.least);
+        match found.iter_mut().find(|(others, _)| *others == filters) {
+            Some((_, cause)) => {
                 cause.share += 1.0 / tried;
                 cause.from_axis_m = [cause.from_axis_m[0].min(r), cause.from_axis_m[1].max(r)];
-                if hindrance.shortfall() > cause.worst.shortfall() {
-                    cause.worst = hindrance;
+                for hindrance in here {
+                    let worst = cause
+                        .worst
+                        .iter_mut()
+                        .find(|worst| worst.filter() == hindrance.filter());
+                    if let Some(worst) = worst.filter(|worst| hindrance.shortfall() > worst.shortfall()) {
+                        *worst = hindrance;
+                    }
                 }
             }
-            None => found.push(Cause {
-                share: 1.0 / tried,
-                from_axis_m: [r, r],
-                worst: hindrance,
-            }),
+            None => {
+                let cause = Cause {
+                    share: 1.0 / tried,
+                    from_axis_m: [r, r],
+                    worst: here.collect(),
+                };
+                found.push((filters, cause));
+            }
         }
     }
-    found.sort_by(|a, b| b.share.total_cmp(&a.share));
-    found
+    found.sort_by(|(_, a), (_, b)| b.share.total_cmp(&a.share));
+    found.into_iter().map(|(_, cause)| cause).collect()
 }

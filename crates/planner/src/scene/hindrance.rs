@@ -123,10 +123,11 @@ impl Hindrance {
 }
 
 impl Hindrance {
-    /// In words where this is the greatest of many like it: "by up to", rounded up to what is printed.
+    /// In words where this is the greatest of many like it: "by up to" and what is passed at, rounded to the worse.
     pub(crate) fn fmt_worst(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mm = |m: f64| (1e4 * m).ceil() / 10.0;
         let degrees = |rad: f64| (100.0 * rad.to_degrees()).ceil() / 100.0;
+        let nearest = |mm: f64| (10.0 * mm).floor() / 10.0;
         match self {
             Self::Reach(miss) => write!(f, "out of reach by up to {:.1} mm", mm(miss.by_m)),
             Self::Limit(violation) => write!(
@@ -144,14 +145,13 @@ impl Hindrance {
                 "inverse kinematics: {cause}, up to {:.1} mm off",
                 mm(*position_error_m)
             ),
-            Self::Clearance { pair, required_m } => write!(
-                f,
-                "{} is up to {:.1} mm too near {}, of {:.1} mm that must be kept",
-                pair.a,
-                mm(required_m - pair.distance_m),
-                pair.b,
-                1e3 * required_m
-            ),
+            Self::Clearance { pair, required_m } => {
+                let [at, required] = told_apart(nearest(1e3 * pair.distance_m), 1e3 * required_m, 1);
+                match pair.distance_m > 0.0 {
+                    true => write!(f, "{} passes {} at {at} mm; {required} mm required", pair.a, pair.b),
+                    false => write!(f, "{} runs into {}; {required} mm required", pair.a, pair.b),
+                }
+            }
             Self::Jump { joint, by_rad } => {
                 write!(
                     f,
@@ -160,16 +160,15 @@ impl Hindrance {
                     by_rad.to_degrees()
                 )
             }
-            Self::Wrist { .. } => write!(
-                f,
-                "joint 5 is up to {:.2}° too near to 0, where the wrist flips",
-                degrees(self.shortfall())
-            ),
-            Self::Cone { .. } => write!(
-                f,
-                "the tool leans up to {:.2}° too far from the normal",
-                degrees(self.shortfall())
-            ),
+            Self::Wrist { found_rad, least_rad } => {
+                let [at, required] = [found_rad, least_rad].map(|rad| rad.to_degrees());
+                let [at, required] = told_apart((100.0 * at).floor() / 100.0, required, 2);
+                write!(
+                    f,
+                    "joint 5 passes 0, where the wrist flips, at {at}°; {required}° required"
+                )
+            }
+            Self::Cone { .. } => fmt::Display::fmt(self, f),
             Self::NotFinite => f.write_str("not finite"),
         }
     }
@@ -202,6 +201,37 @@ impl From<IkError> for Hindrance {
                 position_error_m: failure.position_error_m,
             },
             _ => Self::NotFinite,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_too_near_is_told_by_the_distance_and_the_one_required() {
+        struct Worst(f64);
+        impl fmt::Display for Worst {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                let [a, b] = ["handle", "post"].map(str::to_owned);
+                let pair = PairClearance {
+                    a,
+                    b,
+                    distance_m: self.0,
+                    place_m: [0.0; 3],
+                };
+                let required_m = 0.0105;
+                Hindrance::Clearance { pair, required_m }.fmt_worst(f)
+            }
+        }
+        for (distance_m, words) in [
+            (0.00154, "handle passes post at 1.5 mm; 10.5 mm required"),
+            (0.0104999, "handle passes post at 10.4 mm; 10.5 mm required"),
+            (0.0, "handle runs into post; 10.5 mm required"),
+            (-0.002, "handle runs into post; 10.5 mm required"),
+        ] {
+            assert_eq!(Worst(distance_m).to_string(), words);
         }
     }
 }
