@@ -173,18 +173,29 @@ fn the_smallest_of_tilts_is_kept() {
 }
 
 #[test]
-fn overlapping_plates_fail_the_certificate_unless_only_reported() {
+fn overlapping_plates_are_refused_unless_only_reported() {
     let mut scenario = explicit(&[[0.35, 0.10], [0.35, -0.15]]);
-    for (overlap, passes) in [(Overlap::Fail, false), (Overlap::Report, true)] {
-        scenario.layout.overlap = overlap;
-        let (_, certificate) = judged(&scenario);
-        assert_eq!(certificate.passes(), passes);
-        let broken: Vec<_> = certificate.broken().map(|check| check.requirement).collect();
-        let expected = [Requirement::PlatesApart];
-        assert_eq!(broken, if passes { &[] } else { &expected[..] });
-        let apart = certificate.check(Requirement::PlatesApart).unwrap();
-        assert!(!apart.discrepancies.is_empty());
-    }
+    scenario.layout.overlap = Overlap::Report;
+    let (done, certificate) = judged(&scenario);
+    assert!(certificate.passes() && certificate.broken().next().is_none());
+    let apart = certificate.check(Requirement::PlatesApart).unwrap();
+    assert!(!apart.discrepancies.is_empty());
+    // What the certificate would not pass is not planned.
+    let mut strict = done.plan.clone();
+    strict.job.requirements.overlap = Overlap::Fail;
+    let arm = scenario.arm().unwrap();
+    let broken = platewash::certificate::prove(&strict, &arm).unwrap();
+    assert_eq!(
+        broken.check(Requirement::PlatesApart).unwrap().discrepancies,
+        apart.discrepancies
+    );
+    scenario.layout.overlap = Overlap::Fail;
+    let error = planned(&scenario).unwrap_err();
+    assert_eq!(error.infeasibility(), Some(Infeasibility::Proved), "{error}");
+    let message = error.to_string();
+    assert!(message.contains("plate 0 and plate 1 overlap by 40.0 mm"), "{message}");
+    assert!(message.contains("layout.overlap"), "{message}");
+    assert_eq!(scenario.check().unwrap_err(), error);
 }
 
 #[test]

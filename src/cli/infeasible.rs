@@ -3,12 +3,15 @@
 use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
+use super::progress::Progress;
 use super::text::text;
 use super::{output, results};
 use platewash::Scenario;
 use platewash::paper::PaperError;
-use platewash::planner::{InfeasibleReport, PlanError};
+use platewash::planner::{InfeasibleReport, PlanError, Watch, other_unwashable_plates};
+use platewash::scenario::Remedies;
 use serde::Serialize;
+use std::fmt;
 
 /// A scenario of which nothing can come.
 #[derive(Serialize)]
@@ -31,11 +34,57 @@ pub fn report(scenario: &Scenario, failure: &platewash::Failure) -> Option<Infea
     Some(report?.explained(failure.to_string()))
 }
 
+/// What is said of a job that cannot be done.
+#[derive(Serialize)]
+struct Told {
+    #[serde(flatten)]
+    why: InfeasibleReport,
+    /// Keys that were changed, each alone.
+    remedies: Remedies,
+}
+
+impl fmt::Display for Told {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.why.fmt(f)
+    }
+}
+
+/// The same with all plates that stand in the way, and the keys that would mend it.
+fn in_full(
+    options: &Options,
+    scenario: &Scenario,
+    failure: &platewash::Failure,
+    why: InfeasibleReport,
+) -> Result<Told, platewash::Failure> {
+    let platewash::Failure::Plan(error) = failure else {
+        let remedies = Remedies::default();
+        return Ok(Told { why, remedies });
+    };
+    let progress = Progress::new(options.quiet, "looking for what would mend it");
+    let watch = Watch {
+        tell: &|activity| progress.say("looking for what would mend it", activity),
+        cancel: &options.cancel,
+    };
+    let arm = scenario.arm()?;
+    let why = match error {
+        PlanError::Unwashable(first) => {
+            let job = scenario.job_on(&arm, &scenario.place(&arm, &watch)?)?;
+            why.besides(&other_unwashable_plates(&job, first, &watch)?)
+        }
+        _ => why,
+    };
+    let remedies = scenario.remedies(&arm, error, &watch)?;
+    let reason = format!("{}{remedies}", why.reason);
+    let why = why.explained(reason);
+    Ok(Told { why, remedies })
+}
+
 /// The end of a job that was not carried out: where it cannot be done, that is reported in place of what earlier calls left.
 pub fn end(options: &Options, scenario: &Scenario, failure: platewash::Failure) -> Result<ExitCode, Failure> {
     let Some(report) = report(scenario, &failure) else {
         return Err(options.failure(failure));
     };
+    let report = in_full(options, scenario, &failure, report)?;
     let folder = results::folder(options);
     let words = text(&report);
     let files = vec![
@@ -45,7 +94,7 @@ pub fn end(options: &Options, scenario: &Scenario, failure: platewash::Failure) 
     results::write(options, &files)?;
     output::print_either(options.json, &report, || words.clone())?;
     results::name(options, &files);
-    Ok(Outcome::from(report.verdict).job(scenario.job.on_failure))
+    Ok(Outcome::from(report.why.verdict).job(scenario.job.on_failure))
 }
 
 /// With `--json`, gives what stands against a scenario (exit code 3) as an answer on standard output too.

@@ -1,5 +1,6 @@
 //! `platewash layout`: the plates and what is wrong with them.
 
+use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::{infeasible, output};
@@ -23,7 +24,11 @@ pub fn run(options: &Options) -> Result<ExitCode, Failure> {
         output::message(options.quiet, &format!("wrote {}", file.display()));
     }
     output::print_either(options.json, &layout, || text(&layout))?;
-    Ok(ExitCode::SUCCESS)
+    let outcome = match scenario.forbids(&layout) {
+        true => Outcome::Infeasible,
+        false => Outcome::Good,
+    };
+    Ok(outcome.answer())
 }
 
 fn text(layout: &Layout) -> String {

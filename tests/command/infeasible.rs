@@ -135,6 +135,64 @@ fn that_no_place_was_found_is_said_plainly() {
     );
 }
 
+/// Keys that are told are typed in.
+#[test]
+fn a_key_that_would_mend_it_is_told_and_holds_when_typed_in() {
+    let folder = folder();
+    let dir = folder.path();
+    // The handle ends 9 mm over the plate: 1.5 mm and the tool's tilt too near.
+    let place = ("region = \"appendix\"", "positions_m = [[0.4, 0.0]]");
+    let low = ("sponge_height_m = 0.025", "sponge_height_m = 0.009");
+    let ran = plan(dir, &spiral(dir, &[place, low]));
+    assert_eq!(ran.code, 3, "{}", ran.stderr);
+    let report: Value = serde_json::from_str(&std::fs::read_to_string(dir.join("o/report.json")).unwrap()).unwrap();
+    let remedies = &report["remedies"]["would_do"];
+    let of = |key: &str| remedies.as_array().unwrap().iter().find(|remedy| remedy["key"] == key);
+    let higher = of("tool.sponge_height_m").unwrap_or_else(|| panic!("{}", ran.stdout));
+    let (value, found) = (higher["value"].as_f64().unwrap(), higher["found"].as_f64().unwrap());
+    assert!(found == 0.009 && value > found, "{higher}");
+    let words = format!("tool.sponge_height_m = {value:?} instead of 0.009");
+    assert!(ran.stdout.starts_with("INFEASIBLE: ") || ran.stdout.starts_with("NOT FOUND: "));
+    assert!(ran.stdout.lines().next().unwrap().contains(&words), "{}", ran.stdout);
+    for (value, code) in [(value, 0), (value - 0.001, 3)] {
+        let typed = format!("sponge_height_m = {value:.3}");
+        assert_eq!(plan(dir, &spiral(dir, &[place, (low.0, &typed)])).code, code, "{typed}");
+    }
+    let clearance = of("wash.clearance_m").map(|remedy| remedy["value"].as_f64().unwrap());
+    if let Some(value) = clearance {
+        let typed = format!("clearance_m = {value}");
+        plan(dir, &spiral(dir, &[place, low, ("clearance_m = 0.01", &typed)])).done();
+    }
+}
+
+#[test]
+fn all_plates_that_cannot_be_washed_are_told_in_one_run() {
+    let folder = folder();
+    let dir = folder.path();
+    let at = |places: &str| format!("positions_m = [{places}]");
+    let far = at("[0.7, 0.0], [0.0, 0.72], [0.3, 0.3]");
+    let ran = plan(dir, &spiral(dir, &[("region = \"appendix\"", &far)]));
+    assert_eq!(ran.code, 3, "{}", ran.stderr);
+    for part in [
+        "plate 0 at (0.700, 0.000) m",
+        "plate 1 at (0.000, 0.720) m",
+        "; besides, plate ",
+    ] {
+        assert!(ran.stdout.contains(part), "no {part} in {}", ran.stdout);
+    }
+    let report: Value = serde_json::from_str(&std::fs::read_to_string(dir.join("o/report.json")).unwrap()).unwrap();
+    let plates = report["plates"].as_array().unwrap();
+    assert_eq!(plates.len(), 2, "{}", ran.stdout);
+    let place = |index: usize| {
+        let plate = plates.iter().find(|plate| plate["plate"] == index).unwrap();
+        plate["nearest_m"].to_string()
+    };
+    let places = [0, 1].map(place);
+    let near = at(&format!("{}, {}, [0.3, 0.3]", places[0], places[1]));
+    let told = ("overlap = \"fail\"", "overlap = \"report\"");
+    plan(dir, &spiral(dir, &[("region = \"appendix\"", &near), told])).done();
+}
+
 #[test]
 fn nothing_of_an_earlier_call_stays_beside_a_new_result() {
     let folder = folder();
@@ -234,6 +292,22 @@ fn validate_finds_what_run_refuses_before_planning() {
             platewash(dir, &[verb, "--scenario", file.to_str().unwrap()]).refused(2, fragments);
         }
         assert_eq!(names(dir), ["case.toml"]);
+    }
+    // An obstacle in a plate, whatever the program and wherever its plates come from.
+    let post = "\n[[obstacle]]\nname = \"post\"\nshape = \"box\"\nsize_m = [0.6, 0.6, 0.1]\nat_m = [0.45, 0.0, 0.05]\n";
+    for shipped in ["paper-appendix", "paper-text", "kitchen-spiral"] {
+        let file = replaced(dir, shipped, &[]);
+        let text = std::fs::read_to_string(&file).unwrap() + post;
+        std::fs::write(&file, text).unwrap();
+        for verb in ["validate", "run"] {
+            let ran = platewash(dir, &[verb, "--scenario", file.to_str().unwrap()]);
+            assert_eq!(ran.code, 2, "{verb} {shipped}: {}", ran.stdout);
+            assert!(
+                ran.stderr.contains("obstacle 'post' reaches 30.0 mm into plate"),
+                "{}",
+                ran.stderr
+            );
+        }
     }
     // Too long a table is said before anything is planned, by the key at fault.
     let slow = spiral(dir, &[("speed_m_s = 0.25", "speed_m_s = 1e-6")]);

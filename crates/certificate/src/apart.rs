@@ -1,12 +1,10 @@
 //! Plates keep apart from each other and from the base, obstacles from both.
 
 use crate::check::{Check, Discrepancy};
-use crate::face::PLACE_M;
 use crate::requirement::Requirement;
 use crate::subject::Subject;
-use platewash_workcell::clearance::{ClearanceError, Standing, gap_of_plates};
-use platewash_workcell::job::Overlap;
-use platewash_workcell::layout::base_footprint;
+use platewash_workcell::clearance::{ClearanceError, Standing};
+use platewash_workcell::job::{Overlap, PlateOverlap};
 use platewash_workcell::words::millimetres;
 use platewash_workcell::workcell::ObstacleShape;
 
@@ -16,24 +14,8 @@ use platewash_workcell::workcell::ObstacleShape;
 /// # Errors
 /// [`ClearanceError`] for a shape that is none.
 pub(crate) fn check(subject: &Subject<'_>) -> Result<Check, ClearanceError> {
-    let plates = subject.plates();
-    let mut wrong = Vec::new();
-    let base = base_footprint(subject.robot);
-    for (i, plate) in plates.iter().enumerate() {
-        if let Some(gap) = base.gap_m(plate).filter(|gap| *gap < -PLACE_M) {
-            let what = format!("gap between plate {i} and the base");
-            wrong.push(Discrepancy::new(what, millimetres(gap), "none below 0"));
-        }
-    }
-    for a in 0..plates.len() {
-        for b in a + 1..plates.len() {
-            let gap = gap_of_plates(subject.robot, &plates[a], &plates[b]);
-            if gap < -PLACE_M {
-                let what = format!("gap between plate {a} and plate {b}");
-                wrong.push(Discrepancy::new(what, millimetres(gap), "none below 0"));
-            }
-        }
-    }
+    let overlaps = subject.job.plate_overlaps(subject.robot);
+    let mut wrong: Vec<_> = overlaps.iter().map(discrepancy).collect();
     let obstacles = &subject.job.workcell.obstacles;
     let is_floor = |name: &str| {
         obstacles
@@ -57,4 +39,12 @@ pub(crate) fn check(subject: &Subject<'_>) -> Result<Check, ClearanceError> {
     // That plates overlap may be waived, that something stands in them is not.
     let waives = subject.job.requirements.overlap == Overlap::Report && !reaches;
     Ok(Check::stated(Requirement::PlatesApart, wrong).waived_if(waives))
+}
+
+fn discrepancy(overlap: &PlateOverlap) -> Discrepancy {
+    let other = overlap
+        .other
+        .map_or_else(|| "the base".to_owned(), |other| format!("plate {other}"));
+    let what = format!("gap between plate {} and {other}", overlap.plate);
+    Discrepancy::new(what, millimetres(-overlap.by_m), "none below 0")
 }

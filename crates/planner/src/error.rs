@@ -1,7 +1,6 @@
 //! Why a job could not be planned.
 
 use crate::joint_path::JointPathError;
-use crate::redundancy::RedundancyError;
 use crate::redundancy::settings::TILT_RESERVE_RAD;
 use crate::timing::TimingError;
 use crate::transit::{LiftLineError, TooNear, TransitError};
@@ -10,7 +9,7 @@ use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::{IkPathError, IkSettingsError};
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::clearance::ClearanceError;
-use platewash_workcell::job::{End, JobError};
+use platewash_workcell::job::{End, JobError, PlateOverlap};
 use platewash_workcell::layout::LayoutError;
 use platewash_workcell::plan::PlanFileError;
 use platewash_workcell::segment::SegmentKind;
@@ -54,6 +53,9 @@ pub enum PlanError {
     /// The terms are no job.
     #[error(transparent)]
     Job(#[from] JobError),
+    /// Plates share a place where the job allows none to.
+    #[error("{}", few(.0))]
+    Overlap(Vec<PlateOverlap>),
     /// No layout could be drawn.
     #[error("layout: {0}")]
     Layout(LayoutError),
@@ -101,8 +103,8 @@ pub enum PlanError {
     NoneWashable {
         /// Layouts drawn.
         layouts: usize,
-        /// What stands in the way in the last one.
-        last: Box<RedundancyError>,
+        /// What stands in the way in the last one, in words.
+        last: String,
     },
     /// From the configurations found on a plate, the arm does not follow the line over it.
     #[error(
@@ -182,7 +184,7 @@ impl PlanError {
         let found = |proved| Some(Infeasibility::proved_if(proved));
         match self {
             Self::Layout(error) => error.infeasibility(),
-            Self::HomeNotClear { .. } | Self::Transit(TransitError::Home { .. }) => found(true),
+            Self::Overlap(_) | Self::HomeNotClear { .. } | Self::Transit(TransitError::Home { .. }) => found(true),
             Self::Unwashable(plate) => found(plate.conclusion.is_proved()),
             Self::NoHome { .. } | Self::NoneWashable { .. } | Self::Line { .. } | Self::Tilt { .. } => found(false),
             Self::Transit(error) if error.is_infeasible() => found(false),
@@ -219,4 +221,15 @@ fn most_often(in_the_way: Option<&([String; 2], usize)>) -> String {
         let [a, b] = [a, b].map(|name| printable(name));
         format!("; most often too near are {a} and {b}, in {count} of them")
     })
+}
+
+/// The first of some overlaps, and how many more there are.
+fn few(overlaps: &[PlateOverlap]) -> String {
+    const FEW: usize = 3;
+    let told: Vec<_> = overlaps.iter().take(FEW).map(ToString::to_string).collect();
+    let more = match overlaps.len().saturating_sub(FEW) {
+        0 => String::new(),
+        more => format!("; and {more} more"),
+    };
+    format!("{}{more}", told.join("; "))
 }

@@ -93,6 +93,20 @@ impl InfeasibleReport {
         Some(report.explained(error.to_string()))
     }
 
+    /// The same with further plates that stand in the way.
+    #[must_use]
+    pub fn besides(mut self, others: &[UnwashablePlate]) -> Self {
+        for other in others {
+            if other.conclusion.is_proved() {
+                self.verdict = Verdict::Infeasible;
+            }
+            self.plates.push(other.into());
+            self.reason = format!("{}; besides, {other}", self.reason);
+        }
+        let reason = std::mem::take(&mut self.reason);
+        self.explained(reason)
+    }
+
     /// The same with the reason in other words.
     #[must_use]
     pub fn explained(self, reason: String) -> Self {
@@ -119,6 +133,16 @@ impl fmt::Display for InfeasibleReport {
 fn plates(error: &PlanError) -> Vec<InfeasiblePlate> {
     match error {
         PlanError::Unwashable(plate) => vec![InfeasiblePlate::from(&**plate)],
+        PlanError::Overlap(overlaps) => {
+            let mut plates: Vec<usize> = overlaps
+                .iter()
+                .flat_map(|o| [Some(o.plate), o.other])
+                .flatten()
+                .collect();
+            plates.sort_unstable();
+            plates.dedup();
+            plates.into_iter().map(InfeasiblePlate::reached_in_vain).collect()
+        }
         PlanError::Line { plate, .. }
         | PlanError::Tilt { plate, .. }
         | PlanError::Transit(TransitError::Line { plate, .. }) => {
@@ -133,7 +157,7 @@ fn plates(error: &PlanError) -> Vec<InfeasiblePlate> {
 }
 
 impl InfeasiblePlate {
-    /// A plate that could be washed if the arm got there and away.
+    /// A plate that could be washed if the arm got there and away, or if nothing else lay there.
     fn reached_in_vain(plate: usize) -> Self {
         Self {
             plate,

@@ -32,8 +32,8 @@ pub use order::{EXACT_UP_TO, Optimality};
 pub use outlook::PlateOutlook;
 pub use pace::Pace;
 pub use pipeline::{
-    check, draw_washable_layout, nearest_place, outlook, plan, plan_here, plan_in_order, plan_with, unwashable_plates,
-    washable_map,
+    check, draw_washable_layout, nearest_place, other_unwashable_plates, outlook, plan, plan_here, plan_in_order,
+    plan_with, unwashable_plates, washable_map,
 };
 pub use planned::{Planned, TourSummary, TransitSummary, VisitSummary};
 pub use redundancy::Chance;

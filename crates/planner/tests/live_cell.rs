@@ -5,12 +5,12 @@
 mod support;
 
 use platewash_planner::{
-    Activity, Chance, MapArea, MapPatch, PlaceSearch, PlanError, SEARCHED_M, UnwashablePlate, Watch, nearest_place,
-    outlook, plan, plan_here, plan_with, unwashable_plates, washable_map,
+    Activity, Chance, MapArea, MapPatch, PlaceSearch, PlanError, SEARCHED_M, UnwashablePlate, Watch, check,
+    nearest_place, other_unwashable_plates, outlook, plan, plan_here, plan_with, unwashable_plates, washable_map,
 };
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures::{kitchen, kitchen_plate};
-use platewash_workcell::job::{OrderRule, Planner, WashJob};
+use platewash_workcell::job::{OrderRule, Overlap, Planner, PlateOverlap, WashJob};
 use platewash_workcell::random;
 use rand::RngExt;
 use std::sync::Mutex;
@@ -94,6 +94,24 @@ fn what_is_not_planned_here_is_refused_in_the_same_words() {
     assert_eq!(put, there);
 }
 
+/// Typed in together, the places that are told leave nothing that cannot be washed.
+#[test]
+fn the_places_of_several_plates_suit_each_other() {
+    let places = [[0.40, 0.0], [0.0, 0.72], [0.05, 0.75]];
+    let job = on(&places, true);
+    let first = refused(plan(&job)).unwrap();
+    let others = silently(|watch| other_unwashable_plates(&job, &first, watch)).unwrap();
+    let both = first.plate.min(others[0].plate)..=first.plate.max(others[0].plate);
+    assert_eq!(both, 1..=2);
+    assert_eq!((others.len(), others[0].place_search), (1, first.place_search));
+    let mut moved = places;
+    for plate in others.iter().chain([&first]) {
+        moved[plate.plate] = plate.nearest_m.unwrap();
+    }
+    let mended = self::job(|terms, _| terms.plates = on(&moved, false).terms().plates.clone());
+    plan(&mended).unwrap();
+}
+
 #[test]
 fn every_plate_that_fails_is_named_and_the_one_that_planning_names_among_them() {
     let all = silently(|watch| unwashable_plates(&on(&MIXED, true), watch)).unwrap();
@@ -164,11 +182,29 @@ fn a_plate_told_to_be_unwashable_is_one_that_planning_fails_for() {
 }
 
 #[test]
-fn plates_that_overlap_are_judged_as_planning_judges_them() {
+fn plates_that_overlap_are_looked_at_and_planned_where_the_job_allows_it() {
     let job = on(&[[0.40, 0.0], [0.40, 0.1]], false);
     let outlooks = silently(|watch| outlook(&job, watch)).unwrap();
     assert!(outlooks.iter().all(|outlook| outlook.chance == Chance::Washable));
     assert!(plan(&job).is_ok());
+    let strict = self::job(|terms, _| terms.plates = job.terms().plates.clone());
+    assert_eq!(silently(|watch| outlook(&strict, watch)).unwrap(), outlooks);
+    let error = plan(&strict).unwrap_err();
+    let PlanError::Overlap(overlaps) = &error else {
+        panic!("{error}")
+    };
+    let [
+        PlateOverlap {
+            plate: 0,
+            other: Some(1),
+            by_m,
+        },
+    ] = overlaps[..]
+    else {
+        panic!("{error}")
+    };
+    assert!((by_m - 0.19).abs() < 1e-9, "{error}");
+    assert_eq!(check(strict.arm(), strict.terms()), Err(error));
     let json = serde_json::to_string(&outlooks[1]).unwrap();
     assert_eq!(json, r#"{"plate":1,"chance":"washable"}"#);
 }
@@ -210,6 +246,7 @@ fn the_nearest_place_of_a_plate_that_was_searched_for_is_the_one_that_planning_r
             let given = |relocate: bool| {
                 job(|terms, settings| {
                     terms.plates = order.map(|plate| kitchen_plate(places[plate])).into();
+                    terms.requirements.overlap = Overlap::Report;
                     (settings.order, settings.relocate) = (OrderRule::Given, relocate);
                 })
             };

@@ -104,7 +104,7 @@ impl fmt::Display for Failure {
 impl std::error::Error for Failure {}
 
 /// The key that states an end of the motion.
-fn home_key(end: End) -> &'static str {
+pub(crate) fn home_key(end: End) -> &'static str {
     match end {
         End::Start => "robot.start_deg",
         End::End => "robot.home_deg",
@@ -132,6 +132,10 @@ fn plan(f: &mut fmt::Formatter<'_>, error: &PlanError) -> fmt::Result {
     match error {
         PlanError::Job(error) => job(f, error),
         PlanError::Layout(error) => layout(f, error),
+        PlanError::Overlap(_) => write!(
+            f,
+            "{error}, and layout.overlap = \"fail\": no plan for these plates can be proved"
+        ),
         PlanError::Home { end, violation } => write!(f, "{}: {violation}", home_key(*end)),
         PlanError::HomeNotClear { end, too_near } => {
             write!(

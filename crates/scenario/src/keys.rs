@@ -278,7 +278,7 @@ const BEFORE_WASH: &[Key] = &[
         "layout.overlap",
         "",
         Word(&["report", "fail"]),
-        "Plates that overlap: a finding only, or the certificate fails.",
+        "Plates that overlap each other or the base: a finding only, or refused before planning.",
     ),
     key(
         "layout.only_washable",

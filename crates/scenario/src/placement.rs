@@ -1,12 +1,14 @@
 //! From the `[layout]` section to plates.
 
 use crate::failure::Failure;
+use crate::job::Program;
 use crate::layout::{LayoutSection, PLATE_RADIUS_M};
 use crate::scenario::Scenario;
 use platewash_kinematics::RobotModel;
 use platewash_planner::Watch;
+use platewash_workcell::job::Overlap;
 use platewash_workcell::layout::{
-    self, BaseFootprint, Layout, LayoutError, Placement, PlateGeometry, Region, Sampler, Spacing, TaskRegion,
+    self, BaseFootprint, Finding, Layout, LayoutError, Placement, PlateGeometry, Region, Sampler, Spacing, TaskRegion,
 };
 use platewash_workcell::plate::Foot;
 use platewash_workcell::random;
@@ -170,6 +172,15 @@ impl Scenario {
         let mut draw = || self.draw(base.as_ref(), &mut rng);
         let terms = self.terms(arm, &Layout::of(Vec::new()))?;
         Ok(platewash_planner::draw_washable_layout(arm, &terms, &mut draw, watch)?)
+    }
+
+    /// Whether plates of a layout share a place, with each other or the base, and no plan of them can be proved for that.
+    #[must_use]
+    pub fn forbids(&self, layout: &Layout) -> bool {
+        let shared =
+            |finding: &Finding| matches!(finding, Finding::PlatesOverlap { .. } | Finding::OverlapsBase { .. });
+        let judged = self.job.program == Program::Certified && self.layout.overlap == Overlap::Fail;
+        judged && layout.findings.iter().any(shared)
     }
 
     /// Refuses a region in which not even one plate has room.

@@ -126,14 +126,24 @@ impl Scenario {
             }
             .into());
         }
-        if self.job.program == Program::Certified {
-            let terms = self.terms(&arm, &layout)?;
-            platewash_planner::check(&arm, &terms)?;
-            if given {
-                terms.validate()?;
-            }
+        if given {
+            self.check_on(&arm, &layout)?;
+        } else if self.job.program == Program::Certified {
+            platewash_planner::check(&arm, &self.terms(&arm, &layout)?)?;
         }
         Ok((arm, layout.findings))
+    }
+
+    /// Refuses what carrying it out on some plates refuses before anything is planned.
+    ///
+    /// # Errors
+    /// As carrying it out, for the same fault.
+    pub fn check_on(&self, arm: &Arc<RobotModel>, layout: &Layout) -> Result<(), Failure> {
+        match self.job.program {
+            Program::Certified => platewash_planner::check(arm, self.job_on(arm, layout)?.terms())?,
+            Program::Paper => self.paper_job_on(arm, layout.clone())?.validate()?,
+        }
+        Ok(())
     }
 
     /// The terms of the job on some plates; where no home is stated, one is found for them.

@@ -1,12 +1,13 @@
 //! Layouts of which every plate can be washed whole.
 
+use super::phases::check_apart;
 use super::shared::Pipeline;
 use crate::activity::Activity;
 use crate::error::PlanError;
 use crate::redundancy::RedundancyError;
 use crate::watch::Watch;
 use platewash_kinematics::RobotModel;
-use platewash_workcell::job::{JobTerms, WashJob};
+use platewash_workcell::job::{JobError, JobTerms, WashJob};
 use platewash_workcell::layout::{Layout, LayoutError};
 use std::sync::Arc;
 
@@ -35,15 +36,27 @@ pub fn draw_washable_layout(
             plates: layout.plates.clone(),
             ..terms.clone()
         };
-        let job = WashJob::new(arm.clone(), terms)?;
-        let pipeline = Pipeline::of(&job, watch)?;
-        match pipeline.first_unwashable()? {
+        let last = match first_refused(arm, terms, watch)? {
             None => return Ok(layout),
-            Some(last) if drawn == most => {
-                let (layouts, last) = (drawn, Box::new(last));
-                return Err(PlanError::NoneWashable { layouts, last });
-            }
-            Some(_) => {}
+            Some(last) => last,
+        };
+        if drawn == most {
+            return Err(PlanError::NoneWashable { layouts: drawn, last });
+        }
+    }
+}
+
+/// What keeps the plates of a layout from being washed, in words: that one shares its place with another or with an obstacle, or
+/// cannot be washed whole.
+fn first_refused(arm: &Arc<RobotModel>, terms: JobTerms, watch: &Watch<'_>) -> Result<Option<String>, PlanError> {
+    if let Err(overlap) = check_apart(arm, &terms) {
+        return Ok(Some(overlap.to_string()));
+    }
+    match WashJob::new(arm.clone(), terms) {
+        Err(standing @ JobError::Standing(_)) => Ok(Some(standing.to_string())),
+        job => {
+            let unwashable = Pipeline::of(&job?, watch)?.first_unwashable()?;
+            Ok(unwashable.map(|error| error.to_string()))
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A plate for which no way was found to wash it whole: why.
 
+use super::nearest_place::nearest_place;
 use super::shared::Pipeline;
 use super::visits::Failed;
 use crate::activity::Activity;
@@ -32,6 +33,36 @@ pub fn unwashable_plates(job: &WashJob, watch: &Watch<'_>) -> Result<Vec<Unwasha
     let mut plates = plates?;
     plates.sort_by_key(|plate| plate.plate);
     Ok(plates)
+}
+
+/// The other plates of a job that [`plan_with`](crate::plan_with) fails for `first`: those of [`unwashable_plates`], where that looked for
+/// another place each with its own, found with those before it, `first` among them, where they could be washed.
+///
+/// # Errors
+/// As [`unwashable_plates`].
+pub fn other_unwashable_plates(
+    job: &WashJob,
+    first: &UnwashablePlate,
+    watch: &Watch<'_>,
+) -> Result<Vec<UnwashablePlate>, PlanError> {
+    let mut others = unwashable_plates(job, watch)?;
+    others.retain(|other| other.plate != first.plate);
+    let PlaceSearch::Within(_) = first.place_search else {
+        return Ok(others);
+    };
+    let mut plates = job.terms().plates.clone();
+    let mut before = first;
+    for other in &mut others {
+        if let Some(nearest_m) = before.nearest_m {
+            plates[before.plate] = plates[before.plate].moved_to(nearest_m);
+        }
+        // Places that were found suit obstacles and plates too.
+        let job = job.on_plates(plates.clone())?;
+        other.nearest_m = nearest_place(&job, other.plate, watch)?;
+        other.place_search = first.place_search;
+        before = other;
+    }
+    Ok(others)
 }
 
 impl Pipeline<'_> {

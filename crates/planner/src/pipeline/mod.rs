@@ -28,7 +28,7 @@ mod visits;
 mod washable_map;
 
 pub use draw_layout::draw_washable_layout;
-pub use failing::unwashable_plates;
+pub use failing::{other_unwashable_plates, unwashable_plates};
 pub use nearest_place::nearest_place;
 pub use outlook::outlook;
 pub use phases::{check, plan, plan_here, plan_in_order, plan_with};

@@ -13,6 +13,7 @@ use crate::watch::Watch;
 use nalgebra::Vector2;
 use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;
+use platewash_workcell::clearance::standing_overlaps;
 use platewash_workcell::job::WashJob;
 use platewash_workcell::wash_path::WashPath;
 
@@ -95,6 +96,9 @@ impl Pipeline<'_> {
     fn washes_at(&self, plate: usize, centre_m: [f64; 2]) -> Result<bool, PlanError> {
         let mut plates = self.plates.to_vec();
         plates[plate] = self.scene()?.moved(&plates[plate], centre_m);
+        if !standing_overlaps(self.robot, &self.terms.workcell, &plates, None)?.is_empty() {
+            return Ok(false);
+        }
         let moved = self.among(&plates);
         moved.check_homes()?;
         let scene = moved.scene()?;

@@ -14,8 +14,8 @@ use rayon::prelude::*;
 /// A guess for the eye, in milliseconds.
 ///
 /// One that is told to be unwashable is one that [`plan`](crate::plan) fails for, if not for another. One that is told to be washable
-/// may still fail: transits are not looked at, and the arm may come from elsewhere. Plates that overlap are washed all the same, as
-/// they are by [`plan`](crate::plan); that they do is a finding of the layout.
+/// may still fail: transits are not looked at, and the arm may come from elsewhere. Plates that overlap are washed all the same; that
+/// they do is a finding of the layout, and refused by [`plan`](crate::plan) where the job allows none to.
 ///
 /// # Errors
 /// [`PlanError`] of the input, an end configuration that is not clear, and [`PlanError::Cancelled`].

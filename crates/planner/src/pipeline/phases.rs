@@ -9,7 +9,7 @@ use crate::planned::{Planned, TransitSummary, VisitSummary};
 use crate::watch::Watch;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::job::{JobError, JobTerms, WashJob};
+use platewash_workcell::job::{JobError, JobTerms, Overlap, WashJob};
 use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::trajectory::Trajectory;
 use platewash_workcell::wash_path::WashPath;
@@ -55,6 +55,7 @@ pub fn plan_in_order(
 }
 
 fn planned(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanError> {
+    check_apart(job.arm(), job.terms())?;
     pipeline.check_homes()?;
     let scene = pipeline.scene()?;
     let (order, tour) = pipeline.order(&scene)?;
@@ -106,7 +107,8 @@ fn planned(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanError>
 }
 
 /// Refuses what is known to fail before anything is searched for: an end configuration beyond its limits or too near something, an
-/// arm without a tool, obstacles that reach into plates or the base. Plates may be left out where they are not known yet.
+/// arm without a tool, obstacles that reach into plates or the base, plates that overlap where they must not. Plates may be left out
+/// where they are not known yet.
 ///
 /// # Errors
 /// [`PlanError`].
@@ -118,7 +120,19 @@ pub fn check(arm: &RobotModel, terms: &JobTerms) -> Result<(), PlanError> {
     if !overlaps.is_empty() {
         return Err(JobError::Standing(overlaps).into());
     }
+    check_apart(arm, terms)?;
     Pipeline::new(arm, (seen, &terms.workcell.mount), &seen.plates, &watch)?.check_homes()
+}
+
+/// Refuses plates that share a place where no plan of them could be proved.
+pub(super) fn check_apart(arm: &RobotModel, terms: &JobTerms) -> Result<(), PlanError> {
+    if terms.requirements.overlap == Overlap::Report {
+        return Ok(());
+    }
+    match terms.plate_overlaps(arm) {
+        none if none.is_empty() => Ok(()),
+        overlaps => Err(PlanError::Overlap(overlaps)),
+    }
 }
 
 fn largest_jerk(motion: &Trajectory) -> JointVector {

@@ -1,7 +1,7 @@
 //! Jobs of more than one test.
 
 use platewash_workcell::fixtures::{kitchen, kitchen_plate};
-use platewash_workcell::job::{JobTerms, Planner, PlannerSettings, WashJob};
+use platewash_workcell::job::{JobTerms, Overlap, Planner, PlannerSettings, WashJob};
 
 /// The kitchen with other terms.
 pub fn job(change: impl FnOnce(&mut JobTerms, &mut PlannerSettings)) -> WashJob {
@@ -13,10 +13,11 @@ pub fn job(change: impl FnOnce(&mut JobTerms, &mut PlannerSettings)) -> WashJob 
     WashJob::new(kitchen.shared_arm(), terms).unwrap()
 }
 
-/// It with plates elsewhere; `relocate`: whether the job asks for other places.
+/// It with plates elsewhere, over each other too; `relocate`: whether the job asks for other places.
 pub fn on(places: &[[f64; 2]], relocate: bool) -> WashJob {
     job(|terms, settings| {
         terms.plates = places.iter().copied().map(kitchen_plate).collect();
+        terms.requirements.overlap = Overlap::Report;
         settings.relocate = relocate;
     })
 }

@@ -138,6 +138,10 @@ fn plan(py: Python<'_>, error: &PlanError, message: &str) -> PyErr {
         PlanError::Clearance(_) => return staged(py, "clearance", message, Vec::new()),
         PlanError::IkSettings(_) => return staged(py, "ik", message, Vec::new()),
         PlanError::Unwashable(plate) => unwashable(py, plate),
+        PlanError::Overlap(overlaps) => {
+            let plate = overlaps.first().and_then(|overlap| any(py, overlap.plate));
+            vec![cause("overlap"), ("plate", plate)]
+        }
         PlanError::NoneWashable { .. } => vec![cause("not_found")],
         PlanError::Line { plate, .. } | PlanError::Transit(TransitError::Line { plate, .. }) => {
             vec![cause("line"), at(*plate)]
