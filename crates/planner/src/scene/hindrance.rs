@@ -127,7 +127,8 @@ impl Hindrance {
     pub(crate) fn fmt_worst(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mm = |m: f64| (1e4 * m).ceil() / 10.0;
         let degrees = |rad: f64| (100.0 * rad.to_degrees()).ceil() / 100.0;
-        let nearest = |mm: f64| (10.0 * mm).floor() / 10.0;
+        // What is 10 mm but for rounding reads so.
+        let nearest = |mm: f64| (10.0 * mm + 1e-6).floor() / 10.0;
         match self {
             Self::Reach(miss) => write!(f, "out of reach by up to {:.1} mm", mm(miss.by_m)),
             Self::Limit(violation) => write!(
@@ -227,6 +228,7 @@ mod tests {
         }
         for (distance_m, words) in [
             (0.00154, "handle passes post at 1.5 mm; 10.5 mm required"),
+            (0.01 - 1e-12, "handle passes post at 10.0 mm; 10.5 mm required"),
             (0.0104999, "handle passes post at 10.4 mm; 10.5 mm required"),
             (0.0, "handle runs into post; 10.5 mm required"),
             (-0.002, "handle runs into post; 10.5 mm required"),
