@@ -98,10 +98,7 @@ fn check(certified: &Certified<Plan>, arm: &RobotModel, settings: &ExportSetting
         .filter(|requirement| !settings.accepted.contains(requirement))
         .collect();
     if !waived.is_empty() {
-        let waived = waived
-            .into_iter()
-            .map(|requirement| requirement.words())
-            .collect();
+        let waived = waived.into_iter().map(|requirement| requirement.words()).collect();
         return Err(Refusal::Waived { waived });
     }
     if let Some(stands) = &settings.stands_rad {

@@ -4,6 +4,7 @@ use super::cfg;
 use super::module::{Glob, Id, Mention, Module, Modules, Name, shown};
 use super::paths::Paths;
 use anyhow::{Context, Result, anyhow, bail};
+use proc_macro2::TokenTree;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -142,6 +143,12 @@ impl Module {
         if let Some((name, open)) = defined(item) {
             self.bind(name, Name::Item, open);
         }
+        if let syn::Item::Macro(item) = item {
+            // Its calls define the types whose names it states.
+            for name in types_of(item.mac.tokens.clone()) {
+                self.bind(name, Name::Item, true);
+            }
+        }
         let seen = Paths::of(item);
         seen.imports.iter().for_each(|import| self.import(import));
         let mentions = seen.code.into_iter();
@@ -221,4 +228,22 @@ fn defined(item: &syn::Item) -> Option<(String, bool)> {
         _ => return None,
     };
     Some((name.to_string(), is_open(visibility)))
+}
+
+/// The names that follow `enum` and `struct` anywhere in the text of a macro.
+fn types_of(text: proc_macro2::TokenStream) -> Vec<String> {
+    let mut names = Vec::new();
+    let mut after_keyword = false;
+    for token in text {
+        match token {
+            TokenTree::Group(group) => names.extend(types_of(group.stream())),
+            TokenTree::Ident(ident) if after_keyword => {
+                names.push(ident.to_string());
+                after_keyword = false;
+            }
+            TokenTree::Ident(ident) => after_keyword = ident == "enum" || ident == "struct",
+            _ => after_keyword = false,
+        }
+    }
+    names
 }
