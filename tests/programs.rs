@@ -1,15 +1,18 @@
 //! Robot programs of the shipped scenarios: what is written reads back, keeps to its plan and is judged again.
 //!
-//! More seeds: cargo test --release --test programs -- --ignored
+//! More seeds, and excursions at every tenth row of every program: cargo test --release --test programs -- --ignored
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use platewash::certificate::{Requirement, Status};
+use platewash::certificate::{ClearanceRule, ProgramLimits, Requirement, Status, prove_program};
 use platewash::export::dialect::{Dialect, Points};
 use platewash::export::dialects::DIALECTS;
+use platewash::export::interpret::motions;
+use platewash::export::judged::JOINT_SPEED_SHARE;
+use platewash::export::reading::{Between, Reading};
 use platewash::export::{ExportSettings, Exported, compare, export};
 use platewash::scenario::{Program, SHIPPED};
 use platewash::workcell::plan::Plan;
-use platewash::{CancelToken, Certified, RobotModel, Scenario, certify, plan};
+use platewash::{CancelToken, Certified, JointVector, RobotModel, Scenario, certify, plan};
 use rayon::prelude::*;
 
 /// Seeds of each scenario in the suite, and of the kitchen beyond it.
@@ -17,10 +20,13 @@ const SEEDS: std::ops::RangeInclusive<u64> = 1..=3;
 const MORE_SEEDS: std::ops::RangeInclusive<u64> = 1..=200;
 
 fn certified(name: &str, seed: u64) -> (Certified<Plan>, RobotModel) {
-    let scenario = Scenario {
+    certified_of(&Scenario {
         seed,
         ..Scenario::load(name).unwrap()
-    };
+    })
+}
+
+fn certified_of(scenario: &Scenario) -> (Certified<Plan>, RobotModel) {
     let job = scenario.job().unwrap();
     (certify(plan(&job).unwrap().plan, job.arm()).unwrap(), job.arm().clone())
 }
@@ -127,4 +133,165 @@ fn programs_of_the_shipped_scenarios_hold() {
 #[ignore = "takes minutes"]
 fn programs_of_many_kitchens_hold() {
     all_hold("kitchen", MORE_SEEDS);
+}
+
+/// A lever on the tool, and a post 20 mm beside it at home: 5 mm are to be kept.
+const LEVER: &str = r#"
+[[tool_body]]
+name = "lever"
+shape = "capsule"
+radius_m = 0.005
+length_m = 0.15
+frame = "flange"
+at_m = [-0.075, 0, 0.06]
+rpy_deg = [0, 90, 0]
+
+[[obstacle]]
+name = "post"
+shape = "sphere"
+radius_m = 0.005
+at_m = [0.44607, 0.029204, 0.498]
+"#;
+
+/// A table without speeds is straight lines, whose speed jumps at every row: joint 6 turns away by 0.16 rad and back within 16 rows, the
+/// tip stays where it is, and the lever goes 4 mm into the post. Wherever that begins, it is found.
+#[test]
+fn a_jump_of_speed_hides_no_collision() {
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/kitchen-spiral.toml")).unwrap();
+    let text = text
+        .replace("count = 4\n", "positions_m = [[0.36, 0.1]]\n")
+        .replace("region = \"appendix\"", "#")
+        .replace("min_distance_m = 0.30", "#")
+        .replace("clearance_m = 0.01\n", "clearance_m = 0.005\n");
+    let (plan, arm) = certified_of(&Scenario::parse(&(text + LEVER), "lever.toml").unwrap());
+    let cancel = CancelToken::new();
+    let csv = DIALECTS.iter().find(|dialect| dialect.name() == "csv").unwrap();
+    let files = export(&plan, &arm, *csv, &ExportSettings::default(), &cancel)
+        .unwrap()
+        .files;
+    for from in 0..=6 {
+        let mut table = files[0].clone();
+        let without_speeds = |(row, line): (usize, &str)| {
+            let mut cells: Vec<_> = line.split(',').take(8).map(str::to_owned).collect();
+            let share = 1.0 - (row as f64 - (from + 9) as f64).abs() / 8.0;
+            if share > 0.0 {
+                cells[7] = (cells[7].parse::<f64>().unwrap() - 0.16 * share).to_string();
+            }
+            cells.join(",") + "\n"
+        };
+        table.text = table.text.lines().enumerate().map(without_speeds).collect();
+        let compared = compare(&plan, &arm, &[table], &cancel).unwrap();
+        let worst = compared.judged.worst();
+        let clearance = worst
+            .iter()
+            .find(|check| check.requirement == Requirement::Clearance)
+            .unwrap();
+        assert_eq!(clearance.status, Status::Violated, "from row {from}: {clearance:?}");
+        assert!(
+            clearance.measure.unwrap().bound.unwrap() < -0.003,
+            "from row {from}: {clearance:?}"
+        );
+        assert!(!compared.holds());
+    }
+}
+
+/// Numbers from 0 to 1 that follow from a seed (Steele, Lea and Flood, OOPSLA 2014).
+fn random(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut z = *seed;
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    (z ^ (z >> 31)) as f64 / u64::MAX as f64
+}
+
+/// The joints leave the way of a program about a row and come back, within some rows; there the arm stops at each point.
+fn excursion(reading: &Reading, row: usize) -> (Reading, [f64; 2]) {
+    let (mut reading, mut seed) = (reading.clone(), row as u64);
+    let half = 1.0 + (8.0 * random(&mut seed)).floor();
+    let size = JointVector::from_fn(|_, _| 0.3 * (2.0 * random(&mut seed) - 1.0) * random(&mut seed).round());
+    let last = reading.points.len() - 1;
+    for (k, point) in reading.points.iter_mut().enumerate() {
+        let share = 1.0 - (k as f64 - row as f64).abs() / half;
+        if share >= 0.0 {
+            point.q_rad += size * share;
+            point.corner_m = None;
+        }
+    }
+    let ends = [row as f64 - half, row as f64 + half].map(|k| (k.max(0.0) as usize).min(last));
+    let share = reading.share();
+    let ends_s = ends.map(|k| reading.points[k].t_s * share);
+    (reading, ends_s)
+}
+
+/// No bound of the clearance is above what is sampled densely, whatever the joints do about every `every`-th row of a plan's programs.
+/// Answers how many motions were judged.
+fn attacked(name: &str, every: usize) -> usize {
+    let (plan, arm) = certified(name, 1);
+    let job = &plan.plan().job;
+    let tip = job.workcell.tool.tip_frame(&arm);
+    let (rule, cancel) = (ClearanceRule::new(plan.plan(), &arm).unwrap(), CancelToken::new());
+    let limits = ProgramLimits {
+        deviation_m: 2e-4,
+        joint_speed_share: JOINT_SPEED_SHARE,
+        speed_share: 1.0,
+    };
+    let mut readings = Vec::new();
+    for dialect in dialects(&plan, &arm) {
+        let reading = export(&plan, &arm, dialect, &ExportSettings::default(), &cancel)
+            .unwrap()
+            .reading;
+        if reading.between == Between::Cubics {
+            readings.push(Reading {
+                between: Between::Lines,
+                ..reading.clone()
+            });
+        }
+        readings.push(reading);
+    }
+    let rows = readings
+        .iter()
+        .flat_map(|reading| (0..reading.points.len()).step_by(every).map(move |row| (reading, row)));
+    let judged = rows.collect::<Vec<_>>().into_par_iter().map(|(reading, row)| {
+        let (changed, [from_s, to_s]) = excursion(reading, row);
+        let all = motions(&changed, &arm, &tip).unwrap();
+        for interpreted in &all {
+            let motion = &interpreted.motion;
+            let proof = prove_program(&plan, motion, &arm, &limits, &cancel).unwrap();
+            let check = proof
+                .checks
+                .iter()
+                .find(|check| check.requirement == Requirement::Clearance)
+                .unwrap();
+            let bound_m = check.measure.unwrap().bound.unwrap_or(f64::NEG_INFINITY);
+            for k in 0..=600 {
+                let t_s = from_s + (to_s - from_s) * f64::from(k) / 600.0;
+                let Some([q, _]) = motion.at(t_s) else { continue };
+                let segments = &plan.plan().segments;
+                let segment = segments
+                    .partition_point(|segment| segment.t_end_s < t_s)
+                    .min(segments.len() - 1);
+                let nearest_m = rule.nearest(&q, Some(segment)).unwrap().distance_m;
+                assert!(
+                    bound_m <= nearest_m + 1e-6,
+                    "{name}, {:?} about row {row} at {t_s} s: {bound_m} {nearest_m}",
+                    reading.between
+                );
+            }
+        }
+        all.len()
+    });
+    judged.sum()
+}
+
+#[test]
+fn no_bound_is_above_a_sample_of_an_excursion() {
+    assert!(attacked("kitchen-spiral", 300) > 20);
+}
+
+#[test]
+#[ignore = "takes an hour"]
+fn no_bound_is_above_a_sample_at_any_tenth_row() {
+    for name in scenarios() {
+        println!("{name}: {} motions", attacked(name, 10));
+    }
 }

@@ -1,7 +1,7 @@
 //! Clearance of one pair of bodies over stretches of time: branch and bound, the least bound first.
 //!
 //! An interval of time and a pair of parts has a lower bound of its distance: from its middle by what the joints can displace, or
-//! from its ends by what the parts can accelerate ([`platewash_workcell::clearance::motion`]). The interval with the least bound is
+//! from its ends by what the parts can accelerate, and jump in speed ([`platewash_workcell::clearance::motion`]). The interval with the least bound is
 //! halved until that is good enough: the limit kept and the least distance found nearly reached. A body of many parts is looked at as a
 //! whole: from the shape that holds all of them, and where that is too near, part by part, the nearest first, until one is too near or all
 //! others are far enough.
@@ -275,7 +275,7 @@ impl<'a> Search<'a> {
         }
         let length_s = self.timeline.length_s(interval);
         let acceleration = pair.acceleration(&levers, &extent.speed, &extent.acceleration);
-        let sag = 0.125 * length_s * length_s * acceleration;
+        let sag = 0.125 * length_s * length_s * acceleration + 0.25 * length_s * levers.dot(&extent.jumps);
         let ends = self.timeline.ends(interval);
         let along = |normal| {
             let [a, b] = ends.map(|q| pair.gap_along(normal, &self.robot.fk(&q)));
@@ -360,5 +360,66 @@ impl<'a> Search<'a> {
             }
         }
         bound
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::piece::Piece;
+    use platewash_kinematics::JointVector;
+    use platewash_workcell::clearance::ClearanceModel;
+    use platewash_workcell::fixtures::{kitchen_plate, kitchen_tool, workcell};
+    use platewash_workcell::piecewise::MotionPiece;
+    use proptest::prelude::*;
+
+    const STEP_S: f64 = 0.008;
+
+    /// Lines of [`STEP_S`] through some positions \[rad\].
+    fn lines(q: &[JointVector]) -> Vec<Piece> {
+        let time_s = |k: usize| k as f64 * STEP_S;
+        let line = |k: usize| MotionPiece::line([time_s(k), time_s(k + 1)], [q[k], q[k + 1]]);
+        (0..q.len() - 1).map(|k| Piece::from(&line(k))).collect()
+    }
+
+    fn vector(size: f64) -> impl Strategy<Value = JointVector> {
+        prop::array::uniform6(-size..size).prop_map(JointVector::from)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+
+        /// A motion of lines, slow but for an excursion whose speed jumps: no bound is above the least distance sampled, wherever in the
+        /// tree of intervals the excursion lies. What is enough is far below, so that few intervals are looked at.
+        #[test]
+        fn no_bound_is_above_a_sample_where_speeds_jump(
+            q in vector(0.6), drift in vector(2e-3), away in vector(0.4), rows in 2..70_usize, at in 0.0..1.0_f64, half in 1..9_usize,
+        ) {
+            let robot = RobotModel::irb120().unwrap();
+            let model = ClearanceModel::new(&robot, &workcell(&robot, kitchen_tool()), &[kitchen_plate([0.3, 0.1])]).unwrap();
+            let top = (at * rows as f64).floor();
+            let position = |k: usize| {
+                let share = 1.0 - (k as f64 - top).abs() / half as f64;
+                q + drift * k as f64 + away * share.max(0.0)
+            };
+            let pieces = lines(&(0..=rows).map(position).collect::<Vec<_>>());
+            let timeline = Timeline::new(&pieces);
+            let cancel = CancelToken::new();
+            let goal = Goal { limit_m: 0.0, enough_m: Some(1e-3), budget: 4000 };
+            let all = 0..pieces.len();
+            for pair in 0..model.pair_count() {
+                let parts = model.parts_of(pair);
+                let found = Search::run((&robot, &cancel), &timeline, &parts, std::slice::from_ref(&all), goal);
+                for piece in &pieces {
+                    for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
+                        let poses = robot.fk(&piece.position(share * piece.length_s));
+                        for part in parts.parts() {
+                            let sampled_m = part.measure(&poses).distance_m;
+                            prop_assert!(found.at_least_m <= sampled_m + ITERATIVE_ERROR_M, "{found:?} {sampled_m}");
+                        }
+                    }
+                }
+            }
+        }
     }
 }

@@ -26,6 +26,8 @@ pub(crate) struct Piece {
     /// \[s\]
     pub length_s: f64,
     c: [JointVector; 4],
+    /// Speed that the knot at the end states \[rad/s\].
+    end_speed: JointVector,
     rounding: Rounding,
 }
 
@@ -52,8 +54,10 @@ pub(crate) struct Extent {
     pub most: JointVector,
     /// Greatest speeds \[rad/s\].
     pub speed: JointVector,
-    /// Greatest accelerations \[rad/s²\].
+    /// Greatest accelerations, inside pieces \[rad/s²\].
     pub acceleration: JointVector,
+    /// Sums of the jumps of speed at the knots inside \[rad/s\].
+    pub jumps: JointVector,
 }
 
 /// The pieces of a plan's knots, in time order.
@@ -95,6 +99,7 @@ impl Piece {
                 (mean * 3.0 - v0 * 2.0 - v1) / h,
                 (v0 + v1 - mean * 2.0) / (h * h),
             ],
+            end_speed: v1,
             rounding: Rounding {
                 position: rounding * h + q0.abs().sup(&q1.abs()) * f64::EPSILON,
                 speed: rounding,
@@ -157,6 +162,7 @@ impl Piece {
             most: start.sup(&end),
             speed: self.greatest_speed([u0, u1]),
             acceleration: self.greatest_acceleration([u0, u1]),
+            jumps: JointVector::zeros(),
         };
         for joint in 0..AXES {
             for u in self.turns(joint).into_iter().filter(|u| *u > u0 && *u < u1) {
@@ -168,6 +174,12 @@ impl Piece {
         extent.least -= self.rounding.position;
         extent.most += self.rounding.position;
         extent
+    }
+
+    /// Size of the jump of speed from here to the next piece, as the knots state it: exactly 0 between pieces of a plan, which share
+    /// theirs \[rad/s\].
+    pub fn jump_to(&self, next: &Self) -> JointVector {
+        (next.c[1] - self.end_speed).abs()
     }
 
     /// Moments at which a joint's position, speed or acceleration may be extreme \[s\].
@@ -189,13 +201,14 @@ impl Piece {
 }
 
 impl Extent {
-    /// What two stretches have in common.
+    /// What two stretches have in common; the knot between them apart, if they meet in one.
     pub fn and(&self, other: &Self) -> Self {
         Self {
             least: self.least.inf(&other.least),
             most: self.most.sup(&other.most),
             speed: self.speed.sup(&other.speed),
             acceleration: self.acceleration.sup(&other.acceleration),
+            jumps: self.jumps + other.jumps,
         }
     }
 
@@ -289,11 +302,11 @@ mod tests {
             let piece = Piece::new([1.0, 1.25], q, v);
             let u = cut.map(|c| c * piece.length_s);
             let extent = piece.extent(u);
-            let mut seen = Extent { least: piece.position(u[0]), most: piece.position(u[0]), speed: JointVector::zeros(), acceleration: JointVector::zeros() };
+            let mut seen = Extent { least: piece.position(u[0]), most: piece.position(u[0]), speed: JointVector::zeros(), acceleration: JointVector::zeros(), jumps: JointVector::zeros() };
             for k in 0..=2000 {
                 let at = u[0] + (u[1] - u[0]) * f64::from(k) / 2000.0;
                 let q = piece.position(at);
-                seen = seen.and(&Extent { least: q, most: q, speed: piece.speed(at).abs(), acceleration: piece.acceleration(at).abs() });
+                seen = seen.and(&Extent { least: q, most: q, speed: piece.speed(at).abs(), acceleration: piece.acceleration(at).abs(), jumps: JointVector::zeros() });
             }
             for (bound, seen) in [(-extent.least, -seen.least), (extent.most, seen.most), (extent.speed, seen.speed), (extent.acceleration, seen.acceleration)] {
                 for j in 0..AXES {

@@ -39,7 +39,8 @@ impl<'a> Timeline<'a> {
         self.groups.push(extent);
         if end - first > 1 {
             let middle = middle(first, end);
-            let extent = self.group(first, middle).and(&self.group(middle, end));
+            let mut extent = self.group(first, middle).and(&self.group(middle, end));
+            extent.jumps += self.pieces[middle - 1].jump_to(&self.pieces[middle]);
             self.groups[here] = extent;
         }
         self.groups[here]

@@ -82,9 +82,10 @@ impl PiecewiseMotion {
     /// A motion from its pieces.
     ///
     /// # Errors
-    /// [`KnotError`] with the index of the piece: a number that is not finite, or a time that does not continue the one before.
+    /// [`KnotError`] with the index of the piece: a number that is not finite, a time that does not continue the one before, or a
+    /// position that is not the one in which that ends.
     pub fn new(pieces: Vec<MotionPiece>) -> Result<Self, KnotError> {
-        let mut end_s = 0.0;
+        let (mut end_s, mut there) = (0.0, pieces.first().map(|piece| piece.q_rad[0]));
         for (knot, piece) in pieces.iter().enumerate() {
             let [from, to] = piece.t_s;
             let numbers = piece.q_rad.iter().chain(&piece.qd_rad_s).flatten();
@@ -94,7 +95,10 @@ impl PiecewiseMotion {
             if from != end_s || to <= from {
                 return Err(KnotError::Time { knot, t_s: to });
             }
-            end_s = to;
+            if there.is_some_and(|there| there != piece.q_rad[0]) {
+                return Err(KnotError::Apart { knot });
+            }
+            (end_s, there) = (to, Some(piece.q_rad[1]));
         }
         Ok(Self { pieces })
     }

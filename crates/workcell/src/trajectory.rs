@@ -71,6 +71,12 @@ pub enum KnotError {
         /// Its time \[s\].
         t_s: f64,
     },
+    /// A piece does not begin where the one before ends.
+    #[error("piece {knot} begins at other joint positions than the piece before it ends")]
+    Apart {
+        /// Index of the piece.
+        knot: usize,
+    },
 }
 
 impl Trajectory {

@@ -7,8 +7,10 @@
 //! - **First order.** No point of the moving part is displaced by more than Σ_j ρ_j |Δq_j|, so that the distance does
 //!   not fall by more (ρ: [`super::lever`]).
 //! - **Second order.** Along a direction n fixed to the fixed part, the gap g = min n·b − max n·a over the points of both parts
-//!   is a lower bound of the distance, for any n. Each n·b is a function of time whose second derivative is bounded by
-//!   A = sup ‖b̈‖; between two times h apart it is therefore at least the smaller of its end values less A h²/8, and so is g.
+//!   is a lower bound of the distance, for any n. Each n·b is a continuous function of time whose second derivative is bounded by
+//!   A = sup ‖b̈‖, but at moments at which the speeds of joints jump by Δq̇: there its first one jumps by Σ_j ρ_j |Δq̇_j| at most.
+//!   Between two times h apart it is therefore at least the smaller of its end values less A h²/8 and less h/4 of each such jump,
+//!   and so is g (proof: `docs/certificate.md`, "Clearance").
 //!
 //! Nothing here allocates.
 
