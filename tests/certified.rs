@@ -1,5 +1,4 @@
 //! Certified jobs: planned, proved, and refused with a reason.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash::certificate::{Certificate, Requirement};
 use platewash::planner::{Activity, Planned, Watch, plan_with};

@@ -1,5 +1,4 @@
 //! Dry runs: the same paths in the air, proved, never a washing, and refused wherever they are not what they say.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash::certificate::{Status, Verdict, differences};
 use platewash::planner::{Planned, Watch, plan_in_order};

@@ -1,5 +1,4 @@
 //! The façade stays small, and the command and the wheel go through it.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use std::fs;
 use std::path::{Path, PathBuf};

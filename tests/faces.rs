@@ -1,6 +1,5 @@
 //! Plates of every shape that ships: planned, proved, as fast as is promised, the wrist on one side and the tool in its cone; a flat plate
 //! said in three ways is one; what a scenario pins is planned.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash::scenario::SHIPPED;
 use platewash::workcell::job::PatternName;

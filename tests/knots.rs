@@ -3,8 +3,7 @@
 //! `tests/golden/knots.json` holds the first 16 digits of the SHA-256 of each motion. A change that only moves or renames code leaves
 //! it as it is. Where a change is meant to change what is planned:
 //!
-//!     cargo test --release --test knots -- --ignored      writes it
-#![allow(clippy::unwrap_used, missing_docs)]
+//!     cargo test --release --test main knots -- --ignored      writes it
 
 use platewash::scenario::{Program, SHIPPED};
 use platewash::workcell::plan::Knots;

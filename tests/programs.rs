@@ -1,7 +1,6 @@
 //! Robot programs of the shipped scenarios: what is written reads back, keeps to its plan and is judged again.
 //!
-//! More seeds, and excursions at every tenth row of every program: cargo test --release --test programs -- --ignored
-#![allow(clippy::unwrap_used, missing_docs)]
+//! More seeds, and excursions at every tenth row of every program: cargo test --release --test main programs -- --ignored
 
 use platewash::certificate::{ClearanceRule, ProgramLimits, Requirement, Status, prove_program};
 use platewash::export::dialect::{Dialect, Points};

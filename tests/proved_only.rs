@@ -1,5 +1,4 @@
 //! What must not be proved: jobs that would look washed if less were asked of a proof.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use platewash::certificate::{Certificate, Requirement, Status, prove};
 use platewash::planner::{Planned, plan};

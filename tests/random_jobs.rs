@@ -1,5 +1,4 @@
 //! Jobs that nobody thought of: what is planned of them is proved, and does the job that was asked for.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use platewash::certificate::{Requirement, differences, prove};
 use platewash::planner::Planned;

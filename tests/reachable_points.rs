@@ -1,5 +1,4 @@
 //! Of the spiral points that an independent analytic check finds reachable, every one is solved.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use platewash::paper::{PaperPart, ToolPath};

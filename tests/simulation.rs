@@ -1,5 +1,4 @@
 //! What is planned, under its controllers: the kitchen's plan, and the paper's program under its own law.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use platewash::paper::{self, PaperJob, PaperPart};
 use platewash::simulator::simulate::{Cause, PayloadVerdict, PlateVerdict};

@@ -1,7 +1,6 @@
 //! The spiral of before: where neither rings nor a promise about contact are asked for, the arm washes as it always did.
 //!
 //! `tests/golden/spiral-knots.json` holds wash knots of the program of before; `spiral_knots.py` beside it wrote them.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use platewash::workcell::plan::Plan;
 use platewash::workcell::segment::SegmentKind;

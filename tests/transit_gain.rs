@@ -1,5 +1,4 @@
 //! What better transits gain over the paper's: an arc round the base with a stop at every waypoint, under the same limits.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use nalgebra::Vector3;
 use platewash::planner::joint_path::{Ends, JointPath};

@@ -1,5 +1,4 @@
 //! Tools that lean from axis 6, or begin beside it: planned, proved and simulated as the straight one is.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use platewash::certificate::{Requirement, Status, prove};
 use platewash::planner::plan;

@@ -1,6 +1,5 @@
 //! A cell that is moved as a whole, mount, obstacles and plates together, is the same cell: its arm moves in the same way and the same
 //! is proved of it.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash::certificate::{Certificate, Requirement};

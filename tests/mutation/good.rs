@@ -1,6 +1,6 @@
 //! The plans that are edited: two real jobs, planned once.
 
-use crate::sampler::Sampler;
+use crate::mutation::sampler::Sampler;
 use platewash::certificate::{Requirement, prove};
 use platewash::{JobTerms, Plan, RobotModel, Scenario, plan};
 use std::sync::LazyLock;

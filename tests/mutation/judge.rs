@@ -1,8 +1,8 @@
 //! The certificate of an edited plan held against the sampler and against what is known of the edit.
 
-use crate::edit::{Edit, Expected};
-use crate::good::Good;
-use crate::sampler::{Findings, Found, is_sound};
+use crate::mutation::edit::{Edit, Expected};
+use crate::mutation::good::Good;
+use crate::mutation::sampler::{Findings, Found, is_sound};
 use platewash::Plan;
 use platewash::certificate::{Certificate, Check, Requirement, Sense, Status, prove};
 

@@ -1,9 +1,9 @@
 //! The summary: a line for each kind of edit.
 
-use crate::edit::{Edit, Kind};
-use crate::judge::Outcome;
+use crate::mutation::edit::{Edit, Kind};
+use crate::mutation::judge::Outcome;
 
-/// Prints how many edits of each kind there were and what came of them; `cargo test --test mutation -- --nocapture` shows it.
+/// Prints how many edits of each kind there were and what came of them; `cargo test --test main mutation -- --nocapture` shows it.
 pub fn print(edits: &[Edit], outcomes: &[Outcome]) {
     let line = |words: &str, [all, sampled, refused]: [usize; 3]| {
         println!("{words:<18} {all:>5} {sampled:>9} {refused:>8} {:>7}", all - refused);

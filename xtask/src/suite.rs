@@ -5,13 +5,20 @@ use crate::{benches, browser, page, python, rules, wheel};
 use anyhow::{Result, bail};
 use std::time::Instant;
 
-/// The crates under test, all but the peers' benchmarks, which alone need the solvers that others wrote.
+/// The crates to check, all but the peers' benchmarks, which alone need the solvers that others wrote.
 ///
-/// Every step names these same crates and the release profile, so that all steps have other people's crates built with the same
-/// features and settings: once, for the checks of clippy and the documentation, and once for all that runs.
+/// Every step uses the release profile and the same features, so that each crate is compiled once for the checks of clippy and the
+/// documentation, and once for all that runs: tests, benchmarks, command and wheel.
 const CRATES: [&str; 4] = ["--release", "--workspace", "--exclude", "platewash-benches"];
-/// With these settings, the project's own crates have the checks of a debug build in the release profile.
-const CHECKED: [&str; 2] = ["--config", ".cargo/checked.toml"];
+/// The crates whose Rust tests run: the extension has none, and the wheel's build compiles it for its interpreter.
+const TESTED: [&str; 6] = [
+    "--release",
+    "--workspace",
+    "--exclude",
+    "platewash-benches",
+    "--exclude",
+    "pyplatewash",
+];
 /// With this, pyo3 asks no interpreter: the parts in Rust need none.
 const NO_PYTHON: (&str, &str) = ("PYO3_NO_PYTHON", "1");
 
@@ -130,19 +137,18 @@ fn documentation() -> Result<()> {
 }
 
 fn tests() -> Result<()> {
-    let line = [&["test"], &CRATES[..], &CHECKED[..]].concat();
-    let step = Step::cargo("tests", &line).with(NO_PYTHON.0, NO_PYTHON.1);
-    step.with(NO_PAGE.0, NO_PAGE.1).run()
+    let line = [&["test"], &TESTED[..]].concat();
+    Step::cargo("tests", &line).with(NO_PAGE.0, NO_PAGE.1).run()
 }
 
-/// The release build of the command, after the tests and the benchmarks: of the crates of others, nothing is left to build.
+/// The release build of the command after the tests, which have built it: nothing is left to compile.
 fn release() -> Result<()> {
     let messages = command().output()?;
     let compiled = compiled_anew(&messages);
     if !compiled.is_empty() {
         bail!(
-            "built again for the command: {}\n(the tests or the benchmarks ask other features of these crates, or of what they \
-             use: ask for them in Cargo.toml's [workspace.dependencies], too)",
+            "compiled again for the command: {}\n(the tests ask other features of these crates, or of what they use: ask for them in \
+             Cargo.toml's [workspace.dependencies], too)",
             compiled.join(", ")
         );
     }
@@ -155,14 +161,9 @@ fn release_alone() -> Result<()> {
 }
 
 fn command() -> Step {
-    // Named beside it, the extension has the command's dependencies built with the features that it needs, too.
     let line = [
         "build",
         "--release",
-        "-p",
-        "platewash",
-        "-p",
-        "pyplatewash",
         "--bin",
         "platewash",
         "--message-format",
@@ -171,12 +172,13 @@ fn command() -> Step {
     Step::cargo("release build", &line)
 }
 
-/// The crates of others that a build had to compile, by cargo's messages.
+/// The crates that a build had to compile, by cargo's messages.
 fn compiled_anew(messages: &str) -> Vec<&str> {
-    let of_others = |line: &&str| line.contains(r#""package_id":"registry+"#) && line.contains(r#""fresh":false"#);
-    let of_others = messages.lines().filter(of_others);
-    of_others
-        .filter_map(|line| line.split_once('#')?.1.split('"').next())
+    let compiled = |line: &&str| line.contains(r#""reason":"compiler-artifact""#) && line.contains(r#""fresh":false"#);
+    let compiled = messages.lines().filter(compiled);
+    compiled
+        .filter_map(|line| line.split_once(r#""package_id":""#)?.1.split('"').next())
+        .filter_map(|id| id.rsplit('/').next())
         .collect()
 }
 
@@ -184,27 +186,28 @@ fn compiled_anew(messages: &str) -> Vec<&str> {
 mod tests {
     use crate::step::root;
 
-    /// A library that the file does not name would be tested without the checks.
+    /// Cargo runs no test of a file that its program does not name.
     #[test]
-    fn the_checked_settings_name_every_library_of_the_project() {
-        let checked = std::fs::read_to_string(root().join(super::CHECKED[1])).unwrap();
-        let folders = std::fs::read_dir(root().join("crates"))
-            .unwrap()
-            .map(|entry| entry.unwrap().path());
-        let libraries = folders.filter(|folder| folder.is_dir() && !folder.ends_with("pyplatewash"));
-        let mut named = 0;
-        for folder in libraries.chain([root()]) {
-            let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap();
-            let name = manifest.lines().find_map(|line| line.strip_prefix("name = ")).unwrap();
-            let section = format!("[profile.release.package.{}]", name.trim_matches('"'));
-            let settings = "\ndebug-assertions = true\noverflow-checks = true\n";
-            assert!(
-                checked.contains(&format!("{section}{settings}")),
-                "no {section} in: {checked}"
-            );
-            named += 1;
+    fn every_file_of_tests_belongs_to_a_program() {
+        let crates = std::fs::read_dir(root().join("crates")).unwrap();
+        let folders = crates.map(|entry| entry.unwrap().path().join("tests"));
+        let folders: Vec<_> = folders
+            .chain([root().join("tests")])
+            .filter(|folder| folder.join("main.rs").is_file())
+            .collect();
+        assert!(folders.len() > 5, "{folders:?}");
+        for folder in folders {
+            let main = std::fs::read_to_string(folder.join("main.rs")).unwrap();
+            let manifest = std::fs::read_to_string(folder.with_file_name("Cargo.toml")).unwrap();
+            for entry in std::fs::read_dir(&folder).unwrap() {
+                let name = entry.unwrap().file_name().into_string().unwrap();
+                let Some(module) = name.strip_suffix(".rs") else {
+                    continue;
+                };
+                let named = main.contains(&format!("mod {module};")) || manifest.contains(&format!("\"tests/{name}\""));
+                assert!(named, "{name} belongs to no program of {}", folder.display());
+            }
         }
-        assert_eq!(checked.matches("[profile.release.package.").count(), named);
     }
 
     #[test]
@@ -215,6 +218,9 @@ mod tests {
             r#"{"reason":"compiler-artifact","package_id":"path+file:///here#platewash@0.1.0","fresh":false}"#,
             r#"{"reason":"build-finished","success":true}"#,
         ];
-        assert_eq!(super::compiled_anew(&messages.join("\n")), ["serde@1.0.229"]);
+        assert_eq!(
+            super::compiled_anew(&messages.join("\n")),
+            ["index#serde@1.0.229", "here#platewash@0.1.0"]
+        );
     }
 }

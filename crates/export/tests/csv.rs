@@ -1,8 +1,6 @@
 //! Tables: written, read back, refused.
 
-mod common;
-
-use common::{damaged, edited, file, plan, points, program, ur5};
+use crate::programs::{damaged, edited, file, plan, points, program, ur5};
 use platewash_export::csv::Csv;
 use platewash_export::dialect::{Dialect, ReadError};
 use platewash_export::reading::{Between, Reading};

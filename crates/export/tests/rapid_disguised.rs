@@ -1,14 +1,10 @@
 //! Edits after which a controller would do something else than what a plain reading of the text shows: each is refused with its line.
 
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
-
-mod support;
-
+use crate::rapid::read;
 use platewash_export::dialect::Dialect;
 use platewash_export::file::ProgramFile;
 use platewash_export::rapid::Rapid;
 use platewash_kinematics::RobotModel;
-use support::read;
 
 const SOUND: &str = include_str!("fixtures/rapid/sound.mod");
 const ELSEWHERE: &str = "MoveAbsJ aside,v100\\T:=0.5,fine,brush;";

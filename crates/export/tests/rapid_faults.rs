@@ -1,13 +1,10 @@
 //! Programs that a controller would not run, or whose motion cannot be judged: each is refused with its line and the reason. And
+
 //! programs at random, which must end one way or the other.
 
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
-
-mod support;
-
+use crate::rapid::{every, program, rapid, read};
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
-use support::{every, program, rapid, read};
 
 const SOUND: &str = include_str!("fixtures/rapid/sound.mod");
 const CONSTRUCTS: &str = include_str!("fixtures/rapid/constructs.mod");

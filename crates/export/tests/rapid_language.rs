@@ -1,14 +1,10 @@
 //! The language that modules are read in: every construct, and what is wrong with a text.
 
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
-
-mod support;
-
+use crate::rapid::read;
 use platewash_export::rapid::syntax::parse;
 use platewash_kinematics::JointVector;
 use std::fmt::Write;
 use std::time::Instant;
-use support::read;
 
 const CONSTRUCTS: &str = include_str!("fixtures/rapid/constructs.mod");
 const PARSED: &str = include_str!("fixtures/rapid/parsed.mod");

@@ -1,16 +1,12 @@
 //! What is written in RAPID is read back as it was meant.
 
-#![allow(clippy::unwrap_used, missing_docs)]
-
-mod support;
-
+use crate::rapid::{every, kitchen, program, rapid};
 use platewash_export::program::Point;
 use platewash_export::reading::{Between, Reading};
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::fixtures::kitchen_tool;
 use platewash_workcell::tool::{Tool, ToolMass};
 use proptest::prelude::*;
-use support::{every, kitchen, program, rapid};
 
 /// Half the last digit of an angle, and what a single misses of it \[°\].
 const ANGLE_DEG: f64 = 1e-4;
@@ -125,7 +121,7 @@ fn one_digit_changed_is_read_at_its_line() {
         .text
         .replacen(&format!("\\T:={time}/"), &format!("\\T:={later}/"), 1);
     assert_ne!(edited, files[0].text);
-    let after = rapid().read(&[support::file(&edited)], program.arm).unwrap();
+    let after = rapid().read(&[crate::rapid::file(&edited)], program.arm).unwrap();
     let differ = before
         .points
         .iter()
@@ -145,7 +141,7 @@ fn a_digit_of_the_start_is_read_at_its_line() {
         .unwrap();
     let edited = files[0].text.replacen("pwStart:=[[0.0000", "pwStart:=[[0.0010", 1);
     assert_ne!(edited, files[0].text);
-    let reading = rapid().read(&[support::file(&edited)], program.arm).unwrap();
+    let reading = rapid().read(&[crate::rapid::file(&edited)], program.arm).unwrap();
     assert!((reading.points[0].q_rad[0].to_degrees() - 0.001).abs() < 1e-6);
     assert_eq!(reading.points[0].place.line, index + 1);
 }

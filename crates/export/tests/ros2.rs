@@ -1,5 +1,4 @@
 //! A plan as ROS 2 messages, read back: knots, times, bytes, several files as one program.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use platewash_certificate::{Certified, certify};
 use platewash_export::dialect::Dialect;

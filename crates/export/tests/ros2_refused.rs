@@ -1,5 +1,4 @@
 //! Messages that are refused, with the rule and the line: one for each rule, and texts that are no message.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use platewash_export::dialect::ReadError;
 use platewash_export::dialects::by_name;

@@ -1,8 +1,6 @@
 //! URScript: written, read back, refused.
 
-mod common;
-
-use common::{damaged, edited, file, plan, points, program, ur5};
+use crate::programs::{damaged, edited, file, plan, points, program, ur5};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_export::Refusal;
 use platewash_export::dialect::{Dialect, ReadError};

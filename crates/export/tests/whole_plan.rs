@@ -1,14 +1,6 @@
 //! A washing of a UR5, handed over whole: what a dialect's text does is the plan.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test ends where its job cannot be planned"
-)]
-
-mod common;
-
-use common::{program, ur5};
+use crate::programs::{program, ur5};
 use nalgebra::Vector3;
 use platewash_certificate::certify;
 use platewash_export::csv::Csv;

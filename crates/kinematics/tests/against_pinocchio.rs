@@ -1,6 +1,5 @@
 //! Forward kinematics and Jacobians against values made with Pinocchio (`fixtures/generate.py`), on the
 //! IRB 120 and on generated arms with oblique axes and rotated fixed joints everywhere.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::rotation::rotation_vector;

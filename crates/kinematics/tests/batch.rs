@@ -1,5 +1,4 @@
 //! Batches: the same answers as one at a time, on every path, for every length and number of threads.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::batch::{self, Backend, BatchError};

@@ -1,5 +1,4 @@
 //! Inverse kinematics: complete on reachable poses, honest on the others, never outside the limits.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::ik::{

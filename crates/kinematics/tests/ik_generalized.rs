@@ -1,5 +1,4 @@
 //! Freedom in the task, against a brute-force search over tilts; bounds and clearance rows against their definitions.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{

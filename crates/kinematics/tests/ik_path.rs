@@ -1,5 +1,4 @@
 //! Paths: solved everywhere, no jumps, and an error that says where and why when there is none.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkPathError, IkSettings, IkSolver, PathBreak};

@@ -1,5 +1,4 @@
 //! Many answers to one pose, on an arm without a closed form.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash_kinematics::ik::{IkError, IkSettings, IkSolver};
 use platewash_kinematics::urdf::MeshSource;

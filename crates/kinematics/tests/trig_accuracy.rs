@@ -1,7 +1,6 @@
 //! The trigonometry module against 400-digit references: accuracy, special values, lanes, and pinned bits.
 //!
 //! `fixtures/trig.json` is written by `fixtures/trig.py`, which describes its rows.
-#![allow(clippy::expect_used, missing_docs)]
 
 use platewash_kinematics::trig::{Fused, MulAdd, Separate, acos, asin, atan2, sin_cos, sin_cos_lanes};
 use std::collections::HashMap;

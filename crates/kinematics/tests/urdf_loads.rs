@@ -1,14 +1,11 @@
 //! Descriptions that load, and what they mean: the IRB 120 itself and the variants found in the wild.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
-mod support;
-
+use crate::urdf::{edited, joint, load, with_joint};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{AXES, JointVector, RobotModel, ToolFrame, ToolFrameError};
 use std::f64::consts::FRAC_PI_2;
-use support::{edited, joint, load, with_joint};
 
 fn irb120() -> RobotModel {
     RobotModel::irb120().unwrap()

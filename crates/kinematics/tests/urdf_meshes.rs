@@ -1,8 +1,6 @@
 //! Collision meshes: found as ROS finds them, read whole or refused.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
-mod support;
-
+use crate::urdf::{edited, link};
 use nalgebra::Point3;
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::urdf::MeshSource;
@@ -11,7 +9,6 @@ use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
-use support::{edited, link};
 use tempfile::TempDir;
 
 /// Corners of a tetrahedron \[m\], exact in single precision.

@@ -1,13 +1,10 @@
 //! Every malformation of a URDF is refused, under its own name, with a message that says where it is.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
-mod support;
-
+use crate::urdf::{edited, joint, load, with_joint};
 use platewash_kinematics::UrdfError;
 use platewash_kinematics::irb120::IRB120_URDF;
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
-use support::{edited, joint, load, with_joint};
 
 /// Asserts that a text is refused with the given variant and that the message has all the given words.
 macro_rules! assert_refused {

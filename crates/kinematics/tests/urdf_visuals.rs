@@ -1,15 +1,12 @@
 //! What links look like: read where it can be, and left out by name where it cannot. The arm is the same either way.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
-mod support;
-
+use crate::urdf::{edited, link};
 use nalgebra::Point3;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::geometry::{Shape, Triangle, Visual, VisualShape};
 use platewash_kinematics::urdf::{MAX_TRIANGLES, MAX_VISUALS, MeshSource};
 use proptest::prelude::*;
 use std::path::Path;
-use support::{edited, link};
 use tempfile::TempDir;
 
 /// The arm with these visuals in front of those that link 6 has.

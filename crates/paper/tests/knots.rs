@@ -1,5 +1,4 @@
 //! The motions of the paper's own cells, knot by knot, to the last bit.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use platewash_kinematics::RobotModel;
 use platewash_paper::{PaperJob, PaperPart, PaperRun, PaperSettings, run};

@@ -1,6 +1,5 @@
 //! `reproduce` against an earlier, independent measurement of the paper's program (another inverse kinematics, another
 //! collision library, the real arm's meshes). Its half-widths are of 95 % intervals.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash_paper::reproduce::{ReproduceSettings, Reproduction, reproduce};
 use std::ops::ControlFlow;

@@ -1,5 +1,4 @@
 //! When a run counts as washed, and what breaks it: one good job and single changes of it.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_paper::cubic::Interpolation;

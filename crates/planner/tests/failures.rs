@@ -1,9 +1,6 @@
 //! Jobs that are not planned: what is said of them, and how soon planning is given up.
 
-#![allow(clippy::unwrap_used, clippy::panic)]
-
-mod support;
-
+use crate::jobs::{job, on};
 use platewash_planner::{
     Activity, InfeasibleReport, PlaceSearch, PlanError, Watch, check, draw_washable_layout, plan, plan_with,
 };
@@ -15,7 +12,6 @@ use platewash_workcell::tool::{StraightTool, Tool};
 use platewash_workcell::verdict::{Infeasibility, Verdict};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
-use support::{job, on};
 
 #[test]
 fn a_plate_out_of_reach_is_named_with_the_nearest_place_that_will_do() {

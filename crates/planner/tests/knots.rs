@@ -1,7 +1,5 @@
 //! The motions of the shipped jobs, knot by knot: to the last bit, as `tests/golden/knots.json` states them.
 
-#![allow(clippy::unwrap_used)]
-
 use platewash_kinematics::RobotModel;
 use platewash_planner::{Watch, draw_washable_layout, plan, plan_with};
 use platewash_workcell::cancel::CancelToken;

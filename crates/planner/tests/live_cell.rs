@@ -1,9 +1,6 @@
 //! The quick answers for a live cell, held against planning itself.
 
-#![allow(clippy::unwrap_used, clippy::panic)]
-
-mod support;
-
+use crate::jobs::{job, on};
 use platewash_planner::{
     Activity, Chance, MapArea, MapPatch, PlaceSearch, PlanError, SEARCHED_M, UnwashablePlate, Watch, check,
     nearest_place, other_unwashable_plates, outlook, plan, plan_here, plan_with, unwashable_plates, washable_map,
@@ -15,7 +12,6 @@ use platewash_workcell::random;
 use rand::RngExt;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
-use support::{job, on};
 
 /// One that is washed, one out of reach, one behind the arm, one too near.
 const MIXED: [[f64; 2]; 4] = [[0.40, 0.0], [0.1, 0.56], [-0.7, 0.1], [0.0, -0.2]];

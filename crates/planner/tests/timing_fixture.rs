@@ -1,12 +1,11 @@
 //! Timed paths as a file, for `tests/python/test_timing_against_toppra.py`.
 //!
-//!     cargo test -p platewash-planner --test timing_fixture -- --ignored     writes it
+//!     cargo test -p platewash-planner --test planner timing_fixture -- --ignored     writes it
 //!
 //! A case holds the path as samples (`u`, `q_rad`) of a not-a-knot cubic spline, the limits of the joints, those of the
 //! tip or `null`, and the motion: its knots as parameters of the path (`knots_u`), times and speeds. Positions at the
-//! knots are the path's.
 
-#![allow(clippy::unwrap_used)]
+//! knots are the path's.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};

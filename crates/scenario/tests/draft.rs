@@ -1,5 +1,4 @@
 //! Changes of scenario texts, case by case.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash_scenario::keys::KEYS;
 use platewash_scenario::{Draft, EditError, FormKey, Problem, SHIPPED, Scenario, form, values_of};

@@ -1,14 +1,11 @@
 //! Changes of scenario texts: what must hold for each of them, in any order, in any text.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-mod support;
-
+use crate::texts::{change, nonsense, text, texts};
 use platewash_scenario::keys::Key;
 use platewash_scenario::{Draft, EditError, Scenario};
 use proptest::prelude::*;
 use serde_json::Value;
 use std::ops::Range;
-use support::{change, nonsense, text, texts};
 use toml::de::{DeTable, DeValue};
 
 /// Where `toml` itself finds the value of a key, or of the section of a key.

@@ -1,7 +1,5 @@
 //! Floor, table and obstacles of scenario files: what they become, and what is refused, by key, line and name.
 
-#![allow(clippy::unwrap_used, clippy::panic)]
-
 use platewash_kinematics::geometry::Shape;
 use platewash_scenario::{Draft, Failure, Scenario};
 use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape};

@@ -1,7 +1,5 @@
 //! The shape of plates as a scenario states it.
 
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
-
 use platewash_scenario::{Problem, Scenario};
 use platewash_workcell::layout::base_footprint;
 use platewash_workcell::plate::Foot;

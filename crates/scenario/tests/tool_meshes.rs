@@ -1,5 +1,4 @@
 //! Bodies of the tool out of mesh files.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::geometry::Shape;

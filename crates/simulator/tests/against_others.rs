@@ -1,13 +1,10 @@
 //! Dynamics against values made with Pinocchio and MuJoCo (`fixtures/generate_dynamics.py`), on the IRB 120 with and without a tool
 //! and on generated arms with oblique axes and rotated fixed joints everywhere. The fixtures hold a few states each; the
 //! test of the Python package draws 10 000 from the same generator.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-mod support;
-
+use crate::dynamics::fixtures;
 use nalgebra::Matrix6;
 use platewash_kinematics::JointVector;
-use support::fixtures;
 
 /// Largest difference relative to the largest entry.
 fn relative(found: &JointVector, expected: &[f64; 6]) -> f64 {

@@ -1,5 +1,4 @@
 //! From anywhere within the limits, at up to half the speed limits, every law that is not refused stays bounded and settles.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use nalgebra::Matrix6;
 use platewash_kinematics::{JointVector, RobotModel};

@@ -1,11 +1,8 @@
 //! What dynamics must obey whatever the arm: the algorithms agree with each other, energy is kept, gravity has a potential.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-mod support;
-
+use crate::dynamics::{fixture, names};
 use platewash_kinematics::JointVector;
 use proptest::prelude::*;
-use support::{fixture, names};
 
 fn vector(size: f64) -> impl Strategy<Value = JointVector> {
     prop::array::uniform6(-size..size).prop_map(JointVector::from)

@@ -1,5 +1,4 @@
 //! Arms and tools that cannot exist are refused by name.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::irb120::IRB120_URDF;

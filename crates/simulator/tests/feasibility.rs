@@ -8,7 +8,6 @@
 //! count from 0.4 s on, because the path starts at the spiral's centre with its full acceleration, and the response to that
 //! is no tracking error. The 0.4 s are our choice, not stated by the table: counted in, pd_gravity comes out up to 18 % above it at
 //! 30 rad/s and 50 % at 60 rad/s.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};

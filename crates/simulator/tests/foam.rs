@@ -1,5 +1,4 @@
 //! Plates that push a sponge back: the law, its energy, and what it makes of an arm.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};

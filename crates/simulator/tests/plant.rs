@@ -1,14 +1,11 @@
 //! The plant: energy is kept where nothing takes it, friction only takes it, limits hold.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-mod support;
-
+use crate::dynamics::fixture;
 use nalgebra::Vector3;
 use platewash_kinematics::{Axes, JointVector, RobotModel};
 use platewash_simulator::{DynamicsModel, Plant, PlantState};
 use platewash_workcell::simulation::{Integrator, PlantSettings};
 use proptest::prelude::*;
-use support::fixture;
 
 fn irb120() -> (RobotModel, DynamicsModel) {
     let robot = RobotModel::irb120().unwrap();
@@ -96,7 +93,7 @@ proptest! {
     }
 
     #[test]
-    fn a_force_does_the_work_of_the_jacobian(name in prop::sample::select(support::names()), q in vector(3.0), force in prop::array::uniform3(-9.0..9.0f64)) {
+    fn a_force_does_the_work_of_the_jacobian(name in prop::sample::select(crate::dynamics::names()), q in vector(3.0), force in prop::array::uniform3(-9.0..9.0f64)) {
         let (_, robot, model) = fixture(&name);
         let force = Vector3::from(force);
         for link in robot.links() {

@@ -1,16 +1,12 @@
 //! A washing whose plates push back.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-#[path = "support/two_plates.rs"]
-mod two_plates;
-
+use crate::two_plates::{judged, planned};
 use platewash_simulator::simulate::{Cause, Pressing, table};
 use platewash_simulator::{ControlError, SimulationError, SimulationReport, simulate};
 use platewash_workcell::fixtures::kitchen_contact;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::recorded::RecordedMotion;
 use platewash_workcell::simulation::{ControlLawName, FoamContact, Integrator, SimulationSettings};
-use two_plates::{judged, planned};
 
 fn foam(stiffness_pa: f64) -> Option<FoamContact> {
     Some(FoamContact {
@@ -20,7 +16,7 @@ fn foam(stiffness_pa: f64) -> Option<FoamContact> {
 }
 
 fn under(law: ControlLawName, frequency: f64, contact: Option<FoamContact>) -> SimulationSettings {
-    let mut settings = two_plates::under(law, frequency);
+    let mut settings = crate::two_plates::under(law, frequency);
     settings.plant.contact = contact;
     settings
 }

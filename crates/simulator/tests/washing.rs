@@ -1,9 +1,6 @@
 //! A washing under its controllers.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-#[path = "support/two_plates.rs"]
-mod two_plates;
-
+use crate::two_plates::{judged, planned, under};
 use platewash_kinematics::JointVector;
 use platewash_simulator::simulate::{Cause, PayloadVerdict, PlateVerdict, SimulationVerdict};
 use platewash_simulator::{
@@ -15,7 +12,6 @@ use platewash_workcell::plan::{Knots, Plan};
 use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use platewash_workcell::simulation::{ControlLawName, Integrator, SimulationSettings};
 use platewash_workcell::trajectory::Trajectory;
-use two_plates::{judged, planned, under};
 
 #[test]
 fn computed_torque_covers_as_much_as_planned() {

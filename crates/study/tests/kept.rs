@@ -1,5 +1,4 @@
 //! What is kept: a finished study stays as it is, and files are looked at within bounds.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash_scenario::SHIPPED;
 use platewash_study::{Journal, Outcome, Row, Study, export, read_manifest, run, summary};

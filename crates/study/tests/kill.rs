@@ -1,5 +1,4 @@
 //! A process that is killed loses no row, and a large study needs little memory.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash_study::{Journal, Made, Resolver, Row, Study, export, run};
 use platewash_workcell::cancel::CancelToken;
@@ -32,7 +31,7 @@ fn empty(study: &Study, index: u64) -> Made {
 fn child_on(folder: &Path, name: &str) -> Command {
     let mut child = Command::new(std::env::current_exe().unwrap());
     child
-        .args(["--ignored", "--exact", name])
+        .args(["--ignored", "--exact", &format!("kill::{name}")])
         .env(FOLDER, folder)
         .stdout(Stdio::null());
     child
@@ -128,7 +127,7 @@ fn a_full_disk_ends_the_study_with_its_rows_whole_and_it_goes_on_later() {
     let full = Command::new("sh")
         .args([
             "-c",
-            "trap '' XFSZ; ulimit -f 16; exec \"$0\" --ignored --exact --nocapture child",
+            "trap '' XFSZ; ulimit -f 16; exec \"$0\" --ignored --exact --nocapture kill::child",
         ])
         .arg(std::env::current_exe().unwrap())
         .env(FOLDER, folder.path())
@@ -171,7 +170,7 @@ fn real_child() {
     real_work(Path::new(&std::env::var_os(FOLDER).unwrap()));
 }
 
-/// By hand: `cargo test --release -p platewash-study --test kill -- --ignored --exact --nocapture real_rows`.
+/// By hand: `cargo test --release -p platewash-study --test study -- --ignored --exact --nocapture kill::real_rows`.
 #[test]
 #[ignore = "by hand: it plans for a minute or two"]
 #[allow(clippy::print_stdout)]
@@ -194,7 +193,7 @@ fn real_rows() {
     println!("killed 21 times, {done} of 120 rows by then: the same bytes");
 }
 
-/// By hand: `cargo test --release -p platewash-study --test kill -- --ignored --exact --nocapture many`.
+/// By hand: `cargo test --release -p platewash-study --test study -- --ignored --exact --nocapture kill::many`.
 #[test]
 #[ignore = "by hand: it measures"]
 #[allow(clippy::print_stdout)]

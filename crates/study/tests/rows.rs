@@ -1,5 +1,4 @@
 //! Rows are the same bytes however they were made, and none is lost.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash_study::{Journal, Made, Outcome, Resolver, Row, Study, StudyError, export, run, summary};
 use platewash_workcell::cancel::CancelToken;

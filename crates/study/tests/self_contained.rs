@@ -1,5 +1,4 @@
 //! A study has all that its rows name: it is sent to whoever has none of its files, and knows them again.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_study::{Journal, Made, Outcome, Resolver, Study, StudyError, StudyParts};

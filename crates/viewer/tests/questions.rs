@@ -1,9 +1,7 @@
 //! Questions of the page as the server takes them, good ones and others, over TCP.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-mod toy;
-mod wire;
-
+use crate::toy::*;
+use crate::wire::*;
 use platewash_viewer::server::Page;
 use std::io::{Read, Write};
 use std::net::Shutdown;
@@ -11,8 +9,6 @@ use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
 use std::sync::mpsc::channel;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
-use toy::*;
-use wire::*;
 
 /// Questions that are worked on at a time, that wait, and connections, as the documentation says.
 const WORK: usize = 2;

@@ -1,14 +1,11 @@
 //! The server as its clients meet it, good ones and others, over TCP.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-mod wire;
-
+use crate::wire::{is, read_until};
 use platewash_viewer::server::{Listener, Live, LiveEnd, Page, Server, ServerError, Site};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::sync::Arc;
 use std::time::Duration;
-use wire::{is, read_until};
 
 const PAGE: &str = "<!doctype html><title>page</title>";
 

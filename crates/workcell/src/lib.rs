@@ -25,7 +25,6 @@ pub mod contact;
 pub mod coverage;
 pub mod csv;
 pub mod dry_run;
-#[cfg(any(test, feature = "fixtures"))]
 pub mod fixtures;
 pub mod job;
 pub mod layout;

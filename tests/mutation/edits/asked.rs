@@ -1,6 +1,6 @@
 //! Requirements and limits of the job: numbers that the motion keeps, and numbers that it does not.
 
-use crate::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, Expected, Kind};
 use platewash::JobTerms;
 use platewash::Plan;
 use platewash::certificate::Requirement::{

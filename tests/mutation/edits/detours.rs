@@ -3,7 +3,7 @@
 use super::knots::split;
 use super::time::scale;
 use super::{knot_at, middle, nth, retime};
-use crate::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, Expected, Kind};
 use platewash::Plan;
 use platewash::workcell::segment::SegmentKind::{self, Approach, Depart, Return, Transit, Wash};
 

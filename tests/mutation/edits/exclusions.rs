@@ -1,7 +1,7 @@
 //! Pairs that need not keep clear: those that follow from the arm left out, and others put in.
 
-use crate::edit::{Edits, Expected, Kind};
-use crate::good::good;
+use crate::mutation::edit::{Edits, Expected, Kind};
+use crate::mutation::good::good;
 use platewash::Plan;
 use platewash::certificate::Requirement::{Clearance, Exclusions};
 use platewash::workcell::clearance;

@@ -1,8 +1,8 @@
 //! Knots moved, exchanged, dropped and added.
 
 use super::{middle, nth, some_knot, within};
-use crate::edit::{Edits, Expected, Kind};
-use crate::sampler::pieces;
+use crate::mutation::edit::{Edits, Expected, Kind};
+use crate::mutation::sampler::pieces;
 use platewash::Plan;
 use platewash::certificate::Requirement::{HomeToHome, RestAtWashEnds, Segments};
 use platewash::workcell::segment::SegmentKind::{self, Approach, Depart, Retreat, Return, Transit, Wash};

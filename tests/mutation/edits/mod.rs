@@ -13,7 +13,7 @@ mod time;
 mod tool;
 mod wash_paths;
 
-use crate::edit::{Edit, Edits};
+use crate::mutation::edit::{Edit, Edits};
 use platewash::Plan;
 use platewash::workcell::segment::SegmentKind;
 use rand::RngExt;

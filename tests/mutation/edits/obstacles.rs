@@ -2,8 +2,8 @@
 
 use super::exclusions::{every_pair, leave_out, restate};
 use super::{middle, nth, within};
-use crate::edit::{Edits, Expected, Kind};
-use crate::good::good;
+use crate::mutation::edit::{Edits, Expected, Kind};
+use crate::mutation::good::good;
 use nalgebra::Vector3;
 use platewash::certificate::Requirement::{Clearance, Exclusions};
 use platewash::kinematics::geometry::Shape;

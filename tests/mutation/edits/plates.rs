@@ -1,6 +1,6 @@
 //! Plates moved, turned, resized, doubled and removed, alone and together with what names them.
 
-use crate::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, Expected, Kind};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash::certificate::Requirement::{
     ContactHeight, Coverage, EveryPlateOnce, LineDeviation, PathDeviation, Plates, PlatesApart, Reach, Segments,

@@ -1,7 +1,7 @@
 //! Segments in time dropped, doubled, renamed and cut elsewhere; the order.
 
 use super::{nth, within};
-use crate::edit::{Edits, Kind};
+use crate::mutation::edit::{Edits, Kind};
 use platewash::Plan;
 use platewash::certificate::Requirement::{
     EveryPlateOnce, LineDeviation, PathDeviation, RestAtWashEnds, Segments, WashPaths,

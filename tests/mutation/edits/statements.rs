@@ -1,6 +1,6 @@
 //! The arm and the homes.
 
-use crate::edit::{Edits, Kind};
+use crate::mutation::edit::{Edits, Kind};
 use platewash::certificate::Requirement::{Arm, HomeToHome};
 
 pub fn add(edits: &mut Edits) {

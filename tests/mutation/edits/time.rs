@@ -1,7 +1,7 @@
 //! Time scaled, squeezed and stretched.
 
 use super::{middle, nth, retime, within};
-use crate::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, Expected, Kind};
 use platewash::Plan;
 use platewash::certificate::Requirement::{JointAcceleration, WashSpeed};
 use platewash::workcell::segment::SegmentKind::{self, Approach, Depart, Retreat, Transit, Wash};

@@ -2,7 +2,7 @@
 
 use super::asked::narrow;
 use super::exclusions::restate;
-use crate::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, Expected, Kind};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash::certificate::Requirement::{
     Clearance, ContactHeight, ContactSpeed, Coverage, Exclusions, LineDeviation, PathDeviation, Reach, Tilt, Tool,

@@ -1,6 +1,6 @@
 //! How each plate is washed: paths dropped, exchanged, renamed, and other paths than the tip takes.
 
-use crate::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, Expected, Kind};
 use platewash::Plan;
 use platewash::certificate::Requirement::{LineDeviation, PathDeviation, Reach, WashPaths};
 use platewash::workcell::wash_path::WashPath;

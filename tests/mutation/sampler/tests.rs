@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use super::hermite::pieces;
 use super::swept;
-use crate::good::good;
+use crate::mutation::good::good;
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash::Plate;
 use platewash::workcell::segment::SegmentKind;

@@ -35,6 +35,8 @@ export interface Handle {
   camera(view: string): void;
   layers(): { id: Layer; label: string; on: boolean }[];
   setLayer(layer: Layer, on: boolean): void;
+  /** Draws the objects of a layer in one colour, without light. */
+  setMarker(layer: Layer, colour: string): void;
   heat(on: boolean): void;
   readonly frame: FrameStatistics;
   /** `recorded`, or how a live run stands. */
@@ -86,6 +88,7 @@ export function handleOf({ ready, player, controls, stage, loop, edit }: Parts):
     camera: (preset) => stage.camera(preset),
     layers: () => stage.scene?.layers() ?? [],
     setLayer: (layer, on) => stage.setLayer(layer, on),
+    setMarker: (layer, colour) => stage.scene?.setMarker(layer, colour),
     heat: (on) => controls.heat(on),
     get frame() {
       return loop.statistics;

@@ -1,5 +1,5 @@
 /** The workcell in three dimensions: all that is drawn of a document at a moment. */
-import { PerspectiveCamera, Ray, Vector3 } from "three";
+import { Mesh, MeshBasicMaterial, PerspectiveCamera, Ray, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Chance } from "../edit/protocol.ts";
 import type { Theme } from "../palette.ts";
@@ -343,6 +343,19 @@ export class Scene {
     if (layer === "clearance") this.#clearance.show(on ? this.#nearest : null);
     if (layer === "executed" && !on) this.#content.commanded.root.visible = false;
     this.#dirty = this.#moved = true;
+    // The shadows of what is hidden go with it, in a hasty frame, too.
+    this.#shaded_ms = -Infinity;
+  }
+
+  /** Draws the objects of a layer in one colour, without light, so that a test tells them from others in a picture. */
+  setMarker(layer: Layer, colour: string): void {
+    const material = new MeshBasicMaterial({ color: colour, toneMapped: false });
+    for (const object of this.#content.objectsOf(layer)) {
+      object.traverse((part) => {
+        if (part instanceof Mesh) part.material = material;
+      });
+    }
+    this.#dirty = true;
   }
 
   #switch(layer: Layer, on: boolean): void {

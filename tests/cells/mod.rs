@@ -1,7 +1,6 @@
 //! Cells with obstacles: planned, proved, and refused where something is in the way.
 //!
-//!     cargo test --release --test cells -- --ignored --nocapture      the same in great numbers, with the shares found
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stderr, missing_docs)]
+//!     cargo test --release --test main cells -- --ignored --nocapture      the same in great numbers, with the shares found
 
 mod clutter;
 mod swept;

@@ -1,11 +1,5 @@
 //! Programs to be written: a job of the UR5, and points that need not be a plan's.
 
-#![allow(
-    dead_code,
-    clippy::unwrap_used,
-    reason = "each test takes what it needs, and none goes on without it"
-)]
-
 use platewash_export::file::ProgramFile;
 use platewash_export::program::{Point, Program};
 use platewash_kinematics::urdf::MeshSource;
@@ -15,7 +9,7 @@ use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use proptest::prelude::*;
 
-pub const UR5: &str = include_str!("../../../kinematics/tests/fixtures/ur5_lengths.urdf");
+pub const UR5: &str = include_str!("../../crates/kinematics/tests/fixtures/ur5_lengths.urdf");
 
 pub fn ur5() -> RobotModel {
     RobotModel::from_urdf(UR5, &MeshSource::none()).unwrap()

@@ -1,5 +1,4 @@
 //! The IRB 120's URDF, edited.
-#![allow(dead_code)] // every test file is a program of its own and needs a part of this
 
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::urdf::MeshSource;

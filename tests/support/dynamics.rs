@@ -1,5 +1,4 @@
 //! Arms and states for the tests.
-#![allow(dead_code, clippy::unwrap_used)] // every test file is a program of its own and needs a part of this
 
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{AXES, RobotModel};

@@ -1,7 +1,5 @@
 //! What the tests of programs share.
 
-#![allow(dead_code, clippy::unwrap_used, missing_docs)]
-
 use platewash_export::dialect::{Dialect, ReadError};
 use platewash_export::dialects::by_name;
 use platewash_export::file::ProgramFile;

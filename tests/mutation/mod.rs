@@ -11,7 +11,6 @@
 //! | the requirements measured on samples | `sampler/` |
 //! | certificate, samples and expectation held against each other | `judge.rs` |
 //! | the summary | `table.rs` |
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, missing_docs)]
 
 mod against;
 mod contact;

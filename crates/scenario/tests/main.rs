@@ -1,0 +1,11 @@
+//! Scenario files: what is read, what is refused, and what an edit changes.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
+
+mod draft;
+mod draft_properties;
+mod obstacles;
+mod plates;
+mod tool_meshes;
+
+#[path = "../../../tests/support/texts.rs"]
+mod texts;

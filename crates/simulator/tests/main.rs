@@ -1,0 +1,17 @@
+//! Dynamics, control laws and executed plans, also beside other implementations.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
+
+mod against_others;
+mod closed_loop;
+mod dynamics_laws;
+mod dynamics_refused;
+mod feasibility;
+mod foam;
+mod plant;
+mod pressing;
+mod washing;
+
+#[path = "../../../tests/support/dynamics.rs"]
+mod dynamics;
+#[path = "../../../tests/support/two_plates.rs"]
+mod two_plates;

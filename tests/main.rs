@@ -1,0 +1,19 @@
+//! The project as a Rust user meets it: real jobs are planned, proved, executed and exported, and the certificate is attacked.
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, clippy::print_stderr, missing_docs)]
+
+mod cells;
+mod certified;
+mod dry_run;
+mod facade;
+mod faces;
+mod knots;
+mod mutation;
+mod programs;
+mod proved_only;
+mod random_jobs;
+mod reachable_points;
+mod simulation;
+mod spiral_knots;
+mod transit_gain;
+mod turned_tool;
+mod turned_world;
