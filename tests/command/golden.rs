@@ -1,59 +1,76 @@
-//! The bytes of what the command writes, to the last digit: the same in every build and on every machine.
+//! The bytes of what `run` writes for every shipped scenario, to the last digit: the same in every build, on every machine and for
+//! every number of threads.
 //!
-//! `tests/golden/outputs.json` holds the SHA-256 of every file. These tests compare it with the output of the build under test
-//! (of `cargo test`: a debug build; in `cargo xtask test`: a build with the checks of a debug build),
-//! `tests/python/test_release_writes_the_same.py` with a release build's. Where a change is meant to change what is planned:
+//! `tests/golden/outputs.json` holds the SHA-256 of every file; `tests/programs.rs` has the same for robot programs. Where a change is
+//! meant to change what is planned:
 //!
-//!     cargo test --test command golden -- --ignored      writes it
+//!     cargo test --release --test command golden -- --ignored      writes it
 
 use super::*;
+use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// Scenario and seed.
-const RUNS: [(&str, u64); 6] = [
-    ("kitchen", 1),
-    ("kitchen-spiral", 1),
-    ("kitchen-roomy", 3),
-    ("kitchen-rim", 5),
-    ("paper-appendix", 1),
-    ("paper-text", 4),
-];
-
+/// SHA-256 of each file, by scenario and file name.
 type Hashes = BTreeMap<String, BTreeMap<String, String>>;
 
-fn file() -> PathBuf {
+/// Numbers of threads; the scenarios take turns with them.
+const THREADS: [&str; 3] = ["1", "2", "8"];
+/// The scenario that is run with each of them.
+const IN_DEPTH: &str = "kitchen-rim";
+
+fn golden() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden/outputs.json")
 }
 
+fn scenarios() -> Vec<String> {
+    let files = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios")).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    let mut names: Vec<_> = names
+        .map(|name| name.strip_suffix(".toml").unwrap().to_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+/// The files that a run of a scenario with its own seed writes.
+fn hashes_of(scenario: &str, threads: &str) -> BTreeMap<String, String> {
+    let folder = folder();
+    platewash(folder.path(), &["run", "--scenario", scenario, "--threads", threads]).done();
+    let out = folder.path().join("out");
+    let hash = |name: String| {
+        let digest = Sha256::digest(std::fs::read(out.join(&name)).unwrap());
+        (name, digest.iter().map(|byte| format!("{byte:02x}")).collect())
+    };
+    names(&out).into_iter().map(hash).collect()
+}
+
 fn hashes() -> Hashes {
-    RUNS.iter()
-        .map(|(scenario, seed)| {
-            let folder = folder();
-            let seed = seed.to_string();
-            platewash(folder.path(), &["run", "--scenario", scenario, "--seed", &seed]).done();
-            let out = folder.path().join("out");
-            let files = names(&out).into_iter().map(|name| {
-                let bytes = std::fs::read(out.join(&name)).unwrap();
-                let hash: String = Sha256::digest(&bytes)
-                    .iter()
-                    .map(|byte| format!("{byte:02x}"))
-                    .collect();
-                (name, hash)
-            });
-            (format!("{scenario} {seed}"), files.collect())
-        })
-        .collect()
+    let of = |(number, scenario): (usize, &String)| {
+        let threads = THREADS[number % THREADS.len()];
+        (scenario.clone(), hashes_of(scenario, threads))
+    };
+    scenarios().par_iter().enumerate().map(of).collect()
+}
+
+fn committed() -> Hashes {
+    serde_json::from_str(&std::fs::read_to_string(golden()).unwrap()).unwrap()
 }
 
 #[test]
 #[ignore = "writes the golden file"]
 fn write() {
-    std::fs::write(file(), serde_json::to_string_pretty(&hashes()).unwrap() + "\n").unwrap();
+    std::fs::write(golden(), serde_json::to_string_pretty(&hashes()).unwrap() + "\n").unwrap();
 }
 
 #[test]
-fn the_build_under_test_writes_the_committed_bytes() {
-    let committed: Hashes = serde_json::from_str(&std::fs::read_to_string(file()).unwrap()).unwrap();
-    assert_eq!(committed, hashes());
+fn every_shipped_scenario_writes_the_committed_bytes() {
+    assert_eq!(committed(), hashes());
+}
+
+#[test]
+fn the_number_of_threads_changes_no_byte() {
+    for threads in THREADS {
+        assert_eq!(committed()[IN_DEPTH], hashes_of(IN_DEPTH, threads), "{threads} threads");
+    }
 }
