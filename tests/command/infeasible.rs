@@ -140,10 +140,16 @@ fn that_no_place_was_found_is_said_plainly() {
 fn a_key_that_would_mend_it_is_told_and_holds_when_typed_in() {
     let folder = folder();
     let dir = folder.path();
-    // The handle ends 9 mm over the plate: 1.5 mm and the tool's tilt too near.
-    let place = ("region = \"appendix\"", "positions_m = [[0.4, 0.0]]");
+    // The handle ends 9 mm over a small plate: 1.5 mm and the tool's tilt too near.
+    let plate = [
+        ("region = \"appendix\"", "positions_m = [[0.4, 0.0]]"),
+        ("plate_radius_m = 0.145", "plate_radius_m = 0.08"),
+        ("path_radius_m = 0.12385", "path_radius_m = 0.059"),
+        ("turns = 3.5", "turns = 1.5"),
+    ];
+    let with = |changes: &[(&str, &str)]| spiral(dir, &[&plate[..], changes].concat());
     let low = ("sponge_height_m = 0.025", "sponge_height_m = 0.009");
-    let ran = plan(dir, &spiral(dir, &[place, low]));
+    let ran = plan(dir, &with(&[low]));
     assert_eq!(ran.code, 3, "{}", ran.stderr);
     let report: Value = serde_json::from_str(&std::fs::read_to_string(dir.join("o/report.json")).unwrap()).unwrap();
     let remedies = &report["remedies"]["would_do"];
@@ -156,12 +162,12 @@ fn a_key_that_would_mend_it_is_told_and_holds_when_typed_in() {
     assert!(ran.stdout.lines().next().unwrap().contains(&words), "{}", ran.stdout);
     for (value, code) in [(value, 0), (value - 0.001, 3)] {
         let typed = format!("sponge_height_m = {value:.3}");
-        assert_eq!(plan(dir, &spiral(dir, &[place, (low.0, &typed)])).code, code, "{typed}");
+        assert_eq!(plan(dir, &with(&[(low.0, &typed)])).code, code, "{typed}");
     }
     let clearance = of("wash.clearance_m").map(|remedy| remedy["value"].as_f64().unwrap());
     if let Some(value) = clearance {
         let typed = format!("clearance_m = {value}");
-        plan(dir, &spiral(dir, &[place, low, ("clearance_m = 0.01", &typed)])).done();
+        plan(dir, &with(&[low, ("clearance_m = 0.01", &typed)])).done();
     }
 }
 

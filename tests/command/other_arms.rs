@@ -13,6 +13,11 @@ const KR5: &str = concat!(
 
 /// A cell with plates of 220 mm.
 pub fn cell(dir: &Path, start_deg: &str, positions_m: &str, plate_height_m: f64) -> PathBuf {
+    cell_of(dir, start_deg, positions_m, plate_height_m, 0.11)
+}
+
+fn cell_of(dir: &Path, start_deg: &str, positions_m: &str, plate_height_m: f64, plate_radius_m: f64) -> PathBuf {
+    let path_radius_m = plate_radius_m - 0.02;
     let text = format!(
         r#"
 name = "cell"
@@ -26,11 +31,11 @@ start_deg = {start_deg}
 length_m = 0.15
 [layout]
 positions_m = {positions_m}
-plate_radius_m = 0.11
+plate_radius_m = {plate_radius_m}
 plate_height_m = {plate_height_m}
 [wash]
 turns = 3
-path_radius_m = 0.09
+path_radius_m = {path_radius_m}
 height_m = 0
 closing_ring = true
 clearance_m = 0.01
@@ -76,7 +81,7 @@ fn a_place_is_not_denied_because_it_lies_behind_the_start() {
 fn what_was_only_not_found_is_not_said_to_be_impossible() {
     let folder = folder();
     let dir = folder.path();
-    let file = cell(dir, UR5_START, "[[0.95, 0.0]]", 0.1);
+    let file = cell_of(dir, UR5_START, "[[0.95, 0.0]]", 0.1, 0.06);
     let ran = run(dir, "plan", &file, UR5);
     assert_eq!(ran.code, 3, "{}", ran.stderr);
     let report = ran.json();
@@ -89,7 +94,7 @@ fn what_was_only_not_found_is_not_said_to_be_impossible() {
     );
     assert!(!headline.contains("cannot"), "{headline}");
     // Farther away than the links are long together, it is known.
-    let file = cell(dir, UR5_START, "[[2.0, 0.0]]", 0.1);
+    let file = cell_of(dir, UR5_START, "[[2.0, 0.0]]", 0.1, 0.06);
     let ran = run(dir, "plan", &file, UR5);
     assert_eq!(ran.code, 3, "{}", ran.stderr);
     let report = ran.json();

@@ -143,7 +143,7 @@ fn settles(law: ControlLawName, case: &Case) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig::with_cases(400))]
 
     #[test]
     fn pd_stays_bounded_and_settles(case in cases()) {
@@ -162,7 +162,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig::with_cases(400))]
 
     /// The paper's law, stepped at its own 0.01 s for 5 s, settles or is refused; it is refused where its error grows.
     #[test]
