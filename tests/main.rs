@@ -1,5 +1,11 @@
 //! The project as a Rust user meets it: real jobs are planned, proved, executed and exported, and the certificate is attacked.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, clippy::print_stderr, missing_docs)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    missing_docs
+)]
 
 mod cells;
 mod certified;

@@ -26,8 +26,18 @@ pub fn run(arguments: &[String]) -> Result<()> {
 
 /// Runs each benchmark once, without measuring for long; fails unless all that are wanted are among them.
 pub fn once() -> Result<()> {
-    // In the release profile, the libraries are those of the tests.
-    let line = ["bench", "--profile", "release", "--", "--test"];
+    // In the release profile, and with the features that the extension asks for, the libraries are those of the tests.
+    let line = [
+        "bench",
+        "--profile",
+        "release",
+        "-p",
+        "platewash",
+        "-p",
+        "pyplatewash",
+        "--",
+        "--test",
+    ];
     let output = Step::cargo("benchmarks, once each", &line).output()?;
     let ran = ran(&output);
     if let Some(missing) = WANTED.iter().find(|wanted| !ran.contains(*wanted)) {

@@ -4,6 +4,7 @@ use crate::step::{Step, root, target};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 const REQUIREMENTS: &str = "tests/python/requirements.txt";
 /// Prints the version if the interpreter is complete; Debian ships `venv` without `ensurepip`.
@@ -26,14 +27,24 @@ pub fn tests() -> Result<()> {
     Step::program(
         "Python tests",
         python,
-        &["-m", "pytest", "tests/python", "--durations=10"],
+        // One process a core. Tests of one file stay together: they share plans, and a cluster is alone in its process.
+        &[
+            "-m",
+            "pytest",
+            "tests/python",
+            "--numprocesses=auto",
+            "--dist=loadfile",
+            "--durations=20",
+        ],
     )
     .with("PLATEWASH_BIN", command)
     .run()
 }
 
-/// The interpreter of the virtual environment, made anew when the interpreter or the requirements changed.
+/// The interpreter of the virtual environment, made anew when the interpreter or the requirements changed. One call waits for the other.
 pub fn environment() -> Result<PathBuf> {
+    static ALONE: Mutex<()> = Mutex::new(());
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let base = base();
     let version = version(&base)?;
     let requirements = std::fs::read_to_string(root().join(REQUIREMENTS)).context(REQUIREMENTS)?;

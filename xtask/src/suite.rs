@@ -5,20 +5,11 @@ use crate::{benches, browser, page, python, rules, wheel};
 use anyhow::{Result, bail};
 use std::time::Instant;
 
-/// The crates to check, all but the peers' benchmarks, which alone need the solvers that others wrote.
+/// The crates under test, all but the peers' benchmarks, which alone need the solvers that others wrote.
 ///
 /// Every step uses the release profile and the same features, so that each crate is compiled once for the checks of clippy and the
 /// documentation, and once for all that runs: tests, benchmarks, command and wheel.
 const CRATES: [&str; 4] = ["--release", "--workspace", "--exclude", "platewash-benches"];
-/// The crates whose Rust tests run: the extension has none, and the wheel's build compiles it for its interpreter.
-const TESTED: [&str; 6] = [
-    "--release",
-    "--workspace",
-    "--exclude",
-    "platewash-benches",
-    "--exclude",
-    "pyplatewash",
-];
 /// With this, pyo3 asks no interpreter: the parts in Rust need none.
 const NO_PYTHON: (&str, &str) = ("PYO3_NO_PYTHON", "1");
 
@@ -65,7 +56,7 @@ impl Part {
 
 /// Runs the whole suite or one part of it, up to the first failure.
 ///
-/// The page is made first, so that all that is compiled after it has it.
+/// The page is made first, so that all that is compiled after it has it. The Python packages are fetched while crates compile.
 pub fn run(only: Option<Part>, in_browser: InBrowser) -> Result<()> {
     let start = Instant::now();
     let release: Check = if only.is_none() { release } else { release_alone };
@@ -92,6 +83,10 @@ pub fn run(only: Option<Part>, in_browser: InBrowser) -> Result<()> {
             },
         ),
     ];
+    if only.is_none() {
+        // The step that needs them waits for the end of this, and tells what goes wrong.
+        std::thread::spawn(python::environment);
+    }
     let mut passed = 0;
     for (_, step) in steps
         .iter()
@@ -137,8 +132,9 @@ fn documentation() -> Result<()> {
 }
 
 fn tests() -> Result<()> {
-    let line = [&["test"], &TESTED[..]].concat();
-    Step::cargo("tests", &line).with(NO_PAGE.0, NO_PAGE.1).run()
+    let line = [&["test"], &CRATES[..]].concat();
+    let step = Step::cargo("tests", &line).with(NO_PYTHON.0, NO_PYTHON.1);
+    step.with(NO_PAGE.0, NO_PAGE.1).run()
 }
 
 /// The release build of the command after the tests, which have built it: nothing is left to compile.
@@ -161,9 +157,14 @@ fn release_alone() -> Result<()> {
 }
 
 fn command() -> Step {
+    // Named beside it, the extension has the command's dependencies built with the features that it needs, too.
     let line = [
         "build",
         "--release",
+        "-p",
+        "platewash",
+        "-p",
+        "pyplatewash",
         "--bin",
         "platewash",
         "--message-format",

@@ -24,15 +24,15 @@ platewash_build.build_sdist(sys.argv[2])";
 /// The Rust build is cargo's in the same target folder, so that what the release build made is not made again.
 pub fn install() -> Result<()> {
     let tests = python::environment()?;
-    let wheel = build("wheel", &tests, &root())?;
+    let wheel = build(&tests)?;
     let line = ["install", "--no-deps", "--force-reinstall", &text(&wheel)];
     pip("wheel among the tests", &tests, &line).run()
 }
 
-/// Makes the source package, from it, outside the checkout, the wheel, and runs the README's example with nothing else.
+/// Makes the source package, and runs the README's example with the wheel and nothing else.
 ///
-/// The package holds, byte for byte, what the wheel of the checkout was compiled from: that is looked at first. Its files
-/// are older than that wheel, so that cargo takes what it compiled there instead of compiling the same text again.
+/// Outside the checkout, the package holds, byte for byte, what the wheel was compiled from, and its manifests and sources pass
+/// `cargo check`. So a wheel of the package is that of the checkout, and is not compiled a second time.
 pub fn package() -> Result<()> {
     let tests = python::environment()?;
     let folder = emptied(target().join("package"))?;
@@ -45,11 +45,24 @@ pub fn package() -> Result<()> {
     Step::program("source package unpacked", &tests, &line).run()?;
     let name = package.file_name().unwrap_or_default().to_string_lossy();
     let source = outside.join(name.trim_end_matches(".tar.gz"));
-    let done = sources::all_in(&source)
-        .and_then(|()| build("wheel from it", &tests, &source))
-        .and_then(|wheel| fresh(&wheel));
+    let done = sources::all_in(&source).and_then(|()| checked(&source));
     emptied(outside)?;
-    done
+    done?;
+    fresh(&only_file(&wheels(), "whl")?)
+}
+
+/// Checks the extension in an unpacked source package, without a network.
+fn checked(source: &Path) -> Result<()> {
+    let line = ["check", "--release", "--locked", "--offline", "-p", "pyplatewash"];
+    let step = Step::cargo("check of the source package", &line).at(source);
+    step.with("CARGO_TARGET_DIR", target())
+        .with("PYO3_NO_PYTHON", "1")
+        .run()
+}
+
+/// Where the wheel is.
+fn wheels() -> PathBuf {
+    target().join("wheels")
 }
 
 /// A folder outside the checkout, always the same for this checkout: cargo replaces what it built there the last time.
@@ -59,11 +72,11 @@ fn outside() -> PathBuf {
     std::env::temp_dir().join(format!("platewash-source-{:016x}", hasher.finish()))
 }
 
-/// The wheel of a project folder.
-fn build(title: &'static str, python: &Path, source: &Path) -> Result<PathBuf> {
-    let folder = emptied(target().join("wheels"))?;
-    let line = ["wheel", "--no-deps", "--wheel-dir", &text(&folder), &text(source)];
-    pip(title, python, &line).with("CARGO_TARGET_DIR", target()).run()?;
+/// The wheel of the checkout.
+fn build(python: &Path) -> Result<PathBuf> {
+    let folder = emptied(wheels())?;
+    let line = ["wheel", "--no-deps", "--wheel-dir", &text(&folder), &text(&root())];
+    pip("wheel", python, &line).with("CARGO_TARGET_DIR", target()).run()?;
     let wheel = only_file(&folder, "whl")?;
     no_larger(&wheel, LARGEST)?;
     Ok(wheel)

@@ -1,5 +1,6 @@
 /** The command under test, and what it writes. */
 import { execFile, spawn } from "node:child_process";
+import { rmSync } from "node:fs";
 import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -45,6 +46,20 @@ async function replaced(place, shipped, changes) {
   const file = join(place, "case.toml");
   await writeFile(file, text);
   return file;
+}
+
+const shippedPages = new Map();
+
+/** The page of a shipped scenario, in a folder with the other files of its run: made once for all tests. */
+export function shipped(scenario = "kitchen") {
+  if (!shippedPages.has(scenario)) {
+    const made = mkdtemp(join(tmpdir(), "platewash-page-")).then((place) => {
+      process.on("exit", () => rmSync(place, { recursive: true, force: true }));
+      return page(place, scenario);
+    });
+    shippedPages.set(scenario, made);
+  }
+  return shippedPages.get(scenario);
 }
 
 /** Runs a scenario in a folder; where its page is. */

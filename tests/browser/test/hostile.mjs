@@ -15,7 +15,7 @@ const NAMES = {
 for (const [what, name] of Object.entries(NAMES)) {
   test(`${what} in a scenario's name is shown as text`, async (t) => {
     const place = await folder(t);
-    const scenario = await kitchen(place, ['name = "kitchen"', `name = ${JSON.stringify(name)}`]);
+    const scenario = await kitchen(place, ['name = "kitchen"', `name = ${JSON.stringify(name)}`], ["count = 4", "count = 1"]);
     const { page, quiet } = await open(t, address(await written(place, scenario)));
     const found = await page.evaluate(() => ({
       shown: document.body.textContent,

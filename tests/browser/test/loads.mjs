@@ -1,7 +1,7 @@
 /** A page loads from disk and from the server, and asks nobody else for anything. */
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { folder, page as written, platewash, serve } from "../lib/command.mjs";
+import { folder, platewash, serve, shipped } from "../lib/command.mjs";
 import { address, open, seek, text } from "../lib/watched.mjs";
 
 /** Draws a few moments and sees that something is there to be read. */
@@ -15,7 +15,7 @@ async function looksRight({ page, quiet }) {
 }
 
 test("a page from disk asks nobody for anything", async (t) => {
-  const file = await written(await folder(t));
+  const file = await shipped();
   await looksRight(await open(t, address(file)));
 });
 
@@ -27,7 +27,7 @@ test("a page from the server asks nobody else for anything", async (t) => {
 });
 
 test("a narrow page has no room that one must scroll sideways for", async (t) => {
-  const file = await written(await folder(t));
+  const file = await shipped();
   const { page, quiet } = await open(t, address(file), { size: { width: 360, height: 640 } });
   const [wide, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
   assert.ok(wide <= window, `${wide} px in a window of ${window} px`);

@@ -1,18 +1,17 @@
 /** The arm that is drawn is where the plan has it. */
 import assert from "node:assert/strict";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { test } from "node:test";
-import { folder, page as written, rows } from "../lib/command.mjs";
+import { rows, shipped } from "../lib/command.mjs";
 import { address, open, seek } from "../lib/watched.mjs";
 
 const TOLERANCE_M = 1e-4;
 
 for (const scenario of ["kitchen", "paper-appendix"]) {
   test(`the tip of ${scenario} in the scene is the plan's`, async (t) => {
-    const place = await folder(t);
-    const file = await written(place, scenario);
+    const file = await shipped(scenario);
     // Computed by the command, from the same knots and another program's kinematics.
-    const planned = await rows(join(place, "out", "trajectory.csv"));
+    const planned = await rows(join(dirname(file), "trajectory.csv"));
     const { page, quiet } = await open(t, address(file));
     await page.evaluate(() => window.platewash.follow?.("planned"));
     for (const share of [0.13, 0.5, 0.83]) {

@@ -1,11 +1,11 @@
 /** Playing keeps time. */
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { folder, page as written } from "../lib/command.mjs";
+import { shipped } from "../lib/command.mjs";
 import { address, open } from "../lib/watched.mjs";
 
 test("under a clock that is handed in, playing is exact", async (t) => {
-  const { page, quiet } = await open(t, address(await written(await folder(t))));
+  const { page, quiet } = await open(t, address(await shipped()));
   const found = await page.evaluate(() => {
     const film = window.platewash;
     let now = 1000;
@@ -43,7 +43,7 @@ test("under a clock that is handed in, playing is exact", async (t) => {
 });
 
 test("in real time, ten seconds are ten seconds", async (t) => {
-  const { page, quiet } = await open(t, address(await written(await folder(t))), { size: { width: 400, height: 300 } });
+  const { page, quiet } = await open(t, address(await shipped()), { size: { width: 400, height: 300 } });
   const { duration, shown, passed } = await page.evaluate(async () => {
     const film = window.platewash;
     film.setClock(null);
