@@ -58,8 +58,9 @@ def test_the_message_is_the_plan(plan: pw.Plan, share: float, message: dict, fil
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_yaml_says_what_json_says_to_both_versions_of_yaml(plan: pw.Plan, name: str) -> None:
-    files = plan.export("ros2", speed_share=0.7)
+def test_yaml_says_what_json_says_to_both_versions_of_yaml(name: str) -> None:
+    one_plate = pw.Scenario.load("kitchen").replace(layout={"count": 1})
+    files = planned(one_plate).export("ros2", speed_share=0.7)
     stated = json.loads(files[f"{name}.json"])
     newest = YAML(typ="safe", pure=True)
     newest.version = (1, 2)

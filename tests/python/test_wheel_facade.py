@@ -138,8 +138,14 @@ def test_stubs_are_what_runs(tmp_path: Path) -> None:
     check(tmp_path, "mypy.stubtest", "pyplatewash")
 
 
-def test_mypy_is_content(root: Path, tmp_path: Path) -> None:
-    strict: list[str | Path] = ["mypy", "--strict", "--config-file", root / "pyproject.toml", "--cache-dir", tmp_path]
+@pytest.fixture(scope="module")
+def mypy_cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where mypy keeps what it knows of the packages."""
+    return tmp_path_factory.mktemp("mypy")
+
+
+def test_mypy_is_content(root: Path, tmp_path: Path, mypy_cache: Path) -> None:
+    strict: list[str | Path] = ["mypy", "--strict", "--config-file", root / "pyproject.toml", "--cache-dir", mypy_cache]
     check(tmp_path, *strict, "-p", "pyplatewash")
     check(tmp_path, *strict, *users(root))
 
@@ -149,7 +155,8 @@ def test_pyright_is_content(root: Path, monkeypatch: pytest.MonkeyPatch) -> None
     check(root, "pyright", "--pythonpath", sys.executable, Path(pw.__file__).parent, *users(root))
 
 
-def test_a_wrong_call_is_found_by_the_types(tmp_path: Path) -> None:
+def test_a_wrong_call_is_found_by_the_types(tmp_path: Path, mypy_cache: Path) -> None:
     (tmp_path / "wrong.py").write_text("import pyplatewash as pw\npw.Robot.irb120().fk([0.0] * 6, axes='base')\npw.plan(3)\n")
-    found = subprocess.run([sys.executable, "-m", "mypy", "--strict", "wrong.py"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    line = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(mypy_cache), "wrong.py"]
+    found = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert "wrong.py:2" in found.stdout and "wrong.py:3" in found.stdout
