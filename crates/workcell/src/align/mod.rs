@@ -15,9 +15,6 @@ mod error;
 mod fit;
 mod order;
 mod table;
-#[cfg(test)]
-mod tests;
-
 pub use error::{AlignError, TableError, Unit};
 pub use fit::{Alignment, Touch, align};
 pub use order::fitting_order;

@@ -212,6 +212,3 @@ fn check_lengths<'a>(
         None => Ok(()),
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -262,6 +262,3 @@ fn check_count(count: usize) -> Result<(), LayoutError> {
         )),
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -259,6 +259,3 @@ fn unreadable(e: &serde_json::Error) -> PlanFileError {
 fn unwritable(e: serde_json::Error) -> PlanFileError {
     PlanFileError::Unwritable { detail: e.to_string() }
 }
-
-#[cfg(test)]
-mod tests;

@@ -154,6 +154,3 @@ impl Plate {
             && pose::is_sound(&self.pose)
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -200,6 +200,3 @@ fn level(radius_m: f64) -> MeridianPoint {
         curvature: 0.0,
     }
 }
-
-#[cfg(test)]
-mod tests;

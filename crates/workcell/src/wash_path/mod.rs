@@ -5,9 +5,6 @@
 
 mod curve;
 mod rings;
-#[cfg(test)]
-mod tests;
-
 pub use curve::{BLEND_RAD, CurvePoint, LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, SurfacePoint, WashCurve};
 pub use rings::{MOST_RINGS, Rings};
 

@@ -1,10 +1,10 @@
 //! Bodies by their planes, apart from the collision library's distances: what lies within one.
 
-use crate::clearance::hull_triangles;
-use crate::surface::Surface;
 use nalgebra::{Point3, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
+use platewash_workcell::clearance::hull_triangles;
+use platewash_workcell::surface::Surface;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 

@@ -1,10 +1,9 @@
-#![allow(clippy::unwrap_used, clippy::panic)]
-
-use crate::surface::Surface;
+use platewash_workcell::surface::Surface;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-use super::*;
+use platewash_workcell::layout::*;
+use platewash_workcell::plate::Plate;
 
 const GEOMETRY: PlateGeometry = PlateGeometry {
     surface: Surface::Disc { radius_m: 0.145 },

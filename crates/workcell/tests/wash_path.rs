@@ -1,5 +1,6 @@
-use super::*;
-use crate::surface::{SHIPPED_PROFILES, Surface};
+use platewash_workcell::wash_path::*;
+
+use platewash_workcell::surface::{SHIPPED_PROFILES, Surface};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

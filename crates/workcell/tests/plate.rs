@@ -1,13 +1,13 @@
-use super::*;
-use crate::surface::{Knot, SHIPPED_PROFILES};
-use nalgebra::{Point3, UnitQuaternion};
-use parts::{Solid, height_over_face, rng};
+use crate::parts::{Solid, height_over_face, rng};
+use nalgebra::{Point3, UnitQuaternion, Vector3};
+use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
+use platewash_workcell::plate::*;
+use platewash_workcell::surface::Surface;
+use platewash_workcell::surface::{Knot, SHIPPED_PROFILES};
 use proptest::prelude::*;
 use rand::RngExt;
 use std::f64::consts::TAU;
-
-mod parts;
 
 /// What parts may hold above the face of the shipped profiles \[m\].
 const SLACK_M: f64 = 5e-4;
@@ -36,7 +36,7 @@ fn body_points(plate: &Plate, seed: u64, count: usize) -> Vec<Point3<f64>> {
             // Knots are where pieces meet.
             1 => match surface {
                 Surface::Profile(meridian) => meridian.knots()[k % meridian.knots().len()].radius_m,
-                Surface::Disc { radius_m } => 0.5 * radius_m,
+                _ => 0.5 * rim_m,
             },
             _ => rim_m * rng.random_range(0.0..1.0_f64).sqrt(),
         };

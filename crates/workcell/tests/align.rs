@@ -1,4 +1,5 @@
-use super::*;
+use platewash_workcell::align::*;
+
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 use proptest::prelude::*;

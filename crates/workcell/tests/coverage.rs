@@ -1,13 +1,11 @@
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use super::*;
-use crate::trig::sin_cos;
+use platewash_kinematics::trig::sin_cos;
+use platewash_workcell::coverage::*;
 
 const PLATE: f64 = 0.145;
 
@@ -117,7 +115,7 @@ fn a_stamp_on_the_rim_covers_a_lens() {
     let d = PLATE;
     let cut_s = s * s / (2.0 * d);
     let cut_r = d - cut_s;
-    let segment = |r: f64, h: f64| r * r * crate::trig::acos(h / r) - h * (r * r - h * h).sqrt();
+    let segment = |r: f64, h: f64| r * r * platewash_kinematics::trig::acos(h / r) - h * (r * r - h * h).sqrt();
     let truth = (segment(s, cut_s) + segment(PLATE, cut_r)) / (PI * PLATE * PLATE);
     assert_brackets(swept(&[[0.0, PLATE]], PLATE, s), truth, 1e-3);
 }

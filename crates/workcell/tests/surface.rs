@@ -1,5 +1,7 @@
-use super::*;
+use nalgebra::{Point3, Vector3};
+use platewash_workcell::surface::*;
 use proptest::prelude::*;
+use std::f64::consts::PI;
 
 #[test]
 fn a_disc_is_flat_and_as_large_as_it_is() {

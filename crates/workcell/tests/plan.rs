@@ -1,7 +1,10 @@
-use super::*;
-use crate::fixtures::kitchen;
-use crate::segment::SegmentKind;
-use crate::wash_path::WashCurve;
+use platewash_kinematics::JointVector;
+use platewash_workcell::fixtures::kitchen;
+use platewash_workcell::plan::*;
+use platewash_workcell::segment::PlanSegment;
+use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::wash_path::WashCurve;
+use platewash_workcell::wash_path::WashPath;
 
 fn plan() -> Plan {
     let job = kitchen();
@@ -66,7 +69,7 @@ fn what_json_cannot_say_is_not_written() {
     nan.job.simulation.payload_kg = Some(f64::NAN);
     assert!(matches!(nan.seal(), Err(PlanFileError::Unwritable { .. })));
     let mut large = plan();
-    large.job.seed = crate::job::MAX_SEED + 2;
+    large.job.seed = platewash_workcell::job::MAX_SEED + 2;
     assert!(matches!(large.seal(), Err(PlanFileError::Unwritable { .. })));
 }
 
