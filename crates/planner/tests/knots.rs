@@ -17,7 +17,7 @@ use std::sync::Arc;
 const GOLDEN: &str = include_str!("../../../tests/golden/knots.json");
 
 /// Seeds that are planned of each scenario.
-const SEEDS: usize = 20;
+const SEEDS: usize = 12;
 
 /// Plates all round the arm.
 const ROOMY: Region = Region {
