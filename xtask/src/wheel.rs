@@ -53,7 +53,7 @@ pub fn package() -> Result<()> {
 
 /// Checks the extension in an unpacked source package, without a network.
 fn checked(source: &Path) -> Result<()> {
-    let line = ["check", "--release", "--locked", "--offline", "-p", "pyplatewash"];
+    let line = ["check", "--release", "--offline", "-p", "pyplatewash"];
     let step = Step::cargo("check of the source package", &line).at(source);
     step.with("CARGO_TARGET_DIR", target())
         .with("PYO3_NO_PYTHON", "1")
