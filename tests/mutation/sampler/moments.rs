@@ -91,8 +91,9 @@ impl<'a> Arm<'a> {
         let delta = (piece.length_s / 8.0).min(DELTA_S);
         let middle = u.clamp(delta, piece.length_s - delta);
         let at = |u: f64| self.tip(&piece.position(u));
-        let [before, there, after] = [middle - delta, middle, middle + delta].map(|u| at(u)[0]);
         let [tip, axis] = at(u);
+        let there = if middle == u { tip } else { at(middle)[0] };
+        let [before, after] = [middle - delta, middle + delta].map(|u| at(u)[0]);
         let bend = (after - there * 2.0 + before).norm() - 4.0 * PLACE_M;
         Moment {
             piece: k,

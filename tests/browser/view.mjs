@@ -1,4 +1,4 @@
-/** All tests, in one process, so that they share a browser. */
+/** The tests of pages that show, in one process, so that they share a browser. */
 await import("./test/loads.mjs");
 await import("./test/motion.mjs");
 await import("./test/time.mjs");
@@ -7,7 +7,3 @@ await import("./test/verdict.mjs");
 await import("./test/hostile.mjs");
 await import("./test/many.mjs");
 await import("./test/live.mjs");
-await import("./test/edit.mjs");
-await import("./test/edit-cells.mjs");
-await import("./test/edit-files.mjs");
-await import("./test/edit-foreign.mjs");
