@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 FIXTURES = ROOT / "crates" / "kinematics" / "tests" / "fixtures"
 sys.path.insert(0, str(FIXTURES))
-sys.dont_write_bytecode = True
+sys.dont_write_bytecode = sys.pycache_prefix is None
 matplotlib.use("agg")  # No test opens a window.
 
 

@@ -40,6 +40,9 @@ pub fn tests() -> Result<()> {
         ],
     )
     .with("PLATEWASH_BIN", command)
+    // What Python compiles is kept, and not among the sources.
+    .with("PYTHONDONTWRITEBYTECODE", "")
+    .with("PYTHONPYCACHEPREFIX", target().join("pycache"))
     .run()
 }
 
@@ -66,7 +69,7 @@ pub fn environment() -> Result<PathBuf> {
         "install",
         "--quiet",
         "--disable-pip-version-check",
-        // Python compiles what is imported: a small part of what is installed.
+        // The tests compile what they import: a small part of what is installed.
         "--no-compile",
         "-r",
         REQUIREMENTS,
