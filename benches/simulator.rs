@@ -8,7 +8,7 @@
 
 use criterion::{Criterion, Throughput};
 use platewash::simulator::dynamics::spread;
-use platewash::simulator::{DynamicsModel, Plant, PlantState, RigidBody};
+use platewash::simulator::{DynamicsModel, Plant, PlantState};
 use platewash::workcell::simulation::{ControlLawName, Integrator, SimulationSettings};
 use platewash::{JointVector, Scenario, SimulationReport, plan, simulate};
 use std::error::Error;
@@ -23,8 +23,7 @@ const STEPS: u64 = 1000;
 
 fn dynamics(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
     let job = Scenario::load("kitchen")?.job()?;
-    let tool = RigidBody::tool(&job.terms().workcell.tool);
-    let model = DynamicsModel::new(job.arm(), tool.as_ref())?;
+    let model = DynamicsModel::new(job.arm(), Some(&job.terms().workcell.tool))?;
     let states: Vec<JointVector> = spread(job.arm().limits(), STATES).collect();
     let (qd, qdd) = (JointVector::repeat(0.5), JointVector::repeat(2.0));
     let mut group = criterion.benchmark_group("dynamics");

@@ -117,10 +117,10 @@ fn headline(plates: usize, duration_s: f64, certificate: &Certificate) -> String
     }
     let waived = certificate.but_for();
     // Rounded down: no more is said than is proved.
-    let washed = if dry_run.is_some() {
-        "swept in the air"
-    } else {
-        "washed"
+    let washed = match (dry_run, &certificate.rests_on.requirements.contact) {
+        (Some(_), _) => "swept in the air",
+        (None, Some(_)) => "washed",
+        (None, None) => "swept",
     };
     let share = if covered >= WHOLE {
         format!("{washed} whole")

@@ -81,6 +81,10 @@ fn it_is_proved_and_never_reads_as_a_washing() {
         &hash[..12]
     );
     assert!(certificate.headline.starts_with(&expected), "{}", certificate.headline);
+    let mut compared = certificate.clone();
+    compared.parent_compared();
+    let not_compared = format!("{}; as stated: the parent plan was not compared", compared.headline);
+    assert_eq!(certificate.headline, not_compared);
     assert_eq!(certificate.plates_washed(), 0);
     assert_eq!(certificate.check(Requirement::DryRun).unwrap().status, Status::Proved);
     let table = certificate.to_string();
@@ -100,6 +104,33 @@ fn it_is_proved_and_never_reads_as_a_washing() {
     // The plan file carries it through, and is sealed with it.
     let read = Plan::from_json(&plan.to_json().unwrap()).unwrap();
     assert!(read == plan && read.is_sealed());
+}
+
+/// The motion of the washing, on plates that it says are raised: the real ones would lie inside the floor.
+#[test]
+fn a_washing_that_calls_itself_a_dry_run_is_refused() {
+    let (job, mut plan) = PARENT.clone();
+    let dry_run = DryRun {
+        parent: plan.hash.clone().unwrap(),
+        height_m: 0.05,
+    };
+    let real = plan.job.plates.iter().enumerate();
+    let standing = real.map(|(i, plate)| DryRun::standing(i, &dry_run.lowered(plate)));
+    plan.job.workcell.obstacles.extend(standing.collect::<Vec<_>>());
+    plan.job.workcell.exclusions = plan.job.workcell.own_exclusions(job.arm()).unwrap();
+    plan.job.dry_run = Some(dry_run);
+    plan.hash = plan.seal().ok();
+    let certificate = judged(&plan);
+    assert_eq!(certificate.verdict, Verdict::Fail, "{certificate}");
+    let check = certificate.check(Requirement::DryRun).unwrap();
+    assert_eq!(check.status, Status::Violated);
+    let told: Vec<_> = check.discrepancies.iter().map(|wrong| wrong.what.as_str()).collect();
+    assert!(
+        told.iter()
+            .all(|what| what.starts_with("real plates: ") && what.contains("over the floor")),
+        "{told:?}"
+    );
+    assert_eq!(told.len(), plan.job.plates.len());
 }
 
 #[test]

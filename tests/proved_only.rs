@@ -259,13 +259,13 @@ fn the_headline_says_no_more_than_is_covered() {
     assert!(least < 0.9);
     let share = (1000.0 * least).floor() / 10.0;
     let line = headline(&planned, &certificate);
-    let expected = format!("PROVED: 1 plate washed by at least {share:.1} %");
+    let expected = format!("PROVED: 1 plate swept by at least {share:.1} %");
     assert!(line.starts_with(&expected), "{line}");
     let (planned, mut certificate) = judged(&one_plate());
-    assert!(headline(&planned, &certificate).contains("1 plate washed whole,"));
+    assert!(headline(&planned, &certificate).contains("1 plate swept whole,"));
     certificate.coverage[0].at_least = 0.9996;
     let nearly = headline(&planned, &certificate);
-    assert!(nearly.contains("1 plate washed by at least 99.9 %,"), "{nearly}");
+    assert!(nearly.contains("1 plate swept by at least 99.9 %,"), "{nearly}");
     scenario.job.required_coverage = 0.99;
     let (planned, certificate) = judged(&scenario);
     let line = headline(&planned, &certificate);

@@ -21,7 +21,7 @@ class Tool:
     handle ends ``sponge_height_m`` above the contact.
 
     >>> Tool(length_m=0.15)
-    Tool(length_m=0.15, radius_m=0.02, sponge_radius_m=0.025, sponge_height_m=0.025, sponge_compression_m=0.005, sponge_stiffness_pa=None, mass_kg=0.3, com_m=None, inertia_kg_m2=None)
+    Tool(length_m=0.15, radius_m=0.02, sponge_radius_m=0.025, sponge_height_m=0.025, sponge_compression_m=0.005, sponge_stiffness_pa=None, mass_kg=0.3, com_m=None, inertia_kg_m2=None, mounted_on=None)
     """
 
     #: From the flange to the sponge's far face as it is pressed [m]; 0 for no tool body.
@@ -42,6 +42,8 @@ class Tool:
     com_m: float | None = None
     #: Inertia about the centre of mass, ixx, ixy, ixz, iyy, iyz, izz, z along the handle [kg m^2]; without it, a uniform cylinder's.
     inertia_kg_m2: tuple[float, float, float, float, float, float] | None = None
+    #: Link behind joint 6 that carries it; it leaves the link along z. Without a name, ``tool0``.
+    mounted_on: str | None = None
 
     def __post_init__(self) -> None:
         _core._check("tool", self)

@@ -107,7 +107,8 @@ pub fn run(options: &Options, arguments: &DryRunArguments) -> Result<ExitCode, F
         }
     };
     check_paths(&file.plan, &planned.plan).map_err(|error| refused(&file, error))?;
-    let certificate = prove_with(&planned.plan, &file.arm, &options.cancel).map_err(platewash::Failure::from)?;
+    let mut certificate = prove_with(&planned.plan, &file.arm, &options.cancel).map_err(platewash::Failure::from)?;
+    certificate.parent_compared();
     drop(progress);
     tell(options, arguments, &file.plan, (&planned, &certificate), &places)
 }

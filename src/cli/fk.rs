@@ -83,7 +83,7 @@ pub fn run(options: &Options, arguments: &FkArguments) -> Result<ExitCode, Failu
         let workcell = scenario.workcell(&robot, layout.plates.len())?;
         ClearanceModel::new(&robot, &workcell, &layout.plates)
     } else {
-        robot::clearance(&robot, robot::bare(), &[])
+        robot::clearance(&robot, robot::bare(&robot), &[])
     };
     let clearance = clearance.map_err(platewash::Failure::from)?;
     let mut answers = configurations.iter().map(|q| configuration(&robot, &clearance, q));
@@ -123,7 +123,7 @@ fn configuration(robot: &RobotModel, clearance: &ClearanceModel, q: &JointVector
         within_limits: robot.limits().contain(q),
         beyond_limits: robot.limits().violations(q),
         limit_margins_rad: robot.limits().margins(q),
-        manipulability: manipulability(&poses.jacobian(&robot.mounting_frame(), Axes::Base)),
+        manipulability: manipulability(&poses.jacobian(&robot.last_link_frame(), Axes::Base)),
         frames,
         clearance: clearance.all(q),
     }

@@ -9,12 +9,14 @@ use super::{export, output};
 use anyhow::anyhow;
 use platewash::certificate::Check;
 use platewash::export::file::ProgramFile;
+use platewash::export::ros2;
 use platewash::export::{Change, CompareError, Compared, compare, contact_not_judged};
 use platewash::kinematics::urdf::file;
 use platewash::workcell::dry_run::DryRun;
 use platewash::workcell::plan::Plan;
-use platewash::workcell::words::counted;
+use platewash::workcell::words::{counted, printable};
 use serde::Serialize;
+use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -28,6 +30,10 @@ struct Answer {
     target: &'static str,
     holds: bool,
     unchanged: bool,
+    /// Whether the program refuses to start where the arm does not stand at the start.
+    checks_start: bool,
+    /// The files that were read.
+    files: Vec<String>,
     changes: Vec<Change>,
     more_changes: usize,
     /// What is proved of it as it stands: the worst over all assumptions about corners.
@@ -43,6 +49,7 @@ struct Answer {
 
 /// Compares the files of a program with the one that is made of the plan, and judges them as they stand.
 pub fn run(options: &Options, plan: &Path, program: &[PathBuf]) -> Result<ExitCode, Failure> {
+    let program = with_siblings(program);
     let files = program.iter().map(|path| read(path)).collect::<Result<Vec<_>, _>>()?;
     let plan = PlanFile::read(options, plan)?;
     let certified = match export::certified(options, &plan)? {
@@ -57,7 +64,8 @@ pub fn run(options: &Options, plan: &Path, program: &[PathBuf]) -> Result<ExitCo
         CompareError::Prove(error) => plan.failure(error.into()),
         error => Failure::input(error),
     })?;
-    let answer = Answer::of(&compared, &plan.plan, &certified.certificate().but_for());
+    let names = files.into_iter().map(|file| file.name).collect();
+    let answer = Answer::of(&compared, &plan.plan, names, &certified.certificate().but_for());
     output::print_either(options.json, &answer, || answer.text())?;
     let outcome = if answer.holds {
         Outcome::Good
@@ -65,6 +73,24 @@ pub fn run(options: &Options, plan: &Path, program: &[PathBuf]) -> Result<ExitCo
         Outcome::NotVerified
     };
     Ok(outcome.answer())
+}
+
+/// The files of a program, and those beside them that can be sent in their place: of a ROS 2 program, all that `export` writes.
+fn with_siblings(program: &[PathBuf]) -> Vec<PathBuf> {
+    let mut all = program.to_vec();
+    let is_own = |path: &&PathBuf| {
+        let name = path.file_name().and_then(OsStr::to_str);
+        name.is_some_and(|name| ros2::FILES.contains(&name))
+    };
+    for path in program.iter().filter(is_own) {
+        let beside = ros2::FILES.map(|name| path.with_file_name(name));
+        for sibling in beside.into_iter().filter(|sibling| sibling.exists()) {
+            if !all.contains(&sibling) {
+                all.push(sibling);
+            }
+        }
+    }
+    all
 }
 
 fn read(path: &Path) -> Result<ProgramFile, Failure> {
@@ -78,14 +104,18 @@ fn read(path: &Path) -> Result<ProgramFile, Failure> {
 }
 
 impl Answer {
-    fn of(compared: &Compared, plan: &Plan, but_for: &str) -> Self {
+    fn of(compared: &Compared, plan: &Plan, files: Vec<String>, but_for: &str) -> Self {
         let dry_run = plan.job.dry_run.as_ref();
         let (holds, unchanged) = (compared.holds(), compared.is_unchanged());
         let changed = match (unchanged, compared.changes.len() + compared.more_changes) {
             (true, _) => "as it was handed over".to_owned(),
             (false, count) => format!("CHANGED in {}", counted(count, "place")),
         };
-        let verdict = if holds { "HOLDS" } else { "DOES NOT HOLD" };
+        let verdict = match (holds, compared.checks_start) {
+            (true, true) => "HOLDS",
+            (true, false) => "HOLDS, START NOT CHECKED",
+            (false, _) => "DOES NOT HOLD",
+        };
         let within = format!("tip within {} mm of the plan", 1e3 * compared.tolerance_m);
         Self {
             headline: format!(
@@ -96,6 +126,8 @@ impl Answer {
             target: compared.dialect,
             holds,
             unchanged,
+            checks_start: compared.checks_start,
+            files,
             changes: compared.changes.clone(),
             more_changes: compared.more_changes,
             checks: compared.judged.worst(),
@@ -106,7 +138,8 @@ impl Answer {
     }
 
     fn text(&self) -> String {
-        let mut text = format!("{}\n", self.headline);
+        let files: Vec<_> = self.files.iter().map(|name| printable(name)).collect();
+        let mut text = format!("{}\n  read: {}\n", self.headline, files.join(", "));
         for Change {
             place,
             what,
@@ -122,6 +155,9 @@ impl Answer {
         }
         if !self.unchanged {
             text += "  what is no motion is named and not judged: checks before the start, messages, comments\n";
+        }
+        if !self.checks_start {
+            text += "  the start is not checked: the program moves off wherever the arm stands\n";
         }
         if let Some(tool) = &self.tool {
             let _ = writeln!(text, "  {:<20} {:<9} {tool}", "tool", "NOT KEPT");

@@ -5,7 +5,7 @@ use super::output;
 use anyhow::{Context, anyhow, ensure};
 use clap::Args;
 use platewash::planner::PlanError;
-use platewash::scenario::{SHIPPED, ScenarioError, UnitNote};
+use platewash::scenario::{Note, SHIPPED, ScenarioError};
 use platewash::workcell::job::MAX_SEED;
 use platewash::workcell::words::printable;
 use platewash::{CancelToken, RobotModel, Scenario};
@@ -41,6 +41,9 @@ pub struct Options {
     /// SRDF with the link pairs that need no collision check
     #[arg(long, global = true, value_name = "FILE", requires = "urdf")]
     pub srdf: Option<PathBuf>,
+    /// Link behind joint 6 that carries the tool, which leaves it along the link's z axis [default: tool0]
+    #[arg(long, global = true, value_name = "LINK")]
+    pub tool_mount: Option<String>,
     /// Machine-readable result on standard output, nothing else there
     #[arg(long, global = true)]
     pub json: bool,
@@ -98,6 +101,9 @@ impl Options {
             scenario.robot.srdf.clone_from(&self.srdf);
             scenario.robot.package_path.clone_from(&self.package_path);
         }
+        if let Some(link) = &self.tool_mount {
+            scenario.tool.mounted_on = Some(link.clone());
+        }
         scenario.validate().map_err(|error| self.of_file(error))?;
         self.warn(&scenario.notes());
         Ok(scenario)
@@ -106,12 +112,12 @@ impl Options {
     /// The arm of a scenario.
     pub fn arm(&self, scenario: &Scenario) -> Result<Arc<RobotModel>, platewash::Failure> {
         let arm = scenario.arm()?;
-        self.warn(UnitNote::of_arm(&arm).as_slice());
+        self.warn(&Note::of_arm(&arm));
         Ok(arm)
     }
 
     /// Says on standard error what was probably meant in another unit.
-    pub fn warn(&self, notes: &[UnitNote]) {
+    pub fn warn(&self, notes: &[Note]) {
         for note in notes {
             output::message(self.quiet, &format!("warning: {note}"));
         }
@@ -143,9 +149,10 @@ impl Options {
         }
     }
 
-    /// Refuses a scenario where a plan file is given.
+    /// Refuses a scenario, and the link of a tool, where a plan file is given.
     pub fn refuse_scenario(&self) -> Result<(), Failure> {
-        refuse_beside_plan(self.scenario.is_some(), "--scenario")
+        refuse_beside_plan(self.scenario.is_some(), "--scenario")?;
+        refuse_beside_plan(self.tool_mount.is_some(), "--tool-mount")
     }
 
     /// Refuses a seed where a plan file is given.

@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::options::Options;
 use anyhow::anyhow;
 use platewash::kinematics::urdf::{Files, file};
-use platewash::scenario::{UnitNote, load_description};
+use platewash::scenario::{Note, load_description};
 use platewash::workcell::workcell::ArmId;
 use platewash::{Plan, RobotModel};
 use std::fmt::Display;
@@ -40,7 +40,7 @@ impl<'a> PlanFile<'a> {
         besides: Option<&Arc<RobotModel>>,
     ) -> Result<Self, Failure> {
         let arm = find_arm(options, &plan.job.workcell.arm, besides).map_err(|error| refused(path, error))?;
-        options.warn(UnitNote::of_arm(&arm).as_slice());
+        options.warn(&Note::of_arm(&arm));
         Ok(Self { path, plan, arm })
     }
 

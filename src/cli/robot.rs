@@ -4,11 +4,12 @@ use super::angles::Unit;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
+use anyhow::anyhow;
 use clap::Args;
 use platewash::kinematics::AXES;
 use platewash::workcell::clearance::ClearanceError;
 use platewash::workcell::tool::StraightTool;
-use platewash::{ClearanceModel, Plate, RobotModel, Tool, Workcell};
+use platewash::{ClearanceModel, Plate, RobotModel, Tool, ToolFrame, Workcell};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -26,8 +27,17 @@ struct Answer {
     urdf_sha256: String,
     joints: Vec<JointRow>,
     frames: Vec<String>,
+    tool_mount: Option<ToolMount>,
     reach_bound_m: f64,
     clearance_pairs: Vec<[String; 2]>,
+}
+
+/// The link that carries the tool.
+#[derive(Serialize)]
+struct ToolMount {
+    link: String,
+    /// Angle between its z axis, along which the tool leaves it, and the axis of joint 6 \[deg\].
+    off_axis_6_deg: f64,
 }
 
 #[derive(Serialize)]
@@ -45,13 +55,23 @@ struct JointRow {
 
 /// Shows joints, limits, frames and the pairs that are checked for clearance (the bare arm over the floor).
 pub fn run(options: &Options) -> Result<ExitCode, Failure> {
-    let robot = options.arm(&options.scenario()?)?;
-    let clearance = clearance(&robot, bare(), &[]).map_err(platewash::Failure::from)?;
+    let scenario = options.scenario()?;
+    let robot = options.arm(&scenario)?;
+    let stated = scenario.tool.mounted_on.as_deref();
+    let mount = robot.tool_mount(stated);
+    if let (Err(error), Some(_)) = (&mount, stated) {
+        return Err(Failure::input(anyhow!("tool.mounted_on: {error}")));
+    }
+    let clearance = clearance(&robot, bare(&robot), &[]).map_err(platewash::Failure::from)?;
     let answer = Answer {
         name: robot.name().to_owned(),
         urdf_sha256: robot.sha256().to_owned(),
         joints: (0..AXES).map(|i| joint(&robot, i)).collect(),
         frames: robot.links().iter().map(|l| l.name.clone()).collect(),
+        tool_mount: mount.as_ref().ok().map(|frame| ToolMount {
+            link: stated.unwrap_or(ToolFrame::Tool0.name()).to_owned(),
+            off_axis_6_deg: frame.tilt_rad().to_degrees(),
+        }),
         reach_bound_m: robot.reach_bound(&robot.last_link_frame()).1,
         clearance_pairs: clearance
             .pair_names()
@@ -59,16 +79,28 @@ pub fn run(options: &Options) -> Result<ExitCode, Failure> {
             .map(|(a, b)| [a.to_owned(), b.to_owned()])
             .collect(),
     };
-    output::print_either(options.json, &answer, || text(&answer))?;
+    let words = match (&answer.tool_mount, mount) {
+        (Some(mount), _) => format!(
+            "on link '{}', along its z axis, {:.1}° from the axis of joint 6",
+            mount.link, mount.off_axis_6_deg
+        ),
+        (None, Err(error)) => format!("nowhere: {error}"),
+        (None, Ok(_)) => "nowhere".to_owned(),
+    };
+    output::print_either(options.json, &answer, || text(&answer, &words))?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// No tool body.
-pub fn bare() -> Tool {
-    Tool::from(StraightTool {
-        length_m: 0.0,
-        ..StraightTool::default()
-    })
+pub fn bare(robot: &RobotModel) -> Tool {
+    Tool {
+        // No link needs to be named for a tool that is not there.
+        mounted_on: Some(robot.joints()[AXES - 1].child.clone()),
+        ..Tool::from(StraightTool {
+            length_m: 0.0,
+            ..StraightTool::default()
+        })
+    }
 }
 
 /// The clearances of an arm over the floor, with its tool, among plates.
@@ -119,7 +151,7 @@ enum End {
     Upper,
 }
 
-fn text(answer: &Answer) -> String {
+fn text(answer: &Answer, tool_mount: &str) -> String {
     let mut text = format!("{} (URDF SHA-256 {})\n\n", answer.name, answer.urdf_sha256);
     // Writing to a String cannot fail.
     let _ = writeln!(
@@ -145,7 +177,7 @@ fn text(answer: &Answer) -> String {
     }
     let _ = writeln!(
         text,
-        "\nreach of the last link, at most {:.3} m\nframes: {}",
+        "\nreach of the last link, at most {:.3} m\nframes: {}\ntool mounted {tool_mount}",
         answer.reach_bound_m,
         answer.frames.join(", ")
     );

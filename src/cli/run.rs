@@ -184,8 +184,9 @@ impl Simulated {
         }
     }
 
-    /// What the first line adds to what is proved: that nothing was simulated, or that the simulation fails.
-    fn first_line(&self) -> Option<String> {
+    /// What the first line adds to what is proved: that nothing was simulated, or that the simulation fails; `contact` is whether the job
+    /// asks for contact.
+    fn first_line(&self, contact: bool) -> Option<String> {
         match self {
             Self::Done(report) if report.verdict == SimulationVerdict::Washed => None,
             Self::Done(report) => {
@@ -194,8 +195,9 @@ impl Simulated {
                     .plates
                     .iter()
                     .any(|plate| plate.verdict == PlateVerdict::NotWashed);
+                let done = if contact { "WASHED" } else { "SWEPT" };
                 let not_washed =
-                    (overload.is_none() || leaves_one).then(|| format!("NOT WASHED under {}", report.law.name()));
+                    (overload.is_none() || leaves_one).then(|| format!("NOT {done} under {}", report.law.name()));
                 Some(overload.into_iter().chain(not_washed).collect::<Vec<_>>().join("; "))
             }
             Self::Refused { .. } => Some("NOT SIMULATED".to_owned()),
@@ -221,7 +223,8 @@ impl Simulated {
 
 impl RunReport {
     fn new(mut wash: WashReport, simulation: Simulated) -> Self {
-        if let Some(more) = simulation.first_line() {
+        let contact = wash.certificate.rests_on.requirements.contact.is_some();
+        if let Some(more) = simulation.first_line(contact) {
             wash.headline = format!("{}; {more}", wash.headline);
         }
         Self { wash, simulation }

@@ -3,7 +3,7 @@
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::{infeasible, output};
-use platewash::scenario::UnitNote;
+use platewash::scenario::Note;
 use platewash::simulator::simulate::PayloadCheck;
 use platewash::workcell::layout::{Finding, LayoutError};
 use platewash::workcell::words::counted;
@@ -18,7 +18,7 @@ struct Answer {
     /// What is to be said about the plates.
     findings: Vec<Finding>,
     /// What was probably meant in another unit.
-    notes: Vec<UnitNote>,
+    notes: Vec<Note>,
     /// That the arm may not carry the tool, by what; `null` where it may, or no payload is known.
     overload: Option<String>,
     /// What the seed gives, for plates that are sampled.
@@ -62,7 +62,7 @@ fn check(options: &Options, scenario: &Scenario) -> Result<ExitCode, Failure> {
     let overload = PayloadCheck::new(&scenario.tool_on(&robot)?, scenario.robot.payload_kg, &robot).overload();
     let answer = Answer {
         valid: true,
-        notes: scenario.notes().into_iter().chain(UnitNote::of_arm(&robot)).collect(),
+        notes: [scenario.notes(), Note::of_arm(&robot), scenario.notes_on_meshes()].concat(),
         overload,
         scenario: scenario.name.clone(),
         robot: robot.name().to_owned(),

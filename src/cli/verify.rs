@@ -97,7 +97,11 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, F
             let file = PlanFile::with_arm(options, &arguments.plan, plan, besides)?;
             let given = arguments.parent.as_ref();
             parent = given.map(|path| OfParent::compare(&file, path)).transpose()?;
-            Judgement::Washing(Box::new(prove(options, &file)?))
+            let mut certificate = prove(options, &file)?;
+            if parent.as_ref().is_some_and(OfParent::agrees) {
+                certificate.parent_compared();
+            }
+            Judgement::Washing(Box::new(certificate))
         }
     };
     let answer = Answer {

@@ -26,6 +26,7 @@ pub struct Washing {
 /// Plans the washing that the scenario asks for.
 pub fn plan(options: &Options, scenario: &Scenario) -> Result<Washing, platewash::Failure> {
     let arm = options.arm(scenario)?;
+    options.warn(&scenario.notes_on_meshes());
     let progress = Progress::new(options.quiet, "planning");
     let watch = Watch {
         tell: &|activity| progress.say("planning", activity),

@@ -105,6 +105,77 @@ fn a_program_is_written_and_found_unchanged_and_an_edited_line_is_named() {
     );
 }
 
+/// `play.py` sends the JSON, whichever file was verified.
+#[test]
+fn a_file_beside_it_that_can_be_sent_is_read_too() {
+    let folder = planned();
+    let dir = folder.path();
+    platewash(
+        dir,
+        &["export", "out/plan.json", "--to", "ros2", "--out", "robot", "--quiet"],
+    )
+    .done();
+    let robot = dir.join("robot");
+    let sent = robot.join("follow_joint_trajectory.json");
+    let verified = robot.join("follow_joint_trajectory.yaml");
+    let verify = || {
+        platewash(
+            dir,
+            &["verify", "out/plan.json", "--program", verified.to_str().unwrap()],
+        )
+    };
+    let said = verify().done().stdout;
+    assert!(said.starts_with("HOLDS: ros2 program, "), "{said}");
+    for name in names(&robot) {
+        assert!(said.lines().nth(1).unwrap().contains(&name), "{name}: {said}");
+    }
+    let mut goal: Value = serde_json::from_str(&fs::read_to_string(&sent).unwrap()).unwrap();
+    let moved = &mut goal["trajectory"]["points"][40]["positions"][1];
+    *moved = (moved.as_f64().unwrap() + 0.5).into();
+    fs::write(&sent, goal.to_string()).unwrap();
+    verify().refused(2, &["follow_joint_trajectory.json", "expected point 40"]);
+    // A message alone does not compare the start; the player does.
+    for name in names(&robot) {
+        if name != "follow_joint_trajectory.yaml" {
+            fs::remove_file(robot.join(name)).unwrap();
+        }
+    }
+    let said = verify().done().stdout;
+    assert!(said.starts_with("HOLDS, START NOT CHECKED: ros2 program, "), "{said}");
+}
+
+#[test]
+fn a_program_without_its_start_check_says_so() {
+    let folder = planned();
+    let dir = folder.path();
+    platewash(dir, &["export", "out/plan.json", "--to", "rapid", "--quiet"]).done();
+    let path = module(&dir.join("out/rapid"));
+    let text = fs::read_to_string(&path).unwrap();
+    let verify = || {
+        platewash(dir, &["verify", "out/plan.json", "--program", path.to_str().unwrap()])
+            .done()
+            .stdout
+    };
+    assert!(verify().starts_with("HOLDS: rapid program, "));
+    for (from, to) in [
+        ("    pwCheckStart;\n", ""),
+        (
+            "IF Abs(found-expected)<=0.5 RETURN;",
+            "IF Abs(found-expected)<=500 RETURN;",
+        ),
+        ("      pwCheckJoint 2,now.robax.rax_2,pwStart.robax.rax_2;\n", ""),
+    ] {
+        assert!(text.contains(from.trim()), "{from}");
+        fs::write(&path, text.replacen(from.trim(), to.trim(), 1)).unwrap();
+        let said = verify();
+        assert!(
+            said.starts_with("HOLDS, START NOT CHECKED: rapid program, "),
+            "{from}: {said}"
+        );
+        assert!(said.contains("the start is not checked"), "{said}");
+    }
+}
+
 #[test]
 fn each_refusal_has_its_code() {
     let folder = planned();

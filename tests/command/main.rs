@@ -26,6 +26,7 @@ mod served;
 mod simulate;
 mod study;
 mod suggest;
+mod tool_mount;
 mod units;
 mod verbs;
 mod verify;

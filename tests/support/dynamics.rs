@@ -2,7 +2,7 @@
 
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{AXES, RobotModel};
-use platewash_simulator::{DynamicsModel, RigidBody};
+use platewash_simulator::DynamicsModel;
 use platewash_workcell::tool::StraightTool;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -54,14 +54,14 @@ pub fn fixture(name: &str) -> (Fixture, RobotModel, DynamicsModel) {
     let fixture: Fixture = serde_json::from_str(&text).unwrap();
     let urdf = std::fs::read_to_string(folder().join(&fixture.urdf)).unwrap();
     let robot = RobotModel::from_urdf(&urdf, &MeshSource::none()).unwrap();
-    let tool = fixture.tool.as_ref().and_then(|tool| {
+    let tool = fixture.tool.as_ref().map(|tool| {
         let straight = StraightTool {
             mass_kg: tool.mass_kg,
             length_m: tool.length_m,
             radius_m: tool.radius_m,
             ..StraightTool::default()
         };
-        RigidBody::tool(&straight.into())
+        platewash_workcell::tool::Tool::from(straight)
     });
     let model = DynamicsModel::new(&robot, tool.as_ref()).unwrap();
     (fixture, robot, model)

@@ -1,21 +1,31 @@
 //! A dry run is what it says: its plates are raised, and the real ones stand below them as obstacles.
 //!
-//! That these are kept clear of is the clearance's to prove, as of any obstacle. Which plan the dry run is one of is stated, and not
-//! judged: that takes the other plan.
+//! The real plates are checked as those of a washing are: they reach into no floor, no obstacle, each other or the base. That they are kept
+//! clear of is the clearance's to prove, as of any obstacle. Which plan the dry run is one of is stated, and not judged: that takes the
+//! other plan.
 
+use crate::apart;
 use crate::check::{Check, Discrepancy};
 use crate::face::PLACE_M;
 use crate::requirement::Requirement;
+use crate::statements;
 use crate::subject::Subject;
 use nalgebra::Vector3;
+use platewash_workcell::clearance::ClearanceError;
 use platewash_workcell::dry_run::DryRun;
+use platewash_workcell::job::JobTerms;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::words::millimetres;
 use platewash_workcell::workcell::Obstacle;
 
-/// Every plate of a dry run has its real one below it; `None` where the job is no dry run.
-pub(crate) fn check(subject: &Subject<'_>) -> Option<Check> {
-    let dry_run = subject.job.dry_run.as_ref()?;
+/// Every plate of a dry run has its real one below it, and the real ones are where plates can be; `None` where the job is no dry run.
+///
+/// # Errors
+/// [`ClearanceError`] for a shape that is none.
+pub(crate) fn check(subject: &Subject<'_>) -> Result<Option<Check>, ClearanceError> {
+    let Some(dry_run) = &subject.job.dry_run else {
+        return Ok(None);
+    };
     let obstacles = &subject.job.workcell.obstacles;
     let plates = subject.plates().iter().enumerate();
     let mut wrong: Vec<_> = plates
@@ -25,7 +35,33 @@ pub(crate) fn check(subject: &Subject<'_>) -> Option<Check> {
         let stated = format!("{:?}", dry_run.parent);
         wrong.push(Discrepancy::new("dry_run.parent", stated, "the hash of a plan"));
     }
-    Some(Check::stated(Requirement::DryRun, wrong))
+    wrong.extend(misplaced(subject, dry_run)?);
+    Ok(Some(Check::stated(Requirement::DryRun, wrong)))
+}
+
+/// Where real plates cannot be: in the floor, in an obstacle, in each other or in the base.
+fn misplaced(subject: &Subject<'_>, dry_run: &DryRun) -> Result<Vec<Discrepancy>, ClearanceError> {
+    let job = subject.job;
+    let plates: Vec<_> = job.plates.iter().map(|plate| dry_run.lowered(plate)).collect();
+    let mut workcell = job.workcell.clone();
+    let real_names: Vec<_> = (0..plates.len()).map(DryRun::real_name).collect();
+    workcell
+        .obstacles
+        .retain(|obstacle| !real_names.contains(&obstacle.name));
+    let washing = JobTerms {
+        workcell,
+        plates,
+        dry_run: None,
+        ..job.clone()
+    };
+    let washing = Subject::new(&washing, subject.robot, Vec::new());
+    let checks = [statements::plates(&washing), apart::check(&washing)?];
+    let broken = checks.into_iter().filter(|check| !check.status.is_kept());
+    let of_real = |wrong: Discrepancy| Discrepancy {
+        what: format!("real plates: {}", wrong.what),
+        ..wrong
+    };
+    Ok(broken.flat_map(|check| check.discrepancies).map(of_real).collect())
 }
 
 /// What is wrong with the real plate below a raised one.

@@ -154,7 +154,7 @@ impl Judged<'_> {
         let arm = Arm::new(subject.robot, &subject.job.workcell.tool, self.cancel);
         let tips = Tips::new(&arm, subject, self.pieces, schedule);
         let mut checks = self.stated(segments, &tips)?;
-        checks.extend(dry_run::check(subject));
+        checks.extend(dry_run::check(subject)?);
         checks.extend(joints::checks(self.pieces, &subject.limits, schedule));
         checks.extend(tips.checks(subject, self.pieces, schedule));
         checks.push(contact::check(&arm, subject, (self.pieces, schedule), &tips));

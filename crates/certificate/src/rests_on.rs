@@ -86,7 +86,11 @@ impl RestsOn {
             limits: job.limits,
             home_rad: job.home_rad,
             waived_pairs: exclusions.waived,
-            assumptions: assumptions(job).into_iter().map(str::to_owned).collect(),
+            assumptions: assumptions(job)
+                .into_iter()
+                .map(str::to_owned)
+                .chain(unchecked(arm))
+                .collect(),
             dry_run: job.dry_run.clone(),
         }
     }
@@ -105,6 +109,17 @@ fn assumptions(job: &JobTerms) -> Vec<&'static str> {
     all.extend(job.requirements.contact.map(|_| ERROR_OF_HEIGHT));
     all.extend(job.dry_run.is_some().then_some(PARENT));
     all
+}
+
+/// That links of the arm have no collision shapes, where some have none.
+fn unchecked(arm: &RobotModel) -> Option<String> {
+    let links: Vec<_> = arm.links_without_shapes().map(quoted).collect();
+    (!links.is_empty()).then(|| {
+        format!(
+            "links without collision shapes keep clear of everything; nothing was checked of them: {}",
+            links.join(", ")
+        )
+    })
 }
 
 impl RestsOn {
@@ -195,6 +210,9 @@ fn tool(tool: &Tool) -> String {
         parts.push("no body".to_owned());
     }
     parts.push(sponge);
+    if let Some(link) = &tool.mounted_on {
+        parts.insert(0, format!("mounted on link {} along its z", quoted(link)));
+    }
     parts.push(format!("tip {}{}", of_flange(&tool.tip), slanted(&tool.tip)));
     parts.join("; ")
 }

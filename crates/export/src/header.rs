@@ -13,6 +13,7 @@ use platewash_kinematics::{AXES, JointVector, Pose, sha256_hex};
 use platewash_workcell::job::Requirements;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::words::counted;
+use platewash_workcell::words::quoted;
 
 /// Degrees in a radian.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
@@ -104,6 +105,12 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
             place(sponge.compression_m)
         ),
     ];
+    lines.extend(world.tool.mounted_on.as_ref().map(|link| {
+        format!(
+            "tool: mounted on link {} along its z; the controller's flange is assumed to be there",
+            quoted(link)
+        )
+    }));
     if world.mount != Pose::identity() {
         lines.push("positions: in the frame of the arm's base; places of plates and obstacles in the world".to_owned());
     }

@@ -1,6 +1,8 @@
 //! Frames fixed to the arm's bodies.
 
 use crate::rotation::Rigid;
+use crate::trig::atan2;
+use nalgebra::{Matrix3, Vector3};
 
 /// A frame fixed to one of the arm's bodies: body 0 is the base, body i is what joint i moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,6 +33,21 @@ impl Frame {
     #[must_use]
     pub fn on_body(&self) -> &Rigid {
         &self.offset
+    }
+
+    /// Angle between its z axis and the axis of the joint that moves its body \[rad\].
+    #[must_use]
+    pub fn tilt_rad(&self) -> f64 {
+        let z = self.offset.rotation.column(2);
+        atan2(z.xy().norm(), z.z)
+    }
+
+    /// A frame that is nowhere: its coordinates are NaN, so that nothing can be proved of it.
+    #[must_use]
+    pub fn nowhere() -> Self {
+        let rotation = Matrix3::repeat(f64::NAN);
+        let translation = Vector3::repeat(f64::NAN);
+        Self::new(0, Rigid { rotation, translation })
     }
 
     /// A frame fixed to this one, at `T_this_new`.

@@ -1,11 +1,10 @@
 //! The frames in which tool poses are stated, by name.
 
+use crate::AXES;
 use crate::frame::Frame;
-use crate::model::RobotModel;
-use crate::rotation::{Rigid, from_rpy};
+use crate::model::{Link, RobotModel};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::FRAC_PI_2;
 
 /// The frame in which tool poses are stated and returned.
 ///
@@ -52,6 +51,68 @@ pub enum ToolFrameError {
         /// Links rigidly attached behind joint 6.
         found: String,
     },
+    /// Nothing says which link carries the tool, or no link behind joint 6 has the name stated.
+    #[error(
+        "robot '{robot}' {}; state the link that carries the tool as tool.mounted_on (--tool-mount): the tool leaves it along z, turned \
+         by tool.mount_rpy_deg. Links behind joint 6, with their axis that is along axis 6: {candidates}",
+        unmounted(.link.as_deref())
+    )]
+    NoMount {
+        /// Robot name.
+        robot: String,
+        /// The link that was stated.
+        link: Option<String>,
+        /// Links behind joint 6, with the axis of each that joint 6 turns about.
+        candidates: String,
+    },
+}
+
+fn unmounted(link: Option<&str>) -> String {
+    link.map_or("has no link 'tool0'".to_owned(), |link| {
+        format!("has no link '{link}' behind joint 6")
+    })
+}
+
+/// Greatest angle between axes that count as one in a message \[rad\].
+const ALIGNED_RAD: f64 = 0.01;
+
+/// The axes of a link that a tool may have to leave along, and how `tool.mount_rpy_deg` turns it there from z.
+const TURNS: [([f64; 3], &str, &str); 6] = [
+    ([0.0, 0.0, 1.0], "z", "[0, 0, 0]"),
+    ([0.0, 0.0, -1.0], "-z", "[180, 0, 0]"),
+    ([1.0, 0.0, 0.0], "x", "[0, 90, 0]"),
+    ([-1.0, 0.0, 0.0], "-x", "[0, -90, 0]"),
+    ([0.0, 1.0, 0.0], "y", "[-90, 0, 0]"),
+    ([0.0, -1.0, 0.0], "-y", "[90, 0, 0]"),
+];
+
+/// Links behind joint 6, each with its axis that joint 6 turns about, and how a tool that leaves z is turned to those axes.
+fn candidates<'a>(links: impl Iterator<Item = &'a Link>) -> String {
+    let mut turned = Vec::new();
+    let along = |link: &Link| {
+        // Axis 6 in the axes of the link.
+        let axis = link.frame.on_body().rotation.transpose().column(2).into_owned();
+        TURNS
+            .iter()
+            .find(|(along, ..)| (axis - Vector3::from(*along)).norm() < ALIGNED_RAD)
+    };
+    let named: Vec<_> = links
+        .map(|link| match along(link) {
+            Some(&(_, axis, turn)) => {
+                if axis != "z" && !turned.contains(&(axis, turn)) {
+                    turned.push((axis, turn));
+                }
+                format!("'{}' ({axis})", link.name)
+            }
+            None => format!(
+                "'{}' (z is {:.1}° from it)",
+                link.name,
+                link.frame.tilt_rad().to_degrees()
+            ),
+        })
+        .collect();
+    let turned = turned.iter().map(|(axis, turn)| format!("; {turn} turns it to {axis}"));
+    format!("{}{}", named.join(", "), turned.collect::<String>())
 }
 
 impl RobotModel {
@@ -72,44 +133,44 @@ impl RobotModel {
     /// # Errors
     /// [`ToolFrameError::Missing`] when the description has no `tool0` behind joint 6.
     pub fn tool_frame(&self, which: ToolFrame) -> Result<Frame, ToolFrameError> {
-        let behind_joint_6 = |name: &str| self.links().iter().find(|l| l.name == name && l.frame.body() == 6);
         match which {
-            ToolFrame::Flange => Ok(behind_joint_6("flange").map_or(self.last_link_frame(), |l| l.frame)),
-            ToolFrame::Tool0 => behind_joint_6("tool0")
+            ToolFrame::Flange => Ok(self
+                .behind_joint_6("flange")
+                .map_or(self.last_link_frame(), |l| l.frame)),
+            ToolFrame::Tool0 => self
+                .behind_joint_6("tool0")
                 .map(|l| l.frame)
                 .ok_or_else(|| self.missing("tool0")),
             ToolFrame::MatlabTool0 => Ok(self.last_link_frame()),
         }
     }
 
-    /// Whether the description says by itself how a tool leaves the flange: it has a `tool0` behind joint 6.
-    #[must_use]
-    pub fn states_its_mounting_frame(&self) -> bool {
-        self.tool_frame(ToolFrame::Tool0).is_ok()
+    /// The frame that carries a tool: that of a link behind joint 6, which the tool leaves along the link's z axis. Without a link,
+    /// `tool0`.
+    ///
+    /// # Errors
+    /// [`ToolFrameError::NoMount`] for a link that is not behind joint 6, and without a link where the description has no `tool0`.
+    pub fn tool_mount(&self, link: Option<&str>) -> Result<Frame, ToolFrameError> {
+        let name = link.unwrap_or(ToolFrame::Tool0.name());
+        self.behind_joint_6(name)
+            .map(|l| l.frame)
+            .ok_or_else(|| ToolFrameError::NoMount {
+                robot: self.name().to_owned(),
+                link: link.map(str::to_owned),
+                candidates: candidates(self.links_behind_joint_6()),
+            })
     }
 
-    /// The frame in which a tool is mounted: its z axis leaves the flange. It is `tool0` where the
-    /// description has one, otherwise the flange turned by 90° about y (ROS-Industrial's flange has x out).
-    #[must_use]
-    pub fn mounting_frame(&self) -> Frame {
-        self.tool_frame(ToolFrame::Tool0).unwrap_or_else(|_| {
-            let turn = Rigid {
-                rotation: from_rpy([0.0, FRAC_PI_2, 0.0]),
-                translation: Vector3::zeros(),
-            };
-            self.tool_frame(ToolFrame::Flange)
-                .unwrap_or(self.last_link_frame())
-                .offset(&turn)
-        })
+    fn links_behind_joint_6(&self) -> impl Iterator<Item = &Link> {
+        self.links().iter().filter(|l| l.frame.body() == AXES)
+    }
+
+    fn behind_joint_6(&self, name: &str) -> Option<&Link> {
+        self.links_behind_joint_6().find(|l| l.name == name)
     }
 
     fn missing(&self, link: &str) -> ToolFrameError {
-        let found: Vec<_> = self
-            .links()
-            .iter()
-            .filter(|l| l.frame.body() == 6)
-            .map(|l| l.name.as_str())
-            .collect();
+        let found: Vec<_> = self.links_behind_joint_6().map(|l| l.name.as_str()).collect();
         ToolFrameError::Missing {
             robot: self.name().to_owned(),
             link: link.to_owned(),

@@ -152,7 +152,7 @@ fn irb120_tool_frames() {
     out_of_the_flange(ToolFrame::Flange, Vector3::x());
     out_of_the_flange(ToolFrame::Tool0, Vector3::z());
     out_of_the_flange(ToolFrame::MatlabTool0, Vector3::x());
-    assert_eq!(robot.mounting_frame(), robot.tool_frame(ToolFrame::Tool0).unwrap());
+    assert_eq!(robot.tool_mount(None), robot.tool_frame(ToolFrame::Tool0));
 }
 
 #[test]
@@ -297,17 +297,34 @@ fn a_byte_order_mark_is_no_stray_text() {
 // ---- tool frames ----
 
 #[test]
-fn without_tool0_the_mounting_frame_is_the_turned_flange() {
+fn without_tool0_a_tool_needs_a_link_that_carries_it() {
     let text = edited(&[(joint("flange-tool0"), ""), ("<link name=\"tool0\"/>", "")]);
-    let (robot, whole) = (load(&text).unwrap(), irb120());
+    let robot = load(&text).unwrap();
     let Err(ToolFrameError::Missing { link, found, .. }) = robot.tool_frame(ToolFrame::Tool0) else {
         panic!("there is no tool0")
     };
     assert_eq!((link.as_str(), found.as_str()), ("tool0", "link_6, flange"));
-    let q = JointVector::new(0.3, -0.2, 0.5, 1.0, -0.8, 2.0);
-    let expected = whole.pose(&q, &whole.tool_frame(ToolFrame::Tool0).unwrap());
-    let found = robot.pose(&q, &robot.mounting_frame());
-    assert!((expected.to_homogeneous() - found.to_homogeneous()).amax() < 1e-14);
+    let said = robot.tool_mount(None).unwrap_err().to_string();
+    for part in [
+        "has no link 'tool0'",
+        "tool.mounted_on",
+        "--tool-mount",
+        "'link_6' (x), 'flange' (x); [0, 90, 0] turns it to x",
+    ] {
+        assert!(said.contains(part), "no {part} in {said}");
+    }
+    let said = robot.tool_mount(Some("link_3")).unwrap_err().to_string();
+    assert!(said.contains("has no link 'link_3' behind joint 6"), "{said}");
+    // The turn that the message names gives the tool0 that was taken away.
+    let turn =
+        platewash_kinematics::rotation::Rigid::from(&platewash_kinematics::Pose::rotation(Vector3::y() * FRAC_PI_2));
+    let found = robot.tool_mount(Some("flange")).unwrap();
+    assert!((found.tilt_rad() - FRAC_PI_2).abs() < 1e-12);
+    let (q, whole) = (JointVector::new(0.3, -0.2, 0.5, 1.0, -0.8, 2.0), irb120());
+    let expected = whole.tool_mount(None).unwrap();
+    assert!(expected.tilt_rad() < 1e-12);
+    let difference = whole.pose(&q, &expected).to_homogeneous() - robot.pose(&q, &found.offset(&turn)).to_homogeneous();
+    assert!(difference.amax() < 1e-14);
 }
 
 /// Older ROS-Industrial descriptions have no flange: the last link stands in for it.

@@ -65,7 +65,10 @@ fn judged(change: impl FnOnce(&mut PaperJob)) -> PaperReport {
 #[test]
 fn a_plate_that_is_covered_clear_and_touched_is_washed() {
     let report = judged(|_| ());
-    assert_eq!(report.headline, "WASHED: 1 of 1 plate, every limit kept.");
+    assert_eq!(
+        report.headline,
+        "SWEPT: 1 of 1 plate, every limit kept; contact was not judged."
+    );
     assert_eq!(report.verdict, Verdict::Washed);
     let plate = &report.plates[0];
     assert!(plate.washed && plate.executed_coverage.lower > 0.995 && plate.in_contact == plate.waypoints);

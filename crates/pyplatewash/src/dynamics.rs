@@ -9,7 +9,6 @@ use crate::tool::ToolFields;
 use crate::work::{STRETCH, released};
 use nalgebra::Vector3;
 use numpy::PyArrayDyn;
-use platewash::simulator::RigidBody;
 use platewash::simulator::dynamics::STANDARD_GRAVITY_M_S2;
 use platewash::{DynamicsModel, Energy, JointVector};
 use pyo3::prelude::*;
@@ -125,8 +124,7 @@ impl DynamicsObject {
             Some(given) => arrays::fixed::<3>("gravity_m_s2", given)?,
             None => [0.0, 0.0, -STANDARD_GRAVITY_M_S2],
         };
-        let body = held.as_ref().and_then(RigidBody::tool);
-        let model = DynamicsModel::new(robot.get().model(), body.as_ref());
+        let model = DynamicsModel::new(robot.get().model(), held.as_ref());
         let inner = model.and_then(|model| model.with_gravity(Vector3::from(gravity)));
         Ok(Self {
             inner: inner.map_err(|e| errors::dynamics(py, &e))?,

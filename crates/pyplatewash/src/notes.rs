@@ -1,6 +1,6 @@
 //! Values that were probably meant in another unit, as Python's warnings.
 
-use platewash::scenario::UnitNote;
+use platewash::scenario::Note;
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use std::ffi::CString;
@@ -9,7 +9,7 @@ use std::ffi::CString;
 ///
 /// # Errors
 /// The warning itself, where the caller's filters make it an exception.
-pub fn warn(py: Python<'_>, notes: &[UnitNote]) -> PyResult<()> {
+pub fn warn(py: Python<'_>, notes: &[Note]) -> PyResult<()> {
     let category = py.get_type::<PyUserWarning>();
     for note in notes {
         PyErr::warn(py, &category, &CString::new(note.to_string())?, 1)?;

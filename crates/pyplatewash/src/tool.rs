@@ -3,8 +3,8 @@
 use crate::argument::{self, TOOL};
 use crate::arrays;
 use crate::errors;
-use platewash::Tool;
 use platewash::workcell::tool::StraightTool;
+use platewash::{Tool, ToolFrame};
 use pyo3::prelude::*;
 
 /// Largest length that is believed \[m\].
@@ -28,6 +28,7 @@ pub struct ToolFields {
     mass_kg: f64,
     com_m: Option<f64>,
     inertia_kg_m2: Option<[f64; 6]>,
+    mounted_on: Option<String>,
 }
 
 impl ToolFields {
@@ -47,7 +48,13 @@ impl ToolFields {
         let inertia_kg_m2 = argument::field(("tool", TOOL), value, ("tool", "inertia_kg_m2"), |name, value| {
             (!value.is_none()).then(|| arrays::fixed::<6>(name, value)).transpose()
         });
+        let mounted_on = argument::field(("tool", TOOL), value, ("tool", "mounted_on"), |name, value| {
+            (!value.is_none())
+                .then(|| argument::text(name, value, "a link's name"))
+                .transpose()
+        });
         Ok(Self {
+            mounted_on: mounted_on?,
             length_m: number("length_m")?,
             radius_m: number("radius_m")?,
             sponge_radius_m: number("sponge_radius_m")?,
@@ -85,7 +92,7 @@ impl ToolFields {
         }
         self.check_stiffness(py)?;
         self.check_masses(py)?;
-        Ok(Tool::from(StraightTool {
+        let straight = StraightTool {
             length_m: self.length_m,
             radius_m: self.radius_m,
             sponge_radius_m: self.sponge_radius_m,
@@ -95,7 +102,11 @@ impl ToolFields {
             mass_kg: self.mass_kg,
             com_m: self.com_m,
             inertia_kg_m2: self.inertia_kg_m2,
-        }))
+        };
+        Ok(Tool {
+            mounted_on: self.mounted_on.clone().filter(|link| link != ToolFrame::Tool0.name()),
+            ..Tool::from(straight)
+        })
     }
 
     fn check_stiffness(&self, py: Python<'_>) -> PyResult<()> {

@@ -93,6 +93,7 @@ mod tests {
         full.robot.package_path = vec!["c".into()];
         (full.robot.start_deg, full.robot.home_deg) = (Some([0.0; 6]), Some([0.0; 6]));
         full.robot.payload_kg = Some(3.0);
+        full.tool.mounted_on = Some("flange".to_owned());
         (full.tool.com_m, full.tool.inertia_kg_m2) = (Some(0.1), Some([0.0; 6]));
         full.tool.sponge_stiffness_kpa = Some([11.0, 44.0]);
         let every = crate::StatedShape {

@@ -140,6 +140,13 @@ const BEFORE_WASH: &[Key] = &[
         "What is between flange and sponge: a round handle, or nothing but the bodies of [[tool_body]].",
     ),
     key(
+        "tool.mounted_on",
+        "",
+        Text,
+        "Link behind joint 6 that carries the tool; the tool leaves it along the link's z axis, turned by mount_rpy_deg. Without it, \
+         `tool0`; a description without a link of that name is refused.",
+    ),
+    key(
         "tool.mount_m",
         "m",
         Triple(-1.0, 1.0),

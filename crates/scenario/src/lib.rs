@@ -90,7 +90,7 @@ pub use suggest::Suggestion;
 pub use tool::{ASSUMED_STIFFNESS_KPA, HandleName, ToolSection};
 pub use tool_body::{BodyFrame, ToolBodySection};
 pub use transition::TransitionSection;
-pub use units::UnitNote;
+pub use units::Note;
 pub use values::values_of;
 pub use wash::WashSection;
 pub use work::MAX_CONTACT_CHECKS;

@@ -4,7 +4,7 @@ use crate::body_error::BodyFault;
 use nalgebra::Point3;
 use platewash_kinematics::fingerprint::sha256_hex;
 use platewash_kinematics::urdf::MeshSource;
-use platewash_workcell::clearance::{SolidParts, solid_parts};
+use platewash_workcell::clearance::{SolidParts, excess_m, solid_parts};
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -48,6 +48,13 @@ impl Solids {
         let hulls = Arc::new(hulls);
         self.keep(id, hulls.clone());
         Ok(hulls)
+    }
+
+    /// Upper bound on how far the convex parts of a mesh reach beyond it \[m\]; `None` where there are none.
+    pub(crate) fn excess_m(&self, source: &MeshSource, file: &Path, scale: [f64; 3], parts: SolidParts) -> Option<f64> {
+        let triangles = source.solid(&file.to_string_lossy(), scale).ok()?;
+        let hulls = self.parts(source, file, scale, parts).ok()?;
+        Some(excess_m(&triangles, &hulls))
     }
 
     /// What became of a mesh, which is then the last to be forgotten.

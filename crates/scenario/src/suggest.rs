@@ -85,7 +85,7 @@ impl Scenario {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::units::UnitNote;
+    use crate::units::Note;
     use platewash_workcell::cancel::CancelToken;
 
     #[test]
@@ -94,7 +94,7 @@ mod tests {
         scenario.robot.start_deg = None;
         assert_eq!(scenario.validate(), Ok(()));
         assert!(
-            matches!(scenario.notes()[..], [UnitNote::HomeLeftOpen]),
+            matches!(scenario.notes()[..], [Note::HomeLeftOpen]),
             "{:?}",
             scenario.notes()
         );

@@ -8,6 +8,8 @@ use crate::obstacle::{MeshPartsName, ObstacleSection};
 use crate::poses::pose;
 use crate::room::TABLE;
 use crate::scenario::Scenario;
+use crate::tool_body::ToolBodySection;
+use crate::units::Note;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::geometry::Shape;
 use platewash_workcell::clearance::SolidParts;
@@ -15,6 +17,9 @@ use platewash_workcell::tool::Tool;
 use platewash_workcell::words::counted;
 use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcell};
 use std::path::{Path, PathBuf};
+
+/// Parts that reach no farther beyond a mesh are not told of \[m\].
+const LEAST_EXCESS_M: f64 = 1e-3;
 
 /// A mesh's path as a file in a folder states it: those of packages stay as they are.
 pub(crate) fn in_folder(mesh: &Path, folder: &Path) -> PathBuf {
@@ -115,6 +120,28 @@ impl Scenario {
         }
     }
 
+    /// How far the convex parts that count reach beyond the meshes of tool and obstacles, where they do. Meshes that cannot be read are
+    /// left out: whoever makes the workcell is told of them.
+    #[must_use]
+    pub fn notes_on_meshes(&self) -> Vec<Note> {
+        let source = self.meshes();
+        let note = |name: &str, (file, scale): (&Path, [f64; 3]), parts: SolidParts| {
+            let by_m = self.solids.excess_m(&source, file, scale, parts)?;
+            let body = name.to_owned();
+            (by_m > LEAST_EXCESS_M).then_some(Note::LargerThanMesh { body, by_m })
+        };
+        let of_obstacle = |section: &ObstacleSection| match section.stated("obstacle") {
+            Ok(Stated::Mesh { file, scale }) => note(&section.name, (file, scale), solid_parts(section)),
+            _ => None,
+        };
+        let of_tool = |section: &ToolBodySection| match section.body.stated("tool_body") {
+            Ok(Stated::Mesh { file, scale }) => note(&section.name, (file, scale), SolidParts::Hull),
+            _ => None,
+        };
+        let of_tools = self.tool_body.iter().filter_map(of_tool);
+        of_tools.chain(self.obstacle.iter().filter_map(of_obstacle)).collect()
+    }
+
     fn shape(&self, index: usize, section: &ObstacleSection) -> Result<ObstacleShape, Failure> {
         let refused = |problem| ScenarioError::new(&self.name, None, problem);
         let stated = section.stated(&format!("obstacle[{index}]")).map_err(refused)?;
@@ -123,17 +150,20 @@ impl Scenario {
             Stated::Convex(shape) => return Ok(ObstacleShape::Convex(shape)),
             Stated::Mesh { file, scale } => (file, scale),
         };
-        let parts = match section.mesh_parts.unwrap_or_default() {
-            MeshPartsName::Hull => SolidParts::Hull,
-            MeshPartsName::Decomposed => SolidParts::Decomposed,
-        };
         let source = self.meshes();
-        let hulls = self.solids.parts(&source, file, scale, parts);
+        let hulls = self.solids.parts(&source, file, scale, solid_parts(section));
         let hulls = hulls.map_err(|why| obstacle_error(index, section, why))?;
         Ok(match hulls.as_slice() {
             [points] => ObstacleShape::Convex(Shape::Hull { points: points.clone() }),
             hulls => ObstacleShape::Parts(hulls.to_vec()),
         })
+    }
+}
+
+fn solid_parts(section: &ObstacleSection) -> SolidParts {
+    match section.mesh_parts.unwrap_or_default() {
+        MeshPartsName::Hull => SolidParts::Hull,
+        MeshPartsName::Decomposed => SolidParts::Decomposed,
     }
 }
 

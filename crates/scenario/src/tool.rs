@@ -19,6 +19,9 @@ pub struct ToolSection {
     pub radius_m: f64,
     /// What is between flange and sponge.
     pub handle: HandleName,
+    /// The link behind joint 6 that carries it, which it leaves along the link's z axis; without it, `tool0`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mounted_on: Option<String>,
     /// Where it begins, mounting frame \[m\].
     pub mount_m: [f64; 3],
     /// How it is turned there: roll, pitch and yaw about the mounting frame's axes x, y, z \[deg\].
@@ -98,6 +101,7 @@ impl Default for ToolSection {
             length_m,
             radius_m,
             handle: HandleName::Round,
+            mounted_on: None,
             mount_m: [0.0; 3],
             mount_rpy_deg: [0.0; 3],
             sponge_radius_m,

@@ -8,8 +8,8 @@ use crate::poses::pose;
 use crate::scenario::Scenario;
 use crate::tool::ASSUMED_STIFFNESS_KPA;
 use crate::tool_body::{ToolBodySection, tool_keys};
-use platewash_kinematics::RobotModel;
 use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::{RobotModel, ToolFrame};
 use platewash_workcell::clearance::SolidParts;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::tool_chain::{ToolChain, ToolError};
@@ -99,7 +99,15 @@ impl Scenario {
             let assumed = ASSUMED_STIFFNESS_KPA.map(|kpa| 1e3 * kpa);
             chain.straight.sponge_stiffness_pa.get_or_insert(assumed);
         }
-        let tool = chain.tool()?;
+        let stated = self.tool.mounted_on.clone();
+        let tool = Tool {
+            mounted_on: stated.filter(|link| link != ToolFrame::Tool0.name()),
+            ..chain.tool()?
+        };
+        tool.check_mount(arm).map_err(|error| {
+            let (keys, detail) = ("tool.mounted_on".to_owned(), error.to_string());
+            ScenarioError::new(&self.name, None, Problem::Conflict { keys, detail })
+        })?;
         let is_link = |name: &str| arm.links().iter().any(|link| link.name == name);
         match self.tool_body.iter().find(|body| is_link(&body.name)) {
             Some(body) => Err(ToolError::OfLink {

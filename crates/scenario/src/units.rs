@@ -1,8 +1,9 @@
-//! Values that were probably meant in another unit, and a home that is left open: notes, not errors, because they make sense as they stand.
+//! Notes, not errors: values that were probably meant in another unit, a home that is left open, links that nothing checks.
 
 use crate::scenario::Scenario;
-use platewash_kinematics::words::rounded;
+use platewash_kinematics::words::{decimals_up, rounded};
 use platewash_kinematics::{AXES, RobotModel};
+use platewash_workcell::words::quoted;
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt;
@@ -13,11 +14,11 @@ const LONGEST_REACH_M: f64 = 20.0;
 /// Significant digits of what is suggested.
 const DIGITS: usize = 4;
 
-/// A value that was probably meant in another unit, or one that is looked for.
+/// What a user should know of a scenario or an arm that is accepted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
-pub enum UnitNote {
+pub enum Note {
     /// A home whose values all lie within ±2π, not all zero and not all whole numbers: degrees are expected, radians were
     /// probably meant.
     HomeInRadians {
@@ -37,24 +38,36 @@ pub enum UnitNote {
         /// How far it reaches at most, as described \[m\].
         reach_m: f64,
     },
+    /// Links that move and have no collision shapes: no clearance of theirs is checked.
+    NoShapes {
+        /// Name of the arm.
+        robot: String,
+        /// The links.
+        links: Vec<String>,
+    },
+    /// A body of the tool or an obstacle whose convex parts hold more than its mesh.
+    LargerThanMesh {
+        /// Name of the body.
+        body: String,
+        /// Upper bound on how far the parts reach beyond the mesh \[m\].
+        by_m: f64,
+    },
 }
 
 impl Scenario {
-    /// What the scenario states and probably means in another unit; the arm's description is for [`UnitNote::of_arm`].
+    /// What the scenario states and probably means in another unit; the arm's description is for [`Note::of_arm`].
     #[must_use]
-    pub fn notes(&self) -> Vec<UnitNote> {
+    pub fn notes(&self) -> Vec<Note> {
         let robot = &self.robot;
         let homes = [("robot.start_deg", robot.start_deg), ("robot.home_deg", robot.home_deg)];
-        let notes = homes
-            .into_iter()
-            .filter_map(|(key, home)| UnitNote::of_home(key, home?));
+        let notes = homes.into_iter().filter_map(|(key, home)| Note::of_home(key, home?));
         let [start, _] = self.homes();
-        let open = start.is_none().then_some(UnitNote::HomeLeftOpen);
+        let open = start.is_none().then_some(Note::HomeLeftOpen);
         notes.chain(open).collect()
     }
 }
 
-impl UnitNote {
+impl Note {
     fn of_home(key: &'static str, found_deg: [f64; AXES]) -> Option<Self> {
         let small = found_deg.iter().all(|v| v.abs() <= TAU);
         let broken = found_deg.iter().any(|v| v.fract() != 0.0);
@@ -65,18 +78,19 @@ impl UnitNote {
         })
     }
 
-    /// What an arm's description states and probably means in another unit.
+    /// What an arm's description states and probably means in another unit, and the links that it gives no collision shapes.
     #[must_use]
-    pub fn of_arm(robot: &RobotModel) -> Option<Self> {
+    pub fn of_arm(robot: &RobotModel) -> Vec<Self> {
         let (_, reach_m) = robot.reach_bound(&robot.last_link_frame());
-        (reach_m > LONGEST_REACH_M).then(|| Self::ArmInMillimetres {
-            robot: robot.name().to_owned(),
-            reach_m,
-        })
+        let name = || robot.name().to_owned();
+        let long = (reach_m > LONGEST_REACH_M).then(|| Self::ArmInMillimetres { robot: name(), reach_m });
+        let links: Vec<_> = robot.links_without_shapes().map(str::to_owned).collect();
+        let bare = (!links.is_empty()).then(|| Self::NoShapes { robot: name(), links });
+        long.into_iter().chain(bare).collect()
     }
 }
 
-impl fmt::Display for UnitNote {
+impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::HomeInRadians {
@@ -95,6 +109,18 @@ impl fmt::Display for UnitNote {
                 f,
                 "robot {robot} reaches {} m: URDF states metres; millimetres were probably meant",
                 rounded(*reach_m, DIGITS)
+            ),
+            Self::NoShapes { robot, links } => write!(
+                f,
+                "robot {robot}: links without collision shapes, whose clearance is not checked: {}",
+                links.join(", ")
+            ),
+            Self::LargerThanMesh { body, by_m } => write!(
+                f,
+                "{} counts as convex parts, which reach up to {} mm beyond its mesh: a plan can fail for that alone; \"decomposed\" \
+                 mesh_parts, or a mesh cut into several bodies, are nearer to it",
+                quoted(body),
+                decimals_up(1e3 * by_m, 1)
             ),
         }
     }
@@ -131,7 +157,7 @@ mod tests {
         scenario.robot.home_deg = Some([0.0, 0.0, 0.0, 0.0, FRAC_PI_2, 0.0]);
         assert!(matches!(
             scenario.notes()[..],
-            [UnitNote::HomeInRadians {
+            [Note::HomeInRadians {
                 key: "robot.home_deg",
                 ..
             }]
@@ -159,12 +185,12 @@ mod tests {
         let no_meshes = MeshSource::none();
         let text = hundredfold(IRB120_URDF);
         let robot = RobotModel::from_urdf(&text, &no_meshes).unwrap();
-        let note = UnitNote::of_arm(&robot).unwrap().to_string();
+        let note = Note::of_arm(&robot)[0].to_string();
         assert!(
             note.contains("millimetres were probably meant") && note.contains(robot.name()),
             "{note}"
         );
-        assert_eq!(UnitNote::of_arm(&RobotModel::irb120().unwrap()), None);
+        assert_eq!(Note::of_arm(&RobotModel::irb120().unwrap()), []);
     }
 
     /// The description with the origins of its joints a hundred times as far.

@@ -16,7 +16,7 @@ pub mod plant;
 pub mod simulate;
 
 pub use control::{Command, ControlError, ControlLaw, Gains};
-pub use dynamics::{DynamicsError, DynamicsModel, Energy, RigidBody};
+pub use dynamics::{DynamicsError, DynamicsModel, Energy};
 pub use plant::{Plant, PlantState};
 pub use simulate::{
     Execution, SimulationError, SimulationReport, SimulationVerdict, simulate, simulate_watched, simulate_with, tune,

@@ -1,12 +1,12 @@
 //! Arms and tools that cannot exist are refused by name.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{RobotModel, UrdfError};
 use platewash_simulator::dynamics::Unphysical;
-use platewash_simulator::{DynamicsError, DynamicsModel, RigidBody};
-use platewash_workcell::tool::{StraightTool, Tool};
+use platewash_simulator::{DynamicsError, DynamicsModel};
+use platewash_workcell::tool::StraightTool;
 
 fn edited(old: &str, new: &str) -> Result<RobotModel, UrdfError> {
     assert_eq!(IRB120_URDF.matches(old).count(), 1, "{old}");
@@ -94,16 +94,21 @@ fn tools_are_checked_and_weigh_what_they_state() {
         mass_kg: 0.3,
         ..StraightTool::default()
     };
-    let body = |tool: StraightTool| RigidBody::tool(&Tool::from(tool));
-    let held = DynamicsModel::new(&robot, body(tool).as_ref()).unwrap();
+    let held = DynamicsModel::new(&robot, Some(&tool.into())).unwrap();
     assert!((held.moving_mass_kg() - bare.moving_mass_kg() - 0.3).abs() < 1e-12);
-    assert_eq!(body(StraightTool { length_m: 0.0, ..tool }), None);
-    assert_eq!(body(StraightTool { mass_kg: 0.0, ..tool }), None);
+    let weightless = [
+        StraightTool { length_m: 0.0, ..tool },
+        StraightTool { mass_kg: 0.0, ..tool },
+    ];
+    for tool in weightless {
+        let held = DynamicsModel::new(&robot, Some(&tool.into())).unwrap();
+        assert_eq!(held.moving_mass_kg(), bare.moving_mass_kg());
+    }
     let odd = StraightTool {
         inertia_kg_m2: Some([1.0, 0.0, 0.0, 0.1, 0.0, 0.1]),
         ..tool
     };
-    let error = DynamicsModel::new(&robot, body(odd).as_ref()).unwrap_err();
+    let error = DynamicsModel::new(&robot, Some(&odd.into())).unwrap_err();
     assert!(
         matches!(
             error,
@@ -112,11 +117,10 @@ fn tools_are_checked_and_weigh_what_they_state() {
             }
         ) && error.to_string().starts_with("tool: ")
     );
-    let nothing = RigidBody {
+    let nothing = StraightTool {
         mass_kg: f64::NAN,
-        com_m: Vector3::zeros(),
-        inertia_kg_m2: Matrix3::identity(),
+        ..tool
     };
-    assert!(DynamicsModel::new(&robot, Some(&nothing)).is_err());
+    assert!(DynamicsModel::new(&robot, Some(&nothing.into())).is_err());
     assert!(bare.with_gravity(Vector3::new(0.0, f64::NAN, 0.0)).is_err());
 }

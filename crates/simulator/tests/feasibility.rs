@@ -13,7 +13,7 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{JointVector, RobotModel, trig};
 use platewash_simulator::simulate::PlateVerdict;
-use platewash_simulator::{DynamicsModel, RigidBody, SimulationReport, simulate};
+use platewash_simulator::{DynamicsModel, SimulationReport, simulate};
 use platewash_workcell::fixtures::{kitchen_plate, kitchen_terms};
 use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::segment::{PlanSegment, SegmentKind};
@@ -116,7 +116,7 @@ fn stroke(robot: &RobotModel, plan: &Plan, rho: f64) -> Plan {
 #[test]
 fn the_gains_are_those_of_the_table() {
     let (robot, plan) = frame();
-    let model = DynamicsModel::new(&robot, RigidBody::tool(&plan.job.workcell.tool).as_ref()).unwrap();
+    let model = DynamicsModel::new(&robot, Some(&plan.job.workcell.tool)).unwrap();
     let kp = model.largest_inertias(robot.limits()) * 900.0;
     let stated = [1036.0, 1027.0, 222.0, 12.3, 9.8, 1.4];
     for (joint, stated) in stated.into_iter().enumerate() {

@@ -5,7 +5,7 @@ use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_simulator::plant::foam::DENSE_STRAIN;
 use platewash_simulator::plant::{SpongeOnPlates, longest_step_s};
-use platewash_simulator::{DynamicsModel, Plant, PlantState, RigidBody};
+use platewash_simulator::{DynamicsModel, Plant, PlantState};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::simulation::{FoamContact, Integrator};
 use platewash_workcell::surface::Surface;
@@ -40,7 +40,7 @@ fn cell(surface: Surface, foam: FoamContact) -> Cell {
     let (robot, tool) = (RobotModel::irb120().unwrap(), tool());
     let plate = plate(surface);
     Cell {
-        model: DynamicsModel::new(&robot, RigidBody::tool(&tool).as_ref()).unwrap(),
+        model: DynamicsModel::new(&robot, Some(&tool)).unwrap(),
         sponge: SpongeOnPlates::new(&robot, &tool, &[plate], &foam).unwrap(),
         robot,
         plate,

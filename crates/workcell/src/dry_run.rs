@@ -72,6 +72,14 @@ impl DryRun {
         plate
     }
 
+    /// The real plate of a raised one.
+    #[must_use]
+    pub fn lowered(&self, raised: &Plate) -> Plate {
+        let mut plate = *raised;
+        plate.pose.translation.vector -= raised.axis() * self.height_m;
+        plate
+    }
+
     /// A real plate as an obstacle.
     #[must_use]
     pub fn standing(index: usize, real: &Plate) -> Obstacle {

@@ -1,13 +1,13 @@
 //! What the arm holds: a rigid chain of convex bodies behind its flange, a sponge at the end, and its mass.
 //!
-//! Poses are in the mounting frame (`tool0`): origin at the flange, z out of it.
+//! Poses are in the mounting frame, that of the link that carries the tool: `tool0` unless another is stated, z out of the arm.
 
 use crate::pose;
 use crate::trig::atan2;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::Rigid;
-use platewash_kinematics::{Frame, Pose, RobotModel};
+use platewash_kinematics::{Frame, Pose, RobotModel, ToolFrameError};
 use serde::{Deserialize, Serialize};
 
 /// Bodies that overlap by less touch: the rounding of places \[m\].
@@ -17,6 +17,9 @@ const ROUNDING_M: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tool {
+    /// The link behind joint 6 that carries it, which it leaves along the link's z axis; without a name, `tool0`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mounted_on: Option<String>,
     /// What is between the flange and the sponge; none where there is no tool at all.
     pub bodies: Vec<ToolBody>,
     /// The sponge; a body too, where there are others.
@@ -154,6 +157,7 @@ impl From<StraightTool> for Tool {
         };
         let has_body = tool.length_m > 0.0 && handle_m > 0.0;
         Self {
+            mounted_on: None,
             bodies: if has_body { vec![handle] } else { Vec::new() },
             sponge: Sponge {
                 radius_m: tool.sponge_radius_m,
@@ -208,10 +212,26 @@ impl Tool {
         })
     }
 
+    /// Checks that the arm has the link that carries the tool.
+    ///
+    /// # Errors
+    /// [`ToolFrameError::NoMount`].
+    pub fn check_mount(&self, robot: &RobotModel) -> Result<(), ToolFrameError> {
+        robot.tool_mount(self.mounted_on.as_deref()).map(drop)
+    }
+
+    /// The frame that carries it, z out of the arm: [`Frame::nowhere`] on an arm that [`Self::check_mount`] refuses.
+    #[must_use]
+    pub fn mounting_frame(&self, robot: &RobotModel) -> Frame {
+        robot
+            .tool_mount(self.mounted_on.as_deref())
+            .unwrap_or_else(|_| Frame::nowhere())
+    }
+
     /// The frame of the tip on an arm.
     #[must_use]
     pub fn tip_frame(&self, robot: &RobotModel) -> Frame {
-        robot.mounting_frame().offset(&Rigid::from(&self.tip))
+        self.mounting_frame(robot).offset(&Rigid::from(&self.tip))
     }
 }
 

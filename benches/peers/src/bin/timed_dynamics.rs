@@ -8,7 +8,7 @@
 
 use nalgebra::Vector6;
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_simulator::{DynamicsModel, Plant, PlantState, RigidBody, simulate};
+use platewash_simulator::{DynamicsModel, Plant, PlantState, simulate};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::simulation::Integrator;
 use serde::Deserialize;
@@ -39,7 +39,7 @@ impl Bench {
     fn new(work: &Work) -> Result<Self, Box<dyn Error>> {
         let robot = RobotModel::irb120()?;
         let plan = Plan::from_json(&std::fs::read_to_string(&work.plan)?)?;
-        let model = DynamicsModel::new(&robot, RigidBody::tool(&plan.job.workcell.tool).as_ref())?;
+        let model = DynamicsModel::new(&robot, Some(&plan.job.workcell.tool))?;
         let rows = work.q.iter().zip(&work.qd).zip(&work.qdd);
         Ok(Self {
             robot,

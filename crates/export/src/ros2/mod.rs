@@ -41,6 +41,15 @@ use platewash_workcell::job::JobTerms;
 /// The file that holds the `trajectory_msgs/JointTrajectory` as JSON.
 pub const TRAJECTORY_JSON: &str = "joint_trajectory.json";
 
+/// The files of a program: the messages, each of which can be sent, and the player, which sends one of them.
+pub const FILES: [&str; 5] = [
+    "joint_trajectory.yaml",
+    TRAJECTORY_JSON,
+    "follow_joint_trajectory.yaml",
+    "follow_joint_trajectory.json",
+    player::NAME,
+];
+
 /// The dialect `ros2`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ros2;
@@ -79,19 +88,29 @@ impl Dialect for Ros2 {
         let tolerances = message.tolerances.clone().unwrap_or_default();
         let trajectory = |language| write::trajectory(&message, language);
         let goal = |language| write::goal(&message, &tolerances, language);
-        let file = |name: &str, text: String| ProgramFile {
+        let head = write::head(program, &said(program));
+        let of_goal = write::head(program, &[said(program), said_of_goal(&tolerances)].concat());
+        let texts = [
+            head + &trajectory(Language::Yaml),
+            trajectory(Language::Json),
+            of_goal + &goal(Language::Yaml),
+            goal(Language::Json),
+            player::TEXT.to_owned(),
+        ];
+        let file = |(name, text): (&str, String)| ProgramFile {
             name: name.to_owned(),
             text,
         };
-        let head = write::head(program, &said(program));
-        let of_goal = write::head(program, &[said(program), said_of_goal(&tolerances)].concat());
-        vec![
-            file("joint_trajectory.yaml", head + &trajectory(Language::Yaml)),
-            file(TRAJECTORY_JSON, trajectory(Language::Json)),
-            file("follow_joint_trajectory.yaml", of_goal + &goal(Language::Yaml)),
-            file("follow_joint_trajectory.json", goal(Language::Json)),
-            player::file(),
-        ]
+        FILES.into_iter().zip(texts).map(file).collect()
+    }
+
+    fn start_check(&self, file: &ProgramFile) -> String {
+        // The player compares the start; a message alone cannot.
+        if player::is_it(file) {
+            file.text.clone()
+        } else {
+            String::new()
+        }
     }
 
     fn read(&self, files: &[ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {

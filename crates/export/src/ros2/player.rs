@@ -4,18 +4,10 @@ use super::node::Fault;
 use crate::file::ProgramFile;
 
 /// Its name.
-const NAME: &str = "play.py";
+pub(super) const NAME: &str = "play.py";
 
 /// Its text.
-const TEXT: &str = include_str!("play.py");
-
-/// The script as a file.
-pub(super) fn file() -> ProgramFile {
-    ProgramFile {
-        name: NAME.to_owned(),
-        text: TEXT.to_owned(),
-    }
-}
+pub(super) const TEXT: &str = include_str!("play.py");
 
 /// Whether a file is the script, by its name.
 pub(super) fn is_it(file: &ProgramFile) -> bool {

@@ -63,8 +63,8 @@ impl Dialect for UrScript {
              points of rest alone, the controller may wait up to a cycle longer.",
             "The speed slider is assumed to stand at 100 %, and no safety limit to slow the arm down: where the controller slows it, the \
              points come as fast as before, the arm falls behind them and leaves the path. For a slower run, export at another share.",
-            "The controller's tool flange is assumed to be the frame tool0 of the arm's description, and its joints to have the \
-             description's order, zeros and signs.",
+            "The controller's tool flange is assumed to be the frame that carries the plan's tool (tool0 of the arm's description, unless \
+             the line of the tool names another), and its joints to have the description's order, zeros and signs.",
             "A controller is assumed to load a program of this many lines; nobody has tried how many it takes.",
         ]
     }
@@ -96,6 +96,10 @@ impl Dialect for UrScript {
         let name = format!("{}{ENDING}", program.name);
         let text = write::text(program);
         vec![ProgramFile { name, text }]
+    }
+
+    fn start_check(&self, file: &ProgramFile) -> String {
+        write::start_check(&file.text)
     }
 
     fn read(&self, files: &[ProgramFile], _arm: &RobotModel) -> Result<Reading, ReadError> {

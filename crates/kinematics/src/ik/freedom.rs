@@ -194,7 +194,7 @@ mod tests {
         #[test]
         fn the_derivative_is_that_of_the_deviation(at in prop::array::uniform6(-1.0..1.0f64), to in prop::array::uniform6(-1.0..1.0f64), joint in 0..6usize) {
             let robot = RobotModel::irb120().map_err(|e| TestCaseError::fail(e.to_string()))?;
-            let frame = robot.mounting_frame();
+            let frame = robot.last_link_frame();
             let target = robot.fk(&JointVector::from(to)).rigid(&frame);
             let q = JointVector::from(at);
             let deviation = |q: &JointVector| Deviation::of(&robot.fk(q).rigid(&frame), &target).0;

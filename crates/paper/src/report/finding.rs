@@ -41,8 +41,6 @@ pub enum PaperFinding {
         /// Whether there is a tool body at all.
         tool: bool,
     },
-    /// The description has no `tool0`: the tool is assumed to leave the flange along its x axis.
-    AssumedMount,
     /// Links without collision geometry, which nothing checks.
     Unchecked {
         /// Their names.
@@ -59,18 +57,7 @@ pub(super) fn findings(run: &PaperRun, plates: &[PlateReport]) -> Vec<PaperFindi
     findings.extend(no_approach(run));
     findings.extend(stops_at_waypoints(run));
     findings.extend(no_contact(run, plates));
-    if !run.job.arm.states_its_mounting_frame() {
-        findings.push(PaperFinding::AssumedMount);
-    }
-    let bare = |child: &str| {
-        run.job
-            .arm
-            .links()
-            .iter()
-            .any(|l| l.name == child && l.collision.is_empty())
-    };
-    let children = run.job.arm.joints().iter().map(|j| &j.child);
-    let links: Vec<_> = children.filter(|child| bare(child)).cloned().collect();
+    let links: Vec<_> = run.job.arm.links_without_shapes().map(str::to_owned).collect();
     if !links.is_empty() {
         findings.push(PaperFinding::Unchecked { links });
     }
@@ -136,10 +123,6 @@ impl Display for PaperFinding {
                     "the sponge is off the plate at {waypoints} of {of} washing waypoints{why}; coverage is what it would sweep"
                 )
             }
-            Self::AssumedMount => write!(
-                f,
-                "the description has no tool0: the tool is assumed to leave the flange along its x axis; add a link tool0 to say how"
-            ),
             Self::Unchecked { links } => {
                 write!(f, "no collision geometry, so nothing is checked: {}", links.join(", "))
             }

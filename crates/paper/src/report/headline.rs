@@ -36,7 +36,7 @@ pub(super) fn headline(
     let washed = plates.iter().filter(|p| p.washed).count();
     let washed = part_of(washed, plates.len(), "plate");
     if verdict == Verdict::Washed {
-        return format!("WASHED: {washed}, every limit kept.");
+        return format!("SWEPT: {washed}, every limit kept; contact was not judged.");
     }
     let mut reasons = Vec::new();
     let asked: usize = plates.iter().map(|p| p.waypoints).sum();

@@ -49,7 +49,7 @@ fn set() -> Set {
         acceleration: JointVector::new(4.0, 4.0, 4.0, 5.0, 5.0, 6.0),
         tip: None,
     };
-    let tip = robot.mounting_frame();
+    let tip = robot.tool_mount(None).unwrap();
     Set { robot, tip, limits }
 }
 

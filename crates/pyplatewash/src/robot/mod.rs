@@ -16,7 +16,7 @@ use crate::tool::ToolFields;
 use numpy::PyArrayDyn;
 use platewash::Scenario;
 use platewash::kinematics::urdf::Files;
-use platewash::scenario::UnitNote;
+use platewash::scenario::Note;
 use platewash::{Axes, Frame, IkSolver, RobotModel, ToolFrame};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -38,14 +38,12 @@ pub use settings::{IkSolutionRecord, settings};
 pub struct Robot {
     model: Arc<RobotModel>,
     source: Source,
-    mount: Frame,
     solvers: Solvers,
 }
 
 impl Robot {
     fn new(model: Arc<RobotModel>, source: Source) -> Self {
         Self {
-            mount: model.mounting_frame(),
             model,
             source,
             solvers: Solvers::default(),
@@ -100,8 +98,16 @@ impl Robot {
         tool: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Frame> {
         match (name, tool) {
-            (None, None) => Ok(self.mount),
-            (None, Some(tool)) => Ok(ToolFields::of(tool)?.tool(py)?.tip_frame(&self.model)),
+            (None, None) => {
+                let frame = self.model.tool_frame(ToolFrame::Tool0);
+                frame.map_err(|e| errors::input(py, "frame", &e.to_string()))
+            }
+            (None, Some(tool)) => {
+                let tool = ToolFields::of(tool)?.tool(py)?;
+                let mount = tool.check_mount(&self.model);
+                mount.map_err(|e| errors::input(py, "tool.mounted_on", &e.to_string()))?;
+                Ok(tool.tip_frame(&self.model))
+            }
             (Some(_), Some(_)) => Err(errors::input(
                 py,
                 "frame",
@@ -168,7 +174,7 @@ impl Robot {
         let package_path = argument::paths("package_path", package_path)?;
         let source = Source::files(py, &urdf, srdf.as_deref(), package_path, &Files::default())?;
         let model = Arc::new(source.load(py)?);
-        warn(py, UnitNote::of_arm(&model).as_slice())?;
+        warn(py, &Note::of_arm(&model))?;
         Ok(Self::new(model, source))
     }
 

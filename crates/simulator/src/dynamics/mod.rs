@@ -30,7 +30,6 @@ mod push;
 mod rnea;
 mod tool;
 
-pub use body::RigidBody;
 pub use crba::MassMatrix;
 pub use energy::Energy;
 pub use largest::spread;

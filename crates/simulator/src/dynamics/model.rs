@@ -8,7 +8,8 @@ use super::body::RigidBody;
 use super::physical::{self, Unphysical};
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::rotation::Rigid;
-use platewash_kinematics::{AXES, Link, Pose, RobotModel};
+use platewash_kinematics::{AXES, Link, Pose, RobotModel, ToolFrameError};
+use platewash_workcell::tool::Tool;
 
 /// Standard gravity as rigid-body codes round it \[m/s²\].
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.81;
@@ -37,6 +38,9 @@ pub enum DynamicsError {
         /// Why.
         cause: Unphysical,
     },
+    /// The arm has no link that carries the tool.
+    #[error(transparent)]
+    Mount(#[from] ToolFrameError),
     /// A joint that nothing resists.
     #[error(
         "link '{link}': no inertia about the axis of joint '{joint}', which could then be accelerated without torque"
@@ -81,24 +85,25 @@ pub(super) struct Body {
 }
 
 impl DynamicsModel {
-    /// The dynamics of `robot` that holds `tool`, a body in the mounting frame ([`RobotModel::mounting_frame`]), with gravity
-    /// along −z of the base.
+    /// The dynamics of `robot` that holds `tool`, with gravity along −z of the base.
     ///
     /// Links behind a joint need mass: those that a joint moves and those with a collision shape. Frames without either
     /// weigh nothing. The base does not move; its mass does not matter.
     ///
     /// # Errors
     /// [`DynamicsError`], naming the link.
-    pub fn new(robot: &RobotModel, tool: Option<&RigidBody>) -> Result<Self, DynamicsError> {
+    pub fn new(robot: &RobotModel, tool: Option<&Tool>) -> Result<Self, DynamicsError> {
         let mut bodies = [RigidBody::none(); AXES];
         for link in robot.links() {
             if let (Some(body), Some(part)) = (behind_joint(link), mass_of(robot, link)?) {
                 bodies[body] = bodies[body].with(&part.in_frame(link.frame.on_body()));
             }
         }
-        if let Some(tool) = tool {
-            physical::check(tool).map_err(|cause| DynamicsError::Tool { cause })?;
-            bodies[AXES - 1] = bodies[AXES - 1].with(&tool.in_frame(robot.mounting_frame().on_body()));
+        if let Some((tool, mass)) = tool.and_then(|tool| Some((tool, tool.mass.as_ref()?))) {
+            tool.check_mount(robot)?;
+            let body = RigidBody::from(mass);
+            physical::check(&body).map_err(|cause| DynamicsError::Tool { cause })?;
+            bodies[AXES - 1] = bodies[AXES - 1].with(&body.in_frame(tool.mounting_frame(robot).on_body()));
         }
         for (body, joint) in bodies.iter().zip(robot.joints()) {
             if body.inertia_about_origin().m33.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
@@ -119,7 +124,7 @@ impl DynamicsModel {
     ///
     /// # Errors
     /// As [`DynamicsModel::new`], and [`DynamicsError::Gravity`] for a mount that is no pose.
-    pub fn mounted(robot: &RobotModel, tool: Option<&RigidBody>, mount: &Pose) -> Result<Self, DynamicsError> {
+    pub fn mounted(robot: &RobotModel, tool: Option<&Tool>, mount: &Pose) -> Result<Self, DynamicsError> {
         let model = Self::new(robot, tool)?;
         let down = mount.inverse_transform_vector(&model.gravity);
         model.with_gravity(down)

@@ -2,15 +2,7 @@
 
 use super::body::{RigidBody, symmetric};
 use nalgebra::Vector3;
-use platewash_workcell::tool::{Tool, ToolMass};
-
-impl RigidBody {
-    /// A tool in the mounting frame, z along the tool, origin at the flange; `None` without mass.
-    #[must_use]
-    pub fn tool(tool: &Tool) -> Option<Self> {
-        tool.mass.as_ref().map(Self::from)
-    }
-}
+use platewash_workcell::tool::ToolMass;
 
 impl From<&ToolMass> for RigidBody {
     fn from(mass: &ToolMass) -> Self {

@@ -1,7 +1,6 @@
 //! The tool's mass against the arm's rated payload.
 
 use super::words::shown;
-use crate::dynamics::RigidBody;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::words::told_apart;
@@ -41,7 +40,7 @@ impl PayloadCheck {
         let is_built_in = robot.sha256() == platewash_kinematics::sha256_hex(IRB120_URDF.as_bytes());
         let built_in = is_built_in.then_some(IRB120_PAYLOAD_KG);
         let rated_kg = payload_kg.or(built_in);
-        let tool_kg = RigidBody::tool(tool).map_or(0.0, |tool| tool.mass_kg);
+        let tool_kg = tool.mass.map_or(0.0, |mass| mass.mass_kg);
         let verdict = match rated_kg {
             Some(rated) if tool_kg <= rated => PayloadVerdict::Within,
             Some(_) => PayloadVerdict::Exceeded,

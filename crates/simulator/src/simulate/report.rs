@@ -124,9 +124,13 @@ impl SimulationReport {
         if dry_run.is_some() {
             plates.iter_mut().for_each(PlateOutcome::in_air);
         }
-        let (before, done) = match &dry_run {
-            Some(dry_run) => (format!("{}; ", dry_run.words()), "swept in the air"),
-            None => (String::new(), "washed"),
+        let before = dry_run
+            .as_ref()
+            .map_or_else(String::new, |dry_run| dry_run.words() + "; ");
+        let done = match (&dry_run, &plan.job.requirements.contact) {
+            (Some(_), _) => "swept in the air",
+            (None, Some(_)) => "washed",
+            (None, None) => "swept",
         };
         let tracking = tracking::tracking(&execution.samples, &tip_errors);
         Ok(Self {

@@ -8,7 +8,7 @@ use super::schedule::Schedule;
 use super::settings;
 use super::work::{MAX_SAMPLES, MAX_STEPS, highest_rate};
 use crate::control::{self, Command, ControlError, ControlLaw, Reference, Standing};
-use crate::dynamics::{DynamicsModel, RigidBody};
+use crate::dynamics::DynamicsModel;
 use crate::plant::{Felt, Plant, PlantState, SpongeOnPlates};
 use platewash_kinematics::words::rounded;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
@@ -103,8 +103,7 @@ fn plant(
     if settings.law.is_kinematic() {
         return Ok(None);
     }
-    let tool = RigidBody::tool(&plan.job.workcell.tool);
-    let model = DynamicsModel::mounted(robot, tool.as_ref(), mount)?;
+    let model = DynamicsModel::mounted(robot, Some(&plan.job.workcell.tool), mount)?;
     Ok(Some(Plant::new(model, robot.limits(), &settings.plant)))
 }
 

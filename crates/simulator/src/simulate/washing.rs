@@ -11,7 +11,7 @@ use super::error::SimulationError;
 use super::execution::{Execution, Sample};
 use super::footing::sponge;
 use super::pressing::{Judge, Pressing};
-use crate::dynamics::{DynamicsModel, RigidBody};
+use crate::dynamics::DynamicsModel;
 use crate::plant::SpongeOnPlates;
 use nalgebra::Vector3;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
@@ -128,7 +128,7 @@ impl Foam {
         };
         let held = &plan.job.workcell.tool;
         Ok(Some(Self {
-            model: DynamicsModel::new(robot, RigidBody::tool(held).as_ref())?,
+            model: DynamicsModel::new(robot, Some(held))?,
             sponge: on_plates,
             foundation: Foundation::stiff(&held.sponge, [contact.stiffness_pa; 2]),
         }))

@@ -66,9 +66,10 @@ export function washed(view: View): Verdict | null {
   if (execution === null || execution.washed === null || view.heading.dry_run !== null) return null;
   const sentence = execution.headline ?? "";
   const how = { simulated: "simulated", recorded: "recorded", live: "simulated" }[execution.source];
+  const done = view.heading.contact ? "washed" : "swept";
   return execution.washed
-    ? { tone: "proved", word: `Washed, ${how}`, sentence }
-    : { tone: "violated", word: `Not washed, ${how}`, sentence };
+    ? { tone: "proved", word: `${done === "washed" ? "Washed" : "Swept"}, ${how}`, sentence }
+    : { tone: "violated", word: `Not ${done}, ${how}`, sentence };
 }
 
 /** The certificate's requirements in figures: “24 proved, 1 violated”. */

@@ -50,6 +50,8 @@ export interface Heading {
   process: "wash" | "paper" | "configuration";
   /** What must be read first of a dry run: nothing is washed; null for everything else. */
   dry_run: string | null;
+  /** Whether contact is asked for: without it plates count as swept, not as washed. */
+  contact: boolean;
   robot: string;
   duration_s: number;
 }

@@ -13,7 +13,7 @@ function viewWith(statuses: Status[] | null, certificate: Partial<Certificate> =
   const checks = (statuses ?? []).map(check);
   const passes = checks.every(({ status }) => status === "proved" || status === "waived");
   return {
-    heading: { process: "wash", dry_run: null },
+    heading: { process: "wash", dry_run: null, contact: true },
     certificate: statuses === null ? null : { passes, headline: "so", hash: "proved", checks, contact: null, rests_on: [], ...certificate },
     execution: null,
   } as unknown as View;

@@ -185,7 +185,10 @@ impl Moment<'_> {
                 scene.add_table(&foot_facets(plate, foot), &plate.pose, PLATE);
             }
         }
-        let flange = subject.mount() * subject.arm.pose(&self.q, &subject.arm.mounting_frame());
+        let flange = subject.mount()
+            * subject
+                .arm
+                .pose(&self.q, &terms.workcell.tool.mounting_frame(subject.arm));
         let pressed = match self.segment {
             Some(segment) if segment.kind == SegmentKind::Wash => self.pressed_m(segment.plate),
             _ => 0.0,

@@ -1,7 +1,7 @@
 //! The arm: joints, links, what they look like and what counts for the proof.
 
 use super::body::{Body, Pose};
-use platewash_kinematics::{AXES, Link as ModelLink, Pose as Rigid, RobotModel};
+use platewash_kinematics::{AXES, Frame, Link as ModelLink, Pose as Rigid, RobotModel};
 use serde::Serialize;
 
 /// An arm where it is mounted.
@@ -50,10 +50,9 @@ pub struct Link {
 }
 
 impl Arm {
-    /// The arm at `mount` (`T_world_base`), with the accelerations that a job states \[rad/s²\].
-    pub(super) fn new(robot: &RobotModel, mount: &Rigid, accelerations: Option<[f64; AXES]>) -> Self {
+    /// The arm at `mount` (`T_world_base`) with the frame that carries the tool at `flange`, and the accelerations that a job states \[rad/s²\].
+    pub(super) fn new(robot: &RobotModel, mount: &Rigid, flange: &Frame, accelerations: Option<[f64; AXES]>) -> Self {
         let joints = (0..AXES).map(|k| joint(robot, k, accelerations.map(|all| all[k])));
-        let flange = robot.mounting_frame();
         Self {
             name: robot.name().to_owned(),
             mount: mount.into(),

@@ -18,6 +18,8 @@ pub struct Heading {
     pub process: Process,
     /// What must be read first of a dry run: of which plan it is one, and that nothing is washed; `None` for everything else.
     pub dry_run: Option<String>,
+    /// Whether contact is asked for: without it plates count as swept, not as washed.
+    pub contact: bool,
     /// Name of the arm.
     pub robot: String,
     /// Duration of the motion \[s\]; 0 where there is none.
@@ -47,6 +49,7 @@ impl Heading {
                 plan::Process::Paper => Process::Paper,
             },
             dry_run: plan.job.dry_run.as_ref().map(DryRun::words),
+            contact: plan.job.requirements.contact.is_some(),
             robot: plan.job.workcell.arm.name.clone(),
             duration_s: plan.duration_s(),
         }
@@ -59,6 +62,7 @@ impl Heading {
             hash: None,
             process: Process::Wash,
             dry_run: job.terms().dry_run.as_ref().map(DryRun::words),
+            contact: job.terms().requirements.contact.is_some(),
             robot: job.arm().name().to_owned(),
             duration_s: 0.0,
         }
@@ -71,6 +75,7 @@ impl Heading {
             hash: None,
             process: Process::Configuration,
             dry_run: None,
+            contact: false,
             robot: robot.to_owned(),
             duration_s: 0.0,
         }

@@ -137,7 +137,12 @@ impl View {
             version: env!("CARGO_PKG_VERSION"),
             heading: Heading::of_plan(plan),
             certificate: certificate.map(Certificate::new),
-            arm: Arm::new(robot, mount, Some(job.limits.joint_acceleration_rad_s2)),
+            arm: Arm::new(
+                robot,
+                mount,
+                &workcell.tool.mounting_frame(robot),
+                Some(job.limits.joint_acceleration_rad_s2),
+            ),
             tool: Some((&workcell.tool).into()),
             surroundings: Surroundings::new(&workcell.obstacles, beside.region.unwrap_or(&TaskRegion::default())),
             plates: plates.map(|(index, plate)| Plate::new(index, plate)).collect(),
@@ -163,7 +168,12 @@ impl View {
         let plates = terms.plates.iter().enumerate();
         Self {
             heading: Heading::of_job(job),
-            arm: Arm::new(job.arm(), &workcell.mount, accelerations),
+            arm: Arm::new(
+                job.arm(),
+                &workcell.mount,
+                &workcell.tool.mounting_frame(job.arm()),
+                accelerations,
+            ),
             surroundings: Surroundings::new(&workcell.obstacles, region),
             plates: plates.map(|(index, plate)| Plate::new(index, plate)).collect(),
             ..Self::of_configuration(job.arm(), Some(&workcell.tool), &terms.home_rad[0])
@@ -173,12 +183,13 @@ impl View {
     /// One configuration of an arm that stands at the origin \[rad\], with a tool or without.
     #[must_use]
     pub fn of_configuration(robot: &RobotModel, tool: Option<&held::Tool>, q: &JointVector) -> Self {
+        let flange = tool.map_or(robot.last_link_frame(), |tool| tool.mounting_frame(robot));
         Self {
             format: FORMAT,
             version: env!("CARGO_PKG_VERSION"),
             heading: Heading::of_configuration(robot.name()),
             certificate: None,
-            arm: Arm::new(robot, &Rigid::identity(), None),
+            arm: Arm::new(robot, &Rigid::identity(), &flange, None),
             tool: tool.map(Tool::from),
             surroundings: Surroundings::default(),
             plates: Vec::new(),

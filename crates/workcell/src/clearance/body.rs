@@ -65,6 +65,7 @@ pub(super) fn keeps_its_height(robot: &RobotModel, floor: &Body) -> bool {
 
 /// The bodies of a world without plates.
 pub(super) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> Result<Vec<Body>, ClearanceError> {
+    tool.check_mount(robot)?;
     let mut bodies = Vec::new();
     for link in robot.links().iter().filter(|link| !link.collision.is_empty()) {
         let parts = link
@@ -116,7 +117,7 @@ fn tool_bodies(robot: &RobotModel, tool: &Tool) -> Result<Vec<Body>, ClearanceEr
     if !tool.is_present() {
         return Ok(Vec::new());
     }
-    let flange = robot.mounting_frame();
+    let flange = tool.mounting_frame(robot);
     let at = |pose: &Pose| flange.offset(&Rigid::from(pose));
     let rigid = tool.bodies.iter();
     let mut bodies: Vec<_> = rigid

@@ -1,6 +1,7 @@
 //! Why no clearance model could be made.
 
 use crate::words::printable;
+use platewash_kinematics::ToolFrameError;
 
 /// Why no clearance model could be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -12,4 +13,7 @@ pub enum ClearanceError {
         /// The link, the body of the tool or the obstacle.
         link: String,
     },
+    /// The arm has no link that carries the tool.
+    #[error(transparent)]
+    Mount(#[from] ToolFrameError),
 }

@@ -86,7 +86,7 @@ mod tests {
         #[test]
         fn levers_bound_distances_in_other_configurations(q in configuration(), r in configuration(), share in 0.0..0.2f64) {
             let robot = RobotModel::irb120().unwrap();
-            let frame = robot.mounting_frame();
+            let frame = robot.last_link_frame();
             let point = |q: &JointVector| robot.pose(q, &frame).translation.vector;
             let greatest = greatest(&robot.fk(&q), 6, &point(&q));
             let near = q + (r - q) * share;

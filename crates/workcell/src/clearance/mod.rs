@@ -25,6 +25,7 @@
 //! | a quick yes or no for planners | `washing.rs` |
 //! | the facets of a hull, to look at | `hull.rs` |
 //! | the convex parts of a mesh | `solid.rs` |
+//! | how far those reach beyond the mesh | `excess.rs` |
 //! | obstacles that reach into plates or the base | `standing.rs` |
 //! | bounds between configurations; of many obstacles at once | `motion.rs`, `lever.rs`; `away.rs` |
 
@@ -36,6 +37,7 @@ mod convex;
 mod crowd;
 mod distance;
 mod error;
+mod excess;
 mod hull;
 pub mod lever;
 mod model;
@@ -51,6 +53,7 @@ mod washing;
 
 pub use between_plates::gap_of_plates;
 pub use error::ClearanceError;
+pub use excess::excess_m;
 pub use hull::{Triangulated, hull_triangles};
 pub use model::{ClearanceModel, Nearest, PairClearance, is_clear};
 pub use pairs::exclusions;

@@ -79,14 +79,15 @@ fn can_meet(a: &Body, b: &Body) -> bool {
 
 /// Whether all bodies of the tool by the name of one are round about axis 6.
 fn turns_on_the_spot(robot: &RobotModel, tool: &Tool, body: &Body) -> bool {
+    let flange = tool.mounting_frame(robot);
     match body.kind {
         BodyKind::Tool => {
             let mut named = tool.bodies.iter().filter(|other| other.name == body.name);
-            named.all(|other| is_round_about_axis_6(robot, &other.shape, &other.pose))
+            named.all(|other| is_round_about_axis_6(&flange, &other.shape, &other.pose))
         }
         BodyKind::Sponge => {
             let (shape, pose) = tool.sponge.free_body();
-            is_round_about_axis_6(robot, &shape, &pose)
+            is_round_about_axis_6(&flange, &shape, &pose)
         }
         _ => false,
     }

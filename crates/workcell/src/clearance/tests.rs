@@ -231,7 +231,7 @@ fn the_sponge_may_touch_the_plate_it_works_on() {
     let model = model();
     // Tool straight down over plate 1 with the sponge on its surface: found by the place of contact alone.
     let robot = RobotModel::irb120().unwrap();
-    let tip = robot.mounting_frame().offset(&Rigid {
+    let tip = robot.tool_mount(None).unwrap().offset(&Rigid {
         translation: Vector3::new(0.0, 0.0, 0.15),
         ..Rigid::identity()
     });

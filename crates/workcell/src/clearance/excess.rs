@@ -1,0 +1,217 @@
+//! How far the convex parts of a mesh reach beyond it.
+
+use super::convex::ConvexHull;
+use nalgebra::Point3;
+use parry3d_f64::math::Vector;
+use parry3d_f64::query::{PointQuery, PointQueryWithLocation};
+use parry3d_f64::shape::{TriMesh, TriMeshFlags};
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+
+/// How far the bound is from a distance that was found, at most, unless [`MOST_CUTS`] come first \[m\].
+const WITHIN_M: f64 = 5e-4;
+
+/// Most triangles that are cut.
+const MOST_CUTS: usize = 30_000;
+
+/// Upper bound on how far the faces of convex parts reach beyond the mesh that the parts enclose \[m\]. What a closed mesh encloses is not
+/// beyond it; of an open one the surface alone counts.
+///
+/// Over a triangle of a face, the distance from the mesh is at most that of the middle and the distance from there to the farthest corner,
+/// as it is 1-Lipschitz; and at most that of the farthest corner from any triangle of the mesh, as the distance from a convex set is a convex
+/// function. The triangle with the greatest bound is cut into four until the bound is tight.
+#[must_use]
+pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f64 {
+    let vector = |p: &Point3<f64>| Vector::new(p.x, p.y, p.z);
+    let Some(mesh) = Mesh::of(triangles, vector) else {
+        return f64::INFINITY;
+    };
+    let mut found_m: f64 = 0.0;
+    let mut open = BinaryHeap::new();
+    for part in parts {
+        let corners: Vec<_> = part.iter().map(vector).collect();
+        let Some(hull) = ConvexHull::of(&corners) else {
+            return f64::INFINITY;
+        };
+        let (points, faces) = hull.solid.to_trimesh();
+        open.extend(
+            faces
+                .iter()
+                .map(|face| mesh.cell(face.map(|k| points[k as usize]), &mut found_m)),
+        );
+    }
+    for _ in 0..MOST_CUTS {
+        match open.peek() {
+            Some(cell) if cell.bound_m > found_m + WITHIN_M => {}
+            _ => break,
+        }
+        let quarters = open.pop().map(|cell| cell.quarters()).into_iter().flatten();
+        open.extend(quarters.map(|corners| mesh.cell(corners, &mut found_m)));
+    }
+    open.peek().map_or(0.0, |cell| cell.bound_m)
+}
+
+/// A mesh that distances are measured from.
+struct Mesh {
+    surface: TriMesh,
+    is_closed: bool,
+}
+
+impl Mesh {
+    fn of(triangles: &[[Point3<f64>; 3]], vector: impl Fn(&Point3<f64>) -> Vector) -> Option<Self> {
+        let mut numbers = BTreeMap::new();
+        let mut points = Vec::new();
+        let mut number = |corner: &Point3<f64>| {
+            // Of two zeros one is negative.
+            let key = corner.coords.map(|c| (c + 0.0).to_bits());
+            *numbers.entry([key.x, key.y, key.z]).or_insert_with(|| {
+                points.push(vector(corner));
+                points.len() as u32 - 1
+            })
+        };
+        let mut faces: Vec<[u32; 3]> = triangles
+            .iter()
+            .map(|corners| corners.each_ref().map(&mut number))
+            .collect();
+        let volume: f64 = faces
+            .iter()
+            .map(|face| face.map(|k| points[k as usize]))
+            .map(|[a, b, c]| a.dot(b.cross(c)))
+            .sum();
+        if volume < 0.0 {
+            faces.iter_mut().for_each(|face| face.swap(1, 2));
+        }
+        let is_closed = is_closed(&faces);
+        let surface = TriMesh::with_flags(points, faces, TriMeshFlags::ORIENTED).ok()?;
+        Some(Self { surface, is_closed })
+    }
+
+    /// A triangle with its bound; raises the distance that was found.
+    fn cell(&self, corners: [Vector; 3], found_m: &mut f64) -> Cell {
+        let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let (nearest, (triangle, _)) = self.surface.project_local_point_and_get_location(middle, false);
+        let is_inside = self.is_closed && nearest.is_inside;
+        let beyond_m = if is_inside {
+            0.0
+        } else {
+            (nearest.point - middle).length()
+        };
+        *found_m = found_m.max(beyond_m);
+        let triangle = self.surface.triangle(triangle);
+        let of_corner = |corner: &Vector| triangle.distance_to_local_point(*corner, true);
+        let of_corners_m = corners.iter().map(of_corner).fold(0.0, f64::max);
+        let radius_m = corners
+            .iter()
+            .map(|corner| (*corner - middle).length())
+            .fold(0.0, f64::max);
+        Cell {
+            corners,
+            bound_m: (beyond_m + radius_m).min(of_corners_m),
+        }
+    }
+}
+
+/// Whether each edge is that of one triangle on each side.
+fn is_closed(faces: &[[u32; 3]]) -> bool {
+    let edges = faces.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+    let mut seen = BTreeSet::new();
+    edges.clone().all(|edge| seen.insert(edge)) && edges.into_iter().all(|(a, b)| seen.contains(&(b, a)))
+}
+
+/// A triangle of a face, and the bound on its distance from the mesh.
+struct Cell {
+    corners: [Vector; 3],
+    bound_m: f64,
+}
+
+impl Cell {
+    fn quarters(&self) -> [[Vector; 3]; 4] {
+        let [a, b, c] = self.corners;
+        let [ab, bc, ca] = [(a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5];
+        [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+    }
+}
+
+impl PartialEq for Cell {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Cell {}
+
+impl PartialOrd for Cell {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Cell {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.bound_m.total_cmp(&other.bound_m)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clearance::{SolidParts, solid_parts};
+
+    /// A box of half sides \[m\], its triangles outwards.
+    fn cuboid(half: [f64; 3]) -> Vec<[Point3<f64>; 3]> {
+        let corner = |k: usize| {
+            Point3::from(std::array::from_fn(|axis| {
+                if k >> axis & 1 == 1 { half[axis] } else { -half[axis] }
+            }))
+        };
+        let sides = [
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+        ];
+        let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+        triangles.map(|triangle| triangle.map(corner)).collect()
+    }
+
+    #[test]
+    fn a_convex_mesh_is_its_hull() {
+        let mesh = cuboid([0.1, 0.2, 0.05]);
+        let hull = solid_parts(&mesh, SolidParts::Hull).unwrap();
+        assert!(excess_m(&mesh, &hull) <= 1.001 * WITHIN_M);
+        let flipped: Vec<_> = mesh.iter().map(|&[a, b, c]| [a, c, b]).collect();
+        assert!(excess_m(&flipped, &hull) <= 1.001 * WITHIN_M);
+    }
+
+    #[test]
+    fn the_hull_of_an_open_box_reaches_as_far_as_the_box_is_wide() {
+        // Without its lid: the middle of the lid is 0.1 m from the nearest walls, and 0.3 m over the bottom.
+        let mesh = &cuboid([0.1, 0.2, 0.15])[..10];
+        let hull = solid_parts(mesh, SolidParts::Hull).unwrap();
+        let found = excess_m(mesh, &hull);
+        assert!((0.1..0.1 + 2.0 * WITHIN_M).contains(&found), "{found}");
+    }
+
+    #[test]
+    fn the_gap_of_two_boxes_is_filled_by_their_hull() {
+        let half = [0.02, 0.1, 0.1];
+        let beside = |by: f64| {
+            cuboid(half)
+                .into_iter()
+                .map(move |t| t.map(|p| p + nalgebra::Vector3::new(by, 0.0, 0.0)))
+        };
+        let mesh: Vec<_> = beside(-0.05).chain(beside(0.05)).collect();
+        let hull = solid_parts(&mesh, SolidParts::Hull).unwrap();
+        // Half of the gap of 60 mm.
+        let found = excess_m(&mesh, &hull);
+        assert!((0.03..0.03 + 2.0 * WITHIN_M).contains(&found), "{found}");
+        let parts = [beside(-0.05), beside(0.05)].map(|boxed| {
+            solid_parts(&boxed.collect::<Vec<_>>(), SolidParts::Hull)
+                .unwrap()
+                .remove(0)
+        });
+        assert!(excess_m(&mesh, &parts) <= 1.001 * WITHIN_M);
+    }
+}
