@@ -111,9 +111,12 @@ fn headline(plates: usize, duration_s: f64, certificate: &Certificate) -> String
     let plates = counted(plates, "plate");
     let dry_run = certificate.rests_on.dry_run.as_ref();
     let before = dry_run.map_or_else(String::new, |dry_run| dry_run.words() + "; ");
+    let no_floor = certificate.rests_on.without_floor();
     if let Some(what) = certificate.not_kept() {
         let waived = certificate.and_waived();
-        return format!("{before}NOT PROVED: a plan for {plates} in {duration_s:.2} s does not keep {what}{waived}");
+        return format!(
+            "{before}NOT PROVED: a plan for {plates} in {duration_s:.2} s does not keep {what}{waived}{no_floor}"
+        );
     }
     let waived = certificate.but_for();
     // Rounded down: no more is said than is proved.
@@ -127,7 +130,7 @@ fn headline(plates: usize, duration_s: f64, certificate: &Certificate) -> String
     } else {
         format!("{washed} by at least {:.1} %", (1000.0 * covered).floor() / 10.0)
     };
-    format!("{before}PROVED{waived}: {plates} {share}, from home to home in {duration_s:.2} s")
+    format!("{before}PROVED{waived}: {plates} {share}, from home to home in {duration_s:.2} s{no_floor}")
 }
 
 /// A report as a person reads it; see [`WashReport::text`].

@@ -164,6 +164,10 @@ fn a_program_without_its_start_check_says_so() {
             "IF Abs(found-expected)<=500 RETURN;",
         ),
         ("      pwCheckJoint 2,now.robax.rax_2,pwStart.robax.rax_2;\n", ""),
+        (
+            "PROC pwCheckStart()",
+            "LOCAL PROC pwCheckStart()\nENDPROC\nPROC pwCheckStart()",
+        ),
     ] {
         assert!(text.contains(from.trim()), "{from}");
         fs::write(&path, text.replacen(from.trim(), to.trim(), 1)).unwrap();

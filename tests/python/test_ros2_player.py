@@ -52,6 +52,27 @@ def stand(monkeypatch):
     return stand
 
 
+def dry(script):
+    return subprocess.run([sys.executable, str(script), "--dry"], capture_output=True, text=True)
+
+
+def test_a_module_beside_it_is_not_taken_for_pythons_own(player, tmp_path):
+    for name in ("json", "argparse", "rclpy"):
+        (tmp_path / f"{name}.py").write_text("raise SystemExit('taken')\n")
+    done = dry(player.__file__)
+    assert "3 points" in done.stdout and "taken" not in done.stdout + done.stderr, done
+
+
+def test_a_link_to_it_sends_the_goal_beside_the_link(player, tmp_path):
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "play.py").symlink_to(player.__file__)
+    shorter = goal()
+    shorter["trajectory"]["points"].pop()
+    (other / "follow_joint_trajectory.json").write_text(json.dumps(shorter))
+    assert "2 points" in dry(other / "play.py").stdout
+
+
 def test_it_compiles_for_humbles_python_and_imports_without_ros(script, player):
     compile(script.read_text(), "play.py", "exec", dont_inherit=True)
     done = subprocess.run([sys.executable, "-I", str(player.__file__), "--help"], capture_output=True, text=True, check=True)

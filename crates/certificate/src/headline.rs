@@ -3,7 +3,6 @@
 use crate::certificate::{Certificate, Verdict};
 use crate::check::{Check, Status};
 use platewash_workcell::words::counted;
-use platewash_workcell::workcell::ObstacleShape;
 
 /// The first line: certified or not, for which scenario, what is not kept, and what is waived.
 pub(crate) fn headline(certificate: &Certificate) -> String {
@@ -15,18 +14,13 @@ pub(crate) fn headline(certificate: &Certificate) -> String {
             certificate.and_waived()
         ),
     };
-    let obstacles = &certificate.rests_on.workcell.obstacles;
-    let has_floor = obstacles.iter().any(|o| o.shape == ObstacleShape::HalfSpace);
-    let judged = if has_floor { judged } else { judged + NO_FLOOR };
+    let judged = judged + certificate.rests_on.without_floor();
     match &certificate.rests_on.dry_run {
         // Before everything else: nobody shall take it for a washing.
         Some(dry_run) => format!("{}; {judged}{NOT_COMPARED}", dry_run.words()),
         None => judged,
     }
 }
-
-/// What the first line ends with where the job states no floor.
-const NO_FLOOR: &str = "; no floor is stated, so that nothing was checked against one";
 
 /// What the first line of a dry run ends with.
 const NOT_COMPARED: &str = "; as stated: the parent plan was not compared";

@@ -122,7 +122,19 @@ fn unchecked(arm: &RobotModel) -> Option<String> {
     })
 }
 
+/// Greatest sine of the angle between the vertical and the normal of a half-space that counts as a floor.
+const LEVEL: f64 = 0.5;
+
 impl RestsOn {
+    /// What a first line ends with where the job states no floor; empty where it states one.
+    #[must_use]
+    pub fn without_floor(&self) -> &'static str {
+        match self.workcell.obstacles.iter().any(is_floor) {
+            true => "",
+            false => "; no floor is stated, so that nothing was checked against one",
+        }
+    }
+
     /// What it says in words: a name and what belongs to it, a line each.
     #[must_use]
     pub fn lines(&self) -> Vec<(&'static str, String)> {
@@ -313,13 +325,19 @@ fn obstacles(obstacles: &[Obstacle]) -> String {
         )
     };
     let mut parts: Vec<_> = obstacles.iter().map(one).collect();
-    if !obstacles.iter().any(|o| o.shape == ObstacleShape::HalfSpace) {
+    if !obstacles.iter().any(is_floor) {
         parts.insert(0, "no floor".to_owned());
     }
     if obstacles.is_empty() {
         parts.insert(0, "none".to_owned());
     }
     parts.join("; ")
+}
+
+/// Whether an obstacle is all below a plane that faces up, no matter how high: a ceiling or a wall is no floor.
+fn is_floor(obstacle: &Obstacle) -> bool {
+    let up = obstacle.pose.rotation * Vector3::z();
+    obstacle.shape == ObstacleShape::HalfSpace && up.z > 0.0 && up.xy().norm() <= LEVEL
 }
 
 /// That an obstacle is grown, where it is.

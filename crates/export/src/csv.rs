@@ -216,6 +216,7 @@ fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
         points,
         between,
         tool: None,
+        checks_start: false,
     })
 }
 

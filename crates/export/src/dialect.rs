@@ -31,11 +31,6 @@ pub trait Dialect: Debug + Sync {
     /// The program's text. The same program gives the same bytes.
     fn write(&self, program: &Program<'_>) -> Vec<ProgramFile>;
 
-    /// The part of a file that refuses to start where the arm does not stand at the start; empty where there is none.
-    fn start_check(&self, _file: &ProgramFile) -> String {
-        String::new()
-    }
-
     /// What a text does, interpreted; a text that this program did not write, too.
     ///
     /// # Errors

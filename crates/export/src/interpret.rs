@@ -227,6 +227,7 @@ mod tests {
             points: points.into_iter().map(point).collect(),
             between,
             tool: None,
+            checks_start: false,
         }
     }
 

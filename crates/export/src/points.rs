@@ -214,6 +214,7 @@ fn as_read(points: &[Point], corner_m: f64) -> Reading {
         points: points.iter().enumerate().map(read).collect(),
         between: Between::RoundedLines,
         tool: None,
+        checks_start: false,
     }
 }
 

@@ -88,15 +88,11 @@ impl RobotModel {
         &self.links
     }
 
-    /// The links that joints move and that have no collision shape, nor has any link fixed to them.
+    /// The links that joints move and that have no collision shapes of their own.
     pub fn links_without_shapes(&self) -> impl Iterator<Item = &str> {
-        let has_shapes = |body: usize| {
-            self.links
-                .iter()
-                .any(|l| l.frame.body() == body && !l.collision.is_empty())
-        };
-        let bare = self.joints.iter().enumerate().filter(move |(k, _)| !has_shapes(k + 1));
-        bare.map(|(_, joint)| joint.child.as_str())
+        let has_shapes = |name: &str| self.links.iter().any(|l| l.name == name && !l.collision.is_empty());
+        let moved = self.joints.iter().map(|joint| joint.child.as_str());
+        moved.filter(move |name| !has_shapes(name))
     }
 
     /// What of the arm's looks could not be read and is left out. Nothing else depends on it.

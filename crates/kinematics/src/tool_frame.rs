@@ -68,8 +68,8 @@ pub enum ToolFrameError {
 }
 
 fn unmounted(link: Option<&str>) -> String {
-    link.map_or("has no link 'tool0'".to_owned(), |link| {
-        format!("has no link '{link}' behind joint 6")
+    link.map_or("has no link 'tool0' behind joint 6".to_owned(), |link| {
+        format!("has no link '{}' behind joint 6", link.escape_debug())
     })
 }
 

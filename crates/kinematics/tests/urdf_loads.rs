@@ -306,7 +306,7 @@ fn without_tool0_a_tool_needs_a_link_that_carries_it() {
     assert_eq!((link.as_str(), found.as_str()), ("tool0", "link_6, flange"));
     let said = robot.tool_mount(None).unwrap_err().to_string();
     for part in [
-        "has no link 'tool0'",
+        "has no link 'tool0' behind joint 6",
         "tool.mounted_on",
         "--tool-mount",
         "'link_6' (x), 'flange' (x); [0, 90, 0] turns it to x",

@@ -117,8 +117,8 @@ impl fmt::Display for Note {
             ),
             Self::LargerThanMesh { body, by_m } => write!(
                 f,
-                "{} counts as convex parts, which reach up to {} mm beyond its mesh: a plan can fail for that alone; \"decomposed\" \
-                 mesh_parts, or a mesh cut into several bodies, are nearer to it",
+                "{} counts as convex parts, which reach up to {} mm beyond its mesh: a plan can fail for that alone; a mesh cut \
+                 into several bodies is nearer to it, and so may be mesh_parts = \"decomposed\"",
                 quoted(body),
                 decimals_up(1e3 * by_m, 1)
             ),

@@ -134,7 +134,7 @@ fn lines(text: &str) -> Vec<Line<'_>> {
 }
 
 /// A line without spaces that say nothing, its numbers in one spelling: 9E9 is 9E+09, and 0.5000 is 0.5.
-pub(super) fn plain(text: &str) -> String {
+fn plain(text: &str) -> String {
     let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
     let mut plain = String::with_capacity(text.len());
     let mut rest = text.trim();

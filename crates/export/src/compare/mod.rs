@@ -40,8 +40,7 @@ pub struct Compared {
     pub judged: Judged,
     /// That the tool that it states is not the plan's.
     pub tool: Option<Refusal>,
-    /// Whether the program itself refuses to start where the arm does not stand at the start, by the check that was handed over. A check
-    /// that was changed in any way does not count.
+    /// Whether the program refuses to move where the arm does not stand at the start ([`Reading::checks_start`]).
     pub checks_start: bool,
 }
 
@@ -129,12 +128,6 @@ pub(crate) fn compare_in(
     let given: Vec<_> = expected.files.iter().filter(given).cloned().collect();
     let said = dialect.read(&given, arm);
     let said = said.map_or_else(|_| expected.reading.clone(), at_share);
-    let start_check = |files: &[ProgramFile]| -> Vec<String> {
-        let checks = files.iter().map(|file| dialect.start_check(file));
-        let lines = checks.flat_map(|check| check.lines().map(lines::plain).collect::<Vec<_>>());
-        lines.filter(|line| !line.is_empty()).collect()
-    };
-    let expected_check = start_check(&expected.files);
     let mut changes = lines::changes((files, &found), (&expected.files, &said));
     let more_changes = changes.len().saturating_sub(MOST_CHANGES);
     changes.truncate(MOST_CHANGES);
@@ -148,7 +141,7 @@ pub(crate) fn compare_in(
             true => expected.judged,
             false => judged::judge(certified, &found, arm, settings.tolerance_m, cancel)?,
         },
-        checks_start: !expected_check.is_empty() && expected_check == start_check(files),
+        checks_start: found.checks_start,
         tool: found
             .tool
             .and_then(|tool| tool.refusal(&certified.plan().job.workcell.tool)),

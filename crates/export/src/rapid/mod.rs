@@ -56,10 +56,6 @@ impl Dialect for Rapid {
         write::modules(program)
     }
 
-    fn start_check(&self, file: &ProgramFile) -> String {
-        write::start_check(&file.text)
-    }
-
     fn read(&self, files: &[ProgramFile], _: &RobotModel) -> Result<Reading, ReadError> {
         interpret::run(files)
     }

@@ -85,6 +85,7 @@ fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
         points: message.points.value.iter().map(read).collect(),
         between: Between::Cubics,
         tool: None,
+        checks_start: false,
     })
 }
 

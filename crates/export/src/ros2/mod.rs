@@ -104,20 +104,16 @@ impl Dialect for Ros2 {
         FILES.into_iter().zip(texts).map(file).collect()
     }
 
-    fn start_check(&self, file: &ProgramFile) -> String {
-        // The player compares the start; a message alone cannot.
-        if player::is_it(file) {
-            file.text.clone()
-        } else {
-            String::new()
-        }
-    }
-
     fn read(&self, files: &[ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {
         let (players, messages): (Vec<_>, Vec<_>) = files.iter().partition(|file| player::is_it(file));
         let check = |file: &ProgramFile| player::check(file).map_err(|fault| interpret::refused(file, fault));
         players.into_iter().try_for_each(check)?;
-        interpret::reading(&messages, arm)
+        // The player compares the start; a message alone cannot.
+        let checks_start = files.iter().any(player::is_it);
+        interpret::reading(&messages, arm).map(|reading| Reading {
+            checks_start,
+            ..reading
+        })
     }
 }
 

@@ -8,10 +8,15 @@ The goal is refused, with the joint and the difference, where the arm stands mor
 0 where the goal succeeded, 1 where it was refused, aborted or cancelled, or could not be checked, 2 for a file that holds no goal.
 """
 
+import sys
+
+# A module of that name beside this script would be taken for Python's own.
+if __name__ == "__main__" and not sys.flags.isolated and not getattr(sys.flags, "safe_path", False):
+    del sys.path[0]
+
 import argparse
 import json
 import math
-import sys
 import time
 from pathlib import Path
 
@@ -290,7 +295,7 @@ def play(goal, arguments):
 def main(arguments=None):
     """The script; gives its exit code."""
     parser = argparse.ArgumentParser(description="Sends a FollowJointTrajectory goal to a joint_trajectory_controller.")
-    parser.add_argument("goal", nargs="?", default=Path(__file__).resolve().parent / GOAL, help=f"JSON or YAML, by default {GOAL}")
+    parser.add_argument("goal", nargs="?", default=Path(__file__).absolute().parent / GOAL, help=f"JSON or YAML, by default {GOAL}")
     parser.add_argument("--action", default=ACTION, help="the controller's action, by default %(default)s")
     parser.add_argument("--joint-states", default="/joint_states", help="where the arm's state is heard, by default %(default)s")
     parser.add_argument("--dry", action="store_true", help="check, and send nothing")

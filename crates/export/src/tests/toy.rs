@@ -86,6 +86,7 @@ impl Dialect for Toy {
             points,
             between: Between::RoundedLines,
             tool: None,
+            checks_start: false,
         })
     }
 }

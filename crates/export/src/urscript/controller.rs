@@ -223,6 +223,7 @@ impl Controller {
             points: self.points,
             between: Between::Lines,
             tool,
+            checks_start: false,
         })
     }
 }

@@ -98,10 +98,6 @@ impl Dialect for UrScript {
         vec![ProgramFile { name, text }]
     }
 
-    fn start_check(&self, file: &ProgramFile) -> String {
-        write::start_check(&file.text)
-    }
-
     fn read(&self, files: &[ProgramFile], _arm: &RobotModel) -> Result<Reading, ReadError> {
         let mut programs = files.iter().filter(|file| self.is_in(file));
         match (programs.next(), programs.next()) {

@@ -12,8 +12,8 @@ use super::value::Value;
 use super::variables::{self, Variables};
 use crate::dialect::ReadError;
 use crate::file::{Place, ProgramFile};
-use crate::reading::Reading;
-use platewash_kinematics::JointVector;
+use crate::reading::{OFF_START_DEG, Reading};
+use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::words::quoted;
 use std::collections::BTreeMap;
 
@@ -47,7 +47,26 @@ pub(super) fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
         let reason = "the program halts here, though the arm stands where it begins";
         return Err(ReadError::at(&file.name, answered.line, reason));
     }
-    asked.controller.reading(share).map_err(at)
+    let read = asked.controller.reading(share).map_err(at)?;
+    Ok(Reading {
+        checks_start: stays_elsewhere(file, &statements, start)?,
+        ..read
+    })
+}
+
+/// Whether a program does not move where a joint of the arm is away from the start.
+fn stays_elsewhere(file: &ProgramFile, statements: &[Statement], start: JointVector) -> Result<bool, ReadError> {
+    let signed = OFF_START_DEG.into_iter().flat_map(|deg| [deg, -deg]);
+    for (joint, deg) in signed.flat_map(|deg| (0..AXES).map(move |joint| (joint, deg))) {
+        let mut stands = start;
+        stands[joint] += deg.to_radians();
+        let mut run = Run::new(file, Some(stands));
+        run.whole(statements)?;
+        if !run.controller.points().is_empty() {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 /// Whether a program goes on.

@@ -105,14 +105,6 @@ fn start(q_rad: &JointVector) -> String {
     text
 }
 
-/// The lines of a program that check the start: from where it is stated to the tool, which is set behind the check.
-pub(super) fn start_check(text: &str) -> String {
-    let from = text.lines().skip_while(|line| !line.trim().starts_with("start = "));
-    from.take_while(|line| !line.contains("set_tcp("))
-        .collect::<Vec<_>>()
-        .join("\n")
-}
-
 /// Points of one stretch of the plan.
 struct Stretch {
     name: String,

@@ -57,6 +57,9 @@ pub struct SimulationReport {
     /// That the plan is a dry run: its plates are raised, and nothing is washed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dry_run: Option<DryRun>,
+    /// Whether the job asks for contact: without it plates are swept, not washed.
+    #[serde(skip)]
+    pub contact: bool,
     /// Name of the arm.
     pub robot: String,
     /// The law.
@@ -137,6 +140,7 @@ impl SimulationReport {
             scenario: plan.provenance.scenario.clone(),
             seed: plan.job.seed,
             dry_run,
+            contact: plan.job.requirements.contact.is_some(),
             robot: robot.name().to_owned(),
             law: settings.law,
             verdict,

@@ -13,9 +13,11 @@ use std::fmt::{self, Display, Formatter};
 impl Display for SimulationReport {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let verdict = match self.verdict {
+            SimulationVerdict::Washed if !self.contact => "SWEPT",
             SimulationVerdict::Washed => "WASHED",
             SimulationVerdict::DryRun => "FOLLOWED",
             SimulationVerdict::NotWashed if self.dry_run.is_some() => "NOT FOLLOWED",
+            SimulationVerdict::NotWashed if !self.contact => "NOT SWEPT",
             SimulationVerdict::NotWashed => "NOT WASHED",
             SimulationVerdict::Overloaded => "OVERLOADED",
             SimulationVerdict::Altered => "ALTERED, the hash is not that of the contents",
@@ -50,9 +52,10 @@ fn plates(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
     for plate in &report.plates {
         let contact = 100.0 * plate.in_contact as f64 / plate.samples.max(1) as f64;
         let verdict = match plate.verdict {
+            PlateVerdict::Washed if !report.contact => "swept",
             PlateVerdict::Washed => "washed",
             PlateVerdict::SweptInAir => "swept in the air",
-            PlateVerdict::NotWashed if report.dry_run.is_some() => "not swept",
+            PlateVerdict::NotWashed if report.dry_run.is_some() || !report.contact => "not swept",
             PlateVerdict::NotWashed => "not washed",
         };
         writeln!(

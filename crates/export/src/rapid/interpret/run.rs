@@ -7,16 +7,17 @@ use super::store::{Content, Frame};
 use super::value::Value;
 use crate::dialect::ReadError;
 use crate::file::ProgramFile;
+use crate::program::START_WITHIN_DEG;
 use crate::rapid::syntax::At;
 use crate::rapid::syntax::ast::RoutineKind;
-use crate::reading::{Between, ReadPoint, Reading};
+use crate::reading::{Between, OFF_START_DEG, ReadPoint, Reading};
 use platewash_kinematics::{AXES, JointVector};
 
 /// Where every program begins.
 const MAIN: &str = "main";
 
-/// How far from its start the arm is put, a joint at a time, to see what the program does then \[°\]: less than it may be away, and more.
-const AWAY_DEG: [f64; 4] = [0.01, 0.4, 5.0, 60.0];
+/// How far from its start the arm is put, a joint at a time, and still stands at it \[°\].
+const AT_START_DEG: [f64; 2] = [0.01, 0.4];
 
 /// Parts of the stated share of the speed at which a program is run once more.
 const SLOWER: [f64; 2] = [0.5, 0.03];
@@ -33,9 +34,9 @@ pub fn run(files: &[ProgramFile]) -> Result<Reading, ReadError> {
     let mut machine = Machine::new(&sources)?;
     machine.run_main(JointVector::zeros())?;
     let asks = machine.start_asked;
-    let read = machine.reading()?;
+    let mut read = machine.reading()?;
     if asks {
-        check_elsewhere(&sources, &read)?;
+        read.checks_start = check_elsewhere(&sources, &read)?;
     }
     if let Some(share) = read.speed_share {
         check_slower(&sources, &read, share)?;
@@ -77,9 +78,14 @@ fn check_slower(sources: &[Source], read: &Reading, share: f64) -> Run<()> {
     Ok(())
 }
 
-/// A program that asks where the arm stands may end because of the answer. Its motion must not depend on it.
-fn check_elsewhere(sources: &[Source], read: &Reading) -> Run<()> {
-    let signed = AWAY_DEG.into_iter().flat_map(|deg| [deg, -deg]);
+/// A program that asks where the arm stands may end because of the answer. Its motion must not depend on it. Answers whether it ends without
+/// a motion wherever the arm does not stand at the start.
+fn check_elsewhere(sources: &[Source], read: &Reading) -> Run<bool> {
+    let mut stays = true;
+    let signed = AT_START_DEG
+        .into_iter()
+        .chain(OFF_START_DEG)
+        .flat_map(|deg| [deg, -deg]);
     let away = signed.flat_map(|deg| (0..AXES).map(move |joint| (joint, deg)));
     for (joint, deg) in away {
         let mut machine = Machine::new(sources)?;
@@ -87,6 +93,7 @@ fn check_elsewhere(sources: &[Source], read: &Reading) -> Run<()> {
         away_rad[joint] = deg.to_radians();
         machine.run_main(away_rad)?;
         let points = &machine.motion.points;
+        stays &= points.is_empty() || deg.abs() < START_WITHIN_DEG;
         if points.is_empty() || *points == read.points {
             continue;
         }
@@ -105,7 +112,7 @@ fn check_elsewhere(sources: &[Source], read: &Reading) -> Run<()> {
             });
         }
     }
-    Ok(())
+    Ok(stays)
 }
 
 impl Machine<'_> {
@@ -183,6 +190,7 @@ impl Machine<'_> {
             points: std::mem::take(&mut self.motion.points),
             between: Between::RoundedLines,
             tool: self.motion.tool,
+            checks_start: false,
         })
     }
 }

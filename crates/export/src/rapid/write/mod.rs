@@ -7,8 +7,6 @@ mod names;
 mod start;
 mod tool;
 
-pub(super) use start::start_check;
-
 use crate::file::ProgramFile;
 use crate::program::Program;
 use line::Lines;

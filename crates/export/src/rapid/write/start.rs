@@ -108,16 +108,3 @@ pub fn checks(lines: &mut Lines) {
     lines.line(2, "EXIT;");
     lines.line(1, "ENDPROC");
 }
-
-/// The lines of a module that check the start: `main` up to its first motion, and both procedures of the check.
-pub fn start_check(text: &str) -> String {
-    let from = |first: &'static str| text.lines().skip_while(move |line| line.trim() != first);
-    let before_motion = from("PROC main()").take_while(|line| !line.contains("MoveAbsJ"));
-    let mut ends = 0;
-    let both = from("PROC pwCheckStart()").take_while(|line| {
-        let is_within = ends < 2;
-        ends += usize::from(line.trim() == "ENDPROC");
-        is_within
-    });
-    before_motion.chain(both).collect::<Vec<_>>().join("\n")
-}
