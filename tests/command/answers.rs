@@ -114,7 +114,7 @@ fn a_simulation_asks_for_no_more_coverage_than_the_certificate() {
     let text = std::fs::read_to_string(spiral(dir, &[("required_coverage = 0.995", "required_coverage = 1")])).unwrap();
     std::fs::write(dir.join("all.toml"), text + "\n[control]\nlaw = \"exact\"\n").unwrap();
     let ran = platewash(dir, &["run", "--scenario", "all.toml"]).done();
-    assert!(ran.stdout.contains("\nWASHED: 4 of 4 plates"), "{}", ran.stdout);
+    assert!(ran.stdout.contains("\nSWEPT: 4 of 4 plates"), "{}", ran.stdout);
 }
 
 #[test]

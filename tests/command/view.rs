@@ -225,7 +225,7 @@ fn a_live_run_is_shown_as_it_goes_and_writes_what_it_always_writes() {
     let end = again.split("event: done\ndata: ").nth(1).unwrap();
     let end: Value = serde_json::from_str(end.lines().next().unwrap()).unwrap();
     assert!(
-        end["headline"].as_str().unwrap().starts_with("1 of 1 plate washed") && end["washed"] == true,
+        end["headline"].as_str().unwrap().starts_with("1 of 1 plate swept") && end["washed"] == true,
         "{end}"
     );
     let (code, stdout, _) = running.end();
