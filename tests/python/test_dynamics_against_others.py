@@ -59,7 +59,7 @@ def test_ten_thousand_states_are_pinocchios_and_mujocos(name):
 
 def test_a_wrong_arm_would_be_noticed():
     _, urdf, _, _ = generate_dynamics.cases()["arm_3"]
-    model = pw.DynamicsModel(pw.Robot.from_urdf(urdf), pw.Tool(length_m=0.1, mass_kg=1e-6))
+    model = pw.DynamicsModel(pw.Robot.from_urdf(urdf), pw.Tool(length_m=0.1, mass_kg=1e-6, mounted_on="link_6"))
     states = generate_dynamics.reference("arm_3", 50)["states"]
     q = np.array([state["q"] for state in states])
     assert off(model.gravity_torque(q), np.array([state["gravity"] for state in states])) > LARGEST

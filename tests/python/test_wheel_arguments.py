@@ -42,7 +42,7 @@ GOOD: dict[str, Any] = {
     "sponge_height_m": 0.02, "sponge_compression_m": 0.005, "sponge_stiffness_pa": (11e3, 44e3), "mass_kg": 0.3, "com_m": 0.05, "inertia_kg_m2": (1.0, 0.0, 0.0, 1.0, 0.0, 1.0), "x_m": 0.3, "y_m": 0.0, "z_m": 0.03,
     "thickness_m": 0.02, "position_tolerance_m": 1e-6, "orientation_tolerance_rad": 1e-6, "max_iterations": 60, "max_qp_iterations": 30, "step_bound_rad": 0.7,
     "analytic_starts": True, "listed_starts": 4, "random_restarts": 0, "random_seed": 0, "data": {"a": 1},
-    "kind": "layout", "ax": plt.figure().add_subplot(), "execution": pw.simulate(WASH.plan), "certificate": pw.prove(WASH.plan), "plate": 0, "prove": True, "simulate": False, "height": 300,
+    "mounted_on": "tool0", "kind": "layout", "ax": plt.figure().add_subplot(), "execution": pw.simulate(WASH.plan), "certificate": pw.prove(WASH.plan), "plate": 0, "prove": True, "simulate": False, "height": 300,
     "to": "ros2", "out": None, "tolerance_m": 2e-4, "speed_share": 0.5, "speed_m_s": 0.1, "Plan.dry_run height_m": 0.05, "corner_m": 5e-3, "accept": ["coverage"], "stands_rad": WASH.plan.trajectory.q_rad[0], "tip": None,
     "profile": None, "foot": pw.Foot(radius_m=0.08, height_m=0.005), "rings": None, "count": 3, "inner_m": 0.02, "lead_rad": 2.0, "blend_rad": 1.8, "WashCurve.on plate": pw.Plate(x_m=0.3, y_m=0.0),
     "html": "<p>a page", "Plan.view path": "page.html", "Page.save path": "page.html", "Page.open path": "page.html",

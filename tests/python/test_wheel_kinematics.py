@@ -247,7 +247,12 @@ def test_other_arms_load_and_broken_ones_are_named(irb120_urdf: Path, fixtures: 
     other = pw.Robot.load(str(fixtures / "arm_1.urdf"))
     assert pickle.loads(pickle.dumps(other)) == other
     with pytest.raises(pw.InputError, match="no analytic"):
-        other.ik_all(other.fk([0.1] * 6))
+        other.ik_all(other.fk([0.1] * 6, "link_6"), frame="link_6")
+    with pytest.raises(pw.InputError, match="no link named 'tool0'"):
+        other.fk([0.1] * 6)
+    with pytest.raises(pw.InputError, match="tool.mounted_on: .* no link 'tool0' behind joint 6"):
+        other.fk([0.1] * 6, tool=pw.Tool(length_m=0.1))
+    assert other.fk([0.1] * 6, tool=pw.Tool(length_m=0.1, mounted_on="link_6")).shape == (4, 4)
 
 
 def test_settings_are_checked(robot: pw.Robot) -> None:
