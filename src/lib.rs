@@ -9,7 +9,7 @@
 //! let job = Scenario::load("kitchen")?.job()?;
 //! let plan = plan(&job)?.plan;
 //! let certificate = prove(&plan, job.arm())?;
-//! assert!(certificate.headline.starts_with("CERTIFIED"));
+//! assert!(certificate.headline.starts_with("PROVED"));
 //! let execution = simulate(&plan, job.arm(), &plan.job.simulation)?;
 //! assert!(execution.samples.len() > 1000);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

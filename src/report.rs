@@ -8,7 +8,7 @@ use platewash_planner::redundancy::TiltChoice;
 use platewash_planner::{Planned, TourSummary, TransitSummary, VisitSummary};
 use platewash_workcell::layout::Finding;
 use platewash_workcell::verdict::Verdict;
-use platewash_workcell::words::counted;
+use platewash_workcell::words::quoted;
 use serde::Serialize;
 use std::fmt;
 
@@ -23,7 +23,7 @@ pub struct WashReport {
     pub robot: String,
     /// How it ended.
     pub verdict: Verdict,
-    /// The first line: whether it washes, whether that is proved, and what the scenario waives.
+    /// The first line, that of the certificate.
     pub headline: String,
     /// Duration \[s\].
     pub duration_s: f64,
@@ -47,18 +47,18 @@ impl WashReport {
     pub fn new(planned: &Planned, findings: &[Finding], certificate: Certificate) -> Self {
         let verdict = match certificate.verdict {
             certificate::Verdict::Pass if certificate.rests_on.dry_run.is_some() => Verdict::DryRun,
+            certificate::Verdict::Pass if certificate.rests_on.requirements.contact.is_none() => Verdict::Swept,
             certificate::Verdict::Pass => Verdict::Washed,
             certificate::Verdict::Fail => Verdict::NotVerified,
         };
         let plan = &planned.plan;
         let duration_s = plan.duration_s();
-        let headline = headline(plan.order.len(), duration_s, &certificate);
         Self {
             scenario: plan.provenance.scenario.clone(),
             seed: plan.job.seed,
             robot: plan.job.workcell.arm.name.clone(),
             verdict,
-            headline,
+            headline: certificate.headline.clone(),
             duration_s,
             visits: planned.visits.clone(),
             transits: planned.transits.clone(),
@@ -77,7 +77,7 @@ fn leaning(visit: &VisitSummary, certificate: &Certificate) -> String {
     if plate.is_none_or(|plate| plate.surface.is_flat()) {
         return tilt(visit);
     }
-    let swept = certificate.coverage.iter().find(|swept| swept.plate == visit.plate);
+    let swept = certificate.swept.iter().find(|swept| swept.plate == visit.plate);
     let within = swept.map_or_else(String::new, |swept| {
         let angle_rad = acos(swept.cos_tilt.clamp(0.0, 1.0));
         format!(", up to {}° from the normal", decimals_up(angle_rad.to_degrees(), 1))
@@ -98,41 +98,6 @@ fn tilt(visit: &VisitSummary) -> String {
     format!("{}, and {aside:.1}° aside", visit.tilt)
 }
 
-/// Share of a plate from which on it counts as washed whole in words: nothing but rounding is missing.
-const WHOLE: f64 = 1.0 - 1e-9;
-
-/// The first line: what is proved but for what is waived, or which requirements are not kept, and what is waived besides.
-fn headline(plates: usize, duration_s: f64, certificate: &Certificate) -> String {
-    let covered = certificate
-        .coverage
-        .iter()
-        .map(|plate| plate.at_least)
-        .fold(1.0, f64::min);
-    let plates = counted(plates, "plate");
-    let dry_run = certificate.rests_on.dry_run.as_ref();
-    let before = dry_run.map_or_else(String::new, |dry_run| dry_run.words() + "; ");
-    let no_floor = certificate.rests_on.without_floor();
-    if let Some(what) = certificate.not_kept() {
-        let waived = certificate.and_waived();
-        return format!(
-            "{before}NOT PROVED: a plan for {plates} in {duration_s:.2} s does not keep {what}{waived}{no_floor}"
-        );
-    }
-    let waived = certificate.but_for();
-    // Rounded down: no more is said than is proved.
-    let washed = match (dry_run, &certificate.rests_on.requirements.contact) {
-        (Some(_), _) => "swept in the air",
-        (None, Some(_)) => "washed",
-        (None, None) => "swept",
-    };
-    let share = if covered >= WHOLE {
-        format!("{washed} whole")
-    } else {
-        format!("{washed} by at least {:.1} %", (1000.0 * covered).floor() / 10.0)
-    };
-    format!("{before}PROVED{waived}: {plates} {share}, from home to home in {duration_s:.2} s{no_floor}")
-}
-
 /// A report as a person reads it; see [`WashReport::text`].
 #[derive(Debug, Clone, Copy)]
 pub struct WashText<'a> {
@@ -142,8 +107,11 @@ pub struct WashText<'a> {
 
 impl fmt::Display for WashText<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let certificate = &self.report.certificate;
+        self.report.head(f)?;
+        writeln!(f, "{}", certificate.basis())?;
         self.report.motion(f)?;
-        self.report.certificate.table(self.pairs).fmt(f)
+        f.write_str(&certificate.table(self.pairs).judgement())
     }
 }
 
@@ -161,17 +129,18 @@ impl WashReport {
         WashText { report: self, pairs }
     }
 
+    /// The first line, and which job it is of.
+    fn head(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.headline)?;
+        let [scenario, robot] = [&self.scenario, &self.robot].map(|name| quoted(name));
+        writeln!(f, "scenario {scenario}, seed {}, arm {robot}", self.seed)?;
+        self.findings
+            .iter()
+            .try_for_each(|finding| writeln!(f, "note: {finding}"))
+    }
+
     /// What is said of the motion, the certificate apart.
     fn motion(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}", self.headline)?;
-        writeln!(
-            f,
-            "scenario {}, seed {}, arm {}\n",
-            self.scenario, self.seed, self.robot
-        )?;
-        for finding in &self.findings {
-            writeln!(f, "note: {finding}")?;
-        }
         writeln!(f, "{:<24} {:>9}  how", "motion", "time, s")?;
         for (k, transit) in self.transits.iter().enumerate() {
             let plate = |k: usize| self.visits.get(k).map(|v| v.plate);

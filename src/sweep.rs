@@ -23,8 +23,8 @@ pub struct SweepRow {
     pub duration_s: Option<f64>,
     /// Sum of the transits \[s\].
     pub transits_s: Option<f64>,
-    /// Coverage of the plate that is covered least, guaranteed.
-    pub coverage: Option<f64>,
+    /// Share swept of the plate that is swept least, guaranteed.
+    pub swept: Option<f64>,
     /// Smallest clearance of all pairs but the sponge and the plates while it works, guaranteed \[m\].
     pub clearance_m: Option<f64>,
     /// Where nothing was planned: why. Where something is not proved: the requirements. Where it is proved but for what the scenario waives:
@@ -123,7 +123,7 @@ impl SweepRow {
             outcome,
             duration_s: None,
             transits_s: None,
-            coverage: None,
+            swept: None,
             clearance_m: None,
             reason: Some(reason),
         }
@@ -135,7 +135,7 @@ impl SweepRow {
             outcome: Outcome::judged(certificate.verdict),
             duration_s: Some(planned.plan.duration_s()),
             transits_s: Some(planned.transits.iter().map(|c| c.duration_s).sum()),
-            coverage: certificate.bound(Requirement::Coverage),
+            swept: certificate.bound(Requirement::Swept),
             clearance_m: certificate.bound(Requirement::Clearance),
             reason: certificate.reason(),
         }
@@ -143,7 +143,7 @@ impl SweepRow {
 }
 
 /// The first line of a sweep as CSV.
-pub const SWEEP_HEADER: &str = "seed,outcome,duration_s,transits_s,coverage,clearance_m,reason\n";
+pub const SWEEP_HEADER: &str = "seed,outcome,duration_s,transits_s,swept,clearance_m,reason\n";
 
 impl SweepRow {
     /// The row as a line of CSV.
@@ -151,7 +151,7 @@ impl SweepRow {
     pub fn csv_line(&self) -> String {
         let number = |v: Option<f64>| v.map(|v| v.to_string()).unwrap_or_default();
         let reason = self.reason.as_deref().unwrap_or_default().replace('"', "\"\"");
-        let numbers = [self.duration_s, self.transits_s, self.coverage, self.clearance_m]
+        let numbers = [self.duration_s, self.transits_s, self.swept, self.clearance_m]
             .map(number)
             .join(",");
         format!("{},{},{numbers},\"{reason}\"\n", self.seed, self.outcome.code())

@@ -36,7 +36,7 @@ fn the_shipped_scenarios_are_proved() {
                 row.reason
             );
             assert!(
-                row.coverage.unwrap() >= 0.995 && row.clearance_m.unwrap() >= 0.01,
+                row.swept.unwrap() >= 0.995 && row.clearance_m.unwrap() >= 0.01,
                 "{row:?}"
             );
         }

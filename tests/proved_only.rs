@@ -150,31 +150,22 @@ fn what_is_waived_is_in_the_first_line_and_in_the_data() {
     scenario.layout.overlap = Overlap::Report;
     let (planned, certificate) = judged(&scenario);
     let apart = "plates apart, gap between plate 0 and plate 1 -80.0 mm";
-    for (line, verdict) in [
-        (certificate.to_string(), "CERTIFIED"),
-        (headline(&planned, &certificate), "PROVED"),
-    ] {
+    for line in [certificate.to_string(), headline(&planned, &certificate)] {
         let line = line.lines().next().unwrap();
-        assert!(
-            line.starts_with(&format!("{verdict} BUT FOR every plate once")),
-            "{line}"
-        );
+        assert!(line.starts_with("PROVED BUT FOR every plate once"), "{line}");
         assert!(line.contains(apart) && line.contains("(waived by the job)"), "{line}");
     }
     let waived = [Requirement::EveryPlateOnce, Requirement::PlatesApart];
     assert_eq!(certificate.waived, waived);
     let data = serde_json::to_value(&certificate).unwrap();
     assert_eq!(data["waived"], serde_json::json!(["every_plate_once", "plates_apart"]));
-    assert!(data["headline"].as_str().unwrap().starts_with("CERTIFIED BUT FOR"));
+    assert!(data["headline"].as_str().unwrap().starts_with("PROVED BUT FOR"));
     // Where something else is not kept, that comes first: nothing is proved "but for" both.
     let unkept = edited(&planned, |plan| plan.job.home_rad[1][3] += 0.1);
-    for (line, verdict) in [
-        (unkept.headline.clone(), "NOT CERTIFIED: kitchen-spiral, "),
-        (headline(&planned, &unkept), "NOT PROVED: a plan for 2 plates in "),
-    ] {
+    for line in [unkept.headline.clone(), headline(&planned, &unkept)] {
         let (broken, waived) = line.split_once("; waived by the job: ").unwrap();
         assert!(
-            broken.starts_with(verdict) && broken.ends_with(" home to home"),
+            broken.starts_with("NOT PROVED: 2 plates in ") && broken.ends_with("; violated: home to home"),
             "{line}"
         );
         assert!(
@@ -187,7 +178,7 @@ fn what_is_waived_is_in_the_first_line_and_in_the_data() {
     assert!(rows[0].reason.as_ref().unwrap().contains(apart), "{:?}", rows[0].reason);
     // Nothing of the kind where nothing is waived.
     let certificate = judged(&one_plate()).1;
-    assert!(certificate.waived.is_empty() && certificate.headline.starts_with("CERTIFIED: kitchen-spiral, "));
+    assert!(certificate.waived.is_empty() && certificate.headline.starts_with("PROVED: 1 plate in "));
 }
 
 /// Everything is swept, every line of the motion is kept, and each plate is washed twice.
@@ -206,7 +197,7 @@ fn a_wash_that_sweeps_the_neighbour_too_is_not_every_plate_once() {
         named,
         ["plate 1 while plate 0 is washed", "plate 0 while plate 1 is washed"]
     );
-    for swept in &certificate.coverage {
+    for swept in &certificate.swept {
         // 150 mm of path and 25 mm of sponge, less 50 mm of plate.
         let seen = swept.beyond_rim_seen_m;
         assert!(seen > 0.125 - 1e-4 && seen < 0.127, "{swept:?}");
@@ -226,11 +217,7 @@ fn a_neighbours_rim_may_be_touched_and_is_named() {
     scenario.layout.positions_m = Some(vec![[0.3, -0.15], [0.3, 0.15]]);
     let (_, certificate) = judged(&scenario);
     assert!(certificate.passes(), "{certificate}");
-    for (swept, other) in certificate
-        .coverage
-        .iter()
-        .zip([1, 0].map(|i| certificate.coverage[i].plate))
-    {
+    for (swept, other) in certificate.swept.iter().zip([1, 0].map(|i| certificate.swept[i].plate)) {
         // A sponge of 25 mm, tilted, beyond the rim and a gap of 10 mm.
         let cosine = swept.cos_tilt;
         let wall = (0.025 + 0.001 * (1.0 - cosine * cosine).sqrt()) / cosine;
@@ -255,22 +242,30 @@ fn the_headline_says_no_more_than_is_covered() {
     scenario.wash.closing_ring = Some(false);
     scenario.job.required_coverage = 0.1;
     let (planned, certificate) = judged(&scenario);
-    let least = certificate.coverage[0].at_least;
+    let least = certificate.swept[0].at_least;
     assert!(least < 0.9);
     let share = (1000.0 * least).floor() / 10.0;
     let line = headline(&planned, &certificate);
-    let expected = format!("PROVED: 1 plate swept by at least {share:.1} %");
-    assert!(line.starts_with(&expected), "{line}");
-    let (planned, mut certificate) = judged(&one_plate());
-    assert!(headline(&planned, &certificate).contains("1 plate swept whole,"));
-    certificate.coverage[0].at_least = 0.9996;
-    let nearly = headline(&planned, &certificate);
-    assert!(nearly.contains("1 plate swept by at least 99.9 %,"), "{nearly}");
+    let expected =
+        format!(", each swept over at least {share:.1} % (10 % required, usual 99.5 %), clearance at least ");
+    assert!(
+        line.contains(&expected) && line.ends_with(", contact not required"),
+        "{line}"
+    );
+    let (planned, certificate) = judged(&one_plate());
+    let whole = headline(&planned, &certificate);
+    assert!(
+        whole.contains("each swept over at least 100 % (99.5 % required)"),
+        "{whole}"
+    );
     scenario.job.required_coverage = 0.99;
     let (planned, certificate) = judged(&scenario);
     let line = headline(&planned, &certificate);
-    assert!(line.starts_with("NOT PROVED: a plan for 1 plate in"), "{line}");
-    assert!(line.ends_with("does not keep coverage"), "{line}");
+    assert!(line.starts_with("NOT PROVED: 1 plate in "), "{line}");
+    assert!(
+        line.contains("; violated: swept ") && line.ends_with(" % (at least 99.0 % required)"),
+        "{line}"
+    );
 }
 
 /// A sponge of 10 mm on a path for one of 25 mm: six tenths of the plate are swept, and no plate is washed.

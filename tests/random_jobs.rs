@@ -93,7 +93,7 @@ fn judged(seed: u64, arm: &Arc<RobotModel>) -> Option<Planned> {
     let broken: Vec<_> = certificate.broken().map(|check| check.requirement).collect();
     // No planner can promise how much a stated number of turns sweeps.
     assert!(
-        broken.is_empty() || broken == [Requirement::Coverage],
+        broken.is_empty() || broken == [Requirement::Swept],
         "seed {seed}: {certificate}"
     );
     assert_eq!(certificate.waived, [], "seed {seed}");

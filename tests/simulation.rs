@@ -35,7 +35,7 @@ fn computed_torque_covers_as_much_as_planned() {
     let (execution, report) = judged(&plan.job.simulation);
     println!("{}", report.headline);
     assert_eq!(report.law, ControlLawName::ComputedTorque, "the job's own law");
-    assert_eq!(report.verdict, SimulationVerdict::Washed);
+    assert_eq!(report.verdict, SimulationVerdict::Swept);
     assert_eq!(report.plates.len(), 4);
     for plate in &report.plates {
         assert!(
@@ -59,9 +59,9 @@ fn computed_torque_covers_as_much_as_planned() {
 fn pd_alone_washes_less_and_says_why() {
     let (_, report) = judged(&under(ControlLawName::Pd, 15.0));
     println!("{}", report.headline);
-    assert_eq!(report.verdict, SimulationVerdict::NotWashed);
+    assert_eq!(report.verdict, SimulationVerdict::NotSwept);
     for plate in &report.plates {
-        assert_eq!(plate.verdict, PlateVerdict::NotWashed);
+        assert_eq!(plate.verdict, PlateVerdict::NotSwept);
         assert!(plate.executed.upper < plate.planned.lower - 0.3, "{plate:?}");
         assert!(
             plate
@@ -97,7 +97,7 @@ fn torque_limits_saturate_and_are_reported() {
     let (_, weak) = judged(&settings);
     let effort = weak.effort.unwrap();
     assert!(effort.saturated_share > 0.1 && effort.joints[1].torque_n_m.max == 15.0);
-    assert_eq!(weak.verdict, SimulationVerdict::NotWashed);
+    assert_eq!(weak.verdict, SimulationVerdict::NotSwept);
 }
 
 /// Simulating the paper's plan under the paper's law gives back what its program executed.
@@ -118,7 +118,7 @@ fn the_papers_law_executes_the_papers_program() {
         assert!((sample.state.q - q).amax() < 1e-12, "at {t} s");
     }
     let judged = SimulationReport::new(&plan, &arm, settings, &execution).unwrap();
-    assert_eq!(judged.verdict, SimulationVerdict::NotWashed);
+    assert_eq!(judged.verdict, SimulationVerdict::NotSwept);
     assert!(judged.effort.is_none() && judged.plates.iter().all(|p| p.causes.contains(&Cause::NoTool)));
     for (ours, theirs) in judged.plates.iter().zip(&report.plates) {
         assert_eq!(ours.plate, theirs.plate);

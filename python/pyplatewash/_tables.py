@@ -12,7 +12,7 @@ from . import _core, _picture
 from ._errors import PlatewashError
 from ._figures.subject import Subject
 from ._values import Floats, Rings, WashCurve
-from ._words import percent
+from ._words import percent, quoted
 
 #: Most characters of a text and most lines of a table.
 MOST_CHARACTERS, MOST_LINES = 400, 60
@@ -22,7 +22,7 @@ MOST_PATHS = 24
 
 _CELL = "text-align:left;vertical-align:top;padding:0.15em 0.8em 0.15em 0"
 #: A status has a sign of its own, so that it is not told by its colour alone.
-_SIGNS = {"proved": "✓", "violated": "✗", "not_proved": "?", "waived": "!", "washed": "✓", "not_washed": "✗"}
+_SIGNS = {"proved": "✓", "violated": "✗", "not_proved": "?", "waived": "!", "washed": "✓", "swept": "✓", "not_washed": "✗", "not_swept": "✗"}
 
 
 def shown(value: object) -> str:
@@ -84,7 +84,7 @@ def plan(of: _core.Plan) -> str:
         ("proof", "none for a run of the paper's program" if of.process == "paper" else "see prove(plan)"),
     ]
     first = dry_run(of)
-    return page(f"{'' if first is None else f'{first}; '}Plan: {of.provenance.scenario}", [table(rows), plan_picture(of)])
+    return page(f"{'' if first is None else f'{first}; '}Plan of {quoted(of.provenance.scenario)}", [table(rows), plan_picture(of)])
 
 
 def planned(of: _core.Planned) -> str:
@@ -95,7 +95,7 @@ def planned(of: _core.Planned) -> str:
         ("between plates", f"{tour.travel_s:.2f} s (nearest first: {tour.nearest_next_s:.2f} s)"),
         ("proof", "see prove(planned.plan)"),
     ]
-    return page(f"Planned: {of.plan.provenance.scenario}", [table(whole), table(rows, ("wash", "time")), plan_picture(of.plan)])
+    return page(f"Planned, not proved: {quoted(of.plan.provenance.scenario)}", [table(whole), table(rows, ("wash", "time")), plan_picture(of.plan)])
 
 
 def certificate(of: _core.Certificate) -> str:
@@ -113,7 +113,7 @@ def layout(of: _core.Layout) -> str:
 
 def job(of: _core.WashJob | _core.PaperJob) -> str:
     rows = [("program", "the paper's" if isinstance(of, _core.PaperJob) else "certified"), ("seed", of.seed), ("arm", of.robot.name), ("plates", len(of.layout))]
-    return page(f"Job: {of.name}", [table(rows), _picture.from_above(of.layout.plates)])
+    return page(f"Job {quoted(of.name)}", [table(rows), _picture.from_above(of.layout.plates)])
 
 
 def execution(of: _core.Execution) -> str:
@@ -125,7 +125,7 @@ def execution(of: _core.Execution) -> str:
         ("samples", f"{len(of)}, every {1e3 * of.period_s:g} ms"),
         ("saturated", f"{of.saturated} samples"),
     ]
-    title = f"Execution of {of.plan.provenance.scenario}: {report.headline}"
+    title = f"Execution of {quoted(of.plan.provenance.scenario)}: {report.headline}"
     return page(title, [table(whole), table(rows, ("plate", "verdict", "swept as planned", "executed"))])
 
 

@@ -6,7 +6,7 @@ use super::progress::Progress;
 use platewash::certificate::{Difference, differences};
 use platewash::planner::Watch;
 use platewash::scenario::Program;
-use platewash::workcell::words::counted;
+use platewash::workcell::words::{counted, quoted};
 use platewash::{JobTerms, RobotModel, Scenario};
 use serde::Serialize;
 use std::fmt;
@@ -92,7 +92,7 @@ impl Against {
     }
 
     fn name(&self) -> String {
-        format!("{}, seed {}", self.scenario, self.seed)
+        format!("{}, seed {}", quoted(&self.scenario), self.seed)
     }
 
     fn count(&self) -> String {

@@ -108,7 +108,7 @@ pub fn run(options: &Options, arguments: &DryRunArguments) -> Result<ExitCode, F
     };
     check_paths(&file.plan, &planned.plan).map_err(|error| refused(&file, error))?;
     let mut certificate = prove_with(&planned.plan, &file.arm, &options.cancel).map_err(platewash::Failure::from)?;
-    certificate.parent_compared();
+    certificate.set_parent_compared();
     drop(progress);
     tell(options, arguments, &file.plan, (&planned, &certificate), &places)
 }
@@ -247,7 +247,7 @@ impl NoReport {
         results::name(options, &files);
         let outcome = match self.why.verdict {
             Verdict::Infeasible | Verdict::NotFound => Outcome::Infeasible,
-            Verdict::Washed | Verdict::DryRun | Verdict::NotVerified => Outcome::NotVerified,
+            Verdict::Washed | Verdict::Swept | Verdict::DryRun | Verdict::NotVerified => Outcome::NotVerified,
         };
         Ok(outcome.answer())
     }

@@ -38,7 +38,7 @@ impl Outcome {
 impl From<Verdict> for Outcome {
     fn from(verdict: Verdict) -> Self {
         match verdict {
-            Verdict::Washed | Verdict::DryRun => Self::Good,
+            Verdict::Washed | Verdict::Swept | Verdict::DryRun => Self::Good,
             Verdict::NotVerified => Self::NotVerified,
             Verdict::Infeasible | Verdict::NotFound => Self::Infeasible,
         }
@@ -47,11 +47,10 @@ impl From<Verdict> for Outcome {
 
 impl From<SimulationVerdict> for Outcome {
     fn from(verdict: SimulationVerdict) -> Self {
-        match verdict {
-            SimulationVerdict::Washed | SimulationVerdict::DryRun => Self::Good,
-            SimulationVerdict::NotWashed | SimulationVerdict::Overloaded | SimulationVerdict::Altered => {
-                Self::NotVerified
-            }
+        if verdict.is_done() {
+            Self::Good
+        } else {
+            Self::NotVerified
         }
     }
 }

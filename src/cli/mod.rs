@@ -98,7 +98,7 @@ enum Verb {
     /// Judge a plan file: what is proved about it, and what is not.
     ///
     /// Exit code 0 where it is certified, 4 where it is not. What the job waives (layout.overlap = "report") is no failure, so that the
-    /// code is 0: the first line then says CERTIFIED BUT FOR and what, and JSON lists it as `waived`.
+    /// code is 0: the first line then says PROVED BUT FOR and what, and JSON lists it as `waived`.
     ///
     /// A certificate says that the plan does its own job. Whether that is the job of a scenario is for --against: exit code 4 where a
     /// field differs, and the first line begins with OTHER JOB.

@@ -60,7 +60,7 @@ impl Followed {
 
     /// The motion that the control law makes of it, as a page shows it.
     pub fn as_executed(&self) -> Executed {
-        let (run, washed) = (&self.run, self.report.verdict == Verdict::Washed);
+        let (run, washed) = (&self.run, self.report.verdict == Verdict::Swept);
         Executed::followed(&run.executed, run.job.simulation.law, &self.report.headline, washed)
     }
 

@@ -5,8 +5,8 @@ use super::failure::{ExitCode, Failure};
 use super::motion::MotionArguments;
 use super::options::Options;
 use super::{infeasible, output, paper, results, wash};
+use platewash::certificate::planned_headline;
 use platewash::scenario::Program;
-use platewash::workcell::words::counted;
 use platewash::{PaperReport, Plan, Scenario};
 use serde::Serialize;
 
@@ -50,7 +50,7 @@ fn plan_washing(options: &Options, scenario: &Scenario, arguments: &MotionArgume
     results::write(options, &files)?;
     let answer = Answer::of_washing(&washing.planned.plan);
     output::print_either(options.json, &answer, || {
-        format!("{}\nplatewash verify proves it\n", answer.first_line())
+        format!("{}\nplatewash verify proves it\n", answer.headline)
     })?;
     results::name(options, &files);
     Ok(ExitCode::SUCCESS)
@@ -70,7 +70,7 @@ fn follow_paper(options: &Options, scenario: &Scenario, arguments: &MotionArgume
             "{reached} of {asked} waypoints reached, {:.2} s of motion",
             answer.duration_s
         );
-        format!("{}\n{line}\n", answer.first_line())
+        format!("{}\n{line}\n", answer.headline)
     })?;
     results::name(options, &files);
     Ok(Outcome::from(followed.report.verdict).job(scenario.job.on_failure))
@@ -81,7 +81,7 @@ impl Answer {
         let (plates, duration_s) = (plan.order.len(), plan.duration_s());
         Self {
             proved: false,
-            headline: format!("{} in {duration_s:.2} s, from home to home", counted(plates, "plate")),
+            headline: planned_headline(plan),
             plates,
             duration_s,
             waypoints: None,
@@ -91,7 +91,7 @@ impl Answer {
     fn of_paper(report: &PaperReport) -> Self {
         Self {
             proved: false,
-            headline: report.headline.clone(),
+            headline: format!("PLANNED, NOT PROVED: {}", report.headline),
             plates: report.plates.len(),
             duration_s: report.duration_s,
             waypoints: Some(Waypoints {
@@ -99,9 +99,5 @@ impl Answer {
                 waypoints_reached: report.waypoints_reached(),
             }),
         }
-    }
-
-    fn first_line(&self) -> String {
-        format!("planned, not proved: {}", self.headline)
     }
 }

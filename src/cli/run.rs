@@ -11,10 +11,10 @@ use super::{execution, infeasible, output, page, paper, results, wash};
 use clap::Args;
 use platewash::certificate::{PairsShown, prove_with};
 use platewash::scenario::Program;
-use platewash::simulator::simulate::{PlateVerdict, Sample, table};
+use platewash::simulator::simulate::{Sample, table};
 use platewash::viewer::server::LiveEnd;
 use platewash::viewer::view::{Beside, Executed};
-use platewash::{Execution, Plan, RobotModel, Scenario, SimulationReport, SimulationVerdict, WashReport};
+use platewash::{Execution, Plan, RobotModel, Scenario, SimulationReport, WashReport};
 use serde::Serialize;
 
 /// Arguments of `run`.
@@ -175,7 +175,7 @@ impl Simulated {
         match self {
             Self::Done(report) => LiveEnd {
                 headline: report.headline.clone(),
-                washed: Some(report.verdict == SimulationVerdict::Washed),
+                washed: Some(report.verdict.is_done()),
             },
             Self::Refused { refused } => LiveEnd {
                 headline: format!("NOT SIMULATED: {refused}"),
@@ -184,21 +184,17 @@ impl Simulated {
         }
     }
 
-    /// What the first line adds to what is proved: that nothing was simulated, or that the simulation fails; `contact` is whether the job
-    /// asks for contact.
-    fn first_line(&self, contact: bool) -> Option<String> {
+    /// What the first line adds to what is proved: that nothing was simulated, or that the simulation fails.
+    fn first_line(&self) -> Option<String> {
         match self {
-            Self::Done(report) if report.verdict == SimulationVerdict::Washed => None,
+            Self::Done(report) if report.verdict.is_done() => None,
             Self::Done(report) => {
                 let overload = report.payload.overload().map(|words| format!("OVERLOADED: {words}"));
-                let leaves_one = report
-                    .plates
-                    .iter()
-                    .any(|plate| plate.verdict == PlateVerdict::NotWashed);
-                let done = if contact { "WASHED" } else { "SWEPT" };
-                let not_washed =
-                    (overload.is_none() || leaves_one).then(|| format!("NOT {done} under {}", report.law.name()));
-                Some(overload.into_iter().chain(not_washed).collect::<Vec<_>>().join("; "))
+                let left = report.plates.iter().find(|plate| !plate.verdict.is_done());
+                let words = left.map(|plate| plate.verdict.words());
+                let words = words.or_else(|| overload.is_none().then(|| report.verdict.words()));
+                let not_done = words.map(|words| format!("{} under {}", words.to_uppercase(), report.law.name()));
+                Some(overload.into_iter().chain(not_done).collect::<Vec<_>>().join("; "))
             }
             Self::Refused { .. } => Some("NOT SIMULATED".to_owned()),
         }
@@ -223,8 +219,7 @@ impl Simulated {
 
 impl RunReport {
     fn new(mut wash: WashReport, simulation: Simulated) -> Self {
-        let contact = wash.certificate.rests_on.requirements.contact.is_some();
-        if let Some(more) = simulation.first_line(contact) {
+        if let Some(more) = simulation.first_line() {
             wash.headline = format!("{}; {more}", wash.headline);
         }
         Self { wash, simulation }

@@ -10,8 +10,10 @@ use super::progress::Progress;
 use anyhow::ensure;
 use clap::Args;
 use platewash::Plan;
+use platewash::kinematics::words::percent;
 use platewash::simulator::simulate::{TuneOutcome, TuneRow};
 use platewash::workcell::simulation::SimulationSettings;
+use platewash::workcell::words::quoted;
 use platewash::{SimulationVerdict, tune};
 use serde::Serialize;
 use std::fmt::Write;
@@ -126,12 +128,13 @@ fn check(arguments: &TuneArguments) -> anyhow::Result<()> {
 
 fn text(plan: &Plan, settings: &SimulationSettings, rows: &[Row]) -> String {
     let (name, law, rate) = (&plan.provenance.scenario, settings.law.name(), settings.control.rate_hz);
+    let name = quoted(name);
     let mut text = format!("{name} under {law}, {rate} samples a second\n\n");
     // Writing to a String cannot fail.
     let _ = writeln!(
         text,
         "{:>9} {:>8} {:>12} {:>12} {:>12} {:>9} {:>11}  wash",
-        "ω rad/s", "damping", "tip rms mm", "tip max mm", "torque N·m", "work J", "covered %"
+        "ω rad/s", "damping", "tip rms mm", "tip max mm", "torque N·m", "work J", "swept %"
     );
     for row in rows {
         let _ = write!(text, "{:>9} {:>8} ", row.frequency_rad_s, row.damping_ratio);
@@ -144,20 +147,18 @@ fn text(plan: &Plan, settings: &SimulationSettings, rows: &[Row]) -> String {
                 1e3 * outcome.tip_max_m,
                 largest(outcome),
                 outcome.work_j,
-                outcome
-                    .least_coverage
-                    .map_or_else(|| "–".to_owned(), |share| format!("{:.2}", 100.0 * share)),
-                verdict(outcome)
+                outcome.least_swept.map_or_else(|| "–".to_owned(), percent),
+                outcome.verdict.words()
             ),
         };
     }
-    text.push_str("\ntorque: of the joint that needs most; covered: of the plate that is covered least\n");
+    text.push_str("\ntorque: of the joint that needs most; swept: of the plate that is swept least\n");
     text
 }
 
 fn csv(rows: &[Row]) -> String {
     let mut text =
-        "frequency_rad_s,damping_ratio,verdict,tip_rms_m,tip_max_m,torque_max_n_m,work_j,least_coverage\n".to_owned();
+        "frequency_rad_s,damping_ratio,verdict,tip_rms_m,tip_max_m,torque_max_n_m,work_j,least_swept\n".to_owned();
     for row in rows {
         let _ = write!(text, "{},{},", row.frequency_rad_s, row.damping_ratio);
         let _ = match &row.outcome {
@@ -165,14 +166,12 @@ fn csv(rows: &[Row]) -> String {
             Outcome::Simulated(outcome) => writeln!(
                 text,
                 "{},{},{},{},{},{}",
-                verdict(outcome),
+                outcome.verdict.words(),
                 outcome.tip_rms_m,
                 outcome.tip_max_m,
                 largest(outcome),
                 outcome.work_j,
-                outcome
-                    .least_coverage
-                    .map_or_else(String::new, |share| share.to_string())
+                outcome.least_swept.map_or_else(String::new, |share| share.to_string())
             ),
         };
     }
@@ -181,14 +180,4 @@ fn csv(rows: &[Row]) -> String {
 
 fn largest(outcome: &TuneOutcome) -> f64 {
     outcome.torque_max_n_m.iter().copied().fold(0.0, f64::max)
-}
-
-fn verdict(outcome: &TuneOutcome) -> &'static str {
-    match outcome.verdict {
-        SimulationVerdict::Washed => "washed",
-        SimulationVerdict::DryRun => "dry run",
-        SimulationVerdict::NotWashed => "not washed",
-        SimulationVerdict::Overloaded => "overloaded",
-        SimulationVerdict::Altered => "altered",
-    }
 }

@@ -12,8 +12,9 @@ use super::plan_file::{self, PlanFile};
 use super::progress::Progress;
 use anyhow::anyhow;
 use clap::Args;
-use platewash::certificate::{HashFinding, PairsShown, Status, Verdict, prove_with};
+use platewash::certificate::{HashFinding, PairsShown, Status, Verdict, paper_headline, prove_with};
 use platewash::workcell::plan::Process;
+use platewash::workcell::words::quoted;
 use platewash::{Certificate, Plan};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -99,7 +100,7 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, F
             parent = given.map(|path| OfParent::compare(&file, path)).transpose()?;
             let mut certificate = prove(options, &file)?;
             if parent.as_ref().is_some_and(OfParent::agrees) {
-                certificate.parent_compared();
+                certificate.set_parent_compared();
             }
             Judgement::Washing(Box::new(certificate))
         }
@@ -149,13 +150,12 @@ impl Answer {
 
 impl NoCertificate {
     fn new(plan: &Plan) -> Self {
-        let (scenario, duration_s) = (&plan.provenance.scenario, plan.duration_s());
         Self {
             verdict: Verdict::Fail,
-            headline: format!("NOT CERTIFIED: {scenario}, {duration_s:.3} s; the paper's program has no certificate"),
+            headline: paper_headline(plan),
             process: plan.process,
-            scenario: scenario.clone(),
-            duration_s,
+            scenario: plan.provenance.scenario.clone(),
+            duration_s: plan.duration_s(),
             hash: HashFinding {
                 stated: plan.hash.clone(),
                 computed: plan.seal().ok(),
@@ -174,6 +174,10 @@ impl NoCertificate {
             (_, Some(_)) => "is NOT that of the contents: the plan was changed after it was sealed",
             (_, None) => "is missing",
         };
-        format!("{}\nhash {hash}\n", self.headline)
+        format!(
+            "{}\nscenario {}, as the plan names it\nhash {hash}\n",
+            self.headline,
+            quoted(&self.scenario)
+        )
     }
 }

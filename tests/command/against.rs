@@ -9,9 +9,10 @@ fn a_plan_agrees_with_its_own_scenario_and_with_no_other() {
     platewash(dir, &["plan", "--seed", "3", "--quiet"]).done();
     // Its seed is the plan's where none is given.
     let ran = platewash(dir, &["verify", "out/plan.json", "--against", "kitchen"]).done();
-    assert!(ran.stdout.starts_with("CERTIFIED: kitchen"), "{}", ran.stdout);
+    assert!(ran.stdout.starts_with("PROVED: 4 plates in "), "{}", ran.stdout);
     assert!(
-        ran.stdout.ends_with("\nagainst kitchen, seed 3: no field differs\n"),
+        ran.stdout
+            .ends_with("\nagainst \"kitchen\", seed 3: no field differs\n"),
         "{}",
         ran.stdout
     );
@@ -55,7 +56,7 @@ fn a_requirement_that_was_lowered_is_named() {
     platewash(dir, &["verify", "out/plan.json", "--against", low]).done();
     let ran = platewash(dir, &["verify", "out/plan.json", "--against", "kitchen"]);
     assert_eq!(ran.code, 4, "{}", ran.stderr);
-    let first = "OTHER JOB than that of kitchen, seed 1: 1 field differs; CERTIFIED: kitchen";
+    let first = "OTHER JOB than that of \"kitchen\", seed 1: 1 field differs; PROVED: ";
     assert!(ran.stdout.starts_with(first), "{}", ran.stdout);
     let told = "  requirements.clearance_m: the plan says 0.001, the scenario 0.01\n";
     assert!(ran.stdout.ends_with(told), "{}", ran.stdout);
@@ -73,12 +74,12 @@ fn a_run_of_the_papers_program_is_compared_too() {
     };
     let same = against("paper-text");
     assert!(
-        same.starts_with("NOT CERTIFIED: paper-text") && same.ends_with("seed 1: no field differs\n"),
+        same.starts_with("NOT PROVED: a run of the paper's program") && same.ends_with("seed 1: no field differs\n"),
         "{same}"
     );
     let other = against("kitchen");
     assert!(
-        other.starts_with("OTHER JOB than that of kitchen, seed 1: ") && other.contains("planner.paper"),
+        other.starts_with("OTHER JOB than that of \"kitchen\", seed 1: ") && other.contains("planner.paper"),
         "{other}"
     );
 }

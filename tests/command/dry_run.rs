@@ -23,7 +23,7 @@ fn a_proved_plan_gets_one_beside_it() {
     let ran = platewash(dir, &["dry-run", "out/plan.json", "--height", "0.05", "--speed", "0.1"]).done();
     let parent = read(&dir.join("out/plan.json"))["hash"].as_str().unwrap().to_owned();
     let first = format!(
-        "DRY RUN of {}: 50 mm above the plates, nothing is washed; CERTIFIED: ",
+        "DRY RUN of {}: 50 mm above the plates, nothing is washed; PROVED: ",
         &parent[..12]
     );
     assert!(ran.stdout.starts_with(&first), "{}", ran.stdout);
@@ -51,6 +51,10 @@ fn a_proved_plan_gets_one_beside_it() {
         .unwrap();
     assert_eq!(written["headline"], compared);
     written["headline"] = headline.into();
+    assert_eq!(
+        written.as_object_mut().unwrap().remove("parent_compared"),
+        Some(true.into())
+    );
     assert_eq!(written, proof);
     assert_eq!(proof["rests_on"]["dry_run"]["parent"], parent.as_str());
     let ran = platewash(
@@ -175,7 +179,7 @@ fn only_a_proved_washing_has_one() {
     fast.job.requirements.wash_speed_m_s = 0.2;
     fast.hash = fast.seal().ok();
     std::fs::write(dir.join("fast.json"), fast.to_json().unwrap()).unwrap();
-    platewash(dir, &["dry-run", "fast.json"]).refused(4, &["NOT CERTIFIED", "wash speed"]);
+    platewash(dir, &["dry-run", "fast.json"]).refused(4, &["NOT PROVED", "wash speed"]);
     // Sealed and proved, but with a path that this version does not plan for the job: one whose cone is a little narrower.
     let mut other = plan.clone();
     other.wash_paths[0].cone_rad -= 1e-9;

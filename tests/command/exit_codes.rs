@@ -75,7 +75,7 @@ fn a_job_ends_with_its_verdict_where_its_scenario_asks_for_that() {
     let folder = folder();
     let dir = folder.path();
     conditions(dir);
-    let planned = "planned, not proved: ";
+    let planned = "PLANNED, NOT PROVED: ";
     judge(
         dir,
         &[
@@ -86,8 +86,8 @@ fn a_job_ends_with_its_verdict_where_its_scenario_asks_for_that() {
             ("run --scenario same-report.toml", 0, "INFEASIBLE"),
             ("run --scenario pd.toml", 4, "PROVED"),
             ("run --scenario pd-report.toml", 0, "PROVED"),
-            ("run --scenario paper.toml", 3, "NOT WASHED"),
-            ("run --scenario paper-report.toml", 0, "NOT WASHED"),
+            ("run --scenario paper.toml", 3, "NOT SWEPT"),
+            ("run --scenario paper-report.toml", 0, "NOT SWEPT"),
             ("run --scenario full.toml", 3, "INFEASIBLE"),
             ("run --scenario full-report.toml", 0, "INFEASIBLE"),
             ("run --scenario nowhere.toml", 2, ""),
@@ -127,15 +127,15 @@ fn a_question_is_answered_by_its_exit_code_whatever_the_scenario_says() {
             ("layout --scenario told.toml", 0, "given"),
             ("validate --scenario paper-report.toml", 0, "paper-appendix: valid"),
             ("validate --scenario nowhere.toml", 2, ""),
-            ("verify kitchen/plan.json", 0, "CERTIFIED"),
-            ("verify paper-report/plan.json", 4, "NOT CERTIFIED"),
-            ("verify kitchen/plan.json --against kitchen", 0, "CERTIFIED"),
+            ("verify kitchen/plan.json", 0, "PROVED"),
+            ("verify paper-report/plan.json", 4, "NOT PROVED"),
+            ("verify kitchen/plan.json --against kitchen", 0, "PROVED"),
             ("verify kitchen/plan.json --against pd.toml", 4, "OTHER JOB"),
-            ("verify pd/plan.json --against pd-report.toml", 0, "CERTIFIED"),
-            ("verify paper/plan.json --against paper.toml", 4, "NOT CERTIFIED"),
+            ("verify pd/plan.json --against pd-report.toml", 0, "PROVED"),
+            ("verify paper/plan.json --against paper.toml", 4, "NOT PROVED"),
             ("verify kitchen/plan.json --against full.toml", 3, ""),
             ("verify kitchen/plan.json --against nowhere.toml", 2, ""),
-            ("verify altered/plan.json", 4, "NOT CERTIFIED"),
+            ("verify altered/plan.json", 4, "NOT PROVED"),
             ("verify nowhere.json", 2, ""),
             ("layout --scenario kitchen", 0, "sampled"),
             ("ik --position 0.3 0 0.3 --rpy-deg 0 90 0", 0, "solved"),
@@ -155,7 +155,7 @@ fn a_simulation_is_answered_by_its_exit_code_and_an_altered_plan_never_well() {
     let dir = folder.path();
     conditions(dir);
     plans(dir);
-    let (tuned, spiral) = ("kitchen under ", "kitchen-spiral under ");
+    let (tuned, spiral) = ("\"kitchen\" under ", "\"kitchen-spiral\" under ");
     judge(
         dir,
         &[

@@ -211,7 +211,7 @@ fn each_refusal_has_its_code() {
     .unwrap();
     let ran = platewash(dir, &["export", "edited.json", "--to", "rapid", "--json"]);
     let answer = refused(&ran, "uncertified", 4);
-    assert!(answer["message"].as_str().unwrap().contains("NOT CERTIFIED"));
+    assert!(answer["message"].as_str().unwrap().contains("NOT PROVED"));
 
     // A tool that weighs nothing.
     let weightless = kitchen(dir, &[("radius_m = 0.02\n", "radius_m = 0.02\nmass_kg = 0\n")]);

@@ -13,6 +13,7 @@ mod export;
 mod figures;
 mod files;
 mod golden;
+mod hostile_names;
 mod ignored;
 mod infeasible;
 mod interrupt;

@@ -61,7 +61,7 @@ fn the_largest_tilt_is_kept_by_an_arm_that_needs_all_of_it() {
     for positions in ["[[0.55, 0.0]]", "[[0.55, 0.0], [0.1, 0.55], [0.1, -0.55]]"] {
         let file = cell(dir, "[0, -90, 90, 0, 90, 0]", positions, 0.2);
         let report = run(dir, "run", &file, KR5).done().json();
-        assert_eq!(report["verdict"], "washed", "{}", report["headline"]);
+        assert_eq!(report["verdict"], "swept", "{}", report["headline"]);
     }
 }
 
@@ -73,7 +73,7 @@ fn a_place_is_not_denied_because_it_lies_behind_the_start() {
     for positions in ["[[-0.4408, -0.2545]]", "[[-0.509, 0.0]]"] {
         let file = cell(dir, UR5_START, positions, 0.1);
         let report = run(dir, "run", &file, UR5).done().json();
-        assert_eq!(report["verdict"], "washed", "{}", report["headline"]);
+        assert_eq!(report["verdict"], "swept", "{}", report["headline"]);
     }
 }
 

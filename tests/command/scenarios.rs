@@ -8,7 +8,7 @@ fn a_job_that_does_not_wash_fails_when_asked_to() {
     let file = scenario(folder.path(), "on_failure = \"report\"", "on_failure = \"fail\"");
     let ran = platewash(folder.path(), &["run", "--scenario", file.to_str().unwrap()]);
     assert_eq!(ran.code, 3, "seed 1 has waypoints out of reach");
-    assert!(ran.stdout.starts_with("NOT WASHED"));
+    assert!(ran.stdout.starts_with("NOT SWEPT"));
     // One plate within reach and free of contact, but the paper's law covers too little of it: verification fails.
     let text = std::fs::read_to_string(&file)
         .unwrap()

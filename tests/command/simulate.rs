@@ -99,8 +99,8 @@ fn run_simulates_what_it_proves() {
     );
     assert_eq!(ran.code, 4, "{}", ran.stderr);
     let report = ran.json();
-    assert_eq!(report["verdict"], "washed", "the plan is proved all the same");
-    assert_eq!(report["simulation"]["verdict"], "not_washed");
+    assert_eq!(report["verdict"], "swept", "the plan is proved all the same");
+    assert_eq!(report["simulation"]["verdict"], "not_swept");
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn a_plan_of_the_papers_program_is_simulated_under_its_law() {
     let ran = platewash(dir, &["simulate", "out/plan.json", "--json"]);
     assert_eq!(ran.code, 4, "{}", ran.stderr);
     let report = ran.json();
-    assert_eq!(report["verdict"], "not_washed");
+    assert_eq!(report["verdict"], "not_swept");
     assert_eq!((&report["law"], &report["effort"]), (&"paper".into(), &().into()));
 }
 

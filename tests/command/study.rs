@@ -37,7 +37,7 @@ fn a_study_goes_on_where_it_ended() {
     assert!(
         found
             .iter()
-            .all(|row| row["outcome"] == "proved" && row["coverage"].as_f64().unwrap() >= 0.995),
+            .all(|row| row["outcome"] == "proved" && row["swept"].as_f64().unwrap() >= 0.995),
         "{whole}"
     );
 

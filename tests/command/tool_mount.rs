@@ -70,7 +70,7 @@ fn without_tool0_nothing_is_planned_until_the_link_is_stated() {
     let said = platewash(dir, &["verify", "out/plan.json", "--urdf", urdf])
         .done()
         .stdout;
-    assert!(said.contains("mounted on link \"flange\" along its z"), "{said}");
+    assert!(said.contains("tool mount    on link \"flange\" along its z"), "{said}");
     platewash(
         dir,
         &["verify", "out/plan.json", "--urdf", urdf, "--tool-mount", "flange"],

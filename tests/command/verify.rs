@@ -10,7 +10,7 @@ fn a_plan_of_the_papers_program_is_refused_by_name() {
     assert_eq!(ran.code, 4, "{}", ran.stderr);
     assert_eq!(
         ran.stdout,
-        "NOT CERTIFIED: paper-appendix, 3.700 s; the paper's program has no certificate\nhash is that of the contents\n"
+        "NOT PROVED: a run of the paper's program, 3.70 s; it has no certificate\nscenario \"paper-appendix\", as the plan names it\nhash is that of the contents\n"
     );
     let ran = platewash(folder.path(), &["verify", "out/plan.json", "--json"]);
     assert_eq!(ran.code, 4);
@@ -51,7 +51,7 @@ fn what_is_waived_is_in_the_first_line_and_in_the_data_and_is_no_failure() {
     assert!(first.contains(waived), "{first}");
     let ran = platewash(dir, &["verify", "out/plan.json"]).done();
     let first = ran.stdout.lines().next().unwrap();
-    assert!(first.starts_with("CERTIFIED BUT FOR every plate once"), "{first}");
+    assert!(first.starts_with("PROVED BUT FOR every plate once"), "{first}");
     assert!(first.contains(waived), "{first}");
     let certificate = platewash(dir, &["verify", "out/plan.json", "--json"]).done().json();
     assert_eq!(

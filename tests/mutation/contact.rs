@@ -4,8 +4,8 @@
 use crate::mutation::good::scenario;
 use nalgebra::Vector3;
 use platewash::certificate::Requirement::{
-    self, Contact, ContactDose, ContactForce, ContactHeight, ContactSpeed, ContactTime, Coverage, PathDeviation,
-    Plates, Strain, Tilt, Tool, WashPaths, WashSpeed, Wrist,
+    self, ContactDose, ContactForce, ContactHeight, ContactSpeed, ContactTime, PathDeviation, Plates, Pressed, Strain,
+    Swept, Tilt, Tool, WashPaths, WashSpeed, Wrist,
 };
 use platewash::certificate::{Certificate, Status, prove};
 use platewash::workcell::job::{ContactRequirements, PatternName, Planner, PlannerSettings};
@@ -48,7 +48,7 @@ const KITCHEN: [Case; 64] = [
     }),
     Case(
         "job.requirements.contact.compression_m",
-        Refused(&[Contact, ContactTime, ContactDose]),
+        Refused(&[Pressed, ContactTime, ContactDose]),
         |p| wanted(p).compression_m = 5e-3,
     ),
     Case("job.requirements.contact.compression_m", Kept(LESS), |p| {
@@ -59,7 +59,7 @@ const KITCHEN: [Case; 64] = [
     }),
     Case(
         "job.requirements.contact.height_error_m",
-        Refused(&[ContactSpeed, Contact, ContactTime, ContactDose, ContactForce]),
+        Refused(&[ContactSpeed, Pressed, ContactTime, ContactDose, ContactForce]),
         |p| wanted(p).height_error_m = 5.2e-3,
     ),
     Case("job.requirements.contact.height_error_m", Kept(LESS), |p| {
@@ -70,7 +70,7 @@ const KITCHEN: [Case; 64] = [
         NoPlan("height_error_m"),
         |p| wanted(p).height_error_m = f64::NAN,
     ),
-    Case("job.requirements.contact.share", Refused(&[Contact]), |p| {
+    Case("job.requirements.contact.share", Refused(&[Pressed]), |p| {
         wanted(p).share = 0.9996
     }),
     Case("job.requirements.contact.share", Kept(LESS), |p| wanted(p).share = 0.0),
@@ -169,7 +169,7 @@ const KITCHEN: [Case; 64] = [
     // Pressed in less, it gets less; more, it is longer where it is free, and its rim is on the plate while the arm is still fast.
     Case(
         "job.workcell.tool.sponge.compression_m",
-        Breaks(&[Contact, ContactTime, ContactDose]),
+        Breaks(&[Pressed, ContactTime, ContactDose]),
         |p| sponge(p).compression_m = 3e-3,
     ),
     Case("job.workcell.tool.sponge.compression_m", Breaks(&[ContactSpeed]), |p| {
@@ -177,7 +177,7 @@ const KITCHEN: [Case; 64] = [
     }),
     Case(
         "job.workcell.tool.sponge.radius_m",
-        Breaks(&[Coverage, Contact, ContactDose]),
+        Breaks(&[Swept, Pressed, ContactDose]),
         |p| sponge(p).radius_m = 0.022,
     ),
     Case("job.workcell.tool.sponge.height_m", Breaks(&[Tool]), |p| {

@@ -150,7 +150,7 @@ impl Case<'_> {
 
     /// Coverage is proved for the greatest tilt: with that the sponge may sweep too little.
     fn is_hard_to_prove(&self, check: &Check) -> bool {
-        check.requirement == Requirement::Coverage && self.good.sampler.least_coverage_is_short(self.plan)
+        check.requirement == Requirement::Swept && self.good.sampler.least_coverage_is_short(self.plan)
     }
 
     /// Pairs that the job alone leaves out are named; where they are seen too near, that is said, and waived.

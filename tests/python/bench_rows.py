@@ -20,7 +20,7 @@ def made(at: Path, count: int) -> None:
     """The folder of a finished study with so many rows, in an order by chance."""
     order = list(range(count))
     random.Random(1).shuffle(order)
-    fields = {"reason": 100 * "x", "duration_s": 9.5, "coverage": 0.99, "clearance_m": 0.01, "clearance_pair": ["link_4", "handle"], "plan": 64 * "a"}
+    fields = {"reason": 100 * "x", "duration_s": 9.5, "swept": 0.99, "clearance_m": 0.01, "clearance_pair": ["link_4", "handle"], "plan": 64 * "a"}
 
     def row(k: int) -> dict[str, Any]:
         return study_folders.row(k, {"seed": k, "tool.length_m": 0.1}, **fields)

@@ -17,8 +17,8 @@ KINDS: dict[str, Any] = {"plate[0].at_m": {"numbers": 3}, "robot.model": "text",
 def row(index: int, axes: Mapping[str, Any], outcome: str = "proved", **fields: Any) -> dict[str, Any]:
     """A row, whose fields are null but for those given."""
     key = hashlib.sha256(repr(sorted(axes.items())).encode()).hexdigest()[:16]
-    stated: dict[str, Any] = {"schema": 1, "index": index, "key": key, "scenario": "kitchen", "axes": dict(sorted(axes.items())), "outcome": outcome, "reason": None}
-    stated |= {"place": NO_PLACE, "duration_s": None, "coverage": None, "contact": None, "clearance_m": None, "clearance_pair": None, "plan": None}
+    stated: dict[str, Any] = {"schema": 2, "index": index, "key": key, "scenario": "kitchen", "axes": dict(sorted(axes.items())), "outcome": outcome, "reason": None}
+    stated |= {"place": NO_PLACE, "duration_s": None, "swept": None, "pressed": None, "clearance_m": None, "clearance_pair": None, "plan": None}
     return stated | fields
 
 

@@ -41,7 +41,7 @@ def test_the_kitchen_is_proved(kitchen: pw.Planned) -> None:
     assert certificate.proved and certificate.verdict == "pass" and certificate.broken == []
     assert {check.status for check in certificate.checks} == {"proved"}
     assert certificate == pw.prove(plan, pw.Robot.irb120())
-    assert str(certificate).startswith(f"{certificate.headline}\n") and certificate.headline.startswith("CERTIFIED: kitchen")
+    assert str(certificate).startswith(f"{certificate.headline}\n") and certificate.headline.startswith("PROVED: 4 plates in ")
     assert certificate.waived == [] and certificate.plates_washed == 4
     assert certificate.rests_on.requirements == plan.job.requirements == kitchen.job.requirements
     report = kitchen.report()
@@ -106,7 +106,7 @@ def test_a_sweep_is_its_plans() -> None:
 
 def test_the_papers_run_says_that_it_does_not_wash(run: pw.PaperRun) -> None:
     report = run.report()
-    assert report.headline.startswith("NOT WASHED") and str(report).startswith("NOT WASHED")
+    assert report.headline.startswith("NOT SWEPT") and str(report).startswith("NOT SWEPT")
     assert run.targets.shape == run.executed_tip.shape == (len(run), 3)
     assert run.commanded_q.shape == run.executed_q.shape == (len(run), 6)
     assert run.reached.sum() == sum(p.reached for p in report.plates) + report.transitions.reached
@@ -367,7 +367,7 @@ def test_what_is_waived_is_said_first() -> None:
     layout = {"positions_m": [[0.36, -0.1], [0.36, 0.11]], "overlap": "report"}
     certificate = pw.prove(plan(pw.Scenario.load("kitchen").replace(layout=layout)))
     assert certificate.proved and certificate.waived == ["every_plate_once", "plates_apart"]
-    assert str(certificate).startswith("CERTIFIED BUT FOR every plate once, ")
+    assert str(certificate).startswith("PROVED BUT FOR every plate once, ")
 
 
 def test_a_plan_file_is_read_strictly(kitchen: pw.Planned) -> None:

@@ -54,13 +54,13 @@ def mixed() -> list[dict[str, Any]]:
     broken = {"requirement": "contact_dose", "plate": 0, "segment": 2, "waypoint": None, "time_s": 1.5, "point_m": [0.1, 0.2, 0.03]}
     plate = {"requirement": None, "plate": 3, "segment": None, "waypoint": None, "time_s": None, "point_m": [0.4, 0.5, 0.03]}
     return [
-        row(0, axes[0], duration_s=8.5, coverage=0.998, contact=0.999, clearance_m=0.0191, clearance_pair=pair, plan=hash_),
-        row(1, axes[1], "not_proved", reason="contact dose", place=broken, duration_s=9.0, coverage=1.0, clearance_m=0.02, clearance_pair=pair, plan=hash_),
+        row(0, axes[0], duration_s=8.5, swept=0.998, pressed=0.999, clearance_m=0.0191, clearance_pair=pair, plan=hash_),
+        row(1, axes[1], "not_proved", reason="contact dose", place=broken, duration_s=9.0, swept=1.0, clearance_m=0.02, clearance_pair=pair, plan=hash_),
         row(2, axes[2], "infeasible", reason="out of reach,\n„weit“ weg", place=plate),
         row(3, axes[3], "not_found", reason="no way was found"),
         row(4, axes[4], "error", reason="the values state no job"),
         row(5, axes[5], "crashed", reason="the program failed"),
-        row(6, axes[6], duration_s=9.5, coverage=0.999, clearance_m=0.0111, clearance_pair=["base_link", "sponge"], plan=hash_),
+        row(6, axes[6], duration_s=9.5, swept=0.999, clearance_m=0.0111, clearance_pair=["base_link", "sponge"], plan=hash_),
     ]
 
 
@@ -117,7 +117,7 @@ DAMAGED = {
     b"{}\n": "is no row",
     b'{"schema":1,"index":1}\n': "is no row",
     line(mixed()[1])[:200] + b"\n": "is no row: ",
-    line(mixed()[1]).replace(b'"schema":1', b'"schema":2'): "is a row of schema 2; this program reads schema 1",
+    line(mixed()[1]).replace(b'"schema":2', b'"schema":1'): "is a row of schema 1; this program reads schema 2",
     line(row(7, {})): "is row 7; the study has 7, counted from 0",
     line(mixed()[0]): "row 0 is there before",
     line(mixed()[1] | {"outcome": "fine"}): "is no row: outcome must be one of proved, .* found 'fine'",
@@ -168,7 +168,7 @@ def test_what_is_no_studys_folder_is_refused(tmp_path: Path) -> None:
     assert isinstance(caught.value, pw.StudyError) and isinstance(caught.value, pw.FileError) and caught.value.errno == 2
     wrong: list[tuple[dict[str, Any], str]] = [
         ({"format": "other/1"}, "format must be platewash-study-manifest/1; found 'other/1'"),
-        ({"row_schema": 2}, "row_schema must be 1; found 2"),
+        ({"row_schema": 1}, "row_schema must be 2; found 1"),
         ({"rows": True}, "rows must be an integer from 1"),
         ({"axes": [{}]}, "axes must be a list, each with its key"),
         ({"axes": 2 * [{"key": "seed", "count": 7, "kind": "whole"}]}, "axes must be a list of different ones; found one twice"),
@@ -351,7 +351,7 @@ def test_rows_that_were_changed_since_are_no_evidence(tmp_path: Path) -> None:
     rows.export(tmp_path / "good.jsonl")
     rows.to_parquet(tmp_path / "good.parquet")
     refused = f"the rows were changed since the study was finished: .* states {sha256}"
-    changed = [*mixed()[:6], mixed()[6] | {"coverage": 1.0}]
+    changed = [*mixed()[:6], mixed()[6] | {"swept": 1.0}]
     with pytest.raises(pw.StudyError, match=refused):
         pw.StudyRows(folder(tmp_path / "bad", AXES, changed, 7, rows_sha256=sha256))
     (rows.folder / "rows.jsonl").write_bytes((tmp_path / "bad" / "rows.jsonl").read_bytes())
@@ -456,7 +456,7 @@ def table(tmp_path: Path) -> pw.StudyRows:
                 if (x, y) == (0.2, 0.0):
                     continue
                 proved = length == 0.2 or x > 0.3
-                fields = {"clearance_m": x / 10 + length / 100, "duration_s": 10 * length, "coverage": 0.99 + y / 100} if proved else {}
+                fields = {"clearance_m": x / 10 + length / 100, "duration_s": 10 * length, "swept": 0.99 + y / 100} if proved else {}
                 outcome = "proved" if proved else "not_found" if y < 0.05 else "infeasible"
                 done.append(row(index, {"plate[0].at_m": [x, y, 0.03], "tool.length_m": length}, outcome, **fields))
                 index += 1
@@ -492,7 +492,7 @@ def test_a_map_shows_what_the_rows_come_to(tmp_path: Path) -> None:
     ax = rows.map("plate[0].at_m", "duration")
     assert isinstance(ax, Axes)
     assert pictured(ax, 0.4, 0.0)[0][0] == pytest.approx(1.5) and pictured(ax, 0.3, 0.0)[0][0] == pytest.approx(2.0)
-    ax = rows.map("plate[0].at_m", "coverage")
+    ax = rows.map("plate[0].at_m", "swept")
     assert isinstance(ax, Axes) and pictured(ax, 0.4, -0.1)[0][0] == pytest.approx(98.9)
     assert ax.images[0].get_extent() == pytest.approx((0.15, 0.45, -0.15, 0.15))  # Squares about their places; y grows upwards.
 
@@ -550,7 +550,7 @@ def test_maps_say_what_is_wrong(tmp_path: Path, rows: pw.StudyRows) -> None:
         rows.map("plate[0].at_m", by="plate[0].at_m")
     with pytest.raises(pw.InputError, match="by: different axes are needed"):
         rows.map("plate[0].at_m", by=["scenario", "scenario"])
-    with pytest.raises(pw.InputError, match='value: one of "washable", "clearance", "coverage", "duration", "outcome" is needed; found .speed.'):
+    with pytest.raises(pw.InputError, match='value: one of "washable", "clearance", "swept", "duration", "outcome" is needed; found .speed.'):
         rows.map("plate[0].at_m", "speed")  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     none = pw.StudyRows(folder(tmp_path / "none", AXES, (), 7))
     with pytest.raises(pw.InputError, match="rows to draw are needed"):

@@ -49,10 +49,7 @@ pub fn program<'a>(plan: &'a Plan, arm: &'a RobotModel, points: Vec<Point>, spee
         points,
         speed_share,
         corner_m: 0.005,
-        header: vec![
-            "CERTIFIED: two segments".to_owned(),
-            "within 0.5° # of \"it\"".to_owned(),
-        ],
+        header: vec!["PROVED: two segments".to_owned(), "within 0.5° # of \"it\"".to_owned()],
     }
 }
 

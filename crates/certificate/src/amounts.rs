@@ -1,6 +1,7 @@
-//! Numbers as what a verdict rests on tells them.
+//! Numbers as a certificate tells them.
 
-use platewash_kinematics::words::rounded;
+use crate::check::{Measure, Sense, Unit};
+use platewash_kinematics::words::{decimals_down, decimals_up, percent, rounded};
 
 /// Significant digits of a number that are told at most.
 const DIGITS: usize = 9;
@@ -25,4 +26,57 @@ pub(crate) fn number(value: f64) -> String {
 pub(crate) fn list(numbers: impl IntoIterator<Item = f64>) -> String {
     let each: Vec<_> = numbers.into_iter().map(number).collect();
     each.join(", ")
+}
+
+/// Decimals beyond which a bound and its limit are the same number.
+const MOST_DECIMALS: usize = 9;
+
+/// Factor and unit in which people read a quantity.
+pub(crate) fn scale(unit: Unit) -> (f64, &'static str) {
+    match unit {
+        Unit::Radian => (180.0 / std::f64::consts::PI, "°"),
+        Unit::RadianPerSecond => (1.0, "rad/s"),
+        Unit::RadianPerSecondSquared => (1.0, "rad/s²"),
+        Unit::Metre => (1e3, "mm"),
+        Unit::MetrePerSecond => (1.0, "m/s"),
+        Unit::MetrePerSecondSquared => (1.0, "m/s²"),
+        Unit::Newton => (1.0, "N"),
+        Unit::Share => (100.0, "%"),
+    }
+}
+
+/// Decimals of a quantity in a table.
+pub(crate) fn decimals(unit: Unit) -> usize {
+    match unit {
+        Unit::Share => 1,
+        _ => 4,
+    }
+}
+
+/// The bound of a measure that keeps its limit, in its unit; a share that only rounding keeps from being whole is 100.
+pub(crate) fn kept(measure: &Measure, bound: f64, decimals: usize) -> String {
+    if measure.unit == Unit::Share && measure.sense == Sense::AtLeast && bound >= 1.0 - 1e-9 {
+        return percent(bound);
+    }
+    let (scale, _) = scale(measure.unit);
+    toward_limit(bound * scale, measure.limit * scale, measure.sense, decimals)
+}
+
+/// A bound that keeps its limit, with `decimals` decimals. It is rounded towards the limit, so that no more is said than is proved, with as
+/// many more decimals as it takes to read as one that keeps the limit.
+fn toward_limit(bound: f64, limit: f64, sense: Sense, decimals: usize) -> String {
+    let told = |decimals| match sense {
+        Sense::AtMost => decimals_up(bound, decimals),
+        Sense::AtLeast | Sense::Above => decimals_down(bound, decimals),
+    };
+    let keeps = |told: &String| {
+        let read = told.parse::<f64>().unwrap_or(f64::NAN);
+        if sense == Sense::AtMost {
+            read <= limit
+        } else {
+            read >= limit
+        }
+    };
+    let shown = (decimals..=MOST_DECIMALS).map(told).find(keeps);
+    shown.unwrap_or_else(|| number(limit))
 }

@@ -10,6 +10,9 @@ use platewash_workcell::coverage::reaches;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
+/// What a certificate's JSON states as its format. Its keys change with it.
+pub const CERTIFICATE_FORMAT: &str = "platewash-certificate/2";
+
 /// What came of the whole plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -35,10 +38,15 @@ pub struct HashFinding {
 /// What is proved about a plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
+    /// [`CERTIFICATE_FORMAT`].
+    pub format: String,
     /// Pass, or fail.
     pub verdict: Verdict,
-    /// The first line in words: the verdict, what it waives, and what is not kept.
+    /// The first line in words: the verdict, the numbers reached and required, what is waived, and what is not kept.
     pub headline: String,
+    /// That a dry run was compared with the plan that it tries out, and agrees.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub parent_compared: bool,
     /// The requirements that are not kept and that the job waives: [`Status::Waived`].
     pub waived: Vec<Requirement>,
     /// Name of the scenario, as the plan states it.
@@ -49,8 +57,8 @@ pub struct Certificate {
     pub hash: HashFinding,
     /// The requirements, one by one.
     pub checks: Vec<Check>,
-    /// Coverage, plate by plate in the order of washing.
-    pub coverage: Vec<PlateCoverage>,
+    /// What is swept, plate by plate in the order of washing.
+    pub swept: Vec<PlateCoverage>,
     /// Contact, plate by plate in the order of washing, where the job asks for it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contact: Vec<PlateContact>,
@@ -58,6 +66,11 @@ pub struct Certificate {
     pub clearance: Vec<PairBound>,
     /// What the verdict rests on.
     pub rests_on: RestsOn,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // as serde asks for it
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 impl Certificate {
@@ -87,7 +100,8 @@ impl Certificate {
         self.verdict == Verdict::Pass
     }
 
-    /// Number of plates that are proved to be washed: swept to the share required, with the sponge on them. A dry run washes none.
+    /// Number of plates that are proved to be washed: swept to the share required with the sponge on them and, where contact is required,
+    /// pressed on the share, for the time and with the dose required. A dry run washes none.
     #[must_use]
     pub fn plates_washed(&self) -> usize {
         if self.rests_on.dry_run.is_some() {
@@ -97,8 +111,16 @@ impl Certificate {
         if !on.is_some_and(|check| check.status == Status::Proved) {
             return 0;
         }
-        let required = self.rests_on.requirements.coverage;
-        let enough = self.coverage.iter().filter(|swept| reaches(swept.at_least, required));
-        enough.map(|swept| swept.plate).collect::<BTreeSet<_>>().len()
+        let wanted = &self.rests_on.requirements;
+        let pressed = |plate| {
+            let mut all = self.contact.iter().filter(|contact| contact.plate == plate);
+            wanted.contact.is_none() || all.any(PlateContact::is_enough)
+        };
+        let enough = self
+            .swept
+            .iter()
+            .filter(|swept| reaches(swept.at_least, wanted.coverage));
+        let washed = enough.map(|swept| swept.plate).filter(|plate| pressed(*plate));
+        washed.collect::<BTreeSet<_>>().len()
     }
 }

@@ -1,36 +1,161 @@
-//! The certificate's verdict in one line.
+//! The first line: what is proved of a plan, with the numbers reached and required. `verify`, `run`, the page, Python and the heads of
+//! robot programs show it. No name out of a file stands in it unquoted.
 
+use crate::amounts::{kept, number, scale};
 use crate::certificate::{Certificate, Verdict};
-use crate::check::{Check, Status};
+use crate::check::{Check, Measure, Sense, Status};
+use crate::requirement::Requirement;
+use crate::usual;
+use platewash_kinematics::words::told_apart;
+use platewash_workcell::plan::Plan;
 use platewash_workcell::words::counted;
 
-/// The first line: certified or not, for which scenario, what is not kept, and what is waived.
+/// Requirements that are not kept and told with their numbers.
+const MOST_NUMBERS: usize = 3;
+
+/// What the first line of a dry run ends with until both plans are compared.
+const NOT_COMPARED: &str = "; as stated: the parent plan was not compared";
+
+/// The first line of a plan of which nothing was proved yet.
+#[must_use]
+pub fn planned_headline(plan: &Plan) -> String {
+    let [plates, duration_s] = [counted(plan.order.len(), "plate"), seconds(plan.duration_s())];
+    format!("PLANNED, NOT PROVED: {plates} in {duration_s}, from home to home")
+}
+
+/// The first line of a run of the paper's program, which has no certificate.
+#[must_use]
+pub fn paper_headline(plan: &Plan) -> String {
+    format!(
+        "NOT PROVED: a run of the paper's program, {}; it has no certificate",
+        seconds(plan.duration_s())
+    )
+}
+
+/// The first line: proved or not, how much of each plate, at which clearance, what is waived and what is laxer than usual.
 pub(crate) fn headline(certificate: &Certificate) -> String {
-    let (scenario, duration_s) = (certificate.scenario.escape_debug(), certificate.duration_s);
-    let judged = match certificate.not_kept() {
-        None => format!("CERTIFIED{}: {scenario}, {duration_s:.3} s", certificate.but_for()),
-        Some(broken) => format!(
-            "NOT CERTIFIED: {scenario}, {duration_s:.3} s; not kept: {broken}{}",
+    let plates = counted(certificate.rests_on.plates.len(), "plate");
+    let subject = format!("{plates} in {}", seconds(certificate.duration_s));
+    let judged = match certificate.verdict {
+        Verdict::Pass => format!("PROVED{}: {subject}{}", certificate.but_for(), reached(certificate)),
+        Verdict::Fail => format!(
+            "NOT PROVED: {subject}; {}{}",
+            broken(certificate),
             certificate.and_waived()
         ),
     };
-    let judged = judged + certificate.rests_on.without_floor();
+    let judged = format!("{judged}{}{}", laxer(certificate), certificate.rests_on.without_floor());
     match &certificate.rests_on.dry_run {
         // Before everything else: nobody shall take it for a washing.
-        Some(dry_run) => format!("{}; {judged}{NOT_COMPARED}", dry_run.words()),
+        Some(dry_run) => {
+            let compared = if certificate.parent_compared { "" } else { NOT_COMPARED };
+            format!("{}; {judged}{compared}", dry_run.words())
+        }
         None => judged,
     }
 }
 
-/// What the first line of a dry run ends with.
-const NOT_COMPARED: &str = "; as stated: the parent plan was not compared";
+/// A duration as all reports state it.
+fn seconds(duration_s: f64) -> String {
+    format!("{duration_s:.2} s")
+}
+
+/// How much of each plate is pressed, or swept where contact is not required, and the clearance.
+fn reached(certificate: &Certificate) -> String {
+    let wanted = &certificate.rests_on.requirements;
+    let in_air = certificate.rests_on.dry_run.is_some();
+    let (verb, requirement, usual) = match wanted.contact {
+        _ if in_air => ("swept in the air over", Requirement::Swept, usual::SWEPT),
+        Some(_) => ("pressed over", Requirement::Pressed, usual::PRESSED),
+        None => ("swept over", Requirement::Swept, usual::SWEPT),
+    };
+    let number = |requirement, usual| {
+        let measure = certificate.check(requirement)?.measure.as_ref()?;
+        at_least(measure, usual)
+    };
+    let share = number(requirement, usual).map(|share| format!(", each {verb} {share}"));
+    let clearance = number(Requirement::Clearance, usual::CLEARANCE_M).map(|least| format!(", clearance {least}"));
+    let contact = if wanted.contact.is_some() || in_air {
+        ""
+    } else {
+        ", contact not required"
+    };
+    [share, clearance].into_iter().flatten().collect::<String>() + contact
+}
+
+/// A lower bound beside what is required: "at least 99.8 % (99.5 % required)", and what is usual where less is required.
+fn at_least(measure: &Measure, usual: f64) -> Option<String> {
+    let (scale, unit) = scale(measure.unit);
+    let reached = kept(measure, measure.bound?, 1);
+    let required = number(measure.limit * scale);
+    let usual = match measure.limit < usual {
+        true => format!(", usual {} {unit}", number(usual * scale)),
+        false => String::new(),
+    };
+    Some(format!("at least {reached} {unit} ({required} {unit} required{usual})"))
+}
+
+fn laxer(certificate: &Certificate) -> String {
+    let laxer = usual::laxer(&certificate.rests_on.requirements);
+    if laxer.is_empty() {
+        laxer.concat()
+    } else {
+        format!("; laxer than usual: {}", laxer.join(", "))
+    }
+}
+
+/// What is violated, what is not proved, the first of them with their numbers; the hash where it is all that is wrong.
+fn broken(certificate: &Certificate) -> String {
+    let broken: Vec<_> = certificate.broken().collect();
+    let (told, others) = broken.split_at(broken.len().min(MOST_NUMBERS));
+    let of = |status, words| {
+        let each: Vec<_> = told
+            .iter()
+            .filter(|check| check.status == status)
+            .map(|check| shortfall(check))
+            .collect();
+        (!each.is_empty()).then(|| format!("{words}: {}", each.join(", ")))
+    };
+    let others: Vec<_> = others.iter().map(|check| check.requirement.words()).collect();
+    let hash = (certificate.hash.status != Status::Proved).then(|| "the hash is not that of the contents".to_owned());
+    let parts = [
+        of(Status::Violated, "violated"),
+        of(Status::NotProved, "not shown"),
+        (!others.is_empty()).then(|| format!("nor {}", others.join(", "))),
+        hash,
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
+}
+
+/// A requirement that is not kept, with what was found or what could be shown, and what is required.
+fn shortfall(check: &Check) -> String {
+    let name = check.requirement.words();
+    let Some(measure) = &check.measure else { return name };
+    let (scale, unit) = scale(measure.unit);
+    let value = if check.status == Status::Violated {
+        measure.seen
+    } else {
+        measure.bound
+    };
+    let side = match measure.sense {
+        Sense::AtLeast => "at least",
+        Sense::AtMost => "at most",
+        Sense::Above => "above",
+    };
+    match value {
+        Some(value) => {
+            let [value, limit] = told_apart(value * scale, measure.limit * scale, 1);
+            format!("{name} {value} {unit} ({side} {limit} {unit} required)")
+        }
+        None => format!("{name} ({side} {} {unit} required)", number(measure.limit * scale)),
+    }
+}
 
 impl Certificate {
-    /// Takes back that the parent plan was not compared, for whoever has compared it.
-    pub fn parent_compared(&mut self) {
-        if let Some(before) = self.headline.strip_suffix(NOT_COMPARED) {
-            self.headline = before.to_owned();
-        }
+    /// Whoever has compared the parent plan of a dry run says so.
+    pub fn set_parent_compared(&mut self) {
+        self.parent_compared = true;
+        self.headline = headline(self);
     }
 
     /// What a verdict that passes must not be read without: the requirements that the job waives, and the first case of each. Empty
@@ -41,26 +166,19 @@ impl Certificate {
     }
 
     /// The same at the end of a verdict that fails, where "but for" would read as if the rest were kept.
-    #[must_use]
-    pub fn and_waived(&self) -> String {
+    fn and_waived(&self) -> String {
         waived(self).map_or_else(String::new, |waived| format!("; waived by the job: {waived}"))
     }
 
-    /// What is not kept, by name; the hash where it is all that is wrong. `None` where everything is kept.
+    /// What there is to say of the verdict in a table: what is not kept, by name, else what is waived.
     #[must_use]
-    pub fn not_kept(&self) -> Option<String> {
+    pub fn reason(&self) -> Option<String> {
         let broken: Vec<_> = self.broken().map(|check| check.requirement.words()).collect();
         match (self.verdict, broken.is_empty()) {
-            (Verdict::Pass, _) => None,
+            (Verdict::Pass, _) => but_for(self),
             (Verdict::Fail, true) => Some("the hash".to_owned()),
             (Verdict::Fail, false) => Some(broken.join(", ")),
         }
-    }
-
-    /// What there is to say of the verdict in a table: what is not kept, else what is waived.
-    #[must_use]
-    pub fn reason(&self) -> Option<String> {
-        self.not_kept().or_else(|| but_for(self))
     }
 }
 

@@ -8,7 +8,7 @@
 //! | --- | --- |
 //! | what is required, and what came of it | `requirement`, `check` |
 //! | all of it, one after the other; as a proof that cannot be forged | `prove`, `certified` |
-//! | the certificate; its first line, as a table, what it rests on | `certificate`, `headline`, `table`, `rests_on`, `plate_words`, `amounts` |
+//! | the certificate; its first line, what is usual, as a table, what it rests on | `certificate`, `headline`, `usual`, `table`, `rests_on`, `plate_words`, `amounts` |
 //! | the job that is judged, its limits, its bodies, its faces | `subject`, `limits`, `bodies`, `face` |
 //! | what the plan states | `statements`, `wash_paths`, `schedule`, `home`, `apart`, `exclusions`, `dry_run` |
 //! | the motion: cubics, groups of them | `piece`, `timeline` |
@@ -75,16 +75,18 @@ mod timeline;
 mod tip;
 mod tip_limits;
 mod turning_frame;
+mod usual;
 mod wash_paths;
 mod world;
 mod wrist;
 
-pub use certificate::{Certificate, HashFinding, Verdict};
+pub use certificate::{CERTIFICATE_FORMAT, Certificate, HashFinding, Verdict};
 pub use certified::{Certified, CertifyError, certify, certify_with};
 pub use check::{Check, Discrepancy, Measure, Sense, Status, Unit, Worst};
 pub use clearances::{PairBound, PairRule};
 pub use differences::{Difference, differences};
 pub use error::ProveError;
+pub use headline::{paper_headline, planned_headline};
 pub use moments::ClearanceRule;
 pub use neighbours::Touched;
 pub use plate_contact::{PlateContact, ProvedExtreme, ProvedShare};

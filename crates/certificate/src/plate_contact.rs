@@ -12,6 +12,7 @@ use crate::subject::Subject;
 use nalgebra::Vector3;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::contact::{Fineness, Foundation, Share, Shares, Wanted, shares};
+use platewash_workcell::coverage::reaches;
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plate::Plate;
 use serde::{Deserialize, Serialize};
@@ -62,7 +63,7 @@ pub struct PlateContact {
     /// Index of the plate.
     pub plate: usize,
     /// Compressed by the least compression that counts, or more, at some moment.
-    pub share: ProvedShare,
+    pub pressed: ProvedShare,
     /// In contact long enough.
     pub time: ProvedShare,
     /// With enough of a dose ∫ p dl in contact.
@@ -80,9 +81,16 @@ pub struct PlateContact {
 }
 
 impl PlateContact {
+    /// Whether as much of the face as required is pressed, is in contact long enough, and gets the dose.
+    pub(crate) fn is_enough(&self) -> bool {
+        [self.pressed, self.time, self.dose]
+            .iter()
+            .all(|share| reaches(share.at_least, share.required))
+    }
+
     /// Every place that is told of.
     pub(crate) fn places_mut(&mut self) -> impl Iterator<Item = &mut [f64; 3]> {
-        let shares = [&mut self.share, &mut self.time, &mut self.dose];
+        let shares = [&mut self.pressed, &mut self.time, &mut self.dose];
         let extremes = [&mut self.strain, &mut self.least_force_n, &mut self.greatest_force_n];
         let worst = shares.into_iter().filter_map(|share| share.worst_m.as_mut());
         worst.chain(extremes.into_iter().map(|extreme| &mut extreme.place_m))
@@ -153,7 +161,7 @@ impl Pressed<'_> {
         let torque = FRICTION.map(|friction| friction * stiffest * pressing.twist_m4);
         Ok(PlateContact {
             plate: self.index,
-            share: share(|s| s.contact, wanted.share, wanted.compression_m),
+            pressed: share(|s| s.contact, wanted.share, wanted.compression_m),
             time: share(|s| s.time, wanted.time_share, wanted.time_s),
             dose: share(|s| s.dose, wanted.dose_share, wanted.dose_pa_m),
             strain: extreme(&pressing.deepest, 1.0 / foundation.free_height_m),
@@ -207,7 +215,7 @@ pub(crate) fn checks(
         return Vec::new();
     };
     let asked = [
-        Requirement::Contact,
+        Requirement::Pressed,
         Requirement::ContactTime,
         Requirement::ContactDose,
         Requirement::Strain,
@@ -233,7 +241,7 @@ pub(crate) fn checks(
         extreme(force(most_n, Sense::AtMost), |c| &c.greatest_force_n),
     );
     vec![
-        share(Requirement::Contact, |c| &c.share),
+        share(Requirement::Pressed, |c| &c.pressed),
         share(Requirement::ContactTime, |c| &c.time),
         share(Requirement::ContactDose, |c| &c.dose),
         extreme(strain, |c| &c.strain),

@@ -48,7 +48,7 @@ pub struct ProgramProof {
     /// What it implies besides, in the plan's time, beside the limits of the plan: speed of the tip. Not required of it.
     pub implied: Vec<Check>,
     /// Coverage, plate by plate in the order of washing.
-    pub coverage: Vec<PlateCoverage>,
+    pub swept: Vec<PlateCoverage>,
     /// Clearance, pair by pair and rule by rule.
     pub clearance: Vec<PairBound>,
 }
@@ -108,8 +108,8 @@ pub fn prove_program(
     let (tilt, rates): (Vec<_>, _) = rates
         .into_iter()
         .partition(|check| check.requirement == Requirement::Tilt);
-    let coverage = swept::washes(&tip, &subject, (&pieces, &schedule), &tips, cancel)?;
-    let coverage: Vec<_> = coverage.into_iter().map(|wash| wash.swept).collect();
+    let washes = swept::washes(&tip, &subject, (&pieces, &schedule), &tips, cancel)?;
+    let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
 
     let exclusions = Exclusions::of(&subject)?;
     let model = exclusions.model(&subject)?;
@@ -123,7 +123,7 @@ pub fn prove_program(
         contact(&tips, &pieces, &schedule, limits.deviation_m),
         judged,
         clearances::check(subject.limits.clearance_m, &clearance),
-        swept::check(&subject, &coverage),
+        swept::check(&subject, &swept),
     ];
     // A tip is where it should be at any tilt, and the sponge is not.
     checks.extend(tilt);
@@ -137,7 +137,7 @@ pub fn prove_program(
     Ok(ProgramProof {
         checks,
         implied: rates.into_iter().filter(is_implied).collect(),
-        coverage,
+        swept,
         clearance,
     })
 }

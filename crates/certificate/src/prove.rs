@@ -2,7 +2,7 @@
 
 use crate::apart;
 use crate::bodies;
-use crate::certificate::{Certificate, HashFinding, Verdict};
+use crate::certificate::{CERTIFICATE_FORMAT, Certificate, HashFinding, Verdict};
 use crate::check::{Check, Status};
 use crate::clearances::{self, PairBound, Work};
 use crate::contact;
@@ -133,13 +133,13 @@ struct Judged<'a> {
     cancel: &'a CancelToken,
 }
 
-/// What is proved of coverage and contact, plate by plate.
+/// What is swept and pressed, plate by plate.
 type Washed = (Vec<PlateCoverage>, Vec<PlateContact>);
 
 /// All that is proved of a plan.
 struct Proof {
     checks: Vec<Check>,
-    coverage: Vec<PlateCoverage>,
+    swept: Vec<PlateCoverage>,
     contact: Vec<PlateContact>,
     clearance: Vec<PairBound>,
     exclusions: Exclusions,
@@ -159,7 +159,7 @@ impl Judged<'_> {
         checks.extend(tips.checks(subject, self.pieces, schedule));
         checks.push(contact::check(&arm, subject, (self.pieces, schedule), &tips));
         checks.extend(wrist::check(subject, self.pieces, schedule));
-        let (coverage, contact) = self.washing(&arm, &tips, &mut checks)?;
+        let (swept, contact) = self.washing(&arm, &tips, &mut checks)?;
         let waived = exclusions.waived_in(&model);
         let work = schedule.map_or(Work::Unknown, Work::Scheduled);
         let clearance = clearances::judge(subject, (&model, &waived), self.timeline, work, self.cancel)?;
@@ -167,7 +167,7 @@ impl Judged<'_> {
         checks.push(exclusions.check(subject, &model, &clearance));
         Ok(Proof {
             checks,
-            coverage,
+            swept,
             contact,
             clearance,
             exclusions,
@@ -217,12 +217,12 @@ impl Judged<'_> {
             reach::settle(subject, &mut washes, &proved);
         }
         let contact: Vec<_> = washes.iter().filter_map(|wash| wash.contact).collect();
-        let coverage: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
+        let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
         checks.extend(deviations);
-        checks.push(reach::check(subject, &coverage));
-        checks.push(swept::check(subject, &coverage));
+        checks.push(reach::check(subject, &swept));
+        checks.push(swept::check(subject, &swept));
         checks.extend(plate_contact::checks(subject, (pieces, self.schedule), &contact));
-        Ok((coverage, contact))
+        Ok((swept, contact))
     }
 }
 
@@ -231,14 +231,16 @@ fn certificate(plan: &Plan, arm: &RobotModel, proof: Proof) -> Certificate {
     let sound = hash.status == Status::Proved && proof.checks.iter().all(|check| check.status.is_kept());
     let waived = proof.checks.iter().filter(|check| check.status == Status::Waived);
     let mut certificate = Certificate {
+        format: CERTIFICATE_FORMAT.to_owned(),
         verdict: if sound { Verdict::Pass } else { Verdict::Fail },
         headline: String::new(),
+        parent_compared: false,
         waived: waived.map(|check| check.requirement).collect(),
         scenario: plan.provenance.scenario.clone(),
         duration_s: plan.duration_s(),
         hash,
         checks: proof.checks,
-        coverage: proof.coverage,
+        swept: proof.swept,
         contact: proof.contact,
         clearance: proof.clearance,
         rests_on: RestsOn::new(&plan.job, arm, proof.exclusions),

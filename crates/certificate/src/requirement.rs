@@ -81,10 +81,10 @@ requirements! {
     /// Reach of the sponge beyond the rim of the plate that it washes.
     Reach = "reach",
     /// Share of each plate that the sponge sweeps.
-    Coverage = "coverage",
+    Swept = "swept",
     /// Share of each plate's face, by its area, that presses the sponge together by what counts as contact, wherever within its error of
     /// height the plate lies. Asked where the job does, like all up to [`Requirement::Wrist`].
-    Contact = "contact",
+    Pressed = "pressed",
     /// Share of each plate's face that is in contact long enough.
     ContactTime = "contact_time",
     /// Share of each plate's face that gets enough of a dose, pressure over sliding distance, in contact.

@@ -10,7 +10,7 @@ use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::{JobTerms, Limits, Overlap, Requirements};
 use platewash_workcell::plate::Plate;
-use platewash_workcell::tool::Tool;
+use platewash_workcell::tool::{Sponge, Tool};
 use platewash_workcell::words::{counted, printable, quoted};
 use platewash_workcell::workcell::{ArmId, Exclusion, ExclusionReason, Obstacle, ObstacleShape, Workcell};
 use serde::{Deserialize, Serialize};
@@ -31,7 +31,7 @@ const FLAT: &str = "plates are rigid, flat and round, and lie where they are sta
 const CURVED: &str = "plates are rigid and round, have the profiles stated, and lie where they are stated to lie";
 
 /// What is told of contact where nothing is promised of it.
-const NOT_ASKED: &str = "not asked for: the face counts as pressed where it touches";
+const NOT_ASKED: &str = "not required: a place counts as swept where the face touches it, pressed or not";
 
 /// What is assumed of the sponge where nothing is promised of contact; of a face that is no disc; and where contact is promised.
 const WHOLE_FACE: &str =
@@ -143,6 +143,8 @@ impl RestsOn {
         lines.extend([
             ("arm", arm(&self.workcell)),
             ("tool", tool(&self.workcell.tool)),
+            ("tool mount", tool_mount(&self.workcell.tool)),
+            ("sponge", sponge(&self.workcell.tool.sponge)),
             ("plates", plates(&self.plates)),
             ("obstacles", obstacles(&self.workcell.obstacles)),
             ("home", homes(&self.home_rad)),
@@ -152,12 +154,12 @@ impl RestsOn {
         lines.extend(
             contact(&self.workcell.tool, &self.requirements, self.dry_run.as_ref()).map(|what| ("contact", what)),
         );
-        lines.extend([("left out", left_out(&self.workcell.exclusions))]);
+        lines.extend(self.assumptions.iter().map(|what| ("assumed", printable(what))));
+        lines.push(("left out", left_out(&self.workcell.exclusions)));
         if !self.waived_pairs.is_empty() {
             let pairs = self.waived_pairs.iter().map(pair).collect::<Vec<_>>();
             lines.push(("waived", format!("by the job alone: {}", pairs.join(", "))));
         }
-        lines.extend(self.assumptions.iter().map(|what| ("assumed", printable(what))));
         lines
     }
 }
@@ -203,16 +205,25 @@ fn arm(world: &Workcell) -> String {
     )
 }
 
-fn tool(tool: &Tool) -> String {
-    let sponge = &tool.sponge;
-    let sponge = format!(
-        "sponge of radius {} and height {} mm, compressed by {} mm (assumed), {}{}",
+fn tool_mount(tool: &Tool) -> String {
+    match &tool.mounted_on {
+        Some(link) => format!("on link {} along its z", quoted(link)),
+        None => "on tool0 along its z".to_owned(),
+    }
+}
+
+fn sponge(sponge: &Sponge) -> String {
+    format!(
+        "radius {} and height {} mm, compressed by {} mm (assumed), {}{}",
         mm(sponge.radius_m),
         mm(sponge.height_m),
         mm(sponge.compression_m),
         of_flange(&sponge.pose),
         slanted(&sponge.pose)
-    );
+    )
+}
+
+fn tool(tool: &Tool) -> String {
     let bodies = tool.bodies.iter().map(|body| {
         let (name, shape) = (quoted(&body.name), shape(&body.shape));
         format!("{name}, {shape} {}{}", of_flange(&body.pose), turned(&body.pose))
@@ -220,10 +231,6 @@ fn tool(tool: &Tool) -> String {
     let mut parts: Vec<_> = bodies.collect();
     if parts.is_empty() {
         parts.push("no body".to_owned());
-    }
-    parts.push(sponge);
-    if let Some(link) = &tool.mounted_on {
-        parts.insert(0, format!("mounted on link {} along its z", quoted(link)));
     }
     parts.push(format!("tip {}{}", of_flange(&tool.tip), slanted(&tool.tip)));
     parts.join("; ")
@@ -397,7 +404,7 @@ fn requirements(wanted: &Requirements) -> String {
     };
     let order = if wanted.as_listed { "as listed" } else { "in any order" };
     format!(
-        "coverage {} %, clearance {} mm, tilt {} °, washing at most {} m/s and {} m/s², {overlap}, {order}",
+        "swept {} %, clearance {} mm, tilt {} °, washing at most {} m/s and {} m/s², {overlap}, {order}",
         number(100.0 * wanted.coverage),
         mm(wanted.clearance_m),
         number(wanted.tilt_rad.to_degrees()),
@@ -419,7 +426,7 @@ fn contact(tool: &Tool, wanted: &Requirements, dry_run: Option<&DryRun>) -> Opti
         format!(
             "a place is in contact where the sponge is compressed by {} mm or more, with the plate up to {} mm higher or lower and a \
              stiffness from {} to {} kPa (assumed); on {} % of the face, for {} s on {} %, with a dose of {} Pa·m on {} %; strain at most \
-             {}, force along the sponge's axis {} to {} N",
+             {} %, force along the sponge's axis {} to {} N",
             mm(contact.compression_m),
             mm(contact.height_error_m),
             number(1e-3 * least),
@@ -429,7 +436,7 @@ fn contact(tool: &Tool, wanted: &Requirements, dry_run: Option<&DryRun>) -> Opti
             number(100.0 * contact.time_share),
             number(contact.dose_pa_m),
             number(100.0 * contact.dose_share),
-            number(contact.strain),
+            number(100.0 * contact.strain),
             number(softest_n),
             number(stiffest_n)
         )

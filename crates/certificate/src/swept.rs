@@ -174,7 +174,7 @@ impl Washing<'_> {
     /// What the sponge touches of any other face with the plate where it is stated to lie, by its area. What is in contact is touched.
     fn touched(&self, contact: Option<&PlateContact>) -> Result<f64, ProveError> {
         let required = self.subject.limits.coverage;
-        let pressed = contact.map_or(0.0, |contact| contact.share.at_least);
+        let pressed = contact.map_or(0.0, |contact| contact.pressed.at_least);
         if pressed >= required || !self.meets_from_above() {
             return Ok(pressed);
         }
@@ -249,7 +249,7 @@ impl Washing<'_> {
 pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check {
     let worst = coverage.iter().min_by(|a, b| a.at_least.total_cmp(&b.at_least));
     let Some(worst) = worst else {
-        return Check::not_judged(Requirement::Coverage);
+        return Check::not_judged(Requirement::Swept);
     };
     let all_washed = (0..subject.plates().len()).all(|i| coverage.iter().any(|c| c.plate == i));
     let measure = Measure {
@@ -263,5 +263,5 @@ pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check 
         plate: Some(worst.plate),
         ..Worst::default()
     };
-    Check::measured(Requirement::Coverage, measure, place)
+    Check::measured(Requirement::Swept, measure, place)
 }

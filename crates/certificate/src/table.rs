@@ -1,14 +1,15 @@
 //! A certificate as a table to read.
 
+use crate::amounts::{decimals, kept, number, scale};
 use crate::certificate::Certificate;
-use crate::check::{Check, Measure, Sense, Status, Unit, Worst};
+use crate::check::{Check, Measure, Sense, Status, Worst};
 use crate::clearances::{PairBound, PairRule};
 use crate::plate_contact::{PlateContact, ProvedShare};
 use crate::requirement::Requirement;
 use crate::swept::PlateCoverage;
 use platewash_kinematics::trig::acos;
-use platewash_kinematics::words::{decimals_down, decimals_up, told_apart};
-use platewash_workcell::words::{counted, printable};
+use platewash_kinematics::words::{decimals_down, decimals_up, percent, told_apart};
+use platewash_workcell::words::{counted, printable, quoted};
 use std::fmt;
 
 /// Pairs that a table lists where it is not asked for all.
@@ -48,9 +49,11 @@ impl Certificate {
 
 impl fmt::Display for CertificateTable<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.certificate.head(f)?;
-        pairs(f, &self.certificate.clearance, self.pairs)?;
-        self.certificate.rests_on.fmt(f)
+        let certificate = self.certificate;
+        writeln!(f, "{}", certificate.headline)?;
+        writeln!(f, "scenario {}, as the plan names it", quoted(&certificate.scenario))?;
+        f.write_str(&certificate.basis())?;
+        f.write_str(&self.judgement())
     }
 }
 
@@ -61,16 +64,33 @@ impl fmt::Display for Certificate {
     }
 }
 
+impl CertificateTable<'_> {
+    /// The part of the table on what was proved: requirements, plates and pairs.
+    #[must_use]
+    pub fn judgement(&self) -> String {
+        let mut text = String::new();
+        // A text that grows cannot fail to be written.
+        let _ = self
+            .certificate
+            .checks(&mut text)
+            .and_then(|()| pairs(&mut text, &self.certificate.clearance, self.pairs));
+        text
+    }
+}
+
 impl Certificate {
-    /// The table down to the pairs.
-    fn head(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}", self.headline)?;
+    /// The part of the table on what the verdict rests on, the hash first.
+    #[must_use]
+    pub fn basis(&self) -> String {
         let hash = match (self.hash.status, &self.hash.stated) {
             (Status::Proved, _) => "is that of the contents",
             (_, Some(_)) => "is NOT that of the contents: the plan was changed after it was sealed",
             (_, None) => "is missing",
         };
-        writeln!(f, "hash {hash}\n")?;
+        format!("hash {hash}\n{}\n", self.rests_on)
+    }
+
+    fn checks(&self, f: &mut impl fmt::Write) -> fmt::Result {
         let dry_run = self.rests_on.dry_run.is_some();
         if dry_run {
             writeln!(f, "{IN_THE_AIR}\n")?;
@@ -87,9 +107,9 @@ impl Certificate {
                 writeln!(f, "  {both}")?;
             }
         }
-        let swept = if dry_run { "would be swept" } else { "coverage" };
+        let swept = if dry_run { "would be swept" } else { "swept" };
         writeln!(f, "\n{swept}, at least")?;
-        for plate in &self.coverage {
+        for plate in &self.swept {
             plate_row(f, plate)?;
         }
         if !self.contact.is_empty() {
@@ -100,7 +120,7 @@ impl Certificate {
 }
 
 /// The pairs: those that must keep clear, the nearest first, where not all are listed; those that may touch, after them.
-fn pairs(f: &mut fmt::Formatter<'_>, all: &[PairBound], shown: PairsShown) -> fmt::Result {
+fn pairs(f: &mut impl fmt::Write, all: &[PairBound], shown: PairsShown) -> fmt::Result {
     let judged = || all.iter().filter(|line| line.rule != PairRule::Touching);
     if shown == PairsShown::All || judged().count() <= TIGHTEST {
         writeln!(f, "\nclearance, at least")?;
@@ -138,7 +158,7 @@ fn pairs(f: &mut fmt::Formatter<'_>, all: &[PairBound], shown: PairsShown) -> fm
     touching.into_iter().try_for_each(|line| pair_row(f, line))
 }
 
-fn row(f: &mut fmt::Formatter<'_>, check: &Check) -> fmt::Result {
+fn row(f: &mut impl fmt::Write, check: &Check) -> fmt::Result {
     let (name, status) = (check.requirement.words(), word(check.status));
     let place = place(&check.worst);
     match &check.measure {
@@ -162,7 +182,7 @@ fn row(f: &mut fmt::Formatter<'_>, check: &Check) -> fmt::Result {
 fn found(check: &Check) -> Option<String> {
     let measure = check.measure.as_ref().filter(|_| check.status != Status::Proved)?;
     let (scale, unit) = scale(measure.unit);
-    let [seen, _] = told_apart(measure.seen? * scale, measure.limit * scale, 4);
+    let [seen, _] = told_apart(measure.seen? * scale, measure.limit * scale, decimals(measure.unit));
     Some(format!("found: {seen} {unit}"))
 }
 
@@ -190,8 +210,7 @@ impl fmt::Display for Worst {
     }
 }
 
-fn plate_row(f: &mut fmt::Formatter<'_>, plate: &PlateCoverage) -> fmt::Result {
-    let percent = decimals_down(100.0 * plate.at_least, 3);
+fn plate_row(f: &mut impl fmt::Write, plate: &PlateCoverage) -> fmt::Result {
     let tilt = acos(plate.cos_tilt.clamp(0.0, 1.0)).to_degrees();
     let tilt = decimals_up(tilt, 2);
     let reach = plate
@@ -201,8 +220,9 @@ fn plate_row(f: &mut fmt::Formatter<'_>, plate: &PlateCoverage) -> fmt::Result {
     let allowed = format!("{:.2} mm {}", 1e3 * allowed_m.abs(), side(allowed_m));
     writeln!(
         f,
-        "  plate {:<4} {percent:>8} %  with the tool at most {tilt}° from the normal, {reach} (allowed: {allowed})",
-        plate.plate
+        "  plate {:<4} {:>8} %  with the tool at most {tilt}° from the normal, {reach} (allowed: {allowed})",
+        plate.plate,
+        percent(plate.at_least)
     )?;
     plate.touches.iter().try_for_each(|touched| {
         let depth = decimals_up(1e3 * touched.depth_m, 2);
@@ -214,10 +234,9 @@ fn plate_row(f: &mut fmt::Formatter<'_>, plate: &PlateCoverage) -> fmt::Result {
     })
 }
 
-fn contact_row(f: &mut fmt::Formatter<'_>, contact: &PlateContact) -> fmt::Result {
+fn contact_row(f: &mut impl fmt::Write, contact: &PlateContact) -> fmt::Result {
     let share = |share: &ProvedShare, scale: f64, unit: &str| {
-        let percent = decimals_down(100.0 * share.at_least, 3);
-        format!("{percent} % by {:.4} {unit}", scale * share.threshold)
+        format!("{} % by {:.4} {unit}", percent(share.at_least), scale * share.threshold)
     };
     let up = |v: Option<f64>, unit: &str| {
         v.map_or("not bounded".to_owned(), |v| {
@@ -228,10 +247,13 @@ fn contact_row(f: &mut fmt::Formatter<'_>, contact: &PlateContact) -> fmt::Resul
         f,
         "  plate {:<4} at least {}, {}, {}; strain {}, force {}, torque of friction {} (friction 0.3 to 1.0, assumed)",
         contact.plate,
-        share(&contact.share, 1e3, "mm"),
+        share(&contact.pressed, 1e3, "mm"),
         share(&contact.time, 1.0, "s"),
         share(&contact.dose, 1.0, "Pa·m"),
-        up(contact.strain.bound, ""),
+        contact.strain.bound.map_or("not bounded".to_owned(), |strain| format!(
+            "up to {} %",
+            decimals_up(100.0 * strain, 1)
+        )),
         force([contact.least_force_n.bound, contact.greatest_force_n.bound]),
         up(contact.friction_torque_nm.map(|[_, most]| most), " N·m"),
     )
@@ -275,35 +297,19 @@ fn numbers(measure: &Measure) -> (String, String, &'static str) {
         Sense::AtLeast => "≥",
         Sense::Above => ">",
     };
-    let limit = measure.limit * scale;
-    let told = measure.bound.map(|bound| {
-        if measure.keeps(bound) {
-            [kept(bound * scale, limit, measure.sense), format!("{limit:.4}")]
-        } else {
-            told_apart(bound * scale, limit, 4)
-        }
-    });
-    let [bound, limit] = told.unwrap_or_else(|| ["none".to_owned(), format!("{limit:.4}")]);
-    (bound, format!("{sign} {limit}"), unit)
-}
-
-/// A bound that keeps its limit: no more is said than is proved, but where that would read as if the limit were not kept.
-fn kept(bound: f64, limit: f64, sense: Sense) -> String {
-    let as_read = |v: &str| v.parse::<f64>().unwrap_or(f64::NAN);
-    let limit = format!("{limit:.4}");
-    let (told, beyond) = match sense {
-        Sense::AtMost => {
-            let told = decimals_up(bound, 4);
-            let beyond = as_read(&told) > as_read(&limit);
-            (told, beyond)
-        }
-        Sense::AtLeast | Sense::Above => {
-            let told = decimals_down(bound, 4);
-            let beyond = as_read(&told) < as_read(&limit);
-            (told, beyond)
-        }
+    let (limit, decimals) = (measure.limit * scale, decimals(measure.unit));
+    let exact = format!("{limit:.decimals$}");
+    let exact = if exact.parse() == Ok(limit) {
+        exact
+    } else {
+        number(limit)
     };
-    if beyond { limit } else { told }
+    let [bound, limit] = match measure.bound {
+        Some(bound) if measure.keeps(bound) => [kept(measure, bound, decimals), exact],
+        Some(bound) => told_apart(bound * scale, limit, decimals),
+        None => ["none".to_owned(), exact],
+    };
+    (bound, format!("{sign} {limit}"), unit)
 }
 
 /// A reach beyond a rim, at most; one that is negative ends within it.
@@ -322,20 +328,6 @@ fn side(reach_m: f64) -> &'static str {
         "inside the rim"
     } else {
         "beyond the rim"
-    }
-}
-
-/// Factor and unit in which people read a quantity.
-fn scale(unit: Unit) -> (f64, &'static str) {
-    match unit {
-        Unit::Radian => (180.0 / std::f64::consts::PI, "°"),
-        Unit::RadianPerSecond => (1.0, "rad/s"),
-        Unit::RadianPerSecondSquared => (1.0, "rad/s²"),
-        Unit::Metre => (1e3, "mm"),
-        Unit::MetrePerSecond => (1.0, "m/s"),
-        Unit::MetrePerSecondSquared => (1.0, "m/s²"),
-        Unit::Newton => (1.0, "N"),
-        Unit::Share => (100.0, "%"),
     }
 }
 
@@ -363,7 +355,7 @@ fn place(worst: &Worst) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
-fn pair_row(f: &mut fmt::Formatter<'_>, line: &PairBound) -> fmt::Result {
+fn pair_row(f: &mut impl fmt::Write, line: &PairBound) -> fmt::Result {
     let pair = format!("{} – {}", printable(&line.pair[0]), printable(&line.pair[1]));
     if line.rule == PairRule::Touching {
         let plates: Vec<_> = line.working_on.iter().map(usize::to_string).collect();

@@ -12,8 +12,7 @@ use platewash_kinematics::words::{decimals_down, decimals_up, fixed, rounded as 
 use platewash_kinematics::{AXES, JointVector, Pose, sha256_hex};
 use platewash_workcell::job::Requirements;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::words::counted;
-use platewash_workcell::words::quoted;
+use platewash_workcell::words::{counted, quoted};
 
 /// Degrees in a radian.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
@@ -34,7 +33,7 @@ pub(crate) fn lines(
     let plan = certified.plan();
     let mut lines = vec![
         format!("platewash {}, target {}", env!("CARGO_PKG_VERSION"), dialect.name()),
-        format!("scenario: {}", plan.provenance.scenario),
+        format!("scenario: {}", quoted(&plan.provenance.scenario)),
         format!("plan sha256: {}", plan.hash.as_deref().unwrap_or("none")),
         format!("certificate sha256: {}", hash(certified.certificate())),
         format!("the plan: {}", certified.certificate().headline),
@@ -87,7 +86,11 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
     );
     let sponge = &world.tool.sponge;
     let mut lines = vec![
-        format!("arm: {}, URDF sha256 {}", world.arm.name, world.arm.urdf_sha256),
+        format!(
+            "arm: {}, URDF sha256 {}",
+            quoted(&world.arm.name),
+            world.arm.urdf_sha256
+        ),
         format!(
             "mount: base at {}, {}, {} mm of the world, {}",
             mount.x,
@@ -150,7 +153,7 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
     if job.plates.len() > MOST_PLATES {
         lines.push(format!("and {} more plates", job.plates.len() - MOST_PLATES));
     }
-    let names: Vec<_> = world.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect();
+    let names: Vec<_> = world.obstacles.iter().map(|obstacle| quoted(&obstacle.name)).collect();
     let others = if names.is_empty() {
         "nothing".to_owned()
     } else {

@@ -155,7 +155,7 @@ impl Asked {
 fn remedy(requirement: Requirement) -> &'static str {
     match requirement {
         Requirement::JointSpeed => "; a smaller share of the speed helps",
-        Requirement::Clearance | Requirement::ContactHeight | Requirement::Coverage => "; a smaller tolerance may help",
+        Requirement::Clearance | Requirement::ContactHeight | Requirement::Swept => "; a smaller tolerance may help",
         _ => "",
     }
 }

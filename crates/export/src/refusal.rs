@@ -111,7 +111,7 @@ impl Refusal {
                 Requirement::JointSpeed => "joint_speed",
                 Requirement::PlanDeviation => "deviation",
                 Requirement::Clearance => "clearance",
-                Requirement::Coverage => "coverage",
+                Requirement::Swept => "coverage",
                 Requirement::ContactHeight => "contact",
                 _ => "not_kept",
             },

@@ -188,7 +188,7 @@ fn a_table_stands_beside_what_explains_it() {
         "a table of another kind"
     );
     let words = about.text.replace("\n-   ", " ");
-    for said in ["CERTIFIED: two segments", "q1 is shoulder_pan", "after 0.008 s"] {
+    for said in ["PROVED: two segments", "q1 is shoulder_pan", "after 0.008 s"] {
         assert!(words.contains(said), "{said}: {words}");
     }
 }

@@ -72,6 +72,16 @@ pub fn rounded_down(value: f64, digits: usize) -> f64 {
     rounded(near - unit(value, digits), digits)
 }
 
+/// A share in percent with one decimal, rounded down: `99.8`. One that only rounding keeps from being whole is `100`.
+#[must_use]
+pub fn percent(share: f64) -> String {
+    if (1.0 - 1e-9..=1.0).contains(&share) {
+        "100".to_owned()
+    } else {
+        decimals_down(100.0 * share, 1)
+    }
+}
+
 /// The least number of `decimals` decimals that is not below `value`: what is told as "at most".
 #[must_use]
 pub fn decimals_up(value: f64, decimals: usize) -> String {

@@ -69,7 +69,7 @@ fn a_plate_that_is_covered_clear_and_touched_is_washed() {
         report.headline,
         "SWEPT: 1 of 1 plate, every limit kept; contact was not judged."
     );
-    assert_eq!(report.verdict, Verdict::Washed);
+    assert_eq!(report.verdict, Verdict::Swept);
     let plate = &report.plates[0];
     assert!(plate.washed && plate.executed_coverage.lower > 0.995 && plate.in_contact == plate.waypoints);
     assert!(report.findings.is_empty(), "{:?}", report.findings);
@@ -83,7 +83,7 @@ fn a_hovering_flange_washes_nothing() {
         s.requirements.clearance_m = 0.0;
         s.simulation.control.dt_s = 10.0;
     });
-    assert_ne!(report.verdict, Verdict::Washed);
+    assert_ne!(report.verdict, Verdict::Swept);
     assert!(!report.plates[0].washed && report.plates[0].in_contact == 0);
     assert!(
         report.plates[0].executed_coverage.fraction > 0.99,
@@ -105,7 +105,10 @@ fn a_hovering_flange_washes_nothing() {
 fn limits_that_are_broken_are_named_with_their_time() {
     let report = judged(|s| s.simulation.control.dt_s = 0.1);
     assert_eq!(report.verdict, Verdict::NotVerified);
-    assert_eq!(report.headline, "NOT WASHED: 1 of 1 plate washed; joint limits broken.");
+    assert_eq!(
+        report.headline,
+        "SWEPT, LIMITS BROKEN: 1 of 1 plate swept; joint limits broken."
+    );
     let worst = &report.executed.violations[0];
     assert_eq!(
         (worst.kind, worst.who.as_str()),
@@ -118,10 +121,7 @@ fn limits_that_are_broken_are_named_with_their_time() {
 fn too_little_clearance_names_every_pair() {
     let report = judged(|s| s.requirements.clearance_m = 0.04);
     assert_eq!(report.verdict, Verdict::Infeasible);
-    assert_eq!(
-        report.headline,
-        "NOT WASHED: 0 of 1 plate washed; too little clearance."
-    );
+    assert_eq!(report.headline, "NOT SWEPT: 0 of 1 plate swept; too little clearance.");
     let mut pairs: Vec<_> = report.planned.violations.iter().map(|v| v.who.as_str()).collect();
     pairs.dedup();
     assert!(
@@ -147,7 +147,7 @@ fn a_plate_out_of_reach_is_infeasible() {
 fn too_little_coverage_is_not_washed() {
     let report = judged(|s| s.settings.spiral.turns = 1.0);
     assert!(!report.plates[0].washed);
-    assert!(report.headline.contains("of a plate covered"), "{}", report.headline);
+    assert!(report.headline.contains("of a plate swept"), "{}", report.headline);
 }
 
 #[test]

@@ -7,6 +7,7 @@ use crate::scene::{Filter, Hindrance};
 use crate::transit::TransitError;
 use crate::unwashable::{PlaceSearch, UnwashablePlate};
 use platewash_workcell::verdict::{Infeasibility, Verdict};
+use platewash_workcell::words::quoted;
 use serde::Serialize;
 use std::fmt;
 
@@ -126,7 +127,12 @@ impl InfeasibleReport {
 impl fmt::Display for InfeasibleReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.headline)?;
-        writeln!(f, "scenario {}, seed {}: nothing was planned", self.scenario, self.seed)
+        writeln!(
+            f,
+            "scenario {}, seed {}: nothing was planned",
+            quoted(&self.scenario),
+            self.seed
+        )
     }
 }
 

@@ -115,13 +115,13 @@ impl CertificateObject {
         self.inner.plates_washed()
     }
 
-    /// Coverage, plate by plate in the order of washing.
+    /// What is swept, plate by plate in the order of washing.
     #[getter]
-    fn coverage<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        records(py, &self.inner.coverage)
+    fn swept<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        records(py, &self.inner.swept)
     }
 
-    /// Contact, plate by plate in the order of washing, where the job asks for it: `plate`; `share`, `time` and `dose`, each with what
+    /// Contact, plate by plate in the order of washing, where the job asks for it: `plate`; `pressed`, `time` and `dose`, each with what
     /// is proved (`at_least`), `required`, `threshold` and, where they fall short, the worst place; `strain`, `least_force_n` and
     /// `greatest_force_n`, each with `bound`, `seen`, `time_s` and `place_m`; `friction_torque_nm`. Empty where it does not.
     #[getter]

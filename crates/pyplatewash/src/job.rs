@@ -13,7 +13,7 @@ use numpy::PyArrayDyn;
 use platewash::paper::PaperSettings;
 use platewash::workcell::job::{Limits, Requirements};
 use platewash::workcell::simulation::SimulationSettings;
-use platewash::workcell::words::counted;
+use platewash::workcell::words::{counted, quoted};
 use platewash::{Failure, JobTerms, JointVector, Layout, PaperJob, WashJob, Workcell};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple, PyType};
@@ -165,7 +165,7 @@ impl WashJobObject {
     fn __repr__(&self) -> String {
         let terms = self.inner.terms();
         let plates = counted(terms.plates.len(), "plate");
-        format!("WashJob('{}', seed={}, {plates})", self.inner.name(), terms.seed)
+        format!("WashJob({}, seed={}, {plates})", quoted(self.inner.name()), terms.seed)
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {
@@ -345,7 +345,11 @@ impl PaperJobObject {
 
     fn __repr__(&self) -> String {
         let plates = counted(self.inner.layout.plates.len(), "plate");
-        format!("PaperJob('{}', seed={}, {plates})", self.inner.name, self.inner.seed)
+        format!(
+            "PaperJob({}, seed={}, {plates})",
+            quoted(&self.inner.name),
+            self.inner.seed
+        )
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {

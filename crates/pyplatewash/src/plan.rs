@@ -15,6 +15,7 @@ use platewash::workcell::csv::table as csv_table;
 use platewash::workcell::dry_run::{HEIGHT_M, SPEED_M_S};
 use platewash::workcell::plan::PlanFileError;
 use platewash::workcell::trajectory::KnotError;
+use platewash::workcell::words::quoted;
 use platewash::workcell::workcell::ArmId;
 use platewash::{Plan, RobotModel};
 use pyo3::prelude::*;
@@ -470,11 +471,11 @@ impl PlanObject {
 
     fn __repr__(&self) -> String {
         let hash = self.inner.hash.as_deref().and_then(|h| h.get(..8)).unwrap_or("none");
-        let (name, seed) = (&self.inner.provenance.scenario, self.inner.job.seed);
+        let (name, seed) = (quoted(&self.inner.provenance.scenario), self.inner.job.seed);
         let duration_s = self.inner.duration_s();
         let dry_run = self.inner.job.dry_run.as_ref();
         let dry_run = dry_run.map_or_else(String::new, |of| format!("dry run of {}…, ", of.parent_short()));
-        format!("Plan('{name}', {dry_run}seed={seed}, {duration_s:.2} s, hash {hash}…)")
+        format!("Plan({name}, {dry_run}seed={seed}, {duration_s:.2} s, hash {hash}…)")
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {

@@ -10,7 +10,7 @@ use crate::work::patiently;
 use numpy::PyArrayDyn;
 use platewash::certificate::prove_with;
 use platewash::planner::{Watch, plan_with};
-use platewash::workcell::words::counted;
+use platewash::workcell::words::{counted, quoted};
 use platewash::{Planned, WashReport};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
@@ -77,8 +77,8 @@ impl PlannedObject {
 
     fn __repr__(&self) -> String {
         let plan = &self.inner.plan;
-        let (name, plates) = (&plan.provenance.scenario, counted(plan.order.len(), "plate"));
-        format!("Planned('{name}', {plates}, {:.2} s)", plan.duration_s())
+        let (name, plates) = (quoted(&plan.provenance.scenario), counted(plan.order.len(), "plate"));
+        format!("Planned({name}, {plates}, {:.2} s)", plan.duration_s())
     }
 
     fn __eq__(&self, other: &Self) -> bool {

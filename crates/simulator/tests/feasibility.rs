@@ -172,6 +172,6 @@ fn the_papers_gains_as_torque_gains_let_the_arm_collapse() {
         let rms = report.tracking.tip_m.rms;
         println!("Kp 20, Kd 0.1 at {rho} m: {rms:.3} m rms");
         assert!((0.25..0.6).contains(&rms), "{rms} m at {rho} m");
-        assert_eq!(report.plates[0].verdict, PlateVerdict::NotWashed);
+        assert_eq!(report.plates[0].verdict, PlateVerdict::NotSwept);
     }
 }

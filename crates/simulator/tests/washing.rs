@@ -23,7 +23,7 @@ fn computed_torque_covers_as_much_as_planned() {
     );
     let (execution, report) = judged(&under(ControlLawName::ComputedTorque, 30.0));
     println!("{}", report.headline);
-    assert_eq!(report.verdict, SimulationVerdict::Washed);
+    assert_eq!(report.verdict, SimulationVerdict::Swept);
     assert_eq!(report.plates.len(), 2);
     for plate in &report.plates {
         assert!(
@@ -52,9 +52,9 @@ fn computed_torque_covers_as_much_as_planned() {
 fn pd_alone_washes_less_and_says_why() {
     let (_, report) = judged(&under(ControlLawName::Pd, 15.0));
     println!("{}", report.headline);
-    assert_eq!(report.verdict, SimulationVerdict::NotWashed);
+    assert_eq!(report.verdict, SimulationVerdict::NotSwept);
     for plate in &report.plates {
-        assert_eq!(plate.verdict, PlateVerdict::NotWashed);
+        assert_eq!(plate.verdict, PlateVerdict::NotSwept);
         assert!(plate.executed.upper < plate.planned.lower - 0.3, "{plate:?}");
         assert!(
             plate
@@ -117,7 +117,7 @@ fn torque_limits_saturate_and_are_reported() {
     settings.plant.torque_limit_n_m = Some([100.0, 15.0, 100.0, 100.0, 100.0, 100.0]);
     let (_, weak) = judged(&settings);
     assert!(weak.effort.unwrap().saturated_share > 0.1 && weak.effort.unwrap().joints[1].torque_n_m.max == 15.0);
-    assert_eq!(weak.verdict, SimulationVerdict::NotWashed);
+    assert_eq!(weak.verdict, SimulationVerdict::NotSwept);
 }
 
 #[test]
@@ -149,7 +149,7 @@ fn tuning_trades_error_for_nothing_but_torque() {
     assert!(
         rows[..4]
             .iter()
-            .all(|row| row.outcome.as_ref().unwrap().least_coverage.unwrap() > 0.9)
+            .all(|row| row.outcome.as_ref().unwrap().least_swept.unwrap() > 0.9)
     );
     assert!(
         matches!(rows[5].outcome, Err(SimulationError::Control(_))),
@@ -210,7 +210,7 @@ fn exact_is_exact() {
     let mut settings = under(ControlLawName::Exact, 30.0);
     settings.control.dt_s = 0.002;
     let (execution, report) = judged(&settings);
-    assert!(report.tracking.tip_m.max < 1e-12 && report.verdict == SimulationVerdict::Washed);
+    assert!(report.tracking.tip_m.max < 1e-12 && report.verdict == SimulationVerdict::Swept);
     assert!(execution.limits.is_none() && report.effort.is_none());
 }
 

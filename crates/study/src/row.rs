@@ -10,7 +10,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// The version of rows. Fields are added, taken away or given another meaning only with another number.
-pub const ROW_SCHEMA: u32 = 1;
+pub const ROW_SCHEMA: u32 = 2;
 
 /// What came of one scenario of a study. It depends on the study and the program's version alone: how long it took is kept elsewhere.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -35,9 +35,9 @@ pub struct Row {
     /// Duration of the motion \[s\].
     pub duration_s: Option<f64>,
     /// Share swept of the plate that is swept least, guaranteed.
-    pub coverage: Option<f64>,
-    /// Share in contact of the plate where it is least, guaranteed; `None` where the job does not ask for it.
-    pub contact: Option<f64>,
+    pub swept: Option<f64>,
+    /// Share pressed of the plate where it is least, guaranteed; `None` where the job does not ask for it.
+    pub pressed: Option<f64>,
     /// Least clearance of all pairs but the sponge and the plates while it works, guaranteed \[m\].
     pub clearance_m: Option<f64>,
     /// The pair of bodies that has it.
@@ -59,8 +59,8 @@ impl Row {
             reason: None,
             place: Place::default(),
             duration_s: None,
-            coverage: None,
-            contact: None,
+            swept: None,
+            pressed: None,
             clearance_m: None,
             clearance_pair: None,
             plan: None,
@@ -82,8 +82,8 @@ impl Row {
             reason: certificate.reason(),
             place: Place::of_certificate(certificate),
             duration_s: Some(planned.plan.duration_s()),
-            coverage: certificate.bound(Requirement::Coverage),
-            contact: certificate.bound(Requirement::Contact),
+            swept: certificate.bound(Requirement::Swept),
+            pressed: certificate.bound(Requirement::Pressed),
             clearance_m: certificate.bound(Requirement::Clearance),
             clearance_pair: clearance.and_then(|check| check.worst.pair.clone()),
             plan: planned.plan.hash.clone(),

@@ -151,8 +151,8 @@ fn rows_under_way_that_are_not_as_they_were_written_are_refused_by_whoever_reads
             "line 2: row 1 is not as it was written",
         ),
         (
-            kept.replacen("\"schema\":1", "\"schema\":2", 1),
-            "line 1: is a row of schema 2",
+            kept.replacen("\"schema\":2", "\"schema\":1", 1),
+            "line 1: is a row of schema 1",
         ),
         (
             kept.replacen("\"index\":1", "\"index\":4", 1),

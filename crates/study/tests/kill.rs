@@ -21,7 +21,7 @@ fn study(seeds: u64) -> Study {
 fn empty(study: &Study, index: u64) -> Made {
     let address = study.row(index).unwrap();
     let text = format!(
-        "{{\"schema\":1,\"index\":{index},\"key\":\"{}\",\"scenario\":\"kitchen\",\"axes\":{},\"outcome\":\"not_found\",\"place\":{{}}}}",
+        "{{\"schema\":2,\"index\":{index},\"key\":\"{}\",\"scenario\":\"kitchen\",\"axes\":{},\"outcome\":\"not_found\",\"place\":{{}}}}",
         address.key,
         serde_json::to_string(&address.axes).unwrap()
     );

@@ -19,7 +19,7 @@ fn study(text: &str) -> Result<Study, StudyError> {
 fn empty(study: &Study, index: u64) -> Made {
     let address = study.row(index).unwrap();
     let text = format!(
-        "{{\"schema\":1,\"index\":{index},\"key\":\"{}\",\"scenario\":\"{}\",\"axes\":{},\"outcome\":\"not_found\",\"reason\":\"none\",\
+        "{{\"schema\":2,\"index\":{index},\"key\":\"{}\",\"scenario\":\"{}\",\"axes\":{},\"outcome\":\"not_found\",\"reason\":\"none\",\
          \"place\":{{}},\"duration_s\":0.1}}",
         address.key,
         study.bases[address.base].name,
@@ -253,10 +253,7 @@ fn a_row_is_what_its_scenario_says_alone() {
     let row = of(1).row;
     assert_eq!(row.outcome, Outcome::Proved, "{row:?}");
     assert!(
-        row.coverage.unwrap() > 0.9
-            && row.duration_s.unwrap() > 1.0
-            && row.clearance_pair.is_some()
-            && row.plan.is_some()
+        row.swept.unwrap() > 0.9 && row.duration_s.unwrap() > 1.0 && row.clearance_pair.is_some() && row.plan.is_some()
     );
     let refused = of(3).row;
     assert!(

@@ -151,7 +151,7 @@ fn what_is_swept_is_what_is_proved_and_simulated() {
     let executed = shares(&document["execution"]["coverage"]);
     assert_eq!(planned.len(), 4);
     for (k, (plate, share)) in planned.iter().enumerate() {
-        let proved = &KITCHEN.certificate.coverage[k];
+        let proved = &KITCHEN.certificate.swept[k];
         assert_eq!(*plate as usize, proved.plate);
         assert!(*share >= proved.at_least - 0.005, "{share} {}", proved.at_least);
         assert_eq!(document["coverage"][k]["proved"], proved.at_least);
@@ -180,15 +180,15 @@ fn what_is_pressed_is_what_is_proved() {
     let counted = serde_json::json!({"compression_m": 0.001, "height_error_m": 0.001, "is_promised": true});
     assert_eq!(
         (&coverage["counted"], &coverage["proved"]),
-        (&counted, &Value::from(proved.share.at_least))
+        (&counted, &Value::from(proved.pressed.at_least))
     );
     let [(_, share)] = shares(&shown["coverage"])[..] else {
         panic!()
     };
     assert!(
-        share >= proved.share.at_least - 0.002,
+        share >= proved.pressed.at_least - 0.002,
         "{share} {}",
-        proved.share.at_least
+        proved.pressed.at_least
     );
     assert_eq!(
         contact["asked"],
@@ -200,7 +200,7 @@ fn what_is_pressed_is_what_is_proved() {
         proved.greatest_force_n.bound.unwrap()
     );
     for words in [
-        "contact",
+        "pressed",
         "contact time",
         "contact dose",
         "strain",

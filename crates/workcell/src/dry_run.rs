@@ -38,11 +38,15 @@ impl DryRun {
         )
     }
 
-    /// The first digits of the parent's hash; what is no hash, as it stands there, is escaped.
+    /// The first digits of the parent's hash; the beginning of what is no hash, in quotes.
     #[must_use]
     pub fn parent_short(&self) -> String {
         let first: String = self.parent.chars().take(TOLD).collect();
-        crate::words::printable(&first)
+        if self.names_a_hash() {
+            first
+        } else {
+            crate::words::quoted(&first)
+        }
     }
 
     /// Whether the parent is named by what can be a hash: lower-case hexadecimal digits, as many as SHA-256 has.

@@ -6,8 +6,10 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// Every plate is washed and every limit kept.
+    /// Every plate is washed and every limit kept: pressed on the share, for the time and with the dose required.
     Washed,
+    /// Every plate is swept and every limit kept; contact is not required.
+    Swept,
     /// A dry run that is proved: its motion in the air is. Nothing is washed.
     DryRun,
     /// The job cannot be done, or the plan itself fails: a waypoint out of reach, or too little clearance.

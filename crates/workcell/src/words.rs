@@ -33,11 +33,20 @@ pub fn printable(text: &str) -> String {
     text.chars().map(written).collect()
 }
 
-/// A name out of a file in quotes, printable; quotes and backslashes in it are written out, so that it ends where its quotes end.
+/// Characters of a name that are told.
+const LONGEST_NAME: usize = 100;
+
+/// A name out of a file in quotes, printable; quotes and backslashes in it are written out, so that it ends where its quotes end. Of a long
+/// name the beginning is told, and its length.
 #[must_use]
 pub fn quoted(name: &str) -> String {
-    let name = name.replace('\\', r"\\").replace('"', "\\\"");
-    format!("\"{}\"", printable(&name))
+    let begins: String = name.chars().take(LONGEST_NAME).collect();
+    let rest = match name.chars().count() {
+        ..=LONGEST_NAME => String::new(),
+        length => format!("… ({length} characters)"),
+    };
+    let begins = begins.replace('\\', r"\\").replace('"', "\\\"");
+    format!("\"{}\"{rest}", printable(&begins))
 }
 
 /// Whether a character is one of Unicode's format characters or separators of lines and paragraphs (categories Cf, Zl and Zp).

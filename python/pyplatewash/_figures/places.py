@@ -21,9 +21,9 @@ class Tally:
     proved: int = 0
     #: Codes of how they ended.
     outcomes: set[str] = field(default_factory=set)
-    #: The least of what is proved: clearance [m], and coverage.
+    #: The least of what is proved: clearance [m], and share swept.
     clearance_m: float | None = None
-    coverage: float | None = None
+    swept: float | None = None
     #: Of what is proved, in all [s].
     whole_s: float = 0.0
 
@@ -34,7 +34,7 @@ class Tally:
             return
         self.proved += 1
         self.clearance_m = _least(self.clearance_m, row.get("clearance_m"))
-        self.coverage = _least(self.coverage, row.get("coverage"))
+        self.swept = _least(self.swept, row.get("swept"))
         self.whole_s += row.get("duration_s") or 0.0
 
     @property

@@ -11,6 +11,7 @@ import numpy as np
 from .. import _core
 from .._errors import InputError
 from .._values import Floats
+from .._words import quoted
 from .tip import Tip
 
 #: Distance of points on a path while the plate is washed [m], and of times otherwise [s].
@@ -64,7 +65,7 @@ class Subject:
     def title(self) -> str:
         """The scenario and the seed: the name without line breaks and what cannot be seen, at most 40 characters."""
         name = "".join(c if c.isprintable() else " " for c in self.plan.provenance.scenario)
-        return f"{name if len(name) <= 40 else f'{name[:39]}…'}, seed {self.plan.job.seed}"
+        return f"{quoted(name if len(name) <= 40 else f'{name[:39]}…')}, seed {self.plan.job.seed}"
 
     def called(self, plate: int) -> str:
         """A plate as titles call it: which one it is in the order of washing, and its index."""

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 SCALES = {
     "washable": ("rows that are proved [%]", 100.0),
     "clearance": ("least clearance of what is proved [mm]", 1e3),
-    "coverage": ("least coverage of what is proved [%]", 100.0),
+    "swept": ("least share swept of what is proved [%]", 100.0),
     "duration": ("mean duration of what is proved [s]", 1.0),
 }
 VALUES = (*SCALES, "outcome")
@@ -113,7 +113,7 @@ def _number(tally: Tally, value: str) -> float | None:
         return 100.0 * tally.proved / tally.rows
     if value == "outcome" or not tally.proved:
         return None
-    found = {"clearance": tally.clearance_m, "coverage": tally.coverage, "duration": tally.duration_s}[value]
+    found = {"clearance": tally.clearance_m, "swept": tally.swept, "duration": tally.duration_s}[value]
     return None if found is None else SCALES[value][1] * found
 
 

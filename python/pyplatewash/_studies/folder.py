@@ -21,7 +21,7 @@ from .kind import Kind, is_kind
 from .row import Row, problem
 
 #: What a manifest and a row state that this program reads.
-MANIFEST_FORMAT, ROW_SCHEMA = "platewash-study-manifest/1", 1
+MANIFEST_FORMAT, ROW_SCHEMA = "platewash-study-manifest/1", 2
 #: Values of an array that are Python's own at a time.
 AT_A_TIME = 10_000
 #: Most rows of a study.

@@ -44,8 +44,8 @@ TEXT: Check = (_is_text, "a text or null")
 ROW: dict[str, Check] = {
     "reason": TEXT,
     "duration_s": NUMBER,
-    "coverage": NUMBER,
-    "contact": NUMBER,
+    "swept": NUMBER,
+    "pressed": NUMBER,
     "clearance_m": NUMBER,
     "clearance_pair": (_is_pair, "two texts or null"),
     "plan": TEXT,

@@ -176,7 +176,7 @@ class StudyRows:
     def map(
         self,
         at: str,
-        value: Literal["washable", "clearance", "coverage", "duration", "outcome"] = "washable",
+        value: Literal["washable", "clearance", "swept", "duration", "outcome"] = "washable",
         *,
         by: str | Sequence[str] = (),
         region: _core.Scenario | str | os.PathLike[str] | None = None,
@@ -185,7 +185,7 @@ class StudyRows:
         """A map of the table from above, by matplotlib: at each place of the axis ``at``, a list with x and y as ``plate[0].at_m``, what came of
         the rows there, for all values of the other axes together.
 
-        ``value`` is ``"washable"``, the share of rows that are proved; ``"clearance"`` or ``"coverage"``, the least that is proved;
+        ``value`` is ``"washable"``, the share of rows that are proved; ``"clearance"`` or ``"swept"``, the least that is proved;
         ``"duration"``, the mean of what is proved; or ``"outcome"``, where all rows at a place ended alike. Places without rows stay
         blank; where rows are, but nothing proved, they are grey. ``by`` names axes, ``scenario`` among them: there is a map for each
         combination of their values, on one scale. ``region`` is a scenario whose region of plate centres is outlined. ``ax`` is an Axes, or

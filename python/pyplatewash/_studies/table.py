@@ -33,7 +33,7 @@ def columns(axes: Mapping[str, Kind]) -> list[Column]:
     own += [_field("outcome", "text"), _field("reason", "text"), _within("place", "requirement", "text")]
     own += [_within("place", name, "whole") for name in ("plate", "segment", "waypoint")]
     own += [_within("place", "time_s", "number"), *(_part("place.point_m", _at("place", "point_m"), k, "number") for k in range(3))]
-    own += [_field(name, "number") for name in ("duration_s", "coverage", "contact", "clearance_m")]
+    own += [_field(name, "number") for name in ("duration_s", "swept", "pressed", "clearance_m")]
     own += [_part("clearance_pair", _at("clearance_pair"), k, "text") for k in range(2)]
     return [*own, _field("plan", "text")]
 

@@ -4,7 +4,7 @@ use crate::mutation::edit::{Edits, Expected, Kind};
 use platewash::JobTerms;
 use platewash::Plan;
 use platewash::certificate::Requirement::{
-    self, Clearance, ContactSpeed, Coverage, JointAcceleration, LineDeviation, PathDeviation, Reach, Tilt,
+    self, Clearance, ContactSpeed, JointAcceleration, LineDeviation, PathDeviation, Reach, Swept, Tilt,
     TipAcceleration, TipSpeed, WashAcceleration, WashPaths, WashSpeed,
 };
 
@@ -45,10 +45,10 @@ const ASKED: [(&str, Option<Requirement>, Change); 25] = [
     ("much more clearance", Some(Clearance), |j| {
         j.requirements.clearance_m = 0.1
     }),
-    ("all of the plate, with a smaller sponge", Some(Coverage), |j| {
+    ("all of the plate, with a smaller sponge", Some(Swept), |j| {
         j.workcell.tool.sponge.radius_m = 0.012
     }),
-    ("all of the plate, with a path for less", Some(Coverage), |j| {
+    ("all of the plate, with a path for less", Some(Swept), |j| {
         j.workcell.tool.sponge.radius_m = 0.015;
         j.requirements.coverage = 1.0;
     }),

@@ -3,8 +3,7 @@
 use crate::mutation::edit::{Edits, Expected, Kind};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash::certificate::Requirement::{
-    ContactHeight, Coverage, EveryPlateOnce, LineDeviation, PathDeviation, Plates, PlatesApart, Reach, Segments,
-    WashPaths,
+    ContactHeight, EveryPlateOnce, LineDeviation, PathDeviation, Plates, PlatesApart, Reach, Segments, Swept, WashPaths,
 };
 use platewash::workcell::job::Overlap;
 use platewash::workcell::segment::SegmentKind::Depart;
@@ -34,7 +33,7 @@ fn moved(edits: &mut Edits) {
         (1.5e-4, Expected::Sampled),
         (3e-4, Expected::Fails(vec![PathDeviation])),
         (3e-3, Expected::Fails(vec![PathDeviation, LineDeviation, Reach])),
-        (3e-2, Expected::Fails(vec![PathDeviation, Coverage])),
+        (3e-2, Expected::Fails(vec![PathDeviation, Swept])),
     ] {
         for (way, by) in [("x", [size_m, 0.0]), ("y", [0.0, -size_m])] {
             let what = format!("one by {size_m} m along {way}");
@@ -42,17 +41,15 @@ fn moved(edits: &mut Edits) {
         }
     }
     let mut fails = |what, names: &[_], apply| edits.fails(Kind::Plates, what, names, apply);
-    fails("one onto another", &[PlatesApart, Coverage, PathDeviation], |p| {
+    fails("one onto another", &[PlatesApart, Swept, PathDeviation], |p| {
         let [a, b] = [0, 1].map(|i| p.job.plates[i].centre_xy());
         p.job.plates[0] = p.job.plates[0].moved_to([0, 1].map(|k| b[k] + 0.3 * (a[k] - b[k])));
     });
-    fails("one under the base", &[PlatesApart, Coverage, PathDeviation], |p| {
+    fails("one under the base", &[PlatesApart, Swept, PathDeviation], |p| {
         p.job.plates[2] = p.job.plates[2].moved_to([0.0, 0.1])
     });
-    fails("one far away", &[Coverage, PathDeviation], |p| {
-        shift(p, 2, [0.0, 900.0])
-    });
-    fails("two exchanged", &[Coverage, PathDeviation], |p| p.job.plates.swap(0, 1));
+    fails("one far away", &[Swept, PathDeviation], |p| shift(p, 2, [0.0, 900.0]));
+    fails("two exchanged", &[Swept, PathDeviation], |p| p.job.plates.swap(0, 1));
 }
 
 fn heights(edits: &mut Edits) {
@@ -97,10 +94,10 @@ fn turned(edits: &mut Edits) {
 
 fn number(edits: &mut Edits) {
     let mut fails = |what, names: &[_], apply| edits.fails(Kind::Plates, what, names, apply);
-    fails("one doubled", &[EveryPlateOnce, PlatesApart, Coverage], |p| {
+    fails("one doubled", &[EveryPlateOnce, PlatesApart, Swept], |p| {
         p.job.plates.push(p.job.plates[0])
     });
-    fails("one more, out of the way", &[EveryPlateOnce, Coverage], |p| {
+    fails("one more, out of the way", &[EveryPlateOnce, Swept], |p| {
         p.job.plates.push(p.job.plates[0].moved_to([-0.6, 0.0]))
     });
     let gone = [EveryPlateOnce, PathDeviation, LineDeviation];
@@ -143,7 +140,7 @@ fn shapes(edits: &mut Edits) {
         ("one a hair smaller", -1e-9, Expected::Harmless),
         ("one smaller", -5e-3, Expected::Harmless),
         ("one a hair larger", 1e-9, Expected::Sampled),
-        ("one larger", 0.03, Expected::Fails(vec![Coverage])),
+        ("one larger", 0.03, Expected::Fails(vec![Swept])),
     ] {
         edits.add(Kind::Plates, what, expected, move |p, _| {
             let radius_m = p.job.plates[0].rim_m() + by_m;
@@ -153,7 +150,7 @@ fn shapes(edits: &mut Edits) {
     for (what, radius_m, expected) in [
         ("all smaller", 0.14, Expected::Harmless),
         ("all larger", 0.15, Expected::Sampled),
-        ("all much larger", 0.2, Expected::Fails(vec![Coverage])),
+        ("all much larger", 0.2, Expected::Fails(vec![Swept])),
     ] {
         edits.add(Kind::Plates, what, expected, move |p, _| {
             p.job.plates.iter_mut().for_each(|plate| resize(plate, radius_m))

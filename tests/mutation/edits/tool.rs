@@ -5,7 +5,7 @@ use super::exclusions::restate;
 use crate::mutation::edit::{Edits, Expected, Kind};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash::certificate::Requirement::{
-    Clearance, ContactHeight, ContactSpeed, Coverage, Exclusions, LineDeviation, PathDeviation, Reach, Tilt, Tool,
+    Clearance, ContactHeight, ContactSpeed, Exclusions, LineDeviation, PathDeviation, Reach, Swept, Tilt, Tool,
 };
 use platewash::kinematics::geometry::Shape;
 use platewash::workcell::tool::{self, StraightTool, ToolBody};
@@ -37,7 +37,7 @@ fn straight(edits: &mut Edits) {
         ("a sponge like a plate", Expected::Fails(vec![Clearance, Tilt]), |t| {
             t.sponge_radius_m = 0.12
         }),
-        ("a small sponge", Expected::Fails(vec![Coverage]), |t| {
+        ("a small sponge", Expected::Fails(vec![Swept]), |t| {
             t.sponge_radius_m = 0.012
         }),
         ("a flat sponge", Expected::Fails(vec![Clearance]), |t| {

@@ -108,7 +108,7 @@ pub fn coverage(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
     let sponge_m = plan.job.workcell.tool.sponge.radius_m;
     for plate in 0..plan.job.plates.len() {
         let share = share(plan, &washing(plan, moments, plate), plate, sponge_m);
-        findings.at_least(Requirement::Coverage, share, required, SHARE);
+        findings.at_least(Requirement::Swept, share, required, SHARE);
     }
 }
 

@@ -21,7 +21,7 @@ fn fails(change: impl FnOnce(&mut Plan)) {
     let certificate = changed(change).unwrap();
     assert_eq!(certificate.verdict, Verdict::Fail);
     // Both forms can be written.
-    assert!(certificate.to_string().starts_with("NOT CERTIFIED"));
+    assert!(certificate.to_string().starts_with("NOT PROVED"));
     assert!(serde_json::to_string(&certificate).is_ok());
 }
 

@@ -78,7 +78,7 @@ fn compare(name: &str, recipe: &Recipe) {
     let (found, certificate) = judged(&plan);
     let seen = raster(&plan);
     let shares = [
-        ("contact", found.share.at_least, seen.contact),
+        ("contact", found.pressed.at_least, seen.contact),
         ("time", found.time.at_least, seen.time),
         ("dose", found.dose.at_least, seen.dose),
     ];
@@ -87,7 +87,7 @@ fn compare(name: &str, recipe: &Recipe) {
         assert!(proved >= seen - 5e-3, "{name}, {what}: {proved} proved, {seen} seen");
     }
     if !recipe.terms.plates[0].surface.is_flat() {
-        let touched = certificate.coverage[0].at_least;
+        let touched = certificate.swept[0].at_least;
         assert!(
             touched <= seen.touched + 1e-4 && touched >= seen.touched - 5e-3,
             "{name}: {touched} {}",

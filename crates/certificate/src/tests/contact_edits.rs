@@ -20,7 +20,7 @@ fn contact(plan: &mut Plan) -> &mut platewash_workcell::job::ContactRequirements
 }
 
 const EDITS: [Edit; 11] = [
-    (Requirement::Contact, |p, m, s| towards(&mut contact(p).share, m, s)),
+    (Requirement::Pressed, |p, m, s| towards(&mut contact(p).share, m, s)),
     (Requirement::ContactTime, |p, m, s| {
         towards(&mut contact(p).time_share, m, s)
     }),
@@ -45,7 +45,7 @@ const EDITS: [Edit; 11] = [
         p.job.requirements.tilt_rad = cone;
         p.wash_paths.iter_mut().for_each(|path| path.cone_rad = cone);
     }),
-    (Requirement::Coverage, |p, m, s| {
+    (Requirement::Swept, |p, m, s| {
         towards(&mut p.job.requirements.coverage, m, s)
     }),
     (Requirement::ContactSpeed, |p, m, s| {

@@ -6,7 +6,7 @@
 
 use super::contact::{disc, rings, washed};
 use super::made::{Recipe, irb120, tool};
-use crate::Requirement::{self, Contact, ContactDose, ContactForce, ContactHeight, ContactTime, PathDeviation, Strain};
+use crate::Requirement::{self, ContactDose, ContactForce, ContactHeight, ContactTime, PathDeviation, Pressed, Strain};
 use crate::{Certificate, prove};
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plan::Plan;
@@ -66,7 +66,7 @@ static KINDS: [Kind; 18] = [
     Kind {
         what: "more compression that counts, for contact",
         about: [Some(0.46), Some(0.4), Some(0.39)],
-        by: &[Contact],
+        by: &[Pressed],
         asks: CONTACT,
         edit: higher_least_compression,
     },
@@ -87,7 +87,7 @@ static KINDS: [Kind; 18] = [
     Kind {
         what: "a plate that may lie lower, for contact",
         about: [Some(0.46), None, None],
-        by: &[Contact],
+        by: &[Pressed],
         asks: CONTACT,
         edit: |plan, size| asked(plan).height_error_m += 8e-3 * size,
     },
@@ -115,7 +115,7 @@ static KINDS: [Kind; 18] = [
     Kind {
         what: "a smaller sponge, for contact",
         about: [Some(0.2), Some(0.73), Some(0.67)],
-        by: &[Contact],
+        by: &[Pressed],
         asks: CONTACT,
         edit: smaller,
     },
@@ -150,7 +150,7 @@ static KINDS: [Kind; 18] = [
     Kind {
         what: "less compression, for contact",
         about: [Some(0.61), Some(0.64), Some(0.61)],
-        by: &[Contact],
+        by: &[Pressed],
         asks: CONTACT,
         edit: less_compressed,
     },

@@ -33,12 +33,12 @@ fn what_is_not_touched_is_not_in_contact_whatever_compression_counts() {
             assert!(seen.contact < 0.3, "{name}: {seen:?}");
             let certificate = prove(&plan, &irb120()).unwrap();
             let found = &certificate.contact[0];
-            let share = found.share.at_least;
+            let share = found.pressed.at_least;
             assert!(
                 share <= seen.contact + 1e-4 && share >= seen.contact - 1.2e-2,
                 "{name}, {compression_m}: {share} proved, {seen:?}"
             );
-            let check = certificate.check(Requirement::Contact).unwrap();
+            let check = certificate.check(Requirement::Pressed).unwrap();
             assert_ne!(check.status, Status::Proved, "{name}: {check:?}");
         }
     }
@@ -52,13 +52,13 @@ fn what_is_not_touched_is_not_covered_where_nothing_is_asked_about_contact() {
         let seen = raster(&plan);
         plan.job.requirements.contact = None;
         let certificate = prove(&plan, &irb120()).unwrap();
-        let share = certificate.coverage[0].at_least;
+        let share = certificate.swept[0].at_least;
         assert!(
             share <= seen.touched + 1e-4 && share >= seen.touched - 1.2e-2 && seen.touched < 0.3,
             "{name}: {share} proved, {} seen",
             seen.touched
         );
-        let check = certificate.check(Requirement::Coverage).unwrap();
+        let check = certificate.check(Requirement::Swept).unwrap();
         assert_ne!(check.status, Status::Proved, "{name}: {check:?}");
     }
 }

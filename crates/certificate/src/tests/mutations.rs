@@ -61,7 +61,7 @@ fn the_good_plan_passes() {
     let certificate = prove(&good(), &irb120()).unwrap();
     assert_eq!(broken(&certificate), [], "{certificate}");
     assert_eq!(certificate.verdict, Verdict::Pass);
-    assert!(certificate.to_string().starts_with("CERTIFIED"));
+    assert!(certificate.to_string().starts_with("PROVED"));
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn tampering_without_the_seal_is_a_finding_of_its_own() {
     let certificate = prove(&plan, &irb120()).unwrap();
     assert_eq!(broken(&certificate), []);
     assert!(
-        certificate.headline.ends_with("; not kept: the hash"),
+        certificate.headline.ends_with("; the hash is not that of the contents"),
         "{}",
         certificate.headline
     );
@@ -195,7 +195,7 @@ fn a_pair_that_is_waived_is_named_where_it_does_not_keep_clear() {
     );
     assert_eq!(certificate.waived, [Exclusions]);
     let words =
-        "CERTIFIED BUT FOR exclusions, \"link_4\" and \"handle\" as near as 20.8 mm (waived by the job): made, ";
+        "PROVED BUT FOR exclusions, \"link_4\" and \"handle\" as near as 20.8 mm (waived by the job): 2 plates in ";
     assert!(certificate.headline.starts_with(words), "{certificate}");
     let words = "  - \"link_4\" and \"handle\": as near as 20.8 mm; expected at least 21.5 mm, as neither the arm nor its SRDF leaves the pair out";
     assert!(certificate.to_string().contains(words), "{certificate}");
@@ -246,9 +246,7 @@ fn obstacles_keep_clear_too() {
 #[test]
 fn a_plate_that_is_not_swept_is_not_counted_as_washed() {
     assert_eq!(prove(&good(), &irb120()).unwrap().plates_washed(), 2);
-    let certificate = breaks(&[Coverage], |p| {
-        p.job.workcell.tool = tool(|t| t.sponge_radius_m = 0.01)
-    });
+    let certificate = breaks(&[Swept], |p| p.job.workcell.tool = tool(|t| t.sponge_radius_m = 0.01));
     assert_eq!(certificate.plates_washed(), 0);
 }
 
@@ -274,7 +272,7 @@ fn a_path_that_runs_over_another_plate_is_named() {
 #[test]
 fn how_far_the_sponge_reaches_beyond_each_rim_is_shown_and_held() {
     let certificate = prove(&good(), &irb120()).unwrap();
-    for swept in &certificate.coverage {
+    for swept in &certificate.swept {
         // 123 mm of path and 25 mm of sponge, which is upright, less 145 mm of plate, and 0.2 mm.
         assert!((swept.beyond_rim_allowed_m - 0.0032).abs() < 1e-6);
         assert!(swept.beyond_rim_seen_m > 0.0029 && swept.beyond_rim_m.unwrap() < 0.0032);
@@ -300,7 +298,7 @@ fn a_tilted_sponge_reaches_farther_than_its_radius() {
     let plan = recipe.plan();
     let certificate = prove(&plan, &irb120()).unwrap();
     assert_eq!(certificate.verdict, Verdict::Pass, "{certificate}");
-    let swept = &certificate.coverage[0];
+    let swept = &certificate.swept[0];
     let upright = 0.123 + 0.025 - 0.145;
     // The tip may be 1 mm under the face.
     let wider = (0.025 + 0.001 * 0.2_f64.sin()) / 0.2_f64.cos() - 0.025;
@@ -347,7 +345,7 @@ fn the_sponge_keeps_clear_of_a_higher_neighbour() {
     assert!(broken(&certificate).contains(&Clearance), "{certificate}");
     assert!(
         certificate
-            .coverage
+            .swept
             .iter()
             .all(|plate| plate.touches.iter().all(|other| other.plate == 0))
     );
@@ -371,7 +369,7 @@ fn plates_elsewhere_are_not_washed() {
     assert_eq!(found[0].key, "plates[0].pose.position_m[0]");
     assert_eq!(broken(&judged(plan)), []);
     breaks(&[PathDeviation, Reach], |p| by(p, 3e-4));
-    breaks_at_least(&[PathDeviation, LineDeviation, Reach, Coverage], |p| by(p, 0.03));
+    breaks_at_least(&[PathDeviation, LineDeviation, Reach, Swept], |p| by(p, 0.03));
     breaks_at_least(&[ContactHeight, PathDeviation], |p| {
         p.job.plates[0].pose.translation.z -= 1e-3
     });
@@ -437,8 +435,8 @@ fn a_smaller_path_leaves_the_rim() {
     let mut recipe = Recipe::arc(&[20.0]);
     recipe.curve.radius_m = 0.112;
     let certificate = prove(&recipe.plan(), &irb120()).unwrap();
-    assert_eq!(broken(&certificate), [Coverage], "{certificate}");
-    let coverage = certificate.check(Coverage).unwrap();
+    assert_eq!(broken(&certificate), [Swept], "{certificate}");
+    let coverage = certificate.check(Swept).unwrap();
     assert_eq!(
         coverage.status,
         Status::Violated,
@@ -627,7 +625,7 @@ fn plates_that_overlap_fail_or_are_reported() {
     assert_eq!(certificate.verdict, Verdict::Pass, "{certificate}");
     assert_eq!(certificate.check(PlatesApart).unwrap().discrepancies.len(), 1);
     assert_eq!(certificate.waived, [PlatesApart]);
-    let expected = "CERTIFIED BUT FOR plates apart, gap between plate 0 and plate 1 -12.8 mm (waived by the job): ";
+    let expected = "PROVED BUT FOR plates apart, gap between plate 0 and plate 1 -12.8 mm (waived by the job): ";
     assert!(certificate.to_string().starts_with(expected), "{certificate}");
 }
 

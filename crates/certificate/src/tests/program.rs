@@ -78,7 +78,7 @@ fn the_plan_itself_holds() {
     let least = |check: &Check| check.measure.unwrap().bound.unwrap();
     let own = certificate.check(Requirement::Clearance).map(least).unwrap();
     assert!((bound(&proof, Requirement::Clearance) - own).abs() < 1e-3);
-    assert_eq!(proof.coverage.len(), plan.order.len());
+    assert_eq!(proof.swept.len(), plan.order.len());
 }
 
 proptest! {
@@ -164,8 +164,8 @@ fn a_wash_that_is_left_out_washes_nothing() {
             ..LIMITS
         },
     );
-    assert_eq!(check(&proof, Requirement::Coverage).status, Status::Violated);
-    assert!(proof.coverage.iter().any(|plate| plate.at_least < 0.6));
+    assert_eq!(check(&proof, Requirement::Swept).status, Status::Violated);
+    assert!(proof.swept.iter().any(|plate| plate.at_least < 0.6));
 }
 
 #[test]
@@ -234,7 +234,7 @@ fn a_motion_may_be_shorter_or_longer_than_the_plan() {
     let half: Vec<_> = whole.pieces().iter().copied().take(whole.pieces().len() / 2).collect();
     let proof = judged(&PiecewiseMotion::new(half).unwrap(), &LIMITS);
     assert_eq!(check(&proof, Requirement::PlanDeviation).status, Status::Violated);
-    assert_eq!(check(&proof, Requirement::Coverage).status, Status::Violated);
+    assert_eq!(check(&proof, Requirement::Swept).status, Status::Violated);
     let longer = whole.clone().resting_until(plan.duration_s() + 1.0);
     assert!(judged(&longer, &LIMITS).holds());
     let slower = whole.stretched(1.01);

@@ -3,6 +3,7 @@
 use super::motion::{MotionReport, ViolationKind};
 use super::plate::PlateReport;
 use super::transits::TransitReport;
+use platewash_kinematics::words::percent;
 use platewash_workcell::verdict::Verdict;
 use platewash_workcell::words::part_of;
 
@@ -18,7 +19,7 @@ pub(super) fn verdict(
     if !reached || !clear {
         Verdict::Infeasible
     } else if plates.iter().all(|p| p.washed) && plan.violations.is_empty() && done.violations.is_empty() {
-        Verdict::Washed
+        Verdict::Swept
     } else {
         Verdict::NotVerified
     }
@@ -35,7 +36,7 @@ pub(super) fn headline(
 ) -> String {
     let washed = plates.iter().filter(|p| p.washed).count();
     let washed = part_of(washed, plates.len(), "plate");
-    if verdict == Verdict::Washed {
+    if verdict == Verdict::Swept {
         return format!("SWEPT: {washed}, every limit kept; contact was not judged.");
     }
     let mut reasons = Vec::new();
@@ -61,10 +62,15 @@ pub(super) fn headline(
     }
     let least = plates.iter().map(|p| p.executed_coverage.lower).fold(1.0, f64::min);
     if least < required_coverage {
-        reasons.push(format!("as little as {:.1} % of a plate covered", 100.0 * least));
+        reasons.push(format!("as little as {} % of a plate swept", percent(least)));
     }
     if all().any(|v| v.kind != ViolationKind::Clearance) {
         reasons.push("joint limits broken".to_owned());
     }
-    format!("NOT WASHED: {washed} washed; {}.", reasons.join(", "))
+    let word = if plates.iter().all(|p| p.washed) {
+        "SWEPT, LIMITS BROKEN"
+    } else {
+        "NOT SWEPT"
+    };
+    format!("{word}: {washed} swept; {}.", reasons.join(", "))
 }

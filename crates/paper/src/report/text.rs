@@ -7,6 +7,7 @@ use super::unreached::Unreached;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::{angles_told_apart, rounded, told_apart};
 use platewash_workcell::coverage::Coverage;
+use platewash_workcell::words::quoted;
 use std::fmt::{self, Display, Formatter};
 
 /// Violations listed one by one for a motion before the rest is only counted.
@@ -18,7 +19,7 @@ const SHOWN_DIGITS: usize = 6;
 impl Display for PaperReport {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}\n", self.headline)?;
-        let (name, seed, robot) = (&self.scenario, self.seed, &self.robot);
+        let (name, seed, robot) = (quoted(&self.scenario), self.seed, quoted(&self.robot));
         writeln!(
             f,
             "scenario {name}, seed {seed}, robot {robot}, {:.2} s of motion",
@@ -53,7 +54,7 @@ impl PaperReport {
         let (sponge, wanted) = (shown(1e3 * self.sponge_radius_m), shown(100.0 * self.coverage_required));
         writeln!(
             f,
-            "\nPlates, in the order of washing (coverage by a sponge of radius {sponge} mm; {wanted} % wanted)"
+            "\nPlates, in the order of washing (swept by a sponge of radius {sponge} mm; {wanted} % wanted)"
         )?;
         writeln!(
             f,
@@ -120,7 +121,7 @@ impl PaperReport {
     }
 }
 
-/// A coverage with half the width of its proven interval, in percent.
+/// A share that is swept with half the width of its proven interval, in percent.
 fn percent(c: &Coverage) -> String {
     format!("{:.1} ± {:.1}", 100.0 * c.fraction, 50.0 * c.error())
 }

@@ -14,6 +14,7 @@ use numpy::{PyArray1, PyArrayDyn};
 use platewash::simulator::plant::Felt;
 use platewash::simulator::simulate::{Sample, table as csv_table};
 use platewash::simulator::simulate_with;
+use platewash::workcell::words::quoted;
 use platewash::{Execution, JointVector, SimulationError, SimulationReport};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -188,9 +189,9 @@ impl ExecutionObject {
 
     fn __repr__(&self) -> String {
         let Question { plan, settings, .. } = &self.inner.question;
-        let (name, law) = (&plan.provenance.scenario, settings.law.name());
+        let (name, law) = (quoted(&plan.provenance.scenario), settings.law.name());
         format!(
-            "Execution('{name}' under {law}, {} samples, {:.2} s)",
+            "Execution({name} under {law}, {} samples, {:.2} s)",
             self.samples().len(),
             self.samples().last().map_or(0.0, |sample| sample.t_s)
         )

@@ -54,8 +54,8 @@ impl From<TuneRow> for Row {
 
 /// Simulates a plan, or the plan file of that path, with every pair of a frequency, shape (F,) [rad/s], and a damping ratio, shape (D,), gains given outright
 /// being left out. One record a pair, in the order of the frequencies, then of the dampings: `frequency_rad_s`,
-/// `damping_ratio`, `verdict` (`"washed"`, `"not_washed"`, `"dry_run"`, `"refused"`), `tip_rms_m`, `tip_max_m`, `torque_max_n_m`, `work_j` and
-/// `least_coverage`, or `reason` for what is refused. Works on all processors.
+/// `damping_ratio`, `verdict` (`"washed"`, `"swept"`, `"not_washed"`, `"not_swept"`, `"dry_run"`, `"refused"`), `tip_rms_m`, `tip_max_m`, `torque_max_n_m`, `work_j` and
+/// `least_swept`, or `reason` for what is refused. Works on all processors.
 ///
 /// Raises InputError for a law without a plant, and what `simulate` raises for a plan whose arm must be given.
 #[pyfunction]

@@ -72,7 +72,7 @@ impl fmt::Display for Cause {
                 mm(most_m)
             ),
             Self::Coverage { at_least, required } => {
-                let [swept, required] = told_apart(percent(at_least), percent(required), 2);
+                let [swept, required] = told_apart(percent(at_least), percent(required), 1);
                 write!(f, "{swept} % is surely swept, {required} % is required")
             }
         }

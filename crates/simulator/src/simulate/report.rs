@@ -6,11 +6,12 @@ use super::error::SimulationError;
 use super::execution::Execution;
 use super::payload::{PayloadCheck, PayloadVerdict};
 use super::tracking::{self, SegmentTracking, Tracking};
-use super::washing::{self, PlateOutcome, PlateVerdict};
+use super::washing::{self, PlateOutcome};
 use super::words::shown;
 use crate::plant::foam::{DENSE_FACTOR, DENSE_STRAIN};
 use platewash_kinematics::RobotModel;
 use platewash_workcell::dry_run::DryRun;
+use platewash_workcell::job::Treatment;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::simulation::{ControlLawName, PlantSettings, SimulationSettings};
 use platewash_workcell::words::part_of;
@@ -22,14 +23,54 @@ use serde::Serialize;
 pub enum SimulationVerdict {
     /// Every plate is washed, and the arm may carry its tool as far as is known.
     Washed,
+    /// Every plate is swept, which is all that the job requires, and the arm may carry its tool as far as is known.
+    Swept,
     /// A dry run whose raised plates are swept as they would be washed. Nothing is washed.
     DryRun,
-    /// Not so: a plate is not washed.
+    /// A plate is not washed.
     NotWashed,
+    /// A plate is not swept.
+    NotSwept,
+    /// A raised plate of a dry run is not swept.
+    NotFollowed,
     /// The arm may not carry its tool, whatever is washed with it.
     Overloaded,
     /// The plan's hash is not that of its contents: whatever was simulated is not the plan that was sealed.
     Altered,
+}
+
+impl SimulationVerdict {
+    fn new(treatment: Treatment, is_done: bool) -> Self {
+        match (treatment, is_done) {
+            (Treatment::Washed, true) => Self::Washed,
+            (Treatment::Swept, true) => Self::Swept,
+            (Treatment::SweptInAir, true) => Self::DryRun,
+            (Treatment::Washed, false) => Self::NotWashed,
+            (Treatment::Swept, false) => Self::NotSwept,
+            (Treatment::SweptInAir, false) => Self::NotFollowed,
+        }
+    }
+
+    /// Whether the execution does all that the job requires.
+    #[must_use]
+    pub fn is_done(self) -> bool {
+        matches!(self, Self::Washed | Self::Swept | Self::DryRun)
+    }
+
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Washed => "washed",
+            Self::Swept => "swept",
+            Self::DryRun => "followed",
+            Self::NotWashed => "not washed",
+            Self::NotSwept => "not swept",
+            Self::NotFollowed => "not followed",
+            Self::Overloaded => "overloaded",
+            Self::Altered => "altered",
+        }
+    }
 }
 
 /// Whether a plan is as it was sealed.
@@ -57,9 +98,6 @@ pub struct SimulationReport {
     /// That the plan is a dry run: its plates are raised, and nothing is washed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dry_run: Option<DryRun>,
-    /// Whether the job asks for contact: without it plates are swept, not washed.
-    #[serde(skip)]
-    pub contact: bool,
     /// Name of the arm.
     pub robot: String,
     /// The law.
@@ -114,40 +152,33 @@ impl SimulationReport {
         let contact = Contact::new(plan, robot);
         let tip_errors = tracking::tip_errors(execution, robot, contact.tip());
         let dry_run = plan.job.dry_run.clone();
-        let mut plates = washing::plates(plan, robot, settings, execution)?;
+        let plates = washing::plates(plan, robot, settings, execution)?;
         let payload = PayloadCheck::new(&plan.job.workcell.tool, settings.payload_kg, robot);
-        let washed = plates.iter().filter(|p| p.verdict == PlateVerdict::Washed).count();
+        let (treatment, done) = (
+            plan.job.treatment(),
+            plates.iter().filter(|plate| plate.verdict.is_done()).count(),
+        );
         let verdict = match seal {
             Seal::Broken => SimulationVerdict::Altered,
             Seal::Whole if payload.verdict == PayloadVerdict::Exceeded => SimulationVerdict::Overloaded,
-            Seal::Whole if washed == plan.job.plates.len() && dry_run.is_some() => SimulationVerdict::DryRun,
-            Seal::Whole if washed == plan.job.plates.len() => SimulationVerdict::Washed,
-            Seal::Whole => SimulationVerdict::NotWashed,
+            Seal::Whole => SimulationVerdict::new(treatment, done == plan.job.plates.len()),
         };
-        if dry_run.is_some() {
-            plates.iter_mut().for_each(PlateOutcome::in_air);
-        }
         let before = dry_run
             .as_ref()
             .map_or_else(String::new, |dry_run| dry_run.words() + "; ");
-        let done = match (&dry_run, &plan.job.requirements.contact) {
-            (Some(_), _) => "swept in the air",
-            (None, Some(_)) => "washed",
-            (None, None) => "swept",
-        };
         let tracking = tracking::tracking(&execution.samples, &tip_errors);
         Ok(Self {
             scenario: plan.provenance.scenario.clone(),
             seed: plan.job.seed,
             dry_run,
-            contact: plan.job.requirements.contact.is_some(),
             robot: robot.name().to_owned(),
             law: settings.law,
             verdict,
             headline: format!(
-                "{before}{}{} {done} under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
+                "{before}{}{} {} under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
                 payload.overload().map_or_else(String::new, |words| words + "; "),
-                part_of(washed, plan.job.plates.len(), "plate"),
+                part_of(done, plan.job.plates.len(), "plate"),
+                treatment.words(),
                 settings.law.name(),
                 1e3 * tracking.tip_m.rms,
                 1e3 * tracking.tip_m.max

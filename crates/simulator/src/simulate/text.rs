@@ -5,24 +5,18 @@ use super::payload::PayloadVerdict;
 use super::pressing::{AS_STATED, ForceRange, HEIGHT_ERRORS_M, Pressing};
 use super::report::{SimulationReport, SimulationVerdict};
 use super::tracking::Tracking;
-use super::washing::PlateVerdict;
 use super::words::shown;
-use platewash_kinematics::words::told_apart;
+use platewash_kinematics::words::{percent, told_apart};
 use std::fmt::{self, Display, Formatter};
 
 impl Display for SimulationReport {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let verdict = match self.verdict {
-            SimulationVerdict::Washed if !self.contact => "SWEPT",
-            SimulationVerdict::Washed => "WASHED",
-            SimulationVerdict::DryRun => "FOLLOWED",
-            SimulationVerdict::NotWashed if self.dry_run.is_some() => "NOT FOLLOWED",
-            SimulationVerdict::NotWashed if !self.contact => "NOT SWEPT",
-            SimulationVerdict::NotWashed => "NOT WASHED",
-            SimulationVerdict::Overloaded => "OVERLOADED",
-            SimulationVerdict::Altered => "ALTERED, the hash is not that of the contents",
+        let verdict = self.verdict.words().to_uppercase();
+        let altered = match self.verdict {
+            SimulationVerdict::Altered => ", the hash is not that of the contents",
+            _ => "",
         };
-        writeln!(f, "{verdict}: {}", self.headline)?;
+        writeln!(f, "{verdict}{altered}: {}", self.headline)?;
         let rate = 1.0 / self.period_s;
         writeln!(
             f,
@@ -46,25 +40,19 @@ impl Display for SimulationReport {
 fn plates(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
     writeln!(
         f,
-        "{:<10} {:>10} {:>11} {:>12} {:>10}  verdict",
-        "plate", "planned %", "executed %", "in contact %", "tilt °"
+        "{:<10} {:>14} {:>15} {:>12} {:>10}  verdict",
+        "swept", "in the plan %", "as executed %", "in contact %", "tilt °"
     )?;
     for plate in &report.plates {
         let contact = 100.0 * plate.in_contact as f64 / plate.samples.max(1) as f64;
-        let verdict = match plate.verdict {
-            PlateVerdict::Washed if !report.contact => "swept",
-            PlateVerdict::Washed => "washed",
-            PlateVerdict::SweptInAir => "swept in the air",
-            PlateVerdict::NotWashed if report.dry_run.is_some() || !report.contact => "not swept",
-            PlateVerdict::NotWashed => "not washed",
-        };
         writeln!(
             f,
-            "{:<10} {:>10.2} {:>11.2} {contact:>12.1} {:>10.2}  {verdict}",
+            "{:<10} {:>14} {:>15} {contact:>12.1} {:>10.2}  {}",
             plate.plate,
-            100.0 * plate.planned.fraction,
-            100.0 * plate.executed.fraction,
-            plate.tilt_rad.to_degrees()
+            percent(plate.planned.fraction),
+            percent(plate.executed.fraction),
+            plate.tilt_rad.to_degrees(),
+            plate.verdict.words()
         )?;
         for cause in &plate.causes {
             writeln!(f, "           {cause}")?;
@@ -92,7 +80,7 @@ fn forces(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result 
     writeln!(
         f,
         "{:<24} {:>8} {:>8} {:>8} {:>8} {:>10} {:>8} {:>8}",
-        "force on plates, N", "least", "mean", "most", "planned", "of planned", "strain", "lost s"
+        "force on plates, N", "least", "mean", "most", "planned", "of planned", "strain %", "lost s"
     )?;
     for (plate, pressing) in pressed {
         let ForceRange {
@@ -109,8 +97,8 @@ fn forces(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result 
         let lost_s = pressing.lost.map_or(0.0, |lost| lost.time_s);
         writeln!(
             f,
-            "{plate:<24} {least_n:>8.2} {mean_n:>8.2} {most_n:>8.2} {planned_n:>8.2} {share:>10} {:>8.3} {lost_s:>8.3}",
-            pressing.strain
+            "{plate:<24} {least_n:>8.2} {mean_n:>8.2} {most_n:>8.2} {planned_n:>8.2} {share:>10} {:>8.1} {lost_s:>8.3}",
+            100.0 * pressing.strain
         )?;
         if let Some(lost) = pressing.lost {
             writeln!(
@@ -139,8 +127,8 @@ fn contact(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result
         "kept in contact", "pressed %", "long enough %", "with the dose %"
     )?;
     for (plate, kept) in found {
-        let [pressed, time, dose] = [kept.contact, kept.time, kept.dose].map(|share| 100.0 * share);
-        writeln!(f, "{plate:<24} {pressed:>12.2} {time:>14.2} {dose:>16.2}")?;
+        let [pressed, time, dose] = [kept.contact, kept.time, kept.dose].map(percent);
+        writeln!(f, "{plate:<24} {pressed:>12} {time:>14} {dose:>16}")?;
     }
     writeln!(f, "measured at samples, the plates where they are stated; not proved\n")
 }

@@ -24,7 +24,7 @@ pub struct TuneOutcome {
     /// Work of all motors \[J\].
     pub work_j: f64,
     /// Least share of a plate swept; `None` where the plan washes none.
-    pub least_coverage: Option<f64>,
+    pub least_swept: Option<f64>,
 }
 
 /// One setting.
@@ -91,6 +91,6 @@ fn outcome(
             .effort
             .map_or([0.0; AXES], |effort| effort.joints.map(|joint| joint.torque_n_m.max)),
         work_j: report.effort.map_or(0.0, |effort| effort.work_j),
-        least_coverage: coverages.min_by(f64::total_cmp),
+        least_swept: coverages.min_by(f64::total_cmp),
     })
 }

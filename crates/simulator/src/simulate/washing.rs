@@ -17,6 +17,7 @@ use nalgebra::Vector3;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_workcell::contact::Foundation;
 use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage_of_strokes, reaches};
+use platewash_workcell::job::Treatment;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::segment::SegmentKind;
@@ -30,16 +31,50 @@ const RASTER: CoverageSettings = CoverageSettings { cell_m: 2e-4 };
 /// Points of a path nearer to the last one than this are left out \[m\]: on a circle of 10 mm the chord is off by 3 µm.
 const SPACING_M: f64 = 5e-4;
 
-/// Whether a plate is washed by what the arm did.
+/// Whether a plate is washed by what the arm did, or swept where the job requires no contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PlateVerdict {
     /// Enough of it is surely swept, and the tool never had to be in the plate.
     Washed,
-    /// So it would be, but the plate is one that a dry run has raised: nothing is there, and nothing is washed.
+    /// The same where the job requires no contact.
+    Swept,
+    /// The same of a plate that a dry run has raised: nothing is there, and nothing is washed.
     SweptInAir,
-    /// Not so.
+    /// Not washed.
     NotWashed,
+    /// Not swept.
+    NotSwept,
+}
+
+impl PlateVerdict {
+    fn new(treatment: Treatment, is_done: bool) -> Self {
+        match (treatment, is_done) {
+            (Treatment::Washed, true) => Self::Washed,
+            (Treatment::Swept, true) => Self::Swept,
+            (Treatment::SweptInAir, true) => Self::SweptInAir,
+            (Treatment::Washed, false) => Self::NotWashed,
+            (Treatment::Swept | Treatment::SweptInAir, false) => Self::NotSwept,
+        }
+    }
+
+    /// Whether the plate got what the job requires.
+    #[must_use]
+    pub fn is_done(self) -> bool {
+        matches!(self, Self::Washed | Self::Swept | Self::SweptInAir)
+    }
+
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Washed => Treatment::Washed.words(),
+            Self::Swept => Treatment::Swept.words(),
+            Self::SweptInAir => Treatment::SweptInAir.words(),
+            Self::NotWashed => "not washed",
+            Self::NotSwept => "not swept",
+        }
+    }
 }
 
 /// What was washed of a plate.
@@ -63,15 +98,6 @@ pub struct PlateOutcome {
     pub tilt_rad: f64,
     /// How the sponge pressed; `None` where force is not simulated.
     pub pressing: Option<Pressing>,
-}
-
-impl PlateOutcome {
-    /// The same of a plate that a dry run has raised.
-    pub(super) fn in_air(&mut self) {
-        if self.verdict == PlateVerdict::Washed {
-            self.verdict = PlateVerdict::SweptInAir;
-        }
-    }
 }
 
 /// Every plate that the plan washes, in the order of washing.
@@ -98,6 +124,7 @@ pub(super) fn plates(
         let track = |of| track(robot, contact.tip(), plate, &samples[from..to], of);
         let wash = Wash {
             tool: &plan.job.workcell.tool,
+            treatment: plan.job.treatment(),
             required: plan.job.requirements.coverage,
             index: segment.plate,
             plate,
@@ -181,6 +208,7 @@ fn track(
 /// The wash of one plate.
 struct Wash<'a> {
     tool: &'a Tool,
+    treatment: Treatment,
     required: f64,
     index: usize,
     plate: &'a Plate,
@@ -198,11 +226,7 @@ impl Wash<'_> {
         let fails = |cause: &Cause| matches!(cause, Cause::NoTool | Cause::Pressed { .. } | Cause::Coverage { .. });
         Ok(PlateOutcome {
             plate: self.index,
-            verdict: if causes.iter().any(fails) {
-                PlateVerdict::NotWashed
-            } else {
-                PlateVerdict::Washed
-            },
+            verdict: PlateVerdict::new(self.treatment, !causes.iter().any(fails)),
             causes,
             planned,
             executed,

@@ -25,10 +25,9 @@ export function percent(share: number, decimals = 0): string {
   return quantity(100 * share, decimals, "%");
 }
 
-/** A share that must not look larger than it is: rounded down. */
-export function percentDown(share: number, decimals: number): string {
-  const scale = 10 ** decimals;
-  return quantity(Math.floor(100 * share * scale + 1e-9) / scale, decimals, "%");
+/** A share that must not look larger than it is: rounded down to one decimal; 100 where nothing but rounding is missing. */
+export function percentDown(share: number): string {
+  return share >= 1 - 1e-9 ? quantity(100, 0, "%") : quantity(Math.floor(1000 * share + 1e-9) / 10, 1, "%");
 }
 
 /** A length [m] in millimetres. */

@@ -66,7 +66,7 @@ export function washed(view: View): Verdict | null {
   if (execution === null || execution.washed === null || view.heading.dry_run !== null) return null;
   const sentence = execution.headline ?? "";
   const how = { simulated: "simulated", recorded: "recorded", live: "simulated" }[execution.source];
-  const done = view.heading.contact ? "washed" : "swept";
+  const done = view.heading.treatment === "washed" ? "washed" : "swept";
   return execution.washed
     ? { tone: "proved", word: `${done === "washed" ? "Washed" : "Swept"}, ${how}`, sentence }
     : { tone: "violated", word: `Not ${done}, ${how}`, sentence };

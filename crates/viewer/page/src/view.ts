@@ -50,8 +50,8 @@ export interface Heading {
   process: "wash" | "paper" | "configuration";
   /** What must be read first of a dry run: nothing is washed; null for everything else. */
   dry_run: string | null;
-  /** Whether contact is asked for: without it plates count as swept, not as washed. */
-  contact: boolean;
+  /** What the motion does to the plates. */
+  treatment: "washed" | "swept" | "swept_in_air";
   robot: string;
   duration_s: number;
 }
@@ -115,7 +115,7 @@ export interface ContactRequirements {
 /** What is proved of the contact with a plate: shares at least, strain at most. */
 export interface PlateContact {
   plate: number;
-  share: number;
+  pressed: number;
   time_share: number;
   dose_share: number;
   /** Null where nothing is proved. */

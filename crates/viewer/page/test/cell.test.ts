@@ -22,7 +22,7 @@ test("a scenario is looked at, planned and proved", async () => {
   assert.equal(cell.seen.preview, null);
   asked.say(PROOF);
   await asked.end();
-  assert.deepEqual([cell.state, cell.standing], ["idle", { kind: "proved", words: "CERTIFIED" }]);
+  assert.deepEqual([cell.state, cell.standing], ["idle", { kind: "proved", words: "PROVED" }]);
   assert.equal(channel.asked.length, 1);
 });
 

@@ -68,7 +68,7 @@ export class Asking {
 
 export const CELL = { kind: "cell", arm: null, arm_id: "a", plates: [{ name: "plate_0" }, { name: "plate_1" }], listed: false, findings: [], ms: {} };
 export const PLAN = { kind: "plan", headline: "planned", ms: { plan: 5 } };
-export const PROOF = { kind: "proof", headline: "CERTIFIED", certificate: { passes: true }, proved: [], ms: {} };
+export const PROOF = { kind: "proof", headline: "PROVED", certificate: { passes: true }, proved: [], ms: {} };
 export const PREVIEW = { kind: "preview", plates: [{ plate: 1, chance: "unwashable", words: "" }], ms: {} };
 
 export function centresOf(question: CellQuestion): Centre[] {

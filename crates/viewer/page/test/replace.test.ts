@@ -15,7 +15,7 @@ function plate(x: number, rim = 0.145): Plate {
 function view(): View {
   return {
     format: "platewash-view/1", version: "0",
-    heading: { scenario: "", seed: 0, hash: null, process: "wash", dry_run: null, contact: false, robot: "", duration_s: 0 },
+    heading: { scenario: "", seed: 0, hash: null, process: "wash", dry_run: null, treatment: "swept", robot: "", duration_s: 0 },
     certificate: null, arm: irb120(pose([0, 0, 0])), tool: TOOL, surroundings: { obstacles: [], base_circle_m: 0.28, region_m: null },
     plates: [plate(0.3), plate(0.6)], paths: [], segments: [], motion: null, pose_rad: [0, 0, 0, 0, 0, 0], clearance: null, coverage: [],
     execution: null, live: null,

@@ -13,7 +13,7 @@ function viewWith(statuses: Status[] | null, certificate: Partial<Certificate> =
   const checks = (statuses ?? []).map(check);
   const passes = checks.every(({ status }) => status === "proved" || status === "waived");
   return {
-    heading: { process: "wash", dry_run: null, contact: true },
+    heading: { process: "wash", dry_run: null, treatment: "washed" },
     certificate: statuses === null ? null : { passes, headline: "so", hash: "proved", checks, contact: null, rests_on: [], ...certificate },
     execution: null,
   } as unknown as View;
@@ -40,7 +40,7 @@ const IN_AIR = "DRY RUN of 221b93b62aa8: 50 mm above the plates, nothing is wash
 test("a dry run says so first, whatever came of its proof, and is never called washed", () => {
   const inAir = (view: View): View => ({ ...view, heading: { ...view.heading, dry_run: IN_AIR } });
   const cases: [View, string, string][] = [
-    [viewWith(["proved"], { headline: `${IN_AIR}; CERTIFIED: x` }), "proved", "Dry run: proved"],
+    [viewWith(["proved"], { headline: `${IN_AIR}; PROVED: x` }), "proved", "Dry run: proved"],
     [viewWith(["proved", "violated"]), "violated", "Dry run: violated"],
     [viewWith(["proved"], { hash: "violated" }), "violated", "Dry run: altered"],
     [viewWith(["waived"]), "waived", "Dry run: proved but for 1 waived"],
@@ -86,8 +86,8 @@ test("numbers read as numbers are written", () => {
   assert.equal(fixed(-0.5, 1), "−0.5");
   assert.equal(fixed(-0.001, 1), "0.0");
   assert.equal(fixed(Number.NaN, 1), "–");
-  assert.equal(percentDown(0.99999, 1), "99.9\u202f%");
-  assert.equal(percentDown(1, 1), "100.0\u202f%");
+  assert.equal(percentDown(0.99999), "99.9\u202f%");
+  assert.equal(percentDown(1), "100\u202f%");
   assert.equal(clockTime(12.345, 40), "12.35");
   assert.equal(clockTime(65.04, 200), "1:05.0");
 });

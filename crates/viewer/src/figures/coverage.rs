@@ -64,7 +64,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
     if plates < washes.len() {
         caption = format!("The first {plates} of {} plates. {caption}", washes.len());
     }
-    let (mut drawing, room) = page::begin(&subject.words("Coverage", &caption));
+    let (mut drawing, room) = page::begin(&subject.words("Swept", &caption));
     let maps = maps(subject, plates);
     let most = maps
         .iter()
@@ -251,11 +251,18 @@ impl Map {
             .certificate
             .and_then(|certificate| proved_share(certificate, self.plate, self.counted));
         let (share, words) = match (self.of, proved, outcome) {
-            (Of::Planned, Some(proved), _) => (proved, "proved: ≥ "),
+            (Of::Planned, Some(proved), _) => (
+                proved,
+                if promised.is_some() {
+                    "pressed, proved: ≥ "
+                } else {
+                    "swept, proved: ≥ "
+                },
+            ),
             // What a simulation measures is what is swept; of what is pressed there is the map.
             _ if self.counted.is_some() => (self.share(), "on the map: "),
-            (Of::Planned, None, Some(outcome)) => (outcome.planned.lower, ""),
-            (Of::Executed, _, Some(outcome)) => (outcome.executed.lower, ""),
+            (Of::Planned, None, Some(outcome)) => (outcome.planned.lower, "swept: "),
+            (Of::Executed, _, Some(outcome)) => (outcome.executed.lower, "swept: "),
             _ => return,
         };
         let colour = if reaches(share, required) { GOOD } else { BAD };

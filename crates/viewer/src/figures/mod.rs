@@ -44,6 +44,7 @@ pub use region::{RegionMap, RegionSheet, draw_region};
 pub use subject::{Claim, Ideal, Subject};
 
 use ink::drawing::Drawing;
+use platewash_workcell::words::quoted;
 
 /// A figure that was drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,7 +71,7 @@ impl Sheet {
 /// [`FigureError`]: the plan has nothing to show in this figure, or the moment is none of the motion.
 pub fn draw(subject: &Subject<'_>, figure: Figure, at_s: Option<f64>) -> Result<Sheet, FigureError> {
     let drawing = drawing(subject, figure, at_s)?;
-    let title = format!("{}: {}", figure.name(), subject.plan.provenance.scenario);
+    let title = format!("{}: {}", figure.name(), quoted(&subject.plan.provenance.scenario));
     let said: Vec<&str> = drawing.texts().iter().map(|text| text.words.as_str()).collect();
     let svg = drawing.finish(&title, &said.join("; "));
     Ok(Sheet { figure, svg })

@@ -19,6 +19,7 @@ use platewash_kinematics::trig::{atan2, cos};
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::plate::{Foot, Plate};
 use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::words::quoted;
 
 /// Half an edge of the floor patch, as the paper draws it \[m\].
 const FLOOR_M: f64 = 0.5;
@@ -106,7 +107,7 @@ pub(super) fn draw(subject: &Subject<'_>, t_s: f64, eye: Eye) -> Result<Drawing,
     let caption = "Central projection of the arm's shapes at one moment of the planned motion. The grey patch is 1 m by 1 m of the floor, \
                    the plates lie at their height.";
     let mut words = subject.words("", caption);
-    words.title = format!("{}: the arm {what}", subject.plan.provenance.scenario);
+    words.title = format!("{}: the arm {what}", quoted(&subject.plan.provenance.scenario));
     words.subtitle = format!("at {}; {}", seconds(t_s), words.subtitle);
     let (mut drawing, room) = page::begin(&words);
     let beside = 330.0;

@@ -3,8 +3,9 @@
 use super::ink::page::Words;
 use super::subject::Subject;
 use platewash_certificate::{Measure, Sense, Status, Unit, Worst};
-use platewash_kinematics::words::{decimals_down, decimals_up};
+use platewash_kinematics::words::{decimals_down, decimals_up, percent};
 use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::words::quoted;
 
 /// Letters of a hash that are shown.
 const HASH: usize = 12;
@@ -13,7 +14,7 @@ impl Subject<'_> {
     /// The words around a figure.
     pub(super) fn words(&self, title: &str, caption: &str) -> Words {
         Words {
-            title: format!("{title}: {}", self.plan.provenance.scenario),
+            title: format!("{title}: {}", quoted(&self.plan.provenance.scenario)),
             subtitle: self.about(),
             caption: caption.to_owned(),
             source: self.source(),
@@ -70,10 +71,9 @@ pub(super) fn seconds(t_s: f64) -> String {
     format!("{t_s:.2} s")
 }
 
-/// A share as per cent, rounded down, so that none looks greater than it is; with more decimals where little is left to all.
+/// A share as per cent, rounded down, so that none looks greater than it is.
 pub(super) fn per_cent(share: f64) -> String {
-    let decimals = if share >= 0.99 { 2 } else { 1 };
-    format!("{} %", decimals_down(100.0 * share, decimals))
+    format!("{} %", percent(share))
 }
 
 /// What an arm does in a segment, and where.
@@ -115,7 +115,8 @@ pub(super) fn measure(measure: &Measure) -> [String; 2] {
         Sense::AtLeast => ("≥", decimals_down),
         Sense::Above => (">", decimals_down),
     };
-    let stated = |value: f64| towards(scale * value, 3);
+    let decimals = if measure.unit == Unit::Share { 1 } else { 3 };
+    let stated = |value: f64| towards(scale * value, decimals);
     let bound = match (measure.bound, measure.seen) {
         (Some(bound), _) => format!("{sign} {}{unit}", stated(bound)),
         (None, Some(seen)) => format!("seen: {}{unit}", stated(seen)),

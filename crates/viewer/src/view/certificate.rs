@@ -37,7 +37,7 @@ pub struct PlateContact {
     /// Index of the plate.
     pub plate: usize,
     /// Least share that is pressed.
-    pub share: f64,
+    pub pressed: f64,
     /// Least share that is in contact long enough.
     pub time_share: f64,
     /// Least share that gets enough of a dose.
@@ -106,7 +106,7 @@ impl From<&proved::PlateContact> for PlateContact {
     fn from(contact: &proved::PlateContact) -> Self {
         Self {
             plate: contact.plate,
-            share: contact.share.at_least,
+            pressed: contact.pressed.at_least,
             time_share: contact.time.at_least,
             dose_share: contact.dose.at_least,
             strain: contact.strain.bound,

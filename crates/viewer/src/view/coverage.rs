@@ -100,9 +100,9 @@ fn edge(plates: usize) -> usize {
 pub(crate) fn proved_share(certificate: &proved::Certificate, plate: usize, counted: Option<Counted>) -> Option<f64> {
     if counted.is_some_and(|counted| counted.is_promised) {
         let of = certificate.contact.iter().find(|contact| contact.plate == plate);
-        return of.map(|contact| contact.share.at_least);
+        return of.map(|contact| contact.pressed.at_least);
     }
-    let of = certificate.coverage.iter().find(|swept| swept.plate == plate);
+    let of = certificate.swept.iter().find(|swept| swept.plate == plate);
     of.map(|swept| swept.at_least)
 }
 

@@ -1,7 +1,7 @@
 //! What an arm did, however that is known: simulated, followed without a plant, recorded, or still to come.
 
 use platewash_kinematics::JointVector;
-use platewash_simulator::{Execution, SimulationReport, SimulationVerdict};
+use platewash_simulator::{Execution, SimulationReport};
 use platewash_workcell::recorded::RecordedMotion;
 use platewash_workcell::simulation::ControlLawName;
 use platewash_workcell::trajectory::Trajectory;
@@ -57,10 +57,7 @@ impl Executed {
             law: Some(report.law.name().to_owned()),
             headline: Some(report.headline.clone()),
             // Nothing is asked of a dry run that could be washed.
-            washed: report
-                .dry_run
-                .is_none()
-                .then_some(report.verdict == SimulationVerdict::Washed),
+            washed: report.dry_run.is_none().then_some(report.verdict.is_done()),
             samples: samples.collect(),
             torque_limit_n_m: execution.limits.and_then(|limits| all(limits.0)),
         }

@@ -1,7 +1,7 @@
 //! What a page is about.
 
 use platewash_workcell::dry_run::DryRun;
-use platewash_workcell::job::WashJob;
+use platewash_workcell::job::{Treatment, WashJob};
 use platewash_workcell::plan::{self, Plan};
 use serde::Serialize;
 
@@ -18,8 +18,8 @@ pub struct Heading {
     pub process: Process,
     /// What must be read first of a dry run: of which plan it is one, and that nothing is washed; `None` for everything else.
     pub dry_run: Option<String>,
-    /// Whether contact is asked for: without it plates count as swept, not as washed.
-    pub contact: bool,
+    /// What the job does to its plates.
+    pub treatment: Treatment,
     /// Name of the arm.
     pub robot: String,
     /// Duration of the motion \[s\]; 0 where there is none.
@@ -49,7 +49,7 @@ impl Heading {
                 plan::Process::Paper => Process::Paper,
             },
             dry_run: plan.job.dry_run.as_ref().map(DryRun::words),
-            contact: plan.job.requirements.contact.is_some(),
+            treatment: plan.job.treatment(),
             robot: plan.job.workcell.arm.name.clone(),
             duration_s: plan.duration_s(),
         }
@@ -62,7 +62,7 @@ impl Heading {
             hash: None,
             process: Process::Wash,
             dry_run: job.terms().dry_run.as_ref().map(DryRun::words),
-            contact: job.terms().requirements.contact.is_some(),
+            treatment: job.terms().treatment(),
             robot: job.arm().name().to_owned(),
             duration_s: 0.0,
         }
@@ -75,7 +75,7 @@ impl Heading {
             hash: None,
             process: Process::Configuration,
             dry_run: None,
-            contact: false,
+            treatment: Treatment::Swept,
             robot: robot.to_owned(),
             duration_s: 0.0,
         }

@@ -14,6 +14,6 @@ pub use apart::PlateOverlap;
 pub use contact::ContactRequirements;
 pub use error::{End, JobError};
 pub use planner::{OrderRule, PatternName, Planner, PlannerSettings, ReachBorders};
-pub use requirements::{LINE_TOLERANCE_M, Limits, Overlap, PATH_TOLERANCE_M, Requirements};
+pub use requirements::{LINE_TOLERANCE_M, Limits, Overlap, PATH_TOLERANCE_M, Requirements, Treatment};
 pub use terms::{JobTerms, MAX_SEED};
 pub use wash_job::WashJob;

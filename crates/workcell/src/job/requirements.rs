@@ -45,6 +45,30 @@ pub struct Requirements {
     pub contact: Option<ContactRequirements>,
 }
 
+/// What a job does to its plates, as every report names it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Treatment {
+    /// The sponge presses them on the share, for the time and with the dose required.
+    Washed,
+    /// The sponge's face passes over them; contact is not required.
+    Swept,
+    /// A dry run: nothing is there.
+    SweptInAir,
+}
+
+impl Treatment {
+    /// The participle: `washed`, `swept`, `swept in the air`.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Washed => "washed",
+            Self::Swept => "swept",
+            Self::SweptInAir => "swept in the air",
+        }
+    }
+}
+
 /// What plates that overlap lead to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -2,7 +2,7 @@
 
 use super::error::JobError;
 use super::planner::{Planner, PlannerSettings};
-use super::requirements::{Limits, Requirements};
+use super::requirements::{Limits, Requirements, Treatment};
 use crate::clearance::{ClearanceError, StandingOverlap, standing_overlaps};
 use crate::dry_run::DryRun;
 use crate::layout::MAX_PLATES;
@@ -50,6 +50,16 @@ pub struct JobTerms {
 }
 
 impl JobTerms {
+    /// What the job does to its plates.
+    #[must_use]
+    pub fn treatment(&self) -> Treatment {
+        match (&self.dry_run, &self.requirements.contact) {
+            (Some(_), _) => Treatment::SweptInAir,
+            (None, Some(_)) => Treatment::Washed,
+            (None, None) => Treatment::Swept,
+        }
+    }
+
     /// How the washing is planned; `None` for a run of the paper's program.
     #[must_use]
     pub fn planner_settings(&self) -> Option<&PlannerSettings> {

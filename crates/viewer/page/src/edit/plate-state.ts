@@ -34,7 +34,7 @@ export function plateState(answers: Answers, plate: number): PlateState {
   }
   if (proof !== null) {
     const share = proof.proved.find((row) => row.plate === plate)?.at_least;
-    const word = share === undefined ? "Washed" : `Covered ≥\u202f${percentDown(share, 2)}`;
+    const word = share === undefined ? "Washed" : `${proof.certificate.contact === null ? "Swept" : "Pressed"} ≥\u202f${percentDown(share)}`;
     const waived = proof.certificate.checks.some(({ status }) => status === "waived");
     if (waived && proof.certificate.passes) return { ...OPEN, tone: "not_proved", word: `${word}, with a waiver` };
     return proof.certificate.passes ? { ...OPEN, tone: "proved", word } : { ...OPEN, tone: "not_proved", word: "Planned, not proved" };

@@ -8,7 +8,7 @@ export type Layer =
 export const LABELS: Record<Layer, string> = {
   arm: "Arm and tool",
   plates: "Plates",
-  coverage: "Coverage on the plates",
+  coverage: "What is swept of the plates",
   paths: "Wash paths",
   transits: "Transits",
   executed: "Executed path",

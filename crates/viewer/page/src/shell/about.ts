@@ -19,7 +19,7 @@ function sampled(view: View): HTMLElement | null {
   if (view.motion === null) return null;
   const words = [
     "The certificate bounds the motion at every moment; this page does not add to it. ",
-    "Curves, clearance line and coverage maps are samples to look at, not the proof.",
+    "Curves, clearance line and maps of what is swept are samples to look at, not the proof.",
   ];
   return el("section", {}, el("h3", {}, "Proved, and shown"), el("p", {}, ...words));
 }
@@ -28,7 +28,7 @@ function origin(view: View): HTMLElement {
   const { heading } = view;
   const list = el("dl", { class: "origin" });
   const add = (name: string, value: HTMLElement | string): void => list.append(el("dt", {}, name), el("dd", {}, value));
-  add("scenario", isolated(heading.scenario));
+  add("scenario", isolated(`“${heading.scenario}”`));
   add("arm", isolated(heading.robot));
   if (heading.hash !== null) add("hash", el("code", { class: "hash" }, heading.hash));
   if (view.execution?.law) add("control law", isolated(view.execution.law));

@@ -21,17 +21,17 @@ export function forceWords([least, greatest]: readonly [number | null, number | 
 }
 
 function row(view: View, asked: Contact["asked"], proved: PlateContact): HTMLElement {
-  const share = (value: number, required: number): HTMLElement => el("td", { class: value >= required ? "" : "bad" }, percentDown(value, 2));
+  const share = (value: number, required: number): HTMLElement => el("td", { class: value >= required ? "" : "bad" }, percentDown(value));
   const [least, greatest] = proved.force_n;
   const holds = least !== null && greatest !== null && least >= asked.force_n[0] && greatest <= asked.force_n[1];
   return el(
     "tr",
     {},
     el("th", { set: { scope: "row" } }, isolated(view.plates[proved.plate]?.name ?? `plate ${proved.plate}`)),
-    share(proved.share, asked.share),
+    share(proved.pressed, asked.share),
     share(proved.time_share, asked.time_share),
     share(proved.dose_share, asked.dose_share),
-    el("td", { class: proved.strain !== null && proved.strain <= asked.strain ? "" : "bad" }, proved.strain === null ? "?" : up(proved.strain, 3)),
+    el("td", { class: proved.strain !== null && proved.strain <= asked.strain ? "" : "bad" }, proved.strain === null ? "?" : `${up(100 * proved.strain, 1)}\u202f%`),
     el("td", { class: holds ? "" : "bad" }, forceWords(proved.force_n)),
   );
 }
@@ -48,7 +48,7 @@ export function contactWords({ asked, plates }: Contact): string {
   return (
     `Shares of each face, by its area, wherever within ±${mm(asked.height_error_m)} the plate lies: pressed by ${mm(asked.compression_m)} or more; ` +
     `so for ${fixedShort(asked.time_s, 3)}\u202fs or longer; with a dose of ${fixedShort(asked.dose_pa_m, 1)}\u202fPa·m or more. ` +
-    `Strain at most ${fixedShort(asked.strain, 3)}, force from ${fixedShort(asked.force_n[0], 1)} to ${fixedShort(asked.force_n[1], 1)}\u202fN, ` +
+    `Strain at most ${fixedShort(100 * asked.strain, 1)}\u202f%, force from ${fixedShort(asked.force_n[0], 1)} to ${fixedShort(asked.force_n[1], 1)}\u202fN, ` +
     `over the assumed range of stiffness.${torque}`
   );
 }
@@ -64,7 +64,7 @@ export function contactTable(view: View, contact: Contact): HTMLElement[] {
     "tr",
     { class: "asked" },
     el("th", { set: { scope: "row" } }, "asked for"),
-    ...[...wanted, fixedShort(asked.strain, 3), asked.force_n.map((force) => fixedShort(force, 1)).join(" – ")].map((words) => el("td", {}, words)),
+    ...[...wanted, `${fixedShort(100 * asked.strain, 1)}\u202f%`, asked.force_n.map((force) => fixedShort(force, 1)).join(" – ")].map((words) => el("td", {}, words)),
   );
   const table = el(
     "table",

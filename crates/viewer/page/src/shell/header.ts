@@ -92,7 +92,7 @@ export class Header {
   #name(): void {
     const name = this.#view.heading.scenario;
     this.#scenario.title = name.slice(0, TITLE);
-    this.#scenario.replaceChildren(isolated(name));
+    this.#scenario.replaceChildren(isolated(`“${name}”`));
   }
 
   /** Again from the view, whose execution a live run completes. */

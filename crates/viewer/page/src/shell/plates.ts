@@ -134,14 +134,14 @@ export class Plates {
     if (other !== undefined) delete card.maps[kind === "planned" ? "executed" : "planned"];
     card.maps[kind].paint(t, heat ? "dwell" : "build-up");
     const share = shareAt(coverage, t);
-    card.share.set(percentDown(share, share > 0.99 ? 1 : 0));
+    card.share.set(percentDown(share));
     card.bar.style.transform = `scaleX(${share.toFixed(4)})`;
   }
 
   #make(): void {
     this.#dwell_s = dwellScale(this.#coverages.all);
     this.#scale.replaceChildren(
-      el("span", {}, this.#coverages.all.every(({ counted }) => counted !== null) ? "in contact for 0 s" : "washed for 0 s"),
+      el("span", {}, this.#coverages.all.every(({ counted }) => counted !== null) ? "in contact for 0 s" : "under the sponge for 0 s"),
       heatBar(),
       el("span", {}, quantity(this.#dwell_s, 1, "s and more")),
     );
@@ -168,12 +168,12 @@ export class Plates {
 
   #card(plate: number, seen: boolean): Card {
     const name = this.#player.view.plates[plate]?.name ?? `plate ${plate + 1}`;
-    const canvas = el("canvas", { class: "map", set: { role: "img", "aria-label": `Coverage of ${name}` } });
+    const canvas = el("canvas", { class: "map", set: { role: "img", "aria-label": `What the sponge sweeps of ${name}` } });
     const share = new TextCell("0\u202f%");
     const bar = el("span", { class: "bar-fill" });
     const final = this.#coverages.shareAt(plate, this.#player.coverageKind, Number.POSITIVE_INFINITY) ?? 0;
-    const proved = this.#coverages.of(plate, "planned")?.proved ?? null;
-    const last = proved === null ? `in the end ${percentDown(final, 1)}` : `proved ≥\u202f${percentDown(proved, 2)}`;
+    const { proved = null, counted = null } = this.#coverages.of(plate, "planned") ?? {};
+    const last = proved === null ? `in the end ${percentDown(final)}` : `proved: ${counted?.is_promised ? "pressed" : "swept"} ≥\u202f${percentDown(proved)}`;
     const go = button({ class: "card-button", label: `Go to the washing of ${name}` }, () => this.#onPlate(plate), canvas);
     const element = el(
       "li",

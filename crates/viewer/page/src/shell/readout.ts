@@ -36,7 +36,7 @@ export class Readout {
   readonly #activity = new TextCell();
   readonly #speed = figure("tip speed");
   readonly #clearance = figure("clearance");
-  readonly #coverage = figure("covered");
+  readonly #coverage = figure("swept");
   readonly #error = figure("off the plan");
   readonly #swatch = el("span", { class: "swatch" });
   #shareAt: (plate: number, t: number) => number | null;
@@ -111,10 +111,10 @@ export class Readout {
     const { segment, time, view } = this.#player;
     const plate = segment?.plate ?? null;
     const counted = view.coverage.find((coverage) => plate === null || coverage.plate === plate)?.counted ?? null;
-    this.#coverage.name.set(counted?.is_promised ? "pressed" : counted === null ? "covered" : "touched");
+    this.#coverage.name.set(counted?.is_promised ? "pressed" : counted === null ? "swept" : "touched");
     const share = plate === null || segment?.kind === "transit" ? null : this.#shareAt(plate, time);
     this.#coverage.element.classList.toggle("faint", share === null);
-    this.#coverage.value.set(share === null ? "–" : percentDown(share, share > 0.99 ? 1 : 0));
+    this.#coverage.value.set(share === null ? "–" : percentDown(share));
   }
 
   #showError(): void {
