@@ -67,7 +67,7 @@ fn pd_alone_washes_less_and_says_why() {
             plate
                 .causes
                 .iter()
-                .any(|cause| matches!(cause, Cause::Pressed { most_m, .. } if *most_m > 0.025))
+                .any(|cause| matches!(cause, Cause::Sunk { most_m, .. } if *most_m > 0.025))
         );
         let words: Vec<_> = plate.causes.iter().map(Cause::to_string).collect();
         assert!(words.iter().any(|w| w.contains("sinks")) && words.iter().any(|w| w.contains("required")));

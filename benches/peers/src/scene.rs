@@ -21,7 +21,7 @@ pub fn scene(job: &WashJob) -> Result<Value, Box<dyn Error>> {
     let limits = arm.limits();
     let tool = &terms.workcell.tool;
     let mut bodies: Vec<Value> = arm.links().iter().filter_map(of_link).collect();
-    let flange = arm.mounting_frame();
+    let flange = tool.mounting_frame(arm);
     let (sponge, at) = tool.sponge.free_body();
     for held in &tool.bodies {
         bodies.push(body(&held.name, &flange, &[(held.shape.clone(), held.pose)], 0.0));

@@ -2,7 +2,7 @@
 
 use crate::amounts::{decimals, kept, number, scale};
 use crate::certificate::Certificate;
-use crate::check::{Check, Measure, Sense, Status, Worst};
+use crate::check::{Check, Measure, Sense, Status, Unit, Worst};
 use crate::clearances::{PairBound, PairRule};
 use crate::plate_contact::{PlateContact, ProvedShare};
 use crate::requirement::Requirement;

@@ -84,7 +84,7 @@ fn an_arm_that_sinks_presses_too_hard_and_does_not_pass_through() {
     let (_, held) = judged(&under(ControlLawName::Pd, 15.0, foam(2e4)));
     let sinks = |report: &SimulationReport| -> f64 {
         let depth = |cause: &Cause| match cause {
-            Cause::Pressed { most_m, .. } => Some(*most_m),
+            Cause::Sunk { most_m, .. } => Some(*most_m),
             _ => None,
         };
         report

@@ -21,7 +21,7 @@ pub enum Cause {
         t_s: f64,
     },
     /// The arm sinks: the tip is deeper below the surface than the sponge is high, where in truth the plate would stop it.
-    Pressed {
+    Sunk {
         /// Share of the wash's samples.
         share: f64,
         /// Depth of the tip, at most \[m\].
@@ -39,7 +39,7 @@ pub enum Cause {
         t_s: f64,
     },
     /// Less is surely swept than is required.
-    Coverage {
+    NotSwept {
         /// What is surely swept.
         at_least: f64,
         /// What is required.
@@ -58,7 +58,7 @@ impl fmt::Display for Cause {
                 percent(share),
                 mm(most_m)
             ),
-            Self::Pressed { share, most_m, t_s } => write!(
+            Self::Sunk { share, most_m, t_s } => write!(
                 f,
                 "the arm sinks for {:.1} % of the wash: the tip is up to {:.1} mm below the surface (at {t_s:.3} s), deeper than \
                  the sponge is high",
@@ -71,7 +71,7 @@ impl fmt::Display for Cause {
                 mm(rms_m),
                 mm(most_m)
             ),
-            Self::Coverage { at_least, required } => {
+            Self::NotSwept { at_least, required } => {
                 let [swept, required] = told_apart(percent(at_least), percent(required), 1);
                 write!(f, "{swept} % is surely swept, {required} % is required")
             }

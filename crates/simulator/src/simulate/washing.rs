@@ -223,7 +223,7 @@ impl Wash<'_> {
         let planned = self.swept(&self.planned, &everywhere)?;
         let executed = self.swept(&self.executed, &touches)?;
         let causes = self.causes(&touches, &executed);
-        let fails = |cause: &Cause| matches!(cause, Cause::NoTool | Cause::Pressed { .. } | Cause::Coverage { .. });
+        let fails = |cause: &Cause| matches!(cause, Cause::NoTool | Cause::Sunk { .. } | Cause::NotSwept { .. });
         Ok(PlateOutcome {
             plate: self.index,
             verdict: PlateVerdict::new(self.treatment, !causes.iter().any(fails)),
@@ -268,12 +268,12 @@ impl Wash<'_> {
             causes.push(Cause::Lifted { share, most_m, t_s });
         }
         if let Some((share, most_m, t_s)) = self.worst(touches, Touch::Pressed, |tip| -tip.height_m) {
-            causes.push(Cause::Pressed { share, most_m, t_s });
+            causes.push(Cause::Sunk { share, most_m, t_s });
         }
         causes.extend(self.strayed());
         let (at_least, required) = (executed.lower, self.required);
         if !reaches(at_least, required) {
-            causes.push(Cause::Coverage { at_least, required });
+            causes.push(Cause::NotSwept { at_least, required });
         }
         causes
     }
