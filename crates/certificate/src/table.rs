@@ -298,11 +298,9 @@ fn numbers(measure: &Measure) -> (String, String, &'static str) {
         Sense::Above => ">",
     };
     let (limit, decimals) = (measure.limit * scale, decimals(measure.unit));
-    let exact = format!("{limit:.decimals$}");
-    let exact = if exact.parse() == Ok(limit) {
-        exact
-    } else {
-        number(limit)
+    let exact = match measure.unit {
+        Unit::Share => number(limit),
+        _ => format!("{limit:.decimals$}"),
     };
     let [bound, limit] = match measure.bound {
         Some(bound) if measure.keeps(bound) => [kept(measure, bound, decimals), exact],
