@@ -16,17 +16,12 @@ def percent(share: float) -> str:
     """
     return "100 %" if share >= 1 - 1e-9 else f"{math.floor(1e3 * share + 1e-9) / 10:.1f} %"
 
-    >>> percent(0.4202), percent(0.99994), percent(1.0)
-    ('42.02 %', '99.99 %', '100.00 %')
-    """
-    return f"{100 * share if share >= 0.99995 else min(100 * share, 99.99):.2f} %"
-
 
 def quoted(name: str) -> str:
-    """A name out of a file in quotes, on one line; of a long one the beginning, and its length.
+    r"""A name out of a file in quotes, on one line; of a long one the beginning, and its length.
 
-    >>> print(quoted('a"b\\nPROVED'))
-    "a\\"b\\nPROVED"
+    >>> print(quoted('a"b\nPROVED'))
+    "a\"b\nPROVED"
     """
     begins = name[:LONGEST_NAME].replace("\\", "\\\\").replace('"', '\\"')
     shown = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in begins)

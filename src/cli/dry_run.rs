@@ -4,7 +4,7 @@ use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::law::positive;
 use super::options::Options;
-use super::output::{self, File};
+use super::output;
 use super::plan_file::PlanFile;
 use super::progress::Progress;
 use super::results;
@@ -191,7 +191,7 @@ fn tell(
         output::file(data.clone(), output::json(&report)?),
         output::file(sheet.clone(), &words),
     ];
-    write(options, &files, &[])?;
+    output::replace(&files, &[plan, proof, data, sheet].map(Clone::clone), &options.cancel)?;
     output::print_either(options.json, &report, || words.clone())?;
     results::name(options, &files);
     let outcome = if report.proved {
@@ -242,7 +242,7 @@ impl NoReport {
             output::file(data.clone(), output::json(self)?),
             output::file(sheet.clone(), &words),
         ];
-        write(options, &files, &[plan, proof])?;
+        output::replace(&files, &[plan, proof, data, sheet].map(Clone::clone), &options.cancel)?;
         output::print_either(options.json, self, || words.clone())?;
         results::name(options, &files);
         let outcome = match self.why.verdict {
@@ -251,13 +251,6 @@ impl NoReport {
         };
         Ok(outcome.answer())
     }
-}
-
-/// Writes the files, and removes those of an earlier call that are not written.
-fn write(options: &Options, files: &[File<'_>], others: &[&PathBuf]) -> Result<(), Failure> {
-    let is_file = |path: &&&PathBuf| std::fs::symlink_metadata(path).is_ok_and(|found| !found.is_dir());
-    let stale: Vec<PathBuf> = others.iter().filter(is_file).map(|path| (*path).clone()).collect();
-    output::replace(files, &stale, &options.cancel)
 }
 
 /// Refuses a plan that the dry run would be written over.

@@ -132,9 +132,10 @@ impl ScenarioFile {
         let mut files = vec![output::file(self.place.file.clone(), save.text)];
         files.extend(products);
         let is_written = |path: &PathBuf| files.iter().any(|(written, _)| written == path);
-        let stale = BESIDE.iter().map(|ending| self.place.beside(ending));
-        let stale: Vec<_> = stale.filter(|path| path.is_file() && !is_written(path)).collect();
-        if !output::replace_if(&files, &stale, cancel, still)? {
+        let earlier = BESIDE.iter().map(|ending| self.place.beside(ending));
+        let earlier: Vec<_> = earlier.filter(|path| path.is_file()).collect();
+        let removed = earlier.iter().filter(|path| !is_written(path)).count();
+        if !output::replace_if(&files, &earlier, cancel, still)? {
             return Ok(None);
         }
         // A new file has the mode of new files; this one has been here before.
@@ -143,9 +144,9 @@ impl ScenarioFile {
             kept.with_context(|| format!("{}: is written, but its mode cannot be kept", self.place.words()))
                 .map_err(Failure::input)?;
         }
-        let removed = match stale.len() {
+        let removed = match removed {
             0 => String::new(),
-            _ => format!("; {} of an earlier save removed", counted(stale.len(), "file")),
+            _ => format!("; {} of an earlier save removed", counted(removed, "file")),
         };
         let files = files.iter().map(|(path, _)| path.display().to_string());
         Ok(Some(Written {

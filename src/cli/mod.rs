@@ -195,9 +195,7 @@ fn answer(arguments: impl IntoIterator<Item = OsString>, token: impl FnOnce() ->
                 let code = u8::try_from(e.exit_code()).unwrap_or(failure::INPUT);
                 match e.print() {
                     // A closed pipe is no reason to fail; help that cannot be written is.
-                    Err(cannot) if code == 0 && cannot.kind() != ErrorKind::BrokenPipe => {
-                        Err(Failure::internal(cannot))
-                    }
+                    Err(cannot) if code == 0 && cannot.kind() != ErrorKind::BrokenPipe => Err(Failure::input(cannot)),
                     _ => Ok(ExitCode::from(code)),
                 }
             }

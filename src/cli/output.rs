@@ -4,12 +4,12 @@ use super::failure::Failure;
 use super::text::{self, escaped};
 use anyhow::Context;
 use platewash::CancelToken;
+use platewash::workcell::atomic_file::{FolderLock, StagedFile, folder_of};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::io::{BufWriter, ErrorKind, IntoInnerError, Write};
 use std::path::{Component, Path, PathBuf};
-use tempfile::NamedTempFile;
 
 /// Whether anybody still reads standard output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,7 +26,7 @@ pub fn print(text: &str) -> Result<Reader, Failure> {
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Ok(()) => Ok(Reader::There),
         Err(e) if e.kind() == ErrorKind::BrokenPipe => Ok(Reader::Gone),
-        Err(e) => Err(Failure::internal(
+        Err(e) => Err(Failure::input(
             anyhow::Error::new(e).context("standard output cannot be written"),
         )),
     }
@@ -98,6 +98,7 @@ pub fn replace_if(
     still: &dyn Fn() -> bool,
 ) -> Result<bool, Failure> {
     refuse_one_place_for_two(files.iter().map(|(path, _)| path)).map_err(Failure::input)?;
+    let locks = locks(files).map_err(Failure::input)?;
     let mut complete = Vec::new();
     for (path, content) in files {
         complete.push((stage(path, content).map_err(Failure::input)?, path));
@@ -106,7 +107,10 @@ pub fn replace_if(
     if !still() {
         return Ok(false);
     }
-    for path in stale {
+    // Those of an earlier call go first, the last one first, so that at no moment files of two calls stand side by side. A folder of that name
+    // is none of ours.
+    let is_file = |path: &&PathBuf| std::fs::symlink_metadata(path).is_ok_and(|found| !found.is_dir());
+    for path in stale.iter().rev().filter(is_file) {
         std::fs::remove_file(path)
             .with_context(|| format!("{}: is of an earlier call and cannot be removed", path.display()))
             .map_err(Failure::input)?;
@@ -117,7 +121,25 @@ pub fn replace_if(
             .with_context(|| format!("{}: cannot be written", path.display()))
             .map_err(Failure::input)?;
     }
+    locks.iter().for_each(FolderLock::sync);
     Ok(true)
+}
+
+/// The locks of the folders of files, in one order for all callers, without leftovers in them.
+fn locks(files: &[File<'_>]) -> anyhow::Result<Vec<FolderLock>> {
+    let mut folders = BTreeMap::new();
+    for (path, _) in files {
+        let folder = folder_of(path);
+        let place = place(folder).with_context(|| format!("{}: cannot be written", path.display()))?;
+        folders.insert(place, folder);
+    }
+    let lock = |folder: &Path| {
+        let lock = FolderLock::new(folder);
+        let lock = lock.with_context(|| format!("{}: folder cannot be made", folder.display()))?;
+        lock.remove_leftovers();
+        Ok(lock)
+    };
+    folders.into_values().map(lock).collect()
 }
 
 /// Refuses, before any work, files that could not be written after it. Nothing is left behind.
@@ -132,6 +154,11 @@ pub fn check_places(files: &[PathBuf]) -> Result<(), Failure> {
 /// Refuses a file whose folder can neither be written nor made.
 fn refuse_place(path: &Path) -> anyhow::Result<()> {
     refuse_taken(path)?;
+    if let Err(error) = path.symlink_metadata()
+        && error.kind() == ErrorKind::InvalidFilename
+    {
+        return Err(error).with_context(|| format!("{}: cannot be written", path.display()));
+    }
     let folder = folder_of(path);
     let place = place(folder).with_context(|| format!("{}: cannot be written", path.display()))?;
     // A link that leads nowhere does not exist, but stands in the way.
@@ -144,7 +171,7 @@ fn refuse_place(path: &Path) -> anyhow::Result<()> {
         anyhow::bail!("{}: {} is no folder", cannot(), nearest.display());
     }
     // Rights are many things; a file that is made and goes again asks for all of them.
-    let made = temporary().tempfile_in(nearest).map(drop);
+    let made = StagedFile::in_folder(nearest).map(drop);
     made.map_err(|error| {
         anyhow::anyhow!(
             "{}: no file can be made in {}: {}",
@@ -165,52 +192,32 @@ fn refuse_taken(path: &Path) -> anyhow::Result<()> {
     anyhow::bail!("{}: cannot be written: it is {what}", path.display());
 }
 
-fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    }
-}
-
 /// Writes a file by what makes it piece by piece: whole or not at all.
 pub fn write_to<T>(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<T, Failure>) -> Result<T, Failure> {
     let cannot = || format!("{}: cannot be written", path.display());
-    let mut staged = BufWriter::new(begun(path).map_err(Failure::input)?);
+    refuse_taken(path).map_err(Failure::input)?;
+    let staged = StagedFile::beside(path).with_context(cannot).map_err(Failure::input)?;
+    let mut staged = BufWriter::new(staged);
     let written = write(&mut staged)?;
     let staged = staged.into_inner().map_err(IntoInnerError::into_error);
-    let renamed = staged.and_then(|staged| staged.persist(path).map_err(|error| error.error));
+    let renamed = staged.and_then(|staged| staged.sync().and_then(|()| staged.persist(path)));
     renamed.with_context(cannot).map_err(Failure::input)?;
     Ok(written)
 }
 
-/// A file beside a place, to take it once it is complete.
-fn begun(path: &Path) -> anyhow::Result<NamedTempFile> {
-    let folder = folder_of(path);
-    std::fs::create_dir_all(folder).with_context(|| format!("{}: folder cannot be made", folder.display()))?;
-    refuse_taken(path)?;
-    let staged = temporary().tempfile_in(folder);
-    staged.with_context(|| format!("{}: cannot be written", path.display()))
-}
-
-fn stage(path: &Path, content: &Content<'_>) -> anyhow::Result<NamedTempFile> {
+fn stage(path: &Path, content: &Content<'_>) -> anyhow::Result<StagedFile> {
     let cannot = || format!("{}: cannot be written", path.display());
-    let mut buffered = BufWriter::new(begun(path)?);
+    refuse_taken(path)?;
+    let staged = StagedFile::in_folder(folder_of(path)).with_context(cannot)?;
+    let mut buffered = BufWriter::new(staged);
     let written = match content {
         Content::Text(text) => write!(buffered, "{text}"),
         Content::Bytes(bytes) => buffered.write_all(bytes),
     };
     written.with_context(cannot)?;
     let staged = buffered.into_inner().map_err(IntoInnerError::into_error);
-    staged.with_context(cannot)
-}
-
-/// Temporary files are private; results are for whom the system's mask allows.
-fn temporary() -> tempfile::Builder<'static, 'static> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".platewash-");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder
+    let synced = staged.and_then(|staged| staged.sync().map(|()| staged));
+    synced.with_context(cannot)
 }
 
 /// No file may take the place of another one of the same run.

@@ -2,7 +2,8 @@
 
 use super::failure::Failure;
 use super::options::Options;
-use super::{bundle, output, results};
+use super::output::{self, File};
+use super::{bundle, results};
 use anyhow::Context;
 use platewash::viewer::bundle::Bundle;
 use platewash::viewer::page;
@@ -15,17 +16,20 @@ pub fn html(plan: &Plan, arm: &RobotModel, beside: &Beside<'_>, bundle: &Bundle)
     Ok(page::html(&view, bundle)?)
 }
 
-/// Writes the page of a plan beside its report, which is written already: the first page of a checkout may take a minute. Without a bundle
-/// there is none, and a line on standard error says why.
-pub fn write(options: &Options, plan: &Plan, arm: &RobotModel, beside: &Beside<'_>) -> Result<(), Failure> {
+/// The page of a plan as a file beside its report. The first page of a checkout may take a minute. Without a bundle there is none, and a line
+/// on standard error says why.
+pub fn file(
+    options: &Options,
+    plan: &Plan,
+    arm: &RobotModel,
+    beside: &Beside<'_>,
+) -> Result<Option<File<'static>>, Failure> {
     let Some(bundle) = bundle::bundle(options) else {
-        return Ok(());
+        return Ok(None);
     };
+    options.cancel.check()?;
     let page = html(plan, arm, beside, &bundle)
         .context("the page of the plan")
         .map_err(Failure::internal)?;
-    let files = [output::file(results::folder(options).join(results::PAGE), page)];
-    output::write_files(&files, &options.cancel)?;
-    results::name(options, &files);
-    Ok(())
+    Ok(Some(output::file(results::folder(options).join(results::PAGE), page)))
 }

@@ -4,7 +4,6 @@
 use super::failure::Failure;
 use super::options::Options;
 use super::output::{self, File};
-use anyhow::Context;
 use std::path::{Path, PathBuf};
 
 /// Folder that is written to without `--out`.
@@ -29,17 +28,16 @@ pub const OWNED: [&str; 10] = [
     "simulation.txt",
 ];
 
-/// The page that `run` writes once everything else is written.
+/// The page that `run` writes.
 pub const PAGE: &str = "page.html";
 
 /// What `simulate` writes: the motion, and the report twice.
 pub const SIMULATED: [&str; 3] = ["simulated.csv", "simulation.json", "simulation.txt"];
 
-/// Writes the files of one call, and removes from the folder those of [`OWNED`] that it does not write. All or nothing, as
-/// [`output::write_files`].
+/// Writes the files of one call in place of all of [`OWNED`] in the folder. All or nothing, as [`output::write_files`].
 pub fn write(options: &Options, files: &[File<'_>]) -> Result<(), Failure> {
-    let stale = stale(&folder(options), files).map_err(Failure::input)?;
-    output::replace(files, &stale, &options.cancel)
+    let earlier = OWNED.map(|name| folder(options).join(name));
+    output::replace(files, &earlier, &options.cancel)
 }
 
 /// Says what was written.
@@ -54,18 +52,4 @@ pub fn check_places(options: &Options, names: &[&str], csv: &Path) -> Result<(),
     let folder = folder(options);
     let named = names.iter().map(|name| folder.join(name));
     output::check_places(&named.chain([csv.to_owned()]).collect::<Vec<_>>())
-}
-
-fn stale(folder: &Path, files: &[File<'_>]) -> anyhow::Result<Vec<PathBuf>> {
-    let place = |path: &Path| output::place(path).with_context(|| format!("{}: cannot be written", path.display()));
-    let written: Vec<_> = files.iter().map(|(path, _)| place(path)).collect::<Result<_, _>>()?;
-    let mut stale = Vec::new();
-    for path in OWNED.map(|name| folder.join(name)) {
-        // A folder of that name is none of ours.
-        let is_file = std::fs::symlink_metadata(&path).is_ok_and(|found| !found.is_dir());
-        if is_file && !written.contains(&place(&path)?) {
-            stale.push(path);
-        }
-    }
-    Ok(stale)
 }

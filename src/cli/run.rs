@@ -54,9 +54,6 @@ fn run_paper(options: &Options, scenario: &Scenario, arguments: &MotionArguments
     files.push(output::file(folder.join("executed.csv"), executed));
     files.push(output::file(folder.join("report.json"), output::json(report)?));
     files.push(output::file(folder.join("report.txt"), &words));
-    results::write(options, &files)?;
-    output::print_either(options.json, report, || words.clone())?;
-    results::name(options, &files);
     let executed = followed.as_executed();
     let plan = followed.run.plan().map_err(platewash::Failure::from)?;
     let region = scenario.task_region();
@@ -65,7 +62,10 @@ fn run_paper(options: &Options, scenario: &Scenario, arguments: &MotionArguments
         region: Some(&region),
         ..Beside::default()
     };
-    page::write(options, &plan, &followed.run.job.arm, &beside)?;
+    files.extend(page::file(options, &plan, &followed.run.job.arm, &beside)?);
+    results::write(options, &files)?;
+    output::print_either(options.json, report, || words.clone())?;
+    results::name(options, &files);
     Ok(Outcome::from(report.verdict).job(scenario.job.on_failure))
 }
 
@@ -105,9 +105,6 @@ fn run_washing(
     }
     files.push(output::file(folder.join("report.json"), output::json(&report)?));
     files.push(output::file(folder.join("report.txt"), &words));
-    results::write(options, &files)?;
-    output::print_either(options.json, &report, || words.clone())?;
-    results::name(options, &files);
     let executed = report.simulation.as_executed(execution.as_ref());
     let region = scenario.task_region();
     let beside = Beside {
@@ -116,7 +113,10 @@ fn run_washing(
         region: Some(&region),
         ..Beside::default()
     };
-    page::write(options, plan, arm, &beside)?;
+    files.extend(page::file(options, plan, arm, &beside)?);
+    results::write(options, &files)?;
+    output::print_either(options.json, &report, || words.clone())?;
+    results::name(options, &files);
     if let Some(show) = show {
         show.part(options);
     }

@@ -64,13 +64,13 @@ pub fn run(options: &Options, arguments: &SimulateArguments) -> Result<ExitCode,
     };
     let csv = table(&execution, plan, &file.arm, dt_s)?;
     let words = text(&report);
-    let [motion, data, sheet] = places;
+    let [motion, data, sheet] = places.clone();
     let files = [
         output::file(motion, csv),
         output::file(data, output::json(&report)?),
         output::file(sheet, &words),
     ];
-    output::write_files(&files, &options.cancel)?;
+    output::replace(&files, &places, &options.cancel)?;
     output::print_either(options.json, &report, || words.clone())?;
     results::name(options, &files);
     Ok(Outcome::from(report.verdict).answer())

@@ -204,12 +204,12 @@ fn no_output_takes_the_place_of_another() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn standard_output_that_is_full_is_an_error_of_the_system() {
+fn standard_output_that_is_full_is_a_place_that_cannot_be_written() {
     let full = || std::fs::File::create("/dev/full").unwrap();
     for arguments in [&["robot"][..], &["--help"]] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_platewash"));
         let ran = command.args(arguments).stdout(full()).output().unwrap();
-        assert_eq!(ran.status.code(), Some(1), "{arguments:?}");
+        assert_eq!(ran.status.code(), Some(2), "{arguments:?}");
         assert!(String::from_utf8(ran.stderr).unwrap().contains("error:"));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{folder, platewash};
 use platewash::Plan;
+use platewash::kinematics::words::is_hidden;
 use platewash::workcell::words::quoted;
 use std::fs;
 use std::path::Path;
@@ -32,6 +33,11 @@ fn hostile() -> Vec<String> {
     .to_vec();
     names.push("PROVED ".repeat(20_000));
     names
+}
+
+/// Those that are read at all.
+fn readable() -> Vec<String> {
+    hostile().into_iter().filter(|name| !name.contains(is_hidden)).collect()
 }
 
 /// A plan of one plate as `NAME.json`, of a scenario of this name.
@@ -67,8 +73,15 @@ fn no_name_reads_as_a_verdict_or_adds_a_line() {
         [verify, simulate].map(|text| without(&text, name))
     };
     let innocent = told("x");
-    for name in hostile() {
+    for name in readable() {
         assert_eq!(told(&name), innocent, "{name:?}");
+    }
+    for name in hostile().iter().filter(|name| name.contains(is_hidden)) {
+        write(dir, &plan, "plan.json", name);
+        for verb in ["verify", "simulate", "figures"] {
+            let message = ["provenance.scenario", "control or direction character"];
+            platewash(dir, &[verb, "plan.json", "--quiet"]).refused(2, &message);
+        }
     }
 }
 
@@ -99,10 +112,6 @@ fn no_name_breaks_a_file() {
             let files = answer["files"].as_array().unwrap();
             for file in files {
                 let text = fs::read_to_string(dir.join(file.as_str().unwrap())).unwrap();
-                assert!(
-                    !text.contains(['\u{1b}', '\u{8}', '\u{2028}', '\u{202e}', '\u{85}']),
-                    "{name:?}"
-                );
                 lines.extend(text.lines().filter_map(first_word));
             }
         }
@@ -118,7 +127,7 @@ fn no_name_breaks_a_file() {
             assert!(!words.iter().any(reads), "{name:?}");
         }
     };
-    let names = hostile();
+    let names = readable();
     judge(&names, &["rapid"]);
-    judge(&names[2..6], &["ros2", "csv"]);
+    judge(&names[..3], &["ros2", "csv"]);
 }

@@ -18,6 +18,7 @@ mod ignored;
 mod infeasible;
 mod interrupt;
 mod limits;
+mod one_run;
 mod other_arms;
 mod page;
 mod reader;

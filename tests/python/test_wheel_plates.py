@@ -157,10 +157,10 @@ def test_a_certificate_says_what_is_proved_of_contact() -> None:
     plan = pw.plan(job).plan
     certificate = pw.prove(plan)
     assert certificate.proved, str(certificate)
-    assert [plate.plate for plate in certificate.contact] == [plate.plate for plate in certificate.coverage] == list(plan.order)
+    assert [plate.plate for plate in certificate.contact] == [plate.plate for plate in certificate.swept] == list(plan.order)
     asked = job.requirements.contact
     for plate in certificate.contact:
-        assert plate.share.at_least >= asked.share == plate.share.required and plate.share.threshold == asked.compression_m
+        assert plate.pressed.at_least >= asked.share == plate.pressed.required and plate.pressed.threshold == asked.compression_m
         assert plate.time.at_least >= asked.time_share and plate.time.threshold == asked.time_s
         assert plate.dose.at_least >= asked.dose_share and plate.dose.threshold == asked.dose_pa_m
         assert 0.2 < plate.strain.seen <= plate.strain.bound <= asked.strain
@@ -171,7 +171,7 @@ def test_a_certificate_says_what_is_proved_of_contact() -> None:
         # Friction of 0.3 and of 1.0.
         assert plate.friction_torque_nm[1] == pytest.approx(plate.friction_torque_nm[0] / 0.3)
     names = [check.requirement for check in certificate.checks]
-    assert {"contact", "contact_time", "contact_dose", "strain", "contact_force", "wrist"} <= set(names)
+    assert {"pressed", "contact_time", "contact_dose", "strain", "contact_force", "wrist"} <= set(names)
     assert certificate.to_dict()["contact"][0] == certificate.contact[0].to_dict()
     assert pickle.loads(pickle.dumps(certificate)) == certificate
     # Nothing is said of contact where nothing is asked.
@@ -183,5 +183,5 @@ def test_a_plan_that_presses_too_little_is_refused_by_name() -> None:
     table = plan.to_dict()
     table["job"]["requirements"]["contact"]["share"] = 0.99999
     certificate = pw.prove(pw.Plan.from_json(json.dumps(table)))
-    assert [check.requirement for check in certificate.broken] == ["contact"] and not certificate.proved
-    assert certificate.contact[0].share.required == 0.99999
+    assert [check.requirement for check in certificate.broken] == ["pressed"] and not certificate.proved
+    assert certificate.contact[0].pressed.required == 0.99999

@@ -242,7 +242,7 @@ def test_the_papers_job_runs_under_its_own_law() -> None:
     execution = pw.simulate(plan)
     assert execution.settings.law == "paper" and execution.torque_limit_n_m is None and not execution.torque_n_m.any()
     report = execution.report()
-    assert report.verdict == "not_washed" and report.effort is None and str(report).startswith("NOT SWEPT")
+    assert report.verdict == "not_swept" and report.effort is None and str(report).startswith("NOT SWEPT")
 
 
 def test_plates_push_back_where_it_is_stated(plan: pw.Plan) -> None:

@@ -117,6 +117,21 @@ fn decimal(text: &str, otherwise: f64) -> f64 {
     text.parse().unwrap_or(otherwise)
 }
 
+/// Whether a character is a control or format character of Unicode, or separates lines or paragraphs (categories Cc, Cf, Zl and Zp): text with
+/// one does not read as what it says.
+#[must_use]
+pub fn is_hidden(c: char) -> bool {
+    c.is_control() || is_format(c)
+}
+
+fn is_format(c: char) -> bool {
+    matches!(c,
+        '\u{ad}' | '\u{600}'..='\u{605}' | '\u{61c}' | '\u{6dd}' | '\u{70f}' | '\u{890}'..='\u{891}' | '\u{8e2}' | '\u{180e}'
+        | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}'
+        | '\u{110bd}' | '\u{110cd}' | '\u{13430}'..='\u{1343f}' | '\u{1bca0}'..='\u{1bca3}' | '\u{1d173}'..='\u{1d17a}'
+        | '\u{e0001}' | '\u{e0020}'..='\u{e007f}')
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,7 @@
 
 use crate::error::Problem;
 use crate::key::{Domain, Key};
-use platewash_kinematics::words::rounded;
+use platewash_kinematics::words::{is_hidden, rounded};
 use platewash_workcell::surface::MOST_KNOTS;
 use serde_json::Value;
 
@@ -28,7 +28,7 @@ pub(crate) fn check(key: &Key, value: &Value, found: impl FnOnce() -> String) ->
 fn fits(domain: Domain, value: &Value) -> bool {
     let text = value.as_str().is_some_and(|s| !s.trim().is_empty());
     match domain {
-        Domain::Text => text && !value.as_str().is_some_and(|s| s.contains(char::is_control)),
+        Domain::Text => text && !value.as_str().is_some_and(|s| s.contains(is_hidden)),
         Domain::Path => text,
         Domain::Paths => value.as_array().is_some_and(|all| all.iter().all(Value::is_string)),
         Domain::Word(words) => value.as_str().is_some_and(|s| words.contains(&s)),

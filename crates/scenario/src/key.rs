@@ -79,7 +79,7 @@ impl Domain {
     #[must_use]
     pub fn describe(&self) -> String {
         match self {
-            Text => "text, not empty, without control characters".to_owned(),
+            Text => "text, not empty, without control or direction characters".to_owned(),
             Path => "a path".to_owned(),
             Paths => "a list of folders".to_owned(),
             Word(words) => {

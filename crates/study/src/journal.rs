@@ -10,8 +10,8 @@ use crate::manifest::Manifest;
 use crate::outcome::Outcome;
 use crate::row::Row;
 use crate::study::Study;
-use crate::whole::write_whole;
 use platewash_kinematics::fingerprint::sha256_hex;
+use platewash_workcell::atomic_file::{self, FolderLock};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -63,6 +63,13 @@ impl Journal {
                 return Err(StudyError::Busy { folder });
             }
             Err(fs::TryLockError::Error(error)) => return Err(StudyError::disk(&path, "cannot be locked")(error)),
+        }
+        for folder in [folder, &folder.join(PLANS)]
+            .into_iter()
+            .filter(|folder| folder.is_dir())
+        {
+            let lock = FolderLock::new(folder).map_err(StudyError::disk(folder, "cannot be opened"))?;
+            lock.remove_leftovers();
         }
         // Somebody else may have been here until now.
         let manifest = match kept_manifest(folder, study)? {
@@ -173,7 +180,8 @@ impl Journal {
         if let Some(plan) = plan {
             let plans = self.folder.join(PLANS);
             fs::create_dir_all(&plans).map_err(StudyError::disk(&plans, "cannot be made"))?;
-            write_whole(&plans.join(format!("{index}.json")), plan)?;
+            let file = plans.join(format!("{index}.json"));
+            atomic_file::write(&file, plan).map_err(StudyError::disk(&file, "cannot be written"))?;
         }
         let path = self.folder.join(ROWS);
         files
@@ -234,7 +242,8 @@ fn restate(folder: &Path, study: &Study, manifest: &Manifest) -> Result<(), Stud
         return Ok(());
     }
     for (name, text) in texts(study) {
-        write_whole(&folder.join(name), text.as_bytes())?;
+        let file = folder.join(name);
+        atomic_file::write(&file, text.as_bytes()).map_err(StudyError::disk(&file, "cannot be written"))?;
     }
     Ok(())
 }

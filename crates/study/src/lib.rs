@@ -25,7 +25,6 @@ mod run;
 mod statement;
 mod study;
 mod summary;
-mod whole;
 
 pub use axis::{Axis, AxisKind};
 pub use base::Base;

@@ -5,8 +5,8 @@ use crate::base::Base;
 use crate::error::StudyError;
 use crate::row::ROW_SCHEMA;
 use crate::study::Study;
-use crate::whole::write_whole;
 use platewash_kinematics::fingerprint::sha256_hex;
+use platewash_workcell::atomic_file;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -121,7 +121,8 @@ impl Manifest {
             file: path.to_owned(),
             problem: error.to_string(),
         })?;
-        write_whole(path, format!("{text}\n").as_bytes())
+        let written = atomic_file::write(path, format!("{text}\n").as_bytes());
+        written.map_err(StudyError::disk(path, "cannot be written"))
     }
 
     /// What tells this study from another one, with what each of them has.

@@ -9,7 +9,7 @@
 //! | what is asked, resolved | [`job`], [`simulation`] |
 //! | how a plate is washed; the arc between plates | [`wash_path`], [`arc`] |
 //! | a motion, its stretches, it as CSV, and read back | [`trajectory`], [`segment`], [`csv`], [`recorded`] |
-//! | the plan file | [`plan`] |
+//! | the plan file; files that appear whole | [`plan`]; [`atomic_file`] |
 //! | a plan tried out in the air; where the arm stands at the table | [`dry_run`], [`raised`]; [`align`] |
 //! | distances between bodies | [`clearance`] |
 //! | the share of a plate that is swept | [`coverage`] |
@@ -19,6 +19,7 @@
 
 pub mod align;
 pub mod arc;
+pub mod atomic_file;
 pub mod cancel;
 pub mod clearance;
 pub mod contact;

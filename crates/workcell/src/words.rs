@@ -1,5 +1,7 @@
 //! Words that messages share.
 
+use platewash_kinematics::words::is_hidden;
+
 /// A number of things: `1 plate`, `4 plates`.
 #[must_use]
 pub fn counted(count: usize, noun: &str) -> String {
@@ -24,7 +26,7 @@ pub fn millimetres(length_m: f64) -> String {
 #[must_use]
 pub fn printable(text: &str) -> String {
     let written = |c: char| {
-        if c.is_control() || is_unseen(c) {
+        if is_hidden(c) {
             c.escape_default().to_string()
         } else {
             c.to_string()
@@ -47,15 +49,6 @@ pub fn quoted(name: &str) -> String {
     };
     let begins = begins.replace('\\', r"\\").replace('"', "\\\"");
     format!("\"{}\"{rest}", printable(&begins))
-}
-
-/// Whether a character is one of Unicode's format characters or separators of lines and paragraphs (categories Cf, Zl and Zp).
-fn is_unseen(c: char) -> bool {
-    matches!(c,
-        '\u{ad}' | '\u{600}'..='\u{605}' | '\u{61c}' | '\u{6dd}' | '\u{70f}' | '\u{890}'..='\u{891}' | '\u{8e2}' | '\u{180e}'
-        | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}'
-        | '\u{110bd}' | '\u{110cd}' | '\u{13430}'..='\u{1343f}' | '\u{1bca0}'..='\u{1bca3}' | '\u{1d173}'..='\u{1d17a}'
-        | '\u{e0001}' | '\u{e0020}'..='\u{e007f}')
 }
 
 #[cfg(test)]

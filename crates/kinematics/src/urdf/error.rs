@@ -33,6 +33,9 @@ pub enum UrdfError {
     /// An element that cannot be read (a bad number, a missing attribute, an unknown joint type).
     #[error("URDF cannot be read at {at}: {detail}")]
     Syntax { at: String, detail: String },
+    /// A name that does not read as what it says.
+    #[error("the {kind} named '{name}' (escaped) has a control or direction character in its name: rename it")]
+    HiddenCharacter { kind: &'static str, name: String },
     /// Two links or two joints share a name.
     #[error("URDF has two {kind}s named '{name}'")]
     Duplicate { kind: &'static str, name: String },

@@ -2,6 +2,7 @@
 
 use super::UrdfError;
 use crate::AXES;
+use crate::words::is_hidden;
 use std::collections::{BTreeMap, BTreeSet};
 use urdf_rs::{JointType, Robot};
 
@@ -17,8 +18,9 @@ pub(super) struct Tree<'a> {
 
 impl<'a> Tree<'a> {
     pub(super) fn build(robot: &'a Robot) -> Result<Self, UrdfError> {
-        unique("link", robot.links.iter().map(|l| l.name.as_str()))?;
-        unique("joint", robot.joints.iter().map(|j| j.name.as_str()))?;
+        check_names("robot", std::iter::once(robot.name.as_str()))?;
+        check_names("link", robot.links.iter().map(|l| l.name.as_str()))?;
+        check_names("joint", robot.joints.iter().map(|j| j.name.as_str()))?;
         robot.joints.iter().try_for_each(check_kind)?;
         let above = joints_above(robot)?;
         let links = links_from_root(robot, &above)?;
@@ -43,9 +45,14 @@ impl<'a> Tree<'a> {
     }
 }
 
-fn unique<'a>(kind: &'static str, names: impl Iterator<Item = &'a str>) -> Result<(), UrdfError> {
+/// Refuses names that stand there twice, and names that do not read as what they say.
+fn check_names<'a>(kind: &'static str, names: impl Iterator<Item = &'a str>) -> Result<(), UrdfError> {
     let mut seen = BTreeSet::new();
     for name in names {
+        if name.contains(is_hidden) {
+            let name = name.escape_debug().to_string();
+            return Err(UrdfError::HiddenCharacter { kind, name });
+        }
         if !seen.insert(name) {
             let name = name.to_owned();
             return Err(UrdfError::Duplicate { kind, name });

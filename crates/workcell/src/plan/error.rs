@@ -1,7 +1,7 @@
 //! Why a plan file could not be written or read.
 
 use super::format::{BEFORE, FORMAT, Process};
-use crate::words::printable;
+use crate::words::{printable, quoted};
 
 /// Why a plan file could not be written or read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -54,6 +54,14 @@ pub enum PlanFileError {
         stated: Process,
         /// What its job says.
         planned: Process,
+    },
+    /// A name that does not read as what it says.
+    #[error("'{key}' is {}, a name with a control or direction character (escaped here): plan the scenario with another name", quoted(.found))]
+    HiddenCharacter {
+        /// Its place.
+        key: String,
+        /// The name.
+        found: String,
     },
     /// Another format.
     #[error("plan format must be \"{FORMAT}\"; found \"{}\"", printable(.found))]

@@ -12,6 +12,7 @@ use crate::segment::PlanSegment;
 use crate::trajectory::{KnotError, Trajectory};
 use crate::wash_path::WashPath;
 use format::BEFORE;
+use platewash_kinematics::words::is_hidden;
 use platewash_kinematics::{JointVector, sha256_hex};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -228,7 +229,39 @@ impl Plan {
             return Err(PlanFileError::Process { stated, planned });
         }
         contents::check(text, &plan.to_json()?, &plan)?;
+        plan.check_names()?;
         Ok(plan)
+    }
+
+    /// Refuses names that do not read as what they say.
+    fn check_names(&self) -> Result<(), PlanFileError> {
+        let world = &self.job.workcell;
+        let bodies = world
+            .tool
+            .bodies
+            .iter()
+            .map(|body| ("job.workcell.tool.bodies", &body.name));
+        let obstacles = world
+            .obstacles
+            .iter()
+            .map(|obstacle| ("job.workcell.obstacles", &obstacle.name));
+        let mount = world
+            .tool
+            .mounted_on
+            .iter()
+            .map(|link| ("job.workcell.tool.mounted_on", link));
+        let alone = [
+            ("provenance.scenario", &self.provenance.scenario),
+            ("job.workcell.arm.name", &world.arm.name),
+        ];
+        let mut all = alone.into_iter().chain(mount).chain(bodies).chain(obstacles);
+        match all.find(|(_, name)| name.contains(is_hidden)) {
+            None => Ok(()),
+            Some((key, name)) => Err(PlanFileError::HiddenCharacter {
+                key: key.to_owned(),
+                found: name.clone(),
+            }),
+        }
     }
 }
 
