@@ -1,11 +1,15 @@
 //! The bodies of a world, and which of them are what.
 
+use super::convex::hull_corners;
 use super::error::ClearanceError;
 use super::part::{Part, Placed};
+use super::solid::MOST_CORNERS;
 use super::tree::Tree;
 use crate::plate::Plate;
 use crate::tool::Tool;
 use crate::workcell::{Obstacle, ObstacleShape};
+use parry3d_f64::math::Vector;
+use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{BodyPoses, Frame, JointVector, Pose, RobotModel};
 
@@ -68,6 +72,9 @@ pub(super) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> 
     tool.check_mount(robot)?;
     let mut bodies = Vec::new();
     for link in robot.links().iter().filter(|link| !link.collision.is_empty()) {
+        link.collision
+            .iter()
+            .try_for_each(|p| refuse_large_hull(&link.name, &p.shape))?;
         let parts = link
             .collision
             .iter()
@@ -98,6 +105,22 @@ pub(super) fn place<'a>(bodies: &'a [Body], poses: &BodyPoses) -> Vec<Vec<Placed
     bodies.iter().map(parts).collect()
 }
 
+/// Refuses a hull of more corners than can be judged in time. The vertices within it cost little.
+fn refuse_large_hull(name: &str, shape: &Shape) -> Result<(), ClearanceError> {
+    let points = match shape {
+        Shape::Hull { points } if points.len() > MOST_CORNERS => points,
+        _ => return Ok(()),
+    };
+    let points: Vec<_> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
+    match hull_corners(&points) {
+        found if found > MOST_CORNERS => Err(ClearanceError::LargeHull {
+            link: name.to_owned(),
+            found,
+        }),
+        _ => Ok(()),
+    }
+}
+
 fn flat(name: &str) -> ClearanceError {
     let link = name.to_owned();
     ClearanceError::FlatHull { link }
@@ -119,6 +142,9 @@ fn tool_bodies(robot: &RobotModel, tool: &Tool) -> Result<Vec<Body>, ClearanceEr
     }
     let flange = tool.mounting_frame(robot);
     let at = |pose: &Pose| flange.offset(&Rigid::from(pose));
+    tool.bodies
+        .iter()
+        .try_for_each(|body| refuse_large_hull(&body.name, &body.shape))?;
     let rigid = tool.bodies.iter();
     let mut bodies: Vec<_> = rigid
         .map(|b| body(&b.name, BodyKind::Tool, Part::new(&b.shape, at(&b.pose))))

@@ -16,6 +16,11 @@ const THINNEST_HULL: f64 = 1e-9;
 /// How far a point that counts as one within a hull may be from it \[m\]: less than [`super::motion`] allows for rounding.
 const LEFT_OUT_M: f64 = 1e-10;
 
+/// Number of corners of the convex hull of points, whatever else it is good for.
+pub(super) fn hull_corners(points: &[Vector]) -> usize {
+    try_convex_hull(points).map_or(0, |(corners, _)| corners.len())
+}
+
 /// The convex hull of points.
 pub(super) struct ConvexHull {
     /// As the collision library has it.

@@ -1,5 +1,6 @@
 //! Why no clearance model could be made.
 
+use super::solid::MOST_CORNERS;
 use crate::words::printable;
 use platewash_kinematics::ToolFrameError;
 
@@ -12,6 +13,17 @@ pub enum ClearanceError {
     FlatHull {
         /// The link, the body of the tool or the obstacle.
         link: String,
+    },
+    /// A hull of too many corners to be judged in time.
+    #[error(
+        "body '{}': its convex hull has {found} corners; at most {MOST_CORNERS} can be judged: simplify its collision mesh",
+        printable(.link)
+    )]
+    LargeHull {
+        /// The link, or the body of the tool.
+        link: String,
+        /// The corners.
+        found: usize,
     },
     /// The arm has no link that carries the tool.
     #[error(transparent)]

@@ -14,7 +14,7 @@ use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 const MOST_TRIANGLES: usize = 20_000;
 
 /// Most distinct corners of a mesh: a hull that has them all is made in seconds.
-const MOST_CORNERS: usize = 10_000;
+pub(super) const MOST_CORNERS: usize = 10_000;
 
 /// Most parts of a mesh.
 const MOST_PARTS: u32 = 64;

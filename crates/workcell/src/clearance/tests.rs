@@ -320,6 +320,37 @@ fn a_flat_hull_is_refused_by_the_name_of_its_body() {
     );
 }
 
+/// Points on a ball, evenly spread: all are corners of their hull.
+fn ball(count: usize) -> Shape {
+    let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    let point = |k: usize| {
+        let z = 1.0 - (2 * k + 1) as f64 / count as f64;
+        let (sine, cosine) = platewash_kinematics::trig::sin_cos(turn * k as f64);
+        0.05 * (1.0 - z * z).sqrt() * Point3::new(cosine, sine, 0.0) + 0.05 * Vector3::z() * z
+    };
+    Shape::Hull {
+        points: (0..count).map(point).collect(),
+    }
+}
+
+#[test]
+fn a_hull_of_too_many_corners_is_refused_by_name() {
+    let robot = RobotModel::irb120().unwrap();
+    let mut cell = workcell(&robot, kitchen_tool());
+    cell.tool.bodies[0].shape = ball(10_001);
+    let refused = ClearanceModel::new(&robot, &cell, &[]).unwrap_err();
+    let words =
+        "body 'handle': its convex hull has 10001 corners; at most 10000 can be judged: simplify its collision mesh";
+    assert_eq!(refused.to_string(), words);
+    // Vertices within the hull do not count.
+    let Shape::Hull { mut points } = ball(2000) else {
+        unreachable!()
+    };
+    points.extend((0..9000).map(|k| Point3::new(1e-6 * f64::from(k), 0.0, 0.0)));
+    cell.tool.bodies[0].shape = Shape::Hull { points };
+    assert!(ClearanceModel::new(&robot, &cell, &[]).is_ok());
+}
+
 proptest! {
     /// The two nearest points are as far apart as the smallest distance, and half-way between them is its place.
     #[test]

@@ -55,6 +55,12 @@ pub enum PlanFileError {
         /// What its job says.
         planned: Process,
     },
+    /// Lists that are longer than those of any job.
+    #[error("the plan is too large: {detail}")]
+    TooLarge {
+        /// Which list, and where.
+        detail: String,
+    },
     /// A name that does not read as what it says.
     #[error("'{key}' is {}, a name with a control or direction character (escaped here): plan the scenario with another name", quoted(.found))]
     HiddenCharacter {

@@ -3,6 +3,7 @@
 mod contents;
 mod error;
 mod format;
+mod sizes;
 
 pub use error::PlanFileError;
 pub use format::{FORMAT, Process};
@@ -216,6 +217,7 @@ impl Plan {
     /// # Errors
     /// [`PlanFileError`] for anything but a plan of this format.
     pub fn from_json(text: &str) -> Result<Self, PlanFileError> {
+        sizes::check(text)?;
         let plan: Self = match serde_json::from_str(text) {
             Ok(plan) => plan,
             Err(error) => return Err(other_format(text).unwrap_or_else(|| unreadable(&error))),
