@@ -44,19 +44,25 @@ pub fn run(options: &Options, arguments: &EditArguments) -> Result<ExitCode, Fai
     let place = Place::new(options, &source, arguments.save_as.as_deref())?;
     let listener = arguments.serve.listen(options)?;
     let bundle = bundle::needed(options)?;
-    let answer = Answer {
-        url: &listener.url(),
-        file: place.words(),
-    };
+    let (url, saved_in) = (listener.url(), place.words());
     let editor = editor.kept_by(Box::new(ScenarioFile::new(options, place, &bundle)));
     let editor = match arguments.serve.is_loopback() {
         true => editor,
         false => editor.open_to_others(),
     };
     let site = site(editor, bundle).map_err(Failure::internal)?;
+    // Behind the #, where browsers keep it to themselves.
+    let token = site
+        .service
+        .as_ref()
+        .map_or_else(String::new, |service| service.token().to_owned());
+    let answer = Answer {
+        url: &format!("{url}#token={token}"),
+        file: saved_in,
+    };
     let server = listener.serve(site).map_err(Failure::internal)?;
     output::print_either(options.json, &answer, || format!("{}\n", answer.url))?;
-    arguments.serve.open(options, answer.url);
+    let _redirect = arguments.serve.open_privately(options, answer.url)?;
     let words = format!(
         "Save writes {}. Ctrl-C ends it; what is not saved stays in the page",
         answer.file

@@ -5,8 +5,10 @@ use super::options::Options;
 use super::output;
 use clap::Args;
 use platewash::viewer::server::Listener;
+use std::io::Write;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::time::Duration;
+use tempfile::NamedTempFile;
 
 /// For how long what opens the browser is looked at; one that goes on is taken to have opened it.
 const TO_OPEN: Duration = Duration::from_secs(3);
@@ -53,6 +55,22 @@ impl ServeArguments {
             output::message(options.quiet, &warning);
         }
         Ok(listener)
+    }
+
+    /// Opens an address that nobody else may see: by way of a file that only this user reads, as others see what programs are called with. The
+    /// file goes with what is returned.
+    pub fn open_privately(&self, options: &Options, url: &str) -> Result<Option<NamedTempFile>, Failure> {
+        if self.no_open {
+            return Ok(None);
+        }
+        let page = format!(
+            "<!DOCTYPE html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0;url={url}\"><a href=\"{url}\">platewash</a>\n"
+        );
+        let file = tempfile::Builder::new().prefix("platewash-").suffix(".html").tempfile();
+        let file = file.and_then(|mut file| file.write_all(page.as_bytes()).map(|()| file));
+        let file = file.map_err(Failure::internal)?;
+        self.open(options, &file.path().display().to_string());
+        Ok(Some(file))
     }
 
     /// Opens a page in the browser, where that is asked for. A browser that cannot be opened is no failure: the address is printed.

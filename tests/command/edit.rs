@@ -46,20 +46,25 @@ fn a_cell_is_served_saved_and_ended_by_ctrl_c() {
     let mut edit = start(&mut command(dir, &["edit", "--no-open", "--json", "--seed", "3"]));
     let url = line_after(&mut edit.stdout, "  \"url\": ");
     let url = url.trim_end_matches(',').trim_matches('"').to_owned();
-    let page = all(ask(&url, "/", ""));
-    assert!(page.starts_with("HTTP/1.1 200 OK\r\n"));
+    let (url, token) = url.split_once("#token=").unwrap();
+    let page = all(ask(url, "/", ""));
+    assert!(page.starts_with("HTTP/1.1 200 OK\r\n") && !page.contains(token));
+    // Whoever has the page alone asks in vain.
+    for path in ["/hello", "/cell", "/save"] {
+        assert!(post(url, path, "", &serde_json::json!({})).starts_with("HTTP/1.1 403"));
+    }
     let block = page.split_once("id=\"platewash-edit\">").unwrap().1;
     let block: Value = serde_json::from_str(block.split_once("</script>").unwrap().0).unwrap();
-    let (token, text) = (block["token"].as_str().unwrap(), block["text"].as_str().unwrap());
+    let text = block["text"].as_str().unwrap();
     assert!(text.contains("seed = 3"), "{text}");
     assert_eq!(
         (&block["file"], &block["saved"]),
         (&Value::from("kitchen.toml"), &Value::Null)
     );
     let save = serde_json::json!({"session": "a", "text": text, "disk": null, "force": false});
-    assert!(post(&url, "/save", "wrong", &save).starts_with("HTTP/1.1 403"));
+    assert!(post(url, "/save", "wrong", &save).starts_with("HTTP/1.1 403"));
     assert!(names(dir).is_empty());
-    let saved = post(&url, "/save", token, &save);
+    let saved = post(url, "/save", token, &save);
     assert!(
         saved.contains("\"kind\":\"saved\"") && saved.contains("PROVED"),
         "{saved}"
@@ -84,16 +89,16 @@ fn a_cell_is_served_saved_and_ended_by_ctrl_c() {
     let mut again = save.clone();
     (again["text"], again["force"]) = (text.replace("seed = 3", "seed = 4").into(), true.into());
     mode(0o444);
-    assert!(post(&url, "/save", token, &again).contains("read-only"));
+    assert!(post(url, "/save", token, &again).contains("read-only"));
     assert_eq!(std::fs::read_to_string(&file).unwrap(), text);
     mode(0o600);
-    assert!(post(&url, "/save", token, &again).contains("\"kind\":\"saved\""));
+    assert!(post(url, "/save", token, &again).contains("\"kind\":\"saved\""));
     assert_eq!(std::fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o600);
     // Without a plan nothing of the one before stays.
     again["text"] = text
         .replace("region = \"appendix\"", "positions_m = [[0.9, 0.0]]")
         .into();
-    let saved = post(&url, "/save", token, &again);
+    let saved = post(url, "/save", token, &again);
     assert!(
         saved.contains("INFEASIBLE") && saved.contains("3 files of an earlier save removed"),
         "{saved}"
@@ -105,7 +110,7 @@ fn a_cell_is_served_saved_and_ended_by_ctrl_c() {
     std::fs::remove_file(&file).unwrap();
     assert!(Command::new("mkfifo").arg(&file).status().unwrap().success());
     let look = serde_json::json!({"session": "a", "disk": null});
-    assert!(post(&url, "/disk", token, &look).contains("no regular file"));
+    assert!(post(url, "/disk", token, &look).contains("no regular file"));
     std::fs::remove_file(&file).unwrap();
     edit.interrupt();
     assert_eq!(edit.end().0, Some(0));

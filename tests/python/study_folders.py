@@ -34,7 +34,7 @@ def folder(at: Path, keys: Iterable[str], done: Iterable[Mapping[str, Any]], cou
     kinds = keys if isinstance(keys, Mapping) else KINDS
     axes = [{"key": key, "count": count, "kind": kinds[key]} for key in keys]
     scenarios = [{"name": "kitchen", "sha256": 64 * "0"}]
-    stated = {"format": "platewash-study-manifest/1", "name": "by hand", "version": pw.__version__, "row_schema": 1, "rows": count, "study_sha256": 64 * "0"}
+    stated = {"format": "platewash-study-manifest/1", "name": "by hand", "version": pw.__version__, "row_schema": 2, "rows": count, "study_sha256": 64 * "0"}
     stated |= {"scenarios": scenarios, "axes": axes, "files": [], "file": "study.toml", **manifest}
     (at / "manifest.json").write_text(json.dumps(stated))
     done = list(done)

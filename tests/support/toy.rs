@@ -36,11 +36,9 @@ pub struct Toy {
 
 impl Service for Toy {
     fn knows(&self, path: &str) -> Option<Asked> {
-        let needs_token = path != "/hello";
         let is_work = ["/work", "/flood", "/panic"].contains(&path);
         let is_known = is_work || ["/hello", "/echo", "/hold", "/long"].contains(&path);
         is_known.then_some(Asked {
-            needs_token,
             is_work,
             most_bytes: if path == "/long" { MOST_LONG_BYTES } else { MOST_BYTES },
         })

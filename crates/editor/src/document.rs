@@ -20,7 +20,6 @@ pub enum Channel {
 pub struct EditDocument<'a> {
     format: &'static str,
     channel: Channel,
-    token: &'a str,
     file: Option<String>,
     disk: Option<String>,
     saved: Option<String>,
@@ -30,12 +29,11 @@ pub struct EditDocument<'a> {
 
 impl<'a> EditDocument<'a> {
     /// Of a scenario, and the file that it is saved in.
-    pub fn new(channel: Channel, token: &'a str, text: &'a str, kept: Option<&Kept>) -> Self {
+    pub fn new(channel: Channel, text: &'a str, kept: Option<&Kept>) -> Self {
         let standing = kept.and_then(|kept| kept.standing().ok());
         Self {
             format: FORMAT,
             channel,
-            token,
             file: kept.map(Kept::file),
             disk: standing.as_ref().and_then(Standing::hash),
             saved: standing.and_then(Standing::into_text),

@@ -104,18 +104,12 @@ impl Editor {
     /// # Errors
     /// [`EditorError`].
     pub fn framed_page(&self, bundle: &Bundle) -> Result<String, EditorError> {
-        self.page(Channel::Frame, "", self.text(), bundle)
+        self.page(Channel::Frame, self.text(), bundle)
     }
 
     /// A page of the scenario as `text` has it, or as it was opened where that is none.
-    pub(crate) fn page(
-        &self,
-        channel: Channel,
-        token: &str,
-        text: &str,
-        bundle: &Bundle,
-    ) -> Result<String, EditorError> {
-        let edit = EditDocument::new(channel, token, text, self.kept.as_ref());
+    pub(crate) fn page(&self, channel: Channel, text: &str, bundle: &Bundle) -> Result<String, EditorError> {
+        let edit = EditDocument::new(channel, text, self.kept.as_ref());
         let view = self.view(text)?;
         Ok(page::html_with(&view, &edit, bundle)?)
     }

@@ -180,10 +180,9 @@ impl Kept {
     }
 
     /// Greets a page that comes from a server that is gone.
-    pub fn greet(&self, token: &str, told: &mut Told<'_>) {
+    pub fn greet(&self, told: &mut Told<'_>) {
         told.line(&HelloLine {
             format: FORMAT,
-            token,
             file: Some(&self.file()),
             disk: self.hash().as_deref(),
         });

@@ -22,7 +22,8 @@ struct Served {
     token: String,
 }
 
-/// The site of an editor: its page, made anew for each who opens it, and its answers.
+/// The site of an editor: its page, made anew for each who opens it, and its answers. Whoever opens the page sees the scenario; who asks a
+/// question needs the token, which the page takes from its address ([`Service::token`]).
 ///
 /// # Errors
 /// [`EditorError::Token`], and [`EditorError`] for a page that cannot be made.
@@ -44,26 +45,16 @@ impl Served {
     fn page(&self) -> Result<String, EditorError> {
         let on_disk = self.editor.kept.as_ref().and_then(Kept::scenario);
         let text = on_disk.as_deref().unwrap_or(self.editor.text());
-        self.editor.page(Channel::Server, &self.token, text, &self.bundle)
+        self.editor.page(Channel::Server, text, &self.bundle)
     }
 }
 
 impl Service for Served {
     fn knows(&self, path: &str) -> Option<Asked> {
-        let asked = |is_work, most_bytes| {
-            Some(Asked {
-                needs_token: true,
-                is_work,
-                most_bytes,
-            })
-        };
+        let asked = |is_work, most_bytes| Some(Asked { is_work, most_bytes });
         match path {
             "/cell" | "/map" | "/save" => asked(true, MOST_QUESTION_BYTES),
-            "/disk" => asked(false, MOST_SHORT_BYTES),
-            "/hello" => asked(false, MOST_SHORT_BYTES).map(|hello| Asked {
-                needs_token: false,
-                ..hello
-            }),
+            "/disk" | "/hello" => asked(false, MOST_SHORT_BYTES),
             _ => None,
         }
     }
@@ -77,7 +68,7 @@ impl Service for Served {
     ) {
         let mut tell = |line| tell(line).is_ok();
         match (path, &self.editor.kept) {
-            ("/hello", Some(kept)) => kept.greet(&self.token, &mut Told::new(&mut tell, gone)),
+            ("/hello", Some(kept)) => kept.greet(&mut Told::new(&mut tell, gone)),
             _ => self.editor.answer(path, question, &mut tell, gone),
         }
     }

@@ -80,15 +80,16 @@ export async function serve(test, place, words) {
   const url = await new Promise((resolve, reject) => {
     const hear = (chunk) => {
       said += chunk;
-      const found = /http:\/\/127\.0\.0\.1:\d+\/?/.exec(said);
-      if (found !== null) resolve(found[0].replace(/\/?$/, "/"));
+      const found = /http:\/\/127\.0\.0\.1:\d+\/?(#token=[0-9a-f]{32})?(?=\s)/.exec(said);
+      if (found !== null) resolve(found[0]);
     };
     child.stdout.on("data", hear);
     child.stderr.on("data", hear);
     child.on("error", reject);
     child.on("exit", (code) => reject(new Error(`ended with ${code} before it had an address: ${said}`)));
   });
-  return { url, ended, said: () => said, pid: child.pid, kill: (signal) => child.kill(signal) };
+  const { origin, hash } = new URL(url);
+  return { url, origin, token: hash.replace("#token=", ""), ended, said: () => said, pid: child.pid, kill: (signal) => child.kill(signal) };
 }
 
 /** Rows of a CSV file, by the names of its columns. */

@@ -109,7 +109,13 @@ test("a server that is killed and started again finds the page as it was", async
   await page.evaluate(() => window.platewash.edit.change([{ key: "seed", value: 11 }]));
   await page.waitForFunction(() => window.platewash.edit.verdict().kind === "lost");
   assert.match(await page.locator("body").innerText(), /does not answer|lost|no connection/i);
-  await serve(t, place, ["edit", "--no-open", "--port", port]);
+  const again = await serve(t, place, ["edit", "--no-open", "--port", port]);
+  // The page that the new server opens brings its token; the old one then goes on.
+  const other = await page.context().newPage();
+  await other.goto(again.url);
+  await settled(other);
+  assert.equal(new URL(other.url()).hash.includes("token"), false);
+  await page.evaluate(() => window.platewash.edit.change([{ key: "seed", value: 11 }]));
   await page.waitForFunction(() => window.platewash.edit.verdict().kind === "proved", null, { timeout: 20_000 });
   await settled(page);
   assert.match(await scenario(page), /seed = 11/);

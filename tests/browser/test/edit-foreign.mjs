@@ -17,7 +17,7 @@ async function foreign(test) {
 
 test("a page of another origin can neither read nor make it plan", async (t) => {
   const { page, server } = await edit(t, await folder(t));
-  const token = await page.evaluate(() => JSON.parse(document.getElementById("platewash-edit").textContent).token);
+  const { token } = server;
   const other = await page.context().newPage();
   await other.goto(await foreign(t));
   const tried = await other.evaluate(
@@ -44,7 +44,7 @@ test("a page of another origin can neither read nor make it plan", async (t) => 
       }
       return results;
     },
-    { url: server.url, token },
+    { url: `${server.origin}/`, token },
   );
   // What is not refused is opaque: nothing of it can be read.
   assert.deepEqual(new Set(tried.filter((way) => !way.startsWith("opaque 0 0"))), new Set(["refused"]));
@@ -83,8 +83,8 @@ async function resident(pid) {
 
 test("of a thousand requests at once each is answered or refused, and the page is answered afterwards", { timeout: 120_000 }, async (t) => {
   const { page, server } = await edit(t, await folder(t));
-  const { token, text } = await page.evaluate(() => JSON.parse(document.getElementById("platewash-edit").textContent));
-  const headers = { Origin: server.url.replace(/\/$/, ""), "X-Platewash-Token": token };
+  const { text } = await page.evaluate(() => JSON.parse(document.getElementById("platewash-edit").textContent));
+  const headers = { Origin: server.origin, "X-Platewash-Token": server.token };
   const question = (k) => JSON.stringify({ session: `s${k}`, text, edits: [{ key: "seed", value: k }], want: "proof", arm: null });
   let most = 0;
   const watch = setInterval(async () => (most = Math.max(most, (await resident(server.pid)) ?? 0)), 50);

@@ -325,8 +325,6 @@ pub struct DiskLine<'a> {
 pub struct HelloLine<'a> {
     /// [`super::FORMAT`].
     pub format: &'a str,
-    /// To be sent with each question.
-    pub token: &'a str,
     /// Where it is saved.
     pub file: Option<&'a str>,
     /// SHA-256 of what stands there.

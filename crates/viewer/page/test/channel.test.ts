@@ -36,7 +36,7 @@ test("waits grow from 0.3 s to 2 s", () => {
 
 type Fetched = { path: string; token: string | null };
 
-function http(answers: Record<string, (token: string | null) => Response>, token = "old"): { channel: HttpChannel; fetched: Fetched[]; hellos: unknown[] } {
+function http(answers: Record<string, (token: string | null) => Response>, token = (): string => "old"): { channel: HttpChannel; fetched: Fetched[]; hellos: unknown[] } {
   const fetched: Fetched[] = [];
   const hellos: unknown[] = [];
   const how = (async (path: string, init: RequestInit) => {
@@ -51,13 +51,19 @@ function http(answers: Record<string, (token: string | null) => Response>, token
   return { channel: new HttpChannel(token, (hello) => hellos.push(hello), how), fetched, hellos };
 }
 
-const HELLO = { kind: "hello", format: "platewash-edit/1", token: "new", file: "f", disk: null };
+const HELLO = { kind: "hello", format: "platewash-edit/1", file: "f", disk: null };
 
-test("a server that does not know the page is asked for its token, once", async () => {
+test("a server that was started later is greeted once its token is there", async () => {
+  let token = "old";
+  const known = (sent: string | null, words: string): Response => (sent === "new" ? new Response(words) : new Response("gone", { status: 403 }));
   const { channel, fetched, hellos } = http({
-    "/cell": (token) => (token === "new" ? new Response("1\n2\n") : new Response("gone", { status: 403 })),
-    "/hello": () => new Response(`${JSON.stringify(HELLO)}\n`),
-  });
+    "/cell": (sent) => {
+      const answer = known(sent, "1\n2\n");
+      token = "new";
+      return answer;
+    },
+    "/hello": (sent) => known(sent, `${JSON.stringify(HELLO)}\n`),
+  }, () => token);
   const heard: unknown[] = [];
   await channel.ask("/cell", {}, (line) => heard.push(line), new AbortController().signal);
   assert.deepEqual(heard, [1, 2]);
@@ -78,6 +84,8 @@ test("what keeps a question from being answered is told apart", async () => {
   assert.equal(await lossOf(http({ "/cell": () => new Response("no json\n") }).channel), "lost");
   const foreign = http({ "/cell": () => new Response("", { status: 403 }), "/hello": () => new Response("{}\n") });
   assert.equal(await lossOf(foreign.channel), "refused");
+  const unknown = http({ "/cell": () => new Response("", { status: 403 }), "/hello": () => new Response("", { status: 403 }) });
+  assert.equal(await lossOf(unknown.channel), "refused");
   const never = http({ "/cell": () => new Response("", { status: 403 }), "/hello": () => new Response(JSON.stringify(HELLO)) });
   assert.equal(await lossOf(never.channel), "refused");
   assert.equal(never.fetched.length, 3);

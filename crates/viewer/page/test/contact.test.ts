@@ -12,7 +12,7 @@ const CONTACT: Contact = {
   asked: {
     compression_m: 0.001, height_error_m: 0.0015, share: 0.995, strain: 0.6, force_n: [1, 40], time_s: 0.05, time_share: 0.98, dose_pa_m: 25, dose_share: 0.98,
   },
-  plates: [{ plate: 0, share: 1, time_share: 0.99, dose_share: 0.99, strain: 0.41, force_n: [4.06, 22.01], friction_torque_n_m: [0.0912, 0.301] }],
+  plates: [{ plate: 0, pressed: 1, time_share: 0.99, dose_share: 0.99, strain: 0.41, force_n: [4.06, 22.01], friction_torque_n_m: [0.0912, 0.301] }],
 };
 
 test("numbers are as short as they can be", () => {

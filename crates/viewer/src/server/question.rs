@@ -30,7 +30,7 @@ impl Question {
         if !headers.one("content-type")?.is_some_and(is_json) {
             return Err(Refusal::Form);
         }
-        if asked.needs_token && !headers.one(TOKEN)?.is_some_and(|sent| is_token(sent, token)) {
+        if !headers.one(TOKEN)?.is_some_and(|sent| is_token(sent, token)) {
             return Err(Refusal::ForeignToken);
         }
         if headers.one("transfer-encoding")?.is_some() {
@@ -64,7 +64,6 @@ mod tests {
 
     const HOST: &str = "localhost:8080";
     const ASKED: Asked = Asked {
-        needs_token: true,
         is_work: false,
         most_bytes: 100,
     };
@@ -165,14 +164,11 @@ mod tests {
     }
 
     #[test]
-    fn some_questions_need_no_token() {
-        let needs_token = false;
-        let asked = Asked { needs_token, ..ASKED };
+    fn every_question_needs_the_token() {
         let without: Vec<_> = GOOD
             .into_iter()
             .filter(|header| header.0 != "X-Platewash-Token")
             .collect();
-        assert!(judged(&without, asked).is_ok());
         assert_eq!(judged(&without, ASKED), Err(Refusal::ForeignToken));
     }
 }

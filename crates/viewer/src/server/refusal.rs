@@ -87,7 +87,9 @@ impl Refusal {
                 "a question states its length, once, and comes in one piece: Content-Length, and no Transfer-Encoding"
             }
             Self::LongQuestion => "the question is too long",
-            Self::ForeignToken => "the page is of a server that is gone: it asks for a new token with /hello",
+            Self::ForeignToken => {
+                "the page does not have the token of this server: open the address that platewash edit printed"
+            }
             Self::Late => "the request did not come in time",
             Self::TooLong => "the request's head is too long",
             Self::Version => "HTTP/1.0 and HTTP/1.1 are spoken, nothing else",

@@ -22,8 +22,6 @@ pub trait Service: Debug + Send + Sync {
 /// What is to be known of a question before it is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Asked {
-    /// Whether it has to come with the token.
-    pub needs_token: bool,
     /// Whether it is long work, of which there is only so much at a time.
     pub is_work: bool,
     /// Longest question \[bytes\].

@@ -15,6 +15,7 @@ import { Form } from "./form.ts";
 import { FrameChannel } from "./frame.ts";
 import type { EditHandle } from "./handle.ts";
 import { HttpChannel } from "./http.ts";
+import { keptToken, takeToken } from "./token.ts";
 import { listenToEditKeys } from "./edit-keys.ts";
 import { MapAsker } from "./map.ts";
 import { plateKey } from "./plate-keys.ts";
@@ -159,7 +160,8 @@ export class Editor {
 
   #channel(): Channel {
     if (this.#document.channel === "frame") return new FrameChannel(window, (text) => this.#cell.setText(text, "From the notebook"));
-    return new HttpChannel(this.#document.token, ({ file }) => {
+    takeToken();
+    return new HttpChannel(keptToken, ({ file }) => {
       if (file !== this.#file) this.#say(`Another platewash answers now${file === null ? "" : `, of ${file}`}: saving goes there.`);
       this.#file = file;
     });

@@ -4,12 +4,12 @@ import { Lines } from "./lines.ts";
 import type { HelloLine } from "./protocol.ts";
 
 export class HttpChannel implements Channel {
-  #token: string;
+  readonly #token: () => string;
   readonly #fetch: typeof fetch;
   readonly #onHello: (hello: HelloLine) => void;
 
   /** `onHello`: the server that answers is not the one that the page came from. */
-  constructor(token: string, onHello: (hello: HelloLine) => void, how: typeof fetch = (...given) => fetch(...given)) {
+  constructor(token: () => string, onHello: (hello: HelloLine) => void, how: typeof fetch = (...given) => fetch(...given)) {
     this.#token = token;
     this.#onHello = onHello;
     this.#fetch = how;
@@ -32,27 +32,30 @@ export class HttpChannel implements Channel {
   }
 
   #post(path: string, question: object, signal: AbortSignal): Promise<Response> {
-    const headers = { "Content-Type": "application/json", "X-Platewash-Token": this.#token };
+    const headers = { "Content-Type": "application/json", "X-Platewash-Token": this.#token() };
     const body = JSON.stringify(question);
     return this.#fetch(path, { method: "POST", headers, body, signal, cache: "no-store", credentials: "same-origin", redirect: "error" });
   }
 
-  /** Asks a server that does not know the page for its token. */
+  /** Greets a server that was started after the page came, once another page of this address has brought its token. */
   async #hello(signal: AbortSignal): Promise<void> {
     const answer = await this.#post("/hello", {}, signal);
+    if (answer.status === 403) {
+      await answer.body?.cancel();
+      throw new ChannelError("refused", "This page does not have the token of the running platewash: open the address that it printed.");
+    }
     let hello: unknown = null;
     await read(answer, (line) => {
       hello ??= line;
     }, signal);
     if (!isHello(hello)) throw new ChannelError("refused", "What answers at this address is no live cell of this version of platewash.");
-    this.#token = hello.token;
     this.#onHello(hello);
   }
 }
 
 function isHello(line: unknown): line is HelloLine {
   const hello = line as Partial<HelloLine> | null;
-  return typeof hello === "object" && hello?.kind === "hello" && hello.format === "platewash-edit/1" && typeof hello.token === "string";
+  return typeof hello === "object" && hello?.kind === "hello" && hello.format === "platewash-edit/1";
 }
 
 async function read(answer: Response, onLine: (line: unknown) => void, signal: AbortSignal): Promise<void> {

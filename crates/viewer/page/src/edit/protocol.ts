@@ -35,8 +35,6 @@ export interface EditDocument {
   format: "platewash-edit/1";
   /** `server`: questions go to the page's own address; `frame`: to the window around it, by messages. */
   channel: "server" | "frame";
-  /** Sent back with each question to a server. */
-  token: string;
   /** Where it is saved, in words; null where it cannot be. */
   file: string | null;
   /** SHA-256 of what stands on disk there; null where there is nothing. */
@@ -217,5 +215,5 @@ export interface DiskQuestion {
 /** `text` where it differs from what the page knows, null where it does not, or cannot be read (`words` says why). */
 export type DiskLine = { kind: "disk"; disk: string | null; text: string | null; words: string | null };
 
-/** `POST /hello`, the one question without a token: what a page needs that was loaded from a server that is gone. One line. */
-export type HelloLine = { kind: "hello"; format: string; token: string; file: string | null; disk: string | null };
+/** `POST /hello`: what a page needs that was loaded from a server that is gone. One line. */
+export type HelloLine = { kind: "hello"; format: string; file: string | null; disk: string | null };
