@@ -109,7 +109,7 @@ impl fmt::Display for WashText<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let certificate = &self.report.certificate;
         self.report.head(f)?;
-        writeln!(f, "{}", certificate.basis())?;
+        f.write_str(&certificate.basis())?;
         self.report.motion(f)?;
         f.write_str(&certificate.table(self.pairs).judgement())
     }

@@ -64,17 +64,14 @@ fn seconds(duration_s: f64) -> String {
 fn reached(certificate: &Certificate) -> String {
     let wanted = &certificate.rests_on.requirements;
     let in_air = certificate.rests_on.dry_run.is_some();
-    let (verb, requirement, usual) = match wanted.contact {
-        _ if in_air => ("swept in the air over", Requirement::Swept, usual::SWEPT),
-        Some(_) => ("pressed over", Requirement::Pressed, usual::PRESSED),
-        None => ("swept over", Requirement::Swept, usual::SWEPT),
+    let (verb, requirement) = match wanted.contact {
+        _ if in_air => ("swept in the air over", Requirement::Swept),
+        Some(_) => ("pressed over", Requirement::Pressed),
+        None => ("swept over", Requirement::Swept),
     };
-    let number = |requirement, usual| {
-        let measure = certificate.check(requirement)?.measure.as_ref()?;
-        at_least(measure, usual)
-    };
-    let share = number(requirement, usual).map(|share| format!(", each {verb} {share}"));
-    let clearance = number(Requirement::Clearance, usual::CLEARANCE_M).map(|least| format!(", clearance {least}"));
+    let number = |requirement| at_least(certificate.check(requirement)?.measure.as_ref()?);
+    let share = number(requirement).map(|share| format!(", each {verb} {share}"));
+    let clearance = number(Requirement::Clearance).map(|least| format!(", clearance {least}"));
     let contact = if wanted.contact.is_some() || in_air {
         ""
     } else {
@@ -83,16 +80,14 @@ fn reached(certificate: &Certificate) -> String {
     [share, clearance].into_iter().flatten().collect::<String>() + contact
 }
 
-/// A lower bound beside what is required: "at least 99.8 % (99.5 % required)", and what is usual where less is required.
-fn at_least(measure: &Measure, usual: f64) -> Option<String> {
+/// A lower bound beside what is required: "at least 99.8 % (99.5 % required)".
+fn at_least(measure: &Measure) -> Option<String> {
     let (scale, unit) = scale(measure.unit);
     let reached = kept(measure, measure.bound?, 1);
-    let required = number(measure.limit * scale);
-    let usual = match measure.limit < usual {
-        true => format!(", usual {} {unit}", number(usual * scale)),
-        false => String::new(),
-    };
-    Some(format!("at least {reached} {unit} ({required} {unit} required{usual})"))
+    Some(format!(
+        "at least {reached} {unit} ({} {unit} required)",
+        number(measure.limit * scale)
+    ))
 }
 
 fn laxer(certificate: &Certificate) -> String {

@@ -4,13 +4,10 @@ use crate::amounts::number;
 use platewash_workcell::job::{ContactRequirements, Requirements};
 
 /// Share of each plate that must be swept.
-pub(crate) const SWEPT: f64 = 0.995;
-
-/// Share of each plate that must be pressed.
-pub(crate) const PRESSED: f64 = 0.995;
+const SWEPT: f64 = 0.995;
 
 /// Least clearance \[m\].
-pub(crate) const CLEARANCE_M: f64 = 0.01;
+const CLEARANCE_M: f64 = 0.01;
 
 /// Greatest angle of the tool from the plate's normal \[deg\].
 const TILT_DEG: f64 = 30.0;
@@ -27,11 +24,11 @@ const CONTACT_SPEED_M_S: f64 = 0.05;
 /// Least angle of joint 5 from 0 at a plate, where contact is required \[deg\].
 const WRIST_DEG: f64 = 3.0;
 
-/// What the contact must keep, beside the share pressed.
+/// What the contact must keep.
 const CONTACT: ContactRequirements = ContactRequirements {
     compression_m: 0.001,
     height_error_m: 0.001,
-    share: PRESSED,
+    share: 0.995,
     strain: 0.6,
     force_n: [1.0, 40.0],
     time_s: 0.05,
@@ -90,10 +87,11 @@ impl Row {
     }
 }
 
-/// The requirements of a job that are laxer than usual, but those whose numbers the first line states anyway: the shares swept and pressed
-/// where it names them, and the clearance.
+/// The requirements of a job that are laxer than usual.
 pub(crate) fn laxer(wanted: &Requirements) -> Vec<String> {
     let mut rows = vec![
+        Row::at_least("swept", 100.0 * wanted.coverage, 100.0 * SWEPT, " %"),
+        Row::at_least("clearance", 1e3 * wanted.clearance_m, 1e3 * CLEARANCE_M, " mm"),
         Row::at_most("tilt", wanted.tilt_rad.to_degrees(), TILT_DEG, "°"),
         Row::at_most("wash speed", wanted.wash_speed_m_s, WASH_SPEED_M_S, " m/s"),
         Row::at_most(
@@ -107,7 +105,7 @@ pub(crate) fn laxer(wanted: &Requirements) -> Vec<String> {
         let speed = |stated: Option<f64>| stated.unwrap_or(wanted.wash_speed_m_s);
         let [least_n, most_n] = contact.force_n;
         rows.extend([
-            Row::at_least("swept", 100.0 * wanted.coverage, 100.0 * SWEPT, " %"),
+            Row::at_least("pressed", 100.0 * contact.share, 100.0 * CONTACT.share, " %"),
             Row::at_least(
                 "compression",
                 1e3 * contact.compression_m,

@@ -115,7 +115,6 @@ test("a server that is killed and started again finds the page as it was", async
   await other.goto(again.url);
   await settled(other);
   assert.equal(new URL(other.url()).hash.includes("token"), false);
-  await page.evaluate(() => window.platewash.edit.change([{ key: "seed", value: 11 }]));
   await page.waitForFunction(() => window.platewash.edit.verdict().kind === "proved", null, { timeout: 20_000 });
   await settled(page);
   assert.match(await scenario(page), /seed = 11/);

@@ -8,7 +8,7 @@ const NAMES = {
   "a script": `</script><script>window.stolen = 1</script><img src=x onerror="window.stolen = 2"><!--`,
   quotes: `"'\`&quot;&lt;b&gt; \${1} {{2}} %3C`,
   "a placeholder": "<!--platewash:script--><!--platewash:data-->$&$1",
-  "right to left": "\u202egnihsaw\u202c שטיפה \u2067غسل\u2069",
+  "right to left": "שטיפה gnihsaw غسل",
   "ten thousand letters": "washing".repeat(1429),
 };
 

@@ -85,7 +85,7 @@ test("what keeps a question from being answered is told apart", async () => {
   const foreign = http({ "/cell": () => new Response("", { status: 403 }), "/hello": () => new Response("{}\n") });
   assert.equal(await lossOf(foreign.channel), "refused");
   const unknown = http({ "/cell": () => new Response("", { status: 403 }), "/hello": () => new Response("", { status: 403 }) });
-  assert.equal(await lossOf(unknown.channel), "refused");
+  assert.equal(await lossOf(unknown.channel), "lost");
   const never = http({ "/cell": () => new Response("", { status: 403 }), "/hello": () => new Response(JSON.stringify(HELLO)) });
   assert.equal(await lossOf(never.channel), "refused");
   assert.equal(never.fetched.length, 3);

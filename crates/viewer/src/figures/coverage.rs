@@ -64,7 +64,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
     if plates < washes.len() {
         caption = format!("The first {plates} of {} plates. {caption}", washes.len());
     }
-    let (mut drawing, room) = page::begin(&subject.words("Swept", &caption));
+    let (mut drawing, room) = page::begin(&subject.words("Time under the sponge", &caption));
     let maps = maps(subject, plates);
     let most = maps
         .iter()

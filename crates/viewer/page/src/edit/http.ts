@@ -42,7 +42,7 @@ export class HttpChannel implements Channel {
     const answer = await this.#post("/hello", {}, signal);
     if (answer.status === 403) {
       await answer.body?.cancel();
-      throw new ChannelError("refused", "This page does not have the token of the running platewash: open the address that it printed.");
+      throw new ChannelError("lost", "This page does not have the token of the running platewash: open the address that it printed.");
     }
     let hello: unknown = null;
     await read(answer, (line) => {
