@@ -51,7 +51,7 @@ fn obstacles_are_refused_by_file_and_key_whatever_is_asked() {
             "",
             far,
             "",
-            "scenario cell.toml, line 12: obstacle[0].name must be text, not empty, without control characters; found \"\"",
+            "scenario cell.toml, line 12: obstacle[0].name must be text, not empty, without control or direction characters; found \"\"",
         ),
     ] {
         with_box(dir, name, at_m, more);

@@ -39,7 +39,7 @@ fn bad_scenarios_are_refused_with_line_key_expected_and_found() {
         (
             "name = \"paper-appendix\"",
             "name = \"a\\u001b[31m\"",
-            &["name", "without control characters", "a\\u{1b}[31m"],
+            &["name", "without control or direction characters", "a\\u{1b}[31m"],
         ),
         (
             "points = 55",
