@@ -83,7 +83,10 @@ fn it_is_proved_and_never_reads_as_a_washing() {
     assert!(certificate.headline.starts_with(&expected), "{}", certificate.headline);
     let mut compared = certificate.clone();
     compared.set_parent_compared();
-    let not_compared = format!("{}; as stated: the parent plan was not compared", compared.headline);
+    let not_compared = format!(
+        "{}; not checked: whether it follows the plan that it names",
+        compared.headline
+    );
     assert_eq!(certificate.headline, not_compared);
     assert_eq!(certificate.plates_washed(), 0);
     assert_eq!(certificate.check(Requirement::DryRun).unwrap().status, Status::Proved);

@@ -193,7 +193,8 @@ impl Simulated {
                 let left = report.plates.iter().find(|plate| !plate.verdict.is_done());
                 let words = left.map(|plate| plate.verdict.words());
                 let words = words.or_else(|| overload.is_none().then(|| report.verdict.words()));
-                let not_done = words.map(|words| format!("{} under {}", words.to_uppercase(), report.law.name()));
+                let not_done = words
+                    .map(|words| format!("in the simulation {} under {}", words.to_uppercase(), report.law.name()));
                 Some(overload.into_iter().chain(not_done).collect::<Vec<_>>().join("; "))
             }
             Self::Refused { .. } => Some("NOT SIMULATED".to_owned()),

@@ -111,7 +111,10 @@ fn the_first_line_says_what_was_not_simulated_or_fails_there() {
     let dir = folder.path();
     for (law, says) in [
         ("law = \"pd\"\nfrequency_rad_s = 5000", "; NOT SIMULATED"),
-        ("law = \"pd\"\nfrequency_rad_s = 15", "; NOT SWEPT under pd"),
+        (
+            "law = \"pd\"\nfrequency_rad_s = 15",
+            "; in the simulation NOT SWEPT under pd",
+        ),
     ] {
         let file = spiral(dir, &[("[job]", &format!("[control]\n{law}\n[job]"))]);
         let ran = platewash(dir, &["run", "--scenario", file.to_str().unwrap()]);

@@ -14,7 +14,7 @@ use platewash_workcell::words::counted;
 const MOST_NUMBERS: usize = 3;
 
 /// What the first line of a dry run ends with until both plans are compared.
-const NOT_COMPARED: &str = "; as stated: the parent plan was not compared";
+const NOT_COMPARED: &str = "; not checked: whether it follows the plan that it names";
 
 /// The first line of a plan of which nothing was proved yet.
 #[must_use]
@@ -84,8 +84,9 @@ fn reached(certificate: &Certificate) -> String {
 fn at_least(measure: &Measure) -> Option<String> {
     let (scale, unit) = scale(measure.unit);
     let reached = kept(measure, measure.bound?, 1);
+    let at_least = if reached == "100" { "" } else { "at least " };
     Some(format!(
-        "at least {reached} {unit} ({} {unit} required)",
+        "{at_least}{reached} {unit} ({} {unit} required)",
         number(measure.limit * scale)
     ))
 }
@@ -95,7 +96,7 @@ fn laxer(certificate: &Certificate) -> String {
     if laxer.is_empty() {
         laxer.concat()
     } else {
-        format!("; laxer than usual: {}", laxer.join(", "))
+        format!("; requires less than usual: {}", laxer.join(", "))
     }
 }
 
@@ -112,7 +113,8 @@ fn broken(certificate: &Certificate) -> String {
         (!each.is_empty()).then(|| format!("{words}: {}", each.join(", ")))
     };
     let others: Vec<_> = others.iter().map(|check| check.requirement.words()).collect();
-    let hash = (certificate.hash.status != Status::Proved).then(|| "the hash is not that of the contents".to_owned());
+    let hash = (certificate.hash.status != Status::Proved)
+        .then(|| "the plan was changed after it was sealed: its hash is not that of the contents".to_owned());
     let parts = [
         of(Status::Violated, "violated"),
         of(Status::NotProved, "not shown"),

@@ -77,10 +77,10 @@ impl Row {
     }
 
     fn words(&self) -> String {
-        let side = if self.more_is_stricter { "at least" } else { "at most" };
+        let side = if self.more_is_stricter { "" } else { "up to " };
         let Self { name, unit, .. } = self;
         format!(
-            "{name} {side} {}{unit} (usual {}{unit})",
+            "{name} {side}{}{unit} (usual {}{unit})",
             number(self.required),
             number(self.usual)
         )

@@ -87,7 +87,9 @@ fn tampering_without_the_seal_is_a_finding_of_its_own() {
     let certificate = prove(&plan, &irb120()).unwrap();
     assert_eq!(broken(&certificate), []);
     assert!(
-        certificate.headline.ends_with("; the hash is not that of the contents"),
+        certificate
+            .headline
+            .ends_with("; the plan was changed after it was sealed: its hash is not that of the contents"),
         "{}",
         certificate.headline
     );

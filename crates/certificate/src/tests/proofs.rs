@@ -30,7 +30,10 @@ fn only_a_plan_whose_certificate_holds_is_certified() {
     let mut renamed = good();
     renamed.provenance.scenario = "another".to_owned();
     let refused = certify(renamed, &irb120()).unwrap_err().to_string();
-    assert!(refused.ends_with("; the hash is not that of the contents"), "{refused}");
+    assert!(
+        refused.ends_with("; the plan was changed after it was sealed: its hash is not that of the contents"),
+        "{refused}"
+    );
 }
 
 #[test]
