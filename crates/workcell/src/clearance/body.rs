@@ -105,13 +105,22 @@ pub(super) fn place<'a>(bodies: &'a [Body], poses: &BodyPoses) -> Vec<Vec<Placed
     bodies.iter().map(parts).collect()
 }
 
-/// Refuses a hull of more corners than can be judged in time. The vertices within it cost little.
+/// Most vertices of a mesh whose hull is made: beyond that it takes minutes.
+pub(super) const MOST_VERTICES: usize = 50_000;
+
+/// Refuses a mesh of more vertices, or a hull of more corners, than can be judged in time.
 fn refuse_large_hull(name: &str, shape: &Shape) -> Result<(), ClearanceError> {
     let points = match shape {
         Shape::Hull { points } if points.len() > MOST_CORNERS => points,
         _ => return Ok(()),
     };
     let points: Vec<_> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
+    if points.len() > MOST_VERTICES {
+        return Err(ClearanceError::LargeMesh {
+            link: name.to_owned(),
+            found: points.len(),
+        });
+    }
     match hull_corners(&points) {
         found if found > MOST_CORNERS => Err(ClearanceError::LargeHull {
             link: name.to_owned(),

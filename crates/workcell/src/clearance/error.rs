@@ -1,5 +1,6 @@
 //! Why no clearance model could be made.
 
+use super::body::MOST_VERTICES;
 use super::solid::MOST_CORNERS;
 use crate::words::printable;
 use platewash_kinematics::ToolFrameError;
@@ -13,6 +14,17 @@ pub enum ClearanceError {
     FlatHull {
         /// The link, the body of the tool or the obstacle.
         link: String,
+    },
+    /// A mesh of too many vertices for its hull to be made in time.
+    #[error(
+        "body '{}': its collision mesh has {found} vertices; at most {MOST_VERTICES} can be judged: simplify it",
+        printable(.link)
+    )]
+    LargeMesh {
+        /// The link, or the body of the tool.
+        link: String,
+        /// The vertices.
+        found: usize,
     },
     /// A hull of too many corners to be judged in time.
     #[error(

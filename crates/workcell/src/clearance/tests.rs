@@ -342,7 +342,11 @@ fn a_hull_of_too_many_corners_is_refused_by_name() {
     let words =
         "body 'handle': its convex hull has 10001 corners; at most 10000 can be judged: simplify its collision mesh";
     assert_eq!(refused.to_string(), words);
-    // Vertices within the hull do not count.
+    cell.tool.bodies[0].shape = ball(50_001);
+    let refused = ClearanceModel::new(&robot, &cell, &[]).unwrap_err();
+    let words = "body 'handle': its collision mesh has 50001 vertices; at most 50000 can be judged: simplify it";
+    assert_eq!(refused.to_string(), words);
+    // Vertices within the hull are no corners.
     let Shape::Hull { mut points } = ball(2000) else {
         unreachable!()
     };
