@@ -81,7 +81,7 @@ fn a_cell_is_served_saved_and_ended_by_ctrl_c() {
     assert_eq!(std::fs::read_to_string(dir.join("kitchen.toml")).unwrap(), text);
     platewash(dir, &["verify", "kitchen.plan.json", "--against", "kitchen.toml"]).done();
     // The file is there now, and the scenario that is edited.
-    let again = all(ask(&url, "/", ""));
+    let again = all(ask(url, "/", ""));
     assert!(again.contains("\"saved\":\"#"), "the page has what stands on disk");
     // A file keeps its mode, a read-only one is let be, and what is no file is not read.
     let file = dir.join("kitchen.toml");
