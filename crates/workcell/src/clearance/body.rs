@@ -3,7 +3,7 @@
 use super::convex::hull_corners;
 use super::error::ClearanceError;
 use super::part::{Part, Placed};
-use super::solid::MOST_CORNERS;
+use super::solid::{MOST_CORNERS, MOST_VERTICES};
 use super::tree::Tree;
 use crate::plate::Plate;
 use crate::tool::Tool;
@@ -104,9 +104,6 @@ pub(super) fn place<'a>(bodies: &'a [Body], poses: &BodyPoses) -> Vec<Vec<Placed
     let parts = |body: &'a Body| body.outer().iter().map(|part| part.place(poses)).collect();
     bodies.iter().map(parts).collect()
 }
-
-/// Most vertices of a mesh whose hull is made: beyond that it takes minutes.
-pub(super) const MOST_VERTICES: usize = 50_000;
 
 /// Refuses a mesh of more vertices, or a hull of more corners, than can be judged in time.
 fn refuse_large_hull(name: &str, shape: &Shape) -> Result<(), ClearanceError> {

@@ -1,7 +1,6 @@
 //! Why no clearance model could be made.
 
-use super::body::MOST_VERTICES;
-use super::solid::MOST_CORNERS;
+use super::solid::{MOST_CORNERS, MOST_VERTICES};
 use crate::words::printable;
 use platewash_kinematics::ToolFrameError;
 

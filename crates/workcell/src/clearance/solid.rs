@@ -16,6 +16,9 @@ const MOST_TRIANGLES: usize = 20_000;
 /// Most distinct corners of a mesh: a hull that has them all is made in seconds.
 pub(super) const MOST_CORNERS: usize = 10_000;
 
+/// Most vertices of a mesh whose hull is made: beyond that it takes minutes.
+pub(super) const MOST_VERTICES: usize = 50_000;
+
 /// Most parts of a mesh.
 const MOST_PARTS: u32 = 64;
 
