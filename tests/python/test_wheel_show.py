@@ -397,7 +397,7 @@ def test_figures_of_hostile_names(hostile: pw.Plan) -> None:
     money["provenance"]["scenario"] = "$\\frac{1$ _^"
     ax = pw.Plan.from_json(json.dumps(money)).figure("tip")
     ax.figure.canvas.draw()  # It is no formula.
-    assert "$\\frac{1$" in ax.get_title()
+    assert "$\\\\frac{1$" in ax.get_title()
 
 
 def test_figures_say_what_is_wrong(kitchen: pw.Plan, root: Path) -> None:
