@@ -12,7 +12,7 @@ use super::plan_file::{self, PlanFile};
 use super::progress::Progress;
 use anyhow::anyhow;
 use clap::Args;
-use platewash::certificate::{HashFinding, PairsShown, Status, Verdict, paper_headline, prove_with};
+use platewash::certificate::{HashFinding, PairsShown, Verdict, paper_headline, prove_with};
 use platewash::workcell::plan::Process;
 use platewash::workcell::words::quoted;
 use platewash::{Certificate, Plan};
@@ -156,28 +156,16 @@ impl NoCertificate {
             process: plan.process,
             scenario: plan.provenance.scenario.clone(),
             duration_s: plan.duration_s(),
-            hash: HashFinding {
-                stated: plan.hash.clone(),
-                computed: plan.seal().ok(),
-                status: if plan.is_sealed() {
-                    Status::Proved
-                } else {
-                    Status::Violated
-                },
-            },
+            hash: HashFinding::of(plan),
         }
     }
 
     fn text(&self) -> String {
-        let hash = match (self.hash.status, &self.hash.stated) {
-            (Status::Proved, _) => "is that of the contents",
-            (_, Some(_)) => "is NOT that of the contents: the plan was changed after it was sealed",
-            (_, None) => "is missing",
-        };
         format!(
-            "{}\nscenario {}, as the plan names it\nhash {hash}\n",
+            "{}\nscenario {}, as the plan names it\n{}\n",
             self.headline,
-            quoted(&self.scenario)
+            quoted(&self.scenario),
+            self.hash.words()
         )
     }
 }

@@ -115,3 +115,78 @@ fn a_cell_is_served_saved_and_ended_by_ctrl_c() {
     edit.interrupt();
     assert_eq!(edit.end().0, Some(0));
 }
+
+/// Another user of the machine sees what programs are called with, and the files that all may read.
+#[cfg(target_os = "linux")]
+#[test]
+fn another_user_of_the_machine_cannot_learn_the_token() {
+    use std::os::unix::fs::MetadataExt;
+    use std::os::unix::process::CommandExt;
+    const OTHER_USER: u32 = 65534;
+    if platewash::viewer::bundle::Bundle::embedded().is_none() {
+        return;
+    }
+    if std::fs::metadata("/proc/self").unwrap().uid() != 0 {
+        eprintln!("skipped: only root can act as another user");
+        return;
+    }
+    let folder = folder();
+    let dir = folder.path();
+    std::fs::set_permissions(dir, Permissions::from_mode(0o777)).unwrap();
+    // The browser goes on, so that its command line can be looked at.
+    let browser = "#!/bin/sh\necho \"$1\" > opened.part\nmv opened.part opened\nexec sleep 60\n";
+    let opener = dir.join("xdg-open");
+    std::fs::write(&opener, browser).unwrap();
+    std::fs::set_permissions(&opener, Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", dir.display(), std::env::var("PATH").unwrap());
+    let mut edit = command(dir, &["edit", "--json"]);
+    let mut edit = start(edit.env("PATH", path).env("TMPDIR", dir));
+    let url = line_after(&mut edit.stdout, "  \"url\": ");
+    let (url, token) = url
+        .trim_end_matches(',')
+        .trim_matches('"')
+        .split_once("#token=")
+        .unwrap();
+    let opened = dir.join("opened");
+    while !opened.exists() {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let page = std::fs::read_to_string(&opened).unwrap();
+    assert!(
+        std::fs::read_to_string(page.trim()).unwrap().contains(token),
+        "the owner reads it"
+    );
+    let by_other = |file: &str| {
+        let read = Command::new("cat").arg(file).uid(OTHER_USER).gid(OTHER_USER).output();
+        read.unwrap().stdout
+    };
+    let processes = std::fs::read_dir("/proc").unwrap().flatten();
+    let called: Vec<_> = processes
+        .flat_map(|process| by_other(&process.path().join("cmdline").display().to_string()))
+        .collect();
+    let called = String::from_utf8_lossy(&called);
+    assert!(called.contains(page.trim()) && !called.contains(token), "{called}");
+    assert_eq!(by_other(opened.to_str().unwrap()), (page.clone()).into_bytes());
+    assert!(by_other(page.trim()).is_empty());
+    assert!(by_other(&format!("/proc/{}/environ", edit.child.id())).is_empty());
+    // Sends what the page would send, but for the token.
+    let request = format!(
+        "exec 3<>/dev/tcp/{0}; printf 'POST /hello HTTP/1.1\\r\\nHost: {1}\\r\\nOrigin: http://{1}\\r\\nContent-Type: application/json\\r\\nContent-Length: 2\\r\\nConnection: close\\r\\n\\r\\n{{}}' >&3; cat <&3",
+        url.trim_start_matches("http://")
+            .trim_end_matches('/')
+            .replace(':', "/"),
+        url.trim_start_matches("http://").trim_end_matches('/'),
+    );
+    let asked = Command::new("bash")
+        .args(["-c", &request])
+        .uid(OTHER_USER)
+        .gid(OTHER_USER)
+        .output();
+    let answer = String::from_utf8_lossy(&asked.unwrap().stdout).into_owned();
+    assert!(
+        answer.starts_with("HTTP/1.1 403") && !answer.contains(token),
+        "{answer}"
+    );
+    edit.interrupt();
+    assert_eq!(edit.end().0, Some(0));
+}

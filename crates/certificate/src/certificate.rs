@@ -7,6 +7,7 @@ use crate::requirement::Requirement;
 use crate::rests_on::RestsOn;
 use crate::swept::PlateCoverage;
 use platewash_workcell::coverage::reaches;
+use platewash_workcell::plan::Plan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -33,6 +34,30 @@ pub struct HashFinding {
     pub computed: Option<String>,
     /// Whether they are the same: proved or violated.
     pub status: Status,
+}
+
+impl HashFinding {
+    /// That of a plan.
+    #[must_use]
+    pub fn of(plan: &Plan) -> Self {
+        let computed = plan.seal().ok();
+        let is_same = computed.is_some() && plan.hash == computed;
+        Self {
+            stated: plan.hash.clone(),
+            computed,
+            status: if is_same { Status::Proved } else { Status::Violated },
+        }
+    }
+
+    /// The finding in a line.
+    #[must_use]
+    pub fn words(&self) -> &'static str {
+        match (self.status, &self.stated) {
+            (Status::Proved, _) => "hash is that of the contents",
+            (_, Some(_)) => "hash is NOT that of the contents: the plan was changed after it was sealed",
+            (_, None) => "hash is missing",
+        }
+    }
 }
 
 /// What is proved about a plan.

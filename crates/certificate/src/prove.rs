@@ -227,7 +227,7 @@ impl Judged<'_> {
 }
 
 fn certificate(plan: &Plan, arm: &RobotModel, proof: Proof) -> Certificate {
-    let hash = hash(plan);
+    let hash = HashFinding::of(plan);
     let sound = hash.status == Status::Proved && proof.checks.iter().all(|check| check.status.is_kept());
     let waived = proof.checks.iter().filter(|check| check.status == Status::Waived);
     let mut certificate = Certificate {
@@ -247,16 +247,6 @@ fn certificate(plan: &Plan, arm: &RobotModel, proof: Proof) -> Certificate {
     };
     certificate.headline = headline(&certificate);
     certificate
-}
-
-fn hash(plan: &Plan) -> HashFinding {
-    let computed = plan.seal().ok();
-    let same = computed.is_some() && plan.hash == computed;
-    HashFinding {
-        stated: plan.hash.clone(),
-        computed,
-        status: if same { Status::Proved } else { Status::Violated },
-    }
 }
 
 /// Nothing in a plan may be so large that judging it takes for ever.

@@ -82,12 +82,7 @@ impl Certificate {
     /// The part of the table on what the verdict rests on, the hash first.
     #[must_use]
     pub fn basis(&self) -> String {
-        let hash = match (self.hash.status, &self.hash.stated) {
-            (Status::Proved, _) => "is that of the contents",
-            (_, Some(_)) => "is NOT that of the contents: the plan was changed after it was sealed",
-            (_, None) => "is missing",
-        };
-        format!("hash {hash}\n{}\n", self.rests_on)
+        format!("{}\n{}\n", self.hash.words(), self.rests_on)
     }
 
     fn checks(&self, f: &mut impl fmt::Write) -> fmt::Result {

@@ -1,15 +1,12 @@
 //! The bodies of a world, and which of them are what.
 
-use super::convex::hull_corners;
+use super::convex::HullFault;
 use super::error::ClearanceError;
 use super::part::{Part, Placed};
-use super::solid::{MOST_CORNERS, MOST_VERTICES};
 use super::tree::Tree;
 use crate::plate::Plate;
 use crate::tool::Tool;
 use crate::workcell::{Obstacle, ObstacleShape};
-use parry3d_f64::math::Vector;
-use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{BodyPoses, Frame, JointVector, Pose, RobotModel};
 
@@ -72,9 +69,6 @@ pub(super) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> 
     tool.check_mount(robot)?;
     let mut bodies = Vec::new();
     for link in robot.links().iter().filter(|link| !link.collision.is_empty()) {
-        link.collision
-            .iter()
-            .try_for_each(|p| refuse_large_hull(&link.name, &p.shape))?;
         let parts = link
             .collision
             .iter()
@@ -82,7 +76,9 @@ pub(super) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> 
         bodies.push(Body {
             name: link.name.clone(),
             kind: BodyKind::Link(link.frame.body()),
-            parts: parts.collect::<Option<_>>().ok_or_else(|| flat(&link.name))?,
+            parts: parts
+                .collect::<Result<_, _>>()
+                .map_err(|fault| refused(&link.name, fault))?,
             tree: None,
         });
     }
@@ -105,38 +101,20 @@ pub(super) fn place<'a>(bodies: &'a [Body], poses: &BodyPoses) -> Vec<Vec<Placed
     bodies.iter().map(parts).collect()
 }
 
-/// Refuses a mesh of more vertices, or a hull of more corners, than can be judged in time.
-fn refuse_large_hull(name: &str, shape: &Shape) -> Result<(), ClearanceError> {
-    let points = match shape {
-        Shape::Hull { points } if points.len() > MOST_CORNERS => points,
-        _ => return Ok(()),
-    };
-    let points: Vec<_> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
-    if points.len() > MOST_VERTICES {
-        return Err(ClearanceError::LargeMesh {
-            link: name.to_owned(),
-            found: points.len(),
-        });
-    }
-    match hull_corners(&points) {
-        found if found > MOST_CORNERS => Err(ClearanceError::LargeHull {
-            link: name.to_owned(),
-            found,
-        }),
-        _ => Ok(()),
-    }
-}
-
-fn flat(name: &str) -> ClearanceError {
+fn refused(name: &str, fault: HullFault) -> ClearanceError {
     let link = name.to_owned();
-    ClearanceError::FlatHull { link }
+    match fault {
+        HullFault::Flat => ClearanceError::FlatHull { link },
+        HullFault::ManyPoints(found) => ClearanceError::LargeMesh { link, found },
+        HullFault::ManyCorners(found) => ClearanceError::LargeHull { link, found },
+    }
 }
 
-fn body(name: &str, kind: BodyKind, part: Option<Part>) -> Result<Body, ClearanceError> {
+fn body(name: &str, kind: BodyKind, part: Result<Part, HullFault>) -> Result<Body, ClearanceError> {
     Ok(Body {
         name: name.to_owned(),
         kind,
-        parts: vec![part.ok_or_else(|| flat(name))?],
+        parts: vec![part.map_err(|fault| refused(name, fault))?],
         tree: None,
     })
 }
@@ -148,9 +126,6 @@ fn tool_bodies(robot: &RobotModel, tool: &Tool) -> Result<Vec<Body>, ClearanceEr
     }
     let flange = tool.mounting_frame(robot);
     let at = |pose: &Pose| flange.offset(&Rigid::from(pose));
-    tool.bodies
-        .iter()
-        .try_for_each(|body| refuse_large_hull(&body.name, &body.shape))?;
     let rigid = tool.bodies.iter();
     let mut bodies: Vec<_> = rigid
         .map(|b| body(&b.name, BodyKind::Tool, Part::new(&b.shape, at(&b.pose))))
@@ -167,10 +142,10 @@ pub(super) fn obstacle_body(obstacle: &Obstacle) -> Result<Body, ClearanceError>
     let frame = Frame::base().offset(&Rigid::from(&obstacle.pose));
     let grown = |part: Part| part.grown(obstacle.margin_m);
     let made = match &obstacle.shape {
-        ObstacleShape::HalfSpace => body(&obstacle.name, BodyKind::Floor, Some(Part::half_space(frame))),
+        ObstacleShape::HalfSpace => body(&obstacle.name, BodyKind::Floor, Ok(Part::half_space(frame))),
         ObstacleShape::Convex(shape) => body(&obstacle.name, BodyKind::Obstacle, Part::new(shape, frame)),
         ObstacleShape::Parts(hulls) => {
-            let (tree, parts) = Tree::of_hulls(hulls, frame).ok_or_else(|| flat(&obstacle.name))?;
+            let (tree, parts) = Tree::of_hulls(hulls, frame).map_err(|fault| refused(&obstacle.name, fault))?;
             Ok(Body {
                 name: obstacle.name.clone(),
                 kind: BodyKind::Obstacle,

@@ -4,6 +4,7 @@
 //! it is held against its points, and where it fails made once more of the same points drawn out to be as high as wide: a hull stays
 //! one under any such map.
 
+use super::solid::{MOST_CORNERS, MOST_VERTICES};
 use parry3d_f64::math::Vector;
 use parry3d_f64::shape::ConvexPolyhedron;
 use parry3d_f64::transformation::try_convex_hull;
@@ -16,9 +17,15 @@ const THINNEST_HULL: f64 = 1e-9;
 /// How far a point that counts as one within a hull may be from it \[m\]: less than [`super::motion`] allows for rounding.
 const LEFT_OUT_M: f64 = 1e-10;
 
-/// Number of corners of the convex hull of points, whatever else it is good for.
-pub(super) fn hull_corners(points: &[Vector]) -> usize {
-    try_convex_hull(points).map_or(0, |(corners, _)| corners.len())
+/// Why no hull is made of points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum HullFault {
+    /// The points have no volume.
+    Flat,
+    /// There are more points than [`MOST_VERTICES`].
+    ManyPoints(usize),
+    /// The hull has more corners than [`MOST_CORNERS`].
+    ManyCorners(usize),
 }
 
 /// The convex hull of points.
@@ -33,15 +40,26 @@ pub(super) struct ConvexHull {
 }
 
 impl ConvexHull {
-    /// That of points; `None` where they have no volume.
-    pub fn of(points: &[Vector]) -> Option<Self> {
-        let frame = Frame::of(points)?;
-        let plain = ConvexPolyhedron::from_convex_hull(points).map(|solid| Self::held(solid, points));
-        if plain.as_ref().is_some_and(|hull| hull.is_sound) {
-            return plain;
+    /// That of points.
+    pub fn of(points: &[Vector]) -> Result<Self, HullFault> {
+        if points.len() > MOST_VERTICES {
+            return Err(HullFault::ManyPoints(points.len()));
         }
-        let drawn_out = frame.hull(points).map(|solid| Self::held(solid, points));
-        drawn_out.filter(|hull| hull.is_sound).or(plain)
+        let frame = Frame::of(points).ok_or(HullFault::Flat)?;
+        let plain = ConvexPolyhedron::from_convex_hull(points);
+        match plain.as_ref().map_or(0, |solid| solid.points().len()) {
+            corners if corners > MOST_CORNERS => return Err(HullFault::ManyCorners(corners)),
+            _ => {}
+        }
+        let plain = plain.map(|solid| Self::held(solid, points));
+        let hull = match plain {
+            Some(hull) if hull.is_sound => Some(hull),
+            plain => {
+                let drawn_out = frame.hull(points).map(|solid| Self::held(solid, points));
+                drawn_out.filter(|hull| hull.is_sound).or(plain)
+            }
+        };
+        hull.ok_or(HullFault::Flat)
     }
 
     /// A hull held against the points it was made of. Points are left out only of one whose faces close it, and behind each of which all its

@@ -30,7 +30,7 @@ pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f
     let mut open = BinaryHeap::new();
     for part in parts {
         let corners: Vec<_> = part.iter().map(vector).collect();
-        let Some(hull) = ConvexHull::of(&corners) else {
+        let Ok(hull) = ConvexHull::of(&corners) else {
             return f64::INFINITY;
         };
         let (points, faces) = hull.solid.to_trimesh();

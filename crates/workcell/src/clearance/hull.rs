@@ -13,11 +13,11 @@ pub struct Triangulated {
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// The convex hull of points \[m\]; `None` where it has no volume.
+/// The convex hull of points \[m\]; `None` where it has no volume or is too large to judge.
 #[must_use]
 pub fn hull_triangles(points: &[Point3<f64>]) -> Option<Triangulated> {
     let vertices: Vec<_> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
-    let (corners, triangles) = ConvexHull::of(&vertices)?.solid.to_trimesh();
+    let (corners, triangles) = ConvexHull::of(&vertices).ok()?.solid.to_trimesh();
     let corners = corners.into_iter().map(|c| Point3::new(c.x, c.y, c.z));
     let triangles = triangles
         .into_iter()

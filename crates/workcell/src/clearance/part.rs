@@ -2,7 +2,7 @@
 //!
 //! A sphere is a point with a radius and a capsule a segment with one, so that their distances have closed forms.
 
-use super::convex::ConvexHull;
+use super::convex::{ConvexHull, HullFault};
 use super::lever::Levers;
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::{Pose, Vector};
@@ -66,9 +66,9 @@ impl std::fmt::Debug for Core {
 }
 
 impl Part {
-    /// The part for a link's shape; `None` for a mesh without volume.
-    pub fn new(shape: &Shape, frame: Frame) -> Option<Self> {
-        Some(match shape {
+    /// The part for a link's shape; a fault for a mesh that has no volume or is too large.
+    pub fn new(shape: &Shape, frame: Frame) -> Result<Self, HullFault> {
+        Ok(match shape {
             Shape::Sphere { radius_m } => Self::round(0.0, *radius_m, frame),
             Shape::Capsule {
                 radius_m,

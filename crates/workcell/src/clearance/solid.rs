@@ -125,11 +125,11 @@ struct Part {
 impl Part {
     fn around(points: Vec<Vector>) -> Self {
         match ConvexHull::of(&points) {
-            Some(hull) => Self {
+            Ok(hull) => Self {
                 planes: hull.planes(),
                 corners: hull.corners,
             },
-            None => Self {
+            Err(_) => Self {
                 corners: points,
                 planes: Vec::new(),
             },

@@ -300,7 +300,7 @@ fn points_without_a_volume_are_no_body() {
     let flat = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[x, y]| Point3::new(x, y, 0.3 * x - 0.2 * y));
     let line = [0.0, 1.0, 2.0, 3.0].map(|x| Point3::new(x, x, x));
     for points in [flat.to_vec(), line.to_vec(), vec![Point3::origin(); 5], Vec::new()] {
-        assert!(Part::new(&Shape::Hull { points }, Frame::base()).is_none());
+        assert!(Part::new(&Shape::Hull { points }, Frame::base()).is_err());
     }
 }
 

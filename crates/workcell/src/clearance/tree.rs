@@ -3,6 +3,7 @@
 //! The whole and each group are shapes that hold their parts, so that what is far enough from them is far enough from these. A body
 //! of one part has no tree.
 
+use super::convex::HullFault;
 use super::distance::Separation;
 use super::part::{Part, Placed};
 use crate::plate::{Foot, Plate, PlateParts};
@@ -58,7 +59,7 @@ pub(super) enum Order {
 impl Solid {
     fn of(plate: &Plate) -> Option<Self> {
         let made = PlateParts::of(plate);
-        let part = |(shape, pose): &_| Part::new(shape, Frame::base().offset(&Rigid::from(pose)));
+        let part = |(shape, pose): &_| Part::new(shape, Frame::base().offset(&Rigid::from(pose))).ok();
         let whole = part(&made.whole)?;
         let mut parts = made.single.iter().map(part).collect::<Option<Vec<_>>>()?;
         let mut groups: Vec<_> = (0..parts.len())
@@ -140,15 +141,15 @@ impl Tree {
 
     /// Of some hulls in a frame that stands still, and their parts; no tree where there is one hull only. `None` where there is
     /// none, or one has no volume.
-    pub fn of_hulls(hulls: &[Vec<Point3<f64>>], frame: Frame) -> Option<(Option<Self>, Vec<Part>)> {
+    pub fn of_hulls(hulls: &[Vec<Point3<f64>>], frame: Frame) -> Result<(Option<Self>, Vec<Part>), HullFault> {
         let hull = |points: Vec<Point3<f64>>| Part::new(&Shape::Hull { points }, frame);
         let parts = hulls
             .iter()
             .map(|points| hull(points.clone()))
-            .collect::<Option<Vec<_>>>()?;
+            .collect::<Result<Vec<_>, _>>()?;
         let whole = hull(hulls.concat())?;
         if parts.len() == 1 {
-            return Some((None, parts));
+            return Ok((None, parts));
         }
         let groups = parts.iter().enumerate().filter_map(|(i, part)| {
             let ball = around(std::slice::from_ref(part))?;
@@ -160,7 +161,7 @@ impl Tree {
             groups: groups.collect(),
             solid: None,
         };
-        Some((Some(tree), parts))
+        Ok((Some(tree), parts))
     }
 
     /// The tree of parts that are all grown by so much \[m\].

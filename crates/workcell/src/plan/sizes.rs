@@ -9,28 +9,38 @@ use std::fmt;
 /// Most knots of a motion that is read: those of a thousand plates, twice.
 const MOST_KNOTS: usize = 1_000_000;
 
+/// Length of a text that is read without counting [bytes]: what it states takes some tens of megabytes.
+const SMALL: usize = 2_000_000;
+
 /// The lists of a plan that may be long.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct Sizes {
-    job: Job,
-    knots: Knots,
+    #[serde(rename = "job")]
+    _job: Job,
+    #[serde(rename = "knots")]
+    _knots: Knots,
 }
 
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct Job {
-    plates: Count<MAX_PLATES>,
+    #[serde(rename = "plates", deserialize_with = "plates")]
+    _plates: (),
 }
 
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct Knots {
-    t_s: Count<MOST_KNOTS>,
+    #[serde(rename = "t_s", deserialize_with = "times")]
+    _t_s: (),
 }
 
 /// Refuses a text with more plates or knots than are read. Whatever else is wrong with it is left to the reader.
 pub(super) fn check(text: &str) -> Result<(), PlanFileError> {
+    if text.len() <= SMALL {
+        return Ok(());
+    }
     let Err(error) = serde_json::from_str::<Sizes>(text) else {
         return Ok(());
     };
@@ -43,32 +53,40 @@ pub(super) fn check(text: &str) -> Result<(), PlanFileError> {
 /// How the message on a list that is too long begins.
 const TOO_MANY: &str = "more than ";
 
-/// A list of at most so many elements, whatever they are.
-#[derive(Default)]
-struct Count<const MOST: usize>;
-
-impl<'de, const MOST: usize> Deserialize<'de> for Count<MOST> {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_seq(Self)
-    }
+fn plates<'de, D: Deserializer<'de>>(from: D) -> Result<(), D::Error> {
+    let (name, most) = ("job.plates", MAX_PLATES);
+    from.deserialize_seq(Count { name, most })
 }
 
-impl<'de, const MOST: usize> Visitor<'de> for Count<MOST> {
-    type Value = Self;
+fn times<'de, D: Deserializer<'de>>(from: D) -> Result<(), D::Error> {
+    let (name, most) = ("knots.t_s", MOST_KNOTS);
+    from.deserialize_seq(Count { name, most })
+}
+
+/// Reads a list and keeps nothing of it, as long as it is no longer than `most`.
+struct Count {
+    name: &'static str,
+    most: usize,
+}
+
+impl<'de> Visitor<'de> for Count {
+    type Value = ();
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a list")
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self, A::Error> {
-        let mut found = 0;
-        while list.next_element::<IgnoredAny>()?.is_some() {
-            found += 1;
-            if found > MOST {
-                return Err(A::Error::custom(format_args!("{TOO_MANY}{MOST} elements")));
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<(), A::Error> {
+        let Self { name, most } = self;
+        for _ in 0..most {
+            if list.next_element::<IgnoredAny>()?.is_none() {
+                return Ok(());
             }
         }
-        Ok(self)
+        match list.next_element::<IgnoredAny>()? {
+            None => Ok(()),
+            Some(_) => Err(A::Error::custom(format_args!("{TOO_MANY}{most} elements in '{name}'"))),
+        }
     }
 }
 
@@ -82,12 +100,17 @@ mod tests {
 
     #[test]
     fn long_lists_are_refused_and_everything_else_is_left_to_the_reader() {
-        let plates = |count: usize| format!("{{\"job\":{{\"plates\":[{}{{}}]}}}}", "{},".repeat(count - 1));
+        let long = " ".repeat(SMALL);
+        let plates = |count: usize| format!("{long}{{\"job\":{{\"plates\":[{}{{}}]}}}}", "{},".repeat(count - 1));
         assert_eq!(refused(&plates(MAX_PLATES)), None);
         let words = refused(&plates(MAX_PLATES + 1)).unwrap();
-        assert!(words.contains("more than 1000 elements"), "{words}");
+        assert!(words.contains("more than 1000 elements in 'job.plates'"), "{words}");
         let knots = format!("{{\"knots\":{{\"t_s\":[{}0]}}}}", "0,".repeat(MOST_KNOTS));
-        assert!(refused(&knots).unwrap().contains("more than 1000000 elements"));
+        assert!(
+            refused(&knots)
+                .unwrap()
+                .contains("more than 1000000 elements in 'knots.t_s'")
+        );
         for other in [
             "",
             "{",
@@ -96,7 +119,7 @@ mod tests {
             "{\"job\":{\"plates\":3}}",
             "{\"knots\":{\"t_s\":null}}",
         ] {
-            assert_eq!(refused(other), None, "{other}");
+            assert_eq!(refused(&(long.clone() + other)), None, "{other}");
         }
     }
 }
