@@ -17,6 +17,7 @@ mod mutation;
 mod programs;
 mod proved_only;
 mod random_jobs;
+mod random_scenarios;
 mod reachable_points;
 mod simulation;
 mod spiral_knots;

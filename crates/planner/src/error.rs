@@ -1,7 +1,7 @@
 //! Why a job could not be planned.
 
 use crate::joint_path::JointPathError;
-use crate::redundancy::settings::TILT_RESERVE_RAD;
+use crate::pattern::Shortfall;
 use crate::timing::TimingError;
 use crate::transit::{LiftLineError, TooNear, TransitError};
 use crate::unwashable::UnwashablePlate;
@@ -119,11 +119,19 @@ pub enum PlanError {
         /// Why.
         error: Box<IkPathError>,
     },
+    /// The arm can follow a wash path, but with none that was tried the sponge does what is promised.
+    #[error("no way was found to wash plate {plate} as is promised: {shortfall}")]
+    Promise {
+        /// The plate.
+        plate: usize,
+        /// What is not kept.
+        shortfall: Shortfall,
+    },
     /// The tool would tilt too far between the points that were solved.
     #[error(
         "plate {plate}: in the motion found, the tool tilts by up to {:.4}° during its {}; the job and the sponge allow {:.4}°, and \
-         {:.4}° of it are needed as room: allow more",
-        tilt_rad.to_degrees(), kind.name(), most_rad.to_degrees(), TILT_RESERVE_RAD.to_degrees()
+         some of it is needed as room: allow more",
+        tilt_rad.to_degrees(), kind.name(), most_rad.to_degrees()
     )]
     Tilt {
         /// The plate.
@@ -186,7 +194,11 @@ impl PlanError {
             Self::Layout(error) => error.infeasibility(),
             Self::Overlap(_) | Self::HomeNotClear { .. } | Self::Transit(TransitError::Home { .. }) => found(true),
             Self::Unwashable(plate) => found(plate.conclusion.is_proved()),
-            Self::NoHome { .. } | Self::NoneWashable { .. } | Self::Line { .. } | Self::Tilt { .. } => found(false),
+            Self::NoHome { .. }
+            | Self::NoneWashable { .. }
+            | Self::Line { .. }
+            | Self::Promise { .. }
+            | Self::Tilt { .. } => found(false),
             Self::Transit(error) if error.is_infeasible() => found(false),
             _ => None,
         }

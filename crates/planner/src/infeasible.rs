@@ -150,6 +150,7 @@ fn plates(error: &PlanError) -> Vec<InfeasiblePlate> {
             plates.into_iter().map(InfeasiblePlate::reached_in_vain).collect()
         }
         PlanError::Line { plate, .. }
+        | PlanError::Promise { plate, .. }
         | PlanError::Tilt { plate, .. }
         | PlanError::Transit(TransitError::Line { plate, .. }) => {
             vec![InfeasiblePlate::reached_in_vain(*plate)]

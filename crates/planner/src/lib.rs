@@ -31,6 +31,7 @@ pub use infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport};
 pub use order::{EXACT_UP_TO, Optimality};
 pub use outlook::PlateOutlook;
 pub use pace::Pace;
+pub use pattern::{Promised, Shortfall};
 pub use pipeline::{
     check, draw_washable_layout, nearest_place, other_unwashable_plates, outlook, plan, plan_here, plan_in_order,
     plan_with, unwashable_plates, washable_map,

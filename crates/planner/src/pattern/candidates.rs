@@ -1,6 +1,5 @@
 //! The curves among which is chosen.
 
-use super::promise::Promise;
 use platewash_workcell::job::{PatternName, PlannerSettings};
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{BLEND_RAD, LEAST_RADIUS_M, LEAST_TURNS, MOST_RINGS, MOST_TURNS, Rings, WashCurve};
@@ -21,17 +20,37 @@ const INNER: [f64; 3] = [1.0, 1.08, 1.17];
 /// Rings that are tried at most, where their number is not stated.
 const MOST_TRIED: usize = 40;
 
-/// All curves that the settings leave open; at least one.
-pub(super) fn candidates(settings: &PlannerSettings, surface: &Surface, promise: &Promise) -> Vec<WashCurve> {
+/// Those of denser curves, for doses that others do not give.
+const DENSE_PITCHES: [f64; 3] = [0.65, 0.5, 0.35];
+
+/// How densely a curve covers a face.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Density {
+    /// As a usual job needs it.
+    Usual,
+    /// Denser than that.
+    Dense,
+}
+
+/// All curves of a density that the settings leave open; of the usual one at least one.
+pub(super) fn candidates(
+    settings: &PlannerSettings,
+    surface: &Surface,
+    sponge_m: f64,
+    density: Density,
+) -> Vec<WashCurve> {
     let stated = settings.turns.is_some() || settings.path_radius_m.is_some() || settings.closing_ring.is_some();
     let pattern = settings.pattern.or(stated.then_some(PatternName::Spiral));
-    let (arc_m, sponge_m) = (surface.arc_m(), promise.foundation.radius_m);
+    let arc_m = surface.arc_m();
     let mut all = Vec::new();
+    if settings.turns.is_some() && density == Density::Dense {
+        return all;
+    }
     if pattern != Some(PatternName::Spiral) {
-        all.extend(rings(settings, arc_m, sponge_m));
+        all.extend(rings(settings, arc_m, sponge_m, density));
     }
     if pattern != Some(PatternName::Rings) {
-        all.extend(spirals(settings, arc_m, sponge_m));
+        all.extend(spirals(settings, arc_m, sponge_m, density));
     }
     all
 }
@@ -47,12 +66,16 @@ fn outer(settings: &PlannerSettings, arc_m: f64, sponge_m: f64) -> Vec<f64> {
     }
 }
 
-fn spirals(settings: &PlannerSettings, arc_m: f64, sponge_m: f64) -> Vec<WashCurve> {
+fn spirals(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Density) -> Vec<WashCurve> {
+    let pitches: &[f64] = match density {
+        Density::Usual => &PITCHES,
+        Density::Dense => &DENSE_PITCHES,
+    };
     let mut all = Vec::new();
     for radius_m in outer(settings, arc_m, sponge_m) {
         let turns = match settings.turns {
             Some(turns) => vec![turns],
-            None => PITCHES
+            None => pitches
                 .iter()
                 .map(|pitch| radius_m / (pitch * sponge_m) + 0.5 * BLEND_RAD / TAU)
                 .collect(),
@@ -72,13 +95,17 @@ fn spirals(settings: &PlannerSettings, arc_m: f64, sponge_m: f64) -> Vec<WashCur
 
 /// Rings that lie evenly, or nearly so: about half a pitch from the pole to the first, and half a pitch or less from the last to the
 /// rim. As many as are stated, however far apart; at least one curve.
-fn rings(settings: &PlannerSettings, arc_m: f64, sponge_m: f64) -> Vec<WashCurve> {
+fn rings(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Density) -> Vec<WashCurve> {
     let mut all = Vec::new();
     let [least, most] = match settings.turns {
         Some(turns) => [(turns.round() as usize).saturating_add(1).clamp(2, MOST_RINGS); 2],
         None => {
             let least = ((arc_m / (2.0 * sponge_m)).ceil().max(2.0) as usize).min(MOST_TRIED);
-            [least, (least + 2).min(MOST_TRIED)]
+            let few = (least + 2).min(MOST_TRIED);
+            match density {
+                Density::Usual => [least, few],
+                Density::Dense => [few + 1, (few + 4).min(MOST_TRIED)],
+            }
         }
     };
     for count in least..=most {

@@ -5,7 +5,6 @@ use crate::scene::AxisRule;
 use crate::trig::sin_cos;
 use nalgebra::Vector3;
 use platewash_workcell::contact::{Moment, SpongePose};
-use platewash_workcell::job::JobTerms;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{SurfacePoint, WashCurve};
 
@@ -28,9 +27,8 @@ pub(super) struct Estimate {
 }
 
 impl Estimate {
-    /// A curve on a surface, washed as fast as a job allows.
-    pub fn new(curve: WashCurve, surface: &Surface, terms: &JobTerms) -> Self {
-        let (speed_m_s, most_m_s2) = (terms.wash_speed_m_s(), terms.wash_acceleration_m_s2());
+    /// A curve on a surface, washed as fast as the limits allow \[m/s, m/s²\].
+    pub fn new(curve: WashCurve, surface: &Surface, [speed_m_s, most_m_s2]: [f64; 2]) -> Self {
         let mut least_s = speed_m_s / most_m_s2;
         for [from, to] in pairs(&points(&curve, surface)) {
             let along_m = (to.position - from.position).norm();
@@ -51,6 +49,18 @@ impl Estimate {
         let swept = promise.swept_within(surface, cone_rad);
         let (promise, lean_rad) = swept.as_ref().map_or((promise, LEAN * cone_rad), |swept| (swept, 0.0));
         promise.seems_kept(surface, &self.moments(surface, rule, lean_rad), &Margin::BARE_FACE)
+    }
+
+    /// The greatest share of the speed, from `least` to 1, at which it brings that about where contact is promised.
+    pub fn speed_share(
+        &self,
+        promise: &Promise,
+        surface: &Surface,
+        (rule, cone_rad): (&AxisRule, f64),
+        least: f64,
+    ) -> Option<f64> {
+        let moments = self.moments(surface, rule, LEAN * cone_rad);
+        promise.speed_share(surface, &moments, &Margin::BARE_FACE, least)
     }
 
     /// The sponge along the curve at the speed of washing, the tool by its rule.

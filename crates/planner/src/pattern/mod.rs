@@ -2,22 +2,24 @@
 //!
 //! What the job states is kept; what it leaves out is chosen. Candidates (`candidates.rs`) are tried the shortest first (`estimate.rs`):
 //! the first that on the bare face, with the tool by its rule and at the speed limit, brings enough of it into contact (`promise.rs`) is
-//! taken. Whether it does so with the arm's own tilts is asked again on each plate; where it does not, or the arm finds no way along it,
+//! taken. Where none does, denser and slower ones are tried. Whether it does so with the arm's own tilts is asked again on each plate; where it does not, or the arm finds no way along it,
 //! the next ones are tried.
 
 mod candidates;
 mod estimate;
 mod promise;
+mod shortfall;
 
-pub use promise::Promise;
 pub(crate) use promise::foundation;
+pub use promise::{Margin, Promise};
+pub use shortfall::{Promised, Shortfall};
 
 #[cfg(test)]
 mod tests;
 
 use crate::scene::{AXIS_SHARE, AxisRule};
 use crate::trig::atan2;
-use candidates::candidates;
+use candidates::{Density, candidates};
 use estimate::Estimate;
 use platewash_workcell::job::{JobTerms, PlannerSettings};
 use platewash_workcell::surface::Surface;
@@ -35,6 +37,12 @@ const WIDE: f64 = 0.85;
 /// Patterns that are offered within a cone at most.
 const MOST_OFFERED: usize = 2;
 
+/// The least share of the wash speed that is tried, where at full speed no curve brings about what is promised.
+const SLOWEST: f64 = 0.1;
+
+/// Denser and slower curves among which is chosen.
+const MOST_SLOWED: usize = 4;
+
 /// A curve and how far the tool may lean along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pattern {
@@ -42,6 +50,8 @@ pub struct Pattern {
     pub curve: WashCurve,
     /// Largest angle of the tool from the normal of the face \[rad\].
     pub cone_rad: f64,
+    /// The share of the speed limit of washing at which it is followed at most.
+    pub speed_share: f64,
     /// What it takes at the limits of washing, from rest to rest, the arm apart \[s\].
     pub least_s: f64,
 }
@@ -52,8 +62,14 @@ pub struct Patterns {
     surface: Surface,
     promise: Promise,
     rule: AxisRule,
+    /// Greatest speed and acceleration of washing \[m/s, m/s²\].
+    limits: [f64; 2],
     /// The shortest first; at least one.
     candidates: Vec<Estimate>,
+    /// Whether anything is promised about contact.
+    has_contact: bool,
+    /// Curves that cover the face more densely.
+    dense: Vec<WashCurve>,
     /// The cones to plan with, the best first; at least one.
     cones: Vec<f64>,
     first: Vec<Pattern>,
@@ -64,17 +80,21 @@ impl Patterns {
     #[must_use]
     pub fn new(terms: &JobTerms, settings: &PlannerSettings, surface: &Surface) -> Self {
         let promise = Promise::of(terms, surface);
-        let estimate = |curve: WashCurve| Estimate::new(curve, surface, terms);
-        let mut all: Vec<Estimate> = candidates(settings, surface, &promise)
+        let limits = [terms.wash_speed_m_s(), terms.wash_acceleration_m_s2()];
+        let curves = |density| candidates(settings, surface, promise.foundation.radius_m, density);
+        let mut all: Vec<Estimate> = curves(Density::Usual)
             .into_iter()
-            .map(estimate)
+            .map(|curve| Estimate::new(curve, surface, limits))
             .collect();
         all.sort_by(|a, b| a.least_s.total_cmp(&b.least_s));
         let mut patterns = Self {
             surface: *surface,
             promise,
             rule: AxisRule::new(surface, settings.axis_share.unwrap_or(AXIS_SHARE)),
+            limits,
             candidates: all,
+            has_contact: terms.requirements.contact.is_some(),
+            dense: curves(Density::Dense),
             cones: cones(terms, settings, surface),
             first: Vec::new(),
         };
@@ -84,9 +104,10 @@ impl Patterns {
 
     /// The same with one curve and one cone alone: those of another plan.
     #[must_use]
-    pub fn along(&self, terms: &JobTerms, path: &WashPath) -> Self {
+    pub fn along(&self, path: &WashPath) -> Self {
         let mut patterns = Self {
-            candidates: vec![Estimate::new(path.curve, &self.surface, terms)],
+            candidates: vec![Estimate::new(path.curve, &self.surface, self.limits)],
+            dense: Vec::new(),
             cones: vec![path.cone_rad],
             ..self.clone()
         };
@@ -115,24 +136,60 @@ impl Patterns {
         }
     }
 
-    /// The shortest candidates that keep what is promised within a cone; where none does, the longest one: what it lacks is for the
-    /// certificate to say.
+    /// Whether the curve is chosen, not stated.
+    #[must_use]
+    pub fn is_chosen(&self) -> bool {
+        self.candidates.len() > 1
+    }
+
+    /// The shortest candidates that keep what is promised within a cone: at full speed, or else denser or slower; a curve that is stated at
+    /// full speed first. Where none of the usual ones does, the longest of them comes last: the arm may lean less than is reckoned with here.
     fn within(&self, cone_rad: f64) -> Vec<Pattern> {
-        let offered = |estimate: &Estimate| Pattern {
+        let offered = |estimate: &Estimate, speed_share: f64| Pattern {
             curve: estimate.curve,
             cone_rad,
-            least_s: estimate.least_s,
+            speed_share,
+            least_s: estimate.least_s / speed_share,
         };
-        if let [only] = &self.candidates[..] {
-            return vec![offered(only)];
+        let tool = (&self.rule, cone_rad);
+        let mut chosen: Vec<Pattern> = match &self.candidates[..] {
+            [only] => vec![offered(only, 1.0)],
+            usual => {
+                let kept = usual
+                    .iter()
+                    .filter(|estimate| estimate.keeps(&self.promise, &self.surface, tool));
+                kept.take(MOST_OFFERED).map(|estimate| offered(estimate, 1.0)).collect()
+            }
+        };
+        if self.is_chosen() && !chosen.is_empty() {
+            return chosen;
         }
-        let keeps = |estimate: &&Estimate| estimate.keeps(&self.promise, &self.surface, (&self.rule, cone_rad));
-        let kept = self.candidates.iter().filter(keeps).take(MOST_OFFERED);
-        let chosen: Vec<Pattern> = kept.map(offered).collect();
-        if chosen.is_empty() {
-            return self.candidates.last().map(offered).into_iter().collect();
+        let slower = self.slower(tool);
+        chosen.extend(slower.iter().map(|(estimate, share)| offered(estimate, *share)));
+        if self.is_chosen() {
+            chosen.extend(self.candidates.last().map(|last| offered(last, 1.0)));
         }
         chosen
+    }
+
+    /// The quickest curves, dense ones among them, each with the greatest share of the wash speed at which it keeps what is promised.
+    fn slower(&self, tool: (&AxisRule, f64)) -> Vec<(Estimate, f64)> {
+        if !self.has_contact {
+            return Vec::new();
+        }
+        let dense = self.dense.iter();
+        let dense = dense.map(|curve| Estimate::new(*curve, &self.surface, self.limits));
+        let all = self.candidates.iter().cloned().chain(dense);
+        let kept = all.filter_map(|estimate| {
+            let share = estimate.speed_share(&self.promise, &self.surface, tool, SLOWEST)?;
+            Some((estimate, share))
+        });
+        let kept = kept.filter(|(_, share)| self.is_chosen() || *share < 1.0);
+        let mut kept: Vec<_> = kept.take(MOST_SLOWED).collect();
+        let time_s = |(estimate, share): &(Estimate, f64)| estimate.least_s / share;
+        kept.sort_by(|a, b| time_s(a).total_cmp(&time_s(b)));
+        kept.truncate(MOST_OFFERED);
+        kept
     }
 }
 

@@ -1,10 +1,11 @@
 //! What a wash must bring about on a face.
 
+use super::shortfall::{Promised, Shortfall};
 use crate::scene::Scene;
-use crate::trig::sin_cos;
+use crate::trig::{acos, sin_cos};
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
-use platewash_workcell::contact::{Columns, Foundation, Looks, Moment, SpongePose, Wanted};
+use platewash_workcell::contact::{Columns, Foundation, Level, Looks, Moment, SpongePose, Wanted};
 use platewash_workcell::job::{JobTerms, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::surface::Surface;
@@ -22,24 +23,52 @@ const LACKING: f64 = 8e-3;
 /// The angle between neighbours of a sunflower's seeds \[rad\].
 const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
 
+/// Every force is within \[N\].
+const ANY_FORCE_N: [f64; 2] = [0.0, f64::INFINITY];
+
+/// How far the tip may be off a flat face, as far as strain and force go \[m\].
+const OFF_FACE_M: f64 = 1e-5;
+
 /// A compression that every place has \[m\].
 const ANY_M: f64 = -1e3;
 
 /// By how much more than is promised must be seen, as what is looked at is no bound.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Margin {
+pub struct Margin {
     /// Of time and dose, as a factor.
     more: f64,
     /// Of shares, as a part of what may lack it.
     part: f64,
+    /// Of strain and force, as a factor.
+    load: f64,
+    /// Of the tool's tilt on a flat face \[rad\].
+    tilt_rad: f64,
 }
 
 impl Margin {
     /// Before the arm's own tilts are known.
-    pub const BARE_FACE: Self = Self { more: 1.1, part: 0.2 };
+    pub const BARE_FACE: Self = Self { more: 1.1, ..Self::ARM };
 
     /// With the arm.
-    const ARM: Self = Self { more: 1.04, part: 0.2 };
+    pub const ARM: Self = Self {
+        more: 1.04,
+        part: 0.2,
+        load: 1.02,
+        tilt_rad: 5e-4,
+    };
+
+    /// None: what lacks even so is not proved.
+    pub const NONE: Self = Self {
+        more: 1.0,
+        part: 0.0,
+        load: 1.0,
+        tilt_rad: 0.0,
+    };
+
+    /// The share that must be seen of one that is required.
+    fn required(&self, share: f64) -> f64 {
+        share + self.part * (1.0 - share)
+    }
 }
 
 /// What a wash must bring about: of how much of a face it is wanted.
@@ -53,6 +82,8 @@ pub struct Promise {
     pub shares: [f64; 3],
     /// Greatest strain; infinite where nothing is asked.
     pub strain: f64,
+    /// Least and greatest force \[N\]; 0 and infinite where nothing is asked.
+    pub force_n: [f64; 2],
 }
 
 impl Promise {
@@ -73,6 +104,7 @@ impl Promise {
                 },
                 shares: [requirements.coverage, 0.0, 0.0],
                 strain: f64::INFINITY,
+                force_n: ANY_FORCE_N,
             };
         };
         Self {
@@ -89,6 +121,7 @@ impl Promise {
                 contact.dose_share,
             ],
             strain: contact.strain,
+            force_n: sponge.stiffness_pa.map_or(ANY_FORCE_N, |_| contact.force_n),
         }
     }
 }
@@ -109,23 +142,130 @@ impl Promise {
         })
     }
 
-    /// Whether it is kept by an arm in some configurations along a wash, at a constant speed: looked at there, not between.
+    /// What an arm in some configurations along a wash, at a constant speed, lacks of it: looked at there, not between.
     #[must_use]
-    pub fn is_kept(&self, scene: &Scene<'_>, plate: &Plate, (along, speed_m_s): (&[JointVector], f64)) -> bool {
+    pub fn shortfall(
+        &self,
+        scene: &Scene<'_>,
+        plate: &Plate,
+        (along, speed_m_s): (&[JointVector], f64),
+        margin: &Margin,
+    ) -> Option<Shortfall> {
         let moments = moments(scene, plate, along, speed_m_s);
-        let columns = Columns::new(&self.foundation);
-        let strain = |moment: &Moment| {
-            let load = columns.load(&plate.surface, &moment.pose, self.wanted.height_error_m);
-            load.deepest_m / self.foundation.free_height_m
-        };
-        if self.strain.is_finite() && moments.iter().any(|moment| strain(moment) > self.strain) {
-            return false;
+        self.overload(&plate.surface, &moments, margin)
+            .or_else(|| self.missing(&plate.surface, &moments, margin))
+    }
+
+    /// The strain or force of the sponge that is beyond what is promised.
+    fn overload(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> Option<Shortfall> {
+        let [least_n, most_n] = self.force_n;
+        if self.strain.is_infinite() && self.force_n == ANY_FORCE_N {
+            return None;
         }
-        self.seems_kept(&plate.surface, &moments, &Margin::ARM)
+        let (volume_m3, deepest_m) = if surface.is_flat() {
+            self.pressed_level(surface.rim_m(), moments, margin)
+        } else {
+            self.pressed_bent(surface, moments, margin)
+        };
+        let ([soft_n, _], [_, stiff_n]) = (
+            self.foundation.forces_n(volume_m3[0]),
+            self.foundation.forces_n(volume_m3[1]),
+        );
+        let strain = deepest_m / self.foundation.free_height_m;
+        let short = |promised, found, required| Shortfall {
+            promised,
+            found,
+            required,
+        };
+        if strain * margin.load > self.strain {
+            Some(short(Promised::Strain, strain, self.strain))
+        } else if stiff_n * margin.load > most_n {
+            Some(short(Promised::GreatestForce, stiff_n, most_n))
+        } else if soft_n < least_n * margin.load {
+            Some(short(Promised::LeastForce, soft_n, least_n))
+        } else {
+            None
+        }
+    }
+
+    /// The least and the greatest volume of compressed foam \[m³\] and the greatest compression \[m\] on a flat face, whatever the moment: as
+    /// the certificate bounds them, from the greatest tilt and the place farthest out.
+    fn pressed_level(&self, rim_m: f64, moments: &[Moment], margin: &Margin) -> ([f64; 2], f64) {
+        let (mut least_cosine, mut distance_m): (f64, f64) = (1.0, 0.0);
+        for moment in moments {
+            least_cosine = least_cosine.min(-moment.pose.axis.z);
+            distance_m = distance_m.max(moment.pose.tip.xy().norm());
+        }
+        let (_, cosine) = sin_cos(acos(least_cosine) + margin.tilt_rad);
+        let off_m = OFF_FACE_M + self.wanted.height_error_m;
+        let level = Level {
+            height_m: [-off_m, off_m],
+            cosine,
+            distance_m,
+        };
+        let press = self.foundation.level_press(&level, rim_m);
+        (press.volume_m3, press.deepest_m[1])
+    }
+
+    /// The same on other faces, at the moments: bounds, or without a margin what the columns' middles show.
+    fn pressed_bent(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> ([f64; 2], f64) {
+        let columns = Columns::new(&self.foundation);
+        let error_m = self.wanted.height_error_m;
+        let load = |pose: &SpongePose, more_m: f64| {
+            if margin.load > 1.0 {
+                let load = columns.load(surface, pose, more_m);
+                return (load.volume_m3, load.deepest_m);
+            }
+            let on_face = columns.on(surface, pose);
+            let on_face = on_face.filter(|column| column.point.xy().norm() <= surface.rim_m());
+            on_face.fold(([0.0; 2], f64::NEG_INFINITY), |([volume_m3, _], deepest_m), column| {
+                let compression_m = column.compression_m + more_m;
+                let volume_m3 = volume_m3 + column.area_m2 * compression_m.max(0.0);
+                ([volume_m3; 2], deepest_m.max(compression_m))
+            })
+        };
+        let loads = moments.par_iter().map(|moment| {
+            let ([least_m3, _], _) = load(&moment.pose, -error_m);
+            let ([_, most_m3], deepest_m) = load(&moment.pose, error_m);
+            ([least_m3, most_m3], deepest_m)
+        });
+        loads.reduce(
+            || ([f64::INFINITY, 0.0], f64::NEG_INFINITY),
+            |(a, deep), (b, deeper)| ([a[0].min(b[0]), a[1].max(b[1])], deep.max(deeper)),
+        )
     }
 
     /// Whether places of a face, looked at one by one through some moments, have what is promised with a margin.
     pub(super) fn seems_kept(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
+        self.missing(surface, moments, margin).is_none()
+    }
+
+    /// The greatest share of the speed, from `least` to 1, at which places of a face have what is promised with a margin. Slower, they are
+    /// pressed longer; how deep they are pressed and what dose they get stays.
+    pub(super) fn speed_share(
+        &self,
+        surface: &Surface,
+        moments: &[Moment],
+        margin: &Margin,
+        least: f64,
+    ) -> Option<f64> {
+        let mut slowest = *self;
+        slowest.wanted.time_s *= least;
+        if !slowest.seems_kept(surface, moments, margin) {
+            return None;
+        }
+        let looks = Looks::new(&self.foundation, moments, &self.wanted);
+        let places = (0..PLACES).into_par_iter();
+        let mut times_s: Vec<f64> = places.map(|k| looks.at(&place(surface, k)).time_s).collect();
+        times_s.sort_by(|a, b| b.total_cmp(a));
+        let [_, share, _] = self.shares;
+        let needed = f64::from(PLACES) * margin.required(share);
+        let time_s = times_s.get((needed.ceil() as usize).saturating_sub(1))?;
+        Some((time_s / (margin.more * self.wanted.time_s)).clamp(least, 1.0))
+    }
+
+    /// The share of a face that is too small, looked at place by place through some moments.
+    fn missing(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> Option<Shortfall> {
         let wanted = &Wanted {
             time_s: margin.more * self.wanted.time_s,
             dose_pa_m: margin.more * self.wanted.dose_pa_m,
@@ -142,9 +282,19 @@ impl Promise {
             kept.map(u32::from)
         };
         let add = |a: [u32; 3], b: [u32; 3]| std::array::from_fn(|i| a[i] + b[i]);
-        let enough = |kept: [u32; 3], of: u32, lacking: f64| {
-            let mut each = kept.iter().zip(self.shares);
-            each.all(|(kept, share)| f64::from(*kept) / f64::from(of) >= share + margin.part * (1.0 - share) - lacking)
+        let lacking = |kept: [u32; 3], of: u32, lacking: f64| {
+            let promised = [Promised::Pressed, Promised::ContactTime, Promised::ContactDose];
+            let each = kept.into_iter().zip(self.shares).zip(promised);
+            let mut short = each.filter_map(|((kept, required), promised)| {
+                let found = f64::from(kept) / f64::from(of);
+                let is_enough = found >= margin.required(required) - lacking;
+                (!is_enough).then_some(Shortfall {
+                    promised,
+                    found,
+                    required,
+                })
+            });
+            short.next()
         };
         // Every eighth seed is spread as evenly.
         let stride = PLACES / FIRST;
@@ -153,7 +303,7 @@ impl Promise {
             .map(|k| at(k * stride))
             .reduce(|| [0; 3], add);
         let all = || (0..PLACES).into_par_iter().map(at).reduce(|| [0; 3], add);
-        enough(first, FIRST, LACKING) && enough(all(), PLACES, 0.0)
+        lacking(first, FIRST, LACKING).or_else(|| lacking(all(), PLACES, 0.0))
     }
 }
 

@@ -90,7 +90,7 @@ fn rings_are_as_many_as_are_stated() {
                         path_radius_m,
                         ..open()
                     };
-                    let all = candidates(&settings, &surface, &promise);
+                    let all = candidates(&settings, &surface, promise.foundation.radius_m, Density::Usual);
                     let what = format!("{surface:?}, {sponge_m} m, {turns:?}, {path_radius_m:?}");
                     assert!(!all.is_empty(), "{what}");
                     for curve in all {
@@ -178,7 +178,8 @@ fn the_kitchen_presses_as_is_promised() {
                     .filter(|(t, _)| during(t))
                     .map(|(_, q)| *q)
                     .collect();
-                Promise::of(job.terms(), &plate.surface).is_kept(&scene, plate, (&along, 0.25))
+                let promise = Promise::of(job.terms(), &plate.surface);
+                promise.shortfall(&scene, plate, (&along, 0.25), &Margin::ARM).is_none()
             })
     };
     assert!(pressed(&job));

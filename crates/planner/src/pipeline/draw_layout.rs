@@ -56,21 +56,25 @@ fn first_refused(arm: &Arc<RobotModel>, terms: JobTerms, watch: &Watch<'_>) -> R
         Err(standing @ JobError::Standing(_)) => Ok(Some(standing.to_string())),
         job => {
             let unwashable = Pipeline::of(&job?, watch)?.first_unwashable()?;
-            Ok(unwashable.map(|error| error.to_string()))
+            Ok(unwashable)
         }
     }
 }
 
 impl Pipeline<'_> {
     /// What stands in the way on the first plate that cannot be washed whole.
-    fn first_unwashable(&self) -> Result<Option<RedundancyError>, PlanError> {
+    fn first_unwashable(&self) -> Result<Option<String>, PlanError> {
         let (scene, [start, _]) = (self.scene()?, &self.terms.home_rad);
         let home = self.home_tip(&scene, start);
         for plate in 0..self.plates.len() {
             match self.washing_by_patterns(&scene, &self.widest_path(plate, &home), start) {
-                Ok(_) => {}
+                Ok(turn) => {
+                    if let Err(error) = self.check_promise(&turn) {
+                        return Ok(Some(error.to_string()));
+                    }
+                }
                 Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
-                Err(error) => return Ok(Some(error)),
+                Err(error) => return Ok(Some(error.to_string())),
             }
         }
         Ok(None)

@@ -2,6 +2,7 @@
 
 use super::shared::Pipeline;
 use super::visit;
+use super::visits::Turn;
 use crate::activity::Activity;
 use crate::error::PlanError;
 use crate::redundancy::RedundancyError;
@@ -45,7 +46,7 @@ impl Pipeline<'_> {
             let before = &order[..turn];
             let washed = self.turns(scene, order, |other| before.contains(&other));
             let last = washed.filter_map(Result::ok).last();
-            near = last.and_then(|(_, washing)| washing.q.last().copied()).unwrap_or(near);
+            near = last.and_then(|turn| turn.washing.q.last().copied()).unwrap_or(near);
         }
         scene.check_cancelled()?;
         Ok((path, near))
@@ -105,7 +106,7 @@ impl Pipeline<'_> {
         let (order, _) = moved.order(&scene)?;
         let (mut lines, mut at): (Vec<[LiftLine; 2]>, _) = (Vec::new(), None);
         for turn in moved.turns(&scene, &order, |_| true) {
-            let (path, washing) = match turn {
+            let Turn { path, washing, .. } = match turn {
                 Ok(washed) => washed,
                 Err(failed) => match failed.error {
                     RedundancyError::Cancelled(cancelled) => return Err(cancelled.into()),

@@ -6,6 +6,7 @@ use super::visit::Visit;
 use crate::error::PlanError;
 use crate::pace::Pace;
 use crate::planned::{Planned, TransitSummary, VisitSummary};
+use crate::scene::TILT_RESERVE_RAD;
 use crate::watch::Watch;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
@@ -13,6 +14,9 @@ use platewash_workcell::job::{JobError, JobTerms, Overlap, WashJob};
 use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::trajectory::Trajectory;
 use platewash_workcell::wash_path::WashPath;
+
+/// What the reserve of tilt is multiplied by, where a motion uses up more of it.
+const MORE_TILT_RESERVE: [f64; 3] = [2.0, 5.0, 12.0];
 
 /// Plans a job.
 ///
@@ -27,7 +31,7 @@ pub fn plan(job: &WashJob) -> Result<Planned, PlanError> {
 /// # Errors
 /// As [`plan`], and [`PlanError::Cancelled`].
 pub fn plan_with(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError> {
-    planned(job, &Pipeline::of(job, watch)?)
+    planned(job, Pipeline::of(job, watch)?)
 }
 
 /// [`plan_with`] for whoever does not wait: where a plate cannot be washed, no other place is looked for, whatever the job asks for.
@@ -37,7 +41,7 @@ pub fn plan_with(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError>
 /// # Errors
 /// As [`plan_with`].
 pub fn plan_here(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError> {
-    planned(job, &Pipeline::here(job, watch)?)
+    planned(job, Pipeline::here(job, watch)?)
 }
 
 /// [`plan_here`] with the plates in a given order and along given curves, whatever the job's settings say of them: those of another
@@ -51,10 +55,26 @@ pub fn plan_in_order(
     paths: &[WashPath],
     watch: &Watch<'_>,
 ) -> Result<Planned, PlanError> {
-    planned(job, &Pipeline::in_order(job, order, paths, watch)?)
+    planned(job, Pipeline::in_order(job, order, paths, watch)?)
 }
 
-fn planned(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanError> {
+/// Plans with the usual reserve of tilt, and with more of it where the motion found uses up more.
+fn planned(job: &WashJob, mut pipeline: Pipeline<'_>) -> Result<Planned, PlanError> {
+    let mut planned = planned_with(job, &pipeline);
+    for more in MORE_TILT_RESERVE {
+        if !matches!(planned, Err(PlanError::Tilt { .. })) {
+            break;
+        }
+        pipeline.tilt_reserve_rad = more * TILT_RESERVE_RAD;
+        planned = match planned_with(job, &pipeline) {
+            Err(error) if !matches!(error, PlanError::Cancelled(_)) => planned,
+            other => other,
+        };
+    }
+    planned
+}
+
+fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanError> {
     check_apart(job.arm(), job.terms())?;
     pipeline.check_homes()?;
     let scene = pipeline.scene()?;

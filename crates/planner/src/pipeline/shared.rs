@@ -3,7 +3,7 @@
 use crate::error::PlanError;
 use crate::pattern::Patterns;
 use crate::redundancy::relocation::SEARCHED_M;
-use crate::scene::{AXIS_SHARE, Scene, Stance, Stretch, TiltPolicy};
+use crate::scene::{AXIS_SHARE, Scene, Stance, Stretch, TILT_RESERVE_RAD, TiltPolicy};
 use crate::timing::{MotionLimits, TipLimits};
 use crate::transit::TooNear;
 use crate::unwashable::PlaceSearch;
@@ -32,6 +32,8 @@ pub(super) struct Pipeline<'a> {
     pub settings: &'a PlannerSettings,
     pub plates: &'a [Plate],
     pub clearance: ClearanceModel,
+    /// What the largest tilt planned stays below the largest allowed \[rad\].
+    pub tilt_reserve_rad: f64,
     /// Limits while washing, and elsewhere.
     pub washing: MotionLimits,
     pub transit: MotionLimits,
@@ -93,6 +95,7 @@ impl<'a> Pipeline<'a> {
             } else {
                 PlaceSearch::Off
             },
+            tilt_reserve_rad: TILT_RESERVE_RAD,
             patterns: by_plate(terms, settings, plates),
             asked_order: None,
             asked_paths: Vec::new(),
@@ -110,7 +113,7 @@ impl<'a> Pipeline<'a> {
         let mut pipeline = Self::here(job, watch)?;
         for path in paths {
             if let Some(patterns) = pipeline.patterns.get_mut(path.plate) {
-                *patterns = Arc::new(patterns.along(job.seen_from_base(), path));
+                *patterns = Arc::new(patterns.along(path));
             }
         }
         let count = pipeline.plates.len();
@@ -156,6 +159,7 @@ impl<'a> Pipeline<'a> {
             patterns: self.patterns.clone(),
             asked_order: self.asked_order.clone(),
             asked_paths: self.asked_paths.clone(),
+            tilt_reserve_rad: self.tilt_reserve_rad,
             washing: self.washing,
             transit: self.transit,
         }
@@ -168,6 +172,7 @@ impl<'a> Pipeline<'a> {
         let stance = Stance {
             axis_share: self.settings.axis_share.unwrap_or(AXIS_SHARE),
             wrist_rad: self.terms.requirements.wrist_rad,
+            tilt_reserve_rad: self.tilt_reserve_rad,
             aside_rad: 0.0,
         };
         Ok(scene.mounted(self.mount).standing(stance).until(self.watch.cancel))

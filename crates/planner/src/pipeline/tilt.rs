@@ -3,17 +3,20 @@
 use super::assemble::Assembled;
 use super::shared::Pipeline;
 use crate::error::PlanError;
-use crate::scene::Scene;
+use crate::scene::{Scene, TILT_RESERVE_RAD};
 use crate::trig::{asin, sin};
 use nalgebra::Vector3;
 use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use platewash_workcell::wash_path::WashPath;
 
 /// Looks into every piece of the motion.
-const LOOKS: u32 = 4;
+const LOOKS: u32 = 16;
 
 /// What a tilt of zero may be by rounding \[rad\].
 const ROUNDING_RAD: f64 = 1e-8;
+
+/// The part of the usual reserve that is left for the certificate: it bounds the tilt between what is looked at here.
+const LEFT: f64 = 0.1;
 
 impl Pipeline<'_> {
     /// Refuses a motion on which the tool, at a plate, tilts by more than the terms allow.
@@ -22,7 +25,8 @@ impl Pipeline<'_> {
     /// [`PlanError::Tilt`], with the worst place.
     pub fn check_tilt(&self, scene: &Scene<'_>, whole: &Assembled, paths: &[WashPath]) -> Result<(), PlanError> {
         let most_rad = self.terms.tilt_max_rad();
-        let most = sin(most_rad + ROUNDING_RAD);
+        let left_rad = LEFT * TILT_RESERVE_RAD.min(0.5 * most_rad);
+        let most = sin(most_rad + ROUNDING_RAD - left_rad);
         let times = whole.motion.times();
         let mut worst: Option<(f64, SegmentKind, usize)> = None;
         for segment in &whole.segments {

@@ -1,6 +1,7 @@
 //! One plate: its wash path, the arm on it, and the lines over both ends of the path.
 
 use super::shared::Pipeline;
+use super::visits::Turn;
 use crate::error::PlanError;
 use crate::joint_path::{Ends, JointPath};
 use crate::pattern::{Pattern, foundation};
@@ -76,16 +77,21 @@ pub(super) fn turned_as(curve: WashCurve, other: &WashCurve) -> WashCurve {
 
 impl Visit {
     /// Plans a visit with the configurations found for it.
-    pub fn plan(
-        pipeline: &Pipeline<'_>,
-        scene: &Scene<'_>,
-        path: WashPath,
-        washing: Washing,
-    ) -> Result<Self, PlanError> {
+    pub fn plan(pipeline: &Pipeline<'_>, scene: &Scene<'_>, turn: Turn) -> Result<Self, PlanError> {
+        let Turn {
+            path,
+            washing,
+            speed_m_s,
+            ..
+        } = turn;
+        let mut limits = pipeline.washing;
+        if let Some(tip) = &mut limits.tip {
+            tip.speed_m_s = tip.speed_m_s.min(speed_m_s);
+        }
         let ends = Ends::Clamped(washing.end_slopes);
         let joints = JointPath::through(washing.theta.clone(), washing.q.clone(), ends)?;
         scene.check_cancelled()?;
-        let wash = timing::time_optimal(&joints, scene.robot, &scene.tip, &pipeline.washing)?;
+        let wash = timing::time_optimal(&joints, scene.robot, &scene.tip, &limits)?;
         let lines = lines(pipeline, scene, &path, &washing)?;
         Ok(Self {
             path,

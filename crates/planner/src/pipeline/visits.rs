@@ -4,7 +4,7 @@ use super::shared::Pipeline;
 use super::visit::{Visit, turned_as, wash_path};
 use crate::activity::Activity;
 use crate::error::PlanError;
-use crate::pattern::Promise;
+use crate::pattern::{Margin, Promise, Shortfall};
 use crate::redundancy::{self, RedundancyError, Task, Washing};
 use crate::scene::Scene;
 use nalgebra::Vector3;
@@ -23,6 +23,19 @@ pub(super) struct Failed {
     pub error: RedundancyError,
 }
 
+/// How a plate is washed.
+#[derive(Debug)]
+pub(super) struct Turn {
+    /// Its wash path.
+    pub path: WashPath,
+    /// The configurations along it.
+    pub washing: Washing,
+    /// How fast the tip is at most \[m/s\].
+    pub speed_m_s: f64,
+    /// What it lacks of what is promised about contact, as far as its configurations show.
+    pub shortfall: Option<Shortfall>,
+}
+
 impl Pipeline<'_> {
     pub fn visits(&self, scene: &Scene<'_>, order: &[usize]) -> Result<Vec<Visit>, PlanError> {
         // At once, before others are searched for minutes.
@@ -33,8 +46,9 @@ impl Pipeline<'_> {
         }
         let mut visits: Vec<Visit> = Vec::with_capacity(order.len());
         for turn in self.turns(scene, order, |_| true) {
-            let (path, washing) = turn.map_err(|failed| self.unwashable(scene, *failed))?;
-            visits.push(Visit::plan(self, scene, path, washing)?);
+            let turn = turn.map_err(|failed| self.unwashable(scene, *failed))?;
+            self.check_promise(&turn)?;
+            visits.push(Visit::plan(self, scene, turn)?);
         }
         Ok(visits)
     }
@@ -62,16 +76,16 @@ impl Pipeline<'_> {
         scene: &Scene<'_>,
         order: &[usize],
         wanted: impl Fn(usize) -> bool,
-    ) -> impl Iterator<Item = Result<(WashPath, Washing), Box<Failed>>> {
+    ) -> impl Iterator<Item = Result<Turn, Box<Failed>>> {
         let [mut near, _] = self.terms.home_rad;
         let turns = (0..order.len()).filter(move |&k| wanted(order[k]));
         turns.map(move |k| {
             self.tell_of(order, k);
             let path = self.path_of(scene, order, k);
             match self.washing_by_patterns(scene, &path, &near) {
-                Ok((path, washing)) => {
-                    near = washing.q.last().copied().unwrap_or(near);
-                    Ok((path, washing))
+                Ok(turn) => {
+                    near = turn.washing.q.last().copied().unwrap_or(near);
+                    Ok(turn)
                 }
                 Err(error) => Err(Box::new(Failed { path, near, error })),
             }
@@ -101,17 +115,17 @@ impl Pipeline<'_> {
     }
 
     /// The washing of a plate by its patterns, with a path that ends where `like` does: by the first with which the arm finds a way and
-    /// presses as is promised; where it never presses so, by the first with which it finds a way.
+    /// presses as is promised with a margin, or else without one; where it never presses so, by one with which it finds a way.
     pub fn washing_by_patterns(
         &self,
         scene: &Scene<'_>,
         like: &WashPath,
         near: &JointVector,
-    ) -> Result<(WashPath, Washing), RedundancyError> {
+    ) -> Result<Turn, RedundancyError> {
         let plate = like.plate;
         let patterns = &self.patterns[plate];
         let wider = std::iter::once_with(|| patterns.wider()).flatten();
-        let mut found: Result<(WashPath, Washing), RedundancyError> = Err(RedundancyError::Plate { plate, count: 0 });
+        let mut found: Result<Turn, RedundancyError> = Err(RedundancyError::Plate { plate, count: 0 });
         for pattern in patterns.first().iter().copied().chain(wider) {
             let path = WashPath {
                 curve: turned_as(pattern.curve, &like.curve),
@@ -123,22 +137,44 @@ impl Pipeline<'_> {
                 // What the widest cone does not reach is told.
                 Err(error) => found = found.or(Err(error)),
                 Ok(washing) => {
-                    let presses = self.presses(scene, &path, &washing);
-                    if presses {
-                        return Ok((path, washing));
+                    let speed_m_s = pattern.speed_share * self.terms.wash_speed_m_s();
+                    let mut turn = Turn {
+                        path,
+                        washing,
+                        speed_m_s,
+                        shortfall: None,
+                    };
+                    if self.shortfall(scene, &turn, &Margin::ARM).is_none() {
+                        return Ok(turn);
                     }
-                    found = found.or(Ok((path, washing)));
+                    turn.shortfall = self.shortfall(scene, &turn, &Margin::NONE);
+                    let is_better = found
+                        .as_ref()
+                        .map_or(true, |found| found.shortfall.is_some() && turn.shortfall.is_none());
+                    if is_better {
+                        found = Ok(turn);
+                    }
                 }
             }
         }
         found
     }
 
-    /// Whether a washing presses as is promised, looked at where its configurations are.
-    fn presses(&self, scene: &Scene<'_>, path: &WashPath, washing: &Washing) -> bool {
-        let plate = &self.plates[path.plate];
-        self.terms.requirements.contact.is_none()
-            || Promise::of(self.terms, &plate.surface).is_kept(scene, plate, (&washing.q, self.terms.wash_speed_m_s()))
+    /// What a plate's washing lacks of what is promised about contact, looked at where its configurations are.
+    fn shortfall(&self, scene: &Scene<'_>, turn: &Turn, margin: &Margin) -> Option<Shortfall> {
+        self.terms.requirements.contact?;
+        let plate = &self.plates[turn.path.plate];
+        let promise = Promise::of(self.terms, &plate.surface);
+        promise.shortfall(scene, plate, (&turn.washing.q, turn.speed_m_s), margin)
+    }
+
+    /// Refuses a washing of which no plan could be proved, where its curve was chosen: what a stated one lacks is for the certificate to say.
+    pub fn check_promise(&self, turn: &Turn) -> Result<(), PlanError> {
+        let plate = turn.path.plate;
+        match turn.shortfall {
+            Some(shortfall) if self.patterns[plate].is_chosen() => Err(PlanError::Promise { plate, shortfall }),
+            _ => Ok(()),
+        }
     }
 
     /// The washing along a path from a configuration not far from `near` \[rad\].

@@ -6,10 +6,6 @@ use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashPath};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// What the largest tilt planned stays below the largest allowed \[rad\], 0.057°: between the points solved, the joints follow
-/// curves through them and then cubics, which turn the tool a little further.
-pub const TILT_RESERVE_RAD: f64 = 1e-3;
-
 /// How far the chord between neighbouring contact points may leave the wash path \[m\].
 pub const CHORD_ERROR_M: f64 = 2e-5;
 

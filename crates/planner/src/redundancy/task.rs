@@ -3,7 +3,7 @@
 use super::error::RedundancyError;
 use super::free_lines::Lines;
 use super::samples::Samples;
-use super::settings::{TILT_RESERVE_RAD, check_input};
+use super::settings::check_input;
 use super::tilt_spline::TiltSpline;
 use crate::scene::{Contact, Hindrance, Scene, Start, Stretch, TiltPolicy, WRIST_RESERVE_RAD, angle_between};
 use nalgebra::Vector6;
@@ -129,11 +129,11 @@ impl<'a> Task<'a> {
         self.scene.stance.tilt_rad(self.planned_lean_rad())
     }
 
-    /// How far the tool leans at most, in all, at the points that are solved \[rad\]: [`TILT_RESERVE_RAD`] less than allowed, or half of
-    /// what is allowed where that is more.
+    /// How far the tool leans at most, in all, at the points that are solved \[rad\]: the reserve less than allowed, or half of what is
+    /// allowed where that is more.
     pub(super) fn planned_lean_rad(&self) -> f64 {
         let most = self.path.cone_rad;
-        (most - TILT_RESERVE_RAD).max(0.5 * most)
+        (most - self.scene.stance.tilt_reserve_rad).max(0.5 * most)
     }
 
     /// The plate's centre, the pole of its face.

@@ -12,7 +12,7 @@ pub use hindrance::{Filter, Hindrance};
 pub(crate) use inverse::{Inverse, Start, Width, merge_starts};
 pub use policy::TiltPolicy;
 pub(crate) use stance::angle_between;
-pub use stance::{AXIS_SHARE, AxisRule, Stance, WRIST_RESERVE_RAD};
+pub use stance::{AXIS_SHARE, AxisRule, Stance, TILT_RESERVE_RAD, WRIST_RESERVE_RAD};
 pub use surroundings::{Stretch, Surroundings};
 
 use crate::trig::sin_cos;

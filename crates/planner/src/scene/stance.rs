@@ -14,6 +14,10 @@ const HALF_WINDOW_M: f64 = 6e-3;
 /// What a wrist keeps more than it must \[rad\], 0.25°: between the points solved it may come nearer.
 pub const WRIST_RESERVE_RAD: f64 = PI / 720.0;
 
+/// What the largest tilt planned stays below the largest allowed \[rad\], 0.057°: between the points solved, the joints follow
+/// curves through them and then cubics, which turn the tool a little further.
+pub const TILT_RESERVE_RAD: f64 = 1e-3;
+
 /// How a tool stands on faces, and how the wrist is held.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stance {
@@ -21,6 +25,8 @@ pub struct Stance {
     pub axis_share: f64,
     /// How far joint 5 keeps from 0, always on one side \[rad\]; `None` where nothing is asked of it.
     pub wrist_rad: Option<f64>,
+    /// What the largest tilt planned stays below the largest allowed \[rad\].
+    pub tilt_reserve_rad: f64,
     /// How far the tool leans across the arm's plane, besides any tilt in it: towards n × ρ̂ where that is positive \[rad\].
     pub aside_rad: f64,
 }
@@ -30,6 +36,7 @@ impl Default for Stance {
         Self {
             axis_share: AXIS_SHARE,
             wrist_rad: None,
+            tilt_reserve_rad: TILT_RESERVE_RAD,
             aside_rad: 0.0,
         }
     }

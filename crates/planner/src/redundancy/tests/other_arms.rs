@@ -97,7 +97,7 @@ fn the_search_leaves_room_under_the_largest_tilt() {
         check(world, &path, &found);
         let most = found.tilt_rad.iter().fold(0.0, |most: f64, tilt| most.max(tilt.abs()));
         assert!(most > 0.99 * path.cone_rad, "{most}: the limit does not bind here");
-        assert!(most <= path.cone_rad - 0.9 * settings::TILT_RESERVE_RAD, "{most}");
+        assert!(most <= path.cone_rad - 0.9 * crate::scene::TILT_RESERVE_RAD, "{most}");
     });
 }
 
