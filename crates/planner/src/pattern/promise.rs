@@ -207,27 +207,17 @@ impl Promise {
         (press.volume_m3, press.deepest_m[1])
     }
 
-    /// The same on other faces, at the moments: bounds, or without a margin what the columns' middles show.
+    /// Bounds of the same on other faces, at the moments: close ones where there is no margin.
     fn pressed_bent(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> ([f64; 2], f64) {
-        let columns = Columns::new(&self.foundation);
-        let error_m = self.wanted.height_error_m;
-        let load = |pose: &SpongePose, more_m: f64| {
-            if margin.load > 1.0 {
-                let load = columns.load(surface, pose, more_m);
-                return (load.volume_m3, load.deepest_m);
-            }
-            let on_face = columns.on(surface, pose);
-            let on_face = on_face.filter(|column| column.point.xy().norm() <= surface.rim_m());
-            on_face.fold(([0.0; 2], f64::NEG_INFINITY), |([volume_m3, _], deepest_m), column| {
-                let compression_m = column.compression_m + more_m;
-                let volume_m3 = volume_m3 + column.area_m2 * compression_m.max(0.0);
-                ([volume_m3; 2], deepest_m.max(compression_m))
-            })
+        let columns = if margin.load > 1.0 {
+            Columns::new(&self.foundation)
+        } else {
+            Columns::fine(&self.foundation)
         };
+        let error_m = self.wanted.height_error_m;
         let loads = moments.par_iter().map(|moment| {
-            let ([least_m3, _], _) = load(&moment.pose, -error_m);
-            let ([_, most_m3], deepest_m) = load(&moment.pose, error_m);
-            ([least_m3, most_m3], deepest_m)
+            let [low, high] = [-error_m, error_m].map(|more_m| columns.load(surface, &moment.pose, more_m));
+            ([low.volume_m3[0], high.volume_m3[1]], high.deepest_m)
         });
         loads.reduce(
             || ([f64::INFINITY, 0.0], f64::NEG_INFINITY),
