@@ -6,12 +6,18 @@ use super::options::Options;
 use super::progress::Progress;
 use super::text::text;
 use super::{output, results};
-use platewash::Scenario;
 use platewash::paper::PaperError;
 use platewash::planner::{InfeasibleReport, PlanError, Watch, other_unwashable_plates};
 use platewash::scenario::Remedies;
+use platewash::workcell::deadline::Deadline;
+use platewash::{CancelToken, Certificate, RobotModel, Scenario};
 use serde::Serialize;
 use std::fmt;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// What is being done.
+const LOOKING: &str = "looking for what would mend it";
 
 /// A scenario of which nothing can come.
 #[derive(Serialize)]
@@ -55,36 +61,77 @@ fn in_full(
     scenario: &Scenario,
     failure: &platewash::Failure,
     why: InfeasibleReport,
+    search_time: Duration,
 ) -> Result<Told, platewash::Failure> {
-    let platewash::Failure::Plan(error) = failure else {
-        let remedies = Remedies::default();
-        return Ok(Told { why, remedies });
+    let error = &match failure {
+        platewash::Failure::Plan(error) => error.clone(),
+        platewash::Failure::Layout(error) => PlanError::Layout(error.clone()),
+        _ => {
+            let remedies = Remedies::default();
+            return Ok(Told { why, remedies });
+        }
     };
-    let progress = Progress::new(options.quiet, "looking for what would mend it");
+    let progress = Progress::new(options.quiet, LOOKING);
     let watch = Watch {
-        tell: &|activity| progress.say("looking for what would mend it", activity),
+        tell: &|activity| progress.say(LOOKING, activity),
         cancel: &options.cancel,
     };
     let arm = scenario.arm()?;
-    let why = match error {
+    let (why, others) = match error {
         PlanError::Unwashable(first) => {
             let job = scenario.job_on(&arm, &scenario.place(&arm, &watch)?)?;
-            why.besides(&other_unwashable_plates(&job, first, &watch)?)
+            let is_over = CancelToken::new();
+            let _deadline = Deadline::following(search_time, &is_over, watch.cancel);
+            let others = Watch {
+                cancel: &is_over,
+                ..watch
+            };
+            match other_unwashable_plates(&job, first, &others) {
+                Err(PlanError::Cancelled(_)) if !options.cancel.is_cancelled() => (
+                    why,
+                    "; the other plates were not looked at to the end, for lack of time",
+                ),
+                others => (why.besides(&others?), ""),
+            }
         }
-        _ => why,
+        _ => (why, ""),
     };
-    let remedies = scenario.remedies(&arm, error, &watch)?;
-    let reason = format!("{}{remedies}", why.reason);
+    let remedies = scenario.remedies(&arm, error, &watch, search_time)?;
+    let reason = format!("{}{others}{remedies}", why.reason);
     let why = why.explained(reason);
     Ok(Told { why, remedies })
 }
 
+/// Keys with which a plan would be proved; `None` where it is.
+pub fn remedies_of_proof(
+    options: &Options,
+    scenario: &Scenario,
+    (arm, certificate): (&Arc<RobotModel>, &Certificate),
+    search_time: Duration,
+) -> Result<Option<Remedies>, Failure> {
+    if certificate.passes() {
+        return Ok(None);
+    }
+    let progress = Progress::new(options.quiet, LOOKING);
+    let watch = Watch {
+        tell: &|activity| progress.say(LOOKING, activity),
+        cancel: &options.cancel,
+    };
+    let found = scenario.remedies_of_proof(arm, certificate, &watch, search_time);
+    Ok(Some(found.map_err(PlanError::from).map_err(platewash::Failure::from)?))
+}
+
 /// The end of a job that was not carried out: where it cannot be done, that is reported in place of what earlier calls left.
-pub fn end(options: &Options, scenario: &Scenario, failure: platewash::Failure) -> Result<ExitCode, Failure> {
+pub fn end(
+    options: &Options,
+    scenario: &Scenario,
+    failure: platewash::Failure,
+    search_time: Duration,
+) -> Result<ExitCode, Failure> {
     let Some(report) = report(scenario, &failure) else {
         return Err(options.failure(failure));
     };
-    let report = in_full(options, scenario, &failure, report)?;
+    let report = in_full(options, scenario, &failure, report, search_time)?;
     let folder = results::folder(options);
     let words = text(&report);
     let files = vec![

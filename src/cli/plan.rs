@@ -44,7 +44,7 @@ pub fn run(options: &Options, arguments: &MotionArguments) -> Result<ExitCode, F
 fn plan_washing(options: &Options, scenario: &Scenario, arguments: &MotionArguments) -> Result<ExitCode, Failure> {
     let washing = match wash::plan(options, scenario) {
         Ok(washing) => washing,
-        Err(failure) => return infeasible::end(options, scenario, failure),
+        Err(failure) => return infeasible::end(options, scenario, failure, arguments.search_time()),
     };
     let files = washing.files(options, scenario, arguments)?;
     results::write(options, &files)?;
@@ -59,7 +59,7 @@ fn plan_washing(options: &Options, scenario: &Scenario, arguments: &MotionArgume
 fn follow_paper(options: &Options, scenario: &Scenario, arguments: &MotionArguments) -> Result<ExitCode, Failure> {
     let followed = match paper::follow(options, scenario) {
         Ok(followed) => followed,
-        Err(failure) => return infeasible::end(options, scenario, failure),
+        Err(failure) => return infeasible::end(options, scenario, failure, arguments.search_time()),
     };
     let files = followed.files(options, scenario, arguments)?;
     results::write(options, &files)?;

@@ -11,6 +11,7 @@ use super::{execution, infeasible, output, page, paper, results, wash};
 use clap::Args;
 use platewash::certificate::{PairsShown, prove_with};
 use platewash::scenario::Program;
+use platewash::scenario::Remedies;
 use platewash::simulator::simulate::{Sample, table};
 use platewash::viewer::server::LiveEnd;
 use platewash::viewer::view::{Beside, Executed};
@@ -45,7 +46,7 @@ pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Fail
 fn run_paper(options: &Options, scenario: &Scenario, arguments: &MotionArguments) -> Result<ExitCode, Failure> {
     let followed = match paper::follow(options, scenario) {
         Ok(followed) => followed,
-        Err(failure) => return infeasible::end(options, scenario, failure),
+        Err(failure) => return infeasible::end(options, scenario, failure, arguments.search_time()),
     };
     let folder = results::folder(options);
     let (report, words) = (&followed.report, text(&followed.report));
@@ -78,7 +79,7 @@ fn run_washing(
 ) -> Result<ExitCode, Failure> {
     let washing = match wash::plan(options, scenario) {
         Ok(washing) => washing,
-        Err(failure) => return infeasible::end(options, scenario, failure),
+        Err(failure) => return infeasible::end(options, scenario, failure, arguments.motion.search_time()),
     };
     let (plan, arm) = (&washing.planned.plan, &washing.arm);
     let time_step = &arguments.motion.time_step;
@@ -92,9 +93,11 @@ fn run_washing(
         Some(show) => shown(options, plan, arm, show)?,
         None => simulated(options, plan, arm, &mut |_| {})?,
     };
+    let remedies =
+        infeasible::remedies_of_proof(options, scenario, (arm, &certificate), arguments.motion.search_time())?;
     let proof = output::json(&certificate)?;
     let report = WashReport::new(&washing.planned, &washing.findings, certificate);
-    let report = RunReport::new(report, simulation);
+    let report = RunReport::new(report, simulation, remedies);
     let words = report.text(arguments.pairs.shown());
     let folder = results::folder(options);
     let mut files = washing.files(options, scenario, &arguments.motion)?;
@@ -131,6 +134,9 @@ struct RunReport {
     #[serde(flatten)]
     wash: WashReport,
     simulation: Simulated,
+    /// Keys with which the plan would be proved, where it is not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    remedies: Option<Remedies>,
 }
 
 /// What the simulation says.
@@ -219,11 +225,18 @@ impl Simulated {
 }
 
 impl RunReport {
-    fn new(mut wash: WashReport, simulation: Simulated) -> Self {
+    fn new(mut wash: WashReport, simulation: Simulated, remedies: Option<Remedies>) -> Self {
+        if let Some(remedies) = &remedies {
+            wash.headline = format!("{}{remedies}", wash.headline);
+        }
         if let Some(more) = simulation.first_line() {
             wash.headline = format!("{}; {more}", wash.headline);
         }
-        Self { wash, simulation }
+        Self {
+            wash,
+            simulation,
+            remedies,
+        }
     }
 
     fn text(&self, pairs: PairsShown) -> String {

@@ -1,6 +1,5 @@
 //! From the scenario to the proof, a line a step.
 
-use crate::deadline::Deadline;
 use crate::draft::changed;
 use crate::end::End;
 use crate::moves::moves;
@@ -17,6 +16,7 @@ use platewash_planner::{Chance, PlanError, Planned, PlateOutlook, Watch, outlook
 use platewash_scenario::Failure;
 use platewash_viewer::view::{Beside, Certificate, View};
 use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::deadline::Deadline;
 use platewash_workcell::layout::Finding;
 use std::sync::Arc;
 

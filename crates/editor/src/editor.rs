@@ -1,7 +1,6 @@
 //! What is edited, and who answers the page's questions.
 
 use crate::bounds::{LONGEST, LONGEST_MAP};
-use crate::deadline::Deadline;
 use crate::document::{Channel, EditDocument};
 use crate::draft::{accepted, may_name_its_files, stated};
 use crate::error::EditorError;
@@ -17,6 +16,7 @@ use platewash_viewer::bundle::Bundle;
 use platewash_viewer::page;
 use platewash_viewer::view::View;
 use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::deadline::Deadline;
 use serde::Deserialize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;

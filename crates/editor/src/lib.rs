@@ -10,7 +10,7 @@
 //! | questions and lines as JSON | `protocol/`: `question.rs`, `line.rs` |
 //! | what the page is given to begin with | `document.rs` |
 //! | a new question ends those before it | `sessions.rs` |
-//! | how much work a question may be, how long it may take | `bounds.rs`, `deadline.rs` |
+//! | how much work a question may be, how long it may take | `bounds.rs` |
 //! | the scenario, changed; its job | `draft.rs`, `placed.rs` |
 //! | why it is refused; why an answer ends | `refusal.rs`, `end.rs` |
 //! | arms that were loaded before | `arms.rs` |
@@ -24,7 +24,6 @@
 mod arms;
 mod bounds;
 mod cell;
-mod deadline;
 mod document;
 mod draft;
 mod editor;

@@ -34,7 +34,7 @@ pub use pace::Pace;
 pub use pattern::{Promised, Shortfall};
 pub use pipeline::{
     check, draw_washable_layout, nearest_place, other_unwashable_plates, outlook, plan, plan_here, plan_in_order,
-    plan_with, unwashable_plates, washable_map,
+    plan_unexplained, plan_with, unwashable_plates, washable_map,
 };
 pub use planned::{Planned, TourSummary, TransitSummary, VisitSummary};
 pub use redundancy::Chance;

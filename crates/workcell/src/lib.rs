@@ -25,6 +25,7 @@ pub mod clearance;
 pub mod contact;
 pub mod coverage;
 pub mod csv;
+pub mod deadline;
 pub mod dry_run;
 pub mod fixtures;
 pub mod job;

@@ -107,8 +107,8 @@ impl Pipeline<'_> {
         let plate = path.plate;
         (self.watch.tell)(&Activity::Cause { plate });
         let part = match Task::new(scene, &path, self.clearance_m(), &near) {
-            Ok(task) => Some(washable::washable_part(&task)?),
-            Err(_) => None,
+            Ok(task) if self.explains => Some(washable::washable_part(&task)?),
+            _ => None,
         };
         let (share, causes, conclusion, points) = match part {
             Some(Washable::Part {

@@ -31,5 +31,5 @@ pub use draw_layout::draw_washable_layout;
 pub use failing::{other_unwashable_plates, unwashable_plates};
 pub use nearest_place::nearest_place;
 pub use outlook::outlook;
-pub use phases::{check, plan, plan_here, plan_in_order, plan_with};
+pub use phases::{check, plan, plan_here, plan_in_order, plan_unexplained, plan_with};
 pub use washable_map::washable_map;

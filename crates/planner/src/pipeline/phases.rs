@@ -44,6 +44,16 @@ pub fn plan_here(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError>
     planned(job, Pipeline::here(job, watch)?)
 }
 
+/// [`plan_here`] for whoever only wants to know whether there is a plan: where a plate cannot be washed, it is not looked into why.
+///
+/// # Errors
+/// As [`plan_with`], without causes.
+pub fn plan_unexplained(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError> {
+    let mut pipeline = Pipeline::here(job, watch)?;
+    pipeline.explains = false;
+    planned(job, pipeline)
+}
+
 /// [`plan_here`] with the plates in a given order and along given curves, whatever the job's settings say of them: those of another
 /// plan, say. Where no path is given for a plate, its curve is chosen.
 ///

@@ -39,6 +39,8 @@ pub(super) struct Pipeline<'a> {
     pub transit: MotionLimits,
     /// How another place is looked for where a plate cannot be washed.
     pub place_search: PlaceSearch,
+    /// Whether it is looked into why a plate cannot be washed.
+    pub explains: bool,
     /// The patterns to try on each plate.
     pub patterns: Vec<Arc<Patterns>>,
     /// The order of the plates, where it is not for the settings to decide.
@@ -96,6 +98,7 @@ impl<'a> Pipeline<'a> {
                 PlaceSearch::Off
             },
             tilt_reserve_rad: TILT_RESERVE_RAD,
+            explains: true,
             patterns: by_plate(terms, settings, plates),
             asked_order: None,
             asked_paths: Vec::new(),
@@ -160,6 +163,7 @@ impl<'a> Pipeline<'a> {
             asked_order: self.asked_order.clone(),
             asked_paths: self.asked_paths.clone(),
             tilt_reserve_rad: self.tilt_reserve_rad,
+            explains: self.explains,
             washing: self.washing,
             transit: self.transit,
         }

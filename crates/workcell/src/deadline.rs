@@ -1,9 +1,12 @@
-//! A question may take only so long.
+//! Work may take only so long.
 
-use platewash_workcell::cancel::CancelToken;
+use crate::cancel::CancelToken;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
+
+/// How often is looked whether another token is cancelled.
+const LOOK: Duration = Duration::from_millis(50);
 
 /// Cancels a token after some time, unless it is dropped before.
 #[derive(Debug)]
@@ -25,7 +28,15 @@ struct State {
 
 impl Deadline {
     /// From now on. Where the system gives no thread, there is no deadline.
+    #[must_use]
     pub fn after(time: Duration, token: &CancelToken) -> Self {
+        Self::following(time, token, &CancelToken::new())
+    }
+
+    /// The same; the token is cancelled soon after another one, too.
+    #[must_use]
+    pub fn following(time: Duration, token: &CancelToken, other: &CancelToken) -> Self {
+        let other = other.clone();
         let shared: Arc<Shared> = Arc::default();
         let (theirs, token) = (shared.clone(), token.clone());
         let until = Instant::now() + time;
@@ -33,12 +44,12 @@ impl Deadline {
             let mut state = theirs.state.lock().unwrap_or_else(PoisonError::into_inner);
             while !state.is_over {
                 let left = until.saturating_duration_since(Instant::now());
-                if left.is_zero() {
-                    state.is_missed = true;
+                if left.is_zero() || other.is_cancelled() {
+                    state.is_missed = left.is_zero();
                     token.cancel();
                     return;
                 }
-                let woken = theirs.changed.wait_timeout(state, left);
+                let woken = theirs.changed.wait_timeout(state, left.min(LOOK));
                 state = woken.unwrap_or_else(PoisonError::into_inner).0;
             }
         };
@@ -47,6 +58,7 @@ impl Deadline {
     }
 
     /// Whether it has passed.
+    #[must_use]
     pub fn is_missed(&self) -> bool {
         self.state().is_missed
     }
