@@ -2,7 +2,7 @@
 
 use super::shared::Pipeline;
 use super::visit;
-use super::visits::Turn;
+use super::visit::Turn;
 use crate::activity::Activity;
 use crate::error::PlanError;
 use crate::redundancy::RedundancyError;

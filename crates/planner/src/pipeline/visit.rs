@@ -1,10 +1,9 @@
 //! One plate: its wash path, the arm on it, and the lines over both ends of the path.
 
 use super::shared::Pipeline;
-use super::visits::Turn;
 use crate::error::PlanError;
 use crate::joint_path::{Ends, JointPath};
-use crate::pattern::{Pattern, foundation};
+use crate::pattern::{Pattern, Shortfall, foundation};
 use crate::redundancy::Washing;
 use crate::scene::{Contact, Scene};
 use crate::timing::{self, Timed};
@@ -31,6 +30,19 @@ const LANDING: f64 = 0.97;
 
 /// The share of the speed limit of washing at which the sponge touches at most: the rest is for what its rim adds to the tip.
 const TOUCHING: f64 = 0.99;
+
+/// How a plate is washed.
+#[derive(Debug)]
+pub(super) struct Turn {
+    /// Its wash path.
+    pub path: WashPath,
+    /// The configurations along it.
+    pub washing: Washing,
+    /// How fast the tip is at most \[m/s\].
+    pub speed_m_s: f64,
+    /// What it lacks of what is promised about contact, as far as its configurations show.
+    pub shortfall: Option<Shortfall>,
+}
 
 /// A plate with all that is done on it.
 #[derive(Debug)]

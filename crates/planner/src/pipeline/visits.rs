@@ -1,7 +1,7 @@
 //! All plates, one after the other.
 
 use super::shared::Pipeline;
-use super::visit::{Visit, turned_as, wash_path};
+use super::visit::{Turn, Visit, turned_as, wash_path};
 use crate::activity::Activity;
 use crate::error::PlanError;
 use crate::pattern::{Margin, Promise, Shortfall};
@@ -21,19 +21,6 @@ pub(super) struct Failed {
     pub near: JointVector,
     /// Where the search ended.
     pub error: RedundancyError,
-}
-
-/// How a plate is washed.
-#[derive(Debug)]
-pub(super) struct Turn {
-    /// Its wash path.
-    pub path: WashPath,
-    /// The configurations along it.
-    pub washing: Washing,
-    /// How fast the tip is at most \[m/s\].
-    pub speed_m_s: f64,
-    /// What it lacks of what is promised about contact, as far as its configurations show.
-    pub shortfall: Option<Shortfall>,
 }
 
 impl Pipeline<'_> {

@@ -4,11 +4,16 @@
 //! it is held against its points, and where it fails made once more of the same points drawn out to be as high as wide: a hull stays
 //! one under any such map.
 
-use super::solid::{MOST_CORNERS, MOST_VERTICES};
 use parry3d_f64::math::Vector;
 use parry3d_f64::shape::ConvexPolyhedron;
 use parry3d_f64::transformation::try_convex_hull;
 use std::collections::HashMap;
+
+/// Most distinct corners of a mesh: a hull that has them all is made in seconds.
+pub(super) const MOST_CORNERS: usize = 10_000;
+
+/// Most vertices of a mesh whose hull is made: beyond that it takes minutes.
+pub(super) const MOST_VERTICES: usize = 50_000;
 
 /// What a point may be outside of a face by rounding, and how thin a hull may be, as a part of its size.
 const HULL_ROUNDING: f64 = 1e-12;

@@ -1,6 +1,6 @@
 //! Why no clearance model could be made.
 
-use super::solid::{MOST_CORNERS, MOST_VERTICES};
+use super::convex::{MOST_CORNERS, MOST_VERTICES};
 use crate::words::printable;
 use platewash_kinematics::ToolFrameError;
 

@@ -5,19 +5,13 @@
 //! is left in none of them is added to the nearest: so the parts enclose the surface, whatever was proposed. A part without thickness, as
 //! of a mesh that is a sheet, gets one.
 
-use super::convex::{ConvexHull, has_volume};
+use super::convex::{ConvexHull, MOST_CORNERS, has_volume};
 use nalgebra::Point3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 
 /// Most triangles of a mesh that is decomposed.
 const MOST_TRIANGLES: usize = 20_000;
-
-/// Most distinct corners of a mesh: a hull that has them all is made in seconds.
-pub(super) const MOST_CORNERS: usize = 10_000;
-
-/// Most vertices of a mesh whose hull is made: beyond that it takes minutes.
-pub(super) const MOST_VERTICES: usize = 50_000;
 
 /// Most parts of a mesh.
 const MOST_PARTS: u32 = 64;
