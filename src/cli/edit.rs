@@ -43,7 +43,7 @@ pub fn run(options: &Options, arguments: &EditArguments) -> Result<ExitCode, Fai
     refuse_other_folder(&source, arguments.save_as.as_deref(), &editor)?;
     let place = Place::new(options, &source, arguments.save_as.as_deref())?;
     let listener = arguments.serve.listen(options)?;
-    let bundle = bundle::needed(options)?;
+    let bundle = bundle::needed()?;
     let (url, saved_in) = (listener.url(), place.words());
     let editor = editor.kept_by(Box::new(ScenarioFile::new(options, place, &bundle)));
     let editor = match arguments.serve.is_loopback() {

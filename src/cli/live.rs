@@ -65,7 +65,7 @@ impl LiveArguments {
             )));
         }
         let listener = self.serve.listen(options)?;
-        let bundle = bundle::bundle(options);
+        let bundle = bundle::bundle();
         options.cancel.check()?;
         Ok(bundle.map(|bundle| Stage {
             serve: &self.serve,

@@ -24,7 +24,7 @@ pub fn file(
     arm: &RobotModel,
     beside: &Beside<'_>,
 ) -> Result<Option<File<'static>>, Failure> {
-    let Some(bundle) = bundle::bundle(options) else {
+    let Some(bundle) = bundle::bundle() else {
         return Ok(None);
     };
     options.cancel.check()?;

@@ -80,7 +80,7 @@ fn serve(options: &Options, arguments: &ViewArguments) -> Result<ExitCode, Failu
 fn html(options: &Options, arguments: &ViewArguments) -> Result<String, Failure> {
     let file = PlanFile::read(options, &arguments.plan)?;
     let recorded = arguments.executed.as_deref().map(recorded).transpose()?;
-    let bundle = bundle::needed(options)?;
+    let bundle = bundle::needed()?;
     let certificate = certificate(options, &file)?;
     let executed = match recorded {
         Some(recorded) => Some(recorded),

@@ -91,8 +91,6 @@ fn platewash_os(folder: &Path, arguments: &[&OsStr]) -> Ran {
     let Output { status, stdout, stderr } = Command::new(env!("CARGO_BIN_EXE_platewash"))
         .args(arguments)
         .current_dir(folder)
-        // Where the page is missing it is not made: that takes a network.
-        .env("PLATEWASH_MAKE_PAGE", "0")
         .output()
         .unwrap();
     Ran {

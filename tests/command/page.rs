@@ -14,6 +14,8 @@ fn a_run_leaves_a_page_or_says_why_not() {
     for (scenario, process) in [("kitchen", "wash"), ("paper-text", "paper")] {
         let folder = folder();
         let ran = platewash(folder.path(), &["run", "--scenario", scenario]).done();
+        let quiet = platewash(folder.path(), &["run", "-q", "--scenario", scenario]).done();
+        assert_eq!(quiet.stderr.contains("no page: "), Bundle::embedded().is_none());
         let page = std::fs::read_to_string(folder.path().join("out/page.html")).ok();
         assert_eq!(page.is_some(), Bundle::embedded().is_some(), "{}", ran.stderr);
         match page {

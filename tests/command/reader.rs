@@ -10,7 +10,6 @@ const PATIENCE: Duration = Duration::from_secs(200);
 
 fn start(folder: &Path, arguments: &[&str]) -> Child {
     let mut command = Command::new(env!("CARGO_BIN_EXE_platewash"));
-    command.env("PLATEWASH_MAKE_PAGE", "0");
     let command = command.args(arguments).current_dir(folder);
     command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap()
 }

@@ -26,10 +26,7 @@ impl Drop for Running {
 
 pub fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_platewash"));
-    command
-        .args(arguments)
-        .current_dir(folder)
-        .env("PLATEWASH_MAKE_PAGE", "0");
+    command.args(arguments).current_dir(folder);
     command
 }
 

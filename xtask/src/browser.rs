@@ -1,14 +1,13 @@
 //! The tests that look at pages in a browser: `tests/browser`.
 
-use crate::page::{Node, Packages, Workshop};
-use crate::step::{root, target};
 use anyhow::Result;
+use platewash_bundler::{Node, Packages, Workshop, root, target};
 
 /// Runs them with the release build of the command, which has the page in it.
 ///
 /// Their packages carry a browser for Linux on x86-64; elsewhere they take an installed one.
 pub fn tests() -> Result<()> {
-    let node = Node::found()?;
+    let node = Node::found(Packages::All)?;
     let workshop = Workshop::new(
         "the tests in a browser",
         &root().join("tests/browser"),

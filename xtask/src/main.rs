@@ -19,7 +19,6 @@ mod python;
 mod rings;
 mod rules;
 mod sources;
-mod step;
 mod subjects;
 mod suite;
 mod tree;

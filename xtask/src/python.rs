@@ -1,8 +1,8 @@
 //! The Python tests, in a virtual environment of their own.
 
-use crate::step::{Step, root, target};
 use anyhow::{Context, Result, bail};
-use std::path::{Path, PathBuf};
+use platewash_bundler::{Step, interpreter, python_program, root, target};
+use std::path::PathBuf;
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
 
@@ -50,7 +50,7 @@ pub fn tests() -> Result<()> {
 pub fn environment() -> Result<PathBuf> {
     static ALONE: Mutex<()> = Mutex::new(());
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    let base = base();
+    let base = python_program();
     let version = version(&base)?;
     let requirements = std::fs::read_to_string(root().join(REQUIREMENTS)).context(REQUIREMENTS)?;
     let folder = target().join("python");
@@ -84,13 +84,6 @@ pub fn environment() -> Result<PathBuf> {
     Ok(python)
 }
 
-/// The name of the interpreter that environments are made with.
-pub fn base() -> String {
-    // On Windows, `python3` may be a stub that opens a shop.
-    let usual = if cfg!(windows) { "python" } else { "python3" };
-    std::env::var("PYTHON").unwrap_or_else(|_| usual.to_owned())
-}
-
 /// The interpreter's version, if it has what is needed.
 fn version(base: &str) -> Result<String> {
     let Ok(output) = Command::new(base).args(["-c", PROBE]).output() else {
@@ -100,13 +93,4 @@ fn version(base: &str) -> Result<String> {
         bail!("'{base}' is incomplete: {MISSING}");
     }
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
-}
-
-/// The interpreter of a virtual environment.
-pub fn interpreter(folder: &Path) -> PathBuf {
-    if cfg!(windows) {
-        folder.join("Scripts").join("python.exe")
-    } else {
-        folder.join("bin").join("python")
-    }
 }

@@ -1,9 +1,9 @@
 //! Rules of the code that no compiler checks, held against the checkout.
 
-use crate::step::root;
 use crate::workspace::{Package, packages};
 use crate::{floors, map, rings};
 use anyhow::{Context, Result, bail};
+use platewash_bundler::root;
 use std::path::{Path, PathBuf};
 
 /// What breaks a rule, each as text.

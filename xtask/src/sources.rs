@@ -1,7 +1,7 @@
 //! What the wheel is compiled from, by cargo's own account.
 
-use crate::step::{root, target};
 use anyhow::{Context, Result, bail};
+use platewash_bundler::{root, target};
 use std::path::{Path, PathBuf};
 
 /// Fails unless a folder holds, byte for byte, every file of the checkout that the extension was compiled from.

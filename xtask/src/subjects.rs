@@ -1,7 +1,7 @@
 //! The first lines of commits.
 
-use crate::step::root;
 use anyhow::{Context, Result, bail};
+use platewash_bundler::root;
 use std::process::Command;
 
 /// Longest first line \[characters\].

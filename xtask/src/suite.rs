@@ -1,8 +1,8 @@
 //! Everything that must pass, in order.
 
-use crate::step::Step;
 use crate::{benches, browser, page, python, rules, wheel};
 use anyhow::{Result, bail};
+use platewash_bundler::Step;
 use std::time::Instant;
 
 /// The crates under test, all but the peers' benchmarks, which alone need the solvers that others wrote.
@@ -12,9 +12,6 @@ use std::time::Instant;
 const CRATES: [&str; 4] = ["--release", "--workspace", "--exclude", "platewash-benches"];
 /// With this, pyo3 asks no interpreter: the parts in Rust need none.
 const NO_PYTHON: (&str, &str) = ("PYO3_NO_PYTHON", "1");
-
-/// With this, the command makes no page: the tests need no network, and have the page already.
-const NO_PAGE: (&str, &str) = ("PLATEWASH_MAKE_PAGE", "0");
 
 /// One thing that must pass.
 type Check = fn() -> Result<()>;
@@ -133,8 +130,7 @@ fn documentation() -> Result<()> {
 
 fn tests() -> Result<()> {
     let line = [&["test"], &CRATES[..]].concat();
-    let step = Step::cargo("tests", &line).with(NO_PYTHON.0, NO_PYTHON.1);
-    step.with(NO_PAGE.0, NO_PAGE.1).run()
+    Step::cargo("tests", &line).with(NO_PYTHON.0, NO_PYTHON.1).run()
 }
 
 /// The release build of the command after the tests, which have built it: nothing is left to compile.
@@ -185,7 +181,7 @@ fn compiled_anew(messages: &str) -> Vec<&str> {
 
 #[cfg(test)]
 mod tests {
-    use crate::step::root;
+    use platewash_bundler::root;
 
     /// Cargo runs no test of a file that its program does not name.
     #[test]

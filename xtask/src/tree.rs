@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn the_checkout_is_read_without_what_is_built() {
-        let tree = Tree::of(&crate::step::root()).unwrap();
+        let tree = Tree::of(&platewash_bundler::root()).unwrap();
         assert!(tree.has("xtask/src/tree.rs") && !tree.is_folder("target") && !tree.is_folder(".git"));
     }
 }

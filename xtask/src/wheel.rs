@@ -1,8 +1,8 @@
 //! The Python wheel: built from the checkout for the tests, and from its source package outside of it.
 
-use crate::step::{Step, root, target};
 use crate::{python, sources};
 use anyhow::{Context, Result, bail};
+use platewash_bundler::{Step, root, target};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
@@ -95,8 +95,8 @@ fn no_larger(file: &Path, most: u64) -> Result<()> {
 fn fresh(wheel: &Path) -> Result<()> {
     let folder = target().join("fresh");
     let line = ["-m", "venv", "--clear", &text(&folder)];
-    Step::program("fresh environment", python::base(), &line).run()?;
-    let python = python::interpreter(&folder);
+    Step::program("fresh environment", platewash_bundler::python_program(), &line).run()?;
+    let python = platewash_bundler::interpreter(&folder);
     pip("wheel in it", &python, &["install", &text(wheel)]).run()?;
     let line = ["-I", "tests/python/readme_example.py"];
     Step::program("README's example in it", &python, &line).run()

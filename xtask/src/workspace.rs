@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn every_root_of_this_workspace_is_found() {
-        let root = crate::step::root();
+        let root = platewash_bundler::root();
         let found: Vec<PathBuf> = packages(&root)
             .unwrap()
             .into_iter()

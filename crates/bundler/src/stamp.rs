@@ -1,7 +1,6 @@
 //! The stamp of the page's bundle: the hash of what it is made from.
 //!
-//! This file is a part of the build script, which takes the bundle where its stamp is that of the sources, and of `xtask`, which makes
-//! it and writes its stamp. Neither needs the other to agree.
+//! A bundle whose stamp is not that of the sources is old.
 
 use sha2::{Digest, Sha256};
 use std::fs;
@@ -80,7 +79,6 @@ fn with_plain_line_ends(content: &[u8]) -> Vec<u8> {
     kept.map(|index| content[index]).collect()
 }
 
-/// Run as a part of `xtask`.
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,12 +1,21 @@
 //! The bundle, made where it is missing or old.
 
-use super::node::Node;
-use super::stamp;
-use super::workshop::{Packages, Workshop, removed};
+use crate::node::Node;
+use crate::stamp;
 use crate::step::{root, target};
+use crate::workshop::{Packages, Workshop, removed};
 use anyhow::{Context, Result};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
+
+/// What [`make`] did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// Nothing: the bundle was made from these sources before.
+    Fresh,
+    /// It made the bundle.
+    Made,
+}
 
 /// The page's sources.
 pub fn sources() -> PathBuf {
@@ -21,27 +30,36 @@ pub fn bundle() -> PathBuf {
 /// Makes the bundle, unless the one that is there was made from these sources.
 ///
 /// It is made beside its place and renamed, one call after the other: whoever reads the folder finds all of one bundle.
-pub fn make() -> Result<()> {
+///
+/// # Errors
+/// No Node that is new enough, no network where packages are missing, a folder that cannot be written.
+pub fn make() -> Result<Outcome> {
     let _alone = alone()?;
     let (sources, bundle) = (sources(), bundle());
     if stamp::found(&bundle) == Some(stamp::of(&sources)?) {
-        println!("\n==> page: made already");
-        return Ok(());
+        return Ok(Outcome::Fresh);
     }
-    let node = Node::found()?;
+    let node = Node::found(Packages::Bundled)?;
     let workshop = workshop()?;
     workshop.fetch(&node, Packages::Bundled)?;
     let new = bundle.with_file_name(".dist-new");
     workshop.bundle(&node, &new)?;
-    replace(&bundle, &new)
+    replace(&bundle, &new)?;
+    Ok(Outcome::Made)
 }
 
 /// The copy of the sources in which the bundle is made and checked. For one call at a time, see [`alone`].
+///
+/// # Errors
+/// A folder that cannot be written.
 pub fn workshop() -> Result<Workshop> {
     Workshop::new("the page", &sources(), target().join("page"))
 }
 
 /// Waits until no other call makes or checks the page; others wait until this is dropped.
+///
+/// # Errors
+/// A lock file that cannot be made.
 pub fn alone() -> Result<File> {
     let target = target();
     fs::create_dir_all(&target).with_context(|| target.display().to_string())?;

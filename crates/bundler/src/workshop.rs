@@ -1,7 +1,7 @@
 //! A copy of the page's sources with the packages that they need: whatever is fetched stays out of the sources.
 
-use super::node::Node;
-use super::stamp;
+use crate::node::Node;
+use crate::stamp;
 use anyhow::{Context, Result, bail};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -86,6 +86,8 @@ impl Workshop {
             );
         }
         let text = if packages == Packages::All { with_all } else { lock };
+        // A list without packages leaves no folder.
+        fs::create_dir_all(self.folder.join(PACKAGES)).with_context(|| note.display().to_string())?;
         fs::write(&note, text).with_context(|| note.display().to_string())
     }
 

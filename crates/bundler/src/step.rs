@@ -9,10 +9,14 @@ use std::time::{Duration, Instant};
 
 /// The repository.
 pub fn root() -> PathBuf {
-    // `cargo run` says where this package lies now; the other is where it was when it was built.
-    let package = std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or(env!("CARGO_MANIFEST_DIR").into());
-    let package = PathBuf::from(package);
-    package.parent().map_or(package.clone(), Path::to_path_buf)
+    // Cargo says where the package lies that it runs; the other is where this one was when it was built.
+    let package = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
+    let mut folders = package.iter().flat_map(|package| package.ancestors());
+    let found = folders.find(|folder| folder.join("crates/bundler/Cargo.toml").is_file());
+    found.map_or_else(
+        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."),
+        Path::to_path_buf,
+    )
 }
 
 /// Where cargo builds, and where the virtual environment of the Python tests is.

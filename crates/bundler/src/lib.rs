@@ -1,0 +1,16 @@
+//! Makes the bundle of the page, `crates/viewer/dist`, from `crates/viewer/page` with Node.
+//!
+//! The build script of `platewash-viewer` calls it, so that every build has the page in it. `xtask` calls it to check the page.
+
+mod make;
+mod node;
+mod python;
+pub mod stamp;
+mod step;
+mod workshop;
+
+pub use make::{Outcome, alone, bundle, make, sources, workshop};
+pub use node::Node;
+pub use python::{interpreter, program as python_program};
+pub use step::{Step, root, target};
+pub use workshop::{Packages, Workshop, removed};
