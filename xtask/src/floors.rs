@@ -6,7 +6,8 @@ use std::collections::BTreeSet;
 /// The project's own packages, and what each may depend on among them; the root package may know all that are below it.
 ///
 /// Packages that are not named here are no part of the product: the chores and what the benchmarks need.
-const FLOORS: [(&str, &[&str]); 13] = [
+const FLOORS: [(&str, &[&str]); 14] = [
+    ("platewash-bundler", &[]),
     ("platewash-kinematics", &[]),
     ("platewash-workcell", &["platewash-kinematics"]),
     ("platewash-certificate", &["platewash-kinematics", "platewash-workcell"]),

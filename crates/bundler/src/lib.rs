@@ -10,7 +10,7 @@ mod step;
 mod workshop;
 
 pub use make::{Outcome, alone, bundle, make, sources, workshop};
-pub use node::Node;
+pub use node::{Node, Packages};
 pub use python::{interpreter, program as python_program};
 pub use step::{Step, root, target};
-pub use workshop::{Packages, Workshop, removed};
+pub use workshop::{Workshop, removed};

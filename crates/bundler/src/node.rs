@@ -2,7 +2,6 @@
 
 use crate::python;
 use crate::step::{Step, target};
-use crate::workshop::Packages;
 use anyhow::{Context, Result, anyhow, bail};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -27,6 +26,15 @@ print(os.path.join(root, '' if windows else 'lib', 'node_modules', 'npm', 'bin',
 
 /// The longest that it may take to fetch the package, 60 MB.
 const LONGEST: Duration = Duration::from_secs(240);
+
+/// Which packages are fetched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Packages {
+    /// What the bundle is made of and with.
+    Bundled,
+    /// What checks it, too.
+    All,
+}
 
 /// A Node with its npm.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! A copy of the page's sources with the packages that they need: whatever is fetched stays out of the sources.
 
-use crate::node::Node;
+use crate::node::{Node, Packages};
 use crate::stamp;
 use anyhow::{Context, Result, bail};
 use std::fs;
@@ -8,15 +8,6 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 const PACKAGES: &str = "node_modules";
-
-/// Which packages are fetched.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Packages {
-    /// What the bundle is made of and with.
-    Bundled,
-    /// What checks it, too.
-    All,
-}
 
 /// The copy.
 #[derive(Debug)]
