@@ -1,9 +1,9 @@
 //! The bundle, made where it is missing or old.
 
-use crate::node::Node;
+use crate::node::{Node, Packages};
 use crate::stamp;
 use crate::step::{root, target};
-use crate::workshop::{Packages, Workshop, removed};
+use crate::workshop::{Workshop, removed};
 use anyhow::{Context, Result};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
