@@ -1,7 +1,7 @@
 //! What the wheel is compiled from, by cargo's own account.
 
 use anyhow::{Context, Result, bail};
-use platewash_bundler::{root, target};
+use platewash_bundler::{bundle, root, target};
 use std::path::{Path, PathBuf};
 
 /// Fails unless a folder holds, byte for byte, every file of the checkout that the extension was compiled from.
@@ -10,8 +10,14 @@ pub fn all_in(folder: &Path) -> Result<()> {
     let text = std::fs::read_to_string(&account).with_context(|| account.display().to_string())?;
     let mut files = Vec::new();
     for named in compiled_from(&text, &root())? {
-        collect(&root(), named, &mut files)?;
+        // What build scripts made is made again from the package.
+        if !root().join(&named).starts_with(target()) {
+            collect(&root(), named, &mut files)?;
+        }
     }
+    // The bundle of the page, too, so that a build of the package needs no Node.
+    let bundle = bundle().strip_prefix(root())?.to_owned();
+    collect(&root(), bundle, &mut files)?;
     for file in &files {
         let read = |place: &Path| {
             std::fs::read(place.join(file)).with_context(|| format!("{} in {}", file.display(), place.display()))
