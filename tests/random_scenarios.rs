@@ -157,3 +157,18 @@ fn what_is_planned_of_random_scenarios_is_proved() {
     assert_eq!(not_proved, 0);
     assert!(8 * proved > outcomes.len() && refused > 0);
 }
+
+/// With a short tool the arm leans so that the washes which suffice on the bare face give too little of it the dose: denser ones are found.
+#[test]
+fn a_kitchen_with_a_short_tool_is_washed_more_densely() {
+    let mut scenario = Scenario::load("kitchen").unwrap();
+    scenario.seed = 3;
+    scenario.tool.length_m = 0.1;
+    let arm = scenario.arm().unwrap();
+    let cancel = CancelToken::new();
+    let watch = Watch::silent(&cancel);
+    let layout = scenario.place(&arm, &watch).unwrap();
+    let planned = plan_here(&scenario.job_on(&arm, &layout).unwrap(), &watch).unwrap();
+    let certificate = prove(&planned.plan, &arm).unwrap();
+    assert!(certificate.passes(), "{}", certificate.headline);
+}

@@ -1,5 +1,6 @@
 //! How long a curve takes at the limits of washing, and what it brings about on the bare face.
 
+use super::Pattern;
 use super::promise::{Margin, Promise};
 use crate::scene::AxisRule;
 use crate::trig::sin_cos;
@@ -47,25 +48,23 @@ impl Estimate {
     /// Whether on the bare face, with the tool by its rule, it brings about what is promised.
     pub fn keeps(&self, promise: &Promise, surface: &Surface, (rule, cone_rad): (&AxisRule, f64)) -> bool {
         let swept = promise.swept_within(surface, cone_rad);
-        let (promise, lean_rad) = swept.as_ref().map_or((promise, LEAN * cone_rad), |swept| (swept, 0.0));
-        promise.seems_kept(surface, &self.moments(surface, rule, lean_rad), &Margin::BARE_FACE)
+        let (promise, cone_rad) = swept.as_ref().map_or((promise, cone_rad), |swept| (swept, 0.0));
+        promise.seems_kept(surface, &self.moments(surface, rule, cone_rad), &Margin::BARE_FACE)
     }
 
-    /// The greatest share of the speed, from `least` to 1, at which it brings that about where contact is promised.
-    pub fn speed_share(
-        &self,
-        promise: &Promise,
-        surface: &Surface,
-        (rule, cone_rad): (&AxisRule, f64),
-        least: f64,
-    ) -> Option<f64> {
-        let moments = self.moments(surface, rule, LEAN * cone_rad);
-        promise.speed_share(surface, &moments, &Margin::BARE_FACE, least)
+    /// The curve as it is offered within a cone, at a share of the wash speed.
+    pub fn offered(&self, cone_rad: f64, speed_share: f64) -> Pattern {
+        Pattern {
+            curve: self.curve,
+            cone_rad,
+            speed_share,
+            least_s: self.least_s / speed_share,
+        }
     }
 
-    /// The sponge along the curve at the speed of washing, the tool by its rule.
-    fn moments(&self, surface: &Surface, rule: &AxisRule, lean_rad: f64) -> Vec<Moment> {
-        let (lean_s, lean_c) = sin_cos(if surface.is_flat() { lean_rad } else { 0.0 });
+    /// The sponge along the curve at the speed of washing, the tool by its rule and leaning as is usual within a cone.
+    pub fn moments(&self, surface: &Surface, rule: &AxisRule, cone_rad: f64) -> Vec<Moment> {
+        let (lean_s, lean_c) = sin_cos(if surface.is_flat() { LEAN * cone_rad } else { 0.0 });
         let mut moments: Vec<Moment> = Vec::new();
         let mut t_s = 0.0;
         for (theta, here) in &points(&self.curve, surface) {

@@ -126,6 +126,12 @@ impl Patterns {
         self.cones[1..].iter().flat_map(|cone| self.within(*cone))
     }
 
+    /// Denser and slower ones, for plates on which the arm presses less of the face than the bare face lets expect.
+    pub fn denser(&self) -> impl Iterator<Item = Pattern> {
+        let cones = self.cones.iter().filter(|_| self.is_chosen());
+        cones.flat_map(|cone| self.slower(*cone, &Margin::WEAK_ARM))
+    }
+
     /// The first one with the widest cone: what no tilt of it reaches, none does.
     #[must_use]
     pub fn widest(&self) -> Pattern {
@@ -145,35 +151,32 @@ impl Patterns {
     /// The shortest candidates that keep what is promised within a cone: at full speed, or else denser or slower; a curve that is stated at
     /// full speed first. Where none of the usual ones does, the longest of them comes last: the arm may lean less than is reckoned with here.
     fn within(&self, cone_rad: f64) -> Vec<Pattern> {
-        let offered = |estimate: &Estimate, speed_share: f64| Pattern {
-            curve: estimate.curve,
-            cone_rad,
-            speed_share,
-            least_s: estimate.least_s / speed_share,
-        };
-        let tool = (&self.rule, cone_rad);
-        let mut chosen: Vec<Pattern> = match &self.candidates[..] {
-            [only] => vec![offered(only, 1.0)],
-            usual => {
-                let kept = usual
-                    .iter()
-                    .filter(|estimate| estimate.keeps(&self.promise, &self.surface, tool));
-                kept.take(MOST_OFFERED).map(|estimate| offered(estimate, 1.0)).collect()
-            }
-        };
+        let mut chosen = self.usual(cone_rad);
         if self.is_chosen() && !chosen.is_empty() {
             return chosen;
         }
-        let slower = self.slower(tool);
-        chosen.extend(slower.iter().map(|(estimate, share)| offered(estimate, *share)));
+        chosen.extend(self.slower(cone_rad, &Margin::BARE_FACE));
         if self.is_chosen() {
-            chosen.extend(self.candidates.last().map(|last| offered(last, 1.0)));
+            chosen.extend(self.candidates.last().map(|last| last.offered(cone_rad, 1.0)));
         }
         chosen
     }
 
-    /// The quickest curves, dense ones among them, each with the greatest share of the wash speed at which it keeps what is promised.
-    fn slower(&self, tool: (&AxisRule, f64)) -> Vec<(Estimate, f64)> {
+    /// The shortest of the usual curves that keep what is promised at full speed; a curve that is stated, whether it does so or not.
+    fn usual(&self, cone_rad: f64) -> Vec<Pattern> {
+        let keeps = |estimate: &&Estimate| estimate.keeps(&self.promise, &self.surface, (&self.rule, cone_rad));
+        let kept = self
+            .candidates
+            .iter()
+            .filter(|estimate| !self.is_chosen() || keeps(estimate));
+        kept.take(MOST_OFFERED)
+            .map(|estimate| estimate.offered(cone_rad, 1.0))
+            .collect()
+    }
+
+    /// The quickest curves, dense ones among them, each with the greatest share of the wash speed at which it keeps what is promised with
+    /// a margin.
+    fn slower(&self, cone_rad: f64, margin: &Margin) -> Vec<Pattern> {
         if !self.has_contact {
             return Vec::new();
         }
@@ -181,13 +184,13 @@ impl Patterns {
         let dense = dense.map(|curve| Estimate::new(*curve, &self.surface, self.limits));
         let all = self.candidates.iter().cloned().chain(dense);
         let kept = all.filter_map(|estimate| {
-            let share = estimate.speed_share(&self.promise, &self.surface, tool, SLOWEST)?;
-            Some((estimate, share))
+            let moments = estimate.moments(&self.surface, &self.rule, cone_rad);
+            let share = self.promise.speed_share(&self.surface, &moments, margin, SLOWEST)?;
+            Some(estimate.offered(cone_rad, share))
         });
-        let kept = kept.filter(|(_, share)| self.is_chosen() || *share < 1.0);
-        let mut kept: Vec<_> = kept.take(MOST_SLOWED).collect();
-        let time_s = |(estimate, share): &(Estimate, f64)| estimate.least_s / share;
-        kept.sort_by(|a, b| time_s(a).total_cmp(&time_s(b)));
+        let kept = kept.filter(|pattern| self.is_chosen() || pattern.speed_share < 1.0);
+        let mut kept: Vec<Pattern> = kept.take(MOST_SLOWED).collect();
+        kept.sort_by(|a, b| a.least_s.total_cmp(&b.least_s));
         kept.truncate(MOST_OFFERED);
         kept
     }

@@ -57,6 +57,13 @@ impl Margin {
         tilt_rad: 5e-4,
     };
 
+    /// On the bare face, where an arm pressed less than [`BARE_FACE`](Self::BARE_FACE) lets expect.
+    pub const WEAK_ARM: Self = Self {
+        more: 1.3,
+        part: 0.5,
+        ..Self::ARM
+    };
+
     /// None: what lacks even so is not proved.
     pub const NONE: Self = Self {
         more: 1.0,

@@ -102,7 +102,8 @@ impl Pipeline<'_> {
     }
 
     /// The washing of a plate by its patterns, with a path that ends where `like` does: by the first with which the arm finds a way and
-    /// presses as is promised with a margin, or else without one; where it never presses so, by one with which it finds a way.
+    /// presses as is promised with a margin, or else without one; where it never presses so, by one with which it finds a way. Denser and
+    /// slower patterns are tried last, where the arm finds a way by another one.
     pub fn washing_by_patterns(
         &self,
         scene: &Scene<'_>,
@@ -111,9 +112,13 @@ impl Pipeline<'_> {
     ) -> Result<Turn, RedundancyError> {
         let plate = like.plate;
         let patterns = &self.patterns[plate];
-        let wider = std::iter::once_with(|| patterns.wider()).flatten();
         let mut found: Result<Turn, RedundancyError> = Err(RedundancyError::Plate { plate, count: 0 });
-        for pattern in patterns.first().iter().copied().chain(wider) {
+        let mut offered = patterns.first().iter().copied().chain(patterns.wider());
+        let mut denser = patterns.denser();
+        loop {
+            let Some(pattern) = offered.next().or_else(|| found.is_ok().then(|| denser.next())?) else {
+                return found;
+            };
             let path = WashPath {
                 curve: turned_as(pattern.curve, &like.curve),
                 cone_rad: pattern.cone_rad,
@@ -144,7 +149,6 @@ impl Pipeline<'_> {
                 }
             }
         }
-        found
     }
 
     /// What a plate's washing lacks of what is promised about contact, looked at where its configurations are.
