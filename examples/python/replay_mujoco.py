@@ -10,7 +10,7 @@ import numpy as np
 import pyplatewash as pw
 
 robot = pw.Robot.irb120()
-plan = pw.plan(pw.Scenario.load("kitchen").job()).plan
+plan = pw.plan("kitchen").plan
 spec = mujoco.MjSpec.from_string(robot.urdf)
 for pair in ET.fromstring(robot.srdf or "<robot/>").iter("disable_collisions"):
     # MuJoCo reads no SRDF. The base is merged into the world when the model is compiled.

@@ -8,7 +8,7 @@ import pinocchio as pin
 import pyplatewash as pw
 
 robot = pw.Robot.irb120()
-plan = pw.plan(pw.Scenario.load("kitchen").job()).plan
+plan = pw.plan("kitchen").plan
 model = pin.buildModelFromXML(robot.urdf)
 data = model.createData()
 tool0 = model.getFrameId("tool0")

@@ -12,11 +12,10 @@ joint vectors have shape (6,), many of them (N, 6), from the base to the tip. An
 >>> robot.ik(target).q.round(6).tolist()
 [0.1, 0.4, 0.1, -0.0, 1.0, 0.2]
 
-A scenario states a job, a job is planned, a plan is proved and simulated:
+A scenario is planned, its plan is proved and simulated:
 
->>> job = pw.Scenario.load("kitchen").job()
->>> plan = pw.plan(job).plan
->>> pw.prove(plan).proved, pw.simulate(plan).report().verdict
+>>> planned = pw.plan("kitchen", seed=3)
+>>> pw.prove(planned).proved, pw.simulate(planned).report().verdict
 (True, 'washed')
 """
 

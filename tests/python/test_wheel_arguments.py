@@ -47,7 +47,7 @@ GOOD: dict[str, Any] = {
     "profile": None, "foot": pw.Foot(radius_m=0.08, height_m=0.005), "rings": None, "count": 3, "inner_m": 0.02, "lead_rad": 2.0, "blend_rad": 1.8, "WashCurve.on plate": pw.Plate(x_m=0.3, y_m=0.0),
     "html": "<p>a page", "Plan.view path": "page.html", "Page.save path": "page.html", "Page.open path": "page.html",
     "Robot.from_urdf text": ROBOT.urdf, "Robot.from_urdf srdf": ROBOT.srdf, "Plan.from_json text": PLAN.to_json(), "Scenario.parse text": "name = 'x'\n[layout]\nregion = 'text'\n",
-    "Robot.ik seed": Q, "Robot.ik_path seed": Q, "Robot.ik_batch seeds": Q, "IkSolution start": "seed", "sweep scenario": "kitchen", "run_paper job": RUN.job, "prove plan": WASH.plan,
+    "Robot.ik seed": Q, "Robot.ik_path seed": Q, "Robot.ik_batch seeds": Q, "IkSolution start": "seed", "sweep scenario": "kitchen", "run_paper job": RUN.job, "plan seed": None, "prove plan": WASH.plan,
     "Study scenario": "kitchen", "Study axes": {"seed": [1]}, "rows": None, "name": "a study", "plans": "none", "Study.load path": "study.toml", "Study.parse text": STUDY.to_toml(), "Study.run out": "out",
     "engine": "threads", "workers": 1, "client": None, "address": None, "progress": False,
     "ranges": {"tool.length_m": (0.1, 0.2)}, "samples method": "random", "log": ["tool.length_m"], "StudyRows folder": "study", "index": 0, "partial": True, "timings": True, "at": "wash.contact_force_n",
@@ -194,12 +194,12 @@ def test_a_bad_value_is_refused_by_the_arguments_name(name: str, capfd: pytest.C
 
 LISTED: list[tuple[Callable[[], Any], type[Exception], str]] = [
     (lambda: pw.place_plates(3), TypeError, r"scenario: a Scenario, the name of a shipped one or the path of a file is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
-    (lambda: pw.plan("kitchen"), TypeError, r"job: a WashJob, as Scenario.job\(\) gives it, is needed; found 'kitchen' \(str\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
-    (lambda: pw.run_paper(WASH.job), TypeError, r"job: a PaperJob, as Scenario.paper_job\(\) gives it, is needed; found a value of type WashJob"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    (lambda: pw.plan(3), TypeError, r"job: a WashJob, a Scenario, the name of a shipped one or the path of a scenario file is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    (lambda: pw.run_paper(WASH.job), TypeError, r"job: a PaperJob, a Scenario, the name of a shipped one or the path of a scenario file is needed; found a value of type WashJob"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     (lambda: pw.reproduce(seed=-1), ValueError, r"seed: an integer from 0 to 9007199254740991 is needed; found -1 \(int\)"),
     (lambda: pw.reproduce(seed=2**53), ValueError, "seed: an integer from 0 to 9007199254740991 is needed; found 9007199254740992"),
     (lambda: pw.prove("nowhere.json"), FileNotFoundError, "nowhere.json: cannot be read"),
-    (lambda: pw.prove(3), TypeError, r"plan: a Plan or the path of a plan file is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    (lambda: pw.prove(3), TypeError, r"plan: a Plan, what plan\(\) returns, or the path of a plan file is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     (lambda: ROBOT.fk(Q, 3), TypeError, r"frame: a frame's name is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     (lambda: pw.sweep("kitchen", 3), TypeError, r"seeds: a list of seeds is needed; found 3 \(int\)"),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     (lambda: pw.sweep("kitchen", [1, -2]), ValueError, r"seeds\[1\]: an integer from 0 to 9007199254740991 is needed; found -2"),

@@ -76,7 +76,7 @@ def test_models_of_jobs_are_copied_pickled_and_compared(jobs: dict[str, pw.WashJ
 
 def test_what_is_no_job_is_refused_by_name(tmp_path: Path) -> None:
     for wrong in (3, pw.Robot.irb120(), None):
-        with pytest.raises(pw.InputTypeError, match="job: a WashJob, a PaperJob, a Plan or the path of a plan file is needed"):
+        with pytest.raises(pw.InputTypeError, match="job: a WashJob, a PaperJob, a Plan, what plan\(\) returns, or the path of a plan file is needed"):
             pw.ClearanceModel.of(wrong)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     with pytest.raises(FileNotFoundError):
         pw.ClearanceModel.of(tmp_path / "none.json")

@@ -52,6 +52,33 @@ def test_the_kitchen_is_proved(kitchen: pw.Planned) -> None:
     np.testing.assert_array_equal(kitchen.largest_jerk_rad_s3, report.jerk_rad_s3)
 
 
+def test_what_is_unambiguous_is_taken(tmp_path: Path, kitchen: pw.Planned, run: pw.PaperRun) -> None:
+    scenario = pw.Scenario.load("kitchen").replace(layout={"count": 1})
+    one = pw.plan(scenario, seed=3)
+    assert one == pw.plan(scenario.replace(seed=3).job()) != pw.plan(scenario)
+    file = tmp_path / "one.toml"
+    file.write_text(scenario.to_toml())
+    assert pw.plan(file, seed=3) == pw.plan(str(file), seed=3) == one
+    assert pw.plan("kitchen").plan == kitchen.plan
+    assert pw.run_paper("paper-appendix").plan() == run.plan()
+
+    assert pw.prove(one) == pw.prove(one.plan)
+    assert pw.simulate(one) == pw.simulate(one.plan)
+    assert pw.SimulationSettings.of(one) == pw.SimulationSettings.of(one.plan)
+    assert pw.differences(one, scenario.replace(seed=3)) == [] != pw.differences(kitchen, "kitchen-roomy")
+    assert pw.differences(run.plan(), run.job) == []
+    assert pw.ClearanceModel.of(one).bodies == pw.ClearanceModel.of(one.job).bodies
+
+    with pytest.raises(pw.InputError, match=r"seed: is for scenarios: a WashJob's plates are placed"):
+        pw.plan(one.job, seed=4)
+    with pytest.raises(pw.InputError, match='"paper-appendix" has job.program = "paper"'):
+        pw.plan("paper-appendix")
+    with pytest.raises(pw.InputError, match='"kitchen" has job.program = "certified"'):
+        pw.run_paper("kitchen")
+    with pytest.raises(pw.ScenarioError, match="kitchn"):
+        pw.plan("kitchn")
+
+
 def test_a_changed_plan_is_found_out(kitchen: pw.Planned) -> None:
     table = kitchen.plan.to_dict()
     table["knots"]["q_rad"][100][0] += 0.5

@@ -3,9 +3,10 @@
 use crate::argument;
 use crate::by_python::table;
 use crate::errors;
-use crate::job::{PaperJobObject, WashJobObject};
+use crate::job::PaperJobObject;
 use crate::plan::PlanObject;
 use crate::robot::Robot;
+use crate::scenario;
 use crate::value::{records, to_python, to_record};
 use crate::work::patiently;
 use platewash::certificate::{self, Verdict};
@@ -218,7 +219,7 @@ pub fn differences<'py>(
     let plan = PlanObject::given("plan", plan)?;
     let expected = match job.cast::<PaperJobObject>() {
         Ok(job) => job.get().terms(py)?,
-        Err(_) => WashJobObject::given(job)?.get().inner().terms().clone(),
+        Err(_) => scenario::wash_job(job, None)?.get().inner().terms().clone(),
     };
     let list = PyList::empty(py);
     for difference in certificate::differences(&plan.get().inner().job, &expected) {

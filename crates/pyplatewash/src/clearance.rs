@@ -17,7 +17,7 @@ use platewash::workcell::tool::StraightTool;
 use platewash::workcell::words::counted;
 use platewash::{ClearanceModel, Failure, JobTerms, JointVector, PairClearance, Pose, RobotModel, Tool, Workcell};
 use pyo3::prelude::*;
-use pyo3::types::{PyList, PyString, PyTuple, PyType};
+use pyo3::types::{PyList, PyTuple, PyType};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -41,7 +41,7 @@ enum MadeOf {
     Job(Py<PyAny>),
 }
 
-const JOB: &str = "a WashJob, a PaperJob, a Plan or the path of a plan file";
+const JOB: &str = "a WashJob, a PaperJob, a Plan, what plan() returns, or the path of a plan file";
 
 fn finite(py: Python<'_>, q: &[JointVector]) -> PyResult<()> {
     match q.iter().position(|q| !q.iter().all(|v| v.is_finite())) {
@@ -68,10 +68,7 @@ fn terms_of<'py>(job: &Bound<'py, PyAny>) -> PyResult<(Arc<RobotModel>, JobTerms
         let paper = paper.get();
         return Ok((paper.inner().arm.clone(), paper.terms(py)?, job.clone()));
     }
-    if !(job.is_instance_of::<PlanObject>() || job.is_instance_of::<PyString>() || job.hasattr("__fspath__")?) {
-        return Err(argument::wrong_type("job", job, JOB));
-    }
-    let plan = PlanObject::given("job", job)?;
+    let plan = PlanObject::given_among("job", job, JOB)?;
     let (arm, terms) = (plan.get().arm(py, None)?, plan.get().inner().job.clone());
     Ok((arm, terms, plan.into_any()))
 }

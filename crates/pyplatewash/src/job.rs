@@ -52,12 +52,6 @@ impl WashJobObject {
 
     /// The job of the argument called `job`.
     ///
-    /// # Errors
-    /// `InputTypeError` for what is no job.
-    pub fn given<'a, 'py>(value: &'a Bound<'py, PyAny>) -> PyResult<&'a Bound<'py, Self>> {
-        argument::object("job", value, "a WashJob, as Scenario.job() gives it,")
-    }
-
     /// The job.
     #[must_use]
     pub fn inner(&self) -> &WashJob {
@@ -263,12 +257,6 @@ impl PaperJobObject {
 
     /// The job of the argument called `job`.
     ///
-    /// # Errors
-    /// `InputTypeError` for what is no job of the paper's program.
-    pub fn given<'a, 'py>(value: &'a Bound<'py, PyAny>) -> PyResult<&'a Bound<'py, Self>> {
-        argument::object("job", value, "a PaperJob, as Scenario.paper_job() gives it,")
-    }
-
     /// The job.
     #[must_use]
     pub fn inner(&self) -> &PaperJob {

@@ -6,6 +6,7 @@ use crate::errors;
 use crate::job::PaperJobObject;
 use crate::made;
 use crate::plan::PlanObject;
+use crate::scenario;
 use crate::trajectory::TrajectoryObject;
 use crate::value::to_record;
 use crate::work::patiently;
@@ -199,16 +200,17 @@ impl PaperRunObject {
     }
 }
 
-/// Plans and follows a job of the paper's program, as `Scenario.paper_job` gives it.
+/// Plans and follows a job of the paper's program: that of `Scenario.paper_job`, or of a scenario, a shipped scenario's name or a
+/// scenario file.
 ///
-/// Raises PlanError. A run that does not wash is no error: see `PaperRun.report`.
+/// Raises PlanError, LayoutError or ScenarioError; InputError for a scenario of the other program. A run that does not wash is no error: see `PaperRun.report`.
 #[pyfunction]
 pub fn run_paper(py: Python<'_>, job: &Bound<'_, PyAny>) -> PyResult<PaperRunObject> {
-    let job = PaperJobObject::given(job)?;
+    let job = scenario::paper_job(job)?;
     let asked = job.get().inner().clone();
     let run = patiently(py, move |cancel| run_with(&asked, cancel))?;
     Ok(PaperRunObject {
         inner: Arc::new(run.map_err(|e| errors::failure(py, &e.into()))?),
-        job: job.clone().unbind(),
+        job: job.unbind(),
     })
 }

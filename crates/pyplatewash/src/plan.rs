@@ -54,17 +54,27 @@ impl PlanObject {
         Self { inner, robot }
     }
 
-    /// The plan of an argument: a plan, or the path of a plan file.
+    /// The plan of an argument: a plan, what has one, as what `plan` returns, or the path of a plan file.
     ///
     /// # Errors
-    /// `InputTypeError`; `PlanFileError` for a file that is no plan.
+    /// `InputTypeError`; `FileError`; `PlanFileError` for a file that is no plan.
     pub fn given<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, Self>> {
+        Self::given_among(name, value, "a Plan, what plan() returns, or the path of a plan file")
+    }
+
+    /// The same of an argument that may be something else besides: `needed` names it all.
+    ///
+    /// # Errors
+    /// As [`given`](Self::given).
+    pub fn given_among<'py>(name: &str, value: &Bound<'py, PyAny>, needed: &str) -> PyResult<Bound<'py, Self>> {
         if let Ok(plan) = value.cast::<Self>() {
             return Ok(plan.clone());
         }
-        const NEEDED: &str = "a Plan or the path of a plan file";
+        if let Some(Ok(plan)) = value.getattr_opt("plan")?.map(|plan| plan.cast_into::<Self>()) {
+            return Ok(plan);
+        }
         if !(value.is_instance_of::<PyString>() || value.hasattr("__fspath__")?) {
-            return Err(argument::wrong_type(name, value, NEEDED));
+            return Err(argument::wrong_type(name, value, needed));
         }
         Bound::new(value.py(), Self::read(name, value)?)
     }

@@ -5,6 +5,7 @@ use crate::errors;
 use crate::job::WashJobObject;
 use crate::made;
 use crate::plan::PlanObject;
+use crate::scenario;
 use crate::value::{records, to_record};
 use crate::work::patiently;
 use numpy::PyArrayDyn;
@@ -100,16 +101,19 @@ impl PlannedObject {
     }
 }
 
-/// Plans a job, as `Scenario.job` gives it. Nothing is proved: see `prove`.
+/// Plans a job: that of `Scenario.job`, or of a scenario, a shipped scenario's name or a scenario file, with another `seed` if one is
+/// given. Nothing is proved: see `prove`.
 ///
-/// Raises PlanError, with the plate at fault where it is one, or LayoutError.
+/// Raises PlanError, with the plate at fault where it is one, LayoutError, or ScenarioError; InputError for a scenario of the paper's
+/// program.
 #[pyfunction]
-pub fn plan(py: Python<'_>, job: &Bound<'_, PyAny>) -> PyResult<PlannedObject> {
-    let job = WashJobObject::given(job)?;
+#[pyo3(signature = (job, *, seed=None))]
+pub fn plan(py: Python<'_>, job: &Bound<'_, PyAny>, seed: Option<&Bound<'_, PyAny>>) -> PyResult<PlannedObject> {
+    let job = scenario::wash_job(job, seed)?;
     let asked = job.get().inner().clone();
     let planned = patiently(py, move |cancel| plan_with(&asked, &Watch::silent(cancel)))?;
     Ok(PlannedObject {
         inner: Arc::new(planned.map_err(|e| errors::failure(py, &e.into()))?),
-        job: job.clone().unbind(),
+        job: job.unbind(),
     })
 }

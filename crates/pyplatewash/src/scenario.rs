@@ -10,12 +10,11 @@ use crate::value::{from_mapping, records, to_python, to_record};
 use crate::work::patiently;
 use platewash::planner::Watch;
 use platewash::scenario::{Program, SHIPPED};
-use platewash::{Failure, Layout, RobotModel, Scenario};
+use platewash::{Failure, Layout, Scenario};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple, PyType};
 use serde_json::{Map, Value};
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// A job in full: what a scenario file states, with defaults filled in. Immutable; `replace` makes another one.
 ///
@@ -73,11 +72,6 @@ impl ScenarioObject {
             errors::scenario(py, &e)
         })?;
         Self::warned(py, inner)
-    }
-
-    /// The arm that was made of the scenario's files just now.
-    fn robot_of(&self, py: Python<'_>, arm: Arc<RobotModel>) -> PyResult<Py<Robot>> {
-        Robot::of_scenario(py, &self.inner, arm)
     }
 
     /// The object of a scenario, after warnings of what was probably meant in another unit.
@@ -208,20 +202,7 @@ impl ScenarioObject {
     /// Raises InputError for a scenario of the paper's program; PlanError or LayoutError.
     #[pyo3(signature = (layout=None))]
     fn job(&self, py: Python<'_>, layout: Option<&Bound<'_, PyAny>>) -> PyResult<WashJobObject> {
-        of_program(py, &self.inner, Program::Certified)?;
-        let (scenario, layout) = (self.inner.clone(), LayoutObject::given(layout)?);
-        let resolved = patiently(py, move |cancel| {
-            let arm = scenario.arm()?;
-            let layout = match layout {
-                Some(layout) => layout,
-                None => scenario.place(&arm, &Watch::silent(cancel))?,
-            };
-            let job = scenario.job_on(&arm, &layout)?;
-            Ok::<_, Failure>((job, layout))
-        })?;
-        let (job, layout) = resolved.map_err(|e| errors::failure(py, &e))?;
-        let robot = self.robot_of(py, job.shared_arm())?;
-        Ok(WashJobObject::new(job, layout, robot))
+        resolved_wash(py, self.inner.clone(), LayoutObject::given(layout)?)
     }
 
     /// The run of the paper's program that the scenario asks for, resolved: its arm loaded, its plates placed, or those of a layout
@@ -230,19 +211,7 @@ impl ScenarioObject {
     /// Raises InputError for a scenario of the other program; PlanError or LayoutError.
     #[pyo3(signature = (layout=None))]
     fn paper_job(&self, py: Python<'_>, layout: Option<&Bound<'_, PyAny>>) -> PyResult<PaperJobObject> {
-        of_program(py, &self.inner, Program::Paper)?;
-        let (scenario, layout) = (self.inner.clone(), LayoutObject::given(layout)?);
-        let resolved = patiently(py, move |_| {
-            let arm = scenario.arm()?;
-            let layout = match layout {
-                Some(layout) => layout,
-                None => scenario.layout(&arm)?,
-            };
-            scenario.paper_job_on(&arm, layout)
-        })?;
-        let job = resolved.map_err(|e| errors::failure(py, &e))?;
-        let robot = self.robot_of(py, job.arm.clone())?;
-        Ok(PaperJobObject::new(job, robot))
+        resolved_paper(py, self.inner.clone(), LayoutObject::given(layout)?)
     }
 
     /// What was probably meant in another unit: a home in radians. Each is also a `UserWarning` when the scenario is made.
@@ -373,19 +342,101 @@ impl ScenarioObject {
 /// # Errors
 /// `InputTypeError` for anything else, `ScenarioError`.
 pub fn given(value: &Bound<'_, PyAny>) -> PyResult<Scenario> {
-    called("scenario", value)
+    called("scenario", value, SCENARIO)
 }
 
-/// [`given`], of an argument of another name.
-fn called(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Scenario> {
+/// What a scenario is given as.
+const SCENARIO: &str = "a Scenario, the name of a shipped one or the path of a file";
+
+/// [`given`], of an argument of another name, which may be something else besides.
+fn called(name: &str, value: &Bound<'_, PyAny>, needed: &str) -> PyResult<Scenario> {
     if let Ok(object) = value.cast::<ScenarioObject>() {
         return Ok(object.get().inner.clone());
     }
-    const NEEDED: &str = "a Scenario, the name of a shipped one or the path of a file";
-    let path: PathBuf = value.extract().map_err(|e| argument::refused(name, value, NEEDED, e))?;
+    let path: PathBuf = value.extract().map_err(|e| argument::refused(name, value, needed, e))?;
     let scenario = Scenario::load(&path.to_string_lossy()).map_err(|e| errors::scenario(value.py(), &e))?;
     warn(value.py(), &scenario.notes())?;
     Ok(scenario)
+}
+
+/// The washing of the argument called `job`: a `WashJob`, or that of a scenario, with another seed if one is given.
+///
+/// # Errors
+/// As [`given`] and `Scenario.job`; `InputError` for a seed beside a job, whose plates are placed.
+pub fn wash_job<'py>(
+    value: &Bound<'py, PyAny>,
+    seed: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Bound<'py, WashJobObject>> {
+    let py = value.py();
+    let seed = seed.map(|seed| argument::seed("seed", seed)).transpose()?;
+    if let Ok(job) = value.cast::<WashJobObject>() {
+        return match seed {
+            None => Ok(job.clone()),
+            Some(_) => Err(errors::input(
+                py,
+                "seed",
+                "is for scenarios: a WashJob's plates are placed; give the scenario in its stead, or scenario.replace(seed=…).job()",
+            )),
+        };
+    }
+    let mut scenario = called(
+        "job",
+        value,
+        "a WashJob, a Scenario, the name of a shipped one or the path of a scenario file",
+    )?;
+    scenario.seed = seed.unwrap_or(scenario.seed);
+    Bound::new(py, resolved_wash(py, scenario, None)?)
+}
+
+/// The run of the paper's program of the argument called `job`: a `PaperJob`, or that of a scenario.
+///
+/// # Errors
+/// As [`given`] and `Scenario.paper_job`.
+pub fn paper_job<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PaperJobObject>> {
+    if let Ok(job) = value.cast::<PaperJobObject>() {
+        return Ok(job.clone());
+    }
+    let scenario = called(
+        "job",
+        value,
+        "a PaperJob, a Scenario, the name of a shipped one or the path of a scenario file",
+    )?;
+    Bound::new(value.py(), resolved_paper(value.py(), scenario, None)?)
+}
+
+/// The washing that a scenario asks for, on its own plates or those of a layout.
+fn resolved_wash(py: Python<'_>, scenario: Scenario, layout: Option<Layout>) -> PyResult<WashJobObject> {
+    of_program(py, &scenario, Program::Certified)?;
+    let asked = scenario.clone();
+    let resolved = patiently(py, move |cancel| {
+        let arm = asked.arm()?;
+        let layout = match layout {
+            Some(layout) => layout,
+            None => asked.place(&arm, &Watch::silent(cancel))?,
+        };
+        let job = asked.job_on(&arm, &layout)?;
+        Ok::<_, Failure>((job, layout))
+    })?;
+    let (job, layout) = resolved.map_err(|e| errors::failure(py, &e))?;
+    let robot = Robot::of_scenario(py, &scenario, job.shared_arm())?;
+    Ok(WashJobObject::new(job, layout, robot))
+}
+
+/// The run of the paper's program that a scenario asks for, on its own plates or those of a layout.
+fn resolved_paper(py: Python<'_>, scenario: Scenario, layout: Option<Layout>) -> PyResult<PaperJobObject> {
+    of_program(py, &scenario, Program::Paper)?;
+    let asked = scenario.clone();
+    let resolved = patiently(py, move |_| {
+        let arm = asked.arm()?;
+        let layout = match layout {
+            Some(layout) => layout,
+            None => asked.layout(&arm)?,
+        };
+        asked.paper_job_on(&arm, layout)
+    })?;
+    let job = resolved.map_err(|e| errors::failure(py, &e))?;
+    let robot = Robot::of_scenario(py, &scenario, job.arm.clone())?;
+    Ok(PaperJobObject::new(job, robot))
 }
 
 /// Refuses a scenario of the other program than the one that a call runs.
@@ -431,7 +482,7 @@ type Region = ([f64; 2], Option<f64>, Option<Vec<[f64; 2]>>);
 /// and the outline of their region. `name` is that of the argument.
 #[pyfunction]
 pub fn _task_region(name: &str, scenario: &Bound<'_, PyAny>) -> PyResult<Region> {
-    let scenario = called(name, scenario)?;
+    let scenario = called(name, scenario, SCENARIO)?;
     let region = scenario.task_region();
     Ok((scenario.foot_m(), region.base_circle_m, region.polygon_m))
 }

@@ -1,6 +1,5 @@
 //! How long a curve takes at the limits of washing, and what it brings about on the bare face.
 
-use super::Pattern;
 use super::promise::{Margin, Promise};
 use crate::scene::AxisRule;
 use crate::trig::sin_cos;
@@ -50,16 +49,6 @@ impl Estimate {
         let swept = promise.swept_within(surface, cone_rad);
         let (promise, cone_rad) = swept.as_ref().map_or((promise, cone_rad), |swept| (swept, 0.0));
         promise.seems_kept(surface, &self.moments(surface, rule, cone_rad), &Margin::BARE_FACE)
-    }
-
-    /// The curve as it is offered within a cone, at a share of the wash speed.
-    pub fn offered(&self, cone_rad: f64, speed_share: f64) -> Pattern {
-        Pattern {
-            curve: self.curve,
-            cone_rad,
-            speed_share,
-            least_s: self.least_s / speed_share,
-        }
     }
 
     /// The sponge along the curve at the speed of washing, the tool by its rule and leaning as is usual within a cone.

@@ -56,6 +56,18 @@ pub struct Pattern {
     pub least_s: f64,
 }
 
+impl Pattern {
+    /// A curve within a cone, at a share of the wash speed.
+    fn offered(estimate: &Estimate, cone_rad: f64, speed_share: f64) -> Self {
+        Self {
+            curve: estimate.curve,
+            cone_rad,
+            speed_share,
+            least_s: estimate.least_s / speed_share,
+        }
+    }
+}
+
 /// The patterns to try on a surface.
 #[derive(Debug, Clone)]
 pub struct Patterns {
@@ -157,7 +169,7 @@ impl Patterns {
         }
         chosen.extend(self.slower(cone_rad, &Margin::BARE_FACE));
         if self.is_chosen() {
-            chosen.extend(self.candidates.last().map(|last| last.offered(cone_rad, 1.0)));
+            chosen.extend(self.candidates.last().map(|last| Pattern::offered(last, cone_rad, 1.0)));
         }
         chosen
     }
@@ -170,7 +182,7 @@ impl Patterns {
             .iter()
             .filter(|estimate| !self.is_chosen() || keeps(estimate));
         kept.take(MOST_OFFERED)
-            .map(|estimate| estimate.offered(cone_rad, 1.0))
+            .map(|estimate| Pattern::offered(estimate, cone_rad, 1.0))
             .collect()
     }
 
@@ -186,7 +198,7 @@ impl Patterns {
         let kept = all.filter_map(|estimate| {
             let moments = estimate.moments(&self.surface, &self.rule, cone_rad);
             let share = self.promise.speed_share(&self.surface, &moments, margin, SLOWEST)?;
-            Some(estimate.offered(cone_rad, share))
+            Some(Pattern::offered(&estimate, cone_rad, share))
         });
         let kept = kept.filter(|pattern| self.is_chosen() || pattern.speed_share < 1.0);
         let mut kept: Vec<Pattern> = kept.take(MOST_SLOWED).collect();
