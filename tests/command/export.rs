@@ -362,3 +362,57 @@ fn bad_usage_says_what_was_expected() {
     fs::write(dir.join("notes.txt"), "nothing").unwrap();
     platewash(dir, &["verify", "out/plan.json", "--program", "notes.txt"]).refused(2, &["notes.txt", "no program of"]);
 }
+
+/// A table without its column of the plan's time runs at the share that its rows tell, whatever that of its last row, which comes after the
+/// plan has ended.
+#[test]
+fn a_table_without_the_plans_time_is_read_and_holds() {
+    let folder = folder();
+    let dir = folder.path();
+    let text = platewash(dir, &["scenario", "kitchen"]).done().stdout;
+    let single = text.replace("count = 4", "count = 1");
+    assert_ne!(single, text);
+    fs::write(dir.join("single.toml"), single).unwrap();
+    platewash(dir, &["plan", "--quiet", "--scenario", "single.toml"]).done();
+    for options in [&[][..], &["--speed-share", "0.37"]] {
+        platewash(
+            dir,
+            &[&["export", "out/plan.json", "--to", "csv", "--quiet"], options].concat(),
+        )
+        .done();
+        let text = fs::read_to_string(dir.join("out/csv/kitchen.csv")).unwrap();
+        let with = |cell: &dyn Fn(usize, usize, &str) -> Option<String>| {
+            let lines = text.lines().enumerate().map(|(line, cells)| {
+                let kept = cells.split(',').enumerate().filter_map(|(k, text)| cell(line, k, text));
+                kept.collect::<Vec<_>>().join(",") + "\n"
+            });
+            fs::write(dir.join("kitchen.csv"), lines.collect::<String>()).unwrap();
+            platewash(dir, &["verify", "out/plan.json", "--program", "kitchen.csv"])
+        };
+        for last in [14, 8] {
+            let ran = with(&|_, k, text| (k != 1 && k < last).then(|| text.to_owned()));
+            assert!(
+                ran.code == 0 && ran.stdout.starts_with("HOLDS"),
+                "{options:?}: {} {}",
+                ran.stdout,
+                ran.stderr
+            );
+        }
+        let ran = with(&|line, k, text| {
+            let is_moved = line > 0 && k == 3;
+            (k != 1).then(|| {
+                if is_moved {
+                    (text.parse::<f64>().unwrap() + 0.01).to_string()
+                } else {
+                    text.to_owned()
+                }
+            })
+        });
+        assert!(
+            ran.code == 4 && ran.stdout.starts_with("DOES NOT HOLD"),
+            "{} {}",
+            ran.stdout,
+            ran.stderr
+        );
+    }
+}

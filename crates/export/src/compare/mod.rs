@@ -5,11 +5,12 @@
 
 mod change;
 mod lines;
+mod share;
 mod steps;
 
 pub use change::Change;
 
-use crate::dialect::{Dialect, ReadError};
+use crate::dialect::{Dialect, Points, ReadError};
 use crate::dialects::DIALECTS;
 use crate::export::{self, ExportError};
 use crate::file::ProgramFile;
@@ -111,8 +112,8 @@ pub(crate) fn compare_in(
 ) -> Result<Compared, CompareError> {
     refuse_other_plan(certified.plan(), files)?;
     let found = dialect.read(files, arm)?;
-    let settings =
-        settings(certified.plan(), files, &found).ok_or_else(|| CompareError::Setting { name: name(files) })?;
+    let settings = settings(certified.plan(), files, (dialect.points(), &found))
+        .ok_or_else(|| CompareError::Setting { name: name(files) })?;
     // A text that states no share of the speed runs at the one that it was made with.
     let at_share = |reading: Reading| Reading {
         speed_share: reading.speed_share.or(Some(settings.speed_share)),
@@ -176,29 +177,14 @@ fn refuse_other_plan(plan: &Plan, files: &[ProgramFile]) -> Result<(), CompareEr
 
 /// The settings that a program was made with: those that it states. For a program that states none the share of the speed is the one that
 /// it says otherwise, or that its times tell.
-fn settings(plan: &Plan, files: &[ProgramFile], found: &Reading) -> Option<ExportSettings> {
-    let told = (share(plan, found) * 1e6).round() / 1e6;
-    let told = if (1e-3..=1.0).contains(&told) { told } else { 1.0 };
+fn settings(plan: &Plan, files: &[ProgramFile], (points, found): (Points, &Reading)) -> Option<ExportSettings> {
     let otherwise = ExportSettings {
-        speed_share: found.speed_share.unwrap_or(told),
+        speed_share: found.speed_share.unwrap_or_else(|| share::told(plan, found, points)),
         ..ExportSettings::default()
     };
     files
         .iter()
         .try_fold(otherwise, |settings, file| ExportSettings::stated(&file.text, settings))
-}
-
-/// The share of the plan's speed that a program's times tell: for one of all the plan's knots that of most of them, so that a time that
-/// was changed does not count, and else that of the duration.
-fn share(plan: &Plan, found: &Reading) -> f64 {
-    let mut times_s = found.points.iter().map(|point| point.t_s);
-    if found.points.len() != plan.knots.t_s.len() {
-        return plan.duration_s() / times_s.next_back().unwrap_or(0.0);
-    }
-    let both = plan.knots.t_s.iter().zip(times_s).skip(1);
-    let mut shares: Vec<_> = both.map(|(plan_s, t_s)| plan_s / t_s).collect();
-    shares.sort_by(f64::total_cmp);
-    shares.get(shares.len() / 2).copied().unwrap_or(1.0)
 }
 
 impl Compared {
