@@ -117,16 +117,6 @@ fn tolerance(text: &str) -> anyhow::Result<f64> {
 
 /// Finds the mount, tells how well it fits, and carries points over.
 pub fn run(options: &Options, arguments: &AlignArguments) -> Result<ExitCode, Failure> {
-    for (name, given) in [
-        ("--scenario", options.scenario.is_some()),
-        ("--seed", options.seed.is_some()),
-    ] {
-        if given {
-            return Err(Failure::input(anyhow!(
-                "{name}: align works from the points of its file alone, without a scenario or a seed; leave it out"
-            )));
-        }
-    }
     let touched = touched(&arguments.file).map_err(Failure::input)?;
     let wanted = wanted(arguments).map_err(Failure::input)?;
     let touches: Vec<Touch> = touched.iter().map(|point| point.touch).collect();

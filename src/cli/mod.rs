@@ -6,6 +6,7 @@ mod against;
 mod align;
 mod angles;
 mod bundle;
+mod compare;
 mod dry_run;
 mod edit;
 mod execution;
@@ -33,11 +34,13 @@ mod parent;
 mod plan;
 mod plan_file;
 mod progress;
+mod refused;
 mod region;
 mod reproduce;
 mod results;
 mod robot;
 mod run;
+mod scenario;
 mod serve;
 mod simulate;
 mod study;
@@ -95,6 +98,8 @@ enum Verb {
     Plan(motion::MotionArguments),
     /// Check a scenario without running it.
     Validate,
+    /// Print a shipped scenario, to start one's own from: platewash scenario kitchen > mine.toml
+    Scenario(scenario::ScenarioArguments),
     /// Judge a plan file: what is proved about it, and what is not.
     ///
     /// Exit code 0 where it is certified, 4 where it is not. What the job waives (layout.overlap = "report") is no failure, so that the
@@ -105,6 +110,10 @@ enum Verb {
     ///
     /// With --program it is the program of a controller that is judged: code 0 where what it does holds, changed or not, otherwise 4.
     Verify(verify::VerifyArguments),
+    /// Compare two plan files: job, cycle time and proved margins.
+    ///
+    /// Both are proved. Exit code 0 whatever differs and whatever is proved; the first lines say what is.
+    Compare(compare::CompareArguments),
     /// Plan and prove the motion of a plan in the air, slower: what to try on the arm first.
     ///
     /// The plan is proved; its plates are raised, the real ones stand below as obstacles, and the same paths are planned and proved in
@@ -186,11 +195,11 @@ pub fn program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 fn answer(arguments: impl IntoIterator<Item = OsString>, token: impl FnOnce() -> CancelToken + UnwindSafe) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let outcome = std::panic::catch_unwind(|| {
-        let parsed = Arguments::command()
-            .try_get_matches_from(arguments)
-            .and_then(|m| Arguments::from_arg_matches(&m));
+        let matches = refused::hide(Arguments::command()).try_get_matches_from(arguments);
+        let parsed =
+            matches.and_then(|matches| Ok((Arguments::from_arg_matches(&matches)?, refused::refuse(&matches))));
         match parsed {
-            Ok(arguments) => dispatch(arguments, token),
+            Ok((arguments, taken)) => taken.and_then(|()| dispatch(arguments, token)),
             Err(e) => {
                 let code = u8::try_from(e.exit_code()).unwrap_or(failure::INPUT);
                 match e.print() {
@@ -232,13 +241,14 @@ impl Verb {
             Self::View(_)
             | Self::Edit(_)
             | Self::Export(_)
+            | Self::Compare(_)
             | Self::DryRun(_)
             | Self::Figures(_)
             | Self::Sweep(_)
             | Self::Study(_)
             | Self::Reproduce(_) => true,
             Self::Robot(arguments) => arguments.suggest,
-            Self::Layout | Self::Validate | Self::Align(_) | Self::Fk(_) | Self::Ik(_) => false,
+            Self::Layout | Self::Validate | Self::Scenario(_) | Self::Align(_) | Self::Fk(_) | Self::Ik(_) => false,
         }
     }
 }
@@ -249,7 +259,9 @@ fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode, Failure> {
         Verb::Layout => layout::run(options),
         Verb::Plan(arguments) => plan::run(options, &arguments),
         Verb::Validate => validate::run(options),
+        Verb::Scenario(arguments) => scenario::run(options, &arguments),
         Verb::Verify(arguments) => verify::run(options, &arguments),
+        Verb::Compare(arguments) => compare::run(options, &arguments),
         Verb::DryRun(arguments) => dry_run::run(options, &arguments),
         Verb::Align(arguments) => align::run(options, &arguments),
         Verb::Simulate(arguments) => simulate::run(options, &arguments),

@@ -149,17 +149,6 @@ impl Options {
         }
     }
 
-    /// Refuses a scenario, and the link of a tool, where a plan file is given.
-    pub fn refuse_scenario(&self) -> Result<(), Failure> {
-        refuse_beside_plan(self.scenario.is_some(), "--scenario")?;
-        refuse_beside_plan(self.tool_mount.is_some(), "--tool-mount")
-    }
-
-    /// Refuses a seed where a plan file is given.
-    pub fn refuse_seed(&self) -> Result<(), Failure> {
-        refuse_beside_plan(self.seed.is_some(), "--seed")
-    }
-
     /// What the scenario was called: a file, or a shipped name.
     pub fn scenario_name(&self) -> &str {
         self.scenario.as_deref().unwrap_or(SHIPPED[0].name)
@@ -184,15 +173,6 @@ fn is_of_job(failure: &platewash::Failure) -> bool {
             PlanError::Job(_) | PlanError::Home { .. } | PlanError::HomeNotClear { .. } | PlanError::NoTool
         ),
         _ => false,
-    }
-}
-
-fn refuse_beside_plan(given: bool, name: &str) -> Result<(), Failure> {
-    match given {
-        true => Err(Failure::input(anyhow!(
-            "{name}: the plan file states its job and its seed; leave it out (verify --against compares them with a scenario)"
-        ))),
-        false => Ok(()),
     }
 }
 

@@ -25,10 +25,8 @@ pub struct PlanFile<'a> {
 }
 
 impl<'a> PlanFile<'a> {
-    /// Reads a plan that no scenario and no seed is given beside, and finds its arm.
+    /// Reads a plan and finds its arm.
     pub fn read(options: &Options, path: &'a Path) -> Result<Self, Failure> {
-        options.refuse_scenario()?;
-        options.refuse_seed()?;
         Self::with_arm(options, path, read(path)?, None)
     }
 

@@ -38,11 +38,6 @@ pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode
             )));
         }
     }
-    if options.scenario.is_some() || options.urdf.is_some() {
-        return Err(Failure::input(anyhow!(
-            "reproduce measures the paper's own scenarios: leave out --scenario and --urdf"
-        )));
-    }
     let settings = ReproduceSettings {
         layouts: arguments.layouts,
         draws: arguments.draws,

@@ -57,16 +57,6 @@ enum StudyVerb {
 
 /// Does what is asked of a study.
 pub fn run(options: &Options, arguments: &StudyArguments) -> Result<ExitCode, Failure> {
-    let given = [
-        ("--scenario", options.scenario.is_some()),
-        ("--seed", options.seed.is_some()),
-        ("--urdf", options.urdf.is_some()),
-    ];
-    if let Some((name, _)) = given.into_iter().find(|(_, given)| *given) {
-        return Err(Failure::input(anyhow!(
-            "{name}: the study file states its scenarios and seeds; leave it out"
-        )));
-    }
     let is_run = matches!(arguments.verb, StudyVerb::Run { .. });
     if options.out.is_some() && !is_run {
         return Err(Failure::input(anyhow!(

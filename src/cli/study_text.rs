@@ -1,6 +1,6 @@
 //! What the rows of a study come to, in words.
 
-use platewash::study::{Outcome, Row, Summary};
+use platewash::study::{AxisValue, Outcome, Row, Summary};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -27,7 +27,7 @@ pub fn shown(of: &Summary, folder: &Path) -> String {
     let mut text = outcomes(of);
     for (axis, values) in &of.by_axis {
         let _ = writeln!(text, "\n{axis}");
-        for (value, counts) in values {
+        for (AxisValue(value), counts) in values {
             let total: u64 = counts.values().sum();
             let proved = counts.get(Outcome::Proved.code()).copied().unwrap_or(0);
             let others = counts.iter().filter(|(code, _)| **code != Outcome::Proved.code());
@@ -43,6 +43,7 @@ pub fn shown(of: &Summary, folder: &Path) -> String {
     }
     list(&mut text, of, "not proved, the first of each outcome", &of.not_proved);
     list(&mut text, of, "proved with the least clearance", &of.nearest);
+    list(&mut text, of, "proved with the longest motion", &of.slowest);
     if let Some(row) = of.not_proved.iter().chain(&of.nearest).next() {
         let _ = writeln!(
             text,
@@ -77,14 +78,16 @@ fn list(text: &mut String, of: &Summary, title: &str, rows: &[Row]) {
         let several = (of.manifest.scenarios.len() > 1).then(|| row.scenario.clone());
         let axes = row.axes.iter().map(|(key, value)| format!("{key} = {value}"));
         let axes = several.into_iter().chain(axes).collect::<Vec<_>>().join(", ");
+        let duration = row.duration_s.map(|s| format!(", {s:.2} s"));
         let clearance = row.clearance_m.map(|v| format!(", clearance {:.1} mm", 1e3 * v));
         let pair = row.clearance_pair.as_ref().map(|[a, b]| format!(" ({a}, {b})"));
         let reason = row.reason.as_ref().map(|reason| format!(": {reason}"));
         let _ = writeln!(
             text,
-            "  row {} ({axes}) {}{}{}{}",
+            "  row {} ({axes}) {}{}{}{}{}",
             row.index,
             row.outcome.code(),
+            duration.unwrap_or_default(),
             clearance.unwrap_or_default(),
             pair.unwrap_or_default(),
             reason.unwrap_or_default()

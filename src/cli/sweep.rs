@@ -11,6 +11,7 @@ use clap::Args;
 use platewash::scenario::Program;
 use platewash::workcell::job::MAX_SEED;
 use platewash::{SWEEP_HEADER, Scenario, SweepRow, study, sweep_csv, sweep_each};
+use std::cmp::Ordering;
 use std::io::IsTerminal;
 use std::ops::{ControlFlow, RangeInclusive};
 
@@ -27,11 +28,6 @@ pub struct SweepArguments {
 
 /// Plans and proves a layout a seed; prints a table (CSV), each row as soon as it is done, or JSON, and with `--out` writes `sweep.csv` there.
 pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Failure> {
-    if options.seed.is_some() {
-        return Err(Failure::input(anyhow::anyhow!(
-            "--seed: sweep plans one layout for each of --seeds; leave it out"
-        )));
-    }
     let scenario = options.scenario()?;
     if scenario.job.program != Program::Certified {
         return Err(Failure::input(anyhow::anyhow!(
@@ -70,6 +66,9 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Fa
             "{proved} of {total} proved, {not_proved} planned but not proved, {infeasible} infeasible, {not_found} not found, {failed} with an error"
         ),
     );
+    if let Some(worst) = worst(&rows) {
+        output::message(options.quiet, &worst);
+    }
     let outcome = if infeasible + not_found + failed > 0 {
         Outcome::Infeasible
     } else if not_proved > 0 {
@@ -78,6 +77,34 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Fa
         Outcome::Good
     };
     Ok(outcome.job(scenario.job.on_failure))
+}
+
+/// The row to look at first, in words: one that is not proved, or else the one of the least clearance; and the slowest of those proved.
+fn worst(rows: &[SweepRow]) -> Option<String> {
+    if let Some(row) = rows
+        .iter()
+        .filter(|row| row.outcome != study::Outcome::Proved)
+        .max_by_key(|row| row.outcome)
+    {
+        let reason = row
+            .reason
+            .as_ref()
+            .map_or_else(String::new, |reason| format!(": {reason}"));
+        return Some(format!("worst: seed {}, {}{reason}", row.seed, row.outcome.code()));
+    }
+    let nearest = rows
+        .iter()
+        .min_by(|a, b| a.clearance_m.partial_cmp(&b.clearance_m).unwrap_or(Ordering::Equal))?;
+    let slowest = rows
+        .iter()
+        .max_by(|a, b| a.duration_s.partial_cmp(&b.duration_s).unwrap_or(Ordering::Equal))?;
+    Some(format!(
+        "least clearance: seed {}, {:.1} mm; slowest: seed {}, {:.2} s",
+        nearest.seed,
+        1e3 * nearest.clearance_m?,
+        slowest.seed,
+        slowest.duration_s?
+    ))
 }
 
 /// The rows; as text they are printed one by one, in the order of the seeds, as JSON in the end. Where nothing is written to a

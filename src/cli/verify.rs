@@ -10,6 +10,7 @@ use super::pairs::PairArguments;
 use super::parent::OfParent;
 use super::plan_file::{self, PlanFile};
 use super::progress::Progress;
+use super::refused::PLAN_STATES;
 use anyhow::anyhow;
 use clap::Args;
 use platewash::certificate::{HashFinding, PairsShown, Verdict, paper_headline, prove_with};
@@ -71,9 +72,8 @@ struct NoCertificate {
 
 /// Judges a plan file for the arm that it is for.
 pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, Failure> {
-    options.refuse_scenario()?;
-    if arguments.against.is_none() {
-        options.refuse_seed()?;
+    if arguments.against.is_none() && options.seed.is_some() {
+        return Err(Failure::input(anyhow!("--seed: {PLAN_STATES}")));
     }
     if !arguments.program.is_empty() {
         return handed_over::run(options, &arguments.plan, &arguments.program);

@@ -13,6 +13,49 @@ fn options_that_would_be_ignored_are_refused() {
     let verify = ["verify", "p.json", "--against", "kitchen", "--scenario", "kitchen"];
     platewash(dir, &verify).refused(2, &["--scenario", "leave it out"]);
     platewash(dir, &["sweep", "--seeds", "1..2", "--seed", "4"]).refused(2, &["--seed:", "leave it out"]);
+    platewash(dir, &["align", "touched.csv", "--urdf", "arm.urdf"]).refused(2, &["--urdf:", "leave it out"]);
+}
+
+#[test]
+fn help_shows_no_option_that_is_refused() {
+    let folder = folder();
+    let help = |verb: &str| platewash(folder.path(), &[verb, "--help"]).done().stdout;
+    for (verb, shown, hidden) in [
+        (
+            "run",
+            &["--scenario", "--seed", "--out", "--urdf", "--tool-mount"][..],
+            &[][..],
+        ),
+        (
+            "verify",
+            &["--against", "--seed", "--urdf"],
+            &["--scenario <", "--tool-mount <"],
+        ),
+        (
+            "simulate",
+            &["--out", "--urdf"],
+            &["--scenario <", "--seed <", "--tool-mount <"],
+        ),
+        (
+            "align",
+            &["--json"],
+            &[
+                "--scenario <",
+                "--seed <",
+                "--urdf <",
+                "--srdf <",
+                "--package-path <",
+                "--out <",
+            ],
+        ),
+        ("study", &["--out"], &["--scenario <", "--seed <", "--urdf <"]),
+        ("sweep", &["--scenario", "--seeds <"], &["--seed <"]),
+        ("reproduce", &["--seed", "--out"], &["--scenario <", "--urdf <"]),
+    ] {
+        let text = help(verb);
+        assert!(shown.iter().all(|option| text.contains(option)), "{verb}: {text}");
+        assert!(!hidden.iter().any(|option| text.contains(option)), "{verb}: {text}");
+    }
 }
 
 #[test]
@@ -42,6 +85,12 @@ fn a_sweep_prints_its_rows_in_the_order_of_the_seeds() {
     };
     let first = table("1");
     assert_eq!(first, table("3"));
+    let ran = platewash(dir, &["sweep", "--seeds", "3..4"]).done();
+    let told = ran.stderr.lines().last().unwrap();
+    assert!(
+        told.starts_with("least clearance: seed ") && told.contains("; slowest: seed "),
+        "{told}"
+    );
     let seeds: Vec<_> = first.lines().map(|line| line.split(',').next().unwrap()).collect();
     assert_eq!(seeds, ["seed", "3", "4", "5", "6"]);
     assert_eq!(std::fs::read_to_string(dir.join("s/sweep.csv")).unwrap(), first);

@@ -6,6 +6,7 @@ mod align;
 mod answers;
 mod arms;
 mod cells;
+mod compare;
 mod dry_run;
 mod edit;
 mod exit_codes;

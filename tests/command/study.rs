@@ -70,6 +70,16 @@ fn a_study_goes_on_where_it_ended() {
     assert_eq!(std::fs::read(&journal).unwrap(), before);
     let shown = platewash(dir, &["study", "show", "a"]);
     assert!(shown.stdout.contains("4 of 4 proved"), "{}", shown.stdout);
+    // The longest motions come with their time, the longest first.
+    let (_, slowest) = shown.stdout.split_once("proved with the longest motion\n").unwrap();
+    let times_s: Vec<f64> = slowest
+        .lines()
+        .map_while(|line| line.split_once(" proved, ")?.1.split_once(" s")?.0.parse().ok())
+        .collect();
+    assert!(
+        times_s.len() == 4 && times_s.windows(2).all(|pair| pair[0] >= pair[1]),
+        "{slowest}"
+    );
     // A row of it needs the folder alone.
     assert!(shown.stdout.contains("study scenario a --row"), "{}", shown.stdout);
     std::fs::remove_file(dir.join("study.toml")).unwrap();

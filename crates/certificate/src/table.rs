@@ -158,7 +158,7 @@ fn row(f: &mut impl fmt::Write, check: &Check) -> fmt::Result {
     let place = place(&check.worst);
     match &check.measure {
         Some(measure) => {
-            let (bound, limit, unit) = numbers(measure);
+            let MeasureWords { bound, limit, unit } = measure.words();
             writeln!(f, "{name:<22} {status:<10} {bound:>12} {limit:>12} {unit:<6}  {place}")?;
         }
         None => writeln!(f, "{name:<22} {status}")?,
@@ -187,7 +187,7 @@ impl Check {
     #[must_use]
     pub fn detail(&self) -> String {
         let measured = self.measure.as_ref().map(|measure| {
-            let (bound, limit, unit) = numbers(measure);
+            let MeasureWords { bound, limit, unit } = measure.words();
             format!("bound {bound}, limit {limit} {unit}")
         });
         let more = self.more_discrepancies;
@@ -285,24 +285,43 @@ fn both_sides(certificate: &Certificate) -> Option<String> {
     ))
 }
 
-fn numbers(measure: &Measure) -> (String, String, &'static str) {
-    let (scale, unit) = scale(measure.unit);
-    let sign = match measure.sense {
-        Sense::AtMost => "≤",
-        Sense::AtLeast => "≥",
-        Sense::Above => ">",
-    };
-    let (limit, decimals) = (measure.limit * scale, decimals(measure.unit));
-    let exact = match measure.unit {
-        Unit::Share => number(limit),
-        _ => format!("{limit:.decimals$}"),
-    };
-    let [bound, limit] = match measure.bound {
-        Some(bound) if measure.keeps(bound) => [kept(measure, bound, decimals), exact],
-        Some(bound) => told_apart(bound * scale, limit, decimals),
-        None => ["none".to_owned(), exact],
-    };
-    (bound, format!("{sign} {limit}"), unit)
+/// A measure as people read it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MeasureWords {
+    /// What is proved; `none` where nothing finite is.
+    pub bound: String,
+    /// Sign and limit.
+    pub limit: String,
+    /// The unit of both.
+    pub unit: &'static str,
+}
+
+impl Measure {
+    /// The measure as people read it, in mm, degrees and per cent.
+    #[must_use]
+    pub fn words(&self) -> MeasureWords {
+        let (scale, unit) = scale(self.unit);
+        let sign = match self.sense {
+            Sense::AtMost => "≤",
+            Sense::AtLeast => "≥",
+            Sense::Above => ">",
+        };
+        let (limit, decimals) = (self.limit * scale, decimals(self.unit));
+        let exact = match self.unit {
+            Unit::Share => number(limit),
+            _ => format!("{limit:.decimals$}"),
+        };
+        let [bound, limit] = match self.bound {
+            Some(bound) if self.keeps(bound) => [kept(self, bound, decimals), exact],
+            Some(bound) => told_apart(bound * scale, limit, decimals),
+            None => ["none".to_owned(), exact],
+        };
+        MeasureWords {
+            bound,
+            limit: format!("{sign} {limit}"),
+            unit,
+        }
+    }
 }
 
 /// A reach beyond a rim, at most; one that is negative ends within it.

@@ -41,4 +41,4 @@ pub use resolve::{Resolver, judged};
 pub use row::{ROW_SCHEMA, Row};
 pub use run::{Progress, run};
 pub use study::{MOST_ROWS, RowAddress, Study};
-pub use summary::{Summary, summary};
+pub use summary::{AxisValue, Summary, summary};

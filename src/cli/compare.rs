@@ -1,0 +1,269 @@
+//! `platewash compare`: two plan files side by side: job, cycle time and proved margins.
+
+use super::failure::{ExitCode, Failure};
+use super::options::Options;
+use super::output;
+use super::plan_file::PlanFile;
+use super::progress::Progress;
+use clap::Args;
+use platewash::certificate::{Difference, Measure, MeasureWords, Requirement, differences, paper_headline, prove_with};
+use platewash::workcell::plan::Process;
+use platewash::workcell::segment::SegmentKind;
+use platewash::workcell::words::{counted, quoted};
+use platewash::{Certificate, Plan};
+use serde::Serialize;
+use std::collections::BTreeSet;
+use std::fmt::{self, Display};
+use std::path::{Path, PathBuf};
+
+/// Arguments of `compare`.
+#[derive(Debug, Args)]
+pub struct CompareArguments {
+    /// The first plan file
+    #[arg(value_name = "A")]
+    pub a: PathBuf,
+    /// The second one
+    #[arg(value_name = "B")]
+    pub b: PathBuf,
+}
+
+/// Two plans, side by side.
+#[derive(Debug, Serialize)]
+struct Comparison {
+    a: Side,
+    b: Side,
+    /// Fields of the job that differ.
+    job: Vec<Differing>,
+    times: Vec<Times>,
+    margins: Vec<Margins>,
+}
+
+/// A plan by itself.
+#[derive(Debug, Serialize)]
+struct Side {
+    plan: PathBuf,
+    scenario: String,
+    seed: u64,
+    headline: String,
+    proved: bool,
+    duration_s: f64,
+}
+
+/// A field of the job in which the plans differ, as JSON text.
+#[derive(Debug, Serialize)]
+struct Differing {
+    key: String,
+    a: String,
+    b: String,
+}
+
+/// A part of the cycle in both plans; `None` where a plan has none.
+#[derive(Debug, Serialize)]
+struct Times {
+    part: String,
+    a_s: Option<f64>,
+    b_s: Option<f64>,
+}
+
+/// A requirement about a number, as each plan keeps it.
+#[derive(Debug, Serialize)]
+struct Margins {
+    requirement: Requirement,
+    a: Option<Measure>,
+    b: Option<Measure>,
+}
+
+/// Compares two plan files, each for the arm that it is for.
+pub fn run(options: &Options, arguments: &CompareArguments) -> Result<ExitCode, Failure> {
+    let [a, b] = [&arguments.a, &arguments.b].map(|path| Proved::new(options, path));
+    let comparison = Comparison::of(&a?, &b?);
+    output::print_either(options.json, &comparison, || comparison.to_string())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A plan and its certificate; a run of the paper's program has none.
+struct Proved {
+    path: PathBuf,
+    plan: Plan,
+    certificate: Option<Certificate>,
+}
+
+impl Proved {
+    fn new(options: &Options, path: &Path) -> Result<Self, Failure> {
+        let file = PlanFile::read(options, path)?;
+        let certificate = match file.plan.process {
+            Process::Paper => None,
+            Process::Wash => {
+                let _progress = Progress::new(options.quiet, "proving");
+                let proved = prove_with(&file.plan, &file.arm, &options.cancel);
+                Some(proved.map_err(|error| file.failure(error.into()))?)
+            }
+        };
+        Ok(Self {
+            path: path.to_owned(),
+            plan: file.plan,
+            certificate,
+        })
+    }
+
+    fn side(&self) -> Side {
+        let certificate = self.certificate.as_ref();
+        Side {
+            plan: self.path.clone(),
+            scenario: self.plan.provenance.scenario.clone(),
+            seed: self.plan.job.seed,
+            headline: certificate.map_or_else(|| paper_headline(&self.plan), |proved| proved.headline.clone()),
+            proved: certificate.is_some_and(Certificate::passes),
+            duration_s: self.plan.duration_s(),
+        }
+    }
+
+    /// Time of the segments of some kinds, on one plate or all; `None` where there are none \[s\].
+    fn time_s(&self, kinds: &[SegmentKind], plate: Option<usize>) -> Option<f64> {
+        let of_part = self
+            .plan
+            .segments
+            .iter()
+            .filter(|segment| kinds.contains(&segment.kind) && plate.is_none_or(|plate| segment.plate == plate));
+        of_part
+            .map(|segment| segment.t_end_s - segment.t_start_s)
+            .reduce(|a, b| a + b)
+    }
+
+    fn measure(&self, requirement: Requirement) -> Option<Measure> {
+        self.certificate.as_ref()?.check(requirement)?.measure
+    }
+}
+
+impl Comparison {
+    fn of(a: &Proved, b: &Proved) -> Self {
+        use SegmentKind::{Approach, Depart, Retreat, Return, Transit, Wash};
+        let job = differences(&a.plan.job, &b.plan.job);
+        let job = job.into_iter().map(|Difference { key, found, expected }| Differing {
+            key,
+            a: found,
+            b: expected,
+        });
+        let times = |part: String, kinds: &[SegmentKind], plate| Times {
+            part,
+            a_s: a.time_s(kinds, plate),
+            b_s: b.time_s(kinds, plate),
+        };
+        let plates: BTreeSet<usize> = a.plan.order.iter().chain(&b.plan.order).copied().collect();
+        let of_plates = plates
+            .into_iter()
+            .map(|plate| times(format!("washing plate {plate}"), &[Wash], Some(plate)));
+        let whole = Times {
+            part: "whole cycle".to_owned(),
+            a_s: Some(a.plan.duration_s()),
+            b_s: Some(b.plan.duration_s()),
+        };
+        let parts = [
+            whole,
+            times("washing".to_owned(), &[Wash], None),
+            times("down to and up from plates".to_owned(), &[Approach, Retreat], None),
+            times(
+                "between plates, from and to home".to_owned(),
+                &[Depart, Transit, Return],
+                None,
+            ),
+        ];
+        let margins = Requirement::ALL.iter().filter_map(|&requirement| {
+            let margins = Margins {
+                requirement,
+                a: a.measure(requirement),
+                b: b.measure(requirement),
+            };
+            (margins.a.is_some() || margins.b.is_some()).then_some(margins)
+        });
+        Self {
+            job: job.collect(),
+            times: parts.into_iter().chain(of_plates).collect(),
+            margins: margins.collect(),
+            a: a.side(),
+            b: b.side(),
+        }
+    }
+}
+
+impl Display for Comparison {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (name, side) in [("A", &self.a), ("B", &self.b)] {
+            let scenario = quoted(&side.scenario);
+            writeln!(
+                f,
+                "{name}: {}: scenario {scenario}, seed {}",
+                side.plan.display(),
+                side.seed
+            )?;
+            writeln!(f, "   {}", side.headline)?;
+        }
+        match self.job.len() {
+            0 => writeln!(f, "\njob: no field differs")?,
+            1 => writeln!(f, "\njob: 1 field differs")?,
+            several => writeln!(f, "\njob: {} differ", counted(several, "field"))?,
+        }
+        for Differing { key, a, b } in &self.job {
+            writeln!(f, "  {key}: A {a}, B {b}")?;
+        }
+        writeln!(f, "\n{:<34}{:>12}{:>12}{:>18}", "time [s]", "A", "B", "B − A")?;
+        for times in self
+            .times
+            .iter()
+            .filter(|times| times.a_s.is_some() || times.b_s.is_some())
+        {
+            let told = [times.a_s, times.b_s].map(|s| s.map_or("none".to_owned(), |s| format!("{s:.2}")));
+            let change = times.a_s.zip(times.b_s).map_or_else(String::new, |(a, b)| change(a, b));
+            writeln!(f, "{:<34}{:>12}{:>12}{change:>18}", times.part, told[0], told[1])?;
+        }
+        let (same, other): (Vec<_>, Vec<_>) = self.margins.iter().partition(|margins| margins.reads_same());
+        if !other.is_empty() {
+            writeln!(f, "\n{:<34}{:>12}{:>12}  limit", "proved bound", "A", "B")?;
+        }
+        other.iter().try_for_each(|margins| margins.line(f))?;
+        if !same.is_empty() {
+            writeln!(f, "\nthe same in both: {}", counted(same.len(), "proved bound"))?;
+        }
+        Ok(())
+    }
+}
+
+impl Margins {
+    fn words(&self) -> [Option<MeasureWords>; 2] {
+        [self.a, self.b].map(|measure| measure.map(|measure| measure.words()))
+    }
+
+    fn reads_same(&self) -> bool {
+        let [a, b] = self.words();
+        a == b
+    }
+
+    fn line(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let told = self.words();
+        let bound = |side: usize| told[side].as_ref().map_or("none", |words| &words.bound);
+        let mut limits: Vec<String> = told
+            .iter()
+            .flatten()
+            .map(|words| format!("{} {}", words.limit, words.unit))
+            .collect();
+        limits.dedup();
+        let limit = limits.join(", in B ");
+        writeln!(
+            f,
+            "{:<34}{:>12}{:>12}  {limit}",
+            self.requirement.words(),
+            bound(0),
+            bound(1)
+        )
+    }
+}
+
+/// How much longer a time is \[s\].
+fn change(a: f64, b: f64) -> String {
+    let more = b - a;
+    if more.abs() < 0.005 {
+        return "the same".to_owned();
+    }
+    let sign = if more < 0.0 { '−' } else { '+' };
+    format!("{sign}{:.2} ({sign}{:.1} %)", more.abs(), 100.0 * more.abs() / a)
+}
