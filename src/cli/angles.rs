@@ -29,6 +29,13 @@ impl Unit {
             Self::Radians => angle,
         }
     }
+
+    fn symbol(self) -> &'static str {
+        match self {
+            Self::Degrees => "°",
+            Self::Radians => " rad",
+        }
+    }
 }
 
 /// Joint positions: six numbers, or a file of many.
@@ -61,12 +68,21 @@ impl JointArguments {
     }
 }
 
-/// Six finite joint positions.
+/// Largest joint position that is taken, either way, as of a scenario's `robot.start_deg` \[°\].
+const MOST_DEG: f64 = 36_000.0;
+
+/// Six joint positions.
 pub fn joints(values: &[f64], unit: Unit) -> anyhow::Result<JointVector> {
     let six = <[f64; AXES]>::try_from(values).map_err(|_| anyhow!("six numbers are needed; found {}", values.len()))?;
-    match six.iter().position(|v| !v.is_finite()) {
-        Some(joint) => Err(anyhow!("joint {} must be finite; found {}", joint + 1, six[joint])),
-        None => Ok(JointVector::from(six).map(|angle| unit.to_radians(angle))),
+    let positions = JointVector::from(six).map(|angle| unit.to_radians(angle));
+    match positions.iter().position(|rad| !(rad.abs() <= MOST_DEG.to_radians())) {
+        Some(joint) => Err(anyhow!(
+            "joint {} must be from -{MOST_DEG} to {MOST_DEG} degrees; found {}{}",
+            joint + 1,
+            six[joint],
+            unit.symbol()
+        )),
+        None => Ok(positions),
     }
 }
 

@@ -9,7 +9,7 @@ use clap::Args;
 use platewash::kinematics::LimitViolation;
 use platewash::kinematics::jacobian::manipulability;
 use platewash::kinematics::words::{fixed, not_as_zero};
-use platewash::{Axes, ClearanceModel, JointVector, PairClearance, Pose, RobotModel, ToolFrame};
+use platewash::{Axes, ClearanceModel, JointVector, PairClearance, Pose, RobotModel, Scenario, ToolFrame};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -78,14 +78,7 @@ pub fn run(options: &Options, arguments: &FkArguments) -> Result<ExitCode, Failu
     let configurations = arguments.joints.configurations(arguments.file.as_ref())?;
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
-    let clearance = if options.scenario.is_some() {
-        let layout = scenario.layout(&robot).map_err(platewash::Failure::from)?;
-        let workcell = scenario.workcell(&robot, layout.plates.len())?;
-        ClearanceModel::new(&robot, &workcell, &layout.plates)
-    } else {
-        robot::clearance(&robot, robot::bare(&robot), &[])
-    };
-    let clearance = clearance.map_err(platewash::Failure::from)?;
+    let clearance = clearances(options, &scenario, &robot)?;
     let mut answers = configurations.iter().map(|q| configuration(&robot, &clearance, q));
     if options.json {
         let answer = Answer {
@@ -102,6 +95,31 @@ pub fn run(options: &Options, arguments: &FkArguments) -> Result<ExitCode, Failu
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The pairs that are looked at: those of the arm by itself, and where `--scenario` states a cell those of its tool, plates and obstacles, too.
+pub fn clearances(options: &Options, scenario: &Scenario, robot: &RobotModel) -> Result<ClearanceModel, Failure> {
+    let clearance = if options.scenario.is_some() {
+        let layout = scenario.layout(robot).map_err(platewash::Failure::from)?;
+        let workcell = scenario.workcell(robot, layout.plates.len())?;
+        ClearanceModel::new(robot, &workcell, &layout.plates)
+    } else {
+        robot::clearance(robot, robot::bare(robot), &[])
+    };
+    Ok(clearance.map_err(platewash::Failure::from)?)
+}
+
+/// The pair that comes nearest, a line; nothing where no pair is looked at.
+pub fn smallest(clearance: &[PairClearance]) -> String {
+    let least = clearance.iter().min_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
+    least.map_or_else(String::new, |least| {
+        format!(
+            "smallest clearance: {:.2} mm, {} – {}\n",
+            1e3 * least.distance_m,
+            least.a,
+            least.b
+        )
+    })
 }
 
 fn configuration(robot: &RobotModel, clearance: &ClearanceModel, q: &JointVector) -> Configuration {
@@ -151,14 +169,8 @@ fn text(c: &Configuration) -> String {
             "{name:<14} {x:>9} {y:>9} {z:>9} {r:>10} {p:>9} {w:>9} {a:>9} {b:>8} {d:>8}"
         );
     }
-    if let Some(least) = c.clearance.iter().min_by(|a, b| a.distance_m.total_cmp(&b.distance_m)) {
-        let _ = writeln!(
-            text,
-            "\nsmallest clearance: {:.2} mm, {} – {}\n",
-            1e3 * least.distance_m,
-            least.a,
-            least.b
-        );
+    if !c.clearance.is_empty() {
+        let _ = writeln!(text, "\n{}", smallest(&c.clearance));
     }
     text
 }

@@ -3,7 +3,7 @@
 use super::angles::{Unit, joints};
 use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
-use super::fk::{FramePose, both_units};
+use super::fk::{FramePose, both_units, clearances, smallest};
 use super::options::Options;
 use super::output;
 use anyhow::{Context, anyhow};
@@ -11,7 +11,9 @@ use clap::Args;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 use platewash::kinematics::ik::{AnalyticStarts, RandomRestarts};
 use platewash::kinematics::rotation::from_rpy;
-use platewash::{Frame, IkError, IkSettings, IkSolver, JointVector, Pose, RobotModel, Scenario, ToolFrame};
+use platewash::{
+    Frame, IkError, IkSettings, IkSolver, JointVector, PairClearance, Pose, RobotModel, Scenario, ToolFrame,
+};
 use serde::Serialize;
 
 /// Most random restarts: seconds of work.
@@ -76,6 +78,8 @@ struct Answer {
     method: Option<platewash::kinematics::ik::Method>,
     /// Where the answer was found from, when solved.
     start: Option<platewash::kinematics::ik::Start>,
+    /// Every pair at that configuration, as `fk` has them.
+    clearance: Vec<PairClearance>,
     /// Why not, when not solved.
     cause: Option<platewash::kinematics::ik::IkCause>,
 }
@@ -111,7 +115,8 @@ pub fn run(options: &Options, arguments: &IkArguments) -> Result<ExitCode, Failu
         ..IkSettings::default()
     };
     let solver = IkSolver::new(&arm, frame, settings).map_err(Failure::input)?;
-    let answer = answer(&solver, &target, &seed, name)?;
+    let mut answer = answer(&solver, &target, &seed, name)?;
+    answer.clearance = clearances(options, &scenario, &arm)?.all(&answer.q_rad);
     output::print_either(options.json, &answer, || text(&answer, &arm))?;
     let outcome = if answer.solved {
         Outcome::Good
@@ -134,6 +139,7 @@ fn answer(solver: &IkSolver<'_>, target: &Pose, seed: &JointVector, name: &str) 
         orientation_error_deg: 0.0,
         method: None,
         start: None,
+        clearance: Vec::new(),
         cause: None,
     };
     match solver.solve(target, seed) {
@@ -168,8 +174,9 @@ fn text(answer: &Answer, arm: &RobotModel) -> String {
         _ => String::new(),
     };
     format!(
-        "{head}\n{}error {:.3e} m, {:.3e} rad ({:.3e}°); {} iterations{how}\n",
+        "{head}\n{}{}error {:.3e} m, {:.3e} rad ({:.3e}°); {} iterations{how}\n",
         both_units(&answer.q_rad),
+        smallest(&answer.clearance),
         answer.position_error_m,
         answer.orientation_error_rad,
         answer.orientation_error_deg,
@@ -210,10 +217,13 @@ fn target(arguments: &IkArguments) -> anyhow::Result<Pose> {
     Ok(Pose::from_parts(nalgebra::Vector3::from(position).into(), rotation))
 }
 
+/// Largest number of a pose that is taken, either way \[m, rad, °\].
+const MOST: f64 = 36_000.0;
+
 fn finite<const N: usize>(values: &[f64]) -> anyhow::Result<[f64; N]> {
     let array = <[f64; N]>::try_from(values).map_err(|_| anyhow!("{N} numbers are needed; found {}", values.len()))?;
-    match array.iter().find(|v| !v.is_finite()) {
-        Some(found) => Err(anyhow!("numbers must be finite; found {found}")),
+    match array.iter().find(|v| !(v.abs() <= MOST)) {
+        Some(found) => Err(anyhow!("numbers must be from -{MOST} to {MOST}; found {found}")),
         None => Ok(array),
     }
 }

@@ -49,6 +49,7 @@ mod suggest;
 mod sweep;
 mod text;
 mod time_step;
+mod tips;
 mod tune;
 mod validate;
 mod verify;
@@ -202,7 +203,7 @@ fn answer(arguments: impl IntoIterator<Item = OsString>, token: impl FnOnce() ->
             Ok((arguments, taken)) => taken.and_then(|()| dispatch(arguments, token)),
             Err(e) => {
                 let code = u8::try_from(e.exit_code()).unwrap_or(failure::INPUT);
-                match e.print() {
+                match tips::with_tip(e).print() {
                     // A closed pipe is no reason to fail; help that cannot be written is.
                     Err(cannot) if code == 0 && cannot.kind() != ErrorKind::BrokenPipe => Err(Failure::input(cannot)),
                     _ => Ok(ExitCode::from(code)),

@@ -63,6 +63,13 @@ impl<'a> PlanFile<'a> {
 
 /// The plan of a file.
 pub fn read(path: &Path) -> Result<Plan, Failure> {
+    if path.extension().is_some_and(|extension| extension == "toml") {
+        let found = format_args!(
+            "is no plan file; of a scenario 'platewash plan --scenario {}' makes one",
+            path.display()
+        );
+        return Err(refused(path, found));
+    }
     let text = file::read_text(path, MAX_BYTES).map_err(|e| refused(path, format_args!("cannot be read: {e}")))?;
     Plan::from_json(&text).map_err(|e| refused(path, e))
 }

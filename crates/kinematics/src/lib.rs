@@ -60,6 +60,7 @@ pub mod jacobian;
 pub mod limits;
 pub mod model;
 pub mod rotation;
+pub mod serde_words;
 pub mod srdf;
 pub mod tool_frame;
 pub mod trig;

@@ -5,6 +5,7 @@ use crate::part::PaperPart;
 use crate::settings::PaperSettings;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::job::{JobTerms, Limits, Overlap, Planner, Requirements, WashJob};
+use platewash_workcell::json::JsonError;
 use platewash_workcell::layout::Layout;
 use platewash_workcell::plan::{Plan, PlanFileError};
 use platewash_workcell::simulation::{ControlLawName, ControlSettings, PlantSettings, SimulationSettings};
@@ -86,7 +87,7 @@ impl PaperJob {
     /// # Errors
     /// [`PaperError::Terms`] for another program's plan, or settings that are none of this one's.
     pub fn of_plan(plan: &Plan, arm: Arc<RobotModel>) -> Result<Self, PaperError> {
-        let unreadable = |detail: String| PlanFileError::Unreadable { detail };
+        let unreadable = |reason: String| PlanFileError::Unreadable(JsonError { reason });
         let terms = &plan.job;
         let Planner::Paper(stated) = &terms.planner else {
             return Err(unreadable("the plan is none of the paper's program".to_owned()).into());

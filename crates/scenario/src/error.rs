@@ -12,8 +12,8 @@ pub enum Problem {
     #[error("cannot be read: {detail}")]
     Unreadable { detail: String },
     /// Neither a file nor a shipped name.
-    #[error("is neither a file nor a shipped scenario; shipped: {shipped}")]
-    NotFound { shipped: String },
+    #[error("is neither a file nor a shipped scenario{}; shipped: {shipped}", guess(.nearest.as_deref()))]
+    NotFound { nearest: Option<String>, shipped: String },
     /// Larger than any sensible scenario.
     #[error("is longer than {limit} bytes, the most that are read")]
     TooLarge { limit: u64 },
@@ -21,8 +21,8 @@ pub enum Problem {
     #[error("is not valid TOML: {}", printable(.detail))]
     Syntax { detail: String },
     /// A key that does not exist.
-    #[error("unknown key '{key}'{}", hint(.nearest.as_deref()))]
-    UnknownKey { key: String, nearest: Option<String> },
+    #[error("unknown key '{key}'; {hint}")]
+    UnknownKey { key: String, hint: String },
     /// A value out of its range or of the wrong type.
     #[error("{key} must be {expected}; found {found}")]
     Value {
@@ -58,8 +58,11 @@ impl ScenarioError {
 
     /// What is said of a text that is no TOML.
     pub(crate) fn syntax(source_name: &str, text: &str, error: &toml::de::Error) -> Self {
-        let line = error.span().map(|span| line_at(text, span.start));
-        let detail = error.message().to_owned();
+        let span = error.span();
+        let line = span.as_ref().map(|span| line_at(text, span.start));
+        let at_fault = span.and_then(|span| text.get(span)).unwrap_or_default();
+        let written = line.and_then(|line| text.lines().nth(line - 1)).unwrap_or_default();
+        let detail = syntax_words(error.message(), at_fault, written.trim());
         Self::new(source_name, line, Problem::Syntax { detail })
     }
 
@@ -99,6 +102,39 @@ fn line_text(line: Option<usize>) -> String {
     line.map_or_else(String::new, |line| format!(", line {line}"))
 }
 
-fn hint(nearest: Option<&str>) -> String {
-    nearest.map_or_else(String::new, |key| format!("; did you mean '{key}'?"))
+/// Longest line of a text that a message repeats, in characters.
+const LONGEST: usize = 60;
+
+/// What is wrong with a line that is no TOML, and the line.
+fn syntax_words(message: &str, at_fault: &str, written: &str) -> String {
+    let digits = |text: Option<&str>, last: bool| {
+        let c = text.and_then(|text| if last { text.chars().last() } else { text.chars().next() });
+        c.is_some_and(|c| c.is_ascii_digit())
+    };
+    let value = written.split_once('=').map(|(_, value)| value.trim());
+    let has_decimal_comma = value.is_some_and(|value| {
+        let mut parts = value.split(',');
+        !value.contains(['[', '"']) && digits(parts.next(), true) && digits(parts.next(), false)
+    });
+    let what = if message == "duplicate key" {
+        format!("'{}' is stated twice", at_fault.trim())
+    } else if value == Some("") {
+        "a value is missing".to_owned()
+    } else if has_decimal_comma {
+        "a number has a decimal point, not a comma".to_owned()
+    } else if written.starts_with('{') {
+        "it begins as JSON; plan files are for verify, simulate, view and export".to_owned()
+    } else {
+        message.to_owned()
+    };
+    if written.is_empty() {
+        return what;
+    }
+    let shown: String = written.chars().take(LONGEST).collect();
+    let more = if shown.len() < written.len() { "…" } else { "" };
+    format!("{what}, in: {shown}{more}")
+}
+
+fn guess(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |name| format!(" (did you mean '{name}'?)"))
 }

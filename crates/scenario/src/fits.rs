@@ -2,6 +2,7 @@
 
 use crate::error::Problem;
 use crate::key::{Domain, Key};
+use crate::nearest::nearest;
 use platewash_kinematics::words::{is_hidden, rounded};
 use platewash_workcell::surface::MOST_KNOTS;
 use serde_json::Value;
@@ -20,7 +21,7 @@ pub(crate) fn check(key: &Key, value: &Value, found: impl FnOnce() -> String) ->
     Err(Problem::Value {
         key: key.path.to_owned(),
         expected: key.domain.describe(),
-        found: found() + &in_millimetres(key, value),
+        found: found() + &meant(key, value),
     })
 }
 
@@ -56,18 +57,35 @@ fn fits(domain: Domain, value: &Value) -> bool {
     }
 }
 
-/// What is said of a length that fits where it was meant in millimetres.
-fn in_millimetres(key: &Key, value: &Value) -> String {
-    let meant = value.as_f64().map(|v| rounded(1e-3 * v, METRE_DIGITS));
-    let fits = |metres: f64| match key.domain {
-        Domain::Number(least, most) => (least..=most).contains(&metres),
-        Domain::NumberAbove(above, most) => metres > above && metres <= most,
-        _ => false,
-    };
-    match meant {
-        Some(metres) if key.unit == "m" && fits(metres) => {
-            format!(" (metres are expected; {metres} if millimetres were meant)")
+/// What is said of a value that fits where it was meant in millimetres or per cent, and of a word that is nearly one of those expected.
+fn meant(key: &Key, value: &Value) -> String {
+    if let (Domain::Word(words), Some(word)) = (key.domain, value.as_str()) {
+        let nearest = nearest(&word.to_lowercase(), words.iter().copied()).filter(|_| words.len() > 1);
+        return nearest.map_or_else(String::new, |word| format!("; did you mean \"{word}\"?"));
+    }
+    let (factor, expected, other) = match (key.unit, key.domain) {
+        ("m", _) => (1e-3, "metres are expected", "millimetres were meant"),
+        ("m/s", _) => (
+            1e-3,
+            "metres per second are expected",
+            "millimetres per second were meant",
+        ),
+        ("", Domain::Number(0.0, 1.0) | Domain::NumberAbove(0.0, 1.0)) => {
+            (1e-2, "a share of 1 is expected", "per cent were meant")
         }
+        _ => return String::new(),
+    };
+    let scaled = |v: &Value| Some(rounded(factor * v.as_f64()?, METRE_DIGITS));
+    let all = match value.as_array() {
+        Some(all) => all
+            .iter()
+            .map(scaled)
+            .collect::<Option<Vec<_>>>()
+            .map(|all| Value::from(all)),
+        None => scaled(value).map(Value::from),
+    };
+    match all {
+        Some(all) if fits(key.domain, &all) => format!(" ({expected}; {all} if {other})"),
         _ => String::new(),
     }
 }

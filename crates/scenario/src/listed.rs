@@ -3,7 +3,7 @@
 use crate::error::Problem;
 use crate::fits::check;
 use crate::lists::{List, own_name};
-use crate::nearest::nearest;
+use crate::nearest::hint;
 use crate::value::{describe, json_of};
 use platewash_workcell::words::printable;
 use toml::de::{DeTable, DeValue};
@@ -61,10 +61,13 @@ fn check_section(list: &List, index: usize, table: &DeTable<'_>) -> Result<(), M
 
 /// What is said of a key that does not exist in a section of a list, counted from 0.
 fn unknown(list: &List, index: usize, name: &str) -> Problem {
-    let nearest = nearest(name, list.keys.iter().map(own_name));
     let of_list = |name: &str| format!("{}[{index}].{name}", list.name);
+    let known: Vec<_> = list.keys.iter().map(own_name).collect();
+    let paths: Vec<_> = known.iter().map(|name| of_list(name)).collect();
     Problem::UnknownKey {
         key: of_list(&printable(name)),
-        nearest: nearest.map(of_list),
+        hint: hint(&of_list(name), paths.iter().map(String::as_str), || {
+            format!("keys of [[{}]]: {}", list.name, known.join(", "))
+        }),
     }
 }

@@ -4,10 +4,24 @@
 const LEAST_LIKENESS: f64 = 0.6;
 
 /// Of the words known the one most like another, where it is like it.
-pub(crate) fn nearest(word: &str, known: impl Iterator<Item = &'static str>) -> Option<&'static str> {
+pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let ranked = known.map(|other| (strsim::normalized_damerau_levenshtein(other, word), other));
     let nearest = ranked.max_by(|a, b| a.0.total_cmp(&b.0));
     nearest
         .filter(|(likeness, _)| *likeness > LEAST_LIKENESS)
         .map(|(_, other)| other)
+}
+
+/// What is said of a key that does not exist, of those `known` beside it: of a diameter the radius, of others the one most like it, or else
+/// what `otherwise` says.
+pub(crate) fn hint<'a>(
+    key: &str,
+    known: impl Iterator<Item = &'a str> + Clone,
+    otherwise: impl FnOnce() -> String,
+) -> String {
+    let of_radius = key.replace("diameter", "radius");
+    if of_radius != key && known.clone().any(|other| other == of_radius) {
+        return format!("half of it, the radius, is stated: '{of_radius}'");
+    }
+    nearest(key, known).map_or_else(otherwise, |other| format!("did you mean '{other}'?"))
 }

@@ -1,6 +1,7 @@
 //! The text of a scenario: of a file, or of one that comes with the program.
 
 use crate::error::{Problem, ScenarioError};
+use crate::nearest::nearest;
 use crate::shipped::SHIPPED;
 use platewash_kinematics::urdf::file::{self, FileError};
 use std::path::{Path, PathBuf};
@@ -38,8 +39,10 @@ pub fn source(name_or_file: &str) -> Result<ScenarioSource, ScenarioError> {
     let path = Path::new(name_or_file);
     if !path.exists() {
         let shipped: Vec<_> = SHIPPED.iter().map(|s| s.name).collect();
+        let name = name_or_file.strip_suffix(".toml").unwrap_or(name_or_file);
+        let nearest = nearest(name, shipped.iter().copied()).map(str::to_owned);
         let shipped = shipped.join(", ");
-        return Err(fail(Problem::NotFound { shipped }));
+        return Err(fail(Problem::NotFound { nearest, shipped }));
     }
     let text = file::read_text(path, MAX_BYTES).map_err(|e| fail(unread(e)))?;
     Ok(ScenarioSource {

@@ -7,6 +7,7 @@ use crate::manifest::{FORMAT, Manifest};
 use crate::row::{ROW_SCHEMA, Row};
 use crate::study::MOST_ROWS;
 use platewash_kinematics::fingerprint::Sha256;
+use platewash_workcell::json;
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -32,7 +33,7 @@ pub fn read_manifest(folder: &Path) -> Result<Manifest, StudyError> {
         file: file.clone(),
         problem,
     };
-    let manifest: Manifest = serde_json::from_str(&text).map_err(|error| wrong(format!("is no manifest: {error}")))?;
+    let manifest: Manifest = json::read(&text).map_err(|error| wrong(format!("is no manifest: {error}")))?;
     if manifest.format != FORMAT {
         return Err(wrong(format!("format must be {FORMAT}; found {:?}", manifest.format)));
     }

@@ -2,6 +2,7 @@
 
 use crate::error::StudyError;
 use crate::keep::Keep;
+use platewash_kinematics::serde_words::message_in_words;
 use serde::Deserialize;
 use std::ops::Range;
 use toml::Spanned;
@@ -91,10 +92,8 @@ impl Source<'_> {
     pub fn statement(&self) -> Result<Statement, StudyError> {
         toml::from_str(self.text).map_err(|error| {
             let key = error.span().and_then(|span| self.key_at(span.start));
-            match key.filter(|key| !error.message().contains(key)) {
-                Some(key) => self.wrong(error.span(), &format!("{key}: {}", error.message())),
-                None => self.wrong(error.span(), error.message()),
-            }
+            let key = key.filter(|key| !error.message().contains(key)).unwrap_or_default();
+            self.wrong(error.span(), &message_in_words(key, error.message()))
         })
     }
 

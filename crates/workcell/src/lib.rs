@@ -29,6 +29,7 @@ pub mod deadline;
 pub mod dry_run;
 pub mod fixtures;
 pub mod job;
+pub mod json;
 pub mod layout;
 mod mounted;
 pub mod obstacle;

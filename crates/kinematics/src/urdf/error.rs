@@ -22,7 +22,7 @@ pub enum UrdfError {
     #[error("URDF is not well-formed XML at line {line}: {detail}")]
     Xml { line: usize, detail: String },
     /// The file ends in the middle.
-    #[error("URDF ends inside <{element}> (line {line}): the file is cut off")]
+    #[error("URDF ends inside <{element}> (line {line}): the file is cut off, or a quotation mark is missing")]
     Truncated { element: String, line: usize },
     /// The root element is not `<robot>`.
     #[error("URDF must have a <robot> root element; found {found}")]

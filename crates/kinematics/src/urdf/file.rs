@@ -19,7 +19,7 @@ pub enum FileError {
         code: Option<i32>,
     },
     /// A folder, pipe, socket or device.
-    #[error("not a regular file")]
+    #[error("not a regular file, but a folder, pipe, socket or device")]
     NotRegular,
     /// Longer than anything sensible.
     #[error("longer than {limit} bytes, the most that are read")]

@@ -36,6 +36,7 @@ use crate::frame::Frame;
 use crate::geometry::{Inertial, Shape};
 use crate::model::{Joint, Link, RobotModel};
 use crate::rotation::Rigid;
+use crate::serde_words::message_in_words;
 use nalgebra::{Matrix3, Vector3};
 use numbers::{finite, pose, rigid};
 use tree::Tree;
@@ -121,9 +122,16 @@ fn sizes(robot: &urdf_rs::Robot) -> Result<(), UrdfError> {
 }
 
 fn syntax(text: &str, error: &urdf_rs::UrdfError) -> UrdfError {
+    let message = error.to_string();
+    let message = message.trim_start_matches("custom: ");
+    // The line is told once, by the place.
+    let message = message.rsplit_once("Reason: ").map_or(message, |(_, reason)| reason);
     UrdfError::Syntax {
         at: culprit::find(text).unwrap_or_else(|| "an unknown place".to_owned()),
-        detail: error.to_string().trim_start_matches("custom: ").to_owned(),
+        detail: match message {
+            "invalid float literal" => "a value is not a number".to_owned(),
+            other => message_in_words("", other),
+        },
     }
 }
 

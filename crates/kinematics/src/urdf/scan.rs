@@ -95,7 +95,7 @@ impl<'a> Scan<'a> {
             });
         }
         for attribute in tag.attributes() {
-            let attribute = attribute.map_err(|e| self.xml(&e))?;
+            let attribute = attribute.map_err(|e| self.xml(&without_position(&e.to_string())))?;
             if WITH_VECTORS.contains(&name.as_str()) && VECTORS.contains(&attribute.key.as_ref()) {
                 self.numbers(&name, &attribute)?;
             }
@@ -172,6 +172,14 @@ impl<'a> Scan<'a> {
             detail: detail.to_string(),
         }
     }
+}
+
+/// A message about attributes without its count of bytes: the line is told.
+fn without_position(message: &str) -> &str {
+    message
+        .split_once(": ")
+        .filter(|(at, _)| at.starts_with("position "))
+        .map_or(message, |(_, what)| what)
 }
 
 fn blank(text: &str) -> bool {

@@ -5,6 +5,7 @@
 
 use super::error::PlanFileError;
 use crate::job::MAX_SEED;
+use crate::json::JsonError;
 use serde::Serialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Number, Value};
@@ -25,7 +26,7 @@ pub(super) fn check(text: &str, written: &str, plan: &impl Serialize) -> Result<
     if written == text.trim_end() {
         return Ok(());
     }
-    let unreadable = |e: serde_json::Error| PlanFileError::Unreadable { detail: e.to_string() };
+    let unreadable = |e: serde_json::Error| JsonError { reason: e.to_string() };
     let mut parser = serde_json::Deserializer::from_str(text);
     let said = Strict.deserialize(&mut parser).map_err(unreadable)?;
     let read = serde_json::to_value(plan).map_err(unreadable)?;

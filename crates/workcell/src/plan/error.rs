@@ -1,6 +1,7 @@
 //! Why a plan file could not be written or read.
 
 use super::format::{BEFORE, FORMAT, Process};
+use crate::json::JsonError;
 use crate::words::{printable, quoted};
 
 /// Why a plan file could not be written or read.
@@ -14,11 +15,8 @@ pub enum PlanFileError {
         detail: String,
     },
     /// Not a plan file.
-    #[error("not a plan file: {}", printable(.detail))]
-    Unreadable {
-        /// The parser's words, with line and column.
-        detail: String,
-    },
+    #[error("not a plan file: {0}")]
+    Unreadable(#[from] JsonError),
     /// A key that no plan has.
     #[error("unknown key '{key}': a plan states what this program knows and nothing else")]
     UnknownKey {

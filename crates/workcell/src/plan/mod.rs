@@ -9,6 +9,7 @@ pub use error::PlanFileError;
 pub use format::{FORMAT, Process};
 
 use crate::job::JobTerms;
+use crate::json;
 use crate::segment::PlanSegment;
 use crate::trajectory::{KnotError, Trajectory};
 use crate::wash_path::WashPath;
@@ -217,11 +218,9 @@ impl Plan {
     /// # Errors
     /// [`PlanFileError`] for anything but a plan of this format.
     pub fn from_json(text: &str) -> Result<Self, PlanFileError> {
+        let text = json::without_mark(text);
         sizes::check(text)?;
-        let plan: Self = match serde_json::from_str(text) {
-            Ok(plan) => plan,
-            Err(error) => return Err(other_format(text).unwrap_or_else(|| unreadable(&error))),
-        };
+        let plan: Self = json::read(text).map_err(|error| other_format(text).unwrap_or_else(|| error.into()))?;
         if plan.format != FORMAT {
             return Err(refused(plan.format));
         }
@@ -285,10 +284,6 @@ fn refused(format: String) -> PlanFileError {
         return PlanFileError::Before;
     }
     PlanFileError::Format { found: format }
-}
-
-fn unreadable(e: &serde_json::Error) -> PlanFileError {
-    PlanFileError::Unreadable { detail: e.to_string() }
 }
 
 fn unwritable(e: serde_json::Error) -> PlanFileError {

@@ -1,0 +1,123 @@
+//! JSON out of files: read with the place of what is wrong, in words for people who do not know this program's types.
+
+use crate::words::printable;
+use platewash_kinematics::serde_words::message_in_words;
+use serde::de::DeserializeOwned;
+use serde_json::error::Category;
+
+/// Why a text is not the JSON that is expected.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}", printable(.reason))]
+pub struct JsonError {
+    /// What is wrong, and at which key or line.
+    pub reason: String,
+}
+
+/// A text without the byte order mark that some editors put before it.
+#[must_use]
+pub fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
+}
+
+/// What a text says.
+///
+/// # Errors
+/// [`JsonError`]
+pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
+    let text = without_mark(text);
+    serde_json::from_str(text).map_err(|_| {
+        // Read again, more slowly, for the place.
+        let mut parser = serde_json::Deserializer::from_str(text);
+        let reason = match serde_path_to_error::deserialize::<_, T>(&mut parser) {
+            Err(error) => words(&error.path().to_string(), error.inner()),
+            Ok(_) => "more follows behind its end".to_owned(),
+        };
+        JsonError { reason }
+    })
+}
+
+/// What is wrong, and where.
+fn words(path: &str, error: &serde_json::Error) -> String {
+    let at = format!("line {}, column {}", error.line(), error.column());
+    let whole = error.to_string();
+    let message = whole.split_once(" at line ").map_or(&*whole, |(message, _)| message);
+    let path = if path == "." { "" } else { path };
+    match error.classify() {
+        Category::Eof => format!("it ends in the middle, at {at}: the file is empty or was cut off"),
+        Category::Syntax | Category::Io => format!("it is no JSON: {message} at {at}"),
+        Category::Data => message_in_words(path, message),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde::Deserialize;
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code)]
+    struct Whole {
+        seed: u64,
+        part: Part,
+        list: Vec<[f64; 2]>,
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code)]
+    struct Part {
+        on: bool,
+        name: String,
+    }
+
+    const GOOD: &str = r#"{"seed": 1, "part": {"on": true, "name": "a"}, "list": [[0.5, 1]]}"#;
+
+    #[test]
+    fn a_byte_order_mark_is_passed_over() {
+        assert_eq!(read::<Whole>(&format!("\u{feff}{GOOD}")).unwrap().seed, 1);
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_by_its_key_in_words() {
+        for (from, to, told) in [
+            ("1,", "\"one\",", "'seed' must be a whole number; found \"one\""),
+            ("1,", "-1,", "'seed' must be a whole number; found -1"),
+            ("1,", "1.5,", "'seed' must be a whole number; found 1.5"),
+            ("true", "1", "'part.on' must be true or false; found 1"),
+            ("\"a\"", "null", "'part.name' must be a text; found null"),
+            ("0.5", "\"x\"", "'list[0][0]' must be a number; found \"x\""),
+            ("[0.5, 1]", "[0.5]", "'list[0]' must be a list of length 2; found 1"),
+            ("[[0.5, 1]]", "3", "'list' must be a list […]; found 3"),
+            (
+                "{\"on\": true, \"name\": \"a\"}",
+                "true",
+                "'part' must be a table {…}; found true",
+            ),
+            ("\"on\": true, ", "", "'part.on' is missing"),
+            ("\"on\"", "\"off\"", "unknown key 'part.off': expected 'on' or 'name'"),
+            (
+                "\"on\": true",
+                "\"on\": true, \"on\": true",
+                "'part.on' is stated twice",
+            ),
+            (
+                "]}",
+                "",
+                "it ends in the middle, at line 1, column 64: the file is empty or was cut off",
+            ),
+            ("]}", "]} 1", "more follows behind its end"),
+            ("{\"seed\"", "seed", "it is no JSON: expected value at line 1, column 1"),
+            (
+                GOOD,
+                "",
+                "it ends in the middle, at line 1, column 0: the file is empty or was cut off",
+            ),
+            (GOOD, "7", "the whole must be a table {…}; found 7"),
+        ] {
+            let text = GOOD.replacen(from, to, 1);
+            assert_ne!(text, GOOD);
+            assert_eq!(read::<Whole>(&text).unwrap_err().to_string(), told);
+        }
+    }
+}
