@@ -75,9 +75,12 @@ const MOST_DEG: f64 = 36_000.0;
 pub fn joints(values: &[f64], unit: Unit) -> anyhow::Result<JointVector> {
     let six = <[f64; AXES]>::try_from(values).map_err(|_| anyhow!("six numbers are needed; found {}", values.len()))?;
     let positions = JointVector::from(six).map(|angle| unit.to_radians(angle));
-    match positions.iter().position(|rad| !(rad.abs() <= MOST_DEG.to_radians())) {
+    match positions
+        .iter()
+        .position(|rad| !(0.0..=MOST_DEG.to_radians()).contains(&rad.abs()))
+    {
         Some(joint) => Err(anyhow!(
-            "joint {} must be from -{MOST_DEG} to {MOST_DEG} degrees; found {}{}",
+            "joint {} must be from -{MOST_DEG} to {MOST_DEG} degrees; found {:?}{}",
             joint + 1,
             six[joint],
             unit.symbol()

@@ -222,8 +222,8 @@ const MOST: f64 = 36_000.0;
 
 fn finite<const N: usize>(values: &[f64]) -> anyhow::Result<[f64; N]> {
     let array = <[f64; N]>::try_from(values).map_err(|_| anyhow!("{N} numbers are needed; found {}", values.len()))?;
-    match array.iter().find(|v| !(v.abs() <= MOST)) {
-        Some(found) => Err(anyhow!("numbers must be from -{MOST} to {MOST}; found {found}")),
+    match array.iter().find(|v| !(0.0..=MOST).contains(&v.abs())) {
+        Some(found) => Err(anyhow!("numbers must be from -{MOST} to {MOST}; found {found:?}")),
         None => Ok(array),
     }
 }

@@ -14,7 +14,7 @@ use platewash::{CancelToken, Certificate, RobotModel, Scenario};
 use serde::Serialize;
 use std::fmt;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// What is being done.
 const LOOKING: &str = "looking for what would mend it";
@@ -77,11 +77,13 @@ fn in_full(
         cancel: &options.cancel,
     };
     let arm = scenario.arm()?;
+    let start = Instant::now();
     let (why, others) = match error {
         PlanError::Unwashable(first) => {
             let job = scenario.job_on(&arm, &scenario.place(&arm, &watch)?)?;
             let is_over = CancelToken::new();
-            let _deadline = Deadline::following(search_time, &is_over, watch.cancel);
+            // The other half is left for what would mend it.
+            let _deadline = Deadline::following(search_time / 2, &is_over, watch.cancel);
             let others = Watch {
                 cancel: &is_over,
                 ..watch
@@ -96,7 +98,8 @@ fn in_full(
         }
         _ => (why, ""),
     };
-    let remedies = scenario.remedies(&arm, error, &watch, search_time)?;
+    let left = search_time.saturating_sub(start.elapsed());
+    let remedies = scenario.remedies(&arm, error, &watch, left)?;
     let reason = format!("{}{others}{remedies}", why.reason);
     let why = why.explained(reason);
     Ok(Told { why, remedies })

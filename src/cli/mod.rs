@@ -194,7 +194,7 @@ pub fn program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 
 /// Does what the arguments ask; `token` makes what tells long work to give up.
 fn answer(arguments: impl IntoIterator<Item = OsString>, token: impl FnOnce() -> CancelToken + UnwindSafe) -> u8 {
-    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let arguments: Vec<OsString> = arguments.into_iter().map(without_exponent).collect();
     let outcome = std::panic::catch_unwind(|| {
         let matches = refused::hide(Arguments::command()).try_get_matches_from(arguments);
         let parsed =
@@ -220,6 +220,20 @@ fn answer(arguments: impl IntoIterator<Item = OsString>, token: impl FnOnce() ->
         Err(_) => ExitCode::from(failure::INTERNAL),
     };
     code
+}
+
+/// A negative number without its exponent, as clap takes `-1e-9` for an option; every other argument as it is.
+fn without_exponent(argument: OsString) -> OsString {
+    let text = argument
+        .to_str()
+        .filter(|text| text.starts_with('-') && text.contains(['e', 'E']));
+    match text
+        .and_then(|text| text.parse::<f64>().ok())
+        .filter(|number| number.is_finite())
+    {
+        Some(number) => number.to_string().into(),
+        None => argument,
+    }
 }
 
 fn dispatch(arguments: Arguments, token: impl FnOnce() -> CancelToken) -> Result<ExitCode, Failure> {

@@ -61,7 +61,7 @@ fn a_cell_is_served_saved_and_ended_by_ctrl_c() {
         (&block["file"], &block["saved"]),
         (&Value::from("kitchen.toml"), &Value::Null)
     );
-    let save = serde_json::json!({"session": "a", "text": text, "disk": null, "force": false});
+    let save = serde_json::json!({"session": "sessionofthistest", "text": text, "disk": null, "force": false});
     assert!(post(url, "/save", "wrong", &save).starts_with("HTTP/1.1 403"));
     assert!(names(dir).is_empty());
     let saved = post(url, "/save", token, &save);
@@ -109,7 +109,7 @@ fn a_cell_is_served_saved_and_ended_by_ctrl_c() {
     );
     std::fs::remove_file(&file).unwrap();
     assert!(Command::new("mkfifo").arg(&file).status().unwrap().success());
-    let look = serde_json::json!({"session": "a", "disk": null});
+    let look = serde_json::json!({"session": "sessionofthistest", "disk": null});
     assert!(post(url, "/disk", token, &look).contains("no regular file"));
     std::fs::remove_file(&file).unwrap();
     edit.interrupt();

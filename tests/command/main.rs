@@ -19,6 +19,7 @@ mod ignored;
 mod infeasible;
 mod interrupt;
 mod limits;
+mod messages;
 mod one_run;
 mod other_arms;
 mod page;

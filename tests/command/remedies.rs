@@ -219,3 +219,70 @@ fn the_ten_tightest_pairs_are_named_and_all_on_request() {
         assert!(nearer < 10, "{nearer} pairs are nearer than the tenth");
     }
 }
+
+/// The same job with a key that is named is proved.
+#[test]
+fn a_key_that_is_named_as_a_remedy_gives_a_proof() {
+    let folder = folder();
+    let dir = folder.path();
+    let too_near = kitchen(dir, &[("clearance_m = 0.01", "clearance_m = 0.05")]);
+    let ran = platewash(
+        dir,
+        &[
+            "run",
+            "--scenario",
+            too_near.to_str().unwrap(),
+            "--search-time",
+            "600",
+            "--json",
+        ],
+    );
+    assert_eq!(ran.code, 3, "{}", ran.stderr);
+    let remedies = &ran.json()["remedies"]["would_do"];
+    let remedy = &remedies[0];
+    assert_eq!(
+        (&remedy["key"], &remedy["is_proved"]),
+        (&"wash.clearance_m".into(), &true.into()),
+        "{remedies}"
+    );
+    let line = format!("clearance_m = {}", remedy["value"]);
+    let mended = kitchen(dir, &[("clearance_m = 0.01", &line)]);
+    let ran = platewash(dir, &["run", "--scenario", mended.to_str().unwrap(), "--quiet"]).done();
+    assert!(ran.stdout.starts_with("PROVED: "), "{}", ran.stdout);
+}
+
+/// Without time to search, the keys that were not tried are named, and no more is said of them.
+#[test]
+fn keys_that_there_is_no_time_to_try_are_named() {
+    let folder = folder();
+    let dir = folder.path();
+    let deep = platewash(dir, &["scenario", "deep"]).done().stdout;
+    let thin = deep
+        .replace("sponge_height_m = 0.035", "sponge_height_m = 0.012")
+        .replace("sponge_compression_m = 0.006 ", "sponge_compression_m = 0.003 ");
+    assert_ne!(thin, deep);
+    std::fs::write(dir.join("thin.toml"), thin).unwrap();
+    let ran = platewash(
+        dir,
+        &["run", "--scenario", "thin.toml", "--search-time", "0.01", "--json"],
+    );
+    let remedies = &ran.json()["remedies"];
+    assert_eq!(
+        (ran.code, &remedies["would_do"]),
+        (3, &serde_json::json!([])),
+        "{remedies}"
+    );
+    assert!(
+        remedies["not_tried"]
+            .as_array()
+            .unwrap()
+            .contains(&"tool.sponge_height_m".into()),
+        "{remedies}"
+    );
+    assert!(
+        ran.json()["reason"]
+            .as_str()
+            .unwrap()
+            .contains("not tried to the end, for lack of time: ")
+    );
+}

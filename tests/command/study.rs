@@ -110,7 +110,7 @@ fn what_a_study_states_is_refused_by_file_line_and_key() {
         ),
         &["line 8", "job.program", "certified jobs", "paper"],
     );
-    refused(("\"tools\"", "3"), &["line 2", "name: invalid type"]);
+    refused(("\"tools\"", "3"), &["line 2", "'name' must be a text; found 3"]);
     refused(
         ("\"tools\"", "\"two\\nlines\""),
         &["line 2", "name must be a line of text"],

@@ -70,7 +70,7 @@ class Front:
         return page
 
     def ask(self, number: Any, *edits: dict[str, Any], want: str = "proof", text: str | None = None, path: str = "/cell", question: Any = None) -> None:
-        usual = {"session": "s1", "text": self.cell.text if text is None else text, "edits": list(edits), "want": want, "arm": None}
+        usual = {"session": "sessionofthistest", "text": self.cell.text if text is None else text, "edits": list(edits), "want": want, "arm": None}
         self.send({"view": self.view, "platewash": number, "path": path, "question": usual if question is None else question})
 
     def lines(self, number: Any) -> list[dict[str, Any]]:
@@ -203,7 +203,7 @@ def test_what_is_refused_harms_nothing(front: Front) -> None:
     assert refused["kind"] == "refused" and refused["key"] == "wash.turns"
     wait(lambda: cell.headline == refused["words"])
     assert cell.verdict == "refused" and state(cell)[:4] == before
-    for number, question in enumerate([{"text": 3}, {"session": "s1"}, {"session": "", "text": ""}], 10):
+    for number, question in enumerate([{"text": 3}, {"session": "sessionofthistest"}, {"session": "", "text": ""}], 10):
         front.ask(number, question=question)
         assert front.kinds(number) == ["failed"]
     for number, path in enumerate(["/save", "/disk", "/nothing"], 20):
@@ -297,7 +297,7 @@ def test_a_closed_cell_does_nothing_any_more() -> None:
     front.open()
     for number, want in enumerate(["proof", "proof", "preview"]):
         front.ask(number, {"key": "seed", "value": 11}, want=want)
-    front.ask("map", path="/map", question={"session": "s1", "text": cell.text, "plate": 0})
+    front.ask("map", path="/map", question={"session": "sessionofthistest", "text": cell.text, "plate": 0})
     assert ours()
     cell.close()
     assert not ours() and state(cell)[:4] == (KITCHEN.to_toml(), pw.Scenario.parse(cell.text), None, None)
@@ -413,7 +413,7 @@ def test_it_does_so_in_a_kernel(tmp_path: Path) -> None:
             client.shell_channel.send(message)
 
         say({"open": True})
-        say({"platewash": 1, "path": "/cell", "question": {"session": "s", "text": KITCHEN.to_toml(), "edits": [], "want": "proof", "arm": None}})
+        say({"platewash": 1, "path": "/cell", "question": {"session": "sessionofthistest", "text": KITCHEN.to_toml(), "edits": [], "want": "proof", "arm": None}})
         kinds: list[str] = []
         while True:
             message = client.get_iopub_msg(timeout=LONGEST_S)

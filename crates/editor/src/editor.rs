@@ -207,7 +207,7 @@ impl Editor {
 fn named(session: &str) -> Result<(), String> {
     match is_name(session) {
         true => Ok(()),
-        false => Err("session must be 1 to 64 letters and digits".to_owned()),
+        false => Err("session must be 16 to 64 letters and digits".to_owned()),
     }
 }
 

@@ -1,7 +1,7 @@
 //! What hands may move on the page, and the keys that say where it is.
 
 use crate::protocol::{BodyMove, Moves, PlateMoves};
-use platewash_scenario::{BodyShape, Scenario};
+use platewash_scenario::{BodyShape, HeldPlates, Scenario};
 
 /// How the things of a cell are moved.
 pub fn moves(scenario: &Scenario) -> Moves {
@@ -31,12 +31,14 @@ fn bodies(scenario: &Scenario) -> Vec<BodyMove> {
         key: None,
         at_m: Vec::new(),
         words: Some(words.to_owned()),
+        holds: Some(Vec::new()),
     };
     let floor = scenario.floor.present.then(|| fixed("The floor is at floor.height_m."));
     let table = scenario.table.size_m.map(|_| BodyMove {
         key: Some("table.at_m".to_owned()),
         at_m: scenario.table.at_m.unwrap_or_default().to_vec(),
         words: None,
+        holds: Some(Vec::new()),
     });
     let obstacles = scenario.obstacle.iter().enumerate().map(|(index, section)| {
         let key = format!("obstacle[{index}].at_m");
@@ -49,6 +51,11 @@ fn bodies(scenario: &Scenario) -> Vec<BodyMove> {
             key: Some(key),
             at_m: section.at_m.unwrap_or_default().to_vec(),
             words: None,
+            holds: match &section.holds_plates {
+                Some(HeldPlates::Every(_)) => None,
+                Some(HeldPlates::These(plates)) => Some(plates.clone()),
+                None => Some(Vec::new()),
+            },
         }
     });
     floor.into_iter().chain(table).chain(obstacles).collect()
@@ -70,6 +77,20 @@ mod tests {
         assert_eq!(listed.plates, PlateMoves::Sections { sections, at_m });
         let sampled = of("layout.region = \"text\"\n[[plate]]\ncount = 2\n");
         assert!(matches!(sampled.plates, PlateMoves::Nothing { .. }));
+    }
+
+    #[test]
+    fn a_body_names_the_plates_that_it_holds() {
+        let held = |name: &str| {
+            let bodies = moves(&Scenario::load(name).unwrap()).bodies;
+            bodies.into_iter().map(|body| body.holds).collect::<Vec<_>>()
+        };
+        assert!(held("rack").ends_with(&[Some(vec![0]), Some(vec![1]), Some(vec![2])]));
+        assert!(
+            held("sink")
+                .iter()
+                .all(|holds| holds.as_ref().is_some_and(Vec::is_empty))
+        );
     }
 
     #[test]

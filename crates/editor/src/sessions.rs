@@ -2,6 +2,7 @@
 
 use platewash_workcell::cancel::CancelToken;
 use std::collections::HashMap;
+use std::ops::RangeInclusive;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// What kinds of work a page can have under way, one of each.
@@ -15,8 +16,8 @@ pub enum Lane {
     Map,
 }
 
-/// Longest name of a session.
-const LONGEST: usize = 64;
+/// Length of the name of a session: a shorter one might be guessed by another page, which could end its questions then.
+const LENGTH: RangeInclusive<usize> = 16..=64;
 
 /// What pages have under way.
 #[derive(Debug, Default)]
@@ -40,7 +41,7 @@ pub struct Turn<'a> {
 
 /// Whether a session may be called so.
 pub fn is_name(session: &str) -> bool {
-    (1..=LONGEST).contains(&session.len()) && session.bytes().all(|byte| byte.is_ascii_alphanumeric())
+    LENGTH.contains(&session.len()) && session.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }
 
 impl Sessions {
@@ -107,10 +108,18 @@ mod tests {
     }
 
     #[test]
-    fn a_session_has_a_short_plain_name() {
-        for name in ["", "a b", "ä", "a/b", &"a".repeat(65)] {
+    fn a_session_has_a_plain_name_that_is_not_guessed() {
+        for name in [
+            "",
+            "a",
+            &"a".repeat(15),
+            &"a b".repeat(6),
+            &"ä".repeat(16),
+            &"a/b".repeat(6),
+            &"a".repeat(65),
+        ] {
             assert!(!is_name(name), "{name}");
         }
-        assert!(is_name(&"a1Z".repeat(20)));
+        assert!(is_name(&"a1Z".repeat(20)) && is_name(&"a".repeat(16)));
     }
 }

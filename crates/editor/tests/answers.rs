@@ -32,7 +32,7 @@ fn ask_bytes(editor: &Editor, path: &str, question: &[u8]) -> Vec<Value> {
 }
 
 fn cell(text: &str, edits: &Value) -> Value {
-    json!({"session": "s", "text": text, "edits": edits, "want": "proof", "arm": null})
+    json!({"session": "sessionofthistest", "text": text, "edits": edits, "want": "proof", "arm": null})
 }
 
 fn kinds(lines: &[Value]) -> Vec<&str> {
@@ -84,11 +84,11 @@ fn an_arm_that_the_page_has_is_not_sent_again() {
     let editor = kitchen();
     let first = ask(&editor, "/cell", &cell(KITCHEN, &json!([])));
     let id = line(&first, "cell")["arm_id"].clone();
-    let question = json!({"session": "s", "text": KITCHEN, "edits": [], "want": "preview", "arm": id});
+    let question = json!({"session": "sessionofthistest", "text": KITCHEN, "edits": [], "want": "preview", "arm": id});
     let again = ask(&editor, "/cell", &question);
     assert_eq!(kinds(&again), ["scenario", "cell", "preview"]);
     assert_eq!(again[1]["arm"], Value::Null);
-    let other = json!({"session": "s", "text": KITCHEN, "want": "preview", "arm": id,
+    let other = json!({"session": "sessionofthistest", "text": KITCHEN, "want": "preview", "arm": id,
         "edits": [{"key": "limits.joint_acceleration_rad_s2", "value": [3, 3, 3, 3, 3, 3]}]});
     assert_ne!(ask(&editor, "/cell", &other)[1]["arm"], Value::Null);
 }
@@ -210,7 +210,7 @@ fn work_is_bounded_before_it_is_begun() {
 fn what_is_no_question_is_answered_with_what_is_wrong() {
     let editor = kitchen();
     let deep = format!("{{\"session\":{}", "[".repeat(100_000));
-    let big = json!({"session": "s", "text": "", "edits": vec![json!({"key": "seed", "value": 1}); 1001], "want": "proof", "arm": null});
+    let big = json!({"session": "sessionofthistest", "text": "", "edits": vec![json!({"key": "seed", "value": 1}); 1001], "want": "proof", "arm": null});
     let big = big.to_string();
     let cases: [(&str, &[u8], &str); 9] = [
         ("/cell", b"", "question"),
@@ -224,13 +224,13 @@ fn what_is_no_question_is_answered_with_what_is_wrong() {
         ),
         (
             "/cell",
-            br#"{"session":"s","text":"","edits":[],"want":"everything","arm":null}"#,
+            br#"{"session":"sessionofthistest","text":"","edits":[],"want":"everything","arm":null}"#,
             "everything",
         ),
         ("/cell", big.as_bytes(), "1001 changes"),
         (
             "/save",
-            br#"{"session":"s","text":"","disk":null,"force":true}"#,
+            br#"{"session":"sessionofthistest","text":"","disk":null,"force":true}"#,
             "no question",
         ),
         ("/etc/passwd", b"{}", "no question"),
@@ -241,7 +241,11 @@ fn what_is_no_question_is_answered_with_what_is_wrong() {
         assert!(["failed", "refused"].contains(&lines[0]["kind"].as_str().unwrap()));
         assert!(lines[0]["words"].as_str().unwrap().contains(words), "{}", lines[0]);
     }
-    let lines = ask(&editor, "/map", &json!({"session": "s", "text": KITCHEN, "plate": 4}));
+    let lines = ask(
+        &editor,
+        "/map",
+        &json!({"session": "sessionofthistest", "text": KITCHEN, "plate": 4}),
+    );
     assert_eq!(kinds(&lines), ["refused"]);
 }
 
@@ -249,7 +253,7 @@ fn what_is_no_question_is_answered_with_what_is_wrong() {
 fn a_new_question_ends_the_one_before() {
     let editor = kitchen();
     // Two minutes of looking.
-    let slow = json!({"session": "s", "text": KITCHEN, "plate": 0});
+    let slow = json!({"session": "sessionofthistest", "text": KITCHEN, "plate": 0});
     std::thread::scope(|scope| {
         let (begun, is_begun) = std::sync::mpsc::channel();
         let map = scope.spawn({
@@ -266,7 +270,8 @@ fn a_new_question_ends_the_one_before() {
             }
         });
         is_begun.recv().unwrap();
-        let other = json!({"session": "other", "text": KITCHEN, "edits": [], "want": "proof", "arm": null});
+        let other =
+            json!({"session": "anothersessionofit", "text": KITCHEN, "edits": [], "want": "proof", "arm": null});
         assert_eq!(kinds(&ask(&editor, "/cell", &other)).last(), Some(&"proof"));
         assert_eq!(
             kinds(&ask(&editor, "/cell", &cell(KITCHEN, &json!([])))).last(),
@@ -343,7 +348,7 @@ fn keys_of_sections_are_changed_and_said_to_be_where_things_are() {
     );
     assert_eq!(
         moves["bodies"][1],
-        json!({"key": "obstacle[0].at_m", "at_m": [0.9, -0.1, 0.05], "words": null})
+        json!({"key": "obstacle[0].at_m", "at_m": [0.9, -0.1, 0.05], "words": null, "holds": []})
     );
     assert!(moves["bodies"][0]["key"].is_null() && moves["bodies"][0]["words"].is_string());
     let lines = ask(
@@ -376,7 +381,8 @@ fn a_page_that_others_reach_names_no_files() {
     assert!(other(&named, &text).contains("other machines"));
     let folder = tempfile::tempdir().unwrap();
     let kept = |editor: Editor| editor.kept_by(Box::new(InFolder(folder.path().join("cell.toml"))));
-    let save = json!({"session": "s", "disk": null, "force": true, "text": text.replace(urdf, "/etc/passwd")});
+    let save =
+        json!({"session": "sessionofthistest", "disk": null, "force": true, "text": text.replace(urdf, "/etc/passwd")});
     let lines = ask(&kept(kitchen().open_to_others()), "/save", &save);
     assert!(
         lines[0]["words"].as_str().unwrap().contains("other machines"),
@@ -435,12 +441,12 @@ fn nothing_is_written_over_what_somebody_else_wrote() {
         let lines = ask(
             &editor,
             "/save",
-            &json!({"session": "s", "text": text, "disk": disk, "force": force}),
+            &json!({"session": "sessionofthistest", "text": text, "disk": disk, "force": force}),
         );
         assert_eq!(lines.len(), 1);
         lines[0].clone()
     };
-    let look = |disk: &Value| ask(&editor, "/disk", &json!({"session": "s", "disk": disk}))[0].clone();
+    let look = |disk: &Value| ask(&editor, "/disk", &json!({"session": "sessionofthistest", "disk": disk}))[0].clone();
     assert_eq!(
         look(&Value::Null),
         json!({"kind": "disk", "disk": null, "text": null, "words": null})
@@ -487,7 +493,7 @@ fn a_map_is_told_coarse_to_fine() {
     let lines = ask(
         &kitchen(),
         "/map",
-        &json!({"session": "s", "text": KITCHEN, "plate": 2}),
+        &json!({"session": "sessionofthistest", "text": KITCHEN, "plate": 2}),
     );
     assert_eq!(kinds(&lines).last(), Some(&"map_done"));
     let patches: Vec<_> = lines.iter().filter(|line| line["kind"] == "map").collect();

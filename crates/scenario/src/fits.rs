@@ -77,11 +77,7 @@ fn meant(key: &Key, value: &Value) -> String {
     };
     let scaled = |v: &Value| Some(rounded(factor * v.as_f64()?, METRE_DIGITS));
     let all = match value.as_array() {
-        Some(all) => all
-            .iter()
-            .map(scaled)
-            .collect::<Option<Vec<_>>>()
-            .map(|all| Value::from(all)),
+        Some(all) => all.iter().map(scaled).collect::<Option<Vec<_>>>().map(Value::from),
         None => scaled(value).map(Value::from),
     };
     match all {

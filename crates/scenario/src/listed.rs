@@ -63,11 +63,9 @@ fn check_section(list: &List, index: usize, table: &DeTable<'_>) -> Result<(), M
 fn unknown(list: &List, index: usize, name: &str) -> Problem {
     let of_list = |name: &str| format!("{}[{index}].{name}", list.name);
     let known: Vec<_> = list.keys.iter().map(own_name).collect();
-    let paths: Vec<_> = known.iter().map(|name| of_list(name)).collect();
+    let otherwise = || format!("keys of [[{}]]: {}", list.name, known.join(", "));
     Problem::UnknownKey {
         key: of_list(&printable(name)),
-        hint: hint(&of_list(name), paths.iter().map(String::as_str), || {
-            format!("keys of [[{}]]: {}", list.name, known.join(", "))
-        }),
+        hint: hint(name, &known, of_list, otherwise),
     }
 }

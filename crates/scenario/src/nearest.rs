@@ -12,16 +12,17 @@ pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> O
         .map(|(_, other)| other)
 }
 
-/// What is said of a key that does not exist, of those `known` beside it: of a diameter the radius, of others the one most like it, or else
-/// what `otherwise` says.
-pub(crate) fn hint<'a>(
-    key: &str,
-    known: impl Iterator<Item = &'a str> + Clone,
+/// What is said of a name that does not exist, beside those `known`, which `in_full` writes out: of a diameter the radius, of others the one
+/// most like it, or else what `otherwise` says.
+pub(crate) fn hint(
+    name: &str,
+    known: &[&str],
+    in_full: impl Fn(&str) -> String,
     otherwise: impl FnOnce() -> String,
 ) -> String {
-    let of_radius = key.replace("diameter", "radius");
-    if of_radius != key && known.clone().any(|other| other == of_radius) {
-        return format!("half of it, the radius, is stated: '{of_radius}'");
+    let of_radius = name.replace("diameter", "radius");
+    if of_radius != name && known.contains(&&*of_radius) {
+        return format!("half of it, the radius, is stated: '{}'", in_full(&of_radius));
     }
-    nearest(key, known).map_or_else(otherwise, |other| format!("did you mean '{other}'?"))
+    nearest(name, known.iter().copied()).map_or_else(otherwise, |other| format!("did you mean '{}'?", in_full(other)))
 }

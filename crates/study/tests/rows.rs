@@ -104,8 +104,8 @@ fn what_is_wrong_in_a_study_is_told_with_its_line_and_key() {
         ("values = [-1]", "line 8", "seed must be"),
         ("range = [1, inf, 3]", "line 9", "range of seed"),
         ("range = [1, 3, 4000000000]", "line 9", "range of seed"),
-        ("steps = 3", "line 9", "unknown field `steps`"),
-        ("seeds = 3", "line 9", "expected a string"),
+        ("steps = 3", "line 9", "unknown key 'steps'"),
+        ("seeds = 3", "line 9", "must be a text; found 3"),
         ("", "line 7", "needs one of"),
         ("seeds = \"1..9000000\"", "", "more than 10000000 rows"),
         (

@@ -85,7 +85,7 @@ fn other_formats_are_refused_with_what_to_do() {
         .replace("platewash-plan/2", "platewash-plan/1");
     assert_eq!(said(&relabelled), before);
     assert!(said(r#"{"format": "platewash-plan/3"}"#).contains("found \"platewash-plan/3\""));
-    assert!(said("{}").contains("missing field"), "{}", said("{}"));
+    assert!(said("{}").contains("is missing"), "{}", said("{}"));
     assert!(said("no JSON").contains("not a plan file"));
 }
 

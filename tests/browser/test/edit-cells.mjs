@@ -25,14 +25,16 @@ function changedLines(before, after) {
 const placeOf = (page, obstacle) =>
   page.evaluate((name) => window.platewash.view.surroundings.obstacles.find((one) => one.name === name).pose.position_m, obstacle);
 
-test("a plate with a section is moved by its section, and undoing gives the text back", async (t) => {
+test("a plate with a section is moved by its section, its holder with it, and undoing gives the text back", async (t) => {
   const { page, quiet } = await edit(t, await folder(t), ["--scenario", "rack"]);
   const [before, at] = [await scenario(page), (await centres(page))[2]];
   const height = await page.evaluate(() => window.platewash.view.plates[2].pose.position_m[2]);
   await dragged(page, [...at, height], [at[0] + 0.02, at[1] + 0.03, height]);
-  const [line, ...more] = changedLines(before, await scenario(page));
+  const [line, holder, ...more] = changedLines(before, await scenario(page));
   assert.deepEqual(more, []);
   const moved = (await centres(page))[2];
+  const post = holder.match(/^at_m = \[([^,]+), ([^,]+), 0\.16\]/).slice(1).map(Number);
+  assert.ok(Math.hypot(post[0] - 0.49 - moved[0] + at[0], post[1] - moved[1] + at[1]) < 1e-6, holder);
   assert.equal(line, `at_m = [${moved[0]}, ${moved[1]}, ${height}]`);
   assert.ok(Math.hypot(moved[0] - at[0] - 0.02, moved[1] - at[1] - 0.03) < 0.015, `${moved}`);
   await page.getByRole("button", { name: "Add plate" }).click();

@@ -161,6 +161,8 @@ pub struct BodyMove {
     pub at_m: Vec<f64>,
     /// Why it is not moved.
     pub words: Option<String>,
+    /// The plates that it holds, by their index, with which it goes; none where it holds every plate.
+    pub holds: Option<Vec<usize>>,
 }
 
 /// An arm and its id.

@@ -21,6 +21,7 @@ use crate::scene::{AXIS_SHARE, AxisRule};
 use crate::trig::atan2;
 use candidates::{Density, candidates};
 use estimate::Estimate;
+use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::{JobTerms, PlannerSettings};
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{WashCurve, WashPath};
@@ -85,12 +86,14 @@ pub struct Patterns {
     /// The cones to plan with, the best first; at least one.
     cones: Vec<f64>,
     first: Vec<Pattern>,
+    /// Ends the search for patterns; what was found by then is offered.
+    cancel: CancelToken,
 }
 
 impl Patterns {
     /// What a job offers on a surface.
     #[must_use]
-    pub fn new(terms: &JobTerms, settings: &PlannerSettings, surface: &Surface) -> Self {
+    pub fn new(terms: &JobTerms, settings: &PlannerSettings, surface: &Surface, cancel: &CancelToken) -> Self {
         let promise = Promise::of(terms, surface);
         let limits = [terms.wash_speed_m_s(), terms.wash_acceleration_m_s2()];
         let curves = |density| candidates(settings, surface, promise.foundation.radius_m, density);
@@ -109,6 +112,7 @@ impl Patterns {
             dense: curves(Density::Dense),
             cones: cones(terms, settings, surface),
             first: Vec::new(),
+            cancel: cancel.clone(),
         };
         patterns.first = patterns.within(patterns.cones[0]);
         patterns
@@ -180,6 +184,7 @@ impl Patterns {
         let kept = self
             .candidates
             .iter()
+            .take_while(|_| !self.cancel.is_cancelled())
             .filter(|estimate| !self.is_chosen() || keeps(estimate));
         kept.take(MOST_OFFERED)
             .map(|estimate| Pattern::offered(estimate, cone_rad, 1.0))
@@ -195,6 +200,7 @@ impl Patterns {
         let dense = self.dense.iter();
         let dense = dense.map(|curve| Estimate::new(*curve, &self.surface, self.limits));
         let all = self.candidates.iter().cloned().chain(dense);
+        let all = all.take_while(|_| !self.cancel.is_cancelled());
         let kept = all.filter_map(|estimate| {
             let moments = estimate.moments(&self.surface, &self.rule, cone_rad);
             let share = self.promise.speed_share(&self.surface, &moments, margin, SLOWEST)?;

@@ -20,6 +20,10 @@ const PLACES: u32 = 2000;
 const FIRST: u32 = 250;
 const LACKING: f64 = 8e-3;
 
+/// Places of those that are looked at before them, and the stride from one to the next, which spreads them over the face.
+const FEW: u32 = 50;
+const SPREAD: u32 = 97;
+
 /// The angle between neighbours of a sunflower's seeds \[rad\].
 const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
 
@@ -234,7 +238,45 @@ impl Promise {
 
     /// Whether places of a face, looked at one by one through some moments, have what is promised with a margin.
     pub(super) fn seems_kept(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
-        self.missing(surface, moments, margin).is_none()
+        !self.lacks_much(surface, moments, margin) && self.missing(surface, moments, margin).is_none()
+    }
+
+    /// Whether a few of the places that are looked at first lack so much that all of them do: most candidates are refused by these.
+    fn lacks_much(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
+        let wanted = self.wanted_with(margin);
+        let looks = Looks::new(&self.foundation, moments, &wanted);
+        let mut kept = [FIRST; 3];
+        (0..FEW).any(|k| {
+            let here = kept_at(&looks, surface, &wanted, (k * SPREAD % FIRST) * (PLACES / FIRST));
+            for (kept, here) in kept.iter_mut().zip(here) {
+                *kept -= u32::from(!here);
+            }
+            self.short(kept, FIRST, margin, LACKING).is_some()
+        })
+    }
+
+    /// What is wanted of a place, with a margin.
+    fn wanted_with(&self, margin: &Margin) -> Wanted {
+        Wanted {
+            time_s: margin.more * self.wanted.time_s,
+            dose_pa_m: margin.more * self.wanted.dose_pa_m,
+            ..self.wanted
+        }
+    }
+
+    /// The share of a face that is too small, of so many places kept, where `lacking` may lack.
+    fn short(&self, kept: [u32; 3], of: u32, margin: &Margin, lacking: f64) -> Option<Shortfall> {
+        let promised = [Promised::Pressed, Promised::ContactTime, Promised::ContactDose];
+        let mut each = kept.into_iter().zip(self.shares).zip(promised);
+        each.find_map(|((kept, required), promised)| {
+            let found = f64::from(kept) / f64::from(of);
+            let is_enough = found >= margin.required(required) - lacking;
+            (!is_enough).then_some(Shortfall {
+                promised,
+                found,
+                required,
+            })
+        })
     }
 
     /// The greatest share of the speed, from `least` to 1, at which places of a face have what is promised with a margin. Slower, they are
@@ -263,36 +305,10 @@ impl Promise {
 
     /// The share of a face that is too small, looked at place by place through some moments.
     fn missing(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> Option<Shortfall> {
-        let wanted = &Wanted {
-            time_s: margin.more * self.wanted.time_s,
-            dose_pa_m: margin.more * self.wanted.dose_pa_m,
-            ..self.wanted
-        };
-        let looks = Looks::new(&self.foundation, moments, wanted);
-        let at = |k: u32| {
-            let dwell = looks.at(&place(surface, k));
-            let kept = [
-                dwell.compression_m >= wanted.compression_m,
-                dwell.time_s >= wanted.time_s,
-                dwell.dose_pa_m >= wanted.dose_pa_m,
-            ];
-            kept.map(u32::from)
-        };
+        let wanted = self.wanted_with(margin);
+        let looks = Looks::new(&self.foundation, moments, &wanted);
+        let at = |k: u32| kept_at(&looks, surface, &wanted, k).map(u32::from);
         let add = |a: [u32; 3], b: [u32; 3]| std::array::from_fn(|i| a[i] + b[i]);
-        let lacking = |kept: [u32; 3], of: u32, lacking: f64| {
-            let promised = [Promised::Pressed, Promised::ContactTime, Promised::ContactDose];
-            let each = kept.into_iter().zip(self.shares).zip(promised);
-            let mut short = each.filter_map(|((kept, required), promised)| {
-                let found = f64::from(kept) / f64::from(of);
-                let is_enough = found >= margin.required(required) - lacking;
-                (!is_enough).then_some(Shortfall {
-                    promised,
-                    found,
-                    required,
-                })
-            });
-            short.next()
-        };
         // Every eighth seed is spread as evenly.
         let stride = PLACES / FIRST;
         let first = (0..FIRST)
@@ -300,7 +316,8 @@ impl Promise {
             .map(|k| at(k * stride))
             .reduce(|| [0; 3], add);
         let all = || (0..PLACES).into_par_iter().map(at).reduce(|| [0; 3], add);
-        lacking(first, FIRST, LACKING).or_else(|| lacking(all(), PLACES, 0.0))
+        self.short(first, FIRST, margin, LACKING)
+            .or_else(|| self.short(all(), PLACES, margin, 0.0))
     }
 }
 
@@ -327,6 +344,16 @@ fn moments(scene: &Scene<'_>, plate: &Plate, along: &[JointVector], speed_m_s: f
 /// The foundation of a sponge.
 pub(crate) fn foundation(sponge: &Sponge) -> Foundation {
     Foundation::stiff(sponge, sponge.stiffness_pa.unwrap_or([1.0; 2]))
+}
+
+/// Whether the k-th place is pressed deep enough, for long enough, and with enough of a dose.
+fn kept_at(looks: &Looks<'_>, surface: &Surface, wanted: &Wanted, k: u32) -> [bool; 3] {
+    let dwell = looks.at(&place(surface, k));
+    [
+        dwell.compression_m >= wanted.compression_m,
+        dwell.time_s >= wanted.time_s,
+        dwell.dose_pa_m >= wanted.dose_pa_m,
+    ]
 }
 
 /// The k-th place: spread like the seeds of a sunflower, evenly by the area seen from above.

@@ -1,6 +1,7 @@
 //! Patterns are chosen as the settings leave them open, and the arm then presses as is promised.
 
 use super::*;
+use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures::{contact_kitchen, kitchen};
 use platewash_workcell::job::{PatternName, WashJob};
 use platewash_workcell::surface::SHIPPED_PROFILES;
@@ -10,7 +11,7 @@ fn disc() -> Surface {
 }
 
 fn offered(terms: &JobTerms, settings: &PlannerSettings, surface: &Surface) -> Vec<Pattern> {
-    let patterns = Patterns::new(terms, settings, surface);
+    let patterns = Patterns::new(terms, settings, surface, &CancelToken::new());
     let widest = patterns.widest();
     let all: Vec<Pattern> = patterns.first().iter().copied().chain(patterns.wider()).collect();
     assert!(all.iter().all(|pattern| pattern.cone_rad <= widest.cone_rad));

@@ -10,6 +10,7 @@ use crate::unwashable::PlaceSearch;
 use crate::watch::Watch;
 use nalgebra::Vector3;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
+use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::job::{End, JobTerms, PlannerSettings, WashJob};
 use platewash_workcell::plate::Plate;
@@ -99,7 +100,7 @@ impl<'a> Pipeline<'a> {
             },
             tilt_reserve_rad: TILT_RESERVE_RAD,
             explains: true,
-            patterns: by_plate(terms, settings, plates),
+            patterns: by_plate(terms, settings, plates, watch.cancel),
             asked_order: None,
             asked_paths: Vec::new(),
             watch: *watch,
@@ -224,13 +225,18 @@ impl<'a> Pipeline<'a> {
 }
 
 /// The patterns of each plate; of equal faces they are the same.
-fn by_plate(terms: &JobTerms, settings: &PlannerSettings, plates: &[Plate]) -> Vec<Arc<Patterns>> {
+fn by_plate(
+    terms: &JobTerms,
+    settings: &PlannerSettings,
+    plates: &[Plate],
+    cancel: &CancelToken,
+) -> Vec<Arc<Patterns>> {
     let mut all: Vec<Arc<Patterns>> = Vec::with_capacity(plates.len());
     for (k, plate) in plates.iter().enumerate() {
         let like = plates[..k].iter().position(|other| other.surface == plate.surface);
         all.push(match like {
             Some(like) => all[like].clone(),
-            None => Arc::new(Patterns::new(terms, settings, &plate.surface)),
+            None => Arc::new(Patterns::new(terms, settings, &plate.surface, cancel)),
         });
     }
     all

@@ -1,8 +1,8 @@
 /** Places as changes of the scenario: one list, a section each, not at all. */
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { PlateMoves } from "../src/edit/protocol.ts";
-import { placing, putting, together, unmoved, type Centre } from "../src/edit/placing.ts";
+import type { BodyMove, PlateMoves } from "../src/edit/protocol.ts";
+import { carrying, placing, putting, together, unmoved, type Centre } from "../src/edit/placing.ts";
 import { CELL, newCell, PLAN, PROOF, written } from "./fake-cell.ts";
 
 /** The first plate has two faces, 20 mm apart along x. */
@@ -31,13 +31,44 @@ test("what is not moved says why", () => {
   assert.equal(unmoved(SECTIONS, 3), null);
   assert.match(unmoved(SECTIONS, 4)!, /\[\[plate\]\] section/);
   assert.equal(unmoved({ by: "nothing", words: "why" }, 3), "why");
-  assert.deepEqual(putting({ key: null, at_m: [], words: "why" }, [0, 0]), []);
-  assert.deepEqual(putting({ key: "obstacle[1].at_m", at_m: [1, 2, 3], words: null }, [0.5, 0.25]), [{ key: "obstacle[1].at_m", value: [0.5, 0.25, 3] }]);
-  assert.deepEqual(putting({ key: "table.at_m", at_m: [1, 2], words: null }, [0.5, 0.25]), [{ key: "table.at_m", value: [0.5, 0.25] }]);
+  assert.deepEqual(putting({ key: null, at_m: [], words: "why", holds: [] }, [0, 0]), []);
+  assert.deepEqual(putting({ key: "obstacle[1].at_m", at_m: [1, 2, 3], words: null, holds: [] }, [0.5, 0.25]), [{ key: "obstacle[1].at_m", value: [0.5, 0.25, 3] }]);
+  assert.deepEqual(putting({ key: "table.at_m", at_m: [1, 2], words: null, holds: [] }, [0.5, 0.25]), [{ key: "table.at_m", value: [0.5, 0.25] }]);
+});
+
+test("what holds a plate goes with it, once all of its plates go the same way", () => {
+  const body = (index: number, holds: number[] | null): BodyMove => ({ key: `obstacle[${index}].at_m`, at_m: [0.5, index, 0.1], words: null, holds });
+  const bodies = [body(0, [2]), body(1, [0, 1]), body(2, []), body(3, null), { ...body(4, [2]), key: null }];
+  const at = (index: number): Centre => [0.5, index];
+  const edits = (to: Centre[]): unknown => carrying(bodies, WERE, to, at);
+  assert.deepEqual(edits([[0.3, 0], [0.28, 0], [0.1, 0.25]]), [{ key: "obstacle[0].at_m", value: [0.6, -0.05, 0.1] }]);
+  assert.deepEqual(edits([[0.4, 0], [0.38, 0], [0, 0.3]]), [{ key: "obstacle[1].at_m", value: [0.6, 1, 0.1] }]);
+  assert.deepEqual(edits([[0.4, 0], [0.28, 0], [0, 0.3]]), [], "one of two plates");
+  const all = edits([[0.4, 0], [0.38, 0], [0.1, 0.3]]) as { key: string }[];
+  assert.deepEqual(all.map(({ key }) => key), ["obstacle[0].at_m", "obstacle[1].at_m", "obstacle[3].at_m"]);
+  assert.deepEqual(edits(WERE), []);
+  assert.deepEqual(edits([...WERE, [1, 1]]), [], "a plate more");
+});
+
+test("a plate is dragged with its holder, in one step", async () => {
+  const holder: BodyMove = { key: "obstacle[0].at_m", at_m: [0.05, 0.3, 0.1], words: null, holds: [2] };
+  const { cell, channel } = newCell();
+  cell.start();
+  const asked = channel.last("proof");
+  const drawn = { ...CELL, centres_m: WERE, moves: { plates: SECTIONS, bodies: [holder] } };
+  asked.say({ kind: "scenario", text: written(asked.question), stated: {}, values: {}, ms: {} }, drawn, PLAN, PROOF);
+  await asked.end();
+  for (let k = 1; k <= 5; k++) cell.drag([WERE[0]!, WERE[1]!, [0.01 * k, 0.3]]);
+  cell.drop("Move");
+  assert.deepEqual(channel.last("proof").question.edits.slice(1), [
+    { key: "plate[1].at_m", value: [0.05, 0.3, 0.03] },
+    { key: "obstacle[0].at_m", value: [0.1, 0.3, 0.1] },
+  ]);
+  assert.equal(cell.history.at, 1);
 });
 
 test("a drag of a plate, and of a body, is one step that names their sections", async () => {
-  const moves = { plates: SECTIONS, bodies: [{ key: null, at_m: [], words: "floor" }, { key: "obstacle[0].at_m", at_m: [0.5, 0.5, 0.1], words: null }] };
+  const moves = { plates: SECTIONS, bodies: [{ key: null, at_m: [], words: "floor", holds: [] }, { key: "obstacle[0].at_m", at_m: [0.5, 0.5, 0.1], words: null, holds: [] }] };
   const { cell, channel } = newCell();
   cell.start();
   const answer = async (): Promise<void> => {

@@ -3,7 +3,7 @@ import type { Answers } from "./answers.ts";
 import { Asker, type AskerSettings } from "./asker.ts";
 import { History, type Step } from "./history.ts";
 import type { Asked } from "./lane.ts";
-import { placing, putting, together, unmoved, type Centre, type Put } from "./placing.ts";
+import { carrying, placing, putting, together, unmoved, type Centre, type Put } from "./placing.ts";
 import type { Seen } from "./seen.ts";
 import { standing, type Activity, type Standing } from "./standing.ts";
 import type { Timing } from "./timings.ts";
@@ -175,9 +175,9 @@ export class Cell {
   /** Plates are somewhere else; the others exactly where they are. */
   place(centres: readonly Centre[], label: string, burst: string | null = null): void {
     if (centres.length === 0 || this.unmoved(centres.length) !== null) return;
-    const moves = this.seen.drawn?.moves?.plates;
-    this.#centres = together(moves, this.centres, centres);
-    this.change(placing(moves, this.#centres), label, burst);
+    const { to, edits } = this.#moves(centres);
+    this.#centres = to;
+    this.change(edits, label, burst);
   }
 
   /** A body that stands around is somewhere else. */
@@ -191,10 +191,18 @@ export class Cell {
   /** Plates are on their way. */
   drag(centres: readonly Centre[]): void {
     if (this.unmoved(centres.length) !== null) return;
-    const [moves, were] = [this.seen.drawn?.moves?.plates, this.centres];
-    const to = together(moves, were, centres);
-    this.#carry(placing(moves, to));
+    const { to, edits } = this.#moves(centres);
+    this.#carry(edits);
     this.#centres = to;
+  }
+
+  /** Where plates go, and the changes that put them there, with what holds them. */
+  #moves(centres: readonly Centre[]): { to: readonly Centre[]; edits: Edit[] } {
+    const { moves, centres_m } = this.seen.drawn ?? {};
+    const to = together(moves?.plates, this.centres, centres);
+    // Bodies are where they were drawn, with the plates as they were then.
+    const held = carrying(moves?.bodies ?? [], centres_m ?? [], to, (body) => this.bodyAt(body));
+    return { to, edits: [...placing(moves?.plates, to), ...held] };
   }
 
   /** A body that stands around is on its way. */

@@ -12,6 +12,8 @@ const DIGITS = 1e9;
 
 const follow = (value: number, from: number, to: number): number => (from === to ? value : Math.round((value + to - from) * DIGITS) / DIGITS + 0);
 
+const follow2 = (at: Centre, from: Centre, to: Centre): Centre => [follow(at[0], from[0], to[0]), follow(at[1], from[1], to[1])];
+
 /** Why plates are not moved there; null where they are. So many plates as before are moved, where each has a section of its own. */
 export function unmoved(moves: PlateMoves | undefined, count: number): string | null {
   if (moves?.by === "nothing") return moves.words;
@@ -28,7 +30,7 @@ export function together(moves: PlateMoves | undefined, were: readonly Centre[],
     const other = moves.sections.findIndex((one, k) => one === section && k !== plate);
     if (other < 0 || stays(plate) || !stays(other)) return;
     const [from, at] = [were[plate]!, centres[plate]!];
-    to[other] = [follow(to[other]![0], from[0], at[0]), follow(to[other]![1], from[1], at[1])];
+    to[other] = follow2(to[other]!, from, at);
   });
   return to;
 }
@@ -40,6 +42,21 @@ export function placing(moves: PlateMoves | undefined, centres: readonly Centre[
     // Of a plate with two faces the first is where the section says.
     const centre = centres[moves.sections.indexOf(section)];
     return centre === undefined ? [] : [{ key: `plate[${section}].at_m`, value: [...centre, at[2]] }];
+  });
+}
+
+/** The changes that take along what holds plates: a body all of whose plates go the same way. `at` is where a body is now. */
+export function carrying(bodies: readonly BodyMove[], were: readonly Centre[], to: readonly Centre[], at: (body: number) => Centre | null): Edit[] {
+  // Plates that were added or removed are numbered anew.
+  if (were.length !== to.length) return [];
+  const way = (plate: number): Centre => follow2([0, 0], were[plate]!, to[plate]!);
+  return bodies.flatMap((move, body) => {
+    const held = (move.holds ?? [...to.keys()]).filter((plate) => plate < to.length);
+    const from = at(body);
+    const [first] = held;
+    if (first === undefined || from === null || String(way(first)) === "0,0") return [];
+    if (held.some((plate) => String(way(plate)) !== String(way(first)))) return [];
+    return putting(move, follow2(from, were[first]!, to[first]!));
   });
 }
 

@@ -158,6 +158,8 @@ export interface BodyMove {
   at_m: number[];
   /** Why it is not moved. */
   words: string | null;
+  /** The plates that it holds, by their index, with which it goes; null where it holds every plate. */
+  holds: number[] | null;
 }
 
 /** A plate that cannot be washed, or that no way to wash was found for. */
