@@ -68,6 +68,14 @@ impl Margin {
         ..Self::ARM
     };
 
+    /// With the arm, where more would cost time: what places that are looked at one by one may miss of a share.
+    pub const CLOSE: Self = Self {
+        more: 1.005,
+        part: 0.05,
+        load: 1.005,
+        tilt_rad: 1e-4,
+    };
+
     /// None: what lacks even so is not proved.
     pub const NONE: Self = Self {
         more: 1.0,

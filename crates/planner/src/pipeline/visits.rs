@@ -103,7 +103,7 @@ impl Pipeline<'_> {
 
     /// The washing of a plate by its patterns, with a path that ends where `like` does: by the first with which the arm finds a way and
     /// presses as is promised with a margin, or else without one; where it never presses so, by one with which it finds a way. Denser and
-    /// slower patterns are tried last, where the arm finds a way by another one.
+    /// slower patterns are tried last, where the arm finds a way by another one and does not press so with a little margin.
     pub fn washing_by_patterns(
         &self,
         scene: &Scene<'_>,
@@ -116,9 +116,10 @@ impl Pipeline<'_> {
         let mut offered = patterns.first().iter().copied().chain(patterns.wider());
         let mut denser = patterns.denser();
         loop {
-            let Some(pattern) = offered.next().or_else(|| found.is_ok().then(|| denser.next())?) else {
-                return found;
-            };
+            let lacks = |turn: &Turn| self.shortfall(scene, turn, &Margin::CLOSE).is_some();
+            let next = offered.next();
+            let next = next.or_else(|| found.as_ref().is_ok_and(lacks).then(|| denser.next())?);
+            let Some(pattern) = next else { return found };
             let path = WashPath {
                 curve: turned_as(pattern.curve, &like.curve),
                 cone_rad: pattern.cone_rad,
