@@ -25,28 +25,77 @@ pub fn without_mark(text: &str) -> &str {
 /// [`JsonError`]
 pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
     let text = without_mark(text);
-    serde_json::from_str(text).map_err(|_| {
-        // Read again, more slowly, for the place.
-        let mut parser = serde_json::Deserializer::from_str(text);
-        let reason = match serde_path_to_error::deserialize::<_, T>(&mut parser) {
-            Err(error) => words(&error.path().to_string(), error.inner()),
-            Ok(_) => "more follows behind its end".to_owned(),
-        };
-        JsonError { reason }
+    serde_json::from_str(text).map_err(|error| JsonError {
+        reason: words(text, &error),
     })
 }
 
 /// What is wrong, and where.
-fn words(path: &str, error: &serde_json::Error) -> String {
+fn words(text: &str, error: &serde_json::Error) -> String {
     let at = format!("line {}, column {}", error.line(), error.column());
     let whole = error.to_string();
     let message = whole.split_once(" at line ").map_or(&*whole, |(message, _)| message);
-    let path = if path == "." { "" } else { path };
     match error.classify() {
         Category::Eof => format!("it ends in the middle, at {at}: the file is empty or was cut off"),
         Category::Syntax | Category::Io => format!("it is no JSON: {message} at {at}"),
-        Category::Data => message_in_words(path, message),
+        Category::Data => {
+            let lines = text.split_inclusive('\n').take(error.line() - 1);
+            let before = lines.map(str::len).sum::<usize>() + error.column();
+            message_in_words(&path_at(&text.as_bytes()[..before.min(text.len())]), message)
+        }
     }
+}
+
+/// A table or a list that a text is in the middle of.
+enum Inside {
+    /// With the key that was read last.
+    Table(String),
+    /// With the index of the element.
+    List(usize),
+}
+
+/// The key at which JSON ends that was read up to an error, such as `list[2].name`; empty for the whole.
+fn path_at(read: &[u8]) -> String {
+    let mut inside: Vec<Inside> = Vec::new();
+    let (mut takes_key, mut k) = (false, 0);
+    while let Some(&byte) = read.get(k) {
+        let is_last = k + 1 == read.len();
+        match byte {
+            b'{' if !is_last => {
+                takes_key = true;
+                inside.push(Inside::Table(String::new()));
+            }
+            b'[' if !is_last => inside.push(Inside::List(0)),
+            // An error at its end is one of the whole table or list.
+            b'}' | b']' => drop(inside.pop()),
+            b',' => match inside.last_mut() {
+                Some(Inside::List(index)) => *index += 1,
+                _ => takes_key = true,
+            },
+            b'"' => {
+                let start = k + 1;
+                k = start;
+                while read.get(k).is_some_and(|&byte| byte != b'"') {
+                    k += if read[k] == b'\\' { 2 } else { 1 };
+                }
+                if let Some(Inside::Table(key)) = inside.last_mut().filter(|_| takes_key) {
+                    *key = String::from_utf8_lossy(&read[start..k.min(read.len())]).into_owned();
+                    takes_key = false;
+                }
+            }
+            _ => {}
+        }
+        k += 1;
+    }
+    let mut path = String::new();
+    for part in &inside {
+        match part {
+            Inside::Table(key) if path.is_empty() || key.is_empty() => path += key,
+            Inside::Table(key) => path += &format!(".{key}"),
+            Inside::List(index) => path += &format!("[{index}]"),
+        }
+    }
+    path
 }
 
 #[cfg(test)]
@@ -106,7 +155,7 @@ mod tests {
                 "",
                 "it ends in the middle, at line 1, column 64: the file is empty or was cut off",
             ),
-            ("]}", "]} 1", "more follows behind its end"),
+            ("]}", "]} 1", "it is no JSON: trailing characters at line 1, column 68"),
             ("{\"seed\"", "seed", "it is no JSON: expected value at line 1, column 1"),
             (
                 GOOD,
