@@ -96,11 +96,7 @@ impl Against {
     }
 
     fn count(&self) -> String {
-        match self.differences.len() {
-            0 => "no field differs".to_owned(),
-            1 => "1 field differs".to_owned(),
-            several => format!("{} differ", counted(several, "field")),
-        }
+        fields_differ(self.differences.len())
     }
 }
 
@@ -111,5 +107,14 @@ impl fmt::Display for Against {
             let Difference { key, found, expected } = difference;
             writeln!(f, "  {key}: the plan says {found}, the scenario {expected}")
         })
+    }
+}
+
+/// How many fields of two jobs differ.
+pub fn fields_differ(count: usize) -> String {
+    match count {
+        0 => "no field differs".to_owned(),
+        1 => "1 field differs".to_owned(),
+        several => format!("{} differ", counted(several, "field")),
     }
 }

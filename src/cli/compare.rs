@@ -1,12 +1,13 @@
 //! `platewash compare`: two plan files side by side: job, cycle time and proved margins.
 
+use super::against::fields_differ;
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
 use super::output;
 use super::plan_file::PlanFile;
 use super::progress::Progress;
 use clap::Args;
-use platewash::certificate::{Difference, Measure, MeasureWords, Requirement, differences, paper_headline, prove_with};
+use platewash::certificate::{Difference, Measure, MeasureWords, Requirement, differences, paper_headline};
 use platewash::workcell::plan::Process;
 use platewash::workcell::segment::SegmentKind;
 use platewash::workcell::words::{counted, quoted};
@@ -95,8 +96,7 @@ impl Proved {
             Process::Paper => None,
             Process::Wash => {
                 let _progress = Progress::new(options.quiet, "proving");
-                let proved = prove_with(&file.plan, &file.arm, &options.cancel);
-                Some(proved.map_err(|error| file.failure(error.into()))?)
+                Some(file.prove(options)?)
             }
         };
         Ok(Self {
@@ -198,11 +198,7 @@ impl Display for Comparison {
             )?;
             writeln!(f, "   {}", side.headline)?;
         }
-        match self.job.len() {
-            0 => writeln!(f, "\njob: no field differs")?,
-            1 => writeln!(f, "\njob: 1 field differs")?,
-            several => writeln!(f, "\njob: {} differ", counted(several, "field"))?,
-        }
+        writeln!(f, "\njob: {}", fields_differ(self.job.len()))?;
         for Differing { key, a, b } in &self.job {
             writeln!(f, "  {key}: A {a}, B {b}")?;
         }

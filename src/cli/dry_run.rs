@@ -83,7 +83,7 @@ pub fn run(options: &Options, arguments: &DryRunArguments) -> Result<ExitCode, F
     let file = PlanFile::read(options, &arguments.plan)?;
     let progress = Progress::new(options.quiet, "proving the plan");
     let asked = job(&file, arguments.height, arguments.speed)?;
-    let parent = prove_with(&file.plan, &file.arm, &options.cancel).map_err(|error| file.failure(error.into()))?;
+    let parent = file.prove(options)?;
     if !parent.passes() {
         let first = &parent.headline;
         let words = format_args!("a dry run is one of a proved plan; this one is {first}");

@@ -3,10 +3,11 @@
 use super::failure::Failure;
 use super::options::Options;
 use anyhow::anyhow;
+use platewash::certificate::prove_with;
 use platewash::kinematics::urdf::{Files, file};
 use platewash::scenario::{Note, load_description};
 use platewash::workcell::workcell::ArmId;
-use platewash::{Plan, RobotModel};
+use platewash::{Certificate, Plan, RobotModel};
 use std::fmt::Display;
 use std::path::Path;
 use std::sync::Arc;
@@ -40,6 +41,12 @@ impl<'a> PlanFile<'a> {
         let arm = find_arm(options, &plan.job.workcell.arm, besides).map_err(|error| refused(path, error))?;
         options.warn(&Note::of_arm(&arm));
         Ok(Self { path, plan, arm })
+    }
+
+    /// The certificate of the plan.
+    pub fn prove(&self, options: &Options) -> Result<Certificate, Failure> {
+        let proved = prove_with(&self.plan, &self.arm, &options.cancel);
+        proved.map_err(|error| self.failure(error.into()))
     }
 
     /// Something in the file that cannot be used.

@@ -13,7 +13,7 @@ use super::progress::Progress;
 use super::refused::PLAN_STATES;
 use anyhow::anyhow;
 use clap::Args;
-use platewash::certificate::{HashFinding, PairsShown, Verdict, paper_headline, prove_with};
+use platewash::certificate::{HashFinding, PairsShown, Verdict, paper_headline};
 use platewash::workcell::plan::Process;
 use platewash::workcell::words::quoted;
 use platewash::{Certificate, Plan};
@@ -98,7 +98,9 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, F
             let file = PlanFile::with_arm(options, &arguments.plan, plan, besides)?;
             let given = arguments.parent.as_ref();
             parent = given.map(|path| OfParent::compare(&file, path)).transpose()?;
-            let mut certificate = prove(options, &file)?;
+            let progress = Progress::new(options.quiet, "proving");
+            let mut certificate = file.prove(options)?;
+            drop(progress);
             if parent.as_ref().is_some_and(OfParent::agrees) {
                 certificate.set_parent_compared();
             }
@@ -112,11 +114,6 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, F
     };
     output::print_either(options.json, &answer, || answer.text(arguments.pairs.shown()))?;
     Ok(answer.outcome().answer())
-}
-
-fn prove(options: &Options, file: &PlanFile<'_>) -> Result<Certificate, Failure> {
-    let _progress = Progress::new(options.quiet, "proving");
-    prove_with(&file.plan, &file.arm, &options.cancel).map_err(|error| file.failure(error.into()))
 }
 
 impl Answer {

@@ -11,22 +11,19 @@ pub fn message_in_words(path: &str, message: &str) -> String {
         }
     };
     let quoted = |text: &str| text.split('`').nth(1).unwrap_or(text).to_owned();
+    // The path ends with the key where the parser has read it.
+    let in_full = |key: &str| {
+        let is_in_path = path == key || path.ends_with(&format!(".{key}"));
+        if is_in_path { path.to_owned() } else { inside(key) }
+    };
     if message.starts_with("missing field") {
         return format!("'{}' is missing", inside(&quoted(message)));
     }
     if message.starts_with("duplicate field") {
-        // The path ends with the key where it is known.
-        let key = quoted(message);
-        let is_in_path = path == key || path.ends_with(&format!(".{key}"));
-        return format!(
-            "'{}' is stated twice",
-            if is_in_path { path.to_owned() } else { inside(&key) }
-        );
+        return format!("'{}' is stated twice", in_full(&quoted(message)));
     }
     if let Some((unknown, expected)) = message.strip_prefix("unknown field ").and_then(|m| m.split_once(", ")) {
-        let key = quoted(unknown);
-        let is_in_path = path == key || path.ends_with(&format!(".{key}"));
-        let key = if is_in_path { path.to_owned() } else { inside(&key) };
+        let key = in_full(&quoted(unknown));
         return format!("unknown key '{key}': {}", expected.replace('`', "'"));
     }
     let name = if path.is_empty() {

@@ -50,8 +50,6 @@ impl WashJobObject {
         Self { inner, layout, robot }
     }
 
-    /// The job of the argument called `job`.
-    ///
     /// The job.
     #[must_use]
     pub fn inner(&self) -> &WashJob {
@@ -255,8 +253,6 @@ impl PaperJobObject {
         Self { inner, robot }
     }
 
-    /// The job of the argument called `job`.
-    ///
     /// The job.
     #[must_use]
     pub fn inner(&self) -> &PaperJob {

@@ -39,7 +39,7 @@ fn words(text: &str, error: &serde_json::Error) -> String {
         Category::Eof => format!("it ends in the middle, at {at}: the file is empty or was cut off"),
         Category::Syntax | Category::Io => format!("it is no JSON: {message} at {at}"),
         Category::Data => {
-            let lines = text.split_inclusive('\n').take(error.line() - 1);
+            let lines = text.split_inclusive('\n').take(error.line().saturating_sub(1));
             let before = lines.map(str::len).sum::<usize>() + error.column();
             message_in_words(&path_at(&text.as_bytes()[..before.min(text.len())]), message)
         }

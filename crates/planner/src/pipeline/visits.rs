@@ -115,11 +115,16 @@ impl Pipeline<'_> {
         let mut found: Result<Turn, RedundancyError> = Err(RedundancyError::Plate { plate, count: 0 });
         let mut offered = patterns.first().iter().copied().chain(patterns.wider());
         let mut denser = patterns.denser();
+        // Whether the one found lacks a little margin, once that is asked.
+        let mut lacks = None;
         loop {
-            let lacks = |turn: &Turn| self.shortfall(scene, turn, &Margin::CLOSE).is_some();
-            let next = offered.next();
-            let next = next.or_else(|| found.as_ref().is_ok_and(lacks).then(|| denser.next())?);
-            let Some(pattern) = next else { return found };
+            let Some(pattern) = offered.next().or_else(|| {
+                let turn = found.as_ref().ok()?;
+                let lacks = lacks.get_or_insert_with(|| self.shortfall(scene, turn, &Margin::CLOSE).is_some());
+                lacks.then(|| denser.next())?
+            }) else {
+                return found;
+            };
             let path = WashPath {
                 curve: turned_as(pattern.curve, &like.curve),
                 cone_rad: pattern.cone_rad,
@@ -145,7 +150,7 @@ impl Pipeline<'_> {
                         .as_ref()
                         .map_or(true, |found| found.shortfall.is_some() && turn.shortfall.is_none());
                     if is_better {
-                        found = Ok(turn);
+                        (found, lacks) = (Ok(turn), None);
                     }
                 }
             }
