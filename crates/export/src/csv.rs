@@ -13,7 +13,7 @@ use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::csv::MAX_ROWS;
 use platewash_workcell::job::JobTerms;
-use platewash_workcell::words::quoted;
+use platewash_workcell::words::{quoted, without_mark};
 
 /// Time between two rows \[s\]: a control cycle of common controllers.
 const STEP_S: f64 = 0.004;
@@ -166,7 +166,7 @@ struct Columns {
 
 /// What a table says.
 fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
-    let text = file.text.strip_prefix('\u{feff}').unwrap_or(&file.text);
+    let text = without_mark(&file.text);
     let mut lines = text.lines().zip(1..);
     let (header, _) = lines.next().unwrap_or_default();
     let columns = columns(header).map_err(|reason| ReadError::at(&file.name, 1, reason.0))?;

@@ -107,15 +107,13 @@ const LONGEST: usize = 60;
 
 /// What is wrong with a line that is no TOML, and the line.
 fn syntax_words(message: &str, at_fault: &str, written: &str) -> String {
-    let digits = |text: Option<&str>, last: bool| {
-        let c = text.and_then(|text| if last { text.chars().last() } else { text.chars().next() });
-        c.is_some_and(|c| c.is_ascii_digit())
-    };
     let value = written.split_once('=').map(|(_, value)| value.trim());
-    let has_decimal_comma = value.is_some_and(|value| {
-        let mut parts = value.split(',');
-        !value.contains(['[', '"']) && digits(parts.next(), true) && digits(parts.next(), false)
-    });
+    let plain = value.filter(|value| !value.contains(['[', '"']));
+    let has_decimal_comma = plain
+        .and_then(|value| value.split_once(','))
+        .is_some_and(|(whole, rest)| {
+            whole.ends_with(|c: char| c.is_ascii_digit()) && rest.starts_with(|c: char| c.is_ascii_digit())
+        });
     let what = if message == "duplicate key" {
         format!("'{}' is stated twice", at_fault.trim())
     } else if value == Some("") {

@@ -1,6 +1,6 @@
 //! JSON out of files: read with the place of what is wrong, in words for people who do not know this program's types.
 
-use crate::words::printable;
+use crate::words::{printable, without_mark};
 use platewash_kinematics::serde_words::message_in_words;
 use serde::de::DeserializeOwned;
 use serde_json::error::Category;
@@ -11,12 +11,6 @@ use serde_json::error::Category;
 pub struct JsonError {
     /// What is wrong, and at which key or line.
     pub reason: String,
-}
-
-/// A text without the byte order mark that some editors put before it.
-#[must_use]
-pub fn without_mark(text: &str) -> &str {
-    text.strip_prefix('\u{feff}').unwrap_or(text)
 }
 
 /// What a text says.

@@ -1,6 +1,12 @@
-//! Words that messages share.
+//! Words that messages share, and texts that people typed.
 
 use platewash_kinematics::words::is_hidden;
+
+/// A text without the byte order mark that some editors put before it.
+#[must_use]
+pub fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
+}
 
 /// A number of things: `1 plate`, `4 plates`.
 #[must_use]

@@ -13,6 +13,7 @@ use crate::json;
 use crate::segment::PlanSegment;
 use crate::trajectory::{KnotError, Trajectory};
 use crate::wash_path::WashPath;
+use crate::words::without_mark;
 use format::BEFORE;
 use platewash_kinematics::words::is_hidden;
 use platewash_kinematics::{JointVector, sha256_hex};
@@ -218,7 +219,7 @@ impl Plan {
     /// # Errors
     /// [`PlanFileError`] for anything but a plan of this format.
     pub fn from_json(text: &str) -> Result<Self, PlanFileError> {
-        let text = json::without_mark(text);
+        let text = without_mark(text);
         sizes::check(text)?;
         let plan: Self = json::read(text).map_err(|error| other_format(text).unwrap_or_else(|| error.into()))?;
         if plan.format != FORMAT {

@@ -3,6 +3,7 @@
 use super::error::SyntaxError;
 use super::keyword::keyword;
 use super::token::{At, Lexed, Token};
+use platewash_workcell::words::without_mark;
 
 /// Longest name.
 pub const NAME_CHARACTERS: usize = 32;
@@ -23,7 +24,7 @@ const SYMBOLS: [&str; 24] = [
 /// [`SyntaxError`] where a token cannot be read.
 pub fn tokens(text: &str) -> Result<Vec<Lexed<'_>>, SyntaxError> {
     let mut lexer = Lexer {
-        rest: text.strip_prefix('\u{feff}').unwrap_or(text),
+        rest: without_mark(text),
         at: At { line: 1, column: 1 },
     };
     if text.len() > MOST_BYTES {
