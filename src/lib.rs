@@ -41,7 +41,7 @@ pub use platewash_certificate::{Certificate, Certified, Check, ProveError, Requi
 pub use platewash_planner::{PlanError, Planned, plan};
 pub use platewash_scenario::{Failure, Scenario, ScenarioError};
 pub use platewash_simulator::{Execution, SimulationError, SimulationReport, SimulationVerdict, simulate, tune};
-pub use report::{WashReport, WashText};
+pub use report::WashReport;
 pub use sweep::{SWEEP_HEADER, SweepRow, sweep, sweep_csv, sweep_each};
 
 // What they speak of.

@@ -1,6 +1,6 @@
 //! A plan with its certificate, for people and as data.
 
-use platewash_certificate::{self as certificate, Certificate, PairsShown};
+use platewash_certificate::{self as certificate, Certificate};
 use platewash_kinematics::AXES;
 use platewash_kinematics::trig::acos;
 use platewash_kinematics::words::decimals_up;
@@ -98,49 +98,51 @@ fn tilt(visit: &VisitSummary) -> String {
     format!("{}, and {aside:.1}° aside", visit.tilt)
 }
 
-/// A report as a person reads it; see [`WashReport::text`].
-#[derive(Debug, Clone, Copy)]
-pub struct WashText<'a> {
-    report: &'a WashReport,
-    pairs: PairsShown,
-}
-
-impl fmt::Display for WashText<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let certificate = &self.report.certificate;
-        self.report.head(f)?;
-        f.write_str(&certificate.basis())?;
-        self.report.motion(f)?;
-        f.write_str(&certificate.table(self.pairs).judgement())
-    }
-}
-
 impl fmt::Display for WashReport {
-    /// With the tightest pairs of the certificate.
+    /// One screen. The alternate form (`{:#}`) shows everything.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.text(PairsShown::default()).fmt(f)
-    }
-}
-
-impl WashReport {
-    /// The report as a person reads it, with these pairs of the certificate.
-    #[must_use]
-    pub fn text(&self, pairs: PairsShown) -> WashText<'_> {
-        WashText { report: self, pairs }
-    }
-
-    /// The first line, and which job it is of.
-    fn head(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.headline)?;
         let [scenario, robot] = [&self.scenario, &self.robot].map(|name| quoted(name));
         writeln!(f, "scenario {scenario}, seed {}, arm {robot}", self.seed)?;
         self.findings
             .iter()
-            .try_for_each(|finding| writeln!(f, "note: {finding}"))
+            .try_for_each(|finding| writeln!(f, "note: {finding}"))?;
+        if f.alternate() {
+            f.write_str(&self.certificate.basis())?;
+            self.motions(f)?;
+            self.certificate.bounds(f)
+        } else {
+            writeln!(f)?;
+            self.washes(f)?;
+            self.certificate.main_bounds(f)
+        }
+    }
+}
+
+impl WashReport {
+    /// Writes one line for each plate: the way there and the wash.
+    fn washes(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{:<12} {:>9} {:>9}  how", "motion, s", "transit", "wash")?;
+        for (transit, visit) in self.transits.iter().zip(&self.visits) {
+            let (name, transit_s) = (format!("plate {}", visit.plate), transit.duration_s);
+            let how = format!("{}, {}", visit.pattern(), leaning(visit, &self.certificate));
+            writeln!(f, "{name:<12} {transit_s:>9.2} {:>9.2}  {how}", visit.wash_s)?;
+        }
+        if let Some(transit) = self.transits.get(self.visits.len()) {
+            writeln!(f, "{:<12} {:>9.2}", "home", transit.duration_s)?;
+        }
+        let washes_s: f64 = self.visits.iter().map(|visit| visit.wash_s).sum();
+        let cycle = format!("whole cycle {:.2} s", self.duration_s);
+        writeln!(f, "{:<12} {:>9.2} {washes_s:>9.2}  {cycle}\n", "all", self.transits_s())
     }
 
-    /// What is said of the motion, the certificate apart.
-    fn motion(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    /// Total time of the transits \[s\].
+    fn transits_s(&self) -> f64 {
+        self.transits.iter().map(|transit| transit.duration_s).sum()
+    }
+
+    /// Writes every motion with its pattern and what limits it.
+    fn motions(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{:<24} {:>9}  how", "motion", "time, s")?;
         for (k, transit) in self.transits.iter().enumerate() {
             let plate = |k: usize| self.visits.get(k).map(|v| v.plate);
@@ -153,30 +155,26 @@ impl WashReport {
             writeln!(f, "{name:<24} {:>9.2}  {}", transit.duration_s, transit.kind)?;
             if let Some(visit) = self.visits.get(k) {
                 let name = format!("wash plate {}", visit.plate);
-                writeln!(
-                    f,
-                    "{name:<24} {:>9.2}  {}, {}",
-                    visit.wash_s,
-                    visit.pattern(),
-                    leaning(visit, &self.certificate)
-                )?;
+                let how = format!("{}, {}", visit.pattern(), leaning(visit, &self.certificate));
+                writeln!(f, "{name:<24} {:>9.2}  {how}", visit.wash_s)?;
                 writeln!(f, "{:<24} {:>9}  {}", "", "", visit.pace)?;
             }
         }
-        let travel: f64 = self.transits.iter().map(|c| c.duration_s).sum();
-        writeln!(f, "{:<24} {travel:>9.2}", "all transits")?;
+        writeln!(f, "{:<24} {:>9.2}", "all transits", self.transits_s())?;
         writeln!(f, "{:<24} {:>9.2}", "whole cycle", self.duration_s)?;
-        let tour = &self.tour;
-        let gain = tour.nearest_next_s - tour.travel_s;
+        let TourSummary {
+            travel_s,
+            nearest_next_s,
+            ..
+        } = self.tour;
         writeln!(
             f,
-            "order: {:.2} s of travel estimated, {gain:.2} s less than nearest-next",
-            tour.travel_s
+            "order of the plates: {travel_s:.2} s of travel estimated; always going to the nearest plate: {nearest_next_s:.2} s"
         )?;
         let jerk: Vec<_> = self.jerk_rad_s3.iter().map(|j| format!("{j:.0}")).collect();
         writeln!(
             f,
-            "largest jerk between knots, not judged: {} rad/s³\n",
+            "largest jerk between knots (not a requirement): {} rad/s³\n",
             jerk.join(", ")
         )
     }

@@ -42,17 +42,17 @@ const NOTHING: f64 = 1e-9;
 /// Arguments of `align`.
 #[derive(Debug, Args)]
 pub struct AlignArguments {
-    /// CSV of touched points: x_m,y_m,z_m in the drawing (world frame, metres) and touched_x_mm,touched_y_mm,touched_z_mm as the pendant
-    /// shows the tip in the base frame (millimetres); a column name may be there, too
+    /// CSV of touched points: columns x_m,y_m,z_m (in the drawing: world frame, metres) and touched_x_mm,touched_y_mm,touched_z_mm (the
+    /// tip in the base frame as the pendant shows it, millimetres); a column name is allowed
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Largest residual that is accepted, in metres, at most 0.05: exit code 4 where one is larger
+    /// Largest accepted residual in metres, at most 0.05
     #[arg(long, value_name = "M", default_value_t = 0.001, value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: f64,
-    /// A point of the drawing to be told in the base frame, metres (may be repeated)
+    /// Point of the drawing in metres, to convert to the base frame (may be repeated)
     #[arg(long, num_args = 3, allow_negative_numbers = true, value_names = ["X", "Y", "Z"])]
     pub point: Vec<f64>,
-    /// CSV of more such points: x_m,y_m,z_m, and name
+    /// CSV of such points: columns x_m,y_m,z_m and name
     #[arg(long, value_name = "FILE")]
     pub points: Option<PathBuf>,
 }

@@ -20,10 +20,10 @@ use std::path::{Path, PathBuf};
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
 pub struct CompareArguments {
-    /// The first plan file
+    /// First plan file
     #[arg(value_name = "A")]
     pub a: PathBuf,
-    /// The second one
+    /// Second plan file
     #[arg(value_name = "B")]
     pub b: PathBuf,
 }

@@ -1,5 +1,6 @@
 //! `platewash dry-run`: the motion of a proved plan in the air, slower, as a plan of its own.
 
+use super::details::{DetailArguments, whole};
 use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::law::positive;
@@ -11,13 +12,14 @@ use super::results;
 use super::text::text;
 use anyhow::anyhow;
 use clap::Args;
-use platewash::certificate::{PairsShown, prove_with};
+use platewash::certificate::prove_with;
 use platewash::planner::{InfeasibleReport, PlanError, Planned, Watch, plan_in_order};
 use platewash::workcell::dry_run::{HEIGHT_M, SPEED_M_S};
 use platewash::workcell::raised::{DryRunError, check_paths, dry_run_job, least_height_m};
 use platewash::workcell::words::printable;
 use platewash::{Certificate, Plan, Verdict, WashJob};
 use serde::Serialize;
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// Folder in the output folder that its files go to, so that they never take the place of the parent's.
@@ -35,15 +37,17 @@ const HIGHER_M: [f64; 3] = [0.005, 0.02, 0.05];
 /// Arguments of `dry-run`.
 #[derive(Debug, Args)]
 pub struct DryRunArguments {
-    /// The plan file of a washing, which must be proved
+    /// Plan file; it must be proved
     #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
-    /// How far above the plates the sponge moves, in metres
+    /// Height of the motion above the plates in metres
     #[arg(long, value_name = "M", default_value_t = HEIGHT_M, value_parser = positive, allow_negative_numbers = true)]
     pub height: f64,
-    /// Largest speed of the tip, in m/s; no more than the plan's
+    /// Largest speed of the tip in m/s; at most the plan's
     #[arg(long, value_name = "M/S", default_value_t = SPEED_M_S, value_parser = positive, allow_negative_numbers = true)]
     pub speed: f64,
+    #[command(flatten)]
+    pub details: DetailArguments,
 }
 
 /// What is said of a dry run.
@@ -183,16 +187,15 @@ fn tell(
         plates: planned.plan.order.len(),
         certificate,
     };
-    let words = text(&report.words());
     let json = planned.plan.to_json().map_err(platewash::Failure::from)?;
     let files = [
         output::file(plan.clone(), json),
         output::file(proof.clone(), output::json(certificate)?),
         output::file(data.clone(), output::json(&report)?),
-        output::file(sheet.clone(), &words),
+        output::file(sheet.clone(), whole(&report)),
     ];
     output::replace(&files, &[plan, proof, data, sheet].map(Clone::clone), &options.cancel)?;
-    output::print_either(options.json, &report, || words.clone())?;
+    output::print_either(options.json, &report, || arguments.details.printed(&report))?;
     results::name(options, &files);
     let outcome = if report.proved {
         Outcome::Good
@@ -202,8 +205,8 @@ fn tell(
     Ok(outcome.answer())
 }
 
-impl Report<'_> {
-    fn words(&self) -> String {
+impl fmt::Display for Report<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             parent,
             tip_speed_m_s,
@@ -211,10 +214,11 @@ impl Report<'_> {
             parent_duration_s,
             ..
         } = self;
-        let table = self.certificate.table(PairsShown::Tightest);
-        format!(
-            "{table}\nparent {parent}\n{duration_s:.2} s with the tip at most {tip_speed_m_s} m/s; the parent takes {parent_duration_s:.2} s\n\
-             platewash verify DRY-RUN --parent PLAN compares both\n"
+        self.certificate.fmt(f)?;
+        writeln!(
+            f,
+            "\nparent {parent}\n{duration_s:.2} s with the tip at most {tip_speed_m_s} m/s; the parent takes {parent_duration_s:.2} s\n\
+             platewash verify DRY-RUN --parent PLAN compares both"
         )
     }
 }

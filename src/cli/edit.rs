@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// Arguments of `edit`.
 #[derive(Debug, Args)]
 pub struct EditArguments {
-    /// Where Save writes the scenario [default: its own file; NAME.toml in the working folder for a shipped one]
+    /// File that Save writes [default: the scenario's own file; NAME.toml in the working folder for a shipped scenario]
     #[arg(long, value_name = "FILE")]
     save_as: Option<PathBuf>,
     #[command(flatten)]

@@ -9,7 +9,7 @@ use platewash::{SimulationVerdict, Verdict};
 pub enum Outcome {
     /// As asked.
     Good,
-    /// Done, but not proved, not washed, or not the plan that was sealed.
+    /// Done, but not proved, not washed, or not the plan that was written.
     NotVerified,
     /// It cannot be done, or no way was found.
     Infeasible,

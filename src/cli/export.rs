@@ -26,29 +26,28 @@ const MOST_FILES: usize = 10_000;
 /// Arguments of `export`.
 #[derive(Debug, Args)]
 pub struct ExportArguments {
-    /// The plan file
+    /// Plan file
     #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
-    /// What it is for: rapid, ros2, urscript or csv
+    /// Kind of program: rapid, ros2, urscript or csv
     #[arg(long, value_name = "TARGET", value_parser = target)]
     to: &'static dyn Dialect,
-    /// How far the tip may be from the plan, in metres: 0.0002 is 0.2 mm
+    /// Largest distance between the program's tip path and the plan's, in metres (0.0002 is 0.2 mm)
     #[arg(long, value_name = "M", default_value_t = ExportSettings::default().tolerance_m, allow_negative_numbers = true)]
     tolerance: f64,
-    /// Share of the plan's speed at which the program runs, above 0 and at most 1
+    /// Speed of the program as a share of the plan's, above 0 and at most 1
     #[arg(long, value_name = "SHARE", default_value_t = 1.0, allow_negative_numbers = true)]
     speed_share: f64,
-    /// Radius of corners between points, in metres, for programs that have them (RAPID)
+    /// Corner radius between points in metres (RAPID zones)
     #[arg(long, value_name = "M", default_value_t = ExportSettings::default().corner_m, allow_negative_numbers = true)]
     corner: f64,
-    /// A requirement that the job waives and that need not be kept, by its name in the certificate (may be repeated)
+    /// Name of a waived requirement that the program may break too, as in the certificate (may be repeated)
     #[arg(long, value_name = "REQUIREMENT", value_parser = waived)]
     accept: Vec<Requirement>,
-    /// Where the arm stands now, six joints in degrees: refused where that is more than half a degree from the plan's start
+    /// Joint positions of the arm now, in degrees; refused if more than half a degree from the plan's start
     #[arg(long, value_name = "J1,…,J6", value_parser = joints, allow_hyphen_values = true)]
     stands: Option<JointVector>,
-    /// The tip as the controller has it, in the frame of the flange: x, y, z in mm and the quaternion w, x, y, z. Refused where it is not
-    /// the plan's
+    /// The controller's tool frame in the flange frame: x, y, z in mm and the quaternion w, x, y, z; refused if it is not the plan's
     #[arg(long, value_name = "X,Y,Z,QW,QX,QY,QZ", value_parser = frame, allow_hyphen_values = true)]
     tip: Option<Pose>,
 }

@@ -53,7 +53,7 @@ impl Failure {
         Self::with_code(INPUT, error)
     }
 
-    /// A plan that is refused because it is not proved, or was changed after it was sealed.
+    /// A plan that is refused because it is not proved, or was changed after it was written.
     pub fn not_verified(error: impl Into<anyhow::Error>) -> Self {
         Self::with_code(NOT_VERIFIED, error)
     }

@@ -22,13 +22,13 @@ const DEFAULT_FOLDER: &str = "figures";
 /// Arguments of `figures`.
 #[derive(Debug, Args)]
 pub struct FiguresArguments {
-    /// The plan file
+    /// Plan file
     #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
-    /// These figures alone, separated by commas: layout, cleaning, transit, moment, joints, coverage, spiral, sheet, flow
+    /// Names of the figures to draw, separated by commas: layout, cleaning, transit, moment, joints, coverage, spiral, sheet, flow
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = Figure::named)]
     pub only: Vec<Figure>,
-    /// A moment in seconds, for the figure "moment"
+    /// Time in seconds of the figure "moment"
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub at: Option<f64>,
 }

@@ -20,7 +20,7 @@ use std::path::PathBuf;
 pub struct FkArguments {
     #[command(flatten)]
     joints: JointArguments,
-    /// File with six numbers a line, in place of one configuration
+    /// File with one configuration of six numbers on each line
     #[arg(long, value_name = "FILE")]
     file: Option<PathBuf>,
 }

@@ -22,16 +22,16 @@ const MOST_RESTARTS: usize = 10_000;
 /// Arguments of `ik`.
 #[derive(Debug, Args)]
 pub struct IkArguments {
-    /// Position of the frame in the base frame, metres
+    /// Position in the base frame, metres
     #[arg(long, num_args = 3, required = true, allow_negative_numbers = true, value_names = ["X", "Y", "Z"])]
     position: Vec<f64>,
     #[command(flatten)]
     orientation: Orientation,
-    /// Frame that is brought there: flange, tool0, matlab_tool0, tip (of the scenario's tool) or a link's name [default:
-    /// tool0; with --scenario, its tool_frame]
+    /// Frame to place at the pose: flange, tool0, matlab_tool0, tip (of the scenario's tool) or a link's name [default: tool0; with
+    /// --scenario, its tool_frame]
     #[arg(long, value_name = "NAME")]
     frame: Option<String>,
-    /// Seed configuration in degrees [default: zeros]
+    /// Start configuration of the search in degrees [default: zeros]
     #[arg(
         long,
         num_args = 6,
@@ -40,10 +40,10 @@ pub struct IkArguments {
         conflicts_with = "seed_rad"
     )]
     seed_deg: Option<Vec<f64>>,
-    /// Seed configuration in radians
+    /// Start configuration of the search in radians
     #[arg(long, num_args = 6, allow_negative_numbers = true, value_name = "Q")]
     seed_rad: Option<Vec<f64>>,
-    /// Random restarts after the listed starts, at most 10000; their stream is --seed
+    /// Number of random restarts, at most 10000; --seed seeds them
     #[arg(long, value_name = "N", default_value_t = 0)]
     restarts: usize,
 }
@@ -58,7 +58,7 @@ struct Orientation {
     /// Roll, pitch, yaw in radians
     #[arg(long, num_args = 3, allow_negative_numbers = true, value_names = ["R", "P", "Y"])]
     rpy_rad: Option<Vec<f64>>,
-    /// Quaternion w x y z (is normalised)
+    /// Quaternion w x y z (it is normalised)
     #[arg(long, num_args = 4, allow_negative_numbers = true, value_names = ["W", "X", "Y", "Z"])]
     quaternion: Option<Vec<f64>>,
 }

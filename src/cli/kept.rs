@@ -1,12 +1,12 @@
 //! The file that `edit` saves a scenario to, and what is written beside it.
 
+use super::details::whole;
 use super::failure::Failure;
 use super::options::Options;
 use super::output::{self, File};
-use super::text::text;
 use super::{infeasible, page, wash};
 use anyhow::{Context, anyhow};
-use platewash::certificate::{PairsShown, prove_with};
+use platewash::certificate::prove_with;
 use platewash::editor::{Keeper, NotWritten, Save, Written};
 use platewash::scenario::ScenarioSource;
 use platewash::viewer::bundle::Bundle;
@@ -190,10 +190,7 @@ impl ScenarioFile {
             output::file(self.place.beside("plan.json"), json),
             output::file(self.place.beside("certificate.json"), proof),
             output::file(self.place.beside("report.json"), output::json(&report)?),
-            output::file(
-                self.place.beside("report.txt"),
-                self::text(&report.text(PairsShown::default())),
-            ),
+            output::file(self.place.beside("report.txt"), whole(&report)),
             output::file(self.place.beside("page.html"), page),
         ];
         Ok((files, report.headline))
@@ -209,7 +206,7 @@ impl ScenarioFile {
         };
         let files = vec![
             output::file(self.place.beside("report.json"), output::json(&report)?),
-            output::file(self.place.beside("report.txt"), self::text(&report)),
+            output::file(self.place.beside("report.txt"), whole(&report)),
         ];
         Ok((files, report.headline))
     }

@@ -9,10 +9,10 @@ use platewash::workcell::simulation::{ControlLawName, SimulationSettings};
 /// The control law, where it is not the plan's.
 #[derive(Debug, Args)]
 pub struct LawArguments {
-    /// Control law in place of the plan's
+    /// Control law [default: the plan's]
     #[arg(long, value_name = "LAW", value_parser = laws())]
     pub law: Option<ControlLawName>,
-    /// Samples a second of a torque law in Hz [default: the plan's]
+    /// Sample rate of a torque law in Hz [default: the plan's]
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub rate: Option<f64>,
 }

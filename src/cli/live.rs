@@ -28,7 +28,7 @@ const NOTICEABLE_S: f64 = 0.5;
 /// Arguments of `run` that show it live.
 #[derive(Debug, Args, Default)]
 pub struct LiveArguments {
-    /// Show the simulation on a page in the browser, in real time, while it runs
+    /// Show the simulation in the browser, in real time, while it runs; results are the same
     #[arg(long)]
     live: bool,
     #[command(flatten)]

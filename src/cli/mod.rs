@@ -7,6 +7,7 @@ mod align;
 mod angles;
 mod bundle;
 mod compare;
+mod details;
 mod dry_run;
 mod edit;
 mod execution;
@@ -27,7 +28,6 @@ mod motion;
 mod options;
 mod output;
 mod page;
-mod pairs;
 mod paper;
 mod paper_claims;
 mod parent;
@@ -64,15 +64,15 @@ use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
 use std::panic::UnwindSafe;
 
-/// Plan, check and report the washing of plates by a six-axis arm.
+/// Plan, prove, simulate, show and export the washing of plates by a six-axis arm.
 ///
-/// Without a verb the default scenario is run to the end. Messages and progress go to standard error, results to
-/// standard output.
+/// Without a command, the scenario "kitchen" is planned, proved and simulated. Results go to standard output, messages and progress to
+/// standard error.
 #[derive(Debug, Parser)]
 #[command(
     name = "platewash",
     version,
-    after_help = "Exit codes: 0 done, 1 internal error, 2 bad usage or input, 3 infeasible, 4 verification failed, 130 interrupted."
+    after_help = "Exit codes: 0 done, 1 internal error, 2 wrong usage or input, 3 no plan found, 4 not proved or not washed, 130 interrupted."
 )]
 struct Arguments {
     #[command(flatten)]
@@ -83,93 +83,85 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
-    /// Run a scenario to the end: plan, CSV and report (the default).
+    /// Plan, prove and simulate a scenario (the default)
     ///
-    /// With --live the simulation runs in real time and is shown while it does; files and exit code are what they are without it.
-    ///
-    /// Owns plan.json, trajectory.csv, executed.csv, certificate.json, report.json, report.txt, page.html and the files of simulate in the
-    /// output folder: those that it does not write are removed. A job that cannot be done leaves report.json and report.txt, which say why.
+    /// Writes plan.json, trajectory.csv (planned motion), executed.csv (simulated motion), certificate.json, report.json, report.txt
+    /// and page.html to the output folder, and removes files of earlier runs there. If the job cannot be done, report.json and
+    /// report.txt say why.
     Run(run::RunArguments),
-    /// Place the plates of a scenario and say what is wrong with them.
+    /// Place the plates of a scenario and list what is wrong with the layout
     Layout,
-    /// Plan a scenario and write the plan file and its CSV.
+    /// Plan a scenario without proving it; write the plan file and its CSV
     ///
-    /// Owns the files of run in the output folder: those that it does not write are removed. A job that cannot be done leaves
-    /// report.json and report.txt, which say why.
+    /// Removes files of earlier runs from the output folder. If the job cannot be done, report.json and report.txt say why.
     Plan(motion::MotionArguments),
-    /// Check a scenario without running it.
+    /// Check a scenario file without planning it
     Validate,
-    /// Print a shipped scenario, to start one's own from: platewash scenario kitchen > mine.toml
+    /// Print a shipped scenario, as a start for your own: platewash scenario kitchen > mine.toml
     Scenario(scenario::ScenarioArguments),
-    /// Judge a plan file: what is proved about it, and what is not.
+    /// Prove a plan file, and compare it with a scenario or a robot program
     ///
-    /// Exit code 0 where it is certified, 4 where it is not. What the job waives (layout.overlap = "report") is no failure, so that the
-    /// code is 0: the first line then says PROVED BUT FOR and what, and JSON lists it as `waived`.
+    /// Exit code 0 if all requirements of the plan's own job are proved, else 4. A requirement that is waived by the job
+    /// (layout.overlap = "report") does not count: the first line then says PROVED BUT FOR and names it.
     ///
-    /// A certificate says that the plan does its own job. Whether that is the job of a scenario is for --against: exit code 4 where a
-    /// field differs, and the first line begins with OTHER JOB.
+    /// The proof is about the job in the plan file. --against checks that this job is the one of a scenario: exit code 4 if a field
+    /// differs, and the first line begins with OTHER JOB.
     ///
-    /// With --program it is the program of a controller that is judged: code 0 where what it does holds, changed or not, otherwise 4.
+    /// --program judges an exported robot program, changed or not: exit code 0 if its motion keeps all requirements, else 4.
     Verify(verify::VerifyArguments),
-    /// Compare two plan files: job, cycle time and proved margins.
+    /// Compare two plan files: job, cycle time and proved bounds
     ///
-    /// Both are proved. Exit code 0 whatever differs and whatever is proved; the first lines say what is.
+    /// Both plans are proved. The exit code is 0 whatever differs; the first lines say what is proved.
     Compare(compare::CompareArguments),
-    /// Plan and prove the motion of a plan in the air, slower: what to try on the arm first.
+    /// Plan and prove a slow motion above the plates, to try on the real arm first
     ///
-    /// The plan is proved; its plates are raised, the real ones stand below as obstacles, and the same paths are planned and proved in
-    /// the same order. Writes plan.json, certificate.json, report.json and report.txt to the folder dry-run in the output folder. Exit
-    /// code 3 where that height does not work, with one that was found to, and 4 where a plan is not proved.
+    /// The plan is proved first. Then its plates are raised, the real plates become obstacles, and the same paths are planned and proved
+    /// in the same order. Writes plan.json, certificate.json, report.json and report.txt to the folder dry-run in the output folder.
+    /// Exit code 3 if no motion was found at that height (the message names a height that works, if one was found), 4 if a plan is not
+    /// proved.
     DryRun(dry_run::DryRunArguments),
-    /// Find where the arm stands at a table, from points touched with its tip.
+    /// Find where the arm stands at a table, from points touched with its tip
     ///
-    /// Prints T_world_base with the residual of each point, and points of the drawing in the base frame. Exit code 4 where a residual is
-    /// larger than the tolerance.
+    /// Prints T_world_base, the residual of each point, and points of the drawing in the base frame. Exit code 4 if a residual exceeds
+    /// the tolerance.
     Align(align::AlignArguments),
-    /// Simulate a plan file under a control law: tracking, torque, and what is really washed.
+    /// Simulate a plan file under a control law: tracking, torque, and what is washed
     ///
-    /// Writes simulated.csv, simulation.json and simulation.txt to the output folder, and touches no other file there; the next run
-    /// or plan into that folder removes them.
+    /// Writes simulated.csv, simulation.json and simulation.txt to the output folder. The next run or plan into that folder removes
+    /// them.
     Simulate(simulate::SimulateArguments),
-    /// Show a plan file in three dimensions, on a page in the browser.
+    /// Show a plan file in 3-D, on a page in the browser
     ///
-    /// Proves it, simulates it as it states itself, serves the page on the loopback and prints its address. Ctrl-C ends it: exit code
-    /// 0, or 130 where there is no page yet.
+    /// Proves and simulates the plan, serves the page on this machine and prints its address. Ctrl-C ends it.
     View(view::ViewArguments),
-    /// Change a scenario on a page in the browser, and see its plan and proof at once.
+    /// Change a scenario on a page in the browser; each change is planned and proved at once
     ///
-    /// Drag plates, change keys in a form or as text; each change is planned and proved by this command, which serves the page on the
-    /// loopback and prints its address. Save writes the scenario, its comments and order kept, and beside it NAME.plan.json,
-    /// NAME.certificate.json, NAME.report.json, NAME.report.txt and NAME.page.html (in the folder of --out, where given): it owns those
-    /// names. Ctrl-C ends it: exit code 0, or 130 where there is no page yet.
+    /// Drag plates, or change keys in a form or as text. Save writes the scenario (comments and order kept) and beside it NAME.plan.json,
+    /// NAME.certificate.json, NAME.report.json, NAME.report.txt and NAME.page.html. Ctrl-C ends it.
     Edit(edit::EditArguments),
-    /// Draw a plan file: the workcell from above, the arm while it washes and crosses over, joints, coverage, ideal and executed path,
-    /// and what is claimed beside what is proved or measured.
-    ///
-    /// Each figure is written twice, NAME.svg and NAME.png, which show the same.
+    /// Draw a plan file as SVG and PNG: workcell, wash, transit, joints, coverage and more
     Figures(figures::FiguresArguments),
-    /// Write a plan file as a program for a robot's controller: rapid, ros2 and others.
+    /// Export a plan file as a robot program: rapid, ros2, urscript or csv
     ///
-    /// The plan is proved first. The program is then read back, its motion interpreted and judged again, and written only where that
-    /// holds: exit code 4 where it does not. What is written goes to the folder of --out, or to out/TARGET.
+    /// The plan is proved first. The program is read back, its motion is proved again, and it is written only if that succeeds; else the
+    /// exit code is 4. The files go to the folder of --out, or to out/TARGET.
     Export(export::ExportArguments),
-    /// Simulate a plan file at many frequencies and dampings of a control law.
+    /// Simulate a plan file at many frequencies and damping ratios of a control law
     Tune(tune::TuneArguments),
-    /// Forward kinematics of one or many configurations, with clearances.
+    /// Forward kinematics of one or many configurations, with clearances
     Fk(fk::FkArguments),
-    /// Inverse kinematics of one pose.
+    /// Inverse kinematics of one pose
     Ik(ik::IkArguments),
-    /// Show the arm: joints, limits, frames and the pairs checked for clearance.
+    /// Show the arm: joints, limits, frames and the pairs checked for clearance
     ///
-    /// With --suggest, find what suits it with the scenario's tool and plates: a home with clearance, and where such plates can be washed, in
-    /// numbers and as a picture (region.svg, region.png); and the pairs of links that need no check, as an SRDF that says why
-    /// (touching.srdf).
+    /// --suggest finds, for the scenario's tool and plates: a home position, where plates can be washed (region.svg, region.png), and
+    /// the pairs of links that need no check, with reasons (touching.srdf).
     Robot(robot::RobotArguments),
-    /// Plan and prove many layouts of a scenario, one a seed.
+    /// Plan and prove a scenario with many seeds
     Sweep(sweep::SweepArguments),
-    /// Plan and prove scenarios by the thousand, as a study file states them, and keep every row as soon as it is done.
+    /// Plan and prove thousands of scenarios from a study file, and resume after a stop
     Study(study::StudyArguments),
-    /// Re-measure what the paper's program really does.
+    /// Measure again what the paper's program does
     Reproduce(reproduce::ReproduceArguments),
 }
 

@@ -14,12 +14,12 @@ use std::time::Duration;
 /// Where the planned motion goes, and in which steps.
 #[derive(Debug, Args)]
 pub struct MotionArguments {
-    /// File for the planned motion's CSV [default: trajectory.csv in the output folder]
+    /// CSV file for the planned motion [default: trajectory.csv in the output folder]
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
     #[command(flatten)]
     pub time_step: TimeStep,
-    /// How long is looked for keys that would mend a job that cannot be planned or proved, and as long for what else is wrong \[s\]
+    /// If the job is not planned or not proved: seconds to search for keys whose change helps, and as long again for other causes
     #[arg(long, value_name = "S", default_value_t = SEARCH_S, value_parser = search_time, allow_negative_numbers = true)]
     pub search_time: f64,
 }

@@ -22,38 +22,39 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// Options that every verb takes.
 #[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Common options")]
 pub struct Options {
     /// Scenario: a file, or a shipped name (kitchen, kitchen-spiral, kitchen-roomy, kitchen-rim, coupe, rim, deep, dessert, angled-tool, bracket-tool, sink, pedestal, ceiling, wall, rack, sizes, paper-appendix, paper-text) [default: kitchen]
     #[arg(long, global = true, value_name = "FILE|NAME")]
     pub scenario: Option<String>,
-    /// Seed in place of the scenario's, from 0 to 2^53 − 1
+    /// Seed that replaces the scenario's, from 0 to 2^53 − 1
     #[arg(long, global = true, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
-    /// Folder for files that are written
+    /// Output folder
     #[arg(long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Expanded URDF of another six-axis arm
+    /// URDF of another six-axis arm (xacro files must be expanded first)
     #[arg(long, global = true, value_name = "FILE")]
     pub urdf: Option<PathBuf>,
-    /// Folder in which package:// mesh names are looked up (may be repeated)
+    /// Folder that holds the package of package:// mesh names (may be repeated)
     #[arg(long, global = true, value_name = "DIR", requires = "urdf")]
     pub package_path: Vec<PathBuf>,
-    /// SRDF with the link pairs that need no collision check
+    /// SRDF that lists the link pairs to leave out of the collision check
     #[arg(long, global = true, value_name = "FILE", requires = "urdf")]
     pub srdf: Option<PathBuf>,
-    /// Link behind joint 6 that carries the tool, which leaves it along the link's z axis [default: tool0]
+    /// Link after joint 6 that carries the tool; the tool points along its z axis [default: tool0]
     #[arg(long, global = true, value_name = "LINK")]
     pub tool_mount: Option<String>,
-    /// Machine-readable result on standard output, nothing else there
+    /// Print the result as JSON
     #[arg(long, global = true)]
     pub json: bool,
-    /// No messages or progress on standard error
+    /// Print no messages and no progress
     #[arg(long, short, global = true, conflicts_with = "verbose")]
     pub quiet: bool,
-    /// More messages on standard error (-vv for still more)
+    /// Print more messages (-vv for even more)
     #[arg(long, short, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
-    /// Worker threads [default: one a processor]; results do not depend on it
+    /// Number of threads [default: one for each processor]; it does not change results
     #[arg(long, global = true, value_name = "N")]
     pub threads: Option<usize>,
     /// Tells long work to give up.

@@ -54,7 +54,7 @@ impl<'a> PlanFile<'a> {
         refused(self.path, error)
     }
 
-    /// Something in the file that is not as it was sealed, or not proved.
+    /// Something in the file that is not as it was written, or not proved.
     pub fn not_verified(&self, error: impl Display) -> Failure {
         Failure::not_verified(anyhow!("{}: {error}", self.path.display()))
     }

@@ -18,10 +18,10 @@ const MOST_DRAWS: usize = 1_000_000;
 /// Arguments of `reproduce`.
 #[derive(Debug, Args)]
 pub struct ReproduceArguments {
-    /// Layouts simulated in each of the paper's two regions
+    /// Number of layouts to simulate in each of the paper's two regions
     #[arg(long, value_name = "N", default_value_t = ReproduceSettings::default().layouts)]
     layouts: usize,
-    /// Layouts begun to measure each dead-end rate
+    /// Number of random layouts to start, to measure how often placing plates fails
     #[arg(long, value_name = "N", default_value_t = ReproduceSettings::default().draws)]
     draws: usize,
 }

@@ -16,7 +16,7 @@ use std::fmt::Write;
 /// Arguments of `robot`.
 #[derive(Debug, Args)]
 pub struct RobotArguments {
-    /// Find a home, where plates can be washed, and pairs of links that need no check
+    /// Find a home position, where plates can be washed, and pairs of links that need no check
     #[arg(long)]
     pub suggest: bool,
 }

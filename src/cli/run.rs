@@ -1,15 +1,14 @@
 //! `platewash run`: a scenario to the end.
 
+use super::details::{DetailArguments, whole};
 use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::live::{LiveArguments, Show, Stage};
 use super::motion::MotionArguments;
 use super::options::Options;
-use super::pairs::PairArguments;
-use super::text::text;
 use super::{execution, infeasible, output, page, paper, results, wash};
 use clap::Args;
-use platewash::certificate::{PairsShown, prove_with};
+use platewash::certificate::prove_with;
 use platewash::scenario::Program;
 use platewash::scenario::Remedies;
 use platewash::simulator::simulate::{Sample, table};
@@ -17,6 +16,7 @@ use platewash::viewer::server::LiveEnd;
 use platewash::viewer::view::{Beside, Executed};
 use platewash::{Execution, Plan, RobotModel, Scenario, SimulationReport, WashReport};
 use serde::Serialize;
+use std::fmt;
 
 /// Arguments of `run`.
 #[derive(Debug, Args, Default)]
@@ -24,7 +24,7 @@ pub struct RunArguments {
     #[command(flatten)]
     motion: MotionArguments,
     #[command(flatten)]
-    pairs: PairArguments,
+    details: DetailArguments,
     #[command(flatten)]
     live: LiveArguments,
 }
@@ -39,22 +39,22 @@ pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Fail
     let stage = arguments.live.prepare(options, &scenario)?;
     match scenario.job.program {
         Program::Certified => run_washing(options, &scenario, arguments, stage),
-        Program::Paper => run_paper(options, &scenario, &arguments.motion),
+        Program::Paper => run_paper(options, &scenario, arguments),
     }
 }
 
-fn run_paper(options: &Options, scenario: &Scenario, arguments: &MotionArguments) -> Result<ExitCode, Failure> {
+fn run_paper(options: &Options, scenario: &Scenario, arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let followed = match paper::follow(options, scenario) {
         Ok(followed) => followed,
-        Err(failure) => return infeasible::end(options, scenario, failure, arguments.search_time()),
+        Err(failure) => return infeasible::end(options, scenario, failure, arguments.motion.search_time()),
     };
     let folder = results::folder(options);
-    let (report, words) = (&followed.report, text(&followed.report));
-    let mut files = followed.files(options, scenario, arguments)?;
-    let executed = followed.executed(scenario, arguments)?;
+    let report = &followed.report;
+    let mut files = followed.files(options, scenario, &arguments.motion)?;
+    let executed = followed.executed(scenario, &arguments.motion)?;
     files.push(output::file(folder.join("executed.csv"), executed));
     files.push(output::file(folder.join("report.json"), output::json(report)?));
-    files.push(output::file(folder.join("report.txt"), &words));
+    files.push(output::file(folder.join("report.txt"), whole(report)));
     let executed = followed.as_executed();
     let plan = followed.run.plan().map_err(platewash::Failure::from)?;
     let region = scenario.task_region();
@@ -65,7 +65,7 @@ fn run_paper(options: &Options, scenario: &Scenario, arguments: &MotionArguments
     };
     files.extend(page::file(options, &plan, &followed.run.job.arm, &beside)?);
     results::write(options, &files)?;
-    output::print_either(options.json, report, || words.clone())?;
+    output::print_either(options.json, report, || arguments.details.printed(report))?;
     results::name(options, &files);
     Ok(Outcome::from(report.verdict).job(scenario.job.on_failure))
 }
@@ -98,7 +98,6 @@ fn run_washing(
     let proof = output::json(&certificate)?;
     let report = WashReport::new(&washing.planned, &washing.findings, certificate);
     let report = RunReport::new(report, simulation, remedies);
-    let words = report.text(arguments.pairs.shown());
     let folder = results::folder(options);
     let mut files = washing.files(options, scenario, &arguments.motion)?;
     files.push(output::file(folder.join("certificate.json"), proof));
@@ -107,7 +106,7 @@ fn run_washing(
         files.push(output::file(folder.join("executed.csv"), executed));
     }
     files.push(output::file(folder.join("report.json"), output::json(&report)?));
-    files.push(output::file(folder.join("report.txt"), &words));
+    files.push(output::file(folder.join("report.txt"), whole(&report)));
     let executed = report.simulation.as_executed(execution.as_ref());
     let region = scenario.task_region();
     let beside = Beside {
@@ -118,7 +117,7 @@ fn run_washing(
     };
     files.extend(page::file(options, plan, arm, &beside)?);
     results::write(options, &files)?;
-    output::print_either(options.json, &report, || words.clone())?;
+    output::print_either(options.json, &report, || arguments.details.printed(&report))?;
     results::name(options, &files);
     if let Some(show) = show {
         show.part(options);
@@ -238,12 +237,15 @@ impl RunReport {
             remedies,
         }
     }
+}
 
-    fn text(&self, pairs: PairsShown) -> String {
-        let simulation = match &self.simulation {
-            Simulated::Done(report) => report.to_string(),
-            Simulated::Refused { refused } => format!("NOT SIMULATED: {refused}\n"),
-        };
-        text(&format_args!("{}\n\n{simulation}", self.wash.text(pairs)))
+impl fmt::Display for RunReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.wash.fmt(f)?;
+        writeln!(f)?;
+        match &self.simulation {
+            Simulated::Done(report) => report.fmt(f),
+            Simulated::Refused { refused } => writeln!(f, "NOT SIMULATED: {refused}"),
+        }
     }
 }

@@ -11,7 +11,7 @@ use std::fmt::Write;
 /// Arguments of `scenario`.
 #[derive(Debug, Args)]
 pub struct ScenarioArguments {
-    /// Name of a shipped scenario; without one, all of them are listed
+    /// Name of a shipped scenario; without it, all names are listed
     #[arg(value_name = "NAME")]
     pub name: Option<String>,
 }

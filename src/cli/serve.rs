@@ -16,14 +16,14 @@ const TO_OPEN: Duration = Duration::from_secs(3);
 /// Where a page is served.
 #[derive(Debug, Args, Default)]
 pub struct ServeArguments {
-    /// Port that the page is served on [default: any free one]
+    /// Port of the page's address [default: any free port]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     port: Option<u16>,
-    /// Address of this machine that the page is served on; others than that of the loopback show it to whoever reaches them
+    /// Network address to serve the page on; any but a loopback address lets other machines see it
     /// [default: 127.0.0.1]
     #[arg(long, value_name = "ADDR")]
     bind: Option<IpAddr>,
-    /// Print the page's address and leave the browser alone
+    /// Print the page's address but open no browser
     #[arg(long)]
     no_open: bool,
 }

@@ -1,12 +1,12 @@
 //! `platewash simulate`: a plan under a control law, and what is left of the wash.
 
+use super::details::{DetailArguments, whole};
 use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::law::{LawArguments, positive};
 use super::options::Options;
 use super::plan_file::PlanFile;
 use super::progress::Progress;
-use super::text::text;
 use super::time_step::TimeStep;
 use super::{execution, output, results};
 use clap::Args;
@@ -18,7 +18,7 @@ use std::path::PathBuf;
 /// Arguments of `simulate`.
 #[derive(Debug, Args)]
 pub struct SimulateArguments {
-    /// The plan file
+    /// Plan file
     #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
     #[command(flatten)]
@@ -31,6 +31,8 @@ pub struct SimulateArguments {
     pub damping: Option<f64>,
     #[command(flatten)]
     pub time_step: TimeStep,
+    #[command(flatten)]
+    pub details: DetailArguments,
 }
 
 impl SimulateArguments {
@@ -63,15 +65,14 @@ pub fn run(options: &Options, arguments: &SimulateArguments) -> Result<ExitCode,
         execution::carry_out(plan, &file.arm, &settings, &options.cancel).map_err(|e| file.failure(e.into()))?
     };
     let csv = table(&execution, plan, &file.arm, dt_s)?;
-    let words = text(&report);
     let [motion, data, sheet] = places.clone();
     let files = [
         output::file(motion, csv),
         output::file(data, output::json(&report)?),
-        output::file(sheet, &words),
+        output::file(sheet, whole(&report)),
     ];
     output::replace(&files, &places, &options.cancel)?;
-    output::print_either(options.json, &report, || words.clone())?;
+    output::print_either(options.json, &report, || arguments.details.printed(&report))?;
     results::name(options, &files);
     Ok(Outcome::from(report.verdict).answer())
 }

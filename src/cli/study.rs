@@ -21,33 +21,33 @@ pub struct StudyArguments {
 
 #[derive(Debug, Subcommand)]
 enum StudyVerb {
-    /// Work on the rows that are missing in the folder of --out, and keep each as soon as it is done.
+    /// Plan and prove the missing rows, and save each row in the folder of --out when it is done
     ///
-    /// Ended by whatever, it goes on where it was when it is called again. Exit code 0 where all rows are done, however they ended; 1
-    /// where the program itself failed on one.
+    /// Call it again to resume after a stop. Exit code 0 if all rows are done, whatever their results; 1 if the program itself failed
+    /// on a row.
     Run {
-        /// The study file, or a study's folder, for which no other file is needed
+        /// Study file, or the folder of a study
         file: PathBuf,
     },
-    /// Say what the rows in a folder come to: outcomes by axis, durations, the rows to look at.
+    /// Summarize a study: outcomes by axis, durations, and the rows to look at
     Show {
-        /// The study's folder
+        /// Folder of the study
         folder: PathBuf,
     },
-    /// Write the rows in a folder as JSON Lines in the order of their indices, the same bytes however they came to be.
+    /// Write the rows as JSON Lines in order; the bytes do not depend on how the study was run
     Export {
-        /// The study's folder
+        /// Folder of the study
         folder: PathBuf,
-        /// File to write, in place of standard output
+        /// Output file [default: standard output]
         #[arg(long, value_name = "FILE")]
         to: Option<PathBuf>,
-        /// Write the rows that are there, of a study that is not finished
+        /// Allow a study that is not finished
         #[arg(long)]
         partial: bool,
     },
-    /// Print the scenario of a row, to plan it alone.
+    /// Print the scenario of one row, to plan it alone
     Scenario {
-        /// The study file, or the study's folder
+        /// Study file, or the folder of a study
         file: PathBuf,
         /// Index of the row, from 0
         #[arg(long, value_name = "N")]

@@ -21,7 +21,7 @@ const MOST_LAYOUTS: u64 = 100_000;
 /// Arguments of `sweep`.
 #[derive(Debug, Args)]
 pub struct SweepArguments {
-    /// Seeds, both ends included, e.g. 1..200
+    /// First and last seed, for example 1..200
     #[arg(long, value_name = "FIRST..LAST", value_parser = seeds, allow_hyphen_values = true)]
     pub seeds: RangeInclusive<u64>,
 }

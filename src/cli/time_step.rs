@@ -9,7 +9,7 @@ use platewash::workcell::csv::{CsvError, MAX_ROWS, check_step};
 /// `--dt`.
 #[derive(Debug, Args, Default)]
 pub struct TimeStep {
-    /// Time step of the CSV files in seconds, from 0.000001 to 10 [default: the scenario's control.dt_s]
+    /// Time step of the CSV files in seconds, 0.000001 to 10 [default: the scenario's control.dt_s]
     #[arg(long, value_name = "S", value_parser = time_step, allow_negative_numbers = true)]
     pub dt: Option<f64>,
 }

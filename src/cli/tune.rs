@@ -25,7 +25,7 @@ const MOST_SETTINGS: usize = 10_000;
 /// Arguments of `tune`.
 #[derive(Debug, Args)]
 pub struct TuneArguments {
-    /// The plan file
+    /// Plan file
     #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
     #[command(flatten)]

@@ -1,44 +1,43 @@
 //! `platewash verify`: the certificate of a plan file, and whether its job is the one that a scenario asks for.
 
 use super::against::{Against, Asked};
+use super::details::DetailArguments;
 use super::exit::Outcome;
 use super::failure::{ExitCode, Failure};
 use super::handed_over;
 use super::options::Options;
 use super::output;
-use super::pairs::PairArguments;
 use super::parent::OfParent;
 use super::plan_file::{self, PlanFile};
 use super::progress::Progress;
 use super::refused::PLAN_STATES;
 use anyhow::anyhow;
 use clap::Args;
-use platewash::certificate::{HashFinding, PairsShown, Verdict, paper_headline};
+use platewash::certificate::{HashFinding, Verdict, paper_headline};
 use platewash::workcell::plan::Process;
 use platewash::workcell::words::quoted;
 use platewash::{Certificate, Plan};
 use serde::Serialize;
+use std::fmt;
 use std::path::PathBuf;
 
 /// Arguments of `verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
-    /// The plan file
+    /// Plan file
     #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
-    /// Scenario that the plan should be a plan of, a file or a shipped name: it is resolved again, with --seed or otherwise the
-    /// plan's seed, and every field of the job compared
+    /// Scenario that the plan should be for; each field of the job is compared. The seed is --seed, or the plan's
     #[arg(long, value_name = "FILE|NAME")]
     pub against: Option<String>,
-    /// A program that was exported of the plan and may have been changed since, all its files: it is read back, compared with the one
-    /// that is made of the plan, and judged as it stands
+    /// All files of a robot program exported from the plan and perhaps changed since: it is compared with a new export and judged
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["against", "parent"])]
     pub program: Vec<PathBuf>,
-    /// Plan file that a dry run should be one of: its job, its order and its wash paths are compared
+    /// Plan file that this dry run should belong to: job, order and wash paths are compared
     #[arg(long, value_name = "PLAN")]
     pub parent: Option<PathBuf>,
     #[command(flatten)]
-    pub pairs: PairArguments,
+    pub details: DetailArguments,
 }
 
 /// What is said of a plan.
@@ -112,7 +111,7 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, F
         against,
         parent,
     };
-    output::print_either(options.json, &answer, || answer.text(arguments.pairs.shown()))?;
+    output::print_either(options.json, &answer, || arguments.details.printed(&answer))?;
     Ok(answer.outcome().answer())
 }
 
@@ -129,19 +128,27 @@ impl Answer {
             Outcome::NotVerified
         }
     }
+}
 
-    fn text(&self, pairs: PairsShown) -> String {
-        let first = self.against.as_ref().map_or_else(String::new, Against::first_words);
-        let judgement = match &self.judgement {
-            Judgement::Washing(certificate) => certificate.table(pairs).to_string(),
-            Judgement::Paper(no_certificate) => no_certificate.text(),
-        };
-        let against = self.against.as_ref();
-        let against = against.map_or_else(String::new, |against| format!("\n{against}"));
-        let of = self.parent.as_ref().map_or_else(String::new, OfParent::first_words);
-        let parent = self.parent.as_ref();
-        let parent = parent.map_or_else(String::new, |parent| format!("\n{parent}"));
-        format!("{of}{first}{judgement}{against}{parent}")
+impl fmt::Display for Answer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(parent) = &self.parent {
+            f.write_str(&parent.first_words())?;
+        }
+        if let Some(against) = &self.against {
+            f.write_str(&against.first_words())?;
+        }
+        match &self.judgement {
+            Judgement::Washing(certificate) => certificate.fmt(f)?,
+            Judgement::Paper(no_certificate) => f.write_str(&no_certificate.text())?,
+        }
+        if let Some(against) = &self.against {
+            write!(f, "\n{against}")?;
+        }
+        if let Some(parent) = &self.parent {
+            write!(f, "\n{parent}")?;
+        }
+        Ok(())
     }
 }
 

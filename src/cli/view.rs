@@ -25,15 +25,15 @@ const MAX_BYTES: u64 = 1 << 28;
 /// Arguments of `view`.
 #[derive(Debug, Args)]
 pub struct ViewArguments {
-    /// The plan file
+    /// Plan file
     #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
-    /// CSV of a motion that an arm has made, as `run` and `simulate` write it, to show in place of a simulation
+    /// CSV of a motion to show instead of a simulation, in the format that run and simulate write
     #[arg(long, value_name = "CSV")]
     executed: Option<PathBuf>,
     #[command(flatten)]
     serve: ServeArguments,
-    /// Write the page to a file in place of serving it
+    /// Write the page to a file instead of serving it
     #[arg(long, value_name = "FILE", conflicts_with_all = ["port", "bind", "no_open"])]
     save: Option<PathBuf>,
 }

@@ -12,7 +12,7 @@ fn a_plan_agrees_with_its_own_scenario_and_with_no_other() {
     assert!(ran.stdout.starts_with("PROVED: 4 plates in "), "{}", ran.stdout);
     assert!(
         ran.stdout
-            .ends_with("\nagainst \"kitchen\", seed 3: no field differs\n"),
+            .ends_with("\nagainst \"kitchen\", seed 3: no field differs\n\nmore: --details\n"),
         "{}",
         ran.stdout
     );
@@ -58,7 +58,7 @@ fn a_requirement_that_was_lowered_is_named() {
     assert_eq!(ran.code, 4, "{}", ran.stderr);
     let first = "OTHER JOB than that of \"kitchen\", seed 1: 1 field differs; PROVED: ";
     assert!(ran.stdout.starts_with(first), "{}", ran.stdout);
-    let told = "  requirements.clearance_m: the plan says 0.001, the scenario 0.01\n";
+    let told = "  requirements.clearance_m: the plan says 0.001, the scenario 0.01\n\nmore: --details\n";
     assert!(ran.stdout.ends_with(told), "{}", ran.stdout);
 }
 

@@ -14,7 +14,7 @@ fn the_kitchen_survives_computed_torque_and_not_pd() {
     let folder = folder();
     let dir = folder.path();
     planned(dir);
-    let ran = platewash(dir, &["simulate", "out/plan.json", "--out", "ct"]).done();
+    let ran = platewash(dir, &["simulate", "out/plan.json", "--out", "ct", "--details"]).done();
     assert!(
         ran.stdout
             .starts_with("WASHED: 4 of 4 plates washed under computed_torque"),

@@ -67,7 +67,7 @@ fn without_tool0_nothing_is_planned_until_the_link_is_stated() {
     for (a, b) in stated.iter().flatten().zip(usual.iter().flatten()) {
         assert!((a - b).abs() < 1e-6, "{a} {b}");
     }
-    let said = platewash(dir, &["verify", "out/plan.json", "--urdf", urdf])
+    let said = platewash(dir, &["verify", "out/plan.json", "--urdf", urdf, "--details"])
         .done()
         .stdout;
     assert!(said.contains("tool mount    on link \"flange\" along its z"), "{said}");

@@ -10,7 +10,7 @@ fn a_plan_of_the_papers_program_is_refused_by_name() {
     assert_eq!(ran.code, 4, "{}", ran.stderr);
     assert_eq!(
         ran.stdout,
-        "NOT PROVED: a run of the paper's program, 3.70 s; it has no certificate\nscenario \"paper-appendix\", as the plan names it\nhash is that of the contents\n"
+        "NOT PROVED: a run of the paper's program, 3.70 s; it has no certificate\nscenario \"paper-appendix\", as the plan names it\nthe hash matches the contents\n"
     );
     let ran = platewash(folder.path(), &["verify", "out/plan.json", "--json"]);
     assert_eq!(ran.code, 4);
@@ -108,7 +108,7 @@ fn what_is_no_plan_is_refused() {
     let ran = platewash(dir, &["verify", "edited.json"]);
     assert_eq!(ran.code, 4);
     assert!(
-        ran.stdout.contains("hash is NOT that of the contents"),
+        ran.stdout.contains("the hash does NOT match the contents"),
         "{}",
         ran.stdout
     );

@@ -42,6 +42,7 @@ def test_the_kitchen_is_proved(kitchen: pw.Planned) -> None:
     assert {check.status for check in certificate.checks} == {"proved"}
     assert certificate == pw.prove(plan, pw.Robot.irb120())
     assert str(certificate).startswith(f"{certificate.headline}\n") and certificate.headline.startswith("PROVED: 4 plates in ")
+    assert len(str(certificate).splitlines()) < 25 and "\nclearance, at least\n" in certificate.details()
     assert certificate.waived == [] and certificate.plates_washed == 4
     assert certificate.rests_on.requirements == plan.job.requirements == kitchen.job.requirements
     report = kitchen.report()
@@ -442,7 +443,7 @@ def test_what_has_no_dry_run_is_refused_by_what_is_wrong(kitchen: pw.Planned, ru
     with pytest.raises(pw.InputTypeError):
         plan.dry_run("0.05")  # type: ignore[arg-type]
     edited = pw.Plan.from_json(plan.to_json().replace('"coverage":0.995', '"coverage":0.5'))
-    for none, words in [(plan.dry_run(), "itself a dry run"), (run.plan(), "the paper's program"), (edited, "changed after it was sealed")]:
+    for none, words in [(plan.dry_run(), "itself a dry run"), (run.plan(), "the paper's program"), (edited, "changed after it was written")]:
         with pytest.raises(pw.PlanError, match=words) as caught:
             none.dry_run()
         assert caught.value.stage == "dry_run"

@@ -18,10 +18,10 @@ pub const CERTIFICATE_FORMAT: &str = "platewash-certificate/2";
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// Every requirement is kept, and the plan is as it was sealed. [`Certificate::waived`] names those that are not proved, only
+    /// Every requirement is kept, and the plan is as it was written. [`Certificate::waived`] names those that are not proved, only
     /// waived by the job.
     Pass,
-    /// A requirement is violated or not proved, or the hash is not that of the contents.
+    /// A requirement is violated or not proved, or the hash does not match the contents.
     Fail,
 }
 
@@ -53,9 +53,9 @@ impl HashFinding {
     #[must_use]
     pub fn words(&self) -> &'static str {
         match (self.status, &self.stated) {
-            (Status::Proved, _) => "hash is that of the contents",
-            (_, Some(_)) => "hash is NOT that of the contents: the plan was changed after it was sealed",
-            (_, None) => "hash is missing",
+            (Status::Proved, _) => "the hash matches the contents",
+            (_, Some(_)) => "the hash does NOT match the contents: the plan was changed after it was written",
+            (_, None) => "the hash is missing",
         }
     }
 }

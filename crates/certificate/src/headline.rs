@@ -114,11 +114,11 @@ fn broken(certificate: &Certificate) -> String {
     };
     let others: Vec<_> = others.iter().map(|check| check.requirement.words()).collect();
     let hash = (certificate.hash.status != Status::Proved)
-        .then(|| "the plan was changed after it was sealed: its hash is not that of the contents".to_owned());
+        .then(|| "the plan was changed after it was written: its hash does not match the contents".to_owned());
     let parts = [
         of(Status::Violated, "violated"),
-        of(Status::NotProved, "not shown"),
-        (!others.is_empty()).then(|| format!("nor {}", others.join(", "))),
+        of(Status::NotProved, "not proved"),
+        (!others.is_empty()).then(|| format!("also not kept: {}", others.join(", "))),
         hash,
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join("; ")

@@ -95,4 +95,4 @@ pub use prove::{MotionProof, prove, prove_motion, prove_with};
 pub use requirement::Requirement;
 pub use rests_on::RestsOn;
 pub use swept::PlateCoverage;
-pub use table::{CertificateTable, MeasureWords, PairsShown};
+pub use table::MeasureWords;

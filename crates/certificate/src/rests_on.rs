@@ -21,33 +21,32 @@ const HASH_DIGITS: usize = 12;
 
 /// What is assumed, whatever the job.
 const ASSUMPTIONS: [&str; 3] = [
-    "the arm is as its description says, and moves as its knots say",
-    "joints and tip reach the accelerations stated; the manufacturer publishes none",
+    "the arm matches its description and follows the planned motion exactly",
+    "the joints and the tip reach the stated accelerations; the manufacturer publishes none",
     "the collision shapes enclose the arm, the tool and the obstacles",
 ];
 
 /// What is assumed of flat plates, and of others.
-const FLAT: &str = "plates are rigid, flat and round, and lie where they are stated to lie";
-const CURVED: &str = "plates are rigid and round, have the profiles stated, and lie where they are stated to lie";
+const FLAT: &str = "plates are rigid, flat and round, and lie where the job says";
+const CURVED: &str = "plates are rigid and round, have the stated profiles, and lie where the job says";
 
 /// What is told of contact where nothing is promised of it.
-const NOT_ASKED: &str = "not required: a place counts as swept where the face touches it, pressed or not";
+const NOT_ASKED: &str = "not required: a point counts as swept where the sponge's face touches it, pressed or not";
 
 /// What is assumed of the sponge where nothing is promised of contact; of a face that is no disc; and where contact is promised.
-const WHOLE_FACE: &str =
-    "the sponge is round and gives way, so that its whole face touches; how far it is compressed is not judged";
-const TOUCHES: &str = "the sponge is round and gives way column by column, so that it touches where its free face would reach into the \
-                       plate; how far it is compressed is not judged";
-const FOUNDATION: &str = "the sponge is round and presses as an elastic foundation: each column along its axis with its stiffness times \
-                          its strain, wherever within the range stated that stiffness is; nobody measured it";
+const WHOLE_FACE: &str = "the sponge is round and soft, so that its whole face touches; its compression is not judged";
+const TOUCHES: &str = "the sponge is round and a bed of independent columns: it touches where its free face would reach into the plate; its \
+                       compression is not judged";
+const FOUNDATION: &str = "the sponge is round and each column of it presses with stiffness × strain; its stiffness, which nobody measured, lies \
+                          in the stated range";
 
 /// Of what is promised of contact besides: where a plate may lie.
-const ERROR_OF_HEIGHT: &str = "what is proved of contact, landing and lifting holds with a plate higher or lower by the error of height stated; \
-                               clearance and all else holds at the height stated alone";
+const ERROR_OF_HEIGHT: &str = "contact, landing and lifting hold for plates too high or too low by up to the stated height error; everything else, \
+                               clearance too, at the stated height";
 
 /// What is assumed of a dry run besides.
 const PARENT: &str =
-    "the plan that is tried out is the one of the hash stated: that is not judged, as it takes that plan";
+    "the dry run tries out the plan with the stated hash; checking that takes that plan (verify --parent)";
 
 /// What a verdict rests on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -116,7 +115,7 @@ fn unchecked(arm: &RobotModel) -> Option<String> {
     let links: Vec<_> = arm.links_without_shapes().map(quoted).collect();
     (!links.is_empty()).then(|| {
         format!(
-            "links without collision shapes keep clear of everything; nothing was checked of them: {}",
+            "links without collision shapes keep clear of everything; they were not checked: {}",
             links.join(", ")
         )
     })
@@ -131,7 +130,7 @@ impl RestsOn {
     pub fn without_floor(&self) -> &'static str {
         match self.workcell.obstacles.iter().any(is_floor) {
             true => "",
-            false => "; no floor is stated, so that nothing was checked against one",
+            false => "; the job has no floor: nothing was checked against one",
         }
     }
 
@@ -155,10 +154,10 @@ impl RestsOn {
             contact(&self.workcell.tool, &self.requirements, self.dry_run.as_ref()).map(|what| ("contact", what)),
         );
         lines.extend(self.assumptions.iter().map(|what| ("assumed", printable(what))));
-        lines.push(("left out", left_out(&self.workcell.exclusions)));
+        lines.push(("not checked", left_out(&self.workcell.exclusions)));
         if !self.waived_pairs.is_empty() {
             let pairs = self.waived_pairs.iter().map(pair).collect::<Vec<_>>();
-            lines.push(("waived", format!("by the job alone: {}", pairs.join(", "))));
+            lines.push(("waived", format!("by the job: {}", pairs.join(", "))));
         }
         lines
     }
@@ -167,7 +166,7 @@ impl RestsOn {
 impl fmt::Display for RestsOn {
     /// Some compact lines; a name stands before the first of its lines.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "\nrests on")?;
+        writeln!(f, "\nthe proof rests on")?;
         let mut before = "";
         for (name, what) in self.lines() {
             let shown = if name == before { "" } else { name };
@@ -390,7 +389,7 @@ fn homes([start, end]: &[JointVector; 2]) -> String {
 
 fn limits(limits: &Limits) -> String {
     format!(
-        "joint positions and speeds of the description; joint accelerations {} rad/s² (assumed); tip {} m/s, {} m/s² (assumed)",
+        "joint positions and speeds from the description; joint accelerations {} rad/s² (assumed); tip {} m/s, {} m/s² (assumed)",
         list(limits.joint_acceleration_rad_s2),
         number(limits.tip_speed_m_s),
         number(limits.tip_acceleration_m_s2)
@@ -418,15 +417,15 @@ fn contact(tool: &Tool, wanted: &Requirements, dry_run: Option<&DryRun>) -> Opti
     let speed = |what: &str, limit: Option<f64>| limit.map(|limit| format!("{what} at most {} m/s", number(limit)));
     let wrist = wanted.wrist_rad.map(|wrist| {
         let kept = number(wrist.to_degrees());
-        format!("joint 5 at least {kept} ° from 0 on one side at every plate")
+        format!("joint 5 stays at least {kept} ° from 0, on one side at every plate")
     });
     let promise = wanted.contact.map(|contact| {
         let [least, most] = tool.sponge.stiffness_pa.unwrap_or_default();
         let [softest_n, stiffest_n] = contact.force_n;
         format!(
-            "a place is in contact where the sponge is compressed by {} mm or more, with the plate up to {} mm higher or lower and a \
-             stiffness from {} to {} kPa (assumed); on {} % of the face, for {} s on {} %, with a dose of {} Pa·m on {} %; strain at most \
-             {} %, force along the sponge's axis {} to {} N",
+            "a point is in contact where the sponge is compressed by {} mm or more, with the plate up to {} mm too high or too low and a \
+             stiffness from {} to {} kPa (assumed); in contact {} % of the face, for {} s or more {} %, with a dose of {} Pa·m or more {} %; \
+             strain at most {} %, force along the sponge's axis {} to {} N",
             mm(contact.compression_m),
             mm(contact.height_error_m),
             number(1e-3 * least),
@@ -454,12 +453,12 @@ fn contact(tool: &Tool, wanted: &Requirements, dry_run: Option<&DryRun>) -> Opti
 /// Pairs by the reason why they are left out.
 fn left_out(pairs: &[Exclusion]) -> String {
     let reasons = [
-        (ExclusionReason::Srdf, "by the SRDF"),
-        (ExclusionReason::Neighbours, "as neighbours"),
-        (ExclusionReason::AlwaysTouching, "as always touching"),
-        (ExclusionReason::CarriesTool, "as what carries the tool"),
-        (ExclusionReason::NeitherMoves, "as neither moves"),
-        (ExclusionReason::KeepsItsHeight, "as it keeps its height"),
+        (ExclusionReason::Srdf, "disabled by the SRDF"),
+        (ExclusionReason::Neighbours, "neighbours"),
+        (ExclusionReason::AlwaysTouching, "always touching"),
+        (ExclusionReason::CarriesTool, "carries the tool"),
+        (ExclusionReason::NeitherMoves, "neither moves"),
+        (ExclusionReason::KeepsItsHeight, "stays at its height"),
     ];
     let of = |reason| {
         pairs

@@ -9,92 +9,77 @@ use crate::requirement::Requirement;
 use crate::swept::PlateCoverage;
 use platewash_kinematics::trig::acos;
 use platewash_kinematics::words::{decimals_down, decimals_up, percent, told_apart};
-use platewash_workcell::words::{counted, printable, quoted};
+use platewash_workcell::words::{printable, quoted};
 use std::fmt;
 
-/// Pairs that a table lists where it is not asked for all.
-const TIGHTEST: usize = 10;
+/// The requirements that the short report shows where all are kept.
+const SHORT: [Requirement; 6] = [
+    Requirement::JointSpeed,
+    Requirement::TipSpeed,
+    Requirement::Clearance,
+    Requirement::Swept,
+    Requirement::Pressed,
+    Requirement::ContactForce,
+];
 
 /// How the table of a dry run is to be read.
-const IN_THE_AIR: &str = "a plate, and what is said to wash or to touch it, means below the raised plate, where nothing is; the plates\n\
-                          that are there are the obstacles \"real plate 0\" and so on";
+const IN_THE_AIR: &str = "dry run: \"plate 0\" is the raised plate, where nothing is; the plate on the table is the obstacle \"real plate 0\"";
 
-/// Which pairs a table lists.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum PairsShown {
-    /// The ten that come nearest, those that do not keep clear first of all.
-    #[default]
-    Tightest,
-    /// All.
-    All,
-}
-
-/// A certificate as a table of requirements, coverage, clearance and what it rests on; see [`Certificate::table`].
-#[derive(Debug, Clone, Copy)]
-pub struct CertificateTable<'a> {
-    certificate: &'a Certificate,
-    pairs: PairsShown,
-}
-
-impl Certificate {
-    /// The certificate as a table to read.
-    #[must_use]
-    pub fn table(&self, pairs: PairsShown) -> CertificateTable<'_> {
-        CertificateTable {
-            certificate: self,
-            pairs,
+impl fmt::Display for Certificate {
+    /// One screen: verdict, main bounds, all that is not kept, and the assumptions. The alternate form (`{:#}`) shows everything.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.headline)?;
+        writeln!(f, "scenario {}, as the plan names it", quoted(&self.scenario))?;
+        if f.alternate() {
+            f.write_str(&self.basis())?;
+            self.bounds(f)
+        } else {
+            writeln!(f)?;
+            self.main_bounds(f)
         }
     }
 }
 
-impl fmt::Display for CertificateTable<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let certificate = self.certificate;
-        writeln!(f, "{}", certificate.headline)?;
-        writeln!(f, "scenario {}, as the plan names it", quoted(&certificate.scenario))?;
-        f.write_str(&certificate.basis())?;
-        f.write_str(&self.judgement())
-    }
-}
-
-impl fmt::Display for Certificate {
-    /// The table with the tightest pairs.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.table(PairsShown::default()).fmt(f)
-    }
-}
-
-impl CertificateTable<'_> {
-    /// The part of the table on what was proved: requirements, plates and pairs.
-    #[must_use]
-    pub fn judgement(&self) -> String {
-        let mut text = String::new();
-        // A text that grows cannot fail to be written.
-        let _ = self
-            .certificate
-            .checks(&mut text)
-            .and_then(|()| pairs(&mut text, &self.certificate.clearance, self.pairs));
-        text
-    }
-}
-
 impl Certificate {
-    /// The part of the table on what the verdict rests on, the hash first.
+    /// What the verdict rests on, in words; the first line says whether the hash is right.
     #[must_use]
     pub fn basis(&self) -> String {
         format!("{}\n{}\n", self.hash.words(), self.rests_on)
     }
 
-    fn checks(&self, f: &mut impl fmt::Write) -> fmt::Result {
-        let dry_run = self.rests_on.dry_run.is_some();
-        if dry_run {
-            writeln!(f, "{IN_THE_AIR}\n")?;
+    /// Writes the bounds that most users look at, each requirement that is not kept, and the assumptions.
+    ///
+    /// # Errors
+    /// [`fmt::Error`] from `f`.
+    pub fn main_bounds(&self, f: &mut impl fmt::Write) -> fmt::Result {
+        let kept = self
+            .checks
+            .iter()
+            .filter(|check| check.status == Status::Proved)
+            .count();
+        writeln!(f, "{kept} of {} requirements proved", self.checks.len())?;
+        if self.hash.status != Status::Proved {
+            writeln!(f, "{}", self.hash.words())?;
         }
-        writeln!(
-            f,
-            "{:<22} {:<10} {:>12} {:>12} {:<6}  worst",
-            "requirement", "status", "bound", "limit", "unit"
-        )?;
+        self.head_of_checks(f)?;
+        let is_shown = |check: &&Check| check.status != Status::Proved || SHORT.contains(&check.requirement);
+        self.checks
+            .iter()
+            .filter(is_shown)
+            .try_for_each(|check| row(f, check))?;
+        writeln!(f, "\nassumed, not proved")?;
+        let assumptions = self.rests_on.assumptions.iter();
+        assumptions
+            .into_iter()
+            .try_for_each(|what| writeln!(f, "  {}", printable(what)))
+    }
+
+    /// Writes every bound: requirements, plates and pairs of bodies.
+    ///
+    /// # Errors
+    /// [`fmt::Error`] from `f`.
+    pub fn bounds(&self, f: &mut impl fmt::Write) -> fmt::Result {
+        self.head_of_checks(f)?;
         for check in &self.checks {
             row(f, check)?;
             let is_force = check.requirement == Requirement::ContactForce && check.measure.is_some();
@@ -102,55 +87,48 @@ impl Certificate {
                 writeln!(f, "  {both}")?;
             }
         }
-        let swept = if dry_run { "would be swept" } else { "swept" };
+        let is_dry_run = self.rests_on.dry_run.is_some();
+        let swept = if is_dry_run { "would be swept" } else { "swept" };
         writeln!(f, "\n{swept}, at least")?;
         for plate in &self.swept {
             plate_row(f, plate)?;
         }
         if !self.contact.is_empty() {
-            writeln!(f, "\ncontact, wherever within its error of height a plate lies")?;
+            writeln!(f, "\ncontact, at least, for plates within the stated height error")?;
         }
-        self.contact.iter().try_for_each(|contact| contact_row(f, contact))
+        self.contact.iter().try_for_each(|contact| contact_row(f, contact))?;
+        pairs(f, &self.clearance)
+    }
+
+    fn head_of_checks(&self, f: &mut impl fmt::Write) -> fmt::Result {
+        if self.rests_on.dry_run.is_some() {
+            writeln!(f, "{IN_THE_AIR}\n")?;
+        }
+        writeln!(
+            f,
+            "{:<22} {:<10} {:>12} {:>12} {:<6}  worst",
+            "requirement", "status", "bound", "limit", "unit"
+        )
     }
 }
 
-/// The pairs: those that must keep clear, the nearest first, where not all are listed; those that may touch, after them.
-fn pairs(f: &mut impl fmt::Write, all: &[PairBound], shown: PairsShown) -> fmt::Result {
-    let judged = || all.iter().filter(|line| line.rule != PairRule::Touching);
-    if shown == PairsShown::All || judged().count() <= TIGHTEST {
-        writeln!(f, "\nclearance, at least")?;
-        return all.iter().try_for_each(|line| pair_row(f, line));
-    }
-    let mut nearest: Vec<_> = judged().collect();
-    let rank = |line: &PairBound| (line.status.is_kept(), line.at_least_m.unwrap_or(f64::NEG_INFINITY));
-    nearest.sort_by(|a, b| {
-        let ((a_kept, a), (b_kept, b)) = (rank(a), rank(b));
-        a_kept.cmp(&b_kept).then(a.total_cmp(&b))
+/// All pairs of bodies: those that do not keep clear, then the nearest, then those that may touch.
+fn pairs(f: &mut impl fmt::Write, all: &[PairBound]) -> fmt::Result {
+    let mut sorted: Vec<_> = all.iter().collect();
+    let rank = |line: &PairBound| {
+        let may_touch = line.rule == PairRule::Touching;
+        (
+            may_touch,
+            line.status.is_kept(),
+            line.at_least_m.unwrap_or(f64::NEG_INFINITY),
+        )
+    };
+    sorted.sort_by(|a, b| {
+        let ((a_touches, a_kept, a), (b_touches, b_kept, b)) = (rank(a), rank(b));
+        (a_touches, a_kept).cmp(&(b_touches, b_kept)).then(a.total_cmp(&b))
     });
-    let (tightest, rest) = nearest.split_at(TIGHTEST);
-    writeln!(
-        f,
-        "\nclearance, at least: the {TIGHTEST} tightest of {} pairs",
-        nearest.len()
-    )?;
-    tightest.iter().try_for_each(|line| pair_row(f, line))?;
-    let broken = rest.iter().filter(|line| !line.status.is_kept()).count();
-    if broken > 0 {
-        let (other, do_not) = (
-            counted(rest.len(), "other pair"),
-            if broken == 1 { "does" } else { "do" },
-        );
-        writeln!(f, "  {broken} of {other} {do_not} not keep clear either")?;
-    } else if let Some(at_least) = rest.first().and_then(|line| line.at_least_m) {
-        writeln!(
-            f,
-            "  {}, never nearer than {} mm",
-            counted(rest.len(), "other pair"),
-            decimals_down(1e3 * at_least, 2)
-        )?;
-    }
-    let touching = all.iter().filter(|line| line.rule == PairRule::Touching);
-    touching.into_iter().try_for_each(|line| pair_row(f, line))
+    writeln!(f, "\nclearance, at least")?;
+    sorted.into_iter().try_for_each(|line| pair_row(f, line))
 }
 
 fn row(f: &mut impl fmt::Write, check: &Check) -> fmt::Result {
@@ -210,7 +188,7 @@ fn plate_row(f: &mut impl fmt::Write, plate: &PlateCoverage) -> fmt::Result {
     let tilt = decimals_up(tilt, 2);
     let reach = plate
         .beyond_rim_m
-        .map_or("nobody knows how far beyond the rim".to_owned(), beyond_rim);
+        .map_or("not bounded beyond the rim".to_owned(), beyond_rim);
     let allowed_m = plate.beyond_rim_allowed_m;
     let allowed = format!("{:.2} mm {}", 1e3 * allowed_m.abs(), side(allowed_m));
     writeln!(
@@ -223,7 +201,7 @@ fn plate_row(f: &mut impl fmt::Write, plate: &PlateCoverage) -> fmt::Result {
         let depth = decimals_up(1e3 * touched.depth_m, 2);
         writeln!(
             f,
-            "             there it may touch plate {}, up to {depth} mm over its rim",
+            "             while washing it, the sponge may touch plate {}, up to {depth} mm over its rim",
             touched.plate
         )
     })
@@ -231,7 +209,11 @@ fn plate_row(f: &mut impl fmt::Write, plate: &PlateCoverage) -> fmt::Result {
 
 fn contact_row(f: &mut impl fmt::Write, contact: &PlateContact) -> fmt::Result {
     let share = |share: &ProvedShare, scale: f64, unit: &str| {
-        format!("{} % by {:.4} {unit}", percent(share.at_least), scale * share.threshold)
+        format!(
+            "{} % with {:.4} {unit} or more",
+            percent(share.at_least),
+            scale * share.threshold
+        )
     };
     let up = |v: Option<f64>, unit: &str| {
         v.map_or("not bounded".to_owned(), |v| {
@@ -240,7 +222,7 @@ fn contact_row(f: &mut impl fmt::Write, contact: &PlateContact) -> fmt::Result {
     };
     writeln!(
         f,
-        "  plate {:<4} at least {}, {}, {}; strain {}, force {}, torque of friction {} (friction 0.3 to 1.0, assumed)",
+        "  plate {:<4} pressed: {}; long enough: {}; dose: {}; strain {}, force {}, friction torque {} (friction coefficient 0.3 to 1.0, assumed)",
         contact.plate,
         share(&contact.pressed, 1e3, "mm"),
         share(&contact.time, 1.0, "s"),
@@ -280,7 +262,7 @@ fn both_sides(certificate: &Certificate) -> Option<String> {
     ];
     let [least_n, most_n] = asked.force_n;
     Some(format!(
-        "both sides, all plates: {}; asked for: {least_n} to {most_n} N",
+        "all plates: {}; required: {least_n} to {most_n} N",
         force(both)
     ))
 }

@@ -1,21 +1,25 @@
-//! How near a wash comes to the least time that its area allows, and what holds it back.
+//! How long a wash takes beside the least time for its face, and which limits hold it back.
 //!
-//! A sponge of width 2 s that never went over a place twice and never slowed down below the speed v of washing would take area/(2 s v).
+//! A disc of radius s whose centre moves by L covers at most 2 s L + π s². A wash at the speed v or below that covers the area A
+//! therefore takes at least (A − π s²)/(2 s v).
 
 use crate::scene::Scene;
 use crate::timing::{MotionLimits, Timed};
+use platewash_kinematics::words::decimals_down;
 use platewash_kinematics::{AXES, Axes};
+use platewash_workcell::job::JobTerms;
 use platewash_workcell::plate::Plate;
 use serde::Serialize;
+use std::f64::consts::PI;
 use std::fmt;
 
 /// A rate this near to its limit binds, as a part of it.
 const BINDING: f64 = 0.98;
 
-/// How long a wash takes beside what it could, and what binds it.
+/// Least time of a wash, and the shares of its time at each limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Pace {
-    /// area/(2 s v) \[s\]: no wash is faster.
+    /// Lower bound on the time of any wash of the plate with this sponge and wash speed \[s\].
     pub least_s: f64,
     /// Length of the wash path \[m\].
     pub length_m: f64,
@@ -30,13 +34,18 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// That of a wash on a plate with a sponge of that radius \[m\], looked at in the middle of its pieces.
-    pub(crate) fn of(scene: &Scene<'_>, (plate, sponge_m): (&Plate, f64), wash: &Timed, limits: &MotionLimits) -> Self {
+    /// The pace of a wash of `plate`, sampled in the middle of its pieces.
+    pub(crate) fn of(
+        scene: &Scene<'_>,
+        (plate, terms): (&Plate, &JobTerms),
+        wash: &Timed,
+        limits: &MotionLimits,
+    ) -> Self {
         let tip = limits
             .tip
             .map_or([f64::INFINITY; 2], |tip| [tip.speed_m_s, tip.acceleration_m_s2]);
         let mut pace = Self {
-            least_s: plate.surface.area_m2() / (2.0 * sponge_m * tip[0]),
+            least_s: least_area_m2(plate, terms) / (2.0 * terms.workcell.tool.sponge.radius_m * tip[0]),
             length_m: 0.0,
             tip_speed: 0.0,
             tip_acceleration: 0.0,
@@ -73,25 +82,33 @@ impl Pace {
     }
 }
 
+/// Area of the face that the moving sponge must cover, seen along the plate's axis, less the sponge's own \[m²\]. A part of the face
+/// is at most as large seen along the axis as along its normal.
+fn least_area_m2(plate: &Plate, terms: &JobTerms) -> f64 {
+    let disc_m2 = |radius_m: f64| PI * radius_m * radius_m;
+    let left_out_m2 = (1.0 - terms.requirements.coverage) * plate.surface.area_m2();
+    let sponge_m2 = disc_m2(terms.workcell.tool.sponge.radius_m);
+    (disc_m2(plate.surface.rim_m()) - left_out_m2 - sponge_m2).max(0.0)
+}
+
 impl fmt::Display for Pace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{:.2} m, least time of the area {:.2} s; bound by ",
-            self.length_m, self.least_s
-        )?;
+        write!(f, "path of {:.2} m", self.length_m)?;
+        if self.least_s > 0.0 {
+            write!(f, "; no path is faster than {} s", decimals_down(self.least_s, 2))?;
+        }
         let shares = [
             ("tip speed", self.tip_speed),
             ("tip acceleration", self.tip_acceleration),
             ("joint speed", self.joint_speed),
             ("joint acceleration", self.joint_acceleration),
         ];
-        let mut told: Vec<_> = shares.into_iter().filter(|(_, share)| *share >= 0.005).collect();
-        told.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let told: Vec<_> = told
-            .iter()
-            .map(|(what, share)| format!("{what} {:.0} %", 100.0 * share))
-            .collect();
-        f.write_str(&told.join(", "))
+        let mut shown: Vec<_> = shares.into_iter().filter(|(_, share)| *share >= 0.005).collect();
+        shown.sort_by(|a, b| b.1.total_cmp(&a.1));
+        for (k, (limit, share)) in shown.iter().enumerate() {
+            let [before, after] = if k == 0 { ["; ", " of the time"] } else { [", ", ""] };
+            write!(f, "{before}{limit} is the limit for {:.0} %{after}", 100.0 * share)?;
+        }
+        Ok(())
     }
 }

@@ -66,7 +66,7 @@ impl CertificateObject {
         to_python(py, &self.inner.waived)
     }
 
-    /// Whether every requirement is proved, but for those that are `waived`, and the plan is as it was sealed.
+    /// Whether every requirement is proved, but for those that are `waived`, and the plan is as it was written.
     #[getter]
     fn proved(&self) -> bool {
         self.inner.passes()
@@ -152,6 +152,11 @@ impl CertificateObject {
 
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         table(slf, "certificate")
+    }
+
+    /// The whole report: every requirement, plate, pair of bodies and assumption. `str(certificate)` is one screen of it.
+    fn details(&self) -> String {
+        format!("{:#}", self.inner)
     }
 
     fn __str__(&self) -> String {

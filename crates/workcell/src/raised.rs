@@ -29,7 +29,7 @@ pub enum DryRunError {
         parent: String,
     },
     /// Its hash is missing or not that of its contents.
-    #[error("the plan was changed after it was sealed; a dry run names its parent by its hash")]
+    #[error("the plan was changed after it was written; a dry run names its parent by its hash")]
     NotSealed,
     /// A height that is none.
     #[error("the height must be a number above 0 m and at most {GREATEST_M} m; found {found}")]

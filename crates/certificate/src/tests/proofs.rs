@@ -31,7 +31,7 @@ fn only_a_plan_whose_certificate_holds_is_certified() {
     renamed.provenance.scenario = "another".to_owned();
     let refused = certify(renamed, &irb120()).unwrap_err().to_string();
     assert!(
-        refused.ends_with("; the plan was changed after it was sealed: its hash is not that of the contents"),
+        refused.ends_with("; the plan was changed after it was written: its hash does not match the contents"),
         "{refused}"
     );
 }
@@ -92,8 +92,8 @@ fn what_the_verdict_rests_on_is_told() {
     plan.job.workcell.obstacles.push(post);
     plan.job.home_rad[1][5] = 0.5;
     let certificate = prove(&resealed(plan), &irb120()).unwrap();
-    let table = certificate.to_string();
-    let told = table.split("\nrests on\n").nth(1).unwrap().lines();
+    let table = format!("{certificate:#}");
+    let told = table.split("\nthe proof rests on\n").nth(1).unwrap().lines();
     let told: Vec<_> = told.take_while(|line| !line.is_empty()).collect();
     let expected = [
         "  arm           \"irb120\", description ",
@@ -103,11 +103,11 @@ fn what_the_verdict_rests_on_is_told() {
         "  plates        2 of radius 145 mm, 20 mm thick, faces 30 mm above 0: 0 at (0.303086256, -0.212223281), 1 at (0.320429399, 0.185) m",
         "  obstacles     \"floor\", all below 0; \"post\", a cylinder of radius 20 and length 600 mm at (-0.9, 0, 0.3) m",
         "  home          0, 0, 10, 0, 70, 0 ° at the start, 0, 0, 10, 0, 70, 28.6478898 ° at the end",
-        "  limits        joint positions and speeds of the description; joint accelerations 8, 8, 8, 8, 8, 8 rad/s² (assumed); tip 1 m/s, 8 m/s² (assumed)",
+        "  limits        joint positions and speeds from the description; joint accelerations 8, 8, 8, 8, 8, 8 rad/s² (assumed); tip 1 m/s, 8 m/s² (assumed)",
         "  requirements  swept 99.5 %, clearance 10 mm, tilt 15 °, washing at most 0.25 m/s and 4 m/s², no overlapping plates, in any order",
-        "  contact       not required: a place counts as swept where the face touches it, pressed or not",
-        "  assumed       the arm is as its description says, and moves as its knots say",
-        "                joints and tip reach the accelerations stated; the manufacturer publishes none",
+        "  contact       not required: a point counts as swept where the sponge's face touches it, pressed or not",
+        "  assumed       the arm matches its description and follows the planned motion exactly",
+        "                the joints and the tip reach the stated accelerations; the manufacturer publishes none",
     ];
     for (line, expected) in told.iter().zip(expected) {
         assert!(line.starts_with(expected), "{line}\n{expected}");

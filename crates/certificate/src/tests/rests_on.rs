@@ -71,10 +71,10 @@ fn a_name_reads_as_one_name() {
         pair: ["a – b".to_owned(), "c".to_owned()],
         reason: ExclusionReason::Srdf,
     };
-    let left_out = told("left out", |r| r.workcell.exclusions = vec![pair.clone()]);
-    assert_eq!(left_out, "by the SRDF: \"a – b\" – \"c\"");
+    let left_out = told("not checked", |r| r.workcell.exclusions = vec![pair.clone()]);
+    assert_eq!(left_out, "disabled by the SRDF: \"a – b\" – \"c\"");
     let waived = told("waived", |r| r.waived_pairs = vec![pair.clone()]);
-    assert_eq!(waived, "by the job alone: \"a – b\" – \"c\"");
+    assert_eq!(waived, "by the job: \"a – b\" – \"c\"");
 }
 
 #[test]
@@ -263,7 +263,7 @@ fn profiles_are_told_by_name_or_knots_with_rim_and_foot() {
 
 #[test]
 fn contact_that_nobody_asks_for_is_told() {
-    let words = "not required: a place counts as swept where the face touches it, pressed or not";
+    let words = "not required: a point counts as swept where the sponge's face touches it, pressed or not";
     assert_eq!(told("contact", |_| ()), words);
     let landing = told("contact", |r| r.requirements.landing_m_s = Some(0.05));
     assert_eq!(landing, format!("{words}; the free sponge lands with at most 0.05 m/s"));

@@ -17,6 +17,7 @@ const LISTED_VIOLATIONS: usize = 12;
 const SHOWN_DIGITS: usize = 6;
 
 impl Display for PaperReport {
+    /// One screen. The alternate form (`{:#}`) shows everything.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}\n", self.headline)?;
         let (name, seed, robot) = (quoted(&self.scenario), self.seed, quoted(&self.robot));
@@ -27,6 +28,13 @@ impl Display for PaperReport {
         )?;
         self.write_plates(f)?;
         self.write_transits(f)?;
+        if !f.alternate() {
+            let [planned, executed] = [&self.planned, &self.executed].map(|motion| motion.violations.len());
+            return writeln!(
+                f,
+                "\nViolations: {planned} in the planned motion, {executed} in the executed one"
+            );
+        }
         writeln!(
             f,
             "\nWhole job, largest share of each joint's limit (1 to 6; acceleration limits are assumptions), of the cubics"

@@ -115,10 +115,7 @@ fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanE
         wash_s: duration(&visit.wash.motion),
         pace: Pace::of(
             &scene,
-            (
-                &pipeline.plates[visit.path.plate],
-                job.terms().workcell.tool.sponge.radius_m,
-            ),
+            (&pipeline.plates[visit.path.plate], job.terms()),
             &visit.wash,
             &pipeline.washing,
         ),

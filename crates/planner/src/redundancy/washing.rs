@@ -58,8 +58,8 @@ pub enum TiltChoice {
 impl fmt::Display for TiltChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Policy(policy) => write!(f, "tilt by distance, up to {:.1}°", policy.tilt_rad.to_degrees()),
-            Self::Search { .. } => f.write_str("tilt searched along the path"),
+            Self::Policy(policy) => write!(f, "tilt up to {:.1}°", policy.tilt_rad.to_degrees()),
+            Self::Search { .. } => f.write_str("tilt found by search along the path"),
         }
     }
 }

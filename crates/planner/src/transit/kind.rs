@@ -20,10 +20,10 @@ pub enum TransitKind {
 impl fmt::Display for TransitKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Direct => "direct, in the joints",
-            Self::Raised => "raised, in the joints",
-            Self::Arc => "on an arc round the base",
-            Self::Sampled => "sampled",
+            Self::Direct => "straight in joint space",
+            Self::Raised => "in joint space over a raised point",
+            Self::Arc => "on an arc around the base",
+            Self::Sampled => "found by sampling",
         })
     }
 }

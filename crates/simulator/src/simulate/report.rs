@@ -35,7 +35,7 @@ pub enum SimulationVerdict {
     NotFollowed,
     /// The arm may not carry its tool, whatever is washed with it.
     Overloaded,
-    /// The plan's hash is not that of its contents: whatever was simulated is not the plan that was sealed.
+    /// The plan's hash does not match its contents: whatever was simulated is not the plan that was written.
     Altered,
 }
 
@@ -73,7 +73,7 @@ impl SimulationVerdict {
     }
 }
 
-/// Whether a plan is as it was sealed.
+/// Whether a plan is as it was written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Seal {
     /// Its hash is that of its contents.
@@ -102,7 +102,7 @@ pub struct SimulationReport {
     pub robot: String,
     /// The law.
     pub law: ControlLawName,
-    /// Whether the wash survives, and the plan is the one that was sealed.
+    /// Whether the wash survives, and the plan is the one that was written.
     pub verdict: SimulationVerdict,
     /// The first line.
     pub headline: String,
@@ -140,7 +140,7 @@ impl SimulationReport {
         Self::judge(plan, robot, settings, execution, Seal::of(plan))
     }
 
-    /// The report where it is known whether the plan is as it was sealed.
+    /// The report where it is known whether the plan is as it was written.
     pub(super) fn judge(
         plan: &Plan,
         robot: &RobotModel,

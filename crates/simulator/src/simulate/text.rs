@@ -10,10 +10,11 @@ use platewash_kinematics::words::{percent, told_apart};
 use std::fmt::{self, Display, Formatter};
 
 impl Display for SimulationReport {
+    /// One screen. The alternate form (`{:#}`) shows everything.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let verdict = self.verdict.words().to_uppercase();
         let altered = match self.verdict {
-            SimulationVerdict::Altered => ", the hash is not that of the contents",
+            SimulationVerdict::Altered => ", the hash does not match the contents",
             _ => "",
         };
         writeln!(f, "{verdict}{altered}: {}", self.headline)?;
@@ -24,6 +25,9 @@ impl Display for SimulationReport {
             self.duration_s, self.samples
         )?;
         plates(self, f)?;
+        if !f.alternate() {
+            return payload(self, f);
+        }
         pressing(self, f)?;
         tracking(self, f)?;
         if let Some(effort) = &self.effort {
@@ -40,14 +44,14 @@ impl Display for SimulationReport {
 fn plates(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
     writeln!(
         f,
-        "{:<10} {:>14} {:>15} {:>12} {:>10}  verdict",
-        "swept", "in the plan %", "as executed %", "in contact %", "tilt °"
+        "{:<10} {:>16} {:>17} {:>12} {:>10}  verdict",
+        "plate", "swept, planned %", "swept, executed %", "in contact %", "tilt °"
     )?;
     for plate in &report.plates {
         let contact = 100.0 * plate.in_contact as f64 / plate.samples.max(1) as f64;
         writeln!(
             f,
-            "{:<10} {:>14} {:>15} {contact:>12.1} {:>10.2}  {}",
+            "{:<10} {:>16} {:>17} {contact:>12.1} {:>10.2}  {}",
             plate.plate,
             percent(plate.planned.fraction),
             percent(plate.executed.fraction),

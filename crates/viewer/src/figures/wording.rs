@@ -48,7 +48,7 @@ impl Subject<'_> {
             Some(certificate) => {
                 let broken: Vec<_> = certificate.broken().map(|check| check.requirement.words()).collect();
                 match broken.is_empty() {
-                    true => "NOT PROVED: the plan was changed after it was sealed".to_owned(),
+                    true => "NOT PROVED: the plan was changed after it was written".to_owned(),
                     false => format!("NOT PROVED: {}", broken.join(", ")),
                 }
             }

@@ -65,7 +65,7 @@ export class Requirements {
 
   #table(view: View, certificate: Certificate): void {
     if (certificate.hash !== "proved") {
-      const words = "The plan was changed after it was sealed: its hash is not that of its contents.";
+      const words = "The plan was changed after it was written: its hash does not match its contents.";
       this.element.append(el("p", { class: "notice tone-violated" }, toneIcon("violated"), words));
     }
     this.element.append(el("p", { class: "summary" }, summary(certificate)));
