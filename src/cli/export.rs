@@ -220,9 +220,9 @@ impl Answer<'_> {
         for check in &self.checks {
             text += &format!("  {:<20} {}\n", check.requirement.words(), check.detail());
         }
-        text += "  not judged: accelerations, and rest at the plates, which the controller times (see the head of the program)\n";
+        text += "  not judged: accelerations and stops at the plates, which the controller decides (see the head of the program)\n";
         if let Some(all) = &self.proved_of_the_plan_alone {
-            text += &format!("  nor, proved of the plan alone: {all}\n");
+            text += &format!("  proved for the plan, not for the program: {all}\n");
         }
         text
     }

@@ -154,10 +154,11 @@ impl Answer {
             let _ = writeln!(text, "  and {} more", self.more_changes);
         }
         if !self.unchanged {
-            text += "  what is no motion is named and not judged: checks before the start, messages, comments\n";
+            text +=
+                "  only the motion is judged; changed checks before the start, messages and comments are only named\n";
         }
         if !self.checks_start {
-            text += "  the start is not checked: the program moves off wherever the arm stands\n";
+            text += "  the start is not checked: the program starts to move wherever the arm stands\n";
         }
         if let Some(tool) = &self.tool {
             let _ = writeln!(text, "  {:<20} {:<9} {tool}", "tool", "NOT KEPT");
@@ -168,7 +169,7 @@ impl Answer {
             let _ = writeln!(text, "  {name:<20} {status:<9} {detail}; {}", check.worst);
         }
         if let Some(all) = &self.proved_of_the_plan_alone {
-            let _ = writeln!(text, "  not judged of a program, proved of the plan alone: {all}");
+            let _ = writeln!(text, "  proved for the plan, not for the program: {all}");
         }
         text
     }

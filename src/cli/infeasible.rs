@@ -17,7 +17,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// What is being done.
-const LOOKING: &str = "looking for what would mend it";
+const LOOKING: &str = "searching for keys whose change helps";
 
 /// A scenario of which nothing can come.
 #[derive(Serialize)]
@@ -89,10 +89,9 @@ fn in_full(
                 ..watch
             };
             match other_unwashable_plates(&job, first, &others) {
-                Err(PlanError::Cancelled(_)) if !options.cancel.is_cancelled() => (
-                    why,
-                    "; the other plates were not looked at to the end, for lack of time",
-                ),
+                Err(PlanError::Cancelled(_)) if !options.cancel.is_cancelled() => {
+                    (why, "; there was no time to check the other plates fully")
+                }
                 others => (why.besides(&others?), ""),
             }
         }

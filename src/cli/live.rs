@@ -28,7 +28,7 @@ const NOTICEABLE_S: f64 = 0.5;
 /// Arguments of `run` that show it live.
 #[derive(Debug, Args, Default)]
 pub struct LiveArguments {
-    /// Show the simulation in the browser, in real time, while it runs; results are the same
+    /// Show the simulation in the browser, in real time, while it runs; --port, --bind and --no-open need this option
     #[arg(long)]
     live: bool,
     #[command(flatten)]
@@ -61,7 +61,7 @@ impl LiveArguments {
         }
         if scenario.job.program == Program::Paper {
             return Err(Failure::input(anyhow!(
-                "--live: the paper's program follows its path without a simulation that could be watched; `platewash view` shows its plan"
+                "--live: the paper's program has no simulation to watch; `platewash view` shows its plan"
             )));
         }
         let listener = self.serve.listen(options)?;

@@ -107,7 +107,8 @@ enum Verb {
     /// The proof is about the job in the plan file. --against checks that this job is the one of a scenario: exit code 4 if a field
     /// differs, and the first line begins with OTHER JOB.
     ///
-    /// --program judges an exported robot program, changed or not: exit code 0 if its motion keeps all requirements, else 4.
+    /// --program judges an exported robot program, changed or not: exit code 0 if its motion keeps the requirements that the answer lists,
+    /// else 4.
     Verify(verify::VerifyArguments),
     /// Compare two plan files: job, cycle time and proved bounds
     ///
@@ -143,8 +144,8 @@ enum Verb {
     Figures(figures::FiguresArguments),
     /// Export a plan file as a robot program: rapid, ros2, urscript or csv
     ///
-    /// The plan is proved first. The program is read back, its motion is proved again, and it is written only if that succeeds; else the
-    /// exit code is 4. The files go to the folder of --out, or to out/TARGET.
+    /// The plan is proved first. The program is read back, and its path, joint speeds, clearance, tilt and sweep are proved again; it is
+    /// written only if that succeeds, else the exit code is 4. Pressing, landing and accelerations are proved for the plan alone. The files go to the folder of --out, or to out/TARGET.
     Export(export::ExportArguments),
     /// Simulate a plan file at many frequencies and damping ratios of a control law
     Tune(tune::TuneArguments),

@@ -24,7 +24,7 @@ impl OfParent {
     /// that plan.
     pub fn compare(file: &PlanFile<'_>, path: &Path) -> Result<Self, Failure> {
         let Some(dry_run) = &file.plan.job.dry_run else {
-            return Err(file.refused("it is no dry run: --parent is for plans of platewash dry-run"));
+            return Err(file.refused("it is not a dry run; --parent is for plans of platewash dry-run"));
         };
         let parent = plan_file::read(path)?;
         let (found, speed_m_s) = (&file.plan, file.plan.job.limits.tip_speed_m_s);
@@ -57,7 +57,7 @@ impl OfParent {
 
     fn count(&self) -> String {
         match self.differences.len() {
-            0 => "no field differs from what is asked of one".to_owned(),
+            0 => "no field differs from what a dry run must have".to_owned(),
             1 => "1 field differs".to_owned(),
             several => format!("{} differ", counted(several, "field")),
         }
@@ -106,7 +106,7 @@ impl fmt::Display for OfParent {
         let hash = self.hash.as_deref().unwrap_or("without a hash");
         writeln!(
             f,
-            "dry run of {hash}: {}; that plan itself is not judged here",
+            "dry run of {hash}: {}; that plan itself is not proved here",
             self.count()
         )?;
         self.differences.iter().try_for_each(|difference| {

@@ -72,7 +72,7 @@ impl<'a> PlanFile<'a> {
 pub fn read(path: &Path) -> Result<Plan, Failure> {
     if path.extension().is_some_and(|extension| extension == "toml") {
         let found = format_args!(
-            "is no plan file; of a scenario 'platewash plan --scenario {}' makes one",
+            "is not a plan file; 'platewash plan --scenario {}' makes one from a scenario",
             path.display()
         );
         return Err(refused(path, found));

@@ -92,7 +92,8 @@ fn it_is_compared_with_the_plan_that_it_is_one_of() {
     platewash(dir, &["dry-run", "out/plan.json", "--quiet"]).done();
     let verify = |more: &[&str]| platewash(dir, &[&["verify", "out/dry-run/plan.json", "--parent"], more].concat());
     let ran = verify(&["out/plan.json"]).done();
-    let last = "no field differs from what is asked of one; that plan itself is not judged here\n\nmore: --details\n";
+    let last =
+        "no field differs from what a dry run must have; that plan itself is not proved here\n\nmore: --details\n";
     assert!(
         ran.stdout.starts_with("DRY RUN of ") && ran.stdout.ends_with(last),
         "{}",

@@ -219,7 +219,7 @@ fn a_plan_file_is_refused_by_its_key_without_names_of_types() {
         );
     }
     std::fs::write(dir.join("mine.toml"), "").unwrap();
-    platewash(dir, &["verify", "mine.toml"]).refused(2, &["is no plan file", "platewash plan --scenario mine.toml"]);
+    platewash(dir, &["verify", "mine.toml"]).refused(2, &["is not a plan file", "platewash plan --scenario mine.toml"]);
 }
 
 #[test]

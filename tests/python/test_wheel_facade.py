@@ -48,7 +48,6 @@ PYTHON = {
     "simulate": "simulate",
     "tune": "tune",
     "WashReport": "Planned.report",
-    "WashText": "Planned.report",
     "SWEEP_HEADER": None,  # the columns are the records' keys
     "SweepRow": "sweep",
     "sweep": "sweep",

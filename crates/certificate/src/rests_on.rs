@@ -22,7 +22,7 @@ const HASH_DIGITS: usize = 12;
 /// What is assumed, whatever the job.
 const ASSUMPTIONS: [&str; 3] = [
     "the arm matches its description and follows the planned motion exactly",
-    "the joints and the tip reach the stated accelerations; the manufacturer publishes none",
+    "the joints and the tip reach the stated accelerations; no published values are known",
     "the collision shapes enclose the arm, the tool and the obstacles",
 ];
 
@@ -37,8 +37,8 @@ const NOT_ASKED: &str = "not required: a point counts as swept where the sponge'
 const WHOLE_FACE: &str = "the sponge is round and soft, so that its whole face touches; its compression is not judged";
 const TOUCHES: &str = "the sponge is round and a bed of independent columns: it touches where its free face would reach into the plate; its \
                        compression is not judged";
-const FOUNDATION: &str = "the sponge is round and each column of it presses with stiffness × strain; its stiffness, which nobody measured, lies \
-                          in the stated range";
+const FOUNDATION: &str = "the sponge is round and each column of it presses with stiffness × strain; its stiffness lies in the stated range, \
+                          which nobody measured";
 
 /// Of what is promised of contact besides: where a plate may lie.
 const ERROR_OF_HEIGHT: &str = "contact, landing and lifting hold for plates too high or too low by up to the stated height error; everything else, \

@@ -7,7 +7,7 @@ use platewash_certificate::Requirement;
 #[non_exhaustive]
 pub enum Refusal {
     /// The certificate waives requirements that were not accepted by name.
-    #[error("the certificate waives {}: nobody has accepted that by name", .waived.join(", "))]
+    #[error("the certificate waives {}: accept each by its name to export it", .waived.join(", "))]
     Waived {
         /// Their names.
         waived: Vec<String>,

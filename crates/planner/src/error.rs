@@ -99,7 +99,7 @@ pub enum PlanError {
     #[error("{0}")]
     Unwashable(Box<UnwashablePlate>),
     /// Of no layout drawn was a way found to wash it whole.
-    #[error("of none of {layouts} layouts drawn was a way found to wash it whole; of the last one, {last}")]
+    #[error("no plan was found for any of {layouts} random layouts; for the last one: {last}")]
     NoneWashable {
         /// Layouts drawn.
         layouts: usize,
@@ -120,7 +120,7 @@ pub enum PlanError {
         error: Box<IkPathError>,
     },
     /// The arm can follow a wash path, but with none that was tried the sponge does what is promised.
-    #[error("no way was found to wash plate {plate} as is promised: {shortfall}")]
+    #[error("no way was found to wash plate {plate} as required: {shortfall}")]
     Promise {
         /// The plate.
         plate: usize,

@@ -84,7 +84,7 @@ impl fmt::Display for Remedies {
         }
         if self.would_do.is_empty() && !self.would_not.is_empty() {
             let keys = self.would_not.join(", ");
-            write!(f, "; changed alone, none of these keys was found to mend it: {keys}")?;
+            write!(f, "; no single change of these keys was found to help: {keys}")?;
         }
         if !self.not_tried.is_empty() {
             write!(

@@ -27,6 +27,15 @@ pub fn millimetres(length_m: f64) -> String {
     format!("{:.1} mm", 1e3 * length_m)
 }
 
+/// The first `most` characters of a text; `…` stands for the rest.
+#[must_use]
+pub fn shortened(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
 /// Text out of a file with control and format characters and separators of lines written out, so that no terminal obeys them, no
 /// line is added to a message and nothing is hidden or reordered.
 #[must_use]

@@ -62,7 +62,7 @@ pub enum RedundancyError {
         ends: Vec<DeadEnd>,
     },
     /// Every contact point has a tilt, but no continuous sequence of them was found within the joint steps and tilt rate allowed.
-    #[error("plate {plate}: nothing was found that connects the tilts that will do; {}", at(std::slice::from_ref(.end)))]
+    #[error("plate {plate}: no way was found to connect the usable tilts along the path; {}", at(std::slice::from_ref(.end)))]
     Disconnected {
         /// Index of the plate.
         plate: usize,
