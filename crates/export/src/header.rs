@@ -43,8 +43,7 @@ pub(crate) fn lines(
     if let Some(judged) = judged {
         lines.extend(verdict(judged, settings));
         let promised = contact_not_judged(&source.plan.job.requirements);
-        lines
-            .extend(promised.map(|all| format!("Proved for the plan, not for this program: {all}.")));
+        lines.extend(promised.map(|all| format!("Proved for the plan, not for this program: {all}.")));
     }
     lines.push("Assumed, not verified on a controller:".to_owned());
     lines.extend(dialect.assumptions().iter().map(|words| format!("- {words}")));

@@ -14,8 +14,9 @@
 //! | what is handed over, in no dialect | `program` |
 //! | what a program says, read back | `reading` |
 //! | a language of programs; the list of all | `dialect`, `dialects` |
-//! | RAPID, of ABB: written, parsed, executed | `rapid` |
-//! | URScript, of Universal Robots: written, parsed, executed | `urscript` |
+//! | words, numbers and signs of a text | `tokens` |
+//! | RAPID, of ABB: written and read | `rapid` |
+//! | URScript, of Universal Robots: written and read | `urscript` |
 //! | a table of positions and speeds, for any other use | `csv` |
 //! | sentences as lines of a comment | `comment` |
 //! | a tool as a controller has it, beside the plan's | `tool_frame` |
@@ -48,6 +49,7 @@ mod settings;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests;
+mod tokens;
 mod tool_frame;
 pub mod urscript;
 

@@ -1,7 +1,6 @@
 //! What a program says, read back out of its text.
 
 use crate::file::Place;
-use crate::program::START_WITHIN_DEG;
 use nalgebra::UnitQuaternion;
 use platewash_kinematics::{JointVector, Pose};
 
@@ -16,13 +15,9 @@ pub struct Reading {
     pub between: Between,
     /// The tool, where the program states one.
     pub tool: Option<ReadTool>,
-    /// Whether the program refuses to move where the arm does not stand at the start: a program that can ask is run with each joint away
-    /// from it by a little more than it may be, and by much more, both ways.
+    /// Whether the program checks, as it was exported, that the arm stands at the start before it moves.
     pub checks_start: bool,
 }
-
-/// How far each joint is put from the start, to see whether a program moves then \[°\].
-pub(crate) const OFF_START_DEG: [f64; 3] = [1.2 * START_WITHIN_DEG, 5.0, 60.0];
 
 impl Reading {
     /// Share of the plan's speed at which the program runs: all of it where none is stated.

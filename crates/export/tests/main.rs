@@ -2,9 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
 mod csv;
-mod rapid_disguised;
-mod rapid_faults;
-mod rapid_language;
+mod rapid_read;
 mod rapid_round_trip;
 mod ros2;
 mod ros2_refused;

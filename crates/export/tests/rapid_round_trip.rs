@@ -175,7 +175,10 @@ fn a_large_program_is_several_modules() {
     assert_as_meant(&program.points, 0.5, &reading, 2e-6);
     // Without one of them, the first missing routine is named.
     let error = rapid().read(&files[..2], program.arm).unwrap_err();
-    assert!(error.reason.contains("is no procedure of the program"), "{error}");
+    assert!(
+        error.reason.contains("is neither a procedure of the program"),
+        "{error}"
+    );
 }
 
 /// Points as a plan could have them: any joints, steps of time from 1 ms to 10 s, some rests, some waits.

@@ -88,22 +88,24 @@ proptest! {
     }
 }
 
-/// Everything that the reader claims: what the fixture says, worked out by hand.
+/// What the fixture says, worked out by hand.
 #[test]
 fn a_program_by_hand_is_carried_out() {
     let reading = read(BY_HAND).unwrap();
     assert_eq!((reading.speed_share, reading.between), (Some(0.5), Between::Lines));
-    let quarter = -std::f64::consts::FRAC_PI_2;
+    assert!(!reading.checks_start, "two joints are checked");
     let expected = [
-        (28, 0.0, [0.0, quarter, 1.5, -1.5, -1.5, 0.0], None),
-        (29, 0.008, [0.001, -1.57, 1.5, -1.5, -1.5, 0.0], Some(0.0)),
-        (30, 0.016, [0.002, -1.57, 1.5, -1.5, -1.5, -0.001], None),
-        (31, 0.020, [0.002, -1.57, 1.5, -1.5, -1.5, -0.001], None),
-        (33, 0.028, [0.003, -1.57, 1.5, -1.5, -1.5, -0.001], None),
+        (11, 0.0, [0.0, -1.57, 1.5, -1.5, -1.5, 0.0], None),
+        (26, 0.008, [0.001, -1.57, 1.5, -1.5, -1.5, 0.0], Some(0.0)),
+        (7, 0.016, [0.002, -1.57, 1.5, -1.5, -1.5, -0.001], None),
+        (8, 0.020, [0.002, -1.57, 1.5, -1.5, -1.5, -0.001], None),
+        (29, 0.028, [0.003, -1.57, 1.5, -1.5, -1.5, -0.001], None),
     ];
     assert_eq!(reading.points.len(), expected.len());
     for (point, (line, t_s, q_rad, corner_m)) in reading.points.iter().zip(expected) {
-        assert_eq!((point.place.line, point.corner_m), (line, corner_m));
+        assert_eq!(point.corner_m, corner_m);
+        // The first point has the line of the movej.
+        assert_eq!(point.place.line, if t_s == 0.0 { 25 } else { line }, "{point:?}");
         assert!((point.t_s - t_s).abs() < 1e-12, "{point:?}");
         assert!((point.q_rad - JointVector::from(q_rad)).amax() < 1e-12, "{point:?}");
     }
@@ -117,214 +119,231 @@ fn a_program_by_hand_is_carried_out() {
 #[test]
 fn faults_are_refused_with_their_line() {
     let faults = [
+        (1, "def by_hand():", "def by_hand()", 1, "expected `def NAME():`"),
         (
-            3,
+            1,
             "def by_hand():",
-            "def by_hand()",
-            3,
-            "expected \":\", found the end of the line",
+            "def by_hand(x):",
+            1,
+            "functions with parameters are not read",
         ),
-        (3, "def by_hand():", "def by_hand(x):", 3, "a program has no parameters"),
-        (38, "end", "", 3, "this \"def\" has no \"end\""),
-        (38, "end", "end\nend", 39, "\"end\" closes nothing"),
-        (5, "0, 0])", "0])", 5, "a pose of 6 numbers, found 5"),
+        (33, "end", "", 1, "this `def` has no `end`"),
+        (33, "end", "end\nend", 34, "which ends before this line"),
+        (2, "0, 0])", "0])", 2, "a pose of 6 numbers, found 5"),
         (
-            5,
+            2,
             "set_tcp(p[",
             "set_tcp([",
-            5,
+            2,
             "expected a pose p[x, y, z, rx, ry, rz], found a list",
         ),
-        (6, "0.5", "-0.5", 6, "expected m above 0, found -0.5"),
-        (6, "cog=", "cogs=", 6, "\"set_payload\" has no argument \"cogs\""),
+        (3, "0.5", "-0.5", 3, "expected m above 0, found -0.5"),
+        (3, "cog=", "cogs=", 3, "no argument `cogs`"),
         (
-            6,
+            3,
             "set_payload(0.5, cog=[0.0, 0.0, 0.05])",
             "",
-            36,
+            32,
             "a tip and no payload",
         ),
-        (7, "0.5", "1.5", 7, "expected speed_share above 0 and at most 1"),
-        (7, "0.5", "0", 7, "expected speed_share above 0 and at most 1"),
-        (8, "4e2", "4e999", 8, "expected a decimal number, found \"4e999\""),
-        (8, "(100 + 4e2)", "(100 / 0)", 8, "no number to go by"),
-        (12, "q[5]", "q[6]", 12, "no entry 6"),
-        (12, "local twice", "local found", 13, "no variable \"twice\""),
-        (16, "d2r(-90)", "d2r(\"-90\")", 16, "expected a number, found a text"),
-        (16, "start = [0.0", "start = [90.0", 28, "are these degrees?"),
+        (4, "0.5", "1.5", 4, "expected speed_share above 0 and at most 1"),
+        (4, "0.5", "0", 4, "expected speed_share above 0 and at most 1"),
+        (5, "500", "4e999", 5, "expected a decimal number"),
+        (5, "500", "5 * 100", 5, "computed values are not read"),
+        (5, "500", "size", 5, "no variable `size`"),
         (
-            17,
+            7,
+            "servoj(",
+            "if True:\n  end\n  servoj(",
+            7,
+            "in functions, only instructions are read",
+        ),
+        (
+            12,
             "get_actual_joint_positions()",
             "get_forward_kin()",
-            17,
-            "\"get_forward_kin\": it is neither",
+            12,
+            "no variable `get_forward_kin`",
         ),
         (
-            19,
-            "away > 0.01",
-            "away > -0.01",
-            21,
-            "halts here, though the arm stands where it begins",
-        ),
-        (
-            19,
-            "away > 0.01",
-            "1 or True",
-            19,
-            "expected True or False, found a number",
-        ),
-        (
-            21,
-            "halt",
-            "movej(start)",
-            21,
-            "this depends on where the arm stands; expected popup, textmsg or halt alone",
-        ),
-        (
-            23,
-            "textmsg(\"at the start: \", away)",
-            "gain = 300",
-            23,
-            "this depends on where the arm stands",
-        ),
-        (23, "away)", "far)", 23, "no variable \"far\""),
-        (
-            32,
-            "gain = 300",
-            "if get_actual_joint_positions()[0] > 1:\n  end",
-            32,
-            "depends on where the arm is",
-        ),
-        (
-            33,
-            "[0.0030",
-            "[found[0]",
             13,
-            "expected a list of 6 numbers, found a measured value",
+            "norm(found[0] - start[0])",
+            "norm(found[0] - start[1])",
+            13,
+            "only the check of the start is read",
         ),
-        (20, "title", "headline", 20, "\"popup\" has no argument \"headline\""),
-        (22, "elif", "else", 22, "expected \":\""),
-        (24, "else:", "else:\nelse:", 25, "\"else\" behind \"else\""),
+        (13, "> 0.008", "> limit", 13, "only the check of the start is read"),
         (
-            28,
+            13,
+            "norm(found[0]",
+            "norm(start[0]",
+            13,
+            "only the check of the start is read",
+        ),
+        (
+            15,
+            "halt",
+            "textmsg(\"go on\")",
+            13,
+            "only the check of the start is read",
+        ),
+        (15, "halt", "movej(start)", 13, "only the check of the start is read"),
+        (14, "title", "headline", 13, "no argument `headline`"),
+        (
+            25,
             "movej(start, a=0.1, v=0.05)",
             "",
-            29,
+            26,
             "servoj before the arm is at its start",
         ),
         (
-            28,
+            25,
             "v=0.05",
             "t=2",
-            28,
+            25,
             "movej with t: its ramps and blends are the controller's",
         ),
         (
-            29,
+            26,
             "0.008,",
             "0.5,",
-            29,
+            26,
             "servoj with t = 0.5 s: it hastens to its target",
         ),
-        (29, "0.008,", "-0.008,", 29, "expected t above 0, found -0.008"),
+        (26, "0.008,", "-0.008,", 26, "expected t above 0, found -0.008"),
         (
-            29,
+            26,
             "0.1, 300",
             "0.01, 300",
-            29,
+            26,
             "expected lookahead_time from 0.03 to 0.2, found 0.01",
         ),
-        (29, "300)", "30)", 29, "expected gain from 100 to 2000, found 30"),
-        (29, "300)", "300, 1)", 29, "\"servoj\" takes 6 arguments at most"),
-        (29, "0.001, ", "", 29, "expected a list of 6 numbers, found one of 5"),
+        (26, "300)", "30)", 26, "expected gain from 100 to 2000, found 30"),
+        (26, "300)", "300, 1)", 26, "expected 6 arguments at most"),
+        (26, "0.001, ", "", 26, "expected a list of 6 numbers, found one of 5"),
         (
-            29,
+            26,
             "servoj([0.001",
             "servoj(p[0.001",
-            29,
+            26,
             "expected joint positions, found a pose",
         ),
-        (30, "go(", "movel(", 30, "\"movel\": its path needs inverse kinematics"),
-        (30, "go(", "come(", 30, "\"come\": it is neither a function"),
-        (30, ", step)", ")", 30, "expected an argument \"t\""),
-        (31, "t=step / 2, q", "step / 2, q", 31, "argument 1 is given twice"),
+        (26, "[0.001", "[90.0", 26, "are these degrees?"),
         (
-            32,
-            "gain = 300",
+            27,
+            "go()",
+            "movel(start)",
+            27,
+            "`movel`: the controller plans or times this motion",
+        ),
+        (27, "go()", "come()", 27, "`come`: it is neither a function"),
+        (27, "go()", "go(1)", 27, "expected `go()`"),
+        (
+            28,
+            "set_digital_out(1, True)",
             "sleep(1)",
-            32,
+            28,
             "how the arm moves on while the program waits",
         ),
         (
-            32,
-            "gain = 300",
+            28,
+            "set_digital_out(1, True)",
             "set_tcp(p[0,0,0,0,0,0])",
-            32,
+            28,
             "set in the midst of the motion",
         ),
         (
-            32,
-            "gain = 300",
+            28,
+            "set_digital_out(1, True)",
             "popup(\"wait\")",
-            32,
+            28,
             "a popup in the midst of the motion",
         ),
-        (32, "gain = 300", "while True:", 32, "loops are not read"),
-        (32, "gain = 300", "def go():\n  end", 32, "a second function \"go\""),
-        (33, "go(", "stopj(1)\n  go(", 13, "servoj behind stopj"),
-        (35, "0.003", "0.004", 35, "movej to a place 0.001000 rad away"),
+        (
+            28,
+            "set_digital_out(1, True)",
+            "gain = 300",
+            28,
+            "before the first motion alone",
+        ),
+        (
+            28,
+            "set_digital_out(1, True)",
+            "def go():\n  end",
+            28,
+            "`go` is given twice",
+        ),
+        (
+            28,
+            "set_digital_out(1, True)",
+            "return 1",
+            28,
+            "loops, conditions and jumps",
+        ),
+        (
+            28,
+            "set_digital_out(1, True)",
+            "thread x():\n  end",
+            28,
+            "runs beside the motion",
+        ),
+        (
+            28,
+            "set_digital_out(1, True)",
+            "if norm(found[2] - start[2]) > 0.008:\n popup(\"\")\n halt\n end",
+            28,
+            "before the first motion",
+        ),
+        (29, "servoj(", "stopj(1)\n  servoj(", 30, "servoj behind stopj"),
+        (31, "0.003", "0.004", 31, "movej to a place 0.001000 rad away"),
     ];
     for (line, from, to, at, said) in faults {
         let error = read(&edited(BY_HAND, line, from, to)).expect_err(to);
-        assert_eq!(error.place.line, at, "{to}: {error}");
         assert!(error.reason.contains(said), "{to}: {error}");
+        assert_eq!(error.place.line, at, "{to}: {error}");
         assert_eq!(error.to_string(), format!("x.script:{at}: {}", error.reason));
     }
-}
-
-/// A function that changes a variable from outside without saying which it means.
-#[test]
-fn a_variable_that_may_be_either_is_refused() {
-    let text = "def x():\n  a = 1\n  def f():\n    a = 2\n  end\n  f()\nend\n";
-    let error = read(text).unwrap_err();
-    assert_eq!(error.place.line, 4);
+    let looped = edited(BY_HAND, 28, "set_digital_out(1, True)", "while True:\n  end");
     assert!(
-        error.reason.contains("expected \"local\" or \"global\" before it"),
-        "{error}"
+        read(&looped)
+            .unwrap_err()
+            .reason
+            .contains("loops, conditions and jumps")
     );
 }
 
+/// What hides in a function that is never called is no part of another one.
 #[test]
-fn calls_steps_and_nesting_are_bounded() {
-    let forever = "def x():\n  def f():\n    f()\n  end\n  f()\nend\n";
-    let error = read(forever).unwrap_err();
+fn blocks_end_where_a_controller_ends_them() {
+    let hidden = edited(
+        BY_HAND,
+        27,
+        "go()",
+        "def never():\n  while True:\n  end\n  servoj([0.1, -1.57, 1.5, -1.5, -1.5, 0.0], t=0.008)\n  halt\n  end\n  go()",
+    );
+    let error = read(&hidden).unwrap_err();
+    assert!(error.reason.contains("in functions, only instructions"), "{error}");
+    assert!(read(&format!("{BY_HAND}def more():\nend\n")).is_err());
+}
+
+#[test]
+fn calls_and_lines_are_bounded() {
+    let error = read("def x():\n  def f():\n    f()\n  end\n  f()\nend\n").unwrap_err();
     assert_eq!(error.place.line, 3);
-    assert!(error.reason.contains("deeper than 32"), "{error}");
+    assert!(error.reason.contains("runs itself"), "{error}");
     // Each function calls the one before twice: 2^20 calls.
-    let mut doubling = "def x():\n  def f0():\n    a = 1\n  end\n".to_owned();
+    let mut doubling = "def x():\n  def f0():\n    textmsg(\"\")\n  end\n".to_owned();
     for k in 1..=20 {
         doubling += &format!("  def f{k}():\n    f{0}()\n    f{0}()\n  end\n", k - 1);
     }
     let error = read(&(doubling + "  f20()\nend\n")).unwrap_err();
     assert!(error.reason.contains("steps, the most"), "{error}");
-    for (text, said) in [
-        (
-            format!("a = {}1{}", "(".repeat(40), ")".repeat(40)),
-            "nested deeper than 32 brackets",
-        ),
-        ("if True:\n".repeat(20), "nested deeper than 16"),
-        (
-            format!("a = \"{}\"", "x".repeat(20_000)),
-            "a line of more than 10000 bytes",
-        ),
-        (String::new(), "the program ends here and has not moved"),
-    ] {
-        let error = read(&text).unwrap_err();
-        assert!(error.reason.contains(said), "{error}");
-    }
+    let long = format!("def x():\n  textmsg(\"{}\")\nend\n", "x".repeat(200_000));
+    assert!(read(&long).unwrap_err().reason.contains("longer than"));
+    assert!(read("").unwrap_err().reason.contains("found nothing"));
 }
 
-/// The check of the start is not only written: an arm that stands elsewhere is not moved.
+/// The check counts where it compares with where the program goes.
 #[test]
 fn a_start_that_the_check_does_not_know_is_noticed() {
     let plan = plan(&ARM);
@@ -337,26 +356,37 @@ fn a_start_that_the_check_does_not_know_is_noticed() {
     };
     let files = UrScript.write(&program(&plan, &ARM, vec![point(0.0, 0.5), point(0.008, 0.5)], 1.0));
     let text = &files[0].text;
-    let moved = text
-        .lines()
-        .position(|line| line.trim() == "movej(start, a=0.1, v=0.05)")
+    assert!(read(text).unwrap().checks_start);
+    let moved = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        read(&text.replacen(from, to, 1))
+    };
+    let elsewhere = moved("movej(start,", "movej([0.51, 0.5, 0.5, 0.5, 0.5, 0.5],");
+    assert!(elsewhere.unwrap_err().reason.contains("another start"));
+    let limit = text
+        .split("norm(found[0] - start[0]) > ")
+        .nth(1)
         .unwrap()
-        + 1;
-    let elsewhere = "movej([0.51, 0.5, 0.5, 0.5, 0.5, 0.5], a=0.1, v=0.05)";
-    let error = read(&edited(text, moved, "movej(start, a=0.1, v=0.05)", elsewhere)).unwrap_err();
+        .split(':')
+        .next()
+        .unwrap();
     assert!(
-        error
-            .reason
-            .contains("halts here, though the arm stands where it begins"),
-        "{error}"
-    );
-    assert!(
-        text.lines()
-            .nth(error.place.line - 2)
+        !moved(&format!("start[0]) > {limit}"), "start[0]) > 1.0")
             .unwrap()
-            .contains("Joint 1 is more than 0.5 deg"),
-        "{error}"
+            .checks_start
     );
+    let block = text
+        .split("  if norm(found[5]")
+        .nth(1)
+        .unwrap()
+        .split("  set_tcp")
+        .next()
+        .unwrap();
+    let block = format!(
+        "  if norm(found[5]{}",
+        &block[..block.rfind("  #").unwrap_or(block.len())]
+    );
+    assert!(!moved(&block, "").unwrap().checks_start);
 }
 
 #[test]

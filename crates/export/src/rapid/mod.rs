@@ -1,9 +1,19 @@
 //! RAPID, the language of ABB's controllers.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | a job that can be handed over in it | `accepts` |
+//! | a program's text | `write` |
+//! | modules into data and procedures; what a program does | `parse`, `read` |
+//! | joint targets, zones and tools; zones and speeds by name; names that are taken | `values`, `zone`, `names` |
 
 mod accepts;
-mod interpret;
-pub mod syntax;
+mod names;
+mod parse;
+mod read;
+mod values;
 mod write;
+mod zone;
 
 use crate::dialect::{Dialect, Points, ReadError};
 use crate::file::ProgramFile;
@@ -57,7 +67,7 @@ impl Dialect for Rapid {
     }
 
     fn read(&self, files: &[ProgramFile], _: &RobotModel) -> Result<Reading, ReadError> {
-        interpret::run(files)
+        read::reading(files)
     }
 }
 

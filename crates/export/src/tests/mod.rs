@@ -428,7 +428,10 @@ fn what_is_not_judged_of_contact_is_told() {
     );
     let mut promised = job.requirements;
     let told = contact_not_judged(&promised);
-    assert_eq!(text.contains("Proved for the plan, not for this program: "), told.is_some());
+    assert_eq!(
+        text.contains("Proved for the plan, not for this program: "),
+        told.is_some()
+    );
     (promised.contact, promised.landing_m_s) = (None, Some(0.05));
     (promised.lifting_m_s, promised.wrist_rad) = (None, None);
     assert_eq!(contact_not_judged(&promised).as_deref(), Some("speed of landing"));

@@ -3,15 +3,11 @@
 //! The arm goes evenly in the joints to where a `servoj` sends it, and is there when its time is over. `movej` has a path in time of its
 //! own: it may bring the arm to the start, before the program's time begins, and to where it stands already.
 
-use super::fault::Fault;
-use super::value::Value;
-use super::words::shortened;
 use crate::file::Place;
 use crate::reading::{Between, ReadPoint, ReadTool, Reading};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::{JointVector, Pose};
-use platewash_workcell::words::quoted;
 
 /// Longest time of a `servoj` \[s\]: it hastens to where it is sent, which is even motion in short steps alone.
 const LONGEST_S: f64 = 0.02;
@@ -29,7 +25,7 @@ const NOWHERE_RAD: f64 = 1e-6;
 const FARTHEST_RAD: f64 = 4.0 * std::f64::consts::PI;
 
 /// Instructions, each with its parameters in order.
-pub(super) const INSTRUCTIONS: [(&str, &[&str]); 7] = [
+const INSTRUCTIONS: [(&str, &[&str]); 12] = [
     ("set_tcp", &["pose"]),
     ("set_payload", &["m", "cog"]),
     ("movej", &["q", "a", "v", "t", "r"]),
@@ -37,7 +33,54 @@ pub(super) const INSTRUCTIONS: [(&str, &[&str]); 7] = [
     ("stopj", &["a"]),
     ("popup", &["s", "title", "warning", "error", "blocking"]),
     ("textmsg", &["s1", "s2"]),
+    ("set_digital_out", &["n", "b"]),
+    ("set_standard_digital_out", &["n", "b"]),
+    ("set_configurable_digital_out", &["n", "b"]),
+    ("set_tool_digital_out", &["n", "b"]),
+    ("set_standard_analog_out", &["n", "f"]),
 ];
+
+/// A value.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Value {
+    Number(f64),
+    Bool,
+    Text,
+    List(Vec<f64>),
+    /// Position \[m\] and rotation vector \[rad\].
+    Pose([f64; 6]),
+}
+
+impl Value {
+    fn told(&self) -> &'static str {
+        match self {
+            Self::Number(_) => "a number",
+            Self::Bool => "True or False",
+            Self::Text => "a text",
+            Self::List(_) => "a list",
+            Self::Pose(_) => "a pose",
+        }
+    }
+
+    fn number(&self) -> Result<f64, String> {
+        match self {
+            Self::Number(number) => Ok(*number),
+            other => Err(format!("expected a number, found {}", other.told())),
+        }
+    }
+
+    /// As many numbers as `COUNT`.
+    pub(super) fn list<const COUNT: usize>(&self) -> Result<[f64; COUNT], String> {
+        let found = match self {
+            Self::List(list) => match list.as_slice().try_into() {
+                Ok(numbers) => return Ok(numbers),
+                Err(_) => format!("one of {}", list.len()),
+            },
+            other => other.told().to_owned(),
+        };
+        Err(format!("expected a list of {COUNT} numbers, found {found}"))
+    }
+}
 
 /// What the arm has done so far.
 #[derive(Debug, Default)]
@@ -62,12 +105,15 @@ pub(super) struct Controller {
 }
 
 /// Values of an instruction's parameters, in their order; `None` where not given.
-pub(super) type Given = Vec<Option<Value>>;
+type Given = Vec<Option<Value>>;
 
 impl Controller {
-    /// Where the program begins, once it has gone there.
-    pub(super) fn start(&self) -> Option<JointVector> {
-        self.points.first().map(|point| point.q_rad)
+    /// The parameters of an instruction that is read.
+    pub(super) fn parameters(name: &str) -> Option<&'static [&'static str]> {
+        INSTRUCTIONS
+            .iter()
+            .find(|(instruction, _)| *instruction == name)
+            .map(|(_, parameters)| *parameters)
     }
 
     /// The points so far.
@@ -76,16 +122,16 @@ impl Controller {
     }
 
     /// Whether it moves beyond its start.
-    pub(super) fn moves(&self) -> bool {
+    fn moves(&self) -> bool {
         self.points.len() > 1
     }
 
     /// One of [`INSTRUCTIONS`].
-    pub(super) fn instruction(&mut self, name: &str, given: &Given, place: Place) -> Result<(), Fault> {
+    pub(super) fn instruction(&mut self, name: &str, given: &Given, place: Place) -> Result<(), String> {
         match name {
             "set_tcp" => {
                 self.check_standing("the tip")?;
-                self.tip = Some(pose(required(given, 0, "pose")?.pose()?));
+                self.tip = Some(pose(required(given, 0, "pose")?)?);
             }
             "set_payload" => {
                 self.check_standing("the payload")?;
@@ -96,14 +142,14 @@ impl Controller {
             "stopj" => {
                 positive(given, 0, "a")?;
                 if matches!(self.stage, Stage::Before) {
-                    return Err(Fault::new("stopj before any motion"));
+                    return Err("stopj before any motion".to_owned());
                 }
                 self.stage = Stage::Stopped;
             }
             "popup" if self.moves() && !matches!(self.stage, Stage::Stopped) => {
-                return Err(Fault::new(
-                    "a popup in the midst of the motion: how the arm moves while it waits is not modelled",
-                ));
+                return Err(
+                    "a popup in the midst of the motion: how the arm moves while it waits is not modelled".to_owned(),
+                );
             }
             _ => {
                 required(given, 0, "text")?;
@@ -113,16 +159,14 @@ impl Controller {
     }
 
     /// What the tool is must not change while it moves.
-    fn check_standing(&self, what: &str) -> Result<(), Fault> {
+    fn check_standing(&self, what: &str) -> Result<(), String> {
         match self.moves() {
-            true => Err(Fault::new(format!(
-                "{what} is set in the midst of the motion; expected before it"
-            ))),
+            true => Err(format!("{what} is set in the midst of the motion; expected before it")),
             false => Ok(()),
         }
     }
 
-    fn movej(&mut self, given: &Given, place: Place) -> Result<(), Fault> {
+    fn movej(&mut self, given: &Given, place: Place) -> Result<(), String> {
         let q_rad = joints(given)?;
         for (k, name) in [(1, "a"), (2, "v")] {
             if given.get(k).is_some_and(Option::is_some) {
@@ -135,7 +179,7 @@ impl Controller {
                 let reason = format!(
                     "movej with {name}: its ramps and blends are the controller's; expected servoj for what is timed"
                 );
-                return Err(Fault::new(reason));
+                return Err(reason);
             }
         }
         let Some(last) = self.points.last() else {
@@ -151,29 +195,27 @@ impl Controller {
         };
         let away = (last.q_rad - q_rad).amax();
         if away > NOWHERE_RAD {
-            return Err(Fault::new(format!(
+            return Err(format!(
                 "movej to a place {away:.6} rad away in the midst of the motion: its path in time is the controller's; expected servoj"
-            )));
+            ));
         }
         Ok(())
     }
 
-    fn servoj(&mut self, given: &Given, place: Place) -> Result<(), Fault> {
+    fn servoj(&mut self, given: &Given, place: Place) -> Result<(), String> {
         match self.stage {
             Stage::Before => {
-                return Err(Fault::new(
-                    "servoj before the arm is at its start; expected movej to the start first",
-                ));
+                return Err("servoj before the arm is at its start; expected movej to the start first".to_owned());
             }
-            Stage::Stopped => return Err(Fault::new("servoj behind stopj, which takes a time of its own")),
+            Stage::Stopped => return Err("servoj behind stopj, which takes a time of its own".to_owned()),
             Stage::Moving => {}
         }
         let q_rad = joints(given)?;
         let t_s = positive(given, 3, "t")?;
         if t_s > LONGEST_S {
-            return Err(Fault::new(format!(
+            return Err(format!(
                 "servoj with t = {t_s} s: it hastens to its target, which is even motion up to {LONGEST_S} s alone"
-            )));
+            ));
         }
         within(given, 4, "lookahead_time", LOOKAHEAD_S)?;
         within(given, 5, "gain", GAIN)?;
@@ -190,7 +232,7 @@ impl Controller {
     }
 
     /// What the program did.
-    pub(super) fn reading(mut self, speed_share: f64) -> Result<Reading, Fault> {
+    pub(super) fn reading(mut self, speed_share: f64) -> Result<Reading, String> {
         // Where it stays for a step, and at both ends, it rests.
         let stays: Vec<bool> = self
             .points
@@ -213,9 +255,7 @@ impl Controller {
             }),
             (None, None) => None,
             (Some(_), None) => {
-                return Err(Fault::new(
-                    "the program sets a tip and no payload; expected set_payload",
-                ));
+                return Err("the program sets a tip and no payload; expected set_payload".to_owned());
             }
         };
         Ok(Reading {
@@ -228,51 +268,47 @@ impl Controller {
     }
 }
 
-fn required<'a>(given: &'a Given, k: usize, name: &str) -> Result<&'a Value, Fault> {
+fn required<'a>(given: &'a Given, k: usize, name: &str) -> Result<&'a Value, String> {
     match given.get(k) {
         Some(Some(value)) => Ok(value),
-        _ => Err(Fault::new(format!("expected an argument \"{name}\""))),
+        _ => Err(format!("expected an argument \"{name}\"")),
     }
 }
 
-fn positive(given: &Given, k: usize, name: &str) -> Result<f64, Fault> {
+fn positive(given: &Given, k: usize, name: &str) -> Result<f64, String> {
     let found = required(given, k, name)?.number()?;
     match found > 0.0 {
         true => Ok(found),
-        false => Err(Fault::new(format!("expected {name} above 0, found {found}"))),
+        false => Err(format!("expected {name} above 0, found {found}")),
     }
 }
 
-fn within(given: &Given, k: usize, name: &str, [least, most]: [f64; 2]) -> Result<(), Fault> {
+fn within(given: &Given, k: usize, name: &str, [least, most]: [f64; 2]) -> Result<(), String> {
     let Some(Some(value)) = given.get(k) else { return Ok(()) };
     let found = value.number()?;
     match (least..=most).contains(&found) {
         true => Ok(()),
-        false => Err(Fault::new(format!(
-            "expected {name} from {least} to {most}, found {found}"
-        ))),
+        false => Err(format!("expected {name} from {least} to {most}, found {found}")),
     }
 }
 
-fn joints(given: &Given) -> Result<JointVector, Fault> {
+fn joints(given: &Given) -> Result<JointVector, String> {
     let value = required(given, 0, "q")?;
     if let Value::Pose(_) = value {
-        return Err(Fault::new(
-            "expected joint positions, found a pose: which branch it means is the controller's",
-        ));
+        return Err("expected joint positions, found a pose: which branch it means is the controller's".to_owned());
     }
     let q_rad = JointVector::from(value.list::<6>()?);
     match q_rad.iter().position(|q| q.abs() > FARTHEST_RAD) {
         None => Ok(q_rad),
-        Some(k) => Err(Fault::new(format!(
+        Some(k) => Err(format!(
             "joint {} at {} rad: expected within two turns, {FARTHEST_RAD:.3} rad; are these degrees?",
             k + 1,
             q_rad[k]
-        ))),
+        )),
     }
 }
 
-fn load(given: &Given) -> Result<(f64, [f64; 3]), Fault> {
+fn load(given: &Given) -> Result<(f64, [f64; 3]), String> {
     let mass_kg = positive(given, 0, "m")?;
     let com_m = match given.get(1) {
         Some(Some(cog)) => cog.list::<3>()?,
@@ -282,7 +318,13 @@ fn load(given: &Given) -> Result<(f64, [f64; 3]), Fault> {
 }
 
 /// A pose of its position and rotation vector.
-fn pose([x, y, z, rx, ry, rz]: [f64; 6]) -> Pose {
+fn pose(value: &Value) -> Result<Pose, String> {
+    let Value::Pose([x, y, z, rx, ry, rz]) = *value else {
+        return Err(format!(
+            "expected a pose p[x, y, z, rx, ry, rz], found {}",
+            value.told()
+        ));
+    };
     let turn = Vector3::new(rx, ry, rz);
     let angle = turn.norm();
     let rotation = match angle > 0.0 {
@@ -293,21 +335,5 @@ fn pose([x, y, z, rx, ry, rz]: [f64; 6]) -> Pose {
         }
         false => UnitQuaternion::identity(),
     };
-    Pose::from_parts(Vector3::new(x, y, z).into(), rotation)
-}
-
-/// Why a call of something that is not modelled is refused.
-pub(super) fn not_modelled(name: &str) -> Fault {
-    let reason = match name {
-        "movel" | "movep" | "movec" | "speedl" => {
-            "its path needs inverse kinematics and its time is the controller's; only servoj is judged"
-        }
-        "speedj" => "where the arm is then, is the controller's; only servoj is judged",
-        "servoc" | "servol" => "only servoj is judged",
-        "sleep" | "sync" => {
-            "how the arm moves on while the program waits is not modelled; write out servoj to where it stays"
-        }
-        _ => "it is neither a function of this program nor an instruction that is read",
-    };
-    Fault::new(format!("{}: {reason}", quoted(&shortened(name))))
+    Ok(Pose::from_parts(Vector3::new(x, y, z).into(), rotation))
 }

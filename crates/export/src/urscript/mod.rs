@@ -7,20 +7,11 @@
 //! | concept | module |
 //! | --- | --- |
 //! | a program's text | `write` |
-//! | words of a line; what a program consists of; lines into statements, a line into expressions | `words`, `tree`, `parse`, `expression` |
-//! | values and what is computed with them; variables, and what expressions come to | `value`, `variables` |
-//! | what is wrong with a line | `fault` |
-//! | a program carried out; what the controller is assumed to do | `run`, `controller` |
+//! | a program that is read | `read` |
+//! | what the controller is assumed to do | `controller` |
 
 mod controller;
-mod expression;
-mod fault;
-mod parse;
-mod run;
-mod tree;
-mod value;
-mod variables;
-mod words;
+mod read;
 mod write;
 
 use crate::dialect::{Dialect, Points, ReadError};
@@ -101,7 +92,7 @@ impl Dialect for UrScript {
     fn read(&self, files: &[ProgramFile], _arm: &RobotModel) -> Result<Reading, ReadError> {
         let mut programs = files.iter().filter(|file| self.is_in(file));
         match (programs.next(), programs.next()) {
-            (Some(file), None) => run::reading(file),
+            (Some(file), None) => read::reading(file),
             (Some(_), Some(second)) => Err(ReadError::at(
                 &second.name,
                 1,

@@ -1,8 +1,8 @@
 //! What stands at the head of a module, as comments.
 
 use super::line::Lines;
+use super::names::SHARE;
 use crate::program::Program;
-use crate::rapid::interpret::SHARE;
 
 /// What every module says of itself.
 const OWN: [&str; 2] = [

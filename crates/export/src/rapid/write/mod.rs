@@ -12,6 +12,8 @@ use crate::program::Program;
 use line::Lines;
 use motion::{Routine, routines};
 
+pub(super) use names::{MOST, RUNNING, SHARE};
+
 /// Most targets of a module; more go to modules of their own.
 const MOST_TARGETS: usize = 4000;
 
@@ -51,6 +53,15 @@ pub fn modules(program: &Program<'_>) -> Vec<ProgramFile> {
     }
     let named = files.into_iter().zip(texts);
     named.map(|(name, text)| ProgramFile { name, text }).collect()
+}
+
+/// A module with the checks before the first motion alone.
+pub(super) fn checks() -> String {
+    let mut lines = Lines::default();
+    lines.line(0, "MODULE checks");
+    start::checks(&mut lines);
+    lines.line(0, "ENDMODULE");
+    lines.text()
 }
 
 fn write_all(lines: &mut Lines, routines: &[Routine]) {

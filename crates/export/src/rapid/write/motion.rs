@@ -4,7 +4,7 @@ use super::line::Lines;
 use super::names::RUNNING;
 use super::names::Routines;
 use crate::program::{Point, Program};
-use crate::rapid::interpret::zone_named;
+use crate::rapid::zone::zone_named;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::fixed;
 use platewash_workcell::segment::{PlanSegment, SegmentKind};

@@ -1,9 +1,11 @@
 //! Names in a module: unique, no keywords, 32 characters at most.
 
-use crate::rapid::interpret::is_taken;
-use crate::rapid::syntax::is_reserved;
+use crate::rapid::names::is_taken;
 use platewash_workcell::segment::SegmentKind;
 use std::collections::HashSet;
+
+/// The share of the plan's speed that the program states.
+pub const SHARE: &str = "pwShare";
 
 /// The largest share of the speed that the program takes.
 pub const MOST: &str = "pwShareMost";
@@ -21,7 +23,7 @@ const OF_THE_CONTROLLER: [&str; 8] = ["main", "user", "base", "reg1", "reg2", "r
 pub fn module(program: &str) -> String {
     let lower = program.to_lowercase();
     let is_the_controllers = OF_THE_CONTROLLER.contains(&lower.as_str());
-    if is_reserved(program) || is_taken(program) || is_the_controllers || lower.starts_with(PREFIX) {
+    if is_taken(program) || is_the_controllers || lower.starts_with(PREFIX) {
         return format!("m_{program}");
     }
     program.to_owned()

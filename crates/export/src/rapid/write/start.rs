@@ -2,10 +2,9 @@
 
 use super::line::{Lines, number};
 use super::motion::{Routine, target, zone};
-use super::names::{MOST, RUNNING};
+use super::names::{MOST, RUNNING, SHARE};
 use super::tool::tooldata;
 use crate::program::{Program, START_WITHIN_DEG};
-use crate::rapid::interpret::SHARE;
 use platewash_kinematics::JointVector;
 
 /// The tool, the share of the speed, the start, and a zone that has no name.

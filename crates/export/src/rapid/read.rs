@@ -1,0 +1,598 @@
+//! What a program does: its procedures from `main` on, and each motion as a point in time.
+//!
+//! Read are the programs that [`super::write`] makes, and what people add to them: motions with `MoveAbsJ`, waits, speeds, zones, messages,
+//! outputs and comments. The checks before the first motion are read as they are written, token by token. Everything else is refused with
+//! its line: loops, conditions, jumps, assignments, functions, and motions that the controller times or plans by itself.
+//!
+//! Numbers are IEEE singles, as on the controller.
+
+use super::parse::{Cursor, Data, Modules, Placed, Procedure, Value, modules};
+use super::write::{MOST, RUNNING, SHARE, checks};
+use super::{values, zone};
+use crate::dialect::ReadError;
+use crate::file::{Place, ProgramFile};
+use crate::reading::{Between, ReadPoint, ReadTool, Reading};
+use crate::tokens::Token;
+use platewash_kinematics::JointVector;
+use std::collections::HashMap;
+
+/// The checks before the first motion, in small letters.
+const CHECK_SHARE: &str = "pwcheckshare";
+const CHECK_START: &str = "pwcheckstart";
+const CHECK_JOINT: &str = "pwcheckjoint";
+
+/// Most statements that are carried out.
+const MOST_STEPS: usize = 1_000_000;
+
+/// Least speed of the tip to which `VelSet` may limit it \[mm/s\]: that of a controller where nothing else is set.
+const USUAL_MM_S: f32 = 5000.0;
+
+/// Options of `MoveAbsJ` that are refused, and why.
+const REFUSED: [(&str, &str); 6] = [
+    ("Conc", "lets the program run on during the motion"),
+    ("ID", "is for arms that move in step"),
+    ("V", "leaves the time of the motion to the controller; give it with \\T"),
+    ("Z", "replaces the zone's radius; name a zone that has it"),
+    ("Inpos", "changes when a stop counts as reached"),
+    ("TLoad", "replaces the tool's load; state it in the tooldata"),
+];
+
+/// A statement of a procedure.
+#[derive(Debug)]
+enum Statement {
+    Move(Box<Motion>),
+    /// \[s\]
+    Wait(Time),
+    /// Of a procedure, in small letters.
+    Call(String),
+    Exit,
+    /// A message, an output, or a setting that changes no motion.
+    Nothing,
+}
+
+/// A `MoveAbsJ`.
+#[derive(Debug)]
+struct Motion {
+    q_rad: JointVector,
+    /// Where the target is declared.
+    declared: Option<Place>,
+    time: Option<Time>,
+    corner_m: Option<f64>,
+    tool: ReadTool,
+}
+
+/// A time as it is written \[s\].
+#[derive(Debug, Clone, Copy)]
+struct Time {
+    written_s: f32,
+    /// Whether it is divided by the share of the run.
+    is_divided: bool,
+}
+
+/// What a program does.
+///
+/// # Errors
+/// [`ReadError`] with the line of what is not read.
+pub(super) fn reading(files: &[ProgramFile]) -> Result<Reading, ReadError> {
+    let modules = modules(files)?;
+    check_blocks(&modules)?;
+    let mut procedures: Vec<_> = modules.procedures.iter().filter(|(key, _)| !is_block(key)).collect();
+    procedures.sort_by_key(|(_, procedure)| &procedure.place);
+    let statements = procedures.into_iter().map(|(key, procedure)| {
+        let statements = modules.statements(procedure)?;
+        Ok((key.as_str(), statements))
+    });
+    let statements: HashMap<_, _> = statements.collect::<Result<_, ReadError>>()?;
+    let nowhere = Place {
+        file: files
+            .first()
+            .map_or_else(|| "(no file)".to_owned(), |file| file.name.clone()),
+        line: 1,
+    };
+    let mut run = Run::new(&modules, &statements);
+    run.call("main", &nowhere)?;
+    let main = modules
+        .procedures
+        .get("main")
+        .map_or(nowhere, |main| main.place.clone());
+    run.reading(main)
+}
+
+fn is_block(key: &str) -> bool {
+    [CHECK_SHARE, CHECK_START, CHECK_JOINT].contains(&key)
+}
+
+/// That the checks stand as they are written.
+fn check_blocks(found: &Modules) -> Result<(), ReadError> {
+    let written = modules(&[ProgramFile {
+        name: "checks".to_owned(),
+        text: checks(),
+    }])?;
+    for (key, expected) in &written.procedures {
+        let Some(procedure) = found.procedures.get(key) else {
+            continue;
+        };
+        let tokens = |procedure: &Procedure| {
+            let [parameters, body] = [&procedure.parameters, &procedure.body].map(Clone::clone);
+            [parameters, body].concat()
+        };
+        let (found, expected) = (tokens(procedure), tokens(expected));
+        let same = |(a, b): &(&Placed, &Placed)| a.token.is_same(&b.token);
+        let same = found.iter().zip(&expected).take_while(same).count();
+        if same < found.len().max(expected.len()) {
+            let line = found
+                .get(same)
+                .or(found.last())
+                .map_or(procedure.place.line, |placed| placed.line);
+            let reason = format!("{} is read only as it is exported; this line differs", procedure.name);
+            return Err(ReadError::at(&procedure.place.file, line, reason));
+        }
+    }
+    Ok(())
+}
+
+impl Modules {
+    /// The statements of a procedure.
+    fn statements(&self, procedure: &Procedure) -> Result<Vec<(Place, Statement)>, ReadError> {
+        if !procedure.parameters.is_empty() {
+            let reason = format!(
+                "{} has parameters, which are not read: write out what moves",
+                procedure.name
+            );
+            return Err(ReadError {
+                place: procedure.place.clone(),
+                reason,
+            });
+        }
+        let mut cursor = Cursor::new(&procedure.place.file, &procedure.body);
+        let mut all = Vec::new();
+        while cursor.peek().is_some() {
+            let place = cursor.place();
+            all.push((place, self.statement(&mut cursor)?));
+            cursor.sign(";")?;
+        }
+        Ok(all)
+    }
+
+    fn statement(&self, cursor: &mut Cursor<'_>) -> Result<Statement, ReadError> {
+        let begin = cursor.clone();
+        let name = cursor.word("an instruction")?;
+        let key = name.to_ascii_lowercase();
+        match &*key {
+            "moveabsj" => self.motion(cursor),
+            "waittime" => {
+                if cursor.takes_sign("\\") {
+                    cursor.keyword("InPos")?;
+                    cursor.sign(",")?;
+                }
+                time(cursor).map(Statement::Wait)
+            }
+            "exit" => Ok(Statement::Exit),
+            "accset" | "velset" => {
+                let share = cursor.number()?;
+                cursor.sign(",")?;
+                let second = cursor.number()?;
+                let least = if key == "accset" { 100.0 } else { USUAL_MM_S };
+                match share == 100.0 && second >= least {
+                    true => Ok(Statement::Nothing),
+                    false => Err(begin.refused(format!(
+                        "{name} other than 100 % changes how long motions take: expected 100 and {least} or more"
+                    ))),
+                }
+            }
+            "confj" | "confl" | "singarea" | "tperase" | "tpwrite" | "errwrite" | "set" | "reset" | "setdo"
+            | "setgo" | "setao" | "pulsedo" | "invertdo" => {
+                let mut before_is_operand = false;
+                while let Some(token) = cursor.peek().filter(|token| !token.is(";")) {
+                    let is_operand = !matches!(token, Token::Sign(_));
+                    // Two of them are two statements, of which the first has no end.
+                    if is_operand && before_is_operand {
+                        return Err(cursor.expected("`,` or `;`"));
+                    }
+                    before_is_operand = is_operand;
+                    cursor.next("`;`")?;
+                }
+                Ok(Statement::Nothing)
+            }
+            _ if self.procedures.contains_key(&key) => Ok(Statement::Call(key)),
+            _ => Err(begin.refused(why_not(&name, cursor.peek()))),
+        }
+    }
+
+    fn motion(&self, cursor: &mut Cursor<'_>) -> Result<Statement, ReadError> {
+        self.options(cursor, |cursor, _| Err(cursor.expected("a target")))?;
+        let at = cursor.clone();
+        let (target, declared) = self.named(cursor, "jointtarget")?;
+        let q_rad = values::target(&target).map_err(|reason| at.refused(reason))?;
+        self.options(cursor, |cursor, option| match option {
+            "noeoffs" => Ok(()),
+            _ => Err(cursor.expected("\\NoEOffs or `,` after the target")),
+        })?;
+        cursor.sign(",")?;
+        self.speed(cursor)?;
+        let mut times = Vec::new();
+        self.options(cursor, |cursor, option| match option {
+            "t" => {
+                cursor.sign(":=")?;
+                times.push(time(cursor)?);
+                Ok(())
+            }
+            _ => Err(cursor.expected("\\T or `,` after the speed")),
+        })?;
+        cursor.sign(",")?;
+        let corner_m = self.corner(cursor)?;
+        self.options(cursor, |cursor, _| Err(cursor.expected("`,` after the zone")))?;
+        cursor.sign(",")?;
+        let at = cursor.clone();
+        let tool = self.tool(cursor)?;
+        let tool = values::tool(&tool).map_err(|reason| at.refused(reason))?;
+        self.options(cursor, |cursor, option| match option {
+            "wobj" => {
+                cursor.sign(":=")?;
+                match cursor.takes("wobj0") {
+                    true => Ok(()),
+                    false => Err(cursor.expected("the work object `wobj0`: MoveAbsJ needs no other")),
+                }
+            }
+            _ => Err(cursor.expected("\\WObj or `;` after the tool")),
+        })?;
+        let time = match times[..] {
+            [] => None,
+            [time] => Some(time),
+            _ => return Err(at.refused("\\T is given twice")),
+        };
+        Ok(Statement::Move(Box::new(Motion {
+            q_rad,
+            declared,
+            time,
+            corner_m,
+            tool,
+        })))
+    }
+
+    /// Options `\NAME` as far as they go, each handed to `read`.
+    fn options<'a>(
+        &self,
+        cursor: &mut Cursor<'a>,
+        mut read: impl FnMut(&mut Cursor<'a>, &str) -> Result<(), ReadError>,
+    ) -> Result<(), ReadError> {
+        while cursor.takes_sign("\\") {
+            let name = cursor.word("an option")?;
+            if let Some((option, why)) = REFUSED.iter().find(|(option, _)| option.eq_ignore_ascii_case(&name)) {
+                return Err(cursor.refused(format!("\\{option} {why}: it is not read")));
+            }
+            read(cursor, &name.to_ascii_lowercase())?;
+        }
+        Ok(())
+    }
+
+    /// Declared data of a type by their name, or a literal; and where it is declared.
+    fn named(&self, cursor: &mut Cursor<'_>, type_name: &str) -> Result<(Value, Option<Place>), ReadError> {
+        let Some(Token::Word(name)) = cursor.peek() else {
+            return Ok((cursor.value(0)?, None));
+        };
+        let data = self
+            .data
+            .get(&name.to_ascii_lowercase())
+            .filter(|data| data.type_name == type_name);
+        let value = data.and_then(|data| Some((data.value.clone()?, Some(data.place.clone()))));
+        let value = value.ok_or_else(|| cursor.expected(&format!("a {type_name} with a value")))?;
+        cursor.next("a name")?;
+        Ok(value)
+    }
+
+    /// A speed, which counts for nothing where `\T` is given.
+    fn speed(&self, cursor: &mut Cursor<'_>) -> Result<(), ReadError> {
+        if let Some(Token::Word(name)) = cursor.peek()
+            && zone::is_speed(&name.to_ascii_lowercase())
+        {
+            cursor.next("a speed")?;
+            return Ok(());
+        }
+        let at = cursor.clone();
+        match values::is_speed(&self.named(cursor, "speeddata")?.0) {
+            true => Ok(()),
+            false => Err(at.expected("speed data of four numbers")),
+        }
+    }
+
+    fn corner(&self, cursor: &mut Cursor<'_>) -> Result<Option<f64>, ReadError> {
+        if cursor.takes("fine") {
+            return Ok(None);
+        }
+        if let Some(Token::Word(name)) = cursor.peek()
+            && let Some(mm) = zone::zone_mm(&name.to_ascii_lowercase())
+        {
+            cursor.next("a zone")?;
+            return Ok(Some(f64::from(mm) / 1e3));
+        }
+        let at = cursor.clone();
+        values::corner(&self.named(cursor, "zonedata")?.0).map_err(|reason| at.refused(reason))
+    }
+
+    fn tool(&self, cursor: &mut Cursor<'_>) -> Result<Value, ReadError> {
+        if cursor.takes("tool0") {
+            return Ok(values::tool0());
+        }
+        Ok(self.named(cursor, "tooldata")?.0)
+    }
+
+    /// A number that is declared.
+    fn number(&self, name: &str) -> Option<(f32, &Data)> {
+        let data = self
+            .data
+            .get(&name.to_ascii_lowercase())
+            .filter(|data| data.type_name == "num")?;
+        match data.value {
+            Some(Value::Number(number)) => Some((number, data)),
+            _ => None,
+        }
+    }
+}
+
+/// A time: a number, which may be divided by the share of the run.
+fn time(cursor: &mut Cursor<'_>) -> Result<Time, ReadError> {
+    let at = cursor.clone();
+    let written_s = cursor.number()?;
+    if !(0.0..values::UNUSED).contains(&written_s) {
+        return Err(at.refused(format!("expected a time of 0 s or more, found {written_s}")));
+    }
+    let is_divided = cursor.takes_sign("/");
+    if is_divided && !cursor.takes(RUNNING) {
+        return Err(cursor.expected(&format!("`{}`", RUNNING)));
+    }
+    Ok(Time { written_s, is_divided })
+}
+
+/// Why a statement is refused.
+fn why_not(name: &str, next: Option<&Token>) -> String {
+    const FLOW: &str = "IF FOR WHILE TEST GOTO RETURN RAISE RETRY TRYNEXT CONNECT";
+    const HANDLERS: &str = "ERROR UNDO BACKWARD";
+    let is_in = |words: &str| words.split(' ').any(|word| word.eq_ignore_ascii_case(name));
+    let starts = |words: &[&str]| words.iter().any(|word| name.to_ascii_lowercase().starts_with(word));
+    let why = if is_in(FLOW) || next.is_some_and(|token| token.is(":")) {
+        "loops, conditions and jumps are not read: write out what moves"
+    } else if is_in(HANDLERS) {
+        "handlers are not read: they may run at any time"
+    } else if is_in("VAR CONST PERS") {
+        "data in a procedure are not read: declare them in the module"
+    } else if next.is_some_and(|token| [":=", ".", "{"].iter().any(|sign| token.is(sign))) {
+        "assignments are not read: write out what moves"
+    } else if starts(&["move", "trigg", "search", "egm", "ind"]) {
+        "the controller plans or times this motion; only MoveAbsJ with \\T is read"
+    } else if starts(&["wait", "stop", "break", "tpread", "ui"]) {
+        "it waits for an unknown time"
+    } else {
+        "it is neither a procedure of the program nor an instruction that is read"
+    };
+    format!("{name}: {why}")
+}
+
+/// A program that is carried out.
+struct Run<'a> {
+    modules: &'a Modules,
+    statements: &'a HashMap<&'a str, Vec<(Place, Statement)>>,
+    /// Procedures that run, the innermost last.
+    calls: Vec<String>,
+    points: Vec<ReadPoint>,
+    tool: Option<ReadTool>,
+    /// The share of the run, once it was checked.
+    running: Option<f32>,
+    /// Where the arm was found to stand, once it was checked \[rad\].
+    start_rad: Option<JointVector>,
+    is_over: bool,
+    steps: usize,
+}
+
+impl<'a> Run<'a> {
+    fn new(modules: &'a Modules, statements: &'a HashMap<&'a str, Vec<(Place, Statement)>>) -> Self {
+        Self {
+            modules,
+            statements,
+            calls: Vec::new(),
+            points: Vec::new(),
+            tool: None,
+            running: None,
+            start_rad: None,
+            is_over: false,
+            steps: 0,
+        }
+    }
+
+    fn call(&mut self, key: &str, from: &Place) -> Result<(), ReadError> {
+        let refused = |reason: String| ReadError {
+            place: from.clone(),
+            reason,
+        };
+        if is_block(key) {
+            return self.check(key).map_err(refused);
+        }
+        let Some(statements) = self.statements.get(key) else {
+            return Err(refused(format!(
+                "expected a procedure `{key}`, found none in these modules"
+            )));
+        };
+        if self.calls.iter().any(|running| running == key) {
+            return Err(refused(format!("{key} runs itself, which never ends")));
+        }
+        self.calls.push(key.to_owned());
+        for (place, statement) in statements {
+            self.steps += 1;
+            if self.steps > MOST_STEPS {
+                return Err(refused(format!(
+                    "more than {MOST_STEPS} steps, the most that are carried out"
+                )));
+            }
+            self.statement(place, statement)?;
+            if self.is_over {
+                break;
+            }
+        }
+        self.calls.pop();
+        Ok(())
+    }
+
+    fn statement(&mut self, place: &Place, statement: &Statement) -> Result<(), ReadError> {
+        let refused = |reason| ReadError {
+            place: place.clone(),
+            reason,
+        };
+        match statement {
+            Statement::Move(motion) => self.motion(place, motion).map_err(refused),
+            Statement::Wait(time) => self.wait(place, *time).map_err(refused),
+            Statement::Call(key) => self.call(key, place),
+            Statement::Exit => {
+                self.is_over = true;
+                Ok(())
+            }
+            Statement::Nothing => Ok(()),
+        }
+    }
+
+    /// A check before the first motion, of an arm that stands at the start.
+    fn check(&mut self, key: &str) -> Result<(), String> {
+        if !self.points.is_empty() {
+            return Err("this check must stand before the first motion".to_owned());
+        }
+        let declared = |name: &str| {
+            let number = self.modules.number(name).map(|(number, _)| number);
+            number.ok_or_else(|| format!("expected `{name}` to be declared as a num with a value"))
+        };
+        match key {
+            CHECK_SHARE => {
+                let (share, most) = (declared(SHARE)?, declared(MOST)?);
+                let running = self.modules.data.get(&RUNNING.to_ascii_lowercase());
+                if !running.is_some_and(|data| data.type_name == "num" && !data.is_constant) {
+                    return Err(format!("expected `{RUNNING}` to be declared as VAR num"));
+                }
+                if !(share > 0.0 && share <= most) {
+                    return Err(format!(
+                        "the program ends before any motion: {SHARE} is {share}. It must be above 0 and at most {most}."
+                    ));
+                }
+                self.running = Some(share);
+            }
+            CHECK_START if self.modules.procedures.contains_key(CHECK_JOINT) => {
+                let start = self
+                    .modules
+                    .data
+                    .get("pwstart")
+                    .filter(|data| data.type_name == "jointtarget");
+                let start = start.and_then(|data| data.value.as_ref());
+                self.start_rad = Some(values::target(
+                    start.ok_or("expected `pwStart` to be declared as a jointtarget")?,
+                )?);
+            }
+            _ => return Err("expected pwCheckStart, and with it pwCheckJoint, as they are exported".to_owned()),
+        }
+        Ok(())
+    }
+
+    /// A time of this run \[s\].
+    fn lasts(&self, time: Time) -> Result<f32, String> {
+        match (time.is_divided, self.running) {
+            (false, _) => Ok(time.written_s),
+            (true, Some(share)) => Ok(time.written_s / share),
+            (true, None) => Err(format!("expected pwCheckShare before the first use of `{}`", RUNNING)),
+        }
+    }
+
+    fn motion(&mut self, place: &Place, motion: &Motion) -> Result<(), String> {
+        if self.tool.is_some_and(|before| before != motion.tool) {
+            return Err("expected the tool of the motions before, found another one".to_owned());
+        }
+        self.tool = Some(motion.tool);
+        let (t_s, place) = match (self.points.last(), motion.time) {
+            // From wherever the arm stands: how long that takes is not counted.
+            (None, _) if motion.corner_m.is_some() => {
+                return Err(
+                    "the first motion leads to the start and must stop there: expected `fine`, found a zone".to_owned(),
+                );
+            }
+            (None, _) if self.start_rad.is_some_and(|start| start != motion.q_rad) => {
+                return Err("pwCheckStart compares with pwStart: expected the first motion to lead there".to_owned());
+            }
+            // It has no time, only a target: the line is the one with its digits.
+            (None, _) => (0.0, motion.declared.clone().unwrap_or_else(|| place.clone())),
+            (Some(before), Some(time)) => match self.lasts(time)? {
+                lasts_s if lasts_s > 0.0 => (before.t_s + f64::from(lasts_s), place.clone()),
+                lasts_s => return Err(format!("expected a time above 0 s after \\T, found {lasts_s}")),
+            },
+            (Some(_), None) => {
+                return Err(
+                    "expected \\T after the speed: without it the controller decides the time of the motion".to_owned(),
+                );
+            }
+        };
+        self.arrive(place, t_s, motion.q_rad, motion.corner_m);
+        Ok(())
+    }
+
+    fn wait(&mut self, place: &Place, time: Time) -> Result<(), String> {
+        let wait_s = self.lasts(time)?;
+        match self.points.last() {
+            Some(last) if last.corner_m.is_some() => {
+                Err("WaitTime after a motion that does not stop runs during it: expected `fine` before it".to_owned())
+            }
+            Some(last) if wait_s > 0.0 => {
+                let (t_s, q_rad) = (last.t_s + f64::from(wait_s), last.q_rad);
+                self.arrive(place.clone(), t_s, q_rad, None);
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn arrive(&mut self, place: Place, t_s: f64, q_rad: JointVector, corner_m: Option<f64>) {
+        self.points.push(ReadPoint {
+            place,
+            t_s,
+            q_rad,
+            qd_rad_s: None,
+            corner_m,
+        });
+    }
+
+    /// What the program did.
+    fn reading(self, main: Place) -> Result<Reading, ReadError> {
+        let refused = |place: Place, reason: &str| {
+            Err(ReadError {
+                place,
+                reason: reason.to_owned(),
+            })
+        };
+        let Some(last) = self.points.last() else {
+            return refused(main, "the program ends before any motion");
+        };
+        if !self.is_over {
+            return refused(
+                main,
+                "main ends without EXIT: in continuous mode the program begins again, which is not judged",
+            );
+        }
+        if last.corner_m.is_some() {
+            return refused(
+                last.place.clone(),
+                "the last motion must stop: expected `fine`, found a zone",
+            );
+        }
+        let speed_share = match self.modules.number(SHARE) {
+            None => None,
+            // The decimal that the program states, not the single next to it.
+            Some((share, _)) if share > 0.0 && share <= 1.0 => share.to_string().parse().ok(),
+            Some((_, data)) => {
+                return refused(
+                    data.place.clone(),
+                    "expected a share of the speed above 0 and at most 1",
+                );
+            }
+        };
+        Ok(Reading {
+            speed_share,
+            points: self.points,
+            between: Between::RoundedLines,
+            tool: self.tool,
+            checks_start: self.start_rad.is_some(),
+        })
+    }
+}

@@ -1,0 +1,455 @@
+//! What a program does: its lines from the first on, each of which is carried out by a [`Controller`].
+//!
+//! Read are the programs that [`super::write`] makes, and what people add to them: motions with `servoj`, messages, outputs and comments.
+//! The check of the start is read as it is written. Everything else is refused with its line: loops, other conditions, threads, functions
+//! with parameters, and computed values.
+
+use super::controller::{Controller, Value};
+use crate::dialect::ReadError;
+use crate::file::{Place, ProgramFile};
+use crate::program::START_WITHIN_DEG;
+use crate::reading::Reading;
+use crate::tokens::{self, Token};
+use platewash_kinematics::{AXES, JointVector};
+use std::collections::BTreeMap;
+
+/// Most lines that are read, and statements that are carried out.
+const MOST_LINES: usize = 1_000_000;
+
+/// How far the limit of the check may be above [`START_WITHIN_DEG`], for its digits.
+const NEARLY: f64 = 1e-6;
+
+/// The share of the plan's speed that a program states.
+const SHARE: &str = "speed_share";
+
+/// Joint positions that the arm measures.
+const MEASURED: &str = "get_actual_joint_positions";
+
+/// Words that begin what `end` closes.
+const BLOCKS: [&str; 6] = ["def", "if", "while", "for", "thread", "sec"];
+
+/// A line that says something.
+#[derive(Debug)]
+struct Line {
+    number: usize,
+    tokens: Vec<Token>,
+}
+
+/// What a program does.
+///
+/// # Errors
+/// [`ReadError`] with the line of what is not read.
+pub(super) fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
+    let lines = lines(file)?;
+    let at = |line: usize, reason: String| ReadError::at(&file.name, line, reason);
+    let Some((first, rest)) = lines.split_first() else {
+        return Err(at(1, "expected a program `def NAME():`, found nothing".to_owned()));
+    };
+    head(&first.tokens).map_err(|reason| at(first.number, reason))?;
+    let end = end_of(rest).ok_or_else(|| at(first.number, "this `def` has no `end`".to_owned()))?;
+    if let Some(line) = rest.get(end + 1) {
+        return Err(at(
+            line.number,
+            "expected one program, which ends before this line".to_owned(),
+        ));
+    }
+    let mut run = Run::new(&file.name);
+    run.block(&rest[..end])?;
+    let share = match run.globals.get(SHARE) {
+        None => 1.0,
+        Some(Value::Number(share)) if *share > 0.0 && *share <= 1.0 => *share,
+        Some(_) => return Err(at(run.share_at, format!("expected {SHARE} above 0 and at most 1"))),
+    };
+    let checks_start = run.start.is_some() && run.checked == [true; AXES];
+    let last = run.line;
+    let read = run.controller.reading(share).map_err(|reason| at(last, reason))?;
+    Ok(Reading { checks_start, ..read })
+}
+
+fn lines(file: &ProgramFile) -> Result<Vec<Line>, ReadError> {
+    let mut lines = Vec::new();
+    for (index, text) in file.text.trim_start_matches('\u{feff}').lines().enumerate() {
+        let (number, mut tokens) = (index + 1, Vec::new());
+        let refused = |reason| ReadError::at(&file.name, number, reason);
+        if number > MOST_LINES {
+            return Err(refused(format!("more than {MOST_LINES} lines, the most that are read")));
+        }
+        tokens::line(text, '#', |token| tokens.push(token)).map_err(refused)?;
+        if !tokens.is_empty() {
+            lines.push(Line { number, tokens });
+        }
+    }
+    Ok(lines)
+}
+
+/// The index of the `end` of a block that has begun.
+fn end_of(lines: &[Line]) -> Option<usize> {
+    let mut depth = 1_usize;
+    lines.iter().position(|line| {
+        match line.tokens.first().and_then(word) {
+            Some(word) if BLOCKS.contains(&word) => depth += 1,
+            Some("end") => depth -= 1,
+            _ => {}
+        }
+        depth == 0
+    })
+}
+
+fn word(token: &Token) -> Option<&str> {
+    match token {
+        Token::Word(word) => Some(word),
+        _ => None,
+    }
+}
+
+/// The name in `def NAME():`.
+fn head(tokens: &[Token]) -> Result<&str, String> {
+    match tokens {
+        [def, Token::Word(name), open, close, colon]
+            if word(def) == Some("def") && open.is("(") && close.is(")") && colon.is(":") =>
+        {
+            Ok(name)
+        }
+        _ => Err("expected `def NAME():`; functions with parameters are not read".to_owned()),
+    }
+}
+
+/// A program that is carried out.
+struct Run<'a> {
+    file: &'a str,
+    controller: Controller,
+    functions: BTreeMap<&'a str, &'a [Line]>,
+    globals: BTreeMap<&'a str, Value>,
+    /// The variable that holds what the arm measures.
+    measured: Option<&'a str>,
+    /// Where the check expects the arm \[rad\], and the joints that it checks.
+    start: Option<JointVector>,
+    checked: [bool; AXES],
+    /// Functions that run.
+    calls: Vec<&'a str>,
+    line: usize,
+    share_at: usize,
+    steps: usize,
+    is_over: bool,
+}
+
+impl<'a> Run<'a> {
+    fn new(file: &'a str) -> Self {
+        Self {
+            file,
+            controller: Controller::default(),
+            functions: BTreeMap::new(),
+            globals: BTreeMap::new(),
+            measured: None,
+            start: None,
+            checked: [false; AXES],
+            calls: Vec::new(),
+            line: 1,
+            share_at: 1,
+            steps: 0,
+            is_over: false,
+        }
+    }
+
+    fn refused(&self, reason: impl Into<String>) -> ReadError {
+        ReadError::at(self.file, self.line, reason)
+    }
+
+    fn block(&mut self, lines: &'a [Line]) -> Result<(), ReadError> {
+        let mut rest = lines;
+        while let Some((line, behind)) = rest.split_first() {
+            (self.line, rest) = (line.number, behind);
+            self.steps += 1;
+            if self.steps > MOST_LINES {
+                return Err(self.refused(format!("more than {MOST_LINES} steps, the most that are carried out")));
+            }
+            match line.tokens.first().and_then(word) {
+                Some("def") => {
+                    let name = head(&line.tokens).map_err(|reason| self.refused(reason))?;
+                    let Some(end) = end_of(rest) else {
+                        return Err(self.refused("this `def` has no `end`"));
+                    };
+                    let opens = |line: &&Line| {
+                        line.tokens
+                            .first()
+                            .and_then(word)
+                            .is_some_and(|word| BLOCKS.contains(&word))
+                    };
+                    if let Some(line) = rest[..end].iter().find(opens) {
+                        self.line = line.number;
+                        return Err(self.refused("in functions, only instructions are read: write out what moves"));
+                    }
+                    if self.functions.insert(name, &rest[..end]).is_some() || self.globals.contains_key(name) {
+                        return Err(self.refused(format!("`{name}` is given twice")));
+                    }
+                    rest = &rest[end + 1..];
+                }
+                Some("if") => {
+                    self.check(line, rest)?;
+                    rest = &rest[3..];
+                }
+                Some("halt") if line.tokens.len() == 1 => self.is_over = true,
+                _ => self.statement(&line.tokens)?,
+            }
+            if self.is_over {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// The check of a joint: a message and `halt` where the arm is too far from the start.
+    fn check(&mut self, line: &Line, behind: &[Line]) -> Result<(), ReadError> {
+        const ONLY: &str = "only the check of the start is read, as it is exported: \
+                            `if norm(found[0] - start[0]) > LIMIT:`, popup, halt, end";
+        let said = |line: Option<&Line>, expected: &str| {
+            line.and_then(|line| line.tokens.first()).and_then(word) == Some(expected)
+        };
+        let is_shape = said(behind.first(), "popup")
+            && said(behind.get(1), "halt")
+            && behind.get(1).is_some_and(|line| line.tokens.len() == 1)
+            && said(behind.get(2), "end")
+            && behind.get(2).is_some_and(|line| line.tokens.len() == 1);
+        let [
+            Token::Word(_),
+            Token::Word(norm),
+            o1,
+            Token::Word(found),
+            o2,
+            Token::Number(joint),
+            c2,
+            minus,
+            Token::Word(start),
+            o3,
+            Token::Number(same),
+            c3,
+            c1,
+            above,
+            Token::Number(limit),
+            colon,
+        ] = &line.tokens[..]
+        else {
+            return Err(self.refused(ONLY));
+        };
+        let signs = [
+            (o1, "("),
+            (o2, "["),
+            (c2, "]"),
+            (minus, "-"),
+            (o3, "["),
+            (c3, "]"),
+            (c1, ")"),
+            (above, ">"),
+            (colon, ":"),
+        ];
+        let is_shape =
+            is_shape && norm == "norm" && joint == same && signs.into_iter().all(|(token, sign)| token.is(sign));
+        let j = (0..AXES).find(|j| *j as f64 == *joint);
+        let (true, Some(j), true) = (is_shape, j, self.measured == Some(found)) else {
+            return Err(self.refused(ONLY));
+        };
+        if !self.controller.points().is_empty() {
+            return Err(self.refused("this check must stand before the first motion"));
+        }
+        let start = match self.globals.get(start.as_str()).map(Value::list) {
+            Some(Ok(start)) => JointVector::from(start),
+            _ => return Err(self.refused(ONLY)),
+        };
+        if self.start.is_some_and(|before| before != start) {
+            return Err(self.refused("the joints are compared with different starts"));
+        }
+        self.start = Some(start);
+        self.checked[j] |= (0.0..=START_WITHIN_DEG.to_radians() * (1.0 + NEARLY)).contains(limit);
+        // What is told there must be readable, too.
+        let message = behind.first().map_or(&[][..], |line| &line.tokens[..]);
+        self.arguments(&message[1..], Controller::parameters("popup").unwrap_or_default())
+            .map(|_| ())
+            .map_err(|reason| self.refused(reason))
+    }
+
+    fn statement(&mut self, tokens: &'a [Token]) -> Result<(), ReadError> {
+        let done = match tokens {
+            [Token::Word(name), open, ..] if open.is("(") => self.call(name, &tokens[1..]),
+            [Token::Word(scope), Token::Word(name), is, value @ ..]
+                if ["global", "local"].contains(&scope.as_str()) && is.is("=") =>
+            {
+                self.assign(name, value)
+            }
+            [Token::Word(name), is, value @ ..] if is.is("=") => self.assign(name, value),
+            [Token::Word(name), ..] => Err(why_not(name)),
+            _ => Err("expected an instruction".to_owned()),
+        };
+        done.map_err(|reason| self.refused(reason))
+    }
+
+    fn assign(&mut self, name: &'a str, tokens: &'a [Token]) -> Result<(), String> {
+        if !self.calls.is_empty() || !self.controller.points().is_empty() {
+            return Err("variables are read before the first motion alone, outside of functions".to_owned());
+        }
+        if self.globals.contains_key(name) || self.functions.contains_key(name) || self.measured == Some(name) {
+            return Err(format!("`{name}` is given twice"));
+        }
+        if name == SHARE {
+            self.share_at = self.line;
+        }
+        if let [Token::Word(function), open, close] = tokens
+            && function == MEASURED
+            && open.is("(")
+            && close.is(")")
+        {
+            self.measured = Some(name);
+            return Ok(());
+        }
+        let (value, rest) = self.value(tokens)?;
+        end(rest)?;
+        self.globals.insert(name, value);
+        Ok(())
+    }
+
+    fn call(&mut self, name: &'a str, arguments: &'a [Token]) -> Result<(), String> {
+        if let Some(parameters) = Controller::parameters(name) {
+            let given = self.arguments(arguments, parameters)?;
+            let place = Place {
+                file: self.file.to_owned(),
+                line: self.line,
+            };
+            let is_first = self.controller.points().is_empty();
+            self.controller.instruction(name, &given, place)?;
+            return match (is_first, self.controller.points(), self.start) {
+                (true, [first], Some(start)) if first.q_rad != start => {
+                    Err("the check compares with another start: expected the first movej to lead there".to_owned())
+                }
+                _ => Ok(()),
+            };
+        }
+        let Some(lines) = self.functions.get(name).copied() else {
+            return Err(why_not(name));
+        };
+        if arguments.len() != 2 || !arguments[1].is(")") {
+            return Err(format!("expected `{name}()`"));
+        }
+        if self.calls.contains(&name) {
+            return Err(format!("`{name}` runs itself, which never ends"));
+        }
+        self.calls.push(name);
+        let line = self.line;
+        // A fault within the function has its own line.
+        let done = self.block(lines);
+        self.calls.pop();
+        done.map_err(|error| {
+            self.line = error.place.line;
+            error.reason
+        })?;
+        self.line = line;
+        Ok(())
+    }
+
+    /// Values of an instruction's parameters, in their order, out of `(…)`.
+    fn arguments(&self, tokens: &[Token], parameters: &[&str]) -> Result<Vec<Option<Value>>, String> {
+        let mut given = vec![None; parameters.len()];
+        let mut rest = match tokens {
+            [open, rest @ ..] if open.is("(") => rest,
+            _ => return Err("expected `(`".to_owned()),
+        };
+        let mut position = 0;
+        while !rest.first().is_some_and(|token| token.is(")")) {
+            let index = match rest {
+                [Token::Word(name), is, behind @ ..] if is.is("=") => {
+                    rest = behind;
+                    let index = parameters.iter().position(|parameter| parameter == name);
+                    index.ok_or_else(|| format!("no argument `{name}` is read here"))?
+                }
+                _ => position,
+            };
+            position = index + 1;
+            let (value, behind) = self.value(rest)?;
+            let slot = given
+                .get_mut(index)
+                .ok_or_else(|| format!("expected {} arguments at most", parameters.len()))?;
+            if slot.replace(value).is_some() {
+                return Err(format!("`{}` is given twice", parameters[index]));
+            }
+            rest = match behind {
+                [comma, behind @ ..] if comma.is(",") => behind,
+                [close, ..] if close.is(")") => behind,
+                _ => return Err("expected `,` or `)`".to_owned()),
+            };
+        }
+        end(&rest[1..])?;
+        Ok(given)
+    }
+
+    /// A literal, or the value of a variable, and the tokens behind it.
+    fn value<'t>(&self, tokens: &'t [Token]) -> Result<(Value, &'t [Token]), String> {
+        match tokens {
+            [Token::Text(_), rest @ ..] => Ok((Value::Text, rest)),
+            [Token::Word(word), rest @ ..] if ["True", "False"].contains(&word.as_str()) => Ok((Value::Bool, rest)),
+            [Token::Word(p), open, ..] if p == "p" && open.is("[") => {
+                let (numbers, rest) = numbers(&tokens[1..])?;
+                let found = numbers.len();
+                let pose = numbers
+                    .try_into()
+                    .map_err(|_| format!("expected a pose of 6 numbers, found {found}"))?;
+                Ok((Value::Pose(pose), rest))
+            }
+            [Token::Word(name), rest @ ..] => match self.globals.get(name.as_str()) {
+                Some(value) => Ok((value.clone(), rest)),
+                None => Err(format!("there is no variable `{name}` with a value")),
+            },
+            [open, ..] if open.is("[") => numbers(tokens).map(|(numbers, rest)| (Value::List(numbers), rest)),
+            _ => number(tokens).map(|(number, rest)| (Value::Number(number), rest)),
+        }
+    }
+}
+
+fn end(rest: &[Token]) -> Result<(), String> {
+    match rest.first() {
+        None => Ok(()),
+        Some(token) => Err(format!(
+            "expected the end of the line, found {token}; computed values are not read"
+        )),
+    }
+}
+
+fn number(tokens: &[Token]) -> Result<(f64, &[Token]), String> {
+    match tokens {
+        [Token::Number(number), rest @ ..] => Ok((*number, rest)),
+        [minus, Token::Number(number), rest @ ..] if minus.is("-") => Ok((-number, rest)),
+        [other, ..] => Err(format!(
+            "expected a number, found {other}; computed values are not read"
+        )),
+        [] => Err("expected a number, found the end of the line".to_owned()),
+    }
+}
+
+fn numbers(tokens: &[Token]) -> Result<(Vec<f64>, &[Token]), String> {
+    let (mut all, mut rest) = (Vec::new(), &tokens[1..]);
+    loop {
+        let (next, behind) = number(rest)?;
+        all.push(next);
+        rest = match behind {
+            [comma, rest @ ..] if comma.is(",") => rest,
+            [close, rest @ ..] if close.is("]") => return Ok((all, rest)),
+            _ => return Err("expected `,` or `]` in a list of numbers; computed values are not read".to_owned()),
+        };
+    }
+}
+
+/// Why a word is refused.
+fn why_not(name: &str) -> String {
+    let why = match name {
+        "while" | "for" | "break" | "continue" | "elif" | "else" | "return" => {
+            "loops, conditions and jumps are not read: write out what moves"
+        }
+        "thread" | "run" | "sec" | "struct" => "what runs beside the motion is not read",
+        "movel" | "movep" | "movec" | "speedl" | "speedj" | "servoc" | "servol" => {
+            "the controller plans or times this motion; only servoj is read"
+        }
+        "sleep" | "sync" => {
+            "how the arm moves on while the program waits is not known; write out servoj to where it stays"
+        }
+        "end" => "this closes nothing",
+        _ => "it is neither a function of this program nor an instruction that is read",
+    };
+    format!("`{name}`: {why}")
+}
