@@ -5,26 +5,18 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | the messages as data | `message` |
-//! | times in them | `timing` |
-//! | YAML and JSON | `language` |
-//! | numbers in them | `number` |
-//! | them as YAML and JSON | `write` |
-//! | YAML as a tree with lines | `node` |
-//! | a message out of a tree | `parse` |
-//! | what the controller asks, and what this program asks beyond that; as a check | `rule`, `rules` |
-//! | a message as a reading; files that must agree | `interpret` |
+//! | what a message says; times in it | `message`, `timing` |
+//! | YAML and JSON; numbers in them | `language`, `number` |
+//! | messages as YAML and JSON | `write` |
+//! | YAML as a tree with lines; that as a reading | `node`, `read` |
 //! | the script that sends a goal | `player`, `play.py` |
 
-mod interpret;
 mod language;
-pub mod message;
+mod message;
 mod node;
 mod number;
-mod parse;
 mod player;
-pub mod rule;
-pub mod rules;
+mod read;
 pub mod timing;
 mod write;
 
@@ -34,7 +26,8 @@ use crate::program::Program;
 use crate::reading::Reading;
 use crate::refusal::Refusal;
 use language::Language;
-use message::{Message, Tolerances};
+use message::{GOAL_RAD, Message};
+use platewash_kinematics::AXES;
 use platewash_kinematics::RobotModel;
 use platewash_workcell::job::JobTerms;
 
@@ -85,11 +78,10 @@ impl Dialect for Ros2 {
 
     fn write(&self, program: &Program<'_>) -> Vec<ProgramFile> {
         let message = Message::of(program);
-        let tolerances = message.tolerances.clone().unwrap_or_default();
         let trajectory = |language| write::trajectory(&message, language);
-        let goal = |language| write::goal(&message, &tolerances, language);
+        let goal = |language| write::goal(&message, language);
         let head = write::head(program, &said(program));
-        let of_goal = write::head(program, &[said(program), said_of_goal(&tolerances)].concat());
+        let of_goal = write::head(program, &[said(program), said_of_goal(&message)].concat());
         let texts = [
             head + &trajectory(Language::Yaml),
             trajectory(Language::Json),
@@ -106,11 +98,11 @@ impl Dialect for Ros2 {
 
     fn read(&self, files: &[ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {
         let (players, messages): (Vec<_>, Vec<_>) = files.iter().partition(|file| player::is_it(file));
-        let check = |file: &ProgramFile| player::check(file).map_err(|fault| interpret::refused(file, fault));
+        let check = |file: &ProgramFile| player::check(file).map_err(|fault| read::refused(file, fault));
         players.into_iter().try_for_each(check)?;
         // The player compares the start; a message alone cannot.
         let checks_start = files.iter().any(player::is_it);
-        interpret::reading(&messages, arm).map(|reading| Reading {
+        read::reading(&messages, arm).map(|reading| Reading {
             checks_start,
             ..reading
         })
@@ -137,19 +129,16 @@ fn said(program: &Program<'_>) -> Vec<String> {
 }
 
 /// What the head of a goal says of its tolerances.
-fn said_of_goal(tolerances: &Tolerances) -> Vec<String> {
-    let each = |all: &[message::Tolerance]| {
-        let told: Vec<String> = all.iter().map(|t| number::float(t.position.value)).collect();
-        told.join(", ")
-    };
+fn said_of_goal(message: &Message) -> Vec<String> {
+    let each = |all: [f64; AXES]| all.map(number::float).join(", ");
     vec![
         "control_msgs/action/FollowJointTrajectory, the goal of the action.".to_owned(),
         format!(
             "path_tolerance {} rad: what a joint that is 0.05 s late is off at its greatest speed, at least 0.02 rad; beyond it the \
              controller aborts.",
-            each(&tolerances.path.value)
+            each(message.path_rad)
         ),
-        format!("goal_tolerance {} rad.", each(&tolerances.goal.value)),
+        format!("goal_tolerance {} rad.", each([GOAL_RAD; AXES])),
         "A tolerance of 0.0 would mean the controller's own, -1.0 none. None of them is part of the proof.".to_owned(),
     ]
 }

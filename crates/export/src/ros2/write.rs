@@ -1,9 +1,11 @@
 //! The messages as YAML and JSON, a point a line.
 
 use super::language::Language;
-use super::message::{Message, MessagePoint, Span, Tolerance, Tolerances};
+use super::message::{GOAL_RAD, GOAL_TIME_NS, Message, MessagePoint};
 use super::number::{float, quoted};
+use super::timing::NS_PER_S;
 use crate::program::Program;
+use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::words::printable;
 
 /// Before the share of the speed in the head of a YAML file.
@@ -16,16 +18,23 @@ pub(super) fn trajectory(message: &Message, language: Language) -> String {
 }
 
 /// A `control_msgs/action/FollowJointTrajectory` goal.
-pub(super) fn goal(message: &Message, tolerances: &Tolerances, language: Language) -> String {
+pub(super) fn goal(message: &Message, language: Language) -> String {
     let inner = block(trajectory_fields(message, language, "  "), language, "  ");
-    let each = |all: &[Tolerance]| list(all.iter().map(|t| tolerance(t, language)), language, "");
+    let each = |all: &[f64]| {
+        let tolerances = message.joint_names.iter().zip(all);
+        list(
+            tolerances.map(|(name, rad)| tolerance(name, *rad, language)),
+            language,
+            "",
+        )
+    };
     let fields = vec![
         field("trajectory", &inner, language, ""),
-        field("path_tolerance", &each(&tolerances.path.value), language, ""),
-        field("goal_tolerance", &each(&tolerances.goal.value), language, ""),
+        field("path_tolerance", &each(&message.path_rad), language, ""),
+        field("goal_tolerance", &each(&[GOAL_RAD; AXES]), language, ""),
         field(
             "goal_time_tolerance",
-            &format!(" {}", span(&tolerances.goal_time, language)),
+            &format!(" {}", span(GOAL_TIME_NS, language)),
             language,
             "",
         ),
@@ -41,8 +50,8 @@ pub(super) fn head(program: &Program<'_>, of_the_message: &[String]) -> String {
 }
 
 fn trajectory_fields(message: &Message, language: Language, indent: &str) -> Vec<String> {
-    let names = message.joint_names.value.iter().map(|name| quoted(&name.value));
-    let points = message.points.value.iter().map(|p| point(p, language));
+    let names = message.joint_names.iter().map(|name| quoted(name));
+    let points = message.points.iter().map(|p| point(p, language));
     vec![
         field("joint_names", &format!(" {}", row(names)), language, indent),
         field("points", &list(points, language, indent), language, indent),
@@ -50,29 +59,23 @@ fn trajectory_fields(message: &Message, language: Language, indent: &str) -> Vec
 }
 
 fn point(point: &MessagePoint, language: Language) -> String {
-    let numbers = |all: &[f64]| row(all.iter().copied().map(float));
+    let numbers = |all: &JointVector| row(all.iter().copied().map(float));
     flow(
         [
-            ("positions", numbers(&point.positions.value)),
-            ("velocities", numbers(&point.velocities.value)),
-            ("time_from_start", span(&point.time_from_start, language)),
+            ("positions", numbers(&point.q_rad)),
+            ("velocities", numbers(&point.qd_rad_s)),
+            ("time_from_start", span(point.time_ns, language)),
         ],
         language,
     )
 }
 
-fn tolerance(tolerance: &Tolerance, language: Language) -> String {
-    flow(
-        [
-            ("name", quoted(&tolerance.name.value)),
-            ("position", float(tolerance.position.value)),
-        ],
-        language,
-    )
+fn tolerance(name: &str, position_rad: f64, language: Language) -> String {
+    flow([("name", quoted(name)), ("position", float(position_rad))], language)
 }
 
-fn span(span: &Span, language: Language) -> String {
-    let numbers = [("sec", span.sec.value), ("nanosec", span.nanosec.value)];
+fn span(time_ns: i64, language: Language) -> String {
+    let numbers = [("sec", time_ns / NS_PER_S), ("nanosec", time_ns % NS_PER_S)];
     flow(numbers.map(|(name, value)| (name, value.to_string())), language)
 }
 

@@ -1,0 +1,422 @@
+//! Messages as a reading: each key known, each value of its type, each rule of the controller and of the proof kept.
+//!
+//! The controller's own rules are those of its check of messages in ros2_controllers 2.54 (Humble) and 6.9, with the parameters that
+//! it has by default; they are the same in both, but that 6.9 takes effort where it commands effort. Those of 4.42 (Jazzy), between them, were
+//! not read.
+
+use super::language::Language;
+use super::node::{self, Entry, Fault, Kind, Node};
+use super::number::{self, Said};
+use super::timing::{LEAD_IN_NS, LEAD_IN_S, NS_PER_S, seconds_between};
+use super::write;
+use crate::dialect::ReadError;
+use crate::file::{Place, ProgramFile};
+use crate::reading::{Between, ReadPoint, Reading};
+use platewash_kinematics::{AXES, JointVector, RobotModel};
+use platewash_workcell::words::quoted;
+
+/// What the controller takes for a last speed of zero \[rad/s\].
+const AT_REST_RAD_S: f64 = f32::EPSILON as f64;
+
+/// Who asks for a rule.
+const CONTROLLER: &str = "joint_trajectory_controller";
+const TYPE: &str = "the message's type";
+const PROOF: &str = "the proof";
+
+/// That a rule is broken.
+fn broken<T>(line: usize, (rule, by): (&str, &str), found: impl AsRef<str>) -> Result<T, Fault> {
+    Err(Fault::new(line, format!("{} (rule {rule} of {by})", found.as_ref())))
+}
+
+/// A fault in a file, as a dialect states it.
+pub(super) fn refused(file: &ProgramFile, Fault { line, reason }: Fault) -> ReadError {
+    ReadError::at(&file.name, line.max(1), reason)
+}
+
+/// What the files say, all the same.
+pub(super) fn reading(files: &[&ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {
+    let mut first: Option<(&ProgramFile, Reading)> = None;
+    for file in files {
+        let found = one(file, arm).map_err(|fault| refused(file, fault))?;
+        match &first {
+            None => first = Some((file, found)),
+            Some((other, expected)) => same(&other.name, expected, &found).map_err(|fault| refused(file, fault))?,
+        }
+    }
+    let Some((file, reading)) = first else {
+        let reason = "expected a message in YAML or JSON; found none";
+        return Err(ReadError::at("joint_trajectory.yaml", 1, reason));
+    };
+    let speed_share = files.iter().find_map(|file| speed_share(&file.text)).transpose();
+    let speed_share = speed_share.map_err(|fault| refused(file, fault))?;
+    Ok(Reading { speed_share, ..reading })
+}
+
+/// What one file says.
+fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
+    let Some(language) = Language::of(&file.name) else {
+        let reason = "expected a file .yaml, .yml or .json, or play.py; found another name";
+        return Err(Fault::new(1, reason));
+    };
+    if language == Language::Json && file.text.len() <= node::MAX_BYTES {
+        let json = serde_json::from_str::<serde::de::IgnoredAny>(&file.text);
+        json.map_err(|e| Fault::new(e.line(), format!("not JSON: {e}")))?;
+    }
+    let root = node::read(&file.text, language)?;
+    let known: Vec<&str> = arm.joints().iter().map(|joint| joint.name.as_str()).collect();
+    let is_goal = entries(&root, "a message")?
+        .iter()
+        .any(|entry| entry.key == "trajectory");
+    let points = match is_goal {
+        true => goal(&root, &file.name, &known)?,
+        false => trajectory(&root, &file.name, &known)?,
+    };
+    Ok(Reading {
+        speed_share: None,
+        points,
+        between: Between::Cubics,
+        tool: None,
+        checks_start: false,
+    })
+}
+
+fn goal(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoint>, Fault> {
+    let goal = Fields::of(
+        root,
+        "a FollowJointTrajectory goal",
+        &["trajectory", "path_tolerance", "goal_tolerance", "goal_time_tolerance"],
+    )?;
+    let points = trajectory(goal.needed("trajectory")?, file, known)?;
+    for key in ["path_tolerance", "goal_tolerance"] {
+        tolerances(goal.needed(key)?, key, known)?;
+    }
+    duration(goal.needed("goal_time_tolerance")?)?;
+    Ok(points)
+}
+
+fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoint>, Fault> {
+    let fields = Fields::of(root, "a JointTrajectory", &["header", "joint_names", "points"])?;
+    if let Some(header) = fields.get("header") {
+        let header = Fields::of(header, "a Header", &["stamp", "frame_id"])?;
+        header.get("frame_id").map(text).transpose()?;
+        if let Some(stamp) = header.get("stamp")
+            && duration(stamp)? != 0
+        {
+            let found = "expected a header.stamp of 0, which is at once; found a time of the clock";
+            return broken(stamp.line, ("stamp", PROOF), found);
+        }
+    }
+    let order = order(fields.needed("joint_names")?, known)?;
+    let points = fields.needed("points")?;
+    let mut all: Vec<ReadPoint> = Vec::new();
+    let (mut start_ns, mut before_ns) = (0, None);
+    let nodes = list(points)?;
+    for (k, node) in nodes.iter().enumerate() {
+        let rows = ["positions", "velocities", "accelerations", "effort"];
+        let point = Fields::of(
+            node,
+            "a JointTrajectoryPoint",
+            &[&rows[..], &["time_from_start"]].concat(),
+        )?;
+        let time = point.needed("time_from_start")?;
+        let time_ns = duration(time)?;
+        let told = |ns: i64| format!("{}.{:09} s", ns / NS_PER_S, ns % NS_PER_S);
+        match before_ns {
+            None if time_ns < LEAD_IN_NS => {
+                let found = format!(
+                    "expected the first point at {LEAD_IN_S} s or later; found {}",
+                    told(time_ns)
+                );
+                return broken(time.line, ("lead-in", PROOF), found);
+            }
+            None => start_ns = time_ns,
+            Some(before) if time_ns <= before => {
+                let [before, found] = [before, time_ns].map(told);
+                let found = format!("expected a time after {before}, that of the point before; found {found}");
+                return broken(time.line, ("time-order", CONTROLLER), found);
+            }
+            Some(_) => {}
+        }
+        before_ns = Some(time_ns);
+        let [by_position, by_velocity, no_acceleration, no_effort] = [CONTROLLER, PROOF, PROOF, CONTROLLER];
+        let positions = row(&point, "positions", AXES, by_position)?;
+        let velocities = row(&point, "velocities", AXES, by_velocity)?;
+        row(&point, "accelerations", 0, no_acceleration)?;
+        row(&point, "effort", 0, no_effort)?;
+        let ends = [
+            (0, "first", 0.0, ("start-speed", PROOF)),
+            (nodes.len() - 1, "last", AT_REST_RAD_S, ("end-speed", CONTROLLER)),
+        ];
+        for (_, which, most_rad_s, rule) in ends.into_iter().filter(|end| end.0 == k) {
+            if let Some(speed) = velocities.iter().find(|speed| speed.abs() > most_rad_s) {
+                let line = point.get("velocities").map_or(node.line, |node| node.line);
+                let found = format!("expected velocities of 0 at the {which} point; found {speed} rad/s");
+                return broken(line, rule, found);
+            }
+        }
+        let joints = |row: &[f64]| JointVector::from_fn(|joint, _| row.get(order[joint]).copied().unwrap_or(f64::NAN));
+        all.push(ReadPoint {
+            place: Place {
+                file: file.to_owned(),
+                line: node.line,
+            },
+            t_s: seconds_between(i128::from(start_ns), i128::from(time_ns)),
+            q_rad: joints(&positions),
+            qd_rad_s: Some(joints(&velocities)),
+            corner_m: None,
+        });
+    }
+    if all.is_empty() {
+        return broken(points.line, ("points", CONTROLLER), "expected points; found none");
+    }
+    Ok(all)
+}
+
+/// For each joint of the arm its place in the message.
+fn order(node: &Node<'_>, known: &[&str]) -> Result<[usize; AXES], Fault> {
+    let mut names: Vec<String> = Vec::new();
+    for name in list(node)? {
+        let (line, name) = (name.line, text(name)?);
+        if names.contains(&name) {
+            return broken(
+                line,
+                ("joint-twice", PROOF),
+                format!("expected each joint once; found {} again", quoted(&name)),
+            );
+        }
+        if !known.contains(&name.as_str()) {
+            return broken(line, ("joint-name", CONTROLLER), unknown(&name, known));
+        }
+        names.push(name);
+    }
+    if names.len() != AXES {
+        let missing: Vec<_> = known
+            .iter()
+            .filter(|joint| !names.iter().any(|name| name == *joint))
+            .copied()
+            .collect();
+        let (found, missing) = (names.len(), missing.join(", "));
+        let found = format!("expected the {AXES} joints of the arm; found {found}, without {missing}");
+        return broken(node.line, ("joint-count", CONTROLLER), found);
+    }
+    Ok(std::array::from_fn(|joint| {
+        names.iter().position(|name| name == known[joint]).unwrap_or(joint)
+    }))
+}
+
+fn unknown(name: &str, known: &[&str]) -> String {
+    format!(
+        "expected one of the arm's joints {}; found {}",
+        known.join(", "),
+        quoted(name)
+    )
+}
+
+/// Numbers of a point, as many as there must be; a row that is left out is empty.
+fn row(point: &Fields<'_, '_>, name: &str, expected: usize, by: &str) -> Result<Vec<f64>, Fault> {
+    let (line, row) = match point.get(name) {
+        Some(node) => (node.line, list(node)?.iter().map(float).collect::<Result<Vec<_>, _>>()?),
+        None => (point.node.line, Vec::new()),
+    };
+    match row.len() {
+        found if found != expected => broken(line, (name, by), format!("expected {expected} {name}; found {found}")),
+        _ => Ok(row),
+    }
+}
+
+fn tolerances(node: &Node<'_>, which: &str, known: &[&str]) -> Result<(), Fault> {
+    const RULE: (&str, &str) = ("tolerance", CONTROLLER);
+    let mut names: Vec<String> = Vec::new();
+    for tolerance in list(node)? {
+        let numbers = ["position", "velocity", "acceleration"];
+        let fields = Fields::of(tolerance, "a JointTolerance", &[&["name"], &numbers[..]].concat())?;
+        let stated = fields.needed("name")?;
+        let name = text(stated)?;
+        if !known.contains(&name.as_str()) {
+            return broken(stated.line, RULE, unknown(&name, known));
+        }
+        if names.contains(&name) {
+            return broken(
+                stated.line,
+                RULE,
+                format!("expected each joint once; found {} again", quoted(&name)),
+            );
+        }
+        names.push(name);
+        for number in numbers.into_iter().filter_map(|key| fields.get(key)) {
+            let found = float(number)?;
+            if !(found >= 0.0 || found == -1.0) {
+                let found = format!(
+                    "expected a tolerance above 0, or 0 for the controller's own, or -1.0 for none; found {found}"
+                );
+                return broken(number.line, RULE, found);
+            }
+        }
+    }
+    match names.len() {
+        AXES => Ok(()),
+        found => broken(
+            node.line,
+            RULE,
+            format!("expected a {which} for each of the {AXES} joints; found {found}"),
+        ),
+    }
+}
+
+/// A Duration \[ns\].
+fn duration(node: &Node<'_>) -> Result<i64, Fault> {
+    let fields = Fields::of(node, "a Duration", &["sec", "nanosec"])?;
+    let whole = |key: &str, most: i64| {
+        let node = fields.needed(key)?;
+        match said(node) {
+            Said::Whole(found) if (0..=most).contains(&found) => Ok(found),
+            Said::Whole(found) => broken(
+                node.line,
+                ("duration", TYPE),
+                format!("expected {key} from 0 to {most}; found {found}"),
+            ),
+            _ => Err(Fault::new(
+                node.line,
+                format!("expected a whole number; found {}", node.kind.told()),
+            )),
+        }
+    };
+    Ok(whole("sec", i64::from(i32::MAX))? * NS_PER_S + whole("nanosec", NS_PER_S - 1)?)
+}
+
+/// Whether two files say the same.
+fn same(other: &str, expected: &Reading, found: &Reading) -> Result<(), Fault> {
+    let same = |a: &ReadPoint, b: &ReadPoint| a.t_s == b.t_s && a.q_rad == b.q_rad && a.qd_rad_s == b.qd_rad_s;
+    for (k, (a, b)) in expected.points.iter().zip(&found.points).enumerate() {
+        if !same(a, b) {
+            let reason = format!(
+                "expected point {k} as {other}:{} has it; found another one",
+                a.place.line
+            );
+            return Err(Fault::new(b.place.line, reason));
+        }
+    }
+    match [expected.points.len(), found.points.len()] {
+        [many, few] if many != few => {
+            let line = found.points.last().map_or(1, |point| point.place.line);
+            Err(Fault::new(
+                line,
+                format!("expected {many} points, as many as {other} has; found {few}"),
+            ))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The share of the plan's speed at the head of a text.
+fn speed_share(text: &str) -> Option<Result<f64, Fault>> {
+    let mut head = text.lines().enumerate().take_while(|(_, line)| line.starts_with('#'));
+    let (line, stated) = head.find_map(|(k, line)| Some((k + 1, line.strip_prefix(write::SPEED_SHARE)?)))?;
+    Some(match number::read(stated.trim_end()) {
+        Said::Float(share) if share > 0.0 && share <= 1.0 => Ok(share),
+        _ => Err(Fault::new(
+            line,
+            "expected a speed share above 0.0 and at most 1.0; found another value",
+        )),
+    })
+}
+
+/// A text: in quotes, or a word that no reader takes for anything else.
+fn text(node: &Node<'_>) -> Result<String, Fault> {
+    match &node.kind {
+        Kind::Quoted(text) => Ok(text.to_string()),
+        Kind::Plain(text) if is_word(text) => Ok(text.to_string()),
+        other => Err(Fault::new(
+            node.line,
+            format!("expected a text; found {}", other.told()),
+        )),
+    }
+}
+
+fn is_word(text: &str) -> bool {
+    const OTHERS: [&str; 9] = ["y", "n", "yes", "no", "on", "off", "true", "false", "null"];
+    let named = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '/' | '.');
+    text.starts_with(|c: char| c.is_ascii_alphabetic())
+        && text.chars().all(named)
+        && !OTHERS.contains(&text.to_ascii_lowercase().as_str())
+}
+
+fn list<'n, 'a>(node: &'n Node<'a>) -> Result<&'n [Node<'a>], Fault> {
+    match &node.kind {
+        Kind::List(nodes) => Ok(nodes),
+        other => Err(Fault::new(
+            node.line,
+            format!("expected a list; found {}", other.told()),
+        )),
+    }
+}
+
+fn said(node: &Node<'_>) -> Said {
+    match &node.kind {
+        Kind::Plain(text) | Kind::OfJson(text) => number::read(text),
+        _ => Said::Nothing,
+    }
+}
+
+fn float(node: &Node<'_>) -> Result<f64, Fault> {
+    let found = node.kind.told();
+    let reason = match said(node) {
+        Said::Float(value) => return Ok(value),
+        Said::TextInYaml11(value) if matches!(node.kind, Kind::OfJson(_)) => return Ok(value),
+        Said::Whole(whole) => {
+            format!("expected a float, which ROS 2 does not take a whole number for; write {whole}.0 for {found}")
+        }
+        Said::TextInYaml11(_) => format!(
+            "expected a float; {found} is a text in YAML 1.1, which ROS 2 reads: a float has a point, and its exponent a sign, as in 1.0e-5"
+        ),
+        Said::Nothing => format!("expected a float, finite and in decimals; found {found}"),
+    };
+    Err(Fault::new(node.line, reason))
+}
+
+fn entries<'n, 'a>(node: &'n Node<'a>, what: &str) -> Result<&'n [Entry<'a>], Fault> {
+    match &node.kind {
+        Kind::Table(entries) => Ok(entries),
+        other => Err(Fault::new(
+            node.line,
+            format!("expected {what}; found {}", other.told()),
+        )),
+    }
+}
+
+/// A table whose keys are known.
+struct Fields<'n, 'a> {
+    node: &'n Node<'a>,
+    what: &'static str,
+    entries: &'n [Entry<'a>],
+}
+
+impl<'n, 'a> Fields<'n, 'a> {
+    fn of(node: &'n Node<'a>, what: &'static str, known: &[&str]) -> Result<Self, Fault> {
+        let entries = entries(node, what)?;
+        match entries.iter().find(|entry| !known.contains(&entry.key.as_ref())) {
+            Some(entry) => {
+                let found = quoted(&Kind::Plain(entry.key.clone()).told());
+                let reason = format!("expected {what} with {}; found the key {found}", known.join(", "));
+                Err(Fault::new(entry.line, reason))
+            }
+            None => Ok(Self { node, what, entries }),
+        }
+    }
+
+    fn get(&self, key: &str) -> Option<&'n Node<'a>> {
+        self.entries
+            .iter()
+            .find(|entry| entry.key == key)
+            .map(|entry| &entry.value)
+    }
+
+    fn needed(&self, key: &str) -> Result<&'n Node<'a>, Fault> {
+        self.get(key).ok_or_else(|| {
+            Fault::new(
+                self.node.line,
+                format!("expected {} with {key}; it is missing", self.what),
+            )
+        })
+    }
+}
