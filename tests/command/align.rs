@@ -143,7 +143,7 @@ fn points_that_cannot_be_meant_are_refused_with_what_to_do() {
         platewash(dir, &["align", "touched.csv"]).refused(2, &[&["touched.csv"], words].concat());
     };
     refused("", &["line 1", "it is empty"]);
-    refused(HEADER, &["no points"]);
+    refused(HEADER, &["no rows"]);
     refused(&rows(2, 0.0), &["2 points", "at least 3"]);
     refused(
         &format!("{}p,1,2,3,4,5\n", rows(3, 0.0)),

@@ -1,7 +1,7 @@
 //! Where the job of a plan is another one than was asked for: a certificate tells that a plan does its job, not whose job it is.
 
 use platewash_workcell::job::JobTerms;
-use platewash_workcell::words::printable;
+use platewash_workcell::words::{printable, shortened};
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
@@ -78,8 +78,8 @@ fn compare_labelled(
     if ours != theirs {
         all.push(Difference {
             key: format!("order of {key}"),
-            found: shortened(ours.join(", ")),
-            expected: shortened(theirs.join(", ")),
+            found: shortened(&ours.join(", "), LONGEST),
+            expected: shortened(&theirs.join(", "), LONGEST),
         });
     }
 }
@@ -102,14 +102,7 @@ fn names<'a>(found: &'a Map<String, Value>, expected: &'a Map<String, Value>) ->
 
 /// The beginning of a value.
 fn said(value: Option<&Value>) -> String {
-    shortened(value.map_or_else(|| "nothing".to_owned(), Value::to_string))
-}
-
-fn shortened(text: String) -> String {
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text,
-    }
+    shortened(&value.map_or_else(|| "nothing".to_owned(), Value::to_string), LONGEST)
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::csv::MAX_ROWS;
 use platewash_workcell::job::JobTerms;
-use platewash_workcell::words::{quoted, without_mark};
+use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
 
 /// Time between two rows \[s\]: a control cycle of common controllers.
 const STEP_S: f64 = 0.004;
@@ -26,9 +26,6 @@ const GREATEST: f64 = 1e6;
 
 /// How far `plan_t_s` may be from its share of `t_s` \[s\].
 const TIME_S: f64 = 1e-6;
-
-/// Longest text of a cell that a message repeats, in characters.
-const LONGEST: usize = 40;
 
 const TIMES: [&str; 2] = ["t_s", "plan_t_s"];
 const POSITIONS: [&str; AXES] = ["q1_rad", "q2_rad", "q3_rad", "q4_rad", "q5_rad", "q6_rad"];
@@ -157,193 +154,99 @@ fn about(program: &Program<'_>, name: &str) -> String {
     wrapped("-", program.header.iter().chain(&own).map(String::as_str))
 }
 
-/// Which columns a table has.
-struct Columns {
-    names: Vec<&'static str>,
-    has_plan_time: bool,
-    has_speeds: bool,
-}
-
 /// What a table says.
 fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
-    let text = without_mark(&file.text);
-    let mut lines = text.lines().zip(1..);
-    let (header, _) = lines.next().unwrap_or_default();
-    let columns = columns(header).map_err(|reason| ReadError::at(&file.name, 1, reason.0))?;
+    let refused = |error: TableError| ReadError::at(&file.name, error.line, error.without_line());
+    read(file).map_err(refused)
+}
+
+fn read(file: &ProgramFile) -> Result<Reading, TableError> {
+    let required: Vec<&str> = TIMES.into_iter().take(1).chain(POSITIONS).collect();
+    let table = NumberTable::read(
+        &file.text,
+        &TableShape {
+            required: &required,
+            optional: &[&TIMES[1..], &SPEEDS],
+            most: GREATEST,
+            most_rows: MAX_ROWS,
+            has_comments: false,
+        },
+    )?;
+    let (plan_time, speeds) = (table.places(&[TIMES[1]]), table.places(&SPEEDS));
     let mut points: Vec<ReadPoint> = Vec::new();
     let mut plan_times = Vec::new();
-    for (line, number) in lines {
-        let refuse = |reason: String| ReadError::at(&file.name, number, reason);
-        if points.len() == MAX_ROWS {
-            return Err(refuse(format!("more than {MAX_ROWS} rows, the most that are read")));
+    let rows = table.rows().collect::<Result<Vec<_>, _>>()?;
+    let (time, positions) = (
+        table.places(&[TIMES[0]]).unwrap_or_default(),
+        table.places(&POSITIONS).unwrap_or_default(),
+    );
+    for row in &rows {
+        let [t_s] = row.numbers(time)?;
+        row.check_after(time[0], t_s, points.last().map(|point| point.t_s))?;
+        if points.is_empty() && t_s != 0.0 {
+            return row.refused(time[0], format!("expected 0 in the first row, found {t_s}"));
         }
-        let cells = cells(line, &columns).map_err(|reason| refuse(reason.0))?;
-        let after_s = points.last().map(|point| point.t_s);
-        match (cells.t_s, after_s) {
-            (t_s, None) if t_s != 0.0 => return Err(refuse(format!("t_s of the first row: expected 0, found {t_s}"))),
-            (t_s, Some(after_s)) if t_s <= after_s => {
-                return Err(refuse(format!(
-                    "t_s: {t_s} s must come after {after_s} s, the time of the row before"
-                )));
-            }
-            _ => {}
-        }
-        plan_times.push(cells.plan_t_s);
-        points.push(cells.point(Place {
-            file: file.name.clone(),
-            line: number,
-        }));
+        let qd_rad_s = speeds
+            .map(|places| row.numbers(places))
+            .transpose()?
+            .map(JointVector::from);
+        // It rests where all speeds are zero.
+        let rests = qd_rad_s.map_or(points.is_empty(), |qd| qd.iter().all(|speed| *speed == 0.0));
+        plan_times.extend(plan_time.map(|place| row.numbers(place)).transpose()?.map(|[t_s]| t_s));
+        points.push(ReadPoint {
+            place: Place {
+                file: file.name.clone(),
+                line: row.line,
+            },
+            t_s,
+            q_rad: row.numbers(positions)?.into(),
+            qd_rad_s,
+            corner_m: if rests { None } else { Some(0.0) },
+        });
     }
-    if points.len() < 2 {
-        let reason = format!("expected two rows at least, found {}", points.len());
-        return Err(ReadError::at(&file.name, points.len() + 1, reason));
-    }
-    let between = if columns.has_speeds {
-        Between::Cubics
-    } else {
-        Between::Lines
+    let [_, .., last] = &mut points[..] else {
+        let (line, column) = (rows.last().map_or(1, |row| row.line), None);
+        let reason = format!("expected two rows at least, found {}", rows.len());
+        return Err(TableError { line, column, reason });
     };
-    if let (Between::Lines, Some(last)) = (between, points.last_mut()) {
+    if speeds.is_none() {
         last.corner_m = None;
     }
-    let speed_share = if columns.has_plan_time {
-        Some(share(&points, &plan_times)?)
-    } else {
-        None
-    };
+    let speed_share = plan_time
+        .map(|[place]| share(&rows, place, (&points, &plan_times)))
+        .transpose()?;
     Ok(Reading {
         speed_share,
         points,
-        between,
+        between: if speeds.is_some() {
+            Between::Cubics
+        } else {
+            Between::Lines
+        },
         tool: None,
         checks_start: false,
     })
 }
 
-/// What is wrong with a line.
-struct Fault(String);
-
-/// The columns that a header names.
-fn columns(header: &str) -> Result<Columns, Fault> {
-    let found: Vec<&str> = header.split(',').collect();
-    let has_plan_time = found.get(1) == Some(&TIMES[1]);
-    let times = if has_plan_time { 2 } else { 1 };
-    let has_speeds = found.len() > times + AXES;
-    let speeds = if has_speeds { AXES } else { 0 };
-    let names: Vec<&str> = TIMES
-        .into_iter()
-        .take(times)
-        .chain(POSITIONS)
-        .chain(SPEEDS.into_iter().take(speeds))
-        .collect();
-    let end = "the end of the line";
-    match (0..names.len().max(found.len())).find(|&k| names.get(k) != found.get(k)) {
-        None => Ok(Columns {
-            names,
-            has_plan_time,
-            has_speeds,
-        }),
-        Some(k) => Err(Fault(format!(
-            "column {}: expected {}, found {}",
-            k + 1,
-            names.get(k).unwrap_or(&end),
-            found.get(k).map_or(end.to_owned(), |name| told(name))
-        ))),
-    }
-}
-
-/// The numbers of a row.
-struct Cells {
-    t_s: f64,
-    plan_t_s: f64,
-    q_rad: JointVector,
-    qd_rad_s: Option<JointVector>,
-    is_first: bool,
-}
-
-impl Cells {
-    /// The row as a point; it rests where all speeds are zero.
-    fn point(&self, place: Place) -> ReadPoint {
-        let rests = self
-            .qd_rad_s
-            .map_or(self.is_first, |qd| qd.iter().all(|speed| *speed == 0.0));
-        ReadPoint {
-            place,
-            t_s: self.t_s,
-            q_rad: self.q_rad,
-            qd_rad_s: self.qd_rad_s,
-            corner_m: if rests { None } else { Some(0.0) },
-        }
-    }
-}
-
-fn cells(line: &str, columns: &Columns) -> Result<Cells, Fault> {
-    let (found, expected) = (line.split(',').count(), columns.names.len());
-    if found != expected {
-        return Err(Fault(format!("{found} columns; the header has {expected}")));
-    }
-    let mut numbers = Vec::with_capacity(expected);
-    for (k, (cell, name)) in line.split(',').zip(&columns.names).enumerate() {
-        // Rust reads "inf" and "nan", too.
-        match cell.parse::<f64>() {
-            Ok(number) if number.abs() <= GREATEST => numbers.push(number),
-            _ => {
-                let (column, found) = (k + 1, told(cell));
-                return Err(Fault(format!(
-                    "column {column} ({name}): expected a number from -1e6 to 1e6, found {found}"
-                )));
-            }
-        }
-    }
-    let times = if columns.has_plan_time { 2 } else { 1 };
-    let joints = |from: usize| numbers.get(from..from + AXES).map(JointVector::from_column_slice);
-    let t_s = numbers.first().copied().unwrap_or_default();
-    Ok(Cells {
-        t_s,
-        plan_t_s: if columns.has_plan_time {
-            numbers.get(1).copied().unwrap_or_default()
-        } else {
-            t_s
-        },
-        q_rad: joints(times).unwrap_or_default(),
-        qd_rad_s: if columns.has_speeds { joints(times + AXES) } else { None },
-        is_first: t_s == 0.0,
-    })
-}
-
 /// The share of the plan's speed: the same in every row.
-fn share(points: &[ReadPoint], plan_times: &[f64]) -> Result<f64, ReadError> {
-    let (Some(last), Some(plan_last)) = (points.last(), plan_times.last()) else {
+fn share(rows: &[Row<'_>], place: usize, (points, plan_times): (&[ReadPoint], &[f64])) -> Result<f64, TableError> {
+    let ([.., row], [.., last], [.., plan_last]) = (rows, points, plan_times) else {
         return Ok(1.0);
-    };
-    let refuse = |point: &ReadPoint, reason: String| ReadError {
-        place: point.place.clone(),
-        reason,
     };
     let share = plan_last / last.t_s;
     if !(share > 0.0 && *plan_last <= last.t_s) {
-        let reason = format!(
-            "column 2 (plan_t_s): expected above 0 and at most t_s, {} s, found {plan_last}",
-            last.t_s
-        );
-        return Err(refuse(last, reason));
+        let reason = format!("expected above 0 and at most t_s, {} s, found {plan_last}", last.t_s);
+        return row.refused(place, reason);
     }
-    for (point, plan_t_s) in points.iter().zip(plan_times) {
+    for ((row, point), plan_t_s) in rows.iter().zip(points).zip(plan_times) {
         let expected = share * point.t_s;
         if (plan_t_s - expected).abs() > TIME_S {
             let expected = fixed(expected, DECIMALS);
-            let reason =
-                format!("column 2 (plan_t_s): expected {expected}, the last row's share of t_s, found {plan_t_s}");
-            return Err(refuse(point, reason));
+            return row.refused(
+                place,
+                format!("expected {expected}, the last row's share of t_s, found {plan_t_s}"),
+            );
         }
     }
     Ok(share)
-}
-
-/// A cell, as a message repeats it.
-fn told(cell: &str) -> String {
-    match cell.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", quoted(cell.get(..end).unwrap_or_default())),
-        None => quoted(cell),
-    }
 }

@@ -1,6 +1,6 @@
 //! A value of a file or of an edit: as JSON, in words.
 
-use platewash_workcell::words::printable;
+use platewash_workcell::words::{quoted, shortened};
 use serde_json::{Number, Value};
 use toml::de::DeValue;
 
@@ -29,7 +29,7 @@ pub(crate) fn json_of(value: &DeValue<'_>) -> Value {
 /// A value of a file, in words.
 pub(crate) fn describe(value: &DeValue<'_>) -> String {
     match value {
-        DeValue::String(text) => quoted(text),
+        DeValue::String(text) => quoted(&shortened(text, LONGEST)),
         DeValue::Integer(integer) => integer.to_string(),
         DeValue::Float(float) => float.to_string(),
         DeValue::Boolean(boolean) => boolean.to_string(),
@@ -45,16 +45,9 @@ pub(crate) fn describe_json(value: &Value) -> String {
         Value::Null => "nothing".to_owned(),
         Value::Bool(boolean) => boolean.to_string(),
         Value::Number(number) => number.to_string(),
-        Value::String(text) => quoted(text),
+        Value::String(text) => quoted(&shortened(text, LONGEST)),
         Value::Array(array) => list(array.iter().map(describe_json)),
         Value::Object(_) => "a section".to_owned(),
-    }
-}
-
-fn quoted(text: &str) -> String {
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("\"{}…\"", printable(&text[..end])),
-        None => format!("\"{}\"", printable(text)),
     }
 }
 

@@ -32,6 +32,7 @@ pub mod job;
 pub mod json;
 pub mod layout;
 mod mounted;
+pub mod number_table;
 pub mod obstacle;
 pub mod piecewise;
 pub mod plan;

@@ -4,20 +4,35 @@
 //! not read.
 
 use crate::csv::{self, MAX_ROWS};
-use crate::words::printable;
-use platewash_kinematics::{AXES, JointVector};
-
-/// Longest text of a cell that a message repeats, in characters.
-const LONGEST: usize = 40;
+use crate::number_table::{NumberTable, Row, TableError, TableShape};
+use platewash_kinematics::JointVector;
 
 /// What a number may be at most \[rad, rad/s, rad/s², N·m, s\]; beyond it the file is in other units, or no motion.
 const GREATEST: f64 = 1e6;
 
-/// Columns before the joints' positions: time, segment, plate.
-const BEFORE_JOINTS: usize = 3;
-
-/// Columns of the tip.
-const TIP: usize = 3;
+/// Columns of the time; of positions, speeds and accelerations; of torques; of the force.
+const TIME: [&str; 1] = ["t_s"];
+const STATE: [[&str; 6]; 3] = [
+    ["q1_rad", "q2_rad", "q3_rad", "q4_rad", "q5_rad", "q6_rad"],
+    [
+        "qd1_rad_s",
+        "qd2_rad_s",
+        "qd3_rad_s",
+        "qd4_rad_s",
+        "qd5_rad_s",
+        "qd6_rad_s",
+    ],
+    [
+        "qdd1_rad_s2",
+        "qdd2_rad_s2",
+        "qdd3_rad_s2",
+        "qdd4_rad_s2",
+        "qdd5_rad_s2",
+        "qdd6_rad_s2",
+    ],
+];
+const TORQUE: [&str; 6] = ["tau1_n_m", "tau2_n_m", "tau3_n_m", "tau4_n_m", "tau5_n_m", "tau6_n_m"];
+const FORCE: [&str; 1] = ["force_n"];
 
 /// A recorded motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,206 +58,50 @@ pub struct RecordedSample {
     pub force_n: Option<f64>,
 }
 
-/// Why a text is no recorded motion. Lines and columns count from 1.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RecordedError {
-    /// No line at all.
-    #[error("it is empty; expected the header \"t_s,segment,plate,q1_rad,…\"")]
-    Empty,
-    /// A header and nothing else.
-    #[error("it has a header and no rows")]
-    NoRows,
-    /// A column of the header that is another one.
-    #[error("line 1, column {column}: expected {expected}, found {found}")]
-    Header {
-        /// The column.
-        column: usize,
-        /// Its name.
-        expected: String,
-        /// What stands there.
-        found: String,
-    },
-    /// A row of another length than the header.
-    #[error("line {line}: {found} columns; the header has {expected}")]
-    Columns {
-        /// The line.
-        line: usize,
-        /// As many as the header has.
-        expected: usize,
-        /// As many as it has.
-        found: usize,
-    },
-    /// A cell that is no number of a motion.
-    #[error("line {line}, column {column} ({name}): expected a number from -1e6 to 1e6, found {found}")]
-    Number {
-        /// The line.
-        line: usize,
-        /// The column.
-        column: usize,
-        /// Its name.
-        name: String,
-        /// What stands there.
-        found: String,
-    },
-    /// A time that is not after the one before it.
-    #[error("line {line}, column 1 (t_s): {t_s} s must come after {after_s} s, the time of the row before")]
-    Order {
-        /// The line.
-        line: usize,
-        /// Its time \[s\].
-        t_s: f64,
-        /// The time of the row before \[s\].
-        after_s: f64,
-    },
-    /// A first time before 0.
-    #[error("line {line}, column 1 (t_s): {t_s} s is before 0, when the plan begins")]
-    Early {
-        /// The line.
-        line: usize,
-        /// Its time \[s\].
-        t_s: f64,
-    },
-    /// More rows than are read.
-    #[error("it has more than {MAX_ROWS} rows, the most that are read; write it with a longer time step")]
-    TooLong,
-}
-
 impl RecordedMotion {
     /// Reads a table with the columns of [`csv::HEADER`], and those of [`csv::TORQUES`] where the motion was executed.
     ///
     /// # Errors
-    /// [`RecordedError`] with the first line that does not fit, without the file's name.
-    pub fn from_csv(text: &str) -> Result<Self, RecordedError> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut lines = text.lines().enumerate();
-        let header = lines.next().map_or("", |(_, line)| line);
-        if header.trim().is_empty() {
-            return Err(RecordedError::Empty);
-        }
-        let names = names(header)?;
+    /// [`TableError`] with the first line that does not fit, without the file's name.
+    pub fn from_csv(text: &str) -> Result<Self, TableError> {
+        let required: Vec<&str> = csv::HEADER.split(',').collect();
+        let table = NumberTable::read(
+            text,
+            &TableShape {
+                required: &required,
+                optional: &[&TORQUE, &FORCE],
+                most: GREATEST,
+                most_rows: MAX_ROWS,
+                has_comments: false,
+            },
+        )?;
+        let (time, force) = (table.places(&TIME), table.places(&FORCE));
+        // Required columns are there.
+        let time = time.unwrap_or_default();
+        let [q, qd, qdd] = STATE.map(|names| table.places(&names).unwrap_or_default());
+        let torque = table.places(&TORQUE);
         let mut samples: Vec<RecordedSample> = Vec::new();
-        for (index, line) in lines {
-            if samples.len() == MAX_ROWS {
-                return Err(RecordedError::TooLong);
+        for row in table.rows() {
+            let row = row?;
+            let joints = |row: &Row<'_>, places| row.numbers(places).map(JointVector::from);
+            let [t_s] = row.numbers(time)?;
+            row.check_after(time[0], t_s, samples.last().map(|sample| sample.t_s))?;
+            if t_s < 0.0 {
+                return row.refused(time[0], format!("{t_s} s is before 0, when the plan begins"));
             }
-            let row = Row {
-                line: index + 1,
-                names: &names,
-            };
-            let sample = row.sample(line)?;
-            row.check_time(sample.t_s, samples.last())?;
-            samples.push(sample);
+            samples.push(RecordedSample {
+                t_s,
+                q: joints(&row, q)?,
+                qd: joints(&row, qd)?,
+                qdd: joints(&row, qdd)?,
+                torque: torque.map(|places| joints(&row, places)).transpose()?,
+                force_n: force
+                    .map(|place| row.numbers(place))
+                    .transpose()?
+                    .map(|[force_n]| force_n),
+            });
         }
-        match samples.is_empty() {
-            true => Err(RecordedError::NoRows),
-            false => Ok(Self { samples }),
-        }
-    }
-}
-
-/// The columns that a header names.
-fn names(header: &str) -> Result<Vec<&'static str>, RecordedError> {
-    let found: Vec<&str> = header.split(',').collect();
-    let mut expected: Vec<_> = csv::HEADER.split(',').collect();
-    if found.len() > expected.len() {
-        expected.extend(csv::TORQUES.split(',').skip(1));
-    }
-    if found.len() > expected.len() {
-        expected.extend(csv::FORCE.split(',').skip(1));
-    }
-    let at = |names: &[&str], k: usize| names.get(k).copied().map(shortened);
-    let columns = expected.len().max(found.len());
-    match (0..columns).find(|&k| expected.get(k) != found.get(k)) {
-        Some(k) => Err(RecordedError::Header {
-            column: k + 1,
-            expected: at(&expected, k).unwrap_or_else(|| "the end of the line".to_owned()),
-            found: at(&found, k).unwrap_or_else(|| "the end of the line".to_owned()),
-        }),
-        None => Ok(expected),
-    }
-}
-
-/// A row of the table.
-struct Row<'a> {
-    line: usize,
-    names: &'a [&'static str],
-}
-
-impl Row<'_> {
-    fn sample(&self, text: &str) -> Result<RecordedSample, RecordedError> {
-        let found = text.split(',').count();
-        let expected = self.names.len();
-        if found != expected {
-            let line = self.line;
-            return Err(RecordedError::Columns { line, expected, found });
-        }
-        let mut cells = text.split(',').enumerate();
-        let t_s = match cells.next() {
-            Some(cell) => self.number(cell)?,
-            None => return Err(RecordedError::NoRows),
-        };
-        let mut cells = cells.skip(BEFORE_JOINTS - 1);
-        let [q, qd, qdd] = [
-            self.joints(&mut cells)?,
-            self.joints(&mut cells)?,
-            self.joints(&mut cells)?,
-        ];
-        let mut cells = cells.skip(TIP).peekable();
-        let torque = match cells.peek() {
-            Some(_) => Some(self.joints(&mut cells)?),
-            None => None,
-        };
-        let force_n = cells.next().map(|cell| self.number(cell)).transpose()?;
-        Ok(RecordedSample {
-            t_s,
-            q,
-            qd,
-            qdd,
-            torque,
-            force_n,
-        })
-    }
-
-    /// The next six numbers.
-    fn joints<'c>(&self, cells: &mut impl Iterator<Item = (usize, &'c str)>) -> Result<JointVector, RecordedError> {
-        let mut joints = JointVector::zeros();
-        for (joint, cell) in cells.take(AXES).enumerate() {
-            joints[joint] = self.number(cell)?;
-        }
-        Ok(joints)
-    }
-
-    fn number(&self, (index, cell): (usize, &str)) -> Result<f64, RecordedError> {
-        let number = cell.trim().parse::<f64>().ok();
-        number
-            .filter(|number| number.abs() <= GREATEST)
-            .ok_or_else(|| RecordedError::Number {
-                line: self.line,
-                column: index + 1,
-                name: self.names.get(index).copied().unwrap_or_default().to_owned(),
-                found: shortened(cell),
-            })
-    }
-
-    fn check_time(&self, t_s: f64, before: Option<&RecordedSample>) -> Result<(), RecordedError> {
-        let line = self.line;
-        match before {
-            Some(before) if t_s <= before.t_s => {
-                let after_s = before.t_s;
-                Err(RecordedError::Order { line, t_s, after_s })
-            }
-            None if t_s < 0.0 => Err(RecordedError::Early { line, t_s }),
-            _ => Ok(()),
-        }
-    }
-}
-
-/// A cell as a message repeats it: in quotes, printable, and no longer than need be.
-fn shortened(cell: &str) -> String {
-    match cell.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("\"{}…\"", printable(&cell[..end])),
-        None => format!("\"{}\"", printable(cell)),
+        Ok(Self { samples })
     }
 }
 
@@ -303,9 +162,12 @@ mod tests {
             (String::new(), "empty"),
             ("\n\n".to_owned(), "empty"),
             (table(&[], true).trim_end().to_owned() + "\n", "no rows"),
-            (table(&[good()], false), "line 2: 30 columns; the header has 24"),
-            (table(&[row("0", false)], true), "line 2: 24 columns; the header has 30"),
-            (table(&[good(), String::new()], true), "line 3: 1 columns"),
+            (table(&[good()], false), "line 2: found 30 columns; expected 24"),
+            (table(&[row("0", false)], true), "line 2: found 24 columns; expected 30"),
+            (
+                table(&[good(), String::new()], true),
+                "line 3: found 1 column; expected 30",
+            ),
             (
                 table(&[good(), good()], true),
                 "line 3, column 1 (t_s): 0 s must come after 0 s",
@@ -320,7 +182,7 @@ mod tests {
             ),
             (
                 table(&[row("NaN", true)], true),
-                "line 2, column 1 (t_s): expected a number from -1e6 to 1e6, found \"NaN\"",
+                "line 2, column 1 (t_s): expected a number from -1e6 to 1e6, with a point for decimals; found \"NaN\"",
             ),
             (
                 table(&[good().replace(",12,", ",inf,")], true),
@@ -332,24 +194,21 @@ mod tests {
             ),
             (
                 table(&[good().replace(",1,", ",,")], true),
-                "line 2, column 4 (q1_rad): expected a number from -1e6 to 1e6, found \"\"",
+                "line 2, column 4 (q1_rad): expected a number from -1e6 to 1e6, with a point for decimals; found \"\"",
             ),
             (
                 table(&[good()], true).replace("qd3_rad_s,", "qd3_deg_s,"),
-                "line 1, column 12: expected \"qd3_rad_s\", found \"qd3_deg_s\"",
+                "line 1: column \"qd3_deg_s\" is unknown",
             ),
             // An arm of seven joints.
             (
                 table(&[good()], true).replace("q6_rad,", "q6_rad,q7_rad,"),
-                "line 1, column 10: expected \"qd1_rad_s\", found \"q7_rad\"",
+                "line 1: column \"q7_rad\" is unknown",
             ),
-            (
-                "t_s,segment\n".to_owned(),
-                "line 1, column 3: expected \"plate\", found the end of the line",
-            ),
+            ("t_s,segment\n".to_owned(), "line 1: column \"plate\" is missing"),
             (
                 csv::HEADER.to_owned() + csv::TORQUES + ",more\n",
-                "column 31: expected \"force_n\", found \"more\"",
+                "column \"more\" is unknown",
             ),
         ];
         for (text, words) in cases {

@@ -246,7 +246,7 @@ fn a_table_that_is_none_is_refused_with_its_line() {
     };
     says("", &["line 1", "it is empty", "touched_x_mm"]);
     says("# nothing\n\n", &["it is empty"]);
-    says(header, &["line 1", "no points"]);
+    says(header, &["line 1", "no rows"]);
     says("x_m,y_m,z_m\n", &["\"touched_x_mm\" is missing"]);
     says(
         "x_mm,y_m,z_m\n",
@@ -259,16 +259,16 @@ fn a_table_that_is_none_is_refused_with_its_line() {
     );
     says(
         &format!("{header}1,2,3,4,5,6\n\n1,2,,4,5,6\n"),
-        &["line 4, column z_m", "found \"\""],
+        &["line 4, column 3 (z_m)", "found \"\""],
     );
     for bad in ["nan", "inf", "1e999", "0.5m", "\u{1b}[31m"] {
         says(
             &format!("{header}{bad},2,3,4,5,6\n"),
-            &["line 2, column x_m", "finite number"],
+            &["line 2, column 1 (x_m)", "expected a number from"],
         );
     }
     let many = format!("{header}{}", "1,2,3,4,5,6\n".repeat(10_001));
-    says(&many, &["line 10002: more than 10000 points"]);
+    says(&many, &["line 10002: it has more than 10000 rows"]);
 }
 
 #[test]

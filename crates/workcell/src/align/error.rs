@@ -1,6 +1,6 @@
 //! Why points give no mount.
 
-use crate::words::{millimetres, printable};
+use crate::words::millimetres;
 
 /// A unit of length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,77 +104,5 @@ pub enum AlignError {
     UpsideDown {
         /// Angle between both z axes \[°\].
         tilt_deg: f64,
-    },
-}
-
-/// Why a text is no table of points. Lines count from 1.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum TableError {
-    /// No line at all.
-    #[error("line 1: it is empty; expected the header \"{expected}\"")]
-    Empty {
-        /// The header.
-        expected: String,
-    },
-    /// A header without rows.
-    #[error("line {line}: it has a header and no points")]
-    NoRows {
-        /// The header's line.
-        line: usize,
-    },
-    /// Columns that are separated by something else.
-    #[error(
-        "line {line}: columns are separated by {found:?}; expected commas between them, and a point for decimals: \"{expected}\""
-    )]
-    Separator {
-        /// The header's line.
-        line: usize,
-        /// What separates them.
-        found: char,
-        /// The header.
-        expected: String,
-    },
-    /// A column that is missing, unknown or there twice.
-    #[error("line {line}: column \"{}\" is {what}; expected the header \"{expected}\"", printable(.column))]
-    Header {
-        /// The line.
-        line: usize,
-        /// The column.
-        column: String,
-        /// What is wrong with it.
-        what: &'static str,
-        /// The header.
-        expected: String,
-    },
-    /// A row of another length than the header.
-    #[error(
-        "line {line}: found {found} columns; expected {expected}, as the header has; decimals take a point, as commas separate columns"
-    )]
-    Columns {
-        /// The line.
-        line: usize,
-        /// As many as the header has.
-        expected: usize,
-        /// As many as it has.
-        found: usize,
-    },
-    /// A cell that is no finite number.
-    #[error("line {line}, column {column}: expected a finite number, with a point for decimals; found \"{}\"", printable(.found))]
-    Number {
-        /// The line.
-        line: usize,
-        /// The column's name.
-        column: String,
-        /// What stands there.
-        found: String,
-    },
-    /// More rows than are read.
-    #[error("line {line}: more than {most} points")]
-    TooMany {
-        /// The first line that is too many.
-        line: usize,
-        /// How many are read.
-        most: usize,
     },
 }

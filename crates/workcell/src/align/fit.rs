@@ -17,7 +17,7 @@ const BESIDE_M: f64 = 0.005;
 const BESIDE_SHARE: f64 = 0.02;
 
 /// What a coordinate may be at most \[m\]: a drawing in millimetres is refused for that, and not for its size.
-const GREATEST: f64 = 1e3 * GREATEST_M;
+pub(super) const GREATEST: f64 = 1e3 * GREATEST_M;
 
 /// Lengths whose ratio is this near to 1/1000, as a factor, are taken for a slip of units.
 const NEAR: f64 = 2.0;

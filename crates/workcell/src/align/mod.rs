@@ -15,7 +15,7 @@ mod error;
 mod fit;
 mod order;
 mod table;
-pub use error::{AlignError, TableError, Unit};
+pub use error::{AlignError, Unit};
 pub use fit::{Alignment, Touch, align};
 pub use order::fitting_order;
 pub use table::{DrawnPoint, TouchedPoint, drawn_points, touched_points};

@@ -6,6 +6,7 @@
 use super::error::PlanFileError;
 use crate::job::MAX_SEED;
 use crate::json::JsonError;
+use crate::words::shortened;
 use serde::Serialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Number, Value};
@@ -45,10 +46,10 @@ fn compare(at: &str, said: &Value, read: &Value) -> Result<(), PlanFileError> {
         _ if said == read && !said.is_number() => Ok(()),
         _ => Err(PlanFileError::Inexact {
             key: at.to_owned(),
-            found: shortened(said),
+            found: shortened(&said.to_string(), LONGEST),
             read: match read.as_u64() {
                 Some(whole) if whole > MOST_EXACT => format!("a whole number from 0 to {MOST_EXACT} (2^53 − 1)"),
-                _ => shortened(read),
+                _ => shortened(&read.to_string(), LONGEST),
             },
         }),
     }
@@ -83,15 +84,6 @@ fn same(said: &Number, read: &Number) -> bool {
     match read.as_u64() {
         Some(whole) if !said.is_f64() => said.as_u64() == Some(whole) && (whole <= MOST_EXACT),
         _ => said.as_f64() == read.as_f64(),
-    }
-}
-
-/// The beginning of a long value.
-fn shortened(value: &Value) -> String {
-    let text = value.to_string();
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text,
     }
 }
 

@@ -1,0 +1,239 @@
+//! Tables of numbers as text: a header with a unit in each name, then a row a line, commas between columns.
+
+use crate::words::{counted, quoted, shortened, without_mark};
+
+/// Longest text of a cell that a message repeats, in characters.
+const LONGEST: usize = 40;
+
+/// What spreadsheets put between columns elsewhere.
+const OTHER_SEPARATORS: [char; 2] = [';', '\t'];
+
+/// Which columns a table has, and how it is read.
+#[derive(Debug, Clone, Copy)]
+pub struct TableShape<'s> {
+    /// Columns that must be there, in any order.
+    pub required: &'s [&'s str],
+    /// Groups of columns of which all or none are there.
+    pub optional: &'s [&'s [&'s str]],
+    /// What a number may be at most, either way.
+    pub most: f64,
+    /// Most rows that are read.
+    pub most_rows: usize,
+    /// Whether empty lines, and what follows a `#`, are skipped.
+    pub has_comments: bool,
+}
+
+/// Why a text is no such table.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}{}: {reason}", in_column(.column.as_ref()))]
+pub struct TableError {
+    /// The line, from 1.
+    pub line: usize,
+    /// The column, from 1, and its name.
+    pub column: Option<(usize, String)>,
+    /// What is wrong, and what was expected.
+    pub reason: String,
+}
+
+fn in_column(column: Option<&(usize, String)>) -> String {
+    column.map_or_else(String::new, |(number, name)| format!(", column {number} ({name})"))
+}
+
+impl TableError {
+    /// The reason with the column, for messages that name the line themselves.
+    #[must_use]
+    pub fn without_line(&self) -> String {
+        let column = in_column(self.column.as_ref());
+        match column.strip_prefix(", ") {
+            Some(column) => format!("{column}: {}", self.reason),
+            None => self.reason.clone(),
+        }
+    }
+}
+
+/// A table whose header was read.
+#[derive(Debug)]
+pub struct NumberTable<'a> {
+    names: Vec<&'a str>,
+    rows: Vec<(usize, &'a str)>,
+    most: f64,
+}
+
+/// A row of a table.
+#[derive(Debug)]
+pub struct Row<'t> {
+    /// Its line, from 1.
+    pub line: usize,
+    names: &'t [&'t str],
+    cells: Vec<&'t str>,
+    most: f64,
+}
+
+fn refused<T>(line: usize, reason: String) -> Result<T, TableError> {
+    let column = None;
+    Err(TableError { line, column, reason })
+}
+
+impl<'a> NumberTable<'a> {
+    /// Reads the header of a table with at least one row.
+    ///
+    /// # Errors
+    /// [`TableError`] with the line.
+    pub fn read(text: &'a str, shape: &TableShape<'_>) -> Result<Self, TableError> {
+        let lines = (1..)
+            .zip(without_mark(text).lines())
+            .map(|(line, text)| match shape.has_comments {
+                true => (line, text.split('#').next().unwrap_or_default()),
+                false => (line, text),
+            });
+        let mut lines = lines.filter(|(_, text)| !(shape.has_comments && text.trim().is_empty()));
+        let expected = shape.required.join(",");
+        let (header_line, header) = lines.next().unwrap_or((1, ""));
+        if header.trim().is_empty() {
+            return refused(header_line, format!("it is empty; expected the header \"{expected}\""));
+        }
+        if let Some(found) = OTHER_SEPARATORS.into_iter().find(|other| header.contains(*other)) {
+            let reason = format!(
+                "columns are separated by {found:?}; expected commas between them, and a point for decimals: \"{expected}\""
+            );
+            return refused(header_line, reason);
+        }
+        let names: Vec<&str> = header.split(',').map(str::trim).collect();
+        let wrong = |column: &str, what: &str| {
+            let column = quoted(&shortened(column, LONGEST));
+            refused(
+                header_line,
+                format!("column {column} is {what}; expected the header \"{expected}\""),
+            )
+        };
+        for (k, column) in names.iter().enumerate() {
+            if !shape.required.contains(column) && !shape.optional.iter().any(|group| group.contains(column)) {
+                return wrong(column, "unknown");
+            }
+            if names[..k].contains(column) {
+                return wrong(column, "there twice");
+            }
+        }
+        let is_there = |column: &&&str| names.contains(*column);
+        let begun = shape
+            .optional
+            .iter()
+            .filter(|group| group.iter().any(|column| is_there(&column)));
+        let missing = [shape.required]
+            .iter()
+            .chain(begun)
+            .flat_map(|group| group.iter())
+            .find(|column| !is_there(column));
+        if let Some(missing) = missing {
+            return wrong(missing, "missing");
+        }
+        let rows: Vec<_> = lines.take(shape.most_rows + 1).collect();
+        match rows
+            .get(shape.most_rows)
+            .or(rows.is_empty().then_some(&(header_line, "")))
+        {
+            Some((line, _)) if rows.is_empty() => refused(*line, "it has a header and no rows".to_owned()),
+            Some((line, _)) => refused(
+                *line,
+                format!(
+                    "it has more than {}, the most that are read",
+                    counted(shape.most_rows, "row")
+                ),
+            ),
+            None => Ok(Self {
+                names,
+                rows,
+                most: shape.most,
+            }),
+        }
+    }
+
+    /// Where columns are; `None` unless all of them are there.
+    #[must_use]
+    pub fn places<const N: usize>(&self, names: &[&str; N]) -> Option<[usize; N]> {
+        let places: Option<Vec<usize>> = names
+            .iter()
+            .map(|name| self.names.iter().position(|other| other == name))
+            .collect();
+        places?.try_into().ok()
+    }
+
+    /// The rows, each with as many cells as the header.
+    pub fn rows(&self) -> impl Iterator<Item = Result<Row<'_>, TableError>> {
+        self.rows.iter().map(|(line, text)| {
+            let cells: Vec<&str> = text.split(',').map(str::trim).collect();
+            let (found, expected) = (cells.len(), self.names.len());
+            if found != expected {
+                let found = counted(found, "column");
+                let reason =
+                    format!("found {found}; expected {expected}, as the header has; decimals take a point, as commas separate columns");
+                return refused(*line, reason);
+            }
+            Ok(Row {
+                line: *line,
+                names: &self.names,
+                cells,
+                most: self.most,
+            })
+        })
+    }
+}
+
+impl Row<'_> {
+    /// The text of a cell.
+    #[must_use]
+    pub fn text(&self, place: usize) -> &str {
+        self.cells.get(place).copied().unwrap_or_default()
+    }
+
+    /// Numbers of columns.
+    ///
+    /// # Errors
+    /// [`TableError`] for a cell that is no number within the bounds.
+    pub fn numbers<const N: usize>(&self, places: [usize; N]) -> Result<[f64; N], TableError> {
+        let mut numbers = [0.0; N];
+        for (number, place) in numbers.iter_mut().zip(places) {
+            // Rust reads "inf" and "nan", too.
+            match self.text(place).parse::<f64>() {
+                Ok(found) if found.abs() <= self.most => *number = found,
+                _ => {
+                    let (most, found) = (self.most, quoted(&shortened(self.text(place), LONGEST)));
+                    return self.refused(
+                        place,
+                        format!(
+                            "expected a number from -{most:e} to {most:e}, with a point for decimals; found {found}"
+                        ),
+                    );
+                }
+            }
+        }
+        Ok(numbers)
+    }
+
+    /// That a cell is refused.
+    ///
+    /// # Errors
+    /// [`TableError`], always.
+    pub fn refused<T>(&self, place: usize, reason: String) -> Result<T, TableError> {
+        let name = self.names.get(place).copied().unwrap_or_default().to_owned();
+        Err(TableError {
+            line: self.line,
+            column: Some((place + 1, name)),
+            reason,
+        })
+    }
+
+    /// That the row's time is not after the one of the row before.
+    ///
+    /// # Errors
+    /// [`TableError`] where it is not.
+    pub fn check_after(&self, place: usize, t_s: f64, before_s: Option<f64>) -> Result<(), TableError> {
+        match before_s {
+            Some(before_s) if t_s <= before_s => self.refused(
+                place,
+                format!("{t_s} s must come after {before_s} s, the time of the row before"),
+            ),
+            _ => Ok(()),
+        }
+    }
+}
