@@ -4,6 +4,8 @@ use super::change::Change;
 use super::steps::{self, Step};
 use crate::file::ProgramFile;
 use crate::reading::Reading;
+use crate::tokens::number_length;
+use platewash_workcell::words::shortened;
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 use std::collections::HashMap;
 
@@ -162,30 +164,9 @@ fn plain(text: &str) -> String {
     plain
 }
 
-/// How many bytes at the beginning of a text are a number without a sign.
-fn number_length(text: &str) -> usize {
-    let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
-    let mut length = digits(0);
-    if text[length..].starts_with('.') {
-        length += 1 + digits(length + 1);
-    }
-    if text[length..].starts_with(['e', 'E']) {
-        let sign = usize::from(text[length + 1..].starts_with(['+', '-']));
-        let exponent = digits(length + 1 + sign);
-        if exponent > 0 {
-            length += 1 + sign + exponent;
-        }
-    }
-    length
-}
-
 /// A line as it is told: without spaces around it, and not too long.
 fn told(text: &str) -> String {
-    let text = text.trim();
-    match text.char_indices().nth(TOLD) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text.to_owned(),
-    }
+    shortened(text.trim(), TOLD)
 }
 
 #[cfg(test)]

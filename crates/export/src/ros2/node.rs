@@ -1,7 +1,7 @@
 //! YAML as a tree with lines, strictly and within bounds: what a message needs, and nothing else of the language.
 
 use super::language::Language;
-use platewash_workcell::words::quoted;
+use platewash_workcell::words::{quoted, shortened};
 use saphyr_parser::{Event, Parser, ScalarStyle, Span};
 use std::borrow::Cow;
 
@@ -65,21 +65,18 @@ impl Kind<'_> {
     /// In words, for messages.
     pub(super) fn told(&self) -> String {
         match self {
-            Self::Plain(text) | Self::OfJson(text) => shortened(text),
-            Self::Quoted(text) => format!("the text {}", quoted(&shortened(text))),
+            Self::Plain(text) | Self::OfJson(text) => told(text),
+            Self::Quoted(text) => format!("the text {}", quoted(&told(text))),
             Self::List(_) => "a list".to_owned(),
             Self::Table(_) => "a table".to_owned(),
         }
     }
 }
 
-fn shortened(text: &str) -> String {
-    if text.is_empty() {
-        return "nothing".to_owned();
-    }
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text.to_owned(),
+fn told(text: &str) -> String {
+    match text {
+        "" => "nothing".to_owned(),
+        text => shortened(text, LONGEST),
     }
 }
 
@@ -212,7 +209,7 @@ impl<'a> Events<'a> {
             if all.iter().any(|entry| entry.key == key) {
                 return Err(Fault::new(
                     line,
-                    format!("the key {} stands twice", quoted(&shortened(&key))),
+                    format!("the key {} stands twice", quoted(&told(&key))),
                 ));
             }
             let event = self.next()?;
