@@ -269,6 +269,13 @@ fn faults_are_refused_with_their_line() {
         (
             28,
             "set_digital_out(1, True)",
+            "def textmsg():\n  end",
+            28,
+            "an instruction of the controller",
+        ),
+        (
+            28,
+            "set_digital_out(1, True)",
             "def go():\n  end",
             28,
             "`go` is given twice",

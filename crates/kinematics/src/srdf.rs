@@ -2,7 +2,6 @@
 //! MoveIt's set-up assistant writes).
 
 use crate::sha256_hex;
-use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 use std::collections::{BTreeMap, BTreeSet};
@@ -65,11 +64,11 @@ impl DisabledPairs {
             let event = reader.read_event().map_err(|e| xml(position, &e))?;
             match &event {
                 Event::Start(tag) | Event::Empty(tag) => {
-                    if !root_seen && tag.name().as_ref() != "robot" {
+                    if !root_seen && tag.name().as_ref() != b"robot" {
                         return Err(not_a_robot(tag));
                     }
                     root_seen = true;
-                    if tag.name().as_ref() == "disable_collisions" {
+                    if tag.name().as_ref() == b"disable_collisions" {
                         let [a, b] = [attribute(tag, "link1", position)?, attribute(tag, "link2", position)?];
                         pairs.entry(a).or_default().insert(b);
                     }
@@ -122,7 +121,7 @@ fn xml(position: u64, detail: &dyn std::fmt::Display) -> SrdfError {
 }
 
 fn not_a_robot(tag: &BytesStart<'_>) -> SrdfError {
-    let found = format!("<{}>", tag.name().as_ref());
+    let found = format!("<{}>", String::from_utf8_lossy(tag.name().as_ref()));
     SrdfError::NotARobot { found }
 }
 
@@ -132,7 +131,7 @@ fn attribute(tag: &BytesStart<'_>, name: &'static str, position: u64) -> Result<
         attribute: name,
     };
     let found = tag.try_get_attribute(name).map_err(|e| xml(position, &e))?;
-    let value = found.ok_or(missing)?.normalized_value(XmlVersion::Implicit1_0);
+    let value = found.ok_or(missing)?.unescape_value();
     Ok(value.map_err(|e| xml(position, &e))?.into_owned())
 }
 

@@ -179,6 +179,9 @@ impl<'a> Run<'a> {
                         self.line = line.number;
                         return Err(self.refused("in functions, only instructions are read: write out what moves"));
                     }
+                    if Controller::parameters(name).is_some() {
+                        return Err(self.refused(format!("`{name}` is an instruction of the controller")));
+                    }
                     if self.functions.insert(name, &rest[..end]).is_some() || self.globals.contains_key(name) {
                         return Err(self.refused(format!("`{name}` is given twice")));
                     }

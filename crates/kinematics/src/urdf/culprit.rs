@@ -38,9 +38,9 @@ pub(super) fn find(text: &str) -> Option<String> {
 }
 
 fn name(tag: &BytesStart<'_>) -> String {
-    let element = tag.name().as_ref().to_owned();
+    let element = String::from_utf8_lossy(tag.name().into_inner()).into_owned();
     match tag.try_get_attribute("name") {
-        Ok(Some(name)) => format!("{element} '{}'", name.value),
+        Ok(Some(name)) => format!("{element} '{}'", String::from_utf8_lossy(&name.value)),
         _ => format!("a <{element}> without a name"),
     }
 }

@@ -79,7 +79,7 @@ impl<'a> Scan<'a> {
                 self.open.pop();
                 Ok(())
             }
-            Event::Text(text) if self.open.is_empty() && !blank(text) => Err(self.stray()),
+            Event::Text(text) if self.open.is_empty() && !blank(&String::from_utf8_lossy(text)) => Err(self.stray()),
             Event::CData(_) | Event::GeneralRef(_) if self.open.is_empty() => Err(self.stray()),
             _ => Ok(()),
         }
@@ -87,7 +87,7 @@ impl<'a> Scan<'a> {
 
     /// Checks an element's name, place and attributes; returns the name.
     fn element(&mut self, tag: &BytesStart<'_>) -> Result<String, UrdfError> {
-        let name = tag.name().as_ref().to_owned();
+        let name = String::from_utf8_lossy(tag.name().as_ref()).into_owned();
         if name.starts_with("xacro:") {
             return Err(UrdfError::Xacro {
                 tag: name,
@@ -96,7 +96,7 @@ impl<'a> Scan<'a> {
         }
         for attribute in tag.attributes() {
             let attribute = attribute.map_err(|e| self.xml(&without_position(&e.to_string())))?;
-            if WITH_VECTORS.contains(&name.as_str()) && VECTORS.contains(&attribute.key.as_ref()) {
+            if WITH_VECTORS.contains(&name.as_str()) && VECTORS.iter().any(|vector| vector.as_bytes() == attribute.key.as_ref()) {
                 self.numbers(&name, &attribute)?;
             }
         }
@@ -113,11 +113,12 @@ impl<'a> Scan<'a> {
     }
 
     fn numbers(&self, element: &str, attribute: &Attribute<'_>) -> Result<(), UrdfError> {
-        match attribute.value.split_whitespace().find(|v| v.parse::<f64>().is_err()) {
+        let value = String::from_utf8_lossy(&attribute.value);
+        match value.split_whitespace().find(|v| v.parse::<f64>().is_err()) {
             None => Ok(()),
             Some(word) => Err(UrdfError::Syntax {
                 at: format!("<{element}> (line {})", self.line()),
-                detail: format!("'{word}' in {} is not a number", attribute.key.as_ref()),
+                detail: format!("'{word}' in {} is not a number", String::from_utf8_lossy(attribute.key.as_ref())),
             }),
         }
     }
