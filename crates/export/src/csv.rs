@@ -11,7 +11,7 @@ use crate::reading::{Between, ReadPoint, Reading};
 use crate::refusal::Refusal;
 use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
-use platewash_workcell::csv::MAX_ROWS;
+use platewash_workcell::csv::{MAX_ROWS, STATE};
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
 
@@ -28,15 +28,8 @@ const GREATEST: f64 = 1e6;
 const TIME_S: f64 = 1e-6;
 
 const TIMES: [&str; 2] = ["t_s", "plan_t_s"];
-const POSITIONS: [&str; AXES] = ["q1_rad", "q2_rad", "q3_rad", "q4_rad", "q5_rad", "q6_rad"];
-const SPEEDS: [&str; AXES] = [
-    "qd1_rad_s",
-    "qd2_rad_s",
-    "qd3_rad_s",
-    "qd4_rad_s",
-    "qd5_rad_s",
-    "qd6_rad_s",
-];
+const POSITIONS: [&str; AXES] = STATE[0];
+const SPEEDS: [&str; AXES] = STATE[1];
 
 /// The dialect of tables.
 #[derive(Debug, Clone, Copy)]

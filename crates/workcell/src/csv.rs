@@ -56,6 +56,27 @@ pub fn check_step(duration_s: f64, dt_s: f64) -> Result<(), CsvError> {
     Err(CsvError::Step { dt_s, duration_s })
 }
 
+/// Columns of joint positions, speeds and accelerations.
+pub const STATE: [[&str; 6]; 3] = [
+    ["q1_rad", "q2_rad", "q3_rad", "q4_rad", "q5_rad", "q6_rad"],
+    [
+        "qd1_rad_s",
+        "qd2_rad_s",
+        "qd3_rad_s",
+        "qd4_rad_s",
+        "qd5_rad_s",
+        "qd6_rad_s",
+    ],
+    [
+        "qdd1_rad_s2",
+        "qdd2_rad_s2",
+        "qdd3_rad_s2",
+        "qdd4_rad_s2",
+        "qdd5_rad_s2",
+        "qdd6_rad_s2",
+    ],
+];
+
 /// The header line.
 pub const HEADER: &str = "t_s,segment,plate,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad,\
 qd1_rad_s,qd2_rad_s,qd3_rad_s,qd4_rad_s,qd5_rad_s,qd6_rad_s,\

@@ -10,27 +10,8 @@ use platewash_kinematics::JointVector;
 /// What a number may be at most \[rad, rad/s, rad/s², N·m, s\]; beyond it the file is in other units, or no motion.
 const GREATEST: f64 = 1e6;
 
-/// Columns of the time; of positions, speeds and accelerations; of torques; of the force.
+/// Columns of the time; of torques; of the force.
 const TIME: [&str; 1] = ["t_s"];
-const STATE: [[&str; 6]; 3] = [
-    ["q1_rad", "q2_rad", "q3_rad", "q4_rad", "q5_rad", "q6_rad"],
-    [
-        "qd1_rad_s",
-        "qd2_rad_s",
-        "qd3_rad_s",
-        "qd4_rad_s",
-        "qd5_rad_s",
-        "qd6_rad_s",
-    ],
-    [
-        "qdd1_rad_s2",
-        "qdd2_rad_s2",
-        "qdd3_rad_s2",
-        "qdd4_rad_s2",
-        "qdd5_rad_s2",
-        "qdd6_rad_s2",
-    ],
-];
 const TORQUE: [&str; 6] = ["tau1_n_m", "tau2_n_m", "tau3_n_m", "tau4_n_m", "tau5_n_m", "tau6_n_m"];
 const FORCE: [&str; 1] = ["force_n"];
 
@@ -78,7 +59,7 @@ impl RecordedMotion {
         let (time, force) = (table.places(&TIME), table.places(&FORCE));
         // Required columns are there.
         let time = time.unwrap_or_default();
-        let [q, qd, qdd] = STATE.map(|names| table.places(&names).unwrap_or_default());
+        let [q, qd, qdd] = csv::STATE.map(|names| table.places(&names).unwrap_or_default());
         let torque = table.places(&TORQUE);
         let mut samples: Vec<RecordedSample> = Vec::new();
         for row in table.rows() {

@@ -96,7 +96,9 @@ impl<'a> Scan<'a> {
         }
         for attribute in tag.attributes() {
             let attribute = attribute.map_err(|e| self.xml(&without_position(&e.to_string())))?;
-            if WITH_VECTORS.contains(&name.as_str()) && VECTORS.iter().any(|vector| vector.as_bytes() == attribute.key.as_ref()) {
+            if WITH_VECTORS.contains(&name.as_str())
+                && VECTORS.iter().any(|vector| vector.as_bytes() == attribute.key.as_ref())
+            {
                 self.numbers(&name, &attribute)?;
             }
         }
@@ -118,7 +120,10 @@ impl<'a> Scan<'a> {
             None => Ok(()),
             Some(word) => Err(UrdfError::Syntax {
                 at: format!("<{element}> (line {})", self.line()),
-                detail: format!("'{word}' in {} is not a number", String::from_utf8_lossy(attribute.key.as_ref())),
+                detail: format!(
+                    "'{word}' in {} is not a number",
+                    String::from_utf8_lossy(attribute.key.as_ref())
+                ),
             }),
         }
     }
