@@ -90,7 +90,7 @@ fn it_is_proved_and_never_reads_as_a_washing() {
     assert_eq!(certificate.headline, not_compared);
     assert_eq!(certificate.plates_washed(), 0);
     assert_eq!(certificate.check(Requirement::DryRun).unwrap().status, Status::Proved);
-    let table = certificate.to_string();
+    let table = format!("{certificate:#}");
     assert!(
         table.contains("would be swept, at least") && table.contains(hash.as_str()),
         "{table}"

@@ -135,7 +135,7 @@ fn it_is_compared_with_the_plan_that_it_is_one_of() {
         .collect();
     assert!(keys.iter().any(|key| key.contains("wash_paths[0]")), "{keys:?}");
     // What is no dry run has no parent, and what cannot be a parent is none.
-    platewash(dir, &["verify", "out/plan.json", "--parent", "out/plan.json"]).refused(2, &["it is no dry run"]);
+    platewash(dir, &["verify", "out/plan.json", "--parent", "out/plan.json"]).refused(2, &["it is not a dry run"]);
     verify(&["out/dry-run/plan.json"]).refused(2, &["is itself a dry run"]);
     verify(&["none.json"]).refused(2, &["none.json"]);
     edited(dir, "\"coverage\":0.995", "\"coverage\":0.5");

@@ -1,14 +1,11 @@
 //! A value of a file or of an edit: as JSON, in words.
 
-use platewash_workcell::words::{quoted, shortened};
+use platewash_workcell::words::quoted;
 use serde_json::{Number, Value};
 use toml::de::DeValue;
 
 /// Elements of a list that are named.
 const FEW: usize = 8;
-
-/// Most characters of a text that are quoted.
-const LONGEST: usize = 200;
 
 /// A value of a file as JSON. What JSON does not know (NaN, infinity, dates, sections) is null, as are whole numbers of more than 64 bits:
 /// no key takes them.
@@ -29,7 +26,7 @@ pub(crate) fn json_of(value: &DeValue<'_>) -> Value {
 /// A value of a file, in words.
 pub(crate) fn describe(value: &DeValue<'_>) -> String {
     match value {
-        DeValue::String(text) => quoted(&shortened(text, LONGEST)),
+        DeValue::String(text) => quoted(text),
         DeValue::Integer(integer) => integer.to_string(),
         DeValue::Float(float) => float.to_string(),
         DeValue::Boolean(boolean) => boolean.to_string(),
@@ -45,7 +42,7 @@ pub(crate) fn describe_json(value: &Value) -> String {
         Value::Null => "nothing".to_owned(),
         Value::Bool(boolean) => boolean.to_string(),
         Value::Number(number) => number.to_string(),
-        Value::String(text) => quoted(&shortened(text, LONGEST)),
+        Value::String(text) => quoted(text),
         Value::Array(array) => list(array.iter().map(describe_json)),
         Value::Object(_) => "a section".to_owned(),
     }

@@ -134,7 +134,7 @@ fn values_are_refused_in_the_words_of_files() {
         (json!([[0.1, null]]), "found [[0.1, nothing]]"),
         (json!({"a": 1}), "found a section"),
         (json!(vec![[0.1, 0.2]; 1001]), "[0.1, 0.2], …]"),
-        (json!("x".repeat(1 << 20)), "…\""),
+        (json!("x".repeat(1 << 20)), "x\"… (1048576 characters)"),
     ] {
         let message = refused("[layout]\n", "layout.positions_m", value).to_string();
         assert!(message.contains(words) && message.len() < 1000, "{message}");

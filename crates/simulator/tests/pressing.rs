@@ -45,7 +45,7 @@ fn the_planned_force_is_that_of_the_foundation_at_every_height() {
         }
         assert!(pressing.contact.is_none(), "this job asks for none");
     }
-    let text = report.to_string();
+    let text = format!("{report:#}");
     assert!(
         text.contains("planned N, plate higher")
             && text.contains("20 kPa")
@@ -240,7 +240,7 @@ fn laws_without_a_plant_have_no_force() {
     let (execution, report) = judged(&under(ControlLawName::Exact, 30.0, foam(2e4)));
     assert!(execution.samples.iter().all(|sample| sample.felt.is_none()));
     assert!(report.plates.iter().all(|plate| plate.pressing.is_none()));
-    assert!(report.to_string().contains("force on plates: not simulated"));
+    assert!(format!("{report:#}").contains("force on plates: not simulated"));
 }
 
 /// A plate that lies 4 mm lower than the arm thinks is hardly touched; what was in contact is measured by what the job asks for.
