@@ -70,6 +70,11 @@ impl WashReport {
     }
 }
 
+/// The pattern of a wash, and where the sponge's axis points.
+fn how(visit: &VisitSummary, certificate: &Certificate) -> String {
+    format!("{}, {}", visit.pattern(), leaning(visit, certificate))
+}
+
 /// Where the sponge's axis points while a plate is washed. On a face that is not flat it takes a share of the slope, and what is proved of
 /// its angle from the normal is told; what it leans besides, only where it does.
 fn leaning(visit: &VisitSummary, certificate: &Certificate) -> String {
@@ -125,7 +130,7 @@ impl WashReport {
         writeln!(f, "{:<12} {:>9} {:>9}  how", "motion, s", "transit", "wash")?;
         for (transit, visit) in self.transits.iter().zip(&self.visits) {
             let (name, transit_s) = (format!("plate {}", visit.plate), transit.duration_s);
-            let how = format!("{}, {}", visit.pattern(), leaning(visit, &self.certificate));
+            let how = how(visit, &self.certificate);
             writeln!(f, "{name:<12} {transit_s:>9.2} {:>9.2}  {how}", visit.wash_s)?;
         }
         if let Some(transit) = self.transits.get(self.visits.len()) {
@@ -155,7 +160,7 @@ impl WashReport {
             writeln!(f, "{name:<24} {:>9.2}  {}", transit.duration_s, transit.kind)?;
             if let Some(visit) = self.visits.get(k) {
                 let name = format!("wash plate {}", visit.plate);
-                let how = format!("{}, {}", visit.pattern(), leaning(visit, &self.certificate));
+                let how = how(visit, &self.certificate);
                 writeln!(f, "{name:<24} {:>9.2}  {how}", visit.wash_s)?;
                 writeln!(f, "{:<24} {:>9}  {}", "", "", visit.pace)?;
             }

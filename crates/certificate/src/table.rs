@@ -12,18 +12,11 @@ use platewash_kinematics::words::{decimals_down, decimals_up, percent, told_apar
 use platewash_workcell::words::{printable, quoted};
 use std::fmt;
 
-/// The requirements that the short report always shows; of a dry run the first [`IN_AIR`] ones, as it presses nothing.
-const SHORT: [Requirement; 6] = [
-    Requirement::JointSpeed,
-    Requirement::TipSpeed,
-    Requirement::Clearance,
-    Requirement::Swept,
-    Requirement::Pressed,
-    Requirement::ContactForce,
-];
+/// The requirements that the short report always shows.
+const MAIN: [Requirement; 3] = [Requirement::JointSpeed, Requirement::TipSpeed, Requirement::Clearance];
 
-/// How many of [`SHORT`] mean something in the air.
-const IN_AIR: usize = 3;
+/// Those that it shows of a washing besides: a dry run washes nothing.
+const OF_WASHING: [Requirement; 3] = [Requirement::Swept, Requirement::Pressed, Requirement::ContactForce];
 
 /// How the table of a dry run is to be read.
 const IN_THE_AIR: &str = "dry run: \"plate 0\" is the raised plate, where nothing is; the plate on the table is the obstacle \"real plate 0\"";
@@ -65,20 +58,16 @@ impl Certificate {
         }
         writeln!(f, "{kept} of {} requirements proved, the main ones:", self.checks.len())?;
         self.head_of_checks(f)?;
-        let main = match self.rests_on.dry_run {
-            Some(_) => &SHORT[..IN_AIR],
-            None => &SHORT[..],
-        };
-        let is_shown = |check: &&Check| check.status != Status::Proved || main.contains(&check.requirement);
+        let washes = self.rests_on.dry_run.is_none();
+        let is_main = |which: &Requirement| MAIN.contains(which) || (washes && OF_WASHING.contains(which));
+        let is_shown = |check: &&Check| check.status != Status::Proved || is_main(&check.requirement);
         self.checks
             .iter()
             .filter(is_shown)
             .try_for_each(|check| row(f, check))?;
         writeln!(f, "\nassumed, not proved")?;
-        let assumptions = self.rests_on.assumptions.iter();
-        assumptions
-            .into_iter()
-            .try_for_each(|what| writeln!(f, "  {}", printable(what)))
+        let mut assumptions = self.rests_on.assumptions.iter();
+        assumptions.try_for_each(|what| writeln!(f, "  {}", printable(what)))
     }
 
     /// Writes every bound: requirements, plates and pairs of bodies.

@@ -13,7 +13,7 @@ use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::csv::{MAX_ROWS, STATE};
 use platewash_workcell::job::JobTerms;
-use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
+use platewash_workcell::number_table::{NumberTable, TableError, TableShape};
 
 /// Time between two rows \[s\]: a control cycle of common controllers.
 const STEP_S: f64 = 0.004;
@@ -168,12 +168,12 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
     let (plan_time, speeds) = (table.places(&[TIMES[1]]), table.places(&SPEEDS));
     let mut points: Vec<ReadPoint> = Vec::new();
     let mut plan_times = Vec::new();
-    let rows = table.rows().collect::<Result<Vec<_>, _>>()?;
     let (time, positions) = (
         table.places(&[TIMES[0]]).unwrap_or_default(),
         table.places(&POSITIONS).unwrap_or_default(),
     );
-    for row in &rows {
+    for row in table.rows() {
+        let row = row?;
         let [t_s] = row.numbers(time)?;
         row.check_after(time[0], t_s, points.last().map(|point| point.t_s))?;
         if points.is_empty() && t_s != 0.0 {
@@ -198,15 +198,15 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
         });
     }
     let [_, .., last] = &mut points[..] else {
-        let (line, column) = (rows.last().map_or(1, |row| row.line), None);
-        let reason = format!("expected two rows at least, found {}", rows.len());
+        let (line, column) = (points.last().map_or(1, |point| point.place.line), None);
+        let reason = format!("expected two rows at least, found {}", points.len());
         return Err(TableError { line, column, reason });
     };
     if speeds.is_none() {
         last.corner_m = None;
     }
     let speed_share = plan_time
-        .map(|[place]| share(&rows, place, (&points, &plan_times)))
+        .map(|[place]| share(&table, place, (&points, &plan_times)))
         .transpose()?;
     Ok(Reading {
         speed_share,
@@ -222,21 +222,26 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
 }
 
 /// The share of the plan's speed: the same in every row.
-fn share(rows: &[Row<'_>], place: usize, (points, plan_times): (&[ReadPoint], &[f64])) -> Result<f64, TableError> {
-    let ([.., row], [.., last], [.., plan_last]) = (rows, points, plan_times) else {
+fn share(
+    table: &NumberTable<'_>,
+    place: usize,
+    (points, plan_times): (&[ReadPoint], &[f64]),
+) -> Result<f64, TableError> {
+    let ([.., last], [.., plan_last]) = (points, plan_times) else {
         return Ok(1.0);
     };
+    let refused = |point: &ReadPoint, reason| table.refused(point.place.line, place, reason);
     let share = plan_last / last.t_s;
     if !(share > 0.0 && *plan_last <= last.t_s) {
         let reason = format!("expected above 0 and at most t_s, {} s, found {plan_last}", last.t_s);
-        return row.refused(place, reason);
+        return refused(last, reason);
     }
-    for ((row, point), plan_t_s) in rows.iter().zip(points).zip(plan_times) {
+    for (point, plan_t_s) in points.iter().zip(plan_times) {
         let expected = share * point.t_s;
         if (plan_t_s - expected).abs() > TIME_S {
             let expected = fixed(expected, DECIMALS);
-            return row.refused(
-                place,
+            return refused(
+                point,
                 format!("expected {expected}, the last row's share of t_s, found {plan_t_s}"),
             );
         }

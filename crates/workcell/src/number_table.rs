@@ -74,6 +74,12 @@ fn refused<T>(line: usize, reason: String) -> Result<T, TableError> {
     Err(TableError { line, column, reason })
 }
 
+fn in_cell<T>(names: &[&str], line: usize, place: usize, reason: String) -> Result<T, TableError> {
+    let name = names.get(place).copied().unwrap_or_default().to_owned();
+    let column = Some((place + 1, name));
+    Err(TableError { line, column, reason })
+}
+
 impl<'a> NumberTable<'a> {
     /// Reads the header of a table with at least one row.
     ///
@@ -158,6 +164,14 @@ impl<'a> NumberTable<'a> {
         places?.try_into().ok()
     }
 
+    /// That a cell of a line is refused.
+    ///
+    /// # Errors
+    /// [`TableError`], always.
+    pub fn refused<T>(&self, line: usize, place: usize, reason: String) -> Result<T, TableError> {
+        in_cell(&self.names, line, place, reason)
+    }
+
     /// The rows, each with as many cells as the header.
     pub fn rows(&self) -> impl Iterator<Item = Result<Row<'_>, TableError>> {
         self.rows.iter().map(|(line, text)| {
@@ -215,12 +229,7 @@ impl Row<'_> {
     /// # Errors
     /// [`TableError`], always.
     pub fn refused<T>(&self, place: usize, reason: String) -> Result<T, TableError> {
-        let name = self.names.get(place).copied().unwrap_or_default().to_owned();
-        Err(TableError {
-            line: self.line,
-            column: Some((place + 1, name)),
-            reason,
-        })
+        in_cell(self.names, self.line, place, reason)
     }
 
     /// That the row's time is not after the one of the row before.

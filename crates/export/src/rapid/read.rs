@@ -112,12 +112,11 @@ fn check_blocks(found: &Modules) -> Result<(), ReadError> {
         let Some(procedure) = found.procedures.get(key) else {
             continue;
         };
-        let tokens = |procedure: &Procedure| {
-            let [parameters, body] = [&procedure.parameters, &procedure.body].map(Clone::clone);
-            [parameters, body].concat()
-        };
-        let (found, expected) = (tokens(procedure), tokens(expected));
-        let same = |(a, b): &(&Placed, &Placed)| a.token.is_same(&b.token);
+        let [found, expected] = [procedure, expected].map(|procedure| {
+            let tokens = procedure.parameters.iter().chain(&procedure.body);
+            tokens.collect::<Vec<_>>()
+        });
+        let same = |(a, b): &(&&Placed, &&Placed)| a.token.is_same(&b.token);
         let same = found.iter().zip(&expected).take_while(same).count();
         if same < found.len().max(expected.len()) {
             let line = found
@@ -200,18 +199,18 @@ impl Modules {
     }
 
     fn motion(&self, cursor: &mut Cursor<'_>) -> Result<Statement, ReadError> {
-        self.options(cursor, |cursor, _| Err(cursor.expected("a target")))?;
+        options(cursor, |cursor, _| Err(cursor.expected("a target")))?;
         let at = cursor.clone();
         let (target, declared) = self.named(cursor, "jointtarget")?;
         let q_rad = values::target(&target).map_err(|reason| at.refused(reason))?;
-        self.options(cursor, |cursor, option| match option {
+        options(cursor, |cursor, option| match option {
             "noeoffs" => Ok(()),
             _ => Err(cursor.expected("\\NoEOffs or `,` after the target")),
         })?;
         cursor.sign(",")?;
         self.speed(cursor)?;
         let mut times = Vec::new();
-        self.options(cursor, |cursor, option| match option {
+        options(cursor, |cursor, option| match option {
             "t" => {
                 cursor.sign(":=")?;
                 times.push(time(cursor)?);
@@ -221,12 +220,12 @@ impl Modules {
         })?;
         cursor.sign(",")?;
         let corner_m = self.corner(cursor)?;
-        self.options(cursor, |cursor, _| Err(cursor.expected("`,` after the zone")))?;
+        options(cursor, |cursor, _| Err(cursor.expected("`,` after the zone")))?;
         cursor.sign(",")?;
         let at = cursor.clone();
         let tool = self.tool(cursor)?;
         let tool = values::tool(&tool).map_err(|reason| at.refused(reason))?;
-        self.options(cursor, |cursor, option| match option {
+        options(cursor, |cursor, option| match option {
             "wobj" => {
                 cursor.sign(":=")?;
                 match cursor.takes("wobj0") {
@@ -248,22 +247,6 @@ impl Modules {
             corner_m,
             tool,
         })))
-    }
-
-    /// Options `\NAME` as far as they go, each handed to `read`.
-    fn options<'a>(
-        &self,
-        cursor: &mut Cursor<'a>,
-        mut read: impl FnMut(&mut Cursor<'a>, &str) -> Result<(), ReadError>,
-    ) -> Result<(), ReadError> {
-        while cursor.takes_sign("\\") {
-            let name = cursor.word("an option")?;
-            if let Some((option, why)) = REFUSED.iter().find(|(option, _)| option.eq_ignore_ascii_case(&name)) {
-                return Err(cursor.refused(format!("\\{option} {why}: it is not read")));
-            }
-            read(cursor, &name.to_ascii_lowercase())?;
-        }
-        Ok(())
     }
 
     /// Declared data of a type by their name, or a literal; and where it is declared.
@@ -328,6 +311,21 @@ impl Modules {
             _ => None,
         }
     }
+}
+
+/// Options `\NAME` as far as they go, each handed to `read`.
+fn options<'a>(
+    cursor: &mut Cursor<'a>,
+    mut read: impl FnMut(&mut Cursor<'a>, &str) -> Result<(), ReadError>,
+) -> Result<(), ReadError> {
+    while cursor.takes_sign("\\") {
+        let name = cursor.word("an option")?;
+        if let Some((option, why)) = REFUSED.iter().find(|(option, _)| option.eq_ignore_ascii_case(&name)) {
+            return Err(cursor.refused(format!("\\{option} {why}: it is not read")));
+        }
+        read(cursor, &name.to_ascii_lowercase())?;
+    }
+    Ok(())
 }
 
 /// A time: a number, which may be divided by the share of the run.

@@ -138,11 +138,10 @@ fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoi
             Some(_) => {}
         }
         before_ns = Some(time_ns);
-        let [by_position, by_velocity, no_acceleration, no_effort] = [CONTROLLER, PROOF, PROOF, CONTROLLER];
-        let positions = row(&point, "positions", AXES, by_position)?;
-        let velocities = row(&point, "velocities", AXES, by_velocity)?;
-        row(&point, "accelerations", 0, no_acceleration)?;
-        row(&point, "effort", 0, no_effort)?;
+        let positions = row(&point, "positions", AXES, CONTROLLER)?;
+        let velocities = row(&point, "velocities", AXES, PROOF)?;
+        row(&point, "accelerations", 0, PROOF)?;
+        row(&point, "effort", 0, CONTROLLER)?;
         let ends = [
             (0, "first", 0.0, ("start-speed", PROOF)),
             (nodes.len() - 1, "last", AT_REST_RAD_S, ("end-speed", CONTROLLER)),

@@ -1,7 +1,7 @@
 //! Points in text: a header, then a point a line, separated by commas. Empty lines and what follows a `#` are skipped.
 
 use super::fit::{GREATEST, MOST, Touch};
-use crate::number_table::{NumberTable, TableError, TableShape};
+use crate::number_table::{NumberTable, Row, TableError, TableShape};
 
 /// Columns of a drawn point, world frame \[m\].
 const DRAWN: [&str; 3] = ["x_m", "y_m", "z_m"];
@@ -78,7 +78,7 @@ fn points<const N: usize>(text: &str, columns: &[&str; N]) -> Result<Vec<NamedPo
     };
     let table = NumberTable::read(text, &shape)?;
     let (name, places) = (table.places(&NAME), table.places(columns));
-    let row = |row: Result<crate::number_table::Row<'_>, TableError>| {
+    let row = |row: Result<Row<'_>, TableError>| {
         let row = row?;
         let name = name.map(|[place]| row.text(place).to_owned());
         let numbers = places.map(|places| row.numbers(places)).transpose()?;
