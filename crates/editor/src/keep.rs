@@ -7,6 +7,7 @@ use platewash_scenario::Scenario;
 use platewash_workcell::cancel::CancelToken;
 use std::fmt::Debug;
 use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 /// Who keeps the scenario's file and what is written beside it.
 pub trait Keeper: Debug + Send + Sync {
@@ -118,9 +119,26 @@ impl Kept {
         self.keeper.on_disk().map(|bytes| Standing { bytes })
     }
 
+    /// Reads the file until two reads, 0.2 s apart, agree: an editor that empties a file before it writes it is waited for, for up to 4 s.
+    fn settled(&self, known: Option<&str>) -> Result<Standing, String> {
+        let mut standing = self.standing()?;
+        for _ in 0..20 {
+            let hash = standing.hash();
+            if hash.as_deref() == known {
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(200));
+            standing = self.standing()?;
+            if standing.hash() == hash {
+                break;
+            }
+        }
+        Ok(standing)
+    }
+
     /// Answers whether what stands there has changed.
     pub fn look(&self, question: &DiskQuestion, told: &mut Told<'_>) {
-        let standing = match self.standing() {
+        let standing = match self.settled(question.disk.as_deref()) {
             Ok(standing) => standing,
             Err(words) => {
                 let disk = question.disk.as_deref();
@@ -203,4 +221,44 @@ fn told_conflict(standing: &Standing, told: &mut Told<'_>) {
         text: standing.text(),
         words,
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file that another program is writing: each read gives the next text.
+    #[derive(Debug)]
+    struct BeingWritten(Mutex<Vec<&'static str>>);
+
+    impl Keeper for BeingWritten {
+        fn file(&self) -> String {
+            "case.toml".into()
+        }
+
+        fn is_scenario(&self) -> bool {
+            true
+        }
+
+        fn on_disk(&self) -> Result<Option<Vec<u8>>, String> {
+            let mut reads = self.0.lock().map_err(|error| error.to_string())?;
+            let text = if reads.len() > 1 { reads.remove(0) } else { reads[0] };
+            Ok(Some(text.into()))
+        }
+
+        fn write(&self, _: &Save<'_>, _: &dyn Fn() -> bool, _: &CancelToken) -> Result<Written, NotWritten> {
+            Err(NotWritten::Changed)
+        }
+    }
+
+    #[test]
+    fn a_file_that_is_being_written_is_waited_for() {
+        let read = |reads: &[&'static str], known| {
+            let kept = Kept::new(Box::new(BeingWritten(Mutex::new(reads.to_vec()))));
+            kept.settled(known).unwrap().into_text().unwrap()
+        };
+        let before = sha256_hex(b"before");
+        assert_eq!(read(&["", "half", "whole"], Some(&before)), "whole");
+        assert_eq!(read(&["before", "whole"], Some(&before)), "before", "a file that is known is read once");
+    }
 }

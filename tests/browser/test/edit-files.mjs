@@ -1,6 +1,6 @@
 /** Nothing is lost: saving, files that change, connections that drop, servers that die, two tabs. */
 import assert from "node:assert/strict";
-import { access, readFile, writeFile } from "node:fs/promises";
+import { access, readFile, rename, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { test } from "node:test";
 import { change, edit, scenario, settled, verdict } from "../lib/cell.mjs";
@@ -10,6 +10,12 @@ import { open } from "../lib/watched.mjs";
 const save = async (page) => {
   await page.evaluate(() => window.platewash.edit.save());
   await page.waitForFunction(() => !window.platewash.edit.unsaved());
+};
+
+/** Replaces a file whole, so that no look meets half of it. */
+const replace = async (file, text) => {
+  await writeFile(`${file}.new`, text);
+  await rename(`${file}.new`, file);
 };
 
 const hash = (page) => page.evaluate(() => window.platewash.view.heading.hash);
@@ -46,7 +52,7 @@ test("a file that changes on disk is taken over where nothing is lost, and asked
   const { page } = await edit(t, place, ["--scenario", "case.toml"]);
   const first = await scenario(page);
   const other = first.replace("turns = 3.5", "turns = 3.25");
-  await writeFile(file, other);
+  await replace(file, other);
   await page.waitForFunction((text) => window.platewash.edit.text() === text, other);
   await settled(page);
   assert.equal((await verdict(page)).kind, "proved");
@@ -55,16 +61,16 @@ test("a file that changes on disk is taken over where nothing is lost, and asked
   await page.evaluate(() => window.platewash.edit.redo());
   await change(page, [{ key: "seed", value: 7 }]);
   const mine = await scenario(page);
-  await writeFile(file, first);
+  await replace(file, first);
   await page.getByRole("button", { name: /keep mine/i }).click({ timeout: 10_000 });
   assert.equal(await scenario(page), mine);
-  await writeFile(file, other.replace("3.25", "3.75"));
+  await replace(file, other.replace("3.25", "3.75"));
   await page.getByRole("button", { name: /take it/i }).click({ timeout: 10_000 });
   await settled(page);
   assert.match(await scenario(page), /turns = 3\.75/);
   // A save between two looks does not overwrite what is there.
   await change(page, [{ key: "seed", value: 8 }]);
-  await writeFile(file, "# somebody else's\n" + first);
+  await replace(file, "# somebody else's\n" + first);
   await page.evaluate(() => window.platewash.edit.save());
   await page.getByRole("button", { name: /overwrite|keep mine/i }).first().waitFor({ timeout: 10_000 });
   assert.match(await readFile(file, "utf8"), /^# somebody else's/);
