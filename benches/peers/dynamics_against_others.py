@@ -1,6 +1,6 @@
 """Dynamics and plant, ours against Pinocchio's and MuJoCo's: the same arm, tool and states, in turns.
 
-    cargo build --release -p platewash-benches --bin timed_dynamics
+    cargo build --release --manifest-path benches/peers/Cargo.toml --bin timed_dynamics
     target/python/bin/python benches/peers/dynamics_against_others.py [--rounds 41]
 
 needs the wheel beside Pinocchio and MuJoCo, as the environment of the tests has them (`cargo xtask test --only python` makes it).
@@ -37,7 +37,7 @@ class Rust:
     """`timed_dynamics`, asked for one kind of work at a time."""
 
     def __init__(self, work: dict):
-        binary = ROOT / "target" / "release" / "timed_dynamics"
+        binary = ROOT / "benches" / "peers" / "target" / "release" / "timed_dynamics"
         self.process = subprocess.Popen([binary], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.process.stdin.write(json.dumps(work) + "\n")
 

@@ -1,6 +1,6 @@
 """One plate's wash path to joints free of collision, ours against Tesseract's Descartes, in turns.
 
-    cargo build --release -p platewash-benches --bin washed_plate
+    cargo build --release --manifest-path benches/peers/Cargo.toml --bin washed_plate
     python3 -m venv target/tesseract && target/tesseract/bin/pip install tesseract-robotics==0.5.1
     target/tesseract/bin/python benches/peers/redundancy_against_tesseract.py [--rounds 21] [--plate 0]
 
@@ -196,7 +196,7 @@ class Tesseract:
 
 class Ours:
     def __init__(self, plate, radius):
-        binary = ROOT / "target" / "release" / "washed_plate"
+        binary = ROOT / "benches" / "peers" / "target" / "release" / "washed_plate"
         self.process = subprocess.Popen(
             [binary, str(plate), str(radius)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
         )

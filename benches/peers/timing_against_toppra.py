@@ -1,6 +1,6 @@
 """Time-optimal timing, ours against toppra's: the same path, grid and limits of the joints, in turns.
 
-    cargo build --release -p platewash-benches --bin timed_path
+    cargo build --release --manifest-path benches/peers/Cargo.toml --bin timed_path
     target/python/bin/python benches/peers/timing_against_toppra.py [--rounds 21]
 
 Each round times every path once with both, from its samples to the motion. toppra constrains accelerations at its grid
@@ -38,7 +38,7 @@ def sampled(case, points: int) -> dict:
 
 class Ours:
     def __init__(self, case):
-        binary = ROOT / "target" / "release" / "timed_path"
+        binary = ROOT / "benches" / "peers" / "target" / "release" / "timed_path"
         self.process = subprocess.Popen([binary], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.process.stdin.write(json.dumps({key: case[key] for key in KEYS}) + "\n")
 

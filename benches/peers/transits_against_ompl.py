@@ -1,7 +1,7 @@
 """Transits past walls, ours against OMPL's RRT-Connect: how many are solved, and how long it takes.
 
     python3 -m venv target/ompl && target/ompl/bin/pip install ompl==2.0.1 pin==4.1.0
-    cargo run --release -p platewash-benches --bin wall_transits -- 100 > target/transits.json
+    cargo run --release --manifest-path benches/peers/Cargo.toml --bin wall_transits -- 100 > target/transits.json
     target/ompl/bin/python benches/peers/transits_against_ompl.py target/transits.json [--limit-s 1.0] [--seed 1]
 
 RRT-Connect gets the tops of our transits as its ends, the same joints and limits, the same bodies and pairs with the clearance asked

@@ -5,11 +5,11 @@ use anyhow::{Result, bail};
 use platewash_bundler::Step;
 use std::time::Instant;
 
-/// The crates under test, all but the peers' benchmarks, which alone need the solvers that others wrote.
+/// The crates under test.
 ///
 /// Every step uses the release profile and the same features, so that each crate is compiled once for the checks of clippy and the
 /// documentation, and once for all that runs: tests, benchmarks, command and wheel.
-const CRATES: [&str; 4] = ["--release", "--workspace", "--exclude", "platewash-benches"];
+const CRATES: [&str; 2] = ["--release", "--workspace"];
 /// With this, pyo3 asks no interpreter: the parts in Rust need none.
 const NO_PYTHON: (&str, &str) = ("PYO3_NO_PYTHON", "1");
 

@@ -125,7 +125,7 @@ mod tests {
             "src/main.rs",
             "crates/kinematics/src/lib.rs",
             "xtask/src/main.rs",
-            "benches/peers/src/lib.rs",
+            "benches/problems/src/lib.rs",
         ] {
             assert!(found.contains(&root.join(wanted)), "{wanted} is not among {found:?}");
         }

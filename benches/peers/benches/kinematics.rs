@@ -1,6 +1,6 @@
 //! Forward and inverse kinematics beside the peers: all solvers take turns, and the tables say time and success.
 //!
-//!     cargo bench -p platewash-benches
+//!     cargo bench --manifest-path benches/peers/Cargo.toml
 #![allow(missing_docs, clippy::print_stdout)]
 
 use platewash_benches::interleaved::{self, ROUNDS, Turn};

@@ -1,6 +1,6 @@
 //! Judges our answers by others' on poses anywhere and at every edge, and freedom in the task by brute force.
 //!
-//!     cargo run --release -p platewash-benches --bin judge
+//!     cargo run --release --manifest-path benches/peers/Cargo.toml --bin judge
 #![allow(clippy::print_stdout)]
 
 use platewash_benches::edges::{self, Case};

@@ -1,7 +1,7 @@
 //! Transits past walls: each planned and proved alone, as JSON for `benches/peers/transits_against_ompl.py`, and in a few words on
 //! standard error.
 //!
-//!     cargo run --release -p platewash-benches --bin wall_transits -- 100 > transits.json
+//!     cargo run --release --manifest-path benches/peers/Cargo.toml --bin wall_transits -- 100 > transits.json
 //!
 //! The argument is the number of walls beside which both plates can be washed; where one cannot, there is no transit, and the next wall is
 //! taken.
