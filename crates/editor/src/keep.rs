@@ -259,6 +259,10 @@ mod tests {
         };
         let before = sha256_hex(b"before");
         assert_eq!(read(&["", "half", "whole"], Some(&before)), "whole");
-        assert_eq!(read(&["before", "whole"], Some(&before)), "before", "a file that is known is read once");
+        assert_eq!(
+            read(&["before", "whole"], Some(&before)),
+            "before",
+            "a file that is known is read once"
+        );
     }
 }
