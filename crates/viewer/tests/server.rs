@@ -347,6 +347,41 @@ fn who_lost_the_connection_is_told_what_it_missed() {
 }
 
 #[test]
+fn who_comes_late_or_again_is_told_the_rest_in_parts() {
+    const ROWS: usize = 1003;
+    let live = Live::new("a1");
+    let served = serve(Some(live.clone()));
+    live.begin();
+    (0..ROWS).for_each(|n| live.push([n as f64; 20]));
+    live.finish(end());
+    for (last, first) in [
+        ("0", 1),
+        ("700", 701),
+        ("x", 0),
+        ("-1", 0),
+        ("1002", ROWS),
+        ("1003", ROWS),
+        ("18446744073709551615", ROWS),
+    ] {
+        let told = events(&served.ask("GET /events HTTP/1.1", &format!("Last-Event-ID: {last}\r\n")));
+        let names: Vec<_> = told.iter().map(|(name, ..)| name.as_str()).collect();
+        let parts = told.len() - 2;
+        assert_eq!(names[parts..], ["state", "done"], "{last}");
+        let mut next = first;
+        for (name, id, data) in &told[..parts] {
+            let rows = data["samples"].as_array().unwrap();
+            assert!(
+                name == "samples" && rows.len() <= 500 && rows[0][0] == next as f64,
+                "{last}"
+            );
+            next += rows.len();
+            assert_eq!(*id, Some(next - 1));
+        }
+        assert_eq!(next, ROWS, "{last}");
+    }
+}
+
+#[test]
 fn a_page_of_another_run_is_told_to_ask_no_more() {
     let live = Live::new("a1");
     let served = serve(Some(live));

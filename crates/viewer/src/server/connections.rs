@@ -1,10 +1,20 @@
-//! Who is connected, and who has to go for another.
+//! Who is connected, who has to go for another, and how much is worked on at a time.
 
-use super::limits::{CONNECTIONS, QUESTIONS};
+use super::deadline::LOOK;
+use platewash_workcell::cancel::CancelToken;
 use std::collections::BTreeMap;
 use std::net::{Shutdown, TcpStream};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+
+/// Most connections at a time.
+const CONNECTIONS: usize = 64;
+
+/// Most questions that are being worked on at a time.
+const WORK: usize = 2;
+
+/// For how long a question waits for its turn.
+const TO_WAIT: Duration = Duration::from_secs(10);
 
 /// All connections, oldest first.
 #[derive(Debug, Default)]
@@ -24,20 +34,7 @@ struct Open {
 #[derive(Debug)]
 struct Connected {
     stream: TcpStream,
-    stage: Stage,
-}
-
-/// How far a connection has come.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stage {
-    /// It has not asked yet.
-    Asking,
-    /// It sends a question.
-    Telling,
-    /// It is being answered, or waits for that.
-    Answered,
-    /// It has its answer.
-    Leaving,
+    is_answered: bool,
 }
 
 /// A place among the connections, until it is dropped.
@@ -56,34 +53,27 @@ impl Connections {
             return None;
         }
         if open.streams.len() >= CONNECTIONS {
-            open.push_out(|stage| stage != Stage::Answered)?;
+            let oldest = *open.streams.iter().find(|(_, connected)| !connected.is_answered)?.0;
+            // Its thread finds it closed and ends. One that is closed already needs nothing.
+            let _ = open.streams.remove(&oldest)?.stream.shutdown(Shutdown::Both);
         }
         let number = open.next;
         open.next += 1;
-        let stage = Stage::Asking;
-        open.streams.insert(number, Connected { stream, stage });
-        Some(Place {
-            connections: self.clone(),
-            number,
-        })
+        let is_answered = false;
+        open.streams.insert(number, Connected { stream, is_answered });
+        let connections = self.clone();
+        Some(Place { connections, number })
     }
 
     /// Closes all connections and waits until their threads have seen it, for so long at most.
     pub fn close(&self, patience: Duration) {
-        let end = Instant::now() + patience;
         let mut open = self.lock();
         open.is_closed = true;
         for connected in open.streams.values() {
             let _ = connected.stream.shutdown(Shutdown::Both);
         }
-        while !open.streams.is_empty() {
-            let left = end.saturating_duration_since(Instant::now());
-            if left.is_zero() {
-                return;
-            }
-            let woken = self.left.wait_timeout(open, left);
-            open = woken.unwrap_or_else(PoisonError::into_inner).0;
-        }
+        let waits = |open: &mut Open| !open.streams.is_empty();
+        drop(self.left.wait_timeout_while(open, patience, waits));
     }
 
     fn lock(&self) -> MutexGuard<'_, Open> {
@@ -91,27 +81,11 @@ impl Connections {
     }
 }
 
-impl Open {
-    /// Closes the oldest connection of such a stage: its thread finds it closed and ends. None where there is none.
-    fn push_out(&mut self, of: impl Fn(Stage) -> bool) -> Option<()> {
-        let oldest = *self.streams.iter().find(|(_, connected)| of(connected.stage))?.0;
-        let connected = self.streams.remove(&oldest)?;
-        // One that is closed already needs nothing.
-        let _ = connected.stream.shutdown(Shutdown::Both);
-        Some(())
-    }
-}
-
 impl Place {
-    /// Notes how far it has come. Where too many send a question, the oldest of them has to go.
-    pub fn is_at(&self, stage: Stage) {
-        let mut open = self.connections.lock();
-        let is_alike = |connected: &&Connected| connected.stage == stage;
-        if stage == Stage::Telling && open.streams.values().filter(is_alike).count() >= QUESTIONS {
-            open.push_out(|other| other == stage);
-        }
-        if let Some(connected) = open.streams.get_mut(&self.number) {
-            connected.stage = stage;
+    /// Notes whether it is being answered: then it need not go for another one.
+    pub fn set_answered(&self, is_answered: bool) {
+        if let Some(connected) = self.connections.lock().streams.get_mut(&self.number) {
+            connected.is_answered = is_answered;
         }
     }
 }
@@ -120,5 +94,44 @@ impl Drop for Place {
     fn drop(&mut self) {
         self.connections.lock().streams.remove(&self.number);
         self.connections.left.notify_all();
+    }
+}
+
+/// Turns of long work, of which there are so many at a time.
+#[derive(Debug, Default)]
+pub struct Turns {
+    running: Mutex<usize>,
+    freed: Condvar,
+}
+
+/// A turn, until it is dropped.
+#[derive(Debug)]
+pub struct Turn<'a>(&'a Turns);
+
+impl Turns {
+    /// Waits for a turn, no longer than `gone` allows; `None` where none came in time.
+    pub fn wait(&self, gone: &CancelToken) -> Option<Turn<'_>> {
+        let begin = Instant::now();
+        let mut running = self.lock();
+        while *running >= WORK {
+            if gone.is_cancelled() || begin.elapsed() >= TO_WAIT {
+                return None;
+            }
+            let woken = self.freed.wait_timeout(running, LOOK);
+            running = woken.unwrap_or_else(PoisonError::into_inner).0;
+        }
+        *running += 1;
+        Some(Turn(self))
+    }
+
+    fn lock(&self) -> MutexGuard<'_, usize> {
+        self.running.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Drop for Turn<'_> {
+    fn drop(&mut self) {
+        *self.0.lock() -= 1;
+        self.0.freed.notify_one();
     }
 }

@@ -1,15 +1,21 @@
 //! Samples of a simulation into a live run, in real time.
 
-use super::limits::ROWS;
 use super::live::{Live, Row};
-use super::pace::Pace;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_simulator::simulate::Sample;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 /// Least time between two samples that are told \[s\].
 const STEP_S: f64 = 0.02;
+
+/// Most rows of a live run that are kept.
+const ROWS: usize = 60_000;
+
+/// Time between two looks at whether whoever waits gives up.
+const LOOK: Duration = Duration::from_millis(20);
 
 /// Takes the samples of a simulation as they are computed, holds it back to real time, and tells a live run of some of them.
 #[derive(Debug)]
@@ -19,7 +25,8 @@ pub struct Feed<'a> {
     token: &'a CancelToken,
     tip: Frame,
     step_s: f64,
-    pace: Option<Pace>,
+    /// When the simulation's clock was at 0 s.
+    start: Option<Instant>,
     told: usize,
     /// The last sample, where it was not told.
     left_out: Option<Sample>,
@@ -37,7 +44,7 @@ impl<'a> Feed<'a> {
             tip: plan.job.workcell.tool.tip_frame(arm),
             // Fifty a second, fewer where a plan is long: all of it is kept for pages that come late.
             step_s: STEP_S.max(plan.duration_s() / ROWS as f64),
-            pace: None,
+            start: None,
             told: 0,
             left_out: None,
             late_s: 0.0,
@@ -51,10 +58,11 @@ impl<'a> Feed<'a> {
             self.left_out = Some(*sample);
             return;
         }
-        if self.pace.is_none() {
+        if self.start.is_none() {
             self.live.begin();
         }
-        self.late_s = self.pace.get_or_insert_with(Pace::start).wait(sample.t_s, self.token);
+        let start = *self.start.get_or_insert_with(Instant::now);
+        self.late_s = wait(start, sample.t_s, self.token);
         self.left_out = None;
         self.tell(sample);
     }
@@ -86,14 +94,25 @@ impl<'a> Feed<'a> {
     }
 }
 
+/// Waits until so much time has passed since `start` \[s\], no longer than `token` allows; how late it is then \[s\].
+fn wait(start: Instant, t_s: f64, token: &CancelToken) -> f64 {
+    // A time too long for the clock is not reached.
+    let due = Duration::try_from_secs_f64(t_s.max(0.0)).unwrap_or(Duration::MAX);
+    loop {
+        let left = due.saturating_sub(start.elapsed());
+        if left.is_zero() || token.is_cancelled() {
+            return (start.elapsed().as_secs_f64() - t_s).max(0.0);
+        }
+        sleep(left.min(LOOK));
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::live::News;
     use super::*;
     use platewash_planner::plan;
     use platewash_simulator::{SimulationReport, simulate};
     use platewash_workcell::fixtures::kitchen;
-    use std::time::Duration;
 
     /// All that a run tells of samples, fed without waiting.
     fn rows(plan: &Plan, arm: &RobotModel, samples: &[Sample]) -> Vec<Row> {
@@ -102,15 +121,16 @@ mod tests {
         let mut feed = Feed::new(&live, plan, arm, &token);
         samples.iter().for_each(|sample| feed.sample(sample));
         feed.end();
-        let (mut follower, mut all) = (live.follow(None).unwrap(), Vec::new());
-        loop {
-            match follower.news(Duration::ZERO) {
-                News::Samples(rows, _) => all.extend(rows),
-                News::Silence => return all,
-                News::State(_) => {}
-                other => panic!("{other:?} before the end"),
-            }
-        }
+        live.rows()
+    }
+
+    #[test]
+    fn nothing_is_early_and_who_gives_up_does_not_wait() {
+        let (start, token) = (Instant::now(), CancelToken::new());
+        wait(start, 0.05, &token);
+        assert!(start.elapsed() >= Duration::from_millis(50));
+        token.cancel();
+        assert_eq!([1e9, f64::INFINITY].map(|t_s| wait(start, t_s, &token)), [0.0; 2]);
     }
 
     #[test]

@@ -1,13 +1,12 @@
 //! The port, and the thread that accepts.
 
+use super::answer::Refusal;
 use super::connection::{self, Served};
-use super::connections::Connections;
+use super::connections::{Connections, Turns};
 use super::error::ServerError;
-use super::limits::TO_END;
 use super::names::Names;
 use super::site::Site;
-use super::turned_away::Door;
-use super::work::Work;
+use std::io::Read;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,6 +15,12 @@ use std::time::{Duration, Instant};
 
 /// Rest after the system has given no connection, as where there are too many open files.
 const AFTER_A_FAULT: Duration = Duration::from_millis(50);
+
+/// For how long a client that is turned away may take to ask, so that it reads the answer before the connection is closed.
+const TO_BE_TURNED_AWAY: Duration = Duration::from_millis(10);
+
+/// For how long the end of the server waits for threads whose connections are closed.
+const TO_END: Duration = Duration::from_secs(1);
 
 /// A port that is taken, on which nothing is answered yet: who connects waits.
 #[derive(Debug)]
@@ -57,17 +62,16 @@ impl Listener {
     /// # Errors
     /// [`ServerError::Thread`].
     pub fn serve(self, site: Site) -> Result<Server, ServerError> {
-        let (names, work) = (Names::of(self.address), Work::default());
+        let (names, turns) = (Names::of(self.address), Turns::default());
         let mut server = Server {
             address: self.address,
             ends: Arc::default(),
-            served: Arc::new(Served { site, names, work }),
+            served: Arc::new(Served { site, names, turns }),
             connections: Arc::default(),
             accepting: None,
         };
-        let door = Door::open().map_err(ServerError::Thread)?;
         let (ends, served, connections) = (server.ends.clone(), server.served.clone(), server.connections.clone());
-        let accept = move || accept(&self.listener, &ends, &served, &connections, &door);
+        let accept = move || accept(&self.listener, &ends, &served, &connections);
         let accepting = Builder::new().name("page".to_owned()).spawn(accept);
         server.accepting = Some(accepting.map_err(ServerError::Thread)?);
         Ok(server)
@@ -102,20 +106,20 @@ impl Drop for Server {
     }
 }
 
-fn accept(listener: &TcpListener, ends: &AtomicBool, served: &Arc<Served>, all: &Arc<Connections>, door: &Door) {
+fn accept(listener: &TcpListener, ends: &AtomicBool, served: &Arc<Served>, all: &Arc<Connections>) {
     while !ends.load(Ordering::Relaxed) {
         match listener.accept() {
             Ok(_) if ends.load(Ordering::Relaxed) => {}
-            Ok((stream, _)) => welcome(stream, served, all, door),
+            Ok((stream, _)) => welcome(stream, served, all),
             Err(_) => sleep(AFTER_A_FAULT),
         }
     }
 }
 
 /// Gives a connection a thread. One for which there is no place is told so, one for which there is no thread is closed.
-fn welcome(stream: TcpStream, served: &Arc<Served>, all: &Arc<Connections>, door: &Door) {
+fn welcome(stream: TcpStream, served: &Arc<Served>, all: &Arc<Connections>) {
     let Some(place) = all.enter(&stream) else {
-        return door.turn_away(stream);
+        return turn_away(stream);
     };
     let served = served.clone();
     let serve = move || {
@@ -124,6 +128,15 @@ fn welcome(stream: TcpStream, served: &Arc<Served>, all: &Arc<Connections>, door
         connection::serve(&stream, &served, &place);
     };
     let _ = Builder::new().name("page client".to_owned()).spawn(serve);
+}
+
+/// Tells a client that all places are taken.
+fn turn_away(mut stream: TcpStream) {
+    // The little that is said finds room in what the system holds for a new connection.
+    let _ = stream.set_read_timeout(Some(TO_BE_TURNED_AWAY));
+    let _ = stream.read(&mut [0; 1 << 14]);
+    let _ = stream.set_nonblocking(true);
+    let _ = Refusal::Full.write(&mut stream, true);
 }
 
 fn url(address: SocketAddr) -> String {

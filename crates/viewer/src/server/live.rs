@@ -1,8 +1,12 @@
-//! A live run as those who watch it share it: one tells, many follow, each from where it is.
+//! A live run as those who watch it share it: one tells, many follow, each from where it is, by server-sent events.
 
-use super::limits::{FOLLOWERS, ROWS_AN_EVENT};
+use super::answer::{self, Refusal};
+use super::deadline::{Deadline, HEARTBEAT, LOOK, SHORT};
 use platewash_workcell::cancel::CancelToken;
 use serde::Serialize;
+use serde_json::json;
+use std::io::{Result, Write};
+use std::net::TcpStream;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -12,13 +16,19 @@ pub type Row = [f64; 20];
 /// Where the events of a live run are.
 pub const EVENTS: &str = "/events";
 
-/// Time between two looks at whether whoever waits gives up.
-const LOOK: Duration = Duration::from_millis(50);
+/// Most pages that follow a run.
+const FOLLOWERS: usize = 16;
+
+/// Rows of one event.
+const ROWS_AN_EVENT: usize = 500;
+
+/// Time after which a page that has lost the connection comes again \[ms\].
+const RETRY_MS: u32 = 500;
 
 /// How far a run has come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum LiveState {
+enum LiveState {
     /// It has not begun.
     Waiting,
     /// It is under way.
@@ -123,8 +133,53 @@ impl Live {
         })
     }
 
-    /// One who follows from behind the event of that id, or from the beginning; none where there are as many as can be.
-    pub(super) fn follow(self: &Arc<Self>, last_event_id: Option<&str>) -> Option<Follower> {
+    /// Sends the run as events, from behind the one of that id or from the beginning, to its end. Each event has its own deadline: a client
+    /// that is too slow for one is left, comes again, and is told what it missed.
+    pub(super) fn send(&self, stream: &TcpStream, last_event_id: Option<&str>) -> Result<()> {
+        let out = || Deadline::after(stream, SHORT);
+        let Some(_follower) = self.enter() else {
+            return Refusal::Followed.write(&mut out(), true);
+        };
+        let last = last_event_id.and_then(|id| id.parse::<usize>().ok());
+        let (mut next, mut known) = (last.map_or(0, |last| last.saturating_add(1)), None);
+        answer::stream(&mut out(), answer::EVENTS)?;
+        write(&mut out(), &format!("retry: {RETRY_MS}\n\n"))?;
+        loop {
+            let told = self.lock();
+            let is_old = |told: &mut Told| {
+                !told.is_closed && known == Some(told.state) && told.rows.len() <= next && told.end.is_none()
+            };
+            let woken = self.changed.wait_timeout_while(told, HEARTBEAT, is_old);
+            let told = woken.unwrap_or_else(PoisonError::into_inner).0;
+            let (state, is_closed) = (told.state, told.is_closed);
+            let rows: Vec<Row> = told.rows.iter().skip(next).take(ROWS_AN_EVENT).copied().collect();
+            let end = told.end.clone().filter(|_| rows.is_empty());
+            drop(told);
+            if is_closed {
+                return Ok(());
+            }
+            // That it is done is told behind all samples.
+            let is_due = known != Some(state) && (state != LiveState::Done || rows.is_empty());
+            if is_due {
+                known = Some(state);
+                event(&mut out(), "state", None, &json!({ "state": state }))?;
+            }
+            if !rows.is_empty() {
+                next += rows.len();
+                event(&mut out(), "samples", Some(next - 1), &json!({ "samples": rows }))?;
+            } else if let Some(end) = end {
+                event(&mut out(), "done", None, &end)?;
+                self.tell(|told| told.know_the_end += 1);
+                return Ok(());
+            } else if !is_due {
+                // Whether the client is still there shows when it is written to.
+                write(&mut out(), ":\n\n")?;
+            }
+        }
+    }
+
+    /// A place for one more follower; `None` where there are as many as can be.
+    fn enter(&self) -> Option<Follower<'_>> {
         let mut told = self.lock();
         if told.followers >= FOLLOWERS {
             return None;
@@ -133,12 +188,7 @@ impl Live {
         told.ever += 1;
         drop(told);
         self.changed.notify_all();
-        let last = last_event_id.and_then(|id| id.parse::<usize>().ok());
-        Some(Follower {
-            live: self.clone(),
-            state: None,
-            next: last.map_or(0, |last| last.saturating_add(1)),
-        })
+        Some(Follower(self))
     }
 
     fn wait(&self, patience: Duration, token: &CancelToken, until: impl Fn(&Told) -> bool) -> bool {
@@ -148,7 +198,8 @@ impl Live {
             if token.is_cancelled() || begin.elapsed() >= patience {
                 return false;
             }
-            told = self.woken(told, LOOK);
+            let woken = self.changed.wait_timeout(told, LOOK);
+            told = woken.unwrap_or_else(PoisonError::into_inner).0;
         }
         true
     }
@@ -162,84 +213,32 @@ impl Live {
         self.told.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn woken<'a>(&'a self, told: MutexGuard<'a, Told>, patience: Duration) -> MutexGuard<'a, Told> {
-        let woken = self.changed.wait_timeout(told, patience);
-        woken.unwrap_or_else(PoisonError::into_inner).0
+    /// All rows so far.
+    #[cfg(test)]
+    pub(super) fn rows(&self) -> Vec<Row> {
+        self.lock().rows.clone()
     }
 }
 
-/// What a follower is told next.
-#[derive(Debug, PartialEq)]
-pub enum News {
-    /// How far the run has come.
-    State(LiveState),
-    /// Samples, and the index of the last one.
-    Samples(Vec<Row>, usize),
-    /// The end: it comes last.
-    End(LiveEnd),
-    /// Nothing for now.
-    Silence,
-    /// Nobody is served any more.
-    Closed,
-}
+/// One who follows a run, until it is dropped.
+struct Follower<'a>(&'a Live);
 
-/// One who follows a run.
-#[derive(Debug)]
-pub struct Follower {
-    live: Arc<Live>,
-    state: Option<LiveState>,
-    /// The next sample that it is told of.
-    next: usize,
-}
-
-impl Follower {
-    /// What it is told next: at once where there is something, otherwise within the time given.
-    pub fn news(&mut self, patience: Duration) -> News {
-        let live = self.live.clone();
-        let begin = Instant::now();
-        let mut told = live.lock();
-        loop {
-            if let Some(news) = self.due(&told) {
-                return news;
-            }
-            let left = patience.saturating_sub(begin.elapsed());
-            if left.is_zero() {
-                return News::Silence;
-            }
-            told = live.woken(told, left);
-        }
-    }
-
-    fn due(&mut self, told: &Told) -> Option<News> {
-        if told.is_closed {
-            return Some(News::Closed);
-        }
-        // That it is done is told behind all samples.
-        let is_new = self.state != Some(told.state);
-        let has_more = self.next < told.rows.len();
-        if is_new && (told.state != LiveState::Done || !has_more) {
-            self.state = Some(told.state);
-            return Some(News::State(told.state));
-        }
-        if has_more {
-            let end = told.rows.len().min(self.next + ROWS_AN_EVENT);
-            let rows = told.rows[self.next..end].to_vec();
-            self.next = end;
-            return Some(News::Samples(rows, end - 1));
-        }
-        told.end.clone().map(News::End)
-    }
-
-    /// Notes that it has been told of the end.
-    pub fn knows_the_end(&self) {
-        self.live.tell(|told| told.know_the_end += 1);
-    }
-}
-
-impl Drop for Follower {
+impl Drop for Follower<'_> {
     fn drop(&mut self) {
-        self.live.tell(|told| told.followers -= 1);
+        self.0.tell(|told| told.followers -= 1);
     }
+}
+
+fn event(out: &mut impl Write, name: &str, id: Option<usize>, data: &impl Serialize) -> Result<()> {
+    let id = id.map_or_else(String::new, |id| format!("id: {id}\n"));
+    // JSON has no line breaks of its own.
+    let data = serde_json::to_string(data)?;
+    write(out, &format!("event: {name}\n{id}data: {data}\n\n"))
+}
+
+fn write(out: &mut impl Write, text: &str) -> Result<()> {
+    out.write_all(text.as_bytes())?;
+    out.flush()
 }
 
 #[cfg(test)]
@@ -248,109 +247,28 @@ mod tests {
 
     const NOW: Duration = Duration::ZERO;
 
-    fn row(n: usize) -> Row {
-        [n as f64; 20]
-    }
-
-    fn end() -> LiveEnd {
-        LiveEnd {
-            headline: "WASHED".to_owned(),
-            washed: Some(true),
-        }
-    }
-
-    /// All that is told, up to the first silence or the end.
-    fn all(follower: &mut Follower) -> Vec<News> {
-        let mut all = Vec::new();
-        loop {
-            match follower.news(NOW) {
-                News::Silence => return all,
-                News::End(end) => {
-                    all.push(News::End(end));
-                    return all;
-                }
-                news => all.push(news),
-            }
-        }
-    }
-
-    #[test]
-    fn who_is_there_from_the_start_is_told_as_it_goes() {
-        let live = Live::new("a");
-        let mut follower = live.follow(None).unwrap();
-        assert_eq!(all(&mut follower), [News::State(LiveState::Waiting)]);
-        live.begin();
-        live.push(row(0));
-        live.push(row(1));
-        assert_eq!(
-            all(&mut follower),
-            [News::State(LiveState::Running), News::Samples(vec![row(0), row(1)], 1)]
-        );
-        live.push(row(2));
-        live.finish(end());
-        let last = [
-            News::Samples(vec![row(2)], 2),
-            News::State(LiveState::Done),
-            News::End(end()),
-        ];
-        assert_eq!(all(&mut follower), last);
-    }
-
-    #[test]
-    fn who_comes_late_or_again_is_told_what_it_missed_and_no_more() {
-        let live = Live::new("a");
-        live.begin();
-        let n = 2 * ROWS_AN_EVENT + 3;
-        (0..n).for_each(|k| live.push(row(k)));
-        live.finish(end());
-        for (last, first) in [
-            (None, 0),
-            (Some("0"), 1),
-            (Some("700"), 701),
-            (Some("x"), 0),
-            (Some("-1"), 0),
-        ] {
-            let mut next = first;
-            let news = all(&mut live.follow(last).unwrap());
-            for news in &news[..news.len() - 2] {
-                let News::Samples(rows, last) = news else {
-                    panic!("{news:?} among the samples");
-                };
-                assert!(rows.len() <= ROWS_AN_EVENT && rows[0] == row(next));
-                next = last + 1;
-            }
-            assert_eq!(next, n);
-            assert_eq!(news[news.len() - 2..], [News::State(LiveState::Done), News::End(end())]);
-        }
-        for beyond in ["1002", "1003", &u64::MAX.to_string()] {
-            let news = all(&mut live.follow(Some(beyond)).unwrap());
-            assert_eq!(news, [News::State(LiveState::Done), News::End(end())], "{beyond}");
-        }
-    }
-
     #[test]
     fn there_are_only_so_many_followers_and_one_that_leaves_makes_room() {
         let live = Live::new("a");
-        let mut followers: Vec<_> = (0..FOLLOWERS).map(|_| live.follow(None).unwrap()).collect();
-        assert!(live.follow(None).is_none());
+        let mut followers: Vec<_> = (0..FOLLOWERS).map(|_| live.enter().unwrap()).collect();
+        assert!(live.enter().is_none());
         followers.pop();
-        assert!(live.follow(None).is_some());
+        assert!(live.enter().is_some());
     }
 
     #[test]
     fn a_run_waits_for_a_page_and_for_all_to_know_its_end() {
         let (live, token) = (Live::new("a"), CancelToken::new());
         assert!(!live.wait_for_page(NOW, &token));
-        live.finish(end());
+        let (headline, washed) = ("WASHED".to_owned(), Some(true));
+        live.finish(LiveEnd { headline, washed });
         assert!(live.wait_until_told(NOW, &token), "nobody ever followed");
-        let follower = live.follow(None).unwrap();
+        let follower = live.enter().unwrap();
         assert!(live.wait_for_page(NOW, &token));
         assert!(!live.wait_until_told(NOW, &token), "it does not know yet");
         drop(follower);
         assert!(!live.wait_until_told(NOW, &token), "it may come again");
-        let again = live.follow(Some("0")).unwrap();
-        again.knows_the_end();
-        drop(again);
+        live.tell(|told| told.know_the_end += 1);
         assert!(live.wait_until_told(NOW, &token));
     }
 

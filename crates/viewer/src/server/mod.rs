@@ -5,49 +5,29 @@
 //!
 //! | concept | file |
 //! | --- | --- |
-//! | sizes, numbers and times that bound what a client can do | `limits.rs` |
-//! | which addresses and origins requests may name | `names.rs` |
-//! | the head of a request, read and judged | `head.rs`, `headers.rs`, `request.rs` |
-//! | who answers questions of the page, and what the page shows to ask them | `service.rs`, `token.rs` |
-//! | a question as its head announces it; what follows that | `question.rs`, `body.rs` |
-//! | one question, from its first byte to the last line of its answer | `questions.rs` |
-//! | whose turn it is; whether the client is still there; the lines of an answer | `work.rs`, `watched.rs`, `lines.rs` |
-//! | why a request is refused | `refusal.rs` |
-//! | what is answered | `answer.rs` |
-//! | a stream with a deadline | `deadline.rs` |
-//! | who is connected, and who has to go for another; who is turned away | `connections.rs`, `turned_away.rs` |
+//! | a request: its head, who may ask, and the question that may follow it | `request.rs` |
+//! | which addresses and origins requests may name; the token of the page | `names.rs`, `token.rs` |
+//! | who answers questions of the page | `service.rs` |
+//! | what is answered, and why a request is refused | `answer.rs` |
 //! | what is served; one connection from request to answer | `site.rs`, `connection.rs` |
+//! | a stream with a deadline | `deadline.rs` |
+//! | who is connected, who has to go for another, how much is worked on at a time | `connections.rs` |
 //! | the port, and the thread that accepts | `listener.rs` |
-//! | a live run as those who watch it share it | `live.rs` |
-//! | it as server-sent events | `events.rs` |
-//! | samples of a simulation into it, in real time | `feed.rs`, `pace.rs` |
+//! | a live run as those who watch it share it; samples of a simulation into it, in real time | `live.rs`, `feed.rs` |
 
 mod answer;
-mod body;
 mod connection;
 mod connections;
 mod deadline;
 mod error;
-mod events;
 mod feed;
-mod head;
-mod headers;
-mod limits;
-mod lines;
 mod listener;
 mod live;
 mod names;
-mod pace;
-mod question;
-mod questions;
-mod refusal;
 mod request;
 mod service;
 mod site;
 mod token;
-mod turned_away;
-mod watched;
-mod work;
 
 pub use error::ServerError;
 pub use feed::Feed;

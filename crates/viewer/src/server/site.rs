@@ -1,7 +1,7 @@
 //! What is served.
 
+use super::answer::Refusal;
 use super::live::{EVENTS, Live};
-use super::refusal::Refusal;
 use super::request::Request;
 use super::service::Service;
 use std::borrow::Cow;
