@@ -55,7 +55,7 @@ pub fn text() -> impl Strategy<Value = &'static str> {
 
 /// A key, and a value that it takes.
 pub fn change() -> impl Strategy<Value = (Key, Option<Value>)> {
-    prop::sample::select(KEYS).prop_flat_map(|key| {
+    prop::sample::select(KEYS.as_slice()).prop_flat_map(|key| {
         let value = value_of(key.domain);
         (Just(key), prop::option::weighted(0.75, value))
     })

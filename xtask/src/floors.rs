@@ -6,8 +6,9 @@ use std::collections::BTreeSet;
 /// The project's own packages, and what each may depend on among them; the root package may know all that are below it.
 ///
 /// Packages that are not named here are no part of the product: the chores and what the benchmarks need.
-const FLOORS: [(&str, &[&str]); 14] = [
+const FLOORS: [(&str, &[&str]); 15] = [
     ("platewash-bundler", &[]),
+    ("platewash-keys", &[]),
     ("platewash-kinematics", &[]),
     ("platewash-workcell", &["platewash-kinematics"]),
     ("platewash-certificate", &["platewash-kinematics", "platewash-workcell"]),
@@ -20,6 +21,7 @@ const FLOORS: [(&str, &[&str]); 14] = [
     (
         "platewash-scenario",
         &[
+            "platewash-keys",
             "platewash-kinematics",
             "platewash-workcell",
             "platewash-certificate",

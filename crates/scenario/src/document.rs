@@ -71,32 +71,10 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
-    fn leaves(value: &toml::Value, prefix: &str, into: &mut BTreeSet<String>) {
-        for (name, v) in value.as_table().unwrap() {
-            match v {
-                toml::Value::Table(_) => leaves(v, &format!("{prefix}{name}."), into),
-                toml::Value::Array(all) if all.first().is_some_and(toml::Value::is_table) => {
-                    leaves(&all[0], &format!("{prefix}{name}."), into);
-                }
-                _ => {
-                    into.insert(format!("{prefix}{name}"));
-                }
-            }
-        }
-    }
-
-    /// The table and the types know the same keys: every optional one is filled in here.
+    /// Sections with a shape state their keys beside their type: both have the same ones.
     #[test]
-    fn the_table_lists_the_types_keys_and_no_others() {
-        let mut full = Scenario::default();
-        (full.robot.urdf, full.robot.srdf) = (Some("a".into()), Some("b".into()));
-        full.robot.package_path = vec!["c".into()];
-        (full.robot.start_deg, full.robot.home_deg) = (Some([0.0; 6]), Some([0.0; 6]));
-        full.robot.payload_kg = Some(3.0);
-        full.tool.mounted_on = Some("flange".to_owned());
-        (full.tool.com_m, full.tool.inertia_kg_m2) = (Some(0.1), Some([0.0; 6]));
-        full.tool.sponge_stiffness_kpa = Some([11.0, 44.0]);
-        let every = crate::StatedShape {
+    fn the_keys_of_bodies_are_those_of_their_types() {
+        let body = crate::StatedShape {
             shape: Some(crate::BodyShape::Box),
             size_m: Some([0.1; 3]),
             radius_m: Some(0.1),
@@ -104,66 +82,40 @@ mod tests {
             mesh: Some("a.stl".into()),
             mesh_scale: Some([1.0; 3]),
         };
-        full.tool_body = vec![crate::ToolBodySection {
-            body: every.clone(),
+        let tool_body = crate::ToolBodySection {
+            body: body.clone(),
             mass_kg: Some(0.1),
             ..crate::ToolBodySection::default()
-        }];
-        full.obstacle = vec![crate::ObstacleSection {
-            body: every,
+        };
+        let obstacle = crate::ObstacleSection {
+            body,
             mesh_parts: Some(crate::MeshPartsName::Hull),
             at_m: Some([1.0; 3]),
             holds_plates: Some(crate::HeldPlates::These(vec![0])),
             ..crate::ObstacleSection::default()
-        }];
-        (full.floor.height_m, full.floor.margin_m) = (Some(0.0), Some(0.0));
-        full.table = crate::TableSection {
-            size_m: Some([1.0; 2]),
-            height_m: Some(0.7),
-            thickness_m: Some(0.03),
-            at_m: Some([0.0; 2]),
-            yaw_deg: Some(0.0),
-            margin_m: Some(0.0),
         };
-        full.plate = vec![crate::PlateSection {
-            at_m: Some([0.3, 0.0, 0.03]),
-            rpy_deg: Some([0.0; 3]),
-            faces: Some(crate::Faces::Both),
-            count: Some(2),
-            radius_m: Some(0.1),
-            profile: Some(crate::layout::ProfileName::Flat),
-            knots: Some(vec![[0.1, 0.0]]),
-            foot_m: Some([0.05, 0.01]),
-            thickness_m: Some(0.02),
-        }];
-        let wash = &mut full.wash;
-        (wash.pattern, wash.turns) = (Some(platewash_workcell::job::PatternName::Rings), Some(2.0));
-        (wash.path_radius_m, wash.closing_ring) = (Some(0.1), Some(true));
-        (wash.tilt_deg, wash.axis_share, wash.wrist_min_deg) = (Some(8.0), Some(0.5), Some(3.0));
-        (wash.landing_speed_m_s, wash.lifting_speed_m_s) = (Some(0.05), Some(0.05));
-        (wash.contact_compression_m, wash.contact_height_error_m) = (Some(1e-3), Some(1e-3));
-        (wash.contact_share, wash.contact_strain, wash.contact_force_n) = (Some(0.9), Some(0.6), Some([1.0, 40.0]));
-        (wash.contact_time_s, wash.contact_time_share) = (Some(0.1), Some(0.9));
-        (wash.contact_dose_pa_m, wash.contact_dose_share) = (Some(50.0), Some(0.9));
-        full.control.law = Some(platewash_workcell::simulation::ControlLawName::Pd);
-        (full.control.joint_kp, full.control.joint_kd) = (Some([0.0; 6]), Some([0.0; 6]));
-        full.plant.torque_limit_n_m = Some([1.0; 6]);
-        (full.plant.contact_stiffness_pa, full.plant.contact_damping_pa_s) = (Some(2e4), Some(0.0));
-        full.plant.contact_force_n = Some(0.0);
-        let layout = &mut full.layout;
-        (layout.plate_radius_m, layout.plate_profile) = (Some(0.1), Some(crate::layout::ProfileName::Flat));
-        (layout.plate_knots, layout.plate_foot_m) = (Some(vec![[0.1, 0.0]]), Some([0.05, 0.01]));
-        layout.region = Some(crate::layout::RegionName::Text);
-        (layout.x_m, layout.y_m) = (Some([0.0, 1.0]), Some([0.0, 1.0]));
-        (layout.rho_m, layout.azimuth_deg) = (Some([0.0, 1.0]), Some([0.0, 1.0]));
-        layout.positions_m = Some(vec![[0.3, 0.0]]);
-        full.transition.mid_radius_m = Some(0.3);
-        let mut of_types = BTreeSet::new();
-        leaves(&toml::Value::try_from(full).unwrap(), "", &mut of_types);
-        let rows = in_order();
-        let of_table: BTreeSet<_> = rows.iter().map(|(key, _)| key.path.to_owned()).collect();
-        assert_eq!(of_table, of_types);
-        assert_eq!(of_table.len(), rows.len(), "no key twice");
+        let of_types = [
+            ("tool_body", toml::Value::try_from(tool_body).unwrap()),
+            ("obstacle", toml::Value::try_from(obstacle).unwrap()),
+        ];
+        for (name, of_type) in of_types {
+            let list = LISTS.iter().find(|list| list.name == name).unwrap();
+            let mut leaves: Vec<_> = of_type.as_table().unwrap().keys().cloned().collect();
+            let mut keys: Vec<_> = list
+                .keys
+                .iter()
+                .map(|key| crate::lists::own_name(key).to_owned())
+                .collect();
+            leaves.sort();
+            keys.sort();
+            assert_eq!(keys, leaves, "{name}");
+        }
+    }
+
+    #[test]
+    fn no_key_is_there_twice() {
+        let paths: BTreeSet<_> = in_order().iter().map(|(key, _)| key.path).collect();
+        assert_eq!(paths.len(), in_order().len());
     }
 
     #[test]

@@ -1,29 +1,24 @@
 //! The `[ik]` section: inverse kinematics.
 
+use platewash_keys::Section;
 use platewash_paper::settings::{IkMethod, IkSeed};
 use serde::{Deserialize, Serialize};
 
 /// `[ik]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
+#[section("ik")]
 #[serde(default, deny_unknown_fields)]
 pub struct IkSection {
-    /// The solver.
+    /// Solver of the paper's program: damped least squares with a QP fallback, alone or also from the closed form's nearest branch.
+    #[key(domain = Word(&["numeric", "analytic"]), default = IkMethod::Numeric)]
     pub method: IkMethod,
-    /// From where each waypoint is solved.
+    /// Each waypoint is solved from the configuration that the arm really has (the paper), or from the previous answer.
+    #[key(domain = Word(&["executed", "previous"]), default = IkSeed::Previous)]
     pub seed: IkSeed,
-    /// Largest accepted position error \[m\].
+    /// Largest accepted position error.
+    #[key(unit = "m", domain = Number(1e-12, 1e-2), default = 1e-6)]
     pub position_tolerance_m: f64,
-    /// Largest accepted orientation error \[rad\].
+    /// Largest accepted orientation error.
+    #[key(unit = "rad", domain = Number(1e-12, 1e-2), default = 1e-6)]
     pub orientation_tolerance_rad: f64,
-}
-
-impl Default for IkSection {
-    fn default() -> Self {
-        Self {
-            method: IkMethod::Numeric,
-            seed: IkSeed::Previous,
-            position_tolerance_m: 1e-6,
-            orientation_tolerance_rad: 1e-6,
-        }
-    }
 }

@@ -1,19 +1,26 @@
 //! The `[job]` section: which program, what is required, what follows where it fails.
 
+use platewash_keys::Section;
 use platewash_workcell::job::OrderRule;
 use serde::{Deserialize, Serialize};
 
 /// `[job]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
+#[section("job")]
 #[serde(default, deny_unknown_fields)]
 pub struct JobSection {
-    /// How the job is planned.
+    /// Waypoint after waypoint as the paper's program, or planned as a whole, from home to home, with a certificate. Each uses the keys that
+    /// it needs.
+    #[key(domain = Word(&["paper", "certified"]), default = Program::Certified)]
     pub program: Program,
-    /// Whether a job that does not wash ends with an error.
+    /// A job that does not wash: report it (exit code 0), or also end with exit code 3 (infeasible) or 4 (verification failed).
+    #[key(domain = Word(&["report", "fail"]), default = OnFailure::Report)]
     pub on_failure: OnFailure,
-    /// In which order plates are washed.
+    /// Order of the plates: always the nearest unvisited centre, as listed, or the least travel time in all (certified only).
+    #[key(domain = Word(&["nearest", "given", "fastest"]), default = OrderRule::Nearest)]
     pub order: OrderRule,
-    /// Share of a plate that must be swept for it to count as washed.
+    /// Share of a plate's disc that the executed sponge must sweep for the plate to count as washed.
+    #[key(domain = Number(0.0, 1.0), default = 0.99)]
     pub required_coverage: f64,
 }
 
@@ -35,15 +42,4 @@ pub enum OnFailure {
     Report,
     /// A report; exit code 3 (infeasible) or 4 (verification failed).
     Fail,
-}
-
-impl Default for JobSection {
-    fn default() -> Self {
-        Self {
-            program: Program::Certified,
-            on_failure: OnFailure::Report,
-            order: OrderRule::Nearest,
-            required_coverage: 0.99,
-        }
-    }
 }

@@ -1,6 +1,7 @@
 //! The `[layout]` section: the plates and the rule by which they are placed.
 
 use crate::error::{Problem, conflict};
+use platewash_keys::Section;
 use platewash_workcell::job::Overlap;
 use platewash_workcell::layout::Region;
 use serde::{Deserialize, Serialize};
@@ -9,51 +10,72 @@ use serde::{Deserialize, Serialize};
 pub const PLATE_RADIUS_M: f64 = 0.145;
 
 /// `[layout]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
+#[section("layout")]
 #[serde(default, deny_unknown_fields)]
 pub struct LayoutSection {
-    /// Plates to sample.
+    /// Plates to sample; not used with `positions_m`.
+    #[key(domain = Integer(1, 1000), default = 4)]
     pub count: usize,
-    /// Radius of a flat plate \[m\]; without it, 0.145. Not with another profile.
+    /// Radius of a flat plate, 0.145 without it; above 0.000001 in a certified job. The other profiles have their own.
+    #[key(unit = "m", domain = NumberAbove(0.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plate_radius_m: Option<f64>,
-    /// Shape of the washing surface by name.
+    /// Shape of the washing surface: a flat disc, or a profile that comes along. `coupe275` is fitted to a scan of a real plate; the shapes of
+    /// the others are assumptions.
+    #[key(domain = Word(&["flat", "coupe275", "rim270", "deep230", "dessert190"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plate_profile: Option<ProfileName>,
-    /// Shape of the washing surface by knots of its meridian: radius \[m\] and slope \[deg\].
+    /// Shape of the washing surface by knots of its meridian, from the pole on, in place of `plate_profile`: radius and slope, above 0 where
+    /// it rises outwards. Between knots the sine of the slope is linear in the radius: arcs and lines without a bend. At the pole the slope is
+    /// 0, so that the first piece is an arc: [[0.105, 10]] has its rim 9.2 mm over the pole.
+    #[key(unit = "m, deg", domain = Knots(10.0, 60.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plate_knots: Option<Vec<[f64; 2]>>,
-    /// Radius and height of the ring that a plate stands on \[m\].
+    /// Radius and height of the ring that a plate stands on, below its body; its radius is at most that of the rim.
+    #[key(unit = "m", domain = PairAbove(0.0, 1.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plate_foot_m: Option<[f64; 2]>,
-    /// z of the pole of the washing surface \[m\].
+    /// z of the pole of the washing surface: of a flat one all of it, of a profile the middle of its well.
+    #[key(unit = "m", domain = Number(-10.0, 10.0), default = 0.03)]
     pub plate_height_m: f64,
-    /// Thickness of a plate, downwards \[m\].
+    /// Thickness of a plate, downwards from its washing surface, along its axis; above 0.000001 in a certified job.
+    #[key(unit = "m", domain = NumberAbove(0.0, 1.0), default = 0.02)]
     pub plate_thickness_m: f64,
-    /// A region by name.
+    /// Region of plate centres by name: as the paper's text, or as its appendix code.
+    #[key(domain = Word(&["text", "appendix"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<RegionName>,
-    /// Range of x \[m\].
+    /// Range of x of plate centres.
+    #[key(unit = "m", domain = Range(-10.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub x_m: Option<[f64; 2]>,
-    /// Range of y \[m\].
+    /// Range of y of plate centres.
+    #[key(unit = "m", domain = Range(-10.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y_m: Option<[f64; 2]>,
-    /// Range of the distance from the base axis \[m\].
+    /// Range of the distance of plate centres from the base axis.
+    #[key(unit = "m", domain = Range(0.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rho_m: Option<[f64; 2]>,
-    /// Range of the azimuth \[deg\].
+    /// Range of the azimuth of plate centres, counter-clockwise from x, at most a turn wide.
+    #[key(unit = "deg", domain = Range(-720.0, 720.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub azimuth_deg: Option<[f64; 2]>,
-    /// Least distance between centres \[m\].
+    /// Plate centres are farther apart than this.
+    #[key(unit = "m", domain = Number(0.0, 10.0), default = 0.28)]
     pub min_distance_m: f64,
-    /// Least distance of a centre from the base axis \[m\].
+    /// Plate centres are farther from the base axis than this.
+    #[key(unit = "m", domain = Number(0.0, 10.0), default = 0.25)]
     pub base_radius_m: f64,
-    /// What overlapping plates lead to.
+    /// Plates that overlap each other or the base: a finding only, or refused before planning.
+    #[key(domain = Word(&["report", "fail"]), default = Overlap::Fail)]
     pub overlap: Overlap,
-    /// Whether layouts are drawn until every plate can be washed whole.
+    /// Whether sampled layouts are drawn anew until every plate can be washed whole (certified).
+    #[key(domain = Bool)]
     pub only_washable: bool,
-    /// Plate centres, in place of sampling \[m\].
+    /// Plate centres, in place of sampling: as many plates as are listed.
+    #[key(unit = "m", domain = Points(-10.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub positions_m: Option<Vec<[f64; 2]>>,
 }
@@ -151,30 +173,6 @@ impl LayoutSection {
                 format!("the foot's radius must be at most that of the rim, {rim_m} m; found {radius_m}"),
             ),
             _ => Ok(()),
-        }
-    }
-}
-
-impl Default for LayoutSection {
-    fn default() -> Self {
-        Self {
-            count: 4,
-            plate_radius_m: None,
-            plate_profile: None,
-            plate_knots: None,
-            plate_foot_m: None,
-            plate_height_m: 0.03,
-            plate_thickness_m: 0.02,
-            region: None,
-            x_m: None,
-            y_m: None,
-            rho_m: None,
-            azimuth_deg: None,
-            min_distance_m: 0.28,
-            base_radius_m: 0.25,
-            overlap: Overlap::Fail,
-            only_washable: false,
-            positions_m: None,
         }
     }
 }

@@ -57,7 +57,6 @@ mod unknown;
 mod value;
 mod values;
 mod wash;
-mod wash_keys;
 mod work;
 mod write;
 

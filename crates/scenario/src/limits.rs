@@ -1,25 +1,20 @@
 //! The `[limits]` section: what joints and tip must not exceed.
 
+use platewash_keys::Section;
 use serde::{Deserialize, Serialize};
 
 /// `[limits]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
+#[section("limits")]
 #[serde(default, deny_unknown_fields)]
 pub struct LimitsSection {
-    /// Joint acceleration limits \[rad/s²\]: an assumption, as the manufacturer publishes none.
+    /// Joint acceleration limits, at least 0.001 in a certified job: an assumption, as the manufacturer publishes none.
+    #[key(unit = "rad/s²", domain = JointsAbove(0.0, 1e6), default = [4.0, 4.0, 4.0, 5.0, 5.0, 6.0])]
     pub joint_acceleration_rad_s2: [f64; 6],
-    /// Largest speed of the tip anywhere \[m/s\]: an assumption. [`Program::Certified`](crate::Program::Certified) only.
+    /// Largest speed of the tip anywhere (certified), at least 0.000001: an assumption.
+    #[key(unit = "m/s", domain = NumberAbove(0.0, 100.0), default = 1.0)]
     pub tip_speed_m_s: f64,
-    /// Largest acceleration of the tip anywhere \[m/s²\]: an assumption. [`Program::Certified`](crate::Program::Certified) only.
+    /// Largest acceleration of the tip anywhere (certified), at least 0.000001: an assumption.
+    #[key(unit = "m/s²", domain = NumberAbove(0.0, 1e4), default = 8.0)]
     pub tip_acceleration_m_s2: f64,
-}
-
-impl Default for LimitsSection {
-    fn default() -> Self {
-        Self {
-            joint_acceleration_rad_s2: [4.0, 4.0, 4.0, 5.0, 5.0, 6.0],
-            tip_speed_m_s: 1.0,
-            tip_acceleration_m_s2: 8.0,
-        }
-    }
 }

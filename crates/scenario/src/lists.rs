@@ -2,7 +2,7 @@
 
 use crate::key::Key;
 use crate::obstacle::OBSTACLE_KEYS;
-use crate::plate::PLATE_KEYS;
+use crate::plate::PlateSection;
 use crate::tool_body::TOOL_BODY_KEYS;
 use platewash_workcell::workcell::MOST_BODIES;
 
@@ -27,7 +27,7 @@ pub const LISTS: &[List] = &[
     List {
         name: "plate",
         most: 1000,
-        keys: PLATE_KEYS,
+        keys: PlateSection::KEYS,
     },
     List {
         name: "obstacle",

@@ -1,32 +1,44 @@
 //! The `[plant]` section.
 
+use platewash_keys::Section;
 use platewash_workcell::simulation::{FoamContact, Integrator, PlantSettings};
 use platewash_workcell::tool::Sponge;
 use serde::{Deserialize, Serialize};
 
 /// `[plant]`: the arm as a physical system, where a law gives torques. Friction and torque limits are off unless given: there are no published
 /// figures. Plates push back by the sponge's foam where its stiffness is stated.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
+#[section("plant")]
 #[serde(default, deny_unknown_fields)]
 pub struct PlantSection {
-    /// How the motion is integrated.
+    /// How the motion is integrated: speeds then positions, or the classical fourth-order scheme.
+    #[key(domain = Word(&["semi_implicit_euler", "rk4"]), default = PlantSettings::default().integrator)]
     pub integrator: Integrator,
     /// Steps of integration to a sample of the law.
+    #[key(domain = Integer(1, 1000), default = PlantSettings::default().substeps)]
     pub substeps: usize,
-    /// Friction torque per joint speed \[N·m·s/rad\].
+    /// Friction torque per joint speed: off by default, as none is published.
+    #[key(unit = "N·m·s/rad", domain = Joints(0.0, 1e6), default = PlantSettings::default().viscous_friction_n_m_s)]
     pub viscous_friction_n_m_s: [f64; 6],
-    /// Friction torque against any motion \[N·m\].
+    /// Friction torque against any motion: off by default, as none is published.
+    #[key(unit = "N·m", domain = Joints(0.0, 1e6), default = PlantSettings::default().coulomb_friction_n_m)]
     pub coulomb_friction_n_m: [f64; 6],
-    /// Largest joint torques \[N·m\]; without them, those of the arm's description where it knows any.
+    /// Largest joint torques; without it, those of the arm's description, where an effort of 0 means unknown, not a limit.
+    #[key(unit = "N·m", domain = JointsAbove(0.0, 1e6))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_limit_n_m: Option<[f64; 6]>,
-    /// E: the stiffness with which plates push the sponge's foam back \[Pa\]; without it, the middle of the tool's range where that is stated.
+    /// Stiffness with which plates push the sponge's foam back, wherever it touches: an assumption, within tool.sponge_stiffness_kpa. Without
+    /// it, the geometric mean of that range; where neither is stated, and no force, plates do not push back.
+    #[key(unit = "Pa", domain = NumberAbove(0.0, 1e9))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_stiffness_pa: Option<f64>,
-    /// η: damping of that foam, pressure over the speed of strain \[Pa·s\]; without it, none.
+    /// Damping of that foam, pressure over the speed of strain: off by default, as none is published.
+    #[key(unit = "Pa·s", domain = Number(0.0, 1e9))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_damping_pa_s: Option<f64>,
-    /// A constant force of a plate on the sponge while it washes, along the plate's normal \[N\]: in place of the foam where it is stated.
+    /// A constant force of a plate on the sponge while it washes, along the plate's normal, in place of the foam; 0 where plates shall not
+    /// push back.
+    #[key(unit = "N", domain = Number(0.0, 1e4))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_force_n: Option<f64>,
 }
@@ -58,29 +70,6 @@ impl PlantSection {
         };
         let damping_pa_s = self.contact_damping_pa_s.unwrap_or(0.0);
         stated.or_else(own).map(|foam| FoamContact { damping_pa_s, ..foam })
-    }
-}
-
-impl Default for PlantSection {
-    fn default() -> Self {
-        let PlantSettings {
-            integrator,
-            substeps,
-            viscous_friction_n_m_s,
-            coulomb_friction_n_m,
-            torque_limit_n_m,
-            ..
-        } = PlantSettings::default();
-        Self {
-            integrator,
-            substeps,
-            viscous_friction_n_m_s,
-            coulomb_friction_n_m,
-            torque_limit_n_m,
-            contact_stiffness_pa: None,
-            contact_damping_pa_s: None,
-            contact_force_n: None,
-        }
     }
 }
 

@@ -1,100 +1,51 @@
 //! The `[[plate]]` sections: plates one by one, each with its own shape and place, or kinds of plates to be sampled.
 
-use crate::key::Domain::{Integer, Knots, NumberAbove, PairAbove, Triple, Word};
-use crate::key::{Key, key};
 use crate::layout::{LayoutSection, ProfileName};
 use crate::poses::pose;
+use platewash_keys::Section;
 use platewash_workcell::layout::PlateGeometry;
 use platewash_workcell::plate::Plate;
 use serde::{Deserialize, Serialize};
 
-/// The keys of `[[plate]]`.
-pub(crate) const PLATE_KEYS: &[Key] = &[
-    key(
-        "plate.at_m",
-        "m",
-        Triple(-10.0, 10.0),
-        "Where the pole of its washing surface is, in the world: of a flat one the middle. In every section, or in none.",
-    ),
-    key(
-        "plate.rpy_deg",
-        "deg",
-        Triple(-360.0, 360.0),
-        "How it is turned there: roll, pitch and yaw about the fixed axes x, y, z of the world. Unturned it lies level, face up.",
-    ),
-    key(
-        "plate.faces",
-        "",
-        Word(&["one", "both"]),
-        "Which faces of a flat plate are washed: that at at_m alone, or the other one, too, which counts as a plate of its own, the next one.",
-    ),
-    key(
-        "plate.count",
-        "",
-        Integer(1, 1000),
-        "How many plates of this kind are sampled, in place of `at_m`; centres keep `layout.min_distance_m` apart whatever their kinds.",
-    ),
-    key(
-        "plate.radius_m",
-        "m",
-        NumberAbove(0.0, 10.0),
-        "Radius of a flat plate. A section without a shape of its own takes that of `[layout]`.",
-    ),
-    key(
-        "plate.profile",
-        "",
-        Word(&["flat", "coupe275", "rim270", "deep230", "dessert190"]),
-        "Shape of the washing surface by name.",
-    ),
-    key(
-        "plate.knots",
-        "m, deg",
-        Knots(10.0, 60.0),
-        "Shape of the washing surface by knots of its meridian, as `layout.plate_knots`.",
-    ),
-    key(
-        "plate.foot_m",
-        "m",
-        PairAbove(0.0, 1.0),
-        "Radius and height of the ring that it stands on; without it, that of `[layout]`, if any.",
-    ),
-    key(
-        "plate.thickness_m",
-        "m",
-        NumberAbove(0.0, 1.0),
-        "Its thickness; without it, that of `[layout]`.",
-    ),
-];
-
 /// `[[plate]]`: a plate, or a kind of plates.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
+#[section("plate")]
 #[serde(default, deny_unknown_fields)]
 pub struct PlateSection {
-    /// The pole of its washing surface, world frame \[m\].
+    /// Where the pole of its washing surface is, in the world: of a flat one the middle. In every section, or in none.
+    #[key(unit = "m", domain = Triple(-10.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_m: Option<[f64; 3]>,
-    /// How it is turned there: roll, pitch and yaw about the world's axes x, y, z \[deg\].
+    /// How it is turned there: roll, pitch and yaw about the fixed axes x, y, z of the world. Unturned it lies level, face up.
+    #[key(unit = "deg", domain = Triple(-360.0, 360.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rpy_deg: Option<[f64; 3]>,
-    /// Which of its faces are washed.
+    /// Which faces of a flat plate are washed: that at at_m alone, or the other one, too, which counts as a plate of its own, the next one.
+    #[key(domain = Word(&["one", "both"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub faces: Option<Faces>,
-    /// How many are sampled of a kind.
+    /// How many plates of this kind are sampled, in place of `at_m`; centres keep `layout.min_distance_m` apart whatever their kinds.
+    #[key(domain = Integer(1, 1000))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub count: Option<usize>,
-    /// Radius of a flat plate \[m\].
+    /// Radius of a flat plate. A section without a shape of its own takes that of `[layout]`.
+    #[key(unit = "m", domain = NumberAbove(0.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<f64>,
     /// Shape of the washing surface by name.
+    #[key(domain = Word(&["flat", "coupe275", "rim270", "deep230", "dessert190"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub profile: Option<ProfileName>,
-    /// Shape of the washing surface by knots of its meridian: radius \[m\] and slope \[deg\].
+    /// Shape of the washing surface by knots of its meridian, as `layout.plate_knots`.
+    #[key(unit = "m, deg", domain = Knots(10.0, 60.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub knots: Option<Vec<[f64; 2]>>,
-    /// Radius and height of the ring that it stands on \[m\].
+    /// Radius and height of the ring that it stands on; without it, that of `[layout]`, if any.
+    #[key(unit = "m", domain = PairAbove(0.0, 1.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub foot_m: Option<[f64; 2]>,
-    /// Thickness \[m\].
+    /// Its thickness; without it, that of `[layout]`.
+    #[key(unit = "m", domain = NumberAbove(0.0, 1.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness_m: Option<f64>,
 }

@@ -1,106 +1,58 @@
 //! The `[floor]` and `[table]` sections: what most cells stand on.
 
 use crate::error::{Problem, conflict};
-use crate::key::Domain::{Bool, Number, NumberAbove, Pair, PairAbove};
-use crate::key::{Key, key};
 use crate::poses::pose;
+use platewash_keys::Section;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use platewash_workcell::workcell::{Obstacle, ObstacleShape};
 use serde::{Deserialize, Serialize};
 
-/// The keys of `[floor]` and `[table]`.
-pub(crate) const ROOM_KEYS: &[Key] = &[
-    key(
-        "floor.present",
-        "",
-        Bool,
-        "Whether there is a floor: all below its height is an obstacle.",
-    ),
-    key(
-        "floor.height_m",
-        "m",
-        Number(-10.0, 10.0),
-        "z of the floor. Without it, 0.",
-    ),
-    key(
-        "floor.margin_m",
-        "m",
-        Number(0.0, 1.0),
-        "How far arm and tool keep from the floor, beyond wash.clearance_m. Without it, 0.",
-    ),
-    key(
-        "table.size_m",
-        "m",
-        PairAbove(0.0, 100.0),
-        "Edges of the table's top along its x and y. Without it there is no table, and none of the other keys of one is stated.",
-    ),
-    key(
-        "table.height_m",
-        "m",
-        Number(-10.0, 10.0),
-        "z of the table's upper side. Without it, 0.",
-    ),
-    key(
-        "table.thickness_m",
-        "m",
-        NumberAbove(0.0, 10.0),
-        "Thickness of the top, downwards. Without it, 0.03.",
-    ),
-    key(
-        "table.at_m",
-        "m",
-        Pair(-100.0, 100.0),
-        "x and y of its middle. Without it, the origin.",
-    ),
-    key(
-        "table.yaw_deg",
-        "deg",
-        Number(-720.0, 720.0),
-        "How it is turned about the vertical, counter-clockwise. Without it, 0.",
-    ),
-    key(
-        "table.margin_m",
-        "m",
-        Number(0.0, 1.0),
-        "How far arm and tool keep from the table, beyond wash.clearance_m. Without it, 0.",
-    ),
-];
-
 /// `[floor]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
+#[section("floor")]
 #[serde(default, deny_unknown_fields)]
 pub struct FloorSection {
-    /// Whether there is one.
+    /// Whether there is a floor: all below its height is an obstacle.
+    #[key(domain = Bool, default = true)]
     pub present: bool,
-    /// Its z \[m\]; 0 where it is left out.
+    /// z of the floor. Without it, 0.
+    #[key(unit = "m", domain = Number(-10.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
-    /// How far it is grown \[m\]; 0 where it is left out.
+    /// How far arm and tool keep from the floor, beyond wash.clearance_m. Without it, 0.
+    #[key(unit = "m", domain = Number(0.0, 1.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin_m: Option<f64>,
 }
 
 /// `[table]`: a box whose upper side is level.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
+#[section("table")]
 #[serde(default, deny_unknown_fields)]
 pub struct TableSection {
-    /// Edges of its top \[m\]; without them there is none.
+    /// Edges of the table's top along its x and y. Without it there is no table, and none of the other keys of one is stated.
+    #[key(unit = "m", domain = PairAbove(0.0, 100.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size_m: Option<[f64; 2]>,
-    /// z of its upper side \[m\]; 0 where it is left out.
+    /// z of the table's upper side. Without it, 0.
+    #[key(unit = "m", domain = Number(-10.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
-    /// Thickness of the top, downwards \[m\]; 0.03 where it is left out.
+    /// Thickness of the top, downwards. Without it, 0.03.
+    #[key(unit = "m", domain = NumberAbove(0.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness_m: Option<f64>,
-    /// x and y of its middle \[m\]; the origin where it is left out.
+    /// x and y of its middle. Without it, the origin.
+    #[key(unit = "m", domain = Pair(-100.0, 100.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_m: Option<[f64; 2]>,
-    /// How it is turned about the vertical \[deg\]; 0 where it is left out.
+    /// How it is turned about the vertical, counter-clockwise. Without it, 0.
+    #[key(unit = "deg", domain = Number(-720.0, 720.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yaw_deg: Option<f64>,
-    /// How far it is grown \[m\]; 0 where it is left out.
+    /// How far arm and tool keep from the table, beyond wash.clearance_m. Without it, 0.
+    #[key(unit = "m", domain = Number(0.0, 1.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin_m: Option<f64>,
 }
@@ -166,16 +118,6 @@ impl TableSection {
             margin_m: self.margin_m.unwrap_or(0.0),
             ..Obstacle::new(TABLE, shape, pose(middle, [0.0, 0.0, self.yaw_deg.unwrap_or(0.0)]))
         })
-    }
-}
-
-impl Default for FloorSection {
-    fn default() -> Self {
-        Self {
-            present: true,
-            height_m: None,
-            margin_m: None,
-        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The `[tool]` section.
 
+use platewash_keys::Section;
 use platewash_workcell::tool::StraightTool;
 use platewash_workcell::tool_chain::Handle;
 use serde::{Deserialize, Serialize};
@@ -10,39 +11,56 @@ pub const ASSUMED_STIFFNESS_KPA: [f64; 2] = [11.0, 44.0];
 
 /// `[tool]`: a straight handle with a sponge at its end, mounted anywhere on the flange. Further bodies are
 /// [`ToolBodySection`](crate::ToolBodySection)s.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
+#[section("tool")]
 #[serde(default, deny_unknown_fields)]
 pub struct ToolSection {
-    /// From the flange to the sponge's far face as it is pressed while it washes \[m\]; 0 for no tool body.
+    /// From the flange, along its normal, to the sponge's far face as it is pressed while it washes: the free sponge is longer by
+    /// sponge_compression_m. 0 means no tool body; above 0 in a certified job. From mount_m on where the tool is mounted elsewhere.
+    #[key(unit = "m", domain = Number(0.0, 2.0), default = StraightTool::default().length_m)]
     pub length_m: f64,
-    /// Radius of the handle \[m\].
+    /// Radius of the handle.
+    #[key(unit = "m", domain = NumberAbove(0.0, 1.0), default = StraightTool::default().radius_m)]
     pub radius_m: f64,
-    /// What is between flange and sponge.
+    /// What is between flange and sponge: a round handle, or nothing but the bodies of `[[tool_body]]`.
+    #[key(domain = Word(&["round", "none"]), default = HandleName::Round)]
     pub handle: HandleName,
-    /// The link behind joint 6 that carries it, which it leaves along the link's z axis; without it, `tool0`.
+    /// Link behind joint 6 that carries the tool; the tool leaves it along the link's z axis, turned by mount_rpy_deg. Without it, `tool0`; a
+    /// description without a link of that name is refused.
+    #[key(domain = Text)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mounted_on: Option<String>,
-    /// Where it begins, mounting frame \[m\].
+    /// Where the tool begins, in the mounting frame of the flange: handle, sponge, tip, centre of mass and inertia follow it.
+    #[key(unit = "m", domain = Triple(-1.0, 1.0))]
     pub mount_m: [f64; 3],
-    /// How it is turned there: roll, pitch and yaw about the mounting frame's axes x, y, z \[deg\].
+    /// How the tool is turned there: roll, pitch and yaw about the fixed axes x, y, z of the mounting frame. Unturned, it leaves the flange
+    /// along its normal.
+    #[key(unit = "deg", domain = Triple(-360.0, 360.0))]
     pub mount_rpy_deg: [f64; 3],
-    /// Radius of the sponge \[m\]; also decides coverage.
+    /// Radius of the sponge; decides coverage, also where there is no tool body.
+    #[key(unit = "m", domain = NumberAbove(0.0, 1.0), default = StraightTool::default().sponge_radius_m)]
     pub sponge_radius_m: f64,
-    /// Height of the sponge while it washes \[m\]: the handle ends that far above the contact.
+    /// Height of the sponge while it washes: the handle ends so far above the contact. With a tool body, below its length.
+    #[key(unit = "m", domain = NumberAbove(0.0, 1.0), default = StraightTool::default().sponge_height_m)]
     pub sponge_height_m: f64,
-    /// How far the sponge is pressed in while it washes \[m\], so much higher it is while nothing presses it: the tip may lift as far and
-    /// still touch. An assumption.
+    /// How far the sponge is pressed in while it washes, and how much higher it is while nothing presses it: the tip may lift as far and still
+    /// touch. An assumption.
+    #[key(unit = "m", domain = Number(0.0, 1.0), default = StraightTool::default().sponge_compression_m)]
     pub sponge_compression_m: f64,
-    /// Least and greatest stiffness of the sponge, pressure over strain \[kPa\]: an assumption; without it, [`ASSUMED_STIFFNESS_KPA`]
-    /// where contact is promised, otherwise unknown.
+    /// Least and greatest stiffness of the sponge, pressure over strain: an assumption. Without it, [11, 44] where wash.contact is true,
+    /// otherwise unknown.
+    #[key(unit = "kPa", domain = Range(1e-3, 1e6))]
     pub sponge_stiffness_kpa: Option<[f64; 2]>,
-    /// Mass of the tool body \[kg\]: an assumption.
+    /// Mass of the tool, all its bodies together (none where length_m is 0): an assumption.
+    #[key(unit = "kg", domain = Number(0.0, 1e4), default = StraightTool::default().mass_kg)]
     pub mass_kg: f64,
-    /// Distance of its centre of mass from the flange along its axis \[m\]; without it, half its length.
+    /// Distance of the tool's centre of mass from where it begins, along its axis; without it, half its length, or what its bodies come to.
+    #[key(unit = "m", domain = Number(-10.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub com_m: Option<f64>,
-    /// Its inertia about the centre of mass, ixx, ixy, ixz, iyy, iyz, izz with z along it \[kg·m²\]; without it, that of a
-    /// uniform cylinder.
+    /// Inertia of the tool about its centre of mass: ixx, ixy, ixz, iyy, iyz, izz, z along the tool; without it, that of a uniform cylinder,
+    /// or of its bodies.
+    #[key(unit = "kg·m²", domain = Joints(-1e4, 1e4))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_kg_m2: Option<[f64; 6]>,
 }
@@ -80,37 +98,6 @@ impl ToolSection {
             mass_kg: self.mass_kg,
             com_m: self.com_m,
             inertia_kg_m2: self.inertia_kg_m2,
-        }
-    }
-}
-
-impl Default for ToolSection {
-    fn default() -> Self {
-        let StraightTool {
-            length_m,
-            radius_m,
-            sponge_radius_m,
-            sponge_height_m,
-            sponge_compression_m,
-            sponge_stiffness_pa: _,
-            mass_kg,
-            com_m,
-            inertia_kg_m2,
-        } = StraightTool::default();
-        Self {
-            length_m,
-            radius_m,
-            handle: HandleName::Round,
-            mounted_on: None,
-            mount_m: [0.0; 3],
-            mount_rpy_deg: [0.0; 3],
-            sponge_radius_m,
-            sponge_height_m,
-            sponge_compression_m,
-            sponge_stiffness_kpa: None,
-            mass_kg,
-            com_m,
-            inertia_kg_m2,
         }
     }
 }

@@ -213,7 +213,7 @@ fn the_form_is_the_table_of_keys() {
     let page = std::fs::read_to_string(page).unwrap();
     let form = form();
     assert_eq!(form.len(), KEYS.len());
-    for (row, key) in form.iter().zip(KEYS) {
+    for (row, key) in form.iter().zip(KEYS.iter()) {
         assert_eq!((row.path, row.unit, row.meaning), (key.path, key.unit, key.meaning));
         let name = key.path.rsplit('.').next().unwrap();
         let words = page.lines().any(|line| {
