@@ -13,7 +13,7 @@ pub const NASTY: &[(&str, &str)] = &[
     ("blank lines", "\n\n  \n"),
     (
         "dotted",
-        "# top\nwash.turns = 3 # three\nname = \"a\"\nwash . \"points\" = 55\n# of the tool\ntool.length_m = 0.15\n\n[layout] # where\ncount = 2\n",
+        "# top\nname = \"a\"\nwash.turns = 3 # three\nwash.\"points\" = 55\n# of the tool\ntool.length_m = 0.15\n\n[layout] # where\ncount = 2\n",
     ),
     (
         "braces",

@@ -15,11 +15,13 @@ pub(crate) fn on_one_line(value: &Value) -> String {
     }
 }
 
-/// A list with an element a line; `newline` ends each but the last.
-pub(crate) fn on_rows(elements: &[Value], newline: &str, indent: &str) -> String {
-    let row = |element| format!("{newline}{indent}    {},", on_one_line(element));
-    let rows: String = elements.iter().map(row).collect();
-    format!("[{rows}{newline}{indent}]")
+/// A list with an element a line.
+pub(crate) fn on_rows(elements: &[Value]) -> String {
+    let rows: String = elements
+        .iter()
+        .map(|element| format!("\n    {},", on_one_line(element)))
+        .collect();
+    format!("[{rows}\n]")
 }
 
 /// A value in the style of the one that it takes the place of: whole numbers without a point and texts in single quotes stay so.

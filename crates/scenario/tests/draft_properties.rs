@@ -17,6 +17,12 @@ fn place(text: &str, path: &str) -> Option<Range<usize>> {
     Some(value.span())
 }
 
+/// Whether the section of a key stands within braces on several lines, whose comments would be lost where a key comes or goes.
+fn is_in_long_braces(text: &str, path: &str) -> bool {
+    let section = path.split('.').next().unwrap();
+    place(text, section).is_some_and(|at| text[at.clone()].starts_with('{') && text[at].contains('\n'))
+}
+
 fn is_scalar(text: &str, path: &str) -> bool {
     place(text, path).is_some_and(|at| !matches!(&text[at.start..=at.start], "[" | "{"))
 }
@@ -151,7 +157,11 @@ proptest! {
         let mut draft = Draft::new(text).unwrap();
         for (key, value) in changes {
             let before = draft.clone();
-            draft.set(key.path, value.as_ref()).unwrap();
+            if let Err(error) = draft.set(key.path, value.as_ref()) {
+                prop_assert!(is_in_long_braces(before.text(), key.path), "{}", error);
+                prop_assert_eq!(draft.text(), before.text());
+                continue;
+            }
             let (old, new) = (before.text(), draft.text());
             prop_assert_eq!(&Draft::new(new).unwrap(), &draft);
             others_stay(&before, &draft, &key)?;
@@ -183,6 +193,9 @@ proptest! {
     fn out_and_in_again_states_the_same(text in text(), (key, value) in change()) {
         let mut draft = Draft::new(text).unwrap();
         let before = draft.stated();
+        if is_in_long_braces(text, key.path) {
+            return Ok(());
+        }
         draft.set(key.path, None).unwrap();
         let out = draft.text().to_owned();
         if let Some(old) = before.get(key.path).filter(|_| !text.contains("unknown")) {
@@ -219,7 +232,7 @@ proptest! {
                 prop_assert!(problem.to_string().chars().count() < 4000);
                 prop_assert_eq!(draft.text(), text);
             }
-            Err(other) => prop_assert!(false, "{}", other),
+            Err(other) => prop_assert!(is_in_long_braces(text, key.path), "{}", other),
         }
     }
 
@@ -245,6 +258,7 @@ proptest! {
                     prop_assert!(line <= damaged.lines().count());
                     prop_assert_eq!(&draft, &before);
                 }
+                Err(EditError::Unplaced { .. }) => prop_assert_eq!(&draft, &before),
                 Err(other) => prop_assert!(false, "{} in {:?}", other, damaged),
             }
         }

@@ -1,12 +1,14 @@
 //! Which key of a text is changed: one of the table, as `wash.turns`, or one in a section of a list, as `plate[1].at_m`.
 
-use super::place::{Place, place};
-use super::row::place_in_row;
-use super::statement::Statement;
+use super::error::EditError;
 use crate::error::Problem;
-use crate::key::Key;
+use crate::fits::check;
+use crate::key::{Domain, Key};
 use crate::keys::KEYS;
 use crate::lists::{LISTS, own_name};
+use crate::unknown::unknown;
+use crate::value::describe_json;
+use serde_json::Value;
 
 /// A key that is changed.
 pub(super) struct Target {
@@ -17,7 +19,7 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// That of a path; none where there is no such key.
+    /// The key of a path; `None` where there is no such key.
     pub fn of(path: &str) -> Option<Self> {
         if let Some(key) = KEYS.iter().find(|key| key.path == path) {
             return Some(Self { key, row: None });
@@ -30,6 +32,31 @@ impl Target {
         let index = index.parse().ok().filter(|k: &usize| k.to_string() == index)?;
         let row = Some((list.name, index));
         Some(Self { key, row })
+    }
+
+    /// The key that a path names, and a value as the key takes it: JSON has one type of numbers, so that where a whole one is wanted, one
+    /// with a point is as good.
+    pub fn with_value(path: &str, value: Option<&Value>) -> Result<(Self, Option<Value>), EditError> {
+        /// Up to here all whole numbers are there \[2^53\].
+        const EXACT: f64 = 9_007_199_254_740_992.0;
+        let target = Self::of(path).ok_or_else(|| EditError::Refused(unknown(path)))?;
+        let Some(value) = value else {
+            return Ok((target, None));
+        };
+        let value = match value.as_f64() {
+            Some(v) if matches!(target.key.domain, Domain::Integer(..)) && v.fract() == 0.0 && v.abs() < EXACT => {
+                Value::from(v as i64)
+            }
+            _ => value.clone(),
+        };
+        match check(target.key, &value, || describe_json(&value)) {
+            Ok(()) => Ok((target, Some(value))),
+            Err(Problem::Value { expected, found, .. }) => {
+                let key = target.path();
+                Err(EditError::Refused(Problem::Value { key, expected, found }))
+            }
+            Err(problem) => Err(EditError::Refused(problem)),
+        }
     }
 
     /// What it is called.
@@ -48,25 +75,5 @@ impl Target {
     /// Its section, if it has one.
     pub fn section(&self) -> Option<&'static str> {
         self.key.path.rsplit_once('.').map(|(section, _)| section)
-    }
-
-    /// Where it stands in a text, or would go.
-    pub fn place<'a>(&self, statements: &'a [Statement]) -> Place<'a> {
-        match self.row {
-            Some(row) => place_in_row(statements, row, self.name()),
-            None => place(statements, self.section(), self.name()),
-        }
-    }
-
-    /// A problem with its value, under the name that it has here.
-    pub fn of_problem(&self, problem: Problem) -> Problem {
-        match problem {
-            Problem::Value { expected, found, .. } => Problem::Value {
-                key: self.path(),
-                expected,
-                found,
-            },
-            other => other,
-        }
     }
 }

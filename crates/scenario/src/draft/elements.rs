@@ -1,0 +1,93 @@
+//! Elements of lists that change, come and go; what stays keeps its layout and its comments.
+//!
+//! `toml_edit` keeps what stands between two elements, a comment behind the comma too, before the second one.
+
+use super::change::{Stop, json, merge as merge_value, parsed, same, text_of};
+use crate::write::on_one_line;
+use serde_json::Value as Json;
+use toml_edit::Array;
+
+/// Puts elements in the place of others: those at the beginning and at the end that are the same stay.
+pub(super) fn merge(old: &mut Array, new: &[Json]) -> Result<(), Stop> {
+    let was: Vec<Json> = old.iter().map(json).collect();
+    let most = was.len().min(new.len());
+    let before = was.iter().zip(new).take_while(|(a, b)| same(a, b)).count();
+    let pairs = was.iter().rev().zip(new.iter().rev()).take(most - before);
+    let behind = pairs.take_while(|(a, b)| same(a, b)).count();
+    let both = most - behind;
+    for at in before..both {
+        if let Some(element) = old.get_mut(at).filter(|_| !same(&was[at], &new[at])) {
+            merge_value(element, &new[at])?;
+        }
+    }
+    for at in (both..was.len() - behind).rev() {
+        remove(old, at);
+    }
+    for (k, value) in new[both..new.len() - behind].iter().enumerate() {
+        insert(old, both + k, value)?;
+    }
+    Ok(())
+}
+
+/// What stands before an element; before the bracket, behind the last one.
+fn gap(array: &Array, at: usize) -> String {
+    match (array.get(at), array.get(at.wrapping_sub(1))) {
+        (Some(element), _) => text_of(element.decor().prefix()),
+        (None, Some(last)) if !array.trailing_comma() => text_of(last.decor().suffix()),
+        (None, _) => text_of(Some(array.trailing())),
+    }
+}
+
+fn set_gap(array: &mut Array, at: usize, gap: String) {
+    let ends_with_comma = array.trailing_comma();
+    if let Some(element) = array.get_mut(at) {
+        return element.decor_mut().set_prefix(gap);
+    }
+    match array.get_mut(at.wrapping_sub(1)).filter(|_| !ends_with_comma) {
+        Some(last) => last.decor_mut().set_suffix(gap),
+        None => array.set_trailing(gap),
+    }
+}
+
+/// Takes an element out: the comment behind it goes, too, those before it stay.
+fn remove(array: &mut Array, at: usize) {
+    let (before, behind) = (gap(array, at), gap(array, at + 1));
+    array.remove(at);
+    let rest = behind.find('\n').map(|line| &behind[line..]);
+    let joined = match (rest, array.is_empty()) {
+        (Some(rest), _) => before.trim_end_matches([' ', '\t', '\n']).to_owned() + rest,
+        (None, true) => String::new(),
+        (None, false) if at == array.len() => behind,
+        (None, false) => before,
+    };
+    set_gap(array, at, joined);
+}
+
+/// Puts an element in, on a line of its own where others are.
+fn insert(array: &mut Array, at: usize, value: &Json) -> Result<(), Stop> {
+    let gaps: Vec<String> = (0..array.len()).map(|at| gap(array, at)).collect();
+    let line = gaps
+        .iter()
+        .find_map(|gap| gap.rfind('\n').map(|line| gap[line..].to_owned()));
+    let is_last = at == array.len();
+    let here = gap(array, at);
+    let mut element = parsed(&on_one_line(value))?;
+    let (own, next) = match line {
+        // The comment behind the element before stays behind it.
+        Some(line) if is_last => {
+            let comment = here.find('\n').map_or("", |end| &here[..end]);
+            (format!("{comment}{line}"), here[comment.len()..].to_owned())
+        }
+        Some(line) => (here, line),
+        None if is_last && at > 0 => (" ".to_owned(), here),
+        None if at == 0 => (here, if is_last { String::new() } else { " ".to_owned() }),
+        None => (" ".to_owned(), here),
+    };
+    element.decor_mut().set_prefix(own);
+    if is_last && at > 0 && !array.trailing_comma() {
+        set_gap(array, at, String::new());
+    }
+    array.insert_formatted(at, element);
+    set_gap(array, at + 1, next);
+    Ok(())
+}
