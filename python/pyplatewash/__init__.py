@@ -77,6 +77,7 @@ from ._errors import (
     StudyError,
     UrdfError,
 )
+from ._nouns import finish as _finish
 from ._page import Page
 from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record
 from ._studies.samples import samples
@@ -84,6 +85,7 @@ from ._studies.rows import StudyRows
 from ._values import Coverage, Foot, IkSettings, PaperSpiral, Plate, Rings, Tool, WashCurve
 
 __version__: str = _version("pyplatewash")
+_finish()
 
 __all__ = [
     "Certificate",

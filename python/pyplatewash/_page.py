@@ -67,19 +67,63 @@ class Page:
 Beside = tuple[Any, Any, Any, Any]
 
 
-def show(plan: _core.Plan, beside: Beside, prove: Any, simulate: Any, height: Any) -> Page:
-    """What ``Plan.show`` says."""
-    return _of_plan(plan, beside, _core._show_arguments(plan, beside, prove, simulate, height, None))
+def show(
+    self: _core.Plan,
+    execution: Any = None,
+    certificate: Any = None,
+    *,
+    scenario: Any = None,
+    robot: Any = None,
+    prove: Any = True,
+    simulate: Any = True,
+    height: Any = HEIGHT,
+) -> Page:
+    """Shows the plan in three dimensions: a ``Page``, which a notebook shows in the cell and which can ``open()`` and ``save(path)``.
+
+    As the command's ``view`` does, it proves the plan and simulates it with its own settings, unless a ``certificate`` or an
+    ``execution`` is given or ``prove`` or ``simulate`` is False; what is not proved says so. A run of the paper's program has no
+    certificate. Where the plan cannot be simulated, a warning says why.
+
+    With ``scenario`` the page shows where its plates are drawn. ``robot`` is the arm, by default the one that the plan was made for.
+    ``height`` is that of the cell [px].
+
+    Raises MissingError in a build without the page; InputError for what does not belong to the plan; ProveError for a plan that says
+    nothing that could be judged or whose arm must be given.
+    """
+    beside = (execution, certificate, scenario, robot)
+    return _of_plan(self, beside, _core._show_arguments(self, beside, prove, simulate, height, None))
 
 
-def view(plan: _core.Plan, beside: Beside, prove: Any, simulate: Any, path: Any) -> Path:
-    """What ``Plan.view`` says."""
-    return _of_plan(plan, beside, _core._show_arguments(plan, beside, prove, simulate, None, path)).open(path)
+def view(
+    self: _core.Plan,
+    execution: Any = None,
+    certificate: Any = None,
+    *,
+    scenario: Any = None,
+    robot: Any = None,
+    prove: Any = True,
+    simulate: Any = True,
+    path: Any = None,
+) -> Path:
+    """Writes the page of ``show`` to a file and opens it in the browser.
+
+    Gives the file's path, by default that of a new one in the system's folder for temporary files, where it stays.
+
+    Raises what ``show`` raises; FileError for a file that cannot be written. Where no browser can be started, a warning says so.
+    """
+    beside = (execution, certificate, scenario, robot)
+    return _of_plan(self, beside, _core._show_arguments(self, beside, prove, simulate, None, path)).open(path)
 
 
-def show_configuration(robot: _core.Robot, q: Any, tool: Any, plates: Any, height: Any) -> Page:
-    """What ``Robot.show`` says."""
-    return Page(*_core._configuration_page(robot, q, tool, plates, height))
+def show_configuration(self: _core.Robot, q: Any, *, tool: Any = None, plates: Any = (), height: Any = HEIGHT) -> Page:
+    """Shows one configuration, shape (6,), in three dimensions: a ``Page``, which a notebook shows in the cell.
+
+    It can ``open()`` and ``save(path)``. With a tool and plates where they are given; nothing is judged. ``height`` is that of the
+    cell [px].
+
+    Raises MissingError in a build without the page.
+    """
+    return Page(*_core._configuration_page(self, q, tool, plates, height))
 
 
 def _of_plan(plan: _core.Plan, beside: Beside, checked: tuple[tuple[_core.Robot, _core.Scenario | None], list[bool], int]) -> Page:

@@ -1,4 +1,4 @@
-//! What Python's side of the package does for methods of ours: figures, pages in cells, tables.
+//! What Python's side of the package does for methods of ours: figures, pages in cells.
 
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
@@ -15,12 +15,4 @@ pub fn ask<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let module = py.import(format!("pyplatewash.{module}"))?;
     module.getattr(function)?.call1(arguments)
-}
-
-/// A noun's table for notebooks, in HTML.
-///
-/// # Errors
-/// What a getter of the noun raises.
-pub fn table<'py>(noun: &Bound<'py, PyAny>, kind: &str) -> PyResult<Bound<'py, PyAny>> {
-    ask(noun.py(), "_tables", kind, (noun,))
 }

@@ -1,7 +1,6 @@
 //! `Certificate`: what is proved about a plan.
 
 use crate::argument;
-use crate::by_python::table;
 use crate::errors;
 use crate::job::PaperJobObject;
 use crate::plan::PlanObject;
@@ -150,10 +149,6 @@ impl CertificateObject {
         to_python(py, &self.inner.checks.iter().map(row).collect::<Vec<_>>())
     }
 
-    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        table(slf, "certificate")
-    }
-
     /// The whole report: every requirement, plate, pair of bodies and assumption. `str(certificate)` is one screen of it.
     fn details(&self) -> String {
         format!("{:#}", self.inner)
@@ -172,14 +167,6 @@ impl CertificateObject {
             "Certificate('{}', {dry_run}{kept} of {checks} requirements kept)",
             self.verdict()
         )
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

@@ -247,14 +247,6 @@ impl ClearanceObject {
         Ok(job == of_job && own.eq(theirs)?)
     }
 
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
-    }
-
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let (class, model) = (slf.get_type(), slf.get());
         let make = match model.is_of_job() {

@@ -230,14 +230,6 @@ impl DynamicsObject {
         self.inner == other.inner
     }
 
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
-    }
-
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let arguments = &slf.get().arguments;
         Ok((slf.get_type().getattr("_restore")?, arguments.into_pyobject(slf.py())?))

@@ -1,7 +1,6 @@
 //! `WashJob` and `PaperJob`: what is asked, resolved.
 
 use crate::argument;
-use crate::by_python::table;
 use crate::errors;
 use crate::layout::LayoutObject;
 use crate::made;
@@ -150,22 +149,10 @@ impl WashJobObject {
         to_python(py, self.inner.terms())
     }
 
-    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        table(slf, "job")
-    }
-
     fn __repr__(&self) -> String {
         let terms = self.inner.terms();
         let plates = counted(terms.plates.len(), "plate");
         format!("WashJob({}, seed={}, {plates})", quoted(self.inner.name()), terms.seed)
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
@@ -323,10 +310,6 @@ impl PaperJobObject {
         to_python(py, &self.terms(py)?)
     }
 
-    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        table(slf, "job")
-    }
-
     fn __repr__(&self) -> String {
         let plates = counted(self.inner.layout.plates.len(), "plate");
         format!(
@@ -334,14 +317,6 @@ impl PaperJobObject {
             quoted(&self.inner.name),
             self.inner.seed
         )
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

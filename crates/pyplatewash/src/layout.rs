@@ -1,7 +1,6 @@
 //! `Layout`: where the plates lie.
 
 use crate::argument;
-use crate::by_python::table;
 use crate::errors;
 use crate::made;
 use crate::plate::plates;
@@ -77,21 +76,9 @@ impl LayoutObject {
         self.inner.plates.len()
     }
 
-    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        table(slf, "layout")
-    }
-
     fn __repr__(&self) -> String {
         let plates = counted(self.inner.plates.len(), "plate");
         format!("Layout({plates}, {})", counted(self.inner.findings.len(), "finding"))
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

@@ -1,7 +1,6 @@
 //! `PaperRun`: the paper's program, planned and followed.
 
 use crate::argument;
-use crate::by_python::table;
 use crate::errors;
 use crate::job::PaperJobObject;
 use crate::made;
@@ -170,10 +169,6 @@ impl PaperRunObject {
         self.inner.steps.len()
     }
 
-    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        table(slf, "paper_run")
-    }
-
     fn __repr__(&self) -> String {
         let plates = counted(self.inner.job.layout.plates.len(), "plate");
         let steps = counted(self.inner.steps.len(), "waypoint");
@@ -183,14 +178,6 @@ impl PaperRunObject {
     fn __eq__(&self, other: &Self) -> bool {
         let (a, b) = (&self.inner, &other.inner);
         self.job.get() == other.job.get() && (&a.steps, &a.planned, &a.executed) == (&b.steps, &b.planned, &b.executed)
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

@@ -1,7 +1,7 @@
 //! `Plan`: the plan file.
 
 use crate::argument;
-use crate::by_python::{ask, table};
+use crate::by_python::ask;
 use crate::dry_run;
 use crate::errors::{self, FileOf, SystemWord};
 use crate::export;
@@ -369,58 +369,6 @@ impl PlanObject {
         py.import("json")?.getattr("loads")?.call1((message.text,))
     }
 
-    /// Shows the plan in three dimensions: a `Page`, which a notebook shows in the cell and whose `open()` and `save(path)` do what
-    /// they say. As the command's `view` does, it proves the plan and simulates it with its own settings, unless a `certificate` or an
-    /// `execution` is given or `prove` or `simulate` is False; what is not proved says so. A run of the paper's program has no certificate.
-    /// Where the plan cannot be simulated, a warning says why.
-    ///
-    /// With `scenario` the page shows where its plates are drawn. `robot` is the arm, by default the one that the plan was made for.
-    /// `height` is that of the cell [px].
-    ///
-    /// Raises MissingError in a build without the page; InputError for what does not belong to the plan; ProveError for a plan
-    /// that says nothing that could be judged or whose arm must be given.
-    #[pyo3(
-        signature = (execution=None, certificate=None, *, scenario=None, robot=None, prove=None, simulate=None, height=None),
-        text_signature = "($self, execution=None, certificate=None, *, scenario=None, robot=None, prove=True, simulate=True, height=640)"
-    )]
-    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
-    fn show<'py>(
-        slf: &Bound<'py, Self>,
-        execution: Option<&Bound<'py, PyAny>>,
-        certificate: Option<&Bound<'py, PyAny>>,
-        scenario: Option<&Bound<'py, PyAny>>,
-        robot: Option<&Bound<'py, PyAny>>,
-        prove: Option<&Bound<'py, PyAny>>,
-        simulate: Option<&Bound<'py, PyAny>>,
-        height: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let beside = (execution, certificate, scenario, robot);
-        ask(slf.py(), "_page", "show", (slf, beside, prove, simulate, height))
-    }
-
-    /// Writes the page of `show` to a file and opens it in the browser. Gives the file's path, by default that of a new one in the
-    /// system's folder for temporary files, where it stays.
-    ///
-    /// Raises what `show` raises; FileError for a file that cannot be written. Where no browser can be started, a warning says so.
-    #[pyo3(
-        signature = (execution=None, certificate=None, *, scenario=None, robot=None, prove=None, simulate=None, path=None),
-        text_signature = "($self, execution=None, certificate=None, *, scenario=None, robot=None, prove=True, simulate=True, path=None)"
-    )]
-    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
-    fn view<'py>(
-        slf: &Bound<'py, Self>,
-        execution: Option<&Bound<'py, PyAny>>,
-        certificate: Option<&Bound<'py, PyAny>>,
-        scenario: Option<&Bound<'py, PyAny>>,
-        robot: Option<&Bound<'py, PyAny>>,
-        prove: Option<&Bound<'py, PyAny>>,
-        simulate: Option<&Bound<'py, PyAny>>,
-        path: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let beside = (execution, certificate, scenario, robot);
-        ask(slf.py(), "_page", "view", (slf, beside, prove, simulate, path))
-    }
-
     /// Draws the plan with matplotlib: `"layout"` (from above), `"joints"` (positions, speeds and accelerations as shares of their
     /// limits), `"tip"` (its speed), `"clearance"` (the least distance), `"coverage"` (for how long the sponge is over each place of a
     /// plate) or `"spiral"` (planned and executed).
@@ -475,10 +423,6 @@ impl PlanObject {
         Ok(Self::new(plan, Some(robot)))
     }
 
-    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        table(slf, "plan")
-    }
-
     fn __repr__(&self) -> String {
         let hash = self.inner.hash.as_deref().and_then(|h| h.get(..8)).unwrap_or("none");
         let (name, seed) = (quoted(&self.inner.provenance.scenario), self.inner.job.seed);
@@ -486,14 +430,6 @@ impl PlanObject {
         let dry_run = self.inner.job.dry_run.as_ref();
         let dry_run = dry_run.map_or_else(String::new, |of| format!("dry run of {}…, ", of.parent_short()));
         format!("Plan({name}, {dry_run}seed={seed}, {duration_s:.2} s, hash {hash}…)")
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

@@ -1,6 +1,5 @@
 //! `Planned`: a washing, planned, and what is to be said of it.
 
-use crate::by_python::table;
 use crate::errors;
 use crate::job::WashJobObject;
 use crate::made;
@@ -72,10 +71,6 @@ impl PlannedObject {
         to_record(py, &report, Some(report.to_string()))
     }
 
-    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        table(slf, "planned")
-    }
-
     fn __repr__(&self) -> String {
         let plan = &self.inner.plan;
         let (name, plates) = (quoted(&plan.provenance.scenario), counted(plan.order.len(), "plate"));
@@ -84,14 +79,6 @@ impl PlannedObject {
 
     fn __eq__(&self, other: &Self) -> bool {
         self.job.get() == other.job.get() && self.inner.plan == other.inner.plan
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

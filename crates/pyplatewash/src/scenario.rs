@@ -322,14 +322,6 @@ impl ScenarioObject {
         format!("Scenario('{}', seed={})", self.inner.name, self.inner.seed)
     }
 
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
-    }
-
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let text = slf.get().to_toml(slf.py())?;
         let arguments = (text, slf.get().name()).into_pyobject(slf.py())?;

@@ -168,14 +168,6 @@ impl TrajectoryObject {
         )
     }
 
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
-    }
-
     fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         (self.t_s(py)?, self.q_rad(py)?, self.qd_rad_s(py)?).into_pyobject(py)
     }

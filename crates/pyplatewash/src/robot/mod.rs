@@ -8,7 +8,6 @@ mod settings;
 mod source;
 
 use crate::argument::{self, ROBOT};
-use crate::by_python::{ask, table};
 use crate::errors;
 use crate::made;
 use crate::notes::warn;
@@ -357,28 +356,6 @@ impl Robot {
         batch::solve(&*self.solver(py, frame, settings)?, py, targets, seeds)
     }
 
-    /// Shows one configuration, shape (6,), in three dimensions: a `Page`, which a notebook shows in the cell and whose `open()` and
-    /// `save(path)` do what they say. With a tool and plates where they are given; nothing is judged. `height` is that of the cell [px].
-    ///
-    /// Raises MissingError in a build without the page.
-    #[pyo3(
-        signature = (q, *, tool=None, plates=None, height=None),
-        text_signature = "($self, q, *, tool=None, plates=(), height=640)"
-    )]
-    fn show<'py>(
-        slf: &Bound<'py, Self>,
-        q: &Bound<'py, PyAny>,
-        tool: Option<&Bound<'py, PyAny>>,
-        plates: Option<&Bound<'py, PyAny>>,
-        height: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        ask(slf.py(), "_page", "show_configuration", (slf, q, tool, plates, height))
-    }
-
-    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        table(slf, "robot")
-    }
-
     fn __repr__(&self) -> String {
         format!("Robot('{}', sha256 {}…)", self.model.name(), &self.model.sha256()[..8])
     }
@@ -390,14 +367,6 @@ impl Robot {
     fn __hash__(&self) -> u64 {
         // The first bits of a SHA-256 are as good as any.
         u64::from_str_radix(&self.model.sha256()[..16], 16).unwrap_or(0)
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

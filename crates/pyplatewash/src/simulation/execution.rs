@@ -3,7 +3,6 @@
 use super::question::Question;
 use super::settings::SettingsObject;
 use crate::argument;
-use crate::by_python::table;
 use crate::errors;
 use crate::made;
 use crate::plan::PlanObject;
@@ -179,10 +178,6 @@ impl ExecutionObject {
             .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
     }
 
-    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        table(slf, "execution")
-    }
-
     fn __len__(&self) -> usize {
         self.samples().len()
     }
@@ -201,14 +196,6 @@ impl ExecutionObject {
         let (a, b) = (&self.inner, &other.inner);
         let (asked, other) = (&a.question, &b.question);
         (&asked.plan, &asked.settings, &a.execution) == (&other.plan, &other.settings, &b.execution)
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

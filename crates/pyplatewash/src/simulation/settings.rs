@@ -204,14 +204,6 @@ impl SettingsObject {
         format!("SimulationSettings('{law}', {frequency} rad/s, damping ratio {damping})")
     }
 
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
-    }
-
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let (py, settings) = (slf.py(), &slf.get().inner);
         let arguments = (
