@@ -67,15 +67,13 @@ fn misplaced(subject: &Subject<'_>, dry_run: &DryRun) -> Result<Vec<Discrepancy>
 /// What is wrong with the real plate below a raised one.
 fn missing(dry_run: &DryRun, obstacles: &[Obstacle], index: usize, plate: &Plate) -> Option<Discrepancy> {
     let name = DryRun::real_name(index);
-    let lowered = -plate.axis() * dry_run.height_m;
-    let expected = DryRun::standing(index, plate);
-    let place = expected.pose.translation.vector + lowered;
+    let expected = DryRun::standing(index, &dry_run.lowered(plate));
     let below = millimetres(dry_run.height_m);
     let Some(found) = obstacles.iter().find(|obstacle| obstacle.name == name) else {
         let words = format!("plate {index} itself, {below} below where it is raised to");
         return Some(Discrepancy::new(format!("obstacle {name:?}"), "not stated", words));
     };
-    let off_m = (found.pose.translation.vector - place).norm();
+    let off_m = (found.pose.translation.vector - expected.pose.translation.vector).norm();
     let axis = found.pose.rotation * Vector3::z();
     let turned = (axis - plate.axis()).norm();
     if found.shape == expected.shape && off_m <= PLACE_M && turned <= PLACE_M {

@@ -10,11 +10,12 @@ use crate::value::{from_mapping, records, to_python, to_record};
 use crate::work::patiently;
 use platewash::planner::Watch;
 use platewash::scenario::{Program, SHIPPED};
-use platewash::{Failure, Layout, Scenario};
+use platewash::{Failure, Layout, RobotModel, Scenario};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple, PyType};
 use serde_json::{Map, Value};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A job in full: what a scenario file states, with defaults filled in. Immutable; `replace` makes another one.
 ///
@@ -202,7 +203,7 @@ impl ScenarioObject {
     /// Raises InputError for a scenario of the paper's program; PlanError or LayoutError.
     #[pyo3(signature = (layout=None))]
     fn job(&self, py: Python<'_>, layout: Option<&Bound<'_, PyAny>>) -> PyResult<WashJobObject> {
-        resolved_wash(py, self.inner.clone(), LayoutObject::given(layout)?)
+        resolved_wash(py, &self.inner, LayoutObject::given(layout)?)
     }
 
     /// The run of the paper's program that the scenario asks for, resolved: its arm loaded, its plates placed, or those of a layout
@@ -211,7 +212,7 @@ impl ScenarioObject {
     /// Raises InputError for a scenario of the other program; PlanError or LayoutError.
     #[pyo3(signature = (layout=None))]
     fn paper_job(&self, py: Python<'_>, layout: Option<&Bound<'_, PyAny>>) -> PyResult<PaperJobObject> {
-        resolved_paper(py, self.inner.clone(), LayoutObject::given(layout)?)
+        resolved_paper(py, &self.inner, LayoutObject::given(layout)?)
     }
 
     /// What was probably meant in another unit: a home in radians. Each is also a `UserWarning` when the scenario is made.
@@ -377,7 +378,7 @@ pub fn wash_job<'py>(
         "a WashJob, a Scenario, the name of a shipped one or the path of a scenario file",
     )?;
     scenario.seed = seed.unwrap_or(scenario.seed);
-    Bound::new(py, resolved_wash(py, scenario, None)?)
+    Bound::new(py, resolved_wash(py, &scenario, None)?)
 }
 
 /// The run of the paper's program of the argument called `job`: a `PaperJob`, or that of a scenario.
@@ -393,42 +394,44 @@ pub fn paper_job<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PaperJob
         value,
         "a PaperJob, a Scenario, the name of a shipped one or the path of a scenario file",
     )?;
-    Bound::new(value.py(), resolved_paper(value.py(), scenario, None)?)
+    Bound::new(value.py(), resolved_paper(value.py(), &scenario, None)?)
 }
 
 /// The washing that a scenario asks for, on its own plates or those of a layout.
-fn resolved_wash(py: Python<'_>, scenario: Scenario, layout: Option<Layout>) -> PyResult<WashJobObject> {
-    of_program(py, &scenario, Program::Certified)?;
-    let asked = scenario.clone();
-    let resolved = patiently(py, move |cancel| {
-        let arm = asked.arm()?;
-        let layout = match layout {
-            Some(layout) => layout,
-            None => asked.place(&arm, &Watch::silent(cancel))?,
-        };
-        let job = asked.job_on(&arm, &layout)?;
-        Ok::<_, Failure>((job, layout))
+fn resolved_wash(py: Python<'_>, scenario: &Scenario, layout: Option<Layout>) -> PyResult<WashJobObject> {
+    of_program(py, scenario, Program::Certified)?;
+    let ((job, layout), robot) = resolved(py, scenario, layout, |scenario, arm, layout| {
+        Ok((scenario.job_on(arm, &layout)?, layout))
     })?;
-    let (job, layout) = resolved.map_err(|e| errors::failure(py, &e))?;
-    let robot = Robot::of_scenario(py, &scenario, job.shared_arm())?;
     Ok(WashJobObject::new(job, layout, robot))
 }
 
 /// The run of the paper's program that a scenario asks for, on its own plates or those of a layout.
-fn resolved_paper(py: Python<'_>, scenario: Scenario, layout: Option<Layout>) -> PyResult<PaperJobObject> {
-    of_program(py, &scenario, Program::Paper)?;
-    let asked = scenario.clone();
-    let resolved = patiently(py, move |_| {
-        let arm = asked.arm()?;
-        let layout = match layout {
-            Some(layout) => layout,
-            None => asked.layout(&arm)?,
-        };
-        asked.paper_job_on(&arm, layout)
-    })?;
-    let job = resolved.map_err(|e| errors::failure(py, &e))?;
-    let robot = Robot::of_scenario(py, &scenario, job.arm.clone())?;
+fn resolved_paper(py: Python<'_>, scenario: &Scenario, layout: Option<Layout>) -> PyResult<PaperJobObject> {
+    of_program(py, scenario, Program::Paper)?;
+    let (job, robot) = resolved(py, scenario, layout, Scenario::paper_job_on)?;
     Ok(PaperJobObject::new(job, robot))
+}
+
+/// The job of a scenario on its own plates, placed as its program places them, or on those of a layout; and its robot.
+fn resolved<J: Send + 'static>(
+    py: Python<'_>,
+    scenario: &Scenario,
+    layout: Option<Layout>,
+    job: fn(&Scenario, &Arc<RobotModel>, Layout) -> Result<J, Failure>,
+) -> PyResult<(J, Py<Robot>)> {
+    let asked = scenario.clone();
+    let resolved = patiently(py, move |cancel| {
+        let arm = asked.arm()?;
+        let layout = match (layout, asked.job.program) {
+            (Some(layout), _) => layout,
+            (None, Program::Certified) => asked.place(&arm, &Watch::silent(cancel))?,
+            (None, Program::Paper) => asked.layout(&arm)?,
+        };
+        Ok::<_, Failure>((job(&asked, &arm, layout)?, arm))
+    })?;
+    let (job, arm) = resolved.map_err(|e| errors::failure(py, &e))?;
+    Ok((job, Robot::of_scenario(py, scenario, arm)?))
 }
 
 /// Refuses a scenario of the other program than the one that a call runs.

@@ -3,8 +3,8 @@
 use crate::argument::{self, TOOL};
 use crate::arrays;
 use crate::errors;
+use platewash::Tool;
 use platewash::workcell::tool::StraightTool;
-use platewash::{Tool, ToolFrame};
 use pyo3::prelude::*;
 
 /// Largest length that is believed \[m\].
@@ -103,10 +103,7 @@ impl ToolFields {
             com_m: self.com_m,
             inertia_kg_m2: self.inertia_kg_m2,
         };
-        Ok(Tool {
-            mounted_on: self.mounted_on.clone().filter(|link| link != ToolFrame::Tool0.name()),
-            ..Tool::from(straight)
-        })
+        Ok(Tool::from(straight).mounted(self.mounted_on.clone()))
     }
 
     fn check_stiffness(&self, py: Python<'_>) -> PyResult<()> {

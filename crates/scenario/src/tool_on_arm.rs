@@ -8,8 +8,8 @@ use crate::poses::pose;
 use crate::scenario::Scenario;
 use crate::tool::ASSUMED_STIFFNESS_KPA;
 use crate::tool_body::{ToolBodySection, tool_keys};
+use platewash_kinematics::RobotModel;
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::{RobotModel, ToolFrame};
 use platewash_workcell::clearance::SolidParts;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::tool_chain::{ToolChain, ToolError};
@@ -99,11 +99,7 @@ impl Scenario {
             let assumed = ASSUMED_STIFFNESS_KPA.map(|kpa| 1e3 * kpa);
             chain.straight.sponge_stiffness_pa.get_or_insert(assumed);
         }
-        let stated = self.tool.mounted_on.clone();
-        let tool = Tool {
-            mounted_on: stated.filter(|link| link != ToolFrame::Tool0.name()),
-            ..chain.tool()?
-        };
+        let tool = chain.tool()?.mounted(self.tool.mounted_on.clone());
         tool.check_mount(arm).map_err(|error| {
             let (keys, detail) = ("tool.mounted_on".to_owned(), error.to_string());
             ScenarioError::new(&self.name, None, Problem::Conflict { keys, detail })

@@ -11,7 +11,7 @@ use crate::outcome::Outcome;
 use crate::row::Row;
 use crate::study::Study;
 use platewash_kinematics::fingerprint::sha256_hex;
-use platewash_workcell::atomic_file::{self, FolderLock};
+use platewash_workcell::atomic_file::FolderLock;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -181,7 +181,7 @@ impl Journal {
             let plans = self.folder.join(PLANS);
             fs::create_dir_all(&plans).map_err(StudyError::disk(&plans, "cannot be made"))?;
             let file = plans.join(format!("{index}.json"));
-            atomic_file::write(&file, plan).map_err(StudyError::disk(&file, "cannot be written"))?;
+            lines::write_whole(&file, plan)?;
         }
         let path = self.folder.join(ROWS);
         files
@@ -242,8 +242,7 @@ fn restate(folder: &Path, study: &Study, manifest: &Manifest) -> Result<(), Stud
         return Ok(());
     }
     for (name, text) in texts(study) {
-        let file = folder.join(name);
-        atomic_file::write(&file, text.as_bytes()).map_err(StudyError::disk(&file, "cannot be written"))?;
+        lines::write_whole(&folder.join(name), text.as_bytes())?;
     }
     Ok(())
 }

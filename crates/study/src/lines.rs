@@ -1,5 +1,7 @@
-//! A file of whole lines that only grows: a line that was torn at its end is dropped when it is opened again.
+//! Files of a study: those of whole lines only grow, and a line that was torn at its end is dropped when they are opened again.
 
+use crate::error::StudyError;
+use platewash_workcell::atomic_file;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::Path;
@@ -7,6 +9,14 @@ use std::time::{Duration, Instant};
 
 /// Time between two calls that wait until the disk has what was written.
 const SYNC: Duration = Duration::from_secs(5);
+
+/// Writes a file whole.
+///
+/// # Errors
+/// [`StudyError::Disk`].
+pub(crate) fn write_whole(file: &Path, text: &[u8]) -> Result<(), StudyError> {
+    atomic_file::write(file, text).map_err(StudyError::disk(file, "cannot be written"))
+}
 
 /// What a file of lines is written to; a file, and in tests one that fails.
 pub(crate) trait Sink: Write + Send {

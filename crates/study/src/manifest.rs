@@ -3,10 +3,10 @@
 use crate::axis::AxisKind;
 use crate::base::Base;
 use crate::error::StudyError;
+use crate::lines::write_whole;
 use crate::row::ROW_SCHEMA;
 use crate::study::Study;
 use platewash_kinematics::fingerprint::sha256_hex;
-use platewash_workcell::atomic_file;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -121,8 +121,7 @@ impl Manifest {
             file: path.to_owned(),
             problem: error.to_string(),
         })?;
-        let written = atomic_file::write(path, format!("{text}\n").as_bytes());
-        written.map_err(StudyError::disk(path, "cannot be written"))
+        write_whole(path, format!("{text}\n").as_bytes())
     }
 
     /// What tells this study from another one, with what each of them has.

@@ -7,7 +7,7 @@ use crate::trig::atan2;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::Rigid;
-use platewash_kinematics::{Frame, Pose, RobotModel, ToolFrameError};
+use platewash_kinematics::{Frame, Pose, RobotModel, ToolFrame, ToolFrameError};
 use serde::{Deserialize, Serialize};
 
 /// Bodies that overlap by less touch: the rounding of places \[m\].
@@ -173,6 +173,15 @@ impl From<StraightTool> for Tool {
 }
 
 impl Tool {
+    /// The tool on the link that carries it; that `tool0` does need not be stated, and is not kept.
+    #[must_use]
+    pub fn mounted(self, on: Option<String>) -> Self {
+        Self {
+            mounted_on: on.filter(|link| link != ToolFrame::Tool0.name()),
+            ..self
+        }
+    }
+
     /// Whether there is a tool that can touch anything.
     #[must_use]
     pub fn is_present(&self) -> bool {
