@@ -1,4 +1,4 @@
-//! A plan against the scenario that it should be a plan of.
+//! A plan against the scenario that it should be a plan of, or the plan that it should be a dry run of.
 
 use super::failure::Failure;
 use super::options::Options;
@@ -14,19 +14,26 @@ use std::sync::Arc;
 
 /// What a scenario asks for, resolved, its plates placed again.
 pub struct Asked {
-    scenario: String,
-    seed: u64,
+    other: Other,
     terms: JobTerms,
     /// Its arm.
     pub arm: Arc<RobotModel>,
 }
 
-/// Where a plan's job is another one than a scenario asks for.
+/// Where a plan is another one than it should be.
 #[derive(Debug, Serialize)]
 pub struct Against {
-    scenario: String,
-    seed: u64,
+    #[serde(flatten)]
+    other: Other,
     differences: Vec<Difference>,
+}
+
+/// What a plan should be of.
+#[derive(Debug, Clone, Serialize)]
+#[serde(untagged)]
+enum Other {
+    Scenario { scenario: String, seed: u64 },
+    Parent { hash: Option<String> },
 }
 
 impl Asked {
@@ -41,8 +48,10 @@ impl Asked {
         let asked = scenario.arm().and_then(|arm| {
             Ok(Self {
                 terms: terms(&options, &scenario, &arm)?,
-                scenario: scenario.name.clone(),
-                seed: scenario.seed,
+                other: Other::Scenario {
+                    scenario: scenario.name.clone(),
+                    seed: scenario.seed,
+                },
                 arm,
             })
         });
@@ -52,8 +61,7 @@ impl Asked {
     /// Compares every field of a job with what is asked for.
     pub fn compare(&self, found: &JobTerms) -> Against {
         Against {
-            scenario: self.scenario.clone(),
-            seed: self.seed,
+            other: self.other.clone(),
             differences: differences(found, &self.terms),
         }
     }
@@ -78,34 +86,62 @@ fn terms(options: &Options, scenario: &Scenario, arm: &Arc<RobotModel>) -> Resul
 }
 
 impl Against {
-    /// Whether the plan's job is the one that is asked for.
+    /// The fields in which a dry run differs from one of the plan with a hash.
+    pub fn parent(hash: Option<String>, differences: Vec<Difference>) -> Self {
+        let other = Other::Parent { hash };
+        Self { other, differences }
+    }
+
+    /// Whether the plan is what it should be.
     pub fn agrees(&self) -> bool {
         self.differences.is_empty()
     }
 
-    /// What stands before everything else; nothing where the jobs agree.
+    /// What stands before everything else; nothing where they agree.
     pub fn first_words(&self) -> String {
-        match self.differences.len() {
-            0 => String::new(),
-            _ => format!("OTHER JOB than that of {}: {}; ", self.name(), self.count()),
+        let count = fields_differ(self.differences.len());
+        match &self.other {
+            _ if self.agrees() => String::new(),
+            Other::Scenario { .. } => format!("OTHER JOB than that of {}: {count}; ", self.other),
+            Other::Parent { .. } => format!("NO DRY RUN of the plan given: {count}; "),
         }
     }
+}
 
-    fn name(&self) -> String {
-        format!("{}, seed {}", quoted(&self.scenario), self.seed)
-    }
-
-    fn count(&self) -> String {
-        fields_differ(self.differences.len())
+impl fmt::Display for Other {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scenario { scenario, seed } => write!(f, "{}, seed {seed}", quoted(scenario)),
+            Self::Parent { hash } => f.write_str(hash.as_deref().unwrap_or("without a hash")),
+        }
     }
 }
 
 impl fmt::Display for Against {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "against {}: {}", self.name(), self.count())?;
-        self.differences.iter().try_for_each(|difference| {
+        let Self { other, differences } = self;
+        let count = fields_differ(differences.len());
+        let says = match other {
+            Other::Scenario { .. } => {
+                writeln!(f, "against {other}: {count}")?;
+                "the scenario"
+            }
+            Other::Parent { .. } => {
+                let from = if self.agrees() {
+                    " from what a dry run must have"
+                } else {
+                    ""
+                };
+                writeln!(
+                    f,
+                    "dry run of {other}: {count}{from}; that plan itself is not proved here"
+                )?;
+                "a dry run"
+            }
+        };
+        differences.iter().try_for_each(|difference| {
             let Difference { key, found, expected } = difference;
-            writeln!(f, "  {key}: the plan says {found}, the scenario {expected}")
+            writeln!(f, "  {key}: the plan says {found}, {says} {expected}")
         })
     }
 }

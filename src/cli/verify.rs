@@ -7,7 +7,7 @@ use super::failure::{ExitCode, Failure};
 use super::handed_over;
 use super::options::Options;
 use super::output;
-use super::parent::OfParent;
+use super::parent;
 use super::plan_file::{self, PlanFile};
 use super::progress::Progress;
 use super::refused::PLAN_STATES;
@@ -48,7 +48,7 @@ struct Answer {
     #[serde(skip_serializing_if = "Option::is_none")]
     against: Option<Against>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    parent: Option<OfParent>,
+    parent: Option<Against>,
 }
 
 #[derive(Debug, Serialize)]
@@ -83,7 +83,7 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, F
         .map(|name| Asked::resolve(options, name, plan.job.seed))
         .transpose()?;
     let against = asked.as_ref().map(|asked| asked.compare(&plan.job));
-    let mut parent = None;
+    let mut compared = None;
     let judgement = match plan.process {
         Process::Paper if arguments.parent.is_some() => {
             let name = arguments.plan.display();
@@ -96,11 +96,11 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, F
             let besides = asked.as_ref().map(|asked| &asked.arm);
             let file = PlanFile::with_arm(options, &arguments.plan, plan, besides)?;
             let given = arguments.parent.as_ref();
-            parent = given.map(|path| OfParent::compare(&file, path)).transpose()?;
+            compared = given.map(|path| parent::compare(&file, path)).transpose()?;
             let progress = Progress::new(options.quiet, "proving");
             let mut certificate = file.prove(options)?;
             drop(progress);
-            if parent.as_ref().is_some_and(OfParent::agrees) {
+            if compared.as_ref().is_some_and(Against::agrees) {
                 certificate.set_parent_compared();
             }
             Judgement::Washing(Box::new(certificate))
@@ -109,7 +109,7 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, F
     let answer = Answer {
         judgement,
         against,
-        parent,
+        parent: compared,
     };
     output::print_either(options.json, &answer, || arguments.details.printed(&answer))?;
     Ok(answer.outcome().answer())
@@ -121,8 +121,7 @@ impl Answer {
             Judgement::Washing(certificate) => certificate.passes(),
             Judgement::Paper(_) => false,
         };
-        let of_parent = self.parent.as_ref().is_none_or(OfParent::agrees);
-        if passes && of_parent && self.against.as_ref().is_none_or(Against::agrees) {
+        if passes && [&self.parent, &self.against].into_iter().flatten().all(Against::agrees) {
             Outcome::Good
         } else {
             Outcome::NotVerified
@@ -132,23 +131,15 @@ impl Answer {
 
 impl fmt::Display for Answer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(parent) = &self.parent {
-            f.write_str(&parent.first_words())?;
-        }
-        if let Some(against) = &self.against {
-            f.write_str(&against.first_words())?;
+        for other in [&self.parent, &self.against].into_iter().flatten() {
+            f.write_str(&other.first_words())?;
         }
         match &self.judgement {
             Judgement::Washing(certificate) => certificate.fmt(f)?,
             Judgement::Paper(no_certificate) => f.write_str(&no_certificate.text())?,
         }
-        if let Some(against) = &self.against {
-            write!(f, "\n{against}")?;
-        }
-        if let Some(parent) = &self.parent {
-            write!(f, "\n{parent}")?;
-        }
-        Ok(())
+        let mut others = [&self.against, &self.parent].into_iter().flatten();
+        others.try_for_each(|other| write!(f, "\n{other}"))
     }
 }
 

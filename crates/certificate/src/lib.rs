@@ -23,7 +23,6 @@
 //! | clearance: one pair, all pairs; at a single moment, to look at | `clear`, `clearances`; `moments` |
 //! | a motion that a controller makes of a plan; how far it leaves the plan | `program`, `deviation` |
 //! | places, told in the world | `world` |
-//! | where a job is not the one that was asked for | `differences` |
 
 mod amounts;
 mod apart;
@@ -37,7 +36,6 @@ mod clearances;
 mod contact;
 mod curve;
 mod deviation;
-mod differences;
 mod dry_run;
 mod error;
 mod exclusions;
@@ -84,12 +82,12 @@ pub use certificate::{CERTIFICATE_FORMAT, Certificate, HashFinding, Verdict};
 pub use certified::{Certified, CertifyError, certify, certify_with};
 pub use check::{Check, Discrepancy, Measure, Sense, Status, Unit, Worst};
 pub use clearances::{PairBound, PairRule};
-pub use differences::{Difference, differences};
 pub use error::ProveError;
 pub use headline::{paper_headline, planned_headline};
 pub use moments::ClearanceRule;
 pub use neighbours::Touched;
 pub use plate_contact::{PlateContact, ProvedExtreme, ProvedShare};
+pub use platewash_workcell::differences::{Difference, differences};
 pub use program::{ProgramLimits, ProgramProof, prove_program};
 pub use prove::{MotionProof, prove, prove_motion, prove_with};
 pub use requirement::Requirement;

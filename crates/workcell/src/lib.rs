@@ -9,7 +9,7 @@
 //! | what is asked, resolved | [`job`], [`simulation`] |
 //! | how a plate is washed; the arc between plates | [`wash_path`], [`arc`] |
 //! | a motion, its stretches, it as CSV, and read back | [`trajectory`], [`segment`], [`csv`], [`recorded`] |
-//! | the plan file; files that appear whole | [`plan`]; [`atomic_file`] |
+//! | the plan file; files that appear whole; fields in which two jobs differ | [`plan`]; [`atomic_file`]; [`differences`] |
 //! | a plan tried out in the air; where the arm stands at the table | [`dry_run`], [`raised`]; [`align`] |
 //! | distances between bodies | [`clearance`] |
 //! | the share of a plate that is swept | [`coverage`] |
@@ -26,6 +26,7 @@ pub mod contact;
 pub mod coverage;
 pub mod csv;
 pub mod deadline;
+pub mod differences;
 pub mod dry_run;
 pub mod fixtures;
 pub mod job;

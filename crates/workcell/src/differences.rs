@@ -1,0 +1,214 @@
+//! Where two values differ, field by field, as JSON has them.
+
+use crate::job::MAX_SEED;
+use crate::words::{printable, shortened};
+use serde::Serialize;
+use serde_json::{Number, Value};
+use std::collections::BTreeSet;
+
+/// Longest value that a difference repeats, in characters.
+const LONGEST: usize = 80;
+
+/// What stands for a value that is not there. A text of that word has quotes.
+pub(crate) const NOTHING: &str = "nothing";
+
+/// A field in which two values differ.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, thiserror::Error)]
+#[error("{}: {}; expected {}", printable(.key), printable(.found), printable(.expected))]
+pub struct Difference {
+    /// Its place, e.g. `plates[2].pose.position_m[0]`.
+    pub key: String,
+    /// What the one value says, as JSON; `nothing` where it says nothing.
+    pub found: String,
+    /// What the other says.
+    pub expected: String,
+}
+
+/// Every field in which the value found differs from the one expected, by the order of their names. In lists of things that have names, or
+/// pairs of names, one thing more or less is one difference, wherever it stands.
+#[must_use]
+pub fn differences<T: Serialize>(found: &T, expected: &T) -> Vec<Difference> {
+    let [found, expected] = [found, expected].map(|value| serde_json::to_value(value).unwrap_or(Value::Null));
+    Compared::of(&found, &expected, true)
+}
+
+/// The same of two values as JSON has them; things of lists are told apart by their places alone.
+pub(crate) fn by_place(found: &Value, expected: &Value) -> Vec<Difference> {
+    Compared::of(found, expected, false)
+}
+
+/// Two values, as far as they have been compared.
+struct Compared {
+    by_name: bool,
+    all: Vec<Difference>,
+}
+
+impl Compared {
+    fn of(found: &Value, expected: &Value, by_name: bool) -> Vec<Difference> {
+        let mut compared = Self {
+            by_name,
+            all: Vec::new(),
+        };
+        compared.field("", Some(found), Some(expected));
+        compared.all
+    }
+
+    fn field(&mut self, key: &str, found: Option<&Value>, expected: Option<&Value>) {
+        match (found, expected) {
+            (Some(Value::Object(found)), Some(Value::Object(expected))) => {
+                let dot = if key.is_empty() { "" } else { "." };
+                for name in found.keys().chain(expected.keys()).collect::<BTreeSet<_>>() {
+                    let inside = format!("{key}{dot}{}", name.escape_debug());
+                    self.field(&inside, found.get(name), expected.get(name));
+                }
+            }
+            (Some(Value::Array(found)), Some(Value::Array(expected))) => self.lists(key, found, expected),
+            (Some(Value::Number(found)), Some(Value::Number(expected))) if same(found, expected) => {}
+            _ if found == expected && !found.is_some_and(Value::is_number) => {}
+            _ => self.all.push(Difference {
+                key: key.to_owned(),
+                found: said(found),
+                expected: said(expected),
+            }),
+        }
+    }
+
+    fn lists(&mut self, key: &str, found: &[Value], expected: &[Value]) {
+        let Some([ours, theirs]) = self.labels(found, expected) else {
+            for i in 0..found.len().max(expected.len()) {
+                self.field(&format!("{key}[{i}]"), found.get(i), expected.get(i));
+            }
+            return;
+        };
+        let of = |labels: &[String], label| labels.iter().position(|other| other == label);
+        for label in ours.iter().chain(&theirs).collect::<BTreeSet<_>>() {
+            let found = of(&ours, label).and_then(|at| found.get(at));
+            let expected = of(&theirs, label).and_then(|at| expected.get(at));
+            self.field(&format!("{key}[{label}]"), found, expected);
+        }
+        let in_order = |labels: &[String], others: &[String]| {
+            let both = labels.iter().filter(|label| others.contains(label)).cloned();
+            both.collect::<Vec<_>>().join(", ")
+        };
+        let (found, expected) = (in_order(&ours, &theirs), in_order(&theirs, &ours));
+        if found != expected {
+            self.all.push(Difference {
+                key: format!("order of {key}"),
+                found: shortened(&found, LONGEST),
+                expected: shortened(&expected, LONGEST),
+            });
+        }
+    }
+
+    /// What tells the things of two lists apart: their names or pairs of names, where all have one of their own.
+    fn labels(&self, found: &[Value], expected: &[Value]) -> Option<[Vec<String>; 2]> {
+        let label = |value: &Value| value.get("name").or_else(|| value.get("pair")).map(Value::to_string);
+        let labels = |list: &[Value]| {
+            let labels: Vec<String> = list.iter().map(label).collect::<Option<_>>()?;
+            let different: BTreeSet<_> = labels.iter().collect();
+            (different.len() == labels.len()).then_some(labels)
+        };
+        let both = self.by_name.then(|| labels(found).zip(labels(expected)));
+        both.flatten().map(|(ours, theirs)| [ours, theirs])
+    }
+}
+
+/// Whether two numbers are the same JSON number. Where a whole number is expected, it is one that JSON says exactly (RFC 8785: numbers are
+/// doubles), which bounds seeds for that reason.
+fn same(found: &Number, expected: &Number) -> bool {
+    match expected.as_u64() {
+        Some(whole) if !found.is_f64() => found.as_u64() == Some(whole) && whole <= MAX_SEED,
+        _ => found.as_f64() == expected.as_f64(),
+    }
+}
+
+/// The beginning of a value.
+fn said(value: Option<&Value>) -> String {
+    shortened(&value.map_or_else(|| NOTHING.to_owned(), Value::to_string), LONGEST)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixtures::{kitchen, kitchen_plate};
+    use crate::job::JobTerms;
+
+    type Change = fn(&mut JobTerms);
+
+    fn found(change: Change) -> Vec<[String; 3]> {
+        let job = kitchen();
+        let mut terms = job.terms().clone();
+        change(&mut terms);
+        let all = differences(&terms, job.terms());
+        all.into_iter().map(|d| [d.key, d.found, d.expected]).collect()
+    }
+
+    #[test]
+    fn a_job_does_not_differ_from_itself() {
+        assert_eq!(found(|_| ()), [] as [[String; 3]; 0]);
+    }
+
+    #[test]
+    fn every_field_that_differs_is_named_by_its_path() {
+        let one = |change: Change| match &found(change)[..] {
+            [one] => one.clone(),
+            others => panic!("{others:?}"),
+        };
+        let says = |change: Change, expected: [&str; 3]| assert_eq!(one(change), expected.map(str::to_owned));
+        says(|t| t.seed = 2, ["seed", "2", "1"]);
+        says(
+            |t| t.requirements.clearance_m = 0.0,
+            ["requirements.clearance_m", "0.0", "0.01"],
+        );
+        says(
+            |t| t.plates[2].pose.translation.x = 0.3,
+            ["plates[2].pose.position_m[0]", "0.3", "0.2923017826335751"],
+        );
+        says(
+            |t| t.home_rad[1][4] = 1.5,
+            ["home_rad[1][4]", "1.5", "1.5707963267948966"],
+        );
+        says(
+            |t| t.workcell.arm.name = "other".to_owned(),
+            ["workcell.arm.name", "\"other\"", "\"irb120\""],
+        );
+        says(
+            |t| t.simulation.payload_kg = Some(0.5),
+            ["simulation.payload_kg", "0.5", "null"],
+        );
+        says(
+            |t| _ = t.workcell.obstacles.pop(),
+            [
+                r#"workcell.obstacles["floor"]"#,
+                "nothing",
+                r#"{"name":"floor","pose":{"position_m":[0.0,0.0,0.0],"quaternion_wxyz":[1.0,0.0,0.…"#,
+            ],
+        );
+    }
+
+    #[test]
+    fn a_pair_more_and_another_order_are_a_difference_each() {
+        let more = found(|t| {
+            let mut first = t.workcell.exclusions[0].clone();
+            first.pair = ["handle".to_owned(), "floor".to_owned()];
+            t.workcell.exclusions.insert(0, first);
+        });
+        assert_eq!(more.len(), 1, "{more:?}");
+        assert_eq!(more[0][0], r#"workcell.exclusions[["handle","floor"]]"#);
+        let swapped = found(|t| t.workcell.exclusions.swap(0, 1));
+        let keys: Vec<_> = swapped.iter().map(|d| &d[0][..]).collect();
+        assert_eq!(keys, ["order of workcell.exclusions"]);
+    }
+
+    #[test]
+    fn a_plate_more_and_a_planner_of_another_kind_are_differences_too() {
+        let more = found(|t| t.plates.push(kitchen_plate([0.5, 0.5])));
+        assert_eq!(
+            (more.len(), &more[0][0][..], &more[0][2][..]),
+            (1, "plates[4]", "nothing")
+        );
+        let planner = found(|t| t.planner = crate::job::Planner::Paper(Value::Null));
+        let keys: Vec<_> = planner.iter().map(|d| &d[0][..]).collect();
+        assert_eq!(keys, ["planner.paper", "planner.wash"]);
+    }
+}
