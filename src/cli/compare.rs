@@ -9,7 +9,7 @@ use super::progress::Progress;
 use clap::Args;
 use platewash::certificate::{Difference, Measure, MeasureWords, Requirement, differences, paper_headline};
 use platewash::workcell::plan::Process;
-use platewash::workcell::segment::SegmentKind;
+use platewash::workcell::segment::{PlanSegment, SegmentKind};
 use platewash::workcell::words::{counted, quoted};
 use platewash::{Certificate, Plan};
 use serde::Serialize;
@@ -26,6 +26,26 @@ pub struct CompareArguments {
     /// Second plan file
     #[arg(value_name = "B")]
     pub b: PathBuf,
+}
+
+/// Parts of a cycle, by kinds of segments.
+const PARTS: [(&str, &[SegmentKind]); 3] = [
+    ("washing", &[SegmentKind::Wash]),
+    (
+        "down to and up from plates",
+        &[SegmentKind::Approach, SegmentKind::Retreat],
+    ),
+    (
+        "between plates, from and to home",
+        &[SegmentKind::Depart, SegmentKind::Transit, SegmentKind::Return],
+    ),
+];
+
+/// Time of some segments; `None` where there are none \[s\].
+fn time_s(plan: &Plan, is_of: impl Fn(&PlanSegment) -> bool) -> Option<f64> {
+    let segments = plan.segments.iter().filter(|segment| is_of(segment));
+    let times = segments.map(|segment| segment.t_end_s - segment.t_start_s);
+    times.reduce(|a, b| a + b)
 }
 
 /// Two plans, side by side.
@@ -118,18 +138,6 @@ impl Proved {
         }
     }
 
-    /// Time of the segments of some kinds, on one plate or all; `None` where there are none \[s\].
-    fn time_s(&self, kinds: &[SegmentKind], plate: Option<usize>) -> Option<f64> {
-        let of_part = self
-            .plan
-            .segments
-            .iter()
-            .filter(|segment| kinds.contains(&segment.kind) && plate.is_none_or(|plate| segment.plate == plate));
-        of_part
-            .map(|segment| segment.t_end_s - segment.t_start_s)
-            .reduce(|a, b| a + b)
-    }
-
     fn measure(&self, requirement: Requirement) -> Option<Measure> {
         self.certificate.as_ref()?.check(requirement)?.measure
     }
@@ -137,37 +145,27 @@ impl Proved {
 
 impl Comparison {
     fn of(a: &Proved, b: &Proved) -> Self {
-        use SegmentKind::{Approach, Depart, Retreat, Return, Transit, Wash};
-        let job = differences(&a.plan.job, &b.plan.job);
-        let job = job.into_iter().map(|Difference { key, found, expected }| Differing {
+        let times = |part: String, time_s: &dyn Fn(&Plan) -> Option<f64>| Times {
+            part,
+            a_s: time_s(&a.plan),
+            b_s: time_s(&b.plan),
+        };
+        let whole = times("whole cycle".to_owned(), &|plan| Some(plan.duration_s()));
+        let parts = PARTS.map(|(part, kinds)| {
+            times(part.to_owned(), &|plan| {
+                time_s(plan, |segment| kinds.contains(&segment.kind))
+            })
+        });
+        let plates: BTreeSet<usize> = a.plan.order.iter().chain(&b.plan.order).copied().collect();
+        let of_plates = plates.into_iter().map(|plate| {
+            let is_of = |segment: &PlanSegment| segment.kind == SegmentKind::Wash && segment.plate == plate;
+            times(format!("washing plate {plate}"), &|plan| time_s(plan, is_of))
+        });
+        let differing = |Difference { key, found, expected }| Differing {
             key,
             a: found,
             b: expected,
-        });
-        let times = |part: String, kinds: &[SegmentKind], plate| Times {
-            part,
-            a_s: a.time_s(kinds, plate),
-            b_s: b.time_s(kinds, plate),
         };
-        let plates: BTreeSet<usize> = a.plan.order.iter().chain(&b.plan.order).copied().collect();
-        let of_plates = plates
-            .into_iter()
-            .map(|plate| times(format!("washing plate {plate}"), &[Wash], Some(plate)));
-        let whole = Times {
-            part: "whole cycle".to_owned(),
-            a_s: Some(a.plan.duration_s()),
-            b_s: Some(b.plan.duration_s()),
-        };
-        let parts = [
-            whole,
-            times("washing".to_owned(), &[Wash], None),
-            times("down to and up from plates".to_owned(), &[Approach, Retreat], None),
-            times(
-                "between plates, from and to home".to_owned(),
-                &[Depart, Transit, Return],
-                None,
-            ),
-        ];
         let margins = Requirement::ALL.iter().filter_map(|&requirement| {
             let margins = Margins {
                 requirement,
@@ -177,8 +175,11 @@ impl Comparison {
             (margins.a.is_some() || margins.b.is_some()).then_some(margins)
         });
         Self {
-            job: job.collect(),
-            times: parts.into_iter().chain(of_plates).collect(),
+            job: differences(&a.plan.job, &b.plan.job)
+                .into_iter()
+                .map(differing)
+                .collect(),
+            times: [whole].into_iter().chain(parts).chain(of_plates).collect(),
             margins: margins.collect(),
             a: a.side(),
             b: b.side(),
@@ -189,28 +190,24 @@ impl Comparison {
 impl Display for Comparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (name, side) in [("A", &self.a), ("B", &self.b)] {
-            let scenario = quoted(&side.scenario);
+            let (plan, scenario, seed) = (side.plan.display(), quoted(&side.scenario), side.seed);
             writeln!(
                 f,
-                "{name}: {}: scenario {scenario}, seed {}",
-                side.plan.display(),
-                side.seed
+                "{name}: {plan}: scenario {scenario}, seed {seed}\n   {}",
+                side.headline
             )?;
-            writeln!(f, "   {}", side.headline)?;
         }
         writeln!(f, "\njob: {}", fields_differ(self.job.len()))?;
         for Differing { key, a, b } in &self.job {
             writeln!(f, "  {key}: A {a}, B {b}")?;
         }
         writeln!(f, "\n{:<34}{:>12}{:>12}{:>18}", "time [s]", "A", "B", "B − A")?;
-        for times in self
-            .times
-            .iter()
-            .filter(|times| times.a_s.is_some() || times.b_s.is_some())
-        {
-            let told = [times.a_s, times.b_s].map(|s| s.map_or("none".to_owned(), |s| format!("{s:.2}")));
-            let change = times.a_s.zip(times.b_s).map_or_else(String::new, |(a, b)| change(a, b));
-            writeln!(f, "{:<34}{:>12}{:>12}{change:>18}", times.part, told[0], told[1])?;
+        for Times { part, a_s, b_s } in &self.times {
+            let [a, b] = [a_s, b_s].map(|s| s.map_or("none".to_owned(), |s| format!("{s:.2}")));
+            let change = a_s.zip(*b_s).map_or_else(String::new, |(a, b)| change(a, b));
+            if a_s.or(*b_s).is_some() {
+                writeln!(f, "{part:<34}{a:>12}{b:>12}{change:>18}")?;
+            }
         }
         let (same, other): (Vec<_>, Vec<_>) = self.margins.iter().partition(|margins| margins.reads_same());
         if !other.is_empty() {
@@ -235,22 +232,12 @@ impl Margins {
     }
 
     fn line(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let told = self.words();
-        let bound = |side: usize| told[side].as_ref().map_or("none", |words| &words.bound);
-        let mut limits: Vec<String> = told
-            .iter()
-            .flatten()
-            .map(|words| format!("{} {}", words.limit, words.unit))
-            .collect();
+        let (name, told) = (self.requirement.words(), self.words());
+        let [a, b] = [0, 1].map(|side: usize| told[side].as_ref().map_or("none", |words| &words.bound));
+        let limit = |words: &MeasureWords| format!("{} {}", words.limit, words.unit);
+        let mut limits: Vec<String> = told.iter().flatten().map(limit).collect();
         limits.dedup();
-        let limit = limits.join(", in B ");
-        writeln!(
-            f,
-            "{:<34}{:>12}{:>12}  {limit}",
-            self.requirement.words(),
-            bound(0),
-            bound(1)
-        )
+        writeln!(f, "{name:<34}{a:>12}{b:>12}  {}", limits.join(", in B "))
     }
 }
 
