@@ -13,6 +13,7 @@ use platewash::kinematics::words::fixed;
 use platewash::workcell::align::{
     Alignment, DrawnPoint, Touch, TouchedPoint, align, drawn_points, fitting_order, touched_points,
 };
+use platewash::workcell::number_table::TableError;
 use platewash::workcell::words::{millimetres, printable};
 use serde::Serialize;
 use std::fmt::Write;
@@ -117,14 +118,22 @@ fn tolerance(text: &str) -> anyhow::Result<f64> {
 
 /// Finds the mount, tells how well it fits, and carries points over.
 pub fn run(options: &Options, arguments: &AlignArguments) -> Result<ExitCode, Failure> {
-    let touched = touched(&arguments.file).map_err(Failure::input)?;
+    let touched = in_file(&arguments.file, touched_points).map_err(Failure::input)?;
     let wanted = wanted(arguments).map_err(Failure::input)?;
     let touches: Vec<Touch> = touched.iter().map(|point| point.touch).collect();
+    let order = fitting_order(&touches, arguments.tolerance).map(|order| {
+        let order: Vec<String> = order.iter().map(usize::to_string).collect();
+        format!("such as {} (points count from 0)", order.join(", "))
+    });
+    let order = order.as_deref();
     let alignment = align(&touches)
-        .map_err(|error| with_order(anyhow!(error), &touches, arguments.tolerance))
+        .map_err(|error| match order {
+            Some(order) => anyhow!("{error}; {}", reordered(order)),
+            None => anyhow!(error),
+        })
         .with_context(|| name_of(&arguments.file))
         .map_err(Failure::input)?;
-    let answer = Answer::new(&alignment, (&touched, &touches), &wanted, arguments.tolerance);
+    let answer = Answer::new(&alignment, &touched, order, &wanted, arguments.tolerance);
     output::print_either(options.json, &answer, || answer.text())?;
     let outcome = if answer.fits && answer.level {
         Outcome::Good
@@ -138,62 +147,40 @@ fn name_of(file: &Path) -> String {
     printable(&file.display().to_string())
 }
 
-fn text_of(file: &Path) -> anyhow::Result<String> {
-    read_text(file, MAX_BYTES).with_context(|| format!("{}: cannot be read", name_of(file)))
-}
-
-fn touched(file: &Path) -> anyhow::Result<Vec<TouchedPoint>> {
-    touched_points(&text_of(file)?).with_context(|| name_of(file))
+/// The points in a file.
+fn in_file<T>(file: &Path, points: fn(&str) -> Result<Vec<T>, TableError>) -> anyhow::Result<Vec<T>> {
+    let text = read_text(file, MAX_BYTES).with_context(|| format!("{}: cannot be read", name_of(file)))?;
+    points(&text).with_context(|| name_of(file))
 }
 
 /// The points that shall be told in the base frame.
 fn wanted(arguments: &AlignArguments) -> anyhow::Result<Vec<DrawnPoint>> {
+    if let Some(bad) = arguments.point.iter().find(|number| !number.is_finite()) {
+        return Err(anyhow!("--point: expected three finite numbers; found {bad}"));
+    }
     let given = arguments.point.chunks_exact(3).map(|point| DrawnPoint {
         line: 0,
         name: None,
         drawn_m: [point[0], point[1], point[2]],
     });
-    let mut all: Vec<DrawnPoint> = given.collect();
-    if let Some(bad) = all.iter().flat_map(|p| p.drawn_m).find(|number| !number.is_finite()) {
-        return Err(anyhow!("--point: expected three finite numbers; found {bad}"));
-    }
-    if let Some(file) = &arguments.points {
-        all.extend(drawn_points(&text_of(file)?).with_context(|| name_of(file))?);
-    }
-    Ok(all)
+    let listed = arguments.points.as_ref().map(|file| in_file(file, drawn_points));
+    Ok(given.chain(listed.transpose()?.into_iter().flatten()).collect())
 }
 
-/// An error with the order in which the points would fit, where there is one.
-fn with_order(error: anyhow::Error, touches: &[Touch], tolerance_m: f64) -> anyhow::Error {
-    match other_order(touches, tolerance_m) {
-        Some(words) => anyhow!("{error}; {words}"),
-        None => error,
-    }
-}
-
-fn other_order(touches: &[Touch], tolerance_m: f64) -> Option<String> {
-    let order = order(touches, tolerance_m)?;
-    Some(format!(
-        "the touched points fit the drawn ones in another order, such as {order} (points count from 0)"
-    ))
-}
-
-/// Another order in which the points fit.
-fn order(touches: &[Touch], tolerance_m: f64) -> Option<String> {
-    let order = fitting_order(touches, tolerance_m)?;
-    let order: Vec<String> = order.iter().map(usize::to_string).collect();
-    Some(order.join(", "))
+/// That the points would fit in another order.
+fn reordered(order: &str) -> String {
+    format!("the touched points fit the drawn ones in another order, {order}")
 }
 
 impl Answer {
     fn new(
         alignment: &Alignment,
-        (touched, touches): (&[TouchedPoint], &[Touch]),
+        touched: &[TouchedPoint],
+        order: Option<&str>,
         wanted: &[DrawnPoint],
         tolerance_m: f64,
     ) -> Self {
         let (_, largest_m) = alignment.worst();
-        let fits = largest_m <= tolerance_m;
         let left = touched.iter().zip(&alignment.residuals_m);
         let left = left.map(|(point, residual_m)| Residual {
             line: point.line,
@@ -206,11 +193,16 @@ impl Answer {
             drawn_m: point.drawn_m,
             base_m: alignment.in_base(point.drawn_m),
         });
+        let mount = FramePose::from(&alignment.mount);
+        let rounded = |numbers: [f64; 3], unit: f64| numbers.map(|v| (v * unit).round() / unit + 0.0);
         Self {
-            fits,
+            fits: largest_m <= tolerance_m,
             tolerance_m,
-            robot: MountKeys::of(&FramePose::from(&alignment.mount)),
-            mount: FramePose::from(&alignment.mount),
+            robot: MountKeys {
+                mount_m: rounded(mount.position_m, 1e6),
+                mount_rpy_deg: rounded(mount.rpy_deg, 1e7),
+            },
+            mount,
             tilt_rad: alignment.tilt_rad(),
             level: alignment.tilt_rad() <= TILTED_RAD,
             rms_m: alignment.rms_m,
@@ -218,7 +210,7 @@ impl Answer {
             touches: left.collect(),
             spread_m: alignment.spread_m,
             stretch: alignment.stretch,
-            notes: notes(alignment, (touched, touches), (fits, tolerance_m)),
+            notes: notes(alignment, touched, order, tolerance_m),
             points: carried.collect(),
         }
     }
@@ -226,41 +218,30 @@ impl Answer {
     fn text(&self) -> String {
         let mm = |length_m: f64| fixed(1e3 * length_m, 3);
         let row = |numbers: [f64; 3], digits| numbers.map(|v| fixed(v, digits)).join(", ");
-        let mut text = String::new();
         let verdict = match (self.fits, self.level) {
             (true, true) => "ALIGNED",
             (true, false) => "ALIGNED, OUT OF LEVEL",
             (false, _) => "NOT ALIGNED",
         };
         let count = self.touches.len();
-        let (largest, tolerance) = (mm(self.largest_m), mm(self.tolerance_m));
-        // A String takes whatever is written.
-        let _ = writeln!(
-            text,
-            "{verdict}: {count} points, off by {} mm rms and {largest} mm at most; tolerance {tolerance} mm\n",
-            mm(self.rms_m)
-        );
-        let [w, x, y, z] = self.mount.quaternion_wxyz.map(|v| fixed(v, 9));
-        let _ = writeln!(text, "T_world_base, where the base stands in the drawing");
-        let _ = writeln!(text, "  position, m        {}", row(self.mount.position_m, 6));
-        let _ = writeln!(text, "  roll pitch yaw, °  {}", row(self.mount.rpy_deg, 5));
-        let _ = writeln!(text, "  quaternion wxyz    {w}, {x}, {y}, {z}");
+        let [rms, largest, tolerance] = [self.rms_m, self.largest_m, self.tolerance_m].map(mm);
+        let (position, turn) = (row(self.mount.position_m, 6), row(self.mount.rpy_deg, 5));
+        let quaternion = self.mount.quaternion_wxyz.map(|v| fixed(v, 9)).join(", ");
         let MountKeys { mount_m, mount_rpy_deg } = &self.robot;
-        let _ = writeln!(
-            text,
-            "  in a scenario      [robot]\n                     mount_m = {mount_m:?}"
+        let tilt = fixed(self.tilt_rad.to_degrees(), 4);
+        let mut text = format!(
+            "{verdict}: {count} points, off by {rms} mm rms and {largest} mm at most; tolerance {tolerance} mm\n\n\
+             T_world_base, where the base stands in the drawing\n  \
+               position, m        {position}\n  \
+               roll pitch yaw, °  {turn}\n  \
+               quaternion wxyz    {quaternion}\n  \
+               in a scenario      [robot]\n                     \
+                                  mount_m = {mount_m:?}\n                     \
+                                  mount_rpy_deg = {mount_rpy_deg:?}\n  \
+               tilt of the table against the base, °  {tilt}\n\n\
+             line   residual of           x, mm      y, mm      z, mm    all, mm\n"
         );
-        let _ = writeln!(text, "                     mount_rpy_deg = {mount_rpy_deg:?}");
-        let _ = writeln!(
-            text,
-            "  tilt of the table against the base, °  {}\n",
-            fixed(self.tilt_rad.to_degrees(), 4)
-        );
-        let _ = writeln!(
-            text,
-            "{:<6} {:<16} {:>10} {:>10} {:>10} {:>10}",
-            "line", "residual of", "x, mm", "y, mm", "z, mm", "all, mm"
-        );
+        // A String takes whatever is written.
         for touch in &self.touches {
             let [x, y, z] = touch.residual_m.map(mm);
             let name = touch.name.as_deref().map_or_else(String::new, printable);
@@ -268,11 +249,7 @@ impl Answer {
             let _ = writeln!(text, "{:<6} {name:<16} {x:>10} {y:>10} {z:>10} {all:>10}", touch.line);
         }
         if !self.points.is_empty() {
-            let _ = writeln!(
-                text,
-                "\n{:<16} {:<34} in the base frame, m; and mm, as a pendant shows it",
-                "point", "in the drawing, m"
-            );
+            text += "\npoint            in the drawing, m                  in the base frame, m; and mm, as a pendant shows it\n";
         }
         for (k, point) in self.points.iter().enumerate() {
             let name = point.name.as_deref().map_or_else(|| k.to_string(), printable);
@@ -280,97 +257,75 @@ impl Answer {
             let pendant = row(point.base_m.map(|v| 1e3 * v), 3);
             let _ = writeln!(text, "{name:<16} {drawn:<34} {base}; {pendant}");
         }
-        let _ = writeln!(text);
-        for note in &self.notes {
-            let _ = writeln!(text, "note: {note}");
-        }
+        text.push('\n');
+        self.notes.iter().for_each(|note| text += &format!("note: {note}\n"));
         text
     }
 }
 
-impl MountKeys {
-    fn of(mount: &FramePose) -> Self {
-        let rounded = |numbers: [f64; 3], unit: f64| numbers.map(|v| (v * unit).round() / unit + 0.0);
-        Self {
-            mount_m: rounded(mount.position_m, 1e6),
-            mount_rpy_deg: rounded(mount.rpy_deg, 1e7),
-        }
-    }
-}
-
 /// What is to be said of a mount.
-fn notes(
-    alignment: &Alignment,
-    (touched, touches): (&[TouchedPoint], &[Touch]),
-    (fits, tolerance_m): (bool, f64),
-) -> Vec<String> {
-    let stretched = (alignment.stretch - 1.0).abs() > STRETCHED;
+fn notes(alignment: &Alignment, touched: &[TouchedPoint], order: Option<&str>, tolerance_m: f64) -> Vec<String> {
+    let stretch = alignment.stretch - 1.0;
+    let is_stretched = stretch.abs() > STRETCHED;
+    let (worst, largest_m) = alignment.worst();
     let mut notes = Vec::new();
-    if fits {
-        notes.extend(look_alike(touches, tolerance_m));
-    } else if let Some(words) = other_order(touches, tolerance_m) {
-        notes.push(words);
-    } else if let Some(worst) = touched
-        .get(alignment.worst().0)
-        .filter(|_| !stretched && touches.len() > 3)
-    {
-        let name = worst
-            .name
-            .as_deref()
-            .map_or_else(String::new, |name| format!(", {}", printable(name)));
-        notes.push(format!(
-            "the point of line {}{name} is farthest off: touch it again, or look at that line",
-            worst.line
-        ));
+    match (largest_m <= tolerance_m, order, touched.get(worst)) {
+        (true, Some(order), _) => notes.push(format!(
+            "the marks look alike: the points fit in another order as well, {order}, with the arm elsewhere; make sure that they were touched in the order \
+             of the file, or touch one more"
+        )),
+        (false, Some(order), _) => notes.push(reordered(order)),
+        (false, None, Some(worst)) if !is_stretched && touched.len() > 3 => {
+            let name = worst.name.as_deref().map(|name| format!(", {}", printable(name)));
+            notes.push(format!(
+                "the point of line {}{} is farthest off: touch it again, or look at that line",
+                worst.line,
+                name.unwrap_or_default()
+            ));
+        }
+        _ => {}
     }
-    if touches.len() == 3 {
-        let words = "three points: an error of height cannot show in the residuals; touch a fourth one";
-        notes.push(words.to_owned());
-    }
+    let mut tell = |is_so: bool, words: &str| notes.extend(is_so.then(|| words.to_owned()));
+    tell(
+        touched.len() == 3,
+        "three points: an error of height cannot show in the residuals; touch a fourth one",
+    );
     let [_, beside_m] = alignment.spread_m;
     let hidden_rad = tolerance_m / beside_m;
-    if hidden_rad > HIDDEN_RAD {
-        let (beside, off) = (millimetres(beside_m), millimetres(tolerance_m));
-        let turned = fixed(hidden_rad.to_degrees(), 1);
-        notes.push(format!(
+    let (beside, off) = (millimetres(beside_m), millimetres(tolerance_m));
+    let turned = fixed(hidden_rad.to_degrees(), 1);
+    tell(
+        hidden_rad > HIDDEN_RAD,
+        &format!(
             "the points lie within {beside} of one line: {off} of error beside it turns the table by {turned}° about it; touch one \
              farther away"
-        ));
-    }
-    if stretched {
-        let percent = 100.0 * (alignment.stretch - 1.0).abs();
-        let than = if alignment.stretch > 1.0 { "longer" } else { "shorter" };
-        notes.push(format!(
+        ),
+    );
+    let than = if stretch > 0.0 { "longer" } else { "shorter" };
+    let percent = 100.0 * stretch.abs();
+    tell(
+        is_stretched,
+        &format!(
             "lengths as touched are {percent:.2} % {than} than as drawn: look at the units, and at the points' lines"
-        ));
-    }
-    let at = alignment.mount.translation.vector;
-    let stands_elsewhere = at.norm() > NOTHING || alignment.mount.rotation.angle() > NOTHING;
-    if stands_elsewhere {
-        let words = "a scenario with the keys above states plates by their places in the drawing; one without them by those in the base frame \
-                     (--point, --points)";
-        notes.push(words.to_owned());
-    }
-    notes.extend(out_of_level(alignment.tilt_rad()));
-    notes
-}
-
-/// That the points fit in another order as well, which no residual tells apart.
-fn look_alike(touches: &[Touch], tolerance_m: f64) -> Option<String> {
-    let order = order(touches, tolerance_m)?;
-    Some(format!(
-        "the marks look alike: the points fit in another order as well, such as {order} (points count from 0), with the arm elsewhere; make \
-         sure that they were touched in the order of the file, or touch one more"
-    ))
-}
-
-/// That the table is tilted, where that matters.
-fn out_of_level(tilt_rad: f64) -> Option<String> {
-    let by = match tilt_rad {
-        tilt if tilt > STEEP_RAD => format!("{}°", fixed(tilt.to_degrees(), 1)),
-        tilt if tilt > TILTED_RAD => format!("{:.1} mm in a metre", 1e3 * tilt),
-        _ => return None,
+        ),
+    );
+    let mount = &alignment.mount;
+    tell(
+        mount.translation.vector.norm() > NOTHING || mount.rotation.angle() > NOTHING,
+        "a scenario with the keys above states plates by their places in the drawing; one without them by those in the base frame \
+         (--point, --points)",
+    );
+    let tilt_rad = alignment.tilt_rad();
+    let by = match tilt_rad > STEEP_RAD {
+        true => format!("{}°", fixed(tilt_rad.to_degrees(), 1)),
+        false => format!("{:.1} mm in a metre", 1e3 * tilt_rad),
     };
-    let words = "without robot.mount_m and robot.mount_rpy_deg plates are taken to lie level with the base: state both, or level the table or the base";
-    Some(format!("the table is out of level by {by}; {words}"))
+    tell(
+        tilt_rad > TILTED_RAD,
+        &format!(
+            "the table is out of level by {by}; without robot.mount_m and robot.mount_rpy_deg plates are taken to lie level with the base: \
+             state both, or level the table or the base"
+        ),
+    );
+    notes
 }

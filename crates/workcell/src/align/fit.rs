@@ -80,99 +80,93 @@ impl Alignment {
 /// # Errors
 /// [`AlignError`]: points that fix no mount, or fix one that cannot be meant. A bad fit is no error: see [`Alignment::rms_m`].
 pub fn align(touches: &[Touch]) -> Result<Alignment, AlignError> {
-    let alignment = fitted(touches)?;
-    let tilt_rad = alignment.tilt_rad();
-    if tilt_rad > std::f64::consts::FRAC_PI_2 {
-        let tilt_deg = tilt_rad.to_degrees();
-        return Err(AlignError::UpsideDown { tilt_deg });
-    }
-    Ok(alignment)
-}
-
-/// The same whichever way up the table is.
-pub(super) fn fitted(touches: &[Touch]) -> Result<Alignment, AlignError> {
     check(touches)?;
-    let drawn = Cloud::of(touches, |touch| touch.drawn_m);
-    let touched = Cloud::of(touches, |touch| touch.touched_m);
-    check_units([drawn.size_m(), touched.size_m()])?;
-    drawn.check_apart("drawn")?;
-    touched.check_apart("touched")?;
+    let drawn = Cloud::of("drawn", touches, |touch| touch.drawn_m);
+    let touched = Cloud::of("touched", touches, |touch| touch.touched_m);
     let stretch = touched.size_m() / drawn.size_m();
-    let spread_m = drawn.check_breadth("drawn")?;
-    touched.check_breadth("touched")?;
-    let (rotation, mirror) = rotations(&drawn, &touched);
-    let [rms_m, mirrored_m] = [rotation, mirror].map(|turn| left(&drawn, &touched, &turn));
+    check_units(stretch, drawn.size_m())?;
+    drawn.check_apart()?;
+    touched.check_apart()?;
+    let spread_m = drawn.check_breadth()?;
+    touched.check_breadth()?;
+    let pairs = || drawn.about.iter().zip(&touched.about);
+    let covariance: Matrix3<f64> = pairs().map(|(p, b)| p * b.transpose()).sum();
+    // nalgebra sorts singular values from the greatest down; both factors are asked for, and so are there.
+    let svd = covariance.svd(true, true);
+    let [u, v_t] = [svd.u, svd.v_t].map(|factor| factor.unwrap_or_else(Matrix3::identity));
+    let sign = if (u * v_t).determinant() < 0.0 { -1.0 } else { 1.0 };
+    // The rotation that carries the touched points nearest to the drawn ones, and the mirror that does.
+    let turns = [sign, -sign].map(|last| u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, last)) * v_t);
+    let [rms_m, mirrored_m] = turns.map(|turn| root_mean_square(pairs().map(|(p, b)| p - turn * b)));
     if rms_m > MISFIT_M && mirrored_m < MIRROR_SHARE * rms_m {
-        return Err(AlignError::Mirrored {
-            mirrored_m,
-            rotated_m: rms_m,
-        });
+        let rotated_m = rms_m;
+        return Err(AlignError::Mirrored { mirrored_m, rotated_m });
     }
-    let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
+    let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turns[0]));
     let translation = drawn.middle - rotation * touched.middle;
     let mount = Pose::from_parts(translation.into(), rotation);
     let residual = |touch: &Touch| -> [f64; 3] {
         (Point3::from(touch.drawn_m) - mount.transform_point(&Point3::from(touch.touched_m))).into()
     };
-    Ok(Alignment {
+    let alignment = Alignment {
         mount,
         residuals_m: touches.iter().map(residual).collect(),
         rms_m,
         spread_m,
         stretch,
-    })
+    };
+    match alignment.tilt_rad() {
+        tilt_rad if tilt_rad > std::f64::consts::FRAC_PI_2 => Err(AlignError::UpsideDown {
+            tilt_deg: tilt_rad.to_degrees(),
+        }),
+        _ => Ok(alignment),
+    }
 }
 
 /// Points about their middle.
 struct Cloud {
+    /// Drawn or touched.
+    how: &'static str,
     middle: Vector3<f64>,
     about: Vec<Vector3<f64>>,
 }
 
 impl Cloud {
-    fn of(touches: &[Touch], which: fn(&Touch) -> [f64; 3]) -> Self {
+    fn of(how: &'static str, touches: &[Touch], which: fn(&Touch) -> [f64; 3]) -> Self {
         let points = || touches.iter().map(|touch| Vector3::from(which(touch)));
         let middle = points().sum::<Vector3<f64>>() / touches.len() as f64;
-        Self {
-            middle,
-            about: points().map(|point| point - middle).collect(),
-        }
+        let about = points().map(|point| point - middle).collect();
+        Self { how, middle, about }
     }
 
     /// Root mean square of the distances from the middle \[m\].
     fn size_m(&self) -> f64 {
-        mean(self.about.iter().map(Vector3::norm_squared), self.about.len()).sqrt()
+        root_mean_square(self.about.iter().copied())
     }
 
     /// Refuses two points in one place.
-    fn check_apart(&self, how: &'static str) -> Result<(), AlignError> {
-        let mut sorted: Vec<usize> = (0..self.about.len()).collect();
-        sorted.sort_by(|a, b| self.about[*a].x.total_cmp(&self.about[*b].x));
-        for (at, &a) in sorted.iter().enumerate() {
-            let near = sorted[at + 1..].iter();
-            for &b in near.take_while(|b| self.about[**b].x - self.about[a].x < APART_M) {
-                let apart_m = (self.about[a] - self.about[b]).norm();
-                if apart_m < APART_M {
-                    let points = [a.min(b), a.max(b)];
-                    return Err(AlignError::Coincident {
-                        points,
-                        apart_m,
-                        least_m: APART_M,
-                        how,
-                    });
-                }
+    fn check_apart(&self) -> Result<(), AlignError> {
+        for (a, first) in self.about.iter().enumerate() {
+            let mut apart_m = (a + 1..).zip(self.about[a + 1..].iter().map(|second| (second - first).norm()));
+            if let Some((b, apart_m)) = apart_m.find(|(_, apart_m)| *apart_m < APART_M) {
+                return Err(AlignError::Coincident {
+                    points: [a, b],
+                    apart_m,
+                    least_m: APART_M,
+                    how: self.how,
+                });
             }
         }
         Ok(())
     }
 
     /// How far the points reach along and beside their longest direction \[m\], unless that is a line.
-    fn check_breadth(&self, how: &'static str) -> Result<[f64; 2], AlignError> {
+    fn check_breadth(&self) -> Result<[f64; 2], AlignError> {
         let spread = self.about.iter().map(|p| p * p.transpose()).sum::<Matrix3<f64>>() / self.about.len() as f64;
         let mut along = spread.symmetric_eigenvalues().map(|value| value.max(0.0).sqrt());
         along.as_mut_slice().sort_by(f64::total_cmp);
         let [_, beside_m, length_m]: [f64; 3] = along.into();
-        let least_m = BESIDE_M.max(BESIDE_SHARE * length_m);
+        let (least_m, how) = (BESIDE_M.max(BESIDE_SHARE * length_m), self.how);
         if beside_m < least_m {
             return Err(AlignError::InLine { beside_m, least_m, how });
         }
@@ -180,29 +174,10 @@ impl Cloud {
     }
 }
 
-fn mean(values: impl Iterator<Item = f64>, count: usize) -> f64 {
-    values.sum::<f64>() / count as f64
-}
-
-/// The rotation that carries the touched points nearest to the drawn ones, and the mirror that does.
-fn rotations(drawn: &Cloud, touched: &Cloud) -> (Matrix3<f64>, Matrix3<f64>) {
-    let pairs = drawn.about.iter().zip(&touched.about);
-    let covariance: Matrix3<f64> = pairs.map(|(p, b)| p * b.transpose()).sum();
-    // nalgebra sorts singular values from the greatest down; both factors are asked for, and so are there.
-    let svd = covariance.svd(true, true);
-    let (u, v_t) = (
-        svd.u.unwrap_or_else(Matrix3::identity),
-        svd.v_t.unwrap_or_else(Matrix3::identity),
-    );
-    let sign = if (u * v_t).determinant() < 0.0 { -1.0 } else { 1.0 };
-    let with = |last: f64| u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, last)) * v_t;
-    (with(sign), with(-sign))
-}
-
-/// What is left with a rotation or a mirror, root mean square \[m\].
-fn left(drawn: &Cloud, touched: &Cloud, turn: &Matrix3<f64>) -> f64 {
-    let pairs = drawn.about.iter().zip(&touched.about);
-    mean(pairs.map(|(p, b)| (p - turn * b).norm_squared()), drawn.about.len()).sqrt()
+/// Root mean square of lengths.
+fn root_mean_square(all: impl ExactSizeIterator<Item = Vector3<f64>>) -> f64 {
+    let count = all.len() as f64;
+    (all.map(|one| one.norm_squared()).sum::<f64>() / count).sqrt()
 }
 
 /// Refuses too few points, too many, and coordinates that are none; NaN too.
@@ -223,15 +198,13 @@ fn check(touches: &[Touch]) -> Result<(), AlignError> {
 }
 
 /// Refuses points that are a thousand times nearer to each other as touched than as drawn: one of both is in another unit.
-fn check_units([drawn_m, touched_m]: [f64; 2]) -> Result<(), AlignError> {
-    let ratio = touched_m / drawn_m;
+fn check_units(ratio: f64, drawn_m: f64) -> Result<(), AlignError> {
     if !(1e-3 / NEAR..=1e-3 * NEAR).contains(&ratio) {
         return Ok(());
     }
-    let (which, found, expected) = if drawn_m > TABLE_M {
-        ("drawn", Unit::Millimetre, Unit::Metre)
-    } else {
-        ("touched", Unit::Metre, Unit::Millimetre)
+    let (which, found, expected) = match drawn_m > TABLE_M {
+        true => ("drawn", Unit::Millimetre, Unit::Metre),
+        false => ("touched", Unit::Metre, Unit::Millimetre),
     };
     Err(AlignError::Units {
         ratio,

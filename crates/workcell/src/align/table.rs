@@ -6,8 +6,8 @@ use crate::number_table::{NumberTable, Row, TableError, TableShape};
 /// Columns of a drawn point, world frame \[m\].
 const DRAWN: [&str; 3] = ["x_m", "y_m", "z_m"];
 
-/// Columns of a touched point besides, base frame \[mm\], as a pendant shows them.
-const TOUCHED: [&str; 3] = ["touched_x_mm", "touched_y_mm", "touched_z_mm"];
+/// Those of a touched point: besides, base frame \[mm\], as a pendant shows them.
+const TOUCHED: [&str; 6] = ["x_m", "y_m", "z_m", "touched_x_mm", "touched_y_mm", "touched_z_mm"];
 
 /// A column that may be there besides.
 const NAME: [&str; 1] = ["name"];
@@ -39,18 +39,14 @@ pub struct DrawnPoint {
 /// # Errors
 /// [`TableError`], with the line.
 pub fn touched_points(text: &str) -> Result<Vec<TouchedPoint>, TableError> {
-    let [x, y, z] = DRAWN;
-    let [tx, ty, tz] = TOUCHED;
-    let points = points(text, &[x, y, z, tx, ty, tz])?.into_iter();
-    let points = points.map(|(line, name, [x, y, z, touched @ ..])| TouchedPoint {
+    points(text, &TOUCHED, |line, name, [x, y, z, touched @ ..]| TouchedPoint {
         line,
         name,
         touch: Touch {
             drawn_m: [x, y, z],
             touched_m: touched.map(|mm| 1e-3 * mm),
         },
-    });
-    Ok(points.collect())
+    })
 }
 
 /// Points with columns `x_m,y_m,z_m` in any order, and a `name` where one is wanted.
@@ -58,17 +54,15 @@ pub fn touched_points(text: &str) -> Result<Vec<TouchedPoint>, TableError> {
 /// # Errors
 /// [`TableError`], with the line.
 pub fn drawn_points(text: &str) -> Result<Vec<DrawnPoint>, TableError> {
-    let points = points(text, &DRAWN)?.into_iter();
-    Ok(points
-        .map(|(line, name, drawn_m)| DrawnPoint { line, name, drawn_m })
-        .collect())
+    points(text, &DRAWN, |line, name, drawn_m| DrawnPoint { line, name, drawn_m })
 }
 
-/// Line, name and numbers of a row.
-type NamedPoint<const N: usize> = (usize, Option<String>, [f64; N]);
-
-/// All rows.
-fn points<const N: usize>(text: &str, columns: &[&str; N]) -> Result<Vec<NamedPoint<N>>, TableError> {
+/// All rows, each of which `point` makes of its line, name and numbers.
+fn points<const N: usize, T>(
+    text: &str,
+    columns: &[&str; N],
+    point: impl Fn(usize, Option<String>, [f64; N]) -> T,
+) -> Result<Vec<T>, TableError> {
     let shape = TableShape {
         required: columns,
         optional: &[&NAME],
@@ -82,7 +76,7 @@ fn points<const N: usize>(text: &str, columns: &[&str; N]) -> Result<Vec<NamedPo
         let row = row?;
         let name = name.map(|[place]| row.text(place).to_owned());
         let numbers = places.map(|places| row.numbers(places)).transpose()?;
-        Ok((row.line, name, numbers.unwrap_or([f64::NAN; N])))
+        Ok(point(row.line, name, numbers.unwrap_or([f64::NAN; N])))
     };
     table.rows().map(row).collect()
 }
