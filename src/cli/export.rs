@@ -10,7 +10,7 @@ use clap::Args;
 use nalgebra::{Quaternion, UnitQuaternion};
 use platewash::certificate::{CertifyError, Check, Requirement, certify_with};
 use platewash::export::dialect::Dialect;
-use platewash::export::dialects::{self, DIALECTS};
+use platewash::export::dialects;
 use platewash::export::file::ProgramFile;
 use platewash::export::judged::Asked;
 use platewash::export::{ExportError, ExportSettings, Exported, Refusal, contact_not_judged, export};
@@ -251,8 +251,7 @@ fn refuse_others(folder: &Path, target: &dyn Dialect, files: &[ProgramFile]) -> 
 }
 
 fn target(name: &str) -> Result<&'static dyn Dialect, String> {
-    let names: Vec<_> = DIALECTS.iter().map(|dialect| dialect.name()).collect();
-    dialects::by_name(name).ok_or_else(|| format!("expected one of {}", names.join(", ")))
+    dialects::by_name(name).ok_or_else(|| format!("expected one of {}", dialects::names()))
 }
 
 fn waived(name: &str) -> Result<Requirement, String> {

@@ -31,17 +31,20 @@ pub(crate) fn list(numbers: impl IntoIterator<Item = f64>) -> String {
 /// Decimals beyond which a bound and its limit are the same number.
 const MOST_DECIMALS: usize = 9;
 
-/// Factor and unit in which people read a quantity.
-pub(crate) fn scale(unit: Unit) -> (f64, &'static str) {
-    match unit {
-        Unit::Radian => (180.0 / std::f64::consts::PI, "°"),
-        Unit::RadianPerSecond => (1.0, "rad/s"),
-        Unit::RadianPerSecondSquared => (1.0, "rad/s²"),
-        Unit::Metre => (1e3, "mm"),
-        Unit::MetrePerSecond => (1.0, "m/s"),
-        Unit::MetrePerSecondSquared => (1.0, "m/s²"),
-        Unit::Newton => (1.0, "N"),
-        Unit::Share => (100.0, "%"),
+impl Unit {
+    /// Factor and unit in which people read a quantity.
+    #[must_use]
+    pub fn scale(self) -> (f64, &'static str) {
+        match self {
+            Self::Radian => (180.0 / std::f64::consts::PI, "°"),
+            Self::RadianPerSecond => (1.0, "rad/s"),
+            Self::RadianPerSecondSquared => (1.0, "rad/s²"),
+            Self::Metre => (1e3, "mm"),
+            Self::MetrePerSecond => (1.0, "m/s"),
+            Self::MetrePerSecondSquared => (1.0, "m/s²"),
+            Self::Newton => (1.0, "N"),
+            Self::Share => (100.0, "%"),
+        }
     }
 }
 
@@ -58,7 +61,7 @@ pub(crate) fn kept(measure: &Measure, bound: f64, decimals: usize) -> String {
     if measure.unit == Unit::Share && measure.sense == Sense::AtLeast && bound >= 1.0 - 1e-9 {
         return percent(bound);
     }
-    let (scale, _) = scale(measure.unit);
+    let (scale, _) = measure.unit.scale();
     toward_limit(bound * scale, measure.limit * scale, measure.sense, decimals)
 }
 

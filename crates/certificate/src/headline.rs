@@ -1,7 +1,7 @@
 //! The first line: what is proved of a plan, with the numbers reached and required. `verify`, `run`, the page, Python and the heads of
 //! robot programs show it. No name out of a file stands in it unquoted.
 
-use crate::amounts::{kept, number, scale};
+use crate::amounts::{kept, number};
 use crate::certificate::{Certificate, Verdict};
 use crate::check::{Check, Measure, Sense, Status};
 use crate::requirement::Requirement;
@@ -82,7 +82,7 @@ fn reached(certificate: &Certificate) -> String {
 
 /// A lower bound beside what is required: "at least 99.8 % (99.5 % required)".
 fn at_least(measure: &Measure) -> Option<String> {
-    let (scale, unit) = scale(measure.unit);
+    let (scale, unit) = measure.unit.scale();
     let reached = kept(measure, measure.bound?, 1);
     let at_least = if reached == "100" { "" } else { "at least " };
     Some(format!(
@@ -128,7 +128,7 @@ fn broken(certificate: &Certificate) -> String {
 fn shortfall(check: &Check) -> String {
     let name = check.requirement.words();
     let Some(measure) = &check.measure else { return name };
-    let (scale, unit) = scale(measure.unit);
+    let (scale, unit) = measure.unit.scale();
     let value = if check.status == Status::Violated {
         measure.seen
     } else {

@@ -1,6 +1,6 @@
 //! A certificate as a table to read.
 
-use crate::amounts::{decimals, kept, number, scale};
+use crate::amounts::{decimals, kept, number};
 use crate::certificate::Certificate;
 use crate::check::{Check, Measure, Sense, Status, Unit, Worst};
 use crate::clearances::{PairBound, PairRule};
@@ -150,7 +150,7 @@ fn row(f: &mut impl fmt::Write, check: &Check) -> fmt::Result {
 /// The worst value found, where the limit is not proved to be kept.
 fn found(check: &Check) -> Option<String> {
     let measure = check.measure.as_ref().filter(|_| check.status != Status::Proved)?;
-    let (scale, unit) = scale(measure.unit);
+    let (scale, unit) = measure.unit.scale();
     let [seen, _] = told_apart(measure.seen? * scale, measure.limit * scale, decimals(measure.unit));
     Some(format!("found: {seen} {unit}"))
 }
@@ -278,7 +278,7 @@ impl Measure {
     /// The measure as people read it, in mm, degrees and per cent.
     #[must_use]
     pub fn words(&self) -> MeasureWords {
-        let (scale, unit) = scale(self.unit);
+        let (scale, unit) = self.unit.scale();
         let sign = match self.sense {
             Sense::AtMost => "≤",
             Sense::AtLeast => "≥",

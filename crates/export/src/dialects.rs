@@ -15,6 +15,12 @@ pub fn by_name(name: &str) -> Option<&'static dyn Dialect> {
     DIALECTS.into_iter().find(|dialect| dialect.name() == name)
 }
 
+/// The names of all dialects, with commas between.
+#[must_use]
+pub fn names() -> String {
+    DIALECTS.map(Dialect::name).join(", ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

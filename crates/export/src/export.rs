@@ -4,8 +4,8 @@ use crate::dialect::{Dialect, ReadError};
 use crate::file::ProgramFile;
 use crate::header;
 use crate::judged::{self, Judged};
-use crate::points::{Following, Source};
-use crate::program::{Point, Program, START_WITHIN_DEG};
+use crate::points::Source;
+use crate::program::{Program, START_WITHIN_DEG};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
@@ -65,7 +65,7 @@ pub fn export(
     let plan = certified.plan();
     check(certified, arm, settings)?;
     dialect.accepts(&plan.job, arm)?;
-    let exported = Written::new(certified, arm, dialect, settings)?.judged(cancel)?;
+    let exported = written(certified, arm, dialect, settings, cancel)?;
     exported.judged.accepted()?;
     Ok(exported)
 }
@@ -79,7 +79,7 @@ pub(crate) fn again(
     cancel: &CancelToken,
 ) -> Result<Exported, ExportError> {
     settings.check()?;
-    Written::new(certified, arm, dialect, settings)?.judged(cancel)
+    written(certified, arm, dialect, settings, cancel)
 }
 
 /// What must hold whatever the dialect.
@@ -124,81 +124,44 @@ fn check_start(stands: &JointVector, start: &JointVector) -> Result<(), Refusal>
     })
 }
 
-/// A program before its header is known.
-struct Written<'a> {
-    certified: &'a Certified<Plan>,
-    source: Source<'a>,
-    dialect: &'a dyn Dialect,
-    settings: &'a ExportSettings,
-    points: Vec<Point>,
-}
-
-impl<'a> Written<'a> {
-    fn new(
-        certified: &'a Certified<Plan>,
-        arm: &'a RobotModel,
-        dialect: &'a dyn Dialect,
-        settings: &'a ExportSettings,
-    ) -> Result<Self, ExportError> {
-        let source = Source::new(certified.plan(), arm).map_err(ProveError::from)?;
-        let following = Following {
-            tolerance_m: settings.tolerance_m,
-            corner_m: settings.corner_m,
-            speed_share: settings.speed_share,
-        };
-        let points = source.points(dialect.points(), &following)?;
-        Ok(Self {
-            certified,
-            source,
-            dialect,
-            settings,
-            points,
-        })
-    }
-
-    /// The program with what is proved of it at its head.
-    fn judged(&self, cancel: &CancelToken) -> Result<Exported, ExportError> {
-        let (_, reading) = self.text(None)?;
-        let judged = judged::judge(
-            self.certified,
-            &reading,
-            self.source.arm,
-            self.settings.tolerance_m,
-            cancel,
-        )?;
-        let (files, reading) = self.text(Some(&judged))?;
-        Ok(Exported { files, judged, reading })
-    }
-
-    /// The text, and what it says.
-    fn text(&self, judged: Option<&Judged>) -> Result<(Vec<ProgramFile>, Reading), ExportError> {
-        let header = header::lines(
-            self.certified,
-            &self.source,
-            (self.dialect, self.settings),
-            (&self.points, judged),
-        );
+/// The program with what is proved of it at its head, which is judged before its header is known.
+fn written(
+    certified: &Certified<Plan>,
+    arm: &RobotModel,
+    dialect: &dyn Dialect,
+    settings: &ExportSettings,
+    cancel: &CancelToken,
+) -> Result<Exported, ExportError> {
+    let plan = certified.plan();
+    let source = Source::new(plan, arm).map_err(ProveError::from)?;
+    let points = source.points(dialect.points(), settings)?;
+    let unfaithful = |reason: String| ExportError::Unfaithful {
+        dialect: dialect.name(),
+        reason,
+    };
+    let text = |judged: Option<&Judged>| {
         let program = Program {
-            name: name_of(self.certified.plan()),
-            plan: self.certified.plan(),
-            arm: self.source.arm,
-            points: self.points.clone(),
-            speed_share: self.settings.speed_share,
-            corner_m: self.settings.corner_m,
-            header,
+            name: name_of(plan),
+            plan,
+            arm,
+            points: points.clone(),
+            speed_share: settings.speed_share,
+            corner_m: settings.corner_m,
+            header: header::lines(certified, &source, (dialect, settings), (&points, judged)),
         };
-        let files = self.dialect.write(&program);
-        let unfaithful = |reason: String| ExportError::Unfaithful {
-            dialect: self.dialect.name(),
-            reason,
-        };
-        let reading = self
-            .dialect
-            .read(&files, self.source.arm)
+        let files = dialect.write(&program);
+        let reading = dialect
+            .read(&files, arm)
             .map_err(|e: ReadError| unfaithful(e.to_string()))?;
-        differs(&program, &reading).map_or(Ok(()), |reason| Err(unfaithful(reason)))?;
-        Ok((files, reading))
-    }
+        match differs(&program, &reading) {
+            Some(reason) => Err(unfaithful(reason)),
+            None => Ok((files, reading)),
+        }
+    };
+    let (_, reading) = text(None)?;
+    let judged = judged::judge(certified, &reading, arm, settings.tolerance_m, cancel)?;
+    let (files, reading) = text(Some(&judged))?;
+    Ok(Exported { files, judged, reading })
 }
 
 /// Where what was read back is not what was written.

@@ -78,11 +78,8 @@ fn attitude(mount: &Pose) -> String {
 fn workcell(source: &Source<'_>) -> Vec<String> {
     let job = &source.plan.job;
     let world = &job.workcell;
-    let place = |m: f64| fixed(1e3 * m, 1);
-    let (at, mount) = (
-        world.tool.tip.translation.vector.map(place),
-        world.mount.translation.vector.map(place),
-    );
+    let mm = |m: f64| fixed(1e3 * m, 1);
+    let place = |at: Vector3<f64>| <[f64; 3]>::from(at).map(mm).join(", ");
     let sponge = &world.tool.sponge;
     let mut lines = vec![
         format!(
@@ -91,20 +88,16 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
             world.arm.urdf_sha256
         ),
         format!(
-            "mount: base at {}, {}, {} mm of the world, {}",
-            mount.x,
-            mount.y,
-            mount.z,
+            "mount: base at {} mm of the world, {}",
+            place(world.mount.translation.vector),
             attitude(&world.mount)
         ),
         format!(
-            "tool: tip at {}, {}, {} mm of the flange; sponge of radius {} mm, {} mm high while it washes, free {} mm higher (assumed)",
-            at.x,
-            at.y,
-            at.z,
-            place(sponge.radius_m),
-            place(sponge.height_m),
-            place(sponge.compression_m)
+            "tool: tip at {} mm of the flange; sponge of radius {} mm, {} mm high while it washes, free {} mm higher (assumed)",
+            place(world.tool.tip.translation.vector),
+            mm(sponge.radius_m),
+            mm(sponge.height_m),
+            mm(sponge.compression_m)
         ),
     ];
     lines.extend(world.tool.mounted_on.as_ref().map(|link| {
@@ -124,40 +117,26 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
         let error_mm = rounded_to(1e3 * contact.height_error_m, DIGITS);
         format!("plates: up to {error_mm} mm higher or lower than stated, for the contact that is proved of the plan (assumed)")
     }));
-    if let Some(mass) = &world.tool.mass {
-        let com = mass.com_m.map(place).join(", ");
-        lines.push(format!(
-            "load: {} kg, centre of mass at {com} mm of the flange",
-            mass.mass_kg
-        ));
-    }
+    lines.extend(world.tool.mass.map(|mass| {
+        let com = place(Vector3::from(mass.com_m));
+        format!("load: {} kg, centre of mass at {com} mm of the flange", mass.mass_kg)
+    }));
     let plates = job.plates.iter().enumerate().take(MOST_PLATES);
     lines.extend(plates.map(|(k, plate)| {
-        let pole = plate.world(&Vector3::zeros()).map(place);
-        format!(
-            "plate {k}: middle of its face at {}, {}, {} mm of the world, radius {} mm{}{}",
-            pole.x,
-            pole.y,
-            pole.z,
-            place(plate.rim_m()),
-            plate
-                .surface
-                .profile_words()
-                .map_or_else(String::new, |profile| format!(", {profile}")),
-            plate
-                .tilt_words()
-                .map_or_else(String::new, |tilted| format!(", {tilted}"))
-        )
+        let (pole, rim) = (place(plate.world(&Vector3::zeros())), mm(plate.rim_m()));
+        let besides = [plate.surface.profile_words(), plate.tilt_words()];
+        let besides: String = besides
+            .into_iter()
+            .flatten()
+            .map(|words| format!(", {words}"))
+            .collect();
+        format!("plate {k}: middle of its face at {pole} mm of the world, radius {rim} mm{besides}")
     }));
     if job.plates.len() > MOST_PLATES {
         lines.push(format!("and {} more plates", job.plates.len() - MOST_PLATES));
     }
     let names: Vec<_> = world.obstacles.iter().map(|obstacle| quoted(&obstacle.name)).collect();
-    let others = if names.is_empty() {
-        "nothing".to_owned()
-    } else {
-        names.join(", ")
-    };
+    let others = if names.is_empty() { "nothing" } else { &names.join(", ") };
     lines.push(format!(
         "the world of the proof is the arm, the tool, the plates and: {others}. What else stands or moves there, cables and people, is not in it."
     ));
@@ -250,11 +229,8 @@ fn told(check: &Check, beside: &str, factor: f64) -> String {
         Unit::Radian => (DEGREES, "deg"),
         Unit::RadianPerSecond => (DEGREES, "deg/s"),
         Unit::RadianPerSecondSquared => (DEGREES, "deg/s^2"),
-        Unit::Metre => (1e3, "mm"),
-        Unit::MetrePerSecond => (1.0, "m/s"),
         Unit::MetrePerSecondSquared => (1.0, "m/s^2"),
-        Unit::Newton => (1.0, "N"),
-        Unit::Share => (100.0, "%"),
+        other => other.scale(),
     };
     let (side, rounded): (_, fn(f64, usize) -> String) = match measure.sense {
         Sense::AtMost => ("at most", decimals_up),
@@ -274,11 +250,8 @@ fn asked(case: &Case, speed_share: f64) -> Option<String> {
     let scale = case.corner_scale?;
     let share = |v: Option<f64>| v.map(|v| decimals_up(v * speed_share * speed_share, 2));
     let step = decimals_up((case.asked.speed_step_rad_s * speed_share).to_degrees(), 1);
-    let (median, most) = (
-        share(case.asked.acceleration_median),
-        share(case.asked.acceleration_most),
-    );
-    Some(match median.zip(most) {
+    let both = share(case.asked.acceleration_median).zip(share(case.asked.acceleration_most));
+    Some(match both {
         Some((median, most)) => format!(
             "- corners x {scale}: {median} times the plan's joint acceleration limit in the median, {most} at most; steps of speed up to \
              {step} deg/s at stops"

@@ -25,173 +25,126 @@ pub struct Interpreted {
     pub motion: PiecewiseMotion,
 }
 
+/// A point of a program in the plan's time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Passed {
+    /// \[s\]
+    pub t_s: f64,
+    /// \[rad\]
+    pub q_rad: JointVector,
+    /// \[rad/s\]
+    pub qd_rad_s: JointVector,
+    /// Radius of the corner \[m\]; 0 where the arm stops.
+    pub corner_m: f64,
+}
+
 /// The motions that a program is assumed to lead to, in the plan's time.
 ///
 /// # Errors
 /// [`KnotError`] for points that are no motion: times that do not ascend, numbers that are not finite.
 pub fn motions(reading: &Reading, arm: &RobotModel, tip: &Frame) -> Result<Vec<Interpreted>, KnotError> {
-    let one = |corner_scale, pieces| {
-        let motion = PiecewiseMotion::new(pieces)?;
-        Ok(Interpreted { corner_scale, motion })
+    let share = reading.share();
+    let in_plan_time = |point: &ReadPoint| Passed {
+        t_s: point.t_s * share,
+        q_rad: point.q_rad,
+        qd_rad_s: point.qd_rad_s.unwrap_or_default() / share,
+        corner_m: point.corner_m.unwrap_or(0.0),
     };
-    let points = InPlanTime::of(reading);
-    points.check()?;
-    match reading.between {
-        Between::Lines => Ok(vec![one(None, lines(&points))?]),
-        Between::Cubics => Ok(vec![one(None, cubics(&points))?]),
-        Between::RoundedLines => {
-            let reach_m = reach_m(&points, arm, tip);
-            let rounded = |scale| one(Some(scale), rounded(&points, &reach_m, scale));
-            CORNER_SCALES.into_iter().map(rounded).collect()
-        }
-    }
-}
-
-/// The points of a program in the plan's time.
-pub(crate) struct InPlanTime {
-    /// \[s\]
-    pub t_s: Vec<f64>,
-    /// \[rad\]
-    pub q_rad: Vec<JointVector>,
-    /// \[rad/s\]
-    pub qd_rad_s: Vec<JointVector>,
-    /// Radius of the corner \[m\]; 0 where the arm stops.
-    pub corner_m: Vec<f64>,
-}
-
-impl InPlanTime {
-    fn of(reading: &Reading) -> Self {
-        let share = reading.share();
-        let of = |point: &ReadPoint| point.qd_rad_s.unwrap_or_default() / share;
-        Self {
-            t_s: reading.points.iter().map(|point| point.t_s * share).collect(),
-            q_rad: reading.points.iter().map(|point| point.q_rad).collect(),
-            qd_rad_s: reading.points.iter().map(of).collect(),
-            corner_m: reading
-                .points
-                .iter()
-                .map(|point| point.corner_m.unwrap_or(0.0))
-                .collect(),
-        }
-    }
-
-    /// Refuses what is no motion.
-    fn check(&self) -> Result<(), KnotError> {
-        for (knot, t_s) in self.t_s.iter().copied().enumerate() {
-            let numbers = self.q_rad[knot].iter().chain(&self.qd_rad_s[knot]).copied();
-            if !numbers.chain([t_s, self.corner_m[knot]]).all(f64::is_finite) {
-                return Err(KnotError::NotFinite { knot });
-            }
-            let ascends = if knot == 0 {
-                t_s == 0.0
-            } else {
-                t_s > self.t_s[knot - 1]
-            };
-            if !ascends {
-                return Err(KnotError::Time { knot, t_s });
-            }
-        }
-        Ok(())
-    }
-
-    /// The time between a point and the next one \[s\].
-    fn step_s(&self, k: usize) -> f64 {
-        self.t_s[k + 1] - self.t_s[k]
-    }
-
-    /// The joints' speed between a point and the next one \[rad/s\].
-    fn speed(&self, k: usize) -> JointVector {
-        (self.q_rad[k + 1] - self.q_rad[k]) / self.step_s(k)
-    }
-
-    fn segments(&self) -> std::ops::Range<usize> {
-        0..self.t_s.len().saturating_sub(1)
-    }
-}
-
-fn lines(points: &InPlanTime) -> Vec<MotionPiece> {
-    let line = |k: usize| {
-        let both = [k, k + 1];
-        MotionPiece::line(both.map(|i| points.t_s[i]), both.map(|i| points.q_rad[i]))
+    let points: Vec<_> = reading.points.iter().map(in_plan_time).collect();
+    let piece: fn(&Passed, &Passed) -> MotionPiece = match reading.between {
+        Between::RoundedLines => return rounded_motions(&points, arm, tip),
+        Between::Lines => |a, b| MotionPiece::line([a.t_s, b.t_s], [a.q_rad, b.q_rad]),
+        Between::Cubics => |a, b| MotionPiece {
+            t_s: [a.t_s, b.t_s],
+            q_rad: [a.q_rad, b.q_rad],
+            qd_rad_s: [a.qd_rad_s, b.qd_rad_s],
+        },
     };
-    points.segments().map(line).collect()
+    check(&points)?;
+    let pieces = points.windows(2).map(|both| piece(&both[0], &both[1]));
+    Ok(vec![Interpreted {
+        corner_scale: None,
+        motion: PiecewiseMotion::new(pieces.collect())?,
+    }])
 }
 
-fn cubics(points: &InPlanTime) -> Vec<MotionPiece> {
-    let cubic = |k: usize| {
-        let both = [k, k + 1];
-        MotionPiece {
-            t_s: both.map(|i| points.t_s[i]),
-            q_rad: both.map(|i| points.q_rad[i]),
-            qd_rad_s: both.map(|i| points.qd_rad_s[i]),
-        }
+/// The motions on straight segments, with corners of each size.
+///
+/// # Errors
+/// As [`motions`].
+pub(crate) fn rounded_motions(points: &[Passed], arm: &RobotModel, tip: &Frame) -> Result<Vec<Interpreted>, KnotError> {
+    check(points)?;
+    let at = |point: &Passed| arm.fk(&point.q_rad).rigid(tip).translation;
+    let places: Vec<_> = points.iter().map(at).collect();
+    let reach_m: Vec<_> = places.windows(2).map(|both| (both[1] - both[0]).norm()).collect();
+    let motion = |scale| {
+        Ok(Interpreted {
+            corner_scale: Some(scale),
+            motion: PiecewiseMotion::new(rounded(points, &reach_m, scale))?,
+        })
     };
-    points.segments().map(cubic).collect()
+    CORNER_SCALES.into_iter().map(motion).collect()
 }
 
-/// How far the tip is from a point to the next one \[m\].
-fn reach_m(points: &InPlanTime, arm: &RobotModel, tip: &Frame) -> Vec<f64> {
-    let at = |q: &JointVector| arm.fk(q).rigid(tip).translation;
-    let places: Vec<_> = points.q_rad.iter().map(at).collect();
-    places.windows(2).map(|both| (both[1] - both[0]).norm()).collect()
-}
-
-/// A corner: when and where it begins and ends.
-struct Corner {
-    t_s: [f64; 2],
-    q_rad: [JointVector; 2],
-    qd_rad_s: [JointVector; 2],
+/// Refuses what is no motion.
+fn check(points: &[Passed]) -> Result<(), KnotError> {
+    for (knot, point) in points.iter().enumerate() {
+        let t_s = point.t_s;
+        let numbers = point.q_rad.iter().chain(&point.qd_rad_s).copied();
+        if !numbers.chain([t_s, point.corner_m]).all(f64::is_finite) {
+            return Err(KnotError::NotFinite { knot });
+        }
+        let ascends = match knot {
+            0 => t_s == 0.0,
+            _ => t_s > points[knot - 1].t_s,
+        };
+        if !ascends {
+            return Err(KnotError::Time { knot, t_s });
+        }
+    }
+    Ok(())
 }
 
 /// Straight segments with corners of `scale` times their radius.
-fn rounded(points: &InPlanTime, reach_m: &[f64], scale: f64) -> Vec<MotionPiece> {
-    let Some((&last_s, &last)) = points.t_s.last().zip(points.q_rad.last()) else {
+fn rounded(points: &[Passed], reach_m: &[f64], scale: f64) -> Vec<MotionPiece> {
+    let [first, .., last] = points else {
         return Vec::new();
     };
-    let mut pieces = Vec::with_capacity(2 * points.t_s.len());
-    let (mut t_s, mut q_rad) = (points.t_s[0], points.q_rad[0]);
-    for k in 1..points.t_s.len().saturating_sub(1) {
-        let Corner {
-            t_s: [mut from, to],
-            q_rad: [mut start, end],
-            qd_rad_s,
-        } = corner(points, reach_m, k, scale);
-        if from - t_s > NOTHING_S {
-            pieces.push(MotionPiece::line([t_s, from], [q_rad, start]));
+    let mut pieces = Vec::with_capacity(2 * points.len());
+    let (mut t_s, mut q_rad) = (first.t_s, first.q_rad);
+    for k in 1..points.len() - 1 {
+        let mut corner = corner(points, reach_m, k, scale);
+        if corner.t_s[0] - t_s > NOTHING_S {
+            pieces.push(MotionPiece::line([t_s, corner.t_s[0]], [q_rad, corner.q_rad[0]]));
         } else {
-            (from, start) = (t_s, q_rad);
+            (corner.t_s[0], corner.q_rad[0]) = (t_s, q_rad);
         }
-        if to - from > NOTHING_S {
-            pieces.push(MotionPiece {
-                t_s: [from, to],
-                q_rad: [start, end],
-                qd_rad_s,
-            });
-            (t_s, q_rad) = (to, end);
-        } else {
-            (t_s, q_rad) = (from, start);
-        }
+        let is_round = corner.length_s() > NOTHING_S;
+        pieces.extend(is_round.then_some(corner));
+        (t_s, q_rad) = (corner.t_s[usize::from(is_round)], corner.q_rad[usize::from(is_round)]);
     }
-    if last_s > t_s {
-        pieces.push(MotionPiece::line([t_s, last_s], [q_rad, last]));
+    if last.t_s > t_s {
+        pieces.push(MotionPiece::line([t_s, last.t_s], [q_rad, last.q_rad]));
     }
     pieces
 }
 
-fn corner(points: &InPlanTime, reach_m: &[f64], k: usize, scale: f64) -> Corner {
+/// The corner at a point.
+fn corner(points: &[Passed], reach_m: &[f64], k: usize, scale: f64) -> MotionPiece {
     let [before, after] = [k - 1, k];
-    let radius_m = (points.corner_m[k] * scale)
+    let radius_m = (points[k].corner_m * scale)
         .min(0.5 * reach_m[before])
         .min(0.5 * reach_m[after]);
+    let step_s = |segment: usize| points[segment + 1].t_s - points[segment].t_s;
     // The time from where the corner begins to the point, and from the point to where it would end.
     let time_s = |segment: usize| match reach_m[segment] {
-        reach if reach > 0.0 => radius_m / reach * points.step_s(segment),
+        reach if reach > 0.0 => radius_m / reach * step_s(segment),
         _ => 0.0,
     };
     let half_s = time_s(before).min(time_s(after));
-    let (t, q) = (points.t_s[k], points.q_rad[k]);
-    let qd_rad_s = [before, after].map(|segment| points.speed(segment));
-    Corner {
+    let Passed { t_s: t, q_rad: q, .. } = points[k];
+    let qd_rad_s = [before, after].map(|i| (points[i + 1].q_rad - points[i].q_rad) / step_s(i));
+    MotionPiece {
         t_s: [t - half_s, t + half_s],
         q_rad: [q - qd_rad_s[0] * half_s, q + qd_rad_s[1] * half_s],
         qd_rad_s,

@@ -88,18 +88,17 @@ impl Judged {
     /// # Errors
     /// [`Refusal::NotKept`].
     pub fn accepted(&self) -> Result<(), Refusal> {
-        let broken = |case: &Case| {
-            let check = case.proof.broken().next()?.clone();
-            Some((case.assuming(), check))
-        };
-        match self.cases.iter().find_map(broken) {
-            Some((assuming, check)) => Err(Refusal::NotKept {
+        let mut broken = self
+            .cases
+            .iter()
+            .flat_map(|case| case.proof.broken().map(move |check| (case, check)));
+        broken.next().map_or(Ok(()), |(case, check)| {
+            Err(Refusal::NotKept {
                 requirement: check.requirement,
-                assuming,
+                assuming: case.assuming(),
                 words: format!("{}; {}{}", check.detail(), check.worst, remedy(check.requirement)),
-            }),
-            None => Ok(()),
-        }
+            })
+        })
     }
 
     /// The worst of each requirement over all assumptions, in the order of their checks.
@@ -163,13 +162,11 @@ fn remedy(requirement: Requirement) -> &'static str {
 /// Of each check the one with the worst bound.
 fn worst_of<'a>(cases: impl Iterator<Item = &'a Vec<Check>>) -> Vec<Check> {
     let mut worst: Vec<Check> = Vec::new();
-    for checks in cases {
-        for check in checks {
-            match worst.iter_mut().find(|w| w.requirement == check.requirement) {
-                None => worst.push(check.clone()),
-                Some(w) if badness(check) > badness(w) => *w = check.clone(),
-                Some(_) => {}
-            }
+    for check in cases.flatten() {
+        match worst.iter_mut().find(|w| w.requirement == check.requirement) {
+            None => worst.push(check.clone()),
+            Some(w) if badness(check) > badness(w) => *w = check.clone(),
+            Some(_) => {}
         }
     }
     worst

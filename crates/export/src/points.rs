@@ -6,11 +6,10 @@
 //! is too far away.
 
 use crate::dialect::Points;
-use crate::file::Place;
-use crate::interpret;
+use crate::interpret::{Passed, rounded_motions};
 use crate::program::Point;
-use crate::reading::{Between, ReadPoint, Reading};
 use crate::refusal::Refusal;
+use crate::settings::ExportSettings;
 use platewash_kinematics::{Axes, Frame, JointVector, RobotModel};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::segment::SegmentKind;
@@ -45,23 +44,10 @@ pub(crate) struct Source<'a> {
     pub tip: Frame,
 }
 
-/// How closely a program follows.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Following {
-    /// How far the tip may be from the plan \[m\].
-    pub tolerance_m: f64,
-    /// Radius of corners \[m\].
-    pub corner_m: f64,
-    /// Share of the plan's speed.
-    pub speed_share: f64,
-}
-
-impl Following {
-    /// How far the tip may be seen to be from the plan \[m\].
-    fn allowed_m(&self) -> f64 {
-        let (part, rounding_m) = LEFT;
-        self.tolerance_m * (1.0 - part) - rounding_m
-    }
+/// How far the tip may be seen to be from the plan \[m\].
+fn allowed_m(settings: &ExportSettings) -> f64 {
+    let (part, rounding_m) = LEFT;
+    settings.tolerance_m * (1.0 - part) - rounding_m
 }
 
 impl<'a> Source<'a> {
@@ -80,24 +66,24 @@ impl<'a> Source<'a> {
     ///
     /// # Errors
     /// [`Refusal::TooClose`] where the tolerance asks for points that are too close.
-    pub fn points(&self, points: Points, following: &Following) -> Result<Vec<Point>, Refusal> {
+    pub fn points(&self, points: Points, settings: &ExportSettings) -> Result<Vec<Point>, Refusal> {
         match points {
             Points::Knots => Ok(self.at_times(self.motion.times().iter().copied())),
             Points::Steps { step_s } => {
-                let count = self.motion.duration_s() / (step_s * following.speed_share);
+                let count = self.motion.duration_s() / (step_s * settings.speed_share);
                 if count > MOST_STEPS {
                     return Err(Refusal::Setting {
                         name: "speed_share",
                         expected: format!(
                             "at least {:.2e}, for at most {MOST_STEPS} points {step_s} s apart",
-                            following.speed_share * count / MOST_STEPS
+                            settings.speed_share * count / MOST_STEPS
                         ),
-                        found: following.speed_share.to_string(),
+                        found: settings.speed_share.to_string(),
                     });
                 }
-                Ok(self.at_times(self.steps(step_s * following.speed_share)))
+                Ok(self.at_times(self.steps(step_s * settings.speed_share)))
             }
-            Points::Chords { least_s } => self.chords(least_s, following),
+            Points::Chords { least_s } => self.chords(least_s, settings),
         }
     }
 
@@ -140,45 +126,51 @@ impl<'a> Source<'a> {
         all
     }
 
-    fn chords(&self, least_s: f64, following: &Following) -> Result<Vec<Point>, Refusal> {
+    fn chords(&self, least_s: f64, settings: &ExportSettings) -> Result<Vec<Point>, Refusal> {
         // Points keep their distance in the program's time.
-        let least_s = least_s * following.speed_share;
+        let least_s = least_s * settings.speed_share;
         let rests = self.rests();
-        let mut density = Density::new(self, following.allowed_m());
+        let allowed_m = allowed_m(settings);
+        let mut density = Density::new(self, allowed_m);
         // Programs state times in whole microseconds, which the plan is then looked at for. Where it rests it does not move meanwhile.
-        let grid_s = GRID_S * following.speed_share;
+        let grid_s = GRID_S * settings.speed_share;
         let rounded = |t_s: f64| match rests.contains(&t_s) {
             true => t_s,
             false => (t_s / grid_s).round() * grid_s,
         };
         let times = |density: &Density| density.times(&rests, least_s + grid_s).into_iter().map(rounded);
         let mut chosen = self.at_times(times(&density));
+        let mut off_m = self.deviations_m(&chosen, settings.corner_m);
         for _ in 0..ROUNDS {
-            let off_m = self.deviations_m(&chosen, following);
-            let is_off = |off: &f64| *off > following.allowed_m();
-            if !off_m.iter().any(is_off) {
+            if off_m.iter().all(|off| *off <= allowed_m) {
                 return Ok(chosen);
             }
-            density.pack(&chosen, &off_m, following.allowed_m());
+            density.pack(&chosen, &off_m, allowed_m);
             chosen = self.at_times(times(&density));
+            off_m = self.deviations_m(&chosen, settings.corner_m);
         }
-        let off_m = self.deviations_m(&chosen, following);
         let worst = off_m.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
-        let Some((step, &deviation_m)) = worst.filter(|(_, off)| **off > following.tolerance_m) else {
-            return Ok(chosen);
-        };
-        Err(Refusal::TooClose {
-            t_s: chosen[step].t_s,
-            deviation_m,
-            tolerance_m: following.tolerance_m,
-            least_s: least_s / following.speed_share,
-        })
+        match worst.filter(|(_, off)| **off > settings.tolerance_m) {
+            None => Ok(chosen),
+            Some((step, &deviation_m)) => Err(Refusal::TooClose {
+                t_s: chosen[step].t_s,
+                deviation_m,
+                tolerance_m: settings.tolerance_m,
+                least_s: least_s / settings.speed_share,
+            }),
+        }
     }
 
     /// How far the tip is seen to leave the plan in each step, whatever the size of the corners \[m\].
-    fn deviations_m(&self, points: &[Point], following: &Following) -> Vec<f64> {
-        let reading = as_read(points, following.corner_m);
-        let Ok(motions) = interpret::motions(&reading, self.arm, &self.tip) else {
+    fn deviations_m(&self, points: &[Point], corner_m: f64) -> Vec<f64> {
+        let passed = |point: &Point| Passed {
+            t_s: point.t_s,
+            q_rad: point.q_rad,
+            qd_rad_s: JointVector::zeros(),
+            corner_m: if point.rests { 0.0 } else { corner_m },
+        };
+        let passed: Vec<_> = points.iter().map(passed).collect();
+        let Ok(motions) = rounded_motions(&passed, self.arm, &self.tip) else {
             return vec![f64::INFINITY; points.len()];
         };
         let place = |q: &JointVector| self.arm.fk(q).rigid(&self.tip).translation;
@@ -194,27 +186,6 @@ impl<'a> Source<'a> {
             (0..=COMPARED).map(at).map(off).fold(0.0, f64::max)
         };
         points.windows(2).map(step).collect()
-    }
-}
-
-/// Points as a program would be read that names them exactly, at the plan's speed.
-fn as_read(points: &[Point], corner_m: f64) -> Reading {
-    let read = |(i, point): (usize, &Point)| ReadPoint {
-        place: Place {
-            file: String::new(),
-            line: i,
-        },
-        t_s: point.t_s,
-        q_rad: point.q_rad,
-        qd_rad_s: None,
-        corner_m: (!point.rests).then_some(corner_m),
-    };
-    Reading {
-        speed_share: None,
-        points: points.iter().enumerate().map(read).collect(),
-        between: Between::RoundedLines,
-        tool: None,
-        checks_start: false,
     }
 }
 
@@ -277,19 +248,17 @@ impl Density {
         let (_, sum) = sums[sums.len() - 1];
         let most = ((to - from) / least_s * (1.0 + 1e-9)).floor().max(1.0);
         let mut count = sum.ceil().clamp(1.0, most) as usize;
-        // A step more than the density gives makes all of them shorter.
-        let mut inner = quantiles(&sums, count);
-        let is_short = |inner: &[f64]| {
-            let ends = inner.iter().copied().chain([to]);
-            let starts = [from].into_iter().chain(inner.iter().copied());
-            starts.zip(ends).any(|(a, b)| b - a < least_s)
+        let times = |count| -> Vec<f64> {
+            let inner = quantiles(&sums, count);
+            [from].into_iter().chain(inner).chain([to]).collect()
         };
-        while count > 1 && is_short(&inner) {
+        // A step more than the density gives makes all of them shorter.
+        let mut chosen = times(count);
+        while count > 1 && chosen.windows(2).any(|both| both[1] - both[0] < least_s) {
             count -= 1;
-            inner = quantiles(&sums, count);
+            chosen = times(count);
         }
-        all.extend(inner);
-        all.push(to);
+        all.extend(&chosen[1..]);
     }
 
     /// Moments from `from` to `to` with the points wanted up to each of them.

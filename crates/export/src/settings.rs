@@ -49,28 +49,27 @@ impl ExportSettings {
     /// # Errors
     /// [`Refusal::Setting`], naming the first.
     pub(crate) fn check(&self) -> Result<(), Refusal> {
-        let within = |name, found: f64, [least, most]: [f64; 2]| {
-            if (least..=most).contains(&found) {
-                return Ok(());
-            }
-            Err(Refusal::Setting {
-                name,
-                expected: format!(
-                    "from {least} to {most}{}",
-                    if name.ends_with("_m") { " metres" } else { "" }
-                ),
-                found: found.to_string(),
-            })
+        let own = [
+            (
+                "tolerance_m",
+                self.tolerance_m,
+                [LEAST_TOLERANCE_M, GREATEST_TOLERANCE_M],
+            ),
+            ("speed_share", self.speed_share, [1e-3, 1.0]),
+            ("corner_m", self.corner_m, [0.0, GREATEST_CORNER_M]),
+        ];
+        let stands = self.stands_rad.iter().flatten();
+        let mut all = own.into_iter().chain(stands.map(|q| ("stands_rad", *q, [-1e3, 1e3])));
+        let Some((name, found, [least, most])) = all.find(|(_, found, [least, most])| !(least..=most).contains(&found))
+        else {
+            return Ok(());
         };
-        within(
-            "tolerance_m",
-            self.tolerance_m,
-            [LEAST_TOLERANCE_M, GREATEST_TOLERANCE_M],
-        )?;
-        within("speed_share", self.speed_share, [1e-3, 1.0])?;
-        within("corner_m", self.corner_m, [0.0, GREATEST_CORNER_M])?;
-        let numbers = self.stands_rad.iter().flatten();
-        numbers.copied().try_for_each(|q| within("stands_rad", q, [-1e3, 1e3]))
+        let unit = if name.ends_with("_m") { " metres" } else { "" };
+        Err(Refusal::Setting {
+            name,
+            expected: format!("from {least} to {most}{unit}"),
+            found: found.to_string(),
+        })
     }
 
     /// The settings that shape the text, a line each.

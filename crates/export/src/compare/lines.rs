@@ -1,16 +1,29 @@
 //! Two texts, line by line.
 
-use super::change::Change;
 use super::steps::{self, Step};
 use crate::file::ProgramFile;
 use crate::reading::Reading;
 use crate::tokens::number_length;
 use platewash_workcell::words::shortened;
-use similar::{Algorithm, DiffOp, capture_diff_slices};
+use serde::Serialize;
+use similar::{Algorithm, DiffTag, capture_diff_slices};
 use std::collections::HashMap;
 
 /// Most characters of a line that are told.
 const TOLD: usize = 80;
+
+/// Something that a program says otherwise than the one that was handed over.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Change {
+    /// File and line, as `FILE:LINE`; of a line that is missing the one before it.
+    pub place: String,
+    /// What it is about, e.g. `joint 3`.
+    pub what: String,
+    /// What the line says.
+    pub found: String,
+    /// What was handed over.
+    pub expected: String,
+}
 
 /// A program: its files, and what they say.
 type Said<'a> = (&'a [ProgramFile], &'a Reading);
@@ -21,27 +34,21 @@ pub(super) fn changes(found: Said<'_>, expected: Said<'_>) -> Vec<Change> {
     let rounding_s = steps::rounding_s(found.1, expected.1);
     let mut all = Vec::new();
     for file in found.0 {
-        let other = counterpart(file, found.0, expected.0);
+        let named = expected.0.iter().find(|other| other.name == file.name);
+        // A single file under another name, of a program of one file.
+        let only = match (found.0, expected.0) {
+            ([_], [only]) => Some(only),
+            _ => None,
+        };
         let texts = Texts {
             found: file,
-            expected: other,
+            expected: named.or(only),
             steps: &steps,
             rounding_s,
         };
         texts.changes(&mut all);
     }
     all
-}
-
-/// The file that was handed over as this one: that of its name, or of its place where it was renamed.
-fn counterpart<'a>(file: &ProgramFile, found: &[ProgramFile], expected: &'a [ProgramFile]) -> Option<&'a ProgramFile> {
-    let named = expected.iter().find(|other| other.name == file.name);
-    // A single file under another name, of a program of one file.
-    let only = (found.len() == 1).then_some(expected).and_then(|all| match all {
-        [one] => Some(one),
-        _ => None,
-    });
-    named.or(only)
 }
 
 /// One file beside the one that was handed over.
@@ -63,53 +70,43 @@ impl Texts<'_> {
     fn changes(&self, all: &mut Vec<Change>) {
         let found = lines(&self.found.text);
         let expected = self.expected.map_or_else(Vec::new, |file| lines(&file.text));
-        let plain = |lines: &[Line<'_>]| lines.iter().map(|line| line.plain.clone()).collect::<Vec<_>>();
-        let differences = capture_diff_slices(Algorithm::Myers, &plain(&expected), &plain(&found));
-        for difference in differences {
-            let (_, old, new) = difference.as_tag_tuple();
-            let (old, new) = (&expected[old], &found[new.clone()]);
-            if matches!(difference, DiffOp::Equal { .. }) {
+        let [old, new] = [&expected, &found].map(|lines| lines.iter().map(|line| &line.plain).collect::<Vec<_>>());
+        for difference in capture_diff_slices(Algorithm::Myers, &old, &new) {
+            let (tag, old, new) = difference.as_tag_tuple();
+            if tag == DiffTag::Equal {
                 continue;
             }
-            let pairs = old.len().min(new.len());
-            let before = new.first().map_or(1, |line| line.number);
+            let last = found[..new.end].last().map_or(1, |line| line.number);
+            let (old, new) = (&expected[old], &found[new]);
+            let both = old.len().min(new.len());
             old.iter().zip(new).for_each(|(old, new)| self.changed(new, old, all));
-            for line in &new[pairs..] {
-                all.push(self.change(line.number, "line", told(line.text), "no such line".to_owned()));
-            }
-            let last = new
-                .last()
-                .map_or_else(|| self.before(&found, &difference), |line| line.number);
-            for line in &old[pairs..] {
-                let at = if new.is_empty() { last } else { before.max(last) };
-                all.push(self.change(at, "line that is missing behind it", String::new(), told(line.text)));
-            }
+            all.extend(new[both..].iter().map(|line| {
+                let nothing = "no such line".to_owned();
+                self.change(line.number, "line", told(line.text), nothing)
+            }));
+            all.extend(old[both..].iter().map(|line| {
+                let missing = told(line.text);
+                self.change(last, "line that is missing behind it", String::new(), missing)
+            }));
         }
-    }
-
-    /// The number of the line before lines that are missing.
-    fn before(&self, found: &[Line<'_>], difference: &DiffOp) -> usize {
-        let next = difference.new_range().start;
-        next.checked_sub(1)
-            .and_then(|i| found.get(i))
-            .map_or(1, |line| line.number)
     }
 
     /// A line in place of another one: what it says otherwise of its points, or that it is another one.
     fn changed(&self, new: &Line<'_>, old: &Line<'_>, all: &mut Vec<Change>) {
         let [found, expected] = self.steps;
-        let found = found.get(&(self.found.name.as_str(), new.number)).into_iter().flatten();
+        let found = found.get(&(self.found.name.as_str(), new.number));
         let expected = self
             .expected
             .and_then(|file| expected.get(&(file.name.as_str(), old.number)));
-        let mut told_any = false;
-        for (a, b) in found.zip(expected.into_iter().flatten()) {
-            for (what, found, expected) in a.differences(b, self.rounding_s) {
-                all.push(self.change(new.number, &what, found, expected));
-                told_any = true;
-            }
+        let points = found
+            .zip(expected)
+            .into_iter()
+            .flat_map(|(found, expected)| found.iter().zip(expected));
+        let told_before = all.len();
+        for (what, found, expected) in points.flat_map(|(a, b)| a.differences(b, self.rounding_s)) {
+            all.push(self.change(new.number, &what, found, expected));
         }
-        if !told_any {
+        if all.len() == told_before {
             all.push(self.change(new.number, "line", told(new.text), told(old.text)));
         }
     }

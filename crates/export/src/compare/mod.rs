@@ -3,15 +3,14 @@
 //! The program is made again of its plan with the settings that it states, and both texts are compared line by line. Spaces, and how a
 //! number is written, do not count: editors and controllers change them. What a changed line says otherwise of a point is told in numbers.
 
-mod change;
 mod lines;
 mod share;
 mod steps;
 
-pub use change::Change;
+pub use lines::Change;
 
-use crate::dialect::{Dialect, Points, ReadError};
-use crate::dialects::DIALECTS;
+use crate::dialect::{Dialect, ReadError};
+use crate::dialects::{self, DIALECTS};
 use crate::export::{self, ExportError};
 use crate::file::ProgramFile;
 use crate::judged::{self, Judged};
@@ -50,7 +49,7 @@ pub struct Compared {
 #[non_exhaustive]
 pub enum CompareError {
     /// No dialect knows it.
-    #[error("{name}: no program of {}", names())]
+    #[error("{name}: no program of {}", dialects::names())]
     Unknown {
         /// The file's name.
         name: String,
@@ -82,11 +81,6 @@ pub enum CompareError {
     Prove(#[from] ProveError),
 }
 
-fn names() -> String {
-    let names: Vec<_> = DIALECTS.iter().map(|dialect| dialect.name()).collect();
-    names.join(", ")
-}
-
 /// Reads a program back, compares it with the one that was handed over of a certified plan, and judges it as it stands.
 ///
 /// # Errors
@@ -112,8 +106,15 @@ pub(crate) fn compare_in(
 ) -> Result<Compared, CompareError> {
     refuse_other_plan(certified.plan(), files)?;
     let found = dialect.read(files, arm)?;
-    let settings = settings(certified.plan(), files, (dialect.points(), &found))
-        .ok_or_else(|| CompareError::Setting { name: name(files) })?;
+    // Of a program that states no settings the share of the speed is the one that it says otherwise, or that its times tell.
+    let told = || share::told(certified.plan(), &found, dialect.points());
+    let otherwise = ExportSettings {
+        speed_share: found.speed_share.unwrap_or_else(told),
+        ..ExportSettings::default()
+    };
+    let mut texts = files.iter().map(|file| &file.text);
+    let settings = texts.try_fold(otherwise, |settings, text| ExportSettings::stated(text, settings));
+    let settings = settings.ok_or_else(|| CompareError::Setting { name: name(files) })?;
     // A text that states no share of the speed runs at the one that it was made with.
     let at_share = |reading: Reading| Reading {
         speed_share: reading.speed_share.or(Some(settings.speed_share)),
@@ -173,18 +174,6 @@ fn refuse_other_plan(plan: &Plan, files: &[ProgramFile]) -> Result<(), CompareEr
         }
     }
     Ok(())
-}
-
-/// The settings that a program was made with: those that it states. For a program that states none the share of the speed is the one that
-/// it says otherwise, or that its times tell.
-fn settings(plan: &Plan, files: &[ProgramFile], (points, found): (Points, &Reading)) -> Option<ExportSettings> {
-    let otherwise = ExportSettings {
-        speed_share: found.speed_share.unwrap_or_else(|| share::told(plan, found, points)),
-        ..ExportSettings::default()
-    };
-    files
-        .iter()
-        .try_fold(otherwise, |settings, file| ExportSettings::stated(&file.text, settings))
 }
 
 impl Compared {

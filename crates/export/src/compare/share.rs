@@ -1,9 +1,8 @@
 //! The share of the plan's speed that a program's times tell, where it states none.
 
 use crate::dialect::Points;
-use crate::reading::{ReadPoint, Reading};
+use crate::reading::Reading;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::Trajectory;
 
 /// Shares are told in steps of one in so many.
 const STEPS: f64 = 1e6;
@@ -11,11 +10,8 @@ const STEPS: f64 = 1e6;
 /// Least share that is told.
 const LEAST: f64 = 1e-3;
 
-/// Rows that are compared with the plan at most.
-const MOST_ROWS: usize = 400;
-
-/// Rounds of the search, each of which leaves two thirds of the range.
-const ROUNDS: usize = 60;
+/// Steps of the search, each of which squares what it is off by.
+const ROUNDS: usize = 8;
 
 /// The share of the plan's speed at which a program runs, by its times.
 pub(super) fn told(plan: &Plan, found: &Reading, points: Points) -> f64 {
@@ -40,33 +36,23 @@ fn of_duration(plan: &Plan, found: &Reading) -> f64 {
     plan.duration_s() / found.points.last().map_or(0.0, |point| point.t_s)
 }
 
-/// Of rows at even steps, the last of which is up to a step after the plan's end: that at which they are nearest to the plan.
+/// Of rows at even steps, the last of which is up to a step after the plan's end: that at which they are nearest to the plan, in the sense
+/// of least squares.
 fn of_rows(plan: &Plan, found: &Reading) -> f64 {
     let least = of_duration(plan, found);
     let ([.., before, _], Ok(motion)) = (found.points.as_slice(), plan.knots.motion()) else {
         return least;
     };
-    let mut range = [least, (plan.duration_s() / before.t_s).min(1.0)];
-    for _ in 0..ROUNDS {
-        let third = (range[1] - range[0]) / 3.0;
-        let inner = [range[0] + third, range[1] - third];
-        let [low, high] = inner.map(|share| apart(&motion, &found.points, share));
-        if low < high {
-            range[1] = inner[1];
-        } else {
-            range[0] = inner[0];
+    let most = (plan.duration_s() / before.t_s).min(1.0).max(least);
+    (0..ROUNDS).fold(least, |share, _| {
+        let (mut off, mut slope) = (0.0, 0.0);
+        for row in &found.points {
+            if let Some(state) = motion.at(share * row.t_s) {
+                let moves = state.qd * row.t_s;
+                off += (row.q_rad - state.q).dot(&moves);
+                slope += moves.norm_squared();
+            }
         }
-    }
-    0.5 * (range[0] + range[1])
-}
-
-/// Sum of the squared distances of rows from the plan at a share of its speed \[rad²\].
-fn apart(motion: &Trajectory, rows: &[ReadPoint], share: f64) -> f64 {
-    let rows = rows.iter().step_by(rows.len().div_ceil(MOST_ROWS));
-    rows.map(|row| {
-        motion
-            .at(share * row.t_s)
-            .map_or(0.0, |state| (state.q - row.q_rad).norm_squared())
+        (share + off / slope).clamp(least, most)
     })
-    .sum()
 }

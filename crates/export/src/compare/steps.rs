@@ -50,25 +50,24 @@ impl Step<'_> {
     pub fn differences(&self, other: &Self, most_s: f64) -> Vec<(String, String, String)> {
         let (most_rad, most_m) = ROUNDING;
         let mut all = Vec::new();
+        let mut tell = |what: String, [a, b]: [f64; 2], most: f64, (decimals, unit): (usize, &str)| {
+            if a.is_nan() || (a - b).abs() > most {
+                let [a, b] = told_apart(a, b, decimals);
+                all.push((what, format!("{a} {unit}"), format!("{b} {unit}")));
+            }
+        };
         for j in 0..AXES {
-            let (a, b) = (self.point.q_rad[j], other.point.q_rad[j]);
-            if a.is_nan() || (a - b).abs() > most_rad {
-                let [a, b] = told_apart(a.to_degrees(), b.to_degrees(), 4);
-                all.push((format!("joint {}", j + 1), format!("{a} deg"), format!("{b} deg")));
-            }
-            let speeds = [self, other].map(|step| step.qd_rad_s.map(|v| v[j]));
-            if let [Some(a), Some(b)] = speeds
-                && (a.is_nan() || (a - b).abs() > most_rad)
-            {
-                let [a, b] = told_apart(a.to_degrees(), b.to_degrees(), 4);
-                let what = format!("speed of joint {}", j + 1);
-                all.push((what, format!("{a} deg/s"), format!("{b} deg/s")));
+            let most_deg = most_rad.to_degrees();
+            let joint = format!("joint {}", j + 1);
+            let speeds = self.qd_rad_s.zip(other.qd_rad_s);
+            let speeds = speeds.map(|(a, b)| [a[j], b[j]].map(f64::to_degrees));
+            let positions = [self, other].map(|step| step.point.q_rad[j].to_degrees());
+            tell(joint.clone(), positions, most_deg, (4, "deg"));
+            if let Some(speeds) = speeds {
+                tell(format!("speed of {joint}"), speeds, most_deg, (4, "deg/s"));
             }
         }
-        if self.lasts_s.is_nan() || (self.lasts_s - other.lasts_s).abs() > most_s {
-            let [a, b] = told_apart(self.lasts_s, other.lasts_s, 6);
-            all.push(("time".to_owned(), format!("{a} s"), format!("{b} s")));
-        }
+        tell("time".to_owned(), [self.lasts_s, other.lasts_s], most_s, (6, "s"));
         let corners = [self, other].map(|step| step.point.corner_m);
         let is_same = match corners {
             [Some(a), Some(b)] => (a - b).abs() <= most_m,
