@@ -6,24 +6,14 @@
 //!     cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 //!     cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
 //!     cargo xtask docs                              writes the pages that are made from the program
-//!     cargo xtask rules                             the rules of the code that no compiler checks, all of them
-//!     cargo xtask rings                             one of them: no modules that import each other in a ring
-//!     cargo xtask subjects REVISION                 whether the commits since then have first lines as they should be
 
 mod benches;
 mod browser;
-mod floors;
-mod map;
 mod page;
 mod python;
-mod rings;
-mod rules;
 mod sources;
-mod subjects;
 mod suite;
-mod tree;
 mod wheel;
-mod workspace;
 
 use anyhow::{Result, bail};
 use std::process::ExitCode;
@@ -35,10 +25,7 @@ cargo xtask test [OPTIONS]                    every test there is
     --without-browser                         all but what is looked at in a browser
 cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
-cargo xtask docs                              writes the pages that are made from the program
-cargo xtask rules                             the rules of the code that no compiler checks, all of them
-cargo xtask rings                             one of them: no modules that import each other in a ring
-cargo xtask subjects REVISION                 whether the commits since then have first lines as they should be";
+cargo xtask docs                              writes the pages that are made from the program";
 
 /// What to do.
 #[derive(Debug, PartialEq, Eq)]
@@ -47,9 +34,6 @@ enum Chore {
     Bench(Vec<String>),
     Page,
     Docs,
-    Rules,
-    Rings,
-    Subjects(String),
     Help,
 }
 
@@ -67,9 +51,6 @@ fn main() -> ExitCode {
         Chore::Bench(arguments) => benches::run(&arguments),
         Chore::Page => page::make(),
         Chore::Docs => suite::docs(),
-        Chore::Rules => rules::kept(),
-        Chore::Rings => rules::no_rings(),
-        Chore::Subjects(revision) => subjects::since(&revision),
         Chore::Help => {
             println!("{USAGE}");
             Ok(())
@@ -91,9 +72,6 @@ fn parse(arguments: &[String]) -> Result<Chore> {
         ["bench", ..] => Ok(Chore::Bench(arguments[1..].to_vec())),
         ["page"] => Ok(Chore::Page),
         ["docs"] => Ok(Chore::Docs),
-        ["rules"] => Ok(Chore::Rules),
-        ["rings"] => Ok(Chore::Rings),
-        ["subjects", revision] => Ok(Chore::Subjects(revision.to_owned())),
         [] | ["help" | "--help" | "-h"] => Ok(Chore::Help),
         _ => bail!("unknown arguments: {}", words.join(" ")),
     }
@@ -135,9 +113,6 @@ mod tests {
         assert_eq!(parsed("bench ik_warm"), Some(Chore::Bench(vec!["ik_warm".to_owned()])));
         assert_eq!(parsed("page"), Some(Chore::Page));
         assert_eq!(parsed("docs"), Some(Chore::Docs));
-        assert_eq!(parsed("rules"), Some(Chore::Rules));
-        assert_eq!(parsed("rings"), Some(Chore::Rings));
-        assert_eq!(parsed("subjects main"), Some(Chore::Subjects("main".to_owned())));
         assert_eq!(parsed(""), Some(Chore::Help));
     }
 
@@ -149,8 +124,7 @@ mod tests {
             "test --only ruby",
             "test --without-browser --only",
             "test now",
-            "subjects",
-            "rings x",
+            "rings",
         ] {
             assert_eq!(parsed(line), None, "{line}");
         }

@@ -1,6 +1,6 @@
 //! Everything that must pass, in order.
 
-use crate::{benches, browser, page, python, rules, wheel};
+use crate::{benches, browser, page, python, wheel};
 use anyhow::{Result, bail};
 use platewash_bundler::Step;
 use std::time::Instant;
@@ -19,7 +19,7 @@ type Check = fn() -> Result<()>;
 /// A part of the suite that can be run alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// Format, clippy, the documentation and the rules that no compiler checks.
+    /// Format, clippy and the documentation.
     Lint,
     /// The tests in Rust.
     Rust,
@@ -57,12 +57,11 @@ impl Part {
 pub fn run(only: Option<Part>, in_browser: InBrowser) -> Result<()> {
     let start = Instant::now();
     let release: Check = if only.is_none() { release } else { release_alone };
-    let steps: [(&[Part], Check); 14] = [
+    let steps: [(&[Part], Check); 13] = [
         (&[Part::Rust, Part::Python, Part::Browser], page::make),
         (&[Part::Lint], format),
         (&[Part::Lint], clippy),
         (&[Part::Lint], documentation),
-        (&[Part::Lint], rules::kept),
         (&[Part::Rust], tests),
         (&[Part::Rust], benches::once),
         (&[Part::Python, Part::Browser], release),
