@@ -18,6 +18,7 @@
 #[cfg(feature = "command")]
 pub mod cli;
 mod report;
+mod spirals;
 mod sweep;
 
 // The command is written as a user of this library would write it.
@@ -42,6 +43,7 @@ pub use platewash_planner::{PlanError, Planned, plan};
 pub use platewash_scenario::{Failure, Scenario, ScenarioError};
 pub use platewash_simulator::{Execution, SimulationError, SimulationReport, SimulationVerdict, simulate, tune};
 pub use report::WashReport;
+pub use spirals::paper_spirals;
 pub use sweep::{SWEEP_HEADER, SweepRow, sweep, sweep_csv, sweep_each};
 
 // What they speak of.

@@ -77,6 +77,7 @@ from ._errors import (
     StudyError,
     UrdfError,
 )
+from ._figure import Figure
 from ._nouns import finish as _finish
 from ._page import Page
 from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record
@@ -98,6 +99,7 @@ __all__ = [
     "EngineError",
     "Execution",
     "ExportError",
+    "Figure",
     "FileError",
     "Foot",
     "IkBatch",

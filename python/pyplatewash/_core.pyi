@@ -3,12 +3,12 @@
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, final, overload
+from typing import Any, Literal, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
-from matplotlib.axes import Axes
 
+from ._figure import Figure
 from ._page import Page
 from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record
 from ._studies.rows import StudyRows
@@ -45,14 +45,13 @@ __all__ = [
     "_check",
     "_configuration_page",
     "_edit_arguments",
-    "_figure_arguments",
     "_paper_spiral",
+    "_plan_figure",
     "_plan_page",
-    "_plan_view",
     "_plate_made",
     "_program",
     "_rings_turns",
-    "_save_page",
+    "_save",
     "_show_arguments",
     "_study_check",
     "_study_summary",
@@ -76,7 +75,6 @@ __all__ = [
 ]
 
 _Array: TypeAlias = npt.NDArray[np.float64]
-_ManyAxes: TypeAlias = Sequence[Axes] | npt.NDArray[np.object_]
 _Path: TypeAlias = str | os.PathLike[str]
 _Axes: TypeAlias = Literal["base", "local"]
 _Law: TypeAlias = Literal["paper", "exact", "pd", "pd_gravity", "computed_torque"]
@@ -446,39 +444,15 @@ class Plan:
         simulate: bool = True,
         path: _Path | None = None,
     ) -> Path: ...
-    @overload
     def figure(
         self,
-        kind: Literal["layout", "tip", "clearance"] = "layout",
-        ax: Axes | None = None,
+        kind: Literal["layout", "joints", "coverage", "spiral"] = "layout",
         *,
         execution: Execution | None = None,
-        plate: int | None = None,
+        certificate: Certificate | None = None,
         scenario: Scenario | _Path | None = None,
         robot: Robot | None = None,
-    ) -> Axes: ...
-    @overload
-    def figure(
-        self,
-        kind: Literal["coverage", "spiral"],
-        ax: Axes | None = None,
-        *,
-        execution: Execution | None = None,
-        plate: int,
-        scenario: Scenario | _Path | None = None,
-        robot: Robot | None = None,
-    ) -> Axes: ...
-    @overload
-    def figure(
-        self,
-        kind: Literal["joints", "coverage", "spiral"],
-        ax: _ManyAxes | None = None,
-        *,
-        execution: Execution | None = None,
-        plate: None = None,
-        scenario: Scenario | _Path | None = None,
-        robot: Robot | None = None,
-    ) -> list[Axes]: ...
+    ) -> Figure: ...
     @classmethod
     def _restore(cls, text: str, robot: Robot | None) -> Plan: ...
     def to_csv(self, dt_s: float | None = None, robot: Robot | None = None) -> str: ...
@@ -777,9 +751,6 @@ def _program(arguments: Sequence[_Path]) -> int: ...
 def _plan_page(
     plan: Plan, robot: Robot, execution: Execution | None, certificate: Certificate | None, scenario: Scenario | None
 ) -> str: ...
-def _plan_view(
-    plan: Plan, robot: Robot, execution: Execution | None, scenario: Scenario | None
-) -> dict[str, Any]: ...
 def _configuration_page(
     robot: Robot, q: object, tool: object, plates: object, height: object
 ) -> tuple[str, int]: ...
@@ -787,13 +758,11 @@ def _edit_arguments(scenario: object, height: object) -> tuple[CellEditor, int]:
 def _show_arguments(
     plan: Plan, beside: tuple[object, object, object, object], prove: object, simulate: object, height: object, path: object
 ) -> tuple[tuple[Robot, Scenario | None], list[bool], int]: ...
-def _figure_arguments(
-    plan: Plan, kind: object, of: tuple[object, object, object, object]
-) -> tuple[tuple[Robot, Scenario | None], str, int | None]: ...
+def _plan_figure(plan: Plan, kind: object, of: tuple[object, object, object, object]) -> str: ...
 def _task_region(
     name: str, scenario: object
 ) -> tuple[tuple[float, float], float | None, list[tuple[float, float]] | None]: ...
-def _save_page(page: Page, path: _Path) -> None: ...
+def _save(text: str, path: _Path) -> None: ...
 def _argument_number(name: str, value: object) -> float: ...
 def _argument_count(name: str, value: object, least: int, most: int) -> int: ...
 def _argument_flag(name: str, value: object) -> bool: ...

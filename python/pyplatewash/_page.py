@@ -37,7 +37,7 @@ class Page:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the page to a file. Raises FileError."""
-        _core._save_page(self, path)
+        _core._save(self.html, path)
 
     def open(self, path: str | os.PathLike[str] | None = None) -> Path:
         """Writes the page to a file, by default a new one in the system's folder for temporary files, and opens it in the browser.

@@ -10,7 +10,6 @@ import numpy as np
 
 from . import _core, _picture
 from ._errors import PlatewashError
-from ._figures.subject import Subject
 from ._values import Floats, Rings, WashCurve
 from ._words import percent, quoted
 
@@ -187,8 +186,9 @@ def wash_paths(of: _core.Plan) -> list[Floats]:
     if of.process == "paper":
         if of.robot is None:
             return []
-        subject = Subject.of(of, of.robot, None, None, None)
-        return [subject.planned_tip(s.t_start_s, s.t_end_s)[:, :2] for s in of.segments if s.kind == "wash"]
+        # At rest in the world, without a tool: the program moves the flange.
+        spans = [np.linspace(s.t_start_s, s.t_end_s, 200) for s in of.segments if s.kind == "wash"]
+        return [of.robot.fk(of.trajectory.at(t_s)[0])[:, :2, 3] for t_s in spans]
     paths: list[Floats] = []
     for path in of.wash_paths if len(of.plates) <= MOST_PATHS else ():
         curve, pose = path.curve, of.job.plates[path.plate].pose

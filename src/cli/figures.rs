@@ -5,14 +5,12 @@ use super::options::Options;
 use super::output;
 use super::plan_file::PlanFile;
 use super::progress::Progress;
-use super::{execution, paper_claims, region, text};
+use super::{execution, region, text};
 use clap::Args;
 use platewash::certificate::prove_with;
-use platewash::viewer::figures::{Figure, Ideal, Sheet, Subject, draw};
-use platewash::workcell::layout::TaskRegion;
+use platewash::viewer::figures::{Figure, FigureError, Ideal, Subject, draw};
 use platewash::workcell::plan::Process;
-use platewash::{Certificate, Execution, SimulationReport};
-use rayon::prelude::*;
+use platewash::{Certificate, Execution, SimulationReport, paper_spirals};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -25,21 +23,15 @@ pub struct FiguresArguments {
     /// Plan file
     #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
-    /// Names of the figures to draw, separated by commas: layout, cleaning, transit, moment, joints, coverage, spiral, sheet, flow
+    /// Names of the figures to draw, separated by commas: layout, joints, coverage, spiral
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = Figure::named)]
     pub only: Vec<Figure>,
-    /// Time in seconds of the figure "moment"
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
-    pub at: Option<f64>,
 }
 
 impl FiguresArguments {
     /// What is asked for, each once, in the order of their names' list.
     fn wanted(&self) -> Vec<Figure> {
-        let asked = |figure: &Figure| match self.only.is_empty() {
-            true => *figure != Figure::Moment || self.at.is_some(),
-            false => self.only.contains(figure),
-        };
+        let asked = |figure: &Figure| self.only.is_empty() || self.only.contains(figure);
         Figure::ALL.into_iter().filter(asked).collect()
     }
 }
@@ -64,20 +56,23 @@ struct LeftOut {
 pub fn run(options: &Options, arguments: &FiguresArguments) -> Result<ExitCode, Failure> {
     let wanted = arguments.wanted();
     let folder = options.out.clone().unwrap_or_else(|| PathBuf::from(DEFAULT_FOLDER));
-    let place = |figure: Figure, ending: &str| folder.join(format!("{}.{ending}", figure.name()));
-    let places = wanted
-        .iter()
-        .flat_map(|&figure| [place(figure, "svg"), place(figure, "png")]);
-    output::check_places(&places.collect::<Vec<_>>())?;
+    let place = |figure: &Figure| folder.join(format!("{}.svg", figure.name()));
+    output::check_places(&wanted.iter().map(place).collect::<Vec<_>>())?;
     let file = PlanFile::read(options, &arguments.plan)?;
     let mut left_out = Vec::new();
     let known = Known::of(options, &file, &wanted, &mut left_out)?;
     let subject = known.subject(&file).map_err(|error| file.refused(error))?;
-    let sheets = sheets(options, arguments, (&wanted, &subject), &mut left_out).map_err(|error| file.refused(error))?;
     let mut files = Vec::new();
-    for (sheet, png) in sheets {
-        files.push(output::file(place(sheet.figure, "svg"), sheet.svg));
-        files.push(output::bytes(place(sheet.figure, "png"), png));
+    for figure in &wanted {
+        match draw(&subject, *figure) {
+            Ok(svg) => files.push(output::file(place(figure), svg)),
+            // What was asked for by name must be drawn; of the others, those that the plan has nothing for are left out.
+            Err(error @ FigureError::NothingWashed { .. }) if arguments.only.is_empty() => left_out.push(LeftOut {
+                what: figure.name().to_owned(),
+                why: error.to_string(),
+            }),
+            Err(error) => return Err(file.refused(error)),
+        }
     }
     output::write_files(&files, &options.cancel)?;
     let answer = Answer {
@@ -87,34 +82,6 @@ pub fn run(options: &Options, arguments: &FiguresArguments) -> Result<ExitCode, 
     };
     output::print_either(options.json, &answer, || answer.text())?;
     Ok(ExitCode::SUCCESS)
-}
-
-/// Draws what is wanted. What was asked for by name must be drawn; of the others, those that the plan has nothing for are left out.
-fn sheets(
-    options: &Options,
-    arguments: &FiguresArguments,
-    (wanted, subject): (&[Figure], &Subject<'_>),
-    left_out: &mut Vec<LeftOut>,
-) -> Result<Vec<(Sheet, Vec<u8>)>, platewash::viewer::figures::FigureError> {
-    let _progress = Progress::new(options.quiet, "drawing");
-    let drawn = wanted.par_iter().map(|&figure| {
-        let sheet = draw(subject, figure, arguments.at)?;
-        let png = sheet.png()?;
-        Ok((sheet, png))
-    });
-    let drawn: Vec<Result<_, platewash::viewer::figures::FigureError>> = drawn.collect();
-    let mut sheets = Vec::new();
-    for (figure, drawn) in wanted.iter().zip(drawn) {
-        match drawn {
-            Ok(sheet) => sheets.push(sheet),
-            Err(error) if arguments.only.is_empty() && error.is_of_one_figure() => left_out.push(LeftOut {
-                what: figure.name().to_owned(),
-                why: error.to_string(),
-            }),
-            Err(error) => return Err(error),
-        }
-    }
-    Ok(sheets)
 }
 
 impl Answer {
@@ -130,8 +97,8 @@ impl Answer {
 struct Known {
     certificate: Option<Certificate>,
     executed: Option<(Execution, SimulationReport)>,
-    region: TaskRegion,
-    paper: Option<paper_claims::Followed>,
+    /// Of a plan of the paper's program, what the tip was to follow.
+    ideal: Option<Vec<Ideal>>,
 }
 
 impl Known {
@@ -147,7 +114,7 @@ impl Known {
             let what = what.to_owned();
             left_out.push(LeftOut { what, why });
         };
-        let (mut certificate, mut paper) = (None, None);
+        let (mut certificate, mut ideal) = (None, None);
         match plan.process {
             Process::Wash => {
                 let _progress = Progress::new(options.quiet, "proving");
@@ -158,16 +125,16 @@ impl Known {
             }
             Process::Paper => {
                 let _progress = Progress::new(options.quiet, "following the paper's program");
-                match paper_claims::follow(plan, arm, &options.cancel) {
-                    Ok(followed) => paper = Some(followed),
-                    Err(error) => refuse(file, error.into(), |why| unknown("the paper's claims", why))?,
+                match paper_spirals(plan, arm, &options.cancel) {
+                    Ok(spirals) => ideal = Some(spirals),
+                    Err(error) => refuse(file, error.into(), |why| unknown("the paper's spirals", why))?,
                 }
             }
         }
         let _progress = Progress::new(options.quiet, "simulating");
         let simulated = wanted
             .iter()
-            .any(|figure| figure.shows_executed())
+            .any(|figure| *figure != Figure::Joints)
             .then(|| execution::tried(plan, arm, &options.cancel, &mut |_| {}));
         let executed = simulated.transpose()?.and_then(|simulated| {
             let refused = |why| unknown("what an arm makes of it", why);
@@ -176,29 +143,20 @@ impl Known {
         Ok(Self {
             certificate,
             executed,
-            region: region::of_plan(plan, arm),
-            paper,
+            ideal,
         })
     }
 
-    fn subject<'a>(&'a self, file: &'a PlanFile<'_>) -> Result<Subject<'a>, platewash::viewer::figures::FigureError> {
+    fn subject<'a>(&'a self, file: &'a PlanFile<'_>) -> Result<Subject<'a>, FigureError> {
         let mut subject = Subject::new(&file.plan, &file.arm)?;
-        if let Some(certificate) = &self.certificate {
-            subject = subject.proved(certificate);
-        }
         if let Some((execution, report)) = &self.executed {
             subject = subject.executed(execution, report)?;
         }
-        if let Some(paper) = &self.paper {
-            let ideal = paper.ideal.iter().map(|(plate, points)| Ideal {
-                plate: *plate,
-                points: points.clone(),
-            });
-            subject = subject.following(ideal.collect());
-            subject.claims = paper.claims.clone();
+        if let Some(ideal) = &self.ideal {
+            subject.ideal.clone_from(ideal);
         }
-        subject.region_m.clone_from(&self.region.polygon_m);
-        subject.base_circle_m = self.region.base_circle_m;
+        subject.certificate = self.certificate.as_ref();
+        subject.region = region::of_plan(&file.plan, &file.arm);
         Ok(subject)
     }
 }

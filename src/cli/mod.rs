@@ -29,7 +29,6 @@ mod options;
 mod output;
 mod page;
 mod paper;
-mod paper_claims;
 mod parent;
 mod plan;
 mod plan_file;
@@ -140,7 +139,7 @@ enum Verb {
     /// Drag plates, or change keys in a form or as text. Save writes the scenario (comments and order kept) and beside it NAME.plan.json,
     /// NAME.certificate.json, NAME.report.json, NAME.report.txt and NAME.page.html. Ctrl-C ends it.
     Edit(edit::EditArguments),
-    /// Draw a plan file as SVG and PNG: workcell, wash, transit, joints, coverage and more
+    /// Draw a plan file as SVG: the workcell from above, joints, coverage and spirals
     Figures(figures::FiguresArguments),
     /// Export a plan file as a robot program: rapid, ros2, urscript or csv
     ///
@@ -155,8 +154,8 @@ enum Verb {
     Ik(ik::IkArguments),
     /// Show the arm: joints, limits, frames and the pairs checked for clearance
     ///
-    /// --suggest finds, for the scenario's tool and plates: a home position, where plates can be washed (region.svg, region.png), and
-    /// the pairs of links that need no check, with reasons (touching.srdf).
+    /// --suggest finds, for the scenario's tool and plates: a home position, where plates can be washed (region.svg), and the
+    /// pairs of links that need no check, with reasons (touching.srdf).
     Robot(robot::RobotArguments),
     /// Plan and prove a scenario with many seeds
     Sweep(sweep::SweepArguments),

@@ -58,25 +58,12 @@ pub fn message(quiet: bool, text: &str) {
     }
 }
 
-/// A file and what is to stand in it.
-pub type File<'a> = (PathBuf, Content<'a>);
-
-/// What is to stand in a file.
-pub enum Content<'a> {
-    /// A text, which may be made while it is written.
-    Text(Box<dyn Display + 'a>),
-    /// Bytes.
-    Bytes(Vec<u8>),
-}
+/// A file and the text that is to stand in it, which may be made while it is written.
+pub type File<'a> = (PathBuf, Box<dyn Display + 'a>);
 
 /// A text file for [`write_files`].
 pub fn file<'a>(path: PathBuf, content: impl Display + 'a) -> File<'a> {
-    (path, Content::Text(Box::new(content)))
-}
-
-/// A file of bytes for [`write_files`].
-pub fn bytes<'a>(path: PathBuf, content: Vec<u8>) -> File<'a> {
-    (path, Content::Bytes(content))
+    (path, Box::new(content))
 }
 
 /// Writes all files or none: each goes to a temporary file beside its place, and they are renamed once all are complete. None where
@@ -205,16 +192,12 @@ pub fn write_to<T>(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<T, 
     Ok(written)
 }
 
-fn stage(path: &Path, content: &Content<'_>) -> anyhow::Result<StagedFile> {
+fn stage(path: &Path, content: &dyn Display) -> anyhow::Result<StagedFile> {
     let cannot = || format!("{}: cannot be written", path.display());
     refuse_taken(path)?;
     let staged = StagedFile::in_folder(folder_of(path)).with_context(cannot)?;
     let mut buffered = BufWriter::new(staged);
-    let written = match content {
-        Content::Text(text) => write!(buffered, "{text}"),
-        Content::Bytes(bytes) => buffered.write_all(bytes),
-    };
-    written.with_context(cannot)?;
+    write!(buffered, "{content}").with_context(cannot)?;
     let staged = buffered.into_inner().map_err(IntoInnerError::into_error);
     let synced = staged.and_then(|staged| staged.sync().map(|()| staged));
     synced.with_context(cannot)

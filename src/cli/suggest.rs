@@ -54,8 +54,8 @@ struct Answer {
 /// Looks for what suits the arm, the tool and the plates of the scenario, and writes the picture and the SRDF.
 pub fn run(options: &Options) -> Result<ExitCode, Failure> {
     let folder = options.out.clone().unwrap_or_else(|| PathBuf::from(DEFAULT_FOLDER));
-    let [svg, png, srdf] = ["region.svg", "region.png", "touching.srdf"].map(|name| folder.join(name));
-    output::check_places(&[svg.clone(), png.clone(), srdf.clone()])?;
+    let written = ["region.svg", "touching.srdf"].map(|name| folder.join(name));
+    output::check_places(&written)?;
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
     let found = {
@@ -66,16 +66,11 @@ pub fn run(options: &Options) -> Result<ExitCode, Failure> {
             .map_err(|error| options.failure(error))?
     };
     let tool = scenario.tool_on(&robot)?;
-    let sheet = draw_region(&map(&scenario, &robot, &tool, &found));
-    let picture = sheet.png().map_err(Failure::internal)?;
-    let written = vec![svg.clone(), png.clone(), srdf.clone()];
-    let files = [
-        output::file(svg, &sheet.svg),
-        output::bytes(png, picture),
-        output::file(srdf, found.pairs.srdf()),
-    ];
+    let map = draw_region(&map(&scenario, &robot, &tool, &found));
+    let [svg, srdf] = written.clone();
+    let files = [output::file(svg, map), output::file(srdf, found.pairs.srdf())];
     output::write_files(&files, &options.cancel)?;
-    let answer = answer(&scenario, &robot, found, written);
+    let answer = answer(&scenario, &robot, found, written.into());
     output::print_either(options.json, &answer, || super::text::text(&text(&answer)))?;
     Ok(ExitCode::SUCCESS)
 }

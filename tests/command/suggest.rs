@@ -11,7 +11,6 @@ fn what_is_suggested_makes_a_cell_that_is_proved() {
     assert_eq!(ran.code, 0, "{}", ran.stderr);
     let answer: Value = serde_json::from_str(&ran.stdout).unwrap();
     let found = dir.join("found");
-    assert!(std::fs::read(found.join("region.png")).unwrap().starts_with(b"\x89PNG"));
     assert!(
         std::fs::read_to_string(found.join("region.svg"))
             .unwrap()

@@ -25,7 +25,7 @@ PYTHON = {
     "simulator": None,
     "study": "Study",
     "workcell": None,
-    "viewer": "Plan.show",  # the page, and figures by matplotlib
+    "viewer": "Plan.show",  # the page, and figures
     "cli": "run_command",
     # The way through.
     "Certificate": "Certificate",
@@ -113,7 +113,7 @@ def test_the_scenarios_and_verbs_are_the_commands(platewash: Path) -> None:
         assert getattr(pw, name).__doc__, f"{name} has no docstring"
 
 
-@pytest.mark.parametrize("module", ["", "._values", "._records", "._errors", "._page", "._words", "._studies.samples", "._figures.table_map", ".ros"])
+@pytest.mark.parametrize("module", ["", "._values", "._records", "._errors", "._page", "._figure", "._words", "._studies.samples", "._figures.table_map", ".ros"])
 def test_examples_in_docstrings_run(module: str) -> None:
     found = doctest.testmod(importlib.import_module("pyplatewash" + module))
     assert found.failed == 0

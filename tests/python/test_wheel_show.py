@@ -6,16 +6,13 @@ import re
 import subprocess
 import sys
 import webbrowser
-from collections.abc import Iterator
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from matplotlib.axes import Axes
-from matplotlib.patches import Circle
 
 import pyplatewash as pw
 from wheel_plans import paper_run, plan, planned
@@ -101,12 +98,6 @@ def hostile(kitchen: pw.Plan) -> pw.Plan:
     return pw.Plan.from_json(json.dumps(table))
 
 
-@pytest.fixture(autouse=True)
-def closed() -> Iterator[None]:
-    yield
-    plt.close("all")
-
-
 # Pages.
 
 
@@ -160,7 +151,9 @@ def test_what_is_of_another_plan_is_refused(kitchen: pw.Plan) -> None:
     with pytest.raises(pw.InputError, match="execution: is one of another plan"):
         kitchen.show(pw.simulate(other))
     with pytest.raises(pw.InputError, match="execution: is one of another plan"):
-        kitchen.figure("tip", execution=pw.simulate(other))
+        kitchen.figure("coverage", execution=pw.simulate(other))
+    with pytest.raises(pw.InputError, match="certificate: is one of another plan"):
+        kitchen.figure("coverage", certificate=pw.prove(other))
 
 
 def test_a_broken_plan_looks_broken(kitchen: pw.Plan) -> None:
@@ -238,194 +231,65 @@ def test_a_name_that_is_html_is_text(hostile: pw.Plan, page: pw.Page) -> None:
 # Figures.
 
 
-def lines(ax: Axes, label: str) -> np.ndarray:
-    """The points of the line of that label, without gaps."""
-    [found] = [line for line in ax.lines if line.get_label() == label]
-    points = np.column_stack([np.asarray(found.get_xdata(), float), np.asarray(found.get_ydata(), float)])
-    finite: np.ndarray = points[np.isfinite(points).all(axis=1)]
-    return finite
+def texts(figure: pw.Figure) -> list[str]:
+    """What the texts of a figure say."""
+    return ["".join(text.itertext()) for text in ElementTree.fromstring(figure.svg).iter("{http://www.w3.org/2000/svg}text")]
 
 
-def legend(ax: Axes) -> list[str]:
-    """What the legend of an axes or of its figure says."""
-    own = ax.get_legend()
-    found = [own] if own else ax.figure.legends
-    assert len(found) == 1
-    return [text.get_text() for text in found[0].get_texts()]
+@pytest.mark.parametrize("kind", ["layout", "joints", "coverage", "spiral"])
+def test_figures_are_those_of_the_command(kind: Any, kitchen: pw.Plan, executed: pw.Execution, tmp_path: Path) -> None:
+    (tmp_path / "plan.json").write_text(kitchen.to_json())
+    assert pw.run_command(["figures", str(tmp_path / "plan.json"), "--only", kind, "--out", str(tmp_path), "--quiet"]) == 0
+    beside: dict[str, Any] = {} if kind == "joints" else {"execution": executed}
+    figure = kitchen.figure(kind, certificate=pw.prove(kitchen), scenario="kitchen", **beside)
+    assert figure.svg == (tmp_path / f"{kind}.svg").read_text(encoding="utf-8")
+    assert figure._repr_svg_() == figure.svg and repr(figure).startswith("Figure(")
+    figure.save(tmp_path / "own.svg")
+    assert (tmp_path / "own.svg").read_text(encoding="utf-8") == figure.svg
+    assert any("proved for every moment" in text for text in texts(figure))
 
 
-def tip_of(plan: pw.Plan, q: np.ndarray) -> np.ndarray:
-    """The tip, by the package's own kinematics with the plan's tool."""
-    tool = pw.Tool(length_m=plan.job.workcell.tool.tip.position_m[2])
-    found: np.ndarray = pw.Robot.irb120().fk(q, tool=tool)[:, :3, 3]
-    return found
+def test_a_figure_says_what_is_not_known(kitchen: pw.Plan) -> None:
+    assert any(text.endswith("planned, not proved") for text in texts(kitchen.figure()))
+    assert "base circle" not in kitchen.figure().svg and "base circle" in kitchen.figure(scenario="kitchen").svg
+    assert any("Nothing was simulated." in text for text in texts(kitchen.figure("coverage")))
+    assert "computed_torque" in kitchen.figure("spiral").svg  # It simulates.
 
 
-def order(plan: pw.Plan) -> str:
-    return ", ".join(map(str, plan.order))
-
-
-def test_the_layout_is_the_plans(kitchen: pw.Plan) -> None:
-    ax = kitchen.figure(scenario="kitchen")
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("x [m]", "y [m]") and ax.get_aspect() == 1.0
-    assert f'"kitchen", seed 1: 4 plates in {kitchen.duration_s:.1f} s' in ax.get_title()
-    assert legend(ax) == ["between plates", "wash path", "base", "no plate centre within 280 mm", "region of plate centres"]
-    circles = {(c.center, c.radius) for c in ax.patches if isinstance(c, Circle)}
-    assert {((p.x_m, p.y_m), p.radius_m) for p in kitchen.plates} | {((0.0, 0.0), 0.28)} == circles
-    assert [text.get_text() for text in ax.texts] == ["1", "2", "3", "4"]
-    places = np.array([text.get_window_extent().get_points().mean(axis=0) for text in ax.texts])
-    np.testing.assert_allclose(ax.transData.inverted().transform(places), [(kitchen.plates[k].x_m, kitchen.plates[k].y_m) for k in kitchen.order], atol=3e-3)
-    washing = lines(ax, "wash path")
-    for path in kitchen.wash_paths:  # The curve's points are on the line that is drawn.
-        plate, curve = kitchen.plates[path.plate], path.curve.to_dict()
-        rings = curve.pop("rings", None)
-        ideal = pw.WashCurve(**curve, rings=rings and pw.Rings(**rings)).sample(1e-3)[1] + (plate.x_m, plate.y_m)
-        assert max(np.linalg.norm(washing - point, axis=1).min() for point in ideal) < 2e-3
-    home = tip_of(kitchen, np.atleast_2d(kitchen.trajectory.q_rad[0]))[0, :2]
-    np.testing.assert_allclose(lines(ax, "between plates")[[0, -1]], [home, home], atol=1e-9)
-
-
-def test_the_joints_are_shares_of_their_limits(kitchen: pw.Plan) -> None:
-    axes = kitchen.figure("joints")
-    assert [ax.get_ylabel() for ax in axes] == ["position [% of limit]", "speed [% of limit]", "acceleration [% of limit]"]
-    assert axes[-1].get_xlabel() == "time [s]"
-    assert legend(axes[0]) == [*(f"joint {k}" for k in range(1, 7)), "limit", "washing"]
-    robot, motion = pw.Robot.irb120(), kitchen.trajectory
-    extremes = motion.extremes()
-    middle, half = (robot.upper + robot.lower) / 2, (robot.upper - robot.lower) / 2
-    speed = extremes["speed_rad_s"].max(axis=0) / robot.velocity
-    acceleration = extremes["acceleration_rad_s2"].max(axis=0) / kitchen.job.limits.joint_acceleration_rad_s2
-    for joint in range(6):
-        drawn = [lines(ax, f"joint {joint + 1}") for ax in axes]
-        at_knots = drawn[0][np.isin(drawn[0][:, 0], motion.t_s), 1]
-        np.testing.assert_allclose(at_knots, 100 * (motion.q_rad[:, joint] - middle[joint]) / half[joint], atol=1e-6)
-        assert abs(drawn[1][:, 1]).max() == pytest.approx(100 * speed[joint], rel=1e-3, abs=1e-9)
-        assert abs(drawn[2][:, 1]).max() == pytest.approx(100 * acceleration[joint], rel=1e-9, abs=1e-9)
-
-
-def test_the_tip_keeps_below_its_limits(kitchen: pw.Plan, executed: pw.Execution) -> None:
-    ax = kitchen.figure("tip", execution=executed)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("time [s]", "speed of the tip [m/s]")
-    assert legend(ax) == ["planned", "executed", "limit", "limit while washing", "washing"]
-    t_s, speed = lines(ax, "planned").T
-    h = 1e-5
-    inner = t_s[(t_s > h) & (t_s < kitchen.duration_s - h)][::50]
-    moved = tip_of(kitchen, kitchen.trajectory.at(inner + h)[0]) - tip_of(kitchen, kitchen.trajectory.at(inner - h)[0])
-    np.testing.assert_allclose(np.interp(inner, t_s, speed), np.linalg.norm(moved, axis=1) / (2 * h), atol=1e-4)
-    bound = next(check.measure.bound for check in pw.prove(kitchen).checks if check.requirement == "tip_speed")
-    assert 0.98 * bound < speed.max() <= bound
-
-
-def test_the_clearance_is_that_of_the_certificate(kitchen: pw.Plan) -> None:
-    ax = kitchen.figure("clearance")
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("time [s]", "least distance [mm]")
-    check = next(check for check in pw.prove(kitchen).checks if check.requirement == "clearance")
-    least = lines(ax, "planned")[:, 1].min()
-    assert 1e3 * check.measure.bound <= least + 1e-6 and least == pytest.approx(1e3 * check.measure.seen, rel=0.05)
-    assert any(all(body in words for body in check.worst.pair) for words in legend(ax))
-
-
-def test_coverage_is_as_measured(paper: pw.PaperRun) -> None:
-    spiral = plan("kitchen-spiral")
-    axes = spiral.figure("coverage", execution=pw.simulate(spiral))
-    assert [ax.get_title().split("\n")[0] for ax in axes] == [f"{k}: plate {plate}" for k, plate in enumerate(spiral.order, 1)]
-    assert {ax.get_xlabel() for ax in axes} == {"x from its centre [mm]"} and not axes[0].figure.legends  # Nothing is missed.
-    assert legend(paper.plan().figure("coverage")[0]) == ["never under the sponge"]
-    report = paper.report()
+def test_figures_of_the_papers_program(paper: pw.PaperRun) -> None:
     swept = pw.simulate(paper.plan())
-    for ax, outcome in zip(paper.plan().figure("coverage", execution=swept), swept.report().plates):
-        swept_cells, missed_cells = (np.ma.count(np.ma.asarray(image.get_array())) for image in ax.images)
-        share = swept_cells / (swept_cells + missed_cells)
-        of_report = next(p for p in report.plates if p.plate == outcome.plate)
-        assert share == pytest.approx(of_report.executed_coverage.fraction, abs=0.02)
-        assert f"{percent(outcome.executed.fraction)} swept, executed" in ax.get_title()
-
-
-def test_a_spiral_is_drawn_beside_what_came_of_it(kitchen: pw.Plan, executed: pw.Execution) -> None:
-    plate = kitchen.order[1]
-    ax = kitchen.figure("spiral", plate=plate)
-    assert isinstance(ax, Axes) and len(kitchen.figure("spiral")) == 4
-    wash = next(s for s in kitchen.segments if s.kind == "wash" and s.plate == plate)
-    rows = (executed.t_s >= wash.t_start_s) & (executed.t_s <= wash.t_end_s)
-    centre = np.array([kitchen.plates[plate].x_m, kitchen.plates[plate].y_m])
-    np.testing.assert_allclose(lines(ax, "executed (computed_torque)"), 1e3 * (tip_of(kitchen, executed.q_rad[rows])[:, :2] - centre), atol=1e-6)
-    assert abs(np.linalg.norm(lines(ax, "planned"), axis=1).max() - 1e3 * kitchen.wash_paths[1].curve.radius_m) < 0.5
-    off = next(s.tip_m for s in executed.report().segments if s.kind == "wash" and s.plate == plate)
-    assert f"{1e3 * off.rms:.3g} mm rms" in ax.get_title() and f"{1e3 * off.max:.3g} mm at most" in ax.get_title()
-
-
-KINDS = ["layout", "joints", "tip", "clearance", "coverage", "spiral"]
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_the_callers_axes_are_drawn_on(kind: Any) -> None:
-    kitchen = plan("kitchen-spiral")
-    executed = pw.simulate(kitchen)
-    new: Any = kitchen.figure(kind, execution=executed)
-    count = len(new) if isinstance(new, list) else 1
-    figure, grid = plt.subplots(1, count, squeeze=False)
-    no_axes: Any = figure
-    given: Any = list(grid.flat) if isinstance(new, list) else grid.flat[0]
-    before = len(plt.get_fignums())
-    found: Any = kitchen.figure(kind, given, execution=executed)
-    assert found == given and len(plt.get_fignums()) == before
-    assert all(ax.has_data() for ax in grid.flat) and not figure.legends
-    assert [ax.get_legend() is not None for ax in grid.flat].count(True) == (kind != "coverage")
-    for wrong in ([], [*grid.flat, grid.flat[0]]):
-        with pytest.raises(pw.InputError, match=f"ax: as many Axes as this figure has are needed: {count}; found {len(wrong)}"):
-            kitchen.figure(kind, wrong, execution=executed)
-    with pytest.raises(pw.InputTypeError, match="ax: an Axes of matplotlib is needed"):
-        kitchen.figure(kind, no_axes)
-    with pytest.raises(pw.InputError, match="projection '3d'"):
-        kitchen.figure(kind, count * [plt.figure().add_subplot(projection="3d")])
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_nothing_is_cut_off(kind: Any, kitchen: pw.Plan, paper: pw.PaperRun) -> None:
-    for of in (kitchen, paper.plan()):
-        drawn: Any = of.figure(kind, scenario=of.provenance.scenario)
-        figure = (drawn[0] if isinstance(drawn, list) else drawn).figure
-        figure.canvas.draw()
-        whole, tight = figure.bbox, figure.get_tightbbox().transformed(figure.dpi_scale_trans)
-        assert tight.x0 >= -1 and tight.y0 >= -1 and tight.x1 <= whole.x1 + 1 and tight.y1 <= whole.y1 + 1, (kind, tight, whole)
+    said = texts(paper.plan().figure("spiral", execution=swept))
+    assert any("the paper's program" in text for text in said)
+    for outcome in swept.report().plates:
+        assert f"{percent(outcome.executed.lower)} swept" in said
 
 
 def test_figures_of_hostile_names(hostile: pw.Plan) -> None:
-    title = hostile.figure().get_title()
-    assert len(title) < 90 and title.startswith('"</script>') and title.isprintable()
-    money = hostile.to_dict()
-    money["provenance"]["scenario"] = "$\\frac{1$ _^"
-    ax = pw.Plan.from_json(json.dumps(money)).figure("tip")
-    ax.figure.canvas.draw()  # It is no formula.
-    assert "$\\\\frac{1$" in ax.get_title()
+    title = texts(hostile.figure())[0]
+    assert len(title) < 90 and title.startswith('Layout: "</script>') and title.isprintable()
 
 
 def test_figures_say_what_is_wrong(kitchen: pw.Plan, root: Path) -> None:
-    with pytest.raises(pw.InputError, match="kind: one of layout, joints, tip, clearance, coverage, spiral is needed; found 'pie'"):
-        kitchen.figure("pie")  # type: ignore[call-overload]  # pyright: ignore[reportArgumentType, reportCallIssue]
-    with pytest.raises(pw.InputError, match=f"plate: one of those that are washed is needed: {order(kitchen)}; found 7"):
-        kitchen.figure("coverage", plate=7)
+    with pytest.raises(pw.InputError, match='kind: there is no figure "pie"; there are layout, joints, coverage, spiral'):
+        kitchen.figure("pie")  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    with pytest.raises(pw.InputError, match='kind: .* "tip" is gone: it is a part of the figure "joints"'):
+        kitchen.figure("tip")  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     other = pw.Robot.load(root / "crates/kinematics/tests/fixtures/ur5_lengths.urdf")
     with pytest.raises(pw.InputError, match="robot: the plan was made for another arm, 'irb120'"):
         kitchen.figure(robot=other)
 
 
-def test_without_matplotlib_the_message_says_how_to_get_it(kitchen: pw.Plan, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
-    with pytest.raises(ImportError, match=r"pip install 'pyplatewash\[viz\]'") as caught:
-        kitchen.figure()
-    assert isinstance(caught.value, pw.MissingError) and caught.value.name == "matplotlib"
-    again = pickle.loads(pickle.dumps(caught.value))
-    assert (type(again), str(again), again.name) == (pw.MissingError, str(caught.value), "matplotlib")
-
-
-def test_matplotlib_is_not_needed_otherwise() -> None:
-    code = "import sys, pyplatewash as pw; p = pw.plan(pw.Scenario.load('kitchen').job()).plan; p._repr_html_(); print('matplotlib' in sys.modules)"
+def test_matplotlib_is_not_needed() -> None:
+    code = "import sys, pyplatewash as pw; p = pw.plan(pw.Scenario.load('kitchen').job()).plan; p._repr_html_(); p.figure(); print('matplotlib' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "False\n"
 
 
 # Tables.
+
+
+def order(plan: pw.Plan) -> str:
+    return ", ".join(map(str, plan.order))
 
 
 def test_every_table_is_whole_and_says_what_its_noun_says(kitchen: pw.Plan, executed: pw.Execution, paper: pw.PaperRun) -> None:

@@ -19,6 +19,7 @@ pub fn _check(py: Python<'_>, kind: &str, value: &Bound<'_, PyAny>) -> PyResult<
         "foot" => plate::check_foot(py, value),
         "ik_settings" => robot::settings(value).map(|_| ()),
         "paper_spiral" => curves::spiral_of(value).map(|_| ()),
+        "figure" => page::check_figure(value),
         "page" => page::check(value),
         "rings" => curves::rings_of("rings", value).map(|_| ()),
         "wash_curve" => curves::curve_of(value).map(|_| ()),

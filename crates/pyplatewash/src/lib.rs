@@ -71,7 +71,7 @@ mod _core {
     #[pymodule_export]
     use crate::layout::LayoutObject;
     #[pymodule_export]
-    use crate::page::{_configuration_page, _plan_page, _plan_view, _save_page};
+    use crate::page::{_configuration_page, _plan_page, _save};
     #[pymodule_export]
     use crate::paper::{PaperRunObject, run_paper};
     #[pymodule_export]
@@ -87,7 +87,7 @@ mod _core {
     #[pymodule_export]
     use crate::scenario::{_task_region, ScenarioObject, place_plates};
     #[pymodule_export]
-    use crate::shown::{_figure_arguments, _show_arguments};
+    use crate::shown::{_plan_figure, _show_arguments};
     #[pymodule_export]
     use crate::simulation::{ExecutionObject, SettingsObject, simulate, tune};
     #[pymodule_export]

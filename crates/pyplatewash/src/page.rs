@@ -1,4 +1,4 @@
-//! Pages in three dimensions, and the documents that they show.
+//! Pages in three dimensions.
 
 use crate::argument;
 use crate::arrays;
@@ -10,13 +10,13 @@ use crate::robot::Robot;
 use crate::scenario::ScenarioObject;
 use crate::simulation::{Done, ExecutionObject, Question};
 use crate::tool::ToolFields;
-use crate::value::to_python;
 use crate::work::patiently;
 use platewash::viewer::bundle::Bundle;
 use platewash::viewer::page;
 use platewash::viewer::view::{Beside, Executed, Plate, View};
-use platewash::{JointVector, SimulationError, SimulationReport};
+use platewash::{Certificate, JointVector, SimulationError, SimulationReport};
 use pyo3::prelude::*;
+use std::sync::Arc;
 
 /// Heights of a page in a notebook that are believed \[px\].
 const HEIGHTS_PX: [u64; 2] = [100, 10_000];
@@ -40,6 +40,14 @@ pub fn height_px(value: Option<&Bound<'_, PyAny>>) -> PyResult<usize> {
     value.map_or(Ok(640), |value| argument::count("height", value, HEIGHTS_PX))
 }
 
+/// Checks the field of Python's `Figure`.
+///
+/// # Errors
+/// `InputTypeError` for a figure that is no text.
+pub fn check_figure(figure: &Bound<'_, PyAny>) -> PyResult<()> {
+    argument::text("svg", &figure.getattr("svg")?, "a figure's text").map(|_| ())
+}
+
 /// Checks the fields of Python's `Page`.
 ///
 /// # Errors
@@ -54,15 +62,16 @@ fn html(py: Python<'_>, view: &View, bundle: &Bundle) -> PyResult<String> {
     page::html(view, bundle).map_err(|e| errors::internal(py, &e.to_string()))
 }
 
-/// What a page shows of a plan.
-fn view(
+/// What is proved of a plan and what an arm made of it, as they are given.
+///
+/// # Errors
+/// `InputError` for those of another plan.
+pub fn of_the_plan(
     py: Python<'_>,
     plan: &PlanObject,
-    robot: &Robot,
     execution: Option<&ExecutionObject>,
     certificate: Option<&CertificateObject>,
-    scenario: Option<&ScenarioObject>,
-) -> PyResult<View> {
+) -> PyResult<(Option<Certificate>, Option<Arc<Done>>)> {
     let certificate = certificate.map(|certificate| certificate.inner().clone());
     let hash = plan.inner().seal().ok();
     if certificate.as_ref().is_some_and(|c| c.hash.computed != hash) {
@@ -72,6 +81,19 @@ fn view(
     if done.as_ref().is_some_and(|done| done.question.plan != *plan.inner()) {
         return Err(errors::input(py, "execution", "is one of another plan"));
     }
+    Ok((certificate, done))
+}
+
+/// What a page shows of a plan.
+fn view(
+    py: Python<'_>,
+    plan: &PlanObject,
+    robot: &Robot,
+    execution: Option<&ExecutionObject>,
+    certificate: Option<&CertificateObject>,
+    scenario: Option<&ScenarioObject>,
+) -> PyResult<View> {
+    let (certificate, done) = of_the_plan(py, plan, execution, certificate)?;
     let region = scenario.map(|scenario| scenario.inner().task_region());
     let (plan, arm) = (plan.inner().clone(), robot.model().clone());
     let made = patiently(py, move |_| {
@@ -93,18 +115,6 @@ fn executed(done: &Done) -> Result<Executed, SimulationError> {
     let Question { plan, arm, settings } = &done.question;
     let report = SimulationReport::new(plan, arm, settings, &done.execution)?;
     Ok(Executed::simulated(&done.execution, &report))
-}
-
-/// The document of a plan as dictionaries; arrays are in base64.
-#[pyfunction]
-pub fn _plan_view<'py>(
-    py: Python<'py>,
-    plan: &PlanObject,
-    robot: &Robot,
-    execution: Option<&ExecutionObject>,
-    scenario: Option<&ScenarioObject>,
-) -> PyResult<Bound<'py, PyAny>> {
-    to_python(py, &view(py, plan, robot, execution, None, scenario)?)
 }
 
 /// The page of a plan.
@@ -150,12 +160,12 @@ pub fn _configuration_page(
     Ok((html(py, &view, &bundle)?, height))
 }
 
-/// Writes a page to a file.
+/// Writes a page or a figure to a file.
 #[pyfunction]
-pub fn _save_page(py: Python<'_>, page: &Bound<'_, PyAny>, path: &Bound<'_, PyAny>) -> PyResult<()> {
+pub fn _save(py: Python<'_>, text: &Bound<'_, PyAny>, path: &Bound<'_, PyAny>) -> PyResult<()> {
     let path = argument::path("path", path)?;
-    let html = argument::text("html", &page.getattr("html")?, "a page's text")?;
-    std::fs::write(&path, html).map_err(|e| {
+    let text = argument::text("text", text, "a text")?;
+    std::fs::write(&path, text).map_err(|e| {
         let filename = path.display().to_string();
         let message = format!("{filename}: cannot be written: {e}");
         errors::system_file(py, FileOf::Page, SystemWord::from(&e), &filename, &message)

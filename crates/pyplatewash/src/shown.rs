@@ -1,12 +1,18 @@
-//! Arguments of the methods that show a plan, which Python's side carries out: checked before any work is done.
+//! Figures of a plan, and arguments of the methods that show it on a page: checked before any work is done.
 
-use crate::argument::{self, ANY_COUNT};
+use crate::argument;
 use crate::certificate::CertificateObject;
-use crate::page::{bundle, height_px};
+use crate::errors;
+use crate::page::{bundle, height_px, of_the_plan};
 use crate::plan::PlanObject;
 use crate::robot::Robot;
 use crate::scenario::{self, ScenarioObject};
-use crate::simulation::ExecutionObject;
+use crate::simulation::{ExecutionObject, Question};
+use crate::work::patiently;
+use platewash::viewer::figures::{Figure, Subject, draw};
+use platewash::workcell::plan::Process;
+use platewash::workcell::workcell::ArmId;
+use platewash::{Failure, SimulationReport, paper_spirals};
 use pyo3::prelude::*;
 
 /// An argument that may be left out.
@@ -50,21 +56,59 @@ pub fn _show_arguments<'py>(
     Ok((surroundings, [prove, simulate], height))
 }
 
-/// Arguments of `Plan.figure`: the arm, the scenario, the figure's name and the plate.
+/// A figure of a plan as SVG, of an execution, a certificate, a scenario and an arm.
 ///
-/// Raises InputTypeError, InputError, and ProveError for a plan whose arm must be given.
+/// Raises what `Plan.figure` says.
 #[pyfunction]
-pub fn _figure_arguments<'py>(
+pub fn _plan_figure<'py>(
     plan: &Bound<'py, PlanObject>,
     kind: Option<&Bound<'py, PyAny>>,
     of: (Maybe<'py>, Maybe<'py>, Maybe<'py>, Maybe<'py>),
-) -> PyResult<(Surroundings, String, Option<usize>)> {
-    let (execution, plate, scenario, robot) = &of;
-    ExecutionObject::given(execution.as_ref())?;
-    let surroundings = surroundings(plan, scenario.as_ref(), robot.as_ref())?;
+) -> PyResult<String> {
+    let (py, (execution, certificate, scenario, robot)) = (plan.py(), &of);
+    let execution = ExecutionObject::given(execution.as_ref())?.map(|execution| execution.get());
+    let certificate = CertificateObject::given(certificate.as_ref())?.map(|certificate| certificate.get());
+    let (robot, scenario) = surroundings(plan, scenario.as_ref(), robot.as_ref())?;
     let kind = kind.map_or(Ok("layout".to_owned()), |kind| {
         argument::text("kind", kind, "a figure's name")
     })?;
-    let plate = plate.as_ref().map(|plate| argument::count("plate", plate, ANY_COUNT));
-    Ok((surroundings, kind, plate.transpose()?))
+    let figure = Figure::named(&kind).map_err(|unknown| errors::input(py, "kind", &unknown.to_string()))?;
+    let plan = plan.get();
+    let (certificate, done) = of_the_plan(py, plan, execution, certificate)?;
+    let (plan, arm) = (plan.inner().clone(), robot.get().model().clone());
+    let known = &plan.job.workcell.arm;
+    if ArmId::of(&arm).urdf_sha256 != known.urdf_sha256 {
+        let words = format!(
+            "the plan was made for another arm, '{}'; found '{}'",
+            known.name,
+            arm.name()
+        );
+        return Err(errors::input(py, "robot", &words));
+    }
+    let region = scenario.map(|scenario| scenario.inner().task_region());
+    let drawn = patiently(py, move |cancel| {
+        let report = done.as_ref().map(|done| {
+            let Question { plan, arm, settings } = &done.question;
+            SimulationReport::new(plan, arm, settings, &done.execution)
+        });
+        let report = report.transpose()?;
+        let ideal = match plan.process {
+            // Of a plan that the program would not make again, they are not known.
+            Process::Paper => paper_spirals(&plan, &arm, cancel).ok(),
+            Process::Wash => None,
+        };
+        let draw = || {
+            let mut subject = Subject::new(&plan, &arm)?;
+            if let (Some(done), Some(report)) = (&done, &report) {
+                subject = subject.executed(&done.execution, report)?;
+            }
+            subject.certificate = certificate.as_ref();
+            subject.region = region.unwrap_or_default();
+            subject.ideal = ideal.unwrap_or(subject.ideal);
+            draw(&subject, figure)
+        };
+        Ok::<_, Failure>(draw())
+    })?;
+    let drawn = drawn.map_err(|error| errors::failure(py, &error))?;
+    drawn.map_err(|error| errors::keyed(py, "plan", &error.to_string()))
 }

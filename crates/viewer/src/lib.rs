@@ -6,7 +6,7 @@
 //! | the bundle that all pages share | [`bundle`] |
 //! | both as one file of HTML | [`page`] |
 //! | a page on the loopback, and the events of a live run | [`server`] |
-//! | figures of a plan, as SVG and PNG | [`figures`] |
+//! | figures of a plan, as SVG | [`figures`] |
 
 pub mod bundle;
 pub mod figures;

@@ -1,4 +1,4 @@
-"""The axes that a figure is drawn on: the caller's, or new ones."""
+"""The axes that maps are drawn on: the caller's, or new ones."""
 
 from __future__ import annotations
 
@@ -29,16 +29,10 @@ class Panels:
     size_in: tuple[float, float]
     #: What all axes together are given, once all are drawn.
     finish: Callable[[list[Axes]], None] | None = None
-    #: Whether they stand below one another, on one axis of time.
-    stacked: bool = False
     #: Most axes that stand beside one another.
     columns: int = 4
     #: Whether there is one axes by nature, not one of a list.
     single: bool = False
-    #: Whether the legend stands below the axes, not beside them.
-    legend_below: bool = False
-    #: What stands above it.
-    legend_title: str | None = None
 
 
 def axes_for(panels: Panels, given: Any) -> list[Axes]:
@@ -53,39 +47,35 @@ def axes_for(panels: Panels, given: Any) -> list[Axes]:
     if given is not None:
         return _checked(given, len(panels.draw))
     count = len(panels.draw)
-    columns = 1 if panels.stacked else min(count, panels.columns)
+    columns = min(count, panels.columns)
     rows = -(-count // columns)
     width_in, height_in = panels.size_in
-    _, grid = plt.subplots(
-        rows, columns, figsize=(width_in * columns, height_in * rows), sharex=panels.stacked, squeeze=False, layout="constrained"
-    )
+    _, grid = plt.subplots(rows, columns, figsize=(width_in * columns, height_in * rows), squeeze=False, layout="constrained")
     for unused in grid.flat[count:]:
         unused.remove()
     return list(grid.flat[:count])
 
 
-def add_legend(panels: Panels, axes: list[Axes], given: bool) -> None:
-    """One legend of what the axes show, if that needs one: beside them all, or, on axes of the caller's, below one of them."""
+def add_legend(axes: list[Axes], given: bool) -> None:
+    """One legend of what the axes show, if that needs one, below them all; on axes of the caller's, below the first."""
     handles: dict[str, Any] = {}
     for one in axes:
         for handle, label in zip(*one.get_legend_handles_labels()):
             handles.setdefault(label, handle)
     if not handles:
         return
-    style: dict[str, Any] = {"fontsize": "small", "title": panels.legend_title, "title_fontsize": "small", "alignment": "left", "frameon": False}
+    style: dict[str, Any] = {"fontsize": "small", "frameon": False}
     if given:
         from matplotlib.transforms import ScaledTranslation
 
-        one = axes[-1] if panels.stacked else axes[0]
+        one = axes[0]
         below = one.transAxes + ScaledTranslation(0.0, -BELOW_IN, one.figure.dpi_scale_trans)
         where: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "bbox_transform": below, "borderaxespad": 0.0}
         one.legend(handles.values(), handles.keys(), ncols=min(len(handles), 3), **where, **style)
-    elif panels.legend_below:
+    else:
         figure = axes[0].figure
         fitting = max(int(figure.get_figwidth() / LABEL_IN), 1)  # type: ignore[union-attr]  # pyright: ignore[reportAttributeAccessIssue]
         figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=min(len(handles), fitting, 4), **style)
-    else:
-        axes[0].figure.legend(handles.values(), handles.keys(), loc="outside right upper", **style)
 
 
 def _checked(given: Any, count: int) -> list[Axes]:

@@ -2,22 +2,12 @@
 
 from __future__ import annotations
 
-#: Wash paths.
-WASH = "#c2258f"
-#: Motion between plates.
-TRANSIT = "#0072b2"
-#: What an arm did.
+#: The arm.
 EXECUTED = "#1b1f24"
 #: Rims of plates, and other outlines.
 OUTLINE = "#6e7781"
-#: Faces of plates.
-FACE = "#eef0f2"
 #: A limit, a margin, what is missed.
 LIMIT = "#d55e00"
-#: The six joints.
-JOINTS = ("#0072b2", "#e69f00", "#009e73", "#1b1f24", "#cc79a7", "#56b4e9")
-#: Cells that are missed, swept in part, swept.
-MISSED, PARTLY, SWEPT = "#d55e00", "#f0e442", "#56b4e9"
 #: Outcomes of rows, what is known to be impossible and what was not found well apart; and rows that ended in several ways.
 OUTCOMES = {
     "proved": "#009e73", "not_proved": "#f0e442", "not_found": "#56b4e9", "infeasible": "#d55e00", "error": "#cc79a7", "crashed": "#1b1f24",

@@ -80,7 +80,7 @@ def draw(of: Folder, given: tuple[Any, Any, Any, Any], ax: Any) -> Axes | list[A
     lines = [partial(_draw, (places, grid), value, limits, titles[values], (stand, view)) for values, places in maps.items()]
     finish = None if value == "outcome" else partial(_scale, SCALES[value][0], limits)
     panels = Panels(
-        lines, size_in=_size_in(view, len(by)), finish=finish, legend_below=True, single=not by, columns=across if across <= MOST_ACROSS else 4
+        lines, size_in=_size_in(view, len(by)), finish=finish, single=not by, columns=across if across <= MOST_ACROSS else 4
     )
     axes = axes_for(panels, ax)
     for panel, one in zip(panels.draw, axes):
@@ -90,7 +90,7 @@ def draw(of: Folder, given: tuple[Any, Any, Any, Any], ax: Any) -> Axes | list[A
             one.label_outer()
     if panels.finish is not None:
         panels.finish(axes)
-    add_legend(panels, axes, ax is not None)
+    add_legend(axes, ax is not None)
     return axes[0] if panels.single else axes
 
 

@@ -1,5 +1,6 @@
 /** The picture holds what it should, where it should. */
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 import { test } from "node:test";
 import { shipped } from "../lib/command.mjs";
 import { changed, picture, projected, shares } from "../lib/picture.mjs";
@@ -114,5 +115,15 @@ test("what is washed is seen on the plates", async (t) => {
   for (const { blue } of await shares(page, await picture(page), places, 24, KINDS)) isHidden(t, "blue on a dry plate", blue, 0.1);
   await seek(page, duration);
   for (const { blue } of await shares(page, await picture(page), places, 24, KINDS)) isSeen(t, "blue on a washed plate", blue, 0.5);
+  quiet();
+});
+
+test("the picture button saves the scene as a PNG", async (t) => {
+  const { page, quiet } = await open(t, address(await shipped()), { size: { width: 900, height: 800 } });
+  const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Picture" }).click()]);
+  assert.equal(download.suggestedFilename(), "platewash.png");
+  const bytes = await readFile(await download.path());
+  assert.equal(bytes.subarray(1, 4).toString(), "PNG");
+  assert.ok(bytes.length > 20_000, `${bytes.length} bytes`);
   quiet();
 });

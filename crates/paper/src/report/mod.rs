@@ -1,6 +1,5 @@
 //! How a run went: per plate and over the whole, for people and as data.
 
-mod claims;
 mod contents;
 mod finding;
 mod headline;
@@ -11,7 +10,6 @@ mod text;
 mod transits;
 mod unreached;
 
-pub use claims::PaperClaim;
 pub use contents::PaperReport;
 pub use finding::PaperFinding;
 pub use motion::{MotionReport, Violation, ViolationKind};

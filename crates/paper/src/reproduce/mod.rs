@@ -21,4 +21,3 @@ mod table;
 pub use law::FrequencyResponse;
 pub use measure::reproduce;
 pub use result::{ReproduceSettings, Reproduction, Row};
-pub use stall::dead_end_share;

@@ -40,23 +40,6 @@ pub(super) fn rows(
     Ok(rows)
 }
 
-/// Share of the runs, of so many begun, in which sampling a part's plates comes to a point where no room is left for the next: there the
-/// paper's loop never ends.
-///
-/// # Errors
-/// [`PaperError::Layout`] for a region without room.
-pub fn dead_end_share(part: PaperPart, draws: usize, seed: u64) -> Result<f64, PaperError> {
-    let settings = ReproduceSettings {
-        draws,
-        seed,
-        ..ReproduceSettings::default()
-    };
-    let sampler = Sampler::new(&part.region(), &part.spacing())?;
-    let go_on = || ControlFlow::Continue(());
-    let stalled = dead_ends(&sampler, &settings, part.name(), part.plate_count(), &go_on)?;
-    Ok(stalled as f64 / draws.max(1) as f64)
-}
-
 fn dead_ends(
     sampler: &Sampler,
     settings: &ReproduceSettings,

@@ -287,6 +287,7 @@ export class App {
       plate: (number) => this.#toPlate(controls.plateWith(number)),
       layers: () => stage.toggleLayers(),
       camera: () => stage.nextCamera(),
+      picture: () => stage.savePicture(),
       fullscreen: () => stage.toggleFullscreen(),
       help: () => this.#help.toggle(),
     });

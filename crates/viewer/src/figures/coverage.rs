@@ -1,40 +1,42 @@
 //! What of each plate is swept, or pressed where the job says what counts as contact, and for how long: as planned, and as executed.
 
+use super::axes::{round_above, words};
 use super::error::FigureError;
-use super::grid::Grid;
-use super::ink::axes::Scale;
-use super::ink::drawing::{Drawing, Lettering, Rect};
-use super::ink::page;
-use super::ink::palette::{BAD, GOOD, GREY, INK, LINE, MISSED, STEPS};
-use super::ink::style::Style;
-use super::subject::Subject;
-use super::track::Track;
-use super::wording::{number, per_cent};
+use super::fields::{Fields, colour_cells};
+use super::page;
+use super::subject::{Subject, Track, per_cent, short};
+use super::svg::{BAD, Drawing, EXECUTED, GOOD, LINE, MIDDLE, Rect, SMALL, WORDS, fill, stroke, width};
 use crate::view::Counted;
 use crate::view::coverage::{proved_share, swept};
-use crate::view::tips::Tip;
 use platewash_workcell::coverage::reaches;
+use platewash_workcell::segment::PlanSegment;
 
-/// Most maps of one figure.
-const MOST: usize = 24;
+/// Most plates of one figure, where there is what is planned, and with what is executed.
+const MOST: [usize; 2] = [24, 12];
+
+/// Most plates whose executed maps stand below the planned ones.
+const IN_ROWS: usize = 4;
 
 /// Cells along an edge of a map.
-const CELLS: usize = 120;
+const CELLS: usize = 100;
+
+/// Steps from little to much, light to dark.
+const STEPS: [&str; 8] = [
+    "#e5f5f9", "#cdeae6", "#a3d9cf", "#74c2b4", "#48a999", "#278a80", "#0f6b66", "#014d4d",
+];
+
+/// The colour of what is missed.
+const MISSED: &str = EXECUTED;
 
 /// A map: a plate as planned or as executed.
 struct Map {
+    /// Its place in the order of washing, and the index of the plate.
     place: usize,
     plate: usize,
-    of: Of,
+    is_executed: bool,
     counted: Option<Counted>,
-    /// For how long each cell counts, as [`crate::view::raster::Raster::dwell_s`] has them \[s\].
+    /// For how long each cell counts \[s\]; none outside the rim.
     dwell_s: Vec<Option<f64>>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Of {
-    Planned,
-    Executed,
 }
 
 /// Draws it.
@@ -42,264 +44,192 @@ enum Of {
 /// # Errors
 /// [`FigureError::NothingWashed`].
 pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
-    let washes: Vec<_> = subject.washes().collect();
+    let washes: Vec<(usize, &PlanSegment)> = subject.washes().collect();
     if washes.is_empty() {
         return Err(FigureError::NothingWashed { figure: "coverage" });
     }
-    let both = subject.followed.is_some();
-    let plates = washes.len().min(if both { MOST / 2 } else { MOST });
-    let counted = washes
+    let tracks: Vec<&Track> = [&subject.planned].into_iter().chain(&subject.followed).collect();
+    let plates = washes.len().min(MOST[tracks.len() - 1]);
+    let maps: Vec<Map> = tracks
         .iter()
-        .map(|(_, wash)| counted_on(subject, wash.plate))
-        .collect::<Vec<_>>();
-    let mut caption = format!(
-        "Each plate along its axis: {} {}.",
-        meaning(subject, &counted),
-        if both {
-            "Of each plate there is what is planned, and what is executed"
-        } else {
-            "Nothing was simulated"
-        },
-    );
-    if plates < washes.len() {
-        caption = format!("The first {plates} of {} plates. {caption}", washes.len());
-    }
-    let (mut drawing, room) = page::begin(&subject.words("Time under the sponge", &caption));
-    let maps = maps(subject, plates);
-    let most = maps
-        .iter()
-        .flat_map(|map| map.dwell_s.iter().flatten())
-        .copied()
-        .fold(0.0, f64::max);
-    let step = step_s(&maps, most);
-    let words = match counted.iter().all(Option::is_some) {
-        true => ["no contact", "time in contact [s]"],
-        false => ["missed", "time under the sponge [s]"],
-    };
-    key(&mut drawing, room, step, words);
-    let top = room.at[1] + 52.0;
-    let field = Rect::new(room.at[0], top, room.size[0], room.end()[1] - top);
-    let places = Places::new(field, plates, both);
+        .enumerate()
+        .flat_map(|(of, track)| {
+            let shown = washes[..plates].iter().enumerate();
+            shown.map(move |(place, (segment, wash))| Map::new(subject, place, (&track[*segment], wash.plate), of == 1))
+        })
+        .collect();
+    let (mut drawing, room) = page::begin(&subject.words("Time under the sponge", caption(subject, plates)));
+    let step_s = step_s(&maps);
+    let is_contact = maps.iter().all(|map| map.counted.is_some());
+    key(&mut drawing, room, step_s, is_contact);
+    let field = Rect::new(room.at[0], room.at[1] + 52.0, room.size[0], room.size[1] - 52.0);
+    let in_rows = tracks.len() == 2 && plates <= IN_ROWS;
+    let fields = Fields::new(field, maps.len(), in_rows.then_some(plates), 56.0);
     for map in &maps {
-        map.draw(&mut drawing, places.of(map), subject, step);
+        let executed = usize::from(map.is_executed);
+        let place = if in_rows {
+            executed * plates + map.place
+        } else {
+            tracks.len() * map.place + executed
+        };
+        map.draw(&mut drawing, fields.cell(place), subject, step_s);
     }
     Ok(drawing)
 }
 
-/// What counts on a plate.
-fn counted_on(subject: &Subject<'_>, plate: usize) -> Option<Counted> {
-    let job = &subject.plan.job;
-    job.plates.get(plate).and_then(|plate| Counted::on(plate, job))
-}
-
 /// What the colours say, and what is asked for.
-fn meaning(subject: &Subject<'_>, counted: &[Option<Counted>]) -> String {
+fn caption(subject: &Subject<'_>, plates: usize) -> String {
     let job = &subject.plan.job;
-    let sponge = 1e3 * job.workcell.tool.sponge.radius_m;
-    let swept = number(100.0 * job.requirements.coverage);
+    let sponge = format!("sponge, radius {:.0} mm", 1e3 * job.workcell.tool.sponge.radius_m);
+    let least = short(100.0 * job.requirements.coverage);
+    let washed: Vec<_> = subject
+        .washes()
+        .filter_map(|(_, wash)| job.plates.get(wash.plate))
+        .collect();
+    let counted: Vec<Option<Counted>> = washed.iter().map(|plate| Counted::on(plate, job)).collect();
     let promised = counted.iter().flatten().find(|counted| counted.is_promised);
-    match (promised, &job.requirements.contact) {
+    let meaning = match (promised, &job.requirements.contact) {
         (Some(counted), Some(contact)) => format!(
-            "for how long the middle of each cell is pressed by {} mm or more, wherever within ±{} mm the plate lies, by a sponge of radius \
-             {sponge:.0} mm. At least {} % of a plate must be.",
-            number(1e3 * counted.compression_m),
-            number(1e3 * counted.height_error_m),
-            number(100.0 * contact.share),
+            "is pressed by {} mm or more, wherever within ±{} mm the plate lies, by the {sponge}. At least {} % of a plate must be.",
+            short(1e3 * counted.compression_m),
+            short(1e3 * counted.height_error_m),
+            short(100.0 * contact.share),
         ),
-        _ if counted.iter().all(Option::is_some) => format!(
-            "for how long the middle of each cell is touched by the sponge, radius {sponge:.0} mm, pressed or not. At least {swept} % of \
-             a plate must be."
-        ),
-        _ => format!(
-            "for how long the middle of each cell is under the sponge, radius {sponge:.0} mm; of a profile, for how long it is touched. At \
-             least {swept} % of a plate must be swept."
-        ),
-    }
-}
-
-fn maps(subject: &Subject<'_>, plates: usize) -> Vec<Map> {
-    let mut all = Vec::new();
-    let tracks: [(Of, Option<&Track>); 2] = [
-        (Of::Planned, Some(&subject.planned)),
-        (Of::Executed, subject.followed.as_ref()),
-    ];
-    for (of, track) in tracks {
-        let Some(track) = track else { continue };
-        for (place, (segment, wash)) in subject.washes().take(plates).enumerate() {
-            let plate = &subject.plan.job.plates[wash.plate];
-            let tips: Vec<Tip> = track.within(segment).iter().map(Tip::from).collect();
-            let counted = counted_on(subject, wash.plate);
-            let tool = &subject.plan.job.workcell.tool;
-            let raster = swept(plate, tool, counted.as_ref(), std::iter::once(tips), CELLS);
-            all.push(Map {
-                place,
-                plate: wash.plate,
-                of,
-                counted,
-                dwell_s: raster.dwell_s(),
-            });
+        _ if counted.iter().all(Option::is_some) => {
+            format!("is touched by the {sponge}, pressed or not. At least {least} % of a plate must be.")
         }
-    }
-    all
+        _ => format!(
+            "is under the {sponge}; of a profile, is touched by it. At least {least} % of a plate must be swept."
+        ),
+    };
+    let what = match subject.followed {
+        Some(_) => "Of each plate there is what is planned, and what is executed.",
+        None => "Nothing was simulated.",
+    };
+    let first = match washed.len() {
+        all if plates < all => format!("The first {plates} of {all} plates. "),
+        _ => String::new(),
+    };
+    format!("{first}Each plate along its axis: for how long the middle of each cell {meaning} {what}")
 }
 
 /// Time between two colours \[s\]: a round one, so that few cells have more than the last.
-fn step_s(maps: &[Map], most: f64) -> f64 {
-    let mut all: Vec<f64> = maps
-        .iter()
-        .flat_map(|map| map.dwell_s.iter().flatten().copied())
-        .collect();
-    all.retain(|seconds| *seconds > 0.0);
+fn step_s(maps: &[Map]) -> f64 {
+    let all = maps.iter().flat_map(|map| map.dwell_s.iter().flatten().copied());
+    let mut all: Vec<f64> = all.filter(|seconds| *seconds > 0.0).collect();
     all.sort_by(f64::total_cmp);
-    let usual = all.get(all.len().saturating_sub(1) * 97 / 100).copied().unwrap_or(most);
-    let scale = Scale {
-        numbers: [0.0, usual.max(1e-6)],
-        places: [0.0, 1.0],
-    };
-    let ticks = scale.ticks(STEPS.len());
-    ticks.get(1).copied().unwrap_or(1.0)
-}
-
-/// Where maps are.
-enum Places {
-    /// Planned ones above executed ones.
-    Rows([Grid; 2]),
-    /// All in one field; of each plate the planned one first.
-    Field { grid: Grid, each: usize },
-}
-
-impl Places {
-    fn new(room: Rect, plates: usize, both: bool) -> Self {
-        let under = 56.0;
-        if !both || plates > 4 {
-            let each = if both { 2 } else { 1 };
-            let grid = Grid::new(room, each * plates, under);
-            return Self::Field { grid, each };
-        }
-        let half = 0.5 * room.size[1];
-        let rows = [0.0, half].map(|down| Rect::new(room.at[0], room.at[1] + down, room.size[0], half - 8.0));
-        Self::Rows(rows.map(|row| Grid::row(row, plates, under)))
-    }
-
-    fn of(&self, map: &Map) -> Rect {
-        let executed = usize::from(map.of == Of::Executed);
-        match self {
-            Self::Rows(rows) => rows[executed].cell(map.place),
-            Self::Field { grid, each } => grid.cell(each * map.place + executed),
-        }
-    }
+    let usual = all.get(all.len().saturating_sub(1) * 97 / 100);
+    round_above(usual.map_or(1.0, |usual| usual / STEPS.len() as f64))
 }
 
 impl Map {
-    fn draw(&self, drawing: &mut Drawing, cell: Rect, subject: &Subject<'_>, step: f64) {
-        let edge = cell.size[0] / CELLS as f64;
-        let mut of_colour: Vec<(&str, Vec<Rect>)> = Vec::new();
-        let rows = self.dwell_s.chunks(CELLS).enumerate();
-        for (y, row) in rows {
-            let top = cell.at[1] + (CELLS - 1 - y) as f64 * edge;
-            let mut from = 0;
-            for run in row.chunk_by(|a, b| a.map(|s| colour(s, step)) == b.map(|s| colour(s, step))) {
-                let rect = Rect::new(cell.at[0] + from as f64 * edge, top, run.len() as f64 * edge, edge);
-                from += run.len();
-                let Some(colour) = run[0].map(|seconds| colour(seconds, step)) else {
-                    continue;
-                };
-                match of_colour.iter_mut().find(|(other, _)| *other == colour) {
-                    Some((_, cells)) => cells.push(rect),
-                    None => of_colour.push((colour, vec![rect])),
-                }
-            }
+    fn new(
+        subject: &Subject<'_>,
+        place: usize,
+        (way, plate): (&[crate::view::tips::Tip], usize),
+        is_executed: bool,
+    ) -> Self {
+        let job = &subject.plan.job;
+        let of = &job.plates[plate];
+        let counted = Counted::on(of, job);
+        let raster = swept(
+            of,
+            &job.workcell.tool,
+            counted.as_ref(),
+            std::iter::once(way.to_vec()),
+            CELLS,
+        );
+        Self {
+            place,
+            plate,
+            is_executed,
+            counted,
+            dwell_s: raster.dwell_s(),
         }
-        let (middle, radius) = (cell.middle(), 0.5 * cell.size[0]);
-        drawing.within_circle(middle, radius, |drawing| {
-            of_colour
-                .iter()
-                .for_each(|(colour, cells)| drawing.cells(cells, colour));
-        });
-        drawing.circle(middle, radius, &Style::fill("none").outlined(LINE, 2.0));
-        self.words(drawing, cell, subject);
     }
 
-    /// Share of the cells that count, all alike.
-    fn share(&self) -> f64 {
-        let all = self.dwell_s.iter().flatten();
-        let (count, most) = all.fold((0.0, 0.0), |(count, most), seconds| {
-            (count + f64::from(u8::from(*seconds > 0.0)), most + 1.0)
+    fn draw(&self, drawing: &mut Drawing, cell: Rect, subject: &Subject<'_>, step_s: f64) {
+        colour_cells(drawing, cell, (&self.dwell_s, CELLS), |dwell_s| {
+            dwell_s.map(|s| colour(s, step_s))
         });
-        if most > 0.0 { count / most } else { 0.0 }
-    }
-
-    fn words(&self, drawing: &mut Drawing, cell: Rect, subject: &Subject<'_>) {
+        drawing.circle(cell.middle(), 0.5 * cell.size[0], &stroke(LINE, 2.0));
         let [x, y] = [cell.middle()[0], cell.end()[1]];
-        let what = match self.of {
-            Of::Planned => "planned",
-            Of::Executed => "executed",
-        };
+        let what = if self.is_executed { "executed" } else { "planned" };
         let title = format!("{}: plate {}, {what}", self.place + 1, self.plate);
-        drawing.text([x, y + 24.0], &title, &Lettering::new(17.0, GREY).centred());
-        let outcome = subject.executed.and_then(|(_, report)| {
-            let mut all = report.plates.iter();
-            all.find(|outcome| outcome.plate == self.plate)
-        });
-        let promised = self.counted.filter(|counted| counted.is_promised);
+        drawing.text([x, y + 24.0], &title, &[SMALL, MIDDLE]);
+        if let Some((words, share, required)) = self.share(subject) {
+            let look = fill(if reaches(share, required) { GOOD } else { BAD });
+            let words = format!("{words}{}", per_cent(share));
+            drawing.text(
+                [x, y + 47.0],
+                &words,
+                &["font-size=\"18\" font-weight=\"bold\"", &look, MIDDLE],
+            );
+        }
+    }
+
+    /// What is known of the share that counts: in words, the share, and what is required.
+    fn share(&self, subject: &Subject<'_>) -> Option<(&'static str, f64, f64)> {
         let asked = &subject.plan.job.requirements;
-        let required = match (promised, &asked.contact) {
-            (Some(_), Some(contact)) => contact.share,
-            _ => asked.coverage,
+        let is_promised = self.counted.is_some_and(|counted| counted.is_promised);
+        let contact = asked.contact.as_ref().filter(|_| is_promised);
+        let required = contact.map_or(asked.coverage, |contact| contact.share);
+        if let (false, Some(certificate)) = (self.is_executed, subject.certificate)
+            && let Some(proved) = proved_share(certificate, self.plate, self.counted)
+        {
+            let words = if is_promised {
+                "pressed, proved: ≥ "
+            } else {
+                "swept, proved: ≥ "
+            };
+            return Some((words, proved, required));
+        }
+        // What a simulation measures is what is swept; of what is pressed there is the map.
+        if self.counted.is_some() {
+            let inside = self.dwell_s.iter().flatten();
+            let reached = inside.clone().filter(|seconds| **seconds > 0.0).count();
+            return Some(("on the map: ", reached as f64 / inside.count().max(1) as f64, required));
+        }
+        let mut outcomes = subject.report?.plates.iter();
+        let outcome = outcomes.find(|outcome| outcome.plate == self.plate)?;
+        let measured = if self.is_executed {
+            &outcome.executed
+        } else {
+            &outcome.planned
         };
-        let proved = subject
-            .certificate
-            .and_then(|certificate| proved_share(certificate, self.plate, self.counted));
-        let (share, words) = match (self.of, proved, outcome) {
-            (Of::Planned, Some(proved), _) => (
-                proved,
-                if promised.is_some() {
-                    "pressed, proved: ≥ "
-                } else {
-                    "swept, proved: ≥ "
-                },
-            ),
-            // What a simulation measures is what is swept; of what is pressed there is the map.
-            _ if self.counted.is_some() => (self.share(), "on the map: "),
-            (Of::Planned, None, Some(outcome)) => (outcome.planned.lower, "swept: "),
-            (Of::Executed, _, Some(outcome)) => (outcome.executed.lower, "swept: "),
-            _ => return,
-        };
-        let colour = if reaches(share, required) { GOOD } else { BAD };
-        let how = Lettering::new(19.0, colour).bold().centred();
-        drawing.text([x, y + 48.0], &format!("{words}{}", per_cent(share)), &how);
+        Some(("swept: ", measured.lower, required))
     }
 }
 
-fn colour(seconds: f64, step: f64) -> &'static str {
-    if seconds <= 0.0 {
-        return MISSED;
+fn colour(seconds: f64, step_s: f64) -> &'static str {
+    let place = (seconds / step_s).floor() as usize;
+    if seconds > 0.0 {
+        STEPS[place.min(STEPS.len() - 1)]
+    } else {
+        MISSED
     }
-    let place = (seconds / step).floor() as usize;
-    STEPS[place.min(STEPS.len() - 1)]
 }
 
 /// What colours mean.
-fn key(drawing: &mut Drawing, room: Rect, step: f64, [never, words]: [&str; 2]) {
-    let (width, height) = (92.0, 22.0);
-    let [mut x, y] = room.at;
-    let how = Lettering::new(17.0, INK);
-    let small = Lettering::new(16.0, GREY).centred();
-    drawing.rect(Rect::new(x, y, 40.0, height), 0.0, &Style::fill(MISSED));
-    drawing.text([x + 50.0, y + 0.5 * height + how.drop()], never, &how);
-    x += 160.0;
-    drawing.text([x, y + 0.5 * height + how.drop()], words, &how);
-    x += how.weight.width(words, 17.0) + 22.0;
-    let ticks: Vec<f64> = (0..STEPS.len()).map(|k| k as f64 * step).collect();
-    for (k, (colour, tick)) in STEPS.into_iter().zip(super::ink::axes::words(&ticks)).enumerate() {
-        let at = x + k as f64 * width;
-        drawing.rect(Rect::new(at, y, width, height), 0.0, &Style::fill(colour));
-        drawing.text([at, y + height + 19.0], &tick, &small);
+fn key(drawing: &mut Drawing, room: Rect, step_s: f64, is_contact: bool) {
+    let [never, what] = match is_contact {
+        true => ["no contact", "time in contact [s]"],
+        false => ["missed", "time under the sponge [s]"],
+    };
+    let ([left, y], [wide, high]) = (room.at, [92.0, 22.0]);
+    drawing.rect(Rect::new(left, y, 40.0, high), &fill(MISSED));
+    drawing.text([left + 50.0, y + 17.0], never, &[WORDS]);
+    drawing.text([left + 180.0, y + 17.0], what, &[WORDS]);
+    let left = left + 200.0 + width(what, 18.0);
+    let starts: Vec<f64> = (0..STEPS.len()).map(|k| k as f64 * step_s).collect();
+    for (k, (colour, start)) in STEPS.into_iter().zip(words(&starts)).enumerate() {
+        let x = left + k as f64 * wide;
+        drawing.rect(Rect::new(x, y, wide, high), &fill(colour));
+        drawing.text([x, y + high + 18.0], &start, &[SMALL, MIDDLE]);
     }
-    let more = Lettering::new(16.0, GREY);
     drawing.text(
-        [x + STEPS.len() as f64 * width + 12.0, y + 0.5 * height + more.drop()],
+        [left + STEPS.len() as f64 * wide + 12.0, y + 17.0],
         "and more",
-        &more,
+        &[SMALL],
     );
 }

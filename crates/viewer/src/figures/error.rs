@@ -1,24 +1,11 @@
 //! Why a figure cannot be drawn.
 
-use super::ink::png::PngError;
-use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::trajectory::KnotError;
 
 /// Why a figure cannot be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FigureError {
-    /// A figure of a moment, and no moment.
-    #[error("the figure \"moment\" shows the arm at a time: say which, by --at SECONDS")]
-    NoMoment,
-    /// A moment that the motion does not have.
-    #[error("the motion lasts from 0 to {duration_s} s; there is no {at_s} s in it")]
-    Moment {
-        /// The time asked for \[s\].
-        at_s: f64,
-        /// How long the motion lasts \[s\].
-        duration_s: f64,
-    },
     /// Knots that are no motion.
     #[error(transparent)]
     Knots(#[from] KnotError),
@@ -50,46 +37,18 @@ pub enum FigureError {
         /// Its end \[s\].
         t_end_s: f64,
     },
-    /// No segment is what the figure shows.
-    #[error("the figure \"{figure}\" shows the arm in a segment \"{}\"; the plan has none", .kind.name())]
-    NoSegment {
-        /// The figure.
-        figure: &'static str,
-        /// What it would show.
-        kind: SegmentKind,
-    },
-    /// No plate is washed.
+    /// No plate is washed. Other figures of the same plan can be drawn all the same.
     #[error("the figure \"{figure}\" shows what is washed; the plan washes no plate")]
     NothingWashed {
         /// The figure.
         figure: &'static str,
     },
-    /// Neither is anything proved, nor claimed.
-    #[error(
-        "the figure \"sheet\" shows what is proved of a plan, or measured of a run of the paper's program; nothing is known of either"
-    )]
-    NothingKnown,
     /// A plate that is nowhere or of no size.
     #[error("plate {plate}: its centre, height, radius and thickness must be finite, the latter two above 0")]
     NoPlate {
         /// Index of the plate.
         plate: usize,
     },
-    /// The drawing became no picture.
-    #[error(transparent)]
-    Png(#[from] PngError),
-}
-
-impl FigureError {
-    /// Whether other figures of the same plan can be drawn all the same.
-    #[must_use]
-    pub fn is_of_one_figure(&self) -> bool {
-        match self {
-            Self::NoSegment { .. } | Self::NothingWashed { .. } | Self::NothingKnown | Self::NoMoment => true,
-            Self::Moment { .. } | Self::Knots(_) | Self::NoMotion { .. } => false,
-            Self::Nowhere { .. } | Self::Segment { .. } | Self::NoPlate { .. } | Self::Png(_) => false,
-        }
-    }
 }
 
 /// Farther from the base than this \[m\] nothing is drawn.

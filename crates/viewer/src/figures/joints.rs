@@ -1,13 +1,9 @@
 //! Joints and tip over time: positions, speeds and accelerations as shares of what is allowed.
 
-use super::ink::axes::{Axes, grouped, minus};
-use super::ink::drawing::{Drawing, Lettering, Rect};
-use super::ink::font::Weight;
-use super::ink::legend::{self, Entry};
-use super::ink::page;
-use super::ink::palette::{BAD, INK, LIFT, PAPER, SIX, TRANSIT, WASH};
-use super::ink::style::Style;
-use super::subject::Subject;
+use super::axes::{Axes, ROOM};
+use super::page::{self, Entry, Sign, legend};
+use super::subject::{Subject, short};
+use super::svg::{BAD, DASHED, Drawing, END, INK, LIFT, MIDDLE, PAPER, Rect, TRANSIT, WASH, fill, stroke, width};
 use platewash_certificate::ClearanceRule;
 use platewash_kinematics::AXES;
 use platewash_workcell::segment::SegmentKind;
@@ -15,88 +11,41 @@ use platewash_workcell::trajectory::JointState;
 use rayon::prelude::*;
 
 /// Moments that are drawn.
-const MOMENTS: usize = 1600;
+const MOMENTS: usize = 1200;
 
-/// Room for numbers and names to the left of the diagrams \[px\].
-const LEFT: f64 = 104.0;
+/// Height of the strip that says what the arm does \[px\].
+const STRIP: f64 = 26.0;
 
-const LIMIT_DASHES: &[f64] = &[10.0, 6.0];
+/// Colours of the six joints.
+const SIX: [&str; AXES] = ["#1b1f24", "#e69f00", "#56b4e9", "#009e73", "#d55e00", "#9b4f96"];
+
+/// Share of the numbers that a diagram shows, where the others are so much greater that nothing else would be seen.
+const USUAL: f64 = 0.985;
 
 /// Draws it.
 pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
-    let caption = "Position: 0 % is a joint's lowest, 100 % its highest. Speed and acceleration: shares of the joint's limits; those of \
-                   acceleration are the job's assumption. Drawn at 1600 moments, not a proof.";
-    let (mut drawing, room) = page::begin(&subject.words("Joints and tip", caption));
-    let lines = Moments::of(subject);
-    let top = legend::row(
-        &mut drawing,
-        [room.at[0] + LEFT, room.at[1] - 4.0],
-        room.size[0] - LEFT,
-        &entries(subject),
-    ) + 8.0;
-    let strip = 26.0;
-    let frame = Rect::new(
-        room.at[0] + LEFT,
-        top,
-        room.size[0] - LEFT,
-        room.end()[1] - top - 50.0 - strip,
+    let caption = format!(
+        "Position: 0 % is a joint's lowest, 100 % its highest. Speed and acceleration: shares of the joint's limits; those of acceleration \
+         are the job's assumption. Drawn at {MOMENTS} moments, not a proof."
     );
-    let panels = panels(subject, &lines);
-    let gap = 16.0;
-    let height = (frame.size[1] - gap * panels.len() as f64) / panels.len() as f64;
+    let (mut drawing, room) = page::begin(&subject.words("Joints and tip", caption));
     let duration = subject.motion.duration_s();
-    let mut last = None;
+    let times: Vec<f64> = (0..=MOMENTS).map(|k| duration * k as f64 / MOMENTS as f64).collect();
+    let (left, wide) = (room.at[0] + ROOM[0], room.size[0] - ROOM[0]);
+    let end = legend(&mut drawing, [left, room.at[1] - 4.0], wide, &entries(subject));
+    let panels = panels(subject, &times);
+    let (top, gap) = (end + STRIP + 14.0, 16.0);
+    let height = (room.end()[1] - ROOM[1] - top + gap) / panels.len() as f64 - gap;
     for (k, panel) in panels.iter().enumerate() {
-        let place = Rect::new(
-            frame.at[0],
-            frame.at[1] + k as f64 * (height + gap),
-            frame.size[0],
-            height,
-        );
-        let axes = Axes::new(place, [0.0, duration], panel.range);
-        panel.draw(&mut drawing, &axes, &lines.times);
-        last = Some(axes);
-    }
-    if let Some(axes) = last {
-        segments(&mut drawing, subject, &axes, strip);
-        let below = Axes {
-            frame: Rect::new(
-                axes.frame.at[0],
-                axes.frame.at[1],
-                axes.frame.size[0],
-                axes.frame.size[1] + strip + 6.0,
-            ),
-            ..axes
-        };
-        below.numbers_below(&mut drawing, &axes.across.ticks(12));
-        below.name_below(&mut drawing, "time [s]");
+        let frame = Rect::new(left, top + k as f64 * (height + gap), wide, height);
+        let axes = Axes::new(frame, [0.0, duration], panel.range);
+        if k == 0 {
+            segments(&mut drawing, subject, &axes);
+        }
+        let below = (k + 1 == panels.len()).then_some("time [s]");
+        panel.draw(&mut drawing, &axes, &times, below);
     }
     drawing
-}
-
-/// The motion at the moments that are drawn.
-struct Moments {
-    times: Vec<f64>,
-    states: Vec<JointState>,
-    tip: Vec<f64>,
-}
-
-impl Moments {
-    fn of(subject: &Subject<'_>) -> Self {
-        let duration = subject.motion.duration_s();
-        let time = |k: usize| duration * k as f64 / MOMENTS as f64;
-        let times: Vec<f64> = (0..=MOMENTS).map(time).collect();
-        let states: Vec<JointState> = times.iter().filter_map(|&t| subject.motion.at(t)).collect();
-        let tip = states
-            .iter()
-            .map(|state| subject.tip_speed(&state.q, &state.qd))
-            .collect();
-        Self { times, states, tip }
-    }
-
-    fn of_joint(&self, joint: usize, value: impl Fn(&JointState) -> f64) -> (Vec<f64>, Style) {
-        (self.states.iter().map(value).collect(), Style::line(SIX[joint], 1.7))
-    }
 }
 
 /// A diagram of the column.
@@ -106,31 +55,32 @@ struct Panel {
     /// What must not be exceeded.
     limits: Vec<f64>,
     /// What is said of it at its upper edge.
-    words: Vec<String>,
-    lines: Vec<(Vec<f64>, Style)>,
+    words: String,
+    lines: Vec<(Vec<f64>, &'static str)>,
 }
 
-fn panels(subject: &Subject<'_>, moments: &Moments) -> Vec<Panel> {
+fn panels(subject: &Subject<'_>, times: &[f64]) -> Vec<Panel> {
     let limits = subject.arm.limits();
-    let terms = &subject.plan.job;
-    let of = |value: &dyn Fn(usize, &JointState) -> f64| {
-        (0..AXES)
-            .map(|joint| moments.of_joint(joint, |state| 100.0 * value(joint, state)))
-            .collect::<Vec<_>>()
+    let accelerations = &subject.plan.job.limits.joint_acceleration_rad_s2;
+    let states: Vec<JointState> = times.iter().filter_map(|&t| subject.motion.at(t)).collect();
+    let of = |value: &dyn Fn(usize, &JointState) -> f64| -> Vec<(Vec<f64>, &'static str)> {
+        let line = |joint: usize| states.iter().map(|state| 100.0 * value(joint, state)).collect();
+        (0..AXES).map(|joint| (line(joint), SIX[joint])).collect()
     };
     let position = of(&|joint, state| {
         let [low, high] = limits.sampling_range(joint);
         (state.q[joint] - low) / (high - low)
     });
     let speed = of(&|joint, state| state.qd[joint] / limits.velocity[joint]);
-    let acceleration = of(&|joint, state| state.qdd[joint] / terms.limits.joint_acceleration_rad_s2[joint]);
+    let acceleration = of(&|joint, state| state.qdd[joint] / accelerations[joint]);
+    let tip = states.iter().map(|state| subject.tip_speed(&state.q, &state.qd));
     let mut all = vec![
         Panel::new("position [%]", position, [0.0, 100.0]),
         Panel::new("speed [%]", speed, [-100.0, 100.0]),
         Panel::new("accel. [%]", acceleration, [-100.0, 100.0]),
+        tip_panel(subject, tip.collect()),
     ];
-    all.push(tip_panel(subject, moments));
-    all.extend(clearance_panel(subject, &moments.times));
+    all.extend(clearance_panel(subject, times));
     all
 }
 
@@ -148,137 +98,132 @@ fn clearance_panel(subject: &Subject<'_>, times: &[f64]) -> Option<Panel> {
     let least = seen.iter().flatten().copied().fold(f64::INFINITY, f64::min);
     let margin = 1e3 * subject.plan.job.requirements.clearance_m;
     let far = 100.0_f64.max(3.0 * margin);
-    let line: Vec<f64> = seen.iter().map(|distance| distance.unwrap_or(far).min(far)).collect();
+    let line = seen.iter().map(|distance| distance.unwrap_or(far).min(far)).collect();
     least.is_finite().then(|| Panel {
         name: "gap [mm]",
         range: [least.min(0.0) - 0.04 * far, far],
         limits: vec![margin],
-        words: vec![format!(
-            "smallest distance, drawn up to {far:.0} mm; {margin:.0} mm must be kept"
-        )],
-        lines: vec![(line, Style::line(INK, 1.7))],
+        words: format!("smallest distance, drawn up to {far:.0} mm; {margin:.0} mm must be kept"),
+        lines: vec![(line, INK)],
     })
 }
 
-fn tip_panel(subject: &Subject<'_>, moments: &Moments) -> Panel {
+fn tip_panel(subject: &Subject<'_>, speeds: Vec<f64>) -> Panel {
     let terms = &subject.plan.job;
     let (anywhere, washing) = (terms.limits.tip_speed_m_s, terms.wash_speed_m_s());
-    let lines = vec![(moments.tip.clone(), Style::line(INK, 1.7))];
-    let mut panel = Panel::new("tip [m/s]", lines, [0.0, anywhere]);
-    // Room for the words above the limit.
-    panel.range = [0.0, panel.range[1] + 0.32 * (panel.range[1] - panel.range[0])];
-    panel.limits = vec![washing, anywhere];
-    panel.words.insert(
-        0,
-        format!("limits: {anywhere} m/s anywhere, {washing} m/s while it washes"),
-    );
-    panel
+    let panel = Panel::new("tip [m/s]", vec![(speeds, INK)], [0.0, anywhere]);
+    let limits = format!("limits: {anywhere} m/s anywhere, {washing} m/s while it washes");
+    let beyond = if panel.words.is_empty() {
+        String::new()
+    } else {
+        format!("; {}", panel.words)
+    };
+    Panel {
+        // Room for the words above the limit.
+        range: [0.0, 1.32 * panel.range[1]],
+        limits: vec![washing, anywhere],
+        words: limits + &beyond,
+        ..panel
+    }
 }
-
-/// Share of the numbers that a diagram shows, where the others are so much greater that nothing else would be seen.
-const USUAL: f64 = 0.985;
 
 impl Panel {
     /// A diagram of lines that must stay between two numbers: a range with both in it and all lines, but for what is much greater than
     /// nearly all of them.
-    fn new(name: &'static str, lines: Vec<(Vec<f64>, Style)>, limits: [f64; 2]) -> Self {
+    fn new(name: &'static str, lines: Vec<(Vec<f64>, &'static str)>, limits: [f64; 2]) -> Self {
         let mut numbers: Vec<f64> = lines.iter().flat_map(|(line, _)| line.iter().copied()).collect();
         numbers.sort_by(f64::total_cmp);
-        let at = |share: f64| {
-            numbers
-                .get((share * numbers.len() as f64) as usize)
-                .or(numbers.last())
-                .copied()
-                .unwrap_or(0.0)
+        let at = |share: f64| numbers[(share * (numbers.len() - 1) as f64) as usize];
+        let [low, high] = if numbers.is_empty() { limits } else { [at(0.0), at(1.0)] };
+        let with = |low: f64, high: f64| [low.min(limits[0]), high.max(limits[1])];
+        let all = with(low, high);
+        let usual = if numbers.is_empty() {
+            all
+        } else {
+            with(at(1.0 - USUAL), at(USUAL))
         };
-        let (low, high) = (at(0.0), at(1.0));
-        let (usual_low, usual_high) = (at(1.0 - USUAL).min(limits[0]), at(USUAL).max(limits[1]));
-        let all = [low.min(limits[0]), high.max(limits[1])];
-        let cut = all[1] - all[0] > 3.0 * (usual_high - usual_low);
-        let [from, to] = if cut { [usual_low, usual_high] } else { all };
+        let is_cut = all[1] - all[0] > 3.0 * (usual[1] - usual[0]);
+        let [from, to] = if is_cut { usual } else { all };
         let more = 0.08 * (to - from);
         let range = [from - more, to + more];
         let beyond = [low, high]
             .into_iter()
             .filter(|number| !(range[0]..=range[1]).contains(number));
-        let beyond: Vec<String> = beyond.map(|number| minus(&grouped(number))).collect();
-        let words = match beyond.is_empty() {
-            true => Vec::new(),
-            false => vec![format!("beyond the frame: up to {}", beyond.join(" and "))],
-        };
+        let beyond: Vec<String> = beyond.map(|number| short(number.round())).collect();
         Self {
             name,
             range,
             limits: limits.to_vec(),
-            words,
+            words: if beyond.is_empty() {
+                String::new()
+            } else {
+                format!("beyond the frame: up to {}", beyond.join(" and "))
+            },
             lines,
         }
     }
-}
 
-impl Panel {
-    fn draw(&self, drawing: &mut Drawing, axes: &Axes, times: &[f64]) {
-        let across = axes.across.ticks(12);
-        let up = axes.up.ticks(4);
-        axes.grid(drawing, &across, &up);
-        let [left, right] = axes.across.places;
-        for limit in &self.limits {
-            let y = axes.up.at(*limit);
-            drawing.line([left, y], [right, y], &Style::line(BAD, 1.4).dashed(LIMIT_DASHES));
-        }
-        drawing.within_rect(axes.frame, |drawing| {
-            for (values, style) in &self.lines {
-                let spots: Vec<_> = times.iter().zip(values).map(|(&t, &value)| axes.at(t, value)).collect();
-                drawing.polyline(&spots, style);
+    fn draw(&self, drawing: &mut Drawing, axes: &Axes, times: &[f64], below: Option<&str>) {
+        axes.draw(drawing, [12, 4], [below, Some(self.name)], |drawing| {
+            for limit in &self.limits {
+                axes.limit(drawing, *limit, &(stroke(BAD, 1.4) + DASHED));
+            }
+            for (values, colour) in &self.lines {
+                let spots = times.iter().zip(values).map(|(&t, &value)| axes.at(t, value));
+                drawing.lines(&[spots.collect()], &stroke(colour, 1.7));
             }
         });
         if !self.words.is_empty() {
-            let (how, words) = (Lettering::new(15.0, BAD).to_the_left(), self.words.join("; "));
-            let width = how.weight.width(&words, how.size);
-            let ground = Rect::new(right - 16.0 - width, axes.frame.at[1] + 3.0, width + 12.0, 21.0);
-            drawing.rect(ground, 3.0, &Style::fill(PAPER).see_through(0.85));
-            drawing.text([right - 10.0, axes.frame.at[1] + 19.0], &words, &how);
+            let ([right, _], top) = (axes.frame.end(), axes.frame.at[1]);
+            let wide = width(&self.words, 15.0);
+            drawing.rect(
+                Rect::new(right - 16.0 - wide, top + 3.0, wide + 12.0, 21.0),
+                &fill(PAPER),
+            );
+            drawing.text(
+                [right - 10.0, top + 19.0],
+                &self.words,
+                &["font-size=\"15\"", &fill(BAD), END],
+            );
         }
-        axes.outline(drawing);
-        axes.numbers_left(drawing, &up);
-        axes.name_left(drawing, self.name, 84.0);
     }
 }
 
-/// What the arm does over time, as a strip under the diagrams.
-fn segments(drawing: &mut Drawing, subject: &Subject<'_>, axes: &Axes, height: f64) {
-    let top = axes.frame.end()[1] + 5.0;
+fn colour(kind: SegmentKind) -> &'static str {
+    match kind {
+        SegmentKind::Wash => WASH,
+        SegmentKind::Approach | SegmentKind::Retreat => LIFT,
+        SegmentKind::Depart | SegmentKind::Transit | SegmentKind::Return => TRANSIT,
+    }
+}
+
+/// What the arm does over time, as a strip above the diagrams.
+fn segments(drawing: &mut Drawing, subject: &Subject<'_>, axes: &Axes) {
+    let top = axes.frame.at[1] - STRIP - 5.0;
     for segment in &subject.plan.segments {
         let [from, to] = [segment.t_start_s, segment.t_end_s].map(|t| axes.across.at(t));
-        let colour = match segment.kind {
-            SegmentKind::Wash => WASH,
-            SegmentKind::Approach | SegmentKind::Retreat => LIFT,
-            SegmentKind::Depart | SegmentKind::Transit | SegmentKind::Return => TRANSIT,
-        };
-        let field = Rect::new(from, top, to - from, height);
-        drawing.rect(field, 0.0, &Style::fill(colour).see_through(0.85));
+        let field = Rect::new(from, top, to - from, STRIP);
+        drawing.rect(field, &fill(colour(segment.kind)));
         let words = format!("plate {}", segment.plate);
-        if segment.kind == SegmentKind::Wash && Weight::Bold.width(&words, 15.0) < to - from - 8.0 {
-            let how = Lettering::new(15.0, PAPER).bold().centred();
-            drawing.text([field.middle()[0], field.middle()[1] + how.drop()], &words, &how);
+        if segment.kind == SegmentKind::Wash && width(&words, 15.0) < to - from - 8.0 {
+            drawing.text(
+                [field.middle()[0], top + 18.0],
+                &words,
+                &["font-size=\"15\"", &fill(PAPER), MIDDLE],
+            );
         }
     }
 }
 
 fn entries(subject: &Subject<'_>) -> Vec<Entry> {
-    let joints = (0..AXES).map(|joint| Entry::line(Style::line(SIX[joint], 2.6), format!("joint {}", joint + 1)));
-    let mut all: Vec<Entry> = joints.collect();
-    all.push(Entry::line(Style::line(BAD, 1.8).dashed(LIMIT_DASHES), "limit"));
-    let field = |colour| Style::fill(colour).see_through(0.85);
-    all.push(Entry::field(field(WASH), "washes"));
-    all.push(Entry::field(field(TRANSIT), "transits"));
-    if subject
-        .plan
-        .segments
-        .iter()
-        .any(|segment| segment.kind == SegmentKind::Approach)
-    {
-        all.push(Entry::field(field(LIFT), "down and up"));
+    let joint = |k: usize| Entry::new(Sign::Line, stroke(SIX[k], 2.6), format!("joint {}", k + 1));
+    let field = |kind, words| Entry::new(Sign::Field, fill(colour(kind)), words);
+    let mut all: Vec<Entry> = (0..AXES).map(joint).collect();
+    all.push(Entry::new(Sign::Line, stroke(BAD, 1.8) + DASHED, "limit"));
+    all.push(field(SegmentKind::Wash, "washes"));
+    all.push(field(SegmentKind::Transit, "transits"));
+    if subject.has(SegmentKind::Approach) {
+        all.push(field(SegmentKind::Approach, "down and up"));
     }
     all
 }

@@ -1,24 +1,29 @@
-//! What figures are drawn of: a plan with its arm, and what is known of them.
+//! What figures are drawn of: a plan with its arm, and what is known of them; words that figures share.
 
 use super::error::{FARTHEST_M, FigureError};
-use super::track::{Track, TrackPoint};
+use super::page::Words;
+use crate::view::tips::{Tip, Tips};
 use nalgebra::Vector3;
 use platewash_certificate::Certificate;
-use platewash_kinematics::{Axes, Frame, JointVector, Pose, RobotModel};
+use platewash_kinematics::words::percent;
+use platewash_kinematics::{Axes, JointVector, Pose, RobotModel};
 use platewash_simulator::{Execution, SimulationReport};
+use platewash_workcell::layout::TaskRegion;
 use platewash_workcell::plan::{Plan, Process};
 use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use platewash_workcell::trajectory::Trajectory;
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve};
+use platewash_workcell::words::quoted;
 
-/// Most moments of a motion that are looked at.
-const MOST_MOMENTS: f64 = 20_000.0;
-
-/// Time between two of them, where the motion is not too long for it \[s\].
+/// Most samples of an execution that are looked at, and the time between two of them where there are not too many \[s\].
+const MOST_SAMPLES: f64 = 20_000.0;
 const STEP_S: f64 = 0.01;
 
 /// Farthest that a chord leaves a wash curve \[m\].
 const CHORD_M: f64 = 1e-4;
+
+/// Letters of a hash that are shown.
+const HASH: usize = 12;
 
 /// What the tip is to follow on a plate.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,18 +34,8 @@ pub struct Ideal {
     pub points: Vec<Vector3<f64>>,
 }
 
-/// A line of a sheet of claims: what is said, and what came of it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Claim {
-    /// What it is about.
-    pub about: String,
-    /// What is claimed, taken for granted or required.
-    pub claimed: String,
-    /// What was measured or proved.
-    pub measured: String,
-    /// Whether it holds.
-    pub holds: bool,
-}
+/// The way of the tip, segment by segment.
+pub(super) type Track = Vec<Vec<Tip>>;
 
 /// A plan with its arm, and what is known of them. What is not known is not drawn.
 #[derive(Debug, Clone)]
@@ -51,23 +46,19 @@ pub struct Subject<'a> {
     pub arm: &'a RobotModel,
     /// What is proved of it.
     pub certificate: Option<&'a Certificate>,
+    /// Where plates were drawn.
+    pub region: TaskRegion,
+    /// What the tip is to follow on each plate: by default the plan's wash paths.
+    pub ideal: Vec<Ideal>,
     /// What an arm made of it, judged.
-    pub executed: Option<(&'a Execution, &'a SimulationReport)>,
-    /// Where plates' centres are drawn: a closed polygon seen from above, world frame \[m\].
-    pub region_m: Option<Vec<[f64; 2]>>,
-    /// Radius about the base's axis that plates' centres keep away from \[m\].
-    pub base_circle_m: Option<f64>,
-    /// What a run of the paper's program claims, and what came of it.
-    pub claims: Vec<Claim>,
+    pub(super) report: Option<&'a SimulationReport>,
     pub(super) motion: Trajectory,
-    pub(super) tip: Frame,
     pub(super) planned: Track,
     pub(super) followed: Option<Track>,
-    pub(super) ideal: Vec<Ideal>,
 }
 
 impl<'a> Subject<'a> {
-    /// A plan with its arm, and nothing else known. What the tip is to follow comes from the plan's wash paths.
+    /// A plan with its arm, and nothing else known.
     ///
     /// # Errors
     /// [`FigureError`] for knots, segments or plates that cannot be drawn.
@@ -81,64 +72,58 @@ impl<'a> Subject<'a> {
             return Err(FigureError::NoPlate { plate });
         }
         check_segments(plan, motion.duration_s())?;
-        let tip = plan.job.workcell.tool.tip_frame(arm);
-        let mut subject = Self {
+        let tips = Tips::new(plan, arm, &motion);
+        let planned = plan.segments.iter().map(|segment| {
+            let [start, end] = [segment.t_start_s, segment.t_end_s];
+            match plan.process {
+                Process::Wash => tips.during(start, end),
+                // The paper's program has waypoints and nothing between.
+                Process::Paper => {
+                    let inside = motion.times().iter().filter(|t| (start..=end).contains(*t));
+                    inside.filter_map(|t| tips.at(*t)).collect()
+                }
+            }
+        });
+        let planned = checked(planned.collect())?;
+        Ok(Self {
             plan,
             arm,
             certificate: None,
-            executed: None,
-            region_m: None,
-            base_circle_m: None,
-            claims: Vec::new(),
-            planned: Track::default(),
-            followed: None,
+            region: TaskRegion::default(),
             ideal: wash_curves(plan),
+            report: None,
             motion,
-            tip,
-        };
-        let moments = subject.moments();
-        subject.planned = subject.track(moments)?;
-        Ok(subject)
-    }
-
-    /// The same with what is proved.
-    #[must_use]
-    pub fn proved(mut self, certificate: &'a Certificate) -> Self {
-        self.certificate = Some(certificate);
-        self
+            planned,
+            followed: None,
+        })
     }
 
     /// The same with what an arm made of it.
     ///
     /// # Errors
     /// [`FigureError::Nowhere`].
-    pub fn executed(mut self, execution: &'a Execution, report: &'a SimulationReport) -> Result<Self, FigureError> {
-        let step = STEP_S.max(report.duration_s / MOST_MOMENTS);
+    pub fn executed(mut self, execution: &Execution, report: &'a SimulationReport) -> Result<Self, FigureError> {
+        let step = STEP_S.max(report.duration_s / MOST_SAMPLES);
         let stride = ((step / execution.period_s).round() as usize).max(1);
-        let last = execution.samples.len().saturating_sub(1);
-        let taken = execution
-            .samples
-            .iter()
-            .enumerate()
-            .filter(|(k, _)| k % stride == 0 || *k == last);
-        let moments = taken
-            .map(|(_, sample)| (sample.t_s, sample.segment, sample.state.q))
-            .collect();
-        self.followed = Some(self.track(moments)?);
-        self.executed = Some((execution, report));
+        let tips = Tips::new(self.plan, self.arm, &self.motion);
+        let mut track: Track = vec![Vec::new(); self.plan.segments.len()];
+        let mut last = None;
+        for sample in execution.samples.iter().step_by(stride).chain(execution.samples.last()) {
+            let tip = tips.of(&sample.state.q, sample.t_s);
+            if let Some(way) = track.get_mut(sample.segment) {
+                // A way begins where the one before ends.
+                way.extend(last.filter(|_| way.is_empty()));
+                way.push(tip);
+            }
+            last = Some(tip);
+        }
+        self.followed = Some(checked(track)?);
+        self.report = Some(report);
         Ok(self)
     }
 
-    /// The same with what the tip is to follow on each plate.
-    #[must_use]
-    pub fn following(mut self, ideal: Vec<Ideal>) -> Self {
-        self.ideal = ideal;
-        self
-    }
-
     /// Whether it is a run of the paper's program.
-    #[must_use]
-    pub fn is_paper(&self) -> bool {
+    pub(super) fn is_paper(&self) -> bool {
         self.plan.process == Process::Paper
     }
 
@@ -147,14 +132,10 @@ impl<'a> Subject<'a> {
         &self.plan.job.workcell.mount
     }
 
-    /// Pose of the tip, world frame.
-    pub(super) fn tip_pose(&self, q: &JointVector) -> Pose {
-        self.mount() * self.arm.pose(q, &self.tip)
-    }
-
     /// Speed of the tip \[m/s\].
     pub(super) fn tip_speed(&self, q: &JointVector, qd: &JointVector) -> f64 {
-        let twist = self.arm.fk(q).jacobian(&self.tip, Axes::Base) * qd;
+        let tip = self.plan.job.workcell.tool.tip_frame(self.arm);
+        let twist = self.arm.fk(q).jacobian(&tip, Axes::Base) * qd;
         twist.fixed_rows::<3>(0).norm()
     }
 
@@ -164,60 +145,86 @@ impl<'a> Subject<'a> {
         all.filter(|(_, segment)| segment.kind == SegmentKind::Wash)
     }
 
-    /// Times to look at the planned motion: the paper's program has waypoints and nothing between.
-    fn moments(&self) -> Vec<(f64, usize, JointVector)> {
-        let times: Vec<f64> = match self.plan.process {
-            Process::Paper => self.motion.times().to_vec(),
-            Process::Wash => {
-                let duration = self.motion.duration_s();
-                let count = (duration / STEP_S.max(duration / MOST_MOMENTS)).ceil();
-                let even = (0..=count as usize).map(|k| duration * k as f64 / count);
-                let ends = self
-                    .plan
-                    .segments
-                    .iter()
-                    .flat_map(|segment| [segment.t_start_s, segment.t_end_s]);
-                let mut times: Vec<f64> = even.chain(ends).collect();
-                times.sort_by(f64::total_cmp);
-                times.dedup();
-                times
-            }
-        };
-        // A time belongs to the segment that ends at or after it.
-        let segment = |t: f64| self.plan.segments.partition_point(|segment| segment.t_end_s < t);
-        let at = |t: f64| self.motion.at(t).map(|state| (t, segment(t), state.q));
-        times.into_iter().filter_map(at).collect()
+    /// Whether there is a segment of a kind.
+    pub(super) fn has(&self, kind: SegmentKind) -> bool {
+        self.plan.segments.iter().any(|segment| segment.kind == kind)
     }
 
-    fn track(&self, moments: Vec<(f64, usize, JointVector)>) -> Result<Track, FigureError> {
-        let mut points = Vec::with_capacity(moments.len());
-        for (t_s, segment, q) in moments {
-            let pose = self.tip_pose(&q);
-            let at = pose.translation.vector;
-            if !at.iter().all(|c| c.abs() <= FARTHEST_M) {
-                return Err(FigureError::Nowhere { t_s });
-            }
-            let axis = pose.rotation * Vector3::z();
-            points.push(TrackPoint { t_s, segment, at, axis });
+    /// The words around a figure.
+    pub(super) fn words(&self, title: &str, caption: String) -> Words {
+        let hash = self.plan.hash.as_deref().unwrap_or("without a hash");
+        let hash: String = hash.chars().take(HASH).collect();
+        Words {
+            title: format!("{title}: {}", quoted(&self.plan.provenance.scenario)),
+            subtitle: self.about(),
+            caption,
+            source: format!("plan {hash} · platewash {}", env!("CARGO_PKG_VERSION")),
         }
-        Ok(Track::new(points))
+    }
+
+    /// What the plan is: how many plates, how long, what is known of it.
+    fn about(&self) -> String {
+        let job = &self.plan.job;
+        let dry_run = job.dry_run.as_ref();
+        let dry_run = dry_run.map_or_else(String::new, |dry_run| dry_run.words() + "; ");
+        let (count, seed, duration_s) = (job.plates.len(), job.seed, self.motion.duration_s());
+        let plates = if count == 1 { "plate" } else { "plates" };
+        format!(
+            "{dry_run}{count} {plates}, seed {seed}, {duration_s:.2} s; {}",
+            self.proof()
+        )
+    }
+
+    fn proof(&self) -> String {
+        let Some(certificate) = self.certificate.filter(|_| !self.is_paper()) else {
+            let known = if self.is_paper() {
+                "the paper's program, followed to the letter"
+            } else {
+                "planned, not proved"
+            };
+            return known.to_owned();
+        };
+        let waived: Vec<_> = certificate.waived.iter().map(|waived| waived.words()).collect();
+        let broken: Vec<_> = certificate.broken().map(|check| check.requirement.words()).collect();
+        match (certificate.passes(), waived.is_empty(), broken.is_empty()) {
+            (true, true, _) => "proved for every moment".to_owned(),
+            (true, false, _) => format!("proved, but for {}, which the job waives", waived.join(", ")),
+            (false, _, true) => "NOT PROVED: the plan was changed after it was written".to_owned(),
+            (false, _, false) => format!("NOT PROVED: {}", broken.join(", ")),
+        }
+    }
+}
+
+/// A share as per cent, rounded down, so that none looks greater than it is.
+pub(super) fn per_cent(share: f64) -> String {
+    format!("{} %", percent(share))
+}
+
+/// A number to three decimals, as short as it goes.
+pub(super) fn short(value: f64) -> String {
+    let text = format!("{value:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Ways whose places are all finite and near.
+fn checked(track: Track) -> Result<Track, FigureError> {
+    let is_lost = |tip: &&Tip| !tip.at.iter().all(|c| c.abs() <= FARTHEST_M);
+    match track.iter().flatten().find(is_lost) {
+        Some(tip) => Err(FigureError::Nowhere { t_s: tip.t_s }),
+        None => Ok(track),
     }
 }
 
 fn wash_curves(plan: &Plan) -> Vec<Ideal> {
-    let mut all = Vec::new();
-    for path in &plan.wash_paths {
-        if let Some(plate) = plan.job.plates.get(path.plate)
-            && can_be_drawn(&path.curve)
-        {
-            let thetas = path.curve.parameters(&plate.surface, CHORD_M);
-            all.push(Ideal {
-                plate: path.plate,
-                points: thetas.into_iter().map(|theta| path.contact(plate, theta)).collect(),
-            });
-        }
-    }
-    all
+    let curves = plan.wash_paths.iter().filter(|path| can_be_drawn(&path.curve));
+    let ideal = curves.filter_map(|path| {
+        let plate = plan.job.plates.get(path.plate)?;
+        let thetas = path.curve.parameters(&plate.surface, CHORD_M);
+        let points = thetas.into_iter().map(|theta| path.contact(plate, theta)).collect();
+        let plate = path.plate;
+        Some(Ideal { plate, points })
+    });
+    ideal.collect()
 }
 
 /// Whether a curve has a length that can be gone along.
@@ -228,8 +235,7 @@ fn can_be_drawn(curve: &WashCurve) -> bool {
 }
 
 fn check_segments(plan: &Plan, duration_s: f64) -> Result<(), FigureError> {
-    let plates = plan.job.plates.len();
-    let mut after = 0.0;
+    let (plates, mut after) = (plan.job.plates.len(), 0.0);
     for (k, segment) in plan.segments.iter().enumerate() {
         let [start, end] = [segment.t_start_s, segment.t_end_s];
         let in_time = start >= after - 1e-9 && end >= start && end <= duration_s + 1e-6;

@@ -26,7 +26,7 @@ pub(crate) struct Tip {
 
 /// An arm with a tip, and a planned motion.
 #[derive(Debug)]
-pub(super) struct Tips<'a> {
+pub(crate) struct Tips<'a> {
     robot: &'a RobotModel,
     motion: &'a Trajectory,
     mount: Rigid,

@@ -13,6 +13,7 @@ export interface KeyActions {
   plate(number: string): void;
   layers(): void;
   camera(): void;
+  picture(): void;
   fullscreen(): void;
   help(): void;
 }
@@ -28,6 +29,7 @@ const FILM: [string, string][] = [
 const SCENE: [string, string][] = [
   ["C", "next view"],
   ["L", "layers"],
+  ["P", "save a picture of the scene"],
   ["F", "full screen"],
   ["?", "this help"],
 ];
@@ -85,7 +87,7 @@ function act(event: KeyboardEvent, actions: KeyActions): boolean {
 }
 
 function letter(key: string, actions: KeyActions): boolean {
-  const does = { l: actions.layers, c: actions.camera, f: actions.fullscreen }[key];
+  const does = { l: actions.layers, c: actions.camera, p: actions.picture, f: actions.fullscreen }[key];
   does?.call(actions);
   return does !== undefined;
 }

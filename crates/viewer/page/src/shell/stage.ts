@@ -113,6 +113,13 @@ export class Stage {
     done?.catch(() => announce("The browser does not let this page fill the screen"));
   }
 
+  /** Saves a picture of the scene at this moment as a PNG. */
+  savePicture(): void {
+    if (this.scene === null) return;
+    el("a", { set: { href: this.scene.still({ dpr: 2 }), download: "platewash.png" } }).click();
+    announce("The picture is saved as platewash.png");
+  }
+
   /** Which motion is shown, and whether plates show their heat map. */
   showMotion(follows: Follows, heat: boolean): void {
     if (this.#follow !== null) this.#follow.value = follows;
@@ -152,7 +159,8 @@ export class Stage {
     this.#camera.addEventListener("change", () => this.camera(this.#camera.value));
     this.#heat.hidden = view.coverage.length === 0;
     const full = button({ class: "button icon-button", label: "Full screen (F)" }, () => this.toggleFullscreen(), icon("fullscreen"));
-    const tools = this.scene === null ? [this.#follow, full] : [this.#follow, this.#camera, this.#heat, this.#layersButton, full];
+    const picture = button({ class: "button icon-button", label: "Picture (P)" }, () => this.savePicture(), icon("camera"));
+    const tools = this.scene === null ? [this.#follow, full] : [this.#follow, this.#camera, this.#heat, this.#layersButton, picture, full];
     return el("div", { class: "toolbar", set: { role: "toolbar", "aria-label": "Scene" } }, ...tools);
   }
 

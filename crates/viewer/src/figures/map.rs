@@ -1,0 +1,54 @@
+//! Maps from above: world x upwards, world y to the left, at one scale.
+
+use super::axes::{Axes, ROOM};
+use super::svg::{Drawing, Rect, Spot};
+
+/// White between the outermost thing and the frame \[m\].
+const WHITE_M: f64 = 0.05;
+
+/// Width of what stands beside a map \[px\].
+const BESIDE: f64 = 430.0;
+
+/// A map of a part of the workcell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Map(Axes);
+
+impl Map {
+    /// A map of all places between the least and the greatest x and y \[m\], and where there is room beside it.
+    pub fn new(room: Rect, low: [f64; 2], high: [f64; 2]) -> (Self, Rect) {
+        let most = [room.size[0] - ROOM[0] - BESIDE, room.size[1] - ROOM[1]];
+        let need = [1, 0].map(|k| high[k] - low[k] + 2.0 * WHITE_M);
+        let scale = (most[0] / need[0]).min(most[1] / need[1]);
+        // No wider than there is something to see.
+        let size = [most[0].min(1.25 * need[0] * scale), most[1]];
+        let frame = Rect::new(room.at[0] + ROOM[0], room.at[1], size[0], size[1]);
+        let [across, up] = size.map(|size| 0.5 * size / scale);
+        let [x, y] = [0, 1].map(|k| 0.5 * (low[k] + high[k]));
+        let axes = Axes::new(frame, [y + across, y - across], [x - up, x + up]);
+        let beside = frame.end()[0] + 34.0;
+        (
+            Self(axes),
+            Rect::new(beside, room.at[1], room.end()[0] - beside, room.size[1]),
+        )
+    }
+
+    /// Where a place is.
+    pub fn spot(&self, [x, y]: [f64; 2]) -> Spot {
+        self.0.at(y, x)
+    }
+
+    /// Where places are.
+    pub fn spots<'p>(&self, places: impl IntoIterator<Item = &'p [f64; 2]>) -> Vec<Spot> {
+        places.into_iter().map(|place| self.spot(*place)).collect()
+    }
+
+    /// How long a length is \[px\].
+    pub fn pixels(&self, length_m: f64) -> f64 {
+        (self.0.up.at(length_m) - self.0.up.at(0.0)).abs()
+    }
+
+    /// The map with its numbers, and what `draw` adds.
+    pub fn draw(&self, drawing: &mut Drawing, draw: impl FnOnce(&mut Drawing)) {
+        self.0.draw(drawing, [8, 7], [Some("y [m]"), Some("x [m]")], draw);
+    }
+}

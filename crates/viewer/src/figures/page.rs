@@ -1,0 +1,97 @@
+//! The sheet of a figure: its words, and what lines and colours mean. As large as a slide.
+
+use super::svg::{Drawing, END, GREY, INK, LINE, Rect, SMALL, Spot, WORDS, lines, stroke, width};
+use platewash_workcell::words::shortened;
+
+/// Width and height of a figure \[px\].
+pub const SIZE: [f64; 2] = [1600.0, 1000.0];
+
+/// White around everything \[px\].
+const MARGIN: f64 = 50.0;
+
+/// The words around a figure.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Words {
+    /// What it shows.
+    pub title: String,
+    /// More of it, smaller.
+    pub subtitle: String,
+    /// How it is to be read: one or two lines at the foot.
+    pub caption: String,
+    /// Where it comes from, at the foot on the right.
+    pub source: String,
+}
+
+/// A new sheet with its words, and where there is room for the rest.
+pub fn begin(words: &Words) -> (Drawing, Rect) {
+    let mut drawing = Drawing::default();
+    let [title, subtitle] =
+        [(33, INK), (21, GREY)].map(|(size, colour)| format!("font-size=\"{size}\" fill=\"{colour}\""));
+    // As many letters as there is room for, were all of them wide.
+    drawing.text(
+        [MARGIN, 66.0],
+        &shortened(&words.title, 64),
+        &[&title, "font-weight=\"bold\""],
+    );
+    drawing.text([MARGIN, 101.0], &shortened(&words.subtitle, 110), &[&subtitle]);
+    let (right, foot) = (SIZE[0] - MARGIN, SIZE[1] - 74.0);
+    drawing.line([MARGIN, foot], [right, foot], &stroke(LINE, 1.0));
+    drawing.text([right, foot + 26.0], &words.source, &[SMALL, END]);
+    let room = right - MARGIN - width(&words.source, 16.0) - 60.0;
+    for (k, line) in lines(&words.caption, 16.0, room).iter().take(3).enumerate() {
+        drawing.text([MARGIN, foot + 26.0 + 20.0 * k as f64], line, &[SMALL]);
+    }
+    let top = 126.0;
+    (drawing, Rect::new(MARGIN, top, right - MARGIN, foot - 18.0 - top))
+}
+
+/// What a look means.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    sign: Sign,
+    look: String,
+    words: String,
+}
+
+/// What stands before the words.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sign {
+    Line,
+    Field,
+    Dot,
+}
+
+impl Entry {
+    /// A sign with its look, and its words.
+    pub fn new(sign: Sign, look: impl Into<String>, words: impl Into<String>) -> Self {
+        let (look, words) = (look.into(), words.into());
+        Self { sign, look, words }
+    }
+}
+
+/// Width of a sign with the white behind it, and from one line to the next \[px\].
+const SIGN: f64 = 50.0;
+const LEADING: f64 = 25.0;
+
+/// Entries beside one another where `width` \[px\] has room, in lines else; their lower end \[px\].
+pub fn legend(drawing: &mut Drawing, [left, top]: Spot, most: f64, entries: &[Entry]) -> f64 {
+    let ([mut x, mut y], mut end) = ([left, top], top);
+    for Entry { sign, look, words } in entries {
+        let takes = SIGN + width(words, 18.0);
+        if x > left && x + takes > left + most {
+            (x, y) = (left, end + 9.0);
+        }
+        match sign {
+            Sign::Line => drawing.line([x, y + 11.0], [x + 38.0, y + 11.0], look),
+            Sign::Field => drawing.rect(Rect::new(x + 4.0, y + 2.0, 30.0, 18.0), look),
+            Sign::Dot => drawing.circle([x + 19.0, y + 11.0], 7.0, look),
+        }
+        for (k, line) in lines(words, 18.0, most - SIGN).iter().enumerate() {
+            let below = y + LEADING * k as f64;
+            drawing.text([x + SIGN, below + 17.0], line, &[WORDS]);
+            end = end.max(below + LEADING);
+        }
+        x += takes + 24.0;
+    }
+    end
+}
