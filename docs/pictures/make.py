@@ -53,7 +53,8 @@ def pages(command, folder, target):
         with Image.open(folder / f"frame-{k:03}.png") as picture:
             size = (WIDTH, round(WIDTH * picture.height / picture.width))
             frames.append(picture.convert("RGB").resize(size, Image.Resampling.LANCZOS))
-    palette = frames[-1].quantize(256)
+    # Small patches of colour count as well as large ones.
+    palette = frames[-1].quantize(256, method=Image.Quantize.MAXCOVERAGE)
     frames = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
     shown_ms = round(1000 / FRAMES_A_SECOND)
     frames[0].save(target / "kitchen.gif", save_all=True, append_images=frames[1:], duration=shown_ms, loop=0, optimize=True)

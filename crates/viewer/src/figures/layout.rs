@@ -11,6 +11,7 @@ use super::svg::{
 };
 use crate::view::Counted;
 use crate::view::coverage::proved_share;
+use crate::view::tips::Tip;
 use nalgebra::UnitQuaternion;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
@@ -148,14 +149,11 @@ fn tilted_plate(plate: &Plate) -> Outline {
 }
 
 fn ways(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
-    let way = |track: &Track, segment: usize| -> Vec<Spot> {
-        let tips = track[segment].iter();
-        tips.map(|tip| map.spot([tip.at.x, tip.at.y])).collect()
-    };
+    let spot = |tip: &Tip| map.spot([tip.at.x, tip.at.y]);
     let parts = |of: &[SegmentKind]| -> Vec<Vec<Spot>> {
-        let all = subject.plan.segments.iter().enumerate();
-        let wanted = all.filter(|(_, segment)| of.contains(&segment.kind));
-        wanted.map(|(k, _)| way(&subject.planned, k)).collect()
+        let all = subject.plan.segments.iter().zip(&subject.planned);
+        let wanted = all.filter(|(segment, _)| of.contains(&segment.kind));
+        wanted.map(|(_, way)| way.iter().map(spot).collect()).collect()
     };
     let between = parts(&[SegmentKind::Depart, SegmentKind::Transit, SegmentKind::Return]);
     let washes = parts(&[SegmentKind::Wash]);
@@ -179,11 +177,11 @@ fn ways(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
         &stroke(LIFT, 3.4),
     );
     if let Some((followed, _)) = seen_apart(subject) {
-        let executed: Vec<Vec<Spot>> = (0..followed.len()).map(|k| way(followed, k)).collect();
-        drawing.lines(&executed, &stroke(EXECUTED, 1.3));
+        let executed = followed.iter().flatten().map(spot).collect();
+        drawing.lines(&[executed], &stroke(EXECUTED, 1.3));
     }
-    if let Some(home) = subject.planned.first().and_then(|way| way.first()) {
-        drawing.circle(map.spot([home.at.x, home.at.y]), 7.0, &outlined(PAPER, INK, 2.6));
+    if let Some(home) = subject.planned.iter().flatten().next() {
+        drawing.circle(spot(home), 7.0, &outlined(PAPER, INK, 2.6));
     }
 }
 

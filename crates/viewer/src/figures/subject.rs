@@ -107,15 +107,10 @@ impl<'a> Subject<'a> {
         let stride = ((step / execution.period_s).round() as usize).max(1);
         let tips = Tips::new(self.plan, self.arm, &self.motion);
         let mut track: Track = vec![Vec::new(); self.plan.segments.len()];
-        let mut last = None;
         for sample in execution.samples.iter().step_by(stride).chain(execution.samples.last()) {
-            let tip = tips.of(&sample.state.q, sample.t_s);
             if let Some(way) = track.get_mut(sample.segment) {
-                // A way begins where the one before ends.
-                way.extend(last.filter(|_| way.is_empty()));
-                way.push(tip);
+                way.push(tips.of(&sample.state.q, sample.t_s));
             }
-            last = Some(tip);
         }
         self.followed = Some(checked(track)?);
         self.report = Some(report);

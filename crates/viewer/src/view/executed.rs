@@ -1,8 +1,7 @@
 //! What an arm did, however that is known: simulated, followed without a plant, recorded, or still to come.
 
-use platewash_kinematics::JointVector;
 use platewash_simulator::{Execution, SimulationReport};
-use platewash_workcell::recorded::RecordedMotion;
+use platewash_workcell::recorded::{RecordedMotion, RecordedSample};
 use platewash_workcell::simulation::ControlLawName;
 use platewash_workcell::trajectory::Trajectory;
 use serde::Serialize;
@@ -26,18 +25,8 @@ pub struct Executed {
     pub(super) law: Option<String>,
     pub(super) headline: Option<String>,
     pub(super) washed: Option<bool>,
-    pub(super) samples: Vec<ExecutedSample>,
+    pub(super) samples: Vec<RecordedSample>,
     pub(super) torque_limit_n_m: Option<[f64; 6]>,
-}
-
-/// A sample.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct ExecutedSample {
-    pub t_s: f64,
-    pub q: JointVector,
-    pub qd: JointVector,
-    pub qdd: Option<JointVector>,
-    pub torque: Option<JointVector>,
 }
 
 impl Executed {
@@ -45,21 +34,21 @@ impl Executed {
     #[must_use]
     pub fn simulated(execution: &Execution, report: &SimulationReport) -> Self {
         let driven = !report.law.is_kinematic();
-        let samples = execution.samples.iter().map(|sample| ExecutedSample {
+        let samples = execution.samples.iter().map(|sample| RecordedSample {
             t_s: sample.t_s,
             q: sample.state.q,
             qd: sample.state.qd,
-            qdd: Some(sample.qdd),
+            qdd: sample.qdd,
             torque: driven.then_some(sample.torque),
+            force_n: None,
         });
         Self {
-            source: Source::Simulated,
-            law: Some(report.law.name().to_owned()),
             headline: Some(report.headline.clone()),
             // Nothing is asked of a dry run that could be washed.
             washed: report.dry_run.is_none().then_some(report.verdict.is_done()),
             samples: samples.collect(),
             torque_limit_n_m: execution.limits.and_then(|limits| all(limits.0)),
+            ..Self::of(Source::Simulated, Some(report.law))
         }
     }
 
@@ -67,40 +56,28 @@ impl Executed {
     #[must_use]
     pub fn followed(motion: &Trajectory, law: ControlLawName, headline: &str, washed: bool) -> Self {
         let states = motion.times().iter().filter_map(|t_s| Some((*t_s, motion.at(*t_s)?)));
-        let samples = states.map(|(t_s, state)| ExecutedSample {
+        let samples = states.map(|(t_s, state)| RecordedSample {
             t_s,
             q: state.q,
             qd: state.qd,
-            qdd: Some(state.qdd),
+            qdd: state.qdd,
             torque: None,
+            force_n: None,
         });
         Self {
-            source: Source::Simulated,
-            law: Some(law.name().to_owned()),
             headline: Some(headline.to_owned()),
             washed: Some(washed),
             samples: samples.collect(),
-            torque_limit_n_m: None,
+            ..Self::of(Source::Simulated, Some(law))
         }
     }
 
     /// A recorded motion: nothing but its samples is known.
     #[must_use]
     pub fn recorded(motion: &RecordedMotion) -> Self {
-        let samples = motion.samples.iter().map(|sample| ExecutedSample {
-            t_s: sample.t_s,
-            q: sample.q,
-            qd: sample.qd,
-            qdd: Some(sample.qdd),
-            torque: sample.torque,
-        });
         Self {
-            source: Source::Recorded,
-            law: None,
-            headline: None,
-            washed: None,
-            samples: samples.collect(),
-            torque_limit_n_m: None,
+            samples: motion.samples.clone(),
+            ..Self::of(Source::Recorded, None)
         }
     }
 
@@ -108,12 +85,20 @@ impl Executed {
     #[must_use]
     pub fn live(law: ControlLawName, torque_limit_n_m: [Option<f64>; 6]) -> Self {
         Self {
-            source: Source::Live,
-            law: Some(law.name().to_owned()),
+            torque_limit_n_m: all(torque_limit_n_m),
+            ..Self::of(Source::Live, Some(law))
+        }
+    }
+
+    /// An execution of which nothing is known but where it comes from.
+    fn of(source: Source, law: Option<ControlLawName>) -> Self {
+        Self {
+            source,
+            law: law.map(|law| law.name().to_owned()),
             headline: None,
             washed: None,
             samples: Vec::new(),
-            torque_limit_n_m: all(torque_limit_n_m),
+            torque_limit_n_m: None,
         }
     }
 }

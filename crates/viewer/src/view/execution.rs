@@ -2,12 +2,13 @@
 
 use super::coverage::{self, PlateCoverage};
 use super::error::ViewError;
-use super::executed::{Executed, ExecutedSample, Source};
+use super::executed::{Executed, Source};
 use super::numbers::Numbers;
 use super::tips::{Tip, Tips};
 use platewash_certificate as proved;
 use platewash_kinematics::JointVector;
 use platewash_workcell::plan::Plan;
+use platewash_workcell::recorded::RecordedSample;
 use serde::Serialize;
 
 /// Time between two samples at least \[s\].
@@ -67,7 +68,7 @@ impl Execution {
             return Err(ViewError::BeyondEnd { end_s, plan_s, slack_s });
         }
         let shown = shown(samples, plan.job.plates.len());
-        let off_m = |sample: &&ExecutedSample| {
+        let off_m = |sample: &&RecordedSample| {
             let planned = tips.at(sample.t_s)?.at;
             Some((tips.of(&sample.q, sample.t_s).at - planned).norm())
         };
@@ -84,7 +85,7 @@ impl Execution {
             t_s: Numbers::f64(&shown.iter().map(|sample| sample.t_s).collect::<Vec<_>>()),
             q_rad: Numbers::f32_rows(shown.iter().map(|sample| &sample.q)),
             qd_rad_s: Numbers::f32_rows(shown.iter().map(|sample| &sample.qd)),
-            qdd_rad_s2: column(&shown, |sample| sample.qdd.as_ref()),
+            qdd_rad_s2: column(&shown, |sample| Some(&sample.qdd)),
             torque_n_m: column(&shown, |sample| sample.torque.as_ref()),
             torque_limit_n_m: executed.torque_limit_n_m,
             error_m: Numbers::f32(shown.iter().map(|sample| off_m(sample).unwrap_or(f64::NAN))),
@@ -94,7 +95,7 @@ impl Execution {
 }
 
 /// The samples that are shown.
-fn shown(samples: &[ExecutedSample], plates: usize) -> Vec<&ExecutedSample> {
+fn shown(samples: &[RecordedSample], plates: usize) -> Vec<&RecordedSample> {
     let most = MOST_SAMPLES[0] + MOST_SAMPLES[1] * plates;
     let [first_s, last_s] = [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.t_s));
     thinned(samples, LEAST_STEP_S.max((last_s - first_s) / (most - 1) as f64))
@@ -102,8 +103,8 @@ fn shown(samples: &[ExecutedSample], plates: usize) -> Vec<&ExecutedSample> {
 
 /// A column that is shown where every sample has it, and there are samples.
 fn column<'a>(
-    samples: &[&'a ExecutedSample],
-    of: impl Fn(&'a ExecutedSample) -> Option<&'a JointVector>,
+    samples: &[&'a RecordedSample],
+    of: impl Fn(&'a RecordedSample) -> Option<&'a JointVector>,
 ) -> Option<Numbers> {
     let rows: Option<Vec<&JointVector>> = samples.iter().map(|sample| of(sample)).collect();
     rows.filter(|rows| !rows.is_empty())
@@ -111,7 +112,7 @@ fn column<'a>(
 }
 
 /// The executed tip from one time to another \[s\], as the samples have it.
-fn way(samples: &[ExecutedSample], tips: &Tips<'_>, [from_s, to_s]: [f64; 2]) -> Vec<Tip> {
+fn way(samples: &[RecordedSample], tips: &Tips<'_>, [from_s, to_s]: [f64; 2]) -> Vec<Tip> {
     let first = samples.partition_point(|sample| sample.t_s < from_s);
     let last = samples.partition_point(|sample| sample.t_s <= to_s);
     let during = thinned(samples.get(first..last).unwrap_or_default(), WASH_STEP_S);
@@ -123,12 +124,12 @@ fn way(samples: &[ExecutedSample], tips: &Tips<'_>, [from_s, to_s]: [f64; 2]) ->
 
 /// The first sample, the last one, and those between that are at least so far apart in time \[s\]. Steps that come out a little
 /// short count as whole ones.
-fn thinned(samples: &[ExecutedSample], step_s: f64) -> Vec<&ExecutedSample> {
+fn thinned(samples: &[RecordedSample], step_s: f64) -> Vec<&RecordedSample> {
     let Some((last, before)) = samples.split_last() else {
         return Vec::new();
     };
     let mut next_s = f64::NEG_INFINITY;
-    let far_enough = |sample: &&ExecutedSample| {
+    let far_enough = |sample: &&RecordedSample| {
         let is_kept = sample.t_s >= next_s;
         if is_kept {
             next_s = sample.t_s + (1.0 - 1e-6) * step_s;

@@ -50,7 +50,7 @@ pub use tool::{Sponge, Tool};
 
 use platewash_certificate as proved;
 use platewash_kinematics::{JointVector, Pose as Rigid, RobotModel};
-use platewash_workcell::job::WashJob;
+use platewash_workcell::job::{JobTerms, WashJob};
 use platewash_workcell::layout::TaskRegion;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::tool as held;
@@ -127,35 +127,23 @@ impl View {
         job.validate()?;
         let motion = plan.knots.motion()?;
         let start = motion.positions().first().ok_or(ViewError::NoMotion)?;
-        let (workcell, mount) = (&job.workcell, &job.workcell.mount);
         let tips = Tips::new(plan, robot, &motion);
         let execution = beside.executed;
         let execution = execution.map(|executed| Execution::new(executed, plan, &tips, certificate));
-        let plates = job.plates.iter().enumerate();
+        let region = beside.region.cloned().unwrap_or_default();
         Ok(Self {
-            format: FORMAT,
-            version: env!("CARGO_PKG_VERSION"),
             heading: Heading::of_plan(plan),
             certificate: certificate.map(Certificate::new),
-            arm: Arm::new(
-                robot,
-                mount,
-                &workcell.tool.mounting_frame(robot),
-                Some(job.limits.joint_acceleration_rad_s2),
-            ),
-            tool: Some((&workcell.tool).into()),
-            surroundings: Surroundings::new(&workcell.obstacles, beside.region.unwrap_or(&TaskRegion::default())),
-            plates: plates.map(|(index, plate)| Plate::new(index, plate)).collect(),
             paths: plates::paths(plan, &tips),
             segments: plan.segments.iter().map(Segment::from).collect(),
             motion: Some((&motion).into()),
-            pose_rad: (*start).into(),
             clearance: Clearance::new(plan, robot, &motion, certificate),
             coverage: coverage::plates(plan, certificate, |[from, to]| tips.during(from, to)),
             execution: execution.transpose()?,
             live: beside.events.map(|events| Live {
                 events: events.to_owned(),
             }),
+            ..Self::of_terms(job, robot, &region, start)
         })
     }
 
@@ -163,20 +151,23 @@ impl View {
     #[must_use]
     pub fn of_job(job: &WashJob, region: &TaskRegion) -> Self {
         let terms = job.terms();
+        Self {
+            heading: Heading::of_job(job),
+            ..Self::of_terms(terms, job.arm(), region, &terms.home_rad[0])
+        }
+    }
+
+    /// The arm of a job in a configuration \[rad\], among the plates and whatever stands around.
+    fn of_terms(terms: &JobTerms, robot: &RobotModel, region: &TaskRegion, q: &JointVector) -> Self {
         let workcell = &terms.workcell;
+        let flange = workcell.tool.mounting_frame(robot);
         let accelerations = Some(terms.limits.joint_acceleration_rad_s2);
         let plates = terms.plates.iter().enumerate();
         Self {
-            heading: Heading::of_job(job),
-            arm: Arm::new(
-                job.arm(),
-                &workcell.mount,
-                &workcell.tool.mounting_frame(job.arm()),
-                accelerations,
-            ),
+            arm: Arm::new(robot, &workcell.mount, &flange, accelerations),
             surroundings: Surroundings::new(&workcell.obstacles, region),
             plates: plates.map(|(index, plate)| Plate::new(index, plate)).collect(),
-            ..Self::of_configuration(job.arm(), Some(&workcell.tool), &terms.home_rad[0])
+            ..Self::of_configuration(robot, Some(&workcell.tool), q)
         }
     }
 
