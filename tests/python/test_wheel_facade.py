@@ -48,6 +48,7 @@ PYTHON = {
     "simulate": "simulate",
     "tune": "tune",
     "WashReport": "Planned.report",
+    "paper_spirals": "Plan.figure",
     "SWEEP_HEADER": None,  # the columns are the records' keys
     "SweepRow": "sweep",
     "sweep": "sweep",
