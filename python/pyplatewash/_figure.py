@@ -34,9 +34,27 @@ class Figure:
         return f"Figure({max(round(len(self.svg) / 1e3), 1)} kB)"
 
 
-def figure(plan: _core.Plan, kind: Any, of: tuple[Any, Any, Any, Any]) -> Figure:
-    """What ``Plan.figure`` says, of an execution, a certificate, a scenario and an arm."""
-    execution, *others = of
+def figure(
+    self: _core.Plan,
+    kind: Any = "layout",
+    *,
+    execution: Any = None,
+    certificate: Any = None,
+    scenario: Any = None,
+    robot: Any = None,
+) -> Figure:
+    """A figure of the plan in SVG, which a notebook shows in the cell whose last line it is.
+
+    ``kind`` is ``"layout"`` (from above), ``"joints"`` (joints, tip and clearance over time), ``"coverage"`` (for how long the sponge is
+    over each place of a plate) or ``"spiral"`` (what the tip was to follow, and what it followed). The command's ``figures`` draws the
+    same.
+
+    ``execution`` is drawn beside the plan; ``"spiral"`` simulates the plan with its own settings where there is none. ``certificate`` is
+    named, else the figure says that nothing is proved. With ``scenario`` the layout shows where plates are drawn. ``robot`` is the arm, by
+    default the one that the plan was made for.
+
+    Raises InputError for what does not belong to the plan and for a figure that is none; ProveError for a plan whose arm must be given.
+    """
     if execution is None and isinstance(kind, str) and kind == "spiral":
-        execution = _core.simulate(plan, of[3])
-    return Figure(_core._plan_figure(plan, kind, (execution, *others)))
+        execution = _core.simulate(self, robot)
+    return Figure(_core._plan_figure(self, kind, (execution, certificate, scenario, robot)))

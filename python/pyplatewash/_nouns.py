@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import _core, _page, _tables
+from . import _core, _figure, _page, _tables
 
 _TABLES: dict[type, Any] = {
     _core.Certificate: _tables.certificate,
@@ -20,6 +20,7 @@ _TABLES: dict[type, Any] = {
 _WITHOUT_TABLE = (_core.ClearanceModel, _core.DynamicsModel, _core.Scenario, _core.SimulationSettings, _core.Trajectory)
 #: Methods that Python's side of the package carries out.
 _METHODS: tuple[tuple[type, str, Any], ...] = (
+    (_core.Plan, "figure", _figure.figure),
     (_core.Plan, "show", _page.show),
     (_core.Plan, "view", _page.view),
     (_core.Robot, "show", _page.show_configuration),

@@ -369,31 +369,6 @@ impl PlanObject {
         py.import("json")?.getattr("loads")?.call1((message.text,))
     }
 
-    /// A figure of the plan in SVG, which a notebook shows in the cell whose last line it is: `"layout"` (from above), `"joints"` (joints,
-    /// tip and clearance over time), `"coverage"` (for how long the sponge is over each place of a plate) or `"spiral"` (what the tip was to
-    /// follow, and what it followed). The command's `figures` draws the same.
-    ///
-    /// `execution` is drawn beside the plan; `"spiral"` simulates the plan with its own settings where there is none. `certificate` is
-    /// named, else the figure says that nothing is proved. With `scenario` the layout shows where plates are drawn. `robot` is the arm, by
-    /// default the one that the plan was made for.
-    ///
-    /// Raises InputError for what does not belong to the plan and for a figure that is none; ProveError for a plan whose arm must be given.
-    #[pyo3(
-        signature = (kind=None, *, execution=None, certificate=None, scenario=None, robot=None),
-        text_signature = "($self, kind='layout', *, execution=None, certificate=None, scenario=None, robot=None)"
-    )]
-    fn figure<'py>(
-        slf: &Bound<'py, Self>,
-        kind: Option<&Bound<'py, PyAny>>,
-        execution: Option<&Bound<'py, PyAny>>,
-        certificate: Option<&Bound<'py, PyAny>>,
-        scenario: Option<&Bound<'py, PyAny>>,
-        robot: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let of = (execution, certificate, scenario, robot);
-        ask(slf.py(), "_figure", "figure", (slf, kind, of))
-    }
-
     /// The motion of the plan in the air, `height_m` above its plates [m] with the tip nowhere faster than `speed_m_s` [m/s]: the same
     /// plates in the same order with the same wash paths, planned as a plan of its own, which names this one by its hash. This plan is
     /// proved first; the one that is made is not: see `prove`. `robot` is the arm, by default the one that the plan was made for.
