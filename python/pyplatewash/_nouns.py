@@ -27,17 +27,29 @@ _METHODS: tuple[tuple[type, str, Any], ...] = (
 )
 
 
-def _itself(noun: Any, _memo: Any = None) -> Any:
-    return noun
+def _copy(self: Any) -> Any:
+    return self
+
+
+def _deepcopy(self: Any, _memo: Any) -> Any:
+    return self
+
+
+def _shown_by(table: Any) -> Any:
+    def _repr_html_(self: Any) -> str:
+        text: str = table(self)
+        return text
+
+    return _repr_html_
 
 
 def finish() -> None:
     """Gives the nouns what they share."""
     for noun in (*_TABLES, *_WITHOUT_TABLE):
-        for name in ("__copy__", "__deepcopy__"):
-            setattr(noun, name, _itself)
+        setattr(noun, "__copy__", _copy)
+        setattr(noun, "__deepcopy__", _deepcopy)
     for noun, table in _TABLES.items():
-        setattr(noun, "_repr_html_", table)
+        setattr(noun, "_repr_html_", _shown_by(table))
     for noun, name, method in _METHODS:
         method.__name__, method.__qualname__ = name, f"{noun.__name__}.{name}"
         setattr(noun, name, method)
