@@ -13,7 +13,6 @@ import { Disk } from "./disk.ts";
 import { Drawings } from "./drawings.ts";
 import { Form } from "./form.ts";
 import { FrameChannel } from "./frame.ts";
-import type { EditHandle } from "./handle.ts";
 import { HttpChannel } from "./http.ts";
 import { keptToken, takeToken } from "./token.ts";
 import { listenToEditKeys } from "./edit-keys.ts";
@@ -27,6 +26,7 @@ import { TextPanel } from "./text-panel.ts";
 import { BROWSER_TIME } from "./time.ts";
 import { Toolbar } from "./toolbar.ts";
 import { editVerdict } from "./verdict.ts";
+import type { Edit } from "./version.ts";
 
 export interface EditorHost {
   scene(): EditedScene;
@@ -138,22 +138,30 @@ export class Editor {
     this.#drawings.drawn(now, !this.#changed);
   }
 
-  get handle(): EditHandle {
+  /** `window.platewash.edit`: the live cell in the hands of a test. */
+  get handle() {
     const cell = this.#cell;
     return {
+      /** The scenario as far as it is written out, and whether it is. */
       text: () => cell.text,
       written: () => cell.version.edits.length === 0,
       state: () => cell.state,
       verdict: () => cell.standing,
+      /** False where there is nothing to take back. */
       undo: () => cell.undo(),
       redo: () => cell.redo(),
-      change: (edits) => cell.change(edits, "Change"),
+      /** As a change of the form: one step. */
+      change: (edits: readonly Edit[]) => cell.change(edits, "Change"),
       save: () => this.#save(),
       unsaved: () => this.#disk.unsaved,
-      centres: () => cell.centres.map(([x, y]) => [x, y]),
+      /** Where plates are [m]. */
+      centres: () => structuredClone(cell.centres),
       selected: () => this.#commands.selected,
+      /** Where plates that stand in the way could lie [m]. */
       ghosts: () => cell.answers.places.flatMap(({ plate, nearest_m }) => (nearest_m === null ? [] : [{ plate, centre_m: nearest_m }])),
+      /** The last questions. */
       timings: () => cell.timings,
+      /** Everything was answered and drawn. */
       settled: () => this.#drawings.settled(),
     };
   }

@@ -29,7 +29,7 @@ export class Timings {
   }
 
   list(): Timing[] {
-    return this.#list.map((timing) => ({ ...timing, ms: { ...timing.ms } }));
+    return structuredClone(this.#list);
   }
 }
 
