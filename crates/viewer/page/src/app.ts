@@ -4,7 +4,6 @@ import { Controls } from "./controls.ts";
 import { Editor } from "./edit/editor.ts";
 import { PLATE_KEYS } from "./edit/plate-keys.ts";
 import type { EditDocument } from "./edit/protocol.ts";
-import { NO_SCENE } from "./edit/scene.ts";
 import { Feed } from "./feed.ts";
 import { quantity } from "./format.ts";
 import { handleOf, type Handle } from "./handle.ts";
@@ -154,7 +153,7 @@ export class App {
   #makeEditor(edit: EditDocument, view: View): Editor {
     const { canvas, scene } = this.#stage;
     return new Editor(edit, view, {
-      scene: () => scene ?? NO_SCENE,
+      edit: (actions) => scene?.edit(actions) ?? null,
       size: () => [canvas.clientWidth, canvas.clientHeight],
       replace: (next) => this.replace(next),
       say: (said) => this.#header.say(said),

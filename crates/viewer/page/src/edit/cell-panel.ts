@@ -1,8 +1,8 @@
 /** The panel of the cell: what can be done with it, and its plates. */
 import { button, el, isolated } from "../shell/dom.ts";
 import type { Cell } from "./cell.ts";
-import type { Selected } from "./moves.ts";
-import type { Centre } from "./placing.ts";
+import type { Selection } from "../scene/editing.ts";
+import type { Centre } from "../scene/grab.ts";
 import { plateState } from "./plate-state.ts";
 import { Rows, type RowActions } from "./rows.ts";
 
@@ -36,7 +36,7 @@ export class CellPanel {
     this.element = el("div", { class: "cell-panel" }, this.#standing, this.#findings, this.#map, this.rows.element, el("div", { class: "edit-tools" }, add, this.#all), this.#hint);
   }
 
-  show(cell: Cell, selected: Selected, mapWords: string | null): void {
+  show(cell: Cell, selected: Selection, mapWords: string | null): void {
     const { seen, answers, centres } = cell;
     const now = [seen.drawn, cell.standing.words, answers, centres, selected, mapWords, seen.preview];
     if (now.every((one, k) => one === this.#shown[k])) return;

@@ -2,13 +2,14 @@
 import { announce } from "../shell/announcer.ts";
 import type { View } from "../view.ts";
 import type { Cell } from "./cell.ts";
-import { onFloor, plateIndices, roomFor, shifted, turned, type Selected } from "./moves.ts";
-import type { Centre } from "./placing.ts";
-import type { EditedScene, Hands, Phase } from "./scene.ts";
+import { onFloor, plateIndices, roomFor, shifted, turned } from "./moves.ts";
+import type { Centre } from "../scene/grab.ts";
+import type { EditActions, Editing, Selection } from "../scene/editing.ts";
+import type { Phase } from "../scene/handles.ts";
 
-export class Commands implements Hands {
+export class Commands implements EditActions {
   readonly #cell: Cell;
-  readonly #scene: () => EditedScene;
+  readonly #scene: () => Editing | null;
   /** Of the canvas [CSS px]. */
   readonly #size: () => Centre;
   /** The axis that plates are turned about, seen from above [m]. */
@@ -17,9 +18,9 @@ export class Commands implements Hands {
   readonly #say: (words: string) => void;
   /** The body that is selected among those that stand around. */
   #body: number | null = null;
-  #selected: Selected = null;
+  #selected: Selection = null;
 
-  constructor(cell: Cell, view: () => View, scene: () => EditedScene, size: () => Centre, changed: () => void, say: (words: string) => void) {
+  constructor(cell: Cell, view: () => View, scene: () => Editing | null, size: () => Centre, changed: () => void, say: (words: string) => void) {
     this.#cell = cell;
     this.#scene = scene;
     this.#size = size;
@@ -36,15 +37,15 @@ export class Commands implements Hands {
     return this.#selected !== null || this.#body !== null;
   }
 
-  get selected(): Selected {
+  get selected(): Selection {
     return this.#selected;
   }
 
-  select(plate: Selected): void {
+  select(plate: Selection): void {
     if (plate !== null) this.selectBody(null);
     if (plate === this.#selected) return;
     this.#selected = plate;
-    this.#scene().select(plate);
+    this.#scene()?.select(plate);
     this.#changed();
   }
 
@@ -57,7 +58,7 @@ export class Commands implements Hands {
       this.select(null);
       announce(`${this.#nameOf(body)} selected: drag it, or move it with the arrow keys`);
     }
-    this.#scene().selectBody(body);
+    this.#scene()?.selectBody(body);
     this.#changed();
   }
 
@@ -78,7 +79,7 @@ export class Commands implements Hands {
     return words === null;
   }
 
-  move(to: { plates: number[]; centres_m: Centre[] }, phase: "start" | "drag" | "end" | "cancel"): void {
+  move(to: { plates: number[]; centres_m: Centre[] }, phase: Phase): void {
     if (phase === "cancel") return this.#cell.cancelDrag();
     const centres = this.#cell.centres.map((centre, k): Centre => to.centres_m[to.plates.indexOf(k)] ?? centre);
     if (phase !== "start") this.#cell.drag(centres);
@@ -171,7 +172,7 @@ export class Commands implements Hands {
   /** Where upwards on the screen points, seen from above; along x where there is no scene. */
   #ahead(): Centre {
     const [width, height] = this.#size();
-    const [from, to] = [0.52, 0.48].map((share) => this.#scene().toPlane(0.5 * width, share * height, 0));
+    const [from, to] = [0.52, 0.48].map((share) => this.#scene()?.toPlane(0.5 * width, share * height, 0));
     return from && to ? [to[0] - from[0], to[1] - from[1]] : [1, 0];
   }
 

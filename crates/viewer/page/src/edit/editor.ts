@@ -2,6 +2,7 @@
 import { announce } from "../shell/announcer.ts";
 import { byId } from "../shell/dom.ts";
 import type { Panel } from "../shell/panels.ts";
+import type { EditActions, Editing } from "../scene/editing.ts";
 import type { Verdict } from "../verdict.ts";
 import type { View } from "../view.ts";
 import { ConflictBar } from "./bar.ts";
@@ -19,7 +20,6 @@ import { listenToEditKeys } from "./edit-keys.ts";
 import { MapAsker } from "./map.ts";
 import { plateKey } from "./plate-keys.ts";
 import type { EditDocument } from "./protocol.ts";
-import type { EditedScene } from "./scene.ts";
 import { CellShown } from "./shown.ts";
 import { Keeper, tabStore } from "./storage.ts";
 import { TextPanel } from "./text-panel.ts";
@@ -29,7 +29,8 @@ import { editVerdict } from "./verdict.ts";
 import type { Edit } from "./version.ts";
 
 export interface EditorHost {
-  scene(): EditedScene;
+  /** Lets hands move plates in the scene; null where there is none. */
+  edit(actions: EditActions): Editing | null;
   /** Of the scene's canvas [CSS px]. */
   size(): [number, number];
   replace(view: View): void;
@@ -52,6 +53,7 @@ export class Editor {
   readonly #shown: CellShown;
   readonly #commands: Commands;
   readonly #map: MapAsker;
+  #scene: Editing | null = null;
   readonly #drawings: Drawings;
   readonly #toolbar: Toolbar;
   readonly #cellPanel: CellPanel;
@@ -85,9 +87,9 @@ export class Editor {
       notice: (words) => this.#say(words),
       changed: touch,
     });
-    this.#shown = new CellShown(view, () => host.scene(), (next) => host.replace(next));
-    this.#commands = new Commands(this.#cell, () => this.#shown.view, () => host.scene(), () => host.size(), touch, (words) => this.#say(words));
-    this.#map = new MapAsker(channel, session, () => host.scene(), touch);
+    this.#shown = new CellShown(view, () => this.#scene, (next) => host.replace(next));
+    this.#commands = new Commands(this.#cell, () => this.#shown.view, () => this.#scene, () => host.size(), touch, (words) => this.#say(words));
+    this.#map = new MapAsker(channel, session, () => this.#scene, touch);
     this.#drawings = new Drawings(this.#cell);
     this.#toolbar = new Toolbar({ undo: () => this.#travel("Undone"), redo: () => this.#travel("Done again"), save: () => this.#save() });
     this.#cellPanel = new CellPanel(this.#panelActions());
@@ -104,7 +106,7 @@ export class Editor {
   /** Begins: asks about the scenario, and listens to hands and keys. */
   start(canvas: HTMLCanvasElement): void {
     document.documentElement.dataset["editing"] = "";
-    this.#host.scene().edit(this.#commands);
+    this.#scene = this.#host.edit(this.#commands);
     byId("panels").prepend(this.#toolbar.element);
     listenToEditKeys(canvas, {
       undo: () => this.#travel("Undone"),

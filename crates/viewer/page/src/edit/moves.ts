@@ -1,15 +1,11 @@
 /** Where plates go when they are shifted, turned, added. */
-import type { Centre } from "./placing.ts";
+import type { Selection } from "../scene/editing.ts";
+import { stepped, turnedAbout, type Centre } from "../scene/grab.ts";
 
 /** Digits that are kept of a place [m]: a micrometre. */
 const PLACE = 1e6;
-/** Of one that was turned: a tenth of a millimetre. */
-const TURNED = 1e4;
 
-/** The plates that are meant: one, or all. */
-export type Selected = number | "all" | null;
-
-export function plateIndices(selected: Selected, count: number): number[] {
+export function plateIndices(selected: Selection, count: number): number[] {
   if (selected === "all") return Array.from({ length: count }, (_, k) => k);
   return selected !== null && selected < count ? [selected] : [];
 }
@@ -18,11 +14,9 @@ function moved(centres: readonly Centre[], plates: readonly number[], to: (centr
   return centres.map((centre, k) => (plates.includes(k) ? to(centre) : centre));
 }
 
-const round = (value: number, digits: number): number => Math.round(value * digits) / digits + 0;
-
 export function shifted(centres: readonly Centre[], plates: readonly number[], dx: number, dy: number): Centre[] {
   // A coordinate that does not change keeps all its digits.
-  const by = (value: number, step: number): number => (step === 0 ? value : round(value + step, PLACE));
+  const by = (value: number, step: number): number => (step === 0 ? value : stepped(value + step, PLACE));
   return moved(centres, plates, ([x, y]) => [by(x, dx), by(y, dy)]);
 }
 
@@ -39,11 +33,7 @@ export function onFloor(right_m: number, up_m: number, ahead: Centre): Centre {
 
 /** Turned about an upright axis, counter-clockwise seen from above. */
 export function turned(centres: readonly Centre[], plates: readonly number[], axis: Centre, angle_rad: number): Centre[] {
-  const [cos, sin] = [Math.cos(angle_rad), Math.sin(angle_rad)];
-  return moved(centres, plates, ([x, y]) => {
-    const [dx, dy] = [x - axis[0], y - axis[1]];
-    return [round(axis[0] + cos * dx - sin * dy, TURNED), round(axis[1] + sin * dx + cos * dy, TURNED)];
-  });
+  return moved(centres, plates, (centre) => turnedAbout(centre, axis, angle_rad));
 }
 
 /** A place for one more plate: the nearest to the axis that touches no plate; beside the farthest where there is none. */
@@ -53,9 +43,9 @@ export function roomFor(centres: readonly Centre[], radius_m: number, axis: Cent
     for (let k = 0; k < 24; k++) {
       // From the front alternately to either side.
       const angle = (k % 2 === 0 ? -1 : 1) * Math.ceil(k / 2) * (Math.PI / 12);
-      const [x, y] = [round(axis[0] + ring * Math.cos(angle), 1e3), round(axis[1] + ring * Math.sin(angle), 1e3)];
+      const [x, y] = [stepped(axis[0] + ring * Math.cos(angle), 1e3), stepped(axis[1] + ring * Math.sin(angle), 1e3)];
       if (centres.every((one) => Math.hypot(one[0] - x, one[1] - y) > apart)) return [x, y];
     }
   }
-  return [round(axis[0] + keepOff_m + 20 * apart, 1e3), axis[1]];
+  return [stepped(axis[0] + keepOff_m + 20 * apart, 1e3), axis[1]];
 }

@@ -1,16 +1,14 @@
 /** Places of plates and of what stands around, as changes of the scenario. */
+import { stepped, type Centre } from "../scene/grab.ts";
 import type { BodyMove, PlateMoves } from "./protocol.ts";
 import type { Edit } from "./version.ts";
-
-/** Of a plate or a body, seen from above [m]. */
-export type Centre = [number, number];
 
 export const POSITIONS = "layout.positions_m";
 
 /** Digits of a coordinate that follows another [1/m]. */
 const DIGITS = 1e9;
 
-const follow = (value: number, from: number, to: number): number => (from === to ? value : Math.round((value + to - from) * DIGITS) / DIGITS + 0);
+const follow = (value: number, from: number, to: number): number => (from === to ? value : stepped(value + to - from, DIGITS));
 
 const follow2 = (at: Centre, from: Centre, to: Centre): Centre => [follow(at[0], from[0], to[0]), follow(at[1], from[1], to[1])];
 

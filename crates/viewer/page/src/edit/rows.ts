@@ -4,8 +4,8 @@ import { button, el, isolated, TextCell } from "../shell/dom.ts";
 import { icon, toneIcon } from "../shell/icons.ts";
 import type { Tone } from "../verdict.ts";
 import { numberText, readNumber } from "./domain.ts";
-import type { Selected } from "./moves.ts";
-import type { Centre } from "./placing.ts";
+import type { Selection } from "../scene/editing.ts";
+import type { Centre } from "../scene/grab.ts";
 import type { PlateState } from "./plate-state.ts";
 
 export interface RowActions {
@@ -149,7 +149,7 @@ export class Rows {
   }
 
   /** Shows every plate. Rows stay what they are, and with them focus and what is being typed. */
-  show(list: readonly RowShown[], selected: Selected): void {
+  show(list: readonly RowShown[], selected: Selection): void {
     while (this.#rows.length > list.length) this.#rows.pop()?.element.remove();
     while (this.#rows.length < list.length) {
       const row = new Row(this.#rows.length, this.#actions);

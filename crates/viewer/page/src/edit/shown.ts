@@ -2,15 +2,15 @@
 import type { View } from "../view.ts";
 import type { Answers, CellDrawn, PlanLine, ProofLine } from "./answers.ts";
 import type { Cell } from "./cell.ts";
-import type { Centre } from "./placing.ts";
-import type { EditedScene } from "./scene.ts";
+import type { Centre } from "../scene/grab.ts";
+import type { Editing } from "../scene/editing.ts";
 import { ViewMaker } from "./view.ts";
 
 /** For how long the film of before stays while a plan is waited for [ms]. */
 const PATIENCE_MS = 600;
 
 export class CellShown {
-  readonly #scene: () => EditedScene;
+  readonly #scene: () => Editing | null;
   readonly #replace: (view: View) => void;
   readonly #maker: ViewMaker;
   #view: View;
@@ -24,7 +24,7 @@ export class CellShown {
   #unplanned: Answers["unplanned"] = null;
   #places: Answers["places"] = [];
 
-  constructor(first: View, scene: () => EditedScene, replace: (view: View) => void) {
+  constructor(first: View, scene: () => Editing | null, replace: (view: View) => void) {
     this.#view = first;
     this.#maker = new ViewMaker(first);
     this.#scene = scene;
@@ -70,32 +70,32 @@ export class CellShown {
   #updatePlaces(cell: Cell): void {
     if (cell.put !== this.#put) {
       this.#put = cell.put;
-      this.#scene().previewBody(cell.put);
+      this.#scene()?.previewBody(cell.put);
     }
     const elsewhere = cell.centres.length === this.#view.plates.length && cell.centres.some((centre, k) => !isAt(this.#view, k, centre));
     const centres = elsewhere ? cell.centres : null;
     if (centres === this.#centres) return;
     this.#centres = centres;
-    this.#scene().preview(centres === null ? null : centres.map(([x, y]) => [x, y]));
+    this.#scene()?.preview(centres === null ? null : centres.map(([x, y]) => [x, y]));
   }
 
   #updateWords(cell: Cell): void {
     const { answers, seen, dragging } = cell;
     if (seen.preview !== this.#chances) {
       this.#chances = seen.preview;
-      this.#scene().chances(seen.preview?.plates ?? null);
+      this.#scene()?.chances(seen.preview?.plates ?? []);
     }
     const unplanned = dragging ? null : answers.unplanned;
     if (unplanned !== this.#unplanned) {
       this.#unplanned = unplanned;
-      this.#scene().offending(unplanned?.plates.map(({ plate, free_m, dead_m }) => ({ plate, free_m, dead_m })) ?? []);
-      if (unplanned !== null) this.#scene().chances(unplanned.plates.map(({ plate, proved }) => ({ plate, chance: proved ? "unwashable" : "unclear" })));
-      else if (seen.preview === null) this.#scene().chances(null);
+      this.#scene()?.offending(unplanned?.plates.map(({ plate, free_m, dead_m }) => ({ plate, free_m, dead_m })) ?? []);
+      if (unplanned !== null) this.#scene()?.chances(unplanned.plates.map(({ plate, proved }) => ({ plate, chance: proved ? "unwashable" : "unclear" })));
+      else if (seen.preview === null) this.#scene()?.chances([]);
     }
     const places = unplanned === null ? NONE : answers.places;
     if (places === this.#places) return;
     this.#places = places;
-    this.#scene().ghosts(places.flatMap(({ plate, nearest_m }) => (nearest_m === null ? [] : [{ plate, centre_m: nearest_m }])));
+    this.#scene()?.ghosts(places.flatMap(({ plate, nearest_m }) => (nearest_m === null ? [] : [{ plate, centre_m: nearest_m }])));
   }
 }
 

@@ -155,9 +155,4 @@ export class Content {
       default: return [];
     }
   }
-
-  dispose(): void {
-    this.plates.dispose();
-    this.#bodies.dispose();
-  }
 }

@@ -25,7 +25,7 @@ const FINE_RAD = Math.PI / 3600;
 const FARTHEST_M = 10;
 
 /** `value` on a raster of so many steps a unit: a quotient, so that tenths of millimetres are the decimal numbers that they look like. */
-function stepped(value: number, per_unit: number): number {
+export function stepped(value: number, per_unit: number): number {
   return Math.round(value * per_unit) / per_unit + 0;
 }
 
@@ -54,13 +54,14 @@ export function turnOf(about: Centre, from: Centre, to: Centre, fine: boolean): 
 
 function turned({ starts_m, from_m }: Grab, about: Centre, to: Centre, fine: boolean): Centre[] {
   const angle = turnOf(about, from_m, to, fine);
-  if (angle === 0) return starts_m.map(([x, y]) => [x, y]);
-  const [c, s] = [Math.cos(angle), Math.sin(angle)];
+  return starts_m.map((centre) => (angle === 0 ? [...centre] : turnedAbout(centre, about, angle)));
+}
+
+/** A centre turned about an upright axis, counter-clockwise seen from above, to a tenth of a millimetre. */
+export function turnedAbout([x, y]: Centre, axis: Centre, angle_rad: number): Centre {
+  const [c, s, dx, dy] = [Math.cos(angle_rad), Math.sin(angle_rad), x - axis[0], y - axis[1]];
   const per_m = Math.round(1 / FINE_M);
-  return starts_m.map(([x, y]) => {
-    const [dx, dy] = [x - about[0], y - about[1]];
-    return [stepped(about[0] + c * dx - s * dy, per_m), stepped(about[1] + s * dx + c * dy, per_m)];
-  });
+  return [stepped(axis[0] + c * dx - s * dy, per_m), stepped(axis[1] + s * dx + c * dy, per_m)];
 }
 
 /** Where the plates' centres get to with the pointer at `to`; null where that is nowhere. */

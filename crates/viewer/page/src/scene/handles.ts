@@ -1,4 +1,5 @@
 /** Hands on the scene: pointers that press, drag and let go of plates, ghosts and the ring. */
+import type { Editing } from "./editing.ts";
 import { carried, type Centre, type Grab } from "./grab.ts";
 
 /** What a pointer is over. */
@@ -8,24 +9,7 @@ export type Picked = { kind: "plate" | "ghost"; plate: number } | { kind: "ring"
 export type Phase = "start" | "drag" | "end" | "cancel";
 
 /** What is done with what hands do. Places on the canvas are CSS pixels from its upper left corner. */
-export interface Touched {
-  pick(x: number, y: number, coarse: boolean): Picked | null;
-  /** Brings out what the pointer is over. */
-  hover(picked: Picked | null): void;
-  /** What is held where something is pressed; null where that does not move. */
-  grab(picked: Picked, x: number, y: number): { grab: Grab; height_m: number } | null;
-  /** Where a place on the canvas is in a level plane [m]; null where it is not in it. */
-  toPlane(x: number, y: number, height_m: number): Centre | null;
-  /** What is held begins to move; whether it may. */
-  begin(grab: Grab): boolean;
-  carry(grab: Grab, centres_m: readonly Centre[], phase: Phase): void;
-  /** Something was pressed: null for nothing. */
-  press(picked: Picked | null): void;
-  /** It was pressed and let go without having been moved. */
-  click(picked: Picked | null): void;
-  /** Whether the camera may be turned. */
-  setCamera(free: boolean): void;
-}
+type Touched = Pick<Editing, "pick" | "hover" | "grab" | "toPlane" | "begin" | "carry" | "press" | "click" | "setCamera">;
 
 /** Way of a pointer up to which it has not moved [CSS px]. */
 const STILL_PX = 4;
@@ -43,21 +27,19 @@ interface Held {
 export class Handles {
   readonly #canvas: HTMLCanvasElement;
   readonly #touched: Touched;
-  readonly #off = new AbortController();
   #held: Held | null = null;
 
   constructor(canvas: HTMLCanvasElement, touched: Touched) {
     this.#canvas = canvas;
     this.#touched = touched;
-    const { signal } = this.#off;
     // Before the camera's own, which is asked not to turn.
-    canvas.addEventListener("pointerdown", this.#down, { capture: true, signal });
-    canvas.addEventListener("pointermove", this.#move, { capture: true, signal });
-    canvas.addEventListener("pointerup", this.#up, { capture: true, signal });
-    canvas.addEventListener("pointercancel", this.#lost, { capture: true, signal });
-    canvas.addEventListener("lostpointercapture", this.#lost, { capture: true, signal });
-    canvas.addEventListener("pointerleave", this.#leave, { signal });
-    window.addEventListener("keydown", this.#key, { capture: true, signal });
+    canvas.addEventListener("pointerdown", this.#down, { capture: true });
+    canvas.addEventListener("pointermove", this.#move, { capture: true });
+    canvas.addEventListener("pointerup", this.#up, { capture: true });
+    canvas.addEventListener("pointercancel", this.#lost, { capture: true });
+    canvas.addEventListener("lostpointercapture", this.#lost, { capture: true });
+    canvas.addEventListener("pointerleave", this.#leave);
+    window.addEventListener("keydown", this.#key, { capture: true });
   }
 
   /** Whether plates are being dragged. */
@@ -160,11 +142,5 @@ export class Handles {
     const picked = this.#touched.pick(...this.#place(event), event.pointerType !== "mouse");
     this.#touched.hover(picked);
     this.#canvas.style.cursor = picked === null ? "" : picked.kind === "ghost" || picked.kind === "body" ? "pointer" : "grab";
-  }
-
-  dispose(): void {
-    this.cancel();
-    this.#off.abort();
-    this.#canvas.style.cursor = "";
   }
 }

@@ -1,36 +1,24 @@
 /** The workcell in three dimensions: all that is drawn of a document at a moment. */
 import { Mesh, MeshBasicMaterial, PerspectiveCamera, Ray, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import type { Chance } from "../edit/protocol.ts";
 import type { Theme } from "../palette.ts";
 import type { View } from "../view.ts";
 import { ClearanceLine, type Nearest } from "./clearance.ts";
 import { Content } from "./content.ts";
-import { Editing, type EditActions, type Selection } from "./editing.ts";
-import type { GhostPlace } from "./ghost.ts";
-import type { Centre } from "./grab.ts";
+import { Editing, type EditActions } from "./editing.ts";
 import { Haste } from "./haste.ts";
 import { LABELS, LAYERS, type Layer } from "./layers.ts";
-import type { MapPatch } from "./map.ts";
 import { Mark } from "./mark.ts";
 import { PALETTES } from "./palette.ts";
-import { onPlane } from "./pick.ts";
 import type { CoverageKind } from "./plates.ts";
-import { disposeTree } from "./pose.ts";
 import { Retired } from "./retired.ts";
 import { Stage } from "./stage.ts";
 import { Studio } from "./studio.ts";
 import { PRESETS, Views, type Preset } from "./views.ts";
-import type { Offending } from "./washability.ts";
 
-export type { EditActions, Selection } from "./editing.ts";
-export type { GhostPlace } from "./ghost.ts";
-export type { Centre } from "./grab.ts";
 export type { Layer } from "./layers.ts";
-export type { MapPatch } from "./map.ts";
 export { SceneError } from "./stage.ts";
 export type { Preset } from "./views.ts";
-export type { Offending } from "./washability.ts";
 
 /** A moment. */
 export interface Shown {
@@ -86,12 +74,8 @@ export class Scene {
   #hasty = false;
   #lost = false;
 
-  /** Builds the scene of a document; `SceneError` where there is no WebGL 2. */
-  static create(canvas: HTMLCanvasElement, view: View, theme: Theme): Scene {
-    return new Scene(canvas, view, theme);
-  }
-
-  private constructor(canvas: HTMLCanvasElement, view: View, theme: Theme) {
+  /** The scene of a document; `SceneError` where there is no WebGL 2. */
+  constructor(canvas: HTMLCanvasElement, view: View, theme: Theme) {
     this.#canvas = canvas;
     this.#theme = theme;
     this.#stage = new Stage(canvas);
@@ -141,13 +125,8 @@ export class Scene {
     this.#haste.hurry();
   }
 
-  /** Lets hands move plates, and tells `actions` of it; null for no longer. */
-  edit(actions: EditActions | null): void {
-    this.#editing?.dispose();
-    if (this.#editing !== null) this.#retired.add(this.#editing.root);
-    this.#editing = null;
-    this.#dirty = this.#moved = true;
-    if (actions === null) return;
+  /** Lets hands move plates, and tells `actions` of it. */
+  edit(actions: EditActions): Editing {
     const surface = {
       canvas: this.#canvas,
       content: this.#content,
@@ -164,50 +143,13 @@ export class Scene {
         this.#haste.hurry();
       },
     };
-    this.#editing = new Editing(surface, actions);
-    this.#editing.setPalette(PALETTES[this.#theme]);
-    this.#stage.graph.add(this.#editing.root);
+    const editing = new Editing(surface, actions);
+    editing.setPalette(PALETTES[this.#theme]);
+    this.#editing = editing;
+    this.#stage.graph.add(editing.root);
     this.#stage.prepare(this.#camera);
-  }
-
-  /** Selects a plate, all of them or none. Only while the scene can be edited, as all that follows up to `map`. */
-  select(selection: Selection): void {
-    this.#editing?.select(selection);
-  }
-
-  /** Brings out a body that stands around; null for none. */
-  selectBody(body: number | null): void {
-    this.#editing?.selectBody(body);
-  }
-
-  /** Shows a body that stands around elsewhere; null where it is. */
-  previewBody(put: { body: number; centre_m: Centre } | null): void {
-    this.#editing?.previewBody(put);
-  }
-
-  /** Shows plates at other centres than the document's, until it is replaced; null where the document has them. */
-  preview(centres_m: readonly Centre[] | null): void {
-    this.#editing?.preview(centres_m);
-  }
-
-  /** Marks plates by what is guessed of them. */
-  chances(list: readonly { plate: number; chance: Chance }[] | null): void {
-    this.#editing?.chances(list ?? []);
-  }
-
-  /** Shows which parts of plates cannot be washed where they lie now: what is nearer to a dead contact point than to a free one. */
-  offending(list: readonly Offending[]): void {
-    this.#editing?.offending(list);
-  }
-
-  /** Shows where plates could be washed. */
-  ghosts(list: readonly GhostPlace[]): void {
-    this.#editing?.ghosts(list);
-  }
-
-  /** Adds to the map of where a plate could be washed; null takes it away. */
-  map(patch: MapPatch | null): void {
-    this.#editing?.map(patch);
+    this.#dirty = this.#moved = true;
+    return editing;
   }
 
   #watch(): void {
@@ -215,23 +157,15 @@ export class Scene {
       this.#dirty = true;
       if (!this.#views.placing) this.#haste.hurry();
     });
-    this.#canvas.addEventListener("webglcontextlost", this.#onLost);
-    this.#canvas.addEventListener("webglcontextrestored", this.#onRestored);
-  }
-
-  readonly #onLost = (event: Event): void => {
-    event.preventDefault();
-    this.#lost = true;
-  };
-
-  readonly #onRestored = (): void => {
-    this.#lost = false;
-    this.#dirty = this.#moved = true;
-  };
-
-  /** Whether the graphics processor has taken the scene away; it comes back by itself. */
-  get lost(): boolean {
-    return this.#lost;
+    // The graphics processor has taken the scene away; it comes back by itself.
+    this.#canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault();
+      this.#lost = true;
+    });
+    this.#canvas.addEventListener("webglcontextrestored", () => {
+      this.#lost = false;
+      this.#dirty = this.#moved = true;
+    });
   }
 
   #pose(q: ArrayLike<number>): void {
@@ -320,10 +254,6 @@ export class Scene {
     this.#camera.updateProjectionMatrix();
     this.#views.refit();
     this.#dirty = true;
-  }
-
-  get theme(): Theme {
-    return this.#theme;
   }
 
   setTheme(theme: Theme): void {
@@ -421,37 +351,4 @@ export class Scene {
     return new Ray(eye, through.sub(eye).normalize());
   }
 
-  /** Where a place on the canvas [CSS px] is in the plane z = `height_m` [m]; null where it is not in it. */
-  toPlane(x: number, y: number, height_m: number): Centre | null {
-    return onPlane(this.#ray(x, y), height_m);
-  }
-
-  /** A picture of the moment as PNG in a data URL, drawn at once; in another theme or size where asked. */
-  still(options: { theme?: Theme; width?: number; height?: number; dpr?: number } = {}): string {
-    const [theme, size] = [this.#theme, this.#size];
-    const { width = size.width, height = size.height, dpr = size.dpr } = options;
-    if (options.theme !== undefined) this.setTheme(options.theme);
-    this.resize(width, height, dpr);
-    this.#moved = true;
-    this.render();
-    const url = this.#canvas.toDataURL("image/png");
-    if (options.theme !== undefined) this.setTheme(theme);
-    this.resize(size.width, size.height, size.dpr);
-    this.#moved = true;
-    this.render();
-    return url;
-  }
-
-  /** Frees what the graphics processor holds. */
-  dispose(): void {
-    this.#canvas.removeEventListener("webglcontextlost", this.#onLost);
-    this.#canvas.removeEventListener("webglcontextrestored", this.#onRestored);
-    this.edit(null);
-    this.#controls.dispose();
-    disposeTree(this.#stage.graph);
-    this.#content.dispose();
-    this.#retired.dispose();
-    this.#mark.dispose();
-    this.#stage.dispose();
-  }
 }

@@ -48,8 +48,4 @@ export class Mark {
   setScale(pixel: number): void {
     this.sprite.scale.setScalar(SIZE_PX * pixel);
   }
-
-  dispose(): void {
-    this.#texture.dispose();
-  }
 }

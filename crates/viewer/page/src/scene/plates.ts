@@ -203,11 +203,4 @@ export class Plates {
       own.sweepFrame.value.set([coverage.half_m, coverage.columns, coverage.rows]);
     }
   }
-
-  dispose(): void {
-    for (const { textures } of Object.values(this.#rasters)) for (const texture of textures.values()) texture.dispose();
-    for (const geometry of this.#shapes.values()) geometry.dispose();
-    this.#colours.heatMap.value.dispose();
-    this.#empty.dispose();
-  }
 }

@@ -14,12 +14,3 @@ export function fix<T extends Object3D>(object: T, pose: Pose): T {
   object.matrixWorldNeedsUpdate = true;
   return object;
 }
-
-/** Frees geometries, materials and what else below `root` knows how to be freed. */
-export function disposeTree(root: Object3D): void {
-  root.traverse((object) => {
-    const parts = object as { geometry?: { dispose(): void }; material?: { dispose(): void } | { dispose(): void }[] };
-    parts.geometry?.dispose();
-    for (const material of [parts.material ?? []].flat()) material.dispose();
-  });
-}

@@ -94,9 +94,4 @@ export class ProofBodies {
     retired.addMaterial(this.#fill);
     retired.addMaterial(this.#edge);
   }
-
-  dispose(): void {
-    this.#fill.dispose();
-    this.#edge.dispose();
-  }
 }

@@ -53,10 +53,4 @@ export class Retired {
     const found = (this.#renderer.properties.get(material) as { programs?: Map<string, Program> }).programs;
     return found === undefined ? [] : [...found.values()];
   }
-
-  dispose(): void {
-    for (const material of [...this.#waiting, ...this.#keepers.values()]) material.dispose();
-    this.#waiting.clear();
-    this.#keepers.clear();
-  }
 }

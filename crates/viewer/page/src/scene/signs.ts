@@ -76,11 +76,4 @@ export class Signs {
   setScale(pixel: number): void {
     for (const sprite of this.#sprites) sprite.scale.setScalar(SIZE_PX * pixel);
   }
-
-  dispose(): void {
-    for (const material of Object.values(this.#materials)) {
-      material.map?.dispose();
-      material.dispose();
-    }
-  }
 }

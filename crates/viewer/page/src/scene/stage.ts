@@ -145,9 +145,4 @@ export class Stage {
     if (moved) this.renderer.shadowMap.needsUpdate = true;
     this.renderer.render(this.graph, camera);
   }
-
-  dispose(): void {
-    this.#key.dispose();
-    this.renderer.dispose();
-  }
 }

@@ -120,11 +120,6 @@ export class Views {
     return this.#preset;
   }
 
-  /** Whether the camera is on its way. */
-  get flying(): boolean {
-    return this.#to !== null;
-  }
-
   /** Whether it is here that the camera is moved right now, and no reader who moves it. */
   get placing(): boolean {
     return this.#placing;

@@ -149,11 +149,6 @@ export class Washability {
     this.root.add(mesh);
     return { mesh, ...own };
   }
-
-  dispose(): void {
-    for (const { texture } of this.#parts.values()) texture.dispose();
-    for (const { mesh } of this.#overlays) mesh.material.dispose();
-  }
 }
 
 function isAt({ pose }: Solid, [x, y]: [number, number]): boolean {

@@ -116,6 +116,12 @@ function aligned({ spec, traces }: Plot): uPlot.AlignedData {
   return scaled.length === 1 ? scaled[0]! : uPlot.join(scaled);
 }
 
+/** A line's look in the legend, as CSS background. */
+function sample({ colour, dash }: Line, palette: Palette): string {
+  const ink = colour(palette);
+  return dash === undefined ? ink : `linear-gradient(to right, ${ink} 0 4px, transparent 4px 7px, ${ink} 7px)`;
+}
+
 export class Plots {
   readonly element = el("div", { class: "plots" });
   readonly #player: Player;
@@ -274,7 +280,7 @@ export class Plots {
       height: HEIGHT_PX,
       padding: [6, 8, 0, 0],
       // Figures are those at the playhead, wherever the cursor is.
-      legend: { mount: (_, table) => plot.caption.append(table), markers: { width: 3, dash: (_, k) => (lines[k - 1]?.line.dash === undefined ? "solid" : "dashed") } },
+      legend: { mount: (_, table) => plot.caption.append(table), markers: { width: 0, fill: (_, k) => sample(lines[k - 1]!.line, palette) } },
       scales: { x: { time: false, range: () => this.#span ?? [0, this.#player.duration] }, y: { range: yRange } },
       axes: [{ ...axis, size: 22, gap: 2, space: 46 }, { ...axis, size: 44, gap: 4, space: 24 }],
       series: [

@@ -121,7 +121,7 @@ export class Stage {
 
   #create(view: View, theme: Theme): Scene | null {
     try {
-      return Scene.create(this.canvas, view, theme);
+      return new Scene(this.canvas, view, theme);
     } catch (error) {
       if (!(error instanceof SceneError)) throw error;
       this.#say(error.message);
