@@ -1,5 +1,49 @@
-/** The page's address: says where in the film it stands, once nothing changes any more. */
-import { linkTo, parseLink, type Place } from "./link.ts";
+/** The page's address says where in the film it stands: `#t=12.5&speed=2&show=executed&panel=plots&camera=above`. */
+
+export interface Place {
+  /** [s] */
+  t: number | null;
+  speed: number | null;
+  show: "planned" | "executed" | null;
+  panel: string | null;
+  camera: string | null;
+}
+
+const WORD = /^[a-z-]{1,24}$/;
+
+function number(text: string | null): number | null {
+  if (text === null || !/^\d{1,9}(\.\d{1,9})?$/.test(text)) return null;
+  return Number(text);
+}
+
+function word(text: string | null): string | null {
+  return text !== null && WORD.test(text) ? text : null;
+}
+
+/** Reads a URL's hash. */
+export function parseLink(hash: string): Place {
+  const entries = new URLSearchParams(hash.replace(/^#/, "").slice(0, 500));
+  const show = entries.get("show");
+  return {
+    t: number(entries.get("t")),
+    speed: number(entries.get("speed")),
+    show: show === "planned" || show === "executed" ? show : null,
+    panel: word(entries.get("panel")),
+    camera: word(entries.get("camera")),
+  };
+}
+
+/** The hash of a place, without what is null. */
+export function linkTo(place: Place): string {
+  const entries: string[] = [];
+  if (place.t !== null) entries.push(`t=${Number(place.t.toFixed(3))}`);
+  if (place.speed !== null) entries.push(`speed=${Number(place.speed.toFixed(3))}`);
+  for (const key of ["show", "panel", "camera"] as const) {
+    const value = place[key];
+    if (value !== null) entries.push(`${key}=${encodeURIComponent(value)}`);
+  }
+  return `#${entries.join("&")}`;
+}
 
 /** How long the page rests before its address is changed [ms]. */
 const SETTLED_MS = 400;

@@ -1,6 +1,6 @@
 /** What the plots draw: curves over time, sampled to look at. */
 import { Kinematics } from "./kinematics.ts";
-import { indexBefore } from "./knots.ts";
+import { indexBefore } from "./numbers.ts";
 import { AXES, newState, type JointState, type Motion } from "./motion.ts";
 import type { Arm, Joint, Tool } from "./view.ts";
 

@@ -1,5 +1,20 @@
-/** Arrays of the document: base64, little-endian. */
+/** Arrays of the document, base64 and little-endian, and places in ascending times. */
 import type { Numbers } from "./view.ts";
+
+/** The last of the ascending times that is not after `t`; 0 where all are. Tries `hint` and its neighbour first, as time runs on. */
+export function indexBefore(times: ArrayLike<number>, count: number, t: number, hint: number): number {
+  for (let k = hint; k <= hint + 1 && k + 1 < count; k++) {
+    if (k >= 0 && times[k]! <= t && t < times[k + 1]!) return k;
+  }
+  let low = 0;
+  let high = count;
+  while (low < high) {
+    const middle = (low + high) >>> 1;
+    if (times[middle]! <= t) low = middle + 1;
+    else high = middle;
+  }
+  return Math.max(0, low - 1);
+}
 
 export type Decoded = Float64Array | Float32Array | Uint32Array | Uint16Array | Uint8Array;
 

@@ -1,7 +1,6 @@
 /** What is shown at a time: the plan's motion or what the arm did, from the document and, while a run is live, from its samples. */
 import { Clearances } from "./clearances.ts";
-import { Clock } from "./clock.ts";
-import { Follower } from "./follow.ts";
+import { Clock, Follower } from "./clock.ts";
 import type { LivePhase } from "./live.ts";
 import { AXES, Motion, newState, type JointState } from "./motion.ts";
 import { Recording } from "./recording.ts";

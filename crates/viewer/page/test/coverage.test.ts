@@ -1,7 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { colormap } from "../src/colormap.ts";
-import { decodeCoverage, dwellScale, NEVER, OUTSIDE, PlateMap, shareAt } from "../src/coverage.ts";
+import { colormap, decodeCoverage, dwellScale, NEVER, OUTSIDE, PlateMap, shareAt } from "../src/coverage.ts";
 import { NumbersError } from "../src/numbers.ts";
 import type { Numbers, PlateCoverage } from "../src/view.ts";
 

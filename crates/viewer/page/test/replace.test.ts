@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Mesh, MeshBasicMaterial, type Material, type WebGLRenderer } from "three";
-import { keptOf } from "../src/scene/kept.ts";
+import { keptOf } from "../src/scene/content.ts";
 import { Plates } from "../src/scene/plates.ts";
-import { Retired } from "../src/scene/retired.ts";
+import { Retired } from "../src/scene/graph.ts";
 import { Studio } from "../src/scene/studio.ts";
 import type { Plate, View } from "../src/view.ts";
 import { irb120, pose, TOOL } from "./irb120.ts";

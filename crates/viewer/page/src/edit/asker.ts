@@ -1,13 +1,151 @@
-/** What is asked about a scenario that changes: guesses while something moves, plan and proof of what counts, again after a loss. */
-import { NOTHING, type Answers } from "./answers.ts";
-import { backOff, type Channel, type ChannelError } from "./channel.ts";
-import { Lane, type Asked, type LaneListener } from "./lane.ts";
-import type { CellLine } from "./protocol.ts";
-import { Seen } from "./seen.ts";
-import { activity, type Activity } from "./standing.ts";
-import type { Time } from "./time.ts";
-import { Timings } from "./timings.ts";
-import { sameVersion, type Version } from "./version.ts";
+/** The clock and timers, so that tests can hold them. */
+import { NOTHING, isLine, isWhole, withLine, type Answers, Seen, activity, type Activity } from "./answers.ts";
+import { ChannelError, type Channel, backOff } from "./channel.ts";
+import type { Milliseconds, CellLine, CellQuestion } from "./protocol.ts";
+import { type Version, sameVersion } from "./history.ts";
+
+export interface Time {
+  /** [ms] */
+  now(): number;
+  /** Calls back after a time [ms]; the answer takes that back. */
+  later(callback: () => void, after_ms: number): () => void;
+}
+
+export const BROWSER_TIME: Time = {
+  now: () => performance.now(),
+  later: (callback, after_ms) => {
+    const timer = setTimeout(callback, after_ms);
+    return () => clearTimeout(timer);
+  },
+};
+
+/** Times are `performance.now()` [ms]; null for what has not come. */
+export interface Timing {
+  want: "preview" | "proof";
+  asked: number;
+  scenario: number | null;
+  preview: number | null;
+  plan: number | null;
+  proof: number | null;
+  drawnPlan: number | null;
+  drawnProof: number | null;
+  /** What steps took where they were done. */
+  ms: Milliseconds;
+}
+
+/** Questions that are remembered. */
+const KEPT = 200;
+
+export class Timings {
+  readonly #list: Timing[] = [];
+
+  begin(want: Timing["want"], now: number): Timing {
+    const timing: Timing = { want, asked: now, scenario: null, preview: null, plan: null, proof: null, drawnPlan: null, drawnProof: null, ms: {} };
+    this.#list.push(timing);
+    if (this.#list.length > KEPT) this.#list.shift();
+    return timing;
+  }
+
+  list(): Timing[] {
+    return structuredClone(this.#list);
+  }
+}
+
+/** Notes that a line came. */
+export function arrived(timing: Timing, kind: string, ms: Milliseconds | undefined, now: number): void {
+  if (kind === "scenario" || kind === "preview" || kind === "plan" || kind === "proof") timing[kind] ??= now;
+  if (ms !== undefined) Object.assign(timing.ms, ms);
+}
+
+export interface Asked {
+  /** What was asked about; written out once whoever plans has done so. */
+  version: Version;
+  answers: Answers;
+  readonly timing: Timing;
+  /** Whether more is to come. */
+  running: boolean;
+}
+
+export interface LaneListener {
+  /** A line of the question that is asked has come. */
+  line(asked: Asked, line: CellLine): void;
+  /** It was answered to its end, or will not be. */
+  end(asked: Asked, error: ChannelError | null): void;
+}
+
+export interface LaneSettings {
+  channel: Channel;
+  time: Time;
+  timings: Timings;
+  session: string;
+  want: CellQuestion["want"];
+  /** Id of the arm that the page has. */
+  arm: () => string | null;
+}
+
+export class Lane {
+  readonly #settings: LaneSettings;
+  readonly #listener: LaneListener;
+  #asked: Asked | null = null;
+  #abort: AbortController | null = null;
+
+  constructor(settings: LaneSettings, listener: LaneListener) {
+    this.#settings = settings;
+    this.#listener = listener;
+  }
+
+  /** The question that counts. */
+  get asked(): Asked | null {
+    return this.#asked;
+  }
+
+  get running(): boolean {
+    return this.#asked?.running ?? false;
+  }
+
+  /** For how long the question has run [ms]. */
+  get age(): number {
+    return this.#asked === null ? 0 : this.#settings.time.now() - this.#asked.timing.asked;
+  }
+
+  /** Asks; what was asked before no longer counts, and is given up where it runs. */
+  ask(version: Version): void {
+    this.stop();
+    const { channel, session, want, timings, time } = this.#settings;
+    const asked: Asked = { version, answers: NOTHING, timing: timings.begin(want, time.now()), running: true };
+    const abort = new AbortController();
+    this.#asked = asked;
+    this.#abort = abort;
+    const { text, edits } = version;
+    const question: CellQuestion = { session, text, edits: [...edits], want, arm: this.#settings.arm() };
+    channel.ask("/cell", question, (line) => this.#hear(asked, line), abort.signal).then(
+      () => this.#end(asked, null),
+      (error: unknown) => this.#end(asked, error instanceof ChannelError ? error : new ChannelError("lost", "The answer cannot be read.")),
+    );
+  }
+
+  /** Nothing is asked any more. */
+  stop(): void {
+    this.#asked = null;
+    this.#abort?.abort();
+    this.#abort = null;
+  }
+
+  #hear(asked: Asked, line: unknown): void {
+    if (asked !== this.#asked || !asked.running || !isLine(line) || line.kind === "superseded") return;
+    asked.answers = withLine(asked.answers, line);
+    arrived(asked.timing, line.kind, "ms" in line ? line.ms : undefined, this.#settings.time.now());
+    this.#listener.line(asked, line);
+  }
+
+  #end(asked: Asked, error: ChannelError | null): void {
+    if (asked !== this.#asked || !asked.running) return;
+    asked.running = false;
+    this.#abort = null;
+    const whole = isWhole(asked.answers, this.#settings.want);
+    this.#listener.end(asked, whole ? null : (error ?? new ChannelError("lost", "The answer ended before its end.")));
+  }
+}
 
 /** While the mouse moves, a planning younger than this is let finish, so that plans appear [ms]. */
 export const YOUNG_MS = 150;

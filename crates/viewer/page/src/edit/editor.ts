@@ -1,32 +1,50 @@
 /** A live cell in the page: its state, its panels, and what ties them to the rest of the page. */
-import { announce } from "../shell/announcer.ts";
-import { byId } from "../shell/dom.ts";
-import type { Panel } from "../shell/panels.ts";
 import type { EditActions, Editing } from "../scene/editing.ts";
+import { announce, byId } from "../shell/dom.ts";
+import type { Panel } from "../shell/panels.ts";
 import type { Verdict } from "../verdict.ts";
 import type { View } from "../view.ts";
-import { ConflictBar } from "./bar.ts";
-import { Cell } from "./cell.ts";
+import { editVerdict } from "./answers.ts";
+import { BROWSER_TIME } from "./asker.ts";
 import { CellPanel } from "./cell-panel.ts";
-import type { Channel } from "./channel.ts";
+import { Cell } from "./cell.ts";
+import { type Channel, FrameChannel, HttpChannel, keptToken, takeToken } from "./channel.ts";
 import { Commands } from "./commands.ts";
 import { Disk } from "./disk.ts";
-import { Drawings } from "./drawings.ts";
 import { Form } from "./form.ts";
-import { FrameChannel } from "./frame.ts";
-import { HttpChannel } from "./http.ts";
-import { keptToken, takeToken } from "./token.ts";
-import { listenToEditKeys } from "./edit-keys.ts";
+import { Keeper, tabStore, type Edit } from "./history.ts";
+import { listenToEditKeys, plateKey } from "./keys.ts";
 import { MapAsker } from "./map.ts";
-import { plateKey } from "./plate-keys.ts";
 import type { EditDocument } from "./protocol.ts";
 import { CellShown } from "./shown.ts";
-import { Keeper, tabStore } from "./storage.ts";
 import { TextPanel } from "./text-panel.ts";
-import { BROWSER_TIME } from "./time.ts";
-import { Toolbar } from "./toolbar.ts";
-import { editVerdict } from "./verdict.ts";
-import type { Edit } from "./version.ts";
+import { ConflictBar, Toolbar } from "./toolbar.ts";
+
+export class Drawings {
+  readonly #cell: Cell;
+  #waiting: (() => void)[] = [];
+
+  constructor(cell: Cell) {
+    this.#cell = cell;
+  }
+
+  /** A frame was drawn at `now` [ms]; `all`: nothing has changed since. */
+  drawn(now: number, all: boolean): void {
+    const timing = this.#cell.planned?.timing ?? null;
+    if (timing !== null && all) {
+      if (timing.plan !== null) timing.drawnPlan ??= now;
+      if (timing.proof !== null) timing.drawnProof ??= now;
+    }
+    if (!all || !this.#cell.settled || this.#waiting.length === 0) return;
+    const waiting = this.#waiting;
+    this.#waiting = [];
+    for (const done of waiting) done();
+  }
+
+  settled(): Promise<void> {
+    return new Promise((resolve) => this.#waiting.push(resolve));
+  }
+}
 
 export interface EditorHost {
   /** Lets hands move plates in the scene; null where there is none. */

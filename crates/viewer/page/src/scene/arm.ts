@@ -2,8 +2,8 @@
 import { BufferGeometry, Color, Float32BufferAttribute, Group, Matrix4, Mesh } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import type { Arm, Body, Link } from "../view.ts";
-import { geometryOf } from "./bodies.ts";
-import { fix, matrix4 } from "./pose.ts";
+import { geometryOf } from "./shapes.ts";
+import { fix, matrix4 } from "./graph.ts";
 import type { Studio } from "./studio.ts";
 
 /** Where the document states no colour: graphite white. */

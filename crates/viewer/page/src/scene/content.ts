@@ -5,18 +5,90 @@ import { Kinematics } from "../kinematics.ts";
 import type { View } from "../view.ts";
 import { ArmGraph } from "./arm.ts";
 import { extentOf, type Extent } from "./extent.ts";
-import { Floor } from "./floor.ts";
+import { marksHeight, Floor } from "./floor.ts";
 import { CommandedTip, FrameAxes } from "./frame.ts";
-import { keptOf, type Kept } from "./kept.ts";
-import type { Layer } from "./layers.ts";
 import { Obstacles } from "./obstacles.ts";
 import type { Palette } from "./palette.ts";
 import { Paths } from "./paths.ts";
 import { Plates } from "./plates.ts";
 import { ProofBodies } from "./proof.ts";
-import type { Retired } from "./retired.ts";
+import type { Retired } from "./graph.ts";
 import type { Studio } from "./studio.ts";
 import { ToolGraph } from "./tool.ts";
+
+/** What can be shown or hidden. */
+export type Layer =
+  | "arm" | "bodies" | "plates" | "coverage" | "paths" | "transits" | "executed" | "tip" | "clearance" | "region" | "obstacles" | "floor";
+
+/** Their names on the page, in its order. */
+export const LABELS: Record<Layer, string> = {
+  arm: "Arm and tool",
+  plates: "Plates",
+  coverage: "What is swept of the plates",
+  paths: "Wash paths",
+  transits: "Transits",
+  executed: "Executed path",
+  tip: "Tip frame",
+  clearance: "Smallest clearance",
+  region: "Region and base circle",
+  obstacles: "Obstacles",
+  floor: "Floor",
+  bodies: "Bodies of the proof",
+};
+
+export const LAYERS = Object.keys(LABELS) as Layer[];
+
+/** True for what is kept. */
+export interface Kept {
+  arm: boolean;
+  tool: boolean;
+  obstacles: boolean;
+  /** The floor with base circle and region. */
+  floor: boolean;
+  /** Where plates lie and what they look like; coverage apart. */
+  plates: boolean;
+  planned: boolean;
+  executed: boolean;
+  /** All ways of the tip. */
+  paths: boolean;
+  /** What the camera has to show. */
+  extent: boolean;
+}
+
+/** Whether two parts of documents say the same; whole arms and motions are not compared but by identity. */
+function same(a: unknown, b: unknown): boolean {
+  return a === b || JSON.stringify(a) === JSON.stringify(b);
+}
+
+/** Arrays made anew without anything in them are the same, too. */
+function sameList(a: readonly unknown[], b: readonly unknown[]): boolean {
+  return a === b || (a.length === 0 && b.length === 0);
+}
+
+/** Compares two documents; arms, motions, paths and coverage by identity, the rest by what it says. */
+export function keptOf(before: View, after: View): Kept {
+  const arm = before.arm === after.arm;
+  const tool = same(before.tool, after.tool);
+  const obstacles = same(before.surroundings.obstacles, after.surroundings.obstacles);
+  const plates = same(before.plates, after.plates);
+  const motion = before.motion === after.motion && (after.motion === null || sameList(before.segments, after.segments));
+  const execution = before.execution === after.execution;
+  return {
+    arm,
+    tool,
+    obstacles,
+    floor:
+      same(before.arm.mount, after.arm.mount) &&
+      before.surroundings.base_circle_m === after.surroundings.base_circle_m &&
+      same(before.surroundings.region_m, after.surroundings.region_m) &&
+      marksHeight(before) === marksHeight(after),
+    plates,
+    planned: sameList(before.coverage, after.coverage),
+    executed: execution,
+    paths: arm && tool && plates && motion && execution && sameList(before.paths, after.paths),
+    extent: arm && tool && obstacles && plates && motion && same(before.pose_rad, after.pose_rad),
+  };
+}
 
 const NOTHING: Kept = {
   arm: false, tool: false, obstacles: false, floor: false, plates: false, planned: false, executed: false, paths: false, extent: false,

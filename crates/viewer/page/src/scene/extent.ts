@@ -4,7 +4,7 @@ import { Kinematics, matrixOf } from "../kinematics.ts";
 import { floats } from "../numbers.ts";
 import type { View } from "../view.ts";
 import { PATCH_M, patchAt } from "./floor.ts";
-import { matrix4 } from "./pose.ts";
+import { matrix4 } from "./graph.ts";
 
 /** How thick an arm is reckoned about the frames of its joints [m]. */
 const THICK_M = 0.09;

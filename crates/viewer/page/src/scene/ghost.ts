@@ -1,8 +1,8 @@
 /** Ghosts: plates drawn where they could be washed, each tied to its plate by a line. */
 import { BufferGeometry, Group, Matrix4, Mesh, type MeshStandardMaterial } from "three";
-import type { Centre } from "./grab.ts";
+import type { Centre } from "./handles.ts";
 import { Lines } from "./lines.ts";
-import { circle } from "./outlines.ts";
+import { circle } from "./ring.ts";
 import type { Palette } from "./palette.ts";
 import type { Solid } from "./pick.ts";
 import type { Studio } from "./studio.ts";

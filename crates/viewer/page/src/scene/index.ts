@@ -4,19 +4,18 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Theme } from "../palette.ts";
 import type { View } from "../view.ts";
 import { ClearanceLine, type Nearest } from "./clearance.ts";
-import { Content } from "./content.ts";
+import { Content, LABELS, LAYERS, type Layer } from "./content.ts";
 import { Editing, type EditActions } from "./editing.ts";
 import { Haste } from "./haste.ts";
-import { LABELS, LAYERS, type Layer } from "./layers.ts";
-import { Mark } from "./mark.ts";
+import { Mark } from "./signs.ts";
 import { PALETTES } from "./palette.ts";
 import type { CoverageKind } from "./plates.ts";
-import { Retired } from "./retired.ts";
+import { Retired } from "./graph.ts";
 import { Stage } from "./stage.ts";
 import { Studio } from "./studio.ts";
 import { PRESETS, Views, type Preset } from "./views.ts";
 
-export type { Layer } from "./layers.ts";
+export type { Layer } from "./content.ts";
 export { SceneError } from "./stage.ts";
 export type { Preset } from "./views.ts";
 

@@ -1,9 +1,9 @@
 /** Bodies that stand still. */
 import { Box3, Color, DoubleSide, Group, Matrix4, Mesh, Raycaster, type MeshStandardMaterial, type Ray } from "three";
 import type { Body } from "../view.ts";
-import { geometryOf } from "./bodies.ts";
+import { geometryOf } from "./shapes.ts";
 import type { Palette } from "./palette.ts";
-import { fix, matrix4 } from "./pose.ts";
+import { fix, matrix4 } from "./graph.ts";
 import type { Studio } from "./studio.ts";
 
 /** Whether a body is the floor at z = 0, which is drawn as such. */

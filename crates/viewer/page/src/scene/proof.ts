@@ -2,10 +2,9 @@
 import { EdgesGeometry, Group, LineBasicMaterial, LineSegments, Mesh, ShaderMaterial, Color } from "three";
 import type { Body, View } from "../view.ts";
 import type { ArmGraph } from "./arm.ts";
-import { geometryOf } from "./bodies.ts";
+import { geometryOf } from "./shapes.ts";
 import type { Palette } from "./palette.ts";
-import { fix } from "./pose.ts";
-import type { Retired } from "./retired.ts";
+import { fix, type Retired } from "./graph.ts";
 
 const VERTEX = /* glsl */ `
 varying vec3 vNormal;

@@ -1,12 +1,36 @@
-/**
- * What is said of plates before they are planned, drawn over their faces: a tint with a pattern for each guess, and the part of a face
- * that cannot be washed, hatched.
- */
+/** Which places of a disc are nearer to a contact point that cannot be reached than to one that can. */
 import { Color, DataTexture, Group, LinearFilter, Mesh, RedFormat, ShaderMaterial, type BufferGeometry } from "three";
 import type { Chance } from "../edit/protocol.ts";
-import { CELLS, deadNearer } from "./nearer.ts";
 import type { Palette } from "./palette.ts";
 import type { Solid } from "./pick.ts";
+
+/** Cells along either edge. */
+export const CELLS = 96;
+
+/** Squared distance from a place to the nearest of points, x and y one after the other. */
+function leastSquared(points: Float64Array, x: number, y: number): number {
+  let least = Infinity;
+  for (let k = 0; k < points.length; k += 2) least = Math.min(least, (points[k]! - x) ** 2 + (points[k + 1]! - y) ** 2);
+  return least;
+}
+
+/**
+ * The square of half edge `half_m` about a plate's axis, row by row from the least y, x ascending: 255 where a place is nearer to a dead
+ * point than to any free one, else 0. Points are in the plate's frame; those that are not finite, or off the square, do not count.
+ */
+export function deadNearer(free: readonly (readonly number[])[], dead: readonly (readonly number[])[], half_m: number): Uint8Array {
+  const raster = new Uint8Array(CELLS * CELLS);
+  const counts = (v = Number.NaN): boolean => Math.abs(v) <= 1.5 * half_m;
+  const within = (points: readonly (readonly number[])[]): Float64Array => Float64Array.from(points.filter(([x, y]) => counts(x) && counts(y)).flatMap(([x, y]) => [x!, y!]));
+  const [lost, reached] = [within(dead), within(free)];
+  const middleOf = (k: number): number => ((2 * k + 1) / CELLS - 1) * half_m;
+  if (lost.length === 0) return raster;
+  for (let cell = 0; cell < raster.length; cell++) {
+    const [x, y] = [middleOf(cell % CELLS), middleOf(Math.floor(cell / CELLS))];
+    if (leastSquared(lost, x, y) < leastSquared(reached, x, y)) raster[cell] = 255;
+  }
+  return raster;
+}
 
 const VERTEX = /* glsl */ `
 attribute float face;

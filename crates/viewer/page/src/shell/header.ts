@@ -2,8 +2,7 @@
 import { quantity } from "../format.ts";
 import { statusWord, verdict, washed, type Verdict } from "../verdict.ts";
 import type { View } from "../view.ts";
-import { announce } from "./announcer.ts";
-import { button, byId, el, isolated, type Child } from "./dom.ts";
+import { announce, button, byId, el, isolated, type Child } from "./dom.ts";
 import { icon, toneIcon } from "./icons.ts";
 
 /** Characters of a tooltip at most. */

@@ -1,6 +1,5 @@
 /** Each plate's coverage: a map that builds up as time runs, and how much of the plate that is. */
-import { colormap } from "../colormap.ts";
-import { decodeCoverage, dwellScale, PlateMap, shareAt, type Coverage } from "../coverage.ts";
+import { colormap, decodeCoverage, dwellScale, PlateMap, shareAt, type Coverage } from "../coverage.ts";
 import { fixedShort, percentDown, quantity } from "../format.ts";
 import type { Follows, Player } from "../player.ts";
 import type { PlateCoverage } from "../view.ts";

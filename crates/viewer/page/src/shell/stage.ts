@@ -1,11 +1,26 @@
-/** The scene's place in the page: its canvas, its tools, and a message where it cannot be drawn. */
+/** The scene's place in the page: its canvas, its tools, a message where it cannot be drawn, and a still of it on paper. */
 import type { Theme } from "../palette.ts";
 import type { Follows } from "../player.ts";
 import { Scene, SceneError, type Layer, type Preset } from "../scene/index.ts";
 import type { View } from "../view.ts";
-import { announce } from "./announcer.ts";
-import { button, byId, el } from "./dom.ts";
+import { el, announce, button, byId } from "./dom.ts";
 import { icon } from "./icons.ts";
+
+/**
+ * Calls `prepare` before and after printing, and keeps a copy of the scene that it has drawn: the canvas's own content is gone once it
+ * was shown.
+ */
+export function listenToPrint(canvas: HTMLCanvasElement, prepare: (printing: boolean) => void): void {
+  const still = el("canvas", { class: "print-still", set: { "aria-hidden": "true" } });
+  canvas.after(still);
+  addEventListener("beforeprint", () => {
+    prepare(true);
+    still.width = canvas.width;
+    still.height = canvas.height;
+    if (canvas.width > 0 && canvas.height > 0) still.getContext("2d")?.drawImage(canvas, 0, 0);
+  });
+  addEventListener("afterprint", () => prepare(false));
+}
 
 export interface StageActions {
   /** Something in the scene's look has changed. */
