@@ -92,8 +92,8 @@ export function recordedTipSpeed(times: Float64Array, positions: Float64Array, a
   return { times, curves: [speeds] };
 }
 
-/** From a place to the one before it. */
-function stepLength(places: Float64Array, k: number): number {
+/** From a place to the one before it, three numbers each. */
+export function stepLength(places: Float64Array, k: number): number {
   const [x, y, z] = [0, 1, 2].map((i) => places[3 * k + i]! - places[3 * k - 3 + i]!);
   return Math.hypot(x!, y!, z!);
 }

@@ -1,9 +1,10 @@
-/** The clock and timers, so that tests can hold them. */
+/** What is asked about a scenario that changes: guesses while something moves, plan and proof of what counts, again after a loss. */
 import { NOTHING, isLine, isWhole, withLine, type Answers, Seen, activity, type Activity } from "./answers.ts";
 import { ChannelError, type Channel, backOff } from "./channel.ts";
 import type { Milliseconds, CellLine, CellQuestion } from "./protocol.ts";
 import { type Version, sameVersion } from "./history.ts";
 
+/** The clock and timers, so that tests can hold them. */
 export interface Time {
   /** [ms] */
   now(): number;
@@ -19,7 +20,7 @@ export const BROWSER_TIME: Time = {
   },
 };
 
-/** Times are `performance.now()` [ms]; null for what has not come. */
+/** When a question was asked, answered and drawn: times are `performance.now()` [ms]; null for what has not come. */
 export interface Timing {
   want: "preview" | "proof";
   asked: number;
@@ -36,27 +37,6 @@ export interface Timing {
 /** Questions that are remembered. */
 const KEPT = 200;
 
-export class Timings {
-  readonly #list: Timing[] = [];
-
-  begin(want: Timing["want"], now: number): Timing {
-    const timing: Timing = { want, asked: now, scenario: null, preview: null, plan: null, proof: null, drawnPlan: null, drawnProof: null, ms: {} };
-    this.#list.push(timing);
-    if (this.#list.length > KEPT) this.#list.shift();
-    return timing;
-  }
-
-  list(): Timing[] {
-    return structuredClone(this.#list);
-  }
-}
-
-/** Notes that a line came. */
-export function arrived(timing: Timing, kind: string, ms: Milliseconds | undefined, now: number): void {
-  if (kind === "scenario" || kind === "preview" || kind === "plan" || kind === "proof") timing[kind] ??= now;
-  if (ms !== undefined) Object.assign(timing.ms, ms);
-}
-
 export interface Asked {
   /** What was asked about; written out once whoever plans has done so. */
   version: Version;
@@ -66,32 +46,29 @@ export interface Asked {
   running: boolean;
 }
 
-export interface LaneListener {
+export interface LaneSettings {
+  channel: Channel;
+  time: Time;
+  /** The last questions. */
+  timings: Timing[];
+  session: string;
+  want: CellQuestion["want"];
+  /** Id of the arm that the page has. */
+  arm: () => string | null;
   /** A line of the question that is asked has come. */
   line(asked: Asked, line: CellLine): void;
   /** It was answered to its end, or will not be. */
   end(asked: Asked, error: ChannelError | null): void;
 }
 
-export interface LaneSettings {
-  channel: Channel;
-  time: Time;
-  timings: Timings;
-  session: string;
-  want: CellQuestion["want"];
-  /** Id of the arm that the page has. */
-  arm: () => string | null;
-}
-
+/** Questions of one kind: one at a time, the newest. */
 export class Lane {
   readonly #settings: LaneSettings;
-  readonly #listener: LaneListener;
   #asked: Asked | null = null;
   #abort: AbortController | null = null;
 
-  constructor(settings: LaneSettings, listener: LaneListener) {
+  constructor(settings: LaneSettings) {
     this.#settings = settings;
-    this.#listener = listener;
   }
 
   /** The question that counts. */
@@ -112,7 +89,10 @@ export class Lane {
   ask(version: Version): void {
     this.stop();
     const { channel, session, want, timings, time } = this.#settings;
-    const asked: Asked = { version, answers: NOTHING, timing: timings.begin(want, time.now()), running: true };
+    const timing: Timing = { want, asked: time.now(), scenario: null, preview: null, plan: null, proof: null, drawnPlan: null, drawnProof: null, ms: {} };
+    const asked: Asked = { version, answers: NOTHING, timing, running: true };
+    timings.push(timing);
+    if (timings.length > KEPT) timings.shift();
     const abort = new AbortController();
     this.#asked = asked;
     this.#abort = abort;
@@ -134,8 +114,10 @@ export class Lane {
   #hear(asked: Asked, line: unknown): void {
     if (asked !== this.#asked || !asked.running || !isLine(line) || line.kind === "superseded") return;
     asked.answers = withLine(asked.answers, line);
-    arrived(asked.timing, line.kind, "ms" in line ? line.ms : undefined, this.#settings.time.now());
-    this.#listener.line(asked, line);
+    const { timing } = asked;
+    if (line.kind === "scenario" || line.kind === "preview" || line.kind === "plan" || line.kind === "proof") timing[line.kind] ??= this.#settings.time.now();
+    if ("ms" in line) Object.assign(timing.ms, line.ms);
+    this.#settings.line(asked, line);
   }
 
   #end(asked: Asked, error: ChannelError | null): void {
@@ -143,7 +125,7 @@ export class Lane {
     asked.running = false;
     this.#abort = null;
     const whole = isWhole(asked.answers, this.#settings.want);
-    this.#listener.end(asked, whole ? null : (error ?? new ChannelError("lost", "The answer ended before its end.")));
+    this.#settings.end(asked, whole ? null : (error ?? new ChannelError("lost", "The answer ended before its end.")));
   }
 }
 
@@ -169,7 +151,7 @@ export interface Asking {
 }
 
 export class Asker {
-  readonly timings = new Timings();
+  readonly timings: Timing[] = [];
   readonly seen = new Seen();
   readonly #time: Time;
   readonly #asking: Asking;
@@ -182,10 +164,9 @@ export class Asker {
   constructor({ channel, time, session }: AskerSettings, asking: Asking) {
     this.#time = time;
     this.#asking = asking;
-    const common = { channel, time, timings: this.timings, arm: () => this.seen.arm?.id ?? null };
-    const line: LaneListener["line"] = (asked, said) => this.#hear(asked, said);
-    this.#looking = new Lane({ ...common, session: `${session}p`, want: "preview" }, { line, end: () => this.#looked() });
-    this.#planning = new Lane({ ...common, session, want: "proof" }, { line, end: (asked, error) => this.#planned(asked, error) });
+    const common = { channel, time, timings: this.timings, arm: () => this.seen.arm?.id ?? null, line: (asked: Asked, said: CellLine) => this.#hear(asked, said) };
+    this.#looking = new Lane({ ...common, session: `${session}p`, want: "preview", end: () => this.#looked() });
+    this.#planning = new Lane({ ...common, session, want: "proof", end: (asked, error) => this.#planned(asked, error) });
   }
 
   /** The question of plan and proof that was asked last. */

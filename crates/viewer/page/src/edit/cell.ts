@@ -113,7 +113,7 @@ export class Cell {
   }
 
   get timings(): Timing[] {
-    return this.#asker.timings.list();
+    return structuredClone(this.#asker.timings);
   }
 
   get state(): Activity {

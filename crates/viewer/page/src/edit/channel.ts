@@ -36,15 +36,11 @@ export function backOff(tries: number): number {
   return Math.min(2000, 300 * 2 ** Math.max(0, Math.min(10, tries)));
 }
 
-/** Characters of a line at most: what is longer is no answer. */
-const LONGEST = 64 * 1024 * 1024;
-
-/** Puts lines together from bytes, wherever these are cut: within a line, or within a character. */
+/** Newline-delimited JSON from bytes, wherever these are cut: within a line, or within a character. */
 export class Lines {
   readonly #onLine: (line: unknown) => void;
   readonly #decoder = new TextDecoder();
-  #rest: string[] = [];
-  #length = 0;
+  #rest = "";
 
   constructor(onLine: (line: unknown) => void) {
     this.#onLine = onLine;
@@ -60,33 +56,16 @@ export class Lines {
   }
 
   #take(text: string): void {
-    let from = 0;
-    for (let at = text.indexOf("\n"); at >= 0; at = text.indexOf("\n", from)) {
-      const line = this.#rest.join("") + text.slice(from, at);
-      this.#rest = [];
-      this.#length = 0;
-      from = at + 1;
-      this.#say(line);
-    }
-    if (from === text.length) return;
-    this.#rest.push(text.slice(from));
-    this.#length += text.length - from;
-    if (this.#length > LONGEST) throw new RangeError("an answer has a line that is too long");
-  }
-
-  /** Blank lines only say that work goes on. */
-  #say(line: string): void {
-    if (line.trim() === "") return;
-    let value: unknown;
-    try {
-      value = JSON.parse(line);
-    } catch {
-      throw new SyntaxError("an answer has a line that is no JSON");
-    }
-    this.#onLine(value);
+    this.#rest += text;
+    if (!text.includes("\n")) return;
+    const lines = this.#rest.split("\n");
+    this.#rest = lines.pop() ?? "";
+    // Blank lines only say that work goes on.
+    for (const line of lines) if (line.trim() !== "") this.#onLine(JSON.parse(line));
   }
 }
 
+/** Questions to the server that the page came from. */
 export class HttpChannel implements Channel {
   readonly #token: () => string;
   readonly #fetch: typeof fetch;
@@ -157,6 +136,7 @@ async function read(answer: Response, onLine: (line: unknown) => void, signal: A
   lines.end();
 }
 
+/** The token of the server, without which it answers no question: the address that `platewash edit` printed has it. */
 const KEY = "platewash-token";
 const TOKEN = /^[0-9a-f]{32}$/;
 

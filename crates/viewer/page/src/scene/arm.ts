@@ -1,9 +1,10 @@
 /** The arm in the scene graph: a group a joint frame, one mesh a link. */
 import { BufferGeometry, Color, Float32BufferAttribute, Group, Matrix4, Mesh } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+import { matrixOf } from "../kinematics.ts";
 import type { Arm, Body, Link } from "../view.ts";
 import { geometryOf } from "./shapes.ts";
-import { fix, matrix4 } from "./graph.ts";
+import { fix } from "./graph.ts";
 import type { Studio } from "./studio.ts";
 
 /** Where the document states no colour: graphite white. */
@@ -15,7 +16,7 @@ function painted(body: Body): BufferGeometry {
   for (const name of Object.keys(geometry.attributes)) {
     if (name !== "position" && name !== "normal") geometry.deleteAttribute(name);
   }
-  geometry.applyMatrix4(matrix4(body.pose));
+  geometry.applyMatrix4(matrixOf(body.pose));
   const [r, g, b] = body.rgba ?? PLAIN;
   const colour = new Color().setRGB(r, g, b, "srgb");
   const count = geometry.getAttribute("position")?.count ?? 0;
@@ -72,7 +73,7 @@ export class ArmGraph {
   constructor(arm: Arm, studio: Studio) {
     fix(this.root, arm.mount);
     this.frames.push(this.root);
-    this.#origins = arm.joints.map((joint) => matrix4(joint.origin));
+    this.#origins = arm.joints.map((joint) => matrixOf(joint.origin));
     for (const origin of this.#origins) {
       const frame = new Group();
       frame.matrixAutoUpdate = false;

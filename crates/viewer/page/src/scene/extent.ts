@@ -1,10 +1,9 @@
 /** What the camera has to show: points of the arm, the plates and what stands around. */
-import { Box3, Sphere, Vector3 } from "three";
+import { Box3, Matrix4, Sphere, Vector3 } from "three";
 import { Kinematics, matrixOf } from "../kinematics.ts";
 import { floats } from "../numbers.ts";
 import type { View } from "../view.ts";
 import { PATCH_M, patchAt } from "./floor.ts";
-import { matrix4 } from "./graph.ts";
 
 /** How thick an arm is reckoned about the frames of its joints [m]. */
 const THICK_M = 0.09;
@@ -26,9 +25,7 @@ function platePoints(view: View): Vector3[] {
     const pose = matrixOf(plate.pose);
     return Array.from({ length: 8 }, (_, i) => {
       const angle = (i * Math.PI) / 4;
-      const [x, y, z] = [rim[0] * Math.cos(angle), rim[0] * Math.sin(angle), rim[1]];
-      const along = (row: number): number => pose[row]! * x + pose[4 + row]! * y + pose[8 + row]! * z + pose[12 + row]!;
-      return new Vector3(along(0), along(1), along(2));
+      return new Vector3(rim[0] * Math.cos(angle), rim[0] * Math.sin(angle), rim[1]).applyMatrix4(pose);
     });
   });
 }
@@ -39,21 +36,20 @@ function motionPoints(view: View): Vector3[] {
   const rows = view.motion === null ? Float64Array.from(view.pose_rad) : floats(view.motion.q_rad);
   const axes = Math.max(1, view.arm.joints.length);
   const step = Math.max(1, Math.floor(rows.length / axes / 64));
-  const pose = new Float64Array(16);
+  const pose = new Matrix4();
   const points: Vector3[] = [];
   // An arm that stands on the floor is seen from above; of others any side may be the outermost.
   const about = patchAt(view) === null ? AROUND : ABOVE;
   for (let k = 0; (k + 1) * axes <= rows.length; k += step) {
-    kinematics.frames(rows, k * axes, (frame) => points.push(...about.map((way) => new Vector3(frame[12], frame[13], frame[14]).add(way))));
-    kinematics.tip(rows, pose, k * axes);
-    points.push(new Vector3(pose[12], pose[13], pose[14]));
+    kinematics.frames(rows, k * axes, (frame) => points.push(...about.map((way) => new Vector3().setFromMatrixPosition(frame).add(way))));
+    points.push(new Vector3().setFromMatrixPosition(kinematics.tip(rows, pose, k * axes)));
   }
   return points;
 }
 
 /** The arm's foot, and the corners of the patch where it stands on one. */
 function floorPoints(view: View): Vector3[] {
-  const mount = matrix4(view.arm.mount);
+  const mount = matrixOf(view.arm.mount);
   const square = (half: number): Vector3[] => [-half, half].flatMap((x) => [-half, half].map((y) => new Vector3(x, y, 0).applyMatrix4(mount)));
   return [...square(0.2), ...(patchAt(view) === null ? [] : square(PATCH_M))];
 }

@@ -1,16 +1,12 @@
 /** What hangs in three's scene graph: poses of the document, and what was replaced. */
-import { Matrix4, Object3D, Material, type WebGLRenderer } from "three";
+import { Material, type Object3D, type WebGLRenderer } from "three";
 import { matrixOf } from "../kinematics.ts";
 import type { Pose } from "../view.ts";
-
-export function matrix4(pose: Pose): Matrix4 {
-  return new Matrix4().fromArray(matrixOf(pose));
-}
 
 /** Fixes an object to its parent at `T_parent_object`. */
 export function fix<T extends Object3D>(object: T, pose: Pose): T {
   object.matrixAutoUpdate = false;
-  object.matrix.copy(matrix4(pose));
+  object.matrix.copy(matrixOf(pose));
   object.matrixWorldNeedsUpdate = true;
   return object;
 }
@@ -19,6 +15,10 @@ interface Program {
   usedTimes: number;
 }
 
+/**
+ * What was replaced, freed once its successors have been drawn: till then they find the programs of the graphics processor that they
+ * share, and none is built again. The last user of a program stays for the next one that wants it.
+ */
 export class Retired {
   readonly #renderer: WebGLRenderer;
   readonly #waiting = new Set<Material>();

@@ -1,4 +1,4 @@
-/** Whether the browser draws without a graphics processor. */
+/** Drawing without a graphics processor: whether the browser does, and which frames are then drawn in haste. */
 
 /** Names of renderers that compute every pixel on the processor. */
 const NAMES = /swiftshader|llvmpipe|softpipe|lavapipe|software|basic render/i;

@@ -51,7 +51,6 @@ export class Scene {
   readonly #retired: Retired;
   readonly #clearance = new ClearanceLine();
   readonly #mark = new Mark();
-  readonly #commandedPose = new Float64Array(16);
   readonly #studio = new Studio();
   readonly #on = new Map<Layer, boolean>();
   readonly #tip = new Vector3();
@@ -193,7 +192,7 @@ export class Scene {
     const { root } = this.#content.commanded;
     root.visible = false;
     if (q === null || !this.#isOn("executed")) return;
-    root.matrix.fromArray(this.#content.kinematics.tip(q, this.#commandedPose));
+    this.#content.kinematics.tip(q, root.matrix);
     root.matrixWorldNeedsUpdate = true;
     root.visible = this.#scratch.setFromMatrixPosition(root.matrix).distanceTo(this.#tip) > APART_M;
   }

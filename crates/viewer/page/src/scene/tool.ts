@@ -1,6 +1,6 @@
 /** The tool: its bodies, and a sponge of foam that gives way where a plate presses on it. */
 import { LatheGeometry, Vector2, type BufferGeometry, type MeshStandardMaterial, Color, Group, Matrix4, Mesh, Vector3 } from "three";
-import { multiply, matrixOf, type Matrix } from "../kinematics.ts";
+import { matrixOf } from "../kinematics.ts";
 import type { Plate, Tool } from "../view.ts";
 import { meshesOf } from "./arm.ts";
 import { fix } from "./graph.ts";
@@ -107,7 +107,7 @@ interface Face {
 }
 
 function faceOf(plate: Plate): Face {
-  const pose = new Matrix4().fromArray(matrixOf(plate.pose));
+  const pose = matrixOf(plate.pose);
   const rim_m = plate.meridian_m[plate.meridian_m.length - 1]?.[0] ?? 0;
   return { inverse: pose.clone().invert(), normal: new Vector3().setFromMatrixColumn(pose, 2), rim_m, meridian: plate.meridian_m };
 }
@@ -158,12 +158,9 @@ export class ToolGraph {
     this.#reach = radius_m;
     const free = height_m + this.#compression;
     this.#foam = foamMaterial(studio, { pressPlane: this.#plane, pressSize: this.#size });
-    const back = new Float64Array(16);
-    const along: Matrix = matrixOf({ position_m: [0, 0, -height_m / 2], quaternion_wxyz: [1, 0, 0, 0] });
-    multiply(matrixOf(pose), along, back);
     const mesh = new Mesh(spongeGeometry(radius_m, Math.min(0.003, 0.2 * Math.min(radius_m, height_m)), free), this.#foam);
     mesh.matrixAutoUpdate = false;
-    mesh.matrix.fromArray(back);
+    mesh.matrix.multiplyMatrices(matrixOf(pose), new Matrix4().makeTranslation(0, 0, -height_m / 2));
     mesh.frustumCulled = false;
     mesh.castShadow = false;
     mesh.receiveShadow = true;

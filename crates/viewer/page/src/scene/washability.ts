@@ -1,4 +1,7 @@
-/** Which places of a disc are nearer to a contact point that cannot be reached than to one that can. */
+/**
+ * What is said of plates before they are planned, drawn over their faces: a tint with a pattern for each guess, and the part of a face
+ * that cannot be washed, hatched.
+ */
 import { Color, DataTexture, Group, LinearFilter, Mesh, RedFormat, ShaderMaterial, type BufferGeometry } from "three";
 import type { Chance } from "../edit/protocol.ts";
 import type { Palette } from "./palette.ts";
