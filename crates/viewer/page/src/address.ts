@@ -1,5 +1,6 @@
 /** The page's address says where in the film it stands: `#t=12.5&speed=2&show=executed&panel=plots&camera=above`. */
 
+/** Where a link points to. What does not fit is ignored. */
 export interface Place {
   /** [s] */
   t: number | null;
@@ -35,14 +36,9 @@ export function parseLink(hash: string): Place {
 
 /** The hash of a place, without what is null. */
 export function linkTo(place: Place): string {
-  const entries: string[] = [];
-  if (place.t !== null) entries.push(`t=${Number(place.t.toFixed(3))}`);
-  if (place.speed !== null) entries.push(`speed=${Number(place.speed.toFixed(3))}`);
-  for (const key of ["show", "panel", "camera"] as const) {
-    const value = place[key];
-    if (value !== null) entries.push(`${key}=${encodeURIComponent(value)}`);
-  }
-  return `#${entries.join("&")}`;
+  const text = (value: number | string): string => (typeof value === "number" ? String(Number(value.toFixed(3))) : value);
+  const entries = Object.entries(place).flatMap(([key, value]) => (value === null ? [] : [[key, text(value)]]));
+  return `#${new URLSearchParams(entries)}`;
 }
 
 /** How long the page rests before its address is changed [ms]. */

@@ -60,14 +60,10 @@ export class App {
     this.#player = new Player(view);
     // A live cell's film comes and goes: its place is always there.
     const film = this.#player.duration > 0 || edit !== null;
-    const { promise, resolve } = newPromise();
-    this.#ready = promise;
-    const afterFirst = (): void => {
-      this.#panels.start();
-      resolve();
-    };
+    let drawn = (): void => undefined;
+    this.#ready = new Promise<void>((resolve) => (drawn = resolve)).then(() => this.#panels.start());
     // The timer lets the browser show the first frame before panels are filled.
-    this.#loop = new Loop({ advance: (now) => this.#advance(now), draw: () => this.#draw() }, () => setTimeout(afterFirst));
+    this.#loop = new Loop({ advance: (now) => this.#advance(now), draw: () => this.#draw() }, () => setTimeout(drawn));
     this.#controls = new Controls(this.#player, () => this.#loop.now(), {
       changed: () => this.#changed(),
       moved: () => this.#mark(null),
@@ -321,12 +317,4 @@ export class App {
 
 function coveragesOf(view: View): Coverages {
   return new Coverages(view.coverage, view.execution?.coverage ?? []);
-}
-
-function newPromise(): { promise: Promise<void>; resolve: () => void } {
-  let resolve = (): void => undefined;
-  const promise = new Promise<void>((done) => {
-    resolve = done;
-  });
-  return { promise, resolve };
 }

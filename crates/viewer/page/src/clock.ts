@@ -109,6 +109,7 @@ const JUMP_S = 1.5;
 /** Catching up changes the speed by at most this share. */
 const HASTE = 0.5;
 
+/** Shows a live run a moment behind its newest sample, so that the arm moves evenly however samples arrive. */
 export class Follower {
   #time = 0;
   #now: number | null = null;

@@ -39,7 +39,7 @@ function sample(share: number): [number, number, number] {
   return bytesOf(mixed(0), mixed(1) * Math.cos(hue), mixed(1) * Math.sin(hue));
 }
 
-/** The map as `count` colours from share 0 to 1: red, green, blue, alpha bytes each. */
+/** Even steps in lightness from dark violet over teal to pale yellow, legible without seeing red or green: `count` colours from share 0 to 1: red, green, blue, alpha bytes each. */
 export function colormap(count = 256): Uint8Array {
   const bytes = new Uint8Array(4 * count);
   for (let i = 0; i < count; i++) bytes.set([...sample(i / Math.max(1, count - 1)), 255], 4 * i);
@@ -47,9 +47,9 @@ export function colormap(count = 256): Uint8Array {
 }
 
 /** The map as CSS gradient, for a legend. */
-export function cssGradient(direction = "to right"): string {
+export function cssGradient(): string {
   const stops = Array.from({ length: 9 }, (_, i) => `rgb(${sample(i / 8).join(" ")}) ${(100 * i) / 8}%`);
-  return `linear-gradient(${direction}, ${stops.join(", ")})`;
+  return `linear-gradient(to right, ${stops.join(", ")})`;
 }
 
 /** A cell that the sponge never gets over. */

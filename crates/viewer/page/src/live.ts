@@ -153,6 +153,7 @@ export interface FeedListener {
   done(end: LiveEnd): void;
 }
 
+/** Takes a live run's samples to the player and the scene. */
 export class Feed {
   readonly #player: Player;
   readonly #listener: FeedListener;
@@ -175,9 +176,7 @@ export class Feed {
           this.#player.phase = phase;
           this.#listener.changed();
         },
-        samples: (rows) => {
-          recording.append(rows);
-        },
+        samples: (rows) => recording.append(rows),
         done: (end) => this.#listener.done(end),
       },
       {

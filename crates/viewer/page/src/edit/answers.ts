@@ -15,6 +15,7 @@ export type UnplannedLine = Of<"unplanned">;
 export type PlaceLine = Of<"place">;
 export type ProofLine = Of<"proof">;
 
+/** What has been said about one version of the scenario. */
 export interface Answers {
   scenario: ScenarioLine | null;
   refused: RefusedLine | null;
@@ -71,6 +72,7 @@ export function isWhole(answers: Answers, want: "preview" | "proof"): boolean {
   return answers.unplanned !== null || answers.proof !== null;
 }
 
+/** What is shown of a scenario whatever is asked: the newest that was said of it, until something newer is. */
 export class Seen {
   /** What keys state and what counts. */
   scenario: ScenarioLine | null = null;
@@ -103,6 +105,7 @@ export class Seen {
 
 export type Activity = "idle" | "previewing" | "planning" | "proving";
 
+/** How a live cell stands. */
 export interface Standing {
   kind: "preview" | "planned" | "proved" | "not proved" | "unplanned" | "refused" | "lost" | "failed";
   /** A sentence. */
@@ -163,6 +166,7 @@ export function editVerdict({ kind, words }: Standing, answers: Answers, view: V
   }
 }
 
+/** What is known of a plate, in a word and a tone. */
 export interface PlateState {
   tone: Tone;
   word: string;

@@ -7,14 +7,14 @@ import { icon, toneIcon } from "../shell/icons.ts";
 import type { Tone } from "../verdict.ts";
 import { type PlateState, plateState } from "./answers.ts";
 import type { Cell } from "./cell.ts";
+import type { Commands } from "./commands.ts";
 import { numberText, readNumber } from "./domain.ts";
 
-export interface RowActions {
-  select(plate: number): void;
-  place(plate: number, centre: Centre): void;
-  take(plate: number): void;
+/** What is done beside what `Commands` does. */
+export interface PanelActions {
+  /** Shows where a plate could be washed. */
   map(plate: number): void;
-  remove(plate: number): void;
+  clearMap(): void;
   /** A key on a row; whether it was of use. */
   key(event: KeyboardEvent): boolean;
 }
@@ -41,23 +41,23 @@ class Row {
   #shown: { tone: Tone; word: string; words: string; causes: readonly string[] } | null = null;
   #centre: Centre = [0, 0];
 
-  constructor(plate: number, actions: RowActions) {
+  constructor(plate: number, commands: Commands, actions: PanelActions) {
     this.#plate = plate;
-    this.#inputs = [this.#input("x", 0, actions), this.#input("y", 1, actions)];
+    this.#inputs = [this.#input("x", 0, commands), this.#input("y", 1, commands)];
     this.#take = button({ class: "button text-button" }, () => {
       // The button goes with the place.
       this.element.focus();
-      actions.take(plate);
+      commands.take(plate);
     }, icon("target"), el("span", {}, this.#nearest.node));
     this.#remove = button({ class: "button bare-button", title: "Remove (Delete)" }, () => {
       this.element.focus();
-      actions.remove(plate);
+      commands.remove(plate);
     }, icon("cross"));
     const map = button({ class: "button text-button", title: "Show where it could be washed, the others as they lie" }, () => actions.map(plate), "Where?");
     const places = el("div", { class: "row-places" }, ...this.#inputs.map((input, k) => el("label", {}, k === 0 ? "x" : "y", input)), el("span", { class: "unit" }, "m"), map, this.#remove);
     this.element = el("li", { class: "row", set: { tabindex: 0, role: "group" } }, el("div", { class: "row-head" }, this.#name, this.#sign), places, this.#why, this.#take);
-    this.element.addEventListener("focusin", () => actions.select(plate));
-    this.element.addEventListener("pointerdown", () => actions.select(plate));
+    this.element.addEventListener("focusin", () => commands.select(plate));
+    this.element.addEventListener("pointerdown", () => commands.select(plate));
     this.element.addEventListener("keydown", (event) => {
       // Here it is the focus that chooses the plate.
       const chooses = event.key.toLowerCase() === "n";
@@ -106,7 +106,7 @@ class Row {
     this.element.setAttribute("aria-label", `${this.#name.textContent}: ${word}`);
   }
 
-  #input(name: string, axis: 0 | 1, actions: RowActions): HTMLInputElement {
+  #input(name: string, axis: 0 | 1, commands: Commands): HTMLInputElement {
     const input = el("input", { class: "number", set: { type: "text", inputmode: "decimal", name, autocomplete: "off", spellcheck: "false" } });
     const read = (): number | null => {
       const value = readNumber(input.value);
@@ -115,7 +115,7 @@ class Row {
     const to = (value: number): void => {
       const centre: Centre = [...this.#centre];
       centre[axis] = value;
-      actions.place(this.#plate, centre);
+      commands.place(this.#plate, centre);
     };
     input.addEventListener("input", () => {
       input.dataset["dirty"] = "true";
@@ -140,40 +140,12 @@ class Row {
   }
 }
 
-export class Rows {
-  readonly element = el("ul", { class: "rows", set: { "aria-label": "Plates" } });
-  readonly #actions: RowActions;
-  readonly #rows: Row[] = [];
-
-  constructor(actions: RowActions) {
-    this.#actions = actions;
-  }
-
-  /** Shows every plate. Rows stay what they are, and with them focus and what is being typed. */
-  show(list: readonly RowShown[], selected: Selection): void {
-    while (this.#rows.length > list.length) this.#rows.pop()?.element.remove();
-    while (this.#rows.length < list.length) {
-      const row = new Row(this.#rows.length, this.#actions);
-      this.#rows.push(row);
-      this.element.append(row.element);
-    }
-    list.forEach((shown, k) => this.#rows[k]!.show(shown, selected === "all" || selected === k, list.length > 1));
-  }
-
-  focus(plate: number): void {
-    this.#rows[plate]?.element.focus();
-  }
-}
-
-export interface CellPanelActions extends RowActions {
-  add(): void;
-  all(): void;
-  clearMap(): void;
-}
-
 export class CellPanel {
   readonly element: HTMLElement;
-  readonly rows: Rows;
+  readonly #commands: Commands;
+  readonly #actions: PanelActions;
+  readonly #list = el("ul", { class: "rows", set: { "aria-label": "Plates" } });
+  readonly #rows: Row[] = [];
   readonly #all: HTMLButtonElement;
   readonly #findings = el("ul", { class: "plain findings" });
   readonly #standing = el("p", { class: "edit-standing" });
@@ -182,17 +154,18 @@ export class CellPanel {
   readonly #hint = el("p", { class: "summary" });
   #shown: unknown[] = [];
 
-  constructor(actions: CellPanelActions) {
-    this.rows = new Rows(actions);
-    this.#all = button({ class: "button text-button", title: "Move and turn all plates together", set: { "aria-pressed": "false" } }, () => actions.all(), "All plates");
+  constructor(commands: Commands, actions: PanelActions) {
+    this.#commands = commands;
+    this.#actions = actions;
+    this.#all = button({ class: "button text-button", title: "Move and turn all plates together", set: { "aria-pressed": "false" } }, () => commands.toggleAll(), "All plates");
     this.#all.addEventListener("keydown", (event) => {
       if (event.key !== "Enter" && actions.key(event)) event.preventDefault();
     });
-    const add = button({ class: "button text-button" }, () => actions.add(), "Add plate");
+    const add = button({ class: "button text-button" }, () => commands.add(), "Add plate");
     const hide = button({ class: "button text-button", title: "Hide the map (Escape)" }, () => actions.clearMap(), "Hide the map");
     this.#map = el("div", { class: "map-words" }, this.#mapWords, hide);
     this.#map.hidden = true;
-    this.element = el("div", { class: "cell-panel" }, this.#standing, this.#findings, this.#map, this.rows.element, el("div", { class: "edit-tools" }, add, this.#all), this.#hint);
+    this.element = el("div", { class: "cell-panel" }, this.#standing, this.#findings, this.#map, this.#list, el("div", { class: "edit-tools" }, add, this.#all), this.#hint);
   }
 
   show(cell: Cell, selected: Selection, mapWords: string | null): void {
@@ -201,7 +174,7 @@ export class CellPanel {
     if (now.every((one, k) => one === this.#shown[k])) return;
     this.#shown = now;
     const names = seen.drawn?.plates ?? [];
-    this.rows.show(centres.map((centre: Centre, k) => ({ name: names[k]?.name ?? `plate_${k}`, centre, state: plateState(answers, k) })), selected);
+    this.#showRows(centres.map((centre, k) => ({ name: names[k]?.name ?? `plate_${k}`, centre, state: plateState(answers, k) })), selected);
     // The header has room for a line only.
     const { kind, words } = cell.standing;
     const bad = kind === "refused" || kind === "failed" || kind === "lost" || kind === "unplanned" || kind === "not proved";
@@ -214,5 +187,15 @@ export class CellPanel {
     const stuck = cell.unmoved();
     const hint = stuck !== null ? stuck : seen.drawn?.listed === false ? "These plates are drawn from a region by the seed: moving one lists them all where they are." : "Drag plates in the scene, or move them with the arrow keys; an obstacle once it is clicked.";
     if (this.#hint.textContent !== hint) this.#hint.textContent = hint;
+  }
+  /** Shows every plate. Rows stay what they are, and with them focus and what is being typed. */
+  #showRows(list: readonly RowShown[], selected: Selection): void {
+    while (this.#rows.length > list.length) this.#rows.pop()?.element.remove();
+    while (this.#rows.length < list.length) {
+      const row = new Row(this.#rows.length, this.#commands, this.#actions);
+      this.#rows.push(row);
+      this.#list.append(row.element);
+    }
+    list.forEach((shown, k) => this.#rows[k]!.show(shown, selected === "all" || selected === k, list.length > 1));
   }
 }

@@ -31,6 +31,11 @@ export class Commands implements EditActions {
     this.#say = say;
   }
 
+  /** Selects all plates, or no longer. */
+  toggleAll(): void {
+    this.select(this.#selected === "all" ? null : "all");
+  }
+
   /** Whether there is something to move. */
   get active(): boolean {
     return this.#selected !== null || this.#body !== null;
@@ -86,8 +91,8 @@ export class Commands implements EditActions {
   }
 
   /** Puts a plate where it can be washed. */
-  take(plate: number): void {
-    if (!this.mayMove()) return;
+  take(plate: Selection): void {
+    if (typeof plate !== "number" || !this.mayMove()) return;
     const nearest = this.#cell.answers.places.find((place) => place.plate === plate)?.nearest_m;
     if (!nearest) return;
     this.place(plate, nearest, "Take the nearest place of");
@@ -145,7 +150,8 @@ export class Commands implements EditActions {
     announce(`plate ${this.#cell.centres.length - 1} added at ${room.map((c) => c.toFixed(3)).join(", ")} m`);
   }
 
-  remove(plate: number): void {
+  remove(plate: Selection): void {
+    if (typeof plate !== "number") return;
     const centres = this.#cell.centres.filter((_, k) => k !== plate);
     if (centres.length === 0 || centres.length === this.#cell.centres.length) return;
     if (!this.#isFree(centres.length)) return;

@@ -96,7 +96,7 @@ export function stepped(text: string, direction: 1 | -1, coarse: boolean, domain
   return within(rounded, domain) ? rounded.toFixed(decimals) : null;
 }
 
-/** How many letters have to be put in, left out, changed or swapped with their neighbour. */
+/** Of two words, how many letters have to be put in, left out, changed or swapped with their neighbour. */
 export function distance(a: string, b: string): number {
   const width = b.length + 1;
   let [before, last] = [new Array<number>(width).fill(0), Array.from({ length: width }, (_, k) => k)];

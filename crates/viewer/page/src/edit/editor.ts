@@ -20,7 +20,8 @@ import { CellShown } from "./shown.ts";
 import { TextPanel } from "./text-panel.ts";
 import { ConflictBar, Toolbar } from "./toolbar.ts";
 
-export class Drawings {
+/** Notes when plans and proofs are drawn, and who waits for that. */
+class Drawings {
   readonly #cell: Cell;
   #waiting: (() => void)[] = [];
 
@@ -110,7 +111,11 @@ export class Editor {
     this.#map = new MapAsker(channel, session, () => this.#scene, touch);
     this.#drawings = new Drawings(this.#cell);
     this.#toolbar = new Toolbar({ undo: () => this.#travel("Undone"), redo: () => this.#travel("Done again"), save: () => this.#save() });
-    this.#cellPanel = new CellPanel(this.#panelActions());
+    this.#cellPanel = new CellPanel(this.#commands, {
+      map: (plate) => this.#map.ask(this.#cell.text, plate, this.#cell.seen.drawn?.plates[plate]?.name ?? "the plate"),
+      clearMap: () => this.#map.clear(),
+      key: (event) => this.#key(event),
+    });
     this.#form = new Form(edit.keys, (key, value) => this.#cell.change([{ key, value }], value === null ? `Reset ${key}` : `Change ${key}`, key));
     this.#text = new TextPanel((text) => this.#cell.setText(text, "Change the text"));
     this.#bar = new ConflictBar(() => this.#disk);
@@ -195,33 +200,8 @@ export class Editor {
     });
   }
 
-  #panelActions(): ConstructorParameters<typeof CellPanel>[0] {
-    const commands = this.#commands;
-    return {
-      select: (plate) => commands.select(plate),
-      place: (plate, centre) => commands.place(plate, centre),
-      take: (plate) => commands.take(plate),
-      map: (plate) => this.#map.ask(this.#cell.text, plate, this.#cell.seen.drawn?.plates[plate]?.name ?? "the plate"),
-      remove: (plate) => commands.remove(plate),
-      add: () => commands.add(),
-      all: () => commands.select(commands.selected === "all" ? null : "all"),
-      clearMap: () => this.#map.clear(),
-      key: (event) => this.#key(event),
-    };
-  }
-
   #key(event: KeyboardEvent): boolean {
-    const commands = this.#commands;
-    const one = (): number | null => (typeof commands.selected === "number" ? commands.selected : null);
-    const used = plateKey(event, {
-      active: () => commands.active,
-      next: (step) => commands.next(step),
-      shift: (right, up) => commands.shift(right, up),
-      turn: (angle) => commands.turn(angle),
-      remove: () => one() !== null && commands.remove(one()!),
-      take: () => one() !== null && commands.take(one()!),
-      cancel: () => this.#cancel(),
-    });
+    const used = plateKey(event, this.#commands, () => this.#cancel());
     if (!used && event.key === "Escape") this.#map.clear();
     return used;
   }

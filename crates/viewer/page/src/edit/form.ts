@@ -4,6 +4,7 @@ import { stepped, valueText, readValue, suggestions } from "./domain.ts";
 import { sameValue } from "./history.ts";
 import type { Key, Value } from "./protocol.ts";
 
+/** A control for the value of a key, by its domain. */
 export interface Control {
   readonly element: HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
   /** What is in it, as `readValue` reads it. */
@@ -111,6 +112,7 @@ function field(key: Key, actions: ControlActions): Control {
   };
 }
 
+/** One key of the form. */
 export class KeyRow {
   readonly element: HTMLElement;
   readonly key: Key;

@@ -3,6 +3,7 @@ import type { CellQuestion, Value } from "./protocol.ts";
 
 export type Edit = CellQuestion["edits"][number];
 
+/** A scenario: a text, and the changes to it that whoever plans has not written into it yet. */
 export interface Version {
   readonly text: string;
   readonly edits: readonly Edit[];
@@ -133,6 +134,7 @@ export function tabStore(): Store | null {
   }
 }
 
+/** Keeps the steps for this tab. */
 export class Keeper {
   readonly #store: Store | null;
   readonly #key: string;

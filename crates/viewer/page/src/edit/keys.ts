@@ -1,4 +1,5 @@
 /** Keys of a live cell, wherever the focus is, and those of the plate that is selected, on its row and on the scene. */
+import type { Commands } from "./commands.ts";
 
 export interface EditKeys {
   undo(): void;
@@ -32,20 +33,6 @@ export function listenToEditKeys(canvas: HTMLCanvasElement, keys: EditKeys): voi
   });
 }
 
-export interface PlateKeys {
-  /** Selects the next plate (1) or the one before (−1). */
-  next(step: 1 | -1): void;
-  /** Whether there is a plate to move; otherwise keys are the film's. */
-  active(): boolean;
-  /** By so much to the right and upwards on the screen. */
-  shift(right_m: number, up_m: number): void;
-  turn(angle_rad: number): void;
-  remove(): void;
-  /** Takes the nearest place. */
-  take(): void;
-  cancel(): void;
-}
-
 const STEP_M = 0.005;
 const COARSE_M = 0.05;
 const FINE_M = 0.001;
@@ -70,35 +57,35 @@ export const PLATE_KEYS: [string, string][] = [
   ["Ctrl+S", "save"],
 ];
 
-/** Does what a key says; whether it says anything. */
-export function plateKey(event: KeyboardEvent, keys: PlateKeys): boolean {
+/** Does what a key says of plates; whether it says anything. Where none is selected, keys are the film's. */
+export function plateKey(event: KeyboardEvent, commands: Commands, cancel: () => void): boolean {
   if (event.ctrlKey || event.metaKey) return false;
   if (event.key.toLowerCase() === "n" && !event.altKey) {
-    keys.next(event.shiftKey ? -1 : 1);
+    commands.next(event.shiftKey ? -1 : 1);
     return true;
   }
-  if (!keys.active()) return false;
+  if (!commands.active) return false;
   const arrow = ARROWS[event.key];
   if (arrow !== undefined) {
     const step = event.altKey ? FINE_M : event.shiftKey ? COARSE_M : STEP_M;
-    keys.shift(arrow[0] * step, arrow[1] * step);
+    commands.shift(arrow[0] * step, arrow[1] * step);
     return true;
   }
   if (event.altKey) return false;
   switch (event.key) {
     case "r":
     case "R":
-      keys.turn(event.shiftKey ? -TURN_RAD : TURN_RAD);
+      commands.turn(event.shiftKey ? -TURN_RAD : TURN_RAD);
       return true;
     case "Delete":
     case "Backspace":
-      keys.remove();
+      commands.remove(commands.selected);
       return true;
     case "Enter":
-      keys.take();
+      commands.take(commands.selected);
       return true;
     case "Escape":
-      keys.cancel();
+      cancel();
       return true;
     default:
       return false;

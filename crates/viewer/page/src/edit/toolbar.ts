@@ -66,6 +66,7 @@ function enable(of: HTMLButtonElement, on: boolean, title: string): void {
   if (of.title !== title) of.title = title;
 }
 
+/** Asks what is to become of a file that has changed. */
 export class ConflictBar {
   readonly element = el("div", { class: "edit-bar notice tone-not_proved", set: { role: "alert" } });
   readonly #disk: () => Disk;

@@ -1,9 +1,9 @@
 /** The arm in the scene graph: a group a joint frame, one mesh a link. */
-import { BufferGeometry, Color, Float32BufferAttribute, Group, Matrix4, Mesh } from "three";
+import { BufferGeometry, Color, Group, Matrix4, Mesh } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { matrixOf } from "../kinematics.ts";
 import type { Arm, Body, Link } from "../view.ts";
-import { geometryOf } from "./shapes.ts";
+import { colouredBy, geometryOf } from "./shapes.ts";
 import { fix } from "./graph.ts";
 import type { Studio } from "./studio.ts";
 
@@ -18,12 +18,7 @@ function painted(body: Body): BufferGeometry {
   }
   geometry.applyMatrix4(matrixOf(body.pose));
   const [r, g, b] = body.rgba ?? PLAIN;
-  const colour = new Color().setRGB(r, g, b, "srgb");
-  const count = geometry.getAttribute("position")?.count ?? 0;
-  const colours = new Float32Array(3 * count);
-  for (let i = 0; i < count; i++) colour.toArray(colours, 3 * i);
-  geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
-  return geometry;
+  return colouredBy(new Color().setRGB(r, g, b, "srgb"), geometry);
 }
 
 /** One mesh of bodies that share their opacity. */

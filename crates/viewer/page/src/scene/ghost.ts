@@ -95,16 +95,13 @@ export class Ghosts {
     for (const object of [ghost.mesh, ghost.outline]) object.matrixWorldNeedsUpdate = true;
   }
 
-  /** Brings out the ghost of a plate, or none. Whether that changes anything. */
-  hover(plate: number | null): boolean {
-    let changed = false;
+  /** Brings out the ghost of a plate, or none. */
+  hover(plate: number | null): void {
     this.#ghosts.forEach(({ mesh, outline }, index) => {
       const opacity = plate !== null && this.#places[index]?.plate === plate ? HOVERED : OPACITY;
-      changed ||= mesh.material.opacity !== opacity;
       mesh.material.opacity = opacity;
       outline.setWidth(opacity === HOVERED ? 4 : 2.6);
     });
-    return changed;
   }
 
   #make(): Ghost {

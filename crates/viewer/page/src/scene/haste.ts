@@ -31,6 +31,10 @@ const REST_MS = 250;
 /** As long as a hand holds something, it is likely to go on [ms]. */
 const HELD_MS = 600;
 
+/**
+ * While things change fast a coarse picture that comes at once is worth more than a fine one that comes late. Once they rest, the fine
+ * one is owed.
+ */
 export class Haste {
   readonly #able: boolean;
   #changed = false;

@@ -19,6 +19,7 @@ export function circle(radius_m: number, segments = 128): Float32Array {
   return stretches([places.flat()]);
 }
 
+/** Outlines about the rims of plates that are selected, and of the one that the pointer is over. */
 export class Outlines {
   readonly root = new Group();
   readonly #pools: Record<OutlineKind, Lines[]> = { selected: [], hovered: [] };
@@ -94,6 +95,7 @@ export function partOf(ring: Ring, place: Centre, reach_m: number): "arrow" | "l
   return off <= reach_m ? "line" : null;
 }
 
+/** The ring on the floor, with an arrow on either side of what it turns. */
 export class RingHandle {
   readonly root = new Group();
   readonly #line = new Lines(circle(1), { width: 2.2, opacity: 0.7 });

@@ -1,14 +1,20 @@
 /** Shapes of the document as triangles: bodies with edges rounded where that costs nothing, and plates, turned from their meridians. */
-import { BufferAttribute, BufferGeometry, BoxGeometry, LatheGeometry, PlaneGeometry, SphereGeometry, Vector2, Vector3, Float32BufferAttribute } from "three";
+import { BoxGeometry, BufferAttribute, BufferGeometry, Float32BufferAttribute, LatheGeometry, PlaneGeometry, SphereGeometry, Vector2, Vector3, type Color } from "three";
 import { ConvexGeometry } from "three/examples/jsm/geometries/ConvexGeometry.js";
 import { RoundedBoxGeometry } from "three/examples/jsm/geometries/RoundedBoxGeometry.js";
 import { mergeVertices, toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { floats } from "../numbers.ts";
 import type { Shape, Plate } from "../view.ts";
 
-/** [m] */
+/** How far a chord may be off its arc: no farther than anybody sees [m]. */
 const OFF_M = 0.00012;
 const FEWEST = 16;
+
+/** A geometry whose corners all have a colour. */
+export function colouredBy(colour: Color, geometry: BufferGeometry): BufferGeometry {
+  const colours = Array.from({ length: geometry.getAttribute("position")?.count ?? 0 }, () => colour.toArray());
+  return geometry.setAttribute("color", new Float32BufferAttribute(colours.flat(), 3));
+}
 
 /** Segments round a circle: a multiple of four, so that it is as wide as it should be. */
 export function segmentsRound(radius_m: number, most: number): number {

@@ -211,18 +211,17 @@ export class Views {
     this.#camera.updateProjectionMatrix();
   }
 
-  /** The tip has moved. Whether the camera goes with it. No allocation. */
-  follow(tip: Vector3): boolean {
+  /** The tip has moved, and the camera with it where it follows. No allocation. */
+  follow(tip: Vector3): void {
     this.#step.copy(tip).sub(this.#tip);
     this.#tip.copy(tip);
-    if (this.#held || this.#preset !== "follow" || this.#step.lengthSq() < 1e-16) return false;
+    if (this.#held || this.#preset !== "follow" || this.#step.lengthSq() < 1e-16) return;
     this.#camera.position.add(this.#step);
     this.#controls.target.add(this.#step);
     this.#from?.eye.add(this.#step);
     this.#from?.target.add(this.#step);
     this.#to?.eye.add(this.#step);
     this.#to?.target.add(this.#step);
-    return true;
   }
 
   /** Moves the camera on by the time `now` [s]; whether it has moved. */

@@ -81,6 +81,7 @@ export class TextCell {
   }
 }
 
+/** Tells screen readers: few words, not every frame. */
 export function announce(words: string): void {
   byId("announcer").textContent = words;
 }

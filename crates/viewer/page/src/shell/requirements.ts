@@ -1,6 +1,6 @@
 /** The requirements and what came of each, those that are not kept first; and what is proved of the contact with each plate. */
 import { fixed, fixedShort, percentDown, quantity } from "../format.ts";
-import { statusWord, summary, verdict } from "../verdict.ts";
+import { RANK, statusWord, summary, verdict } from "../verdict.ts";
 import type { Contact, PlateContact, View, Certificate, Check, Status } from "../view.ts";
 import { el, isolated, button } from "./dom.ts";
 import { icon, toneIcon } from "./icons.ts";
@@ -80,8 +80,6 @@ export function contactTable(view: View, contact: Contact): HTMLElement[] {
     el("div", { class: "wide" }, table),
   ];
 }
-
-const RANK: Record<Status, number> = { violated: 0, not_proved: 1, waived: 2, proved: 3 };
 
 function statusCell(status: Status): HTMLElement {
   return el("span", { class: `status tone-${status}` }, toneIcon(status), statusWord(status));

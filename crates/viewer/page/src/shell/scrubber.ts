@@ -2,7 +2,7 @@
 import { clockTime, spokenTime } from "../format.ts";
 import type { Palette } from "../palette.ts";
 import { plateNumber, segmentAt, segmentWords } from "../segments.ts";
-import { statusWord } from "../verdict.ts";
+import { RANK, statusWord } from "../verdict.ts";
 import type { Check, Status, Segment, View } from "../view.ts";
 import { button, el } from "./dom.ts";
 import { toneIcon } from "./icons.ts";
@@ -18,8 +18,6 @@ export interface Cluster {
 
 /** Width of a mark [px]. */
 export const MARK_PX = 20;
-
-const RANK: Record<Status, number> = { violated: 0, not_proved: 1, waived: 2, proved: 3 };
 
 export function clusters(checks: readonly Check[], duration: number, width: number): Cluster[] {
   const timed = checks
