@@ -1,5 +1,5 @@
 /** The smallest clearance over time, as the document has it. */
-import { indexBefore, decode, floats } from "./numbers.ts";
+import { decode, floats, indexBefore } from "./numbers.ts";
 import type { Clearance } from "./view.ts";
 
 export type Point = [number, number, number];

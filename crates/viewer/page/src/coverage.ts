@@ -1,6 +1,6 @@
 /** A plate's coverage over time: sampled on a raster to look at, not the proof; and the colours of its heat map. */
 import { decode, NumbersError } from "./numbers.ts";
-import type { Counted, PlateCoverage } from "./view.ts";
+import type { PlateCoverage } from "./view.ts";
 
 /** Lightness, chroma and hue [deg] in Oklch, evenly spaced. */
 const ANCHORS = [
@@ -39,7 +39,10 @@ function sample(share: number): [number, number, number] {
   return bytesOf(mixed(0), mixed(1) * Math.cos(hue), mixed(1) * Math.sin(hue));
 }
 
-/** Even steps in lightness from dark violet over teal to pale yellow, legible without seeing red or green: `count` colours from share 0 to 1: red, green, blue, alpha bytes each. */
+/**
+ * `count` colours from share 0 to 1 as red, green, blue and alpha bytes: even steps in lightness from dark violet over teal to pale yellow,
+ * legible without seeing red or green.
+ */
 export function colormap(count = 256): Uint8Array {
   const bytes = new Uint8Array(4 * count);
   for (let i = 0; i < count; i++) bytes.set([...sample(i / Math.max(1, count - 1)), 255], 4 * i);
@@ -58,17 +61,11 @@ export const NEVER = 65535;
 export const OUTSIDE = 65534;
 
 /** A raster as it is in the document, with its cells in the order in which they get swept. */
-export interface Coverage {
-  plate: number;
+export interface Coverage extends Pick<PlateCoverage, "plate" | "half_m" | "counted" | "step_s" | "dwell_step_s" | "proved"> {
   rows: number;
   columns: number;
-  half_m: number;
-  counted: Counted | null;
   first: Uint16Array;
-  step_s: number;
   dwell: Uint8Array;
-  dwell_step_s: number;
-  proved: number | null;
   /** Cells within the rim. */
   cells: number;
   /** Indices of the cells that get swept, earliest first. */
@@ -149,12 +146,7 @@ export function dwellScale(coverages: readonly Coverage[]): number {
 export type MapMode = "build-up" | "dwell";
 
 /** Red, green and blue bytes. */
-export interface MapColours {
-  swept: readonly [number, number, number];
-  unswept: readonly [number, number, number];
-}
-
-export const MAP_COLOURS: MapColours = { swept: [0, 114, 178], unswept: [203, 208, 214] };
+export const MAP_COLOURS = { swept: [0, 114, 178], unswept: [203, 208, 214] };
 
 const HEAT = colormap();
 
@@ -164,13 +156,12 @@ export class PlateMap {
   readonly #canvas: HTMLCanvasElement;
   readonly #context: CanvasRenderingContext2D | null;
   readonly #image: ImageData;
-  #colours: MapColours;
   /** Seconds at the hot end of a heat map. */
   readonly #scale_s: number;
   #painted = 0;
   #mode: MapMode | null = null;
 
-  constructor(canvas: HTMLCanvasElement, coverage: Coverage, scale_s = dwellScale([coverage]), colours: MapColours = MAP_COLOURS) {
+  constructor(canvas: HTMLCanvasElement, coverage: Coverage, scale_s = dwellScale([coverage])) {
     this.coverage = coverage;
     this.#canvas = canvas;
     this.#canvas.width = Math.max(1, coverage.columns);
@@ -178,13 +169,6 @@ export class PlateMap {
     this.#context = canvas.getContext("2d");
     this.#image = new ImageData(this.#canvas.width, this.#canvas.height);
     this.#scale_s = scale_s;
-    this.#colours = colours;
-  }
-
-  /** Changes the colours; takes effect with the next painting. */
-  setColours(colours: MapColours): void {
-    this.#colours = colours;
-    this.#mode = null;
   }
 
   /** Paints the map as it is at `t` [s]. */
@@ -200,12 +184,12 @@ export class PlateMap {
       this.#mode = "build-up";
       this.#painted = 0;
       this.coverage.first.forEach((step, cell) => {
-        if (step !== OUTSIDE) this.#set(cell, this.#colours.unswept, 0);
+        if (step !== OUTSIDE) this.#set(cell, MAP_COLOURS.unswept, 0);
       });
     }
     const before = this.#painted;
-    for (let k = before; k < count; k++) this.#set(this.coverage.order[k]!, this.#colours.swept, 0);
-    for (let k = count; k < before; k++) this.#set(this.coverage.order[k]!, this.#colours.unswept, 0);
+    for (let k = before; k < count; k++) this.#set(this.coverage.order[k]!, MAP_COLOURS.swept, 0);
+    for (let k = count; k < before; k++) this.#set(this.coverage.order[k]!, MAP_COLOURS.unswept, 0);
     this.#painted = count;
     return anew || before !== count;
   }
@@ -216,7 +200,7 @@ export class PlateMap {
     const perStep = (255 * this.coverage.dwell_step_s) / this.#scale_s;
     this.coverage.first.forEach((step, cell) => {
       if (step === OUTSIDE) return;
-      if (step === NEVER) this.#set(cell, this.#colours.unswept, 0);
+      if (step === NEVER) this.#set(cell, MAP_COLOURS.unswept, 0);
       else this.#set(cell, HEAT, 4 * Math.min(255, Math.round(this.coverage.dwell[cell]! * perStep)));
     });
     return true;

@@ -1,7 +1,7 @@
 /** What the plots draw: curves over time, sampled to look at. */
 import { Kinematics } from "./kinematics.ts";
-import { indexBefore } from "./numbers.ts";
 import { AXES, newState, type JointState, type Motion } from "./motion.ts";
+import { indexBefore } from "./numbers.ts";
 import type { Arm, Joint, Tool } from "./view.ts";
 
 /** Points of a curve at most: beyond that, knots are left out for equal steps. */
@@ -40,7 +40,11 @@ export function positionShare(joint: Joint, q: number): number {
 }
 
 /** A curve for each joint: its `value` in the state that `place` finds for each time. */
-function perJoint(times: Float64Array, place: (t: number, k: number, into: JointState) => void, value: (state: JointState, j: number) => number): Curves {
+function perJoint(
+  times: Float64Array,
+  place: (t: number, k: number, into: JointState) => void,
+  value: (state: JointState, j: number) => number,
+): Curves {
   const curves = Array.from({ length: AXES }, () => new Float64Array(times.length));
   const state = newState();
   times.forEach((t, k) => {

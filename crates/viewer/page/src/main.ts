@@ -1,6 +1,6 @@
 import "./language.ts";
 import { App } from "./app.ts";
-import { DocumentError, readView, readEdit } from "./document.ts";
+import { DocumentError, readEdit, readView } from "./document.ts";
 import { NumbersError } from "./numbers.ts";
 import { byId, el } from "./shell/dom.ts";
 

@@ -1,6 +1,6 @@
 /** What an arm did: samples that are interpolated between, and that may grow while a run is live. */
-import { indexBefore, floats } from "./numbers.ts";
 import { AXES } from "./motion.ts";
+import { floats, indexBefore } from "./numbers.ts";
 import type { Execution } from "./view.ts";
 
 /** Numbers of one live sample: time, six positions, six speeds, six torques, error. */

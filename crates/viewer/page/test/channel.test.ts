@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { backOff, ChannelError, FrameChannel, type FrameWindow, HttpChannel, Lines } from "../src/edit/channel.ts";
+import { backOff, ChannelError, FrameChannel, HttpChannel, Lines, type FrameWindow } from "../src/edit/channel.ts";
 import { turns } from "./fake-cell.ts";
 
 function linesOf(bytes: Uint8Array, cuts: readonly number[]): unknown[] {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { readNumber, readValue, stepped, valueText, distance, suggestions } from "../src/edit/domain.ts";
+import { distance, readNumber, readValue, stepped, suggestions, valueText } from "../src/edit/domain.ts";
 import { roomFor, shifted, turned } from "../src/edit/placing.ts";
 import type { Domain } from "../src/edit/protocol.ts";
 

@@ -1,6 +1,6 @@
 /** What has been said about a scenario, and what that comes to: for the cell, for the head of the page, for each plate. */
 import { percentDown } from "../format.ts";
-import { verdict as proved, type Verdict, type Tone } from "../verdict.ts";
+import { verdict as proved, type Tone, type Verdict } from "../verdict.ts";
 import type { View } from "../view.ts";
 import type { CellLine } from "./protocol.ts";
 
@@ -47,22 +47,9 @@ export function isLine(line: unknown): line is CellLine {
 
 /** What is known with one more line. Lines of a later version of the protocol are left out. */
 export function withLine(answers: Answers, line: CellLine): Answers {
-  switch (line.kind) {
-    case "scenario":
-    case "refused":
-    case "cell":
-    case "preview":
-    case "plan":
-    case "unplanned":
-    case "proof":
-      return { ...answers, [line.kind]: line };
-    case "place":
-      return { ...answers, places: [...answers.places, line] };
-    case "failed":
-      return { ...answers, failed: line.words };
-    default:
-      return answers;
-  }
+  if (line.kind === "place") return { ...answers, places: [...answers.places, line] };
+  if (line.kind === "failed") return { ...answers, failed: line.words };
+  return line.kind in answers ? { ...answers, [line.kind]: line } : answers;
 }
 
 /** Whether nothing has to follow. */

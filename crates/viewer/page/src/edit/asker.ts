@@ -1,8 +1,8 @@
 /** What is asked about a scenario that changes: guesses while something moves, plan and proof of what counts, again after a loss. */
-import { NOTHING, isLine, isWhole, withLine, type Answers, Seen, activity, type Activity } from "./answers.ts";
-import { ChannelError, type Channel, backOff } from "./channel.ts";
-import type { Milliseconds, CellLine, CellQuestion } from "./protocol.ts";
-import { type Version, sameVersion } from "./history.ts";
+import { activity, isLine, isWhole, NOTHING, Seen, withLine, type Activity, type Answers } from "./answers.ts";
+import { backOff, ChannelError, type Channel } from "./channel.ts";
+import { sameVersion, type Version } from "./history.ts";
+import type { CellLine, CellQuestion, Milliseconds } from "./protocol.ts";
 
 /** The clock and timers, so that tests can hold them. */
 export interface Time {
@@ -89,7 +89,8 @@ export class Lane {
   ask(version: Version): void {
     this.stop();
     const { channel, session, want, timings, time } = this.#settings;
-    const timing: Timing = { want, asked: time.now(), scenario: null, preview: null, plan: null, proof: null, drawnPlan: null, drawnProof: null, ms: {} };
+    const open = { scenario: null, preview: null, plan: null, proof: null, drawnPlan: null, drawnProof: null };
+    const timing: Timing = { ...open, want, asked: time.now(), ms: {} };
     const asked: Asked = { version, answers: NOTHING, timing, running: true };
     timings.push(timing);
     if (timings.length > KEPT) timings.shift();
@@ -115,7 +116,8 @@ export class Lane {
     if (asked !== this.#asked || !asked.running || !isLine(line) || line.kind === "superseded") return;
     asked.answers = withLine(asked.answers, line);
     const { timing } = asked;
-    if (line.kind === "scenario" || line.kind === "preview" || line.kind === "plan" || line.kind === "proof") timing[line.kind] ??= this.#settings.time.now();
+    const { kind } = line;
+    if (kind === "scenario" || kind === "preview" || kind === "plan" || kind === "proof") timing[kind] ??= this.#settings.time.now();
     if ("ms" in line) Object.assign(timing.ms, line.ms);
     this.#settings.line(asked, line);
   }
@@ -164,7 +166,8 @@ export class Asker {
   constructor({ channel, time, session }: AskerSettings, asking: Asking) {
     this.#time = time;
     this.#asking = asking;
-    const common = { channel, time, timings: this.timings, arm: () => this.seen.arm?.id ?? null, line: (asked: Asked, said: CellLine) => this.#hear(asked, said) };
+    const line = (asked: Asked, said: CellLine): void => this.#hear(asked, said);
+    const common = { channel, time, timings: this.timings, arm: () => this.seen.arm?.id ?? null, line };
     this.#looking = new Lane({ ...common, session: `${session}p`, want: "preview", end: () => this.#looked() });
     this.#planning = new Lane({ ...common, session, want: "proof", end: (asked, error) => this.#planned(asked, error) });
   }

@@ -2,10 +2,9 @@
 import { millimetres } from "../format.ts";
 import type { Selection } from "../scene/editing.ts";
 import type { Centre } from "../scene/handles.ts";
-import { button, el, isolated, TextCell } from "../shell/dom.ts";
-import { icon, toneIcon } from "../shell/icons.ts";
+import { button, el, icon, isolated, TextCell, toneIcon } from "../shell/dom.ts";
 import type { Tone } from "../verdict.ts";
-import { type PlateState, plateState } from "./answers.ts";
+import { plateState, type PlateState } from "./answers.ts";
 import type { Cell } from "./cell.ts";
 import type { Commands } from "./commands.ts";
 import { numberText, readNumber } from "./domain.ts";

@@ -1,8 +1,8 @@
 /** The live cell: the scenario with its history, what is being changed in it, and what was answered. Knows no page. */
-import { type Answers, type Seen, standing, type Activity, type Standing } from "./answers.ts";
-import { Asker, type AskerSettings, type Asked, type Timing } from "./asker.ts";
-import { History, type Step, changed, sameVersion, type Edit, type Version } from "./history.ts";
 import type { Centre } from "../scene/handles.ts";
+import { standing, type Activity, type Answers, type Seen, type Standing } from "./answers.ts";
+import { Asker, type Asked, type AskerSettings, type Timing } from "./asker.ts";
+import { changed, History, sameVersion, type Edit, type Step, type Version } from "./history.ts";
 import { carrying, placing, putting, together, unmoved, type Put } from "./placing.ts";
 
 /** Changes of one thing that follow each other within this are one step [ms]. */

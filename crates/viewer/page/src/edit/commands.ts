@@ -1,10 +1,10 @@
 /** What hands, keys and buttons do to the plates of a live cell. */
+import type { EditActions, Editing, Selection } from "../scene/editing.ts";
+import type { Centre, Phase } from "../scene/handles.ts";
 import { announce } from "../shell/dom.ts";
 import type { View } from "../view.ts";
 import type { Cell } from "./cell.ts";
 import { onFloor, plateIndices, roomFor, shifted, turned } from "./placing.ts";
-import type { Centre, Phase } from "../scene/handles.ts";
-import type { EditActions, Editing, Selection } from "../scene/editing.ts";
 
 export class Commands implements EditActions {
   readonly #cell: Cell;

@@ -1,6 +1,6 @@
 /** The form of all keys, section by section as in `docs/scenario.md`, made from the program's own table. */
-import { el, button, isolated } from "../shell/dom.ts";
-import { stepped, valueText, readValue, suggestions } from "./domain.ts";
+import { button, el, isolated } from "../shell/dom.ts";
+import { readValue, stepped, suggestions, valueText } from "./domain.ts";
 import { sameValue } from "./history.ts";
 import type { Key, Value } from "./protocol.ts";
 

@@ -1,10 +1,8 @@
 /** Keys of a live cell, wherever the focus is, and those of the plate that is selected, on its row and on the scene. */
 import type { Commands } from "./commands.ts";
+import type { ToolbarActions } from "./toolbar.ts";
 
-export interface EditKeys {
-  undo(): void;
-  redo(): void;
-  save(): void;
+export interface EditKeys extends ToolbarActions {
   /** A key on the scene; whether it was of use. */
   plate(event: KeyboardEvent): boolean;
 }
@@ -72,22 +70,14 @@ export function plateKey(event: KeyboardEvent, commands: Commands, cancel: () =>
     return true;
   }
   if (event.altKey) return false;
-  switch (event.key) {
-    case "r":
-    case "R":
-      commands.turn(event.shiftKey ? -TURN_RAD : TURN_RAD);
-      return true;
-    case "Delete":
-    case "Backspace":
-      commands.remove(commands.selected);
-      return true;
-    case "Enter":
-      commands.take(commands.selected);
-      return true;
-    case "Escape":
-      cancel();
-      return true;
-    default:
-      return false;
-  }
+  const meanings: Record<string, () => void> = {
+    r: () => commands.turn(event.shiftKey ? -TURN_RAD : TURN_RAD),
+    delete: () => commands.remove(commands.selected),
+    backspace: () => commands.remove(commands.selected),
+    enter: () => commands.take(commands.selected),
+    escape: cancel,
+  };
+  const does = meanings[event.key.toLowerCase()];
+  does?.();
+  return does !== undefined;
 }

@@ -1,7 +1,7 @@
 /** Where a plate could be washed, asked on request and shown as it comes. */
+import type { Editing } from "../scene/editing.ts";
 import { ChannelError, type Channel } from "./channel.ts";
 import type { MapLine, MapQuestion } from "./protocol.ts";
-import type { Editing } from "../scene/editing.ts";
 
 export class MapAsker {
   readonly #channel: Channel;

@@ -2,7 +2,7 @@
 import type { Editing } from "../scene/editing.ts";
 import type { Centre } from "../scene/handles.ts";
 import type { View } from "../view.ts";
-import type { CellDrawn, PlanLine, ProofLine, Answers } from "./answers.ts";
+import type { Answers, CellDrawn, PlanLine, ProofLine } from "./answers.ts";
 import type { Cell } from "./cell.ts";
 
 /** Makes views out of answers. The same answers give the same view, and the same arm the same object. */

@@ -1,6 +1,5 @@
 /** Undo, redo, save and what is going on; and the bar that asks what is to become of a file that has changed. */
-import { button, el, TextCell, byId, isolated } from "../shell/dom.ts";
-import { icon } from "../shell/icons.ts";
+import { button, byId, el, icon, isolated, TextCell } from "../shell/dom.ts";
 import type { Activity } from "./answers.ts";
 import type { Conflict, Disk } from "./disk.ts";
 

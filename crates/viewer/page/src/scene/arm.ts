@@ -3,8 +3,8 @@ import { BufferGeometry, Color, Group, Matrix4, Mesh } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { matrixOf } from "../kinematics.ts";
 import type { Arm, Body, Link } from "../view.ts";
-import { colouredBy, geometryOf } from "./shapes.ts";
 import { fix } from "./graph.ts";
+import { colouredBy, geometryOf } from "./shapes.ts";
 import type { Studio } from "./studio.ts";
 
 /** Where the document states no colour: graphite white. */

@@ -4,17 +4,17 @@ import { decodeCoverage } from "../coverage.ts";
 import { Kinematics } from "../kinematics.ts";
 import type { View } from "../view.ts";
 import { ArmGraph } from "./arm.ts";
-import { extentOf, type Extent } from "./extent.ts";
-import { marksHeight, Floor } from "./floor.ts";
+import { Floor, marksHeight } from "./floor.ts";
 import { CommandedTip, FrameAxes } from "./frame.ts";
+import type { Retired } from "./graph.ts";
 import { Obstacles } from "./obstacles.ts";
 import type { Palette } from "./palette.ts";
 import { Paths } from "./paths.ts";
 import { Plates } from "./plates.ts";
 import { ProofBodies } from "./proof.ts";
-import type { Retired } from "./graph.ts";
 import type { Studio } from "./studio.ts";
 import { ToolGraph } from "./tool.ts";
+import { extentOf, type Extent } from "./views.ts";
 
 /** What can be shown or hidden. */
 export type Layer =

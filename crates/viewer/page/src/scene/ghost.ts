@@ -2,9 +2,9 @@
 import { BufferGeometry, Group, Matrix4, Mesh, type MeshStandardMaterial } from "three";
 import type { Centre } from "./handles.ts";
 import { Lines } from "./lines.ts";
-import { circle } from "./ring.ts";
 import type { Palette } from "./palette.ts";
 import type { Solid } from "./pick.ts";
+import { circle } from "./ring.ts";
 import type { Studio } from "./studio.ts";
 
 const OPACITY = 0.42;

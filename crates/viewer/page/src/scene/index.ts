@@ -1,16 +1,17 @@
 /** The workcell in three dimensions: all that is drawn of a document at a moment. */
 import { Mesh, MeshBasicMaterial, PerspectiveCamera, Ray, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { ClearanceNow } from "../clearances.ts";
 import type { Theme } from "../palette.ts";
 import type { View } from "../view.ts";
-import { ClearanceLine, type Nearest } from "./clearance.ts";
+import { ClearanceLine } from "./clearance.ts";
 import { Content, LABELS, LAYERS, type Layer } from "./content.ts";
 import { Editing, type EditActions } from "./editing.ts";
+import { Retired } from "./graph.ts";
 import { Haste } from "./haste.ts";
-import { Mark } from "./signs.ts";
 import { PALETTES } from "./palette.ts";
 import type { CoverageKind } from "./plates.ts";
-import { Retired } from "./graph.ts";
+import { Mark } from "./signs.ts";
 import { Stage } from "./stage.ts";
 import { Studio } from "./studio.ts";
 import { PRESETS, Views, type Preset } from "./views.ts";
@@ -28,7 +29,7 @@ export interface Shown {
   commanded: Float64Array | null;
   /** The plate that is being washed. */
   washing: number | null;
-  clearance: Nearest | null;
+  clearance: ClearanceNow | null;
   /** Up to when coverage is shown [s]. */
   coverageTime: number;
   coverageKind: CoverageKind;
@@ -60,7 +61,7 @@ export class Scene {
   #theme: Theme;
   #size = { width: 1, height: 1, dpr: 1 };
   #shown: Shown | null = null;
-  #nearest: Nearest | null = null;
+  #nearest: ClearanceNow | null = null;
   #editing: Editing | null = null;
   /** Whether there is something new to draw, and whether it changes the shadows. */
   #dirty = true;

@@ -2,9 +2,9 @@
 import { Box3, Color, DoubleSide, Group, Matrix4, Mesh, Raycaster, type MeshStandardMaterial, type Ray } from "three";
 import { matrixOf } from "../kinematics.ts";
 import type { Body } from "../view.ts";
-import { geometryOf } from "./shapes.ts";
-import type { Palette } from "./palette.ts";
 import { fix } from "./graph.ts";
+import type { Palette } from "./palette.ts";
+import { geometryOf } from "./shapes.ts";
 import type { Studio } from "./studio.ts";
 
 /** Whether a body is the floor at z = 0, which is drawn as such. */

@@ -4,10 +4,10 @@ import {
 } from "three";
 import { colormap, dwellScale, type Coverage } from "../coverage.ts";
 import type { Plate } from "../view.ts";
-import type { Palette } from "./palette.ts";
-import { plateGeometry } from "./shapes.ts";
-import type { Solid } from "./pick.ts";
 import { fix, type Retired } from "./graph.ts";
+import type { Palette } from "./palette.ts";
+import type { Solid } from "./pick.ts";
+import { plateGeometry } from "./shapes.ts";
 import type { Studio } from "./studio.ts";
 import { sweepProgram, sweepTexture, type Sweep, type SweepColours } from "./sweep.ts";
 

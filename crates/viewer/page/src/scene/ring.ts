@@ -1,5 +1,5 @@
 /** Circles about plates: outlines of those that are meant, and the ring by which they are turned about the arm's base axis. */
-import { Group, Matrix4, ConeGeometry, Mesh, MeshBasicMaterial, Vector3, type Camera } from "three";
+import { ConeGeometry, Group, Matrix4, Mesh, MeshBasicMaterial, Vector3, type Camera } from "three";
 import type { Centre } from "./handles.ts";
 import { Lines, stretches } from "./lines.ts";
 import type { Palette } from "./palette.ts";

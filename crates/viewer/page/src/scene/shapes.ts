@@ -4,7 +4,7 @@ import { ConvexGeometry } from "three/examples/jsm/geometries/ConvexGeometry.js"
 import { RoundedBoxGeometry } from "three/examples/jsm/geometries/RoundedBoxGeometry.js";
 import { mergeVertices, toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { floats } from "../numbers.ts";
-import type { Shape, Plate } from "../view.ts";
+import type { Plate, Shape } from "../view.ts";
 
 /** How far a chord may be off its arc: no farther than anybody sees [m]. */
 const OFF_M = 0.00012;

@@ -15,20 +15,22 @@ const MARK_PX = 44;
 const LIFT_M = 0.01;
 
 /** A picture that `paint` draws about its middle. */
-function picture(paint: (context: CanvasRenderingContext2D) => void): CanvasTexture {
+function picture(paint?: (context: CanvasRenderingContext2D) => void): CanvasTexture {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = PIXELS;
   const context = canvas.getContext("2d");
   context?.translate(PIXELS / 2, PIXELS / 2);
-  if (context !== null) paint(context);
+  if (context !== null) paint?.(context);
   const texture = new CanvasTexture(canvas);
   texture.colorSpace = "srgb";
   return texture;
 }
 
-function circle(context: CanvasRenderingContext2D, radius: number, width: number, colour: string): void {
+function circle(context: CanvasRenderingContext2D, radius: number, width: number, colour: string, inside = "transparent"): void {
   context.beginPath();
   context.arc(0, 0, radius, 0, 2 * Math.PI);
+  context.fillStyle = inside;
+  context.fill();
   context.lineWidth = width;
   context.strokeStyle = colour;
   context.stroke();
@@ -43,9 +45,7 @@ function target(context: CanvasRenderingContext2D): void {
 
 /** A white letter on a disc. */
 function letter(context: CanvasRenderingContext2D, text: string, colour: string): void {
-  circle(context, 0.42 * PIXELS, 8, "white");
-  context.fillStyle = colour;
-  context.fill();
+  circle(context, 0.42 * PIXELS, 8, "white", colour);
   context.fillStyle = "white";
   context.font = `bold ${0.62 * PIXELS}px sans-serif`;
   context.textAlign = "center";
@@ -84,7 +84,7 @@ export class Mark {
 /** Signs over plates of which something is said. */
 export class Signs {
   readonly root = new Group();
-  readonly #materials: Record<SignKind, SpriteMaterial> = { unclear: material(picture(() => undefined)), unwashable: material(picture(() => undefined)) };
+  readonly #materials: Record<SignKind, SpriteMaterial> = { unclear: material(picture()), unwashable: material(picture()) };
   readonly #sprites: Sprite[] = [];
 
   setPalette(palette: Palette): void {

@@ -1,5 +1,5 @@
 /** The tool: its bodies, and a sponge of foam that gives way where a plate presses on it. */
-import { LatheGeometry, Vector2, type BufferGeometry, type MeshStandardMaterial, Color, Group, Matrix4, Mesh, Vector3 } from "three";
+import { Color, Group, LatheGeometry, Matrix4, Mesh, Vector2, Vector3, type BufferGeometry, type MeshStandardMaterial } from "three";
 import { matrixOf } from "../kinematics.ts";
 import type { Plate, Tool } from "../view.ts";
 import { meshesOf } from "./arm.ts";

@@ -3,7 +3,7 @@
  * that cannot be washed, hatched.
  */
 import { Color, DataTexture, Group, LinearFilter, Mesh, RedFormat, ShaderMaterial, type BufferGeometry } from "three";
-import type { Chance } from "../edit/protocol.ts";
+import type { Chance, Unwashable } from "../edit/protocol.ts";
 import type { Palette } from "./palette.ts";
 import type { Solid } from "./pick.ts";
 
@@ -23,8 +23,8 @@ function leastSquared(points: Float64Array, x: number, y: number): number {
  */
 export function deadNearer(free: readonly (readonly number[])[], dead: readonly (readonly number[])[], half_m: number): Uint8Array {
   const raster = new Uint8Array(CELLS * CELLS);
-  const counts = (v = Number.NaN): boolean => Math.abs(v) <= 1.5 * half_m;
-  const within = (points: readonly (readonly number[])[]): Float64Array => Float64Array.from(points.filter(([x, y]) => counts(x) && counts(y)).flatMap(([x, y]) => [x!, y!]));
+  const within = (points: readonly (readonly number[])[]): Float64Array =>
+    Float64Array.from(points.filter(([x = Number.NaN, y = Number.NaN]) => Math.max(Math.abs(x), Math.abs(y)) <= 1.5 * half_m).flatMap(([x, y]) => [x!, y!]));
   const [lost, reached] = [within(dead), within(free)];
   const middleOf = (k: number): number => ((2 * k + 1) / CELLS - 1) * half_m;
   if (lost.length === 0) return raster;
@@ -99,12 +99,7 @@ interface Overlay {
   dead: { value: DataTexture | null };
 }
 
-export interface Offending {
-  plate: number;
-  /** World frame [m]. */
-  free_m: readonly (readonly [number, number, number])[];
-  dead_m: readonly (readonly [number, number, number])[];
-}
+export type Offending = Pick<Unwashable, "plate" | "free_m" | "dead_m">;
 
 export class Washability {
   readonly root = new Group();

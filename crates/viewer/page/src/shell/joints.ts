@@ -1,7 +1,7 @@
 /** Joint angles in words, for a page of one configuration. */
 import { Matrix4 } from "three";
-import { degrees, fixed, millimetres, percent } from "../format.ts";
 import { positionShare } from "../curves.ts";
+import { degrees, fixed, millimetres, percent } from "../format.ts";
 import { Kinematics } from "../kinematics.ts";
 import type { View } from "../view.ts";
 import { el, isolated } from "./dom.ts";

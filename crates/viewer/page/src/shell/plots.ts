@@ -89,24 +89,32 @@ function specsOf({ motion, clearances, recording, view, phase }: Player): Spec[]
     specs.push(shareSpec("position", "Joint position", () => joints.position), shareSpec("speed", "Joint speed", () => joints.speed));
     if (acceleration !== null) specs.push(shareSpec("acceleration", "Joint acceleration", () => acceleration));
     const planned = { ...tipSpeed(motion, view.arm, view.tool), lines: [PLANNED] };
-    const executed = (): Trace[] => (recording === null ? [] : [{ ...recordedTipSpeed(recording.times, recording.positions, view.arm, view.tool), lines: [EXECUTED] }]);
-    specs.push({ id: "tip-speed", title: "Tip speed", unit: "m/s", decimals: 3, scale: 1, traces: () => [planned, ...executed()], range: [0, 0.05] });
+    const traces = (): Trace[] => {
+      if (recording === null) return [planned];
+      return [planned, { ...recordedTipSpeed(recording.times, recording.positions, view.arm, view.tool), lines: [EXECUTED] }];
+    };
+    specs.push({ id: "tip-speed", title: "Tip speed", unit: "m/s", decimals: 3, scale: 1, traces, range: [0, 0.05] });
   }
   if (clearances !== null) {
     const traces = (): Trace[] => [{ times: clearances.times, curves: [clearances.distances], lines: [{ ...PLANNED, label: "smallest" }] }];
     const margin = 1000 * clearances.margin;
     const levels: Level[] = [{ value: margin, label: "margin", bad: "below" }];
     const cut: [number, number] = [Number.NEGATIVE_INFINITY, Math.max(FAR_MM, MARGINS * margin)];
-    specs.push({ id: "clearance", title: "Smallest clearance", unit: "mm", decimals: 1, scale: 1000, traces, levels, range: [0, Math.max(1, 2 * margin)], cut });
+    const range: [number, number] = [0, Math.max(1, 2 * margin)];
+    specs.push({ id: "clearance", title: "Smallest clearance", unit: "mm", decimals: 1, scale: 1000, traces, levels, range, cut });
   }
   if (recording === null) return specs;
   const errors = (): Trace[] => [{ times: recording.times, curves: [recording.errors], lines: [EXECUTED] }];
   specs.push({ id: "error", title: "Tip off the plan", unit: "mm", decimals: 3, scale: 1000, traces: errors, range: [0, 0.001] });
   if (recording.torques.length === 0 && phase === null) return specs;
   const limits = view.execution?.torque_limit_n_m ?? null;
-  const torques = (): Curves => shares(recording.torques.length === 0 ? new Float64Array(0) : recording.times, recording.torques, limits ?? [1, 1, 1, 1, 1, 1]);
-  if (limits !== null) specs.push(shareSpec("torque", "Joint torque", torques));
-  else specs.push({ id: "torque", title: "Joint torque", unit: "N m", decimals: 2, scale: 1, traces: () => [{ ...torques(), lines: JOINT_LINES }], range: [-1, 1] });
+  const torques = (): Curves => {
+    const times = recording.torques.length === 0 ? new Float64Array(0) : recording.times;
+    return shares(times, recording.torques, limits ?? [1, 1, 1, 1, 1, 1]);
+  };
+  const spec = shareSpec("torque", "Joint torque", torques);
+  const { id, title, traces } = spec;
+  specs.push(limits !== null ? spec : { id, title, traces, unit: "N m", decimals: 2, scale: 1, range: [-1, 1] });
   return specs;
 }
 
@@ -221,7 +229,8 @@ export class Plots {
     for (const { chart } of this.#plots ?? []) chart?.destroy();
     this.#plots = specsOf(this.#player).map((spec) => this.#frame(spec));
     this.#zoom(null);
-    const words = this.#plots.length === 0 ? "Nothing moves: there is no plan." : "Click to go there, drag to look closer. Sampled to look at, not the proof.";
+    const hint = "Click to go there, drag to look closer. Sampled to look at, not the proof.";
+    const words = this.#plots.length === 0 ? "Nothing moves: there is no plan." : hint;
     const figures = this.#plots.map(({ spec, traces, caption, box }) => {
       const many = traces.flatMap(({ lines }) => lines).length > 2;
       return el("figure", { class: many ? "plot plot-many" : "plot", id: `plot-${spec.id}` }, caption, box);

@@ -1,9 +1,8 @@
 /** The requirements and what came of each, those that are not kept first; and what is proved of the contact with each plate. */
 import { fixed, fixedShort, percentDown, quantity } from "../format.ts";
 import { RANK, statusWord, summary, verdict } from "../verdict.ts";
-import type { Contact, PlateContact, View, Certificate, Check, Status } from "../view.ts";
-import { el, isolated, button } from "./dom.ts";
-import { icon, toneIcon } from "./icons.ts";
+import type { Certificate, Check, Contact, PlateContact, Status, View } from "../view.ts";
+import { button, el, icon, isolated, toneIcon } from "./dom.ts";
 
 /** Up to so many decimals, never smaller than it is. */
 function up(value: number, decimals: number): string {

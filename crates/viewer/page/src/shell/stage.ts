@@ -3,8 +3,7 @@ import type { Theme } from "../palette.ts";
 import type { Follows } from "../player.ts";
 import { Scene, SceneError, type Layer, type Preset } from "../scene/index.ts";
 import type { View } from "../view.ts";
-import { el, announce, button, byId } from "./dom.ts";
-import { icon } from "./icons.ts";
+import { announce, button, byId, el, icon } from "./dom.ts";
 
 /**
  * Calls `prepare` before and after printing, and keeps a copy of the scene that it has drawn: the canvas's own content is gone once it

@@ -1,7 +1,6 @@
 /** Light and dark: as the system has it until someone chooses. */
 import { palette, type Palette, type Theme } from "../palette.ts";
-import { button } from "./dom.ts";
-import { icon } from "./icons.ts";
+import { button, icon } from "./dom.ts";
 
 const KEY = "platewash-theme";
 
