@@ -83,7 +83,7 @@ export class App {
       follow: view.execution === null ? null : (motion) => this.#controls.follow(motion),
     });
     this.#help = new Help(film, edit === null ? [] : PLATE_KEYS);
-    this.#header = new Header(view, [this.#theme.button(), this.#help.button()]);
+    this.#header = new Header(view, [this.#theme.button, this.#help.button()]);
     this.#transport = film ? this.#makeTransport() : null;
     this.#requirements = new Requirements(view, (check) => this.#choose(check));
     this.#plots = new Plots(this.#player, () => this.#theme.palette, (t) => this.#controls.seek(t));
@@ -281,12 +281,12 @@ export class App {
       help: () => this.#help.toggle(),
     });
     this.#address.onChange((place) => this.#go(place));
-    this.#theme.onChange((theme) => {
+    this.#theme.onChange = (theme) => {
       stage.scene?.setTheme(theme);
       this.#transport?.setPalette(this.#theme.palette);
       this.#plots.recolour();
       this.#show();
-    });
+    };
     // A hidden page gets no frames: its film waits.
     document.addEventListener("visibilitychange", () => {
       if (!document.hidden) this.#player.clock.resume(this.#loop.now());

@@ -14,11 +14,11 @@ import type { CoverageKind } from "./plates.ts";
 import { Mark } from "./signs.ts";
 import { Stage } from "./stage.ts";
 import { Studio } from "./studio.ts";
-import { PRESETS, Views, type Preset } from "./views.ts";
+import { Views, type Preset } from "./views.ts";
 
 export type { Layer } from "./content.ts";
 export { SceneError } from "./stage.ts";
-export type { Preset } from "./views.ts";
+export { PRESETS, type Preset } from "./views.ts";
 
 /** A moment. */
 export interface Shown {
@@ -295,15 +295,6 @@ export class Scene {
 
   layers(): { id: Layer; label: string; on: boolean }[] {
     return LAYERS.map((id) => ({ id, label: LABELS[id], on: this.#isOn(id) }));
-  }
-
-  /** The views that there are. */
-  cameras(): readonly { id: Preset; label: string }[] {
-    return PRESETS;
-  }
-
-  get preset(): Preset {
-    return this.#views.preset;
   }
 
   /** Goes to a view; at once where asked, or where a reader wants no motion. */

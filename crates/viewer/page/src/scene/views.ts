@@ -184,10 +184,6 @@ export class Views {
     });
   }
 
-  get preset(): Preset {
-    return this.#preset;
-  }
-
   /** Whether it is here that the camera is moved right now, and no reader who moves it. */
   get placing(): boolean {
     return this.#placing;

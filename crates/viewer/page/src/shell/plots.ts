@@ -9,6 +9,8 @@ import { button, el, TextCell } from "./dom.ts";
 interface Line {
   label: string;
   colour: (palette: Palette) => string;
+  /** The same as a custom property. */
+  property: string;
   /** So that lines are told apart without colour. */
   dash?: number[];
 }
@@ -44,25 +46,27 @@ interface Spec {
 interface Plot {
   spec: Spec;
   traces: Trace[];
-  caption: HTMLElement;
+  figure: HTMLElement;
   box: HTMLElement;
   playhead: HTMLElement;
   /** What is cut off, in words. */
   peak: TextCell;
-  /** Null until there is room for it. */
-  chart: uPlot | null;
+  chart: uPlot;
 }
 
 /** Joints 4 to 6 are dashed, so that colours are not all that tells them from 1 to 3. */
 const JOINT_LINES: Line[] = Array.from({ length: 6 }, (_, j) => ({
   label: `J${j + 1}`,
   colour: (palette: Palette) => palette.joints[j]!,
+  property: `--joint-${j}`,
   ...(j < 3 ? {} : { dash: [5, 3] }),
 }));
-const PLANNED: Line = { label: "planned", colour: (palette) => palette.planned };
-const EXECUTED: Line = { label: "executed", colour: (palette) => palette.executed };
+const PLANNED: Line = { label: "planned", colour: (palette) => palette.planned, property: "--planned" };
+const EXECUTED: Line = { label: "executed", colour: (palette) => palette.executed, property: "--executed" };
 
 const HEIGHT_PX = 132;
+/** Until there is a place for it [px]. */
+const WIDTH_PX = 300;
 /** Plots narrower than this are not drawn [px]. */
 const NARROWEST_PX = 40;
 /** Clearances beyond this tell nothing: so many margins, at least so many millimetres. */
@@ -119,15 +123,14 @@ function specsOf({ motion, clearances, recording, view, phase }: Player): Spec[]
 }
 
 /** Data as uPlot wants them: one list of times, gaps where a trace has no point. */
-function aligned({ spec, traces }: Plot): uPlot.AlignedData {
-  const scaled = traces.map(({ times, curves }): uPlot.AlignedData => [times, ...curves.map((values) => values.map((value) => value * spec.scale))]);
+function aligned(traces: readonly Trace[], scale: number): uPlot.AlignedData {
+  const scaled = traces.map(({ times, curves }): uPlot.AlignedData => [times, ...curves.map((values) => values.map((value) => value * scale))]);
   return scaled.length === 1 ? scaled[0]! : uPlot.join(scaled);
 }
 
 /** A line's look in the legend, as CSS background. */
-function sample({ colour, dash }: Line, palette: Palette): string {
-  const ink = colour(palette);
-  return dash === undefined ? ink : `linear-gradient(to right, ${ink} 0 4px, transparent 4px 7px, ${ink} 7px)`;
+function sample({ property, dash }: Line): string {
+  return dash === undefined ? `var(${property})` : `linear-gradient(to right, var(${property}) 0 4px, transparent 4px 7px, var(${property}) 7px)`;
 }
 
 export class Plots {
@@ -149,7 +152,7 @@ export class Plots {
     this.#player = player;
     this.#palette = palette;
     this.#seek = seek;
-    new ResizeObserver(() => this.#fit()).observe(this.element);
+    new ResizeObserver(() => this.#fit(null)).observe(this.element);
   }
 
   /** The player shows another document. Curves take longer than a frame: the old ones stay, faint, until they are asked for again. */
@@ -158,10 +161,10 @@ export class Plots {
     this.element.classList.add("old");
   }
 
-  /** Makes and draws what has not been drawn, now that it is in sight. */
+  /** Makes what has not been made, now that it is in sight. */
   show(): void {
     if (this.#plots === null || this.#old) this.#make();
-    this.#fit();
+    this.#fit(null);
     this.update(0, true);
   }
 
@@ -170,11 +173,14 @@ export class Plots {
     const early = !anew && now >= this.#updated && now - this.#updated < READABLE_MS;
     if (!early) this.#updated = now;
     for (const { chart, playhead } of this.#plots ?? []) {
-      if (chart === null) continue;
-      const left = chart.valToPos(this.#player.time, "x");
-      playhead.style.transform = `translateX(${left >= 0 && left <= chart.over.clientWidth + 0.5 ? left.toFixed(1) : -10}px)`;
+      this.#place(playhead, chart);
       if (!early) chart.setLegend({ idx: 0 }, false);
     }
+  }
+
+  #place(playhead: HTMLElement, chart: uPlot): void {
+    const left = chart.valToPos(this.#player.time, "x");
+    playhead.style.transform = `translateX(${left >= 0 && left <= chart.over.clientWidth + 0.5 ? left.toFixed(1) : -10}px)`;
   }
 
   /** Adds what a live run has brought, now and then; between frames, as it takes longer than one should. */
@@ -187,7 +193,7 @@ export class Plots {
       this.#grown = recording.count;
       for (const plot of this.#plots ?? []) {
         plot.traces = plot.spec.traces();
-        plot.chart?.setData(aligned(plot), false);
+        plot.chart.setData(aligned(plot.traces, plot.spec.scale), false);
         this.#describe(plot);
       }
       this.#zoom(this.#span);
@@ -195,8 +201,7 @@ export class Plots {
   }
 
   recolour(): void {
-    for (const plot of this.#plots ?? []) if (plot.chart !== null) this.#draw(plot, plot.chart.width);
-    this.update(0, true);
+    for (const { chart } of this.#plots ?? []) chart.redraw(false);
   }
 
   /** Draws at this width, for paper; null for that of the panel. */
@@ -206,50 +211,50 @@ export class Plots {
     this.update(0, true);
   }
 
-  #fit(width: number | null = null): void {
-    for (const plot of this.#plots ?? []) {
-      const wide = width ?? plot.box.clientWidth;
-      if (wide < NARROWEST_PX || wide === plot.chart?.width) continue;
-      if (plot.chart === null) this.#draw(plot, wide);
-      else plot.chart.setSize({ width: wide, height: HEIGHT_PX });
+  #fit(width: number | null): void {
+    for (const { box, chart } of this.#plots ?? []) {
+      const wide = width ?? box.clientWidth;
+      if (wide >= NARROWEST_PX && wide !== chart.width) chart.setSize({ width: wide, height: HEIGHT_PX });
     }
-    this.update(0, true);
   }
 
   #zoom(span: [number, number] | null): void {
     this.#span = span;
     this.#reset.hidden = span === null;
-    for (const { chart } of this.#plots ?? []) chart?.setScale("x", { min: 0, max: this.#player.duration });
+    for (const { chart } of this.#plots ?? []) chart.setScale("x", { min: 0, max: this.#player.duration });
     this.update(0, true);
   }
 
   #make(): void {
     this.#old = false;
     this.element.classList.remove("old");
-    for (const { chart } of this.#plots ?? []) chart?.destroy();
-    this.#plots = specsOf(this.#player).map((spec) => this.#frame(spec));
+    for (const { chart } of this.#plots ?? []) chart.destroy();
+    this.#plots = specsOf(this.#player).map((spec) => this.#plotOf(spec));
     this.#zoom(null);
     const hint = "Click to go there, drag to look closer. Sampled to look at, not the proof.";
-    const words = this.#plots.length === 0 ? "Nothing moves: there is no plan." : hint;
-    const figures = this.#plots.map(({ spec, traces, caption, box }) => {
-      const many = traces.flatMap(({ lines }) => lines).length > 2;
-      return el("figure", { class: many ? "plot plot-many" : "plot", id: `plot-${spec.id}` }, caption, box);
-    });
-    this.element.replaceChildren(el("div", { class: "plots-head" }, el("p", { class: "summary" }, words), this.#reset), ...figures);
+    const words = el("p", { class: "summary" }, this.#plots.length === 0 ? "Nothing moves: there is no plan." : hint);
+    this.element.replaceChildren(el("div", { class: "plots-head" }, words, this.#reset), ...this.#plots.map(({ figure }) => figure));
     this.#grown = this.#player.recording?.count ?? 0;
   }
 
-  #frame(spec: Spec): Plot {
-    const [unit, peak] = [el("span", { class: "plot-unit" }, spec.unit), new TextCell()];
-    const caption = el("figcaption", {}, el("h3", {}, spec.title, " ", unit, el("span", { class: "plot-unit" }, peak.node)));
-    const box = el("div", { class: "plot-box", set: { role: "img" } });
-    const plot: Plot = { spec, traces: spec.traces(), caption, box, playhead: el("div", { class: "plot-playhead" }), peak, chart: null };
+  #plotOf(spec: Spec): Plot {
+    const peak = new TextCell();
+    const title = el("h3", {}, spec.title, " ", el("span", { class: "plot-unit" }, spec.unit, peak.node));
+    const [caption, box] = [el("figcaption", {}, title), el("div", { class: "plot-box", set: { role: "img" } })];
+    const traces = spec.traces();
+    const many = traces.flatMap(({ lines }) => lines).length > 2;
+    const figure = el("figure", { class: many ? "plot plot-many" : "plot", id: `plot-${spec.id}` }, caption, box);
+    const playhead = el("div", { class: "plot-playhead" });
+    const plot = { spec, traces, figure, box, playhead, peak };
+    const chart = new uPlot(this.#options(plot, caption), aligned(traces, spec.scale), box);
+    chart.over.append(playhead);
+    chart.over.addEventListener("click", () => this.#seek(chart.posToVal(chart.cursor.left ?? 0, "x")));
     this.#describe(plot);
-    return plot;
+    return Object.assign(plot, { chart });
   }
 
   /** In words, for those who cannot see it. */
-  #describe({ spec, traces, box, peak }: Plot): void {
+  #describe({ spec, traces, box, peak }: Omit<Plot, "chart">): void {
     const { title, unit, scale, decimals, levels = [], cut: [floor, ceiling] = [Number.NEGATIVE_INFINITY, Number.POSITIVE_INFINITY] } = spec;
     let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
     for (const values of traces.flatMap(({ curves }) => curves)) {
@@ -264,39 +269,29 @@ export class Plots {
     peak.set(low * scale < floor || high * scale > ceiling ? `, cut: ${span}` : "");
   }
 
-  #draw(plot: Plot, width: number): void {
-    plot.chart?.destroy();
-    plot.chart = new uPlot(this.#options(plot, width), aligned(plot), plot.box);
-    plot.chart.over.append(plot.playhead);
-    plot.chart.over.addEventListener("click", () => {
-      const left = plot.chart?.cursor.left ?? -1;
-      if (plot.chart !== null && left >= 0) this.#seek(plot.chart.posToVal(left, "x"));
-    });
-  }
-
-  #options(plot: Plot, width: number): uPlot.Options {
-    const palette = this.#palette();
+  #options(plot: Omit<Plot, "chart">, caption: HTMLElement): uPlot.Options {
     const { decimals, scale, range: [least, most], cut: [floor, ceiling] = [Number.NEGATIVE_INFINITY, Number.POSITIVE_INFINITY] } = plot.spec;
     const lines = plot.traces.flatMap((trace) => trace.lines.map((line, curve) => ({ line, trace: plot.traces.indexOf(trace), curve })));
-    const axis = { stroke: palette.muted, grid: { stroke: palette.line, width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
+    const [ink, line] = [() => this.#palette().muted, () => this.#palette().line];
+    const axis = { stroke: ink, grid: { stroke: line, width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
     const yRange = (_: uPlot, low: number | null, high: number | null): [number, number] => {
       const [from, to] = [Math.max(floor, Math.min(least, low ?? least)), Math.min(ceiling, Math.max(most, high ?? most))];
       const air = 0.04 * (to - from);
       return [from === 0 ? 0 : from - air, to + air];
     };
     return {
-      width,
+      width: WIDTH_PX,
       height: HEIGHT_PX,
       padding: [6, 8, 0, 0],
       // Figures are those at the playhead, wherever the cursor is.
-      legend: { mount: (_, table) => plot.caption.append(table), markers: { width: 0, fill: (_, k) => sample(lines[k - 1]!.line, palette) } },
+      legend: { mount: (_, table) => caption.append(table), markers: { width: 0, fill: (_, k) => sample(lines[k - 1]!.line) } },
       scales: { x: { time: false, range: () => this.#span ?? [0, this.#player.duration] }, y: { range: yRange } },
       axes: [{ ...axis, size: 22, gap: 2, space: 46 }, { ...axis, size: 44, gap: 4, space: 24 }],
       series: [
         {},
         ...lines.map(({ line: { label, colour, dash }, trace, curve }) => ({
           label,
-          stroke: colour(palette),
+          stroke: () => colour(this.#palette()),
           width: 1.25,
           points: { show: false },
           spanGaps: true,
@@ -313,6 +308,7 @@ export class Plots {
       },
       hooks: {
         drawAxes: [(chart) => this.#drawGround(chart, plot.spec.levels ?? [])],
+        draw: [(chart) => this.#place(plot.playhead, chart)],
         setSelect: [(chart) => this.#select(chart)],
       },
     };

@@ -1,7 +1,7 @@
 /** The scene's place in the page: its canvas, its tools, a message where it cannot be drawn, and a still of it on paper. */
 import type { Theme } from "../palette.ts";
 import type { Follows } from "../player.ts";
-import { Scene, SceneError, type Layer, type Preset } from "../scene/index.ts";
+import { PRESETS, Scene, SceneError, type Layer } from "../scene/index.ts";
 import type { View } from "../view.ts";
 import { announce, button, byId, el, icon } from "./dom.ts";
 
@@ -94,19 +94,18 @@ export class Stage {
   }
 
   camera(preset: string): void {
-    const known = this.scene?.cameras().find(({ id }) => id === preset);
-    if (known === undefined) return;
-    this.scene?.camera(known.id);
+    const known = PRESETS.find(({ id }) => id === preset);
+    if (known === undefined || this.scene === null) return;
+    this.scene.camera(known.id);
     this.#camera.value = known.id;
     this.#actions.changed();
   }
 
   nextCamera(): void {
-    const ids: Preset[] = this.scene?.cameras().map(({ id }) => id) ?? [];
-    const next = ids[(ids.indexOf(this.#camera.value as Preset) + 1) % ids.length];
-    if (next === undefined) return;
-    this.camera(next);
-    announce(`View: ${this.#camera.selectedOptions[0]?.textContent ?? next}`);
+    if (this.scene === null) return;
+    const { id, label } = PRESETS[(this.#camera.selectedIndex + 1) % PRESETS.length]!;
+    this.camera(id);
+    announce(`View: ${label}`);
   }
 
   setLayer(layer: Layer, on: boolean): void {
@@ -162,7 +161,7 @@ export class Stage {
   }
 
   #toolbar(view: View): HTMLElement {
-    this.#camera.append(...(this.scene?.cameras() ?? []).map(({ id, label }) => el("option", { set: { value: id } }, label)));
+    this.#camera.append(...PRESETS.map(({ id, label }) => el("option", { set: { value: id } }, label)));
     this.#camera.addEventListener("change", () => this.camera(this.#camera.value));
     this.#heat.hidden = view.coverage.length === 0;
     const full = button({ class: "button icon-button", label: "Full screen (F)" }, () => this.toggleFullscreen(), icon("fullscreen"));
