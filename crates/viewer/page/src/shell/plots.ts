@@ -342,7 +342,10 @@ export class Plots {
       ctx.globalAlpha = 0.1;
       ctx.fillRect(left, y, width, bad === "above" ? top - y : top + height - y);
       ctx.globalAlpha = 1;
-      ctx.strokeRect(left - width, y, 3 * width, 0);
+      ctx.beginPath();
+      ctx.moveTo(left, y);
+      ctx.lineTo(left + width, y);
+      ctx.stroke();
     }
     ctx.restore();
   }
