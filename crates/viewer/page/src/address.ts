@@ -1,5 +1,45 @@
-/** The page's address: says where in the film it stands, once nothing changes any more. */
-import { linkTo, parseLink, type Place } from "./link.ts";
+/** The page's address says where in the film it stands: `#t=12.5&speed=2&show=executed&panel=plots&camera=above`. */
+
+/** Where a link points to. What does not fit is ignored. */
+export interface Place {
+  /** [s] */
+  t: number | null;
+  speed: number | null;
+  show: "planned" | "executed" | null;
+  panel: string | null;
+  camera: string | null;
+}
+
+const WORD = /^[a-z-]{1,24}$/;
+
+function number(text: string | null): number | null {
+  if (text === null || !/^\d{1,9}(\.\d{1,9})?$/.test(text)) return null;
+  return Number(text);
+}
+
+function word(text: string | null): string | null {
+  return text !== null && WORD.test(text) ? text : null;
+}
+
+/** Reads a URL's hash. */
+export function parseLink(hash: string): Place {
+  const entries = new URLSearchParams(hash.replace(/^#/, "").slice(0, 500));
+  const show = entries.get("show");
+  return {
+    t: number(entries.get("t")),
+    speed: number(entries.get("speed")),
+    show: show === "planned" || show === "executed" ? show : null,
+    panel: word(entries.get("panel")),
+    camera: word(entries.get("camera")),
+  };
+}
+
+/** The hash of a place, without what is null. */
+export function linkTo(place: Place): string {
+  const text = (value: number | string): string => (typeof value === "number" ? String(Number(value.toFixed(3))) : value);
+  const entries = Object.entries(place).flatMap(([key, value]) => (value === null ? [] : [[key, text(value)]]));
+  return `#${new URLSearchParams(entries)}`;
+}
 
 /** How long the page rests before its address is changed [ms]. */
 const SETTLED_MS = 400;

@@ -1,32 +1,26 @@
 /** The page, put together: a player, a scene, and everything around them that shows a moment or asks for one. */
-import { Address } from "./address.ts";
+import { Address, type Place } from "./address.ts";
 import { Controls } from "./controls.ts";
 import { Editor } from "./edit/editor.ts";
-import { PLATE_KEYS } from "./edit/plate-keys.ts";
+import { PLATE_KEYS } from "./edit/keys.ts";
 import type { EditDocument } from "./edit/protocol.ts";
-import { NO_SCENE } from "./edit/scene.ts";
-import { Feed } from "./feed.ts";
 import { quantity } from "./format.ts";
 import { handleOf, type Handle } from "./handle.ts";
-import type { Place } from "./link.ts";
+import { Feed } from "./live.ts";
 import { Loop } from "./loop.ts";
 import { Player } from "./player.ts";
 import { about } from "./shell/about.ts";
-import { announce } from "./shell/announcer.ts";
 import { Banner } from "./shell/banner.ts";
-import { byId, el } from "./shell/dom.ts";
-import { keepingFocus } from "./shell/focus.ts";
+import { announce, byId, el, keepingFocus } from "./shell/dom.ts";
 import { Header } from "./shell/header.ts";
-import { Help } from "./shell/help.ts";
 import { configuration } from "./shell/joints.ts";
-import { listenToKeys } from "./shell/keys.ts";
+import { Help, listenToKeys } from "./shell/keys.ts";
 import { Panels, type Panel } from "./shell/panels.ts";
 import { Coverages, Plates } from "./shell/plates.ts";
 import { Plots } from "./shell/plots.ts";
-import { listenToPrint } from "./shell/print.ts";
 import { Readout } from "./shell/readout.ts";
 import { Requirements } from "./shell/requirements.ts";
-import { Stage } from "./shell/stage.ts";
+import { listenToPrint, Stage } from "./shell/stage.ts";
 import { ThemeControl } from "./shell/theme.ts";
 import { Transport } from "./shell/transport.ts";
 import type { Check, LiveEnd, View } from "./view.ts";
@@ -66,14 +60,10 @@ export class App {
     this.#player = new Player(view);
     // A live cell's film comes and goes: its place is always there.
     const film = this.#player.duration > 0 || edit !== null;
-    const { promise, resolve } = newPromise();
-    this.#ready = promise;
-    const afterFirst = (): void => {
-      this.#panels.start();
-      resolve();
-    };
+    let drawn = (): void => undefined;
+    this.#ready = new Promise<void>((resolve) => (drawn = resolve)).then(() => this.#panels.start());
     // The timer lets the browser show the first frame before panels are filled.
-    this.#loop = new Loop({ advance: (now) => this.#advance(now), draw: () => this.#draw() }, () => setTimeout(afterFirst));
+    this.#loop = new Loop({ advance: (now) => this.#advance(now), draw: () => this.#draw() }, () => setTimeout(drawn));
     this.#controls = new Controls(this.#player, () => this.#loop.now(), {
       changed: () => this.#changed(),
       moved: () => this.#mark(null),
@@ -93,7 +83,7 @@ export class App {
       follow: view.execution === null ? null : (motion) => this.#controls.follow(motion),
     });
     this.#help = new Help(film, edit === null ? [] : PLATE_KEYS);
-    this.#header = new Header(view, [this.#theme.button(), this.#help.button()]);
+    this.#header = new Header(view, [this.#theme.button, this.#help.button()]);
     this.#transport = film ? this.#makeTransport() : null;
     this.#requirements = new Requirements(view, (check) => this.#choose(check));
     this.#plots = new Plots(this.#player, () => this.#theme.palette, (t) => this.#controls.seek(t));
@@ -154,7 +144,7 @@ export class App {
   #makeEditor(edit: EditDocument, view: View): Editor {
     const { canvas, scene } = this.#stage;
     return new Editor(edit, view, {
-      scene: () => scene ?? NO_SCENE,
+      edit: (actions) => scene?.edit(actions) ?? null,
       size: () => [canvas.clientWidth, canvas.clientHeight],
       replace: (next) => this.replace(next),
       say: (said) => this.#header.say(said),
@@ -292,12 +282,12 @@ export class App {
       help: () => this.#help.toggle(),
     });
     this.#address.onChange((place) => this.#go(place));
-    this.#theme.onChange((theme) => {
+    this.#theme.onChange = (theme) => {
       stage.scene?.setTheme(theme);
       this.#transport?.setPalette(this.#theme.palette);
       this.#plots.recolour();
       this.#show();
-    });
+    };
     // A hidden page gets no frames: its film waits.
     document.addEventListener("visibilitychange", () => {
       if (!document.hidden) this.#player.clock.resume(this.#loop.now());
@@ -328,12 +318,4 @@ export class App {
 
 function coveragesOf(view: View): Coverages {
   return new Coverages(view.coverage, view.execution?.coverage ?? []);
-}
-
-function newPromise(): { promise: Promise<void>; resolve: () => void } {
-  let resolve = (): void => undefined;
-  const promise = new Promise<void>((done) => {
-    resolve = done;
-  });
-  return { promise, resolve };
 }

@@ -1,6 +1,5 @@
 /** The smallest clearance over time, as the document has it. */
-import { indexBefore } from "./knots.ts";
-import { decode, floats } from "./numbers.ts";
+import { decode, floats, indexBefore } from "./numbers.ts";
 import type { Clearance } from "./view.ts";
 
 export type Point = [number, number, number];

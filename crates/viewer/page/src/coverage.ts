@@ -1,7 +1,59 @@
-/** A plate's coverage over time: sampled on a raster to look at, not the proof. */
-import { colormap } from "./colormap.ts";
+/** A plate's coverage over time: sampled on a raster to look at, not the proof; and the colours of its heat map. */
 import { decode, NumbersError } from "./numbers.ts";
-import type { Counted, PlateCoverage } from "./view.ts";
+import type { PlateCoverage } from "./view.ts";
+
+/** Lightness, chroma and hue [deg] in Oklch, evenly spaced. */
+const ANCHORS = [
+  [0.26, 0.11, 300],
+  [0.4, 0.11, 268],
+  [0.54, 0.1, 222],
+  [0.68, 0.11, 175],
+  [0.82, 0.15, 128],
+  [0.95, 0.14, 104],
+] as const;
+
+function gamma(linear: number): number {
+  const x = Math.max(0, Math.min(1, linear));
+  return x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055;
+}
+
+/** sRGB bytes of a colour in Oklab (B. Ottosson's matrices), clipped to what a screen shows. */
+function bytesOf(lightness: number, a: number, b: number): [number, number, number] {
+  const l = (lightness + 0.3963377774 * a + 0.2158037573 * b) ** 3;
+  const m = (lightness - 0.1055613458 * a - 0.0638541728 * b) ** 3;
+  const s = (lightness - 0.0894841775 * a - 1.291485548 * b) ** 3;
+  const byte = (linear: number): number => Math.round(255 * gamma(linear));
+  return [
+    byte(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+    byte(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+    byte(-0.0041960863 * l - 0.7034186147 * m + 1.707614701 * s),
+  ];
+}
+
+function sample(share: number): [number, number, number] {
+  const at = share * (ANCHORS.length - 1);
+  const k = Math.min(ANCHORS.length - 2, Math.floor(at));
+  const rest = at - k;
+  const mixed = (component: 0 | 1 | 2): number => ANCHORS[k]![component] * (1 - rest) + ANCHORS[k + 1]![component] * rest;
+  const hue = (mixed(2) * Math.PI) / 180;
+  return bytesOf(mixed(0), mixed(1) * Math.cos(hue), mixed(1) * Math.sin(hue));
+}
+
+/**
+ * `count` colours from share 0 to 1 as red, green, blue and alpha bytes: even steps in lightness from dark violet over teal to pale yellow,
+ * legible without seeing red or green.
+ */
+export function colormap(count = 256): Uint8Array {
+  const bytes = new Uint8Array(4 * count);
+  for (let i = 0; i < count; i++) bytes.set([...sample(i / Math.max(1, count - 1)), 255], 4 * i);
+  return bytes;
+}
+
+/** The map as CSS gradient, for a legend. */
+export function cssGradient(): string {
+  const stops = Array.from({ length: 9 }, (_, i) => `rgb(${sample(i / 8).join(" ")}) ${(100 * i) / 8}%`);
+  return `linear-gradient(to right, ${stops.join(", ")})`;
+}
 
 /** A cell that the sponge never gets over. */
 export const NEVER = 65535;
@@ -9,17 +61,11 @@ export const NEVER = 65535;
 export const OUTSIDE = 65534;
 
 /** A raster as it is in the document, with its cells in the order in which they get swept. */
-export interface Coverage {
-  plate: number;
+export interface Coverage extends Pick<PlateCoverage, "plate" | "half_m" | "counted" | "step_s" | "dwell_step_s" | "proved"> {
   rows: number;
   columns: number;
-  half_m: number;
-  counted: Counted | null;
   first: Uint16Array;
-  step_s: number;
   dwell: Uint8Array;
-  dwell_step_s: number;
-  proved: number | null;
   /** Cells within the rim. */
   cells: number;
   /** Indices of the cells that get swept, earliest first. */
@@ -100,12 +146,7 @@ export function dwellScale(coverages: readonly Coverage[]): number {
 export type MapMode = "build-up" | "dwell";
 
 /** Red, green and blue bytes. */
-export interface MapColours {
-  swept: readonly [number, number, number];
-  unswept: readonly [number, number, number];
-}
-
-export const MAP_COLOURS: MapColours = { swept: [0, 114, 178], unswept: [203, 208, 214] };
+export const MAP_COLOURS = { swept: [0, 114, 178], unswept: [203, 208, 214] };
 
 const HEAT = colormap();
 
@@ -115,13 +156,12 @@ export class PlateMap {
   readonly #canvas: HTMLCanvasElement;
   readonly #context: CanvasRenderingContext2D | null;
   readonly #image: ImageData;
-  #colours: MapColours;
   /** Seconds at the hot end of a heat map. */
   readonly #scale_s: number;
   #painted = 0;
   #mode: MapMode | null = null;
 
-  constructor(canvas: HTMLCanvasElement, coverage: Coverage, scale_s = dwellScale([coverage]), colours: MapColours = MAP_COLOURS) {
+  constructor(canvas: HTMLCanvasElement, coverage: Coverage, scale_s = dwellScale([coverage])) {
     this.coverage = coverage;
     this.#canvas = canvas;
     this.#canvas.width = Math.max(1, coverage.columns);
@@ -129,13 +169,6 @@ export class PlateMap {
     this.#context = canvas.getContext("2d");
     this.#image = new ImageData(this.#canvas.width, this.#canvas.height);
     this.#scale_s = scale_s;
-    this.#colours = colours;
-  }
-
-  /** Changes the colours; takes effect with the next painting. */
-  setColours(colours: MapColours): void {
-    this.#colours = colours;
-    this.#mode = null;
   }
 
   /** Paints the map as it is at `t` [s]. */
@@ -151,12 +184,12 @@ export class PlateMap {
       this.#mode = "build-up";
       this.#painted = 0;
       this.coverage.first.forEach((step, cell) => {
-        if (step !== OUTSIDE) this.#set(cell, this.#colours.unswept, 0);
+        if (step !== OUTSIDE) this.#set(cell, MAP_COLOURS.unswept, 0);
       });
     }
     const before = this.#painted;
-    for (let k = before; k < count; k++) this.#set(this.coverage.order[k]!, this.#colours.swept, 0);
-    for (let k = count; k < before; k++) this.#set(this.coverage.order[k]!, this.#colours.unswept, 0);
+    for (let k = before; k < count; k++) this.#set(this.coverage.order[k]!, MAP_COLOURS.swept, 0);
+    for (let k = count; k < before; k++) this.#set(this.coverage.order[k]!, MAP_COLOURS.unswept, 0);
     this.#painted = count;
     return anew || before !== count;
   }
@@ -167,7 +200,7 @@ export class PlateMap {
     const perStep = (255 * this.coverage.dwell_step_s) / this.#scale_s;
     this.coverage.first.forEach((step, cell) => {
       if (step === OUTSIDE) return;
-      if (step === NEVER) this.#set(cell, this.#colours.unswept, 0);
+      if (step === NEVER) this.#set(cell, MAP_COLOURS.unswept, 0);
       else this.#set(cell, HEAT, 4 * Math.min(255, Math.round(this.coverage.dwell[cell]! * perStep)));
     });
     return true;

@@ -1,6 +1,7 @@
 /** What the plots draw: curves over time, sampled to look at. */
 import { Kinematics } from "./kinematics.ts";
-import { AXES, newState, type Motion } from "./motion.ts";
+import { AXES, newState, type JointState, type Motion } from "./motion.ts";
+import { indexBefore } from "./numbers.ts";
 import type { Arm, Joint, Tool } from "./view.ts";
 
 /** Points of a curve at most: beyond that, knots are left out for equal steps. */
@@ -26,11 +27,7 @@ export interface JointShares {
 export function sampleTimes(motion: Motion, most = MOST_POINTS): Float64Array {
   const knots = motion.times;
   const n = knots.length;
-  if (2 * n - 1 <= most) {
-    return Float64Array.from({ length: 2 * n - 1 }, (_, k) =>
-      k % 2 === 0 ? knots[k / 2]! : 0.5 * (knots[(k - 1) / 2]! + knots[(k + 1) / 2]!),
-    );
-  }
+  if (2 * n - 1 <= most) return Float64Array.from({ length: 2 * n - 1 }, (_, k) => 0.5 * (knots[k >> 1]! + knots[(k + 1) >> 1]!));
   if (n <= most) return knots;
   return Float64Array.from({ length: most }, (_, k) => (motion.duration * k) / (most - 1));
 }
@@ -42,102 +39,80 @@ export function positionShare(joint: Joint, q: number): number {
   return (2 * q - low - high) / (high - low);
 }
 
-function sixOf(count: number): Float64Array[] {
-  return Array.from({ length: AXES }, () => new Float64Array(count));
+/** A curve for each joint: its `value` in the state that `place` finds for each time. */
+function perJoint(
+  times: Float64Array,
+  place: (t: number, k: number, into: JointState) => void,
+  value: (state: JointState, j: number) => number,
+): Curves {
+  const curves = Array.from({ length: AXES }, () => new Float64Array(times.length));
+  const state = newState();
+  times.forEach((t, k) => {
+    place(t, k, state);
+    curves.forEach((curve, j) => (curve[k] = value(state, j)));
+  });
+  return { times, curves };
 }
 
 export function jointShares(motion: Motion, joints: readonly Joint[]): JointShares {
   const times = sampleTimes(motion);
-  const [position, speed] = [sixOf(times.length), sixOf(times.length)];
-  const state = newState();
-  times.forEach((t, k) => {
-    motion.at(t, state);
-    joints.forEach((joint, j) => {
-      position[j]![k] = positionShare(joint, state.q[j]!);
-      speed[j]![k] = state.qd[j]! / joint.speed_rad_s;
-    });
-  });
-  return { position: { times, curves: position }, speed: { times, curves: speed }, acceleration: accelerations(motion, joints) };
+  const place = (t: number, _: number, into: JointState): JointState => motion.at(t, into);
+  return {
+    position: perJoint(times, place, ({ q }, j) => positionShare(joints[j]!, q[j]!)),
+    speed: perJoint(times, place, ({ qd }, j) => qd[j]! / joints[j]!.speed_rad_s),
+    acceleration: joints.every((joint) => joint.acceleration_rad_s2 === null) ? null : accelerations(motion, joints),
+  };
 }
 
 /** Accelerations jump at knots: both sides of each are in the curves. */
-function accelerations(motion: Motion, joints: readonly Joint[]): Curves | null {
-  if (joints.every((joint) => joint.acceleration_rad_s2 === null)) return null;
-  const all = motion.times.length;
-  const stride = Math.max(1, Math.ceil((2 * all) / MOST_POINTS));
-  const knots = Array.from({ length: Math.ceil(all / stride) }, (_, k) => k * stride);
-  const times = new Float64Array(2 * knots.length);
-  const curves = sixOf(times.length);
-  const state = newState();
-  const put = (at: number): void =>
-    joints.forEach((joint, j) => {
-      curves[j]![at] = joint.acceleration_rad_s2 === null ? Number.NaN : state.qdd[j]! / joint.acceleration_rad_s2;
-    });
-  knots.forEach((knot, k) => {
-    const t = motion.times[knot]!;
-    times[2 * k] = t;
-    times[2 * k + 1] = t;
-    motion.before(knot, state);
-    put(2 * k);
-    motion.at(t, state);
-    put(2 * k + 1);
-  });
-  return { times, curves };
+function accelerations(motion: Motion, joints: readonly Joint[]): Curves {
+  const stride = Math.max(1, Math.ceil((2 * motion.times.length) / MOST_POINTS));
+  const knot = (k: number): number => stride * (k >> 1);
+  const times = Float64Array.from({ length: 2 * Math.ceil(motion.times.length / stride) }, (_, k) => motion.times[knot(k)]!);
+  const place = (t: number, k: number, into: JointState): JointState => (k % 2 === 0 ? motion.before(knot(k), into) : motion.at(t, into));
+  return perJoint(times, place, ({ qdd }, j) => qdd[j]! / (joints[j]!.acceleration_rad_s2 ?? Number.NaN));
 }
 
 /** The tip's speed over time [m/s], by differences of its places. */
 export function tipSpeed(motion: Motion, arm: Arm, tool: Tool | null): Curves {
   const times = sampleTimes(motion, MOST_POINTS / 2);
-  const kinematics = new Kinematics(arm, tool);
-  const [before, after] = [new Float64Array(16), new Float64Array(16)];
   const state = newState();
-  const placeAt = (t: number, into: Float64Array): void => {
-    kinematics.tip(motion.at(t, state).q, into);
-  };
-  const speeds = times.map((t) => {
-    const from = Math.max(0, t - DIFFERENCE_S);
-    const to = Math.min(motion.duration, t + DIFFERENCE_S);
-    placeAt(from, before);
-    placeAt(to, after);
-    return to > from ? distance(before, after) / (to - from) : 0;
+  const rows = new Float64Array(2 * AXES * times.length);
+  const span = (t: number): [number, number] => [Math.max(0, t - DIFFERENCE_S), Math.min(motion.duration, t + DIFFERENCE_S)];
+  times.forEach((t, k) => span(t).forEach((at, end) => rows.set(motion.at(at, state).q, (2 * k + end) * AXES)));
+  const places = new Kinematics(arm, tool).places(rows);
+  const speeds = times.map((t, k) => {
+    const [from, to] = span(t);
+    return to > from ? stepLength(places, 2 * k + 1) / (to - from) : 0;
   });
   return { times, curves: [speeds] };
 }
 
 /** The tip's speed of what was recorded [m/s], by differences from sample to sample. */
 export function recordedTipSpeed(times: Float64Array, positions: Float64Array, arm: Arm, tool: Tool | null): Curves {
-  const kinematics = new Kinematics(arm, tool);
-  const speeds = new Float64Array(times.length);
-  let [last, here] = [new Float64Array(16), new Float64Array(16)];
-  for (let k = 0; k < times.length; k++) {
-    kinematics.tip(positions, here, k * AXES);
-    if (k > 0) speeds[k] = distance(last, here) / (times[k]! - times[k - 1]!);
-    [last, here] = [here, last];
-  }
+  const places = new Kinematics(arm, tool).places(positions);
+  const speeds = times.map((t, k) => (k === 0 ? 0 : stepLength(places, k) / (t - times[k - 1]!)));
   if (times.length > 1) speeds[0] = speeds[1]!;
   return { times, curves: [speeds] };
 }
 
-/** Between the places of two poses. */
-function distance(a: Float64Array, b: Float64Array): number {
-  return Math.hypot(b[12]! - a[12]!, b[13]! - a[13]!, b[14]! - a[14]!);
+/** From a place to the one before it, three numbers each. */
+export function stepLength(places: Float64Array, k: number): number {
+  const [x, y, z] = [0, 1, 2].map((i) => places[3 * k + i]! - places[3 * k - 3 + i]!);
+  return Math.hypot(x!, y!, z!);
 }
 
 /** Rows of six as six curves, each divided by its own limit. */
 export function shares(times: Float64Array, rows: Float64Array, limits: readonly number[]): Curves {
-  const curves = sixOf(times.length);
-  for (let k = 0; k < times.length; k++) {
-    for (let j = 0; j < AXES; j++) curves[j]![k] = rows[k * AXES + j]! / limits[j]!;
-  }
-  return { times, curves };
+  return { times, curves: limits.map((limit, j) => times.map((_, k) => rows[k * AXES + j]! / limit)) };
 }
 
-/** The value of a curve at `t`, linear between its points; NaN outside. `k` is the index before `t`. */
-export function valueAt(curves: Curves, curve: number, t: number, k: number): number {
-  const { times } = curves;
-  const values = curves.curves[curve]!;
-  const [from, to] = [times[k]!, times[k + 1] ?? times[k]!];
+/** The value of a curve at `t`, linear between its points; NaN outside. */
+export function valueAt({ times, curves }: Curves, curve: number, t: number): number {
   if (times.length === 0 || t < times[0]! - 1e-9 || t > times[times.length - 1]! + 1e-9) return Number.NaN;
+  const k = indexBefore(times, times.length, t, 0);
+  const next = Math.min(k + 1, times.length - 1);
+  const [from, to, value] = [times[k]!, times[next]!, curves[curve]![k]!];
   const share = to > from ? Math.max(0, Math.min(1, (t - from) / (to - from))) : 0;
-  return values[k]! + ((values[k + 1] ?? values[k]!) - values[k]!) * share;
+  return value + (curves[curve]![next]! - value) * share;
 }

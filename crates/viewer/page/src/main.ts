@@ -1,7 +1,6 @@
 import "./language.ts";
 import { App } from "./app.ts";
-import { DocumentError, readView } from "./document.ts";
-import { readEdit } from "./edit/document.ts";
+import { DocumentError, readEdit, readView } from "./document.ts";
 import { NumbersError } from "./numbers.ts";
 import { byId, el } from "./shell/dom.ts";
 

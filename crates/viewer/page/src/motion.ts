@@ -1,6 +1,5 @@
 /** The planned motion: between two knots each joint is the cubic of their positions and speeds (Hermite), as in platewash. */
-import { indexBefore } from "./knots.ts";
-import { floats, NumbersError } from "./numbers.ts";
+import { floats, indexBefore, NumbersError } from "./numbers.ts";
 import type { Motion as Knots } from "./view.ts";
 
 /** Joints of an arm. */

@@ -1,5 +1,20 @@
-/** Arrays of the document: base64, little-endian. */
+/** Arrays of the document, base64 and little-endian, and places in ascending times. */
 import type { Numbers } from "./view.ts";
+
+/** The last of the ascending times that is not after `t`; 0 where all are. Tries `hint` and its neighbour first, as time runs on. */
+export function indexBefore(times: ArrayLike<number>, count: number, t: number, hint: number): number {
+  for (let k = hint; k <= hint + 1 && k + 1 < count; k++) {
+    if (k >= 0 && times[k]! <= t && t < times[k + 1]!) return k;
+  }
+  let low = 0;
+  let high = count;
+  while (low < high) {
+    const middle = (low + high) >>> 1;
+    if (times[middle]! <= t) low = middle + 1;
+    else high = middle;
+  }
+  return Math.max(0, low - 1);
+}
 
 export type Decoded = Float64Array | Float32Array | Uint32Array | Uint16Array | Uint8Array;
 
@@ -8,12 +23,12 @@ export class NumbersError extends Error {
   override name = "NumbersError";
 }
 
-const BYTES = { f64: 8, f32: 4, u32: 4, u16: 2, u8: 1 } as const;
-type Kind = keyof typeof BYTES;
+const ARRAYS = { f64: Float64Array, f32: Float32Array, u32: Uint32Array, u16: Uint16Array, u8: Uint8Array } as const;
+type Kind = keyof typeof ARRAYS;
 
 function kindOf(numbers: Numbers): { kind: Kind; text: string } {
   for (const [kind, text] of Object.entries(numbers)) {
-    if (kind in BYTES && typeof text === "string") return { kind: kind as Kind, text };
+    if (kind in ARRAYS && typeof text === "string") return { kind: kind as Kind, text };
   }
   throw new NumbersError("array without numbers: expected one of f64, f32, u32, u16, u8");
 }
@@ -30,35 +45,16 @@ function bytesOf(text: string): Uint8Array {
   return bytes;
 }
 
-/** Reverses every number on a big-endian machine. */
-function toNative(bytes: Uint8Array, width: number): void {
-  if (new Uint8Array(new Uint16Array([1]).buffer)[0] === 1) return;
-  for (let i = 0; i < bytes.length; i += width) bytes.subarray(i, i + width).reverse();
-}
-
 /** The numbers as they are stored; `NumbersError` where their count is not that of the shape. */
 export function decode(numbers: Numbers): Decoded {
   const { kind, text } = kindOf(numbers);
   const bytes = bytesOf(text);
-  const width = BYTES[kind];
+  const width = ARRAYS[kind].BYTES_PER_ELEMENT;
   const count = numbers.shape.reduce((product, n) => product * n, 1);
   if (bytes.length !== count * width) {
     throw new NumbersError(`array of shape ${numbers.shape.join("×")}: ${bytes.length} bytes instead of ${count * width}`);
   }
-  toNative(bytes, width);
-  const buffer = bytes.buffer as ArrayBuffer;
-  switch (kind) {
-    case "f64":
-      return new Float64Array(buffer);
-    case "f32":
-      return new Float32Array(buffer);
-    case "u32":
-      return new Uint32Array(buffer);
-    case "u16":
-      return new Uint16Array(buffer);
-    case "u8":
-      return bytes;
-  }
+  return new ARRAYS[kind](bytes.buffer as ArrayBuffer);
 }
 
 /** The numbers in double precision. */

@@ -1,7 +1,6 @@
 /** What is shown at a time: the plan's motion or what the arm did, from the document and, while a run is live, from its samples. */
 import { Clearances } from "./clearances.ts";
-import { Clock } from "./clock.ts";
-import { Follower } from "./follow.ts";
+import { Clock, Follower } from "./clock.ts";
 import type { LivePhase } from "./live.ts";
 import { AXES, Motion, newState, type JointState } from "./motion.ts";
 import { Recording } from "./recording.ts";
@@ -40,13 +39,12 @@ export class Player {
   readonly shown: Shown;
   readonly #q = new Float64Array(AXES);
   readonly #plan: JointState = newState();
-  readonly #executed = new Float64Array(AXES);
   readonly #follower = new Follower();
   #film: Film;
   #follows: Follows = "planned";
   #segment = 0;
-  /** Null where the page shows no live run. */
-  #phase: LivePhase | null = null;
+  /** How a live run stands; null where the page shows none. */
+  phase: LivePhase | null = null;
   /** Whether the newest moment of a live run is shown. */
   #newest = false;
   /** Where the last film stood, while there is none. */
@@ -66,7 +64,7 @@ export class Player {
       heat: false,
     };
     if (view.live !== null && this.recording !== null) {
-      this.#phase = "connecting";
+      this.phase = "connecting";
       this.#newest = true;
       this.#follows = "executed";
     }
@@ -116,17 +114,9 @@ export class Player {
     if (follows === "planned" || this.recording !== null) this.#follows = follows;
   }
 
-  get phase(): LivePhase | null {
-    return this.#phase;
-  }
-
-  set phase(phase: LivePhase | null) {
-    this.#phase = phase;
-  }
-
   /** Whether a live run is under way, so that there is nothing to show yet behind its newest sample. */
   get live(): boolean {
-    return this.#phase !== null && this.#phase !== "done";
+    return this.phase !== null && this.phase !== "done";
   }
 
   get newest(): boolean {
@@ -152,7 +142,7 @@ export class Player {
 
   /** Goes to where `now` [ms] has it; whether time changed. */
   tick(now: number): boolean {
-    if (this.#newest && this.#phase !== null) return this.#tickLive(now);
+    if (this.#newest && this.phase !== null) return this.#tickLive(now);
     const changed = this.clock.tick(now);
     if (changed && this.live && this.time >= this.edge) this.toNewest();
     return changed;
@@ -185,7 +175,8 @@ export class Player {
   show(): Shown {
     const { shown, time } = this;
     shown.t_s = time;
-    this.#joints(shown);
+    const executed = this.jointsAt(time, this.#q);
+    shown.commanded = executed && this.motion !== null ? this.motion.at(time, this.#plan).q : null;
     const segment = this.segment;
     shown.washing = segment?.kind === "wash" ? segment.plate : null;
     shown.clearance = this.clearances?.at(time) ?? null;
@@ -200,28 +191,12 @@ export class Player {
     return this.#follows === "executed" && executed.length > 0 ? "executed" : "planned";
   }
 
-  /** The joints that are shown [rad] at `t`, into `q`. */
-  jointsAt(t: number, q: Float64Array): void {
-    if (this.#follows === "executed" && this.recording?.positionAt(t, q) === true) return;
-    if (this.motion === null) this.#rest(q);
-    else q.set(this.motion.at(t, this.#plan).q);
-  }
-
-  #joints(shown: Shown): void {
-    const { motion, time } = this;
-    shown.commanded = null;
-    if (this.#follows === "executed" && this.recording?.positionAt(time, this.#executed) === true) {
-      this.#q.set(this.#executed);
-      if (motion !== null) shown.commanded = motion.at(time, this.#plan).q;
-    } else if (motion === null) {
-      this.#rest(this.#q);
-    } else {
-      this.#q.set(motion.at(time, this.#plan).q);
-    }
-  }
-
-  #rest(q: Float64Array): void {
-    for (let j = 0; j < AXES; j++) q[j] = this.view.pose_rad[j] ?? 0;
+  /** The joints that are shown [rad] at `t`, into `q`; whether they are what the arm did. */
+  jointsAt(t: number, q: Float64Array): boolean {
+    if (this.#follows === "executed" && this.recording?.positionAt(t, q) === true) return true;
+    if (this.motion !== null) q.set(this.motion.at(t, this.#plan).q);
+    else for (let j = 0; j < AXES; j++) q[j] = this.view.pose_rad[j] ?? 0;
+    return false;
   }
 
   #tickLive(now: number): boolean {
@@ -229,7 +204,7 @@ export class Player {
     const end = this.recording?.end ?? 0;
     const t = this.#follower.tick(now, end);
     this.clock.seek(t, now);
-    if (this.#phase === "done" && (t >= end || end - t < 0.2)) {
+    if (this.phase === "done" && (t >= end || end - t < 0.2)) {
       this.clock.seek(end, now);
       this.#newest = false;
     }

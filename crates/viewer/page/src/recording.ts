@@ -1,7 +1,6 @@
 /** What an arm did: samples that are interpolated between, and that may grow while a run is live. */
-import { indexBefore } from "./knots.ts";
 import { AXES } from "./motion.ts";
-import { floats } from "./numbers.ts";
+import { floats, indexBefore } from "./numbers.ts";
 import type { Execution } from "./view.ts";
 
 /** Numbers of one live sample: time, six positions, six speeds, six torques, error. */
@@ -48,7 +47,6 @@ function column(numbers: Parameters<typeof floats>[0] | null): Column {
 export class Recording {
   readonly #t: Column;
   readonly #q: Column;
-  readonly #qd: Column;
   readonly #torque: Column;
   readonly #error: Column;
   #hint = 0;
@@ -56,7 +54,6 @@ export class Recording {
   constructor(execution: Execution) {
     this.#t = column(execution.t_s);
     this.#q = column(execution.q_rad);
-    this.#qd = column(execution.qd_rad_s);
     this.#torque = column(execution.torque_n_m);
     this.#error = column(execution.error_m);
   }
@@ -79,11 +76,6 @@ export class Recording {
     return this.#q.view();
   }
 
-  /** Speeds, six a sample [rad/s]. */
-  get speeds(): Float64Array {
-    return this.#qd.view();
-  }
-
   /** Torques, six a sample [N m]; empty where there are none. */
   get torques(): Float64Array {
     return this.#torque.view();
@@ -94,22 +86,18 @@ export class Recording {
     return this.#error.view();
   }
 
-  /** Adds live samples that are newer than the last one; how many there were. Rows that are no sample are left out. */
-  append(rows: readonly (readonly number[])[]): number {
-    let added = 0;
+  /** Adds live samples that are newer than the last one. Rows that are no sample are left out. */
+  append(rows: readonly (readonly number[])[]): void {
     for (const row of rows) {
       if (row.length !== LIVE_COLUMNS || !row.every(Number.isFinite)) continue;
       if (this.count > 0 && row[0]! <= this.end) continue;
       this.#t.push(row[0]!);
       for (let j = 0; j < AXES; j++) {
         this.#q.push(row[1 + j]!);
-        this.#qd.push(row[1 + AXES + j]!);
         this.#torque.push(row[1 + 2 * AXES + j]!);
       }
       this.#error.push(row[LIVE_COLUMNS - 1]!);
-      added++;
     }
-    return added;
   }
 
   /** Joint positions at `t` [s], linear between samples; false where there are none. */

@@ -15,6 +15,9 @@ export interface Verdict {
 
 const WORDS: Record<Status, string> = { proved: "Proved", violated: "Violated", not_proved: "Not proved", waived: "Waived" };
 
+/** The worst status first. */
+export const RANK: Record<Status, number> = { violated: 0, not_proved: 1, waived: 2, proved: 3 };
+
 /** A status in words. */
 export function statusWord(status: Status): string {
   return WORDS[status];

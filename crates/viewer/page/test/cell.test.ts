@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Centre } from "../src/edit/placing.ts";
+import type { Centre } from "../src/scene/handles.ts";
 import { LOST, newCell, PLAN, PREVIEW, PROOF, turns } from "./fake-cell.ts";
 
 const AT = (x: number): Centre[] => [[x, 0], [0.4, 0]];

@@ -1,9 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { backOff, ChannelError } from "../src/edit/channel.ts";
-import { FrameChannel, type FrameWindow } from "../src/edit/frame.ts";
-import { HttpChannel } from "../src/edit/http.ts";
-import { Lines } from "../src/edit/lines.ts";
+import { backOff, ChannelError, FrameChannel, HttpChannel, Lines, type FrameWindow } from "../src/edit/channel.ts";
 import { turns } from "./fake-cell.ts";
 
 function linesOf(bytes: Uint8Array, cuts: readonly number[]): unknown[] {

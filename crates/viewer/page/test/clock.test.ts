@@ -1,7 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Clock, stepSpeed } from "../src/clock.ts";
-import { BEHIND_S, Follower } from "../src/follow.ts";
+import { BEHIND_S, Clock, Follower, stepSpeed } from "../src/clock.ts";
 
 test("a film plays as its clock does, without error however many frames there are", () => {
   const clock = new Clock(1000);

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { plateGeometry } from "../src/scene/plate-shape.ts";
+import { plateGeometry } from "../src/scene/shapes.ts";
 import { fixedShort } from "../src/format.ts";
-import { contactWords, forceWords } from "../src/shell/contact.ts";
+import { contactWords, forceWords } from "../src/shell/requirements.ts";
 import { meaning } from "../src/shell/plates.ts";
 import type { Coverage } from "../src/coverage.ts";
 import type { Contact, Counted, Plate } from "../src/view.ts";

@@ -1,7 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { colormap } from "../src/colormap.ts";
-import { decodeCoverage, dwellScale, NEVER, OUTSIDE, PlateMap, shareAt } from "../src/coverage.ts";
+import { colormap, decodeCoverage, dwellScale, MAP_COLOURS, NEVER, OUTSIDE, PlateMap, shareAt } from "../src/coverage.ts";
 import { NumbersError } from "../src/numbers.ts";
 import type { Numbers, PlateCoverage } from "../src/view.ts";
 
@@ -80,31 +79,30 @@ class FakeImage {
   }
 }
 
-const SWEPT: [number, number, number] = [1, 2, 3];
-const UNSWEPT: [number, number, number] = [7, 8, 9];
+const [SWEPT, UNSWEPT] = [MAP_COLOURS.swept[1]!, MAP_COLOURS.unswept[1]!];
 
 function mapOf(document: PlateCoverage): { map: PlateMap; canvas: FakeCanvas } {
   Object.assign(globalThis, { ImageData: FakeImage });
   const canvas = new FakeCanvas();
-  const map = new PlateMap(canvas as unknown as HTMLCanvasElement, decodeCoverage(document), 0.2, { swept: SWEPT, unswept: UNSWEPT });
+  const map = new PlateMap(canvas as unknown as HTMLCanvasElement, decodeCoverage(document), 0.2);
   return { map, canvas };
 }
 
-/** Red of each pixel, and how dense it is. */
-function reds(canvas: FakeCanvas): number[] {
-  return canvas.pixels.filter((_, i) => i % 4 === 0);
+/** Green of each pixel. */
+function greens(canvas: FakeCanvas): number[] {
+  return canvas.pixels.filter((_, i) => i % 4 === 1);
 }
 
 test("a map shows y upwards, nothing beyond the rim, and goes back in time", () => {
   const { map, canvas } = mapOf(raster());
   map.paint(0.3);
   assert.deepEqual([canvas.width, canvas.height], [3, 2]);
-  assert.deepEqual(reds(canvas), [1, 7, 7, 0, 1, 1]);
+  assert.deepEqual(greens(canvas), [SWEPT, UNSWEPT, UNSWEPT, 0, SWEPT, SWEPT]);
   assert.deepEqual(canvas.pixels.filter((_, i) => i % 4 === 3), [255, 255, 255, 0, 255, 255]);
   map.paint(0);
-  assert.deepEqual(reds(canvas), [7, 7, 7, 0, 7, 1]);
+  assert.deepEqual(greens(canvas), [UNSWEPT, UNSWEPT, UNSWEPT, 0, UNSWEPT, SWEPT]);
   map.paint(5);
-  assert.deepEqual(reds(canvas), [1, 7, 1, 0, 1, 1]);
+  assert.deepEqual(greens(canvas), [SWEPT, UNSWEPT, SWEPT, 0, SWEPT, SWEPT]);
 });
 
 test("a map that has not changed is not put on its canvas again", () => {
@@ -112,22 +110,18 @@ test("a map that has not changed is not put on its canvas again", () => {
   map.paint(0.3);
   map.paint(0.4);
   assert.equal(canvas.puts, 1);
-  map.setColours({ swept: UNSWEPT, unswept: SWEPT });
-  map.paint(0.4);
-  assert.equal(canvas.puts, 2);
-  assert.deepEqual(reds(canvas), [7, 1, 1, 0, 7, 7]);
 });
 
 test("a heat map colours dwell and leaves what is never swept", () => {
   const { map, canvas } = mapOf(raster());
   map.paint(0, "dwell");
   const heat = colormap();
-  const red = (share: number): number => heat[4 * Math.round(255 * share)]!;
-  assert.deepEqual(reds(canvas), [red(0.5), 7, red(1), 0, red(1), red(0.25)]);
+  const green = (share: number): number => heat[4 * Math.round(255 * share) + 1]!;
+  assert.deepEqual(greens(canvas), [green(0.5), UNSWEPT, green(1), 0, green(1), green(0.25)]);
   map.paint(0, "dwell");
   assert.equal(canvas.puts, 1);
   map.paint(0);
-  assert.deepEqual(reds(canvas), [7, 7, 7, 0, 7, 1]);
+  assert.deepEqual(greens(canvas), [UNSWEPT, UNSWEPT, UNSWEPT, 0, UNSWEPT, SWEPT]);
 });
 
 test("the colours of a heat map get lighter all the way", () => {

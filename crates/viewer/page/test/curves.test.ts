@@ -71,8 +71,8 @@ test("long motions are sampled, short ones have all their knots", () => {
 
 test("values between points are interpolated, outside there are none", () => {
   const curves = shares(Float64Array.of(0, 1), Float64Array.from([0, 0, 0, 0, 0, 0, 2, 4, 6, 8, 10, 12]), [1, 2, 3, 4, 5, 6]);
-  assert.equal(valueAt(curves, 3, 0.25, 0), 0.5);
-  assert.equal(valueAt(curves, 5, 1, 1), 2);
-  assert.ok(Number.isNaN(valueAt(curves, 0, -0.1, 0)) && Number.isNaN(valueAt(curves, 0, 1.1, 1)));
-  assert.ok(Number.isNaN(valueAt({ times: new Float64Array(0), curves: [new Float64Array(0)] }, 0, 0, 0)));
+  assert.equal(valueAt(curves, 3, 0.25), 0.5);
+  assert.equal(valueAt(curves, 5, 1), 2);
+  assert.ok(Number.isNaN(valueAt(curves, 0, -0.1)) && Number.isNaN(valueAt(curves, 0, 1.1)));
+  assert.ok(Number.isNaN(valueAt({ times: new Float64Array(0), curves: [new Float64Array(0)] }, 0, 0)));
 });

@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Matrix4, Ray, Vector3 } from "three";
-import { carried, middle, turnOf, type Centre, type Grab } from "../src/scene/grab.ts";
+import { carried, middle, turnOf, type Centre, type Grab } from "../src/scene/handles.ts";
 import { squaresOf } from "../src/scene/map.ts";
-import { CELLS, deadNearer } from "../src/scene/nearer.ts";
+import { CELLS, deadNearer } from "../src/scene/washability.ts";
 import { nearest, onPlane, type Solid } from "../src/scene/pick.ts";
 import { arrowsOf, partOf, ringThrough } from "../src/scene/ring.ts";
 

@@ -1,9 +1,9 @@
 /** A cell in the hands of a test: whoever plans answers when told to, and time passes when told to. */
 import { Cell } from "../src/edit/cell.ts";
-import type { Centre } from "../src/edit/placing.ts";
+import type { Centre } from "../src/scene/handles.ts";
 import { ChannelError, type Channel } from "../src/edit/channel.ts";
 import type { CellQuestion } from "../src/edit/protocol.ts";
-import type { Time } from "../src/edit/time.ts";
+import type { Time } from "../src/edit/asker.ts";
 
 export class FakeTime implements Time {
   #now = 0;

@@ -1,7 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { History } from "../src/edit/history.ts";
-import { changed, sameVersion, type Version } from "../src/edit/version.ts";
+import { changed, History, sameVersion, type Version } from "../src/edit/history.ts";
 import { newCell, written } from "./fake-cell.ts";
 
 const text = (words: string): Version => ({ text: words, edits: [] });

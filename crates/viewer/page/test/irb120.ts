@@ -1,5 +1,5 @@
 /** The IRB 120 and a straight tool, for tests. */
-import { matrixOf, multiply } from "../src/kinematics.ts";
+import { matrixOf } from "../src/kinematics.ts";
 import type { Arm, Pose, Tool } from "../src/view.ts";
 
 const H = Math.SQRT1_2;
@@ -15,7 +15,7 @@ const TO_X: [number, number, number, number] = [H, 0, H, 0];
 const FROM_X: [number, number, number, number] = [H, 0, -H, 0];
 
 function after(first: Pose, second: Pose): Pose {
-  const product = multiply(matrixOf(first), matrixOf(second), new Float64Array(16));
+  const product = matrixOf(first).multiply(matrixOf(second)).elements;
   const [w1, x1, y1, z1] = first.quaternion_wxyz;
   const [w2, x2, y2, z2] = second.quaternion_wxyz;
   return pose(

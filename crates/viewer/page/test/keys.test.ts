@@ -1,9 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { readNumber, readValue, stepped, valueText } from "../src/edit/domain.ts";
-import { roomFor, shifted, turned } from "../src/edit/moves.ts";
+import { distance, readNumber, readValue, stepped, suggestions, valueText } from "../src/edit/domain.ts";
+import { roomFor, shifted, turned } from "../src/edit/placing.ts";
 import type { Domain } from "../src/edit/protocol.ts";
-import { distance, suggestions } from "../src/edit/suggest.ts";
 
 const read = (domain: Domain, text: string): unknown => {
   const found = readValue({ domain }, text);

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Kinematics, matrixOf, multiply, turnAboutZ } from "../src/kinematics.ts";
+import { Matrix4 } from "three";
+import { Kinematics, matrixOf } from "../src/kinematics.ts";
 import { irb120, pose, TOOL } from "./irb120.ts";
 
 /** Joints [deg], flange's place [m] and z axis as `platewash fk --deg … --json` states them. */
@@ -20,9 +21,9 @@ function near(actual: ArrayLike<number>, expected: readonly number[], tolerance 
 test("the flange is where platewash has it", () => {
   const kinematics = new Kinematics(irb120(pose([0, 0, 0])), null);
   for (const { deg, place, z } of STATED) {
-    const flange = kinematics.tip(deg.map((angle) => (angle * Math.PI) / 180), new Float64Array(16));
-    near(flange.subarray(12, 15), place);
-    near(flange.subarray(8, 11), z);
+    const flange = kinematics.tip(deg.map((angle) => (angle * Math.PI) / 180), new Matrix4()).elements;
+    near(flange.slice(12, 15), place);
+    near(flange.slice(8, 11), z);
   }
 });
 
@@ -30,9 +31,9 @@ test("the tip stands off the flange along its z axis, seen from a mount that is 
   const mount = pose([1, 2, 3], [0.5, 0.5, 0.5, 0.5]);
   const kinematics = new Kinematics(irb120(mount), TOOL);
   for (const { deg, place, z } of STATED) {
-    const tip = kinematics.tip(deg.map((angle) => (angle * Math.PI) / 180), new Float64Array(16));
+    const tip = kinematics.tip(deg.map((angle) => (angle * Math.PI) / 180), new Matrix4()).elements;
     const [x, y, height] = place.map((value, i) => value + 0.15 * z[i]!) as [number, number, number];
-    near(tip.subarray(12, 15), [1 + height, 2 + x, 3 + y]);
+    near(tip.slice(12, 15), [1 + height, 2 + x, 3 + y]);
   }
 });
 
@@ -46,20 +47,13 @@ test("rows of joints give a place each, and what is left over none", () => {
 
 test("the frames of the joints run from the base to the wrist", () => {
   const places: number[][] = [];
-  new Kinematics(irb120(pose([0, 0, 0])), TOOL).frames([0, 0, 0, 0, 0, 0], 0, (frame) => places.push([...frame.subarray(12, 15)]));
+  new Kinematics(irb120(pose([0, 0, 0])), TOOL).frames([0, 0, 0, 0, 0, 0], 0, (frame) => places.push(frame.elements.slice(12, 15)));
   const expected = [[0, 0, 0], [0, 0, 0.29], [0, 0, 0.56], [0, 0, 0.63], [0.302, 0, 0.63], [0.374, 0, 0.63]];
   assert.equal(places.length, expected.length);
   places.forEach((place, i) => near(place, expected[i]!));
 });
 
 test("a quaternion's length does not matter, and one without length is no turn", () => {
-  near(matrixOf(pose([1, 2, 3], [2, 0, 0, 2])), [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]);
-  near(matrixOf(pose([1, 2, 3], [0, 0, 0, 0])), [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]);
-});
-
-test("a turn about z is that of its matrix", () => {
-  const angle = 0.7;
-  const turned = turnAboutZ(matrixOf(pose([1, 2, 3], [0.5, -0.5, 0.5, 0.5])), angle);
-  const turn = matrixOf(pose([0, 0, 0], [Math.cos(angle / 2), 0, 0, Math.sin(angle / 2)]));
-  near(turned, [...multiply(matrixOf(pose([1, 2, 3], [0.5, -0.5, 0.5, 0.5])), turn, new Float64Array(16))], 1e-15);
+  near(matrixOf(pose([1, 2, 3], [2, 0, 0, 2])).elements, [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]);
+  near(matrixOf(pose([1, 2, 3], [0, 0, 0, 0])).elements, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]);
 });

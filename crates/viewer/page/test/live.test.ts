@@ -108,8 +108,9 @@ const EMPTY: Execution = {
 
 test("samples that come twice count once, and what is no sample is left out", () => {
   const recording = new Recording(EMPTY);
-  assert.equal(recording.append([row(0), row(0.5)]), 2);
-  assert.equal(recording.append([row(0), row(0.5), row(1), [1, 2], row(Number.NaN)]), 1);
+  recording.append([row(0), row(0.5)]);
+  assert.equal(recording.count, 2);
+  recording.append([row(0), row(0.5), row(1), [1, 2], row(Number.NaN)]);
   assert.equal(recording.count, 3);
   assert.equal(recording.end, 1);
   assert.deepEqual([...recording.times], [0, 0.5, 1]);

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { clusters, MARK_PX } from "../src/shell/marks.ts";
+import { clusters, MARK_PX } from "../src/shell/transport.ts";
 import type { Check, Status } from "../src/view.ts";
 
 function check(words: string, time_s: number | null, status: Status = "proved"): Check {

@@ -1,8 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { indexBefore } from "../src/knots.ts";
+import { indexBefore, NumbersError } from "../src/numbers.ts";
 import { AXES, Motion, newState } from "../src/motion.ts";
-import { NumbersError } from "../src/numbers.ts";
 
 /** Joint j runs along (j + 1)(t³ − 2t) with the knots given, which a cubic meets exactly. */
 function cubic(times: number[]): Motion {

@@ -2,7 +2,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { BodyMove, PlateMoves } from "../src/edit/protocol.ts";
-import { carrying, placing, putting, together, unmoved, type Centre } from "../src/edit/placing.ts";
+import { carrying, placing, putting, together, unmoved } from "../src/edit/placing.ts";
+import type { Centre } from "../src/scene/handles.ts";
 import { CELL, newCell, PLAN, PROOF, written } from "./fake-cell.ts";
 
 /** The first plate has two faces, 20 mm apart along x. */

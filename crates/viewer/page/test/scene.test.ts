@@ -1,11 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Vector3 } from "three";
+import { Matrix4, Vector3 } from "three";
 import { Kinematics } from "../src/kinematics.ts";
 import { ArmGraph } from "../src/scene/arm.ts";
-import { geometryOf } from "../src/scene/bodies.ts";
+import { geometryOf, plateGeometry } from "../src/scene/shapes.ts";
 import { marksHeight, patchAt } from "../src/scene/floor.ts";
-import { plateGeometry } from "../src/scene/plate-shape.ts";
 import { Studio } from "../src/scene/studio.ts";
 import { ToolGraph } from "../src/scene/tool.ts";
 import type { Body, Plate, Shape, Tool } from "../src/view.ts";
@@ -28,7 +27,7 @@ test("the tip of the scene graph is that of the kinematics", () => {
   for (const q of [[0, 0, 0, 0, 0, 0], [0.3, -0.7, 1.1, -1.9, 0.4, 2.8], [-2, 1, -1, 0.5, -1.5, -6]]) {
     arm.set(q);
     arm.root.updateMatrixWorld(true);
-    const tip = kinematics.tip(q, new Float64Array(16));
+    const tip = kinematics.tip(q, new Matrix4()).elements;
     tool.tip.matrixWorld.elements.forEach((value, i) => assert.ok(Math.abs(value - tip[i]!) < 1e-14, `${q}: element ${i}`));
   }
 });

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Keeper, type Kept, type Store } from "../src/edit/storage.ts";
+import { Keeper, type Kept, type Store } from "../src/edit/history.ts";
 
 class Tab implements Store {
   readonly entries = new Map<string, string>();

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { DocumentError, parseView } from "../src/document.ts";
 import { clockTime, fixed, percentDown } from "../src/format.ts";
-import { linkTo, parseLink } from "../src/link.ts";
+import { linkTo, parseLink } from "../src/address.ts";
 import { segmentAt, segmentWords } from "../src/segments.ts";
 import { verdict, washed } from "../src/verdict.ts";
 import type { Certificate, Check, Execution, Plate, Segment, Status, View } from "../src/view.ts";

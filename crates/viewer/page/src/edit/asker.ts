@@ -1,13 +1,135 @@
 /** What is asked about a scenario that changes: guesses while something moves, plan and proof of what counts, again after a loss. */
-import { NOTHING, type Answers } from "./answers.ts";
-import { backOff, type Channel, type ChannelError } from "./channel.ts";
-import { Lane, type Asked, type LaneListener } from "./lane.ts";
-import type { CellLine } from "./protocol.ts";
-import { Seen } from "./seen.ts";
-import { activity, type Activity } from "./standing.ts";
-import type { Time } from "./time.ts";
-import { Timings } from "./timings.ts";
-import { sameVersion, type Version } from "./version.ts";
+import { activity, isLine, isWhole, NOTHING, Seen, withLine, type Activity, type Answers } from "./answers.ts";
+import { backOff, ChannelError, type Channel } from "./channel.ts";
+import { sameVersion, type Version } from "./history.ts";
+import type { CellLine, CellQuestion, Milliseconds } from "./protocol.ts";
+
+/** The clock and timers, so that tests can hold them. */
+export interface Time {
+  /** [ms] */
+  now(): number;
+  /** Calls back after a time [ms]; the answer takes that back. */
+  later(callback: () => void, after_ms: number): () => void;
+}
+
+export const BROWSER_TIME: Time = {
+  now: () => performance.now(),
+  later: (callback, after_ms) => {
+    const timer = setTimeout(callback, after_ms);
+    return () => clearTimeout(timer);
+  },
+};
+
+/** When a question was asked, answered and drawn: times are `performance.now()` [ms]; null for what has not come. */
+export interface Timing {
+  want: "preview" | "proof";
+  asked: number;
+  scenario: number | null;
+  preview: number | null;
+  plan: number | null;
+  proof: number | null;
+  drawnPlan: number | null;
+  drawnProof: number | null;
+  /** What steps took where they were done. */
+  ms: Milliseconds;
+}
+
+/** Questions that are remembered. */
+const KEPT = 200;
+
+export interface Asked {
+  /** What was asked about; written out once whoever plans has done so. */
+  version: Version;
+  answers: Answers;
+  readonly timing: Timing;
+  /** Whether more is to come. */
+  running: boolean;
+}
+
+export interface LaneSettings {
+  channel: Channel;
+  time: Time;
+  /** The last questions. */
+  timings: Timing[];
+  session: string;
+  want: CellQuestion["want"];
+  /** Id of the arm that the page has. */
+  arm: () => string | null;
+  /** A line of the question that is asked has come. */
+  line(asked: Asked, line: CellLine): void;
+  /** It was answered to its end, or will not be. */
+  end(asked: Asked, error: ChannelError | null): void;
+}
+
+/** Questions of one kind: one at a time, the newest. */
+export class Lane {
+  readonly #settings: LaneSettings;
+  #asked: Asked | null = null;
+  #abort: AbortController | null = null;
+
+  constructor(settings: LaneSettings) {
+    this.#settings = settings;
+  }
+
+  /** The question that counts. */
+  get asked(): Asked | null {
+    return this.#asked;
+  }
+
+  get running(): boolean {
+    return this.#asked?.running ?? false;
+  }
+
+  /** For how long the question has run [ms]. */
+  get age(): number {
+    return this.#asked === null ? 0 : this.#settings.time.now() - this.#asked.timing.asked;
+  }
+
+  /** Asks; what was asked before no longer counts, and is given up where it runs. */
+  ask(version: Version): void {
+    this.stop();
+    const { channel, session, want, timings, time } = this.#settings;
+    const open = { scenario: null, preview: null, plan: null, proof: null, drawnPlan: null, drawnProof: null };
+    const timing: Timing = { ...open, want, asked: time.now(), ms: {} };
+    const asked: Asked = { version, answers: NOTHING, timing, running: true };
+    timings.push(timing);
+    if (timings.length > KEPT) timings.shift();
+    const abort = new AbortController();
+    this.#asked = asked;
+    this.#abort = abort;
+    const { text, edits } = version;
+    const question: CellQuestion = { session, text, edits: [...edits], want, arm: this.#settings.arm() };
+    channel.ask("/cell", question, (line) => this.#hear(asked, line), abort.signal).then(
+      () => this.#end(asked, null),
+      (error: unknown) => this.#end(asked, error instanceof ChannelError ? error : new ChannelError("lost", "The answer cannot be read.")),
+    );
+  }
+
+  /** Nothing is asked any more. */
+  stop(): void {
+    this.#asked = null;
+    this.#abort?.abort();
+    this.#abort = null;
+  }
+
+  #hear(asked: Asked, line: unknown): void {
+    if (asked !== this.#asked || !asked.running || !isLine(line) || line.kind === "superseded") return;
+    asked.answers = withLine(asked.answers, line);
+    const { timing } = asked;
+    const { kind } = line;
+    if (kind === "scenario" || kind === "preview" || kind === "plan" || kind === "proof") timing[kind] ??= this.#settings.time.now();
+    if ("ms" in line) Object.assign(timing.ms, line.ms);
+    this.#settings.line(asked, line);
+  }
+
+  #end(asked: Asked, error: ChannelError | null): void {
+    if (asked !== this.#asked || !asked.running) return;
+    asked.running = false;
+    this.#abort = null;
+    const whole = isWhole(asked.answers, this.#settings.want);
+    this.#settings.end(asked, whole ? null : (error ?? new ChannelError("lost", "The answer ended before its end.")));
+  }
+}
 
 /** While the mouse moves, a planning younger than this is let finish, so that plans appear [ms]. */
 export const YOUNG_MS = 150;
@@ -31,7 +153,7 @@ export interface Asking {
 }
 
 export class Asker {
-  readonly timings = new Timings();
+  readonly timings: Timing[] = [];
   readonly seen = new Seen();
   readonly #time: Time;
   readonly #asking: Asking;
@@ -44,10 +166,10 @@ export class Asker {
   constructor({ channel, time, session }: AskerSettings, asking: Asking) {
     this.#time = time;
     this.#asking = asking;
-    const common = { channel, time, timings: this.timings, arm: () => this.seen.arm?.id ?? null };
-    const line: LaneListener["line"] = (asked, said) => this.#hear(asked, said);
-    this.#looking = new Lane({ ...common, session: `${session}p`, want: "preview" }, { line, end: () => this.#looked() });
-    this.#planning = new Lane({ ...common, session, want: "proof" }, { line, end: (asked, error) => this.#planned(asked, error) });
+    const line = (asked: Asked, said: CellLine): void => this.#hear(asked, said);
+    const common = { channel, time, timings: this.timings, arm: () => this.seen.arm?.id ?? null, line };
+    this.#looking = new Lane({ ...common, session: `${session}p`, want: "preview", end: () => this.#looked() });
+    this.#planning = new Lane({ ...common, session, want: "proof", end: (asked, error) => this.#planned(asked, error) });
   }
 
   /** The question of plan and proof that was asked last. */

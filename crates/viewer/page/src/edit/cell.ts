@@ -1,13 +1,9 @@
 /** The live cell: the scenario with its history, what is being changed in it, and what was answered. Knows no page. */
-import type { Answers } from "./answers.ts";
-import { Asker, type AskerSettings } from "./asker.ts";
-import { History, type Step } from "./history.ts";
-import type { Asked } from "./lane.ts";
-import { carrying, placing, putting, together, unmoved, type Centre, type Put } from "./placing.ts";
-import type { Seen } from "./seen.ts";
-import { standing, type Activity, type Standing } from "./standing.ts";
-import type { Timing } from "./timings.ts";
-import { changed, sameVersion, type Edit, type Version } from "./version.ts";
+import type { Centre } from "../scene/handles.ts";
+import { standing, type Activity, type Answers, type Seen, type Standing } from "./answers.ts";
+import { Asker, type Asked, type AskerSettings, type Timing } from "./asker.ts";
+import { changed, History, sameVersion, type Edit, type Step, type Version } from "./history.ts";
+import { carrying, placing, putting, together, unmoved, type Put } from "./placing.ts";
 
 /** Changes of one thing that follow each other within this are one step [ms]. */
 export const BURST_MS = 1000;
@@ -117,7 +113,7 @@ export class Cell {
   }
 
   get timings(): Timing[] {
-    return this.#asker.timings.list();
+    return structuredClone(this.#asker.timings);
   }
 
   get state(): Activity {

@@ -1,14 +1,14 @@
 /** What hands, keys and buttons do to the plates of a live cell. */
-import { announce } from "../shell/announcer.ts";
+import type { EditActions, Editing, Selection } from "../scene/editing.ts";
+import type { Centre, Phase } from "../scene/handles.ts";
+import { announce } from "../shell/dom.ts";
 import type { View } from "../view.ts";
 import type { Cell } from "./cell.ts";
-import { onFloor, plateIndices, roomFor, shifted, turned, type Selected } from "./moves.ts";
-import type { Centre } from "./placing.ts";
-import type { EditedScene, Hands, Phase } from "./scene.ts";
+import { onFloor, plateIndices, roomFor, shifted, turned } from "./placing.ts";
 
-export class Commands implements Hands {
+export class Commands implements EditActions {
   readonly #cell: Cell;
-  readonly #scene: () => EditedScene;
+  readonly #scene: () => Editing | null;
   /** Of the canvas [CSS px]. */
   readonly #size: () => Centre;
   /** The axis that plates are turned about, seen from above [m]. */
@@ -17,9 +17,9 @@ export class Commands implements Hands {
   readonly #say: (words: string) => void;
   /** The body that is selected among those that stand around. */
   #body: number | null = null;
-  #selected: Selected = null;
+  #selected: Selection = null;
 
-  constructor(cell: Cell, view: () => View, scene: () => EditedScene, size: () => Centre, changed: () => void, say: (words: string) => void) {
+  constructor(cell: Cell, view: () => View, scene: () => Editing | null, size: () => Centre, changed: () => void, say: (words: string) => void) {
     this.#cell = cell;
     this.#scene = scene;
     this.#size = size;
@@ -31,20 +31,25 @@ export class Commands implements Hands {
     this.#say = say;
   }
 
+  /** Selects all plates, or no longer. */
+  toggleAll(): void {
+    this.select(this.#selected === "all" ? null : "all");
+  }
+
   /** Whether there is something to move. */
   get active(): boolean {
     return this.#selected !== null || this.#body !== null;
   }
 
-  get selected(): Selected {
+  get selected(): Selection {
     return this.#selected;
   }
 
-  select(plate: Selected): void {
+  select(plate: Selection): void {
     if (plate !== null) this.selectBody(null);
     if (plate === this.#selected) return;
     this.#selected = plate;
-    this.#scene().select(plate);
+    this.#scene()?.select(plate);
     this.#changed();
   }
 
@@ -57,7 +62,7 @@ export class Commands implements Hands {
       this.select(null);
       announce(`${this.#nameOf(body)} selected: drag it, or move it with the arrow keys`);
     }
-    this.#scene().selectBody(body);
+    this.#scene()?.selectBody(body);
     this.#changed();
   }
 
@@ -78,7 +83,7 @@ export class Commands implements Hands {
     return words === null;
   }
 
-  move(to: { plates: number[]; centres_m: Centre[] }, phase: "start" | "drag" | "end" | "cancel"): void {
+  move(to: { plates: number[]; centres_m: Centre[] }, phase: Phase): void {
     if (phase === "cancel") return this.#cell.cancelDrag();
     const centres = this.#cell.centres.map((centre, k): Centre => to.centres_m[to.plates.indexOf(k)] ?? centre);
     if (phase !== "start") this.#cell.drag(centres);
@@ -86,8 +91,8 @@ export class Commands implements Hands {
   }
 
   /** Puts a plate where it can be washed. */
-  take(plate: number): void {
-    if (!this.mayMove()) return;
+  take(plate: Selection): void {
+    if (typeof plate !== "number" || !this.mayMove()) return;
     const nearest = this.#cell.answers.places.find((place) => place.plate === plate)?.nearest_m;
     if (!nearest) return;
     this.place(plate, nearest, "Take the nearest place of");
@@ -145,7 +150,8 @@ export class Commands implements Hands {
     announce(`plate ${this.#cell.centres.length - 1} added at ${room.map((c) => c.toFixed(3)).join(", ")} m`);
   }
 
-  remove(plate: number): void {
+  remove(plate: Selection): void {
+    if (typeof plate !== "number") return;
     const centres = this.#cell.centres.filter((_, k) => k !== plate);
     if (centres.length === 0 || centres.length === this.#cell.centres.length) return;
     if (!this.#isFree(centres.length)) return;
@@ -171,7 +177,7 @@ export class Commands implements Hands {
   /** Where upwards on the screen points, seen from above; along x where there is no scene. */
   #ahead(): Centre {
     const [width, height] = this.#size();
-    const [from, to] = [0.52, 0.48].map((share) => this.#scene().toPlane(0.5 * width, share * height, 0));
+    const [from, to] = [0.52, 0.48].map((share) => this.#scene()?.toPlane(0.5 * width, share * height, 0));
     return from && to ? [to[0] - from[0], to[1] - from[1]] : [1, 0];
   }
 

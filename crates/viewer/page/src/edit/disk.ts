@@ -1,7 +1,7 @@
 /** The scenario's file: what stands there, what was changed there by others, and saving. */
+import type { Time } from "./asker.ts";
 import { askOnce, ChannelError, type Channel } from "./channel.ts";
 import type { DiskLine, DiskQuestion, SaveLine, SaveQuestion } from "./protocol.ts";
-import type { Time } from "./time.ts";
 
 /** Time between two looks at the disk [ms]. */
 export const EVERY_MS = 1000;

@@ -1,35 +1,55 @@
 /** A live cell in the page: its state, its panels, and what ties them to the rest of the page. */
-import { announce } from "../shell/announcer.ts";
-import { byId } from "../shell/dom.ts";
+import type { EditActions, Editing } from "../scene/editing.ts";
+import { announce, byId } from "../shell/dom.ts";
 import type { Panel } from "../shell/panels.ts";
 import type { Verdict } from "../verdict.ts";
 import type { View } from "../view.ts";
-import { ConflictBar } from "./bar.ts";
+import { editVerdict } from "./answers.ts";
+import { BROWSER_TIME } from "./asker.ts";
 import { Cell } from "./cell.ts";
 import { CellPanel } from "./cell-panel.ts";
-import type { Channel } from "./channel.ts";
+import { FrameChannel, HttpChannel, keptToken, takeToken, type Channel } from "./channel.ts";
 import { Commands } from "./commands.ts";
 import { Disk } from "./disk.ts";
-import { Drawings } from "./drawings.ts";
 import { Form } from "./form.ts";
-import { FrameChannel } from "./frame.ts";
-import type { EditHandle } from "./handle.ts";
-import { HttpChannel } from "./http.ts";
-import { keptToken, takeToken } from "./token.ts";
-import { listenToEditKeys } from "./edit-keys.ts";
+import { Keeper, tabStore, type Edit } from "./history.ts";
+import { listenToEditKeys, plateKey } from "./keys.ts";
 import { MapAsker } from "./map.ts";
-import { plateKey } from "./plate-keys.ts";
 import type { EditDocument } from "./protocol.ts";
-import type { EditedScene } from "./scene.ts";
 import { CellShown } from "./shown.ts";
-import { Keeper, tabStore } from "./storage.ts";
 import { TextPanel } from "./text-panel.ts";
-import { BROWSER_TIME } from "./time.ts";
-import { Toolbar } from "./toolbar.ts";
-import { editVerdict } from "./verdict.ts";
+import { ConflictBar, Toolbar } from "./toolbar.ts";
+
+/** Notes when plans and proofs are drawn, and who waits for that. */
+class Drawings {
+  readonly #cell: Cell;
+  #waiting: (() => void)[] = [];
+
+  constructor(cell: Cell) {
+    this.#cell = cell;
+  }
+
+  /** A frame was drawn at `now` [ms]; `all`: nothing has changed since. */
+  drawn(now: number, all: boolean): void {
+    const timing = this.#cell.planned?.timing ?? null;
+    if (timing !== null && all) {
+      if (timing.plan !== null) timing.drawnPlan ??= now;
+      if (timing.proof !== null) timing.drawnProof ??= now;
+    }
+    if (!all || !this.#cell.settled || this.#waiting.length === 0) return;
+    const waiting = this.#waiting;
+    this.#waiting = [];
+    for (const done of waiting) done();
+  }
+
+  settled(): Promise<void> {
+    return new Promise((resolve) => this.#waiting.push(resolve));
+  }
+}
 
 export interface EditorHost {
-  scene(): EditedScene;
+  /** Lets hands move plates in the scene; null where there is none. */
+  edit(actions: EditActions): Editing | null;
   /** Of the scene's canvas [CSS px]. */
   size(): [number, number];
   replace(view: View): void;
@@ -52,6 +72,7 @@ export class Editor {
   readonly #shown: CellShown;
   readonly #commands: Commands;
   readonly #map: MapAsker;
+  #scene: Editing | null = null;
   readonly #drawings: Drawings;
   readonly #toolbar: Toolbar;
   readonly #cellPanel: CellPanel;
@@ -85,12 +106,16 @@ export class Editor {
       notice: (words) => this.#say(words),
       changed: touch,
     });
-    this.#shown = new CellShown(view, () => host.scene(), (next) => host.replace(next));
-    this.#commands = new Commands(this.#cell, () => this.#shown.view, () => host.scene(), () => host.size(), touch, (words) => this.#say(words));
-    this.#map = new MapAsker(channel, session, () => host.scene(), touch);
+    this.#shown = new CellShown(view, () => this.#scene, (next) => host.replace(next));
+    this.#commands = new Commands(this.#cell, () => this.#shown.view, () => this.#scene, () => host.size(), touch, (words) => this.#say(words));
+    this.#map = new MapAsker(channel, session, () => this.#scene, touch);
     this.#drawings = new Drawings(this.#cell);
     this.#toolbar = new Toolbar({ undo: () => this.#travel("Undone"), redo: () => this.#travel("Done again"), save: () => this.#save() });
-    this.#cellPanel = new CellPanel(this.#panelActions());
+    this.#cellPanel = new CellPanel(this.#commands, {
+      map: (plate) => this.#map.ask(this.#cell.text, plate, this.#cell.seen.drawn?.plates[plate]?.name ?? "the plate"),
+      clearMap: () => this.#map.clear(),
+      key: (event) => this.#key(event),
+    });
     this.#form = new Form(edit.keys, (key, value) => this.#cell.change([{ key, value }], value === null ? `Reset ${key}` : `Change ${key}`, key));
     this.#text = new TextPanel((text) => this.#cell.setText(text, "Change the text"));
     this.#bar = new ConflictBar(() => this.#disk);
@@ -104,7 +129,7 @@ export class Editor {
   /** Begins: asks about the scenario, and listens to hands and keys. */
   start(canvas: HTMLCanvasElement): void {
     document.documentElement.dataset["editing"] = "";
-    this.#host.scene().edit(this.#commands);
+    this.#scene = this.#host.edit(this.#commands);
     byId("panels").prepend(this.#toolbar.element);
     listenToEditKeys(canvas, {
       undo: () => this.#travel("Undone"),
@@ -138,22 +163,30 @@ export class Editor {
     this.#drawings.drawn(now, !this.#changed);
   }
 
-  get handle(): EditHandle {
+  /** `window.platewash.edit`: the live cell in the hands of a test. */
+  get handle() {
     const cell = this.#cell;
     return {
+      /** The scenario as far as it is written out, and whether it is. */
       text: () => cell.text,
       written: () => cell.version.edits.length === 0,
       state: () => cell.state,
       verdict: () => cell.standing,
+      /** False where there is nothing to take back. */
       undo: () => cell.undo(),
       redo: () => cell.redo(),
-      change: (edits) => cell.change(edits, "Change"),
+      /** As a change of the form: one step. */
+      change: (edits: readonly Edit[]) => cell.change(edits, "Change"),
       save: () => this.#save(),
       unsaved: () => this.#disk.unsaved,
-      centres: () => cell.centres.map(([x, y]) => [x, y]),
+      /** Where plates are [m]. */
+      centres: () => structuredClone(cell.centres),
       selected: () => this.#commands.selected,
+      /** Where plates that stand in the way could lie [m]. */
       ghosts: () => cell.answers.places.flatMap(({ plate, nearest_m }) => (nearest_m === null ? [] : [{ plate, centre_m: nearest_m }])),
+      /** The last questions. */
       timings: () => cell.timings,
+      /** Everything was answered and drawn. */
       settled: () => this.#drawings.settled(),
     };
   }
@@ -167,33 +200,8 @@ export class Editor {
     });
   }
 
-  #panelActions(): ConstructorParameters<typeof CellPanel>[0] {
-    const commands = this.#commands;
-    return {
-      select: (plate) => commands.select(plate),
-      place: (plate, centre) => commands.place(plate, centre),
-      take: (plate) => commands.take(plate),
-      map: (plate) => this.#map.ask(this.#cell.text, plate, this.#cell.seen.drawn?.plates[plate]?.name ?? "the plate"),
-      remove: (plate) => commands.remove(plate),
-      add: () => commands.add(),
-      all: () => commands.select(commands.selected === "all" ? null : "all"),
-      clearMap: () => this.#map.clear(),
-      key: (event) => this.#key(event),
-    };
-  }
-
   #key(event: KeyboardEvent): boolean {
-    const commands = this.#commands;
-    const one = (): number | null => (typeof commands.selected === "number" ? commands.selected : null);
-    const used = plateKey(event, {
-      active: () => commands.active,
-      next: (step) => commands.next(step),
-      shift: (right, up) => commands.shift(right, up),
-      turn: (angle) => commands.turn(angle),
-      remove: () => one() !== null && commands.remove(one()!),
-      take: () => one() !== null && commands.take(one()!),
-      cancel: () => this.#cancel(),
-    });
+    const used = plateKey(event, this.#commands, () => this.#cancel());
     if (!used && event.key === "Escape") this.#map.clear();
     return used;
   }

@@ -1,19 +1,19 @@
 /** Where a plate could be washed, asked on request and shown as it comes. */
+import type { Editing } from "../scene/editing.ts";
 import { ChannelError, type Channel } from "./channel.ts";
 import type { MapLine, MapQuestion } from "./protocol.ts";
-import type { EditedScene } from "./scene.ts";
 
 export class MapAsker {
   readonly #channel: Channel;
   readonly #session: string;
-  readonly #scene: () => EditedScene;
+  readonly #scene: () => Editing | null;
   readonly #changed: () => void;
   #abort: AbortController | null = null;
   #words: string | null = null;
   /** The scenario that it is of. */
   #text = "";
 
-  constructor(channel: Channel, session: string, scene: () => EditedScene, changed: () => void) {
+  constructor(channel: Channel, session: string, scene: () => Editing | null, changed: () => void) {
     this.#channel = channel;
     this.#session = `${session}m`;
     this.#scene = scene;
@@ -43,7 +43,7 @@ export class MapAsker {
     this.#abort.abort();
     this.#abort = null;
     this.#words = null;
-    this.#scene().map(null);
+    this.#scene()?.map(null);
     this.#changed();
   }
 
@@ -56,7 +56,7 @@ export class MapAsker {
     if (this.#abort !== abort) return;
     switch (line?.kind) {
       case "map":
-        return this.#scene().map(line);
+        return this.#scene()?.map(line);
       case "map_done":
       case "refused":
       case "failed":

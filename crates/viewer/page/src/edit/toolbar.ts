@@ -1,7 +1,7 @@
-/** Undo, redo, save, and what is going on. */
-import { button, el, TextCell } from "../shell/dom.ts";
-import { icon } from "../shell/icons.ts";
-import type { Activity } from "./standing.ts";
+/** Undo, redo, save and what is going on; and the bar that asks what is to become of a file that has changed. */
+import { button, byId, el, icon, isolated, TextCell } from "../shell/dom.ts";
+import type { Activity } from "./answers.ts";
+import type { Conflict, Disk } from "./disk.ts";
 
 export interface ToolbarActions {
   undo(): void;
@@ -63,4 +63,31 @@ function enable(of: HTMLButtonElement, on: boolean, title: string): void {
   const value = String(!on);
   if (of.getAttribute("aria-disabled") !== value) of.setAttribute("aria-disabled", value);
   if (of.title !== title) of.title = title;
+}
+
+/** Asks what is to become of a file that has changed. */
+export class ConflictBar {
+  readonly element = el("div", { class: "edit-bar notice tone-not_proved", set: { role: "alert" } });
+  readonly #disk: () => Disk;
+  #shown: Conflict | null = null;
+
+  constructor(disk: () => Disk) {
+    this.#disk = disk;
+    this.element.hidden = true;
+    byId("header").append(this.element);
+  }
+
+  show(conflict: Conflict | null): void {
+    if (conflict === this.#shown) return;
+    this.#shown = conflict;
+    this.element.hidden = conflict === null;
+    if (conflict === null) return;
+    const take = button({ class: "button text-button" }, () => this.#disk().take(), "Take it");
+    const keep = conflict.saving
+      ? button({ class: "button text-button" }, () => void this.#disk().save(true), "Overwrite")
+      : button({ class: "button text-button" }, () => this.#disk().keep(), "Keep mine");
+    take.hidden = conflict.text === null;
+    const close = button({ class: "button bare-button", label: "Decide later" }, () => this.#disk().keep(), icon("cross"));
+    this.element.replaceChildren(icon("question"), el("p", {}, isolated(conflict.words)), take, keep, ...(conflict.saving ? [close] : []));
+  }
 }

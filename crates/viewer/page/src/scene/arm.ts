@@ -1,9 +1,10 @@
 /** The arm in the scene graph: a group a joint frame, one mesh a link. */
-import { BufferGeometry, Color, Float32BufferAttribute, Group, Matrix4, Mesh } from "three";
+import { BufferGeometry, Color, Group, Matrix4, Mesh } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+import { matrixOf } from "../kinematics.ts";
 import type { Arm, Body, Link } from "../view.ts";
-import { geometryOf } from "./bodies.ts";
-import { fix, matrix4 } from "./pose.ts";
+import { fix } from "./graph.ts";
+import { colouredBy, geometryOf } from "./shapes.ts";
 import type { Studio } from "./studio.ts";
 
 /** Where the document states no colour: graphite white. */
@@ -15,14 +16,9 @@ function painted(body: Body): BufferGeometry {
   for (const name of Object.keys(geometry.attributes)) {
     if (name !== "position" && name !== "normal") geometry.deleteAttribute(name);
   }
-  geometry.applyMatrix4(matrix4(body.pose));
+  geometry.applyMatrix4(matrixOf(body.pose));
   const [r, g, b] = body.rgba ?? PLAIN;
-  const colour = new Color().setRGB(r, g, b, "srgb");
-  const count = geometry.getAttribute("position")?.count ?? 0;
-  const colours = new Float32Array(3 * count);
-  for (let i = 0; i < count; i++) colour.toArray(colours, 3 * i);
-  geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
-  return geometry;
+  return colouredBy(new Color().setRGB(r, g, b, "srgb"), geometry);
 }
 
 /** One mesh of bodies that share their opacity. */
@@ -72,7 +68,7 @@ export class ArmGraph {
   constructor(arm: Arm, studio: Studio) {
     fix(this.root, arm.mount);
     this.frames.push(this.root);
-    this.#origins = arm.joints.map((joint) => matrix4(joint.origin));
+    this.#origins = arm.joints.map((joint) => matrixOf(joint.origin));
     for (const origin of this.#origins) {
       const frame = new Group();
       frame.matrixAutoUpdate = false;

@@ -1,14 +1,8 @@
 /** The smallest clearance at a moment: a line from body to body with a dot at either end; under the margin red and wider. */
 import { GreaterDepth, Group, Mesh, MeshBasicMaterial, SphereGeometry, type Camera, type Vector3 } from "three";
+import type { ClearanceNow } from "../clearances.ts";
 import { Lines } from "./lines.ts";
 import type { Palette } from "./palette.ts";
-
-export interface Nearest {
-  distance_m: number;
-  margin_m: number;
-  from: readonly [number, number, number];
-  to: readonly [number, number, number];
-}
 
 /** Radius of a dot as share of its distance from the eye. */
 const DOT = 0.003;
@@ -48,7 +42,7 @@ export class ClearanceLine {
   }
 
   /** No allocation. */
-  show(nearest: Nearest | null): void {
+  show(nearest: ClearanceNow | null): void {
     this.root.visible = nearest !== null;
     if (nearest === null) return;
     this.#line.moveFirst(nearest.from, nearest.to);

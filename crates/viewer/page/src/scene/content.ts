@@ -4,19 +4,91 @@ import { decodeCoverage } from "../coverage.ts";
 import { Kinematics } from "../kinematics.ts";
 import type { View } from "../view.ts";
 import { ArmGraph } from "./arm.ts";
-import { extentOf, type Extent } from "./extent.ts";
-import { Floor } from "./floor.ts";
+import { Floor, marksHeight } from "./floor.ts";
 import { CommandedTip, FrameAxes } from "./frame.ts";
-import { keptOf, type Kept } from "./kept.ts";
-import type { Layer } from "./layers.ts";
+import type { Retired } from "./graph.ts";
 import { Obstacles } from "./obstacles.ts";
 import type { Palette } from "./palette.ts";
 import { Paths } from "./paths.ts";
 import { Plates } from "./plates.ts";
 import { ProofBodies } from "./proof.ts";
-import type { Retired } from "./retired.ts";
 import type { Studio } from "./studio.ts";
 import { ToolGraph } from "./tool.ts";
+import { extentOf, type Extent } from "./views.ts";
+
+/** What can be shown or hidden. */
+export type Layer =
+  | "arm" | "bodies" | "plates" | "coverage" | "paths" | "transits" | "executed" | "tip" | "clearance" | "region" | "obstacles" | "floor";
+
+/** Their names on the page, in its order. */
+export const LABELS: Record<Layer, string> = {
+  arm: "Arm and tool",
+  plates: "Plates",
+  coverage: "What is swept of the plates",
+  paths: "Wash paths",
+  transits: "Transits",
+  executed: "Executed path",
+  tip: "Tip frame",
+  clearance: "Smallest clearance",
+  region: "Region and base circle",
+  obstacles: "Obstacles",
+  floor: "Floor",
+  bodies: "Bodies of the proof",
+};
+
+export const LAYERS = Object.keys(LABELS) as Layer[];
+
+/** True for what is kept. */
+export interface Kept {
+  arm: boolean;
+  tool: boolean;
+  obstacles: boolean;
+  /** The floor with base circle and region. */
+  floor: boolean;
+  /** Where plates lie and what they look like; coverage apart. */
+  plates: boolean;
+  planned: boolean;
+  executed: boolean;
+  /** All ways of the tip. */
+  paths: boolean;
+  /** What the camera has to show. */
+  extent: boolean;
+}
+
+/** Whether two parts of documents say the same; whole arms and motions are not compared but by identity. */
+function same(a: unknown, b: unknown): boolean {
+  return a === b || JSON.stringify(a) === JSON.stringify(b);
+}
+
+/** Arrays made anew without anything in them are the same, too. */
+function sameList(a: readonly unknown[], b: readonly unknown[]): boolean {
+  return a === b || (a.length === 0 && b.length === 0);
+}
+
+/** Compares two documents; arms, motions, paths and coverage by identity, the rest by what it says. */
+export function keptOf(before: View, after: View): Kept {
+  const arm = before.arm === after.arm;
+  const tool = same(before.tool, after.tool);
+  const obstacles = same(before.surroundings.obstacles, after.surroundings.obstacles);
+  const plates = same(before.plates, after.plates);
+  const motion = before.motion === after.motion && (after.motion === null || sameList(before.segments, after.segments));
+  const execution = before.execution === after.execution;
+  return {
+    arm,
+    tool,
+    obstacles,
+    floor:
+      same(before.arm.mount, after.arm.mount) &&
+      before.surroundings.base_circle_m === after.surroundings.base_circle_m &&
+      same(before.surroundings.region_m, after.surroundings.region_m) &&
+      marksHeight(before) === marksHeight(after),
+    plates,
+    planned: sameList(before.coverage, after.coverage),
+    executed: execution,
+    paths: arm && tool && plates && motion && execution && sameList(before.paths, after.paths),
+    extent: arm && tool && obstacles && plates && motion && same(before.pose_rad, after.pose_rad),
+  };
+}
 
 const NOTHING: Kept = {
   arm: false, tool: false, obstacles: false, floor: false, plates: false, planned: false, executed: false, paths: false, extent: false,
@@ -28,19 +100,19 @@ export class Content {
   readonly #axes = new FrameAxes();
   readonly #studio: Studio;
   readonly #retired: Retired;
-  #view: View;
-  #arm!: ArmGraph;
-  #tool!: ToolGraph;
-  #paths!: Paths;
+  view: View;
+  arm!: ArmGraph;
+  tool!: ToolGraph;
+  paths!: Paths;
   #floor!: Floor;
-  #obstacles!: Obstacles;
-  #bodies!: ProofBodies;
-  #commanded!: CommandedTip;
-  #kinematics!: Kinematics;
-  #extent!: Extent;
+  obstacles!: Obstacles;
+  bodies!: ProofBodies;
+  commanded!: CommandedTip;
+  kinematics!: Kinematics;
+  extent!: Extent;
 
   constructor(view: View, studio: Studio, retired: Retired) {
-    this.#view = view;
+    this.view = view;
     this.#studio = studio;
     this.#retired = retired;
     this.plates = new Plates(studio, retired);
@@ -48,38 +120,10 @@ export class Content {
     this.#make(view, NOTHING);
   }
 
-  get view(): View {
-    return this.#view;
-  }
-  get arm(): ArmGraph {
-    return this.#arm;
-  }
-  get tool(): ToolGraph {
-    return this.#tool;
-  }
-  get obstacles(): Obstacles {
-    return this.#obstacles;
-  }
-  get paths(): Paths {
-    return this.#paths;
-  }
-  get bodies(): ProofBodies {
-    return this.#bodies;
-  }
-  get commanded(): CommandedTip {
-    return this.#commanded;
-  }
-  get kinematics(): Kinematics {
-    return this.#kinematics;
-  }
-  get extent(): Extent {
-    return this.#extent;
-  }
-
   /** Shows another document; what was kept. Palette and layers have to be set again. */
   replace(view: View): Kept {
-    const kept = keptOf(this.#view, view);
-    this.#view = view;
+    const kept = keptOf(this.view, view);
+    this.view = view;
     this.#make(view, kept);
     return kept;
   }
@@ -87,48 +131,48 @@ export class Content {
   #make(view: View, kept: Kept): void {
     if (!kept.arm || !kept.tool) this.#makeArm(view, kept);
     if (!kept.obstacles) {
-      this.#retire(this.#obstacles?.root);
-      this.#obstacles = new Obstacles(view.surroundings.obstacles, this.#studio);
-      this.root.add(this.#obstacles.root);
+      this.#retire(this.obstacles?.root);
+      this.obstacles = new Obstacles(view.surroundings.obstacles, this.#studio);
+      this.root.add(this.obstacles.root);
     }
     if (!kept.plates) {
       this.plates.replace(view.plates);
-      this.#tool.setPlates(view.plates);
+      this.tool.setPlates(view.plates);
     }
     if (!kept.planned) this.plates.cover("planned", view.coverage.map(decodeCoverage));
     if (!kept.executed) this.plates.cover("executed", (view.execution?.coverage ?? []).map(decodeCoverage));
     if (!kept.paths) {
-      this.#retire(this.#paths?.wash, this.#paths?.transits, this.#paths?.executed);
-      this.#paths = new Paths(view);
-      this.root.add(this.#paths.wash, this.#paths.transits, this.#paths.executed);
+      this.#retire(this.paths?.wash, this.paths?.transits, this.paths?.executed);
+      this.paths = new Paths(view);
+      this.root.add(this.paths.wash, this.paths.transits, this.paths.executed);
     }
     if (!kept.floor) {
       this.#retire(this.#floor?.ground, this.#floor?.region);
       this.#floor = new Floor(view, this.#studio);
       this.root.add(this.#floor.ground, this.#floor.region);
     }
-    if (!kept.extent) this.#extent = extentOf(view, this.#obstacles.bounds());
-    const { center, radius } = this.#extent.sphere;
+    if (!kept.extent) this.extent = extentOf(view, this.obstacles.bounds());
+    const { center, radius } = this.extent.sphere;
     this.#floor.setExtent(center, Math.max(2, 2.6 * radius));
   }
 
   /** The arm is made anew only where it is another one, the tool where it, or the arm, is. */
   #makeArm(view: View, kept: Kept): void {
     this.#axes.root.removeFromParent();
-    this.#bodies?.retire(this.#retired);
-    this.#retire(this.#tool?.root, this.#commanded?.root);
+    this.bodies?.retire(this.#retired);
+    this.#retire(this.tool?.root, this.commanded?.root);
     if (!kept.arm) {
-      this.#retire(this.#arm?.root);
-      this.#arm = new ArmGraph(view.arm, this.#studio);
-      this.root.add(this.#arm.root);
+      this.#retire(this.arm?.root);
+      this.arm = new ArmGraph(view.arm, this.#studio);
+      this.root.add(this.arm.root);
     }
-    this.#tool = new ToolGraph(view.tool, view.plates, this.#studio);
-    this.#tool.tip.add(this.#axes.root);
-    this.#arm.flange.add(this.#tool.root);
-    this.#bodies = new ProofBodies(view, this.#arm);
-    this.#commanded = new CommandedTip(view.tool?.sponge.radius_m || 0.02);
-    this.root.add(this.#commanded.root);
-    this.#kinematics = new Kinematics(view.arm, view.tool);
+    this.tool = new ToolGraph(view.tool, view.plates, this.#studio);
+    this.tool.tip.add(this.#axes.root);
+    this.arm.flange.add(this.tool.root);
+    this.bodies = new ProofBodies(view, this.arm);
+    this.commanded = new CommandedTip(view.tool?.sponge.radius_m || 0.02);
+    this.root.add(this.commanded.root);
+    this.kinematics = new Kinematics(view.arm, view.tool);
   }
 
   #retire(...roots: (Object3D | undefined)[]): void {
@@ -136,28 +180,23 @@ export class Content {
   }
 
   setPalette(palette: Palette): void {
-    const parts = [this.#floor, this.plates, this.#paths, this.#tool, this.#commanded, this.#obstacles, this.#bodies];
+    const parts = [this.#floor, this.plates, this.paths, this.tool, this.commanded, this.obstacles, this.bodies];
     for (const part of parts) part.setPalette(palette);
   }
 
   /** What a layer shows and hides as a whole. */
   objectsOf(layer: Layer): readonly Object3D[] {
     switch (layer) {
-      case "arm": return [...this.#arm.visuals, ...this.#tool.visuals];
+      case "arm": return [...this.arm.visuals, ...this.tool.visuals];
       case "plates": return [this.plates.root];
-      case "paths": return [this.#paths.wash];
-      case "transits": return [this.#paths.transits];
-      case "executed": return [this.#paths.executed];
+      case "paths": return [this.paths.wash];
+      case "transits": return [this.paths.transits];
+      case "executed": return [this.paths.executed];
       case "tip": return [this.#axes.root];
       case "region": return [this.#floor.region];
-      case "obstacles": return [this.#obstacles.root];
+      case "obstacles": return [this.obstacles.root];
       case "floor": return [this.#floor.ground];
       default: return [];
     }
-  }
-
-  dispose(): void {
-    this.plates.dispose();
-    this.#bodies.dispose();
   }
 }

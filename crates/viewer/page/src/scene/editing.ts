@@ -3,13 +3,11 @@ import { Group, Vector3, type Camera, type Ray } from "three";
 import type { Chance } from "../edit/protocol.ts";
 import type { Content } from "./content.ts";
 import { Ghosts, type GhostPlace } from "./ghost.ts";
-import { middle, type Centre, type Grab } from "./grab.ts";
-import { Handles, type Phase, type Picked, type Touched } from "./handles.ts";
+import { Handles, middle, type Centre, type Grab, type Phase, type Picked } from "./handles.ts";
 import { WashMap, type MapPatch } from "./map.ts";
-import { Outlines } from "./outlines.ts";
 import type { Palette } from "./palette.ts";
 import { nearest, nearestAt, onPlane, type Solid } from "./pick.ts";
-import { RingHandle, partOf, ringThrough } from "./ring.ts";
+import { Outlines, partOf, RingHandle, ringThrough } from "./ring.ts";
 import { Signs } from "./signs.ts";
 import type { Studio } from "./studio.ts";
 import { Washability, type Offending } from "./washability.ts";
@@ -55,7 +53,7 @@ const LEAST_M = 0.0025;
 /** How far over the map the ring is [m]. */
 const OVER_MAP_M = 0.0036;
 
-export class Editing implements Touched {
+export class Editing {
   readonly root = new Group();
   readonly #surface: Surface;
   readonly #actions: EditActions;
@@ -202,6 +200,7 @@ export class Editing implements Touched {
     return ringThrough(this.#axis, middle(centres), rim);
   }
 
+  /** What a pointer is over. */
   pick(x: number, y: number, coarse: boolean): Picked | null {
     const ray = this.#surface.ray(x, y);
     const met = nearestAt(ray, this.#solids);
@@ -232,6 +231,7 @@ export class Editing implements Touched {
     return partOf(ring, place, (coarse ? NEAR_FINGER_PX : NEAR_PX) * this.#surface.pixel_m(new Vector3(...place, height_m)));
   }
 
+  /** Brings out what the pointer is over. */
   hover(picked: Picked | null): void {
     if (JSON.stringify(picked) === JSON.stringify(this.#hovered)) return;
     this.#hovered = picked;
@@ -240,6 +240,7 @@ export class Editing implements Touched {
     this.#arrange();
   }
 
+  /** What is held where something is pressed; null where that does not move. */
   grab(picked: Picked, x: number, y: number): { grab: Grab; height_m: number } | null {
     if (picked.kind === "ghost") return null;
     if (picked.kind === "body") return this.#grabBody(picked.body, x, y);
@@ -264,10 +265,12 @@ export class Editing implements Touched {
     return { grab: { plates: [], body, starts_m: [[place[0], place[1]]], from_m, about_m: null }, height_m };
   }
 
+  /** What is held begins to move; whether it may. */
   begin({ body }: Grab): boolean {
     return body !== undefined || this.#actions.mayMove();
   }
 
+  /** Where a place on the canvas is in a level plane [m]; null where it is not in it. */
   toPlane(x: number, y: number, height_m: number): Centre | null {
     return onPlane(this.#surface.ray(x, y), height_m);
   }
@@ -290,11 +293,13 @@ export class Editing implements Touched {
     this.#actions.move({ plates: [...plates], centres_m: centres_m.map(([x, y]) => [x, y]) }, phase);
   }
 
+  /** Something was pressed: null for nothing. */
   press(picked: Picked | null): void {
     if (picked?.kind !== "plate" || this.#selection === "all") return;
     this.#choose(picked.plate);
   }
 
+  /** It was pressed and let go without having been moved. */
   click(picked: Picked | null): void {
     if (picked === null || picked.kind !== "body") this.#actions.selectBody(null);
     if (picked?.kind === "body") this.#actions.selectBody(picked.body);
@@ -317,16 +322,6 @@ export class Editing implements Touched {
   face(camera: Camera, eye: Vector3, narrow: number, pixel: number): void {
     this.#ring.face(camera, eye, narrow);
     this.#signs.setScale(pixel);
-  }
-
-  /** Puts the plates back where the document has them. */
-  dispose(): void {
-    this.#handles.dispose();
-    this.#preview = null;
-    this.#carried.clear();
-    this.#lay();
-    this.#washability.dispose();
-    this.#signs.dispose();
   }
 }
 

@@ -1,7 +1,8 @@
 /** Axes of a frame, 0.05 m long as in the paper: x red, y green, z blue, faint where something hides them. */
-import { BufferGeometry, Color, ConeGeometry, CylinderGeometry, Float32BufferAttribute, GreaterDepth, Group, Mesh, MeshBasicMaterial, RingGeometry } from "three";
+import { BufferGeometry, Color, ConeGeometry, CylinderGeometry, GreaterDepth, Group, Mesh, MeshBasicMaterial, RingGeometry } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import type { Palette } from "./palette.ts";
+import { colouredBy } from "./shapes.ts";
 
 /** [m] */
 const AXIS_M = 0.05;
@@ -15,12 +16,7 @@ function arrow(index: number): BufferGeometry {
   const geometry = mergeGeometries([shaft, head]);
   if (index === 0) geometry.rotateZ(-Math.PI / 2);
   if (index === 2) geometry.rotateX(Math.PI / 2);
-  const colour = new Color(AXES[index]);
-  const count = geometry.getAttribute("position").count;
-  const colours = new Float32Array(3 * count);
-  for (let i = 0; i < count; i++) colour.toArray(colours, 3 * i);
-  geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
-  return geometry;
+  return colouredBy(new Color(AXES[index]), geometry);
 }
 
 export class FrameAxes {

@@ -1,10 +1,10 @@
 /** Ghosts: plates drawn where they could be washed, each tied to its plate by a line. */
 import { BufferGeometry, Group, Matrix4, Mesh, type MeshStandardMaterial } from "three";
-import type { Centre } from "./grab.ts";
+import type { Centre } from "./handles.ts";
 import { Lines } from "./lines.ts";
-import { circle } from "./outlines.ts";
 import type { Palette } from "./palette.ts";
 import type { Solid } from "./pick.ts";
+import { circle } from "./ring.ts";
 import type { Studio } from "./studio.ts";
 
 const OPACITY = 0.42;
@@ -95,16 +95,13 @@ export class Ghosts {
     for (const object of [ghost.mesh, ghost.outline]) object.matrixWorldNeedsUpdate = true;
   }
 
-  /** Brings out the ghost of a plate, or none. Whether that changes anything. */
-  hover(plate: number | null): boolean {
-    let changed = false;
+  /** Brings out the ghost of a plate, or none. */
+  hover(plate: number | null): void {
     this.#ghosts.forEach(({ mesh, outline }, index) => {
       const opacity = plate !== null && this.#places[index]?.plate === plate ? HOVERED : OPACITY;
-      changed ||= mesh.material.opacity !== opacity;
       mesh.material.opacity = opacity;
       outline.setWidth(opacity === HOVERED ? 4 : 2.6);
     });
-    return changed;
   }
 
   #make(): Ghost {

@@ -1,36 +1,24 @@
 /** The workcell in three dimensions: all that is drawn of a document at a moment. */
 import { Mesh, MeshBasicMaterial, PerspectiveCamera, Ray, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import type { Chance } from "../edit/protocol.ts";
+import type { ClearanceNow } from "../clearances.ts";
 import type { Theme } from "../palette.ts";
 import type { View } from "../view.ts";
-import { ClearanceLine, type Nearest } from "./clearance.ts";
-import { Content } from "./content.ts";
-import { Editing, type EditActions, type Selection } from "./editing.ts";
-import type { GhostPlace } from "./ghost.ts";
-import type { Centre } from "./grab.ts";
+import { ClearanceLine } from "./clearance.ts";
+import { Content, LABELS, LAYERS, type Layer } from "./content.ts";
+import { Editing, type EditActions } from "./editing.ts";
+import { Retired } from "./graph.ts";
 import { Haste } from "./haste.ts";
-import { LABELS, LAYERS, type Layer } from "./layers.ts";
-import type { MapPatch } from "./map.ts";
-import { Mark } from "./mark.ts";
 import { PALETTES } from "./palette.ts";
-import { onPlane } from "./pick.ts";
 import type { CoverageKind } from "./plates.ts";
-import { disposeTree } from "./pose.ts";
-import { Retired } from "./retired.ts";
+import { Mark } from "./signs.ts";
 import { Stage } from "./stage.ts";
 import { Studio } from "./studio.ts";
-import { PRESETS, Views, type Preset } from "./views.ts";
-import type { Offending } from "./washability.ts";
+import { Views, type Preset } from "./views.ts";
 
-export type { EditActions, Selection } from "./editing.ts";
-export type { GhostPlace } from "./ghost.ts";
-export type { Centre } from "./grab.ts";
-export type { Layer } from "./layers.ts";
-export type { MapPatch } from "./map.ts";
+export type { Layer } from "./content.ts";
 export { SceneError } from "./stage.ts";
-export type { Preset } from "./views.ts";
-export type { Offending } from "./washability.ts";
+export { PRESETS, type Preset } from "./views.ts";
 
 /** A moment. */
 export interface Shown {
@@ -41,7 +29,7 @@ export interface Shown {
   commanded: Float64Array | null;
   /** The plate that is being washed. */
   washing: number | null;
-  clearance: Nearest | null;
+  clearance: ClearanceNow | null;
   /** Up to when coverage is shown [s]. */
   coverageTime: number;
   coverageKind: CoverageKind;
@@ -64,7 +52,6 @@ export class Scene {
   readonly #retired: Retired;
   readonly #clearance = new ClearanceLine();
   readonly #mark = new Mark();
-  readonly #commandedPose = new Float64Array(16);
   readonly #studio = new Studio();
   readonly #on = new Map<Layer, boolean>();
   readonly #tip = new Vector3();
@@ -74,7 +61,7 @@ export class Scene {
   #theme: Theme;
   #size = { width: 1, height: 1, dpr: 1 };
   #shown: Shown | null = null;
-  #nearest: Nearest | null = null;
+  #nearest: ClearanceNow | null = null;
   #editing: Editing | null = null;
   /** Whether there is something new to draw, and whether it changes the shadows. */
   #dirty = true;
@@ -86,12 +73,8 @@ export class Scene {
   #hasty = false;
   #lost = false;
 
-  /** Builds the scene of a document; `SceneError` where there is no WebGL 2. */
-  static create(canvas: HTMLCanvasElement, view: View, theme: Theme): Scene {
-    return new Scene(canvas, view, theme);
-  }
-
-  private constructor(canvas: HTMLCanvasElement, view: View, theme: Theme) {
+  /** The scene of a document; `SceneError` where there is no WebGL 2. */
+  constructor(canvas: HTMLCanvasElement, view: View, theme: Theme) {
     this.#canvas = canvas;
     this.#theme = theme;
     this.#stage = new Stage(canvas);
@@ -141,13 +124,8 @@ export class Scene {
     this.#haste.hurry();
   }
 
-  /** Lets hands move plates, and tells `actions` of it; null for no longer. */
-  edit(actions: EditActions | null): void {
-    this.#editing?.dispose();
-    if (this.#editing !== null) this.#retired.add(this.#editing.root);
-    this.#editing = null;
-    this.#dirty = this.#moved = true;
-    if (actions === null) return;
+  /** Lets hands move plates, and tells `actions` of it. */
+  edit(actions: EditActions): Editing {
     const surface = {
       canvas: this.#canvas,
       content: this.#content,
@@ -164,50 +142,13 @@ export class Scene {
         this.#haste.hurry();
       },
     };
-    this.#editing = new Editing(surface, actions);
-    this.#editing.setPalette(PALETTES[this.#theme]);
-    this.#stage.graph.add(this.#editing.root);
+    const editing = new Editing(surface, actions);
+    editing.setPalette(PALETTES[this.#theme]);
+    this.#editing = editing;
+    this.#stage.graph.add(editing.root);
     this.#stage.prepare(this.#camera);
-  }
-
-  /** Selects a plate, all of them or none. Only while the scene can be edited, as all that follows up to `map`. */
-  select(selection: Selection): void {
-    this.#editing?.select(selection);
-  }
-
-  /** Brings out a body that stands around; null for none. */
-  selectBody(body: number | null): void {
-    this.#editing?.selectBody(body);
-  }
-
-  /** Shows a body that stands around elsewhere; null where it is. */
-  previewBody(put: { body: number; centre_m: Centre } | null): void {
-    this.#editing?.previewBody(put);
-  }
-
-  /** Shows plates at other centres than the document's, until it is replaced; null where the document has them. */
-  preview(centres_m: readonly Centre[] | null): void {
-    this.#editing?.preview(centres_m);
-  }
-
-  /** Marks plates by what is guessed of them. */
-  chances(list: readonly { plate: number; chance: Chance }[] | null): void {
-    this.#editing?.chances(list ?? []);
-  }
-
-  /** Shows which parts of plates cannot be washed where they lie now: what is nearer to a dead contact point than to a free one. */
-  offending(list: readonly Offending[]): void {
-    this.#editing?.offending(list);
-  }
-
-  /** Shows where plates could be washed. */
-  ghosts(list: readonly GhostPlace[]): void {
-    this.#editing?.ghosts(list);
-  }
-
-  /** Adds to the map of where a plate could be washed; null takes it away. */
-  map(patch: MapPatch | null): void {
-    this.#editing?.map(patch);
+    this.#dirty = this.#moved = true;
+    return editing;
   }
 
   #watch(): void {
@@ -215,23 +156,15 @@ export class Scene {
       this.#dirty = true;
       if (!this.#views.placing) this.#haste.hurry();
     });
-    this.#canvas.addEventListener("webglcontextlost", this.#onLost);
-    this.#canvas.addEventListener("webglcontextrestored", this.#onRestored);
-  }
-
-  readonly #onLost = (event: Event): void => {
-    event.preventDefault();
-    this.#lost = true;
-  };
-
-  readonly #onRestored = (): void => {
-    this.#lost = false;
-    this.#dirty = this.#moved = true;
-  };
-
-  /** Whether the graphics processor has taken the scene away; it comes back by itself. */
-  get lost(): boolean {
-    return this.#lost;
+    // The graphics processor has taken the scene away; it comes back by itself.
+    this.#canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault();
+      this.#lost = true;
+    });
+    this.#canvas.addEventListener("webglcontextrestored", () => {
+      this.#lost = false;
+      this.#dirty = this.#moved = true;
+    });
   }
 
   #pose(q: ArrayLike<number>): void {
@@ -260,7 +193,7 @@ export class Scene {
     const { root } = this.#content.commanded;
     root.visible = false;
     if (q === null || !this.#isOn("executed")) return;
-    root.matrix.fromArray(this.#content.kinematics.tip(q, this.#commandedPose));
+    this.#content.kinematics.tip(q, root.matrix);
     root.matrixWorldNeedsUpdate = true;
     root.visible = this.#scratch.setFromMatrixPosition(root.matrix).distanceTo(this.#tip) > APART_M;
   }
@@ -322,10 +255,6 @@ export class Scene {
     this.#dirty = true;
   }
 
-  get theme(): Theme {
-    return this.#theme;
-  }
-
   setTheme(theme: Theme): void {
     this.#theme = theme;
     for (const part of [this.#stage, this.#studio, this.#content, this.#clearance, this.#mark]) part.setPalette(PALETTES[theme]);
@@ -366,15 +295,6 @@ export class Scene {
 
   layers(): { id: Layer; label: string; on: boolean }[] {
     return LAYERS.map((id) => ({ id, label: LABELS[id], on: this.#isOn(id) }));
-  }
-
-  /** The views that there are. */
-  cameras(): readonly { id: Preset; label: string }[] {
-    return PRESETS;
-  }
-
-  get preset(): Preset {
-    return this.#views.preset;
   }
 
   /** Goes to a view; at once where asked, or where a reader wants no motion. */
@@ -421,37 +341,4 @@ export class Scene {
     return new Ray(eye, through.sub(eye).normalize());
   }
 
-  /** Where a place on the canvas [CSS px] is in the plane z = `height_m` [m]; null where it is not in it. */
-  toPlane(x: number, y: number, height_m: number): Centre | null {
-    return onPlane(this.#ray(x, y), height_m);
-  }
-
-  /** A picture of the moment as PNG in a data URL, drawn at once; in another theme or size where asked. */
-  still(options: { theme?: Theme; width?: number; height?: number; dpr?: number } = {}): string {
-    const [theme, size] = [this.#theme, this.#size];
-    const { width = size.width, height = size.height, dpr = size.dpr } = options;
-    if (options.theme !== undefined) this.setTheme(options.theme);
-    this.resize(width, height, dpr);
-    this.#moved = true;
-    this.render();
-    const url = this.#canvas.toDataURL("image/png");
-    if (options.theme !== undefined) this.setTheme(theme);
-    this.resize(size.width, size.height, size.dpr);
-    this.#moved = true;
-    this.render();
-    return url;
-  }
-
-  /** Frees what the graphics processor holds. */
-  dispose(): void {
-    this.#canvas.removeEventListener("webglcontextlost", this.#onLost);
-    this.#canvas.removeEventListener("webglcontextrestored", this.#onRestored);
-    this.edit(null);
-    this.#controls.dispose();
-    disposeTree(this.#stage.graph);
-    this.#content.dispose();
-    this.#retired.dispose();
-    this.#mark.dispose();
-    this.#stage.dispose();
-  }
 }

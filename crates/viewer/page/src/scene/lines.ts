@@ -1,5 +1,5 @@
 /** Lines of a width in pixels of the page, whatever the resolution of the screen. */
-import { InterleavedBufferAttribute, LessEqualDepth, type DepthModes } from "three";
+import { InterleavedBufferAttribute, LessEqualDepth, Line3, Vector3, type DepthModes } from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
@@ -31,41 +31,25 @@ export function stretches(polylines: readonly Polyline[]): Float32Array {
   return all.subarray(0, at);
 }
 
-/** Distance of a place from the straight line between two others, squared. */
-function awaySquared(line: Polyline, at: number, from: number, to: number): number {
-  let [along, length, away] = [0, 0, 0];
-  for (let k = 0; k < 3; k++) {
-    const span = line[3 * to + k]! - line[3 * from + k]!;
-    along += span * (line[3 * at + k]! - line[3 * from + k]!);
-    length += span * span;
-  }
-  const share = length > 0 ? Math.max(0, Math.min(1, along / length)) : 0;
-  for (let k = 0; k < 3; k++) {
-    const start = line[3 * from + k]!;
-    away += (line[3 * at + k]! - start - share * (line[3 * to + k]! - start)) ** 2;
-  }
-  return away;
-}
-
 /** A polyline with fewer places, none of those left out farther off than `tolerance_m` (Douglas and Peucker). */
 export function simplified(line: Polyline, tolerance_m: number): Float64Array {
   const count = Math.floor(line.length / 3);
+  const places = Array.from({ length: count }, (_, k) => new Vector3(line[3 * k], line[3 * k + 1], line[3 * k + 2]));
+  const [span, nearest] = [new Line3(), new Vector3()];
   const keep = new Uint8Array(count);
   const open: [number, number][] = count > 0 ? [[0, count - 1]] : [];
   for (let next = open.pop(); next !== undefined; next = open.pop()) {
     const [from, to] = next;
     keep[from] = keep[to] = 1;
     let [farthest, away] = [-1, tolerance_m * tolerance_m];
+    span.set(places[from]!, places[to]!);
     for (let at = from + 1; at < to; at++) {
-      const distance = awaySquared(line, at, from, to);
+      const distance = span.closestPointToPoint(places[at]!, true, nearest).distanceToSquared(places[at]!);
       if (distance > away) [farthest, away] = [at, distance];
     }
     if (farthest >= 0) open.push([from, farthest], [farthest, to]);
   }
-  const kept = new Float64Array(3 * keep.reduce((sum, one) => sum + one, 0));
-  let size = 0;
-  for (let at = 0; at < count; at++) if (keep[at] === 1) for (let k = 0; k < 3; k++) kept[size++] = line[3 * at + k]!;
-  return kept;
+  return Float64Array.from(places.filter((_, at) => keep[at] === 1).flatMap((place) => place.toArray()));
 }
 
 /** Stretches of line in one call of the graphics processor; there must be one at least. */

@@ -1,13 +1,10 @@
 /** The map of where a plate could be washed: squares just under the plates, finer ones over coarse ones. */
-import { Color, DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry, Float32BufferAttribute, Mesh, ShaderMaterial } from "three";
+import { Color, DynamicDrawUsage, Float32BufferAttribute, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, ShaderMaterial } from "three";
+import type { MapLine } from "../edit/protocol.ts";
 import type { Palette } from "./palette.ts";
 
 /** Squares of one size, as they come. */
-export interface MapPatch {
-  step_m: number;
-  washable_m: readonly (readonly [number, number])[];
-  unwashable_m: readonly (readonly [number, number])[];
-}
+export type MapPatch = Pick<Extract<MapLine, { kind: "map" }>, "step_m" | "washable_m" | "unwashable_m">;
 
 /** At most so many squares. */
 const MOST = 100_000;

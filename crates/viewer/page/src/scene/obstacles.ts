@@ -1,9 +1,10 @@
 /** Bodies that stand still. */
 import { Box3, Color, DoubleSide, Group, Matrix4, Mesh, Raycaster, type MeshStandardMaterial, type Ray } from "three";
+import { matrixOf } from "../kinematics.ts";
 import type { Body } from "../view.ts";
-import { geometryOf } from "./bodies.ts";
+import { fix } from "./graph.ts";
 import type { Palette } from "./palette.ts";
-import { fix, matrix4 } from "./pose.ts";
+import { geometryOf } from "./shapes.ts";
 import type { Studio } from "./studio.ts";
 
 /** Whether a body is the floor at z = 0, which is drawn as such. */
@@ -25,7 +26,7 @@ export class Obstacles {
   #selected: number | null = null;
 
   constructor(bodies: readonly Body[], studio: Studio) {
-    this.#poses = bodies.map(({ pose }) => matrix4(pose));
+    this.#poses = bodies.map(({ pose }) => matrixOf(pose));
     this.#meshes = bodies.map((body) => {
       if (isFloor(body)) return null;
       const flat = "half_space" in body.shape;

@@ -1,6 +1,6 @@
 /** The scene's colours. What means different things differs in lightness or form, too. */
 
-import { palette, type Palette as Meanings, type Theme } from "../palette.ts";
+import { palette, type Theme } from "../palette.ts";
 
 export interface Palette {
   /** Background, above and below. */
@@ -110,11 +110,9 @@ const DARK: Own = {
   mapUnwashable: "#6d4443",
 };
 
-function withMeanings(own: Own, { segments, executed }: Meanings): Palette {
+function withMeanings(own: Own, theme: Theme): Palette {
+  const { segments, executed } = palette(theme);
   return { ...own, wash: segments.wash, transit: segments.transit, executed };
 }
 
-export const PALETTES: Record<Theme, Palette> = {
-  light: withMeanings(LIGHT, palette("light")),
-  dark: withMeanings(DARK, palette("dark")),
-};
+export const PALETTES: Record<Theme, Palette> = { light: withMeanings(LIGHT, "light"), dark: withMeanings(DARK, "dark") };

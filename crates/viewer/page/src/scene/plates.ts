@@ -2,14 +2,12 @@
 import {
   Color, DataTexture, FloatType, Group, LinearFilter, Matrix4, Mesh, RGBAFormat, RGFormat, SRGBColorSpace, type BufferGeometry, type MeshStandardMaterial,
 } from "three";
-import { colormap } from "../colormap.ts";
-import { dwellScale, type Coverage } from "../coverage.ts";
+import { colormap, dwellScale, type Coverage } from "../coverage.ts";
 import type { Plate } from "../view.ts";
+import { fix, type Retired } from "./graph.ts";
 import type { Palette } from "./palette.ts";
-import { plateGeometry } from "./plate-shape.ts";
 import type { Solid } from "./pick.ts";
-import { fix } from "./pose.ts";
-import type { Retired } from "./retired.ts";
+import { plateGeometry } from "./shapes.ts";
 import type { Studio } from "./studio.ts";
 import { sweepProgram, sweepTexture, type Sweep, type SweepColours } from "./sweep.ts";
 
@@ -202,12 +200,5 @@ export class Plates {
       own.sweeps.value = texture;
       own.sweepFrame.value.set([coverage.half_m, coverage.columns, coverage.rows]);
     }
-  }
-
-  dispose(): void {
-    for (const { textures } of Object.values(this.#rasters)) for (const texture of textures.values()) texture.dispose();
-    for (const geometry of this.#shapes.values()) geometry.dispose();
-    this.#colours.heatMap.value.dispose();
-    this.#empty.dispose();
   }
 }

@@ -1,11 +1,10 @@
 /** Translucent bodies of arm and tool that count for the proof: clear where one looks straight at them, dense at their outlines. */
-import { EdgesGeometry, Group, LineBasicMaterial, LineSegments, Mesh, ShaderMaterial, Color } from "three";
+import { Color, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Mesh, ShaderMaterial } from "three";
 import type { Body, View } from "../view.ts";
 import type { ArmGraph } from "./arm.ts";
-import { geometryOf } from "./bodies.ts";
+import { fix, type Retired } from "./graph.ts";
 import type { Palette } from "./palette.ts";
-import { fix } from "./pose.ts";
-import type { Retired } from "./retired.ts";
+import { geometryOf } from "./shapes.ts";
 
 const VERTEX = /* glsl */ `
 varying vec3 vNormal;
@@ -93,10 +92,5 @@ export class ProofBodies {
     for (const group of this.#groups) retired.add(group);
     retired.addMaterial(this.#fill);
     retired.addMaterial(this.#edge);
-  }
-
-  dispose(): void {
-    this.#fill.dispose();
-    this.#edge.dispose();
   }
 }

@@ -1,9 +1,60 @@
-/** The ring on the floor by which plates are turned about the arm's base axis, with an arrow on either side of what it turns. */
-import { ConeGeometry, Group, Mesh, MeshBasicMaterial, Vector3, type Camera } from "three";
-import type { Centre } from "./grab.ts";
-import { Lines } from "./lines.ts";
-import { circle } from "./outlines.ts";
+/** Circles about plates: outlines of those that are meant, and the ring by which they are turned about the arm's base axis. */
+import { ConeGeometry, Group, Matrix4, Mesh, MeshBasicMaterial, Vector3, type Camera } from "three";
+import type { Centre } from "./handles.ts";
+import { Lines, stretches } from "./lines.ts";
 import type { Palette } from "./palette.ts";
+import type { Solid } from "./pick.ts";
+
+export type OutlineKind = "selected" | "hovered";
+
+/** How far outside the rim they are drawn [m]. */
+const APART_M = 0.002;
+
+/** A circle about the origin, `segments` chords. */
+export function circle(radius_m: number, segments = 128): Float32Array {
+  const places = Array.from({ length: segments + 1 }, (_, i) => {
+    const angle = (2 * Math.PI * i) / segments;
+    return [radius_m * Math.cos(angle), radius_m * Math.sin(angle), 0];
+  });
+  return stretches([places.flat()]);
+}
+
+/** Outlines about the rims of plates that are selected, and of the one that the pointer is over. */
+export class Outlines {
+  readonly root = new Group();
+  readonly #pools: Record<OutlineKind, Lines[]> = { selected: [], hovered: [] };
+  readonly #scale = new Matrix4();
+  #palette: Palette | null = null;
+
+  setPalette(palette: Palette): void {
+    this.#palette = palette;
+    for (const kind of ["selected", "hovered"] as const) for (const lines of this.#pools[kind]) lines.setColour(palette[kind]);
+  }
+
+  /** Draws outlines about these plates, and no others of their kind. */
+  show(kind: OutlineKind, solids: readonly Solid[]): void {
+    const pool = this.#pools[kind];
+    while (pool.length < solids.length) pool.push(this.#make(kind));
+    pool.forEach((lines, index) => {
+      const solid = solids[index];
+      lines.visible = solid !== undefined && solid.rim_m > 0;
+      if (solid === undefined || !lines.visible) return;
+      const size = solid.rim_m + APART_M;
+      lines.matrix.copy(solid.pose).multiply(this.#scale.makeScale(size, size, 1).setPosition(0, 0, solid.top_m));
+      lines.matrixWorldNeedsUpdate = true;
+    });
+  }
+
+  #make(kind: OutlineKind): Lines {
+    const style = kind === "selected" ? { width: 3.4, before: 4 } : { width: 2.4, opacity: 0.75, before: 4 };
+    const lines = new Lines(circle(1), style);
+    lines.matrixAutoUpdate = false;
+    lines.renderOrder = 3;
+    if (this.#palette !== null) lines.setColour(this.#palette[kind]);
+    this.root.add(lines);
+    return lines;
+  }
+}
 
 /** Rings smaller than this cannot be turned by [m]. */
 const LEAST_M = 0.04;
@@ -44,6 +95,7 @@ export function partOf(ring: Ring, place: Centre, reach_m: number): "arrow" | "l
   return off <= reach_m ? "line" : null;
 }
 
+/** The ring on the floor, with an arrow on either side of what it turns. */
 export class RingHandle {
   readonly root = new Group();
   readonly #line = new Lines(circle(1), { width: 2.2, opacity: 0.7 });

@@ -1,57 +1,96 @@
-/** Signs over plates, of one size on the screen, before everything else: a cross, a question mark. */
-import { CanvasTexture, Group, Sprite, SpriteMaterial } from "three";
+/** Signs of one size on the screen, before everything else: over plates a cross or a question mark, and the mark at a place to look at. */
+import { CanvasTexture, Group, Sprite, SpriteMaterial, type Vector3Tuple } from "three";
 import type { Palette } from "./palette.ts";
 import type { Solid } from "./pick.ts";
 
 export type SignKind = "unclear" | "unwashable";
 
 const LETTERS: Record<SignKind, string> = { unclear: "?", unwashable: "×" };
-/** Of the picture that is shrunk to the sign. */
-const PIXELS = 96;
-/** Of the sign on the page [CSS px]. */
-const SIZE_PX = 26;
-/** How far over the plate it is [m]. */
+/** Of the picture that is shrunk to a sign or the mark. */
+const PIXELS = 128;
+/** Of a sign and of the mark on the page [CSS px]. */
+const SIGN_PX = 26;
+const MARK_PX = 44;
+/** How far over the plate a sign is [m]. */
 const LIFT_M = 0.01;
 
-/** A white letter on a disc. */
-function drawn(letter: string, colour: string): HTMLCanvasElement {
+/** A picture that `paint` draws about its middle. */
+function picture(paint?: (context: CanvasRenderingContext2D) => void): CanvasTexture {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = PIXELS;
   const context = canvas.getContext("2d");
-  if (context === null) return canvas;
-  const [middle, radius] = [PIXELS / 2, 0.42 * PIXELS];
+  context?.translate(PIXELS / 2, PIXELS / 2);
+  if (context !== null) paint?.(context);
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = "srgb";
+  return texture;
+}
+
+function circle(context: CanvasRenderingContext2D, radius: number, width: number, colour: string, inside = "transparent"): void {
   context.beginPath();
-  context.arc(middle, middle, radius, 0, 2 * Math.PI);
-  context.fillStyle = colour;
+  context.arc(0, 0, radius, 0, 2 * Math.PI);
+  context.fillStyle = inside;
   context.fill();
-  context.lineWidth = 6;
-  context.strokeStyle = "white";
+  context.lineWidth = width;
+  context.strokeStyle = colour;
   context.stroke();
+}
+
+/** A ring with a dot. */
+function target(context: CanvasRenderingContext2D): void {
+  circle(context, 40, 20, "rgb(255 255 255 / 0.85)");
+  circle(context, 40, 10, "white");
+  circle(context, 6, 12, "white");
+}
+
+/** A white letter on a disc. */
+function letter(context: CanvasRenderingContext2D, text: string, colour: string): void {
+  circle(context, 0.42 * PIXELS, 8, "white", colour);
   context.fillStyle = "white";
   context.font = `bold ${0.62 * PIXELS}px sans-serif`;
   context.textAlign = "center";
-  const { actualBoundingBoxAscent: up, actualBoundingBoxDescent: down } = context.measureText(letter);
-  context.fillText(letter, middle, middle + (up - down) / 2);
-  return canvas;
+  const { actualBoundingBoxAscent: up, actualBoundingBoxDescent: down } = context.measureText(text);
+  context.fillText(text, 0, (up - down) / 2);
 }
 
-export class Signs {
-  readonly root = new Group();
-  readonly #materials: Record<SignKind, SpriteMaterial>;
-  readonly #sprites: Sprite[] = [];
+function material(map: CanvasTexture): SpriteMaterial {
+  return new SpriteMaterial({ map, sizeAttenuation: false, depthTest: false, depthWrite: false, toneMapped: false });
+}
+
+/** Marks a place to look at. */
+export class Mark {
+  readonly sprite = new Sprite(material(picture(target)));
 
   constructor() {
-    const material = (): SpriteMaterial => new SpriteMaterial({ sizeAttenuation: false, depthTest: false, depthWrite: false, toneMapped: false });
-    this.#materials = { unclear: material(), unwashable: material() };
-    for (const kind of ["unclear", "unwashable"] as const) this.#materials[kind].map = new CanvasTexture(document.createElement("canvas"));
+    this.sprite.renderOrder = 9;
+    this.sprite.visible = false;
   }
+
+  setPalette(palette: Palette): void {
+    this.sprite.material.color.set(palette.mark);
+  }
+
+  show(place: Vector3Tuple | null): void {
+    this.sprite.visible = place !== null;
+    if (place !== null) this.sprite.position.set(...place);
+  }
+
+  /** Keeps the mark's size where a CSS pixel is so much of the picture at distance 1. No allocation. */
+  setScale(pixel: number): void {
+    this.sprite.scale.setScalar(MARK_PX * pixel);
+  }
+}
+
+/** Signs over plates of which something is said. */
+export class Signs {
+  readonly root = new Group();
+  readonly #materials: Record<SignKind, SpriteMaterial> = { unclear: material(picture()), unwashable: material(picture()) };
+  readonly #sprites: Sprite[] = [];
 
   setPalette(palette: Palette): void {
     for (const kind of ["unclear", "unwashable"] as const) {
       this.#materials[kind].map?.dispose();
-      const texture = new CanvasTexture(drawn(LETTERS[kind], palette.sign[kind]));
-      texture.colorSpace = "srgb";
-      this.#materials[kind].map = texture;
+      this.#materials[kind].map = picture((context) => letter(context, LETTERS[kind], palette.sign[kind]));
     }
   }
 
@@ -74,13 +113,6 @@ export class Signs {
 
   /** Keeps their size where a CSS pixel is so much of the picture at distance 1. No allocation. */
   setScale(pixel: number): void {
-    for (const sprite of this.#sprites) sprite.scale.setScalar(SIZE_PX * pixel);
-  }
-
-  dispose(): void {
-    for (const material of Object.values(this.#materials)) {
-      material.map?.dispose();
-      material.dispose();
-    }
+    for (const sprite of this.#sprites) sprite.scale.setScalar(SIGN_PX * pixel);
   }
 }

@@ -1,21 +1,9 @@
 /** The stage: renderer, light, background and shadows. */
 import {
-  BufferGeometry,
-  Color,
-  DirectionalLight,
-  Float32BufferAttribute,
-  Mesh,
-  NeutralToneMapping,
-  PCFShadowMap,
-  Scene as Graph,
-  ShaderMaterial,
-  Vector3,
-  WebGLRenderer,
-  type Camera,
-  type Sphere,
+  BufferGeometry, Color, DirectionalLight, Float32BufferAttribute, Mesh, NeutralToneMapping, PCFShadowMap, Scene as Graph, ShaderMaterial, Vector3, WebGLRenderer, type Camera, type Sphere,
 } from "three";
 import type { Palette } from "./palette.ts";
-import { drawsInSoftware } from "./software.ts";
+import { drawsInSoftware } from "./haste.ts";
 
 /** Why there is no scene. */
 export class SceneError extends Error {
@@ -144,10 +132,5 @@ export class Stage {
     this.#fit(hasty ? HASTY : 1);
     if (moved) this.renderer.shadowMap.needsUpdate = true;
     this.renderer.render(this.graph, camera);
-  }
-
-  dispose(): void {
-    this.#key.dispose();
-    this.renderer.dispose();
   }
 }

@@ -3,10 +3,37 @@
  * that cannot be washed, hatched.
  */
 import { Color, DataTexture, Group, LinearFilter, Mesh, RedFormat, ShaderMaterial, type BufferGeometry } from "three";
-import type { Chance } from "../edit/protocol.ts";
-import { CELLS, deadNearer } from "./nearer.ts";
+import type { Chance, Unwashable } from "../edit/protocol.ts";
 import type { Palette } from "./palette.ts";
 import type { Solid } from "./pick.ts";
+
+/** Cells along either edge. */
+export const CELLS = 96;
+
+/** Squared distance from a place to the nearest of points, x and y one after the other. */
+function leastSquared(points: Float64Array, x: number, y: number): number {
+  let least = Infinity;
+  for (let k = 0; k < points.length; k += 2) least = Math.min(least, (points[k]! - x) ** 2 + (points[k + 1]! - y) ** 2);
+  return least;
+}
+
+/**
+ * The square of half edge `half_m` about a plate's axis, row by row from the least y, x ascending: 255 where a place is nearer to a dead
+ * point than to any free one, else 0. Points are in the plate's frame; those that are not finite, or off the square, do not count.
+ */
+export function deadNearer(free: readonly (readonly number[])[], dead: readonly (readonly number[])[], half_m: number): Uint8Array {
+  const raster = new Uint8Array(CELLS * CELLS);
+  const within = (points: readonly (readonly number[])[]): Float64Array =>
+    Float64Array.from(points.filter(([x = Number.NaN, y = Number.NaN]) => Math.max(Math.abs(x), Math.abs(y)) <= 1.5 * half_m).flatMap(([x, y]) => [x!, y!]));
+  const [lost, reached] = [within(dead), within(free)];
+  const middleOf = (k: number): number => ((2 * k + 1) / CELLS - 1) * half_m;
+  if (lost.length === 0) return raster;
+  for (let cell = 0; cell < raster.length; cell++) {
+    const [x, y] = [middleOf(cell % CELLS), middleOf(Math.floor(cell / CELLS))];
+    if (leastSquared(lost, x, y) < leastSquared(reached, x, y)) raster[cell] = 255;
+  }
+  return raster;
+}
 
 const VERTEX = /* glsl */ `
 attribute float face;
@@ -72,12 +99,7 @@ interface Overlay {
   dead: { value: DataTexture | null };
 }
 
-export interface Offending {
-  plate: number;
-  /** World frame [m]. */
-  free_m: readonly (readonly [number, number, number])[];
-  dead_m: readonly (readonly [number, number, number])[];
-}
+export type Offending = Pick<Unwashable, "plate" | "free_m" | "dead_m">;
 
 export class Washability {
   readonly root = new Group();
@@ -148,11 +170,6 @@ export class Washability {
     mesh.visible = false;
     this.root.add(mesh);
     return { mesh, ...own };
-  }
-
-  dispose(): void {
-    for (const { texture } of this.#parts.values()) texture.dispose();
-    for (const { mesh } of this.#overlays) mesh.material.dispose();
   }
 }
 

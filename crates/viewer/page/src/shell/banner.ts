@@ -2,8 +2,7 @@
 import { fixed } from "../format.ts";
 import type { LivePhase } from "../live.ts";
 import type { Player } from "../player.ts";
-import { announce } from "./announcer.ts";
-import { button, el, TextCell } from "./dom.ts";
+import { announce, button, el, TextCell } from "./dom.ts";
 
 const WORDS: Record<LivePhase, string> = {
   connecting: "connecting …",

@@ -2,9 +2,7 @@
 import { quantity } from "../format.ts";
 import { statusWord, verdict, washed, type Verdict } from "../verdict.ts";
 import type { View } from "../view.ts";
-import { announce } from "./announcer.ts";
-import { button, byId, el, isolated, type Child } from "./dom.ts";
-import { icon, toneIcon } from "./icons.ts";
+import { announce, button, byId, el, icon, isolated, toneIcon, type Child } from "./dom.ts";
 
 /** Characters of a tooltip at most. */
 const TITLE = 300;
@@ -27,16 +25,16 @@ function copyButton(text: string): HTMLButtonElement {
   }, icon("copy"));
 }
 
-function facts(view: View): HTMLElement {
+function facts(view: View): HTMLElement[] {
   const { heading, certificate } = view;
-  const list = el("dl", { class: "facts" });
-  if (view.motion !== null) list.append(fact("cycle", quantity(heading.duration_s, 2, "s")));
-  if (heading.process !== "configuration") list.append(fact("seed", String(heading.seed)));
-  list.append(fact("arm", isolated(heading.robot)));
+  const list: HTMLElement[] = [];
+  if (view.motion !== null) list.push(fact("cycle", quantity(heading.duration_s, 2, "s")));
+  if (heading.process !== "configuration") list.push(fact("seed", String(heading.seed)));
+  list.push(fact("arm", isolated(heading.robot)));
   if (heading.hash !== null) {
     const altered = certificate !== null && certificate.hash !== "proved" ? ` (${statusWord(certificate.hash).toLowerCase()})` : "";
     const short = el("code", { title: heading.hash }, heading.hash.slice(0, 10));
-    list.append(fact("hash", short, altered, copyButton(heading.hash)));
+    list.push(fact("hash", short, altered, copyButton(heading.hash)));
   }
   return list;
 }
@@ -51,14 +49,13 @@ export class Header {
   readonly #badges = el("div", { class: "badges" });
   readonly #sentence = el("p", { class: "sentence" });
   readonly #scenario = el("h1", { class: "scenario" });
-  #facts: HTMLElement;
+  readonly #facts = el("dl", { class: "facts" });
   #view: View;
   /** What is to be said in place of the view's own verdict. */
   #said: Verdict | null = null;
 
   constructor(view: View, tools: readonly HTMLElement[]) {
     this.#view = view;
-    this.#facts = facts(view);
     this.#root.replaceChildren(
       this.#badges,
       el("div", { class: "heading" }, this.#scenario, this.#sentence),
@@ -73,12 +70,7 @@ export class Header {
   replace(view: View): void {
     const other = JSON.stringify(view.heading) !== JSON.stringify(this.#view.heading) || view.certificate?.hash !== this.#view.certificate?.hash;
     this.#view = view;
-    if (other) {
-      const fresh = facts(view);
-      this.#facts.replaceWith(fresh);
-      this.#facts = fresh;
-      this.#name();
-    }
+    if (other) this.#name();
     this.update();
   }
 
@@ -93,6 +85,7 @@ export class Header {
     const name = this.#view.heading.scenario;
     this.#scenario.title = name.slice(0, TITLE);
     this.#scenario.replaceChildren(isolated(`“${name}”`));
+    this.#facts.replaceChildren(...facts(this.#view));
   }
 
   /** Again from the view, whose execution a live run completes. */

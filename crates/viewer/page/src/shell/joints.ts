@@ -1,6 +1,7 @@
 /** Joint angles in words, for a page of one configuration. */
-import { degrees, fixed, millimetres, percent } from "../format.ts";
+import { Matrix4 } from "three";
 import { positionShare } from "../curves.ts";
+import { degrees, fixed, millimetres, percent } from "../format.ts";
 import { Kinematics } from "../kinematics.ts";
 import type { View } from "../view.ts";
 import { el, isolated } from "./dom.ts";
@@ -31,8 +32,8 @@ export function configuration(view: View): HTMLElement {
     el("thead", {}, head),
     el("tbody", {}, ...view.arm.joints.map((_, j) => jointRow(view, j))),
   );
-  const tip = new Kinematics(view.arm, view.tool).tip(view.pose_rad, new Float64Array(16));
-  const place = [tip[12]!, tip[13]!, tip[14]!].map((value) => fixed(value, 4)).join(", ");
+  const tip = new Kinematics(view.arm, view.tool).tip(view.pose_rad, new Matrix4());
+  const place = tip.elements.slice(12, 15).map((value) => fixed(value, 4)).join(", ");
   const list = el("dl", { class: "origin" }, el("dt", {}, view.tool === null ? "flange" : "tip"), el("dd", {}, `(${place}) m`));
   const clearance = view.clearance;
   if (clearance !== null) list.append(el("dt", {}, "margin"), el("dd", {}, millimetres(clearance.margin_m)));

@@ -1,5 +1,5 @@
-/** What keys do. */
-import { el } from "./dom.ts";
+/** What keys do, and the help that says so over everything else. */
+import { button, el, icon } from "./dom.ts";
 
 /** What keys can ask for. */
 export interface KeyActions {
@@ -51,50 +51,61 @@ function isTaken(event: KeyboardEvent): boolean {
   return event.key === " " && target.closest("button, summary, a") !== null;
 }
 
-function act(event: KeyboardEvent, actions: KeyActions): boolean {
-  if (/^[0-9]$/.test(event.key)) {
-    actions.plate(event.key);
-    return true;
-  }
-  switch (event.key) {
-    case " ":
-      actions.toggle();
-      return true;
-    case "ArrowLeft":
-      actions.step(-1, event.shiftKey);
-      return true;
-    case "ArrowRight":
-      actions.step(1, event.shiftKey);
-      return true;
-    case "Home":
-      actions.toStart();
-      return true;
-    case "End":
-      actions.toEnd();
-      return true;
-    case "[":
-      actions.speed(false);
-      return true;
-    case "]":
-      actions.speed(true);
-      return true;
-    case "?":
-      actions.help();
-      return true;
-    default:
-      return letter(event.key.toLowerCase(), actions);
-  }
-}
-
-function letter(key: string, actions: KeyActions): boolean {
-  const does = { l: actions.layers, c: actions.camera, p: actions.picture, f: actions.fullscreen }[key];
-  does?.call(actions);
-  return does !== undefined;
+/** What a key asks for; undefined for nothing. */
+function meant({ key, shiftKey }: KeyboardEvent, actions: KeyActions): (() => void) | undefined {
+  if (/^[0-9]$/.test(key)) return () => actions.plate(key);
+  const meanings: Record<string, () => void> = {
+    " ": () => actions.toggle(),
+    ArrowLeft: () => actions.step(-1, shiftKey),
+    ArrowRight: () => actions.step(1, shiftKey),
+    Home: () => actions.toStart(),
+    End: () => actions.toEnd(),
+    "[": () => actions.speed(false),
+    "]": () => actions.speed(true),
+    "?": () => actions.help(),
+    l: () => actions.layers(),
+    c: () => actions.camera(),
+    p: () => actions.picture(),
+    f: () => actions.fullscreen(),
+  };
+  return meanings[key.length === 1 ? key.toLowerCase() : key];
 }
 
 export function listenToKeys(actions: KeyActions): void {
   document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || isTaken(event)) return;
-    if (act(event, actions)) event.preventDefault();
+    const does = meant(event, actions);
+    if (does === undefined) return;
+    event.preventDefault();
+    does();
   });
+}
+
+export class Help {
+  readonly #dialog: HTMLDialogElement;
+
+  constructor(film: boolean, more: readonly [string, string][] = []) {
+    const close = button({ class: "button icon-button", label: "Close" }, () => this.#dialog.close(), icon("cross"));
+    this.#dialog = el(
+      "dialog",
+      { class: "help", set: { "aria-labelledby": "help-title" } },
+      el("header", {}, el("h2", { id: "help-title" }, "Keys and mouse"), close),
+      keyTable(film, more),
+      el("p", {}, "Drag the scene to turn it, with the right button or two fingers to move it, and scroll or pinch to come nearer."),
+      el("p", {}, "Solid segments on the time line are washing. Signs above it show where a requirement is worst: click to go there."),
+    );
+    this.#dialog.addEventListener("click", (event) => {
+      if (event.target === this.#dialog) this.#dialog.close();
+    });
+    document.body.append(this.#dialog);
+  }
+
+  toggle(): void {
+    if (this.#dialog.open) this.#dialog.close();
+    else this.#dialog.showModal();
+  }
+
+  button(): HTMLButtonElement {
+    return button({ class: "button icon-button", label: "Help (?)" }, () => this.toggle(), "?");
+  }
 }

@@ -1,6 +1,5 @@
 /** The panels beside the scene: tabs where there is room beside it, sections that fold below it, all at once on huge screens. */
-import { byId, button, el } from "./dom.ts";
-import { icon } from "./icons.ts";
+import { button, byId, el, icon } from "./dom.ts";
 
 export interface Panel {
   id: string;

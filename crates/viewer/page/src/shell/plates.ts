@@ -1,6 +1,5 @@
 /** Each plate's coverage: a map that builds up as time runs, and how much of the plate that is. */
-import { colormap } from "../colormap.ts";
-import { decodeCoverage, dwellScale, PlateMap, shareAt, type Coverage } from "../coverage.ts";
+import { cssGradient, decodeCoverage, dwellScale, PlateMap, shareAt, type Coverage } from "../coverage.ts";
 import { fixedShort, percentDown, quantity } from "../format.ts";
 import type { Follows, Player } from "../player.ts";
 import type { PlateCoverage } from "../view.ts";
@@ -34,44 +33,25 @@ export function meaning(coverages: readonly Coverage[]): string {
   return "Coloured where the sponge was over the face.";
 }
 
-/** The colours of a heat map, from short to long. */
-function heatBar(): HTMLElement {
-  const colours = colormap();
-  const stops = Array.from({ length: 9 }, (_, k) => {
-    const at = 4 * Math.round((255 * k) / 8);
-    return `rgb(${colours[at]} ${colours[at + 1]} ${colours[at + 2]})`;
-  });
-  const bar = el("span", { class: "heat-bar", set: { "aria-hidden": "true" } });
-  bar.style.background = `linear-gradient(to right, ${stops.join(", ")})`;
-  return bar;
-}
-
-/** Coverage of every plate, planned and executed; decoded when it is first asked for. */
+/** Coverage of every plate, planned and executed. */
 export class Coverages {
-  readonly #documents: Record<Follows, Map<number, PlateCoverage>>;
-  readonly #decoded: Record<Follows, Map<number, Coverage>> = { planned: new Map(), executed: new Map() };
+  readonly #documents: Record<Follows, readonly PlateCoverage[]>;
 
   constructor(planned: readonly PlateCoverage[], executed: readonly PlateCoverage[]) {
-    const byPlate = (list: readonly PlateCoverage[]): Map<number, PlateCoverage> => new Map(list.map((one) => [one.plate, one]));
-    this.#documents = { planned: byPlate(planned), executed: byPlate(executed) };
+    this.#documents = { planned, executed };
   }
 
   get plates(): number[] {
-    return [...this.#documents.planned.keys()];
+    return this.#documents.planned.map(({ plate }) => plate);
   }
 
   get all(): Coverage[] {
-    return this.plates.map((plate) => this.of(plate, "planned")).filter((one) => one !== null);
+    return this.#documents.planned.map(decodeCoverage);
   }
 
   of(plate: number, kind: Follows): Coverage | null {
-    const ready = this.#decoded[kind].get(plate);
-    if (ready !== undefined) return ready;
-    const document = this.#documents[kind].get(plate);
-    if (document === undefined) return null;
-    const decoded = decodeCoverage(document);
-    this.#decoded[kind].set(plate, decoded);
-    return decoded;
+    const document = this.#documents[kind].find((one) => one.plate === plate);
+    return document === undefined ? null : decodeCoverage(document);
   }
 
   shareAt(plate: number, kind: Follows, t: number): number | null {
@@ -140,9 +120,11 @@ export class Plates {
 
   #make(): void {
     this.#dwell_s = dwellScale(this.#coverages.all);
+    const heat = el("span", { class: "heat-bar", set: { "aria-hidden": "true" } });
+    heat.style.background = cssGradient();
     this.#scale.replaceChildren(
       el("span", {}, this.#coverages.all.every(({ counted }) => counted !== null) ? "in contact for 0 s" : "under the sponge for 0 s"),
-      heatBar(),
+      heat,
       el("span", {}, quantity(this.#dwell_s, 1, "s and more")),
     );
     const order = this.#player.view.paths.map((path) => path.plate);

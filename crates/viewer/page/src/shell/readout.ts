@@ -1,4 +1,5 @@
 /** What the arm does at this moment, in figures, over the scene. */
+import { stepLength } from "../curves.ts";
 import { fixed, millimetres, percentDown, quantity } from "../format.ts";
 import { Kinematics } from "../kinematics.ts";
 import { AXES } from "../motion.ts";
@@ -40,9 +41,8 @@ export class Readout {
   readonly #error = figure("off the plan");
   readonly #swatch = el("span", { class: "swatch" });
   #shareAt: (plate: number, t: number) => number | null;
-  readonly #q = new Float64Array(AXES);
-  readonly #from = new Float64Array(16);
-  readonly #to = new Float64Array(16);
+  /** Joints a moment before and after. */
+  readonly #rows = new Float64Array(2 * AXES);
   #updated = Number.NEGATIVE_INFINITY;
 
   constructor(player: Player, shareAt: (plate: number, t: number) => number | null) {
@@ -86,14 +86,8 @@ export class Readout {
     const from = Math.max(0, time - DIFFERENCE_S);
     const to = Math.min(edge, time + DIFFERENCE_S);
     if (to <= from) return 0;
-    this.#tipAt(from, this.#from);
-    this.#tipAt(to, this.#to);
-    return Math.hypot(this.#to[12]! - this.#from[12]!, this.#to[13]! - this.#from[13]!, this.#to[14]! - this.#from[14]!) / (to - from);
-  }
-
-  #tipAt(t: number, into: Float64Array): void {
-    this.#player.jointsAt(t, this.#q);
-    this.#kinematics.tip(this.#q, into);
+    [from, to].forEach((t, end) => this.#player.jointsAt(t, this.#rows.subarray(end * AXES, (end + 1) * AXES)));
+    return stepLength(this.#kinematics.places(this.#rows), 1) / (to - from);
   }
 
   #showClearance(): void {

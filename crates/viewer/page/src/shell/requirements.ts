@@ -1,12 +1,84 @@
-/** The requirements and what came of each: those that are not kept first. */
-import { quantity } from "../format.ts";
-import { statusWord, summary, verdict } from "../verdict.ts";
-import type { Certificate, Check, Status, View } from "../view.ts";
-import { contactTable } from "./contact.ts";
-import { button, el, isolated } from "./dom.ts";
-import { icon, toneIcon } from "./icons.ts";
+/** The requirements and what came of each, those that are not kept first; and what is proved of the contact with each plate. */
+import { fixed, fixedShort, percentDown, quantity } from "../format.ts";
+import { RANK, statusWord, summary, verdict } from "../verdict.ts";
+import type { Certificate, Check, Contact, PlateContact, Status, View } from "../view.ts";
+import { button, el, icon, isolated, toneIcon } from "./dom.ts";
 
-const RANK: Record<Status, number> = { violated: 0, not_proved: 1, waived: 2, proved: 3 };
+/** Up to so many decimals, never smaller than it is. */
+function up(value: number, decimals: number): string {
+  const scale = 10 ** decimals;
+  return fixed(Math.ceil(value * scale - 1e-9) / scale, decimals);
+}
+
+/** Up to so many decimals, never larger than it is. */
+function down(value: number, decimals: number): string {
+  const scale = 10 ** decimals;
+  return fixed(Math.floor(value * scale + 1e-9) / scale, decimals);
+}
+
+/** Least and greatest force in words, rounded outwards. */
+export function forceWords([least, greatest]: readonly [number | null, number | null]): string {
+  return `${least === null ? "?" : down(least, 1)} – ${greatest === null ? "?" : up(greatest, 1)}`;
+}
+
+function row(view: View, asked: Contact["asked"], proved: PlateContact): HTMLElement {
+  const share = (value: number, required: number): HTMLElement => el("td", { class: value >= required ? "" : "bad" }, percentDown(value));
+  const [least, greatest] = proved.force_n;
+  const holds = least !== null && greatest !== null && least >= asked.force_n[0] && greatest <= asked.force_n[1];
+  return el(
+    "tr",
+    {},
+    el("th", { set: { scope: "row" } }, isolated(view.plates[proved.plate]?.name ?? `plate ${proved.plate}`)),
+    share(proved.pressed, asked.share),
+    share(proved.time_share, asked.time_share),
+    share(proved.dose_share, asked.dose_share),
+    el("td", { class: proved.strain !== null && proved.strain <= asked.strain ? "" : "bad" }, proved.strain === null ? "?" : `${up(100 * proved.strain, 1)}\u202f%`),
+    el("td", { class: holds ? "" : "bad" }, forceWords(proved.force_n)),
+  );
+}
+
+/** In words what the columns say. */
+export function contactWords({ asked, plates }: Contact): string {
+  const mm = (length: number): string => `${fixedShort(1000 * length, 2)}\u202fmm`;
+  const torques = plates.flatMap(({ friction_torque_n_m: torque }) => (torque === null ? [] : [torque]));
+  const most = [0, 1].map((k) => Math.max(...torques.map((torque) => torque[k]!)));
+  const torque =
+    torques.length === plates.length && plates.length > 0
+      ? ` Friction turns the sponge by at most ${up(most[0]!, 2)} to ${up(most[1]!, 2)}\u202fN·m (friction 0.3 to 1.0, assumed).`
+      : "";
+  return (
+    `Shares of each face, by its area, wherever within ±${mm(asked.height_error_m)} the plate lies: pressed by ${mm(asked.compression_m)} or more; ` +
+    `so for ${fixedShort(asked.time_s, 3)}\u202fs or longer; with a dose of ${fixedShort(asked.dose_pa_m, 1)}\u202fPa·m or more. ` +
+    `Strain at most ${fixedShort(100 * asked.strain, 1)}\u202f%, force from ${fixedShort(asked.force_n[0], 1)} to ${fixedShort(asked.force_n[1], 1)}\u202fN, ` +
+    `over the assumed range of stiffness.${torque}`
+  );
+}
+
+/** A heading, a sentence, and a row for each plate. */
+export function contactTable(view: View, contact: Contact): HTMLElement[] {
+  const { asked, plates } = contact;
+  if (plates.length === 0) return [];
+  const heads = ["", "pressed", "time", "dose", "strain", "force [N]"];
+  const wanted = [asked.share, asked.time_share, asked.dose_share].map((share) => `≥\u202f${fixedShort(100 * share, 2)}\u202f%`);
+  const head = el("tr", {}, ...heads.map((words) => el("th", { set: { scope: "col" } }, words)));
+  const limits = el(
+    "tr",
+    { class: "asked" },
+    el("th", { set: { scope: "row" } }, "asked for"),
+    ...[...wanted, `${fixedShort(100 * asked.strain, 1)}\u202f%`, asked.force_n.map((force) => fixedShort(force, 1)).join(" – ")].map((words) => el("td", {}, words)),
+  );
+  const table = el(
+    "table",
+    { class: "joints contact" },
+    el("thead", {}, head),
+    el("tbody", {}, limits, ...plates.map((proved) => row(view, asked, proved))),
+  );
+  return [
+    el("h3", { class: "brief-title" }, "Contact with each plate, proved"),
+    el("p", { class: "summary" }, contactWords(contact)),
+    el("div", { class: "wide" }, table),
+  ];
+}
 
 function statusCell(status: Status): HTMLElement {
   return el("span", { class: `status tone-${status}` }, toneIcon(status), statusWord(status));

@@ -1,11 +1,25 @@
-/** The scene's place in the page: its canvas, its tools, and a message where it cannot be drawn. */
+/** The scene's place in the page: its canvas, its tools, a message where it cannot be drawn, and a still of it on paper. */
 import type { Theme } from "../palette.ts";
 import type { Follows } from "../player.ts";
-import { Scene, SceneError, type Layer, type Preset } from "../scene/index.ts";
+import { PRESETS, Scene, SceneError, type Layer } from "../scene/index.ts";
 import type { View } from "../view.ts";
-import { announce } from "./announcer.ts";
-import { button, byId, el } from "./dom.ts";
-import { icon } from "./icons.ts";
+import { announce, button, byId, el, icon } from "./dom.ts";
+
+/**
+ * Calls `prepare` before and after printing, and keeps a copy of the scene that it has drawn: the canvas's own content is gone once it
+ * was shown.
+ */
+export function listenToPrint(canvas: HTMLCanvasElement, prepare: (printing: boolean) => void): void {
+  const still = el("canvas", { class: "print-still", set: { "aria-hidden": "true" } });
+  canvas.after(still);
+  addEventListener("beforeprint", () => {
+    prepare(true);
+    still.width = canvas.width;
+    still.height = canvas.height;
+    if (canvas.width > 0 && canvas.height > 0) still.getContext("2d")?.drawImage(canvas, 0, 0);
+  });
+  addEventListener("afterprint", () => prepare(false));
+}
 
 export interface StageActions {
   /** Something in the scene's look has changed. */
@@ -80,19 +94,18 @@ export class Stage {
   }
 
   camera(preset: string): void {
-    const known = this.scene?.cameras().find(({ id }) => id === preset);
-    if (known === undefined) return;
-    this.scene?.camera(known.id);
+    const known = PRESETS.find(({ id }) => id === preset);
+    if (known === undefined || this.scene === null) return;
+    this.scene.camera(known.id);
     this.#camera.value = known.id;
     this.#actions.changed();
   }
 
   nextCamera(): void {
-    const ids: Preset[] = this.scene?.cameras().map(({ id }) => id) ?? [];
-    const next = ids[(ids.indexOf(this.#camera.value as Preset) + 1) % ids.length];
-    if (next === undefined) return;
-    this.camera(next);
-    announce(`View: ${this.#camera.selectedOptions[0]?.textContent ?? next}`);
+    if (this.scene === null) return;
+    const { id, label } = PRESETS[(this.#camera.selectedIndex + 1) % PRESETS.length]!;
+    this.camera(id);
+    announce(`View: ${label}`);
   }
 
   setLayer(layer: Layer, on: boolean): void {
@@ -128,7 +141,7 @@ export class Stage {
 
   #create(view: View, theme: Theme): Scene | null {
     try {
-      return Scene.create(this.canvas, view, theme);
+      return new Scene(this.canvas, view, theme);
     } catch (error) {
       if (!(error instanceof SceneError)) throw error;
       this.#say(error.message);
@@ -155,7 +168,7 @@ export class Stage {
   }
 
   #toolbar(view: View): HTMLElement {
-    this.#camera.append(...(this.scene?.cameras() ?? []).map(({ id, label }) => el("option", { set: { value: id } }, label)));
+    this.#camera.append(...PRESETS.map(({ id, label }) => el("option", { set: { value: id } }, label)));
     this.#camera.addEventListener("change", () => this.camera(this.#camera.value));
     this.#heat.hidden = view.coverage.length === 0;
     const full = button({ class: "button icon-button", label: "Full screen (F)" }, () => this.toggleFullscreen(), icon("fullscreen"));

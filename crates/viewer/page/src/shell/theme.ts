@@ -1,7 +1,6 @@
 /** Light and dark: as the system has it until someone chooses. */
 import { palette, type Palette, type Theme } from "../palette.ts";
-import { button } from "./dom.ts";
-import { icon } from "./icons.ts";
+import { button, icon } from "./dom.ts";
 
 const KEY = "platewash-theme";
 
@@ -35,16 +34,18 @@ function apply(root: HTMLElement, theme: Theme): void {
 }
 
 export class ThemeControl {
+  /** Goes to the other theme. */
+  readonly button = button({ class: "button icon-button" }, () => this.#toggle());
+  /** Called with the theme that came. */
+  onChange: (theme: Theme) => void = () => undefined;
   readonly #system = matchMedia("(prefers-color-scheme: dark)");
-  readonly #listeners: ((theme: Theme) => void)[] = [];
   #chosen: Theme | null = stored();
   /** While the page is printed, on white paper. */
   #printing = false;
-  #button: HTMLButtonElement | null = null;
 
   constructor() {
     this.#system.addEventListener("change", () => this.#changed());
-    apply(document.documentElement, this.theme);
+    this.#apply();
   }
 
   get theme(): Theme {
@@ -56,38 +57,27 @@ export class ThemeControl {
     return palette(this.theme);
   }
 
-  onChange(listener: (theme: Theme) => void): void {
-    this.#listeners.push(listener);
-  }
-
-  choose(theme: Theme): void {
-    this.#chosen = theme;
-    store(theme);
-    this.#changed();
-  }
-
   print(printing: boolean): void {
     this.#printing = printing;
     this.#changed();
   }
 
-  /** A button that goes to the other theme. */
-  button(): HTMLButtonElement {
-    this.#button = button({ class: "button icon-button" }, () => this.choose(this.theme === "dark" ? "light" : "dark"));
-    this.#label();
-    return this.#button;
+  #toggle(): void {
+    this.#chosen = this.theme === "dark" ? "light" : "dark";
+    store(this.#chosen);
+    this.#changed();
   }
 
   #changed(): void {
-    apply(document.documentElement, this.theme);
-    this.#label();
-    for (const listener of this.#listeners) listener(this.theme);
+    this.#apply();
+    this.onChange(this.theme);
   }
 
-  #label(): void {
+  #apply(): void {
+    apply(document.documentElement, this.theme);
     const label = this.theme === "dark" ? "Light colours" : "Dark colours";
-    this.#button?.replaceChildren(icon(this.theme === "dark" ? "sun" : "moon"));
-    this.#button?.setAttribute("aria-label", label);
-    this.#button?.setAttribute("title", label);
+    this.button.replaceChildren(icon(this.theme === "dark" ? "sun" : "moon"));
+    this.button.setAttribute("aria-label", label);
+    this.button.title = label;
   }
 }

@@ -1,13 +1,24 @@
-/**
- * What was replaced, freed once its successors have been drawn: till then they find the programs of the graphics processor that they
- * share, and none is built again. The last user of a program stays for the next one that wants it.
- */
+/** What hangs in three's scene graph: poses of the document, and what was replaced. */
 import { Material, type Object3D, type WebGLRenderer } from "three";
+import { matrixOf } from "../kinematics.ts";
+import type { Pose } from "../view.ts";
+
+/** Fixes an object to its parent at `T_parent_object`. */
+export function fix<T extends Object3D>(object: T, pose: Pose): T {
+  object.matrixAutoUpdate = false;
+  object.matrix.copy(matrixOf(pose));
+  object.matrixWorldNeedsUpdate = true;
+  return object;
+}
 
 interface Program {
   usedTimes: number;
 }
 
+/**
+ * What was replaced, freed once its successors have been drawn: till then they find the programs of the graphics processor that they
+ * share, and none is built again. The last user of a program stays for the next one that wants it.
+ */
 export class Retired {
   readonly #renderer: WebGLRenderer;
   readonly #waiting = new Set<Material>();
@@ -52,11 +63,5 @@ export class Retired {
   #programsOf(material: Material): Program[] {
     const found = (this.#renderer.properties.get(material) as { programs?: Map<string, Program> }).programs;
     return found === undefined ? [] : [...found.values()];
-  }
-
-  dispose(): void {
-    for (const material of [...this.#waiting, ...this.#keepers.values()]) material.dispose();
-    this.#waiting.clear();
-    this.#keepers.clear();
   }
 }

@@ -1,17 +1,41 @@
-/** Shapes of the document as triangles, edges rounded where that costs nothing. */
-import { BoxGeometry, BufferAttribute, BufferGeometry, LatheGeometry, PlaneGeometry, SphereGeometry, Vector2, Vector3 } from "three";
+/** Shapes of the document as triangles: bodies with edges rounded where that costs nothing, and plates, turned from their meridians. */
+import { BoxGeometry, BufferAttribute, BufferGeometry, Float32BufferAttribute, LatheGeometry, PlaneGeometry, SphereGeometry, Vector2, Vector3, type Color } from "three";
 import { ConvexGeometry } from "three/examples/jsm/geometries/ConvexGeometry.js";
 import { RoundedBoxGeometry } from "three/examples/jsm/geometries/RoundedBoxGeometry.js";
-import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+import { mergeVertices, toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { floats } from "../numbers.ts";
-import type { Shape } from "../view.ts";
-import { indexed } from "./indexed.ts";
-import { segmentsOfQuarter, segmentsRound } from "./round.ts";
+import type { Plate, Shape } from "../view.ts";
+
+/** How far a chord may be off its arc: no farther than anybody sees [m]. */
+const OFF_M = 0.00012;
+const FEWEST = 16;
+
+/** A geometry whose corners all have a colour. */
+export function colouredBy(colour: Color, geometry: BufferGeometry): BufferGeometry {
+  const colours = Array.from({ length: geometry.getAttribute("position")?.count ?? 0 }, () => colour.toArray());
+  return geometry.setAttribute("color", new Float32BufferAttribute(colours.flat(), 3));
+}
+
+/** Segments round a circle: a multiple of four, so that it is as wide as it should be. */
+export function segmentsRound(radius_m: number, most: number): number {
+  if (!(radius_m > OFF_M)) return FEWEST;
+  const enough = Math.PI / Math.acos(1 - OFF_M / radius_m);
+  return Math.max(FEWEST, Math.min(most, 4 * Math.ceil(enough / 4)));
+}
+
+/** Segments of a quarter of a circle. */
+export function segmentsOfQuarter(radius_m: number, most: number): number {
+  if (!(radius_m > OFF_M)) return 1;
+  return Math.max(1, Math.min(most, Math.ceil(Math.PI / 4 / Math.acos(1 - OFF_M / radius_m))));
+}
 
 /** Segments round a circle, at most. */
 const ROUND = 48;
-/** Edge radius of rounded bodies, at most [m]. */
+/** Edge radius of rounded bodies, and between a plate's face and its side, at most [m]. */
 const EDGE_M = 0.004;
+const RIM_M = 0.002;
+/** Corners nearer to each other than this are one [m]. */
+const SAME_M = 1e-6;
 /** Meshes up to so many triangles get their edges kept sharp and the rest smooth. */
 const CREASED = 40_000;
 /** How far a half space is drawn [m]. */
@@ -88,7 +112,7 @@ export function geometryOf(shape: Shape, edges: Edges): BufferGeometry {
   const geometry = trianglesOf(shape, edges);
   // Nothing has a picture on it: without this, corners that look alike would differ.
   geometry.deleteAttribute("uv");
-  return indexed(geometry);
+  return geometry.index !== null || !geometry.hasAttribute("position") ? geometry : mergeVertices(geometry, SAME_M);
 }
 
 function trianglesOf(shape: Shape, edges: Edges): BufferGeometry {
@@ -116,4 +140,52 @@ function trianglesOf(shape: Shape, edges: Edges): BufferGeometry {
   if ("hull" in shape) return hull(shape.hull.points);
   if ("mesh" in shape) return mesh(floats(shape.mesh.triangles));
   return new PlaneGeometry(2 * HALF_SPACE_M, 2 * HALF_SPACE_M);
+}
+
+/** The underside from the middle out, as the face is shifted by the thickness, with the foot below it. */
+function underOf(plate: Plate, meridian: readonly [number, number][], thickness: number): Vector2[] {
+  const under = meridian.map(([r, z]) => new Vector2(r, z - thickness));
+  const { radius_m: radius = Number.NaN, height_m: height = Number.NaN } = plate.foot ?? {};
+  if (!(radius > 0) || !(height > 0) || !Number.isFinite(radius + height)) return under;
+  const bottom = under[0]!.y - height;
+  const outside = under.findIndex(({ x }) => x > radius);
+  const [low, high] = [under[outside - 1], under[outside]];
+  // Where the side of the foot meets the body.
+  const meets = low === undefined || high === undefined ? bottom : low.y + ((high.y - low.y) * (radius - low.x)) / (high.x - low.x);
+  const rest = outside < 0 ? [] : under.slice(outside);
+  return [new Vector2(0, bottom), new Vector2(radius, bottom), new Vector2(radius, Math.max(bottom, meets)), ...rest];
+}
+
+/** The outline of a plate from the middle of its underside to the pole, and from which point on it is the face. */
+function outlineOf(plate: Plate): { points: Vector2[]; face: number } {
+  const meridian = plate.meridian_m.filter(([r, z]) => Number.isFinite(r) && Number.isFinite(z) && r >= 0);
+  if (meridian.length < 2) return { points: [], face: 0 };
+  const thickness = Math.max(1e-4, Number.isFinite(plate.thickness_m) ? plate.thickness_m : 0);
+  const [rim, rimHeight] = meridian[meridian.length - 1]!;
+  const [before, beforeHeight] = meridian[meridian.length - 2]!;
+  const level = Math.abs(rimHeight - beforeHeight) < 0.3 * (rim - before);
+  const edge = level ? Math.min(RIM_M, thickness / 4, (rim - before) / 2) : 0;
+  const under = underOf(plate, meridian, thickness);
+  const side = new Vector2(rim, rimHeight - thickness);
+  const turn = [0, 0.25, 0.5, 0.75, 1].map((share) => {
+    const angle = (share * Math.PI) / 2;
+    return new Vector2(rim - edge + edge * Math.cos(angle), rimHeight - edge + edge * Math.sin(angle));
+  });
+  const points = [...under, side, ...turn];
+  const face = points.length;
+  points.push(new Vector2(rim - edge, rimHeight));
+  for (let k = meridian.length - 2; k >= 0; k--) points.push(new Vector2(...meridian[k]!));
+  return { points, face };
+}
+
+/** The triangles of a plate in its own frame, `most` of them round it. */
+export function plateGeometry(plate: Plate, most: number): BufferGeometry {
+  const { points, face } = outlineOf(plate);
+  if (points.length === 0) return new BufferGeometry();
+  const geometry = new LatheGeometry(points, segmentsRound(Math.max(...points.map(({ x }) => x)), most)).rotateX(Math.PI / 2);
+  geometry.deleteAttribute("uv");
+  const count = geometry.getAttribute("position").count;
+  const flags = Float32Array.from({ length: count }, (_, i) => (i % points.length >= face ? 1 : 0));
+  geometry.setAttribute("face", new Float32BufferAttribute(flags, 1));
+  return geometry;
 }
