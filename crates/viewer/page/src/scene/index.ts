@@ -202,6 +202,21 @@ export class Scene {
     return Math.tan((this.#camera.fov * Math.PI) / 360);
   }
 
+  /** A picture of the moment as PNG in a data URL, drawn with so many pixels to one of the page. */
+  picture(dpr: number): string {
+    const { width, height, dpr: own } = this.#size;
+    const draw = (): void => {
+      this.#moved = true;
+      this.render();
+    };
+    this.resize(width, height, dpr);
+    draw();
+    const url = this.#canvas.toDataURL("image/png");
+    this.resize(width, height, own);
+    draw();
+    return url;
+  }
+
   /** Draws what is shown: in full, but where `needsRender` has found that there is haste. */
   render(): void {
     const hasty = this.#hasty;

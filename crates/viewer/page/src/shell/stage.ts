@@ -129,7 +129,7 @@ export class Stage {
   /** Saves a picture of the scene at this moment as a PNG. */
   savePicture(): void {
     if (this.scene === null) return;
-    el("a", { set: { href: this.scene.still({ dpr: 2 }), download: "platewash.png" } }).click();
+    el("a", { set: { href: this.scene.picture(2), download: "platewash.png" } }).click();
     announce("The picture is saved as platewash.png");
   }
 
