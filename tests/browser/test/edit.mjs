@@ -124,8 +124,11 @@ test("with the keyboard alone a cell is broken, mended and saved", async (t) => 
   await page.keyboard.press("Enter");
   await settled(page);
   assert.equal((await verdict(page)).kind, "proved");
-  for (let k = 0; k < 2; k++) await page.keyboard.press("Control+z");
-  await settled(page);
+  // Steps that follow each other soon are one: how many there are depends on how fast the machine is.
+  for (let k = 0; k < 9 && String((await centres(page))[0]) !== String(before); k++) {
+    await page.keyboard.press("Control+z");
+    await settled(page);
+  }
   assert.deepEqual((await centres(page))[0], before);
   await page.keyboard.press("Control+s");
   await page.waitForFunction(() => !window.platewash.edit.unsaved());

@@ -49,6 +49,9 @@ test("what holds a plate goes with it, once all of its plates go the same way", 
   assert.deepEqual(all.map(({ key }) => key), ["obstacle[0].at_m", "obstacle[1].at_m", "obstacle[3].at_m"]);
   assert.deepEqual(edits(WERE), []);
   assert.deepEqual(edits([...WERE, [1, 1]]), [], "a plate more");
+  // An answer on the way has been drawn where the hand is: the body stays with its plate, and does not go back.
+  const here: Centre[] = [[0.3, 0], [0.28, 0], [0.1, 0.25]];
+  assert.deepEqual(carrying(bodies, here, here, at, WERE), [{ key: "obstacle[0].at_m", value: [0.5, 0, 0.1] }]);
 });
 
 test("a plate is dragged with its holder, in one step", async () => {

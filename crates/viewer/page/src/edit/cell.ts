@@ -197,7 +197,7 @@ export class Cell {
     const { moves, centres_m } = this.seen.drawn ?? {};
     const to = together(moves?.plates, this.centres, centres);
     // Bodies are where they were drawn, with the plates as they were then.
-    const held = carrying(moves?.bodies ?? [], centres_m ?? [], to, (body) => this.bodyAt(body));
+    const held = carrying(moves?.bodies ?? [], centres_m ?? [], to, (body) => this.bodyAt(body), this.#drag?.were ?? centres_m);
     return { to, edits: [...placing(moves?.plates, to), ...held] };
   }
 

@@ -92,16 +92,25 @@ export function placing(moves: PlateMoves | undefined, centres: readonly Centre[
   });
 }
 
-/** The changes that take along what holds plates: a body all of whose plates go the same way. `at` is where a body is now. */
-export function carrying(bodies: readonly BodyMove[], were: readonly Centre[], to: readonly Centre[], at: (body: number) => Centre | null): Edit[] {
+/**
+ * The changes that take along what holds plates: a body all of whose plates go the same way. `were` is where plates are drawn, and `at` where a
+ * body is; `start` is where plates were before anything moved, which is elsewhere once an answer on the way has been drawn.
+ */
+export function carrying(
+  bodies: readonly BodyMove[],
+  were: readonly Centre[],
+  to: readonly Centre[],
+  at: (body: number) => Centre | null,
+  start: readonly Centre[] = were,
+): Edit[] {
   // Plates that were added or removed are numbered anew.
-  if (were.length !== to.length) return [];
+  if (were.length !== to.length || start.length !== to.length) return [];
   const way = (plate: number): Centre => follow2([0, 0], were[plate]!, to[plate]!);
   return bodies.flatMap((move, body) => {
     const held = (move.holds ?? [...to.keys()]).filter((plate) => plate < to.length);
     const from = at(body);
     const [first] = held;
-    if (first === undefined || from === null || String(way(first)) === "0,0") return [];
+    if (first === undefined || from === null || String(start[first]) === String(to[first])) return [];
     if (held.some((plate) => String(way(plate)) !== String(way(first)))) return [];
     return putting(move, follow2(from, were[first]!, to[first]!));
   });
