@@ -189,12 +189,11 @@ fn add_section(document: &mut DocumentMut, section: &str) {
 
 /// Whether there are keys before the first section.
 fn has_keys(document: &DocumentMut) -> bool {
-    document
-        .iter()
-        .any(|(_, item)| !item.is_table() && !item.is_array_of_tables())
-        || document
-            .iter()
-            .any(|(_, item)| item.as_table().is_some_and(Table::is_dotted))
+    let is_key = |item: &Item| match item {
+        Item::Table(table) => table.is_dotted(),
+        other => other.is_value(),
+    };
+    document.iter().any(|(_, item)| is_key(item))
 }
 
 /// Takes what stands at the beginning of a text without keys: the comments up to the last blank line before the first section.

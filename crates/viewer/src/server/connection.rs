@@ -34,7 +34,9 @@ pub struct Served {
 /// Reads a request and answers it.
 pub fn serve(stream: &TcpStream, served: &Served, place: &Place) {
     // Whoever leaves before the end of the answer has no use for it.
-    let _ = match request::read_head(Deadline::after(stream, SHORT)) {
+    let head = request::read_head(Deadline::after(stream, SHORT));
+    place.set_answered(true);
+    let _ = match head {
         Ok(None) => return,
         Ok(Some(head)) => answer(stream, served, place, &head),
         Err(refused) => refused.write(&mut Deadline::after(stream, LONG), true),
@@ -51,6 +53,8 @@ fn answer(stream: &TcpStream, served: &Served, place: &Place, head: &[u8]) -> Re
     };
     if let (Wants::Answer(question), Some(service)) = (request.wants, service) {
         let begun = head.get(request.head_bytes..).unwrap_or_default();
+        // While it is being sent it may have to go for another one.
+        place.set_answered(false);
         let body = request::read_question(Deadline::after(stream, SHORT), begun, question.length);
         place.set_answered(true);
         return match body {
@@ -62,7 +66,6 @@ fn answer(stream: &TcpStream, served: &Served, place: &Place, head: &[u8]) -> Re
         };
     }
     let wants_contents = request.wants == Wants::Contents;
-    place.set_answered(true);
     let found = site.find(&request);
     let mut out = Deadline::after(stream, LONG);
     match found {
