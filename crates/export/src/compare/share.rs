@@ -53,6 +53,10 @@ fn of_rows(plan: &Plan, found: &Reading) -> f64 {
                 slope += moves.norm_squared();
             }
         }
-        (share + off / slope).clamp(least, most)
+        match slope > 0.0 {
+            true => (share + off / slope).clamp(least, most),
+            // An arm that does not move tells nothing.
+            false => share,
+        }
     })
 }
