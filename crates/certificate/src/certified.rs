@@ -1,8 +1,8 @@
 //! What is certified, and by which certificate.
 
-use crate::certificate::Certificate;
 use crate::error::ProveError;
 use crate::prove::prove_with;
+use crate::report::certificate::Certificate;
 use platewash_kinematics::RobotModel;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;

@@ -6,91 +6,42 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | what is required, and what came of it | `requirement`, `check` |
-//! | all of it, one after the other; as a proof that cannot be forged | `prove`, `certified` |
-//! | the certificate; its first line, what is usual, as a table, what it rests on | `certificate`, `headline`, `usual`, `table`, `rests_on`, `plate_words`, `amounts` |
-//! | the job that is judged, its limits, its bodies, its faces | `subject`, `limits`, `bodies`, `face` |
-//! | what the plan states | `statements`, `wash_paths`, `schedule`, `home`, `apart`, `exclusions`, `dry_run` |
-//! | the motion: cubics, groups of them | `piece`, `timeline` |
-//! | joints | `joints` |
-//! | the tip: derivatives, halving, speed, tilt, height | `tip`, `bound_tracker`, `tip_limits` |
-//! | on a face that is no disc: how heights and normals change | `pass` |
-//! | joint 5, that the wrist does not flip | `wrist` |
-//! | the sponge where it comes down and leaves: what touches, how fast | `rim`, `contact` |
-//! | pressed: moments and what is lost between them, how hard, which share of a plate | `instants`, `pressing`, `plate_contact` |
-//! | the curves, following them, sweeping the plate | `curve`, `following`, `polyline`, `swept` |
-//! | beyond the rim: what may be touched there, how far it is | `neighbours`, `reach` |
-//! | clearance: one pair, all pairs; at a single moment, to look at | `clear`, `clearances`; `moments` |
-//! | a motion that a controller makes of a plan; how far it leaves the plan | `program`, `deviation` |
-//! | places, told in the world | `world` |
+//! | all requirements, in the order of the report | `prove` |
+//! | a certificate that only a proof can make | `certified` |
+//! | the job that is judged, with its limits and its bodies | `subject` |
+//! | what the plan states | `statements` |
+//! | the motion: joints, tip, wrist | `motion` |
+//! | clearance of every pair of bodies | `clearance` |
+//! | the tip and the sponge on the plates: coverage, contact, force, landing, reach | `washing` |
+//! | the motion that a robot's controller makes of a plan | `program` |
+//! | the certificate and its texts | `report` |
 
-mod amounts;
-mod apart;
-mod bodies;
-mod bound_tracker;
-mod certificate;
 mod certified;
-mod check;
-mod clear;
-mod clearances;
-mod contact;
-mod curve;
-mod deviation;
-mod dry_run;
+mod clearance;
 mod error;
-mod exclusions;
-mod face;
-mod far;
-mod following;
-mod headline;
-mod home;
-mod instants;
-mod joints;
-mod limits;
-mod moments;
-mod neighbours;
-mod pass;
-mod piece;
-mod plate_contact;
-mod plate_words;
-mod polyline;
-mod pressing;
-mod pressing_search;
+mod motion;
 mod program;
 mod prove;
-mod reach;
-mod requirement;
-mod rests_on;
-mod rim;
-mod schedule;
+mod report;
 mod statements;
 mod subject;
-mod swept;
-mod table;
 #[cfg(test)]
 mod tests;
-mod timeline;
-mod tip;
-mod tip_limits;
-mod turning_frame;
-mod usual;
-mod wash_paths;
-mod world;
-mod wrist;
+mod washing;
 
-pub use certificate::{CERTIFICATE_FORMAT, Certificate, HashFinding, Verdict};
-pub use certified::{Certified, CertifyError, certify, certify_with};
-pub use check::{Check, Discrepancy, Measure, Sense, Status, Unit, Worst};
-pub use clearances::{PairBound, PairRule};
-pub use error::ProveError;
-pub use headline::{paper_headline, planned_headline};
-pub use moments::ClearanceRule;
-pub use neighbours::Touched;
-pub use plate_contact::{PlateContact, ProvedExtreme, ProvedShare};
+pub use crate::certified::{Certified, CertifyError, certify, certify_with};
+pub use crate::clearance::moments::ClearanceRule;
+pub use crate::clearance::pairs::{PairBound, PairRule};
+pub use crate::error::ProveError;
+pub use crate::program::{ProgramLimits, ProgramProof, prove_program};
+pub use crate::prove::{MotionProof, prove, prove_motion, prove_with};
+pub use crate::report::certificate::{CERTIFICATE_FORMAT, Certificate, HashFinding, Verdict};
+pub use crate::report::check::{Check, Discrepancy, Measure, Sense, Status, Unit, Worst};
+pub use crate::report::headline::{paper_headline, planned_headline};
+pub use crate::report::requirement::Requirement;
+pub use crate::report::rests_on::RestsOn;
+pub use crate::report::table::MeasureWords;
+pub use crate::washing::contact::{PlateContact, ProvedExtreme, ProvedShare};
+pub use crate::washing::coverage::PlateCoverage;
+pub use crate::washing::reach::Touched;
 pub use platewash_workcell::differences::{Difference, differences};
-pub use program::{ProgramLimits, ProgramProof, prove_program};
-pub use prove::{MotionProof, prove, prove_motion, prove_with};
-pub use requirement::Requirement;
-pub use rests_on::RestsOn;
-pub use swept::PlateCoverage;
-pub use table::MeasureWords;

@@ -1,33 +1,24 @@
 //! A plan is judged: all requirements, one after the other.
 
-use crate::apart;
-use crate::bodies;
-use crate::certificate::{CERTIFICATE_FORMAT, Certificate, HashFinding, Verdict};
-use crate::check::{Check, Status};
-use crate::clearances::{self, PairBound, Work};
-use crate::contact;
-use crate::dry_run;
+use crate::clearance::exclusions::Exclusions;
+use crate::clearance::pairs::{self, PairBound, Work};
 use crate::error::ProveError;
-use crate::exclusions::Exclusions;
-use crate::following;
-use crate::headline::headline;
-use crate::home;
-use crate::joints;
-use crate::piece::{self, Piece};
-use crate::plate_contact::{self, PlateContact};
-use crate::reach;
-use crate::requirement::Requirement;
-use crate::rests_on::RestsOn;
-use crate::schedule::Schedule;
-use crate::statements;
-use crate::subject::Subject;
-use crate::swept::{self, PlateCoverage};
-use crate::timeline::Timeline;
-use crate::tip::Arm;
-use crate::tip_limits::Tips;
-use crate::wash_paths;
-use crate::world::World;
-use crate::wrist;
+use crate::motion::piece::{self, Piece};
+use crate::motion::timeline::Timeline;
+use crate::motion::tip::Arm;
+use crate::motion::tip_limits::Tips;
+use crate::motion::{joints, wrist};
+use crate::report::certificate::{CERTIFICATE_FORMAT, Certificate, HashFinding, Verdict, World};
+use crate::report::check::{Check, Status};
+use crate::report::headline::headline;
+use crate::report::requirement::Requirement;
+use crate::report::rests_on::RestsOn;
+use crate::statements::schedule::{self, Schedule};
+use crate::statements::{dry_run, plates, wash_paths};
+use crate::subject::{self, Subject};
+use crate::washing::contact::{self, PlateContact};
+use crate::washing::coverage::{self, PlateCoverage};
+use crate::washing::{following, landing, reach};
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::JobTerms;
@@ -113,11 +104,11 @@ pub fn prove_motion(
     let model = Exclusions::of(&subject)?.model(&subject)?;
     let carrier = Arm::new(arm, &job.workcell.tool, cancel);
     let tips = Tips::new(&carrier, &subject, &pieces, None);
-    let mut clearance = clearances::judge(&subject, (&model, &[]), &timeline, Work::Nothing, cancel)?;
+    let mut clearance = pairs::judge(&subject, (&model, &[]), &timeline, Work::Nothing, cancel)?;
     cancel.check()?;
     let mut checks = Vec::from(joints::checks(&pieces, &subject.limits, None));
     checks.extend(tips.moving_checks(&subject, &pieces, None));
-    checks.push(clearances::check(subject.limits.clearance_m, &clearance));
+    checks.push(pairs::check(subject.limits.clearance_m, &clearance));
     world.tell_checks(&mut checks);
     world.tell_pairs(&mut clearance);
     Ok(MotionProof { checks, clearance })
@@ -157,13 +148,13 @@ impl Judged<'_> {
         checks.extend(dry_run::check(subject)?);
         checks.extend(joints::checks(self.pieces, &subject.limits, schedule));
         checks.extend(tips.checks(subject, self.pieces, schedule));
-        checks.push(contact::check(&arm, subject, (self.pieces, schedule), &tips));
+        checks.push(landing::check(&arm, subject, (self.pieces, schedule), &tips));
         checks.extend(wrist::check(subject, self.pieces, schedule));
         let (swept, contact) = self.washing(&arm, &tips, &mut checks)?;
         let waived = exclusions.waived_in(&model);
         let work = schedule.map_or(Work::Unknown, Work::Scheduled);
-        let clearance = clearances::judge(subject, (&model, &waived), self.timeline, work, self.cancel)?;
-        checks.push(clearances::check(subject.limits.clearance_m, &clearance));
+        let clearance = pairs::judge(subject, (&model, &waived), self.timeline, work, self.cancel)?;
+        checks.push(pairs::check(subject.limits.clearance_m, &clearance));
         checks.push(exclusions.check(subject, &model, &clearance));
         Ok(Proof {
             checks,
@@ -182,18 +173,18 @@ impl Judged<'_> {
                 .map_or(0.0, |schedule| tips.least_upright_cosine_at(schedule, plate))
         };
         Ok(vec![
-            statements::arm(subject),
-            statements::tool(subject),
-            statements::plates(subject),
+            plates::arm(subject),
+            plates::tool(subject),
+            plates::plates(subject),
             wash_paths::check(plan),
             segments,
-            statements::every_plate_once(subject, plan, upright_cosine),
-            home::home_to_home(plan),
+            plates::every_plate_once(subject, plan, upright_cosine),
+            schedule::home_to_home(plan),
             match self.schedule {
-                Some(schedule) => home::rest_at_wash_ends(plan, schedule),
+                Some(schedule) => schedule::rest_at_wash_ends(plan, schedule),
                 None => Check::not_judged(Requirement::RestAtWashEnds),
             },
-            apart::check(subject)?,
+            plates::check(subject)?,
         ])
     }
 
@@ -203,7 +194,7 @@ impl Judged<'_> {
         let deviations = following::checks(arm, subject, pieces, self.schedule);
         let mut washes = Vec::new();
         if let Some(schedule) = self.schedule {
-            washes = swept::washes(arm, subject, (pieces, schedule), tips, self.cancel)?;
+            washes = coverage::washes(arm, subject, (pieces, schedule), tips, self.cancel)?;
             // A deviation is one from the stated path: it tells of the plate where there is one on it.
             let has_paths = |c: &Check| c.requirement == Requirement::WashPaths && c.status == Status::Proved;
             let has_paths = checks.iter().any(has_paths);
@@ -220,8 +211,8 @@ impl Judged<'_> {
         let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
         checks.extend(deviations);
         checks.push(reach::check(subject, &swept));
-        checks.push(swept::check(subject, &swept));
-        checks.extend(plate_contact::checks(subject, (pieces, self.schedule), &contact));
+        checks.push(coverage::check(subject, &swept));
+        checks.extend(contact::checks(subject, (pieces, self.schedule), &contact));
         Ok((swept, contact))
     }
 }
@@ -273,7 +264,7 @@ fn check_sizes(plan: &Plan) -> Result<(), ProveError> {
 /// Refuses a job with which nothing can be computed, and bodies that the bounds do not hold for.
 fn check_job(job: &JobTerms) -> Result<(), ProveError> {
     job.validate()?;
-    bodies::check(job)
+    subject::check(job)
 }
 
 /// The pieces of the motion, none so short that time, which divides, squared and cubed, leaves no number.

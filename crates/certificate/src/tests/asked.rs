@@ -1,7 +1,7 @@
 //! What no plan may be asked for, an order that is asked for, and what only the job's owner can tell.
 
-use super::made::{Recipe, good, irb120, resealed};
 use crate::Requirement::{self, EveryPlateOnce, Plates};
+use crate::tests::made::{Recipe, good, irb120, resealed};
 use crate::{Certificate, differences, prove};
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::plan::Plan;

@@ -1,7 +1,7 @@
 //! What is proved of contact, against the same model on fine squares: never more, and little less.
 
-use super::foundation::raster;
-use super::made::{Recipe, irb120};
+use crate::tests::foundation::raster;
+use crate::tests::made::{Recipe, irb120};
 use crate::{PlateContact, Requirement, Status, prove};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::surface::Surface;

@@ -1,8 +1,8 @@
 //! A tip that goes deeper before or after its wash than in it: strain, force and torque are those of the deepest place, the least force is
 //! that of the wash.
 
-use super::contact::{disc, rings, washed};
-use super::made::{Recipe, irb120};
+use crate::tests::contact::{disc, rings, washed};
+use crate::tests::made::{Recipe, irb120};
 use crate::{Certificate, PlateContact, Requirement, prove};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::segment::SegmentKind;

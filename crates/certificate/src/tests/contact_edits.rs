@@ -1,8 +1,8 @@
 //! Plans whose jobs are edited: what is more than a plan has to spare is refused by the requirement that it concerns, what is less is still
 //! proved. What it has to spare is taken from its certificate.
 
-use super::contact::{disc, profile, rings};
-use super::made::{Recipe, irb120};
+use crate::tests::contact::{disc, profile, rings};
+use crate::tests::made::{Recipe, irb120};
 use crate::{Certificate, Measure, Requirement, Status, prove};
 use platewash_workcell::plan::Plan;
 use rayon::prelude::*;

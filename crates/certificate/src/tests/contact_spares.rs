@@ -4,9 +4,9 @@
 //! One requirement about contact is asked at a time, so that an edit cannot be refused by a neighbour first. What no job can leave out
 //! (the tip on the face, along its path) is broken by a face that is another one before contact is.
 
-use super::contact::{disc, rings, washed};
-use super::made::{Recipe, irb120, tool};
 use crate::Requirement::{self, ContactDose, ContactForce, ContactHeight, ContactTime, PathDeviation, Pressed, Strain};
+use crate::tests::contact::{disc, rings, washed};
+use crate::tests::made::{Recipe, irb120, tool};
 use crate::{Certificate, prove};
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plan::Plan;

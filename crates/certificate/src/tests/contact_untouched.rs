@@ -1,9 +1,9 @@
 //! Faces of which hardly anything is washed: what is not touched counts for nothing, also where contact begins with no compression at all,
 //! and where nothing is asked about contact.
 
-use super::contact::{disc, spiral, washed};
-use super::foundation::raster;
-use super::made::{Recipe, irb120};
+use crate::tests::contact::{disc, spiral, washed};
+use crate::tests::foundation::raster;
+use crate::tests::made::{Recipe, irb120};
 use crate::{Requirement, Status, prove};
 use platewash_workcell::surface::{Knot, Surface};
 

@@ -1,7 +1,7 @@
 //! A dense sampler that shares no code with the certificate but the motion's knots, forward kinematics and distances: it must
 //! never find anything worse than a certified bound, and the bounds must not be far from what it finds.
 
-use super::made::{Recipe, good, irb120};
+use crate::tests::made::{Recipe, good, irb120};
 use crate::{Certificate, PairRule, Requirement, prove};
 use nalgebra::Vector3;
 use platewash_workcell::clearance::ClearanceModel;

@@ -1,6 +1,6 @@
 //! The elastic foundation once more, on squares of 0.25 mm and dense moments: its own formulas, from knots, positions and nothing else.
 
-use super::made::irb120;
+use crate::tests::made::irb120;
 use nalgebra::Vector3;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::segment::SegmentKind;

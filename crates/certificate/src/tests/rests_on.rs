@@ -1,7 +1,7 @@
 //! What a verdict rests on, in words: nothing that differs reads alike, and no name reads as more than a name.
 
-use super::made::{good, post};
 use crate::RestsOn;
+use crate::tests::made::{good, post};
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::words::rounded;

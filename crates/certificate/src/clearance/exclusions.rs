@@ -1,0 +1,166 @@
+//! Which pairs of bodies need not keep clear: those that follow from the arm and its SRDF, and no others.
+
+use crate::clearance::pairs::PairBound;
+use crate::report::check::{Check, Discrepancy, Status};
+use crate::report::requirement::Requirement;
+use crate::subject::Subject;
+use platewash_kinematics::AXES;
+use platewash_workcell::clearance::{self, ClearanceError, ClearanceModel};
+use platewash_workcell::words::millimetres;
+use platewash_workcell::workcell::{Exclusion, Workcell};
+use std::collections::BTreeSet;
+
+/// The pairs that are left out, and those that the job would leave out besides.
+#[derive(Debug)]
+pub(crate) struct Exclusions {
+    /// Those that follow from the arm, its SRDF, the tool and the obstacles: not judged.
+    pub own: Vec<Exclusion>,
+    /// Those that the job alone leaves out: judged all the same.
+    pub waived: Vec<Exclusion>,
+}
+
+impl Exclusions {
+    /// Those of a job with its arm.
+    ///
+    /// # Errors
+    /// [`ClearanceError`] for a shape that is none.
+    pub fn of(subject: &Subject<'_>) -> Result<Self, ClearanceError> {
+        let world = &subject.job.workcell;
+        let own = clearance::exclusions(subject.robot, &world.tool, &world.obstacles)?;
+        let others = world.exclusions.iter().filter(|stated| !own.contains(stated));
+        let waived = others.cloned().collect();
+        Ok(Self { own, waived })
+    }
+
+    /// Bodies and pairs, those that the job alone leaves out among them.
+    ///
+    /// # Errors
+    /// [`ClearanceError`] for a shape that is none.
+    pub fn model(&self, subject: &Subject<'_>) -> Result<ClearanceModel, ClearanceError> {
+        let world = Workcell {
+            exclusions: self.own.clone(),
+            ..subject.job.workcell.clone()
+        };
+        ClearanceModel::new(subject.robot, &world, subject.plates())
+    }
+
+    /// The pairs of the model, by their index, that the job alone leaves out.
+    pub fn waived_in(&self, model: &ClearanceModel) -> Vec<usize> {
+        let pairs = model.pair_names().into_iter().enumerate();
+        let is_waived = |pair: (&str, &str)| self.waived.iter().any(|e| names(e, pair));
+        pairs.filter(|(_, pair)| is_waived(*pair)).map(|(i, _)| i).collect()
+    }
+
+    /// What is left out is what follows, every body has a shape and a name of its own; what is waived besides keeps clear, or is named.
+    pub fn check(&self, subject: &Subject<'_>, model: &ClearanceModel, clearance: &[PairBound]) -> Check {
+        let mut wrong = shapeless(subject);
+        wrong.extend(twice(subject));
+        let stated = &subject.job.workcell.exclusions;
+        let missing = self.own.iter().filter(|own| !stated.contains(own));
+        wrong.extend(missing.map(|own| {
+            let what = format!("exclusion of {}", told(own));
+            Discrepancy::new(
+                what,
+                "not stated",
+                "stated, as it follows from the arm: the pair is not judged",
+            )
+        }));
+        let pairs = model.pair_names();
+        let unknown = self.waived.iter().filter(|e| !pairs.iter().any(|pair| names(e, *pair)));
+        wrong.extend(unknown.map(|other| {
+            let what = format!("exclusion of {}", told(other));
+            Discrepancy::new(
+                what,
+                "stated",
+                "two bodies that could meet, or a reason that follows from the arm",
+            )
+        }));
+        if !wrong.is_empty() {
+            return Check::stated(Requirement::Exclusions, wrong);
+        }
+        let near = clearance.iter().filter(|line| line.status == Status::Waived);
+        let near = near.map(|line| not_clear(line, subject.limits.clearance_m)).collect();
+        Check::stated(Requirement::Exclusions, near).waived_if(true)
+    }
+}
+
+/// A waived pair that does not keep clear.
+fn not_clear(line: &PairBound, clearance_m: f64) -> Discrepancy {
+    let [a, b] = &line.pair;
+    let near = line.seen_m.map(|seen_m| format!("as near as {}", millimetres(seen_m)));
+    let stated = near.unwrap_or_else(|| "not proved to keep clear".to_owned());
+    let expected = format!(
+        "at least {}, as neither the arm nor its SRDF leaves the pair out",
+        millimetres(clearance_m)
+    );
+    Discrepancy::new(format!("{a:?} and {b:?}"), stated, expected)
+}
+
+/// Bodies of the arm without a shape: they keep clear of nothing.
+fn shapeless(subject: &Subject<'_>) -> Vec<Discrepancy> {
+    let links = subject.robot.links();
+    let has_shape = |body: &usize| links.iter().any(|l| l.frame.body() == *body && !l.collision.is_empty());
+    let without = (0..=AXES).filter(|body| !has_shape(body));
+    let wrong = without.map(|body| {
+        let names = links
+            .iter()
+            .filter(|l| l.frame.body() == body)
+            .map(|l| format!("{:?}", l.name));
+        let what = format!("collision geometry of {}", names.collect::<Vec<_>>().join(", "));
+        Discrepancy::new(what, "none", "a shape, so that its clearance can be proved")
+    });
+    wrong.collect()
+}
+
+/// Names that more than one body has: a pair is left out by its names.
+fn twice(subject: &Subject<'_>) -> Vec<Discrepancy> {
+    let world = &subject.job.workcell;
+    let links = subject.robot.links().iter().filter(|link| !link.collision.is_empty());
+    let names = links
+        .map(|link| link.name.clone())
+        .chain(world.tool.bodies.iter().map(|body| body.name.clone()))
+        .chain(["sponge".to_owned()])
+        .chain(world.obstacles.iter().map(|obstacle| obstacle.name.clone()))
+        .chain((0..subject.plates().len()).map(|i| format!("plate {i}")));
+    let mut known = BTreeSet::new();
+    let again = names.filter(|name| !known.insert(name.clone()));
+    again
+        .map(|name| Discrepancy::new(format!("bodies named {name:?}"), "more than one", "one"))
+        .collect()
+}
+
+/// Whether an exclusion is that of two bodies, in either order.
+fn names(exclusion: &Exclusion, (a, b): (&str, &str)) -> bool {
+    let [x, y] = exclusion.pair.each_ref().map(String::as_str);
+    (x, y) == (a, b) || (x, y) == (b, a)
+}
+
+fn told(exclusion: &Exclusion) -> String {
+    let [a, b] = &exclusion.pair;
+    format!("{a:?} and {b:?}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_workcell::fixtures::kitchen;
+    use platewash_workcell::job::JobTerms;
+    use platewash_workcell::workcell::ExclusionReason;
+
+    #[test]
+    fn only_what_follows_from_the_arm_is_left_out_without_being_waived() {
+        let job = kitchen();
+        let mut terms = job.terms().clone();
+        let waived = |terms: &JobTerms| {
+            let subject = Subject::new(terms, job.arm(), Vec::new());
+            Exclusions::of(&subject).unwrap().waived
+        };
+        assert_eq!(waived(&terms), []);
+        let added = Exclusion {
+            pair: ["handle".to_owned(), "link_2".to_owned()],
+            reason: ExclusionReason::Srdf,
+        };
+        terms.workcell.exclusions.push(added.clone());
+        assert_eq!(waived(&terms), [added]);
+    }
+}

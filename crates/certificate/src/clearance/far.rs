@@ -1,0 +1,98 @@
+//! Obstacles that a part of arm or tool never comes near: many of them dismissed at once, before pairs are looked at one by one.
+//!
+//! The motion is halved until what a part can be displaced by is little beside its distance from the obstacles; what is found of where it is and how
+//! far it gets serves for all of them. A bound of an obstacle is that over all intervals; an obstacle that comes too near at a moment, or that
+//! short intervals do not settle, is left to the search over its pair.
+
+use crate::motion::timeline::{Interval, Timeline};
+use platewash_kinematics::RobotModel;
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::clearance::away::MovingPart;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// What a part can be displaced by in an interval that is not halved any more \[m\].
+const SETTLED_M: f64 = 4e-3;
+
+/// The pairs of the model, by their index, whose distance is never below `needed_m`, with what it is not below \[m\].
+pub(crate) fn far(
+    (robot, cancel): (&RobotModel, &CancelToken),
+    model: &ClearanceModel,
+    timeline: &Timeline<'_>,
+    pairs: &[usize],
+    needed_m: f64,
+) -> BTreeMap<usize, f64> {
+    let parts = model.moving_parts(pairs);
+    let bounds: Vec<_> = parts
+        .par_iter()
+        .map(|part| {
+            let mut sweep = Sweep {
+                robot,
+                cancel,
+                timeline,
+                part,
+                needed_m,
+                bounds: vec![Some(f64::INFINITY); part.obstacle_count()],
+            };
+            let all: Vec<_> = (0..part.obstacle_count()).collect();
+            for interval in timeline.cover(&(0..timeline.count())) {
+                sweep.look(&interval, &all);
+            }
+            sweep.bounds
+        })
+        .collect();
+    let mut least: BTreeMap<usize, Option<f64>> = BTreeMap::new();
+    for (part, bounds) in parts.iter().zip(bounds) {
+        for (obstacle, bound) in bounds.into_iter().enumerate() {
+            let Some(pair) = part.pair(obstacle) else { continue };
+            let entry = least.entry(pair).or_insert(Some(f64::INFINITY));
+            *entry = entry.zip(bound).map(|(a, b)| a.min(b));
+        }
+    }
+    let settled = least.into_iter().filter_map(|(pair, bound)| Some((pair, bound?)));
+    // Without a motion there is nothing that a bound would be of.
+    settled.filter(|(_, bound)| bound.is_finite()).collect()
+}
+
+/// A part on its way past the obstacles.
+struct Sweep<'a> {
+    robot: &'a RobotModel,
+    cancel: &'a CancelToken,
+    timeline: &'a Timeline<'a>,
+    part: &'a MovingPart<'a>,
+    needed_m: f64,
+    /// Of each obstacle what it is not nearer than; none where that is not enough.
+    bounds: Vec<Option<f64>>,
+}
+
+impl Sweep<'_> {
+    /// Bounds some of the obstacles over an interval.
+    fn look(&mut self, interval: &Interval, obstacles: &[usize]) {
+        let (_, q) = self.timeline.middle(interval);
+        let poses = self.robot.fk(&q);
+        let displaced_m = self.part.displaced(&poses, &self.timeline.extent(interval).drift(&q));
+        let mut open = Vec::new();
+        for (&obstacle, gap_m) in obstacles.iter().zip(self.part.gaps(&poses, obstacles)) {
+            let Some(bound) = &mut self.bounds[obstacle] else {
+                continue;
+            };
+            let here = gap_m - displaced_m;
+            if here >= self.needed_m {
+                *bound = bound.min(here);
+            } else if gap_m >= self.needed_m && displaced_m > SETTLED_M {
+                open.push(obstacle);
+            } else {
+                // NaN, too.
+                self.bounds[obstacle] = None;
+            }
+        }
+        if open.is_empty() {
+            return;
+        }
+        match self.timeline.halves(interval) {
+            Some(halves) if !self.cancel.is_cancelled() => halves.iter().for_each(|half| self.look(half, &open)),
+            _ => open.into_iter().for_each(|obstacle| self.bounds[obstacle] = None),
+        }
+    }
+}

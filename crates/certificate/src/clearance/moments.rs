@@ -1,0 +1,62 @@
+//! The clearance that a plan must keep at a single moment: the rule of the certificate, asked where somebody looks. No proof rests on it.
+
+use crate::clearance::exclusions::Exclusions;
+use crate::clearance::pairs::may_touch;
+use crate::error::ProveError;
+use crate::statements::wash_paths;
+use crate::subject::Subject;
+use platewash_kinematics::{JointVector, RobotModel};
+use platewash_workcell::clearance::{ClearanceModel, Nearest};
+use platewash_workcell::plan::Plan;
+use platewash_workcell::workcell::Workcell;
+
+/// The pairs of bodies that count in each segment of a plan: all but those that follow from the arm and its SRDF, those that the job
+/// waives besides, and the sponge with the plates that it may touch in that segment.
+#[derive(Debug, Clone)]
+pub struct ClearanceRule {
+    model: ClearanceModel,
+    /// The plates that the sponge may touch, for each segment.
+    touchable: Vec<Vec<usize>>,
+}
+
+impl ClearanceRule {
+    /// The rule for a plan, which need not be one that can be proved: its segments are taken as they are stated.
+    ///
+    /// # Errors
+    /// [`ProveError`] for a job with which nothing can be computed, or a shape that is none.
+    pub fn new(plan: &Plan, arm: &RobotModel) -> Result<Self, ProveError> {
+        plan.job.validate()?;
+        let plan = &*plan.seen_from_base();
+        let subject = Subject::new(&plan.job, arm, wash_paths::by_plate(plan));
+        let exclusions = Exclusions::of(&subject)?;
+        let world = Workcell {
+            exclusions: exclusions.own.into_iter().chain(exclusions.waived).collect(),
+            ..plan.job.workcell.clone()
+        };
+        let plates = 0..plan.job.plates.len();
+        let touchable = |(kind, on)| {
+            plates
+                .clone()
+                .filter(|&plate| may_touch(&subject, (kind, on), plate))
+                .collect()
+        };
+        let segments = plan.segments.iter().map(|segment| (segment.kind, segment.plate));
+        Ok(Self {
+            model: ClearanceModel::new(arm, &world, &plan.job.plates)?,
+            touchable: segments.map(touchable).collect(),
+        })
+    }
+
+    /// Names of the bodies, in the order of [`Nearest::bodies`].
+    #[must_use]
+    pub fn body_names(&self) -> Vec<&str> {
+        self.model.body_names()
+    }
+
+    /// The pair that counts and comes nearest at `q` \[rad\] in a segment, or outside of all. `None` where no pair counts.
+    #[must_use]
+    pub fn nearest(&self, q: &JointVector, segment: Option<usize>) -> Option<Nearest> {
+        let touchable = segment.and_then(|segment| self.touchable.get(segment));
+        self.model.nearest(q, touchable.map_or(&[], |plates| plates.as_slice()))
+    }
+}

@@ -1,0 +1,308 @@
+//! Clearance of every pair over the whole motion.
+//!
+//! Every pair keeps the job's clearance, always, but for the sponge and the plates. While it approaches, washes or leaves a plate, the
+//! sponge may touch that plate, and over its rim a neighbour within reach: how far it reaches is a requirement of its own. Of all other
+//! plates it keeps clear, and at all other times of all. Pairs that the job alone leaves out are judged, too, and waived where they do
+//! not keep clear.
+
+use crate::clearance::far::far;
+use crate::clearance::search::{FINE_M, Found, Goal, Search};
+use crate::motion::timeline::Timeline;
+use crate::report::check::{Check, Measure, Sense, Status, Unit, Worst};
+use crate::report::requirement::Requirement;
+use crate::statements::schedule::{Schedule, Span, is_at_plate};
+use crate::subject::Subject;
+use crate::washing::reach;
+use platewash_workcell::cancel::{CancelToken, Cancelled};
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::clearance::motion::{PairKind, PartPairs};
+use platewash_workcell::segment::SegmentKind;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// Intervals looked at over all pairs, at most, and what each pair may look at whatever their number.
+const BUDGET: usize = 4_000_000;
+const LEAST_BUDGET: usize = 2_000;
+const MOST_BUDGET: usize = 400_000;
+
+/// What counts as far, as so many times the least distance among the others, and at least \[m\].
+const FAR: f64 = 2.0;
+const FAR_M: f64 = 0.02;
+
+/// What a pair must keep, during some part of the motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PairRule {
+    /// The clearance required.
+    Clearance,
+    /// The clearance required, waived where it is not kept: the job leaves the pair out, and neither the arm nor its SRDF does.
+    Waived,
+    /// Nothing: the sponge and a plate, while it works on that plate or on one from which it is within reach.
+    Touching,
+}
+
+/// A pair of bodies under one rule.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PairBound {
+    /// Names of the bodies.
+    pub pair: [String; 2],
+    /// What they must keep.
+    pub rule: PairRule,
+    /// The plates on which the sponge works meanwhile, of a pair that may touch.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub working_on: Vec<usize>,
+    /// What came of it.
+    pub status: Status,
+    /// The distance is never below this \[m\], errors included.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_least_m: Option<f64>,
+    /// The least distance found at a single moment \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seen_m: Option<f64>,
+    /// That moment \[s\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_s: Option<f64>,
+    /// Half-way between the nearest points then, world frame \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub place_m: Option<[f64; 3]>,
+}
+
+/// What the sponge works on, and when.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Work<'a> {
+    /// On nothing, at any time.
+    Nothing,
+    /// As the segments say.
+    Scheduled(&'a Schedule),
+    /// The segments do not say.
+    Unknown,
+}
+
+/// A pair, a rule and the pieces during which it holds; `None` where the segments do not say.
+struct Task {
+    pair: usize,
+    rule: PairRule,
+    during: Option<Vec<Range<usize>>>,
+    working_on: Vec<usize>,
+}
+
+/// Judges every pair: one line for each rule that a pair is under. Of the `waived` ones, by their index, it is said how near they come.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(crate) fn judge(
+    subject: &Subject<'_>,
+    (model, waived): (&ClearanceModel, &[usize]),
+    timeline: &Timeline<'_>,
+    work: Work<'_>,
+    cancel: &CancelToken,
+) -> Result<Vec<PairBound>, Cancelled> {
+    let limit_m = subject.limits.clearance_m;
+    let tasks = tasks(subject, (model, waived), timeline, work);
+    let budget = (BUDGET / tasks.len().max(1)).clamp(LEAST_BUDGET, MOST_BUDGET);
+    let search = |task: &Task, parts: &PartPairs<'_>, enough_m: Option<f64>| {
+        let during = task.during.as_deref().unwrap_or_default();
+        Search::run(
+            (subject.robot, cancel),
+            timeline,
+            parts,
+            during,
+            Goal {
+                limit_m,
+                enough_m,
+                budget,
+            },
+        )
+    };
+    let judged = |task: &Task| task.rule != PairRule::Touching && task.during.is_some();
+    let searched = |task: &Task| judged(task).then(|| search(task, &model.parts_of(task.pair), None));
+    let beside = |task: &Task| task.rule == PairRule::Clearance && model.is_beside_obstacle(task.pair);
+    let mut found: Vec<Option<Found>> = tasks
+        .par_iter()
+        .map(|task| if beside(task) { None } else { searched(task) })
+        .collect();
+    // Obstacles that are never as near as what is nearest among the others need not be known any better.
+    let nearest_m = least_seen(&found, &tasks);
+    let beside_obstacles: Vec<_> = tasks.iter().filter(|task| beside(task)).map(|task| task.pair).collect();
+    if !beside_obstacles.is_empty() {
+        let near_m = if nearest_m.is_finite() {
+            nearest_m.max(limit_m)
+        } else {
+            limit_m
+        };
+        let needed_m = FAR * near_m.max(FAR_M);
+        let far = far((subject.robot, cancel), model, timeline, &beside_obstacles, needed_m);
+        found
+            .par_iter_mut()
+            .zip(&tasks)
+            .filter(|(_, task)| beside(task))
+            .for_each(|(found, task)| {
+                *found = match far.get(&task.pair) {
+                    Some(at_least_m) => Some(Found::never_nearer(*at_least_m)),
+                    None => searched(task),
+                };
+            });
+    }
+    // The pairs that might be the nearest one, once more and finely.
+    let least = least_seen(&found, &tasks);
+    let enough_m = least - FINE_M;
+    found.par_iter_mut().zip(&tasks).for_each(|(found, task)| {
+        if found.is_some_and(|f| f.at_least_m < enough_m) && least > 0.0 {
+            let parts = model.parts_of(task.pair);
+            // Of bodies of many parts the limit is enough: to know them finely takes long.
+            if !parts.is_of_many() {
+                *found = Some(search(task, &parts, Some(enough_m)));
+            }
+        }
+    });
+    cancel.check()?;
+    let names = model.pair_names();
+    let lines = tasks.iter().zip(found);
+    Ok(lines
+        .map(|(task, found)| line(names[task.pair], task, found, limit_m))
+        .collect())
+}
+
+/// The least distance found at a single moment of those that must keep clear \[m\].
+fn least_seen(found: &[Option<Found>], tasks: &[Task]) -> f64 {
+    let must = found
+        .iter()
+        .zip(tasks)
+        .filter(|(_, task)| task.rule == PairRule::Clearance);
+    let seen = must.filter_map(|(found, _)| *found).map(|f| f.seen_m);
+    seen.fold(f64::INFINITY, f64::min)
+}
+
+fn line((a, b): (&str, &str), task: &Task, found: Option<Found>, limit_m: f64) -> PairBound {
+    let measured = found.filter(|f| f.seen_m.is_finite());
+    let judged = |found: Found| Check::measured(Requirement::Clearance, measure(limit_m, &found), Worst::default());
+    let status = match (task.rule, found.map_or(Status::NotProved, |found| judged(found).status)) {
+        (PairRule::Touching, _) => Status::Proved,
+        (PairRule::Waived, Status::Violated | Status::NotProved) => Status::Waived,
+        (_, status) => status,
+    };
+    PairBound {
+        pair: [a.to_owned(), b.to_owned()],
+        rule: task.rule,
+        working_on: task.working_on.clone(),
+        status,
+        at_least_m: found.map(|f| f.at_least_m).filter(|b| b.is_finite()),
+        seen_m: measured.map(|f| f.seen_m),
+        time_s: measured.map(|f| f.time_s),
+        place_m: measured.map(|f| f.place_m),
+    }
+}
+
+fn measure(limit_m: f64, found: &Found) -> Measure {
+    Measure {
+        bound: Some(found.at_least_m).filter(|b| *b > f64::NEG_INFINITY),
+        seen: Some(found.seen_m).filter(|s| *s < f64::INFINITY),
+        limit: limit_m,
+        sense: if limit_m > 0.0 { Sense::AtLeast } else { Sense::Above },
+        unit: Unit::Metre,
+    }
+}
+
+/// The requirement about all lines that ask for clearance: the least bound, and where the least distance was found.
+pub(crate) fn check(limit_m: f64, lines: &[PairBound]) -> Check {
+    let lines: Vec<_> = lines.iter().filter(|l| l.rule == PairRule::Clearance).collect();
+    let status = |status| lines.iter().any(|l| l.status == status);
+    let least = |of: fn(&PairBound) -> Option<f64>| lines.iter().filter_map(|l| of(l)).min_by(f64::total_cmp);
+    let worst = lines.iter().filter(|l| l.seen_m.is_some()).min_by(|a, b| {
+        let key = |l: &PairBound| l.seen_m.unwrap_or(f64::INFINITY);
+        key(a).total_cmp(&key(b))
+    });
+    let bounded = lines.iter().all(|l| l.at_least_m.is_some());
+    Check {
+        requirement: Requirement::Clearance,
+        status: match (status(Status::Violated), status(Status::NotProved)) {
+            (true, _) => Status::Violated,
+            (_, true) => Status::NotProved,
+            // Without collision geometry there is nothing to be clear of, and nothing is proved.
+            _ if lines.is_empty() => Status::NotProved,
+            _ => Status::Proved,
+        },
+        measure: (!lines.is_empty()).then(|| Measure {
+            bound: least(|l| l.at_least_m).filter(|_| bounded),
+            seen: least(|l| l.seen_m),
+            limit: limit_m,
+            sense: if limit_m > 0.0 { Sense::AtLeast } else { Sense::Above },
+            unit: Unit::Metre,
+        }),
+        worst: worst.map_or_else(Worst::default, |l| Worst {
+            time_s: l.time_s,
+            place_m: l.place_m,
+            pair: Some(l.pair.clone()),
+            ..Worst::default()
+        }),
+        discrepancies: Vec::new(),
+        more_discrepancies: 0,
+    }
+}
+
+fn tasks(
+    subject: &Subject<'_>,
+    (model, waived): (&ClearanceModel, &[usize]),
+    timeline: &Timeline<'_>,
+    work: Work<'_>,
+) -> Vec<Task> {
+    let mut tasks = Vec::new();
+    let whole = 0..timeline.count();
+    for pair in 0..model.pair_count() {
+        let keeps = if waived.contains(&pair) {
+            PairRule::Waived
+        } else {
+            PairRule::Clearance
+        };
+        let mut add = |rule, during, working_on| {
+            tasks.push(Task {
+                pair,
+                rule,
+                during,
+                working_on,
+            });
+        };
+        let (schedule, plate) = match (work, model.pair_kind(pair)) {
+            (Work::Nothing, _) | (_, PairKind::Other) => {
+                add(keeps, Some(vec![whole.clone()]), Vec::new());
+                continue;
+            }
+            (Work::Unknown, PairKind::SpongeAndPlate(_)) => {
+                add(keeps, None, Vec::new());
+                add(PairRule::Touching, None, Vec::new());
+                continue;
+            }
+            (Work::Scheduled(schedule), PairKind::SpongeAndPlate(plate)) => (schedule, plate),
+        };
+        let touches = |span: &Span| may_touch(subject, (span.kind, span.plate), plate);
+        let clear = joined(schedule, |span| !touches(span));
+        if !clear.is_empty() {
+            add(keeps, Some(clear), Vec::new());
+        }
+        let touching = joined(schedule, touches);
+        if !touching.is_empty() {
+            let washes = schedule.spans.iter().filter(|span| span.kind == SegmentKind::Wash);
+            let working_on = washes.filter(|span| touches(span)).map(|span| span.plate);
+            add(PairRule::Touching, Some(touching), working_on.collect());
+        }
+    }
+    tasks
+}
+
+/// Whether the sponge may touch a plate during a segment of a kind, on a plate or towards it.
+pub(crate) fn may_touch(subject: &Subject<'_>, (kind, on): (SegmentKind, usize), plate: usize) -> bool {
+    is_at_plate(kind) && (on == plate || reach::is_within_reach(subject, on, plate))
+}
+
+/// The pieces of some spans; neighbours joined.
+fn joined(schedule: &Schedule, counts: impl Fn(&Span) -> bool) -> Vec<Range<usize>> {
+    let mut all: Vec<Range<usize>> = Vec::new();
+    for span in schedule.spans.iter().filter(|span| counts(span)) {
+        match all.last_mut() {
+            Some(last) if last.end == span.pieces.start => last.end = span.pieces.end,
+            _ => all.push(span.pieces.clone()),
+        }
+    }
+    all
+}

@@ -1,0 +1,425 @@
+//! Clearance of one pair of bodies over stretches of time: branch and bound, the least bound first.
+//!
+//! An interval of time and a pair of parts has a lower bound of its distance: from its middle by what the joints can displace, or
+//! from its ends by what the parts can accelerate, and jump in speed ([`platewash_workcell::clearance::motion`]). The interval with the least bound is
+//! halved until that is good enough: the limit kept and the least distance found nearly reached. A body of many parts is looked at as a
+//! whole: from the shape that holds all of them, and where that is too near, part by part, the nearest first, until one is too near or all
+//! others are far enough.
+
+use crate::motion::timeline::{Interval, Timeline};
+use platewash_kinematics::{BodyPoses, RobotModel};
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::clearance::ITERATIVE_ERROR_M;
+use platewash_workcell::clearance::motion::{Measured, PartPair, PartPairs};
+use std::collections::BinaryHeap;
+use std::ops::Range;
+
+/// How near to the least distance found a bound must come where it can \[m\]; below the error of the distances there is
+/// no point.
+const FLOOR_M: f64 = 15.0 * ITERATIVE_ERROR_M;
+
+/// How near to the least distance found the bound of the nearest pair comes \[m\].
+pub(crate) const FINE_M: f64 = 1e-4;
+
+/// The same for the others, as a part of that distance.
+const COARSE: f64 = 0.1;
+
+/// The same for bodies of many parts, whose bounds take longer.
+const COARSE_OF_MANY: f64 = 0.35;
+
+/// Shortest interval that is halved \[s\].
+const SHORTEST_S: f64 = 1e-7;
+
+/// No direction is known.
+const NO_NORMAL: [f64; 3] = [0.0; 3];
+
+/// What a pair must keep and how exactly that is to be known.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Goal {
+    /// \[m\]
+    pub limit_m: f64,
+    /// A bound from here on is exact enough, and below is not \[m\]; by default as near as the pair's own distance asks.
+    pub enough_m: Option<f64>,
+    /// Intervals that may be looked at.
+    pub budget: usize,
+}
+
+/// What was found about a pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Found {
+    /// The distance is never below this \[m\]; −∞ where nothing could be shown.
+    pub at_least_m: f64,
+    /// The least distance at a single moment \[m\]; +∞ before any was measured.
+    pub seen_m: f64,
+    /// That moment \[s\].
+    pub time_s: f64,
+    /// Half-way between the nearest points then \[m\].
+    pub place_m: [f64; 3],
+}
+
+impl Found {
+    /// What is never nearer than this \[m\], and was not looked at any closer.
+    pub fn never_nearer(at_least_m: f64) -> Self {
+        Self {
+            at_least_m,
+            seen_m: f64::INFINITY,
+            time_s: 0.0,
+            place_m: [0.0; 3],
+        }
+    }
+}
+
+impl Goal {
+    /// Whether a bound is good enough beside the least distance found.
+    fn accepts(&self, bound: f64, seen: f64) -> bool {
+        self.accepts_within(bound, seen, COARSE)
+    }
+
+    /// As [`Goal::accepts`], where a bound may be so much below the least distance, as a part of it.
+    fn accepts_within(&self, bound: f64, seen: f64, coarse: f64) -> bool {
+        bound >= self.needed(seen, coarse)
+    }
+
+    /// The least bound that is good enough.
+    fn needed(&self, seen: f64, coarse: f64) -> f64 {
+        let broken = seen < self.limit_m - ITERATIVE_ERROR_M || seen <= 0.0;
+        if broken {
+            return seen - 10.0 * FINE_M;
+        }
+        let coarse = (seen - FINE_M).min(seen * (1.0 - coarse));
+        let near = self
+            .enough_m
+            .map_or(coarse, |enough| coarse.max(enough.min(seen - FINE_M)));
+        near.max(self.limit_m.min(seen - FLOOR_M))
+    }
+}
+
+/// An interval with its bound, ordered so that a heap yields the least bound first, and the earliest of equal ones.
+struct Candidate {
+    bound: f64,
+    order: usize,
+    part: usize,
+    interval: Interval,
+    /// From one part to the other, in the frame of the earlier one, as it is somewhere in the interval or near it.
+    normal: [f64; 3],
+}
+
+impl Ord for Candidate {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        other.bound.total_cmp(&self.bound).then(other.order.cmp(&self.order))
+    }
+}
+
+impl PartialOrd for Candidate {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Candidate {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Candidate {}
+
+/// A search over one pair of bodies.
+pub(crate) struct Search<'a> {
+    robot: &'a RobotModel,
+    timeline: &'a Timeline<'a>,
+    parts: &'a PartPairs<'a>,
+    goal: Goal,
+    cancel: &'a CancelToken,
+    open: BinaryHeap<Candidate>,
+    looked_at: usize,
+    found: Found,
+}
+
+/// A pair of parts and how near they are at least in the middle of an interval \[m\], ordered so that a heap yields the nearest first.
+struct Near {
+    gap_m: f64,
+    inner: usize,
+}
+
+impl Ord for Near {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        let nearer = other.gap_m.total_cmp(&self.gap_m);
+        nearer.then(other.inner.cmp(&self.inner))
+    }
+}
+
+impl PartialOrd for Near {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Near {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Near {}
+
+/// An interval in which two bodies are, of which the fixed one has many parts that stand still.
+struct Stay<'a> {
+    /// Its middle \[s\], and the arm there and at both ends.
+    time_s: f64,
+    poses: &'a BodyPoses,
+    ends: [BodyPoses; 2],
+    /// By how much a distance may be less than in the middle, and by how much a gap than at both ends \[m\].
+    fall: f64,
+    sag: f64,
+}
+
+impl<'a> Search<'a> {
+    /// Bounds the distance of a pair of bodies, given by its pairs of parts, during some pieces. Nothing is shown where the work is
+    /// given up.
+    pub fn run(
+        (robot, cancel): (&'a RobotModel, &'a CancelToken),
+        timeline: &'a Timeline<'a>,
+        parts: &'a PartPairs<'a>,
+        during: &[Range<usize>],
+        goal: Goal,
+    ) -> Found {
+        let mut search = Self {
+            robot,
+            timeline,
+            parts,
+            goal,
+            cancel,
+            open: BinaryHeap::new(),
+            looked_at: 0,
+            found: Found::never_nearer(f64::INFINITY),
+        };
+        for interval in during.iter().flat_map(|pieces| timeline.cover(pieces)) {
+            for part in parts.outermost() {
+                search.look(part, interval, f64::NEG_INFINITY, NO_NORMAL);
+            }
+        }
+        search.settle();
+        search.found
+    }
+
+    fn settle(&mut self) {
+        while let Some(worst) = self.open.pop() {
+            if self.cancel.is_cancelled() {
+                self.found.at_least_m = f64::NEG_INFINITY;
+                return;
+            }
+            self.found.at_least_m = worst.bound.min(self.found.seen_m);
+            if self.accepts(worst.part, worst.bound) || self.looked_at >= self.goal.budget {
+                return;
+            }
+            let [from, to] = self.timeline.times(&worst.interval);
+            let halves = if to - from > SHORTEST_S {
+                self.timeline.halves(&worst.interval)
+            } else {
+                None
+            };
+            let Some(halves) = halves else {
+                return;
+            };
+            for half in halves {
+                self.look(worst.part, half, worst.bound, worst.normal);
+            }
+        }
+    }
+
+    /// Whether a bound of a pair is good enough.
+    fn accepts(&self, part: usize, bound: f64) -> bool {
+        if self.parts.within(part).is_empty() {
+            self.goal.accepts(bound, self.found.seen_m)
+        } else {
+            self.goal.accepts_within(bound, self.found.seen_m, COARSE_OF_MANY)
+        }
+    }
+
+    /// Takes note of a distance at a moment.
+    fn see(&mut self, measured: &Measured, time_s: f64) {
+        if measured.distance_m < self.found.seen_m {
+            self.found.seen_m = measured.distance_m;
+            self.found.time_s = time_s;
+            self.found.place_m = measured.place_m;
+        }
+    }
+
+    /// Bounds an interval, of which a bound and the direction of an interval around it are known already.
+    fn look(&mut self, part: usize, interval: Interval, inherited: f64, normal: [f64; 3]) {
+        self.looked_at += 1;
+        let Some(pair) = self.parts.get(part) else { return };
+        let (bound, normal) = self.bound((part, pair), &interval, normal);
+        self.open.push(Candidate {
+            bound: inherited.max(bound),
+            order: self.looked_at,
+            part,
+            interval,
+            normal,
+        });
+    }
+
+    /// A lower bound over an interval, and the direction that led to it. The cheapest that is good enough: spheres around the parts, the
+    /// direction known, the nearest points.
+    fn bound(&mut self, (part, pair): (usize, &PartPair<'_>), interval: &Interval, known: [f64; 3]) -> (f64, [f64; 3]) {
+        let extent = self.timeline.extent(interval);
+        let (time_s, q) = self.timeline.middle(interval);
+        let poses = self.robot.fk(&q);
+        let drift = extent.drift(&q);
+        let levers = pair.levers(&poses, &drift);
+        let fall = levers.dot(&drift);
+        let far = pair.sphere_gap(&poses) - fall;
+        if self.found.seen_m.is_finite() && self.accepts(part, far) {
+            return (far, known);
+        }
+        let length_s = self.timeline.length_s(interval);
+        let acceleration = pair.acceleration(&levers, &extent.speed, &extent.acceleration);
+        let sag = 0.125 * length_s * length_s * acceleration + 0.25 * length_s * levers.dot(&extent.jumps);
+        let ends = self.timeline.ends(interval);
+        let along = |normal| {
+            let [a, b] = ends.map(|q| pair.gap_along(normal, &self.robot.fk(&q)));
+            a.min(b)
+        };
+        if known != NO_NORMAL {
+            let gap = along(known);
+            // Where the gap itself would do, shorter intervals will: no nearest points are needed.
+            if self.accepts(part, gap) {
+                return (gap - sag, known);
+            }
+        }
+        let measured = pair.measure(&poses);
+        if !self.parts.within(part).is_empty() {
+            let whole = measured.at_least_m - fall;
+            if self.accepts(part, whole) {
+                return (whole, known);
+            }
+            // None of the parts is displaced or accelerated by more, so that it holds for all of them.
+            let stay = Stay {
+                time_s,
+                poses: &poses,
+                ends: ends.map(|q| self.robot.fk(&q)),
+                fall,
+                sag,
+            };
+            return (whole.max(self.survey(part, &stay)), known);
+        }
+        self.see(&measured, time_s);
+        let displaced = measured.at_least_m - fall;
+        let settled = measured.normal == NO_NORMAL || self.accepts(part, displaced);
+        if settled || measured.distance_m - sag <= displaced {
+            return (displaced, measured.normal);
+        }
+        (displaced.max(along(measured.normal) - sag), measured.normal)
+    }
+
+    /// What none of the pairs of parts that a pair holds is nearer than over an interval: the nearest ones first, until the rest is far
+    /// enough, or one is not. For each in turn from the sphere around it, along the direction to the one before, from its nearest points.
+    fn survey(&mut self, part: usize, stay: &Stay<'_>) -> f64 {
+        let parts = self.parts;
+        let near = |inner: usize| {
+            let pair = parts.get(inner);
+            let gap_m = pair.map_or(f64::INFINITY, |pair| pair.gap_to_sphere(stay.poses));
+            Near { gap_m, inner }
+        };
+        let mut open: BinaryHeap<_> = parts.within(part).map(near).collect();
+        let mut bound = f64::INFINITY;
+        let mut direction = NO_NORMAL;
+        while let Some(Near { gap_m, inner }) = open.pop() {
+            if self.accepts(part, gap_m - stay.fall) {
+                return bound.min(gap_m - stay.fall);
+            }
+            let Some(pair) = parts.get(inner) else { continue };
+            if !parts.within(inner).is_empty() {
+                open.extend(parts.within(inner).map(near));
+                continue;
+            }
+            let along = |normal: [f64; 3]| {
+                let [a, b] = stay.ends.each_ref().map(|poses| pair.gap_along_in_base(normal, poses));
+                a.min(b) - stay.sag
+            };
+            if direction != NO_NORMAL {
+                let known = along(direction);
+                if self.accepts(part, known) {
+                    bound = bound.min(known);
+                    continue;
+                }
+            }
+            let measured = pair.measure(stay.poses);
+            self.see(&measured, stay.time_s);
+            let mut found = measured.at_least_m - stay.fall;
+            if measured.normal != NO_NORMAL && !self.accepts(part, found) {
+                direction = pair.in_base(measured.normal, stay.poses);
+                found = found.max(along(direction));
+            }
+            bound = bound.min(found);
+            if !self.accepts(part, found) {
+                // The others are no nearer than this one's sphere, and halves will tell.
+                let others = open.peek().map_or(f64::INFINITY, |next| next.gap_m - stay.fall);
+                return bound.min(others);
+            }
+        }
+        bound
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::piece::Piece;
+    use platewash_kinematics::JointVector;
+    use platewash_workcell::clearance::ClearanceModel;
+    use platewash_workcell::fixtures::{kitchen_plate, kitchen_tool, workcell};
+    use platewash_workcell::piecewise::MotionPiece;
+    use proptest::prelude::*;
+
+    const STEP_S: f64 = 0.008;
+
+    /// Lines of [`STEP_S`] through some positions \[rad\].
+    fn lines(q: &[JointVector]) -> Vec<Piece> {
+        let time_s = |k: usize| k as f64 * STEP_S;
+        let line = |k: usize| MotionPiece::line([time_s(k), time_s(k + 1)], [q[k], q[k + 1]]);
+        (0..q.len() - 1).map(|k| Piece::from(&line(k))).collect()
+    }
+
+    fn vector(size: f64) -> impl Strategy<Value = JointVector> {
+        prop::array::uniform6(-size..size).prop_map(JointVector::from)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+
+        /// A motion of lines, slow but for an excursion whose speed jumps: no bound is above the least distance sampled, wherever in the
+        /// tree of intervals the excursion lies. What is enough is far below, so that few intervals are looked at.
+        #[test]
+        fn no_bound_is_above_a_sample_where_speeds_jump(
+            q in vector(0.6), drift in vector(2e-3), away in vector(0.4), rows in 2..70_usize, at in 0.0..1.0_f64, half in 1..9_usize,
+        ) {
+            let robot = RobotModel::irb120().unwrap();
+            let model = ClearanceModel::new(&robot, &workcell(&robot, kitchen_tool()), &[kitchen_plate([0.3, 0.1])]).unwrap();
+            let top = (at * rows as f64).floor();
+            let position = |k: usize| {
+                let share = 1.0 - (k as f64 - top).abs() / half as f64;
+                q + drift * k as f64 + away * share.max(0.0)
+            };
+            let pieces = lines(&(0..=rows).map(position).collect::<Vec<_>>());
+            let timeline = Timeline::new(&pieces);
+            let cancel = CancelToken::new();
+            let goal = Goal { limit_m: 0.0, enough_m: Some(1e-3), budget: 4000 };
+            let all = 0..pieces.len();
+            for pair in 0..model.pair_count() {
+                let parts = model.parts_of(pair);
+                let found = Search::run((&robot, &cancel), &timeline, &parts, std::slice::from_ref(&all), goal);
+                for piece in &pieces {
+                    for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
+                        let poses = robot.fk(&piece.position(share * piece.length_s));
+                        for part in parts.parts() {
+                            let sampled_m = part.measure(&poses).distance_m;
+                            prop_assert!(found.at_least_m <= sampled_m + ITERATIVE_ERROR_M, "{found:?} {sampled_m}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

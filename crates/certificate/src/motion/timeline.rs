@@ -1,0 +1,195 @@
+//! Intervals of time from the whole motion down to parts of a piece, each with bounds of what the joints do in it.
+
+use crate::motion::piece::{Extent, Piece};
+use platewash_kinematics::JointVector;
+use std::ops::Range;
+
+/// The pieces, and bounds for groups of them: a binary tree in preorder, so that the left half of a group of n pieces
+/// follows it and the right half comes after the 2m − 1 groups of the left one, of m pieces.
+#[derive(Debug)]
+pub(crate) struct Timeline<'a> {
+    pieces: &'a [Piece],
+    groups: Vec<Extent>,
+}
+
+/// An interval of time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Interval {
+    /// Pieces from one up to another, a group of the tree.
+    Pieces { group: usize, first: usize, end: usize },
+    /// Part of a piece: from and to within it \[s\].
+    Within { piece: usize, u: [f64; 2] },
+}
+
+impl<'a> Timeline<'a> {
+    pub fn new(pieces: &'a [Piece]) -> Self {
+        let mut timeline = Self {
+            pieces,
+            groups: Vec::with_capacity(2 * pieces.len()),
+        };
+        if !pieces.is_empty() {
+            timeline.group(0, pieces.len());
+        }
+        timeline
+    }
+
+    fn group(&mut self, first: usize, end: usize) -> Extent {
+        let here = self.groups.len();
+        let extent = self.pieces[first].extent([0.0, self.pieces[first].length_s]);
+        self.groups.push(extent);
+        if end - first > 1 {
+            let middle = middle(first, end);
+            let mut extent = self.group(first, middle).and(&self.group(middle, end));
+            extent.jumps += self.pieces[middle - 1].jump_to(&self.pieces[middle]);
+            self.groups[here] = extent;
+        }
+        self.groups[here]
+    }
+
+    /// Number of pieces.
+    pub fn count(&self) -> usize {
+        self.pieces.len()
+    }
+
+    /// Bounds over the whole motion.
+    pub fn whole(&self) -> Option<&Extent> {
+        self.groups.first()
+    }
+
+    /// Intervals that together are the pieces asked for.
+    pub fn cover(&self, pieces: &Range<usize>) -> Vec<Interval> {
+        let mut all = Vec::new();
+        if !self.pieces.is_empty() {
+            self.descend((0, 0, self.pieces.len()), pieces, &mut all);
+        }
+        all
+    }
+
+    fn descend(&self, (group, first, end): (usize, usize, usize), wanted: &Range<usize>, all: &mut Vec<Interval>) {
+        if wanted.start <= first && end <= wanted.end {
+            all.push(Interval::Pieces { group, first, end });
+        } else if wanted.start < end && first < wanted.end {
+            for half in halves(group, first, end) {
+                self.descend(half, wanted, all);
+            }
+        }
+    }
+
+    /// Both halves; `None` where time cannot be halved any more.
+    pub fn halves(&self, interval: &Interval) -> Option<[Interval; 2]> {
+        match *interval {
+            Interval::Pieces { group, first, end } if end - first > 1 => {
+                Some(halves(group, first, end).map(|(group, first, end)| Interval::Pieces { group, first, end }))
+            }
+            Interval::Pieces { first, .. } => {
+                let u = [0.0, self.pieces[first].length_s];
+                self.halves(&Interval::Within { piece: first, u })
+            }
+            Interval::Within { piece, u: [from, to] } => {
+                let middle = 0.5 * (from + to);
+                let half = |u| Interval::Within { piece, u };
+                (middle > from && middle < to).then(|| [half([from, middle]), half([middle, to])])
+            }
+        }
+    }
+
+    /// Bounds over an interval.
+    pub fn extent(&self, interval: &Interval) -> Extent {
+        match *interval {
+            Interval::Pieces { group, .. } => self.groups[group],
+            Interval::Within { piece, u } => self.pieces[piece].extent(u),
+        }
+    }
+
+    /// Length \[s\], not less than it is however late it begins: no difference of times that round.
+    pub fn length_s(&self, interval: &Interval) -> f64 {
+        match *interval {
+            Interval::Pieces { first, end, .. } => {
+                let sum: f64 = self.pieces[first..end].iter().map(|piece| piece.length_s).sum();
+                sum * (1.0 + (end - first) as f64 * f64::EPSILON)
+            }
+            Interval::Within { u: [from, to], .. } => to - from,
+        }
+    }
+
+    /// Start and end \[s\].
+    pub fn times(&self, interval: &Interval) -> [f64; 2] {
+        match *interval {
+            Interval::Pieces { first, end, .. } => {
+                let last = &self.pieces[end - 1];
+                [self.pieces[first].start_s, last.start_s + last.length_s]
+            }
+            Interval::Within { piece, u } => u.map(|u| self.pieces[piece].start_s + u),
+        }
+    }
+
+    /// Positions at the start and at the end \[rad\].
+    pub fn ends(&self, interval: &Interval) -> [JointVector; 2] {
+        match *interval {
+            Interval::Pieces { first, end, .. } => {
+                let last = &self.pieces[end - 1];
+                [self.pieces[first].position(0.0), last.position(last.length_s)]
+            }
+            Interval::Within { piece, u } => u.map(|u| self.pieces[piece].position(u)),
+        }
+    }
+
+    /// A moment in the middle: its time \[s\] and the positions \[rad\].
+    pub fn middle(&self, interval: &Interval) -> (f64, JointVector) {
+        let (piece, u) = match *interval {
+            Interval::Pieces { first, end, .. } if end - first > 1 => (middle(first, end), 0.0),
+            Interval::Pieces { first, .. } => (first, 0.5 * self.pieces[first].length_s),
+            Interval::Within { piece, u: [from, to] } => (piece, 0.5 * (from + to)),
+        };
+        let piece = &self.pieces[piece];
+        (piece.start_s + u, piece.position(u))
+    }
+}
+
+fn middle(first: usize, end: usize) -> usize {
+    first + (end - first) / 2
+}
+
+fn halves(group: usize, first: usize, end: usize) -> [(usize, usize, usize); 2] {
+    let middle = middle(first, end);
+    [(group + 1, first, middle), (group + 2 * (middle - first), middle, end)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_group_bounds_its_pieces_and_covers_are_exact() {
+        let q = |k: usize| JointVector::repeat((k * k % 7) as f64);
+        let pieces: Vec<_> = (0..13)
+            .map(|k| Piece::new([k as f64, k as f64 + 1.0], [q(k), q(k + 1)], [JointVector::zeros(); 2]))
+            .collect();
+        let timeline = Timeline::new(&pieces);
+        assert_eq!(timeline.groups.len(), 25);
+        for from in 0..13 {
+            for to in from + 1..=13 {
+                let cover = timeline.cover(&(from..to));
+                let mut next = from;
+                for interval in cover {
+                    let Interval::Pieces { first, end, .. } = interval else {
+                        panic!()
+                    };
+                    assert_eq!(first, next);
+                    next = end;
+                    let extent = timeline.extent(&interval);
+                    let expected = pieces[first..end]
+                        .iter()
+                        .map(|p| p.extent([0.0, 1.0]))
+                        .reduce(|a, b| a.and(&b))
+                        .unwrap();
+                    assert_eq!((extent.least, extent.most), (expected.least, expected.most));
+                    assert_eq!(timeline.times(&interval), [first as f64, end as f64]);
+                }
+                assert_eq!(next, to);
+            }
+        }
+        assert!(timeline.cover(&(4..4)).is_empty());
+        assert!(Timeline::new(&[]).cover(&(0..1)).is_empty());
+    }
+}

@@ -1,0 +1,260 @@
+//! The tip over a stretch of time: its state at both ends, and bounds of its derivatives between.
+//!
+//! With p(q) the tip's position and J its Jacobian, v = J q̇ and
+//! a = J q̈ + Σ_j q̇_j (2 ω_j − q̇_j z_j) × J_j, ω_j = Σ_{i ≤ j} q̇_i z_i; the tool turns with ω = ω_6, ω̇ = Σ_j q̈_j z_j + q̇_j ω_j × z_j.
+//! For a vector f of time, ‖f(t)‖ ≤ max(‖f(a)‖, ‖f(b)‖) + h²/8 · sup ‖f″‖ on [a, b], h = b − a. The bounds of the derivatives of
+//! p(q(t)) follow from the chain rule (Faà di Bruno) with the levers of [`platewash_workcell::clearance::lever`]; a cubic has no fourth
+//! derivative.
+
+use crate::motion::piece::Piece;
+use nalgebra::Vector3;
+use platewash_kinematics::{AXES, Axes, Frame, JointVector, RobotModel};
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::clearance::lever::{self, Levers};
+use platewash_workcell::tool::Tool;
+
+/// The arm with its tip.
+#[derive(Debug)]
+pub(crate) struct Arm<'a> {
+    robot: &'a RobotModel,
+    tip: Frame,
+    greatest: Levers,
+    cancel: &'a CancelToken,
+}
+
+/// State of the tip at one moment, base frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moment {
+    /// Position \[m\].
+    pub position: Vector3<f64>,
+    /// Where the tool's z axis points: out of the tool.
+    pub axis: Vector3<f64>,
+    /// Where its x axis points: a direction across that turns with the tool.
+    pub side: Vector3<f64>,
+    /// \[m/s\]
+    pub speed: Vector3<f64>,
+    /// \[m/s²\]
+    pub acceleration: Vector3<f64>,
+    /// ω: how fast the tool turns \[rad/s\].
+    pub turning: Vector3<f64>,
+    /// ω̇ \[rad/s²\].
+    pub turning_more: Vector3<f64>,
+    levers: Levers,
+}
+
+/// Part of a piece, with the tip's states at its ends.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stretch<'a> {
+    pub piece: &'a Piece,
+    /// From and to, within the piece \[s\].
+    pub u: [f64; 2],
+    pub ends: [Moment; 2],
+}
+
+/// Bounds of derivatives of the tip over a stretch.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Derivatives {
+    rates: [JointVector; 3],
+    levers: Levers,
+}
+
+impl<'a> Arm<'a> {
+    /// An arm with a tool; cancelled, it halves nothing any more.
+    pub fn new(robot: &'a RobotModel, tool: &Tool, cancel: &'a CancelToken) -> Self {
+        let tip = tool.tip_frame(robot);
+        let zero = robot.fk(&JointVector::zeros());
+        let greatest = lever::greatest(&zero, tip.body(), &zero.rigid(&tip).translation);
+        Self {
+            robot,
+            tip,
+            greatest,
+            cancel,
+        }
+    }
+
+    /// The tip at u \[s\] of a piece.
+    pub fn at(&self, piece: &Piece, u: f64) -> Moment {
+        let (qd, qdd) = (piece.speed(u), piece.acceleration(u));
+        let poses = self.robot.fk(&piece.position(u));
+        let tip = poses.rigid(&self.tip);
+        let jacobian = poses.jacobian(&self.tip, Axes::Base);
+        let (mut speed, mut acceleration, mut turning) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
+        let mut turning_more = Vector3::zeros();
+        let mut levers = Levers::zeros();
+        for j in 0..AXES {
+            let column: Vector3<f64> = jacobian.fixed_view::<3, 1>(0, j).into_owned();
+            let axis: Vector3<f64> = jacobian.fixed_view::<3, 1>(3, j).into_owned();
+            turning_more += axis * qdd[j] + turning.cross(&axis) * qd[j];
+            turning += axis * qd[j];
+            speed += column * qd[j];
+            acceleration += column * qdd[j] + (turning * 2.0 - axis * qd[j]).cross(&column) * qd[j];
+            levers[j] = column.norm();
+        }
+        Moment {
+            position: tip.translation,
+            axis: tip.rotation.column(2).into_owned(),
+            side: tip.rotation.column(0).into_owned(),
+            speed,
+            acceleration,
+            turning,
+            turning_more,
+            levers,
+        }
+    }
+
+    /// A whole piece.
+    pub fn stretch<'p>(&self, piece: &'p Piece) -> Stretch<'p> {
+        self.part(piece, [0.0, piece.length_s])
+    }
+
+    /// Part of a piece: from and to, within it \[s\].
+    pub fn part<'p>(&self, piece: &'p Piece, u: [f64; 2]) -> Stretch<'p> {
+        let ends = u.map(|u| self.at(piece, u));
+        Stretch { piece, u, ends }
+    }
+
+    /// The two halves of a stretch; `None` when it is too short to halve, or where the work was given up.
+    pub fn halves<'p>(&self, whole: &Stretch<'p>) -> Option<[Stretch<'p>; 2]> {
+        let [from, to] = whole.u;
+        let middle = 0.5 * (from + to);
+        if !(middle > from && middle < to) || self.cancel.is_cancelled() {
+            return None;
+        }
+        let there = self.at(whole.piece, middle);
+        let half = |u, ends| Stretch {
+            piece: whole.piece,
+            u,
+            ends,
+        };
+        let [first, last] = whole.ends;
+        Some([half([from, middle], [first, there]), half([middle, to], [there, last])])
+    }
+
+    /// Bounds of derivatives that hold all over a stretch.
+    pub fn derivatives(&self, stretch: &Stretch<'_>) -> Derivatives {
+        let speed = stretch.piece.greatest_speed(stretch.u);
+        // The nearer end is half a stretch away.
+        let drift = speed * (0.5 * stretch.length_s());
+        let [from, to] = &stretch.ends;
+        Derivatives {
+            rates: [
+                speed,
+                stretch.piece.greatest_acceleration(stretch.u),
+                stretch.piece.jerk(),
+            ],
+            levers: lever::within(&from.levers.sup(&to.levers), &drift, &self.greatest),
+        }
+    }
+}
+
+impl Stretch<'_> {
+    pub fn length_s(&self) -> f64 {
+        self.u[1] - self.u[0]
+    }
+
+    /// Times of both ends \[s\].
+    pub fn times(&self) -> [f64; 2] {
+        self.u.map(|u| self.piece.start_s + u)
+    }
+
+    /// What a bounded second derivative adds to the ends' values: h²/8 · `curvature`.
+    pub fn sag(&self, curvature: f64) -> f64 {
+        self.length_s() * self.length_s() * 0.125 * curvature
+    }
+}
+
+impl Derivatives {
+    /// sup ‖p̈‖ \[m/s²\].
+    pub fn second(&self) -> f64 {
+        let [d1, d2, _] = &self.rates;
+        self.sum([d2]) + self.sum([d1, d1])
+    }
+
+    /// sup ‖p⃛‖ \[m/s³\].
+    pub fn third(&self) -> f64 {
+        let [d1, d2, d3] = &self.rates;
+        self.sum([d3]) + 3.0 * self.sum([d1, d2]) + self.sum([d1, d1, d1])
+    }
+
+    /// sup ‖p⁗‖ \[m/s⁴\].
+    pub fn fourth(&self) -> f64 {
+        let [d1, d2, d3] = &self.rates;
+        4.0 * self.sum([d1, d3]) + 3.0 * self.sum([d2, d2]) + 6.0 * self.sum([d1, d1, d2]) + self.sum([d1, d1, d1, d1])
+    }
+
+    /// sup of the second derivative of the tool's axis, a unit vector \[1/s²\].
+    pub fn second_of_axis(&self) -> f64 {
+        let [d1, d2, _] = &self.rates;
+        d2.sum() + d1.sum() * d1.sum()
+    }
+
+    /// The same of its third one \[1/s³\].
+    pub fn third_of_axis(&self) -> f64 {
+        let [d1, d2, d3] = self.rates.map(|d| d.sum());
+        d3 + 3.0 * d1 * d2 + d1 * d1 * d1
+    }
+
+    /// sup ‖ω̇‖, ω how fast the tool turns: each joint's axis turns with those before it \[rad/s²\].
+    pub fn first_of_turning(&self) -> f64 {
+        self.second_of_axis()
+    }
+
+    /// sup ‖ω̈‖ \[rad/s³\].
+    pub fn second_of_turning(&self) -> f64 {
+        self.third_of_axis()
+    }
+
+    /// By how much the tip's acceleration may be above what is computed, where those of the joints are by `joints` \[m/s²\].
+    pub fn rounding(&self, joints: &JointVector) -> f64 {
+        self.sum([joints])
+    }
+
+    fn sum<const N: usize>(&self, rates: [&JointVector; N]) -> f64 {
+        lever::tuples(&self.levers, 0, rates)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn vector(size: f64) -> impl Strategy<Value = JointVector> {
+        prop::array::uniform6(-size..size).prop_map(JointVector::from)
+    }
+
+    proptest! {
+        #[test]
+        fn the_derivatives_are_those_of_the_position_and_stay_within_their_bounds(
+            q in vector(1.5), step in vector(0.2), v in [vector(2.0), vector(2.0)], share in 0.05..0.95f64,
+        ) {
+            let robot = RobotModel::irb120().unwrap();
+            let (tool, cancel) = (platewash_workcell::fixtures::kitchen_tool(), CancelToken::new());
+            let arm = Arm::new(&robot, &tool, &cancel);
+            let piece = Piece::new([0.0, 0.2], [q, q + step], v);
+            let (u, h) = (0.2 * share, 1e-5);
+            let [before, here, after] = [u - h, u, u + h].map(|u| arm.at(&piece, u));
+            prop_assert!(((after.position - before.position) / (2.0 * h) - here.speed).norm() < 1e-6);
+            prop_assert!(((after.speed - before.speed) / (2.0 * h) - here.acceleration).norm() < 1e-5);
+            let bounds = arm.derivatives(&arm.stretch(&piece));
+            let third = (after.acceleration - before.acceleration) / (2.0 * h);
+            let fourth = (after.acceleration - here.acceleration * 2.0 + before.acceleration) / (h * h);
+            let axis = (after.axis - here.axis * 2.0 + before.axis) / (h * h);
+            prop_assert!(here.acceleration.norm() <= bounds.second() + 1e-9);
+            prop_assert!(third.norm() <= bounds.third() + 1e-3);
+            prop_assert!(fourth.norm() <= bounds.fourth() + 1e-1);
+            prop_assert!(axis.norm() <= bounds.second_of_axis() + 1e-4);
+            // A direction turns with the tool: its first derivative is ω × itself.
+            let turned = |m: &Moment| m.turning.cross(&m.axis);
+            prop_assert!(((after.axis - before.axis) / (2.0 * h) - turned(&here)).norm() < 1e-6);
+            let third = (turned(&after) - turned(&here) * 2.0 + turned(&before)) / (h * h);
+            prop_assert!(third.norm() <= bounds.third_of_axis() + 1e-2);
+            let first = (after.turning - before.turning) / (2.0 * h);
+            let second = (after.turning - here.turning * 2.0 + before.turning) / (h * h);
+            prop_assert!(first.norm() <= bounds.first_of_turning() + 1e-6);
+            prop_assert!((first - here.turning_more).norm() < 1e-5);
+            prop_assert!(second.norm() <= bounds.second_of_turning() + 1e-2);
+            prop_assert!(here.side.dot(&here.axis).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,339 @@
+//! Speed and acceleration of the tip, tilt of the tool and height of the contact.
+
+use crate::motion::bound_tracker::BoundTracker;
+use crate::motion::piece::Piece;
+use crate::motion::tip::{Arm, Moment, Stretch};
+use crate::report::check::{Check, Measure, Sense, Unit, Worst};
+use crate::report::requirement::Requirement;
+use crate::statements::schedule::{Schedule, Span, is_at_plate};
+use crate::subject::Subject;
+use crate::washing::face::{Face, Pass, sine_of_tilt};
+use nalgebra::Vector3;
+use platewash_kinematics::trig::{asin, sin};
+use platewash_workcell::job::PATH_TOLERANCE_M;
+use platewash_workcell::segment::SegmentKind;
+
+/// How far a bound of the tip's speed or acceleration may be above the worst value found, as a part of the limit.
+const RESOLUTION: f64 = 2e-3;
+
+/// The same for the sine of the tilt.
+const TILT_RESOLUTION: f64 = 2e-4;
+
+/// By how much an angle between two directions may be wrong where it is small \[rad\].
+const TILT_ROUNDING_RAD: f64 = 1e-8;
+
+/// The same for the height of the contact \[m\].
+const HEIGHT_RESOLUTION_M: f64 = 5e-6;
+
+/// What is tracked of the tip.
+pub(crate) struct Tips {
+    /// Speed and acceleration while the tip does not wash.
+    pub moving: [BoundTracker; 2],
+    /// Speed and acceleration while it washes.
+    pub washing: [BoundTracker; 2],
+    /// Sine of the tilt, for every span at a plate: its index and the tracker.
+    pub tilt: Vec<(usize, BoundTracker)>,
+    /// Sine of the angle from the plate's axis, for every span at a plate whose face is no disc; on a disc it is that of the tilt.
+    upright: Vec<(usize, BoundTracker)>,
+    /// Height of the tip over or under the face while it washes, and the index of the span.
+    pub height: Vec<(usize, BoundTracker)>,
+}
+
+/// Against which normal the tool is tilted.
+#[derive(Debug, Clone, Copy)]
+enum Against {
+    /// One that stays: that of the line along which the tip comes or goes, or of a flat face.
+    Fixed(Vector3<f64>),
+    /// That of the face under the tip.
+    Local,
+}
+
+impl Tips {
+    /// Bounds everything. Without a schedule the whole motion counts as not washing.
+    pub fn new(arm: &Arm<'_>, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Self {
+        let limits = &subject.limits;
+        let pair = |speed: f64, acceleration: f64| {
+            [speed, acceleration].map(|limit| BoundTracker::new(limit, RESOLUTION * limit))
+        };
+        let mut tips = Self {
+            moving: pair(limits.tip_speed_m_s, limits.tip_acceleration_m_s2),
+            washing: pair(limits.wash_speed_m_s, limits.wash_acceleration_m_s2),
+            tilt: Vec::new(),
+            upright: Vec::new(),
+            height: Vec::new(),
+        };
+        let Some(schedule) = schedule else {
+            track_rates(arm, &mut tips.moving, &[pieces]);
+            return tips;
+        };
+        let of = |span: &Span| &pieces[span.pieces.clone()];
+        let (washing, moving): (Vec<_>, Vec<_>) = schedule.spans.iter().partition(|s| s.kind == SegmentKind::Wash);
+        track_rates(arm, &mut tips.moving, &moving.into_iter().map(of).collect::<Vec<_>>());
+        track_rates(arm, &mut tips.washing, &washing.into_iter().map(of).collect::<Vec<_>>());
+        let sine = sin(limits.tilt_rad + TILT_ROUNDING_RAD);
+        for (i, span) in schedule.spans.iter().enumerate().filter(|(_, s)| is_at_plate(s.kind)) {
+            let Some(plate) = subject.plates().get(span.plate) else {
+                continue;
+            };
+            let face = Face::of(plate);
+            let against = against(subject, span, &face);
+            let tracker = BoundTracker::new(sine, TILT_RESOLUTION);
+            tips.tilt.push((i, tilted(arm, tracker, of(span), (&face, against))));
+            if !face.surface().is_flat() {
+                // No limit is asked of it.
+                let tracker = BoundTracker::new(1.0, TILT_RESOLUTION);
+                let upright = Against::Fixed(*face.upright());
+                tips.upright.push((i, tilted(arm, tracker, of(span), (&face, upright))));
+            }
+            if span.kind == SegmentKind::Wash {
+                // The sponge touches where the tip is on the face.
+                let mut tracker = BoundTracker::new(PATH_TOLERANCE_M, HEIGHT_RESOLUTION_M);
+                let bend = |s: &Stretch<'_>| {
+                    let bounds = arm.derivatives(s);
+                    if face.surface().is_flat() {
+                        s.sag(bounds.second())
+                    } else {
+                        s.sag(Pass::new(&face, s, &bounds).bend_of_height())
+                    }
+                };
+                observe(
+                    arm,
+                    &mut tracker,
+                    &[of(span)],
+                    &|m| face.height_of(&m.position).abs(),
+                    &bend,
+                );
+                tips.height.push((i, tracker));
+            }
+        }
+        tips
+    }
+
+    /// What cos τ is not below during a span; 0 where nothing is known.
+    pub fn least_cosine_of(&self, span: usize) -> f64 {
+        let tilt = self.tilt.iter().find(|(index, _)| *index == span);
+        tilt.map_or(0.0, |(_, tracker)| cosine(tracker.bound))
+    }
+
+    /// What the cosine of the angle from the plate's axis is not below during a span; 0 where nothing is known.
+    pub fn least_upright_cosine_of(&self, span: usize) -> f64 {
+        let upright = self.upright.iter().find(|(index, _)| *index == span);
+        upright.map_or_else(|| self.least_cosine_of(span), |(_, tracker)| cosine(tracker.bound))
+    }
+
+    /// How far the tip is over or under the face at most during the wash of a span \[m\]; infinite where nothing is known.
+    pub fn greatest_height_of(&self, span: usize) -> f64 {
+        let height = self.height.iter().find(|(index, _)| *index == span);
+        height.map_or(f64::INFINITY, |(_, tracker)| {
+            if tracker.bound.is_nan() {
+                f64::INFINITY
+            } else {
+                tracker.bound
+            }
+        })
+    }
+
+    /// What the cosine of the angle from the plate's axis is not below in all spans at a plate; 0 where there is none.
+    pub fn least_upright_cosine_at(&self, schedule: &Schedule, plate: usize) -> f64 {
+        let spans = schedule.spans.iter().enumerate();
+        let there = spans.filter(|(_, span)| span.plate == plate && is_at_plate(span.kind));
+        let cosines = there.map(|(i, _)| self.least_upright_cosine_of(i));
+        cosines.min_by(f64::total_cmp).unwrap_or(0.0)
+    }
+
+    /// Speed and acceleration while the tip does not wash.
+    pub fn moving_checks(&self, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> [Check; 2] {
+        let (limits, [speed, acceleration]) = (&subject.limits, &self.moving);
+        let at = |tracker: &BoundTracker| worst(tracker, pieces, schedule);
+        let (speed_limit, acceleration_limit) = (
+            (limits.tip_speed_m_s, Unit::MetrePerSecond),
+            (limits.tip_acceleration_m_s2, Unit::MetrePerSecondSquared),
+        );
+        [
+            check(Requirement::TipSpeed, speed, speed_limit, at(speed)),
+            check(
+                Requirement::TipAcceleration,
+                acceleration,
+                acceleration_limit,
+                at(acceleration),
+            ),
+        ]
+    }
+
+    /// The requirements about all of them.
+    pub fn checks(&self, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Vec<Check> {
+        let limits = &subject.limits;
+        let (m_s, m_s2) = (Unit::MetrePerSecond, Unit::MetrePerSecondSquared);
+        let at = |tracker: &BoundTracker| worst(tracker, pieces, schedule);
+        let mut all = Vec::from(self.moving_checks(subject, pieces, schedule));
+        let rest = [
+            Requirement::WashSpeed,
+            Requirement::WashAcceleration,
+            Requirement::Tilt,
+            Requirement::ContactHeight,
+        ];
+        let Some(schedule) = schedule else {
+            all.extend(rest.map(Check::not_judged));
+            return all;
+        };
+        let [speed, acceleration] = &self.washing;
+        all.push(check(
+            Requirement::WashSpeed,
+            speed,
+            (limits.wash_speed_m_s, m_s),
+            at(speed),
+        ));
+        all.push(check(
+            Requirement::WashAcceleration,
+            acceleration,
+            (limits.wash_acceleration_m_s2, m_s2),
+            at(acceleration),
+        ));
+        let tilt = greatest(&self.tilt);
+        let angle = tilt.through(angle);
+        let place = |tracker: &BoundTracker| in_segment(tracker, pieces, schedule);
+        all.push(check(
+            Requirement::Tilt,
+            &angle,
+            (limits.tilt_rad + TILT_ROUNDING_RAD, Unit::Radian),
+            place(&tilt),
+        ));
+        let height = greatest(&self.height);
+        let limit = (PATH_TOLERANCE_M, Unit::Metre);
+        all.push(check(Requirement::ContactHeight, &height, limit, place(&height)));
+        all
+    }
+}
+
+/// The requirement that a tracked quantity stays at or below its limit.
+pub(crate) fn check(
+    requirement: Requirement,
+    tracker: &BoundTracker,
+    (limit, unit): (f64, Unit),
+    worst: Worst,
+) -> Check {
+    let finite = |v: f64| Some(v).filter(|v| v.is_finite());
+    let measure = Measure {
+        bound: finite(tracker.bound),
+        seen: finite(tracker.seen),
+        limit,
+        sense: Sense::AtMost,
+        unit,
+    };
+    Check::measured(requirement, measure, worst)
+}
+
+/// Where a tracked quantity is worst.
+pub(crate) fn worst(tracker: &BoundTracker, pieces: &[Piece], schedule: Option<&Schedule>) -> Worst {
+    match schedule {
+        Some(schedule) => in_segment(tracker, pieces, schedule),
+        None => Worst {
+            time_s: Some(tracker.time_s),
+            place_m: Some(tracker.place),
+            ..Worst::default()
+        },
+    }
+}
+
+fn in_segment(tracker: &BoundTracker, pieces: &[Piece], schedule: &Schedule) -> Worst {
+    let segment = schedule.segment_at(pieces, tracker.time_s);
+    Worst {
+        time_s: Some(tracker.time_s),
+        place_m: Some(tracker.place),
+        plate: segment.and_then(|(i, _)| schedule.spans.get(i)).map(|s| s.plate),
+        segment,
+        ..Worst::default()
+    }
+}
+
+/// The worst of several trackers, with the greatest bound of all.
+pub(crate) fn greatest(trackers: &[(usize, BoundTracker)]) -> BoundTracker {
+    let nothing = BoundTracker::new(0.0, 0.0);
+    trackers.iter().fold(nothing, |all, (_, tracker)| all.and(tracker))
+}
+
+/// The angle of a sine \[rad\]; π for what is no sine of an angle below a right one.
+fn angle(sine: f64) -> f64 {
+    if sine <= 1.0 { asin(sine) } else { std::f64::consts::PI }
+}
+
+/// cos τ from a bound of sin τ; 0 where the bound says nothing.
+fn cosine(sine: f64) -> f64 {
+    if sine >= 0.0 {
+        (1.0 - sine * sine).max(0.0).sqrt()
+    } else {
+        0.0
+    }
+}
+
+/// Against which normal the tool is tilted during a span: of the line over the end of its path, or of the face. Without a path there is
+/// no line, and it is that of the face.
+fn against(subject: &Subject<'_>, span: &Span, face: &Face<'_>) -> Against {
+    if face.surface().is_flat() {
+        return Against::Fixed(*face.upright());
+    }
+    let feet = || {
+        let plate = subject.plates().get(span.plate)?;
+        Some(subject.path_of(span.plate)?.feet(plate))
+    };
+    match (span.kind, feet()) {
+        (SegmentKind::Approach, Some([start, _])) => Against::Fixed(face.normal_under(&start)),
+        (SegmentKind::Retreat, Some([_, end])) => Against::Fixed(face.normal_under(&end)),
+        _ => Against::Local,
+    }
+}
+
+/// Bounds the sine of the tilt during some pieces.
+fn tilted(
+    arm: &Arm<'_>,
+    mut tracker: BoundTracker,
+    pieces: &[Piece],
+    (face, against): (&Face<'_>, Against),
+) -> BoundTracker {
+    match against {
+        Against::Fixed(normal) => {
+            let bend = |s: &Stretch<'_>| s.sag(arm.derivatives(s).second_of_axis());
+            observe(arm, &mut tracker, &[pieces], &|m| sine_of_tilt(&m.axis, &normal), &bend);
+        }
+        Against::Local => {
+            let sine = |m: &Moment| sine_of_tilt(&m.axis, &face.normal_under(&m.position));
+            let bend = |s: &Stretch<'_>| {
+                let bounds = arm.derivatives(s);
+                let second = bounds.second_of_axis();
+                Pass::new(face, s, &bounds).sag_of_sine(s, [turning(s, second), second])
+            };
+            observe(arm, &mut tracker, &[pieces], &sine, &bend);
+        }
+    }
+    tracker
+}
+
+/// What the speed of the tool's axis is not above over a stretch, with its second derivative not above `second` \[1/s\].
+pub(crate) fn turning(stretch: &Stretch<'_>, second: f64) -> f64 {
+    let [from, to] = stretch.ends.each_ref().map(|m| m.turning.cross(&m.axis).norm());
+    from.max(to) + 0.5 * stretch.length_s() * second
+}
+
+fn track_rates(arm: &Arm<'_>, [speed, acceleration]: &mut [BoundTracker; 2], spans: &[&[Piece]]) {
+    observe(arm, speed, spans, &|m| m.speed.norm(), &|s| {
+        s.sag(arm.derivatives(s).third())
+    });
+    // In short pieces the joints' accelerations at the ends round by more than other things do.
+    observe(arm, acceleration, spans, &|m| m.acceleration.norm(), &|s| {
+        let derivatives = arm.derivatives(s);
+        s.sag(derivatives.fourth()) + derivatives.rounding(&s.piece.rounding().acceleration)
+    });
+}
+
+fn observe(
+    arm: &Arm<'_>,
+    tracker: &mut BoundTracker,
+    spans: &[&[Piece]],
+    value: &impl Fn(&Moment) -> f64,
+    beyond: &impl Fn(&Stretch<'_>) -> f64,
+) {
+    let pieces = || spans.iter().flat_map(|pieces| pieces.iter());
+    tracker.allow_for(pieces().count());
+    pieces().for_each(|piece| tracker.see_ends(&arm.stretch(piece), value));
+    pieces().for_each(|piece| tracker.refine(arm, &arm.stretch(piece), value, beyond));
+}

@@ -1,0 +1,350 @@
+//! The first line: what is proved of a plan, with the numbers reached and required. `verify`, `run`, the page, Python and the heads of
+//! robot programs show it. No name out of a file stands in it unquoted.
+//!
+//! What is usually required of a washing. A job that requires less is named in the first line.
+
+use crate::report::certificate::{Certificate, Verdict};
+use crate::report::check::{Check, Measure, Sense, Status};
+use crate::report::requirement::Requirement;
+use crate::report::words::{kept, number};
+use platewash_kinematics::words::told_apart;
+use platewash_workcell::job::{ContactRequirements, Requirements};
+use platewash_workcell::plan::Plan;
+use platewash_workcell::words::counted;
+
+/// Requirements that are not kept and told with their numbers.
+const MOST_NUMBERS: usize = 3;
+
+/// What the first line of a dry run ends with until both plans are compared.
+const NOT_COMPARED: &str = "; not checked: whether it follows the plan that it names";
+
+/// The first line of a plan of which nothing was proved yet.
+#[must_use]
+pub fn planned_headline(plan: &Plan) -> String {
+    let [plates, duration_s] = [counted(plan.order.len(), "plate"), seconds(plan.duration_s())];
+    format!("PLANNED, NOT PROVED: {plates} in {duration_s}, from home to home")
+}
+
+/// The first line of a run of the paper's program, which has no certificate.
+#[must_use]
+pub fn paper_headline(plan: &Plan) -> String {
+    format!(
+        "NOT PROVED: a run of the paper's program, {}; it has no certificate",
+        seconds(plan.duration_s())
+    )
+}
+
+/// The first line: proved or not, how much of each plate, at which clearance, what is waived and what is laxer than usual.
+pub(crate) fn headline(certificate: &Certificate) -> String {
+    let plates = counted(certificate.rests_on.plates.len(), "plate");
+    let subject = format!("{plates} in {}", seconds(certificate.duration_s));
+    let judged = match certificate.verdict {
+        Verdict::Pass => format!("PROVED{}: {subject}{}", certificate.but_for(), reached(certificate)),
+        Verdict::Fail => format!(
+            "NOT PROVED: {subject}; {}{}",
+            broken(certificate),
+            certificate.and_waived()
+        ),
+    };
+    let judged = format!("{judged}{}{}", laxer(certificate), certificate.rests_on.without_floor());
+    match &certificate.rests_on.dry_run {
+        // Before everything else: nobody shall take it for a washing.
+        Some(dry_run) => {
+            let compared = if certificate.parent_compared { "" } else { NOT_COMPARED };
+            format!("{}; {judged}{compared}", dry_run.words())
+        }
+        None => judged,
+    }
+}
+
+/// A duration as all reports state it.
+fn seconds(duration_s: f64) -> String {
+    format!("{duration_s:.2} s")
+}
+
+/// How much of each plate is pressed, or swept where contact is not required, and the clearance.
+fn reached(certificate: &Certificate) -> String {
+    let wanted = &certificate.rests_on.requirements;
+    let in_air = certificate.rests_on.dry_run.is_some();
+    let (verb, requirement) = match wanted.contact {
+        _ if in_air => ("swept in the air over", Requirement::Swept),
+        Some(_) => ("pressed over", Requirement::Pressed),
+        None => ("swept over", Requirement::Swept),
+    };
+    let number = |requirement| at_least(certificate.check(requirement)?.measure.as_ref()?);
+    let share = number(requirement).map(|share| format!(", each {verb} {share}"));
+    let clearance = number(Requirement::Clearance).map(|least| format!(", clearance {least}"));
+    let contact = if wanted.contact.is_some() || in_air {
+        ""
+    } else {
+        ", contact not required"
+    };
+    [share, clearance].into_iter().flatten().collect::<String>() + contact
+}
+
+/// A lower bound beside what is required: "at least 99.8 % (99.5 % required)".
+fn at_least(measure: &Measure) -> Option<String> {
+    let (scale, unit) = measure.unit.scale();
+    let reached = kept(measure, measure.bound?, 1);
+    let at_least = if reached == "100" { "" } else { "at least " };
+    Some(format!(
+        "{at_least}{reached} {unit} ({} {unit} required)",
+        number(measure.limit * scale)
+    ))
+}
+
+fn laxer(certificate: &Certificate) -> String {
+    let laxer = laxer_requirements(&certificate.rests_on.requirements);
+    if laxer.is_empty() {
+        laxer.concat()
+    } else {
+        format!("; requires less than usual: {}", laxer.join(", "))
+    }
+}
+
+/// What is violated, what is not proved, the first of them with their numbers; the hash where it is all that is wrong.
+fn broken(certificate: &Certificate) -> String {
+    let broken: Vec<_> = certificate.broken().collect();
+    let (told, others) = broken.split_at(broken.len().min(MOST_NUMBERS));
+    let of = |status, words| {
+        let each: Vec<_> = told
+            .iter()
+            .filter(|check| check.status == status)
+            .map(|check| shortfall(check))
+            .collect();
+        (!each.is_empty()).then(|| format!("{words}: {}", each.join(", ")))
+    };
+    let others: Vec<_> = others.iter().map(|check| check.requirement.words()).collect();
+    let hash = (certificate.hash.status != Status::Proved)
+        .then(|| "the plan was changed after it was written: its hash does not match the contents".to_owned());
+    let parts = [
+        of(Status::Violated, "violated"),
+        of(Status::NotProved, "not proved"),
+        (!others.is_empty()).then(|| format!("also not kept: {}", others.join(", "))),
+        hash,
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
+}
+
+/// A requirement that is not kept, with what was found or what could be shown, and what is required.
+fn shortfall(check: &Check) -> String {
+    let name = check.requirement.words();
+    let Some(measure) = &check.measure else { return name };
+    let (scale, unit) = measure.unit.scale();
+    let value = if check.status == Status::Violated {
+        measure.seen
+    } else {
+        measure.bound
+    };
+    let side = match measure.sense {
+        Sense::AtLeast => "at least",
+        Sense::AtMost => "at most",
+        Sense::Above => "above",
+    };
+    match value {
+        Some(value) => {
+            let [value, limit] = told_apart(value * scale, measure.limit * scale, 1);
+            format!("{name} {value} {unit} ({side} {limit} {unit} required)")
+        }
+        None => format!("{name} ({side} {} {unit} required)", number(measure.limit * scale)),
+    }
+}
+
+impl Certificate {
+    /// Whoever has compared the parent plan of a dry run says so.
+    pub fn set_parent_compared(&mut self) {
+        self.parent_compared = true;
+        self.headline = headline(self);
+    }
+
+    /// What a verdict that passes must not be read without: the requirements that the job waives, and the first case of each. Empty
+    /// where nothing is waived.
+    #[must_use]
+    pub fn but_for(&self) -> String {
+        but_for(self).map_or_else(String::new, |but_for| format!(" {but_for}"))
+    }
+
+    /// The same at the end of a verdict that fails, where "but for" would read as if the rest were kept.
+    fn and_waived(&self) -> String {
+        waived(self).map_or_else(String::new, |waived| format!("; waived by the job: {waived}"))
+    }
+
+    /// What there is to say of the verdict in a table: what is not kept, by name, else what is waived.
+    #[must_use]
+    pub fn reason(&self) -> Option<String> {
+        let broken: Vec<_> = self.broken().map(|check| check.requirement.words()).collect();
+        match (self.verdict, broken.is_empty()) {
+            (Verdict::Pass, _) => but_for(self),
+            (Verdict::Fail, true) => Some("the hash".to_owned()),
+            (Verdict::Fail, false) => Some(broken.join(", ")),
+        }
+    }
+}
+
+fn but_for(certificate: &Certificate) -> Option<String> {
+    waived(certificate).map(|waived| format!("BUT FOR {waived} (waived by the job)"))
+}
+
+fn waived(certificate: &Certificate) -> Option<String> {
+    let waived = certificate.checks.iter().filter(|check| check.status == Status::Waived);
+    let each: Vec<_> = waived.map(cases).collect();
+    (!each.is_empty()).then(|| each.join("; "))
+}
+
+/// A requirement with the first case against it, and how many more there are.
+fn cases(check: &Check) -> String {
+    let name = check.requirement.words();
+    let Some((first, others)) = check.discrepancies.split_first() else {
+        return name;
+    };
+    let first = format!("{name}, {} {}", first.what, first.stated);
+    match others.len() + check.more_discrepancies {
+        0 => first,
+        more => format!("{first} and {}", counted(more, "more case")),
+    }
+}
+
+/// Share of each plate that must be swept.
+const SWEPT: f64 = 0.995;
+
+/// Least clearance \[m\].
+const CLEARANCE_M: f64 = 0.01;
+
+/// Greatest angle of the tool from the plate's normal \[deg\].
+const TILT_DEG: f64 = 30.0;
+
+/// Greatest speed of the tip while it washes \[m/s\].
+const WASH_SPEED_M_S: f64 = 0.25;
+
+/// Greatest acceleration of the tip while it washes \[m/s²\].
+const WASH_ACCELERATION_M_S2: f64 = 4.0;
+
+/// Greatest speed with which the sponge lands on a plate and lifts off, where contact is required \[m/s\].
+const CONTACT_SPEED_M_S: f64 = 0.05;
+
+/// Least angle of joint 5 from 0 at a plate, where contact is required \[deg\].
+const WRIST_DEG: f64 = 3.0;
+
+/// What the contact must keep.
+const CONTACT: ContactRequirements = ContactRequirements {
+    compression_m: 0.001,
+    height_error_m: 0.001,
+    share: 0.995,
+    strain: 0.6,
+    force_n: [1.0, 40.0],
+    time_s: 0.05,
+    time_share: 0.98,
+    dose_pa_m: 25.0,
+    dose_share: 0.98,
+};
+
+/// A requirement with the value that is usual.
+struct Row {
+    name: &'static str,
+    required: f64,
+    usual: f64,
+    unit: &'static str,
+    /// Whether a greater value requires more.
+    more_is_stricter: bool,
+}
+
+impl Row {
+    fn at_least(name: &'static str, required: f64, usual: f64, unit: &'static str) -> Self {
+        let more_is_stricter = true;
+        Self {
+            name,
+            required,
+            usual,
+            unit,
+            more_is_stricter,
+        }
+    }
+
+    fn at_most(name: &'static str, required: f64, usual: f64, unit: &'static str) -> Self {
+        Self {
+            more_is_stricter: false,
+            ..Self::at_least(name, required, usual, unit)
+        }
+    }
+
+    /// Whether less is required than usual. Nine digits are compared: degrees are stated, radians are stored.
+    fn is_laxer(&self) -> bool {
+        let slack = 1e-9 * self.usual.abs();
+        if self.more_is_stricter {
+            self.required < self.usual - slack
+        } else {
+            self.required > self.usual + slack
+        }
+    }
+
+    fn words(&self) -> String {
+        let side = if self.more_is_stricter { "" } else { "up to " };
+        let Self { name, unit, .. } = self;
+        format!(
+            "{name} {side}{}{unit} (usual {}{unit})",
+            number(self.required),
+            number(self.usual)
+        )
+    }
+}
+
+/// The requirements of a job that are laxer than usual.
+pub(crate) fn laxer_requirements(wanted: &Requirements) -> Vec<String> {
+    let mut rows = vec![
+        Row::at_least("swept", 100.0 * wanted.coverage, 100.0 * SWEPT, " %"),
+        Row::at_least("clearance", 1e3 * wanted.clearance_m, 1e3 * CLEARANCE_M, " mm"),
+        Row::at_most("tilt", wanted.tilt_rad.to_degrees(), TILT_DEG, "°"),
+        Row::at_most("wash speed", wanted.wash_speed_m_s, WASH_SPEED_M_S, " m/s"),
+        Row::at_most(
+            "wash acceleration",
+            wanted.wash_acceleration_m_s2,
+            WASH_ACCELERATION_M_S2,
+            " m/s²",
+        ),
+    ];
+    if let Some(contact) = &wanted.contact {
+        let speed = |stated: Option<f64>| stated.unwrap_or(wanted.wash_speed_m_s);
+        let [least_n, most_n] = contact.force_n;
+        rows.extend([
+            Row::at_least("pressed", 100.0 * contact.share, 100.0 * CONTACT.share, " %"),
+            Row::at_least(
+                "compression",
+                1e3 * contact.compression_m,
+                1e3 * CONTACT.compression_m,
+                " mm",
+            ),
+            Row::at_least(
+                "error of height",
+                1e3 * contact.height_error_m,
+                1e3 * CONTACT.height_error_m,
+                " mm",
+            ),
+            Row::at_least("contact time", contact.time_s, CONTACT.time_s, " s"),
+            Row::at_least(
+                "contact time on",
+                100.0 * contact.time_share,
+                100.0 * CONTACT.time_share,
+                " %",
+            ),
+            Row::at_least("contact dose", contact.dose_pa_m, CONTACT.dose_pa_m, " Pa·m"),
+            Row::at_least(
+                "contact dose on",
+                100.0 * contact.dose_share,
+                100.0 * CONTACT.dose_share,
+                " %",
+            ),
+            Row::at_most("strain", 100.0 * contact.strain, 100.0 * CONTACT.strain, " %"),
+            Row::at_least("contact force", least_n, CONTACT.force_n[0], " N"),
+            Row::at_most("contact force", most_n, CONTACT.force_n[1], " N"),
+            Row::at_most("landing speed", speed(wanted.landing_m_s), CONTACT_SPEED_M_S, " m/s"),
+            Row::at_most("lifting speed", speed(wanted.lifting_m_s), CONTACT_SPEED_M_S, " m/s"),
+            Row::at_least(
+                "joint 5 from 0",
+                wanted.wrist_rad.unwrap_or(0.0).to_degrees(),
+                WRIST_DEG,
+                "°",
+            ),
+        ]);
+    }
+    rows.iter().filter(|row| row.is_laxer()).map(Row::words).collect()
+}

@@ -1,0 +1,19 @@
+//! The certificate and its texts.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | what is required | `requirement` |
+//! | what came of one requirement | `check` |
+//! | all of it; places in the world frame | `certificate` |
+//! | the first line, with what is laxer than usual | `headline` |
+//! | the table | `table` |
+//! | what the verdict rests on | `rests_on` |
+//! | numbers and plates in words | `words` |
+
+pub(crate) mod certificate;
+pub(crate) mod check;
+pub(crate) mod headline;
+pub(crate) mod requirement;
+pub(crate) mod rests_on;
+pub(crate) mod table;
+pub(crate) mod words;

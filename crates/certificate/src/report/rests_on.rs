@@ -1,0 +1,484 @@
+//! What a verdict rests on: the job that the motion was judged for, what was not judged, and what is assumed.
+
+use crate::clearance::exclusions::Exclusions;
+use crate::report::words::{list, mm, number, plates};
+use nalgebra::{Point3, Vector3};
+use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::trig::atan2;
+use platewash_kinematics::{JointVector, Pose, RobotModel};
+use platewash_workcell::dry_run::DryRun;
+use platewash_workcell::job::{JobTerms, Limits, Overlap, Requirements};
+use platewash_workcell::plate::Plate;
+use platewash_workcell::tool::{Sponge, Tool};
+use platewash_workcell::words::{counted, printable, quoted};
+use platewash_workcell::workcell::{ArmId, Exclusion, ExclusionReason, Obstacle, ObstacleShape, Workcell};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Digits of a hash that are told.
+const HASH_DIGITS: usize = 12;
+
+/// What is assumed, whatever the job.
+const ASSUMPTIONS: [&str; 3] = [
+    "the arm matches its description and follows the planned motion exactly",
+    "the joints and the tip reach the stated accelerations; no published values are known",
+    "the collision shapes enclose the arm, the tool and the obstacles",
+];
+
+/// What is assumed of flat plates, and of others.
+const FLAT: &str = "plates are rigid, flat and round, and lie where the job says";
+const CURVED: &str = "plates are rigid and round, have the stated profiles, and lie where the job says";
+
+/// What is told of contact where nothing is promised of it.
+const NOT_ASKED: &str = "not required: a point counts as swept where the sponge's face touches it, pressed or not";
+
+/// What is assumed of the sponge where nothing is promised of contact; of a face that is no disc; and where contact is promised.
+const WHOLE_FACE: &str = "the sponge is round and soft, so that its whole face touches; its compression is not judged";
+const TOUCHES: &str = "the sponge is round and a bed of independent columns: it touches where its free face would reach into the plate; its \
+                       compression is not judged";
+const FOUNDATION: &str = "the sponge is round and each column of it presses with stiffness × strain; its stiffness lies in the stated range, \
+                          which nobody measured";
+
+/// Of what is promised of contact besides: where a plate may lie.
+const ERROR_OF_HEIGHT: &str = "contact, landing and lifting hold for plates too high or too low by up to the stated height error; everything else, \
+                               clearance too, at the stated height";
+
+/// What is assumed of a dry run besides.
+const PARENT: &str =
+    "the dry run tries out the plan with the stated hash; checking that takes that plan (verify --parent)";
+
+/// What a verdict rests on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RestsOn {
+    /// Mount, tool and obstacles; its arm is the one that the motion was judged for, and the pairs that it leaves out are those that
+    /// were not judged.
+    pub workcell: Workcell,
+    /// The plates.
+    pub plates: Vec<Plate>,
+    /// What the washing must keep.
+    pub requirements: Requirements,
+    /// What joints and tip must not exceed, beyond the limits of the arm's description.
+    pub limits: Limits,
+    /// Joint positions at the start and at the end \[rad\].
+    pub home_rad: [JointVector; 2],
+    /// Pairs that the job alone leaves out: judged, and waived where they do not keep clear.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub waived_pairs: Vec<Exclusion>,
+    /// That the job is a dry run of another plan, which is stated and not judged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dry_run: Option<DryRun>,
+    /// What is assumed, in words.
+    pub assumptions: Vec<String>,
+}
+
+impl RestsOn {
+    pub(crate) fn new(job: &JobTerms, arm: &RobotModel, exclusions: Exclusions) -> Self {
+        Self {
+            workcell: Workcell {
+                arm: ArmId::of(arm),
+                exclusions: exclusions.own,
+                ..job.workcell.clone()
+            },
+            plates: job.plates.clone(),
+            requirements: job.requirements,
+            limits: job.limits,
+            home_rad: job.home_rad,
+            waived_pairs: exclusions.waived,
+            assumptions: assumptions(job)
+                .into_iter()
+                .map(str::to_owned)
+                .chain(unchecked(arm))
+                .collect(),
+            dry_run: job.dry_run.clone(),
+        }
+    }
+}
+
+/// What is assumed of a job.
+fn assumptions(job: &JobTerms) -> Vec<&'static str> {
+    let flat = job.plates.iter().all(|plate| plate.surface.is_flat());
+    let mut all = Vec::from(ASSUMPTIONS);
+    all.push(if flat { FLAT } else { CURVED });
+    all.push(match (&job.requirements.contact, flat) {
+        (Some(_), _) => FOUNDATION,
+        (None, true) => WHOLE_FACE,
+        (None, false) => TOUCHES,
+    });
+    all.extend(job.requirements.contact.map(|_| ERROR_OF_HEIGHT));
+    all.extend(job.dry_run.is_some().then_some(PARENT));
+    all
+}
+
+/// That links of the arm have no collision shapes, where some have none.
+fn unchecked(arm: &RobotModel) -> Option<String> {
+    let links: Vec<_> = arm.links_without_shapes().map(quoted).collect();
+    (!links.is_empty()).then(|| {
+        format!(
+            "links without collision shapes keep clear of everything; they were not checked: {}",
+            links.join(", ")
+        )
+    })
+}
+
+/// Greatest sine of the angle between the vertical and the normal of a half-space that counts as a floor.
+const LEVEL: f64 = 0.5;
+
+impl RestsOn {
+    /// What a first line ends with where the job states no floor; empty where it states one.
+    #[must_use]
+    pub fn without_floor(&self) -> &'static str {
+        match self.workcell.obstacles.iter().any(is_floor) {
+            true => "",
+            false => "; the job has no floor: nothing was checked against one",
+        }
+    }
+
+    /// What it says in words: a name and what belongs to it, a line each.
+    #[must_use]
+    pub fn lines(&self) -> Vec<(&'static str, String)> {
+        let dry_run = self.dry_run.iter().map(|dry_run| ("dry run", tried_out(dry_run)));
+        let mut lines: Vec<_> = dry_run.collect();
+        lines.extend([
+            ("arm", arm(&self.workcell)),
+            ("tool", tool(&self.workcell.tool)),
+            ("tool mount", tool_mount(&self.workcell.tool)),
+            ("sponge", sponge(&self.workcell.tool.sponge)),
+            ("plates", plates(&self.plates)),
+            ("obstacles", obstacles(&self.workcell.obstacles)),
+            ("home", homes(&self.home_rad)),
+            ("limits", limits(&self.limits)),
+            ("requirements", requirements(&self.requirements)),
+        ]);
+        lines.extend(
+            contact(&self.workcell.tool, &self.requirements, self.dry_run.as_ref()).map(|what| ("contact", what)),
+        );
+        lines.extend(self.assumptions.iter().map(|what| ("assumed", printable(what))));
+        lines.push(("not checked", left_out(&self.workcell.exclusions)));
+        if !self.waived_pairs.is_empty() {
+            let pairs = self.waived_pairs.iter().map(pair).collect::<Vec<_>>();
+            lines.push(("waived", format!("by the job: {}", pairs.join(", "))));
+        }
+        lines
+    }
+}
+
+impl fmt::Display for RestsOn {
+    /// Some compact lines; a name stands before the first of its lines.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "\nthe proof rests on")?;
+        let mut before = "";
+        for (name, what) in self.lines() {
+            let shown = if name == before { "" } else { name };
+            writeln!(f, "  {shown:<13} {what}")?;
+            before = name;
+        }
+        Ok(())
+    }
+}
+
+fn tried_out(dry_run: &DryRun) -> String {
+    format!(
+        "of the plan {}, its plates raised by {} mm; nothing is there, and nothing is washed",
+        printable(&dry_run.parent),
+        mm(dry_run.height_m)
+    )
+}
+
+fn arm(world: &Workcell) -> String {
+    let arm = &world.arm;
+    let short = |hash: &str| printable(&hash.chars().take(HASH_DIGITS).collect::<String>());
+    let srdf = arm.srdf_sha256.as_deref();
+    let srdf = srdf.map_or("without an SRDF".to_owned(), |hash| format!("SRDF {}", short(hash)));
+    let at = world.mount.translation.vector;
+    let place = if at == Vector3::zeros() {
+        "at the origin".to_owned()
+    } else {
+        format!("at ({}) m", list(at.iter().copied()))
+    };
+    format!(
+        "{}, description {}, {srdf}; mounted {place}{}",
+        quoted(&arm.name),
+        short(&arm.urdf_sha256),
+        turned(&world.mount)
+    )
+}
+
+fn tool_mount(tool: &Tool) -> String {
+    match &tool.mounted_on {
+        Some(link) => format!("on link {} along its z", quoted(link)),
+        None => "on tool0 along its z".to_owned(),
+    }
+}
+
+fn sponge(sponge: &Sponge) -> String {
+    format!(
+        "radius {} and height {} mm, compressed by {} mm (assumed), {}{}",
+        mm(sponge.radius_m),
+        mm(sponge.height_m),
+        mm(sponge.compression_m),
+        of_flange(&sponge.pose),
+        slanted(&sponge.pose)
+    )
+}
+
+fn tool(tool: &Tool) -> String {
+    let bodies = tool.bodies.iter().map(|body| {
+        let (name, shape) = (quoted(&body.name), shape(&body.shape));
+        format!("{name}, {shape} {}{}", of_flange(&body.pose), turned(&body.pose))
+    });
+    let mut parts: Vec<_> = bodies.collect();
+    if parts.is_empty() {
+        parts.push("no body".to_owned());
+    }
+    parts.push(format!("tip {}{}", of_flange(&tool.tip), slanted(&tool.tip)));
+    parts.join("; ")
+}
+
+fn of_flange(pose: &Pose) -> String {
+    let at = pose.translation.vector;
+    format!("at ({}) mm of the flange", list(at.iter().map(|v| 1e3 * v)))
+}
+
+/// The direction of a z axis that is not along the z of what it is told in.
+fn slanted(pose: &Pose) -> String {
+    let axis = pose.rotation * Vector3::z();
+    if axis.xy() == Vector3::zeros().xy() && axis.z > 0.0 {
+        return String::new();
+    }
+    format!(", along ({})", list(axis.iter().copied()))
+}
+
+/// A rotation, where there is any.
+fn turned(pose: &Pose) -> String {
+    let [x, y, z, w] = pose.rotation.quaternion().coords.into();
+    let along = Vector3::new(x, y, z);
+    if along == Vector3::zeros() {
+        return String::new();
+    }
+    // Scaled, so that the squares of the least rotation are not 0.
+    let most = along.amax();
+    let length = (along / most).norm();
+    let side = if w < 0.0 { -1.0 } else { 1.0 };
+    let axis = along / most / length * side;
+    let angle_rad = 2.0 * atan2(length * most, w.abs());
+    format!(
+        ", turned by {} ° about ({})",
+        number(angle_rad.to_degrees()),
+        list(axis.iter().copied())
+    )
+}
+
+fn shape(shape: &Shape) -> String {
+    match shape {
+        Shape::Box { half_m } => format!("a box of {} mm", list(half_m.iter().map(|v| 2e3 * v))),
+        Shape::Cylinder {
+            radius_m,
+            half_length_m,
+        } => format!(
+            "a cylinder of radius {} and length {} mm",
+            mm(*radius_m),
+            mm(2.0 * half_length_m)
+        ),
+        Shape::Sphere { radius_m } => format!("a sphere of radius {} mm", mm(*radius_m)),
+        Shape::Capsule {
+            radius_m,
+            half_length_m,
+        } => format!(
+            "a capsule of radius {} and length {} mm",
+            mm(*radius_m),
+            mm(2.0 * (half_length_m + radius_m))
+        ),
+        Shape::Hull { points } => format!("the hull of {}, {} mm,", counted(points.len(), "point"), bounds(points)),
+    }
+}
+
+/// How far points extend along each axis, in millimetres.
+fn bounds(points: &[Point3<f64>]) -> String {
+    let along = |(axis, name): (usize, &str)| {
+        let least = points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
+        let most = points.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
+        format!("{name} from {} to {}", mm(least), mm(most))
+    };
+    ["x", "y", "z"]
+        .into_iter()
+        .enumerate()
+        .map(along)
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
+fn obstacles(obstacles: &[Obstacle]) -> String {
+    let one = |obstacle: &Obstacle| {
+        let at = || {
+            let at = list(obstacle.pose.translation.vector.iter().copied());
+            format!("at ({at}) m{}", turned(&obstacle.pose))
+        };
+        let body = match &obstacle.shape {
+            ObstacleShape::HalfSpace => beyond(&obstacle.pose),
+            ObstacleShape::Convex(solid) => format!("{} {}", shape(solid), at()),
+            ObstacleShape::Parts(hulls) => {
+                let (count, points) = (counted(hulls.len(), "hull"), hulls.concat());
+                let together = counted(points.len(), "point");
+                format!("{count} of {together} together, {} mm, {}", bounds(&points), at())
+            }
+        };
+        format!(
+            "{}, {body}{}{}",
+            quoted(&obstacle.name),
+            grown(obstacle.margin_m),
+            holding(&obstacle.holds_plates)
+        )
+    };
+    let mut parts: Vec<_> = obstacles.iter().map(one).collect();
+    if !obstacles.iter().any(is_floor) {
+        parts.insert(0, "no floor".to_owned());
+    }
+    if obstacles.is_empty() {
+        parts.insert(0, "none".to_owned());
+    }
+    parts.join("; ")
+}
+
+/// Whether an obstacle is all below a plane that faces up, no matter how high: a ceiling or a wall is no floor.
+fn is_floor(obstacle: &Obstacle) -> bool {
+    let up = obstacle.pose.rotation * Vector3::z();
+    obstacle.shape == ObstacleShape::HalfSpace && up.z > 0.0 && up.xy().norm() <= LEVEL
+}
+
+/// That an obstacle is grown, where it is.
+fn grown(margin_m: f64) -> String {
+    if margin_m == 0.0 {
+        return String::new();
+    }
+    format!(", grown by {} mm", mm(margin_m))
+}
+
+/// Which plates an obstacle holds, where it does.
+fn holding(plates: &[usize]) -> String {
+    match plates {
+        [] => String::new(),
+        [plate] => format!(", holding plate {plate}"),
+        plates => format!(", holding plates {}", list(plates.iter().map(|plate| *plate as f64))),
+    }
+}
+
+/// The half-space z ≤ 0 of a pose.
+fn beyond(pose: &Pose) -> String {
+    let (at, up) = (pose.translation.vector, pose.rotation * Vector3::z());
+    if up == Vector3::z() && at.z == 0.0 {
+        return "all below 0".to_owned();
+    }
+    if up == Vector3::z() {
+        return format!("all below {} m", number(at.z));
+    }
+    format!(
+        "all behind the plane through ({}) m that faces ({})",
+        list(at.iter().copied()),
+        list(up.iter().copied())
+    )
+}
+
+fn homes([start, end]: &[JointVector; 2]) -> String {
+    let degrees = |q: &JointVector| list(q.iter().map(|v| v.to_degrees()));
+    if start == end {
+        return format!("{} ° at the start and at the end", degrees(start));
+    }
+    format!("{} ° at the start, {} ° at the end", degrees(start), degrees(end))
+}
+
+fn limits(limits: &Limits) -> String {
+    format!(
+        "joint positions and speeds from the description; joint accelerations {} rad/s² (assumed); tip {} m/s, {} m/s² (assumed)",
+        list(limits.joint_acceleration_rad_s2),
+        number(limits.tip_speed_m_s),
+        number(limits.tip_acceleration_m_s2)
+    )
+}
+
+fn requirements(wanted: &Requirements) -> String {
+    let overlap = match wanted.overlap {
+        Overlap::Report => "overlapping plates reported",
+        Overlap::Fail => "no overlapping plates",
+    };
+    let order = if wanted.as_listed { "as listed" } else { "in any order" };
+    format!(
+        "swept {} %, clearance {} mm, tilt {} °, washing at most {} m/s and {} m/s², {overlap}, {order}",
+        number(100.0 * wanted.coverage),
+        mm(wanted.clearance_m),
+        number(wanted.tilt_rad.to_degrees()),
+        number(wanted.wash_speed_m_s),
+        number(wanted.wash_acceleration_m_s2)
+    )
+}
+
+/// What contact means, and what is asked of it. Where nothing is, that is said, but of a dry run, which washes nothing.
+fn contact(tool: &Tool, wanted: &Requirements, dry_run: Option<&DryRun>) -> Option<String> {
+    let speed = |what: &str, limit: Option<f64>| limit.map(|limit| format!("{what} at most {} m/s", number(limit)));
+    let wrist = wanted.wrist_rad.map(|wrist| {
+        let kept = number(wrist.to_degrees());
+        format!("joint 5 stays at least {kept} ° from 0, on one side at every plate")
+    });
+    let promise = wanted.contact.map(|contact| {
+        let [least, most] = tool.sponge.stiffness_pa.unwrap_or_default();
+        let [softest_n, stiffest_n] = contact.force_n;
+        format!(
+            "a point is in contact where the sponge is compressed by {} mm or more, with the plate up to {} mm too high or too low and a \
+             stiffness from {} to {} kPa (assumed); in contact {} % of the face, for {} s or more {} %, with a dose of {} Pa·m or more {} %; \
+             strain at most {} %, force along the sponge's axis {} to {} N",
+            mm(contact.compression_m),
+            mm(contact.height_error_m),
+            number(1e-3 * least),
+            number(1e-3 * most),
+            number(100.0 * contact.share),
+            number(contact.time_s),
+            number(100.0 * contact.time_share),
+            number(contact.dose_pa_m),
+            number(100.0 * contact.dose_share),
+            number(100.0 * contact.strain),
+            number(softest_n),
+            number(stiffest_n)
+        )
+    });
+    let parts = [
+        promise.or_else(|| dry_run.is_none().then(|| NOT_ASKED.to_owned())),
+        speed("the free sponge lands with", wanted.landing_m_s),
+        speed("it lifts off with", wanted.lifting_m_s),
+        wrist,
+    ];
+    let told: Vec<_> = parts.into_iter().flatten().collect();
+    (!told.is_empty()).then(|| told.join("; "))
+}
+
+/// Pairs by the reason why they are left out.
+fn left_out(pairs: &[Exclusion]) -> String {
+    let reasons = [
+        (ExclusionReason::Srdf, "disabled by the SRDF"),
+        (ExclusionReason::Neighbours, "neighbours"),
+        (ExclusionReason::AlwaysTouching, "always touching"),
+        (ExclusionReason::CarriesTool, "carries the tool"),
+        (ExclusionReason::NeitherMoves, "neither moves"),
+        (ExclusionReason::KeepsItsHeight, "stays at its height"),
+    ];
+    let of = |reason| {
+        pairs
+            .iter()
+            .filter(move |e| e.reason == reason)
+            .map(pair)
+            .collect::<Vec<_>>()
+    };
+    let said = reasons.map(|(reason, words)| (of(reason), words));
+    let said = said.into_iter().filter(|(pairs, _)| !pairs.is_empty());
+    let said: Vec<_> = said
+        .map(|(pairs, words)| format!("{words}: {}", pairs.join(", ")))
+        .collect();
+    if said.is_empty() {
+        "no pair".to_owned()
+    } else {
+        said.join("; ")
+    }
+}
+
+fn pair(exclusion: &Exclusion) -> String {
+    let [a, b] = exclusion.pair.each_ref().map(|name| quoted(name));
+    format!("{a} – {b}")
+}

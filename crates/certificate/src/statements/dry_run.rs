@@ -1,0 +1,88 @@
+//! A dry run is what it says: its plates are raised, and the real ones stand below them as obstacles.
+//!
+//! The real plates are checked as those of a washing are: they reach into no floor, no obstacle, each other or the base. That they are kept
+//! clear of is the clearance's to prove, as of any obstacle. Which plan the dry run is one of is stated, and not judged: that takes the
+//! other plan.
+
+use crate::report::check::{Check, Discrepancy};
+use crate::report::requirement::Requirement;
+use crate::statements::plates;
+use crate::subject::Subject;
+use crate::washing::face::PLACE_M;
+use nalgebra::Vector3;
+use platewash_workcell::clearance::ClearanceError;
+use platewash_workcell::dry_run::DryRun;
+use platewash_workcell::job::JobTerms;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::words::millimetres;
+use platewash_workcell::workcell::Obstacle;
+
+/// Every plate of a dry run has its real one below it, and the real ones are where plates can be; `None` where the job is no dry run.
+///
+/// # Errors
+/// [`ClearanceError`] for a shape that is none.
+pub(crate) fn check(subject: &Subject<'_>) -> Result<Option<Check>, ClearanceError> {
+    let Some(dry_run) = &subject.job.dry_run else {
+        return Ok(None);
+    };
+    let obstacles = &subject.job.workcell.obstacles;
+    let plates = subject.plates().iter().enumerate();
+    let mut wrong: Vec<_> = plates
+        .filter_map(|(i, plate)| missing(dry_run, obstacles, i, plate))
+        .collect();
+    if !dry_run.names_a_hash() {
+        let stated = format!("{:?}", dry_run.parent);
+        wrong.push(Discrepancy::new("dry_run.parent", stated, "the hash of a plan"));
+    }
+    wrong.extend(misplaced(subject, dry_run)?);
+    Ok(Some(Check::stated(Requirement::DryRun, wrong)))
+}
+
+/// Where real plates cannot be: in the floor, in an obstacle, in each other or in the base.
+fn misplaced(subject: &Subject<'_>, dry_run: &DryRun) -> Result<Vec<Discrepancy>, ClearanceError> {
+    let job = subject.job;
+    let plates: Vec<_> = job.plates.iter().map(|plate| dry_run.lowered(plate)).collect();
+    let mut workcell = job.workcell.clone();
+    let real_names: Vec<_> = (0..plates.len()).map(DryRun::real_name).collect();
+    workcell
+        .obstacles
+        .retain(|obstacle| !real_names.contains(&obstacle.name));
+    let washing = JobTerms {
+        workcell,
+        plates,
+        dry_run: None,
+        ..job.clone()
+    };
+    let washing = Subject::new(&washing, subject.robot, Vec::new());
+    let checks = [plates::plates(&washing), plates::check(&washing)?];
+    let broken = checks.into_iter().filter(|check| !check.status.is_kept());
+    let of_real = |wrong: Discrepancy| Discrepancy {
+        what: format!("real plates: {}", wrong.what),
+        ..wrong
+    };
+    Ok(broken.flat_map(|check| check.discrepancies).map(of_real).collect())
+}
+
+/// What is wrong with the real plate below a raised one.
+fn missing(dry_run: &DryRun, obstacles: &[Obstacle], index: usize, plate: &Plate) -> Option<Discrepancy> {
+    let name = DryRun::real_name(index);
+    let expected = DryRun::standing(index, &dry_run.lowered(plate));
+    let below = millimetres(dry_run.height_m);
+    let Some(found) = obstacles.iter().find(|obstacle| obstacle.name == name) else {
+        let words = format!("plate {index} itself, {below} below where it is raised to");
+        return Some(Discrepancy::new(format!("obstacle {name:?}"), "not stated", words));
+    };
+    let off_m = (found.pose.translation.vector - expected.pose.translation.vector).norm();
+    let axis = found.pose.rotation * Vector3::z();
+    let turned = (axis - plate.axis()).norm();
+    if found.shape == expected.shape && off_m <= PLACE_M && turned <= PLACE_M {
+        return None;
+    }
+    let stated = format!(
+        "{} from it, turned by {turned:.3} rad, {:?}",
+        millimetres(off_m),
+        found.shape
+    );
+    let words = format!("plate {index}, {below} lower, {:?}", expected.shape);
+    Some(Discrepancy::new(format!("obstacle {name:?}"), stated, words))
+}

@@ -1,0 +1,165 @@
+//! What the plan states about its arm, its tool, its plates and their order, compared with what must be so.
+//!
+//! Plates keep apart from each other and from the base, obstacles from both.
+
+use crate::report::check::{Check, Discrepancy};
+use crate::report::requirement::Requirement;
+use crate::subject::Subject;
+use crate::washing::face::PLACE_M;
+use crate::washing::reach;
+use nalgebra::Vector3;
+use platewash_kinematics::Pose;
+use platewash_workcell::clearance::{ClearanceError, Standing};
+use platewash_workcell::job::{Overlap, PlateOverlap};
+use platewash_workcell::plan::Plan;
+use platewash_workcell::words::{millimetres, printable};
+use platewash_workcell::workcell::{ArmId, ObstacleShape};
+
+/// The plan is for this arm.
+pub(crate) fn arm(subject: &Subject<'_>) -> Check {
+    let (stated, given) = (&subject.job.workcell.arm, ArmId::of(subject.robot));
+    let srdf = |id: &ArmId| id.srdf_sha256.as_ref().map_or("none".to_owned(), |hash| quoted(hash));
+    let fields = [
+        ("name", quoted(&stated.name), quoted(&given.name)),
+        ("urdf_sha256", quoted(&stated.urdf_sha256), quoted(&given.urdf_sha256)),
+        ("srdf_sha256", srdf(stated), srdf(&given)),
+    ];
+    let wrong = fields.into_iter().filter(|(_, stated, given)| stated != given);
+    let wrong =
+        wrong.map(|(field, stated, given)| Discrepancy::new(format!("job.workcell.arm.{field}"), stated, given));
+    Check::stated(Requirement::Arm, wrong.collect())
+}
+
+/// The tip is the middle of the sponge's far face, and z leaves the tool there: what is proved of the tip tells of the sponge. All of the
+/// sponge is foam: no body reaches into it. Without
+/// bodies there is no tool that could touch anything, and the tip is the arm's own.
+pub(crate) fn tool(subject: &Subject<'_>) -> Check {
+    let tool = &subject.job.workcell.tool;
+    let face = tool.sponge.pose * Pose::translation(0.0, 0.0, tool.sponge.height_m / 2.0);
+    let mut wrong = off(&face, &tool.tip, "the middle of the sponge's far face");
+    if !tool.is_present() {
+        wrong.extend(off(
+            &Pose::identity(),
+            &tool.tip,
+            "the mounting frame, as the tool has no body",
+        ));
+    }
+    wrong.extend(tool.in_sponge().map(|(body, by_m)| {
+        let what = format!("end of the body {} of the tool", quoted(&body.name));
+        let found = format!("{} within the sponge", millimetres(by_m));
+        Discrepancy::new(what, found, "behind the sponge, all of which counts as foam")
+    }));
+    Check::stated(Requirement::Tool, wrong)
+}
+
+/// A tip that is not where it should be, or points elsewhere. NaN is nowhere.
+fn off(expected: &Pose, tip: &Pose, words: &str) -> Vec<Discrepancy> {
+    let off_m = (tip.translation.vector - expected.translation.vector).norm();
+    let turned = (tip.rotation * Vector3::z() - expected.rotation * Vector3::z()).norm();
+    if off_m <= PLACE_M && turned <= PLACE_M {
+        return Vec::new();
+    }
+    let found = format!("{} from it, its axis turned by {turned:.3} rad", millimetres(off_m));
+    vec![Discrepancy::new("tip of the tool", found, words)]
+}
+
+/// No plate reaches below the floor, or into another half-space.
+pub(crate) fn plates(subject: &Subject<'_>) -> Check {
+    let mut wrong = Vec::new();
+    for obstacle in &subject.job.workcell.obstacles {
+        if obstacle.shape != ObstacleShape::HalfSpace {
+            continue;
+        }
+        let up = obstacle.pose.rotation * Vector3::z();
+        let level_m = obstacle.pose.translation.vector.dot(&up);
+        for (i, plate) in subject.plates().iter().enumerate() {
+            let underside_m = -plate.reach_along_m(&-up) - level_m;
+            if underside_m < -PLACE_M {
+                let what = format!(
+                    "height of the underside of plate {i} over the {}",
+                    printable(&obstacle.name)
+                );
+                wrong.push(Discrepancy::new(what, millimetres(underside_m), "none below 0"));
+            }
+        }
+    }
+    Check::stated(Requirement::Plates, wrong)
+}
+
+/// Every plate is in the order once, and no more than its rim is swept while another one is washed. Plates that overlap are
+/// [`crate::statements::plates`]'s to judge: where that is only reported, so is what is swept twice.
+pub(crate) fn every_plate_once(subject: &Subject<'_>, plan: &Plan, upright_cosine: impl Fn(usize) -> f64) -> Check {
+    let mut wrong = washed_once(plan);
+    let swept = reach::swept(subject, upright_cosine);
+    wrong.extend(swept.apart);
+    if wrong.is_empty() && subject.job.requirements.overlap == Overlap::Report {
+        return Check::stated(Requirement::EveryPlateOnce, swept.overlapping).waived_if(true);
+    }
+    Check::stated(Requirement::EveryPlateOnce, wrong)
+}
+
+fn washed_once(plan: &Plan) -> Vec<Discrepancy> {
+    let mut washed = vec![0_usize; plan.job.plates.len()];
+    let mut wrong = Vec::new();
+    for (i, &plate) in plan.order.iter().enumerate() {
+        match washed.get_mut(plate) {
+            Some(times) => *times += 1,
+            None => wrong.push(Discrepancy::new(format!("order[{i}]"), plate, "the index of a plate")),
+        }
+        if plan.job.requirements.as_listed && plate != i {
+            let asked = format!("{i}, as plates are washed as they are listed");
+            wrong.push(Discrepancy::new(format!("order[{i}]"), plate, asked));
+        }
+    }
+    let times = washed.iter().enumerate().filter(|(_, times)| **times != 1);
+    wrong.extend(
+        times.map(|(plate, times)| Discrepancy::new(format!("order: times that plate {plate} is washed"), times, 1)),
+    );
+    wrong
+}
+
+/// Text from a file, with control characters written out.
+fn quoted(text: &str) -> String {
+    format!("{text:?}")
+}
+
+/// No two plates share a place, none that lies level lies over the base's footprint and no other one reaches into the base; findings alone where the job only wants to be told.
+/// No obstacle reaches into a plate that it does not hold, or into the base; of floors [`plates`] tells.
+///
+/// # Errors
+/// [`ClearanceError`] for a shape that is none.
+pub(crate) fn check(subject: &Subject<'_>) -> Result<Check, ClearanceError> {
+    let overlaps = subject.job.plate_overlaps(subject.robot);
+    let mut wrong: Vec<_> = overlaps.iter().map(discrepancy).collect();
+    let obstacles = &subject.job.workcell.obstacles;
+    let is_floor = |name: &str| {
+        obstacles
+            .iter()
+            .any(|o| o.name == name && o.shape == ObstacleShape::HalfSpace)
+    };
+    let mut reaching = subject.job.standing_overlaps(subject.robot)?;
+    reaching.retain(|found| match &found.standing {
+        Standing::Obstacle(name) => !(is_floor(name) && found.other.starts_with("plate ")),
+        Standing::Parts(_) | Standing::Plate(_) => true,
+    });
+    let reaches = !reaching.is_empty();
+    wrong.extend(reaching.into_iter().map(|found| {
+        let what = format!("how far {} reaches into {:?}", found.standing, found.other);
+        Discrepancy::new(
+            what,
+            millimetres(found.by_m),
+            "not at all, but for plates that it holds",
+        )
+    }));
+    // That plates overlap may be waived, that something stands in them is not.
+    let waives = subject.job.requirements.overlap == Overlap::Report && !reaches;
+    Ok(Check::stated(Requirement::PlatesApart, wrong).waived_if(waives))
+}
+
+fn discrepancy(overlap: &PlateOverlap) -> Discrepancy {
+    let other = overlap
+        .other
+        .map_or_else(|| "the base".to_owned(), |other| format!("plate {other}"));
+    let what = format!("gap between plate {} and {other}", overlap.plate);
+    Discrepancy::new(what, millimetres(-overlap.by_m), "none below 0")
+}

@@ -1,0 +1,91 @@
+//! The wash paths: one for each plate, in the order of washing, within the ranges that can be judged.
+//!
+//! How a plate is washed is the planner's choice. What a path does is judged by the coverage, the deviation of the tip and the reach of
+//! the sponge; what follows here is that it is a path at all.
+
+use crate::report::check::{Check, Discrepancy};
+use crate::report::requirement::Requirement;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_RINGS, MOST_TURNS, WashPath};
+use std::f64::consts::{PI, TAU};
+
+/// The greatest outer radius of a path, and the greatest lift \[m\].
+const GREATEST_M: f64 = 10.0;
+
+/// The shortest blend between two rings \[rad\].
+const LEAST_BLEND_RAD: f64 = 1e-3;
+
+/// A number of a path and the range in which it must be.
+struct Number {
+    name: &'static str,
+    found: f64,
+    range: [f64; 2],
+}
+
+impl Number {
+    fn is_within(&self) -> bool {
+        let [least, most] = self.range;
+        (least..=most).contains(&self.found)
+    }
+}
+
+/// The numbers of a path; what is swept grows with them, and so does the time that it takes to judge it.
+fn numbers(path: &WashPath, tilt_rad: f64) -> Vec<Number> {
+    let number = |name, found, range| Number { name, found, range };
+    let curve = &path.curve;
+    // A spiral of mean radius R/2, and a ring.
+    let length_m = PI * curve.radius_m * (curve.turns + 2.0);
+    let mut numbers = Vec::from([
+        number("curve.radius_m", curve.radius_m, [LEAST_RADIUS_M, GREATEST_M]),
+        number("curve.turns", curve.turns, [LEAST_TURNS, MOST_TURNS]),
+        number("curve.start_angle_rad", curve.start_angle_rad, [-TAU, TAU]),
+        number("length of the curve", length_m, [0.0, LONGEST_M]),
+        number("lift_m", path.lift_m, [f64::MIN_POSITIVE, GREATEST_M]),
+        number("cone_rad", path.cone_rad, [0.0, tilt_rad]),
+    ]);
+    if let Some(rings) = &curve.rings {
+        let count = rings.count as f64;
+        // No ring is longer than the outermost.
+        let length_m = TAU * curve.radius_m * (count + 1.0);
+        numbers.extend([
+            number("curve.rings.count", count, [2.0, MOST_RINGS as f64]),
+            number("curve.rings.inner_m", rings.inner_m, [0.0, curve.radius_m]),
+            number("curve.rings.lead_rad", rings.lead_rad, [0.0, TAU]),
+            number("curve.rings.blend_rad", rings.blend_rad, [LEAST_BLEND_RAD, TAU]),
+            number("length of the rings", length_m, [0.0, 2.0 * LONGEST_M]),
+        ]);
+    }
+    numbers
+}
+
+/// The wash path of each plate, where there is one that can be judged.
+pub(crate) fn by_plate(plan: &Plan) -> Vec<Option<WashPath>> {
+    let tilt_rad = plan.job.tilt_max_rad();
+    let is_sound = |path: &&WashPath| numbers(path, tilt_rad).iter().all(Number::is_within);
+    let of = |plate| plan.wash_path_of(plate).filter(is_sound).copied();
+    (0..plan.job.plates.len()).map(of).collect()
+}
+
+/// Every plate has its path.
+pub(crate) fn check(plan: &Plan) -> Check {
+    let mut wrong = Vec::new();
+    let (found, asked) = (plan.wash_paths.len(), plan.order.len());
+    if found != asked {
+        wrong.push(Discrepancy::new("number of wash_paths", found, asked));
+    }
+    for (i, (path, plate)) in plan.wash_paths.iter().zip(&plan.order).enumerate() {
+        if path.plate != *plate {
+            let expected = format!("{plate}, as order[{i}] says");
+            wrong.push(Discrepancy::new(format!("wash_paths[{i}].plate"), path.plate, expected));
+        }
+    }
+    let tilt_rad = plan.job.tilt_max_rad();
+    for (i, path) in plan.wash_paths.iter().enumerate() {
+        for number in numbers(path, tilt_rad).into_iter().filter(|number| !number.is_within()) {
+            let [least, most] = number.range;
+            let what = format!("wash_paths[{i}]: {}", number.name);
+            wrong.push(Discrepancy::new(what, number.found, format!("from {least} to {most}")));
+        }
+    }
+    Check::stated(Requirement::WashPaths, wrong)
+}

@@ -1,0 +1,322 @@
+//! Contact with a plate: what of it is pressed, for how long and how much, and how hard.
+
+use crate::error::ProveError;
+use crate::motion::piece::Piece;
+use crate::report::check::{Check, Measure, Sense, Unit, Worst};
+use crate::report::requirement::Requirement;
+use crate::statements::schedule::Schedule;
+use crate::subject::Subject;
+use crate::washing::instants::Instants;
+use crate::washing::pressing::{self, Extreme, FRICTION, Known, Pressing};
+use nalgebra::Vector3;
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::contact::{Fineness, Foundation, Share, Shares, Wanted, shares};
+use platewash_workcell::coverage::reaches;
+use platewash_workcell::job::ContactRequirements;
+use platewash_workcell::plate::Plate;
+use serde::{Deserialize, Serialize};
+
+/// Edges of the smallest cells, each where those before it do not suffice \[m\].
+pub(crate) const CELLS_M: [f64; 2] = [1e-3, 2.5e-4];
+
+/// The same for contact, time and dose, where all that is coarser does not suffice. What a place gets in passes that graze it changes fast
+/// from place to place.
+const SMALLEST_CELL_M: f64 = 6.25e-5;
+
+/// A share of a plate's face that is proved.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ProvedShare {
+    /// No less than this of the face, by its area, gets as much as `threshold` or more.
+    pub at_least: f64,
+    /// How much of the face must.
+    pub required: f64,
+    /// Compression \[m\], time in contact \[s\] or dose \[Pa·m\].
+    pub threshold: f64,
+    /// What the place that was seen to get least gets of it; `None` where all get enough.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worst: Option<f64>,
+    /// That place, world frame \[m\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worst_m: Option<[f64; 3]>,
+}
+
+/// A quantity through a wash, by what is proved and by what was seen.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ProvedExtreme {
+    /// It never gets beyond this; `None` where nothing is proved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound: Option<f64>,
+    /// As far it gets for certain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seen: Option<f64>,
+    /// When \[s\].
+    pub time_s: f64,
+    /// Where on the plate or, of a force, where the tip is then, world frame \[m\].
+    pub place_m: [f64; 3],
+}
+
+/// What is proved about the contact of the sponge with a plate from approach to retreat, wherever within the stated error of its height the
+/// plate lies and whatever within its stated range the sponge's stiffness is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PlateContact {
+    /// Index of the plate.
+    pub plate: usize,
+    /// Compressed by the least compression that counts, or more, at some moment.
+    pub pressed: ProvedShare,
+    /// In contact long enough.
+    pub time: ProvedShare,
+    /// With enough of a dose ∫ p dl in contact.
+    pub dose: ProvedShare,
+    /// The greatest strain of the sponge, from approach to retreat.
+    pub strain: ProvedExtreme,
+    /// The least force along the sponge's axis in the wash \[N\].
+    pub least_force_n: ProvedExtreme,
+    /// The greatest force along the sponge's axis, from approach to retreat \[N\].
+    pub greatest_force_n: ProvedExtreme,
+    /// The greatest torque of friction about the sponge's axis, with a friction of 0.3 and of 1.0, which are assumptions \[N·m\]; `None`
+    /// where nothing is proved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction_torque_nm: Option<[f64; 2]>,
+}
+
+impl PlateContact {
+    /// Whether as much of the face as required is pressed, is in contact long enough, and gets the dose.
+    pub(crate) fn is_enough(&self) -> bool {
+        [self.pressed, self.time, self.dose]
+            .iter()
+            .all(|share| reaches(share.at_least, share.required))
+    }
+
+    /// Every place that is told of.
+    pub(crate) fn places_mut(&mut self) -> impl Iterator<Item = &mut [f64; 3]> {
+        let shares = [&mut self.pressed, &mut self.time, &mut self.dose];
+        let extremes = [&mut self.strain, &mut self.least_force_n, &mut self.greatest_force_n];
+        let worst = shares.into_iter().filter_map(|share| share.worst_m.as_mut());
+        worst.chain(extremes.into_iter().map(|extreme| &mut extreme.place_m))
+    }
+}
+
+/// A wash that is judged for its contact.
+pub(crate) struct Pressed<'a> {
+    pub plate: &'a Plate,
+    pub index: usize,
+    pub foundation: &'a Foundation,
+    pub wanted: &'a ContactRequirements,
+    pub instants: &'a Instants,
+    /// Those with which the tip comes to the plate, and with which it leaves.
+    pub around: &'a [Instants],
+    /// What is known of it, as far as a disc is concerned.
+    pub known: Known,
+    /// Whether every line along the tool's axis meets the face once, from above.
+    pub meets: bool,
+    /// The same from approach to retreat.
+    pub around_meets: bool,
+    pub cancel: &'a CancelToken,
+}
+
+impl Pressed<'_> {
+    /// What is proved of it.
+    ///
+    /// # Errors
+    /// [`ProveError::Cancelled`].
+    pub fn judge(&self) -> Result<PlateContact, ProveError> {
+        let (wanted, foundation) = (self.wanted, self.foundation);
+        let mut pressing = if self.plate.surface.is_flat() {
+            Pressing::on_disc(self.plate, foundation, self.instants, &self.known)
+        } else if !self.meets {
+            Pressing::unknown()
+        } else {
+            pressing::on_face(self.plate, foundation, self.instants, wanted.height_error_m)
+        };
+        self.cancel.check()?;
+        // What is lost between moments is known as long as no column is compressed by more than its height.
+        let known = self.meets && pressing.deepest.bound <= foundation.free_height_m;
+        let found = known.then(|| self.shares());
+        for instants in self.around {
+            let around = self.around(instants, &pressing);
+            pressing.widen(&around);
+            self.cancel.check()?;
+        }
+        let share = |of: fn(&Shares) -> Share, required: f64, threshold: f64| {
+            let share = found.as_ref().map(of);
+            ProvedShare {
+                at_least: share.map_or(0.0, |share| share.at_least),
+                required,
+                threshold,
+                worst: share.and_then(|share| share.worst),
+                worst_m: share.and_then(|share| share.worst_m).map(|place| self.world(place)),
+            }
+        };
+        let [softest, stiffest] = foundation.stiffness_pa.map(|pa| pa / foundation.free_height_m);
+        let extreme = |of: &Extreme, scale: f64| {
+            let finite = |v: f64| Some(v * scale).filter(|v| v.is_finite());
+            ProvedExtreme {
+                bound: finite(of.bound),
+                seen: finite(of.seen),
+                time_s: of.time_s,
+                place_m: self.world(of.place_m),
+            }
+        };
+        let torque = FRICTION.map(|friction| friction * stiffest * pressing.twist_m4);
+        Ok(PlateContact {
+            plate: self.index,
+            pressed: share(|s| s.contact, wanted.share, wanted.compression_m),
+            time: share(|s| s.time, wanted.time_share, wanted.time_s),
+            dose: share(|s| s.dose, wanted.dose_share, wanted.dose_pa_m),
+            strain: extreme(&pressing.deepest, 1.0 / foundation.free_height_m),
+            least_force_n: extreme(&pressing.volume[0], softest),
+            greatest_force_n: extreme(&pressing.volume[1], stiffest),
+            friction_torque_nm: Some(torque).filter(|t| t.iter().all(|t| t.is_finite())),
+        })
+    }
+
+    /// How hard the sponge is pressed at most before or after the wash.
+    fn around(&self, instants: &Instants, wash: &Pressing) -> Pressing {
+        let (plate, foundation, error_m) = (self.plate, self.foundation, self.wanted.height_error_m);
+        if plate.surface.is_flat() {
+            Pressing::around_disc(plate, foundation, instants, error_m)
+        } else if self.around_meets {
+            pressing::around_face(plate, foundation, (instants, wash), error_m)
+        } else {
+            Pressing::unknown()
+        }
+    }
+
+    /// The shares, as finely as it takes to show that they suffice.
+    fn shares(&self) -> Shares {
+        let wanted = self.wanted;
+        let asked = Wanted {
+            compression_m: wanted.compression_m,
+            height_error_m: wanted.height_error_m,
+            time_s: wanted.time_s,
+            dose_pa_m: wanted.dose_pa_m,
+        };
+        let fineness = Fineness {
+            cell_m: SMALLEST_CELL_M,
+            enough: [wanted.share, wanted.time_share, wanted.dose_share],
+        };
+        let moments = (&self.instants.moments[..], &self.instants.sags[..]);
+        shares(&self.plate.surface, self.foundation, moments, &asked, &fineness)
+    }
+
+    fn world(&self, place: [f64; 3]) -> [f64; 3] {
+        self.plate.world(&Vector3::from(place)).into()
+    }
+}
+
+/// The requirements about contact, where the job has any.
+pub(crate) fn checks(
+    subject: &Subject<'_>,
+    (pieces, schedule): (&[Piece], Option<&Schedule>),
+    all: &[PlateContact],
+) -> Vec<Check> {
+    let Some(wanted) = &subject.job.requirements.contact else {
+        return Vec::new();
+    };
+    let asked = [
+        Requirement::Pressed,
+        Requirement::ContactTime,
+        Requirement::ContactDose,
+        Requirement::Strain,
+        Requirement::ContactForce,
+    ];
+    let all_washed = (0..subject.plates().len()).all(|plate| all.iter().any(|c| c.plate == plate));
+    if !all_washed {
+        return asked.map(Check::not_judged).into();
+    }
+    let share = |requirement, of: fn(&PlateContact) -> &ProvedShare| {
+        let least = all.iter().min_by(|a, b| of(a).at_least.total_cmp(&of(b).at_least));
+        least.map_or_else(
+            || Check::not_judged(requirement),
+            |worst| of_share(requirement, worst.plate, of(worst)),
+        )
+    };
+    let [least_n, most_n] = wanted.force_n;
+    let strain = (Requirement::Strain, wanted.strain, Sense::AtMost, Unit::Share);
+    let force = |limit, sense| (Requirement::ContactForce, limit, sense, Unit::Newton);
+    let extreme = |asked, of: fn(&PlateContact) -> &ProvedExtreme| of_extreme(asked, (pieces, schedule), all, of);
+    let (low, high) = (
+        extreme(force(least_n, Sense::AtLeast), |c| &c.least_force_n),
+        extreme(force(most_n, Sense::AtMost), |c| &c.greatest_force_n),
+    );
+    vec![
+        share(Requirement::Pressed, |c| &c.pressed),
+        share(Requirement::ContactTime, |c| &c.time),
+        share(Requirement::ContactDose, |c| &c.dose),
+        extreme(strain, |c| &c.strain),
+        tighter(low, high),
+    ]
+}
+
+fn of_share(requirement: Requirement, plate: usize, share: &ProvedShare) -> Check {
+    let measure = Measure {
+        bound: Some(share.at_least),
+        seen: None,
+        limit: share.required,
+        sense: Sense::AtLeast,
+        unit: Unit::Share,
+    };
+    let worst = Worst {
+        plate: Some(plate),
+        place_m: share.worst_m,
+        ..Worst::default()
+    };
+    Check::measured(requirement, measure, worst)
+}
+
+/// The requirement that an extreme keeps its limit on every plate: the plate where it comes nearest to it, or gets beyond.
+fn of_extreme(
+    (requirement, limit, sense, unit): (Requirement, f64, Sense, Unit),
+    (pieces, schedule): (&[Piece], Option<&Schedule>),
+    all: &[PlateContact],
+    of: impl Fn(&PlateContact) -> &ProvedExtreme,
+) -> Check {
+    // By how bad it is: what is not known is the worst.
+    let sign = if sense == Sense::AtLeast { -1.0 } else { 1.0 };
+    let badness = |c: &PlateContact| of(c).bound.map_or(f64::INFINITY, |bound| sign * bound);
+    let Some(worst) = all.iter().max_by(|a, b| badness(a).total_cmp(&badness(b))) else {
+        return Check::not_judged(requirement);
+    };
+    let seen = all
+        .iter()
+        .filter_map(|c| of(c).seen)
+        .max_by(|a, b| (sign * a).total_cmp(&(sign * b)));
+    let measure = Measure {
+        bound: of(worst).bound,
+        seen,
+        limit,
+        sense,
+        unit,
+    };
+    let segment = schedule.and_then(|s| s.at_plate(pieces, (worst.plate, of(worst).time_s)));
+    let place = Worst {
+        plate: Some(worst.plate),
+        time_s: Some(of(worst).time_s),
+        place_m: Some(of(worst).place_m),
+        segment,
+        ..Worst::default()
+    };
+    Check::measured(requirement, measure, place)
+}
+
+/// Of two sides of a requirement the one that is not kept, or the one with less to spare as a part of its limit.
+pub(crate) fn tighter(a: Check, b: Check) -> Check {
+    let spare = |check: &Check| {
+        let Some(Measure {
+            bound: Some(bound),
+            limit,
+            ..
+        }) = check.measure
+        else {
+            return f64::NEG_INFINITY;
+        };
+        // A limit of 0 is kept with everything to spare.
+        (bound - limit).abs() / limit.abs().max(f64::MIN_POSITIVE)
+    };
+    match (a.status.is_kept(), b.status.is_kept()) {
+        (false, true) => a,
+        (true, false) => b,
+        _ if spare(&a) <= spare(&b) => a,
+        _ => b,
+    }
+}

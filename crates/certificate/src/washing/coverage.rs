@@ -1,0 +1,352 @@
+//! How much of a plate the sponge sweeps, at least: of a disc by its face, of other faces by what of it touches.
+//!
+//! Tilted by τ, the sponge's face lies over a disc of radius s cos τ about the tip. Between neighbours of a polyline of
+//! moments the tip leaves the chord by at most h²/8 · sup ‖p̈‖; less the greatest of these, the disc sweeps at least what it
+//! would along the polyline.
+//!
+//! Moments of the tip, seen along the axis of a plate, as a polyline that the tip never leaves by much.
+
+use crate::error::ProveError;
+use crate::motion::piece::Piece;
+use crate::motion::tip::{Arm, Stretch};
+use crate::motion::tip_limits::Tips;
+use crate::report::check::{Check, Measure, Sense, Unit, Worst};
+use crate::report::requirement::Requirement;
+use crate::statements::schedule::Schedule;
+use crate::subject::Subject;
+use crate::washing::contact::{CELLS_M, PlateContact, Pressed};
+use crate::washing::face::{Face, norm};
+use crate::washing::instants::Instants;
+use crate::washing::pressing::Known;
+use crate::washing::reach::Touched;
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::contact::{Fineness, Foundation, Wanted, shares};
+use platewash_workcell::coverage::{CoverageSettings, coverage};
+use platewash_workcell::job::PATH_TOLERANCE_M;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::segment::SegmentKind;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// The swept share of a plate.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlateCoverage {
+    /// Index of the plate.
+    pub plate: usize,
+    /// What is proved: no smaller share is swept.
+    pub at_least: f64,
+    /// No greater share is swept; `None` where it was not needed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_most: Option<f64>,
+    /// Least cos τ while washing, proved.
+    pub cos_tilt: f64,
+    /// How far the sponge reaches beyond the rim at the height of the plate's face while it comes down, washes and leaves, at most,
+    /// negative where it stays within it \[m\]; `None` where nothing is proved.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beyond_rim_m: Option<f64>,
+    /// How far a sponge that is tilted as much would reach where the tip was seen \[m\].
+    pub beyond_rim_seen_m: f64,
+    /// How far it may reach \[m\].
+    pub beyond_rim_allowed_m: f64,
+    /// The neighbours that it may touch there.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub touches: Vec<Touched>,
+}
+
+/// What came of one wash.
+#[derive(Debug)]
+pub(crate) struct Wash {
+    /// Index of its span.
+    pub span: usize,
+    /// The tip is never farther from the plate's pole, seen along its axis \[m\].
+    pub tip_m: f64,
+    /// How far it was seen to be \[m\].
+    pub seen_m: f64,
+    pub swept: PlateCoverage,
+    /// What is proved of contact, where the job asks for it.
+    pub contact: Option<PlateContact>,
+}
+
+/// Coverage of every plate that is washed, and contact with it where the job asks for that.
+///
+/// # Errors
+/// [`ProveError::Coverage`] for lengths that make no sense, [`ProveError::Cancelled`].
+pub(crate) fn washes(
+    arm: &Arm<'_>,
+    subject: &Subject<'_>,
+    (pieces, schedule): (&[Piece], &Schedule),
+    tips: &Tips,
+    cancel: &CancelToken,
+) -> Result<Vec<Wash>, ProveError> {
+    let spans = schedule.spans.par_iter().enumerate();
+    let washed = spans.filter_map(|(index, span)| {
+        let plate = subject.plates().get(span.plate)?;
+        (span.kind == SegmentKind::Wash).then_some(Washing {
+            arm,
+            subject,
+            pieces: &pieces[span.pieces.clone()],
+            around: schedule
+                .around(span.plate)
+                .map(|span| &pieces[span.pieces.clone()])
+                .collect(),
+            around_cosine: tips.least_upright_cosine_at(schedule, span.plate),
+            span: index,
+            plate,
+            index: span.plate,
+            tips,
+            cancel,
+        })
+    });
+    washed.map(|washing| washing.judge()).collect()
+}
+
+/// A wash that is judged.
+struct Washing<'a> {
+    arm: &'a Arm<'a>,
+    subject: &'a Subject<'a>,
+    pieces: &'a [Piece],
+    /// Those with which the tip comes to the plate, and with which it leaves.
+    around: Vec<&'a [Piece]>,
+    /// The cosine of the angle between the tool and the plate's axis is never below this from approach to retreat.
+    around_cosine: f64,
+    span: usize,
+    plate: &'a Plate,
+    /// Index of the plate.
+    index: usize,
+    tips: &'a Tips,
+    cancel: &'a CancelToken,
+}
+
+impl Washing<'_> {
+    fn judge(&self) -> Result<Wash, ProveError> {
+        let subject = self.subject;
+        let within_m = subject.path_radius_m(self.index).unwrap_or(0.0) + PATH_TOLERANCE_M;
+        let line = Polyline::new(self.arm, self.pieces, &Face::of(self.plate), within_m, MOST_HALVINGS);
+        let contact = self.contact(&line)?;
+        let mut swept = PlateCoverage {
+            plate: self.index,
+            at_least: 0.0,
+            at_most: None,
+            cos_tilt: self.tips.least_cosine_of(self.span),
+            beyond_rim_m: None,
+            beyond_rim_seen_m: 0.0,
+            beyond_rim_allowed_m: 0.0,
+            touches: Vec::new(),
+        };
+        if self.plate.surface.is_flat() {
+            self.sweep(&line, &mut swept)?;
+        } else {
+            swept.at_least = self.touched(contact.as_ref())?;
+        }
+        Ok(Wash {
+            span: self.span,
+            tip_m: line.within_m,
+            seen_m: line.seen_m,
+            swept,
+            contact,
+        })
+    }
+
+    /// What the sponge sweeps of a disc: with cos τ never below that of the tilt, at least what a disc of radius s cos τ does.
+    fn sweep(&self, line: &Polyline, swept: &mut PlateCoverage) -> Result<(), ProveError> {
+        let (plate, sponge_m) = (self.plate, self.subject.sponge_m());
+        let share = |radius_m: f64, cell_m: f64| {
+            self.cancel.check()?;
+            let settings = CoverageSettings {
+                cell_m: cell_m.max(1e-4 * plate.rim_m()),
+            };
+            let share = coverage(&line.points, [0.0; 2], plate.rim_m(), radius_m, &settings)?;
+            Ok::<_, ProveError>(share)
+        };
+        let required = self.subject.limits.coverage;
+        let shrunk = sponge_m * swept.cos_tilt - line.off_m;
+        if shrunk > 0.0 {
+            swept.at_least = share(shrunk, CELLS_M[0])?.lower;
+            if swept.at_least < required {
+                swept.at_least = swept.at_least.max(share(shrunk, CELLS_M[1])?.lower);
+            }
+        }
+        if swept.at_least < required && line.off_m.is_finite() {
+            swept.at_most = Some(share(sponge_m + line.off_m, CELLS_M[1])?.upper);
+        }
+        Ok(())
+    }
+
+    /// What the sponge touches of any other face with the plate where it is stated to lie, by its area. What is in contact is touched.
+    fn touched(&self, contact: Option<&PlateContact>) -> Result<f64, ProveError> {
+        let required = self.subject.limits.coverage;
+        let pressed = contact.map_or(0.0, |contact| contact.pressed.at_least);
+        if pressed >= required || !self.meets_from_above() {
+            return Ok(pressed);
+        }
+        let sponge = &self.subject.job.workcell.tool.sponge;
+        // Whatever its stiffness: no dose is asked for.
+        let foundation = Foundation::stiff(sponge, [0.0; 2]);
+        let wanted = Wanted {
+            compression_m: 0.0,
+            height_error_m: 0.0,
+            time_s: 0.0,
+            dose_pa_m: 0.0,
+        };
+        let instants = Instants::new(self.arm, self.pieces, self.plate, (&foundation, 0.0));
+        self.cancel.check()?;
+        let fineness = Fineness {
+            cell_m: CELLS_M[1],
+            enough: [required; 3],
+        };
+        let moments = (&instants.moments[..], &[][..]);
+        let found = shares(&self.plate.surface, &foundation, moments, &wanted, &fineness);
+        Ok(found.contact.at_least.max(pressed))
+    }
+
+    /// What is proved of contact, where the job asks for it.
+    fn contact(&self, line: &Polyline) -> Result<Option<PlateContact>, ProveError> {
+        let job = self.subject.job;
+        let (Some(wanted), Some(foundation)) = (&job.requirements.contact, Foundation::of(&job.workcell.tool.sponge))
+        else {
+            return Ok(None);
+        };
+        let error_m = wanted.height_error_m;
+        let instants_of = |pieces| Instants::new(self.arm, pieces, self.plate, (&foundation, error_m));
+        let instants = instants_of(self.pieces);
+        let around: Vec<_> = self.around.iter().map(|pieces| instants_of(pieces)).collect();
+        let pressed = Pressed {
+            plate: self.plate,
+            index: self.index,
+            foundation: &foundation,
+            wanted,
+            instants: &instants,
+            around: &around,
+            known: Known {
+                height_m: self.tips.greatest_height_of(self.span),
+                cosine: self.tips.least_upright_cosine_of(self.span),
+                distance_m: line.within_m,
+                error_m,
+            },
+            meets: self.meets_from_above(),
+            around_meets: self.meets_at(self.around_cosine),
+            cancel: self.cancel,
+        };
+        Ok(Some(pressed.judge()?))
+    }
+
+    /// Whether every line along the tool's axis meets the face once, and from above: the tool is less tilted from the plate's axis than
+    /// the steepest slope leaves of a right angle.
+    fn meets_from_above(&self) -> bool {
+        self.meets_at(self.tips.least_upright_cosine_of(self.span))
+    }
+
+    /// The same where the cosine of the angle between the tool and the plate's axis is at least `cosine`.
+    fn meets_at(&self, cosine: f64) -> bool {
+        let surface = &self.plate.surface;
+        let steepest = surface.patch([0.0, f64::INFINITY]);
+        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+        let slope = steepest.sine[0].abs().max(steepest.sine[1].abs());
+        cosine * steepest.least_cosine() > sine * slope
+    }
+}
+
+/// Every plate is swept to the share required: the plate of which the least is.
+pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check {
+    let worst = coverage.iter().min_by(|a, b| a.at_least.total_cmp(&b.at_least));
+    let Some(worst) = worst else {
+        return Check::not_judged(Requirement::Swept);
+    };
+    let all_washed = (0..subject.plates().len()).all(|i| coverage.iter().any(|c| c.plate == i));
+    let measure = Measure {
+        bound: Some(if all_washed { worst.at_least } else { 0.0 }),
+        seen: worst.at_most,
+        limit: subject.limits.coverage,
+        sense: Sense::AtLeast,
+        unit: Unit::Share,
+    };
+    let place = Worst {
+        plate: Some(worst.plate),
+        ..Worst::default()
+    };
+    Check::measured(Requirement::Swept, measure, place)
+}
+
+/// How far the tip may leave the polyline \[m\], where halving helps.
+const CHORD_M: f64 = 5e-5;
+
+/// How often a piece of a wash is halved at most.
+pub(crate) const MOST_HALVINGS: u32 = 6;
+
+/// Halvings that any motion may have besides those of its pieces.
+const SPLITS: usize = 4096;
+
+/// Moments of the tip, from the pole of a plate \[m\].
+#[derive(Debug)]
+pub(crate) struct Polyline {
+    pub points: Vec<[f64; 2]>,
+    /// The tip is never farther from it \[m\].
+    pub off_m: f64,
+    /// Largest distance of a moment from the pole \[m\].
+    pub seen_m: f64,
+    /// The tip is never farther from the pole \[m\].
+    pub within_m: f64,
+    /// How far it may be \[m\].
+    allowed_m: f64,
+    most_halvings: u32,
+    /// Halvings left.
+    splits: usize,
+}
+
+impl Polyline {
+    /// The tip during some pieces over a face. It should keep within `allowed_m` of the pole: where it does, that is proved.
+    pub fn new(arm: &Arm<'_>, pieces: &[Piece], face: &Face<'_>, allowed_m: f64, most_halvings: u32) -> Self {
+        let mut line = Self {
+            points: Vec::new(),
+            off_m: 0.0,
+            seen_m: 0.0,
+            within_m: 0.0,
+            allowed_m,
+            most_halvings,
+            splits: SPLITS + (pieces.len() << MOST_HALVINGS),
+        };
+        for (i, piece) in pieces.iter().enumerate() {
+            let stretch = arm.stretch(piece);
+            if i == 0 {
+                line.points.push(seen(face, &stretch, 0));
+            }
+            line.add(arm, face, &stretch, 0);
+        }
+        line
+    }
+
+    /// Adds a stretch whose first end is there already.
+    fn add(&mut self, arm: &Arm<'_>, face: &Face<'_>, stretch: &Stretch<'_>, depth: u32) {
+        let off_m = stretch.sag(arm.derivatives(stretch).second());
+        let ends = [0, 1].map(|end| seen(face, stretch, end));
+        let far_m = ends.map(|[x, y]| norm(x, y)).into_iter().fold(0.0, f64::max);
+        let undecided = far_m <= self.allowed_m && far_m + off_m > self.allowed_m;
+        let halves = if (off_m > CHORD_M || undecided) && depth < self.most_halvings && self.splits > 0 {
+            self.splits -= 1;
+            arm.halves(stretch)
+        } else {
+            None
+        };
+        if let Some(halves) = halves {
+            return halves.iter().for_each(|half| self.add(arm, face, half, depth + 1));
+        }
+        self.off_m = if off_m.is_nan() {
+            f64::INFINITY
+        } else {
+            self.off_m.max(off_m)
+        };
+        // ‖f‖ ≤ max(‖f(a)‖, ‖f(b)‖) + h²/8 · sup ‖f″‖ for f from the pole to the tip.
+        self.seen_m = self.seen_m.max(far_m);
+        self.within_m = if off_m.is_nan() {
+            f64::INFINITY
+        } else {
+            self.within_m.max(far_m + off_m)
+        };
+        self.points.push(ends[1]);
+    }
+}
+
+/// An end of a stretch.
+fn seen(face: &Face<'_>, stretch: &Stretch<'_>, end: usize) -> [f64; 2] {
+    face.seen(&stretch.ends[end].position).into()
+}

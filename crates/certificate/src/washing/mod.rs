@@ -1,0 +1,21 @@
+//! What the tip and the sponge do on the plates.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | the face of a plate: heights and normals | `face` |
+//! | the tip follows its curve | `following` |
+//! | how much of a plate is swept | `coverage` |
+//! | how far the sponge reaches beyond the rim, and which neighbours it may touch | `reach` |
+//! | how fast the sponge lands and lifts off | `landing` |
+//! | contact: how long, how hard, which share of a plate | `contact` |
+//! | the moments of a wash; the strain of the foam; a frame that turns with the sponge | `instants`, `pressing`, `turning_frame` |
+
+pub(crate) mod contact;
+pub(crate) mod coverage;
+pub(crate) mod face;
+pub(crate) mod following;
+pub(crate) mod instants;
+pub(crate) mod landing;
+pub(crate) mod pressing;
+pub(crate) mod reach;
+pub(crate) mod turning_frame;

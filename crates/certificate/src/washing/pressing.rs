@@ -1,0 +1,387 @@
+//! How hard the sponge is pressed while it washes: its greatest strain, the force along its axis, the torque of friction about it.
+//!
+//! The foam presses with E w / H over a column of the cross-section dA, along the sponge's axis: with the volume V = ∫ max(w, 0) dA the
+//! force along the axis is E V / H, whatever way the surface faces, as long as there is no friction. Friction μ acts on what the plate
+//! presses along its normal, which is 1/cos γ as much, at a lever of at most r: its torque about the axis is no more than
+//! μ E/H ∫ max(w, 0) r / cos γ dA.
+//!
+//! The strain, the greatest force and the torque are those from approach to retreat: coming and leaving, the tip may be deeper than in the
+//! wash. The least force is that of the wash, as the sponge meets the plate and leaves it with none.
+//!
+//! On a disc all of this follows from the height of the tip and the tilt alone (`contact/level.rs`), on other faces from columns at the
+//! moments of the wash and what they may do between them (`contact/stands.rs`).
+//!
+//! How hard the sponge is pressed on a face that is no disc: branch and bound over the wash, the worst stretch first.
+//!
+//! The wash is cut into stretches of many moments each. What the plate asks of the foam over a stretch follows from where the columns
+//! stand at both ends of it and from how the sponge may move between them (`contact/stands.rs`): loosely over a long stretch or with few
+//! columns. Of each quantity the stretch with the worst bound is looked at more closely, with more columns or in halves, until that is as
+//! near to what is shown of a single moment, with the most columns, as [`NEAR`] asks. It asks the same whatever the requirements are.
+
+use crate::washing::instants::Instants;
+use crate::washing::turning_frame::TurningFrame;
+use platewash_workcell::contact::{Bends, Columns, Foundation, Level, Moment, Press, Seen, Standing};
+use platewash_workcell::plate::Plate;
+
+/// Friction between a wet sponge and a plate, least and greatest: an assumption.
+pub(crate) const FRICTION: [f64; 2] = [0.3, 1.0];
+
+/// What is known of a wash on a disc.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Known {
+    /// The tip is never farther over or under the face \[m\].
+    pub height_m: f64,
+    /// cos τ is never below this.
+    pub cosine: f64,
+    /// The tip is never farther from the plate's axis \[m\].
+    pub distance_m: f64,
+    /// ±δ \[m\].
+    pub error_m: f64,
+}
+
+/// An extreme over a wash.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Extreme {
+    /// What is proved.
+    pub bound: f64,
+    /// What is certainly attained.
+    pub seen: f64,
+    /// When \[s\].
+    pub time_s: f64,
+    /// Where, plate frame \[m\].
+    pub place_m: [f64; 3],
+}
+
+/// How hard the sponge is pressed through a wash.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Pressing {
+    /// The greatest compression \[m\].
+    pub deepest: Extreme,
+    /// The least volume of compressed foam, the plate at its lowest, and the greatest, at its highest \[m³\].
+    pub volume: [Extreme; 2],
+    /// ∫ max(w, 0) r / cos γ dA at most \[m⁴\].
+    pub twist_m4: f64,
+}
+
+impl Pressing {
+    /// Of nothing yet.
+    pub fn new() -> Self {
+        let extreme = |worst| Extreme {
+            bound: worst,
+            seen: worst,
+            time_s: 0.0,
+            place_m: [0.0; 3],
+        };
+        let (least, most) = (extreme(f64::INFINITY), extreme(f64::NEG_INFINITY));
+        Self {
+            deepest: most,
+            volume: [least, most],
+            twist_m4: 0.0,
+        }
+    }
+
+    /// Where nothing is known.
+    pub fn unknown() -> Self {
+        let mut all = Self::new();
+        all.deepest.bound = f64::INFINITY;
+        (all.volume[0].bound, all.volume[1].bound) = (0.0, f64::INFINITY);
+        all.twist_m4 = f64::INFINITY;
+        all
+    }
+
+    /// On a disc.
+    pub fn on_disc(plate: &Plate, foundation: &Foundation, instants: &Instants, known: &Known) -> Self {
+        let mut all = Self::new();
+        let rim_m = plate.rim_m();
+        let press = |height_m: [f64; 2], cosine: f64, distance_m: f64| {
+            let level = Level {
+                height_m,
+                cosine,
+                distance_m,
+            };
+            foundation.level_press(&level, rim_m)
+        };
+        for moment in &instants.moments {
+            let (tip, cosine) = (&moment.pose.tip, -moment.pose.axis.z);
+            let distance_m = tip.xy().norm();
+            let [low, high] = [1.0, -1.0].map(|up| press([tip.z + up * known.error_m; 2], cosine, distance_m));
+            let wholly_on = distance_m + foundation.radius_m / cosine <= rim_m;
+            let seen = Seen {
+                volume_m3: [low.volume_m3[1], high.volume_m3[0]],
+                deepest_m: high.deepest_m[usize::from(wholly_on)],
+                deepest_at_m: [tip.x, tip.y, 0.0],
+            };
+            all.see(&seen, moment.t_s, (*tip).into());
+        }
+        let (height_m, bounded) = (known.height_m + known.error_m, known.cosine > 0.0);
+        if bounded && height_m.is_finite() && known.distance_m.is_finite() {
+            let level = press([-height_m, height_m], known.cosine, known.distance_m);
+            all.take(&Press {
+                volume_m3: level.volume_m3,
+                deepest_m: level.deepest_m[1],
+                twist_m4: level.twist_m4,
+                sag_m: 0.0,
+            });
+        } else {
+            let unknown = Self::unknown();
+            all.deepest.bound = unknown.deepest.bound;
+            (all.volume[0].bound, all.volume[1].bound) = (0.0, f64::INFINITY);
+            all.twist_m4 = unknown.twist_m4;
+        }
+        all
+    }
+
+    /// How hard it is pressed at most on a disc that may lie higher by `error_m`, through moments before or after a wash: from what two
+    /// neighbours say of the stretch between them. With h its length, the tip is no lower than the lower end by more than h²/8 · sup ‖p̈‖,
+    /// and the axis no farther from the nearer end than h/2 times its greatest speed.
+    pub fn around_disc(plate: &Plate, foundation: &Foundation, instants: &Instants, error_m: f64) -> Self {
+        let mut all = Self::new();
+        let press = |tip_m: f64, cosine: f64, distance_m: f64| {
+            let level = Level {
+                height_m: [tip_m - error_m; 2],
+                cosine,
+                distance_m,
+            };
+            foundation.level_press(&level, plate.rim_m())
+        };
+        for moment in &instants.moments {
+            let (tip, cosine) = (&moment.pose.tip, -moment.pose.axis.z);
+            let distance_m = tip.xy().norm();
+            let attained = press(tip.z, cosine, distance_m);
+            let wholly_on = distance_m + foundation.radius_m / cosine <= plate.rim_m();
+            if cosine > 0.0 {
+                let seen = Seen {
+                    volume_m3: [f64::INFINITY, attained.volume_m3[0]],
+                    deepest_m: attained.deepest_m[usize::from(wholly_on)],
+                    deepest_at_m: [tip.x, tip.y, 0.0],
+                };
+                all.see(&seen, moment.t_s, (*tip).into());
+            }
+        }
+        for (ends, drift) in instants.moments.windows(2).zip(&instants.drifts) {
+            let sag_m = 0.125 * drift.length_s * drift.length_s * drift.tip_m_s2;
+            let lower = |of: fn(&Moment) -> f64| of(&ends[0]).min(of(&ends[1]));
+            let low_m = lower(|moment| moment.pose.tip.z) - sag_m;
+            let cosine = lower(|moment| -moment.pose.axis.z) - 0.5 * drift.length_s * drift.axis;
+            if !(low_m.is_finite() && cosine > 0.0) {
+                return Self::unknown();
+            }
+            // Where it is matters to the least only.
+            let most = press(low_m, cosine, 0.0);
+            all.take(&Press {
+                volume_m3: most.volume_m3,
+                deepest_m: most.deepest_m[1],
+                twist_m4: most.twist_m4,
+                sag_m: 0.0,
+            });
+        }
+        all
+    }
+
+    /// Counts how hard it is pressed at most before or after.
+    pub fn widen(&mut self, around: &Self) {
+        let greater = |most: &mut Extreme, other: &Extreme| {
+            let bound = most.bound.max(other.bound);
+            if other.seen > most.seen {
+                *most = *other;
+            }
+            most.bound = bound;
+        };
+        greater(&mut self.deepest, &around.deepest);
+        greater(&mut self.volume[1], &around.volume[1]);
+        self.twist_m4 = self.twist_m4.max(around.twist_m4);
+    }
+
+    /// Takes note of what is seen at a moment.
+    pub fn see(&mut self, seen: &Seen, time_s: f64, place_m: [f64; 3]) {
+        let [least, most] = &mut self.volume;
+        if seen.volume_m3[0] < least.seen {
+            (least.seen, least.time_s, least.place_m) = (seen.volume_m3[0], time_s, place_m);
+        }
+        if seen.volume_m3[1] > most.seen {
+            (most.seen, most.time_s, most.place_m) = (seen.volume_m3[1], time_s, place_m);
+        }
+        if seen.deepest_m > self.deepest.seen {
+            (self.deepest.seen, self.deepest.time_s) = (seen.deepest_m, time_s);
+            self.deepest.place_m = seen.deepest_at_m;
+        }
+    }
+
+    /// Takes note of bounds over a stretch. NaN, which bounds nothing, must not get lost.
+    pub fn take(&mut self, press: &Press) {
+        let greater = |most: f64, found: f64| if found.is_nan() { f64::INFINITY } else { most.max(found) };
+        self.deepest.bound = greater(self.deepest.bound, press.deepest_m);
+        self.twist_m4 = greater(self.twist_m4, press.twist_m4);
+        let [least, most] = &mut self.volume;
+        let [low, high] = press.volume_m3;
+        least.bound = if low.is_nan() { 0.0 } else { least.bound.min(low) };
+        most.bound = greater(most.bound, high);
+    }
+}
+
+/// Moments of a stretch at first.
+const LONGEST: usize = 64;
+
+/// How near the bounds come to those of single moments, as a part of them: of volumes and the greatest compression, and of the torque.
+const NEAR: [f64; QUANTITIES] = [0.01, 0.01, 0.01, 0.02];
+
+/// What a compression lacks between moments is not looked at more closely with more columns, but in halves, from here on \[m\].
+const MOST_SAG_M: f64 = 1e-4;
+
+/// Looks: with few columns, and with many.
+const LOOKS: usize = 2;
+
+/// The quantities: each the greater the worse.
+const QUANTITIES: usize = 4;
+
+/// A stretch between two moments by their index, and what is known of it.
+struct Span {
+    from: usize,
+    to: usize,
+    /// With which columns.
+    look: usize,
+    press: Press,
+}
+
+/// A search through the wash of a plate.
+struct Search<'a> {
+    bends: Bends<'a>,
+    instants: &'a Instants,
+    turning: TurningFrame<'a>,
+    error_m: f64,
+    looks: [Columns; LOOKS],
+    /// Where the columns of each look stand at each moment, as far as was asked.
+    standings: [Vec<Option<Standing>>; LOOKS],
+    spans: Vec<Span>,
+    /// The worst bound of a single moment.
+    at_moments: [f64; QUANTITIES],
+    /// What is no worse is not looked at more closely.
+    enough: [f64; QUANTITIES],
+    found: Pressing,
+}
+
+/// How hard the sponge is pressed on any face, which may lie higher or lower by `error_m`.
+pub(crate) fn on_face(plate: &Plate, foundation: &Foundation, instants: &Instants, error_m: f64) -> Pressing {
+    search((plate, error_m), foundation, instants, [f64::NEG_INFINITY; QUANTITIES])
+}
+
+/// How hard it is pressed at most before or after a wash of which that is known: as closely as it takes to show that it is no harder than in the wash, and
+/// otherwise as [`on_face`].
+pub(crate) fn around_face(
+    plate: &Plate,
+    foundation: &Foundation,
+    (instants, wash): (&Instants, &Pressing),
+    error_m: f64,
+) -> Pressing {
+    let enough = [f64::INFINITY, wash.volume[1].bound, wash.deepest.bound, wash.twist_m4];
+    search((plate, error_m), foundation, instants, enough)
+}
+
+fn search(
+    (plate, error_m): (&Plate, f64),
+    foundation: &Foundation,
+    instants: &Instants,
+    enough: [f64; QUANTITIES],
+) -> Pressing {
+    let count = instants.moments.len();
+    if count == 0 {
+        return Pressing::unknown();
+    }
+    let mut search = Search {
+        bends: Bends::of(&plate.surface),
+        instants,
+        turning: TurningFrame::new(plate, instants),
+        error_m,
+        looks: [Columns::new(foundation), Columns::fine(foundation)],
+        standings: [vec![None; count], vec![None; count]],
+        spans: Vec::new(),
+        at_moments: [f64::NEG_INFINITY; QUANTITIES],
+        enough,
+        found: Pressing::new(),
+    };
+    let last = count - 1;
+    for from in (0..last.max(1)).step_by(LONGEST) {
+        let to = (from + LONGEST).min(last);
+        let span = search.look(from, to, 0);
+        search.spans.push(span);
+    }
+    for quantity in 0..QUANTITIES {
+        search.settle(quantity);
+    }
+    for span in &search.spans {
+        search.found.take(&span.press);
+    }
+    search.found
+}
+
+/// By how bad a press is, of each quantity; what is no number is the worst.
+fn badness(press: &Press) -> [f64; QUANTITIES] {
+    let all = [-press.volume_m3[0], press.volume_m3[1], press.deepest_m, press.twist_m4];
+    all.map(|bad| if bad.is_nan() { f64::INFINITY } else { bad })
+}
+
+impl Search<'_> {
+    /// Looks at the stretches that are the worst of a quantity, until that is known.
+    fn settle(&mut self, quantity: usize) {
+        loop {
+            let bad = |span: &Span| badness(&span.press)[quantity];
+            let worst = (0..self.spans.len()).max_by(|a, b| bad(&self.spans[*a]).total_cmp(&bad(&self.spans[*b])));
+            let Some(worst) = worst else { return };
+            let at_moments = self.at_moments[quantity];
+            let near = (at_moments + NEAR[quantity] * at_moments.abs()).max(self.enough[quantity]);
+            if bad(&self.spans[worst]) <= near || !self.refine(worst) {
+                return;
+            }
+        }
+    }
+
+    /// Looks at a stretch more closely; `false` where that is not possible.
+    fn refine(&mut self, span: usize) -> bool {
+        let Span {
+            from, to, look, press, ..
+        } = self.spans[span];
+        let finest = look + 1 == LOOKS;
+        let longer = to - from > 1;
+        if longer && (finest || press.sag_m > MOST_SAG_M) {
+            let middle = from + (to - from) / 2;
+            self.spans[span] = self.look(from, middle, look);
+            let second = self.look(middle, to, look);
+            self.spans.push(second);
+        } else if !finest {
+            self.spans[span] = self.look(from, to, look + 1);
+        }
+        longer || !finest
+    }
+
+    /// Looks at a stretch.
+    fn look(&mut self, from: usize, to: usize, look: usize) -> Span {
+        self.stand(from, look);
+        self.stand(to, look);
+        let standings = &self.standings[look];
+        let press = match (&standings[from], &standings[to]) {
+            (Some(a), Some(b)) => {
+                let drift = self.turning.drift(from, to);
+                self.looks[look].press(&self.bends, [a, b], &drift)
+            }
+            _ => Press::UNKNOWN,
+        };
+        Span { from, to, look, press }
+    }
+
+    /// Sees where the columns stand at a moment, and with the most of them what is certain of it.
+    fn stand(&mut self, at: usize, look: usize) {
+        if self.standings[look][at].is_some() {
+            return;
+        }
+        let (columns, moment) = (&self.looks[look], &self.instants.moments[at]);
+        let standing = columns.stand(&self.bends, &moment.pose, &self.turning.side(at), self.error_m);
+        if look + 1 == LOOKS {
+            let (seen, press) = columns.seen(&self.bends, &standing);
+            self.found.see(&seen, moment.t_s, moment.pose.tip.into());
+            for (most, found) in self.at_moments.iter_mut().zip(badness(&press)) {
+                *most = most.max(found);
+            }
+        }
+        self.standings[look][at] = Some(standing);
+    }
+}

@@ -1,0 +1,262 @@
+//! How far the sponge reaches beyond the rims.
+//!
+//! Which plates the sponge may touch while it works on one, and how far beyond that one's rim.
+//!
+//! The tip keeps within the wash path's radius R of the pole of its plate of radius r. At the height of the plate's face a sponge of
+//! radius s, tilted by τ, reaches s / cos τ from the tip: upright it is its own radius, tilted its side wall lies as far out. (Below the
+//! face it reaches less far; above it, where no plate of that height is, farther.) So it reaches at most R + s / cos τ − r beyond the rim.
+//! A neighbour may be touched there and nowhere else; and by no more than its rim: not so far that the tip is over it, nor the sponge
+//! over its centre.
+
+use crate::motion::piece::Piece;
+use crate::motion::tip::Arm;
+use crate::motion::tip_limits::Tips;
+use crate::report::check::{Check, Discrepancy, Measure, Sense, Unit, Worst};
+use crate::report::requirement::Requirement;
+use crate::statements::schedule::{Schedule, Span, is_at_plate};
+use crate::subject::Subject;
+use crate::washing::coverage::{PlateCoverage, Polyline, Wash};
+use crate::washing::face::{Face, PLACE_M, norm};
+use platewash_kinematics::trig::cos;
+use platewash_workcell::job::{LINE_TOLERANCE_M, PATH_TOLERANCE_M};
+use platewash_workcell::plate::Plate;
+use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::words::millimetres;
+use serde::{Deserialize, Serialize};
+
+/// How often a piece of an approach or a retreat is halved at most: pieces are long there.
+const LINE_HALVINGS: u32 = 12;
+
+/// What is proved of the tip, as far as the reach of the sponge depends on it.
+pub(crate) struct Proved<'a> {
+    pub arm: &'a Arm<'a>,
+    pub pieces: &'a [Piece],
+    pub schedule: &'a Schedule,
+    pub tips: &'a Tips,
+    /// How far the tip is from its wash path at most, where that is proved \[m\].
+    pub path_deviation_m: Option<f64>,
+}
+
+impl Proved<'_> {
+    /// The spans at a plate, with their indices.
+    fn spans_at(&self, plate: usize) -> impl Iterator<Item = (usize, &Span)> {
+        let spans = self.schedule.spans.iter().enumerate();
+        spans.filter(move |(_, span)| span.plate == plate && is_at_plate(span.kind))
+    }
+}
+
+/// Fills in how far the sponge may reach beyond the rim of each plate, and what it may touch there.
+pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], proved: &Proved<'_>) {
+    let most_tilted = cos(subject.limits.tilt_rad);
+    for wash in washes {
+        let index = wash.swept.plate;
+        let Some(plate) = subject.plates().get(index) else {
+            continue;
+        };
+        let radius_m = subject.path_radius_m(index).unwrap_or(0.0);
+        let allowed_m = radius_m + outward_m(subject, index) + PATH_TOLERANCE_M;
+        let spans = proved.spans_at(wash.swept.plate);
+        let cos_tilt = spans.fold(1.0, |least: f64, (i, _)| {
+            least.min(proved.tips.least_upright_cosine_of(i))
+        });
+        // About the axis of a face that is no disc no tilt is asked for.
+        let most_tilted = if plate.surface.is_flat() { most_tilted } else { cos_tilt };
+        let [tip_m, seen_m] = tip_m(allowed_m, (radius_m, plate), wash, proved);
+        let reach_m = beyond_rim_m(subject, plate, tip_m, cos_tilt);
+        let swept = &mut wash.swept;
+        let touched = |reach_m| touched(subject, index, reach_m);
+        swept.beyond_rim_allowed_m = beyond_rim_m(subject, plate, allowed_m, cos_tilt.max(most_tilted));
+        swept.beyond_rim_seen_m = beyond_rim_m(subject, plate, seen_m, cos_tilt.max(most_tilted));
+        swept.beyond_rim_m = Some(reach_m).filter(|reach_m| reach_m.is_finite());
+        swept.touches = swept.beyond_rim_m.map_or_else(Vec::new, touched);
+    }
+}
+
+/// How far outwards the lines along the normal over the ends of a wash path lead: where the face falls towards the rim \[m\].
+fn outward_m(subject: &Subject<'_>, plate: usize) -> f64 {
+    let (Some(path), Some(plate)) = (subject.path_of(plate), subject.plates().get(plate)) else {
+        return 0.0;
+    };
+    let ends = [0.0, path.curve.end()].map(|theta| {
+        let [arc_m, ..] = path.curve.arc(theta);
+        -plate.surface.at_arc(arc_m).sine
+    });
+    path.lift_m * ends[0].max(ends[1]).max(0.0)
+}
+
+/// What the tip is not farther from the pole of a plate, seen along its axis, in its wash and in all approaches to the plate and
+/// retreats from it, and how far it was seen to be \[m\]; infinite where that is not bounded.
+fn tip_m(allowed_m: f64, (radius_m, plate): (f64, &Plate), wash: &Wash, proved: &Proved<'_>) -> [f64; 2] {
+    let along_path_m = (proved.path_deviation_m).map_or(f64::INFINITY, |off_m| radius_m + PLACE_M + off_m);
+    let tips = proved.spans_at(wash.swept.plate).map(|(i, span)| match span.kind {
+        // The wash of another entry.
+        SegmentKind::Wash if i != wash.span => [0.0; 2],
+        SegmentKind::Wash => [wash.tip_m.min(along_path_m), wash.seen_m],
+        _ => {
+            let pieces = &proved.pieces[span.pieces.clone()];
+            let line = Polyline::new(proved.arm, pieces, &Face::of(plate), allowed_m, LINE_HALVINGS);
+            [line.within_m, line.seen_m]
+        }
+    });
+    // NaN must not get lost.
+    let greater = |most: f64, tip: f64| if tip.is_nan() { f64::INFINITY } else { most.max(tip) };
+    tips.fold([0.0; 2], |[most, seen], [tip, there]| {
+        [greater(most, tip), seen.max(there)]
+    })
+}
+
+/// The sponge reaches no farther beyond any rim than the wash path and its own radius make it.
+pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check {
+    if coverage.iter().any(|c| subject.path_of(c.plate).is_none()) {
+        return Check::not_judged(Requirement::Reach);
+    }
+    let excess = |c: &PlateCoverage| c.beyond_rim_m.unwrap_or(f64::INFINITY) - c.beyond_rim_allowed_m;
+    let Some(worst) = coverage.iter().max_by(|a, b| excess(a).total_cmp(&excess(b))) else {
+        return Check::not_judged(Requirement::Reach);
+    };
+    let measure = Measure {
+        bound: worst.beyond_rim_m,
+        seen: Some(worst.beyond_rim_seen_m),
+        limit: worst.beyond_rim_allowed_m,
+        sense: Sense::AtMost,
+        unit: Unit::Metre,
+    };
+    let place = Worst {
+        plate: Some(worst.plate),
+        ..Worst::default()
+    };
+    Check::measured(Requirement::Reach, measure, place)
+}
+
+/// A neighbour that the sponge reaches while it works on another plate.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Touched {
+    /// Index of the plate that is reached.
+    pub plate: usize,
+    /// How far over its rim, at most \[m\].
+    pub depth_m: f64,
+}
+
+/// How far beyond the rim of a plate the sponge reaches at the height of its face, at most, with the tip within `tip_m` of the plate's
+/// centre and cos τ not below `cos_tilt` \[m\]; infinite without a bound of the tilt. A tip below the face by d has the side wall at the
+/// face d tan τ farther out: other requirements see to it that d is no more than the tolerance of the lines.
+///
+/// On a face that is no disc, τ is the angle between the tool's axis and the plate's, and what counts are all heights up to the highest
+/// one of the face: with the tip at a distance ρ from the plate's axis its side wall reaches (top − f(ρ)) tan τ farther there, which grows
+/// with ρ more slowly than ρ falls short where the slope β keeps tan β tan τ ≤ 1. Nothing presses the sponge together beyond the rim: its
+/// face lies c beyond the tip there, and reaches no more than s cos τ + c sin τ to the side.
+pub(crate) fn beyond_rim_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, cos_tilt: f64) -> f64 {
+    if cos_tilt > 0.0 {
+        let sine = (1.0 - cos_tilt * cos_tilt).max(0.0).sqrt();
+        let level_m = (subject.sponge_m() + LINE_TOLERANCE_M * sine) / cos_tilt;
+        tip_m + raised_m(subject, plate, tip_m, [sine, cos_tilt], level_m) - plate.rim_m()
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// How far the sponge reaches from the tip at the heights of a face, with `level_m` at the height of the tip \[m\].
+fn raised_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, [sine, cosine]: [f64; 2], level_m: f64) -> f64 {
+    let surface = &plate.surface;
+    if surface.is_flat() {
+        return level_m;
+    }
+    let [_, top_m] = surface.height_bounds_m();
+    let patch = surface.patch([0.0, tip_m.max(plate.rim_m())]);
+    let steepest = patch.sine[1].max(0.0) / patch.least_cosine();
+    if !(tip_m.is_finite() && steepest * sine <= cosine) {
+        return f64::INFINITY;
+    }
+    let wall_m = level_m + (top_m - surface.height_m(tip_m)).max(0.0) * sine / cosine;
+    let free_m = subject.sponge_m() * cosine + subject.job.workcell.tool.sponge.compression_m * sine;
+    wall_m.max(free_m)
+}
+
+/// The plates but one, beside it and no higher ([`Plate::may_touch_beside`]), that a sponge reaches which gets `beyond_rim_m` beyond the rim of that one, in order.
+pub(crate) fn touched(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) -> Vec<Touched> {
+    let Some(own) = subject.plates().get(plate) else {
+        return Vec::new();
+    };
+    let others = subject.plates().iter().enumerate();
+    let others = others.filter(|(index, other)| *index != plate && own.may_touch_beside(other));
+    let depths = others.map(|(plate, other)| Touched {
+        plate,
+        depth_m: beyond_rim_m - own.gap_beside_m(other),
+    });
+    depths.filter(|touched| touched.depth_m > 0.0).collect()
+}
+
+/// Whether the sponge, tilted as it likes, may come nearer to one plate than the clearance while it works on another. Of a plate whose
+/// face is higher than that of the one it works on, stands at an angle to it or lies under it, it keeps clear, but for the other face of the same disc: how fast it touches, and
+/// how far beyond the rim it reaches, is bounded at the height of the plate that it works on and below.
+pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: usize) -> bool {
+    let (Some(own), Some(other)) = (subject.plates().get(working_on), subject.plates().get(plate)) else {
+        return false;
+    };
+    let Some(radius_m) = subject.path_radius_m(working_on) else {
+        return false;
+    };
+    if own.is_back_of(other) {
+        return true;
+    }
+    if !own.may_touch_beside(other) {
+        return false;
+    }
+    // No point of the sponge is farther from the tip.
+    let sponge = &subject.job.workcell.tool.sponge;
+    let sponge_m = norm(sponge.radius_m, sponge.height_m);
+    let reach_m = radius_m + LINE_TOLERANCE_M + sponge_m + subject.limits.clearance_m;
+    own.aside_m(other) - other.rim_m() <= reach_m
+}
+
+/// What is swept besides the plate that is washed.
+#[derive(Debug, Default)]
+pub(crate) struct Swept {
+    /// Plates that lie apart from the one that is washed.
+    pub apart: Vec<Discrepancy>,
+    /// Plates that overlap it.
+    pub overlapping: Vec<Discrepancy>,
+}
+
+/// Plates of which more than the rim may be swept while another one is washed. How far the tool is tilted is the requirement's to say; on
+/// a face that is no disc, where that is about its normal, `upright_cosine` says what is proved of it about the plate's axis.
+pub(crate) fn swept(subject: &Subject<'_>, upright_cosine: impl Fn(usize) -> f64) -> Swept {
+    let tilted_m = subject.sponge_m() / cos(subject.limits.tilt_rad);
+    let mut swept = Swept::default();
+    for (i, own) in subject.plates().iter().enumerate() {
+        // Without a path it is not washed at all.
+        let Some(radius_m) = subject.path_radius_m(i) else {
+            continue;
+        };
+        let (sponge_m, beyond_m) = if own.surface.is_flat() {
+            (tilted_m, radius_m + tilted_m - own.rim_m())
+        } else {
+            let cosine = upright_cosine(i);
+            (
+                subject.sponge_m() / cosine,
+                beyond_rim_m(subject, own, radius_m, cosine),
+            )
+        };
+        // Of a plate at an angle to it, or all under or over it, the sponge keeps clear.
+        let beside = |other: &Plate| own.is_parallel(other) && !own.is_over(other) && !other.is_over(own);
+        let others = subject.plates().iter().enumerate();
+        for (j, other) in others.filter(|(j, other)| *j != i && beside(other)) {
+            let (gap_m, most_m) = (own.gap_beside_m(other), sponge_m.min(other.rim_m()));
+            let depth_m = (beyond_m - gap_m).min(2.0 * other.rim_m());
+            if depth_m <= most_m + PLACE_M {
+                continue;
+            }
+            let list = if gap_m < -PLACE_M {
+                &mut swept.overlapping
+            } else {
+                &mut swept.apart
+            };
+            list.push(Discrepancy::new(
+                format!("plate {j} while plate {i} is washed"),
+                format!("swept as far as {} over its rim", millimetres(depth_m)),
+                format!("at most its rim, {}", millimetres(most_m)),
+            ));
+        }
+    }
+    swept
+}
