@@ -5,7 +5,7 @@ use platewash_paper::{PaperError, PaperJob, run_with};
 use platewash_viewer::figures::Ideal;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use std::sync::Arc;
 
 /// The commanded path on each plate of a plan of the paper's program, in the order of washing: the program is run again.

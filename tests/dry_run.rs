@@ -4,8 +4,8 @@ use platewash::certificate::{Status, Verdict, differences};
 use platewash::planner::{Planned, Watch, plan_in_order};
 use platewash::simulator::simulate::PlateVerdict;
 use platewash::workcell::dry_run::DryRun;
+use platewash::workcell::dry_run::{DryRunError, dry_run_terms, least_height_m};
 use platewash::workcell::job::JobError;
-use platewash::workcell::raised::{DryRunError, dry_run_terms, least_height_m};
 use platewash::workcell::workcell::{Exclusion, ExclusionReason, ObstacleShape};
 use platewash::{
     CancelToken, Certificate, ClearanceModel, Plan, ProveError, Requirement, Scenario, SimulationReport,

@@ -4,7 +4,7 @@
 use platewash::scenario::SHIPPED;
 use platewash::workcell::job::PatternName;
 use platewash::workcell::random::stream;
-use platewash::workcell::segment::SegmentKind;
+use platewash::workcell::trajectory::SegmentKind;
 use platewash::{Plan, RobotModel, Scenario, plan, prove};
 use rand::RngExt;
 use rand_pcg::Pcg64;

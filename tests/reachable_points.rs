@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use platewash::paper::{PaperPart, ToolPath};
-use platewash::workcell::segment::SegmentKind;
 use platewash::workcell::tool::tool_down;
+use platewash::workcell::trajectory::SegmentKind;
 use platewash::{IkError, IkSolver, JointVector, RobotModel, ToolFrame};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

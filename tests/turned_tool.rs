@@ -2,7 +2,7 @@
 
 use platewash::certificate::{Requirement, Status, prove};
 use platewash::planner::plan;
-use platewash::workcell::segment::SegmentKind;
+use platewash::workcell::trajectory::SegmentKind;
 use platewash::{Plan, RobotModel, Scenario, SimulationReport, SimulationVerdict, simulate};
 use proptest::prelude::*;
 

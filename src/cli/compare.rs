@@ -9,7 +9,7 @@ use super::progress::Progress;
 use clap::Args;
 use platewash::certificate::{Difference, Measure, MeasureWords, Requirement, differences, paper_headline};
 use platewash::workcell::plan::Process;
-use platewash::workcell::segment::{PlanSegment, SegmentKind};
+use platewash::workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash::workcell::words::{counted, quoted};
 use platewash::{Certificate, Plan};
 use serde::Serialize;

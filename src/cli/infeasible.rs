@@ -9,7 +9,7 @@ use super::{output, results};
 use platewash::paper::PaperError;
 use platewash::planner::{InfeasibleReport, PlanError, Watch, other_unwashable_plates};
 use platewash::scenario::Remedies;
-use platewash::workcell::deadline::Deadline;
+use platewash::workcell::cancel::Deadline;
 use platewash::{CancelToken, Certificate, RobotModel, Scenario};
 use serde::Serialize;
 use std::fmt;

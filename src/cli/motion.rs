@@ -6,7 +6,7 @@ use super::results;
 use super::time_step::TimeStep;
 use clap::Args;
 use platewash::workcell::csv::{self, MotionTable};
-use platewash::workcell::segment::PlanSegment;
+use platewash::workcell::trajectory::PlanSegment;
 use platewash::{RobotModel, Scenario, Trajectory};
 use std::path::PathBuf;
 use std::time::Duration;

@@ -9,7 +9,7 @@ use super::results;
 use platewash::paper::run_with;
 use platewash::viewer::view::Executed;
 use platewash::workcell::csv::MotionTable;
-use platewash::workcell::segment::PlanSegment;
+use platewash::workcell::trajectory::PlanSegment;
 use platewash::workcell::words::counted;
 use platewash::{PaperReport, PaperRun, Scenario, Verdict};
 

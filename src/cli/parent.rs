@@ -6,7 +6,7 @@ use super::plan_file::{self, PlanFile};
 use anyhow::anyhow;
 use platewash::Plan;
 use platewash::certificate::{Difference, differences};
-use platewash::workcell::raised::{DryRunError, dry_run_terms};
+use platewash::workcell::dry_run::{DryRunError, dry_run_terms};
 use platewash::workcell::wash_path::WashPath;
 use serde::Serialize;
 use std::path::Path;

@@ -10,10 +10,10 @@ use platewash::certificate::Requirement::{
 use platewash::certificate::{Certificate, Status, prove};
 use platewash::workcell::job::{ContactRequirements, PatternName, Planner, PlannerSettings};
 use platewash::workcell::plate::Foot;
-use platewash::workcell::segment::SegmentKind;
 use platewash::workcell::simulation::FoamContact;
 use platewash::workcell::surface::Knot;
 use platewash::workcell::tool::Sponge;
+use platewash::workcell::trajectory::SegmentKind;
 use platewash::workcell::wash_path::{Rings, WashCurve};
 use platewash::{Plan, RobotModel, Surface, plan};
 use rayon::prelude::*;

@@ -6,7 +6,7 @@ use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::fixtures::{kitchen_plates, kitchen_terms};
 use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use proptest::prelude::*;
 
 pub const UR5: &str = include_str!("../../crates/kinematics/tests/fixtures/ur5_lengths.urdf");

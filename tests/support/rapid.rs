@@ -35,7 +35,7 @@ pub fn every(step: usize) -> Vec<Point> {
     let chosen = (0..=last).filter(|index| index % step == 0 || *index == last || rests(*index));
     let points = chosen.map(|index| {
         let t_s = knots.t_s[index];
-        let ends = |segment: &platewash_workcell::segment::PlanSegment| t_s <= segment.t_end_s + 1e-9;
+        let ends = |segment: &platewash_workcell::trajectory::PlanSegment| t_s <= segment.t_end_s + 1e-9;
         let segment = plan.segments.iter().position(ends).unwrap_or(plan.segments.len() - 1);
         Point {
             t_s,

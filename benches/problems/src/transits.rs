@@ -6,7 +6,7 @@ use platewash_planner::{Activity, Watch, plan_here};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::WashJob;
 use platewash_workcell::plan::{Knots, Plan};
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use std::error::Error;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};

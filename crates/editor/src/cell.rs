@@ -16,7 +16,7 @@ use platewash_planner::{Chance, PlanError, Planned, PlateOutlook, Watch, outlook
 use platewash_scenario::Failure;
 use platewash_viewer::view::{Beside, Certificate, View};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::deadline::Deadline;
+use platewash_workcell::cancel::Deadline;
 use platewash_workcell::layout::Finding;
 use std::sync::Arc;
 

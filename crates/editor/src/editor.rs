@@ -16,7 +16,7 @@ use platewash_viewer::bundle::Bundle;
 use platewash_viewer::page;
 use platewash_viewer::view::View;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::deadline::Deadline;
+use platewash_workcell::cancel::Deadline;
 use serde::Deserialize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;

@@ -10,7 +10,7 @@ use crate::subject::Subject;
 use crate::told::Told;
 use platewash_planner::{MapArea, MapPatch, Watch, washable_map};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::deadline::Deadline;
+use platewash_workcell::cancel::Deadline;
 
 /// What a map means.
 const MEANING: &str = "Where a plate of this size could lie, the others as they are: at the middle of each square it has room, and \

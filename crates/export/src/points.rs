@@ -12,7 +12,7 @@ use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
 use platewash_kinematics::{Axes, Frame, JointVector, RobotModel};
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::trajectory::{KnotError, Trajectory};
 
 /// The longest step between two points \[s\].

@@ -8,8 +8,8 @@ use platewash_kinematics::JointVector;
 use platewash_kinematics::ik::IkSolver;
 use platewash_simulator::control;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use platewash_workcell::trajectory::Trajectory;
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 
 /// A job planned and followed, before it is judged.
 #[derive(Debug, Clone)]

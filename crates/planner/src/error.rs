@@ -12,8 +12,8 @@ use platewash_workcell::clearance::ClearanceError;
 use platewash_workcell::job::{End, JobError, PlateOverlap};
 use platewash_workcell::layout::LayoutError;
 use platewash_workcell::plan::PlanFileError;
-use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::trajectory::KnotError;
+use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::verdict::Infeasibility;
 use platewash_workcell::words::{millimetres, printable};
 

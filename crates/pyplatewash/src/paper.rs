@@ -12,7 +12,7 @@ use crate::work::patiently;
 use numpy::{PyArray1, PyArrayDyn};
 use platewash::paper::run_with;
 use platewash::workcell::csv;
-use platewash::workcell::segment::SegmentKind;
+use platewash::workcell::trajectory::SegmentKind;
 use platewash::workcell::words::counted;
 use platewash::{JointVector, PaperRun};
 use pyo3::prelude::*;

@@ -16,8 +16,8 @@ use platewash_simulator::simulate::PlateVerdict;
 use platewash_simulator::{DynamicsModel, SimulationReport, simulate};
 use platewash_workcell::fixtures::{kitchen_plate, kitchen_terms};
 use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use platewash_workcell::simulation::ControlLawName;
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use std::f64::consts::{PI, TAU};
 
 const RADIUS_M: f64 = 0.12;

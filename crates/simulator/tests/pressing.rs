@@ -3,9 +3,9 @@
 use crate::two_plates::{judged, planned};
 use platewash_simulator::simulate::{Cause, Pressing, table};
 use platewash_simulator::{ControlError, SimulationError, SimulationReport, simulate};
+use platewash_workcell::csv::RecordedMotion;
 use platewash_workcell::fixtures::kitchen_contact;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::recorded::RecordedMotion;
 use platewash_workcell::simulation::{ControlLawName, FoamContact, Integrator, SimulationSettings};
 
 fn foam(stiffness_pa: f64) -> Option<FoamContact> {

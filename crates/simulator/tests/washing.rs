@@ -9,9 +9,9 @@ use platewash_simulator::{
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use platewash_workcell::job::JobError;
 use platewash_workcell::plan::{Knots, Plan};
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use platewash_workcell::simulation::{ControlLawName, Integrator, SimulationSettings};
 use platewash_workcell::trajectory::Trajectory;
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 
 #[test]
 fn computed_torque_covers_as_much_as_planned() {

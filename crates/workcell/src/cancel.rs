@@ -1,7 +1,11 @@
 //! Giving up long work half-way.
+//!
+//! Work may take only so long.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::thread::Builder;
+use std::time::{Duration, Instant};
 
 /// Tells long work to give up: clones of a token are one token, which whoever waits keeps a clone of.
 #[derive(Debug, Clone, Default)]
@@ -39,6 +43,78 @@ impl CancelToken {
     }
 }
 
+/// How often is looked whether another token is cancelled.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Cancels a token after some time, unless it is dropped before.
+#[derive(Debug)]
+pub struct Deadline {
+    shared: Arc<Shared>,
+}
+
+#[derive(Debug, Default)]
+struct Shared {
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+#[derive(Debug, Default, Clone, Copy)]
+struct State {
+    is_over: bool,
+    is_missed: bool,
+}
+
+impl Deadline {
+    /// From now on. Where the system gives no thread, there is no deadline.
+    #[must_use]
+    pub fn after(time: Duration, token: &CancelToken) -> Self {
+        Self::following(time, token, &CancelToken::new())
+    }
+
+    /// The same; the token is cancelled soon after another one, too.
+    #[must_use]
+    pub fn following(time: Duration, token: &CancelToken, other: &CancelToken) -> Self {
+        let other = other.clone();
+        let shared: Arc<Shared> = Arc::default();
+        let (theirs, token) = (shared.clone(), token.clone());
+        let until = Instant::now() + time;
+        let wait = move || {
+            let mut state = theirs.state.lock().unwrap_or_else(PoisonError::into_inner);
+            while !state.is_over {
+                let left = until.saturating_duration_since(Instant::now());
+                if left.is_zero() || other.is_cancelled() {
+                    state.is_missed = left.is_zero();
+                    token.cancel();
+                    return;
+                }
+                let woken = theirs.changed.wait_timeout(state, left.min(LOOK));
+                state = woken.unwrap_or_else(PoisonError::into_inner).0;
+            }
+        };
+        let _ = Builder::new().name("deadline".to_owned()).spawn(wait);
+        Self { shared }
+    }
+
+    /// Whether it has passed.
+    #[must_use]
+    pub fn is_missed(&self) -> bool {
+        self.state().is_missed
+    }
+
+    fn state(&self) -> State {
+        *self.shared.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Drop for Deadline {
+    fn drop(&mut self) {
+        let mut state = self.shared.state.lock().unwrap_or_else(PoisonError::into_inner);
+        state.is_over = true;
+        drop(state);
+        self.shared.changed.notify_all();
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -50,5 +126,20 @@ mod tests {
         assert_eq!(other.check(), Ok(()));
         token.cancel();
         assert_eq!(other.check(), Err(Cancelled));
+    }
+
+    #[test]
+    fn a_deadline_cancels_once_it_passes_and_not_if_it_is_met() {
+        let (late, met) = (CancelToken::new(), CancelToken::new());
+        let missed = Deadline::after(Duration::from_millis(1), &late);
+        drop(Deadline::after(Duration::from_millis(100), &met));
+        let begin = Instant::now();
+        while !late.is_cancelled() {
+            assert!(begin.elapsed() < Duration::from_secs(60));
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        assert!(missed.is_missed());
+        std::thread::sleep(Duration::from_millis(150));
+        assert!(!met.is_cancelled());
     }
 }

@@ -4,18 +4,19 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | mount, arm, tool, obstacles, pairs that are left out | [`workcell`], [`tool`], [`tool_chain`] |
+//! | mount, arm, tool, obstacles, pairs that are left out | [`workcell`], [`tool`], [`tool_chain`], [`obstacle`] |
 //! | plates, and where they lie | [`plate`], [`surface`], [`layout`] |
 //! | what is asked, resolved | [`job`], [`simulation`] |
 //! | how a plate is washed; the arc between plates | [`wash_path`], [`arc`] |
-//! | a motion, its stretches, it as CSV, and read back | [`trajectory`], [`segment`], [`csv`], [`recorded`] |
-//! | the plan file; files that appear whole; fields in which two jobs differ | [`plan`]; [`atomic_file`]; [`differences`] |
-//! | a plan tried out in the air; where the arm stands at the table | [`dry_run`], [`raised`]; [`align`] |
+//! | a motion and its segments; a controller's motion; tables of both as CSV | [`trajectory`], [`piecewise`], [`csv`] |
+//! | the plan file; fields in which two jobs differ | [`plan`]; [`differences`] |
+//! | a plan tried out in the air; where the arm stands at the table | [`dry_run`]; [`align`] |
 //! | distances between bodies | [`clearance`] |
 //! | the share of a plate that is swept | [`coverage`] |
 //! | how a sponge presses on a plate | [`contact`] |
 //! | mass, centre and inertia of shapes | [`uniform`] |
-//! | random streams; giving up; how a job ended; words of messages | [`random`], [`cancel`], [`verdict`], [`words`] |
+//! | random streams; giving up; how a job ended; words of messages | [`random`]; [`cancel`]; [`verdict`]; [`words`] |
+//! | files: JSON, tables of numbers, files that appear whole | [`json`], [`number_table`], [`atomic_file`] |
 
 pub mod align;
 pub mod arc;
@@ -25,24 +26,19 @@ pub mod clearance;
 pub mod contact;
 pub mod coverage;
 pub mod csv;
-pub mod deadline;
 pub mod differences;
 pub mod dry_run;
 pub mod fixtures;
 pub mod job;
 pub mod json;
 pub mod layout;
-mod mounted;
 pub mod number_table;
 pub mod obstacle;
 pub mod piecewise;
 pub mod plan;
 pub mod plate;
 mod pose;
-pub mod raised;
 pub mod random;
-pub mod recorded;
-pub mod segment;
 pub mod simulation;
 pub mod surface;
 pub mod tool;

@@ -2,6 +2,9 @@
 //!
 //! Poses of bodies are in the frame of the tool: at [`ToolChain::mount`] on the flange, z along the handle.
 
+#[cfg(test)]
+mod tests;
+
 use crate::tool::{StraightTool, Tool, ToolBody, ToolMass};
 use crate::uniform::{UniformBody, steiner};
 use crate::words::millimetres;
@@ -235,6 +238,3 @@ fn mounted(tool: Tool, mount: &Pose) -> Tool {
 fn entries(inertia: &Matrix3<f64>) -> [f64; 6] {
     [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|at| inertia[at])
 }
-
-#[cfg(test)]
-mod tests;

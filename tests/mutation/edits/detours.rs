@@ -5,7 +5,7 @@ use super::time::scale;
 use super::{knot_at, middle, nth, retime};
 use crate::mutation::edit::{Edits, Expected, Kind};
 use platewash::Plan;
-use platewash::workcell::segment::SegmentKind::{self, Approach, Depart, Return, Transit, Wash};
+use platewash::workcell::trajectory::SegmentKind::{self, Approach, Depart, Return, Transit, Wash};
 
 /// How much slower the plan is made first, so that no speed and no acceleration matters.
 const SLOWER: f64 = 5.0;

@@ -5,7 +5,7 @@ use crate::mutation::edit::{Edits, Expected, Kind};
 use crate::mutation::sampler::pieces;
 use platewash::Plan;
 use platewash::certificate::Requirement::{HomeToHome, RestAtWashEnds, Segments};
-use platewash::workcell::segment::SegmentKind::{self, Approach, Depart, Retreat, Return, Transit, Wash};
+use platewash::workcell::trajectory::SegmentKind::{self, Approach, Depart, Retreat, Return, Transit, Wash};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 

@@ -7,7 +7,7 @@ use crate::mutation::good::good;
 use nalgebra::Vector3;
 use platewash::certificate::Requirement::{Clearance, Exclusions};
 use platewash::kinematics::geometry::Shape;
-use platewash::workcell::segment::SegmentKind::{Depart, Return, Transit, Wash};
+use platewash::workcell::trajectory::SegmentKind::{Depart, Return, Transit, Wash};
 use platewash::workcell::workcell::{Obstacle, ObstacleShape};
 use platewash::{Plan, Pose};
 

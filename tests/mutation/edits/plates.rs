@@ -6,7 +6,7 @@ use platewash::certificate::Requirement::{
     ContactHeight, EveryPlateOnce, LineDeviation, PathDeviation, Plates, PlatesApart, Reach, Segments, Swept, WashPaths,
 };
 use platewash::workcell::job::Overlap;
-use platewash::workcell::segment::SegmentKind::Depart;
+use platewash::workcell::trajectory::SegmentKind::Depart;
 use platewash::{Plan, Plate, Surface};
 
 pub fn add(edits: &mut Edits) {

@@ -4,7 +4,7 @@ use super::{middle, nth, retime, within};
 use crate::mutation::edit::{Edits, Expected, Kind};
 use platewash::Plan;
 use platewash::certificate::Requirement::{JointAcceleration, WashSpeed};
-use platewash::workcell::segment::SegmentKind::{self, Approach, Depart, Retreat, Transit, Wash};
+use platewash::workcell::trajectory::SegmentKind::{self, Approach, Depart, Retreat, Transit, Wash};
 use std::ops::Range;
 
 pub fn add(edits: &mut Edits) {

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use platewash::Plate;
-use platewash::workcell::segment::SegmentKind;
+use platewash::workcell::trajectory::SegmentKind;
 use platewash::workcell::wash_path::WashPath;
 use std::f64::consts::TAU;
 

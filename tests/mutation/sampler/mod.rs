@@ -24,7 +24,7 @@ use curve::Curve;
 use hermite::Piece;
 use moments::{Arm, Moment};
 use platewash::certificate::Requirement;
-use platewash::workcell::segment::SegmentKind;
+use platewash::workcell::trajectory::SegmentKind;
 use platewash::{Plan, RobotModel};
 
 /// Distance of the tip from its wash path and from a plate's normal that every certified plan keeps \[m\].

@@ -4,7 +4,7 @@ use super::hermite::Piece;
 use super::schedule;
 use nalgebra::Vector3;
 use platewash::kinematics::Frame;
-use platewash::workcell::segment::PlanSegment;
+use platewash::workcell::trajectory::PlanSegment;
 use platewash::{JointVector, Plan, RobotModel, Tool, ToolFrame};
 
 /// Half a difference in time \[s\].

@@ -9,7 +9,7 @@ use super::{LINE_M, PATH_M};
 use platewash::Plan;
 use platewash::certificate::Requirement;
 use platewash::workcell::job::Overlap;
-use platewash::workcell::segment::SegmentKind;
+use platewash::workcell::trajectory::SegmentKind;
 
 /// Height over a plate that every certified plan keeps \[m\].
 const HEIGHT_M: f64 = 2e-4;

@@ -4,7 +4,7 @@ use super::findings::Findings;
 use super::hermite::Piece;
 use super::moments::Moment;
 use platewash::certificate::Requirement;
-use platewash::workcell::segment::SegmentKind;
+use platewash::workcell::trajectory::SegmentKind;
 use platewash::{JointVector, Plan, RobotModel};
 
 /// What a value must exceed its limit by to count as broken, as a part of the limit, and \[rad\].

@@ -2,7 +2,7 @@
 
 use super::hermite::Piece;
 use platewash::Plan;
-use platewash::workcell::segment::{PlanSegment, SegmentKind};
+use platewash::workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash::workcell::wash_path::WashPath;
 use std::f64::consts::{PI, TAU};
 

@@ -6,7 +6,7 @@ use super::swept;
 use crate::mutation::good::good;
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash::Plate;
-use platewash::workcell::segment::SegmentKind;
+use platewash::workcell::trajectory::SegmentKind;
 use std::f64::consts::PI;
 
 /// The curve of the first wash, on a plate that is turned by 1 rad, and points along it, as the planner evaluates them.

@@ -8,7 +8,7 @@ use crate::motion::timeline::{Interval, Timeline};
 use platewash_kinematics::RobotModel;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::clearance::away::MovingPart;
+use platewash_workcell::clearance::far::MovingPart;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

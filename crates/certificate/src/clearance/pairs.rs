@@ -16,7 +16,7 @@ use crate::washing::reach;
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::clearance::motion::{PairKind, PartPairs};
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;

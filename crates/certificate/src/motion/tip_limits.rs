@@ -11,7 +11,7 @@ use crate::washing::face::{Face, Pass, sine_of_tilt};
 use nalgebra::Vector3;
 use platewash_kinematics::trig::{asin, sin};
 use platewash_workcell::job::PATH_TOLERANCE_M;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 
 /// How far a bound of the tip's speed or acceleration may be above the worst value found, as a part of the limit.
 const RESOLUTION: f64 = 2e-3;

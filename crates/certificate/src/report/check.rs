@@ -2,7 +2,7 @@
 
 use crate::report::requirement::Requirement;
 use platewash_workcell::coverage::reaches;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use serde::{Deserialize, Serialize};
 
 /// What came of a requirement.

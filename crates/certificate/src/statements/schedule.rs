@@ -10,7 +10,7 @@ use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
 use platewash_kinematics::JointVector;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::words::counted;
 use std::ops::Range;
 

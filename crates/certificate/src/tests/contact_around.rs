@@ -5,8 +5,8 @@ use crate::tests::contact::{disc, rings, washed};
 use crate::tests::made::{Recipe, irb120};
 use crate::{Certificate, PlateContact, Requirement, prove};
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::surface::{Knot, Surface};
+use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::wash_path::WashCurve;
 
 /// How far below the face \[m\]: less than the millimetre that the line over a path allows.

@@ -6,7 +6,7 @@ use crate::{Certificate, PairRule, Requirement, prove};
 use nalgebra::Vector3;
 use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::wash_path::WashCurve;
 
 struct Sampled {

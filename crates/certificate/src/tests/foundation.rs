@@ -3,8 +3,8 @@
 use crate::tests::made::irb120;
 use nalgebra::Vector3;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::surface::Surface;
+use platewash_workcell::trajectory::SegmentKind;
 use rayon::prelude::*;
 
 /// Edge of a square \[m\].

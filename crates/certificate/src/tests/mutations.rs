@@ -6,8 +6,8 @@ use crate::{Certificate, PairRule, Status, Verdict, prove};
 use platewash_kinematics::JointVector;
 use platewash_workcell::job::Overlap;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use platewash_workcell::surface::Surface;
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use platewash_workcell::workcell::{Exclusion, ExclusionReason};
 

@@ -6,7 +6,7 @@ use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use proptest::prelude::*;
 use std::sync::OnceLock;
 

@@ -24,7 +24,7 @@ use platewash_workcell::contact::{Fineness, Foundation, Wanted, shares};
 use platewash_workcell::coverage::{CoverageSettings, coverage};
 use platewash_workcell::job::PATH_TOLERANCE_M;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

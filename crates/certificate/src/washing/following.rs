@@ -19,7 +19,7 @@ use crate::washing::face::Face;
 use nalgebra::Vector3;
 use platewash_workcell::job::{LINE_TOLERANCE_M, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::wash_path::{BLEND_RAD, WashCurve, WashPath};
 use std::f64::consts::TAU;
 

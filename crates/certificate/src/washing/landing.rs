@@ -38,8 +38,8 @@ use nalgebra::Vector3;
 use platewash_workcell::contact::{Bends, Columns, Foundation, Standing, Touching};
 use platewash_workcell::job::LINE_TOLERANCE_M;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::tool::Sponge;
+use platewash_workcell::trajectory::SegmentKind;
 
 /// How far the bound of the speed may be above the greatest one found, as a part of the limit.
 const RESOLUTION: f64 = 2e-3;

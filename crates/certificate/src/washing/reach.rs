@@ -20,7 +20,7 @@ use crate::washing::face::{Face, PLACE_M, norm};
 use platewash_kinematics::trig::cos;
 use platewash_workcell::job::{LINE_TOLERANCE_M, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::words::millimetres;
 use serde::{Deserialize, Serialize};
 

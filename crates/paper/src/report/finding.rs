@@ -4,7 +4,7 @@ use super::plate::PlateReport;
 use crate::cubic::Interpolation;
 use crate::run::PaperRun;
 use platewash_workcell::layout;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use serde::Serialize;
 use std::fmt::{self, Display, Formatter};
 

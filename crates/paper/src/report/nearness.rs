@@ -5,7 +5,7 @@ use crate::tracking::Step;
 use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use platewash_workcell::clearance::{ClearanceModel, PairClearance, is_clear};
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use serde::Serialize;
 
 /// The nearest approach of two bodies, and when.

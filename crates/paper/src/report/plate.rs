@@ -6,7 +6,7 @@ use crate::run::PaperRun;
 use crate::tracking::{Step, tracking_errors};
 use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage};
 use platewash_workcell::plate::Plate;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use serde::Serialize;
 
 /// Fine enough that the proven error of a plate's coverage is about a tenth of a percent.

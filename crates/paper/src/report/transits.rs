@@ -4,7 +4,7 @@ use super::nearness::{ClosestApproach, StepApproach, nearest};
 use super::unreached::{Unreached, worst_unreached};
 use crate::run::PaperRun;
 use crate::tracking::{Step, tracking_errors};
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use serde::Serialize;
 
 /// Waypoints and nearness of the transits.

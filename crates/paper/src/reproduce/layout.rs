@@ -15,8 +15,8 @@ use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings};
 use platewash_workcell::layout::{Finding, Layout, LayoutSource};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::random;
-use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::tool::tool_down;
+use platewash_workcell::trajectory::SegmentKind;
 use rand::Rng;
 use std::sync::Arc;
 

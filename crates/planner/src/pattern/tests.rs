@@ -168,7 +168,7 @@ fn the_kitchen_presses_as_is_promised() {
         let knots = &plan.knots;
         plan.segments
             .iter()
-            .filter(|s| s.kind == platewash_workcell::segment::SegmentKind::Wash)
+            .filter(|s| s.kind == platewash_workcell::trajectory::SegmentKind::Wash)
             .all(|segment| {
                 let plate = &job.terms().plates[segment.plate];
                 let during = |t: &f64| (segment.t_start_s..=segment.t_end_s).contains(t);

@@ -5,8 +5,8 @@ use crate::error::PlanError;
 use crate::timing::Timed;
 use crate::transit::Transit;
 use platewash_kinematics::JointVector;
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use platewash_workcell::trajectory::Trajectory;
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 
 /// The whole motion in time.
 #[derive(Debug)]

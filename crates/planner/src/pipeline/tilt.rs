@@ -6,7 +6,7 @@ use crate::error::PlanError;
 use crate::scene::{Scene, TILT_RESERVE_RAD};
 use crate::trig::{asin, sin};
 use nalgebra::Vector3;
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::wash_path::WashPath;
 
 /// Looks into every piece of the motion.

@@ -6,8 +6,8 @@ use crate::plant::{Plant, SpongeOnPlates, longest_step_s};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::words::rounded;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::simulation::SimulationSettings;
+use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::trajectory::Trajectory;
 
 /// Configurations along a plan about which the sampled loop is checked, at most; as many in washes, on each kind of foam.

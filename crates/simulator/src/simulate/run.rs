@@ -14,8 +14,8 @@ use platewash_kinematics::words::rounded;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::simulation::SimulationSettings;
+use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::trajectory::{JointState, Trajectory};
 
 /// Significant digits of a rate in messages.

@@ -2,7 +2,7 @@
 
 use super::error::SimulationError;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 
 /// What a sampling time may be past a segment's end and still belong to it, as a part of the sampling period: rounding.
 const ROUNDING: f64 = 1e-6;

@@ -3,7 +3,7 @@
 use super::execution::{Execution, Sample};
 use super::statistics::Spread;
 use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use serde::Serialize;
 
 /// Errors over some samples.

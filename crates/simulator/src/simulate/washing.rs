@@ -20,9 +20,9 @@ use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, co
 use platewash_workcell::job::Treatment;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::simulation::SimulationSettings;
 use platewash_workcell::tool::{Tool, Touch};
+use platewash_workcell::trajectory::SegmentKind;
 use serde::Serialize;
 
 /// As fine as the planner's own report: the proven error is about a tenth of a percent.

@@ -9,7 +9,7 @@ use super::svg::{BAD, Drawing, EXECUTED, GOOD, LINE, MIDDLE, Rect, SMALL, WORDS,
 use crate::view::Counted;
 use crate::view::coverage::{proved_share, swept};
 use platewash_workcell::coverage::reaches;
-use platewash_workcell::segment::PlanSegment;
+use platewash_workcell::trajectory::PlanSegment;
 
 /// Most plates of one figure, where there is what is planned, and with what is executed.
 const MOST: [usize; 2] = [24, 12];

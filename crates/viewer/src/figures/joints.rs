@@ -6,8 +6,8 @@ use super::subject::{Subject, short};
 use super::svg::{BAD, DASHED, Drawing, END, INK, LIFT, MIDDLE, PAPER, Rect, TRANSIT, WASH, fill, stroke, width};
 use platewash_certificate::ClearanceRule;
 use platewash_kinematics::AXES;
-use platewash_workcell::segment::SegmentKind;
 use platewash_workcell::trajectory::JointState;
+use platewash_workcell::trajectory::SegmentKind;
 use rayon::prelude::*;
 
 /// Moments that are drawn.

@@ -10,7 +10,7 @@ use platewash_simulator::{Execution, SimulationReport, simulate};
 use platewash_workcell::fixtures::{kitchen, kitchen_plate};
 use platewash_workcell::job::WashJob;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::wash_path::WashPath;
 use std::sync::LazyLock;
 

@@ -1,7 +1,7 @@
 //! What an arm did, however that is known: simulated, followed without a plant, recorded, or still to come.
 
 use platewash_simulator::{Execution, SimulationReport};
-use platewash_workcell::recorded::{RecordedMotion, RecordedSample};
+use platewash_workcell::csv::{RecordedMotion, RecordedSample};
 use platewash_workcell::simulation::ControlLawName;
 use platewash_workcell::trajectory::Trajectory;
 use serde::Serialize;

@@ -7,8 +7,8 @@ use super::numbers::Numbers;
 use super::tips::{Tip, Tips};
 use platewash_certificate as proved;
 use platewash_kinematics::JointVector;
+use platewash_workcell::csv::RecordedSample;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::recorded::RecordedSample;
 use serde::Serialize;
 
 /// Time between two samples at least \[s\].

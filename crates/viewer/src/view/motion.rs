@@ -1,8 +1,8 @@
 //! The planned motion and its segments.
 
 use super::numbers::Numbers;
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
 use platewash_workcell::trajectory::Trajectory;
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use serde::Serialize;
 
 /// A stretch of the motion.

@@ -1,9 +1,9 @@
 //! The bodies of a world, and which of them are what.
 
-use super::convex::HullFault;
-use super::error::ClearanceError;
-use super::part::{Part, Placed};
-use super::tree::Tree;
+use crate::clearance::convex::HullFault;
+use crate::clearance::model::ClearanceError;
+use crate::clearance::part::{Part, Placed};
+use crate::clearance::tree::Tree;
 use crate::plate::Plate;
 use crate::tool::Tool;
 use crate::workcell::{Obstacle, ObstacleShape};
@@ -12,7 +12,7 @@ use platewash_kinematics::{BodyPoses, Frame, JointVector, Pose, RobotModel};
 
 /// Something that must not be touched or must not touch.
 #[derive(Debug, Clone)]
-pub(super) struct Body {
+pub(crate) struct Body {
     pub name: String,
     pub kind: BodyKind,
     pub parts: Vec<Part>,
@@ -41,7 +41,7 @@ impl Body {
 
 /// What a body is; decides which pairs are checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum BodyKind {
+pub(crate) enum BodyKind {
     /// A link, with the index of the arm's body that carries it.
     Link(usize),
     /// Of the tool, but for the sponge.
@@ -57,7 +57,7 @@ pub(super) enum BodyKind {
 }
 
 /// Whether what joint 1 moves keeps its height over a half-space: it turns about what is upright there.
-pub(super) fn keeps_its_height(robot: &RobotModel, floor: &Body) -> bool {
+pub(crate) fn keeps_its_height(robot: &RobotModel, floor: &Body) -> bool {
     let poses = robot.fk(&JointVector::zeros());
     let [axis_1, ..] = poses.joint_axes();
     let upright = |part: &Part| axis_1.dot(&part.rigid(&poses).rotation.column(2)).abs() > 1.0 - 1e-12;
@@ -65,7 +65,7 @@ pub(super) fn keeps_its_height(robot: &RobotModel, floor: &Body) -> bool {
 }
 
 /// The bodies of a world without plates.
-pub(super) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> Result<Vec<Body>, ClearanceError> {
+pub(crate) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> Result<Vec<Body>, ClearanceError> {
     tool.check_mount(robot)?;
     let mut bodies = Vec::new();
     for link in robot.links().iter().filter(|link| !link.collision.is_empty()) {
@@ -90,13 +90,13 @@ pub(super) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> 
 }
 
 /// The pairs of what is looked at first of two bodies.
-pub(super) fn part_pairs(a: &Body, b: &Body) -> impl Iterator<Item = (usize, usize)> + use<> {
+pub(crate) fn part_pairs(a: &Body, b: &Body) -> impl Iterator<Item = (usize, usize)> + use<> {
     let (in_a, in_b) = (a.outer().len(), b.outer().len());
     (0..in_a).flat_map(move |p| (0..in_b).map(move |r| (p, r)))
 }
 
 /// What is looked at first of the bodies, where the arm's bodies stand.
-pub(super) fn place<'a>(bodies: &'a [Body], poses: &BodyPoses) -> Vec<Vec<Placed<'a>>> {
+pub(crate) fn place<'a>(bodies: &'a [Body], poses: &BodyPoses) -> Vec<Vec<Placed<'a>>> {
     let parts = |body: &'a Body| body.outer().iter().map(|part| part.place(poses)).collect();
     bodies.iter().map(parts).collect()
 }
@@ -138,7 +138,7 @@ fn tool_bodies(robot: &RobotModel, tool: &Tool) -> Result<Vec<Body>, ClearanceEr
 }
 
 /// The body of an obstacle.
-pub(super) fn obstacle_body(obstacle: &Obstacle) -> Result<Body, ClearanceError> {
+pub(crate) fn obstacle_body(obstacle: &Obstacle) -> Result<Body, ClearanceError> {
     let frame = Frame::base().offset(&Rigid::from(&obstacle.pose));
     let grown = |part: Part| part.grown(obstacle.margin_m);
     let made = match &obstacle.shape {
@@ -162,7 +162,7 @@ pub(super) fn obstacle_body(obstacle: &Obstacle) -> Result<Body, ClearanceError>
 }
 
 /// The body of a plate; where `like` is one of the same shape, its parts are not made again.
-pub(super) fn plate_body(index: usize, plate: &Plate, like: Option<&Body>) -> Body {
+pub(crate) fn plate_body(index: usize, plate: &Plate, like: Option<&Body>) -> Body {
     let known = like.and_then(|body| body.tree.as_ref());
     let (tree, parts) = Tree::of(plate, known).map_or_else(
         || {

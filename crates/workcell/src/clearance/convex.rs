@@ -3,28 +3,31 @@
 //! A hull that the collision library makes may be too small, down to a flat one for a body that is much wider than high, or bent inwards. So
 //! it is held against its points, and where it fails made once more of the same points drawn out to be as high as wide: a hull stays
 //! one under any such map.
+//!
+//! The facets of a convex hull, to look at.
 
+use nalgebra::Point3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::shape::ConvexPolyhedron;
 use parry3d_f64::transformation::try_convex_hull;
 use std::collections::HashMap;
 
 /// Most distinct corners of a mesh: a hull that has them all is made in seconds.
-pub(super) const MOST_CORNERS: usize = 10_000;
+pub(crate) const MOST_CORNERS: usize = 10_000;
 
 /// Most vertices of a mesh whose hull is made: beyond that it takes minutes.
-pub(super) const MOST_VERTICES: usize = 50_000;
+pub(crate) const MOST_VERTICES: usize = 50_000;
 
 /// What a point may be outside of a face by rounding, and how thin a hull may be, as a part of its size.
 const HULL_ROUNDING: f64 = 1e-12;
 const THINNEST_HULL: f64 = 1e-9;
 
-/// How far a point that counts as one within a hull may be from it \[m\]: less than [`super::motion`] allows for rounding.
+/// How far a point that counts as one within a hull may be from it \[m\]: less than [`crate::clearance::motion`] allows for rounding.
 const LEFT_OUT_M: f64 = 1e-10;
 
 /// Why no hull is made of points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum HullFault {
+pub(crate) enum HullFault {
     /// The points have no volume.
     Flat,
     /// There are more points than [`MOST_VERTICES`].
@@ -34,7 +37,7 @@ pub(super) enum HullFault {
 }
 
 /// The convex hull of points.
-pub(super) struct ConvexHull {
+pub(crate) struct ConvexHull {
     /// As the collision library has it.
     pub solid: ConvexPolyhedron,
     /// Points whose hull holds all points: what reaches farthest along a direction is among these, whatever became of the solid, so that a gap
@@ -172,6 +175,30 @@ impl Frame {
 }
 
 /// Whether points span a volume.
-pub(super) fn has_volume(points: &[Vector]) -> bool {
+pub(crate) fn has_volume(points: &[Vector]) -> bool {
     Frame::of(points).is_some()
+}
+
+/// A body by its triangles.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Triangulated {
+    /// Corners \[m\].
+    pub corners: Vec<Point3<f64>>,
+    /// Triangles by their corners' indices, counter-clockwise as seen from outside.
+    pub triangles: Vec<[usize; 3]>,
+}
+
+/// The convex hull of points \[m\]; `None` where it has no volume or is too large to judge.
+#[must_use]
+pub fn hull_triangles(points: &[Point3<f64>]) -> Option<Triangulated> {
+    let vertices: Vec<_> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
+    let (corners, triangles) = ConvexHull::of(&vertices).ok()?.solid.to_trimesh();
+    let corners = corners.into_iter().map(|c| Point3::new(c.x, c.y, c.z));
+    let triangles = triangles
+        .into_iter()
+        .map(|triangle| triangle.map(|corner| corner as usize));
+    Some(Triangulated {
+        corners: corners.collect(),
+        triangles: triangles.collect(),
+    })
 }

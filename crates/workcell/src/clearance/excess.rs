@@ -1,6 +1,6 @@
 //! How far the convex parts of a mesh reach beyond it.
 
-use super::convex::ConvexHull;
+use crate::clearance::convex::ConvexHull;
 use nalgebra::Point3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::{PointQuery, PointQueryWithLocation};

@@ -14,55 +14,40 @@
 //! | concept | file |
 //! | --- | --- |
 //! | bodies of arm, tool, obstacles, plates | `body.rs` |
-//! | a convex part of a body; convex hulls | `part.rs`; `convex.rs` |
+//! | a convex part of a body; convex hulls and their facets | `part.rs`; `convex.rs` |
 //! | a body of many parts, from the outside in | `tree.rs` |
-//! | which pairs are checked, and why the others are not | `pairs.rs` |
-//! | pairs of links that were found to need no check, as an SRDF | `touching.rs` |
-//! | what of a tool joint 6 turns on the spot | `round.rs` |
-//! | the distance of two parts: quickly, and between bounds | `distance.rs`, `bracket.rs` |
+//! | which pairs are checked, and why the others are not; links that touch, as an SRDF | `pairs.rs` |
+//! | the distance of two parts: quickly, and between bounds | `distance.rs` |
 //! | all pairs at one configuration | `model.rs` |
-//! | two plates | `between_plates.rs` |
 //! | a quick yes or no for planners | `washing.rs` |
-//! | the facets of a hull, to look at | `hull.rs` |
 //! | the convex parts of a mesh | `solid.rs` |
 //! | how far those reach beyond the mesh | `excess.rs` |
-//! | obstacles that reach into plates or the base | `standing.rs` |
-//! | bounds between configurations; of many obstacles at once | `motion.rs`, `lever.rs`; `away.rs` |
+//! | two plates; obstacles that reach into plates or the base | `standing.rs` |
+//! | bounds between configurations; of many obstacles at once | `motion.rs`, `lever.rs`; `far.rs` |
 
-pub mod away;
-mod between_plates;
 mod body;
-mod bracket;
 mod convex;
-mod crowd;
 mod distance;
-mod error;
 mod excess;
-mod hull;
+pub mod far;
 pub mod lever;
 mod model;
 pub mod motion;
 mod pairs;
 mod part;
-mod round;
 mod solid;
 mod standing;
-mod touching;
+#[cfg(test)]
+mod tests;
 mod tree;
 mod washing;
 
-pub use between_plates::gap_of_plates;
-pub use error::ClearanceError;
-pub use excess::excess_m;
-pub use hull::{Triangulated, hull_triangles};
-pub use model::{ClearanceModel, Nearest, PairClearance, is_clear};
-pub use pairs::exclusions;
-pub use solid::{SolidError, SolidParts, solid_parts};
-pub use standing::{Standing, StandingOverlap, standing_overlaps};
-pub use touching::TouchingPairs;
+pub use crate::clearance::convex::{Triangulated, hull_triangles};
+pub use crate::clearance::excess::excess_m;
+pub use crate::clearance::model::{ClearanceError, ClearanceModel, Nearest, PairClearance, is_clear};
+pub use crate::clearance::pairs::{TouchingPairs, exclusions};
+pub use crate::clearance::solid::{SolidError, SolidParts, solid_parts};
+pub use crate::clearance::standing::{Standing, StandingOverlap, gap_of_plates, standing_overlaps};
 
 /// How far apart the bounds of a distance between solids are that is stated \[m\].
-pub const ITERATIVE_ERROR_M: f64 = bracket::ERROR_M;
-
-#[cfg(test)]
-mod tests;
+pub const ITERATIVE_ERROR_M: f64 = distance::ERROR_M;

@@ -1,15 +1,18 @@
 //! Distances of all pairs at one configuration.
+//!
+//! Why no clearance model could be made.
 
-use super::body::{Body, BodyKind, part_pairs, place, plate_body, world};
-use super::crowd::{Crowd, Pairs};
-use super::distance::{Separation, bracketed};
-use super::error::ClearanceError;
-use super::pairs;
-use super::part::Placed;
-use super::tree::Order;
+use crate::clearance::body::{Body, BodyKind, part_pairs, place, plate_body, world};
+use crate::clearance::convex::{MOST_CORNERS, MOST_VERTICES};
+use crate::clearance::distance::{Separation, bracketed};
+use crate::clearance::far::{Crowd, Pairs};
+use crate::clearance::pairs;
+use crate::clearance::part::Placed;
+use crate::clearance::tree::Order;
 use crate::plate::Plate;
+use crate::words::printable;
 use crate::workcell::Workcell;
-use platewash_kinematics::{BodyPoses, JointVector, Pose, RobotModel};
+use platewash_kinematics::{BodyPoses, JointVector, Pose, RobotModel, ToolFrameError};
 use serde::Serialize;
 
 /// Distance between two bodies at one configuration.
@@ -39,16 +42,16 @@ pub struct Nearest {
 /// The bodies and pairs of one job, ready for many configurations.
 #[derive(Debug, Clone)]
 pub struct ClearanceModel {
-    pub(super) robot: RobotModel,
-    pub(super) bodies: Vec<Body>,
-    pub(super) pairs: Vec<(usize, usize)>,
+    pub(crate) robot: RobotModel,
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) pairs: Vec<(usize, usize)>,
     /// Those with obstacles that have an end, and all others.
-    pub(super) crowd: Crowd,
-    pub(super) others: Pairs,
+    pub(crate) crowd: Crowd,
+    pub(crate) others: Pairs,
     /// `T_base_world`, where the arm's base is not the world.
-    pub(super) to_base: Option<Pose>,
+    pub(crate) to_base: Option<Pose>,
     /// The plates in the world.
-    pub(super) plates: Vec<Plate>,
+    pub(crate) plates: Vec<Plate>,
 }
 
 impl ClearanceModel {
@@ -205,7 +208,7 @@ impl ClearanceModel {
     }
 
     /// Whether the sponge may be near a plate while it works on another one, or on that one itself.
-    pub(super) fn may_touch(&self, working_on: usize, plate: usize) -> bool {
+    pub(crate) fn may_touch(&self, working_on: usize, plate: usize) -> bool {
         let beside = || self.plates.get(working_on).zip(self.plates.get(plate));
         working_on == plate || beside().is_some_and(|(own, other)| own.may_touch_beside(other) || own.is_back_of(other))
     }
@@ -217,7 +220,7 @@ impl ClearanceModel {
         }
     }
 
-    pub(super) fn part_pairs(&self, a: usize, b: usize) -> impl Iterator<Item = (usize, usize)> + use<> {
+    pub(crate) fn part_pairs(&self, a: usize, b: usize) -> impl Iterator<Item = (usize, usize)> + use<> {
         part_pairs(&self.bodies[a], &self.bodies[b])
     }
 
@@ -240,7 +243,7 @@ impl ClearanceModel {
 
     /// The distance of the parts of a body with a tree to a part of another one, where it is less than `below` \[m\]; `None` where neither
     /// body has one.
-    pub(super) fn within(
+    pub(crate) fn within(
         &self,
         (a, b): (usize, usize),
         (p, r): (usize, usize),
@@ -262,7 +265,7 @@ impl ClearanceModel {
         }
     }
 
-    pub(super) fn describe(&self, a: usize, b: usize, found: Separation) -> PairClearance {
+    pub(crate) fn describe(&self, a: usize, b: usize, found: Separation) -> PairClearance {
         PairClearance {
             a: self.bodies[a].name.clone(),
             b: self.bodies[b].name.clone(),
@@ -273,7 +276,7 @@ impl ClearanceModel {
 }
 
 /// A plate of the world in the base frame.
-pub(super) fn from_base(to_base: Option<&Pose>, plate: &Plate) -> Plate {
+pub(crate) fn from_base(to_base: Option<&Pose>, plate: &Plate) -> Plate {
     to_base.map_or(*plate, |to_base| plate.seen_from(to_base))
 }
 
@@ -283,7 +286,7 @@ pub fn is_clear(distance_m: f64, required_m: f64) -> bool {
     distance_m > 0.0 && distance_m >= required_m
 }
 
-pub(super) fn nearest(separations: impl Iterator<Item = Separation>) -> Separation {
+pub(crate) fn nearest(separations: impl Iterator<Item = Separation>) -> Separation {
     separations
         .min_by(|x, y| x.distance.total_cmp(&y.distance))
         .unwrap_or(Separation {
@@ -291,4 +294,41 @@ pub(super) fn nearest(separations: impl Iterator<Item = Separation>) -> Separati
             place: [0.0; 3],
             normal: [0.0; 3],
         })
+}
+
+/// Why no clearance model could be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ClearanceError {
+    /// A hull whose points span no volume.
+    #[error("body '{}': its hull is flat; a convex hull needs a volume", printable(.link))]
+    FlatHull {
+        /// The link, the body of the tool or the obstacle.
+        link: String,
+    },
+    /// A mesh of too many vertices for its hull to be made in time.
+    #[error(
+        "body '{}': its collision mesh has {found} vertices; at most {MOST_VERTICES} can be judged: simplify it",
+        printable(.link)
+    )]
+    LargeMesh {
+        /// The link, or the body of the tool.
+        link: String,
+        /// The vertices.
+        found: usize,
+    },
+    /// A hull of too many corners to be judged in time.
+    #[error(
+        "body '{}': its convex hull has {found} corners; at most {MOST_CORNERS} can be judged: simplify its collision mesh",
+        printable(.link)
+    )]
+    LargeHull {
+        /// The link, or the body of the tool.
+        link: String,
+        /// The corners.
+        found: usize,
+    },
+    /// The arm has no link that carries the tool.
+    #[error(transparent)]
+    Mount(#[from] ToolFrameError),
 }

@@ -14,18 +14,17 @@
 //!
 //! Nothing here allocates.
 
-use super::body::BodyKind;
-use super::distance::bracketed;
-use super::lever::{self, Levers};
-use super::model::ClearanceModel;
-use super::part::Part;
-use super::part::Placed;
+use crate::clearance::body::BodyKind;
+use crate::clearance::distance::bracketed;
+use crate::clearance::lever::{self, Levers};
+use crate::clearance::model::ClearanceModel;
+use crate::clearance::part::{Part, Placed};
 use parry3d_f64::math::Vector;
 use platewash_kinematics::{BodyPoses, JointVector};
 use std::ops::Range;
 
 /// What a closed form or a support function may be wrong by \[m\].
-pub(super) const ROUNDING_M: f64 = 1e-9;
+pub(crate) const ROUNDING_M: f64 = 1e-9;
 
 /// What a pair is, for rules that depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,21 +1,27 @@
 //! Which pairs of bodies are checked, and why the others are not.
+//!
+//! Pairs of links that need no check, found where nobody listed them, as an SRDF.
+//!
+//! Bodies of a tool that joint 6 turns on the spot.
 
-use super::body::{Body, BodyKind, keeps_its_height, part_pairs, place, world};
-use super::distance::separation;
-use super::error::ClearanceError;
-use super::round::is_round_about_axis_6;
-use crate::tool::Tool;
+use crate::clearance::body::{Body, BodyKind, keeps_its_height, part_pairs, place, world};
+use crate::clearance::distance::separation;
+use crate::clearance::model::ClearanceError;
+use crate::tool::{StraightTool, Tool};
 use crate::workcell::{Exclusion, ExclusionReason, Obstacle};
-use platewash_kinematics::{JointVector, RobotModel};
+use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
+use std::fmt::Write;
 
 /// Configurations sampled to find pairs that always touch.
-pub(super) const SAMPLES: usize = 64;
+pub(crate) const SAMPLES: usize = 64;
 
 /// The body of the arm that carries joint 6: it is checked against what joint 6 moves relative to it.
 const CARRIER: usize = 5;
 
 /// All pairs (indices of bodies) that can meet, but for those excluded.
-pub(super) fn choose(bodies: &[Body], exclusions: &[Exclusion]) -> Vec<(usize, usize)> {
+pub(crate) fn choose(bodies: &[Body], exclusions: &[Exclusion]) -> Vec<(usize, usize)> {
     let name = |i: usize| &bodies[i].name;
     let is_excluded = |&(a, b): &(usize, usize)| {
         let pair = [name(a), name(b)];
@@ -141,4 +147,140 @@ fn spread(robot: &RobotModel, k: usize) -> JointVector {
         let step = (0..=joint).fold(1.0, |step, _| step / PHI);
         lower + (upper - lower) * (0.5 + k as f64 * step).fract()
     })
+}
+
+/// Pairs of links that need no check, as they are left out of an arm without an SRDF.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TouchingPairs {
+    /// Those whose links share a joint.
+    pub neighbours: Vec<[String; 2]>,
+    /// Those of all others that touch in every configuration sampled.
+    pub always_touching: Vec<[String; 2]>,
+    /// Configurations that were sampled.
+    pub samples: usize,
+    robot: String,
+}
+
+impl TouchingPairs {
+    /// Those of an arm, whatever its SRDF lists.
+    ///
+    /// # Errors
+    /// [`ClearanceError`] for a shape that is none.
+    pub fn of(robot: &RobotModel) -> Result<Self, ClearanceError> {
+        let bare = Tool::from(StraightTool::default());
+        let found = exclusions(&robot.clone().without_disabled_pairs(), &bare, &[])?;
+        let of = |reason: ExclusionReason| {
+            let found = found.iter().filter(move |e: &&Exclusion| e.reason == reason);
+            found.map(|e| e.pair.clone()).collect()
+        };
+        Ok(Self {
+            neighbours: of(ExclusionReason::Neighbours),
+            always_touching: of(ExclusionReason::AlwaysTouching),
+            samples: SAMPLES,
+            robot: robot.name().to_owned(),
+        })
+    }
+
+    /// The list as an SRDF, which says in comments why each pair is in it.
+    #[must_use]
+    pub fn srdf(&self) -> String {
+        let name = escaped(&self.robot);
+        let mut text = format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<robot name=\"{name}\">\n");
+        let always = format!(
+            "touch in each of {} configurations spread over the limits of the joints: look whether the real links may",
+            self.samples
+        );
+        for (pairs, why, reason) in [
+            (&self.neighbours, "adjacent: the links share a joint", "Adjacent"),
+            (&self.always_touching, &*always, "Default"),
+        ] {
+            if !pairs.is_empty() {
+                // Writing to a String cannot fail.
+                let _ = writeln!(text, "  <!-- {why} -->");
+            }
+            for [a, b] in pairs {
+                let [a, b] = [a, b].map(|link| escaped(link));
+                let _ = writeln!(
+                    text,
+                    "  <disable_collisions link1=\"{a}\" link2=\"{b}\" reason=\"{reason}\"/>"
+                );
+            }
+        }
+        text + "</robot>\n"
+    }
+}
+
+/// Text as an attribute of XML has it.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+/// How far a body may be off axis 6 and still count as round about it \[m\], and its axis turned from it \[rad\]: what descriptions with five
+/// digits of an angle leave open.
+const OFF: f64 = 1e-4;
+
+/// Whether a body at `T_flange_body` of a mounting frame is round about axis 6, to [`OFF`]: its distance from what carries joint 6 is then the same in every
+/// configuration.
+pub(crate) fn is_round_about_axis_6(flange: &Frame, shape: &Shape, pose: &Pose) -> bool {
+    // Axis 6 is z of the frame of its body.
+    let body = flange.on_body().then(&Rigid::from(pose));
+    let is_on_axis = body.translation.xy().norm() <= OFF;
+    let is_along = body.rotation.column(2).xy().norm() <= OFF;
+    match shape {
+        Shape::Sphere { .. } => is_on_axis,
+        Shape::Cylinder { .. } | Shape::Capsule { .. } => is_on_axis && is_along,
+        Shape::Box { .. } | Shape::Hull { .. } => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixtures::kitchen_tool;
+    use crate::workcell::Obstacle;
+    use platewash_kinematics::DisabledPairs;
+
+    /// Read back, the list leaves out what was found.
+    #[test]
+    fn the_srdf_leaves_out_what_was_found() {
+        let robot = RobotModel::irb120().unwrap();
+        let found = TouchingPairs::of(&robot).unwrap();
+        assert_eq!(found.neighbours.len(), 6);
+        assert!(
+            found
+                .always_touching
+                .contains(&["link_4".to_owned(), "link_6".to_owned()]),
+            "{found:?}"
+        );
+        let text = found.srdf();
+        assert!(
+            text.contains("<!-- adjacent") && text.contains("in each of 64 configurations"),
+            "{text}"
+        );
+        let listed = robot
+            .clone()
+            .with_disabled_pairs(DisabledPairs::parse(&text).unwrap())
+            .unwrap();
+        let floor = [Obstacle::floor()];
+        let pairs = |robot: &RobotModel| -> Vec<_> {
+            let left_out = exclusions(robot, &kitchen_tool(), &floor).unwrap();
+            left_out.into_iter().map(|e| e.pair).collect()
+        };
+        assert_eq!(pairs(&listed), pairs(&robot.without_disabled_pairs()));
+    }
+
+    #[test]
+    fn names_are_written_as_xml_has_them() {
+        let pairs = TouchingPairs {
+            neighbours: vec![["a<b".to_owned(), "c\"&d".to_owned()]],
+            always_touching: Vec::new(),
+            samples: 64,
+            robot: "r&d".to_owned(),
+        };
+        let read = DisabledPairs::parse(&pairs.srdf()).unwrap();
+        assert!(read.contains("a<b", "c\"&d"));
+    }
 }

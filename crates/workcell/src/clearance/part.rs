@@ -2,8 +2,8 @@
 //!
 //! A sphere is a point with a radius and a capsule a segment with one, so that their distances have closed forms.
 
-use super::convex::{ConvexHull, HullFault};
-use super::lever::Levers;
+use crate::clearance::convex::{ConvexHull, HullFault};
+use crate::clearance::lever::Levers;
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::shape::{Cuboid, Cylinder, Segment, SharedShape};
@@ -18,7 +18,7 @@ const Y_TO_Z: f64 = FRAC_PI_2;
 
 /// The core of a part, in its own frame.
 #[derive(Clone)]
-pub(super) enum Core {
+pub(crate) enum Core {
     /// A segment on z, half length \[m\]; 0 for a point.
     Segment(f64),
     /// A solid of the collision library.
@@ -29,7 +29,7 @@ pub(super) enum Core {
 
 /// What the height of a solid over a half-space needs.
 #[derive(Debug, Clone)]
-pub(super) enum Extent {
+pub(crate) enum Extent {
     /// Vertices \[m\], shared by parts that are alike.
     Vertices(Arc<[Vector]>),
     /// A cylinder along y: radius and half length \[m\].
@@ -38,7 +38,7 @@ pub(super) enum Extent {
 
 /// A part of a body, fixed to one of the arm's frames.
 #[derive(Debug, Clone)]
-pub(super) struct Part {
+pub(crate) struct Part {
     core: Core,
     /// All within this distance of the core belongs to the part \[m\].
     radius: f64,
@@ -48,7 +48,7 @@ pub(super) struct Part {
 }
 
 /// A part at one configuration, base frame.
-pub(super) struct Placed<'a> {
+pub(crate) struct Placed<'a> {
     pub core: &'a Core,
     pub radius: f64,
     pub pose: Pose,

@@ -5,7 +5,10 @@
 //! is left in none of them is added to the nearest: so the parts enclose the surface, whatever was proposed. A part without thickness, as
 //! of a mesh that is a sheet, gets one.
 
-use super::convex::{ConvexHull, MOST_CORNERS, has_volume};
+#[cfg(test)]
+mod tests;
+
+use crate::clearance::convex::{ConvexHull, MOST_CORNERS, has_volume};
 use nalgebra::Point3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
@@ -266,6 +269,3 @@ fn distinct(points: impl Iterator<Item = Vector>) -> Vec<Vector> {
         .filter(|p| seen.insert([p.x, p.y, p.z].map(f64::to_bits)))
         .collect()
 }
-
-#[cfg(test)]
-mod tests;

@@ -3,9 +3,9 @@
 //! The whole and each group are shapes that hold their parts, so that what is far enough from them is far enough from these. A body
 //! of one part has no tree.
 
-use super::convex::HullFault;
-use super::distance::Separation;
-use super::part::{Part, Placed};
+use crate::clearance::convex::HullFault;
+use crate::clearance::distance::Separation;
+use crate::clearance::part::{Part, Placed};
 use crate::plate::{Foot, Plate, PlateParts};
 use crate::surface::Surface;
 use nalgebra::{Point3, Vector3};
@@ -20,7 +20,7 @@ const SECTORS: usize = 3;
 
 /// What holds the parts of a body.
 #[derive(Debug, Clone)]
-pub(super) struct Tree {
+pub(crate) struct Tree {
     /// All of them.
     pub whole: Part,
     /// Some of them each; all of them together.
@@ -31,7 +31,7 @@ pub(super) struct Tree {
 
 /// Some parts of a body and a sphere that holds them.
 #[derive(Debug, Clone)]
-pub(super) struct Group {
+pub(crate) struct Group {
     pub ball: Part,
     pub members: Range<usize>,
 }
@@ -49,7 +49,7 @@ struct Solid {
 
 /// Which of two parts comes first in a distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Order {
+pub(crate) enum Order {
     /// A part of the tree.
     TreeFirst,
     /// The other part.

@@ -5,10 +5,10 @@
 //!
 //! [`Plate::may_touch_beside`]: crate::plate::Plate::may_touch_beside
 
-use super::body::{BodyKind, place};
-use super::distance::{Separation, bracketed, separation};
-use super::model::{ClearanceModel, PairClearance, is_clear, nearest};
-use super::part::Placed;
+use crate::clearance::body::{BodyKind, place};
+use crate::clearance::distance::{Separation, bracketed, separation};
+use crate::clearance::model::{ClearanceModel, PairClearance, is_clear, nearest};
+use crate::clearance::part::Placed;
 use platewash_kinematics::{BodyPoses, JointVector};
 
 /// How a distance is worked out.

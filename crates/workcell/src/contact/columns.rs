@@ -6,8 +6,8 @@
 //! the sponge.
 //! Beyond the rim there is nothing: a part that is there in part counts for the greatest force and not for the least.
 
-use super::parts::{Met, PartBounds, Size, Spread};
-use super::{Foundation, SpongePose};
+use crate::contact::parts::{Met, PartBounds, Size, Spread};
+use crate::contact::{Foundation, SpongePose};
 use crate::surface::Surface;
 use crate::trig::{sin, sin_cos};
 use nalgebra::Vector3;
@@ -183,7 +183,7 @@ impl Columns {
     }
 
     /// How large the parts are.
-    pub(super) fn sizes(&self) -> impl Iterator<Item = Size> {
+    pub(crate) fn sizes(&self) -> impl Iterator<Item = Size> {
         let (reach_m, radius_m) = (self.reach_m(), self.foundation.radius_m);
         let r2 = radius_m * radius_m;
         self.parts.iter().map(move |part| {
@@ -200,13 +200,13 @@ impl Columns {
     }
 
     /// Where the parts have their middles on the sponge's face, along the two unit vectors of [`Self::turned`] \[m\].
-    pub(super) fn middles_m(&self) -> impl Iterator<Item = [f64; 2]> {
+    pub(crate) fn middles_m(&self) -> impl Iterator<Item = [f64; 2]> {
         let radius_m = self.foundation.radius_m;
         self.parts.iter().map(move |part| part.at.map(|x| x * radius_m))
     }
 
     /// The neighbours of the parts on the ring within.
-    pub(super) fn inner(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn inner(&self) -> impl Iterator<Item = usize> {
         self.parts.iter().map(|part| part.inner)
     }
 
@@ -248,7 +248,7 @@ fn across(axis: &Vector3<f64>) -> [Vector3<f64>; 2] {
 }
 
 /// Where a line meets a surface: how far along it \[m\], the place and the normal there.
-pub(super) type Meets = (f64, Vector3<f64>, Vector3<f64>);
+pub(crate) type Meets = (f64, Vector3<f64>, Vector3<f64>);
 
 /// Where a line along a unit vector from a point meets a surface: by Newton's method on the height over the surface.
 fn meet(surface: &Surface, start: &Vector3<f64>, axis: &Vector3<f64>) -> Meets {
@@ -256,7 +256,7 @@ fn meet(surface: &Surface, start: &Vector3<f64>, axis: &Vector3<f64>) -> Meets {
 }
 
 /// As [`meet`], from a guess, until a step is no longer than `settled_m`: each squares the error.
-pub(super) fn meet_from(
+pub(crate) fn meet_from(
     surface: &Surface,
     (start, axis): (&Vector3<f64>, &Vector3<f64>),
     guess_m: f64,

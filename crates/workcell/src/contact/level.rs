@@ -5,7 +5,7 @@
 //! being convex, at most m where m ≥ k, and at most (m + k)/2, half its greatest value, elsewhere; it grows with m and with k. Seen along
 //! the sponge's axis, what is beyond the plate's rim is no more than what of a disc of radius s / cos τ is beyond it.
 
-use super::Foundation;
+use crate::contact::Foundation;
 use crate::trig::acos;
 use std::f64::consts::PI;
 

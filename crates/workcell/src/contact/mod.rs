@@ -15,31 +15,21 @@
 //! `stands.rs` the same over a stretch of time, `level.rs` on a flat face; `raster.rs` the plate's face in cells: where it is pressed, for
 //! how long and how much, by what `bounds.rs` knows of each.
 
-mod affine;
-mod bends;
-mod bounds;
-mod cell;
 mod columns;
-mod doses;
-mod dwell;
-mod edges;
 mod level;
 mod moment;
 mod parts;
-mod raster;
+pub(crate) mod shares;
 mod stands;
-mod sums;
 #[cfg(test)]
 mod tests;
-mod touch;
 
-pub use bends::Bends;
-pub use columns::{Column, Columns, Load};
-pub use dwell::Looks;
-pub use level::{Level, LevelPress};
-pub use moment::{Drift, Dwell, Moment, Sags, Wanted};
-pub use raster::{Fineness, Share, Shares, shares};
-pub use stands::{Press, Seen, Standing, Touching};
+pub use crate::contact::columns::{Column, Columns, Load};
+pub use crate::contact::level::{Level, LevelPress};
+pub use crate::contact::moment::{Drift, Dwell, Looks, Moment, Sags, Wanted};
+pub use crate::contact::parts::Bends;
+pub use crate::contact::shares::{Fineness, Share, Shares, shares};
+pub use crate::contact::stands::{Press, Seen, Standing, Touching};
 
 use crate::plate::Plate;
 use crate::tool::{Sponge, Tool};

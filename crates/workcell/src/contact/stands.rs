@@ -9,11 +9,10 @@
 //! together. The mean of r is at most the root of that of r², which is the square of the distance of the part's middle and the mean of the
 //! square of that from it; and r varies by no more than the root of the latter, W by half of what its extremes are apart.
 
-use super::SpongePose;
-use super::bends::Bends;
-use super::columns::{Columns, meet_from};
-use super::moment::Drift;
-use super::parts::{Met, PartBounds, Size, Spread};
+use crate::contact::SpongePose;
+use crate::contact::columns::{Columns, meet_from};
+use crate::contact::moment::Drift;
+use crate::contact::parts::{Bends, Met, PartBounds, Size, Spread};
 use nalgebra::Vector3;
 
 /// What a plate asks of the foam, wherever within its error of height it lies.

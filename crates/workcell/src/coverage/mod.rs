@@ -1,18 +1,14 @@
 //! How much of a plate the sponge sweeps.
 
-mod capsule;
-mod columns;
-mod disc;
 mod picture;
 mod raster;
 
+pub use crate::coverage::picture::{CoverageRaster, MAX_CELLS, RasterCell, raster};
+pub(crate) use crate::coverage::raster::area_of_rectangle_in_disc;
+
+use crate::coverage::raster::{Capsule, Raster, Uncovered};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-
-use capsule::Capsule;
-pub(crate) use disc::area_of_rectangle_in_disc;
-pub use picture::{CoverageRaster, MAX_CELLS, RasterCell, raster};
-use raster::{Raster, Uncovered};
 
 /// Cells may not be smaller than this part of the plate's radius, so that every call ends soon.
 pub(crate) const SMALLEST_CELL: f64 = 1e-5;

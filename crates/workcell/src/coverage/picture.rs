@@ -1,7 +1,7 @@
 //! What the sponge sweeps as a regular raster, to look at.
 
-use super::capsule::Capsule;
-use super::{CoverageError, capsules, check_lengths};
+use crate::coverage::raster::Capsule;
+use crate::coverage::{CoverageError, capsules, check_lengths};
 use rayon::prelude::*;
 
 /// Most cells along an edge of a raster.
@@ -31,11 +31,11 @@ pub struct CoverageRaster {
     pub y_m: Vec<f64>,
 }
 
-/// The swept part of a disc as a raster of `cells` × `cells`; the arguments are those of [`coverage`](super::coverage). A cell
+/// The swept part of a disc as a raster of `cells` × `cells`; the arguments are those of [`coverage`](crate::coverage::coverage). A cell
 /// that is called swept or missed is so wholly; no cell outside the disc is called either.
 ///
 /// # Errors
-/// [`CoverageError`] as for [`coverage`](super::coverage), and [`CoverageError::Cells`] for a raster without cells or with
+/// [`CoverageError`] as for [`coverage`](crate::coverage::coverage), and [`CoverageError::Cells`] for a raster without cells or with
 /// more than [`MAX_CELLS`] along an edge.
 pub fn raster(
     polyline: &[[f64; 2]],

@@ -1,18 +1,24 @@
 //! The terms of a job: everything about it but the arm itself.
+//!
+//! A job as its arm sees it: the world in the frame of the arm's base.
+//!
+//! Plates that share a place, with each other or with the arm's base.
 
-use super::error::JobError;
-use super::planner::{Planner, PlannerSettings};
-use super::requirements::{Limits, Requirements, Treatment};
-use crate::clearance::{ClearanceError, StandingOverlap, standing_overlaps};
+use crate::clearance::{ClearanceError, StandingOverlap, gap_of_plates, standing_overlaps};
 use crate::dry_run::DryRun;
-use crate::layout::MAX_PLATES;
+use crate::job::error::JobError;
+use crate::job::requirements::{Limits, Planner, PlannerSettings, Requirements, Treatment};
+use crate::layout::{MAX_PLATES, base_footprint};
 use crate::plate::{GREATEST_M, Plate};
 use crate::pose;
 use crate::simulation::SimulationSettings;
 use crate::workcell::{MOST_BODIES, Workcell};
+use platewash_kinematics::words::not_as_zero;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
+use std::fmt;
 
 /// The largest seed: up to here every whole number is a JSON number of its own (RFC 8785 writes them all as doubles), so that no two
 /// seeds are one text in a plan file.
@@ -255,12 +261,81 @@ fn positive(name: &'static str, found: f64) -> Result<(), JobError> {
     Err(JobError::Number { name, expected, found })
 }
 
+impl JobTerms {
+    /// The same terms in the frame of the arm's base: the arm is mounted at the origin, obstacles and plates are where the arm has
+    /// them. Terms whose world is that frame are returned as they are.
+    ///
+    /// Joint positions, requirements and limits do not change: what is planned, proved or simulated for the one is for the other.
+    #[must_use]
+    pub fn seen_from_base(&self) -> Cow<'_, Self> {
+        if self.workcell.is_in_base_frame() {
+            return Cow::Borrowed(self);
+        }
+        let to_base = self.workcell.mount.inverse();
+        Cow::Owned(Self {
+            workcell: self.workcell.seen_from_base().into_owned(),
+            plates: self.plates.iter().map(|plate| plate.seen_from(&to_base)).collect(),
+            ..self.clone()
+        })
+    }
+}
+
+/// Plates that overlap by less than this touch: the rounding of places \[m\].
+const PLACE_M: f64 = 1e-9;
+
+/// A plate that shares its place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlateOverlap {
+    /// The plate.
+    pub plate: usize,
+    /// The other plate; `None` for the arm's base.
+    pub other: Option<usize>,
+    /// How far they would have to be moved apart \[m\].
+    pub by_m: f64,
+}
+
+impl JobTerms {
+    /// The plates that lie over the base's footprint, then those that share a place with another: what
+    /// [`Overlap::Fail`](crate::job::Overlap::Fail) allows none of. Plates that stand at an angle and reach into the base are told by
+    /// [`JobTerms::standing_overlaps`].
+    #[must_use]
+    pub fn plate_overlaps(&self, arm: &RobotModel) -> Vec<PlateOverlap> {
+        let seen = self.seen_from_base();
+        let (plates, base) = (&seen.plates, base_footprint(arm));
+        let shares = |plate: usize, other: Option<usize>, gap_m: f64| {
+            let by_m = -gap_m;
+            (by_m > PLACE_M).then_some(PlateOverlap { plate, other, by_m })
+        };
+        let over_base = |(i, plate)| base.gap_m(plate).and_then(|gap_m| shares(i, None, gap_m));
+        let mut found: Vec<_> = plates.iter().enumerate().filter_map(over_base).collect();
+        for (a, first) in plates.iter().enumerate() {
+            for (b, second) in plates.iter().enumerate().skip(a + 1) {
+                found.extend(shares(a, Some(b), gap_of_plates(arm, first, second)));
+            }
+        }
+        found
+    }
+}
+
+impl fmt::Display for PlateOverlap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (plate, mm) = (self.plate, not_as_zero(1e3 * self.by_m, 1));
+        match self.other {
+            Some(other) => write!(f, "plate {plate} and plate {other} overlap by {mm} mm"),
+            None => write!(f, "plate {plate} overlaps the robot's base by {mm} mm"),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fixtures::{kitchen, kitchen_terms};
     use crate::job::WashJob;
     use crate::workcell::Obstacle;
+    use nalgebra::{UnitQuaternion, Vector3};
+    use platewash_kinematics::Pose;
+    use std::borrow::Cow;
 
     type Change = fn(&mut JobTerms);
 
@@ -323,5 +398,24 @@ mod tests {
         assert_eq!(terms.tilt_max_rad(), 30_f64.to_radians());
         terms.workcell.tool.sponge.height_m = 0.5 * terms.workcell.tool.sponge.radius_m;
         assert!((terms.tilt_max_rad() - 0.5_f64.atan()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_job_on_the_floor_is_what_its_arm_sees() {
+        assert!(matches!(kitchen().terms().seen_from_base(), Cow::Borrowed(_)));
+    }
+
+    /// By hand: a base at (1, 2, 0.5), turned by a quarter about z, has what is at (1.3, 2, 0.53) at (0, −0.3, 0.03).
+    #[test]
+    fn plates_and_obstacles_are_where_the_arm_has_them() {
+        let mut terms = kitchen().terms().clone();
+        let quarter = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::FRAC_PI_2);
+        terms.workcell.mount = Pose::from_parts(Vector3::new(1.0, 2.0, 0.5).into(), quarter);
+        terms.plates[0].pose = Pose::translation(1.3, 2.0, 0.53);
+        let seen = terms.seen_from_base();
+        assert_eq!(seen.workcell.mount, Pose::identity());
+        assert!((seen.plates[0].centre() - Vector3::new(0.0, -0.3, 0.03)).norm() < 1e-12);
+        assert!((seen.workcell.obstacles[0].pose.translation.vector - Vector3::new(-2.0, 1.0, -0.5)).norm() < 1e-12);
+        assert_eq!(seen.home_rad, terms.home_rad);
     }
 }

@@ -1,7 +1,7 @@
 //! A job with its arm.
 
-use super::error::{End, JobError};
-use super::terms::JobTerms;
+use crate::job::error::{End, JobError};
+use crate::job::terms::JobTerms;
 use crate::plate::Plate;
 use crate::workcell::ArmId;
 use platewash_kinematics::RobotModel;

@@ -126,7 +126,7 @@ fn upper_bound_text(upper_bound: Option<usize>) -> String {
 }
 
 impl LayoutError {
-    pub(super) fn invalid(key: &'static str, problem: InputProblem) -> Self {
+    pub(crate) fn invalid(key: &'static str, problem: InputProblem) -> Self {
         Self::InvalidInput { key, problem }
     }
 
@@ -150,7 +150,7 @@ impl LayoutError {
 }
 
 /// Refuses what is not a finite number.
-pub(super) fn finite(key: &'static str, value: f64) -> Result<(), LayoutError> {
+pub(crate) fn finite(key: &'static str, value: f64) -> Result<(), LayoutError> {
     if value.is_finite() {
         Ok(())
     } else {
@@ -159,7 +159,7 @@ pub(super) fn finite(key: &'static str, value: f64) -> Result<(), LayoutError> {
 }
 
 /// Refuses what is not a finite number of zero or more.
-pub(super) fn not_negative(key: &'static str, value: f64) -> Result<(), LayoutError> {
+pub(crate) fn not_negative(key: &'static str, value: f64) -> Result<(), LayoutError> {
     finite(key, value)?;
     if value < 0.0 {
         Err(LayoutError::invalid(key, InputProblem::Negative))
@@ -169,7 +169,7 @@ pub(super) fn not_negative(key: &'static str, value: f64) -> Result<(), LayoutEr
 }
 
 /// Refuses what is not a finite number greater than zero.
-pub(super) fn positive(key: &'static str, value: f64) -> Result<(), LayoutError> {
+pub(crate) fn positive(key: &'static str, value: f64) -> Result<(), LayoutError> {
     finite(key, value)?;
     if value <= 0.0 {
         Err(LayoutError::invalid(key, InputProblem::NotPositive))
@@ -179,7 +179,7 @@ pub(super) fn positive(key: &'static str, value: f64) -> Result<(), LayoutError>
 }
 
 /// Refuses what is not a finite range `[low, high]` of positive width.
-pub(super) fn range(key: &'static str, [low, high]: [f64; 2]) -> Result<(), LayoutError> {
+pub(crate) fn range(key: &'static str, [low, high]: [f64; 2]) -> Result<(), LayoutError> {
     finite(key, low)?;
     finite(key, high)?;
     if low > high {

@@ -1,13 +1,10 @@
 //! What is wrong with a layout, without making it useless.
 
-use std::fmt;
-
-use serde::{Deserialize, Serialize};
-
-use platewash_kinematics::words::{not_as_zero, told_apart};
-
-use super::{BaseFootprint, Region, Spacing};
+use crate::layout::{BaseFootprint, Region, Spacing};
 use crate::plate::Plate;
+use platewash_kinematics::words::{not_as_zero, told_apart};
+use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// Something that a layout breaks. Plates are named by index, from 0; lengths are in metres, positions in the base frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -116,7 +113,7 @@ impl fmt::Display for Finding {
 
 impl Finding {
     /// The same of a layout about another origin, so much farther \[m\].
-    pub(super) fn move_by(&mut self, [x, y]: [f64; 2]) {
+    pub(crate) fn move_by(&mut self, [x, y]: [f64; 2]) {
         if let Self::LeavesRegion { x_m, y_m, .. } = self {
             (*x_m, *y_m) = (*x_m + x, *y_m + y);
         }
@@ -125,7 +122,7 @@ impl Finding {
 
 /// Plates that overlap each other or the base: those that are parallel, seen along their axis, and those that lie level over the base. What
 /// plates at an angle meet is for their bodies to tell.
-pub(super) fn overlaps(plates: &[Plate], base: Option<&BaseFootprint>) -> Vec<Finding> {
+pub(crate) fn overlaps(plates: &[Plate], base: Option<&BaseFootprint>) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (i, plate) in plates.iter().enumerate() {
         let overlap_m = base.and_then(|base| base.gap_m(plate)).map_or(0.0, |gap_m| -gap_m);
@@ -147,7 +144,7 @@ pub(super) fn overlaps(plates: &[Plate], base: Option<&BaseFootprint>) -> Vec<Fi
 }
 
 /// Plates that break the rules by which layouts are drawn.
-pub(super) fn broken_rules(plates: &[Plate], region: Option<&Region>, spacing: &Spacing) -> Vec<Finding> {
+pub(crate) fn broken_rules(plates: &[Plate], region: Option<&Region>, spacing: &Spacing) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (i, plate) in plates.iter().enumerate() {
         let [x_m, y_m] = plate.centre_xy();

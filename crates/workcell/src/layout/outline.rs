@@ -1,6 +1,8 @@
 //! The border of a region, to look at.
+//!
+//! Where plates are drawn, to look at.
 
-use super::region::Region;
+use crate::layout::region::Region;
 use crate::trig::sin_cos;
 
 /// Greatest angle between two points of an arc \[rad\].
@@ -66,6 +68,15 @@ fn kept(polygon: &[Point], inside: impl Fn(&Point) -> f64) -> Vec<Point> {
         }
     }
     kept
+}
+
+/// Where the centres of plates are drawn. A plan has its plates and does not say it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TaskRegion {
+    /// Radius about the base axis that the centres keep away from \[m\].
+    pub base_circle_m: Option<f64>,
+    /// A closed polygon seen from above \[m\].
+    pub polygon_m: Option<Vec<[f64; 2]>>,
 }
 
 #[cfg(test)]

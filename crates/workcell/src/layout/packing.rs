@@ -1,6 +1,6 @@
 //! How many plates no arrangement can exceed.
 
-use super::region::{Area, Region};
+use crate::layout::region::{Area, Region};
 use crate::trig::sin_cos;
 
 type Point = [f64; 2];
@@ -80,8 +80,6 @@ fn area_and_perimeter(polygon: &[Point]) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
-
     use super::*;
 
     fn square(side: f64) -> Region {

@@ -1,9 +1,16 @@
 //! Where plate centres may be.
+//!
+//! A range of azimuths about the base axis, as half planes.
+//!
+//! What the arm's base covers.
 
+use crate::layout::BaseFootprint;
+use crate::layout::error::{InputProblem, LayoutError, not_negative, range};
+use crate::trig::sin_cos;
+use nalgebra::Matrix3;
+use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::{Pose, RobotModel};
 use serde::{Deserialize, Serialize};
-
-use super::error::{InputProblem, LayoutError, not_negative, range};
-use super::wedge::Wedge;
 
 /// The region of plate centres, in the base frame (z up, origin on the base axis): the points that satisfy every range
 /// that is given. Boundaries belong to it.
@@ -69,7 +76,7 @@ impl Region {
 
 /// A region made ready for many queries.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Area {
+pub(crate) struct Area {
     low: [f64; 2],
     high: [f64; 2],
     rho_squared: Option<[f64; 2]>,
@@ -78,21 +85,21 @@ pub(super) struct Area {
 
 /// An axis-aligned rectangle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct QuadCell {
-    pub(super) middle: [f64; 2],
-    pub(super) half: [f64; 2],
+pub(crate) struct QuadCell {
+    pub(crate) middle: [f64; 2],
+    pub(crate) half: [f64; 2],
 }
 
 impl QuadCell {
     /// Square of the greatest distance from `p` to a point of the rectangle.
-    pub(super) fn farthest_squared(&self, p: [f64; 2]) -> f64 {
+    pub(crate) fn farthest_squared(&self, p: [f64; 2]) -> f64 {
         let dx = (self.middle[0] - p[0]).abs() + self.half[0];
         let dy = (self.middle[1] - p[1]).abs() + self.half[1];
         dx * dx + dy * dy
     }
 
     /// Square of the least distance from `p` to a point of the rectangle.
-    pub(super) fn nearest_squared(&self, p: [f64; 2]) -> f64 {
+    pub(crate) fn nearest_squared(&self, p: [f64; 2]) -> f64 {
         let dx = ((self.middle[0] - p[0]).abs() - self.half[0]).max(0.0);
         let dy = ((self.middle[1] - p[1]).abs() - self.half[1]).max(0.0);
         dx * dx + dy * dy
@@ -105,7 +112,7 @@ impl QuadCell {
 }
 
 impl Area {
-    pub(super) fn new(region: &Region) -> Self {
+    pub(crate) fn new(region: &Region) -> Self {
         let reach = region.rho_m.map_or(f64::INFINITY, |rho| rho[1]);
         Self {
             low: [region.x_m[0].max(-reach), region.y_m[0].max(-reach)],
@@ -115,21 +122,21 @@ impl Area {
         }
     }
 
-    pub(super) fn wedge(&self) -> &Wedge {
+    pub(crate) fn wedge(&self) -> &Wedge {
         &self.wedge
     }
 
     /// Lower corner of a box around the area.
-    pub(super) fn low(&self) -> [f64; 2] {
+    pub(crate) fn low(&self) -> [f64; 2] {
         self.low
     }
 
     /// Extents of that box; not positive when the area is empty.
-    pub(super) fn size(&self) -> [f64; 2] {
+    pub(crate) fn size(&self) -> [f64; 2] {
         [self.high[0] - self.low[0], self.high[1] - self.low[1]]
     }
 
-    pub(super) fn contains(&self, p: [f64; 2]) -> bool {
+    pub(crate) fn contains(&self, p: [f64; 2]) -> bool {
         let in_box = p[0] >= self.low[0] && p[0] <= self.high[0] && p[1] >= self.low[1] && p[1] <= self.high[1];
         in_box
             && self
@@ -139,10 +146,190 @@ impl Area {
     }
 
     /// Whether a cell of the box is surely outside. May miss one that is outside, never the reverse.
-    pub(super) fn excludes(&self, cell: &QuadCell) -> bool {
+    pub(crate) fn excludes(&self, cell: &QuadCell) -> bool {
         let ring = self
             .rho_squared
             .is_some_and(|[low, high]| cell.farthest_squared([0.0; 2]) < low || cell.nearest_squared([0.0; 2]) > high);
         ring || self.wedge.excludes(&cell.corners())
+    }
+}
+
+type Point = [f64; 2];
+
+/// The points whose azimuth lies in a closed range. No angle is computed per query: membership is the sign of cross
+/// products with the two bounding rays.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Wedge {
+    /// Every azimuth.
+    Full,
+    /// At most half a turn, counter-clockwise from the ray `from` to the ray `to`: an intersection of half planes.
+    Convex { from: Point, to: Point, middle: Point },
+    /// More than half a turn: what is left outside the open convex wedge from the ray `to` on to the ray `from`.
+    Reflex { from: Point, to: Point },
+}
+
+fn cross(a: Point, b: Point) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// The unit vector at an azimuth, exact at multiples of 90° (so that a plate on an axis belongs to `[-90, 90]`).
+fn ray(azimuth_deg: f64) -> Point {
+    let azimuth_deg = azimuth_deg.rem_euclid(360.0);
+    let quarter = (azimuth_deg / 90.0).floor();
+    let (sin, cos) = sin_cos((azimuth_deg - 90.0 * quarter).to_radians());
+    match quarter as u8 % 4 {
+        0 => [cos, sin],
+        1 => [-sin, cos],
+        2 => [-cos, -sin],
+        _ => [sin, -cos],
+    }
+}
+
+impl Wedge {
+    /// The wedge of azimuths from `low_deg` to `high_deg`, counter-clockwise from base x, 0 < `high_deg` − `low_deg` ≤ 360.
+    pub(crate) fn new([low_deg, high_deg]: [f64; 2]) -> Self {
+        let (from, to) = (ray(low_deg), ray(high_deg));
+        let width_deg = high_deg - low_deg;
+        if width_deg >= 360.0 {
+            Self::Full
+        } else if width_deg > 180.0 {
+            Self::Reflex { from, to }
+        } else {
+            Self::Convex {
+                from,
+                to,
+                middle: ray(low_deg + 0.5 * width_deg),
+            }
+        }
+    }
+
+    pub(crate) fn contains(&self, p: Point) -> bool {
+        match *self {
+            Self::Full => true,
+            Self::Convex { from, to, .. } => cross(from, p) >= 0.0 && cross(p, to) >= 0.0,
+            Self::Reflex { from, to } => cross(to, p) <= 0.0 || cross(p, from) <= 0.0,
+        }
+    }
+
+    /// Whether the convex hull of `corners` is surely outside. May miss a polygon that is outside, never the reverse.
+    pub(crate) fn excludes(&self, corners: &[Point; 4]) -> bool {
+        let all = |outside: &dyn Fn(Point) -> bool| corners.iter().all(|&p| outside(p));
+        match *self {
+            Self::Full => false,
+            Self::Convex { from, to, middle } => {
+                all(&|p| cross(from, p) < 0.0) || all(&|p| cross(p, to) < 0.0) || all(&|p| dot(middle, p) < 0.0)
+            }
+            Self::Reflex { .. } => all(&|p| !self.contains(p)),
+        }
+    }
+
+    /// Outward normals of the half planes through the origin that contain the wedge; none when it is not convex.
+    pub(crate) fn outward_normals(&self) -> Vec<Point> {
+        match *self {
+            Self::Convex { from, to, .. } => vec![[from[1], -from[0]], [-to[1], to[0]]],
+            Self::Full | Self::Reflex { .. } => Vec::new(),
+        }
+    }
+}
+
+/// Half the side of the footprint assumed for an arm whose base has no collision geometry \[m\].
+const DEFAULT_HALF_SIDE_M: f64 = 0.09;
+
+/// Sine of the angle to the vertical up to which a base stands upright.
+const UPRIGHT: f64 = 1e-9;
+
+/// The rectangle around what stands on the floor and never moves: the bounds of the base's collision shapes, or
+/// ± 90 mm where there are none.
+#[must_use]
+pub fn base_footprint(robot: &RobotModel) -> BaseFootprint {
+    turned_footprint(robot, &Matrix3::identity())
+}
+
+/// The same of an arm mounted at `T_world_base`, in the frame of the layout; `None` where its base does not stand upright, so that no plate
+/// lies level with it.
+#[must_use]
+pub fn mounted_footprint(robot: &RobotModel, mount: &Pose) -> Option<BaseFootprint> {
+    let turned = Rigid::from(mount).rotation;
+    let [across, along] = [turned.m13.abs().max(turned.m23.abs()), turned.m33];
+    (across <= UPRIGHT && along > 0.0).then(|| turned_footprint(robot, &turned))
+}
+
+/// The footprint of an arm whose base is turned.
+fn turned_footprint(robot: &RobotModel, turned: &Matrix3<f64>) -> BaseFootprint {
+    let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+    let base = robot.fk(&nalgebra::Vector6::zeros());
+    for link in robot.links().iter().filter(|link| link.frame.body() == 0) {
+        let placed = base.rigid(&link.frame);
+        for primitive in &link.collision {
+            let shape = placed.then(&Rigid::from(&primitive.pose));
+            let shape = Rigid {
+                rotation: turned * shape.rotation,
+                translation: turned * shape.translation,
+            };
+            for (axis, [least, most]) in bounds.iter_mut().enumerate() {
+                let along = shape.rotation.row(axis).transpose();
+                let centre = shape.translation[axis];
+                *least = least.min(centre - primitive.shape.support(&-along));
+                *most = most.max(centre + primitive.shape.support(&along));
+            }
+        }
+    }
+    let [x_m, y_m] = bounds.map(|[least, most]| {
+        if least < most {
+            [least, most]
+        } else {
+            [-DEFAULT_HALF_SIDE_M, DEFAULT_HALF_SIDE_M]
+        }
+    });
+    BaseFootprint { x_m, y_m }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn axes_belong_to_the_wedges_they_bound() {
+        for (range, p) in [
+            ([-90.0, 90.0], [0.0, 0.3]),
+            ([-90.0, 90.0], [0.0, -0.3]),
+            ([0.0, 180.0], [-0.3, 0.0]),
+        ] {
+            assert!(Wedge::new(range).contains(p), "{range:?} {p:?}");
+        }
+        assert!(Wedge::new([-180.0, 180.0]).contains([-0.3, 0.0]));
+        assert!(Wedge::new([90.0, 360.0]).contains([0.0, 0.3]) && Wedge::new([90.0, 360.0]).contains([0.3, 0.0]));
+        assert!(!Wedge::new([90.0, 360.0]).contains([0.3, 0.1]));
+        assert!(Wedge::new([250.0, 470.0]).contains([1.0, 0.0]) && !Wedge::new([250.0, 470.0]).contains([-1.0, 0.0]));
+    }
+
+    proptest! {
+        #[test]
+        fn membership_agrees_with_the_angle(low in -360.0..360.0_f64, width in 0.01..360.0_f64, azimuth in -180.0..180.0_f64, rho in 1e-3..2.0_f64) {
+            let offset = (azimuth - low).rem_euclid(360.0);
+            prop_assume!(offset > 1e-9 && (offset - width).abs() > 1e-9 && offset < 360.0 - 1e-9);
+            let (sin, cos) = sin_cos(azimuth.to_radians());
+            prop_assert_eq!(Wedge::new([low, low + width]).contains([rho * cos, rho * sin]), offset < width);
+        }
+
+        #[test]
+        fn no_point_of_an_excluded_square_is_inside(low in -360.0..360.0_f64, width in 0.01..360.0_f64, x in -1.0..1.0_f64, y in -1.0..1.0_f64, h in 0.0..0.5_f64, u in -1.0..1.0_f64, v in -1.0..1.0_f64) {
+            let wedge = Wedge::new([low, low + width]);
+            let corners = [[x - h, y - h], [x + h, y - h], [x + h, y + h], [x - h, y + h]];
+            prop_assert!(!(wedge.excludes(&corners) && wedge.contains([x + u * h, y + v * h])));
+        }
+    }
+
+    #[test]
+    fn the_irb_120_stands_on_its_bounds() {
+        let foot = base_footprint(&RobotModel::irb120().unwrap());
+        let close = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9;
+        assert!(close(foot.x_m, [-0.2115, 0.0905]), "{foot:?}");
+        assert!(close(foot.y_m, [-0.0905, 0.0905]), "{foot:?}");
     }
 }

@@ -17,15 +17,21 @@
 //!
 //! Source of the refinement: G. Zhang and S. Torquato, "Precise algorithm to generate random sequential addition of hard
 //! hyperspheres at saturation", Physical Review E 88 (2013) 053312.
+//!
+//! Which points are free for the next plate.
+//!
+//! Where the plates of a job come from: given one by one, or drawn.
 
+#[cfg(test)]
+mod tests;
+
+use crate::layout::error::{EmptyReason, LayoutError};
+use crate::layout::free_cells::{Cells, Discs, Refined};
+use crate::layout::region::{Area, QuadCell, Region};
+use crate::layout::{
+    BaseFootprint, Layout, PlateGeometry, SampleRequest, SampleSettings, Spacing, check_explicit, sample,
+};
 use rand::Rng;
-
-use super::cells::{Cells, Refined};
-use super::discs::Discs;
-use super::error::{EmptyReason, LayoutError};
-use super::region::{Area, Region};
-use super::space::Space;
-use super::spacing::Spacing;
 
 /// Draws from the box before cells are used.
 const BOX_DRAWS: u64 = 64;
@@ -66,11 +72,11 @@ enum Room {
 
 /// Work done so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Work {
+pub(crate) struct Work {
     /// Candidate positions drawn.
-    pub(super) draws: u64,
+    pub(crate) draws: u64,
     /// Quadtree cells examined.
-    pub(super) cells: u64,
+    pub(crate) cells: u64,
 }
 
 impl Sampler {
@@ -115,7 +121,7 @@ impl Sampler {
         self.draw(&discs, &mut None, rng, &mut Work::default())
     }
 
-    pub(super) fn attempt_counting<R: Rng + ?Sized>(&self, count: usize, rng: &mut R, work: &mut Work) -> Attempt {
+    pub(crate) fn attempt_counting<R: Rng + ?Sized>(&self, count: usize, rng: &mut R, work: &mut Work) -> Attempt {
         let mut discs = self.no_discs(count);
         let mut cells = None;
         while discs.len() < count {
@@ -213,5 +219,92 @@ fn unit<R: Rng + ?Sized>(rng: &mut R) -> f64 {
     (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-#[cfg(test)]
-mod tests;
+/// The region, the free space around the base and the discs around earlier plates.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Space<'a> {
+    pub(crate) area: &'a Area,
+    pub(crate) base_radius_squared: f64,
+    pub(crate) discs: &'a Discs,
+}
+
+impl Space<'_> {
+    /// In the region and strictly outside of every disc.
+    pub(crate) fn is_free(&self, p: [f64; 2]) -> bool {
+        p[0] * p[0] + p[1] * p[1] > self.base_radius_squared
+            && !self.discs.any_near(p, |[x, y], radius_squared| {
+                let (dx, dy) = (p[0] - x, p[1] - y);
+                dx * dx + dy * dy <= radius_squared
+            })
+            && self.area.contains(p)
+    }
+
+    /// Whether a cell of the region's box surely holds no free point: it lies wholly in one disc or outside the region.
+    pub(crate) fn is_closed(&self, cell: &QuadCell) -> bool {
+        cell.farthest_squared([0.0; 2]) <= self.base_radius_squared
+            || self.discs.any_near(cell.middle, |centre, radius_squared| {
+                cell.farthest_squared(centre) <= radius_squared
+            })
+            || self.area.excludes(cell)
+    }
+}
+
+/// Where the plates of a job come from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Placement {
+    /// Given by their centres.
+    Given {
+        /// Centres `[x, y]` \[m\].
+        centres_m: Vec<[f64; 2]>,
+        /// Where they should be, if anywhere; only findings rest on it.
+        region: Option<Region>,
+    },
+    /// Drawn from a random stream.
+    Sampled {
+        /// Where centres may be.
+        region: Region,
+        /// Number of plates.
+        count: usize,
+        /// Whether layouts are drawn until every plate can be washed whole.
+        washable_only: bool,
+    },
+}
+
+impl Placement {
+    /// Whether layouts are to be drawn until one can be washed whole, which takes a planner to tell.
+    #[must_use]
+    pub fn needs_planner(&self) -> bool {
+        matches!(
+            self,
+            Self::Sampled {
+                washable_only: true,
+                ..
+            }
+        )
+    }
+
+    /// Places plates of one shape round a base. Whether they can be washed is for a planner to tell.
+    ///
+    /// # Errors
+    /// As [`sample`] and [`check_explicit`].
+    pub fn place<R: Rng + ?Sized>(
+        &self,
+        spacing: &Spacing,
+        geometry: &PlateGeometry,
+        base: Option<&BaseFootprint>,
+        rng: &mut R,
+    ) -> Result<Layout, LayoutError> {
+        match self {
+            Self::Given { centres_m, region } => check_explicit(centres_m, region.as_ref(), spacing, geometry, base),
+            Self::Sampled { region, count, .. } => {
+                let request = SampleRequest {
+                    region: *region,
+                    spacing: *spacing,
+                    count: *count,
+                    geometry: *geometry,
+                    base: base.copied(),
+                };
+                sample(&request, &SampleSettings::default(), rng)
+            }
+        }
+    }
+}

@@ -1,24 +1,21 @@
 //! The plan file: a job, and a motion that does it, sealed with a hash. It is all that a verifier needs besides the arm.
+//!
+//! Formats and kinds of plan files.
+//!
+//! Why a plan file could not be written or read.
 
-mod contents;
-mod error;
-mod format;
-mod sizes;
+pub(crate) mod reading;
 
-pub use error::PlanFileError;
-pub use format::{FORMAT, Process};
-
-use crate::job::JobTerms;
-use crate::json;
-use crate::segment::PlanSegment;
-use crate::trajectory::{KnotError, Trajectory};
+use crate::job::{JobTerms, Planner};
+use crate::json::{self, JsonError};
+use crate::trajectory::{KnotError, PlanSegment, Trajectory};
 use crate::wash_path::WashPath;
-use crate::words::without_mark;
-use format::BEFORE;
+use crate::words::{printable, quoted, without_mark};
 use platewash_kinematics::words::is_hidden;
 use platewash_kinematics::{JointVector, sha256_hex};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use std::fmt;
 
 /// A plan file, `"format": "platewash-plan/2"`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -220,7 +217,7 @@ impl Plan {
     /// [`PlanFileError`] for anything but a plan of this format.
     pub fn from_json(text: &str) -> Result<Self, PlanFileError> {
         let text = without_mark(text);
-        sizes::check(text)?;
+        reading::check_sizes(text)?;
         let plan: Self = json::read(text).map_err(|error| other_format(text).unwrap_or_else(|| error.into()))?;
         if plan.format != FORMAT {
             return Err(refused(plan.format));
@@ -230,7 +227,7 @@ impl Plan {
             let stated = plan.process;
             return Err(PlanFileError::Process { stated, planned });
         }
-        contents::check(text, &plan.to_json()?, &plan)?;
+        reading::check_contents(text, &plan.to_json()?, &plan)?;
         plan.check_names()?;
         Ok(plan)
     }
@@ -289,4 +286,109 @@ fn refused(format: String) -> PlanFileError {
 
 fn unwritable(e: serde_json::Error) -> PlanFileError {
     PlanFileError::Unwritable { detail: e.to_string() }
+}
+
+/// The format that this version writes and reads.
+pub const FORMAT: &str = "platewash-plan/2";
+
+/// The format before it.
+pub(crate) const BEFORE: &str = "platewash-plan/1";
+
+/// Kinds of plans.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Process {
+    /// A washing, planned as a whole from home to home; what a certificate is about.
+    Wash,
+    /// A run of the paper's program: waypoint after waypoint. There is no certificate for it.
+    Paper,
+}
+
+impl fmt::Display for Process {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Wash => "wash",
+            Self::Paper => "paper",
+        })
+    }
+}
+
+impl From<&Planner> for Process {
+    fn from(planner: &Planner) -> Self {
+        match planner {
+            Planner::Wash(_) => Self::Wash,
+            Planner::Paper(_) => Self::Paper,
+        }
+    }
+}
+
+/// Why a plan file could not be written or read.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlanFileError {
+    /// A number in it is not finite, which JSON cannot say.
+    #[error("plan cannot be written as JSON: {detail}")]
+    Unwritable {
+        /// The serialiser's words.
+        detail: String,
+    },
+    /// Not a plan file.
+    #[error("not a plan file: {0}")]
+    Unreadable(#[from] JsonError),
+    /// A key that no plan has.
+    #[error("unknown key '{key}': a plan states what this program knows and nothing else")]
+    UnknownKey {
+        /// Its place, e.g. `wash_paths[2].extra`.
+        key: String,
+    },
+    /// A key that is left out. Nothing is filled in: the hash is that of what the file says.
+    #[error("'{key}' is missing: a plan states every value, defaults too; plan the scenario again")]
+    MissingKey {
+        /// Its place, e.g. `job.requirements.coverage`.
+        key: String,
+    },
+    /// A value that says something else than what would be read.
+    #[error("'{key}' is {found}; expected {read}")]
+    Inexact {
+        /// Its place.
+        key: String,
+        /// What the file says.
+        found: String,
+        /// What a plan file would say.
+        read: String,
+    },
+    /// The format before this one.
+    #[error(
+        "this is a {BEFORE}: it carries a scenario, and this version reads {FORMAT}, which carries the resolved job; plan its \
+         scenario again (platewash plan)"
+    )]
+    Before,
+    /// The process and the planner contradict each other.
+    #[error("process is \"{stated}\", and the job was planned as \"{planned}\"; a plan states one process")]
+    Process {
+        /// What the plan states.
+        stated: Process,
+        /// What its job says.
+        planned: Process,
+    },
+    /// Lists that are longer than those of any job.
+    #[error("the plan is too large: {detail}")]
+    TooLarge {
+        /// Which list, and where.
+        detail: String,
+    },
+    /// A name that does not read as what it says.
+    #[error("'{key}' is {}, a name with a control or direction character (escaped here): plan the scenario with another name", quoted(.found))]
+    HiddenCharacter {
+        /// Its place.
+        key: String,
+        /// The name.
+        found: String,
+    },
+    /// Another format.
+    #[error("plan format must be \"{FORMAT}\"; found \"{}\"", printable(.found))]
+    Format {
+        /// The format found.
+        found: String,
+    },
 }

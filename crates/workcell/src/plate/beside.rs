@@ -1,6 +1,6 @@
 //! How two plates lie to each other: seen along the axis of one, beside or over it.
 
-use super::Plate;
+use crate::plate::Plate;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 

@@ -1,4 +1,4 @@
-use super::*;
+use crate::tool_chain::*;
 use proptest::prelude::*;
 
 fn straight() -> StraightTool {

@@ -7,7 +7,7 @@ use crate::program::{Point, Program};
 use crate::rapid::zone::zone_named;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::fixed;
-use platewash_workcell::segment::{PlanSegment, SegmentKind};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 
 /// Decimals of joint positions \[°\]: 1 µm at the tip.
 const ANGLE_DECIMALS: usize = 4;

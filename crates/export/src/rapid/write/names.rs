@@ -1,7 +1,7 @@
 //! Names in a module: unique, no keywords, 32 characters at most.
 
 use crate::rapid::names::is_taken;
-use platewash_workcell::segment::SegmentKind;
+use platewash_workcell::trajectory::SegmentKind;
 use std::collections::HashSet;
 
 /// The share of the plan's speed that the program states.

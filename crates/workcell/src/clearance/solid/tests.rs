@@ -1,6 +1,6 @@
-use super::super::distance::bracketed;
-use super::super::{ITERATIVE_ERROR_M, part as convex};
-use super::*;
+use crate::clearance::distance::bracketed;
+use crate::clearance::solid::*;
+use crate::clearance::{ITERATIVE_ERROR_M, part as convex};
 use nalgebra::Vector3;
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::Rigid;

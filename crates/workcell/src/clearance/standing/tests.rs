@@ -1,4 +1,4 @@
-use super::*;
+use crate::clearance::standing::*;
 use crate::dry_run::DryRun;
 use crate::fixtures::{kitchen_plate, kitchen_terms};
 use crate::workcell::ObstacleShape;

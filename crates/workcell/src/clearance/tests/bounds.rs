@@ -1,6 +1,6 @@
 //! What is claimed of distances between solids, against alternating projections: a method that shares nothing with it.
 
-use super::*;
+use crate::clearance::tests::*;
 
 /// The point of a solid nearest to another point, in closed form.
 fn projected(shape: &Shape, pose: &Isometry3<f64>, point: &Point3<f64>) -> Point3<f64> {

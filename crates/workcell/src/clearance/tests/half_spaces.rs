@@ -1,7 +1,7 @@
 //! Half-spaces anywhere, against heights worked out directly: the lowest of all corners, or the support of the shape along the normal.
 
-use super::super::motion::PartPairs;
-use super::*;
+use crate::clearance::motion::PartPairs;
+use crate::clearance::tests::*;
 use crate::workcell::{Obstacle, ObstacleShape};
 
 fn shape() -> impl Strategy<Value = Shape> {

@@ -1,7 +1,7 @@
 //! Plates of many parts, against the same parts as obstacles, each a body of its own that is looked at by itself.
 
-use super::super::motion::PartPairs;
-use super::super::{ClearanceModel, ITERATIVE_ERROR_M, is_clear};
+use crate::clearance::motion::PartPairs;
+use crate::clearance::{ClearanceModel, ITERATIVE_ERROR_M, is_clear};
 use crate::fixtures::{kitchen_tool, workcell};
 use crate::plate::{Foot, Plate};
 use crate::surface::{SHIPPED_PROFILES, Surface};

@@ -1,7 +1,7 @@
 //! Bounds over a cell against dense sums at points of it, for a sponge that goes along an arc while it turns.
 
-use crate::contact::bounds::{Kept, Passes, Scratch};
-use crate::contact::cell::Cell;
+use crate::contact::shares::bounds::{Kept, Passes, Scratch};
+use crate::contact::shares::cell::Cell;
 use crate::contact::{Fineness, Foundation, Moment, Sags, SpongePose, Wanted, shares};
 use crate::surface::{SHIPPED_PROFILES, Surface};
 use nalgebra::{Rotation3, Unit, Vector3};

@@ -1,6 +1,6 @@
 //! What is said of a sponge on a plate over a stretch of time, against sums over its face at moments of it, column by column by halving.
 
-use super::*;
+use crate::contact::tests::*;
 use crate::surface::{SHIPPED_PROFILES, Surface};
 use nalgebra::{Rotation3, Unit};
 use proptest::prelude::*;

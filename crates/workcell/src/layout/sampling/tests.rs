@@ -1,10 +1,9 @@
 #![allow(clippy::unwrap_used)]
 
+use crate::layout::sampling::*;
+use crate::trig::{atan2, sin_cos};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
-
-use super::*;
-use crate::trig::{atan2, sin_cos};
 
 const SPACING: Spacing = Spacing {
     min_distance_m: 0.28,

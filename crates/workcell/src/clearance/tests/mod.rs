@@ -1,19 +1,18 @@
-use super::distance::{Separation, bracketed};
-use super::part::Part;
-use super::*;
+mod bounds;
+mod half_spaces;
+mod many_parts;
+
+use crate::clearance::distance::{Separation, bracketed};
+use crate::clearance::part::Part;
+use crate::clearance::*;
 use crate::fixtures::{kitchen_plate, kitchen_tool, workcell};
 use crate::tool::{StraightTool, Tool};
-use nalgebra::{Isometry3, Translation3, UnitQuaternion};
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
-
-mod bounds;
-mod half_spaces;
-mod many_parts;
 
 fn iso() -> impl Strategy<Value = Isometry3<f64>> {
     (prop::array::uniform3(-1.0..1.0f64), prop::array::uniform3(-3.0..3.0f64))

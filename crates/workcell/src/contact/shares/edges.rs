@@ -12,18 +12,19 @@
 //!
 //! Where the foam is released rather than left, its compression w₀ + ẇ (t − t₀) + j·δ + j_e e is such a line itself, so that g = −j/ẇ and
 //! η = ε/|ẇ|. What a cell enters it leaves in reversed time.
+//!
+//! Where a cell is in contact at one moment at least.
 
-use super::Foundation;
-use super::affine::Lower;
-use super::cell::{Cell, Seen};
-use super::moment::{Moment, Sags, Wanted};
+use crate::contact::Foundation;
+use crate::contact::moment::{Moment, Sags, Wanted};
+use crate::contact::shares::cell::{Cell, Lower, Seen};
 use nalgebra::Vector3;
 
 /// What rounding of the formulas above may make of a length \[m\].
 const ROUNDING_M: f64 = 1e-12;
 
 /// What moments and a plate are looked at with.
-pub(super) struct Edges<'a> {
+pub(crate) struct Edges<'a> {
     pub foundation: &'a Foundation,
     pub moments: &'a [Moment],
     pub sags: &'a [Sags],
@@ -32,7 +33,7 @@ pub(super) struct Edges<'a> {
 
 /// Time and dose: lower bounds, and what of the window they belong to.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Gain {
+pub(crate) struct Gain {
     pub time: Lower,
     pub dose: Lower,
     /// The latest that any place leaves, or the earliest that any enters \[s\].
@@ -41,13 +42,13 @@ pub(super) struct Gain {
 
 /// Moments one after the other, or in reversed time.
 #[derive(Clone, Copy)]
-pub(super) struct Window<'a> {
+pub(crate) struct Window<'a> {
     seen: &'a [Seen],
     pub reversed: bool,
 }
 
 /// When the places of a cell leave, from the first moment of a window on.
-pub(super) struct Leaving {
+pub(crate) struct Leaving {
     /// t₀, since the first moment \[s\].
     pub at_s: f64,
     /// By how much sooner \[s\].
@@ -327,4 +328,72 @@ fn crossing(from: &Vector3<f64>, to: &Vector3<f64>, radius_m: f64) -> f64 {
     // The greater root, without cancelling.
     let share = if b > 0.0 { -c / (b + root) } else { (root - b) / a };
     share.clamp(0.0, 1.0)
+}
+
+/// How well a cell is in contact at the moment that suits it best.
+#[derive(Default)]
+pub(crate) struct Touch {
+    /// Whether all of it is.
+    pub all: bool,
+    /// Whether some of it may be.
+    some: bool,
+    /// Where it is: what is not below 0 there.
+    bound: Lower,
+    /// How far from its middle that gets below 0 \[m\]; `None` before there is such a moment.
+    spare_m: Option<f64>,
+    /// The greatest compression of all of it while it is within the sponge \[m\].
+    pub compression_m: f64,
+}
+
+impl Touch {
+    /// What is not below 0 where the cell is in contact.
+    pub fn bound(&self, is_large: bool) -> Lower {
+        let bound = match self.spare_m {
+            Some(_) => self.bound,
+            None => Lower::flat(-1.0, 0.0),
+        };
+        // Other moments may suit other places of it.
+        let more = self.some && (is_large || self.spare_m.is_none());
+        Lower {
+            slack: if more { f64::INFINITY } else { bound.slack },
+            ..bound
+        }
+    }
+
+    /// Of the ways P (X + J δ + b ẑ + e ẑ − p) the squared lengths are at most those of P (X + J δ − p), ‖V‖² + 2 V·J δ + ‖J δ‖², with the
+    /// others taken off the radius.
+    pub fn see(&mut self, edges: &Edges<'_>, cell: &Cell, seen: &Seen) {
+        let (inside_m, pressed_m) = (edges.inside_m(seen), edges.pressed_m(seen));
+        if inside_m >= 0.0 {
+            self.compression_m = self.compression_m.max(seen.compression_m - seen.shallower_m);
+            self.all |= pressed_m >= 0.0;
+        }
+        self.some |= inside_m >= -2.0 * cell.away_m() && pressed_m >= -2.0 * seen.sloping_m;
+        let (tangent_m, axis) = (cell.tangent_m, &edges.moment(seen.index).pose.axis);
+        let bound = if pressed_m >= 0.0 {
+            let free_m = (edges.foundation.radius_m - (seen.farther_m - tangent_m)).max(0.0);
+            Lower {
+                value: free_m * free_m - seen.off_m * seen.off_m - tangent_m * tangent_m,
+                slope: cell.along(&seen.way).map(|v| -2.0 * v),
+                over_height: 0.0,
+                slack: 2.0 * (tangent_m * tangent_m + 2.0 * edges.foundation.radius_m * cell.bend_m),
+            }
+        } else if inside_m >= 0.0 {
+            let slope = cell.along(axis).map(|v| -v);
+            let sloping_m = (slope[0] * slope[0] + slope[1] * slope[1]).sqrt() * cell.reach_m;
+            let lost_m = seen.shallower_m - sloping_m;
+            Lower {
+                value: seen.compression_m - lost_m - edges.wanted.compression_m,
+                slope,
+                over_height: 0.0,
+                slack: 2.0 * axis.z.abs() * cell.bend_m,
+            }
+        } else {
+            return;
+        };
+        let spare_m = bound.value / bound.steepness();
+        if self.spare_m.is_none_or(|most| spare_m > most) {
+            (self.bound, self.spare_m) = (bound, Some(spare_m));
+        }
+    }
 }

@@ -1,12 +1,10 @@
 //! What is known of a cell: lower bounds of how well, how long and how much it is pressed.
 
-use super::Foundation;
-use super::affine::Lower;
-use super::cell::{Cell, Seen};
-use super::edges::{Edges, Gain};
-use super::moment::{Moment, Sags, Wanted};
-use super::sums::{Polynomial, Sums};
-use super::touch::Touch;
+use crate::contact::Foundation;
+use crate::contact::moment::{Moment, Sags, Wanted};
+use crate::contact::shares::cell::{Cell, Lower, Seen};
+use crate::contact::shares::doses::{Polynomial, Sums};
+use crate::contact::shares::edges::{Edges, Gain, Touch};
 use crate::surface::Surface;
 use std::ops::Range;
 
@@ -18,7 +16,7 @@ const SMALL: f64 = 0.025;
 
 /// What counts all over a cell.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Kept {
+pub(crate) struct Kept {
     /// Whether there is a moment at which all of it is in contact.
     pub contact: bool,
     pub time_s: f64,
@@ -27,7 +25,7 @@ pub(super) struct Kept {
 
 /// What a cell is at the moments that are looked at, and its windows of them.
 #[derive(Default)]
-pub(super) struct Scratch {
+pub(crate) struct Scratch {
     all: Vec<Seen>,
     spans: Vec<Range<usize>>,
 }
@@ -42,7 +40,7 @@ impl Scratch {
 }
 
 /// What is found of a cell.
-pub(super) struct Found {
+pub(crate) struct Found {
     /// What counts all over it.
     pub kept: Kept,
     /// Lower bounds for every height of the plate within its error: above 0 where it is in contact, time \[s\], dose \[Pa·m\].
@@ -52,7 +50,7 @@ pub(super) struct Found {
 }
 
 /// The passes of a sponge over a face.
-pub(super) struct Passes<'a> {
+pub(crate) struct Passes<'a> {
     pub surface: &'a Surface,
     pub edges: Edges<'a>,
     pub sums: Sums,
@@ -115,7 +113,7 @@ impl<'a> Passes<'a> {
 
 impl Passes<'_> {
     /// What is found of a cell through some windows of moments, besides what is known to be kept all over it; `None` where that is enough.
-    pub(super) fn bounds(
+    pub(crate) fn bounds(
         &self,
         cell: &Cell,
         (mut kept, within): (Kept, &[[u32; 2]]),

@@ -1,6 +1,6 @@
-use super::*;
 use crate::clearance::ClearanceModel;
 use crate::clearance::body::obstacle_body;
+use crate::clearance::far::*;
 use crate::fixtures::{kitchen_plate, kitchen_tool, workcell};
 use crate::workcell::{Obstacle, ObstacleShape, Workcell};
 use nalgebra::Vector3;

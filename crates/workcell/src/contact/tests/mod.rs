@@ -2,7 +2,7 @@ mod agreement;
 mod bounds;
 mod stands;
 
-use super::*;
+use crate::contact::*;
 use crate::surface::Surface;
 use std::f64::consts::PI;
 

@@ -8,11 +8,15 @@
 //!
 //! What is not shown to keep something counts as not keeping it, with as much area as it may have: so the shares are none too great.
 
-use super::Foundation;
-use super::affine::Lower;
-use super::bounds::{Kept, Passes, Scratch};
-use super::cell::Cell;
-use super::moment::{Moment, Sags, Wanted};
+pub(crate) mod bounds;
+pub(crate) mod cell;
+pub(crate) mod doses;
+pub(crate) mod edges;
+
+use crate::contact::Foundation;
+use crate::contact::moment::{Moment, Sags, Wanted};
+use crate::contact::shares::bounds::{Kept, Passes, Scratch};
+use crate::contact::shares::cell::{Cell, Lower};
 use crate::coverage::{SMALLEST_CELL, reaches};
 use crate::surface::Surface;
 use nalgebra::Vector3;
