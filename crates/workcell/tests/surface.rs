@@ -153,3 +153,19 @@ fn an_outline_hits_every_knot_and_stays_near_the_meridian() {
         [[0.0, 0.0], [0.1, 0.0]]
     );
 }
+
+/// Points stand for the whole face: their areas add up to it, and a place within reach of none is too far from all.
+#[test]
+fn points_cover_the_face_by_its_area() {
+    let faces = [Surface::Disc { radius_m: 0.145 }].into_iter();
+    for surface in faces.chain(SHIPPED_PROFILES.iter().filter_map(|name| Surface::shipped(name))) {
+        let points: Vec<_> = surface.points(0.004).collect();
+        let area_m2: f64 = points.iter().map(|(_, area_m2)| area_m2).sum();
+        assert!((area_m2 / surface.area_m2() - 1.0).abs() < 1e-9, "{area_m2}");
+        for (rho_m, phi_rad) in (0..200).map(|k| (surface.rim_m() * f64::from(k) / 199.0, 2.4 * f64::from(k))) {
+            let place = surface.point(rho_m, phi_rad).coords;
+            let nearest_m = points.iter().map(|(point, _)| (point - place).norm()).fold(f64::INFINITY, f64::min);
+            assert!(nearest_m < 0.004, "{place:?}: {nearest_m}");
+        }
+    }
+}

@@ -14,7 +14,8 @@
 use crate::motion::piece::Piece;
 use crate::motion::tip::{self, Arm, Derivatives, Stretch};
 use crate::motion::tip_limits;
-use platewash_workcell::contact::{Drift, Foundation, Moment, Sags, SpongePose};
+use crate::washing::shares::Sags;
+use platewash_workcell::contact::{Drift, Foundation, Moment, SpongePose};
 use platewash_workcell::plate::Plate;
 
 /// How far apart neighbours may be on a disc and on other faces \[m\], …

@@ -7,7 +7,7 @@
 //! | how much of a plate is swept | `coverage` |
 //! | how far the sponge reaches beyond the rim, and which neighbours it may touch | `reach` |
 //! | how fast the sponge lands and lifts off | `landing` |
-//! | contact: how long, how hard, which share of a plate | `contact` |
+//! | contact: how long, how hard, which share of a plate | `contact`, `shares` |
 //! | the moments of a wash; the strain of the foam; a frame that turns with the sponge | `instants`, `pressing`, `turning_frame` |
 
 pub(crate) mod contact;
@@ -18,4 +18,5 @@ pub(crate) mod instants;
 pub(crate) mod landing;
 pub(crate) mod pressing;
 pub(crate) mod reach;
+pub(crate) mod shares;
 pub(crate) mod turning_frame;

@@ -6,7 +6,7 @@ use super::execution::Sample;
 use crate::dynamics::DynamicsModel;
 use crate::plant::{Felt, SpongeOnPlates};
 use platewash_kinematics::{Frame, JointVector};
-use platewash_workcell::contact::{Fineness, Foundation, Moment, Sags, SpongePose, Wanted, shares};
+use platewash_workcell::contact::{Foundation, Looks, Moment, SpongePose, Wanted};
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plate::Plate;
 use serde::Serialize;
@@ -23,8 +23,8 @@ const POSES: usize = 200;
 /// Time between moments of which contact is measured, at most \[s\].
 const MOMENT_S: f64 = 0.005;
 
-/// Least size of the cells in which contact is measured \[m\].
-const CELL_M: f64 = 1e-3;
+/// Distance between the points of a face at which contact is measured \[m\].
+const POINTS_APART_M: f64 = 2e-3;
 
 /// Least, mean and greatest of a force \[N\].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
@@ -59,7 +59,7 @@ pub struct ContactLost {
 }
 
 /// Shares of a plate's face that the executed wash kept in contact as the job asks, the plate where it is stated and of the stiffness simulated:
-/// measured at samples, nothing being lost between two of them.
+/// measured at points of the face, 2 mm apart, and at samples of the motion. No bound.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ExecutedContact {
     /// Compressed by the least compression.
@@ -144,23 +144,27 @@ impl Judge<'_> {
             .step_by(stride)
             .map(|sample| self.moment(sample.t_s, &sample.state.q, &sample.state.qd, plate))
             .collect();
-        let sags = vec![Sags::default(); moments.len().saturating_sub(1)];
         let wanted = Wanted {
             compression_m: required.compression_m,
             height_error_m: 0.0,
             time_s: required.time_s,
             dose_pa_m: required.dose_pa_m,
         };
-        let fineness = Fineness {
-            cell_m: CELL_M,
-            enough: [1.0; 3],
-        };
-        let found = shares(&plate.surface, &self.foundation, (&moments, &sags), &wanted, &fineness);
-        ExecutedContact {
-            contact: found.contact.at_least,
-            time: found.time.at_least,
-            dose: found.dose.at_least,
+        let looks = Looks::new(&self.foundation, &moments, &wanted);
+        let mut kept_m2 = [0.0; 3];
+        for (point, area_m2) in plate.surface.points(POINTS_APART_M) {
+            let got = looks.at(&point);
+            let keeps = [
+                got.compression_m >= wanted.compression_m,
+                got.time_s >= wanted.time_s,
+                got.dose_pa_m >= wanted.dose_pa_m,
+            ];
+            for (kept_m2, _) in kept_m2.iter_mut().zip(keeps).filter(|(_, keeps)| *keeps) {
+                *kept_m2 += area_m2;
+            }
         }
+        let [contact, time, dose] = kept_m2.map(|kept_m2| (kept_m2 / plate.surface.area_m2()).min(1.0));
+        ExecutedContact { contact, time, dose }
     }
 
     fn moment(&self, t_s: f64, q: &JointVector, qd: &JointVector, plate: &Plate) -> Moment {

@@ -12,23 +12,20 @@
 //! A plate that lies higher by e along its axis ẑ compresses each column by −e ẑ·a more, and lies −e (ẑ − a (ẑ·a)) to the side.
 //!
 //! All in the frame of the plate, lengths in metres. `columns.rs` has the sponge's face in columns: forces, and the greatest compression;
-//! `stands.rs` the same over a stretch of time, `level.rs` on a flat face; `raster.rs` the plate's face in cells: where it is pressed, for
-//! how long and how much, by what `bounds.rs` knows of each.
+//! `stands.rs` the same over a stretch of time, `level.rs` on a flat face; `moment.rs` what single points of the plate's face get from a wash.
 
 mod columns;
 mod level;
 mod moment;
 mod parts;
-pub(crate) mod shares;
 mod stands;
 #[cfg(test)]
 mod tests;
 
 pub use crate::contact::columns::{Column, Columns, Load};
 pub use crate::contact::level::{Level, LevelPress};
-pub use crate::contact::moment::{Drift, Dwell, Looks, Moment, Sags, Wanted};
+pub use crate::contact::moment::{Drift, Dwell, Looks, Moment, Wanted, at_least_0, both};
 pub use crate::contact::parts::Bends;
-pub use crate::contact::shares::{Fineness, Share, Shares, shares};
 pub use crate::contact::stands::{Press, Seen, Standing, Touching};
 
 use crate::plate::Plate;

@@ -18,17 +18,6 @@ pub struct Moment {
     pub turning: Vector3<f64>,
 }
 
-/// What may be lost between two moments, against the line through both: h²/8 times what bounds the second derivative, h the time between.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Sags {
-    /// Of the compression at any point in contact \[m\].
-    pub compression_m: f64,
-    /// Of the distance of such a point from the sponge's axis \[m\].
-    pub aside_m: f64,
-    /// Of the way that the sponge slides over such a point: h times what its velocity across the axis may be off \[m\].
-    pub slide_m: f64,
-}
-
 /// How a sponge moves over a stretch of time, at most.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drift {
@@ -96,7 +85,8 @@ pub struct Dwell {
 }
 
 /// Where between 0 and 1 a line through two values is not below 0.
-pub(crate) fn at_least_0([from, to]: [f64; 2]) -> Option<[f64; 2]> {
+#[must_use]
+pub fn at_least_0([from, to]: [f64; 2]) -> Option<[f64; 2]> {
     let crossing = from / (from - to);
     match (from >= 0.0, to >= 0.0) {
         (true, true) => Some([0.0, 1.0]),
@@ -107,7 +97,8 @@ pub(crate) fn at_least_0([from, to]: [f64; 2]) -> Option<[f64; 2]> {
 }
 
 /// What two ranges have in common; `None` where that has no length.
-pub(crate) fn both([a, b]: [f64; 2], [c, d]: [f64; 2]) -> Option<[f64; 2]> {
+#[must_use]
+pub fn both([a, b]: [f64; 2], [c, d]: [f64; 2]) -> Option<[f64; 2]> {
     let common = [a.max(c), b.min(d)];
     (common[0] < common[1]).then_some(common)
 }

@@ -4,14 +4,14 @@ mod picture;
 mod raster;
 
 pub use crate::coverage::picture::{CoverageRaster, MAX_CELLS, RasterCell, raster};
-pub(crate) use crate::coverage::raster::area_of_rectangle_in_disc;
+pub use crate::coverage::raster::area_of_rectangle_in_disc;
 
 use crate::coverage::raster::{Capsule, Raster, Uncovered};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Cells may not be smaller than this part of the plate's radius, so that every call ends soon.
-pub(crate) const SMALLEST_CELL: f64 = 1e-5;
+pub const SMALLEST_CELL: f64 = 1e-5;
 
 /// What is added to both sides of the bounds for rounding, as a part of the disc's area.
 const ROUNDING: f64 = 1e-11;

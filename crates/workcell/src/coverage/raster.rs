@@ -247,7 +247,8 @@ fn solutions(slope: f64, offset: f64, [least, most]: [f64; 2]) -> Option<[f64; 2
 ///
 /// The signed area F(a, b) over [0, a] × [0, b] is odd in a and in b; the rectangle's is F(x1, y1) − F(x0, y1) − F(x1, y0) +
 /// F(x0, y0).
-pub(crate) fn area_of_rectangle_in_disc(radius: f64, [x0, x1]: [f64; 2], [y0, y1]: [f64; 2]) -> f64 {
+#[must_use]
+pub fn area_of_rectangle_in_disc(radius: f64, [x0, x1]: [f64; 2], [y0, y1]: [f64; 2]) -> f64 {
     let signed = |a: f64, b: f64| quadrant_area(radius, a.abs(), b.abs()) * a.signum() * b.signum();
     (signed(x1, y1) - signed(x0, y1) - signed(x1, y0) + signed(x0, y0)).max(0.0)
 }

@@ -17,7 +17,7 @@ use crate::trig::sin_cos;
 use nalgebra::{Point3, Unit, Vector3};
 use platewash_kinematics::words::rounded;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// A surface of revolution.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -189,6 +189,29 @@ impl Surface {
             Self::Disc { .. } => PI * rho_m * rho_m,
             Self::Profile(meridian) => meridian.area_within_m2(rho_m),
         }
+    }
+}
+
+impl Surface {
+    /// Points spread evenly over the face, about `apart_m` \[m\] from each other: each in the plate frame \[m\], with the area that it
+    /// stands for \[m²\]. The areas add up to that of the face.
+    pub fn points(&self, apart_m: f64) -> impl Iterator<Item = (Vector3<f64>, f64)> + '_ {
+        let rings = (self.arc_m() / apart_m).ceil().max(1.0) as usize;
+        let radius_m = move |half_ring: usize| {
+            self.at_arc(self.arc_m() * half_ring as f64 / (2 * rings) as f64)
+                .radius_m
+        };
+        (0..rings).flat_map(move |ring| {
+            let [inner_m, rho_m, outer_m] = [2 * ring, 2 * ring + 1, 2 * ring + 2].map(radius_m);
+            let count = (TAU * rho_m / apart_m).ceil().max(1.0) as usize;
+            let area_m2 = (self.area_within_m2(outer_m) - self.area_within_m2(inner_m)) / count as f64;
+            // Every other ring starts half a step further on.
+            let first = 0.5 * (ring % 2) as f64;
+            (0..count).map(move |k| {
+                let phi_rad = TAU * (k as f64 + first) / count as f64;
+                (self.point(rho_m, phi_rad).coords, area_m2)
+            })
+        })
     }
 }
 

@@ -1,5 +1,3 @@
-mod agreement;
-mod bounds;
 mod stands;
 
 use crate::contact::*;

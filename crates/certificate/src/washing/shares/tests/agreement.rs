@@ -4,10 +4,11 @@
 //! A face that is smaller than the smallest cell is one cell, and where more is wanted than there is, what it is proved to get is told: so
 //! little faces stand for single cells, the motion moved over them.
 
-use crate::contact::{Dwell, Fineness, Foundation, Looks, Moment, Sags, SpongePose, Wanted, shares};
-use crate::random::stream;
-use crate::surface::{Knot, SHARPEST_M, Surface};
+use crate::washing::shares::{Fineness, Sags, shares};
 use nalgebra::Vector3;
+use platewash_workcell::contact::{Dwell, Foundation, Looks, Moment, SpongePose, Wanted};
+use platewash_workcell::random::stream;
+use platewash_workcell::surface::{Knot, SHARPEST_M, Surface};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;

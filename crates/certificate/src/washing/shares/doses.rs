@@ -17,11 +17,12 @@
 //! is a polynomial of the second degree in x. So one sum from the first moment on tells the dose of every place that is in contact all
 //! along a run, as the difference of two.
 
-use crate::contact::Foundation;
-use crate::contact::moment::{Moment, Sags, at_least_0, both};
-use crate::contact::shares::cell::{Cell, Lower, Seen};
-use crate::contact::shares::edges::{Edges, Gain, Leaving, Window};
+use crate::washing::shares::Sags;
+use crate::washing::shares::cell::{Cell, Lower, Seen};
+use crate::washing::shares::edges::{Edges, Gain, Leaving, Window};
 use nalgebra::{Matrix3, Vector3};
+use platewash_workcell::contact::Foundation;
+use platewash_workcell::contact::{Moment, at_least_0, both};
 use std::ops::{Add, AddAssign, Sub};
 
 /// What q is made of at a moment: compression \[m\] and speed \[m/s\], at least.

@@ -6,11 +6,11 @@
 //!
 //! What is affine over a square cell, and how much of the cell is below 0.
 
-use crate::contact::moment::Moment;
-use crate::contact::{Foundation, SpongePose};
-use crate::coverage::area_of_rectangle_in_disc;
-use crate::surface::Surface;
 use nalgebra::{Vector2, Vector3};
+use platewash_workcell::contact::Moment;
+use platewash_workcell::contact::{Foundation, SpongePose};
+use platewash_workcell::coverage::area_of_rectangle_in_disc;
+use platewash_workcell::surface::Surface;
 
 /// A cell of the face, and bounds over its patch.
 pub(crate) struct Cell {

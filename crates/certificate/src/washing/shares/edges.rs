@@ -15,10 +15,11 @@
 //!
 //! Where a cell is in contact at one moment at least.
 
-use crate::contact::Foundation;
-use crate::contact::moment::{Moment, Sags, Wanted};
-use crate::contact::shares::cell::{Cell, Lower, Seen};
+use crate::washing::shares::Sags;
+use crate::washing::shares::cell::{Cell, Lower, Seen};
 use nalgebra::Vector3;
+use platewash_workcell::contact::Foundation;
+use platewash_workcell::contact::{Moment, Wanted};
 
 /// What rounding of the formulas above may make of a length \[m\].
 const ROUNDING_M: f64 = 1e-12;

@@ -2,7 +2,7 @@
 //!
 //! Seen along its axis, the face is cut into squares (`cell.rs`), which are halved where more is likely to keep what is wanted than is
 //! shown, down to a least size, until as much is shown as was asked for. Of the moments that reach a cell, one after the other, those
-//! between which all of it is in contact count by what two sums differ (`sums.rs`) and are not looked at again in its quarters. What is
+//! between which all of it is in contact count by what two sums differ (`doses.rs`) and are not looked at again in its quarters. What is
 //! left are windows in which places of the cell leave the sponge or get under it (`edges.rs`): together they give lower bounds of time
 //! and dose that are affine over the cell, so that of a cell at the edge of what is wanted the part counts that keeps it.
 //!
@@ -12,14 +12,16 @@ pub(crate) mod bounds;
 pub(crate) mod cell;
 pub(crate) mod doses;
 pub(crate) mod edges;
+#[cfg(test)]
+mod tests;
 
-use crate::contact::Foundation;
-use crate::contact::moment::{Moment, Sags, Wanted};
-use crate::contact::shares::bounds::{Kept, Passes, Scratch};
-use crate::contact::shares::cell::{Cell, Lower};
-use crate::coverage::{SMALLEST_CELL, reaches};
-use crate::surface::Surface;
+use crate::washing::shares::bounds::{Kept, Passes, Scratch};
+use crate::washing::shares::cell::{Cell, Lower};
 use nalgebra::Vector3;
+use platewash_workcell::contact::Foundation;
+use platewash_workcell::contact::{Moment, Wanted};
+use platewash_workcell::coverage::{SMALLEST_CELL, reaches};
+use platewash_workcell::surface::Surface;
 use std::ops::Range;
 
 /// A cell is halved where more of it than this may keep more than is shown.
@@ -28,6 +30,17 @@ const WORTH: f64 = 0.02;
 /// The first cells: of edges no longer than this part of the sponge's radius, and no more of them along an edge of the face.
 const FIRST_CELLS: f64 = 0.4;
 const MOST_FIRST_CELLS: f64 = 128.0;
+
+/// What may be lost between two moments, against the line through both: h²/8 times what bounds the second derivative, h the time between.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Sags {
+    /// Of the compression at any point in contact \[m\].
+    pub compression_m: f64,
+    /// Of the distance of such a point from the sponge's axis \[m\].
+    pub aside_m: f64,
+    /// Of the way that the sponge slides over such a point: h times what its velocity across the axis may be off \[m\].
+    pub slide_m: f64,
+}
 
 /// How finely a face is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]

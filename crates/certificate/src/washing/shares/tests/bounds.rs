@@ -1,10 +1,11 @@
 //! Bounds over a cell against dense sums at points of it, for a sponge that goes along an arc while it turns.
 
-use crate::contact::shares::bounds::{Kept, Passes, Scratch};
-use crate::contact::shares::cell::Cell;
-use crate::contact::{Fineness, Foundation, Moment, Sags, SpongePose, Wanted, shares};
-use crate::surface::{SHIPPED_PROFILES, Surface};
+use crate::washing::shares::bounds::{Kept, Passes, Scratch};
+use crate::washing::shares::cell::Cell;
+use crate::washing::shares::{Fineness, Sags, shares};
 use nalgebra::{Rotation3, Unit, Vector3};
+use platewash_workcell::contact::{Foundation, Moment, SpongePose, Wanted};
+use platewash_workcell::surface::{SHIPPED_PROFILES, Surface};
 use proptest::prelude::*;
 
 const SPONGE: Foundation = Foundation {

@@ -1,11 +1,12 @@
 //! What is known of a cell: lower bounds of how well, how long and how much it is pressed.
 
-use crate::contact::Foundation;
-use crate::contact::moment::{Moment, Sags, Wanted};
-use crate::contact::shares::cell::{Cell, Lower, Seen};
-use crate::contact::shares::doses::{Polynomial, Sums};
-use crate::contact::shares::edges::{Edges, Gain, Touch};
-use crate::surface::Surface;
+use crate::washing::shares::Sags;
+use crate::washing::shares::cell::{Cell, Lower, Seen};
+use crate::washing::shares::doses::{Polynomial, Sums};
+use crate::washing::shares::edges::{Edges, Gain, Touch};
+use platewash_workcell::contact::Foundation;
+use platewash_workcell::contact::{Moment, Wanted};
+use platewash_workcell::surface::Surface;
 use std::ops::Range;
 
 /// Half of the edge of a large cell, as a part of the sponge's radius.
