@@ -13,9 +13,9 @@ const DELTA_S: f64 = 2e-5;
 /// What positions of the tip are right to \[m\]: rounding.
 const PLACE_M: f64 = 2e-15;
 
-/// Time between samples of long pieces \[s\], and samples of a piece at least and at most.
+/// Time between samples of long pieces \[s\], and samples of a piece at least and at most: both ends and the middle.
 const STEP_S: f64 = 0.01;
-const LEAST: usize = 5;
+const LEAST: usize = 3;
 const MOST: usize = 60;
 
 /// The tip on the arm.

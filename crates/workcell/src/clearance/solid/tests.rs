@@ -110,7 +110,7 @@ fn sheets_get_a_thickness_and_what_is_flat_altogether_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 8, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 4, ..ProptestConfig::default() })]
     /// Whatever is proposed: every point of every triangle is in a part. The pieces are boxes in a heap, and loose triangles.
     #[test]
     fn every_point_of_the_surface_is_enclosed(
