@@ -7,7 +7,7 @@ use super::output::{self, Reader};
 use super::robot;
 use clap::Args;
 use platewash::kinematics::LimitViolation;
-use platewash::kinematics::jacobian::manipulability;
+use platewash::kinematics::model::manipulability;
 use platewash::kinematics::words::{fixed, not_as_zero};
 use platewash::{Axes, ClearanceModel, JointVector, PairClearance, Pose, RobotModel, Scenario, ToolFrame};
 use serde::Serialize;

@@ -50,32 +50,25 @@
 
 pub mod batch;
 pub mod fingerprint;
-pub mod fk;
-pub mod frame;
 pub mod geometry;
 pub mod halton;
 pub mod ik;
 pub mod irb120;
-pub mod jacobian;
 pub mod limits;
 pub mod model;
 pub mod rotation;
-pub mod serde_words;
 pub mod srdf;
 pub mod tool_frame;
 pub mod trig;
 pub mod urdf;
 pub mod words;
 
-pub use fingerprint::sha256_hex;
-pub use fk::BodyPoses;
-pub use frame::Frame;
-pub use jacobian::{Axes, Jacobian};
-pub use limits::{JointLimits, LimitViolation};
-pub use model::{Joint, Link, RobotModel};
-pub use srdf::{DisabledPairs, SrdfError};
-pub use tool_frame::{ToolFrame, ToolFrameError};
-pub use urdf::UrdfError;
+pub use crate::fingerprint::sha256_hex;
+pub use crate::limits::{JointLimits, LimitViolation};
+pub use crate::model::{Axes, BodyPoses, Frame, Jacobian, Joint, Link, RobotModel};
+pub use crate::srdf::{DisabledPairs, SrdfError};
+pub use crate::tool_frame::{ToolFrame, ToolFrameError};
+pub use crate::urdf::UrdfError;
 
 /// Number of joints of every arm that this project handles.
 pub const AXES: usize = 6;

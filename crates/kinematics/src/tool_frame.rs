@@ -1,8 +1,7 @@
 //! The frames in which tool poses are stated, by name.
 
 use crate::AXES;
-use crate::frame::Frame;
-use crate::model::{Link, RobotModel};
+use crate::model::{Frame, Link, RobotModel};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 

@@ -1,10 +1,10 @@
 //! Why a job could not be planned.
 
+use crate::infeasible::UnwashablePlate;
 use crate::joint_path::JointPathError;
 use crate::pattern::Shortfall;
 use crate::timing::TimingError;
 use crate::transit::{LiftLineError, TooNear, TransitError};
-use crate::unwashable::UnwashablePlate;
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::{IkPathError, IkSettingsError};
 use platewash_workcell::cancel::Cancelled;
@@ -12,8 +12,7 @@ use platewash_workcell::clearance::ClearanceError;
 use platewash_workcell::job::{End, JobError, PlateOverlap};
 use platewash_workcell::layout::LayoutError;
 use platewash_workcell::plan::PlanFileError;
-use platewash_workcell::trajectory::KnotError;
-use platewash_workcell::trajectory::SegmentKind;
+use platewash_workcell::trajectory::{KnotError, SegmentKind};
 use platewash_workcell::verdict::Infeasibility;
 use platewash_workcell::words::{millimetres, printable};
 

@@ -6,13 +6,11 @@
 //!
 //! Conventions (units, frames, order of twists) are those of [`platewash_kinematics`].
 
-mod activity;
 mod error;
 mod infeasible;
 pub mod joint_path;
 mod order;
 mod outlook;
-mod pace;
 mod pattern;
 mod pipeline;
 mod planned;
@@ -21,26 +19,21 @@ pub mod scene;
 pub mod suggest;
 pub mod timing;
 pub mod transit;
-mod unwashable;
 mod washable_map;
 mod watch;
 
-pub use activity::Activity;
-pub use error::PlanError;
-pub use infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport};
-pub use order::{EXACT_UP_TO, Optimality};
-pub use outlook::PlateOutlook;
-pub use pace::Pace;
-pub use pattern::{Promised, Shortfall};
-pub use pipeline::{
+pub use crate::error::PlanError;
+pub use crate::infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport, PlaceSearch, UnwashablePlate};
+pub use crate::order::{EXACT_UP_TO, Optimality};
+pub use crate::outlook::PlateOutlook;
+pub use crate::pattern::{Promised, Shortfall};
+pub use crate::pipeline::{
     check, draw_washable_layout, nearest_place, other_unwashable_plates, outlook, plan, plan_here, plan_in_order,
     plan_unexplained, plan_with, unwashable_plates, washable_map,
 };
-pub use planned::{Planned, TourSummary, TransitSummary, VisitSummary};
-pub use redundancy::Chance;
-pub use redundancy::relocation::SEARCHED_M;
-pub use unwashable::{PlaceSearch, UnwashablePlate};
-pub use washable_map::{MapArea, MapPatch};
-pub use watch::{Listener, Watch};
-
+pub use crate::planned::{Pace, Planned, TourSummary, TransitSummary, VisitSummary};
+pub use crate::redundancy::Chance;
+pub use crate::redundancy::places::SEARCHED_M;
+pub use crate::washable_map::{MapArea, MapPatch};
+pub use crate::watch::{Activity, Listener, Watch};
 pub(crate) use platewash_kinematics::trig;

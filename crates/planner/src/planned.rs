@@ -1,13 +1,24 @@
 //! What planning makes: the plan, and what is to be said of it.
+//!
+//! How long a wash takes beside the least time for its face, and which limits hold it back.
+//!
+//! A disc of radius s whose centre moves by L covers at most 2 s L + π s². A wash at the speed v or below that covers the area A
+//! therefore takes at least (A − π s²)/(2 s v).
 
 use crate::order::Optimality;
-use crate::pace::Pace;
 use crate::redundancy::TiltChoice;
+use crate::scene::Scene;
+use crate::timing::{MotionLimits, Timed};
 use crate::transit::TransitKind;
-use platewash_kinematics::JointVector;
+use platewash_kinematics::words::decimals_down;
+use platewash_kinematics::{AXES, Axes, JointVector};
+use platewash_workcell::job::JobTerms;
 use platewash_workcell::plan::Plan;
+use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashCurve;
 use serde::Serialize;
+use std::f64::consts::PI;
+use std::fmt;
 
 /// A job, planned.
 #[derive(Debug, Clone)]
@@ -85,5 +96,105 @@ impl Planned {
     #[must_use]
     pub fn largest_jerk(&self) -> JointVector {
         self.largest_jerk
+    }
+}
+
+/// A rate this near to its limit binds, as a part of it.
+const BINDING: f64 = 0.98;
+
+/// Least time of a wash, and the shares of its time at each limit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Pace {
+    /// Lower bound on the time of any wash of the plate with this sponge and wash speed \[s\].
+    pub least_s: f64,
+    /// Length of the wash path \[m\].
+    pub length_m: f64,
+    /// Share of the time at the speed limit of the tip.
+    pub tip_speed: f64,
+    /// Share of the rest of it at the acceleration limit of the tip.
+    pub tip_acceleration: f64,
+    /// Share of the rest of it at the speed limit of a joint.
+    pub joint_speed: f64,
+    /// Share of the rest of it at the acceleration limit of a joint.
+    pub joint_acceleration: f64,
+}
+
+impl Pace {
+    /// The pace of a wash of `plate`, sampled in the middle of its pieces.
+    pub(crate) fn of(
+        scene: &Scene<'_>,
+        (plate, terms): (&Plate, &JobTerms),
+        wash: &Timed,
+        limits: &MotionLimits,
+    ) -> Self {
+        let tip = limits
+            .tip
+            .map_or([f64::INFINITY; 2], |tip| [tip.speed_m_s, tip.acceleration_m_s2]);
+        let mut pace = Self {
+            least_s: least_area_m2(plate, terms) / (2.0 * terms.workcell.tool.sponge.radius_m * tip[0]),
+            length_m: 0.0,
+            tip_speed: 0.0,
+            tip_acceleration: 0.0,
+            joint_speed: 0.0,
+            joint_acceleration: 0.0,
+        };
+        let times = wash.motion.times();
+        let place = |t: f64| wash.motion.at(t).map(|state| (scene.robot.fk(&state.q), state));
+        for ends in times.windows(2) {
+            let (middle, long_s) = (0.5 * (ends[0] + ends[1]), ends[1] - ends[0]);
+            let (Some((poses, state)), Some((next, later))) = (place(middle), place(middle + 1e-3 * long_s)) else {
+                continue;
+            };
+            let velocity = |poses: &platewash_kinematics::BodyPoses, qd| {
+                let jacobian = poses.jacobian(&scene.tip, Axes::Base);
+                jacobian.fixed_rows::<3>(0) * qd
+            };
+            let here = velocity(&poses, state.qd);
+            let acceleration = (velocity(&next, later.qd) - here) / (1e-3 * long_s);
+            pace.length_m += here.norm() * long_s;
+            let joints = |of: &dyn Fn(usize) -> f64| (0..AXES).map(of).fold(0.0, f64::max);
+            let share = long_s / wash.motion.duration_s();
+            if here.norm() >= BINDING * tip[0] {
+                pace.tip_speed += share;
+            } else if acceleration.norm() >= BINDING * tip[1] {
+                pace.tip_acceleration += share;
+            } else if joints(&|j| state.qd[j].abs() / limits.velocity[j]) >= BINDING {
+                pace.joint_speed += share;
+            } else if joints(&|j| state.qdd[j].abs() / limits.acceleration[j]) >= BINDING {
+                pace.joint_acceleration += share;
+            }
+        }
+        pace
+    }
+}
+
+/// Area of the face that the moving sponge must cover, seen along the plate's axis, less the sponge's own \[m²\]. A part of the face
+/// is at most as large seen along the axis as along its normal.
+fn least_area_m2(plate: &Plate, terms: &JobTerms) -> f64 {
+    let disc_m2 = |radius_m: f64| PI * radius_m * radius_m;
+    let left_out_m2 = (1.0 - terms.requirements.coverage) * plate.surface.area_m2();
+    let sponge_m2 = disc_m2(terms.workcell.tool.sponge.radius_m);
+    (disc_m2(plate.surface.rim_m()) - left_out_m2 - sponge_m2).max(0.0)
+}
+
+impl fmt::Display for Pace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "path of {:.2} m", self.length_m)?;
+        if self.least_s > 0.0 {
+            write!(f, "; no path is faster than {} s", decimals_down(self.least_s, 2))?;
+        }
+        let shares = [
+            ("tip speed", self.tip_speed),
+            ("tip acceleration", self.tip_acceleration),
+            ("joint speed", self.joint_speed),
+            ("joint acceleration", self.joint_acceleration),
+        ];
+        let mut shown: Vec<_> = shares.into_iter().filter(|(_, share)| *share >= 0.005).collect();
+        shown.sort_by(|a, b| b.1.total_cmp(&a.1));
+        for (k, (limit, share)) in shown.iter().enumerate() {
+            let [before, after] = if k == 0 { ["; ", " of the time"] } else { [", ", ""] };
+            write!(f, "{before}{limit} is the limit for {:.0} %{after}", 100.0 * share)?;
+        }
+        Ok(())
     }
 }

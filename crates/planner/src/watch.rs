@@ -1,6 +1,7 @@
 //! Whoever waits for planning.
+//!
+//! What planning is busy with, for whoever waits for it.
 
-use crate::activity::Activity;
 use platewash_workcell::cancel::CancelToken;
 use std::fmt;
 
@@ -29,5 +30,84 @@ impl fmt::Debug for Watch<'_> {
         f.debug_struct("Watch")
             .field("cancel", self.cancel)
             .finish_non_exhaustive()
+    }
+}
+
+/// What planning is busy with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Activity {
+    /// Drawing a layout of which every plate can be washed.
+    Layout {
+        /// The layout, from 1.
+        drawn: usize,
+        /// How many are drawn at most.
+        most: usize,
+    },
+    /// Looking for configurations that wash a plate, and timing its wash.
+    Wash {
+        /// The plate.
+        plate: usize,
+        /// Its place in the order of washing, from 1.
+        turn: usize,
+        /// Plates in all.
+        of: usize,
+    },
+    /// Looking for a transit between plates, or from or to home.
+    Transit {
+        /// The transit, from 1.
+        turn: usize,
+        /// Transits in all.
+        of: usize,
+    },
+    /// Looking for what keeps a plate from being washed, on every branch of the arm.
+    Cause {
+        /// The plate.
+        plate: usize,
+    },
+    /// Looking for another place for a plate.
+    Relocation {
+        /// The plate.
+        plate: usize,
+        /// The ring of places tried, from 1.
+        ring: u32,
+        /// Rings in all.
+        of: u32,
+        /// Its distance from where the plate lies \[m\].
+        away_m: f64,
+    },
+    /// Planning the job with a plate at another place.
+    Trial {
+        /// The plate.
+        plate: usize,
+        /// Its centre \[m\].
+        centre_m: [f64; 2],
+    },
+}
+
+impl fmt::Display for Activity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Layout { drawn, most } => write!(f, "layout {drawn} of at most {most}: whether it can be washed"),
+            Self::Wash { plate, turn, of } => write!(f, "washing of plate {plate} ({turn} of {of})"),
+            Self::Transit { turn, of } => write!(f, "transit {turn} of {of} between home and plates"),
+            Self::Cause { plate } => write!(f, "what keeps plate {plate} from being washed, branch by branch"),
+            Self::Relocation {
+                plate,
+                ring,
+                of,
+                away_m,
+            } => write!(
+                f,
+                "another place for plate {plate}: {away_m:.2} m away (ring {ring} of {of})"
+            ),
+            Self::Trial {
+                plate,
+                centre_m: [x, y],
+            } => write!(
+                f,
+                "another place for plate {plate}: the job with it at ({x:.3}, {y:.3}) m"
+            ),
+        }
     }
 }

@@ -4,7 +4,7 @@ use crate::error::{Problem, ScenarioError, conflict};
 use crate::job::Program;
 use crate::scenario::Scenario;
 use platewash_paper::WorkError;
-use platewash_planner::redundancy::settings::CHORD_ERROR_M;
+use platewash_planner::redundancy::task::CHORD_ERROR_M;
 use platewash_workcell::layout::PlateGeometry;
 use platewash_workcell::words::counted;
 

@@ -15,9 +15,9 @@ pub mod dynamics;
 pub mod plant;
 pub mod simulate;
 
-pub use control::{Command, ControlError, ControlLaw, Gains};
-pub use dynamics::{DynamicsError, DynamicsModel, Energy};
-pub use plant::{Plant, PlantState};
-pub use simulate::{
+pub use crate::control::{Command, ControlError, ControlLaw, Gains};
+pub use crate::dynamics::{DynamicsError, DynamicsModel, Energy};
+pub use crate::plant::{Plant, PlantState};
+pub use crate::simulate::{
     Execution, SimulationError, SimulationReport, SimulationVerdict, simulate, simulate_watched, simulate_with, tune,
 };

@@ -2,7 +2,7 @@
 
 use crate::error::StudyError;
 use crate::keep::Keep;
-use platewash_kinematics::serde_words::message_in_words;
+use platewash_kinematics::words::message_in_words;
 use serde::Deserialize;
 use std::ops::Range;
 use toml::Spanned;

@@ -1,7 +1,7 @@
 //! JSON out of files: read with the place of what is wrong, in words for people who do not know this program's types.
 
 use crate::words::{printable, without_mark};
-use platewash_kinematics::serde_words::message_in_words;
+use platewash_kinematics::words::message_in_words;
 use serde::de::DeserializeOwned;
 use serde_json::error::Category;
 

@@ -164,7 +164,10 @@ fn points_cover_the_face_by_its_area() {
         assert!((area_m2 / surface.area_m2() - 1.0).abs() < 1e-9, "{area_m2}");
         for (rho_m, phi_rad) in (0..200).map(|k| (surface.rim_m() * f64::from(k) / 199.0, 2.4 * f64::from(k))) {
             let place = surface.point(rho_m, phi_rad).coords;
-            let nearest_m = points.iter().map(|(point, _)| (point - place).norm()).fold(f64::INFINITY, f64::min);
+            let nearest_m = points
+                .iter()
+                .map(|(point, _)| (point - place).norm())
+                .fold(f64::INFINITY, f64::min);
             assert!(nearest_m < 0.004, "{place:?}: {nearest_m}");
         }
     }

@@ -9,7 +9,7 @@
 //! is the Denavit–Hartenberg form without its trouble with nearly parallel axes, because the common normal is used
 //! where it is well defined only. Most α are 0 or π/2, which cost nothing.
 
-use crate::frame::Frame;
+use crate::model::Frame;
 use crate::rotation::Rigid;
 use crate::trig::{atan2, sin_cos};
 use crate::{AXES, RobotModel};
@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-15;
 
 /// The constant rotation about x after a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Bend {
+pub(crate) enum Bend {
     /// α = 0, and the translation is along x.
     Parallel,
     /// α = π/2, and the translation has no y entry.
@@ -36,7 +36,7 @@ pub(super) enum Bend {
 
 /// What stands behind a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Link {
+pub(crate) struct Link {
     /// `t`: translation in the turned frame \[m\].
     pub translation: [f64; 3],
     /// `Rx(α)`.
@@ -45,7 +45,7 @@ pub(super) struct Link {
 
 /// A frame's chain.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Chain {
+pub(crate) struct Chain {
     /// `S`: the frame of joint 1 at q = 0, or the frame itself on the base.
     pub start: Rigid,
     /// `o`, added to the joint positions \[rad\]; 0 beyond the frame.

@@ -1,13 +1,13 @@
 //! Forward kinematics of four configurations at once, and the columns of their Jacobians.
 
-use super::chain::{Bend, Chain, Link};
-use super::kernel::{LANES, Vector};
+use crate::batch::chain::{Bend, Chain, Link};
+use crate::batch::kernel::{LANES, Vector};
 use crate::trig::sin_cos_lanes;
 use crate::{AXES, JointVector};
 
 /// Frames: the columns of the rotation and the origin \[m\].
 #[derive(Clone, Copy)]
-pub(super) struct Tips<V> {
+pub(crate) struct Tips<V> {
     pub x: [V; 3],
     pub y: [V; 3],
     pub z: [V; 3],
@@ -16,14 +16,14 @@ pub(super) struct Tips<V> {
 
 /// A joint's axis and a point on it \[m\].
 #[derive(Clone, Copy)]
-pub(super) struct Line<V> {
+pub(crate) struct Line<V> {
     pub axis: [V; 3],
     pub point: [V; 3],
 }
 
 /// Lines of joints beyond the frame: zero, so that their columns are zero.
 #[inline(always)]
-pub(super) fn no_lines<V: Vector>() -> [Line<V>; AXES] {
+pub(crate) fn no_lines<V: Vector>() -> [Line<V>; AXES] {
     let zero = [V::splat(0.0); 3];
     [Line {
         axis: zero,
@@ -33,7 +33,7 @@ pub(super) fn no_lines<V: Vector>() -> [Line<V>; AXES] {
 
 /// At most four configurations side by side; the lanes left over repeat the last one.
 #[inline(always)]
-pub(super) fn gather<V: Vector>(configurations: &[JointVector]) -> [V; AXES] {
+pub(crate) fn gather<V: Vector>(configurations: &[JointVector]) -> [V; AXES] {
     let mut rows = [[0.0; LANES]; AXES];
     for l in 0..LANES {
         let from = &configurations[l.min(configurations.len() - 1)];
@@ -46,7 +46,7 @@ pub(super) fn gather<V: Vector>(configurations: &[JointVector]) -> [V; AXES] {
 
 /// Arrays of lanes as vectors.
 #[inline(always)]
-pub(super) fn vectors<V: Vector, const N: usize>(rows: &[[f64; LANES]; N]) -> [V; N] {
+pub(crate) fn vectors<V: Vector, const N: usize>(rows: &[[f64; LANES]; N]) -> [V; N] {
     let mut out = [V::splat(0.0); N];
     for i in 0..N {
         out[i] = V::from_array(rows[i]);
@@ -56,7 +56,7 @@ pub(super) fn vectors<V: Vector, const N: usize>(rows: &[[f64; LANES]; N]) -> [V
 
 /// Poses of the chain's frame at `q` \[rad\]. A lane with NaN or ∞ in a joint of the chain becomes NaN throughout.
 #[inline(always)]
-pub(super) fn frames<V: Vector>(chain: &Chain, q: &[V; AXES]) -> Tips<V> {
+pub(crate) fn frames<V: Vector>(chain: &Chain, q: &[V; AXES]) -> Tips<V> {
     let turns = sines_and_cosines(chain, q);
     let mut tips = start(chain);
     for (link, &(sin, cos)) in chain.links.iter().zip(&turns) {
@@ -67,7 +67,7 @@ pub(super) fn frames<V: Vector>(chain: &Chain, q: &[V; AXES]) -> Tips<V> {
 
 /// The same, and the lines of the chain's joints.
 #[inline(always)]
-pub(super) fn frames_and_lines<V: Vector>(chain: &Chain, q: &[V; AXES], lines: &mut [Line<V>; AXES]) -> Tips<V> {
+pub(crate) fn frames_and_lines<V: Vector>(chain: &Chain, q: &[V; AXES], lines: &mut [Line<V>; AXES]) -> Tips<V> {
     let turns = sines_and_cosines(chain, q);
     let mut tips = start(chain);
     for ((link, &(sin, cos)), line) in chain.links.iter().zip(&turns).zip(lines) {
@@ -82,14 +82,14 @@ pub(super) fn frames_and_lines<V: Vector>(chain: &Chain, q: &[V; AXES], lines: &
 
 /// `z_i × (p − p_i)`, the linear part of a Jacobian's column.
 #[inline(always)]
-pub(super) fn moment<V: Vector>(line: &Line<V>, p: &[V; 3]) -> [V; 3] {
+pub(crate) fn moment<V: Vector>(line: &Line<V>, p: &[V; 3]) -> [V; 3] {
     let arm = [p[0] - line.point[0], p[1] - line.point[1], p[2] - line.point[2]];
     cross(&line.axis, &arm)
 }
 
 /// `a × b`.
 #[inline(always)]
-pub(super) fn cross<V: Vector>(a: &[V; 3], b: &[V; 3]) -> [V; 3] {
+pub(crate) fn cross<V: Vector>(a: &[V; 3], b: &[V; 3]) -> [V; 3] {
     [
         a[1].mul_sub(b[2], a[2] * b[1]),
         a[2].mul_sub(b[0], a[0] * b[2]),
@@ -99,7 +99,7 @@ pub(super) fn cross<V: Vector>(a: &[V; 3], b: &[V; 3]) -> [V; 3] {
 
 /// `a · b`.
 #[inline(always)]
-pub(super) fn dot<V: Vector>(a: &[V; 3], b: &[V; 3]) -> V {
+pub(crate) fn dot<V: Vector>(a: &[V; 3], b: &[V; 3]) -> V {
     a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
 }
 

@@ -1,11 +1,11 @@
 //! Warm inverse kinematics of many problems: damped least squares in lanes, the scalar solver for the rest.
 
-use super::chain::Chain;
-use super::forward::{Tips, frames_and_lines, no_lines, vectors};
-use super::kernel::{Kernel, LANES, Vector};
-use super::step::{Bounds, LEAST_COSINE, damped_step, errors, moved};
-use super::vector::{Backend, run};
-use super::{BatchError, CHUNK, same_length};
+use crate::batch::chain::Chain;
+use crate::batch::forward::{Tips, frames_and_lines, no_lines, vectors};
+use crate::batch::kernel::{Kernel, LANES, Vector};
+use crate::batch::step::{Bounds, LEAST_COSINE, damped_step, errors, moved};
+use crate::batch::vector::{Backend, run};
+use crate::batch::{BatchError, CHUNK, same_length};
 use crate::ik::{Damping, IkError, IkSettings, IkSolution, IkSolver, Method, Start, dls};
 use crate::{AXES, JointVector, Pose};
 use rayon::prelude::*;

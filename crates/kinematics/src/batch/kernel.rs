@@ -4,10 +4,10 @@ use crate::trig::MulAdd;
 use std::ops::{Add, Div, Mul, Sub};
 
 /// Configurations to a vector.
-pub(super) const LANES: usize = 4;
+pub(crate) const LANES: usize = 4;
 
 /// Four doubles; every operation is lane by lane, rounded as IEEE 754 says.
-pub(super) trait Vector:
+pub(crate) trait Vector:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     /// How [`Vector::mul_add`] rounds.
@@ -34,7 +34,7 @@ pub(super) trait Vector:
 
 /// Work that is written once and compiled twice. `run` is `#[inline(always)]`, and so is all that it calls often,
 /// because a function is compiled for the instructions of the one it is inlined into.
-pub(super) trait Kernel {
+pub(crate) trait Kernel {
     /// Does the work.
     fn run<V: Vector>(self);
 }

@@ -18,6 +18,7 @@
 //! | pose errors and damped steps of four problems | `step.rs` |
 //! | the inverse batch | `inverse.rs` |
 //! | vectors of four, and the only `unsafe` | `vector.rs` |
+
 #![allow(clippy::needless_range_loop)] // a lane's or a joint's number indexes several arrays at once
 
 mod chain;
@@ -28,9 +29,9 @@ mod poses;
 mod step;
 mod vector;
 
-pub use inverse::{solve, solve_into};
-pub use poses::{fk, fk_into, fk_matrices_into, jacobian, jacobian_into};
-pub use vector::Backend;
+pub use crate::batch::inverse::{solve, solve_into};
+pub use crate::batch::poses::{fk, fk_into, fk_matrices_into, jacobian, jacobian_into};
+pub use crate::batch::vector::Backend;
 
 /// Configurations to a unit of work for the thread pool. Fixed, so that nothing depends on the number of threads.
 const CHUNK: usize = 512;

@@ -1,10 +1,10 @@
 //! The two forward batches: poses, and Jacobians.
 
-use super::chain::Chain;
-use super::forward::{Tips, dot, frames, frames_and_lines, gather, moment, no_lines};
-use super::kernel::{Kernel, LANES, Vector};
-use super::vector::{Backend, run};
-use super::{BatchError, CHUNK, same_length};
+use crate::batch::chain::Chain;
+use crate::batch::forward::{Tips, dot, frames, frames_and_lines, gather, moment, no_lines};
+use crate::batch::kernel::{Kernel, LANES, Vector};
+use crate::batch::vector::{Backend, run};
+use crate::batch::{BatchError, CHUNK, same_length};
 use crate::rotation::Rigid;
 use crate::{Axes, Frame, Jacobian, JointVector, Pose, RobotModel};
 use nalgebra::{Matrix3, Vector3};

@@ -1,15 +1,15 @@
 //! The pose error and the damped step of four inverse-kinematics problems at once: the equations of [`crate::ik`],
 //! lane by lane.
 
-use super::forward::{Line, Tips, cross, dot, moment};
-use super::kernel::Vector;
 use crate::AXES;
+use crate::batch::forward::{Line, Tips, cross, dot, moment};
+use crate::batch::kernel::Vector;
 
 /// Below this cosine of the error angle (0.5 rad) a lane is left to the scalar solver.
-pub(super) const LEAST_COSINE: f64 = 0.877_582_561_890_372_8;
+pub(crate) const LEAST_COSINE: f64 = 0.877_582_561_890_372_8;
 
 /// Pose errors.
-pub(super) struct Errors<V> {
+pub(crate) struct Errors<V> {
     /// `p* − p` \[m\], base axes.
     pub linear: [V; 3],
     /// `log(R* Rᵀ)` \[rad\], base axes; meaningless where `cosine` is below [`LEAST_COSINE`].
@@ -27,7 +27,7 @@ pub(super) struct Errors<V> {
 /// With v = sin θ · axis, the skew part of `R* Rᵀ = Σ r*_k r_kᵀ` over the columns, and t = tan(θ/2) = sin θ / (1 + cos θ), the
 /// rotation vector is `v · 2 arctan(t) / (t (1 + cos θ))`.
 #[inline(always)]
-pub(super) fn errors<V: Vector>(targets: &Tips<V>, tips: &Tips<V>) -> Errors<V> {
+pub(crate) fn errors<V: Vector>(targets: &Tips<V>, tips: &Tips<V>) -> Errors<V> {
     let (x, y, z) = (
         cross(&tips.x, &targets.x),
         cross(&tips.y, &targets.y),
@@ -62,7 +62,7 @@ fn arctan_over<V: Vector>(square: V) -> V {
 }
 
 /// What bounds the steps of all lanes.
-pub(super) struct Bounds {
+pub(crate) struct Bounds {
     /// λ = gain ‖e‖² …
     pub gain: f64,
     /// … and at least this.
@@ -77,7 +77,7 @@ pub(super) struct Bounds {
 
 /// The damped step `Δq = (JᵀJ + λI)⁻¹ Jᵀ e` \[rad\].
 #[inline(always)]
-pub(super) fn damped_step<V: Vector>(bounds: &Bounds, p: &[V; 3], lines: &[Line<V>; AXES], e: &Errors<V>) -> [V; AXES] {
+pub(crate) fn damped_step<V: Vector>(bounds: &Bounds, p: &[V; 3], lines: &[Line<V>; AXES], e: &Errors<V>) -> [V; AXES] {
     let cost = e.position + e.angle;
     let lambda = larger(V::splat(bounds.gain) * cost, V::splat(bounds.least_damping));
     let zero = V::splat(0.0);
@@ -96,7 +96,7 @@ pub(super) fn damped_step<V: Vector>(bounds: &Bounds, p: &[V; 3], lines: &[Line<
 
 /// `q + Δq`, shortened to the step bound and clamped to the limits, and how many steps in a row a limit cut.
 #[inline(always)]
-pub(super) fn moved<V: Vector>(bounds: &Bounds, mut q: [V; AXES], dq: &[V; AXES], clamped: V) -> ([V; AXES], V) {
+pub(crate) fn moved<V: Vector>(bounds: &Bounds, mut q: [V; AXES], dq: &[V; AXES], clamped: V) -> ([V; AXES], V) {
     let (zero, one) = (V::splat(0.0), V::splat(1.0));
     let mut largest = zero;
     for d in dq {

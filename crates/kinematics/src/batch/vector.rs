@@ -2,9 +2,10 @@
 //!
 //! A kernel is written once, over [`Vector`], and compiled twice: for [`Avx2`] within a function that has these
 //! instructions enabled, and for [`Portable`] without. `run` enters the one that the processor has.
+
 #![allow(unsafe_code)]
 
-use super::kernel::{Kernel, LANES, Vector};
+use crate::batch::kernel::{Kernel, LANES, Vector};
 use crate::trig::Separate;
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -32,7 +33,7 @@ impl Backend {
 }
 
 /// Runs the kernel on the path.
-pub(super) fn run<K: Kernel>(path: Backend, kernel: K) {
+pub(crate) fn run<K: Kernel>(path: Backend, kernel: K) {
     #[cfg(target_arch = "x86_64")]
     if path.is_vectorised() {
         // SAFETY: calling a function with `target_feature(enable = "avx2,fma")` needs a processor that has both;

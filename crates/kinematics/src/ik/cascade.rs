@@ -1,13 +1,13 @@
 //! The cascade that users call: seed, QP, listed starts, random restarts. See the [module](super) text.
 
-use super::analytic::{AnalyticArm, AnalyticError, NotAnalytic, Solutions};
-use super::starts::Starts;
-use super::task::{Descent, Iterate, ON_LIMIT_RAD, Stop, Task};
-use super::{
-    AnalyticStarts, IkCause, IkError, IkFailure, IkSettings, IkSettingsError, IkSolution, Method, RandomRestarts, Start,
+use crate::ik::analytic::{AnalyticArm, AnalyticError, NotAnalytic, Solutions};
+use crate::ik::dls::{self, Descent, Iterate, ON_LIMIT_RAD, Stop, Task};
+use crate::ik::starts::Starts;
+use crate::ik::{
+    AnalyticStarts, IkCause, IkError, IkFailure, IkSettings, IkSettingsError, IkSolution, Method, RandomRestarts,
+    Start, qp,
 };
-use super::{dls, qp};
-use crate::frame::Frame;
+use crate::model::Frame;
 use crate::rotation::Rigid;
 use crate::{AXES, JointVector, Pose, RobotModel};
 use rand::{RngExt, SeedableRng};
@@ -21,10 +21,10 @@ const SINGULAR: f64 = 1e-3;
 /// Solves for one frame of one arm; build it once and call [`IkSolver::solve`] often.
 #[derive(Debug, Clone)]
 pub struct IkSolver<'a> {
-    pub(super) robot: Cow<'a, RobotModel>,
+    pub(crate) robot: Cow<'a, RobotModel>,
     frame: Frame,
-    pub(super) settings: IkSettings,
-    pub(super) starts: Starts,
+    pub(crate) settings: IkSettings,
+    pub(crate) starts: Starts,
     analytic: Option<AnalyticArm>,
 }
 
@@ -241,7 +241,7 @@ impl<'a> IkSolver<'a> {
         self.note(&descent, Method::Qp, start, search)
     }
 
-    pub(super) fn task(&self, target: &Pose) -> Result<Task<'_>, IkError> {
+    pub(crate) fn task(&self, target: &Pose) -> Result<Task<'_>, IkError> {
         let position: [f64; 3] = target.translation.vector.into();
         if position
             .iter()
@@ -254,7 +254,7 @@ impl<'a> IkSolver<'a> {
     }
 
     /// The task for a target that is known to be finite.
-    pub(super) fn task_unchecked(&self, target: &Pose) -> Task<'_> {
+    pub(crate) fn task_unchecked(&self, target: &Pose) -> Task<'_> {
         Task {
             robot: &self.robot,
             frame: self.frame,
@@ -285,7 +285,7 @@ impl<'a> IkSolver<'a> {
     }
 
     /// Whether the target lies beyond [`RobotModel::reach_bound`]: then no start can help.
-    pub(super) fn beyond_reach(&self, target: &Rigid) -> bool {
+    pub(crate) fn beyond_reach(&self, target: &Rigid) -> bool {
         let (centre, bound) = self.robot.reach_bound(&self.frame);
         (target.translation - centre.coords).norm() > bound + self.settings.position_tolerance_m
     }
@@ -313,7 +313,7 @@ impl<'a> IkSolver<'a> {
         }
     }
 
-    pub(super) fn cause(&self, task: &Task<'_>, at: &Iterate) -> IkCause {
+    pub(crate) fn cause(&self, task: &Task<'_>, at: &Iterate) -> IkCause {
         if self.beyond_reach(&task.target) {
             return IkCause::Unreachable;
         }
@@ -356,7 +356,7 @@ impl<'a> IkSolver<'a> {
     }
 }
 
-pub(super) fn check_seed(seed: &JointVector) -> Result<(), IkError> {
+pub(crate) fn check_seed(seed: &JointVector) -> Result<(), IkError> {
     match (0..AXES).find(|&joint| !seed[joint].is_finite()) {
         Some(joint) => Err(IkError::Seed {
             joint,

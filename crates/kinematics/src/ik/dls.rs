@@ -1,9 +1,15 @@
 //! Damped least squares: `Δq = (JᵀJ + λI)⁻¹ Jᵀ e`.
+//!
+//! Damping of the least-squares step.
+//!
+//! The 6 × 6 symmetric positive definite system of every damped step, by LDLᵀ without square roots.
+//!
+//! The pose error and its Jacobian at one configuration.
 
-use super::linear::solve_spd;
-use super::settings::IkSettings;
-use super::task::{Descent, Iterate, Stop, Task};
-use crate::{AXES, JointVector};
+use crate::ik::settings::IkSettings;
+use crate::model::{Axes, BodyPoses, Frame, Jacobian, manipulability};
+use crate::rotation::{Rigid, rotation_vector};
+use crate::{AXES, JointVector, RobotModel};
 use nalgebra::{Matrix6, Vector6};
 
 /// Smallest damping: keeps the normal matrix definite at an exact singularity without slowing convergence.
@@ -16,13 +22,13 @@ const STAGNATION_WINDOW: usize = 8;
 pub(crate) const CLAMPED_IN_A_ROW: usize = 3;
 
 /// Joints that may move; the others are held where they are.
-pub(super) type Free = [bool; AXES];
+pub(crate) type Free = [bool; AXES];
 
 /// Every joint may move.
-pub(super) const ALL_FREE: Free = [true; AXES];
+pub(crate) const ALL_FREE: Free = [true; AXES];
 
 /// Descends from `start` (within the limits) moving the free joints only.
-pub(super) fn descend(task: &Task<'_>, start: Iterate, free: &Free, settings: &IkSettings) -> Descent {
+pub(crate) fn descend(task: &Task<'_>, start: Iterate, free: &Free, settings: &IkSettings) -> Descent {
     let limits = task.robot.limits();
     let mut here = start;
     let mut boost = 1.0;
@@ -90,5 +96,250 @@ fn bounded(step: JointVector, bound: f64) -> JointVector {
         step * (bound / largest)
     } else {
         step
+    }
+}
+
+/// How strongly a step is damped: the λ of `(JᵀJ + λI) Δq = Jᵀe`. Whatever is chosen, a step that does not reduce the error raises it tenfold, and
+/// accepted steps let it fall again (Levenberg–Marquardt).
+///
+/// A motion of the joints that moves the tip by σ (m, rad) per radian is damped where σ² is not far above λ: with a constant
+/// 1e-5, along directions within about 3e-3 of singular.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Damping {
+    /// `λ = gain ‖e‖²` (e in m and rad): strong far from the target, vanishing at it, so that convergence is quadratic
+    /// (Sugihara, *IEEE Trans. Robotics* 2011). The default, with gain 0.3.
+    ErrorProportional {
+        /// From 0 to 1e6.
+        gain: f64,
+    },
+    /// `λ` itself: the classical scheme (Wampler 1986); convergence is linear.
+    Constant {
+        /// From 0 to 1e6.
+        lambda: f64,
+    },
+    /// `λ = largest (1 − w/threshold)²` where the manipulability `w = |det J|` is below the threshold, none elsewhere
+    /// (Nakamura & Hanafusa 1986): damped near singularities only.
+    NearSingularities {
+        /// From 0 to 1e6.
+        largest: f64,
+        /// Manipulability below which damping begins \[m³\]; above 0.
+        threshold: f64,
+    },
+}
+
+impl Default for Damping {
+    fn default() -> Self {
+        Self::ErrorProportional { gain: 0.3 }
+    }
+}
+
+impl Damping {
+    /// λ at a squared error and a Jacobian.
+    #[inline]
+    pub(crate) fn lambda(&self, squared_error: f64, jacobian: &Jacobian) -> f64 {
+        match *self {
+            Self::ErrorProportional { gain } => gain * squared_error,
+            Self::Constant { lambda } => lambda,
+            Self::NearSingularities { largest, threshold } => {
+                let short = (1.0 - manipulability(jacobian) / threshold).max(0.0);
+                largest * short * short
+            }
+        }
+    }
+
+    /// The first number out of its range, if any.
+    pub(crate) fn misfit(&self) -> Option<f64> {
+        let fits = |v: f64| (0.0..=1e6).contains(&v);
+        match *self {
+            Self::ErrorProportional { gain: v } | Self::Constant { lambda: v } => (!fits(v)).then_some(v),
+            Self::NearSingularities { largest, threshold } => {
+                let above_zero = threshold > 0.0 && fits(threshold);
+                (!fits(largest))
+                    .then_some(largest)
+                    .or((!above_zero).then_some(threshold))
+            }
+        }
+    }
+}
+
+const N: usize = 6;
+
+/// Solves `A x = b` for symmetric positive definite `A` (its lower triangle is read); `None` when a pivot is not positive
+/// (an indefinite matrix, or NaN).
+///
+/// `A = L D Lᵀ` column by column, then two triangular solves (Golub & Van Loan, *Matrix Computations*, §4.1.2). One
+/// division per pivot; the bounds are constants, so that the compiler unrolls everything.
+#[inline]
+pub(crate) fn solve_spd(a: &Matrix6<f64>, b: &Vector6<f64>) -> Option<Vector6<f64>> {
+    let mut l = *a;
+    let mut inverse = [0.0; N];
+    for j in 0..N {
+        let pivot = l[(j, j)];
+        // Written so that NaN fails too.
+        if pivot.is_nan() || pivot <= 0.0 {
+            return None;
+        }
+        inverse[j] = 1.0 / pivot;
+        for i in j + 1..N {
+            let scaled = l[(i, j)] * inverse[j];
+            for k in j + 1..=i {
+                l[(i, k)] -= scaled * l[(k, j)];
+            }
+        }
+    }
+    // Column j of `l` below the diagonal now holds L times the pivot.
+    let mut x = *b;
+    for j in 0..N {
+        let y = x[j] * inverse[j];
+        for i in j + 1..N {
+            x[i] -= l[(i, j)] * y;
+        }
+    }
+    for j in (0..N).rev() {
+        let mut sum = x[j];
+        for i in j + 1..N {
+            sum -= l[(i, j)] * x[i];
+        }
+        x[j] = sum * inverse[j];
+    }
+    Some(x)
+}
+
+/// A joint this close to a limit counts as standing on it \[rad\].
+pub(crate) const ON_LIMIT_RAD: f64 = 1e-6;
+
+/// One inverse-kinematics problem: an arm, a frame on it, and where that frame shall be.
+pub(crate) struct Task<'a> {
+    pub robot: &'a RobotModel,
+    pub frame: Frame,
+    pub target: Rigid,
+    /// Tolerances on position \[m\] and orientation \[rad\].
+    pub tolerance: [f64; 2],
+}
+
+/// A configuration with its error.
+#[derive(Clone, Copy)]
+pub(crate) struct Iterate {
+    pub q: JointVector,
+    bodies: BodyPoses,
+    /// `e = (p* − p, log(R* Rᵀ))`, metres and radians in base axes.
+    pub error: Vector6<f64>,
+    /// `‖e‖²`.
+    pub cost: f64,
+}
+
+impl Task<'_> {
+    pub fn at(&self, q: JointVector) -> Iterate {
+        let bodies = self.robot.fk(&q);
+        let tip = bodies.rigid(&self.frame);
+        let linear = self.target.translation - tip.translation;
+        let angular = rotation_vector(&(self.target.rotation * tip.rotation.transpose()));
+        let error = Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z);
+        Iterate {
+            q,
+            bodies,
+            error,
+            cost: error.norm_squared(),
+        }
+    }
+
+    pub fn jacobian(&self, iterate: &Iterate) -> Jacobian {
+        iterate.bodies.jacobian(&self.frame, Axes::Base)
+    }
+
+    pub fn solved(&self, iterate: &Iterate) -> bool {
+        iterate.position_error() <= self.tolerance[0] && iterate.orientation_error() <= self.tolerance[1]
+    }
+}
+
+impl Iterate {
+    /// Distance from the target \[m\].
+    pub fn position_error(&self) -> f64 {
+        self.error.fixed_rows::<3>(0).norm()
+    }
+
+    /// Angle from the target \[rad\].
+    pub fn orientation_error(&self) -> f64 {
+        self.error.fixed_rows::<3>(3).norm()
+    }
+}
+
+/// Why a descent stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Stop {
+    /// Within both tolerances.
+    Solved,
+    /// The error hardly falls any more.
+    Stagnation,
+    /// Steps keep being clamped to a limit.
+    ActiveLimit,
+    /// Iterations ran out.
+    Iterations,
+}
+
+/// Where and why a descent stopped.
+pub(crate) struct Descent {
+    pub best: Iterate,
+    pub iterations: usize,
+    pub stop: Stop,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn each_scheme_by_hand() {
+        let regular = Jacobian::identity();
+        let singular = Jacobian::zeros();
+        let sugihara = Damping::default();
+        assert_eq!(
+            [sugihara.lambda(0.04, &regular), sugihara.lambda(0.0, &singular)],
+            [0.3 * 0.04, 0.0]
+        );
+        assert_eq!(Damping::Constant { lambda: 1e-3 }.lambda(9.0, &regular), 1e-3);
+        let nakamura = Damping::NearSingularities {
+            largest: 0.1,
+            threshold: 2.0,
+        };
+        assert_eq!(
+            [nakamura.lambda(1.0, &regular), nakamura.lambda(1.0, &singular)],
+            [0.1 * 0.25, 0.1]
+        );
+        assert_eq!(nakamura.lambda(1.0, &(regular * 2.0)), 0.0);
+    }
+
+    #[test]
+    fn numbers_out_of_range_are_found() {
+        assert_eq!(Damping::default().misfit(), None);
+        assert_eq!(Damping::Constant { lambda: -1.0 }.misfit(), Some(-1.0));
+        assert!(Damping::ErrorProportional { gain: f64::NAN }.misfit().is_some());
+        let flat = Damping::NearSingularities {
+            largest: 0.1,
+            threshold: 0.0,
+        };
+        assert_eq!(flat.misfit(), Some(0.0));
+    }
+
+    proptest! {
+        #[test]
+        fn agrees_with_a_general_solver(entries in prop::collection::vec(-1.0..1.0f64, 36), b in prop::collection::vec(-1.0..1.0f64, 6)) {
+            let m = Matrix6::from_row_slice(&entries);
+            let a = m.tr_mul(&m) + Matrix6::from_diagonal_element(1e-3);
+            let b = Vector6::from_row_slice(&b);
+            let expected = a.lu().solve(&b).ok_or_else(|| TestCaseError::fail("singular"))?;
+            let x = solve_spd(&a, &b).ok_or_else(|| TestCaseError::fail("not positive"))?;
+            prop_assert!((x - expected).amax() < 1e-9 * (1.0 + expected.amax()));
+        }
+    }
+
+    #[test]
+    fn refuses_what_is_not_positive_definite() {
+        let mut a = Matrix6::identity();
+        a[(3, 3)] = -1.0;
+        assert_eq!(solve_spd(&a, &Vector6::zeros()), None);
+        a[(3, 3)] = f64::NAN;
+        assert_eq!(solve_spd(&a, &Vector6::zeros()), None);
     }
 }

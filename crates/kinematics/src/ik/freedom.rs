@@ -5,7 +5,7 @@
 //! the yaw, the rotation about z that is left when the tilt is undone by the shortest way (swing–twist decomposition; Dobrowolski
 //! 2015). The allowed deviations form a convex set: a box, a disc, and a point or everything.
 
-use crate::jacobian::Jacobian;
+use crate::model::Jacobian;
 use crate::rotation::Rigid;
 use crate::trig::atan2;
 use nalgebra::{Matrix3, Matrix6, RowVector3, Unit, UnitQuaternion, Vector3, Vector6};
@@ -82,7 +82,7 @@ impl TaskFreedom {
 
 /// Deviation of a frame from its target: x, y, z \[m\], tilt about which the frame leans (two components \[rad\]), yaw \[rad\].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Deviation(pub Vector6<f64>);
+pub(crate) struct Deviation(pub Vector6<f64>);
 
 impl Deviation {
     /// Of `frame` from `target`, both `T_base_…`.

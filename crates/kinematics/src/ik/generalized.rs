@@ -18,16 +18,15 @@
 //! First the seed; then the configurations that [`IkSolver::solve`] finds for the target tilted to 0, ½ and all of the cone in 12
 //! directions (and, with free yaw, as many yaws), those that meet the bounds first.
 
-use super::dls::{self, ALL_FREE};
-use super::freedom::{Deviation, TaskFreedom, TaskFreedomError, Yaw};
-use super::task::{Iterate, Stop, Task};
-use super::{IkError, IkFailure, IkSolver};
+use crate::ik::dls::{self, ALL_FREE, Iterate, Stop, Task};
+use crate::ik::freedom::{Deviation, TaskFreedom, TaskFreedomError, Yaw};
+use crate::ik::{IkError, IkFailure, IkSolver};
 use crate::rotation::Rigid;
 use crate::trig::sin_cos;
 use crate::{AXES, Axes, JointVector, Pose};
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT, ZeroConeT};
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+use clarabel::solver::SupportedConeT::{self, NonnegativeConeT, SecondOrderConeT, ZeroConeT};
+use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
 use nalgebra::{DMatrix, DVector, Vector6};
 use std::f64::consts::{PI, TAU};
 
@@ -134,7 +133,7 @@ impl IkSolver<'_> {
     ) -> Result<GeneralizedSolution, GeneralizedError> {
         asked.freedom.validate()?;
         let exact = self.task(target)?;
-        super::cascade::check_seed(seed)?;
+        crate::ik::cascade::check_seed(seed)?;
         let [lowest, highest] = self.motion_bounds(seed, asked)?;
         let start = seed.sup(&lowest).inf(&highest);
         let mut search = Search {

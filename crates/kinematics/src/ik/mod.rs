@@ -50,24 +50,21 @@
 
 pub mod analytic;
 mod cascade;
-mod damping;
 pub mod dls;
 pub mod freedom;
 pub mod generalized;
-mod linear;
 pub mod path;
 pub mod qp;
 mod settings;
 pub mod spread;
 pub mod starts;
-mod task;
 
-pub use cascade::{AllBranchesError, IkSolver};
-pub use damping::Damping;
-pub use freedom::{TaskFreedom, TaskFreedomError, Yaw};
-pub use generalized::{ClearanceRow, ClearanceRows, GeneralizedError, GeneralizedSolution, GeneralizedTask};
-pub use path::{IkPath, IkPathError, PathBreak};
-pub use settings::{AnalyticStarts, IkSettings, IkSettingsError, RandomRestarts};
+pub use crate::ik::cascade::{AllBranchesError, IkSolver};
+pub use crate::ik::dls::Damping;
+pub use crate::ik::freedom::{TaskFreedom, TaskFreedomError, Yaw};
+pub use crate::ik::generalized::{ClearanceRow, ClearanceRows, GeneralizedError, GeneralizedSolution, GeneralizedTask};
+pub use crate::ik::path::{IkPath, IkPathError, PathBreak};
+pub use crate::ik::settings::{AnalyticStarts, IkSettings, IkSettingsError, RandomRestarts};
 
 use crate::JointVector;
 use serde::Serialize;

@@ -13,9 +13,8 @@
 //! order in the spacing, so that one damped step mostly suffices. If that fails or steps too far, the waypoint is solved from
 //! the last answer; if that steps too far, the way is halved, up to [`MOST_HALVINGS`] times.
 
-use super::dls::{self, ALL_FREE};
-use super::task::{Iterate, Stop, Task};
-use super::{IkCause, IkError, IkSolver};
+use crate::ik::dls::{self, ALL_FREE, Iterate, Stop, Task};
+use crate::ik::{IkCause, IkError, IkSolver};
 use crate::{JointVector, Pose};
 use nalgebra::UnitQuaternion;
 

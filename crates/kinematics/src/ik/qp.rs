@@ -5,9 +5,8 @@
 //! redistributes it over the others and still descends. Its answer is accurate to about 1e-4 rad, so the
 //! last digits come from DLS on the joints that the QP left free.
 
-use super::dls;
-use super::settings::IkSettings;
-use super::task::{Descent, Iterate, ON_LIMIT_RAD, Stop, Task};
+use crate::ik::dls::{self, Descent, Iterate, ON_LIMIT_RAD, Stop, Task};
+use crate::ik::settings::IkSettings;
 use crate::{AXES, JointVector};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
@@ -20,7 +19,7 @@ const LEAST_GAIN: f64 = 1e-3;
 /// Below this squared error (m², rad²) DLS tries to polish.
 const POLISH_BELOW: f64 = 1e-2;
 /// Descends from `start` (within the limits) by bounded steps and polishes the answer.
-pub(super) fn descend(task: &Task<'_>, start: Iterate, settings: &IkSettings) -> Descent {
+pub(crate) fn descend(task: &Task<'_>, start: Iterate, settings: &IkSettings) -> Descent {
     let limits = task.robot.limits();
     let mut here = start;
     let mut boost = 1.0;

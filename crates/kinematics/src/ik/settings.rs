@@ -1,6 +1,6 @@
 //! Settings of the inverse kinematics.
 
-use super::damping::Damping;
+use crate::ik::dls::Damping;
 use std::f64::consts::PI;
 
 /// Restarts from random configurations within the limits.
@@ -15,13 +15,13 @@ pub struct RandomRestarts {
 /// Whether analytic branches serve as starts on arms that have them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AnalyticStarts {
-    /// They do, where [`super::analytic::AnalyticArm::recognise`] accepts the arm.
+    /// They do, where [`crate::ik::analytic::AnalyticArm::recognise`] accepts the arm.
     Used,
     /// They do not: the numeric cascade alone.
     Unused,
 }
 
-/// Settings of [`super::IkSolver`]; [`IkSettings::default`] suits the IRB 120 and arms of its size.
+/// Settings of [`crate::ik::IkSolver`]; [`IkSettings::default`] suits the IRB 120 and arms of its size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IkSettings {
     /// Largest accepted distance between the frame's origin and the target's \[m\]; default 1e-6.
@@ -38,7 +38,7 @@ pub struct IkSettings {
     pub step_bound_rad: f64,
     /// Analytic branches as starts; default [`AnalyticStarts::Used`].
     pub analytic_starts: AnalyticStarts,
-    /// How many of the listed starts are tried after the seed; default 64, at most [`super::starts::LISTED`].
+    /// How many of the listed starts are tried after the seed; default 64, at most [`crate::ik::starts::LISTED`].
     pub listed_starts: usize,
     /// Random restarts after the listed ones; default none.
     pub random_restarts: Option<RandomRestarts>,
@@ -114,7 +114,7 @@ impl IkSettings {
                 "listed_starts",
                 self.listed_starts as f64,
                 "at most 256",
-                self.listed_starts <= super::starts::LISTED,
+                self.listed_starts <= crate::ik::starts::LISTED,
             ),
         ];
         // (No bound is needed on max_qp_iterations, where 0 means no QP, nor on random_restarts.count, where 0 means none.)

@@ -9,9 +9,8 @@
 //! Every answer is a configuration within the limits that meets both tolerances. That there is no further one is *not*
 //! known: what is not found may exist.
 
-use super::dls::{self, ALL_FREE};
-use super::task::Task;
-use super::{IkError, IkSolver};
+use crate::ik::dls::{self, ALL_FREE, Task};
+use crate::ik::{IkError, IkSolver};
 use crate::rotation::Rigid;
 use crate::trig::{atan2, sin_cos};
 use crate::{AXES, JointVector, Pose};
@@ -49,14 +48,14 @@ impl Mirror {
 impl IkSolver<'_> {
     /// Configurations within the limits that bring the frame to `target` (`T_base_frame`), each on another branch of the arm as far
     /// as that shows: no two agree up to whole turns. Of whole turns the nearest to `near` \[rad\] counts; the nearest
-    /// configuration to `near` comes first. `starts` of the listed starts are tried, at most [`super::starts::LISTED`]; see
+    /// configuration to `near` comes first. `starts` of the listed starts are tried, at most [`crate::ik::starts::LISTED`]; see
     /// the [module](self) text. An empty answer proves nothing.
     ///
     /// # Errors
     /// [`IkError::Target`] and [`IkError::Seed`] for input that is not finite.
     pub fn spread(&self, target: &Pose, near: &JointVector, starts: usize) -> Result<Vec<JointVector>, IkError> {
         let task = self.task(target)?;
-        super::cascade::check_seed(near)?;
+        crate::ik::cascade::check_seed(near)?;
         let mut found = Found {
             solver: self,
             task: &task,
@@ -92,7 +91,7 @@ impl IkSolver<'_> {
             let by = axis.azimuth(&pose.translation, &target.translation);
             let mut q = *q;
             q[0] += by;
-            (super::starts::distance(&axis.turned(pose, by), target), q)
+            (crate::ik::starts::distance(&axis.turned(pose, by), target), q)
         });
         let mut ranked: Vec<_> = turned.collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -4,7 +4,7 @@
 //! a target, the starts whose frame is nearest to it are tried first: squared distance of the origins in
 //! metres plus 0.05 of the squared chord between the rotations.
 
-use crate::frame::Frame;
+use crate::model::Frame;
 use crate::rotation::Rigid;
 use crate::{JointVector, RobotModel, halton};
 use std::f64::consts::PI;
@@ -16,7 +16,7 @@ const ROTATION_WEIGHT: f64 = 0.05;
 
 /// The list for one frame of one arm.
 #[derive(Debug, Clone)]
-pub(super) struct Starts {
+pub(crate) struct Starts {
     entries: Vec<(JointVector, Rigid)>,
 }
 
@@ -46,7 +46,7 @@ impl Starts {
 }
 
 /// How far a pose is from the target: squared metres, and a weighted squared chord.
-pub(super) fn distance(pose: &Rigid, target: &Rigid) -> f64 {
+pub(crate) fn distance(pose: &Rigid, target: &Rigid) -> f64 {
     let chord = (pose.rotation - target.rotation).norm_squared();
     (pose.translation - target.translation).norm_squared() + ROTATION_WEIGHT * chord
 }

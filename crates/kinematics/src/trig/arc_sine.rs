@@ -1,7 +1,7 @@
 //! Inverse cosine and sine: one polynomial on [0, 1/2] and a square root, without a branch.
 
-use super::mul_add::{Separate, polynomial};
-use super::sin_cos::SIGN;
+use crate::trig::mul_add::{Separate, polynomial};
+use crate::trig::sin_cos::SIGN;
 use std::f64::consts::FRAC_PI_2;
 
 /// (arcsin s − s)/s³ in powers of s², terms 0–5: minimax for the relative error of arcsin s on |s| ≤ 1/2, 2⁻⁵⁵·⁸.

@@ -1,7 +1,7 @@
 //! The inverse functions: one division, one short polynomial and a table of angles.
 
-use super::mul_add::{Separate, polynomial};
-use super::sin_cos::SIGN;
+use crate::trig::mul_add::{Separate, polynomial};
+use crate::trig::sin_cos::SIGN;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Bounds of the fast path: the larger of |x|, |y| at least the first, their sum at most the second, so that

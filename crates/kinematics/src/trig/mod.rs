@@ -22,10 +22,10 @@ mod sin_cos;
 #[cfg(test)]
 mod tests;
 
-pub use arc_sine::{acos, asin};
-pub use atan2::atan2;
-pub use mul_add::{Fused, MulAdd, Separate};
-pub use sin_cos::{cos, sin, sin_cos, sin_cos_lanes};
+pub use crate::trig::arc_sine::{acos, asin};
+pub use crate::trig::atan2::atan2;
+pub use crate::trig::mul_add::{Fused, MulAdd, Separate};
+pub use crate::trig::sin_cos::{cos, sin, sin_cos, sin_cos_lanes};
 
 /// Natural logarithm: of 0 −∞, of negative numbers and NaN NaN. The `libm` crate's, below 1 ulp.
 #[inline]

@@ -33,7 +33,7 @@ impl MulAdd for Fused {
 
 /// c₀ + c₁z + … + c₅z⁵, in pairs to shorten the chain of dependent operations (G. Estrin, 1960).
 #[inline(always)]
-pub(super) fn polynomial<M: MulAdd>(c: &[f64; 6], z: f64, z2: f64) -> f64 {
+pub(crate) fn polynomial<M: MulAdd>(c: &[f64; 6], z: f64, z2: f64) -> f64 {
     let pair = |k: usize| M::mul_add(z, c[k + 1], c[k]);
     M::mul_add(z2, M::mul_add(z2, pair(4), pair(2)), pair(0))
 }

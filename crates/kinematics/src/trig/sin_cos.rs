@@ -1,6 +1,6 @@
 //! Sine and cosine together: three-part reduction by π/2, then one polynomial each, without a branch.
 
-use super::mul_add::{MulAdd, Separate, polynomial};
+use crate::trig::mul_add::{MulAdd, Separate, polynomial};
 
 /// Largest |angle| \[rad\] that the fast path takes. Up to here a quadrant number has at most 16 bits, so that its
 /// products with [`HALF_PI_HIGH`] and [`HALF_PI_MIDDLE`] (37 bits each) are exact.
@@ -35,7 +35,7 @@ const COS: [f64; 6] = [
 ];
 
 /// The sign bit of a double.
-pub(super) const SIGN: u64 = 1 << 63;
+pub(crate) const SIGN: u64 = 1 << 63;
 
 /// Sine and cosine of an angle \[rad\].
 ///
@@ -78,7 +78,7 @@ pub fn cos(angle: f64) -> f64 {
 /// Sines and cosines of `N` angles \[rad\], the formula of [`sin_cos`] in a form that the compiler turns into
 /// vector instructions.
 ///
-/// With [`Separate`] each lane has the bits of [`sin_cos`]; with [`Fused`](super::Fused) it is within
+/// With [`Separate`] each lane has the bits of [`sin_cos`]; with [`Fused`](crate::trig::Fused) it is within
 /// 2⁻⁵² of them. A lane beyond the bound of the fast path, or not finite, is computed as [`sin_cos`] does.
 #[inline(always)]
 #[must_use]

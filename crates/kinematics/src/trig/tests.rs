@@ -1,6 +1,6 @@
 //! Properties that hold for every argument: symmetry, monotony, inverses.
 
-use super::{acos, asin, atan2, cos, sin, sin_cos};
+use crate::trig::{acos, asin, atan2, cos, sin, sin_cos};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -64,7 +64,7 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
 }
 
 /// The text that bytes are.
-pub(super) fn text(bytes: Vec<u8>) -> Result<String, FileError> {
+pub(crate) fn text(bytes: Vec<u8>) -> Result<String, FileError> {
     String::from_utf8(bytes).map_err(|e| FileError::NotText {
         position: e.utf8_error().valid_up_to(),
     })

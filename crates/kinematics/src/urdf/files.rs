@@ -1,6 +1,6 @@
 //! Where input files come from: the disk, or what was read of it before, for whoever has none of them.
 
-use super::file::{self, FileError};
+use crate::urdf::file::{self, FileError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,12 +1,16 @@
 //! Meshes: found through package folders; those that can touch are read as vertices (their convex hull is what counts), those that
 //! are looked at, or whose surface counts, as triangles.
+//!
+//! Vertices of STL and OBJ files. Their convex hull is what counts, so faces, normals and materials are not
+//! read; what could make the hull smaller than the part (a cut file, a wrong count) is refused.
 
-use super::error::UrdfError;
-use super::files::Files;
-use super::numbers::{LARGEST_LENGTH_M, length};
-use super::{triangles, vertices};
 use crate::geometry::Triangle;
+use crate::urdf::error::UrdfError;
+use crate::urdf::files::Files;
+use crate::urdf::tree::{LARGEST_LENGTH_M, length};
+use crate::urdf::triangles;
 use nalgebra::Point3;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Longest mesh file that is read \[bytes\].
@@ -51,11 +55,11 @@ impl MeshSource {
     }
 
     /// The scaled vertices of a mesh file, each once.
-    pub(super) fn vertices(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<Vec<Point3<f64>>, UrdfError> {
+    pub(crate) fn vertices(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<Vec<Point3<f64>>, UrdfError> {
         let file = self.read(link, name, scale)?;
         let points = match file.format()? {
-            Format::Stl => vertices::stl(file.bytes()),
-            Format::Obj => vertices::obj(file.bytes()),
+            Format::Stl => stl(file.bytes()),
+            Format::Obj => obj(file.bytes()),
         };
         let points = file.scaled(points.map_err(|detail| file.wrong(detail))?)?;
         if points.len() < 4 {
@@ -66,7 +70,7 @@ impl MeshSource {
     }
 
     /// The scaled triangles of a mesh file, three corners each; no more than `most`.
-    pub(super) fn triangles(
+    pub(crate) fn triangles(
         &self,
         link: &str,
         name: &str,
@@ -288,4 +292,30 @@ impl MeshFile {
             None => Ok(points),
         }
     }
+}
+
+/// The vertices, or what is wrong with the file.
+type Vertices = Result<Vec<Point3<f64>>, String>;
+
+/// Vertices of a binary or ASCII STL file, each once.
+pub(crate) fn stl(bytes: &[u8]) -> Vertices {
+    Ok(distinct(triangles::stl(bytes)?.into_iter()))
+}
+
+/// Vertices of an OBJ file, used by a face or not, each once.
+pub(crate) fn obj(bytes: &[u8]) -> Vertices {
+    let text = String::from_utf8_lossy(bytes);
+    let vertex = |(index, line): (usize, &str)| {
+        let mut words = line.split_whitespace();
+        (words.next() == Some("v")).then(|| triangles::point(words, index))
+    };
+    let points: Vec<_> = text.lines().enumerate().filter_map(vertex).collect::<Result<_, _>>()?;
+    Ok(distinct(points.into_iter()))
+}
+
+fn distinct(points: impl Iterator<Item = Point3<f64>>) -> Vec<Point3<f64>> {
+    let mut seen = BTreeSet::new();
+    points
+        .filter(|p| seen.insert([p.x, p.y, p.z].map(f64::to_bits)))
+        .collect()
 }

@@ -8,39 +8,30 @@
 //!
 //! xacro is not expanded: run `xacro FILE.xacro > FILE.urdf` first.
 
-mod capsule;
-mod collision;
-mod culprit;
-mod element;
 mod error;
 pub mod file;
 mod files;
-mod limit;
 mod mesh;
-mod numbers;
 mod scan;
+pub(crate) mod shapes;
 mod tree;
 mod triangles;
-mod vertices;
-mod visual;
 
-pub use error::UrdfError;
-pub use files::{Files, HeldFiles};
-pub use mesh::{MeshError, MeshSource};
-pub use scan::MAX_BYTES;
-pub use visual::{MAX_TRIANGLES, MAX_VISUALS};
+pub use crate::urdf::error::UrdfError;
+pub use crate::urdf::files::{Files, HeldFiles};
+pub use crate::urdf::mesh::{MeshError, MeshSource};
+pub use crate::urdf::scan::MAX_BYTES;
+pub use crate::urdf::shapes::{MAX_TRIANGLES, MAX_VISUALS};
 
 use crate::AXES;
 use crate::fingerprint::sha256_hex;
-use crate::frame::Frame;
 use crate::geometry::{Inertial, Shape};
-use crate::model::{Joint, Link, RobotModel};
+use crate::model::{Frame, Joint, Link, RobotModel};
 use crate::rotation::Rigid;
-use crate::serde_words::message_in_words;
+use crate::urdf::shapes::Looks;
+use crate::urdf::tree::{Tree, finite, pose, rigid};
+use crate::words::message_in_words;
 use nalgebra::{Matrix3, Vector3};
-use numbers::{finite, pose, rigid};
-use tree::Tree;
-use visual::Looks;
 
 /// Most links that are read; real descriptions need fewer than 50.
 const MAX_LINKS: usize = 1000;
@@ -67,7 +58,7 @@ fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
     let robot = urdf_rs::read_from_string(text).map_err(|e| syntax(text, &e))?;
     sizes(&robot)?;
     let tree = Tree::build(&robot)?;
-    let limits = limit::limits(&tree)?;
+    let limits = tree::limits(&tree)?;
     let joints = tree.axes.map(|joint| Joint {
         name: joint.name.clone(),
         child: joint.child.link.clone(),
@@ -127,7 +118,7 @@ fn syntax(text: &str, error: &urdf_rs::UrdfError) -> UrdfError {
     // The line is told once, by the place.
     let message = message.rsplit_once("Reason: ").map_or(message, |(_, reason)| reason);
     UrdfError::Syntax {
-        at: culprit::find(text).unwrap_or_else(|| "an unknown place".to_owned()),
+        at: error::find(text).unwrap_or_else(|| "an unknown place".to_owned()),
         detail: match message {
             "invalid float literal" => "a value is not a number".to_owned(),
             other => message_in_words("", other),
@@ -144,7 +135,7 @@ fn convert_link(
     Ok(Link {
         name: link.name.clone(),
         frame,
-        collision: collision::primitives(link, meshes)?,
+        collision: shapes::primitives(link, meshes)?,
         visuals: looks.of(link),
         inertial: inertial(link)?,
     })

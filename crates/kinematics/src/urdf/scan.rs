@@ -1,7 +1,7 @@
 //! First look at URDF text with a pull parser: bounds size and depth, finds cut files and stray text, refuses
 //! xacro and vectors with words among their numbers. Nothing recursive may see the text before this.
 
-use super::UrdfError;
+use crate::urdf::UrdfError;
 use quick_xml::errors::SyntaxError;
 use quick_xml::events::attributes::Attribute;
 use quick_xml::events::{BytesStart, Event};
@@ -16,7 +16,7 @@ const WITH_VECTORS: [&str; 4] = ["origin", "axis", "box", "mesh"];
 const VECTORS: [&str; 4] = ["xyz", "rpy", "size", "scale"];
 
 /// Checks well-formedness, size, depth and the root element.
-pub(super) fn check(text: &str) -> Result<(), UrdfError> {
+pub(crate) fn check(text: &str) -> Result<(), UrdfError> {
     if text.len() > MAX_BYTES {
         return Err(UrdfError::TooLarge {
             bytes: text.len(),
@@ -37,7 +37,7 @@ pub(super) fn check(text: &str) -> Result<(), UrdfError> {
 }
 
 /// The line of a byte position, counted from 1.
-pub(super) fn line_at(text: &str, position: u64) -> usize {
+pub(crate) fn line_at(text: &str, position: u64) -> usize {
     let end = usize::try_from(position).unwrap_or(text.len()).min(text.len());
     1 + text.as_bytes()[..end].iter().filter(|b| **b == b'\n').count()
 }

@@ -1,13 +1,19 @@
 //! The structure of a URDF: one root, no cycles, six axes in series.
+//!
+//! The `<limit>` elements of the six axes.
+//!
+//! Numbers of a description: finite, and no longer than an arm can be.
 
-use super::UrdfError;
-use crate::AXES;
+use crate::limits::JointLimits;
+use crate::rotation::{Rigid, from_rpy};
+use crate::urdf::error::UrdfError;
 use crate::words::is_hidden;
+use crate::{AXES, JointVector, Pose};
 use std::collections::{BTreeMap, BTreeSet};
 use urdf_rs::{JointType, Robot};
 
 /// A checked URDF tree: links from the root outwards, and the six axes from the base to the tip.
-pub(super) struct Tree<'a> {
+pub(crate) struct Tree<'a> {
     /// Every link, a parent always before its children.
     pub links: Vec<&'a urdf_rs::Link>,
     /// The six moving joints in series.
@@ -17,7 +23,7 @@ pub(super) struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    pub(super) fn build(robot: &'a Robot) -> Result<Self, UrdfError> {
+    pub(crate) fn build(robot: &'a Robot) -> Result<Self, UrdfError> {
         check_names("robot", std::iter::once(robot.name.as_str()))?;
         check_names("link", robot.links.iter().map(|l| l.name.as_str()))?;
         check_names("joint", robot.joints.iter().map(|j| j.name.as_str()))?;
@@ -35,12 +41,12 @@ impl<'a> Tree<'a> {
     }
 
     /// Index in `links` of a link that the tree is known to hold.
-    pub(super) fn position(&self, link: &str) -> usize {
+    pub(crate) fn position(&self, link: &str) -> usize {
         self.positions[link]
     }
 
     /// The joint whose child is `link`, which is known not to be the root.
-    pub(super) fn joint_above(&self, link: &str) -> &'a urdf_rs::Joint {
+    pub(crate) fn joint_above(&self, link: &str) -> &'a urdf_rs::Joint {
         self.above[link]
     }
 }
@@ -173,4 +179,118 @@ fn nearest_axis_above<'a>(mut link: &'a str, above: &BTreeMap<&str, &'a urdf_rs:
         }
         link = &joint.parent.link;
     }
+}
+
+/// Largest position limit that is believed \[rad\]; beyond it the file is probably in degrees.
+const LARGEST_POSITION_LIMIT_RAD: f64 = 100.0;
+
+/// Limits of the axes in series; a continuous joint has none on its position, whatever the file says.
+pub(crate) fn limits(tree: &Tree<'_>) -> Result<JointLimits, UrdfError> {
+    let mut limits = JointLimits {
+        lower: JointVector::repeat(f64::NEG_INFINITY),
+        upper: JointVector::repeat(f64::INFINITY),
+        velocity: JointVector::zeros(),
+        effort: [None; AXES],
+    };
+    for (i, joint) in tree.axes.iter().enumerate() {
+        let limit = &joint.limit;
+        if [limit.lower, limit.upper, limit.velocity, limit.effort] == [0.0; 4] {
+            return Err(missing(joint));
+        }
+        if joint.joint_type == JointType::Revolute {
+            [limits.lower[i], limits.upper[i]] = positions(joint)?;
+        }
+        limits.velocity[i] = velocity(joint)?;
+        limits.effort[i] = effort(joint)?;
+    }
+    Ok(limits)
+}
+
+fn missing(joint: &urdf_rs::Joint) -> UrdfError {
+    let name = joint.name.clone();
+    match joint.joint_type {
+        JointType::Continuous => UrdfError::MissingVelocity { joint: name },
+        _ => UrdfError::MissingLimit { joint: name },
+    }
+}
+
+fn positions(joint: &urdf_rs::Joint) -> Result<[f64; 2], UrdfError> {
+    let (lower, upper) = (joint.limit.lower, joint.limit.upper);
+    let at = format!("joint '{}'", joint.name);
+    finite(&at, "limit (lower, upper)", &[lower, upper])?;
+    if lower >= upper {
+        return Err(UrdfError::LimitOrder {
+            joint: joint.name.clone(),
+            lower,
+            upper,
+        });
+    }
+    if lower.abs().max(upper.abs()) > LARGEST_POSITION_LIMIT_RAD {
+        return Err(UrdfError::LimitSize {
+            joint: joint.name.clone(),
+            lower,
+            upper,
+            limit_rad: LARGEST_POSITION_LIMIT_RAD,
+        });
+    }
+    Ok([lower, upper])
+}
+
+fn velocity(joint: &urdf_rs::Joint) -> Result<f64, UrdfError> {
+    let found = joint.limit.velocity;
+    if found.is_finite() && found > 0.0 {
+        return Ok(found);
+    }
+    let joint = joint.name.clone();
+    Err(UrdfError::Velocity { joint, found })
+}
+
+/// Zero means "unknown" by custom, infinity means "no limit" since URDF 1.2: neither is a limit.
+fn effort(joint: &urdf_rs::Joint) -> Result<Option<f64>, UrdfError> {
+    let found = joint.limit.effort;
+    if found >= 0.0 {
+        return Ok(Some(found).filter(|effort| *effort > 0.0 && effort.is_finite()));
+    }
+    let joint = joint.name.clone();
+    Err(UrdfError::Effort { joint, found })
+}
+
+/// Largest length that is believed \[m\]; beyond it the file is probably in millimetres.
+pub(crate) const LARGEST_LENGTH_M: f64 = 100.0;
+
+pub(crate) fn rigid(origin: &urdf_rs::Pose, at: &str) -> Result<Rigid, UrdfError> {
+    length(at, "origin xyz", &origin.xyz.0)?;
+    finite(at, "origin rpy", &origin.rpy.0)?;
+    Ok(Rigid {
+        rotation: from_rpy(origin.rpy.0),
+        translation: origin.xyz.0.into(),
+    })
+}
+
+pub(crate) fn pose(origin: &urdf_rs::Pose, at: &str) -> Result<Pose, UrdfError> {
+    rigid(origin, at).map(|r| Pose::from(&r))
+}
+
+pub(crate) fn finite(at: &str, what: &str, values: &[f64]) -> Result<(), UrdfError> {
+    if values.iter().all(|v| v.is_finite()) {
+        return Ok(());
+    }
+    Err(UrdfError::NotFinite {
+        at: at.to_owned(),
+        what: what.to_owned(),
+        found: format!("{values:?}"),
+    })
+}
+
+pub(crate) fn length(at: &str, what: &str, values: &[f64]) -> Result<(), UrdfError> {
+    finite(at, what, values)?;
+    if values.iter().all(|v| v.abs() <= LARGEST_LENGTH_M) {
+        return Ok(());
+    }
+    Err(UrdfError::TooLong {
+        at: at.to_owned(),
+        what: what.to_owned(),
+        found: format!("{values:?}"),
+        limit_m: LARGEST_LENGTH_M,
+    })
 }

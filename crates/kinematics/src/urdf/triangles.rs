@@ -14,7 +14,7 @@ const BINARY_TRIANGLE: usize = 50;
 /// Corners of the triangles of a binary or ASCII STL file, three each.
 ///
 /// Some programs begin the header of a binary file with `solid`, like an ASCII file: the length decides.
-pub(super) fn stl(bytes: &[u8]) -> Corners {
+pub(crate) fn stl(bytes: &[u8]) -> Corners {
     let stated = bytes
         .get(BINARY_HEADER..BINARY_START)
         .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
@@ -60,7 +60,7 @@ fn ascii_stl(text: &str) -> Corners {
 
 /// Corners of the faces of an OBJ file, three a triangle; a face of more corners is a fan about its first one. Reading ends where there
 /// are more than `most` triangles.
-pub(super) fn obj(bytes: &[u8], most: usize) -> Corners {
+pub(crate) fn obj(bytes: &[u8], most: usize) -> Corners {
     let text = String::from_utf8_lossy(bytes);
     let mut vertices = Vec::new();
     let mut corners = Vec::new();
@@ -103,7 +103,7 @@ fn vertex(word: &str, vertices: &[Point3<f64>], line: usize) -> Result<Point3<f6
 }
 
 /// Three numbers of a line, counted from 0; more may follow (OBJ has weights and colours).
-pub(super) fn point<'a>(mut words: impl Iterator<Item = &'a str>, line: usize) -> Result<Point3<f64>, String> {
+pub(crate) fn point<'a>(mut words: impl Iterator<Item = &'a str>, line: usize) -> Result<Point3<f64>, String> {
     let mut number = || {
         let word = words.next().unwrap_or_default();
         word.parse::<f64>()

@@ -1,26 +1,21 @@
 //! The curve of the tip on a plate: pitch, pattern and tilt chosen together, for a short wash that keeps what is promised.
 //!
-//! What the job states is kept; what it leaves out is chosen. Candidates (`candidates.rs`) are tried the shortest first (`estimate.rs`):
+//! What the job states is kept; what it leaves out is chosen. Candidates (`candidates.rs`) are tried the shortest first (`candidates.rs`):
 //! the first that on the bare face, with the tool by its rule and at the speed limit, brings enough of it into contact (`promise.rs`) is
 //! taken. Where none does, denser and slower ones are tried. Whether it does so with the arm's own tilts is asked again on each plate; where it does not, or the arm finds no way along it,
 //! the next ones are tried.
 
 mod candidates;
-mod estimate;
 mod promise;
-mod shortfall;
-
-pub(crate) use promise::foundation;
-pub use promise::{Margin, Promise};
-pub use shortfall::{Promised, Shortfall};
-
 #[cfg(test)]
 mod tests;
 
+pub(crate) use crate::pattern::promise::foundation;
+pub use crate::pattern::promise::{Margin, Promise, Promised, Shortfall};
+
+use crate::pattern::candidates::{Density, Estimate, candidates};
 use crate::scene::{AXIS_SHARE, AxisRule};
 use crate::trig::atan2;
-use candidates::{Density, candidates};
-use estimate::Estimate;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::{JobTerms, PlannerSettings};
 use platewash_workcell::surface::Surface;

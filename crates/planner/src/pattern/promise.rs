@@ -1,17 +1,21 @@
 //! What a wash must bring about on a face.
+//!
+//! What a wash falls short of.
 
-use super::shortfall::{Promised, Shortfall};
 use crate::scene::Scene;
 use crate::trig::{acos, sin_cos};
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
+use platewash_kinematics::words::told_apart;
 use platewash_workcell::contact::{Columns, Foundation, Level, Looks, Moment, SpongePose, Wanted};
 use platewash_workcell::job::{JobTerms, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::tool::Sponge;
 use rayon::prelude::*;
+use serde::Serialize;
 use std::f64::consts::TAU;
+use std::fmt;
 
 /// Places of a face that are looked at.
 const PLACES: u32 = 2000;
@@ -149,7 +153,7 @@ impl Promise {
     /// The same of a face that is to be swept alone, where nothing tells which way the tool leans: of the sponge's face counts what is over the
     /// disc whose radius is that of the sponge times the cosine of the cone, less what the tip may be off its path, as in the certificate.
     /// `None` of all others.
-    pub(super) fn swept_within(&self, surface: &Surface, cone_rad: f64) -> Option<Self> {
+    pub(crate) fn swept_within(&self, surface: &Surface, cone_rad: f64) -> Option<Self> {
         let (_, cosine) = sin_cos(cone_rad);
         let is_swept = surface.is_flat() && self.wanted.compression_m == ANY_M;
         is_swept.then(|| Self {
@@ -245,7 +249,7 @@ impl Promise {
     }
 
     /// Whether places of a face, looked at one by one through some moments, have what is promised with a margin.
-    pub(super) fn seems_kept(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
+    pub(crate) fn seems_kept(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
         !self.lacks_much(surface, moments, margin) && self.missing(surface, moments, margin).is_none()
     }
 
@@ -289,7 +293,7 @@ impl Promise {
 
     /// The greatest share of the speed, from `least` to 1, at which places of a face have what is promised with a margin. Slower, they are
     /// pressed longer; how deep they are pressed and what dose they get stays.
-    pub(super) fn speed_share(
+    pub(crate) fn speed_share(
         &self,
         surface: &Surface,
         moments: &[Moment],
@@ -369,4 +373,69 @@ fn place(surface: &Surface, k: u32) -> Vector3<f64> {
     let rho = surface.rim_m() * ((f64::from(k) + 0.5) / f64::from(PLACES)).sqrt();
     let (s, c) = sin_cos((GOLDEN_RAD * f64::from(k)) % TAU);
     Vector3::new(rho * c, rho * s, surface.height_m(rho))
+}
+
+/// A promise about contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Promised {
+    /// The greatest strain of the sponge.
+    Strain,
+    /// The least force of contact.
+    LeastForce,
+    /// The greatest force of contact.
+    GreatestForce,
+    /// The share of the face that is pressed.
+    Pressed,
+    /// The share of the face that is pressed long enough.
+    ContactTime,
+    /// The share of the face that gets the dose.
+    ContactDose,
+}
+
+/// A promise that a wash does not keep, as it is seen at the configurations along it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Shortfall {
+    /// Which one.
+    pub promised: Promised,
+    /// What was found: a force \[N\], or a share.
+    pub found: f64,
+    /// What is required.
+    pub required: f64,
+}
+
+impl fmt::Display for Shortfall {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (scale, unit) = match self.promised {
+            Promised::LeastForce | Promised::GreatestForce => (1.0, "N"),
+            _ => (100.0, "%"),
+        };
+        let [found, required] = told_apart(scale * self.found, scale * self.required, 1);
+        match self.promised {
+            Promised::Strain => write!(
+                f,
+                "the sponge is compressed by up to {found} {unit} of its height, {required} {unit} are allowed"
+            ),
+            Promised::GreatestForce => write!(
+                f,
+                "the sponge presses with up to {found} {unit}, {required} {unit} are allowed"
+            ),
+            Promised::LeastForce => write!(
+                f,
+                "the sponge presses with {found} {unit} at some moments, {required} {unit} are required"
+            ),
+            Promised::Pressed => write!(
+                f,
+                "{found} {unit} of the face are pressed, {required} {unit} are required"
+            ),
+            Promised::ContactTime => write!(
+                f,
+                "{found} {unit} of the face are pressed long enough, {required} {unit} are required"
+            ),
+            Promised::ContactDose => write!(
+                f,
+                "{found} {unit} of the face get the dose, {required} {unit} are required"
+            ),
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Patterns are chosen as the settings leave them open, and the arm then presses as is promised.
 
-use super::*;
+use crate::pattern::*;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures::{contact_kitchen, kitchen};
 use platewash_workcell::job::{PatternName, WashJob};

@@ -1,11 +1,10 @@
 //! All phases, one after the other.
 
-use super::assemble::assemble;
-use super::shared::Pipeline;
-use super::visit::Visit;
 use crate::error::PlanError;
-use crate::pace::Pace;
-use crate::planned::{Planned, TransitSummary, VisitSummary};
+use crate::pipeline::motion::assemble;
+use crate::pipeline::shared::Pipeline;
+use crate::pipeline::visit::Visit;
+use crate::planned::{Pace, Planned, TransitSummary, VisitSummary};
 use crate::scene::TILT_RESERVE_RAD;
 use crate::watch::Watch;
 use platewash_kinematics::{JointVector, RobotModel};
@@ -152,7 +151,7 @@ pub fn check(arm: &RobotModel, terms: &JobTerms) -> Result<(), PlanError> {
 }
 
 /// Refuses plates that share a place where no plan of them could be proved.
-pub(super) fn check_apart(arm: &RobotModel, terms: &JobTerms) -> Result<(), PlanError> {
+pub(crate) fn check_apart(arm: &RobotModel, terms: &JobTerms) -> Result<(), PlanError> {
     if terms.requirements.overlap == Overlap::Report {
         return Ok(());
     }

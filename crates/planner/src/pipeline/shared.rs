@@ -1,12 +1,12 @@
 //! What the phases of planning share.
 
 use crate::error::PlanError;
+use crate::infeasible::PlaceSearch;
 use crate::pattern::Patterns;
-use crate::redundancy::relocation::SEARCHED_M;
+use crate::redundancy::places::SEARCHED_M;
 use crate::scene::{AXIS_SHARE, Scene, Stance, Stretch, TILT_RESERVE_RAD, TiltPolicy};
 use crate::timing::{MotionLimits, TipLimits};
 use crate::transit::TooNear;
-use crate::unwashable::PlaceSearch;
 use crate::watch::Watch;
 use nalgebra::Vector3;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
@@ -25,7 +25,7 @@ const MOST_ARC_POINTS: f64 = 1e4;
 
 /// What the phases of planning share.
 #[derive(Debug)]
-pub(super) struct Pipeline<'a> {
+pub(crate) struct Pipeline<'a> {
     pub robot: &'a RobotModel,
     /// `T_world_base`: everything else is in the frame of the base.
     pub mount: Pose,

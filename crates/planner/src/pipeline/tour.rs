@@ -1,8 +1,8 @@
 //! The order of the plates, by travel times estimated before any transit is planned.
 
-use super::shared::Pipeline;
 use crate::error::PlanError;
 use crate::order::TravelTimes;
+use crate::pipeline::shared::Pipeline;
 use crate::planned::TourSummary;
 use crate::scene::{Contact, Scene};
 use crate::timing::MotionLimits;

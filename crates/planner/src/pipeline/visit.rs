@@ -1,9 +1,9 @@
 //! One plate: its wash path, the arm on it, and the lines over both ends of the path.
 
-use super::shared::Pipeline;
 use crate::error::PlanError;
 use crate::joint_path::{Ends, JointPath};
 use crate::pattern::{Pattern, Shortfall, foundation};
+use crate::pipeline::shared::Pipeline;
 use crate::redundancy::Washing;
 use crate::scene::{Contact, Scene};
 use crate::timing::{self, Timed};
@@ -33,7 +33,7 @@ const TOUCHING: f64 = 0.99;
 
 /// How a plate is washed.
 #[derive(Debug)]
-pub(super) struct Turn {
+pub(crate) struct Turn {
     /// Its wash path.
     pub path: WashPath,
     /// The configurations along it.
@@ -46,7 +46,7 @@ pub(super) struct Turn {
 
 /// A plate with all that is done on it.
 #[derive(Debug)]
-pub(super) struct Visit {
+pub(crate) struct Visit {
     pub path: WashPath,
     pub washing: Washing,
     /// The wash in time, from rest to rest.
@@ -56,7 +56,7 @@ pub(super) struct Visit {
 }
 
 /// The wash path on a plate by a pattern that ends in the direction of `towards` \[m\].
-pub(super) fn wash_path(pipeline: &Pipeline<'_>, plate: usize, pattern: &Pattern, towards: &Vector3<f64>) -> WashPath {
+pub(crate) fn wash_path(pipeline: &Pipeline<'_>, plate: usize, pattern: &Pattern, towards: &Vector3<f64>) -> WashPath {
     WashPath {
         plate,
         curve: turned(pattern.curve, &pipeline.plates[plate].local(towards)),
@@ -75,7 +75,7 @@ fn turned(curve: WashCurve, towards: &Vector3<f64>) -> WashCurve {
 }
 
 /// A curve that ends where another one does.
-pub(super) fn turned_as(curve: WashCurve, other: &WashCurve) -> WashCurve {
+pub(crate) fn turned_as(curve: WashCurve, other: &WashCurve) -> WashCurve {
     let end = (other.start_angle_rad + other.end()) % TAU;
     WashCurve {
         start_angle_rad: if curve.end() == other.end() {
@@ -115,7 +115,7 @@ impl Visit {
 }
 
 /// The lines over the beginning and the end of a wash path.
-pub(super) fn lines(
+pub(crate) fn lines(
     pipeline: &Pipeline<'_>,
     scene: &Scene<'_>,
     path: &WashPath,

@@ -1,15 +1,19 @@
 //! The lines over the ends of a wash path: on them the wrist is held as on the path, and bodies keep off each other.
+//!
+//! Whether the lines over the ends of a wash path must be clear.
 
-use super::task::{Stop, Task};
+use crate::redundancy::task::{Stop, Task};
 use crate::scene::{Contact, Hindrance, Start, Stretch};
 use platewash_kinematics::JointVector;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Places on a line that are looked at.
 const PLACES: u32 = 8;
 
 impl Task<'_> {
     /// Refuses a wash of which the line over an end cannot be followed ([`Task::check_line`]).
-    pub(super) fn check_lines(&self, tilts: &[f64], all: &[JointVector], start: &Start) -> Result<(), Stop> {
+    pub(crate) fn check_lines(&self, tilts: &[f64], all: &[JointVector], start: &Start) -> Result<(), Stop> {
         let Some(last) = all.len().checked_sub(1) else {
             return Ok(());
         };
@@ -22,7 +26,7 @@ impl Task<'_> {
     }
 
     /// Whether the line over a contact point that a wash begins or ends at can be followed.
-    pub(super) fn has_line(&self, contact: &Contact, tilt: f64, q: &JointVector, start: &Start) -> bool {
+    pub(crate) fn has_line(&self, contact: &Contact, tilt: f64, q: &JointVector, start: &Start) -> bool {
         self.check_line(contact, tilt, self.started(*q, start)).is_ok()
     }
 
@@ -56,5 +60,45 @@ impl Task<'_> {
         }
         let clear = self.check_clear_in(q, stretch);
         clear.inspect_err(|_| self.lines.stand_in_the_way())
+    }
+}
+
+/// Whether lines must be clear, and whether that ever stood in the way.
+#[derive(Debug, Clone)]
+pub(crate) struct Lines {
+    must_be_clear: bool,
+    stood_in_the_way: Arc<AtomicBool>,
+}
+
+impl Lines {
+    /// Those that must be clear.
+    pub fn clear() -> Self {
+        Self {
+            must_be_clear: true,
+            stood_in_the_way: Arc::default(),
+        }
+    }
+
+    /// Those that need not be: that they are not is for whoever plans them to tell.
+    pub fn any() -> Self {
+        Self {
+            must_be_clear: false,
+            ..Self::clear()
+        }
+    }
+
+    /// Whether they must be clear.
+    pub fn must_be_clear(&self) -> bool {
+        self.must_be_clear
+    }
+
+    /// A line was refused because it is not clear.
+    pub fn stand_in_the_way(&self) {
+        self.stood_in_the_way.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether a line was refused because it is not clear.
+    pub fn stood_in_the_way(&self) -> bool {
+        self.stood_in_the_way.load(Ordering::Relaxed)
     }
 }

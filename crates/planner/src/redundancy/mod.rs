@@ -29,30 +29,19 @@
 //! points nothing is proved here. Where nothing answers, the error names contact points and what stands in the way there;
 //! [`Conclusion`] tells whether there is no configuration or none was found.
 
-mod aside;
-mod blocked;
-mod conclusion;
-mod dead_ends;
-pub mod elsewhere;
-mod error;
-pub mod exhaustive;
-mod free_lines;
 mod lines;
-mod outlook;
-pub mod relocation;
+pub mod places;
 mod samples;
 mod search;
-pub mod settings;
-mod task;
+pub mod stuck;
+pub mod task;
 #[cfg(test)]
 mod tests;
-mod tilt_spline;
 pub mod washable;
 mod washing;
 
-pub use blocked::is_blocked;
-pub use conclusion::Conclusion;
-pub use error::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError};
-pub use outlook::{Chance, chance};
-pub use task::Task;
-pub use washing::{TiltChoice, Washing, washing};
+pub use crate::redundancy::places::{Chance, chance};
+pub use crate::redundancy::stuck::is_blocked;
+pub use crate::redundancy::task::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError, Task};
+pub use crate::redundancy::washable::Conclusion;
+pub use crate::redundancy::washing::{TiltChoice, Washing, washing};

@@ -13,17 +13,17 @@
 //!
 //! The graph has no cycles, so one pass forward finds the least cost of every vertex (Bellman 1957).
 
-use super::task::{Task, check_step};
-use crate::scene::policy::GENTLE_TILT_RAD;
+use crate::redundancy::task::{Task, check_step};
+use crate::scene::stance::GENTLE_TILT_RAD;
 use crate::scene::{Contact, Start, TiltPolicy};
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::cancel::Cancelled;
 
 /// Distance of neighbouring layers along the wash path, at most \[m\].
-pub(super) const SPACING_M: f64 = 5e-3;
+pub(crate) const SPACING_M: f64 = 5e-3;
 
 /// Difference of neighbouring tilts, at most \[rad\]: 2°. With the spacing it bounds how fast the tilt changes.
-pub(super) const TILT_STEP_RAD: f64 = std::f64::consts::PI / 90.0;
+pub(crate) const TILT_STEP_RAD: f64 = std::f64::consts::PI / 90.0;
 
 /// The most layers that a survey looks at: every one of a wash path of 3 m, so that a share is known to a fraction of a percent.
 const MOST_SURVEYED: usize = 600;
@@ -36,7 +36,7 @@ const WEIGHTS: [f64; 4] = [2e-2, 2e-2, 1e-2, 0.05];
 
 /// The layers and the tilts of a search.
 #[derive(Debug, Clone)]
-pub(super) struct Graph {
+pub(crate) struct Graph {
     /// θ of the layers \[rad\].
     pub theta: Vec<f64>,
     /// Distance of the layers along the wash path \[m\].
@@ -49,7 +49,7 @@ pub(super) struct Graph {
 
 /// A path through the graph.
 #[derive(Debug, Clone)]
-pub(super) struct GraphPath {
+pub(crate) struct GraphPath {
     /// Index of the tilt, per layer.
     pub tilt: Vec<usize>,
     /// The tilts around it that will do without a gap, per layer \[rad\].
@@ -60,7 +60,7 @@ pub(super) struct GraphPath {
 
 /// A configuration that will do.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Vertex {
+pub(crate) struct Vertex {
     pub q: JointVector,
     /// Cost of being here, and of the best path here \[rad\].
     own: f64,

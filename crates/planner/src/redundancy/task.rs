@@ -1,29 +1,32 @@
 //! One plate to wash: whether a contact point can be washed at a tilt, and a whole wash path at a profile of tilts.
+//!
+//! Numbers that bound what is planned on a plate.
+//!
+//! Why no configurations were found along a wash path.
 
-use super::error::RedundancyError;
-use super::free_lines::Lines;
-use super::samples::Samples;
-use super::settings::check_input;
-use super::tilt_spline::TiltSpline;
+use crate::redundancy::lines::Lines;
+use crate::redundancy::samples::{Samples, TiltSpline};
 use crate::scene::{Contact, Hindrance, Scene, Start, Stretch, TiltPolicy, WRIST_RESERVE_RAD, angle_between};
-use nalgebra::Vector6;
+use nalgebra::{Vector3, Vector6};
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Axes, JointVector};
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::wash_path::WashPath;
+use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashPath};
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::fmt;
 
 /// Joint 5, by its index.
 const WRIST: usize = 4;
 
 /// The most that a joint may move per length of the wash path \[rad/m\]: 0.35 rad in 5 mm.
-pub(super) const JOINT_RATE: f64 = 70.0;
+pub(crate) const JOINT_RATE: f64 = 70.0;
 
 /// What a joint may move in any step, however short \[rad\].
 const LEAST_STEP_RAD: f64 = 1e-3;
 
 /// With this much more than the clearance required \[m\] …
-pub(super) const ROOM_M: f64 = 8e-3;
+pub(crate) const ROOM_M: f64 = 8e-3;
 
 /// … contact points within this length need no look of their own \[m\].
 const STRIDE_M: f64 = 4e-3;
@@ -33,7 +36,7 @@ const DIFFERENCE_RAD: f64 = 1e-3;
 
 /// A tilt in the arm's plane for each contact point.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Profile {
+pub(crate) enum Profile {
     /// By the distance from axis 1.
     Policy(TiltPolicy),
     /// By the length along the wash path.
@@ -43,19 +46,19 @@ pub(super) enum Profile {
 /// One plate to wash.
 #[derive(Debug, Clone)]
 pub struct Task<'a> {
-    pub(super) scene: &'a Scene<'a>,
-    pub(super) path: WashPath,
-    pub(super) plate: &'a Plate,
-    pub(super) samples: Samples,
-    pub(super) clearance_m: f64,
-    pub(super) lines: Lines,
+    pub(crate) scene: &'a Scene<'a>,
+    pub(crate) path: WashPath,
+    pub(crate) plate: &'a Plate,
+    pub(crate) samples: Samples,
+    pub(crate) clearance_m: f64,
+    pub(crate) lines: Lines,
     /// The configuration not far from which it starts \[rad\].
-    pub(super) near: JointVector,
+    pub(crate) near: JointVector,
 }
 
 /// Where a profile cannot be followed further.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Stop {
+pub(crate) struct Stop {
     /// Index of the sample.
     pub sample: usize,
     /// Why.
@@ -90,7 +93,7 @@ impl<'a> Task<'a> {
     }
 
     /// The same task, whose lines over the ends of the path need not be clear.
-    pub(super) fn with_any_lines(&self) -> Self {
+    pub(crate) fn with_any_lines(&self) -> Self {
         Self {
             lines: Lines::any(),
             ..self.clone()
@@ -98,17 +101,17 @@ impl<'a> Task<'a> {
     }
 
     /// What every pair but the sponge and the plates must keep, with its reserve \[m\].
-    pub(super) fn required_m(&self) -> f64 {
+    pub(crate) fn required_m(&self) -> f64 {
         self.clearance_m + self.stretch().reserve_m()
     }
 
     /// It is at its plate.
-    pub(super) fn stretch(&self) -> Stretch {
+    pub(crate) fn stretch(&self) -> Stretch {
         Stretch::AtPlate(self.path.plate)
     }
 
     /// The task with the arm in another scene, its lines not looked at yet.
-    pub(super) fn in_scene<'b>(&self, scene: &'b Scene<'b>) -> Task<'b>
+    pub(crate) fn in_scene<'b>(&self, scene: &'b Scene<'b>) -> Task<'b>
     where
         'a: 'b,
     {
@@ -120,30 +123,30 @@ impl<'a> Task<'a> {
     }
 
     /// The largest tilt allowed in the arm's plane \[rad\].
-    pub(super) fn tilt_max_rad(&self) -> f64 {
+    pub(crate) fn tilt_max_rad(&self) -> f64 {
         self.scene.stance.tilt_rad(self.path.cone_rad)
     }
 
     /// The largest tilt in the arm's plane at the points that are solved \[rad\].
-    pub(super) fn planned_tilt_rad(&self) -> f64 {
+    pub(crate) fn planned_tilt_rad(&self) -> f64 {
         self.scene.stance.tilt_rad(self.planned_lean_rad())
     }
 
     /// How far the tool leans at most, in all, at the points that are solved \[rad\]: the reserve less than allowed, or half of what is
     /// allowed where that is more.
-    pub(super) fn planned_lean_rad(&self) -> f64 {
+    pub(crate) fn planned_lean_rad(&self) -> f64 {
         let most = self.path.cone_rad;
         (most - self.scene.stance.tilt_reserve_rad).max(0.5 * most)
     }
 
     /// The plate's centre, the pole of its face.
-    pub(super) fn centre(&self) -> Contact {
+    pub(crate) fn centre(&self) -> Contact {
         let point = self.plate.centre();
         Contact::on_normal(point, self.plate.normal_at(&point))
     }
 
     /// A start from anywhere near.
-    pub(super) fn anywhere_near(&self) -> Start {
+    pub(crate) fn anywhere_near(&self) -> Start {
         let q = self.near;
         Start { q, sides: None }
     }
@@ -152,7 +155,7 @@ impl<'a> Task<'a> {
     ///
     /// # Errors
     /// The first filter that rejects it.
-    pub(super) fn configuration(&self, target: &Rigid, start: &Start) -> Result<JointVector, Hindrance> {
+    pub(crate) fn configuration(&self, target: &Rigid, start: &Start) -> Result<JointVector, Hindrance> {
         let q = self.scene.inverse.continuing(target, start)?;
         self.check_wrist(&q)?;
         self.check_clear(&q)?;
@@ -160,17 +163,17 @@ impl<'a> Task<'a> {
     }
 
     /// Whether a configuration \[rad\] holds the wrist as it must, and the bodies keep off each other.
-    pub(super) fn is_allowed(&self, q: &JointVector) -> bool {
+    pub(crate) fn is_allowed(&self, q: &JointVector) -> bool {
         self.check_wrist(q).is_ok() && self.is_clear(q)
     }
 
     /// The same, where it is known whether the bodies have room.
-    pub(super) fn is_allowed_with(&self, q: &JointVector, has_room: bool) -> bool {
+    pub(crate) fn is_allowed_with(&self, q: &JointVector, has_room: bool) -> bool {
         self.check_wrist(q).is_ok() && (has_room || self.check_clear(q).is_ok())
     }
 
     /// Whether joint 5 is far enough from 0.
-    pub(super) fn check_wrist(&self, q: &JointVector) -> Result<(), Hindrance> {
+    pub(crate) fn check_wrist(&self, q: &JointVector) -> Result<(), Hindrance> {
         let Some(least_rad) = self.scene.stance.wrist_rad else {
             return Ok(());
         };
@@ -182,7 +185,7 @@ impl<'a> Task<'a> {
     }
 
     /// Whether the tool at a target stands within the planned cone about the normal.
-    pub(super) fn check_cone(&self, contact: &Contact, target: &Rigid) -> Result<(), Hindrance> {
+    pub(crate) fn check_cone(&self, contact: &Contact, target: &Rigid) -> Result<(), Hindrance> {
         if contact.axis == contact.normal {
             // Tilts count from the normal, and are within the cone.
             return Ok(());
@@ -196,18 +199,18 @@ impl<'a> Task<'a> {
     }
 
     /// Whether the bodies keep off each other at `q` \[rad\].
-    pub(super) fn is_clear(&self, q: &JointVector) -> bool {
+    pub(crate) fn is_clear(&self, q: &JointVector) -> bool {
         let surroundings = self.scene.surroundings;
         surroundings.is_clear(q, self.stretch(), self.required_m())
     }
 
     /// The same, with what does not.
-    pub(super) fn check_clear(&self, q: &JointVector) -> Result<(), Hindrance> {
+    pub(crate) fn check_clear(&self, q: &JointVector) -> Result<(), Hindrance> {
         self.check_clear_in(q, self.stretch())
     }
 
     /// The same in another stretch.
-    pub(super) fn check_clear_in(&self, q: &JointVector, stretch: Stretch) -> Result<(), Hindrance> {
+    pub(crate) fn check_clear_in(&self, q: &JointVector, stretch: Stretch) -> Result<(), Hindrance> {
         let (surroundings, required_m) = (self.scene.surroundings, self.clearance_m + stretch.reserve_m());
         if surroundings.is_clear(q, stretch, required_m) {
             return Ok(());
@@ -219,13 +222,13 @@ impl<'a> Task<'a> {
     }
 
     /// Whether the bodies keep [`ROOM_M`] more than they must.
-    pub(super) fn has_room(&self, q: &JointVector) -> bool {
+    pub(crate) fn has_room(&self, q: &JointVector) -> bool {
         let surroundings = self.scene.surroundings;
         surroundings.is_clear(q, self.stretch(), self.required_m() + ROOM_M)
     }
 
     /// Tilt \[rad\] at a contact point at the length `s` \[m\] along the wash path.
-    pub(super) fn tilt(&self, profile: &Profile, contact: &Contact, s: f64) -> f64 {
+    pub(crate) fn tilt(&self, profile: &Profile, contact: &Contact, s: f64) -> f64 {
         match profile {
             Profile::Policy(policy) => policy.tilt(self.scene.distance(&contact.point)),
             Profile::Spline(spline) => spline.tilt(s),
@@ -233,7 +236,7 @@ impl<'a> Task<'a> {
     }
 
     /// Tilts at all samples \[rad\].
-    pub(super) fn tilts(&self, profile: &Profile) -> Vec<f64> {
+    pub(crate) fn tilts(&self, profile: &Profile) -> Vec<f64> {
         let Samples { contact, length_m, .. } = &self.samples;
         contact
             .iter()
@@ -247,7 +250,7 @@ impl<'a> Task<'a> {
     ///
     /// # Errors
     /// [`Cancelled`].
-    pub(super) fn follow(&self, tilts: &[f64], start: &Start) -> Result<Result<Vec<JointVector>, Stop>, Cancelled> {
+    pub(crate) fn follow(&self, tilts: &[f64], start: &Start) -> Result<Result<Vec<JointVector>, Stop>, Cancelled> {
         let Samples { contact, length_m, .. } = &self.samples;
         let mut all: Vec<JointVector> = Vec::with_capacity(contact.len());
         let mut free_until = f64::NEG_INFINITY;
@@ -296,7 +299,7 @@ impl<'a> Task<'a> {
 
     /// `dq/dθ` where the tip follows the profile: `J q′ = (p′, ω)`, ω by differences of the exact rotation; `None` at a
     /// singularity.
-    pub(super) fn slope(&self, profile: &Profile, sample: usize, q: &JointVector) -> Option<JointVector> {
+    pub(crate) fn slope(&self, profile: &Profile, sample: usize, q: &JointVector) -> Option<JointVector> {
         let (theta, length) = (self.samples.theta[sample], self.samples.length_m[sample]);
         let first = self.samples.first(theta);
         let rotation = |step: f64| {
@@ -317,7 +320,7 @@ impl<'a> Task<'a> {
 
 impl Task<'_> {
     /// Refuses a step over which the wrist flips.
-    pub(super) fn check_side(&self, from: &JointVector, to: &JointVector) -> Result<(), Hindrance> {
+    pub(crate) fn check_side(&self, from: &JointVector, to: &JointVector) -> Result<(), Hindrance> {
         match self.scene.stance.wrist_rad {
             Some(least_rad) if from[WRIST] * to[WRIST] < 0.0 => Err(Hindrance::Wrist {
                 found_rad: 0.0,
@@ -329,7 +332,7 @@ impl Task<'_> {
 }
 
 /// Refuses a joint step that is no continuous motion along `length` \[m\] of the wash path.
-pub(super) fn check_step(from: &JointVector, to: &JointVector, length: f64) -> Result<(), Hindrance> {
+pub(crate) fn check_step(from: &JointVector, to: &JointVector, length: f64) -> Result<(), Hindrance> {
     let step = (to - from).abs();
     let joint = step.imax();
     if step[joint] <= JOINT_RATE * length + LEAST_STEP_RAD {
@@ -339,4 +342,147 @@ pub(super) fn check_step(from: &JointVector, to: &JointVector, length: f64) -> R
         joint,
         by_rad: step[joint],
     })
+}
+
+/// How far the chord between neighbouring contact points may leave the wash path \[m\].
+pub const CHORD_ERROR_M: f64 = 2e-5;
+
+/// The largest tilt that can be asked for \[rad\]: short of lying flat.
+pub const LARGEST_TILT_RAD: f64 = 0.9 * FRAC_PI_2;
+
+/// Lengths beyond this are no plates \[m\].
+const LARGEST_M: f64 = 10.0;
+
+/// Refuses a wash path, a plate, a clearance or a configuration that is none.
+pub(crate) fn check_input(
+    path: &WashPath,
+    plate: &Plate,
+    clearance_m: f64,
+    near: &JointVector,
+) -> Result<(), RedundancyError> {
+    let curve = &path.curve;
+    within("cone_rad", path.cone_rad, [0.0, LARGEST_TILT_RAD])?;
+    within("clearance_m", clearance_m, [0.0, 1.0])?;
+    within("curve.radius_m", curve.radius_m, [LEAST_RADIUS_M, LARGEST_M])?;
+    within("curve.turns", curve.turns, [LEAST_TURNS, MOST_TURNS])?;
+    within("curve.start_angle_rad", curve.start_angle_rad, [-1e3, 1e3])?;
+    // A spiral of mean radius R/2, and a ring.
+    let length = PI * curve.radius_m * (curve.turns + 2.0);
+    within("length of the curve", length, [0.0, LONGEST_M])?;
+    for &coordinate in &plate.centre() {
+        within("centre", coordinate, [-LARGEST_M, LARGEST_M])?;
+    }
+    for &joint in near {
+        within("near", joint, [-1e3, 1e3])?;
+    }
+    Ok(())
+}
+
+fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), RedundancyError> {
+    if (least..=most).contains(&found) {
+        return Ok(());
+    }
+    Err(RedundancyError::Input {
+        name,
+        least,
+        most,
+        found,
+    })
+}
+
+/// A contact point at which no tilt is left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeadEnd {
+    /// Parameter of the wash path \[rad\].
+    pub theta: f64,
+    /// The contact point \[m\], world frame.
+    pub position_m: Vector3<f64>,
+    /// What stood in the way, one entry a filter: the most frequent first.
+    pub reasons: Vec<Reason>,
+}
+
+/// A filter and what it rejected at one contact point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reason {
+    /// Tilts that it rejected.
+    pub tilts: usize,
+    /// The least of the hindrances.
+    pub least: Hindrance,
+}
+
+/// Why no configurations were found along a wash path.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RedundancyError {
+    /// A number that makes no sense.
+    #[error("{name} must be in [{least}, {most}]; found {found}")]
+    Input {
+        /// Its name.
+        name: &'static str,
+        /// Least value.
+        least: f64,
+        /// Greatest value.
+        most: f64,
+        /// What was given.
+        found: f64,
+    },
+    /// There is no such plate.
+    #[error("there is no plate {plate}; there are {count}")]
+    Plate {
+        /// Index of the plate.
+        plate: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// At some contact points no tilt within the limit was found reachable, within the joint limits and clear.
+    #[error("plate {plate}: no tilt was found at {dead} of {tried} points of the wash path; {}", at(.ends))]
+    NoTilt {
+        /// Index of the plate.
+        plate: usize,
+        /// Points without a tilt.
+        dead: usize,
+        /// Points tried.
+        tried: usize,
+        /// Those points, at most [`MOST_DEAD_ENDS`] of them, evenly chosen.
+        ends: Vec<DeadEnd>,
+    },
+    /// Every contact point has a tilt, but no continuous sequence of them was found within the joint steps and tilt rate allowed.
+    #[error("plate {plate}: no way was found to connect the usable tilts along the path; {}", at(std::slice::from_ref(.end)))]
+    Disconnected {
+        /// Index of the plate.
+        plate: usize,
+        /// Where the last of the sequences ends.
+        end: DeadEnd,
+    },
+    /// The search was given up.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The sequence of tilts found fails between the points searched.
+    #[error("plate {plate}: {}", at(std::slice::from_ref(.end)))]
+    Between {
+        /// Index of the plate.
+        plate: usize,
+        /// Where.
+        end: DeadEnd,
+    },
+}
+
+/// The most dead ends that an error lists.
+pub const MOST_DEAD_ENDS: usize = 24;
+
+impl fmt::Display for DeadEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z]: [f64; 3] = self.position_m.into();
+        write!(f, "at θ = {:.3} rad, ({x:.3}, {y:.3}, {z:.3}) m:", self.theta)?;
+        for (k, reason) in self.reasons.iter().enumerate() {
+            let separator = if k == 0 { "" } else { ";" };
+            write!(f, "{separator} {} ({} of the tilts)", reason.least, reason.tilts)?;
+        }
+        Ok(())
+    }
+}
+
+/// The first of some dead ends, in words.
+fn at(ends: &[DeadEnd]) -> String {
+    ends.first().map_or_else(String::new, ToString::to_string)
 }

@@ -1,13 +1,16 @@
 //! How a plate is washed: the policies in turn, then the search.
+//!
+//! Leaning across the arm's plane, away from what stands beside the arm.
+//!
+//! A tilt in the arm's plane moves forearm and wrist towards axis 1 or away from it, along whatever stands beside them. Where that is in the
+//! way of every such tilt, the tool leans across the plane besides, by as much all along the wash path; both together stay within the
+//! path's cone.
 
-use super::aside;
-use super::blocked::blocked;
-use super::dead_ends;
-use super::error::RedundancyError;
-use super::search::{Graph, GraphPath};
-use super::task::{Profile, Stop, Task};
-use super::tilt_spline::{TiltSpline, smoothed};
-use crate::scene::policy::GENTLE_TILT_RAD;
+use crate::redundancy::samples::{TiltSpline, smoothed};
+use crate::redundancy::search::{Graph, GraphPath};
+use crate::redundancy::stuck::{self, blocked};
+use crate::redundancy::task::{DeadEnd, Profile, RedundancyError, Stop, Task};
+use crate::scene::stance::GENTLE_TILT_RAD;
 use crate::scene::{Contact, Hindrance, Start, TiltPolicy, Width, merge_starts};
 use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;
@@ -25,7 +28,7 @@ const PROFILE_STEPS: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
 pub struct Washing {
     /// Parameters of the wash path, from 0 to its end, as
     /// [`WashCurve::parameters`](platewash_workcell::wash_path::WashCurve::parameters) gives them for
-    /// [`super::settings::CHORD_ERROR_M`] \[rad\].
+    /// [`crate::redundancy::task::CHORD_ERROR_M`] \[rad\].
     pub theta: Vec<f64>,
     /// Tilt of the tool in the arm's plane at each: its angle from the plate's normal there, positive where the flange leans away from axis 1 \[rad\].
     pub tilt_rad: Vec<f64>,
@@ -81,8 +84,8 @@ pub fn washing(task: &Task<'_>) -> Result<Washing, RedundancyError> {
     let Err(error) = &found else {
         return found;
     };
-    if aside::may_help(task, error) {
-        for aside_rad in aside::leans(task) {
+    if may_help(task, error) {
+        for aside_rad in leans(task) {
             let scene = task.scene.clone().leaning_aside(aside_rad);
             match washing_by_any(&task.in_scene(&scene)) {
                 Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
@@ -108,7 +111,7 @@ fn washing_by_any(task: &Task<'_>) -> Result<Washing, RedundancyError> {
 
 /// The policies worth trying, the best first: those that slope over the plate take the least joint travel, those that stay
 /// upright keep the most clearance.
-pub(super) fn policies(task: &Task<'_>) -> Vec<TiltPolicy> {
+pub(crate) fn policies(task: &Task<'_>) -> Vec<TiltPolicy> {
     let most = task.tilt_max_rad();
     let gentle = most.min(GENTLE_TILT_RAD);
     // Where the axis follows the slope, the less it leans besides the better the sponge presses.
@@ -144,7 +147,7 @@ fn within(policy: TiltPolicy, task: &Task<'_>) -> TiltPolicy {
 
 /// The washing by the first policy that will do. Where branches are searched for, at most as widely as `widest`: first on
 /// those that are found from nearby.
-pub(super) fn by_policy(task: &Task<'_>, widest: Width) -> Result<Option<Washing>, Cancelled> {
+pub(crate) fn by_policy(task: &Task<'_>, widest: Width) -> Result<Option<Washing>, Cancelled> {
     let all = policies(task);
     let near = first_of(task, &all, Width::Near)?;
     let more = widest == Width::Everywhere && !task.scene.inverse.knows_all_branches();
@@ -183,7 +186,7 @@ fn with_policy(task: &Task<'_>, policy: &TiltPolicy, width: Width) -> Result<Opt
 }
 
 /// The washing by the cheapest path through the graph of tilts.
-pub(super) fn by_search(task: &Task<'_>) -> Result<Washing, RedundancyError> {
+pub(crate) fn by_search(task: &Task<'_>) -> Result<Washing, RedundancyError> {
     let graph = Graph::new(task);
     if let Some(error) = blocked(task, &graph)? {
         return Err(error);
@@ -201,9 +204,9 @@ pub(super) fn by_search(task: &Task<'_>) -> Result<Washing, RedundancyError> {
         }
     }
     Err(match (between, furthest) {
-        (Some(stop), _) => dead_ends::between(task, stop),
-        (None, Some((layer, start))) => dead_ends::no_tilt(task, &graph, layer, &start),
-        (None, None) => dead_ends::no_tilt(task, &graph, 0, &task.anywhere_near()),
+        (Some(stop), _) => stuck::between(task, stop),
+        (None, Some((layer, start))) => stuck::no_tilt(task, &graph, layer, &start),
+        (None, None) => stuck::no_tilt(task, &graph, 0, &task.anywhere_near()),
     })
 }
 
@@ -236,7 +239,7 @@ fn may_do(task: &Task<'_>, tilts: &[f64]) -> bool {
 ///
 /// # Errors
 /// [`Cancelled`].
-pub(super) fn search_starts(task: &Task<'_>, graph: &Graph) -> Result<Vec<Start>, Cancelled> {
+pub(crate) fn search_starts(task: &Task<'_>, graph: &Graph) -> Result<Vec<Start>, Cancelled> {
     let mut tilts = graph.tilts.clone();
     tilts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let inverse = &task.scene.inverse;
@@ -304,4 +307,36 @@ fn finish(task: &Task<'_>, profile: &Profile, tilt_rad: Vec<f64>, q: Vec<JointVe
         q,
         choice,
     }
+}
+
+/// How far it leans, as shares of the cone that is planned: the least first, as the rest is left for tilts in the arm's plane.
+const SHARES: [f64; 3] = [0.35, 0.65, 1.0];
+
+/// The leans to try \[rad\], to either side.
+pub(crate) fn leans(task: &Task<'_>) -> impl Iterator<Item = f64> + use<> {
+    let most_rad = task.planned_lean_rad();
+    SHARES
+        .into_iter()
+        .flat_map(move |share| [share * most_rad, -share * most_rad])
+}
+
+/// Whether an obstacle stands in the way where a search ended.
+pub(crate) fn may_help(task: &Task<'_>, error: &RedundancyError) -> bool {
+    let ends = match error {
+        RedundancyError::NoTilt { ends, .. } => &ends[..],
+        RedundancyError::Disconnected { end, .. } | RedundancyError::Between { end, .. } => std::slice::from_ref(end),
+        _ => &[],
+    };
+    ends.iter().any(|end| may_help_at(task, end))
+}
+
+/// Whether an obstacle stands in the way of some tilt at a contact point.
+pub(crate) fn may_help_at(task: &Task<'_>, end: &DeadEnd) -> bool {
+    let surroundings = task.scene.surroundings;
+    end.reasons.iter().any(|reason| match &reason.least {
+        Hindrance::Clearance { pair, .. } => [&pair.a, &pair.b]
+            .into_iter()
+            .any(|name| surroundings.is_obstacle(name)),
+        _ => false,
+    })
 }

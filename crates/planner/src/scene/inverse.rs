@@ -1,6 +1,6 @@
 //! Configurations for a pose of the tip: all to start from, and the one that continues a path.
 
-use super::hindrance::Hindrance;
+use crate::scene::hindrance::Hindrance;
 use platewash_kinematics::ik::analytic::{AnalyticArm, Degenerate, Elbow, Label, Rejection, Shoulder, Wrist};
 use platewash_kinematics::ik::{IkSettings, IkSettingsError, IkSolver};
 use platewash_kinematics::rotation::Rigid;
@@ -52,7 +52,7 @@ pub(crate) enum Width {
 }
 
 /// Settings of a solver that meets a pose to [`TOLERANCE`].
-pub(super) fn exact() -> IkSettings {
+pub(crate) fn exact() -> IkSettings {
     IkSettings {
         position_tolerance_m: TOLERANCE,
         orientation_tolerance_rad: TOLERANCE,

@@ -1,19 +1,17 @@
 //! The arm, its tool and what stands around it; and how the tool stands at a contact point.
+//!
+//! What the arm must keep clear of.
 
-mod contact;
 mod hindrance;
 mod inverse;
-pub mod policy;
-mod stance;
-mod surroundings;
+pub(crate) mod stance;
 
-pub use contact::Contact;
-pub use hindrance::{Filter, Hindrance};
-pub(crate) use inverse::{Inverse, Start, Width, merge_starts};
-pub use policy::TiltPolicy;
-pub(crate) use stance::angle_between;
-pub use stance::{AXIS_SHARE, AxisRule, Stance, TILT_RESERVE_RAD, WRIST_RESERVE_RAD};
-pub use surroundings::{Stretch, Surroundings};
+pub use crate::scene::hindrance::{Filter, Hindrance};
+pub(crate) use crate::scene::inverse::{Inverse, Start, Width, merge_starts};
+pub(crate) use crate::scene::stance::angle_between;
+pub use crate::scene::stance::{
+    AXIS_SHARE, AxisRule, Contact, Stance, TILT_RESERVE_RAD, TiltPolicy, WRIST_RESERVE_RAD,
+};
 
 use crate::trig::sin_cos;
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -21,9 +19,11 @@ use platewash_kinematics::ik::{IkSettingsError, IkSolver};
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
 use platewash_workcell::cancel::{CancelToken, Cancelled};
+use platewash_workcell::clearance::{ClearanceModel, PairClearance};
 use platewash_workcell::job::ReachBorders;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Tool;
+use std::fmt::Debug;
 use std::sync::Arc;
 
 /// A distance from axis 1 along a face below which it has no direction \[m\].
@@ -277,5 +277,60 @@ fn leaning(rest: &Vector3<f64>, contact: &Contact, [out, lean]: [&Vector3<f64>; 
     Rigid {
         rotation: here * there.transpose(),
         translation: contact.point,
+    }
+}
+
+/// What the arm is doing at a configuration: decides which bodies may be near each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stretch {
+    /// It washes a plate or is on the line over one, by its index: the sponge may be near that one, and near those whose rims it may
+    /// touch meanwhile.
+    AtPlate(usize),
+    /// Anything else.
+    Free,
+}
+
+impl Stretch {
+    /// What planning keeps beyond the clearance asked for, as it looks at a motion in steps: these are short at a plate \[m\].
+    #[must_use]
+    pub fn reserve_m(self) -> f64 {
+        match self {
+            Self::AtPlate(_) => 5e-4,
+            Self::Free => 1e-3,
+        }
+    }
+}
+
+/// What the arm must keep clear of.
+pub trait Surroundings: Debug + Sync {
+    /// Whether at `q` \[rad\] every pair that counts keeps `required_m`.
+    fn is_clear(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> bool;
+
+    /// The nearest of the pairs that do not; `None` where there is none.
+    fn too_near(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> Option<PairClearance>;
+
+    /// Whether the body of that name stands around the arm: it is not of the arm, its tool or the plates.
+    fn is_obstacle(&self, _name: &str) -> bool {
+        false
+    }
+}
+
+impl Surroundings for ClearanceModel {
+    fn is_clear(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> bool {
+        match stretch {
+            Stretch::AtPlate(plate) => self.keeps_washing(q, plate, required_m),
+            Stretch::Free => self.keeps(q, required_m),
+        }
+    }
+
+    fn too_near(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> Option<PairClearance> {
+        match stretch {
+            Stretch::AtPlate(plate) => self.nearest_washing(q, plate, required_m),
+            Stretch::Free => ClearanceModel::too_near(self, q, &[], required_m).into_iter().next(),
+        }
+    }
+
+    fn is_obstacle(&self, name: &str) -> bool {
+        ClearanceModel::is_obstacle(self, name)
     }
 }

@@ -1,13 +1,11 @@
 //! A home with clearance: the tool points down over the plates, far from everything, from limits and singularities.
 
 use crate::error::PlanError;
-use crate::scene::Stretch;
-use crate::scene::{Contact, Scene, Width};
+use crate::scene::{Contact, Scene, Stretch, Width};
 use crate::trig::{atan2, sin_cos};
 use nalgebra::Vector3;
-use platewash_kinematics::halton;
-use platewash_kinematics::jacobian::manipulability;
-use platewash_kinematics::{AXES, Axes, JointVector, RobotModel};
+use platewash_kinematics::model::manipulability;
+use platewash_kinematics::{AXES, Axes, JointVector, RobotModel, halton};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::{ClearanceModel, PairClearance};
 use platewash_workcell::job::JobTerms;

@@ -3,5 +3,5 @@
 mod home;
 mod region;
 
-pub use home::{SuggestedHome, suggest_home};
-pub use region::{RegionSquare, Sector, SuggestedRegion, place_in_front, suggest_region};
+pub use crate::suggest::home::{SuggestedHome, suggest_home};
+pub use crate::suggest::region::{RegionSquare, Sector, SuggestedRegion, place_in_front, suggest_region};

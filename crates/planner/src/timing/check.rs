@@ -4,10 +4,9 @@
 //! straight line between its values by at most `τ²/8 · sup |second derivative|`, τ the step, so that the larger norm at
 //! the two and this term bound it. Steps are halved until the term is small, or the bound keeps the limit.
 
-use super::grid::Grid;
-use super::hermite::Piece;
-use super::limits::{MotionLimits, TipLimits};
-use super::tip::{Magnitudes, TipModel};
+use crate::timing::grid::{Grid, Magnitudes, TipModel};
+use crate::timing::hermite::Piece;
+use crate::timing::{MotionLimits, TipLimits};
 use platewash_kinematics::JointVector;
 
 /// Share of a limit that the bound between looks may take at most; then looks are not made denser.
@@ -17,7 +16,7 @@ const MOST_STEPS: u32 = 16;
 
 /// Demand over limit, by piece: above 1 the limit is broken.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Demand {
+pub(crate) struct Demand {
     /// Of the speeds of joints and tip, the larger.
     pub speed: f64,
     /// Of the accelerations of the joints.
@@ -44,7 +43,7 @@ impl Demand {
 }
 
 /// The demand of one piece.
-pub(super) fn demand(piece: &Piece, grid: &Grid, limits: &MotionLimits) -> Demand {
+pub(crate) fn demand(piece: &Piece, grid: &Grid, limits: &MotionLimits) -> Demand {
     let (speed, acceleration) = (piece.most_speed(), piece.most_acceleration());
     let share = |value: &JointVector, limit: &JointVector| value.component_div(limit).max();
     let mut demand = Demand {

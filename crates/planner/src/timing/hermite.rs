@@ -4,7 +4,7 @@ use platewash_kinematics::{AXES, JointVector};
 
 /// A cubic Hermite piece between (q₀, q̇₀) at 0 and (q₁, q̇₁) at `h`, with its accelerations.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Piece {
+pub(crate) struct Piece {
     /// Duration \[s\].
     pub h: f64,
     /// Position at the start \[rad\].

@@ -6,42 +6,35 @@
 //!
 //! | concept | file |
 //! | --- | --- |
-//! | limits | `limits.rs` |
-//! | knots on the path, and where more are needed | `grid.rs`, `refine.rs` |
-//! | how the tip moves | `tip.rs` |
-//! | constraints of an interval | `interval.rs` |
-//! | linear program of an interval | `linear_program.rs` |
-//! | backward and forward pass | `passes.rs` |
+//! | limits | here |
+//! | knots on the path, and where more are needed | `grid.rs`, `rounds.rs` |
+//! | how the tip moves | `grid.rs` |
+//! | constraints of an interval; linear program of an interval | `interval.rs` |
+//! | backward and forward pass; the rounds of all this | `rounds.rs` |
 //! | a piece of the motion | `hermite.rs` |
 //! | what a piece demands of its limits | `check.rs` |
-//! | the rounds of all this | `rounds.rs` |
+//!
+//! A path in time.
+//!
+//! Why a path could not be timed.
+//!
+//! What a timed motion must keep to.
 
 mod check;
-mod error;
 mod grid;
 mod hermite;
 mod interval;
-mod limits;
-mod linear_program;
-mod passes;
-mod refine;
 mod rounds;
 #[cfg(test)]
 mod tests;
-mod timed;
-mod tip;
 
-pub use error::TimingError;
-pub use limits::{Limit, MotionLimits, Slow, TipLimits};
-pub use refine::{LONGEST_PIECE_S, PATH_ERROR_RAD};
-pub use rounds::SHORTEST_PIECE_S;
-pub use timed::Timed;
+pub use crate::timing::rounds::{LONGEST_PIECE_S, PATH_ERROR_RAD, SHORTEST_PIECE_S};
 
 use crate::joint_path::JointPath;
-use grid::Grid;
-use platewash_kinematics::{Frame, RobotModel};
-use rounds::Rounds;
-use tip::TipModel;
+use crate::timing::grid::{Grid, TipModel};
+use crate::timing::rounds::Rounds;
+use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
+use platewash_workcell::trajectory::{KnotError, Trajectory};
 
 /// The fastest motion along `path`, from rest to rest, within `limits`; `tip` is the point on `robot` that the limits of
 /// the tip are for (unused without them).
@@ -91,4 +84,154 @@ pub fn time_optimal_slowed(
     }
     let tip = limits.tip.map(|_| TipModel::new(robot, tip));
     Rounds::new(Grid::of(path, tip)?, limits, slow).run()
+}
+
+/// A path in time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Timed {
+    /// The motion, from time 0, at rest at both ends. Its knots are the path's samples and more between them.
+    pub motion: Trajectory,
+    /// The path's parameter at every knot; those of the samples are among them to the bit.
+    pub parameters: Vec<f64>,
+    /// Largest distance of a joint from the path \[rad\]: measured in the middle of every piece, where the leading term
+    /// of the error of Hermite interpolation, `t² (h − t)²`, is largest.
+    pub path_error_rad: f64,
+}
+
+/// Why a path could not be timed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TimingError {
+    /// A limit is no positive finite number.
+    #[error("limit of the {limit}: {value}; it must be a positive, finite number")]
+    Limit {
+        /// Which.
+        limit: Limit,
+        /// Its value \[rad/s, rad/s², m/s, m/s²\].
+        value: f64,
+    },
+    /// The path stays where it is, so that there is nothing to time.
+    #[error("the path does not move: all of its {samples} configurations are the same")]
+    NoMotion {
+        /// Samples of the path.
+        samples: usize,
+    },
+    /// The path is so steep, so slow or so finely sampled that its time cannot be computed.
+    #[error("no time can be computed at the path's parameter {u:.6}: the numbers leave the range of a double")]
+    Range {
+        /// Where, as the path's parameter.
+        u: f64,
+    },
+    /// Cubics in time would leave the path by more than allowed with as many knots as may be.
+    #[error(
+        "at the path's parameter {u:.6} the motion leaves the path by {error_rad:.1e} rad with {knots} knots; \
+         at most {allowed_rad:.1e} rad is allowed"
+    )]
+    PathError {
+        /// Where, as the path's parameter.
+        u: f64,
+        /// Largest deviation of a joint there \[rad\].
+        error_rad: f64,
+        /// What is allowed \[rad\].
+        allowed_rad: f64,
+        /// Knots of the motion.
+        knots: usize,
+    },
+    /// The limits are not held however long the motion takes, because its times round too coarsely: the path has
+    /// samples much too close together for its length.
+    #[error("a motion of {duration_s:.1} s still exceeds its limits: time would have to be stretched by {excess:.1e}")]
+    Unheld {
+        /// By what share time would have to be stretched further.
+        excess: f64,
+        /// Duration reached \[s\].
+        duration_s: f64,
+    },
+    /// The knots are no motion.
+    #[error(transparent)]
+    Knots(#[from] KnotError),
+}
+
+/// Limits of a motion, the same in both directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionLimits {
+    /// Largest speed of each joint \[rad/s\]; positive, finite.
+    pub velocity: JointVector,
+    /// Largest acceleration of each joint \[rad/s²\]; positive, finite.
+    pub acceleration: JointVector,
+    /// Limits of the tip; `None` for none.
+    pub tip: Option<TipLimits>,
+}
+
+/// Limits of the tip's origin in the base frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipLimits {
+    /// Largest speed \[m/s\]; positive, finite.
+    pub speed_m_s: f64,
+    /// Largest magnitude of the acceleration, along and across the path together \[m/s²\]; positive, finite.
+    pub acceleration_m_s2: f64,
+}
+
+/// A stretch of a path on which its parameter moves slowly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slow {
+    /// From one value of the parameter to another, both included.
+    pub u: [f64; 2],
+    /// Largest speed of the parameter at a knot there, per second; positive.
+    pub most: f64,
+}
+
+/// A limit by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Limit {
+    /// Speed of a joint, by index.
+    JointSpeed(usize),
+    /// Acceleration of a joint, by index.
+    JointAcceleration(usize),
+    /// Speed of the tip.
+    TipSpeed,
+    /// Acceleration of the tip.
+    TipAcceleration,
+}
+
+impl std::fmt::Display for Limit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::JointSpeed(joint) => write!(f, "speed of joint {}", joint + 1),
+            Self::JointAcceleration(joint) => write!(f, "acceleration of joint {}", joint + 1),
+            Self::TipSpeed => write!(f, "speed of the tip"),
+            Self::TipAcceleration => write!(f, "acceleration of the tip"),
+        }
+    }
+}
+
+impl MotionLimits {
+    /// The first limit that is no positive finite number, with its value.
+    pub(crate) fn unusable(&self) -> Option<(Limit, f64)> {
+        let joints = (0..AXES).flat_map(|joint| {
+            [
+                (Limit::JointSpeed(joint), self.velocity[joint]),
+                (Limit::JointAcceleration(joint), self.acceleration[joint]),
+            ]
+        });
+        let tip = self.tip.iter().flat_map(|tip| {
+            [
+                (Limit::TipSpeed, tip.speed_m_s),
+                (Limit::TipAcceleration, tip.acceleration_m_s2),
+            ]
+        });
+        joints.chain(tip).find(|(_, value)| !value.is_normal() || *value < 0.0)
+    }
+
+    /// The same limits, all of them multiplied by `share`.
+    pub(crate) fn times(&self, share: f64) -> Self {
+        Self {
+            velocity: self.velocity * share,
+            acceleration: self.acceleration * share,
+            tip: self.tip.map(|tip| TipLimits {
+                speed_m_s: tip.speed_m_s * share,
+                acceleration_m_s2: tip.acceleration_m_s2 * share,
+            }),
+        }
+    }
 }

@@ -1,14 +1,19 @@
 //! From knots on the path to the motion, in rounds: find the speed, refine the knots, check, lower limits, again.
+//!
+//! The speed along the path: reachability analysis backwards and forwards over the knots.
+//!
+//! Time-optimal path parametrisation by Pham & Pham, *A new approach to time-optimal path parameterization based on
+//! reachability analysis*, IEEE T-RO 2018. With x = ṡ² and constant s̈ between knots, a first pass from the end finds
+//! the largest x at each knot from which the end can be reached within limits; as standing still always can, every
+//! smaller x can too. A second pass from the start takes the largest x that stays below.
+//!
+//! Where further knots are needed: where a piece takes long, or leaves the path.
 
-use super::check::{self, Demand};
-use super::error::TimingError;
-use super::grid::{Grid, PathKnot};
-use super::hermite::Piece;
-use super::interval::Interval;
-use super::limits::{MotionLimits, Slow};
-use super::passes::Passes;
-use super::refine::{self, Course};
-use super::timed::Timed;
+use crate::timing::check::{self, Demand};
+use crate::timing::grid::{Grid, PathKnot};
+use crate::timing::hermite::Piece;
+use crate::timing::interval::{Interval, LinearProgram};
+use crate::timing::{MotionLimits, Slow, Timed, TimingError};
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::trajectory::Trajectory;
 
@@ -30,7 +35,7 @@ const REFINEMENTS: usize = 10;
 
 /// The state of the rounds.
 #[derive(Debug)]
-pub(super) struct Rounds<'a> {
+pub(crate) struct Rounds<'a> {
     grid: Grid<'a>,
     samples: usize,
     /// What is aimed at: the limits less the margin.
@@ -157,10 +162,10 @@ impl<'a> Rounds<'a> {
 
     /// Adds knots where they are needed and can be afforded; whether any was.
     fn refine(&mut self) -> bool {
-        let longest_s = refine::longest_s(self.times[self.times.len() - 1]);
-        let missing = refine::missing(&self.courses, longest_s);
+        let longest_s = longest_s(self.times[self.times.len() - 1]);
+        let missing = missing(&self.courses, longest_s);
         let knots = self.grid.knots().len();
-        if missing == 0 || !refine::affordable(self.samples, knots + missing) {
+        if missing == 0 || !affordable(self.samples, knots + missing) {
             return false;
         }
         let courses = &self.courses;
@@ -215,7 +220,7 @@ impl<'a> Rounds<'a> {
     /// The motion.
     fn finish(self) -> Result<Timed, TimingError> {
         let knots = self.grid.knots();
-        let path_error_rad = refine::close(&self.courses, |k| knots[k].u)?;
+        let path_error_rad = close(&self.courses, |k| knots[k].u)?;
         let positions = knots.iter().map(|knot| knot.q).collect();
         Ok(Timed {
             parameters: knots.iter().map(|knot| knot.u).collect(),
@@ -239,4 +244,159 @@ fn fastest(knot: &PathKnot, limits: &MotionLimits) -> f64 {
         (Some(limits), Some(tip)) => fastest.min(limits.speed_m_s / tip.velocity(&knot.slope).norm()),
         _ => fastest,
     }
+}
+
+/// Share by which the backward pass stays inside its limits, so that rounding never closes the forward pass's way.
+const INSIDE: f64 = 1e-10;
+
+/// Room for the passes, kept from one round to the next.
+#[derive(Debug)]
+pub(crate) struct Passes {
+    program: LinearProgram,
+    /// Largest x from which the end is reached.
+    controllable: Vec<f64>,
+    /// Share of x₁ in x₀ that is allowed for the largest x₀, by interval.
+    witness: Vec<f64>,
+    /// ẋ² … the answer: x at every knot.
+    x: Vec<f64>,
+}
+
+impl Passes {
+    /// Empty.
+    pub fn new() -> Self {
+        Self {
+            program: LinearProgram::new(),
+            controllable: Vec::new(),
+            witness: Vec::new(),
+            x: Vec::new(),
+        }
+    }
+
+    /// x at every knot. `most` bounds x at the knots, one more than there are intervals; it is positive and finite but
+    /// at a knot where the motion rests, where it is 0.
+    pub fn run(&mut self, intervals: &[Interval], most: &[f64]) -> &[f64] {
+        let n = intervals.len();
+        self.controllable.clear();
+        self.controllable.extend_from_slice(most);
+        self.witness.clear();
+        self.witness.resize(n, 0.0);
+        for (k, interval) in intervals.iter().enumerate().rev() {
+            if most[k] > 0.0 {
+                let [x0, x1] = self
+                    .program
+                    .furthest_back(interval, [most[k], self.controllable[k + 1]]);
+                self.controllable[k] = x0 * (1.0 - INSIDE);
+                self.witness[k] = x1 / x0;
+            }
+        }
+        self.x.clear();
+        self.x.push(self.controllable[0]);
+        for (k, interval) in intervals.iter().enumerate() {
+            let x0 = self.x[k];
+            let furthest = interval.furthest(x0).max(self.witness[k] * x0);
+            self.x.push(furthest.clamp(0.0, self.controllable[k + 1]));
+        }
+        &self.x
+    }
+}
+
+/// The longest piece of a motion \[s\]; a fortieth of the duration of motions below 1 s, a thousandth of that of motions
+/// above 25 s.
+pub const LONGEST_PIECE_S: f64 = 0.025;
+
+/// How far a joint may leave its path between knots \[rad\].
+pub const PATH_ERROR_RAD: f64 = 5e-6;
+
+/// Length of the new pieces over the longest allowed: some room for what the next round changes.
+const ROOM: f64 = 0.8;
+/// Pieces that one piece becomes at most, in one round.
+const MOST_PARTS: f64 = 64.0;
+/// Knots of a motion at most, for each sample of its path, and for any path.
+const MOST_KNOTS: [usize; 2] = [16, 4096];
+
+/// How a piece fares: x = ṡ² at its ends, length in s, duration and deviation from the path.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Course {
+    /// x at both ends.
+    pub x: [f64; 2],
+    /// Duration \[s\].
+    pub h: f64,
+    /// Deviation from the path in its middle \[rad\].
+    pub error_rad: f64,
+}
+
+impl Course {
+    /// The share of the piece's length in s that is done after the share `t` of its duration, s̈ being constant.
+    pub fn done(&self, t: f64) -> f64 {
+        let [start, end] = self.x.map(f64::sqrt);
+        (2.0 * start + (end - start) * t) * t / (start + end)
+    }
+
+    /// Measures a piece; `position` is the path's at a share of the piece's length.
+    pub fn measured(x: [f64; 2], piece: &Piece, position: impl Fn(f64) -> platewash_kinematics::JointVector) -> Self {
+        let mut course = Self {
+            x,
+            h: piece.h,
+            error_rad: 0.0,
+        };
+        let [q, ..] = piece.at(0.5 * piece.h);
+        course.error_rad = (q - position(course.done(0.5))).amax();
+        course
+    }
+
+    /// Parts that this piece should become; 1 for none.
+    fn parts(&self, longest_s: f64) -> usize {
+        let slow = if self.h > longest_s {
+            self.h / (ROOM * longest_s)
+        } else {
+            1.0
+        };
+        // The error of a piece falls with the fourth power of its length.
+        let bent = if self.error_rad > PATH_ERROR_RAD {
+            (self.error_rad / (0.5 * PATH_ERROR_RAD)).sqrt().sqrt().max(2.0)
+        } else {
+            1.0
+        };
+        slow.max(bent).min(MOST_PARTS).ceil() as usize
+    }
+
+    /// Places for further knots as shares of its length, equally far in time.
+    pub fn shares(&self, longest_s: f64, shares: &mut Vec<f64>) {
+        let parts = self.parts(longest_s);
+        shares.extend((1..parts).map(|k| self.done(k as f64 / parts as f64)));
+    }
+}
+
+/// The longest piece of a motion of this duration \[s\].
+pub(crate) fn longest_s(duration_s: f64) -> f64 {
+    LONGEST_PIECE_S.clamp(1e-3 * duration_s, duration_s / 40.0)
+}
+
+/// Knots that are missing.
+pub(crate) fn missing(courses: &[Course], longest_s: f64) -> usize {
+    courses.iter().map(|course| course.parts(longest_s) - 1).sum()
+}
+
+/// Whether a path of so many samples may have so many knots.
+pub(crate) fn affordable(samples: usize, knots: usize) -> bool {
+    knots <= samples.saturating_mul(MOST_KNOTS[0]).saturating_add(MOST_KNOTS[1])
+}
+
+/// Refuses a motion that leaves its path too far; `u` is the path's parameter at a knot.
+pub(crate) fn close(courses: &[Course], u: impl Fn(usize) -> f64) -> Result<f64, TimingError> {
+    let mut worst = (0, 0.0);
+    for (k, course) in courses.iter().enumerate() {
+        if course.error_rad > worst.1 {
+            worst = (k, course.error_rad);
+        }
+    }
+    if worst.1 <= PATH_ERROR_RAD {
+        return Ok(worst.1);
+    }
+    Err(TimingError::PathError {
+        u: u(worst.0),
+        error_rad: worst.1,
+        allowed_rad: PATH_ERROR_RAD,
+        knots: courses.len() + 1,
+    })
 }

@@ -1,7 +1,7 @@
 //! The whole of the timing: limits, optimality, structure, and bad input.
 
-use super::*;
 use crate::joint_path::Ends;
+use crate::timing::*;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{AXES, JointVector};
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use std::f64::consts::PI;
 
 /// The IRB 120 and the tip of a tool 150 mm long.
-pub(super) fn arm() -> (RobotModel, Frame) {
+pub(crate) fn arm() -> (RobotModel, Frame) {
     let robot = RobotModel::irb120().unwrap();
     let tip = kitchen_tool().tip_frame(&robot);
     (robot, tip)

@@ -1,10 +1,14 @@
 //! Why there is no transit.
+//!
+//! Two bodies nearer than a transit may bring them.
 
-use super::too_near::TooNear;
 use crate::joint_path::JointPathError;
+use crate::scene::{Stretch, Surroundings};
 use crate::timing::TimingError;
-use platewash_kinematics::LimitViolation;
+use platewash_kinematics::words::told_apart;
+use platewash_kinematics::{JointVector, LimitViolation};
 use platewash_workcell::cancel::Cancelled;
+use platewash_workcell::clearance::PairClearance;
 use std::fmt;
 
 /// Why there is no transit.
@@ -102,4 +106,96 @@ fn line(too_near: Option<&TooNear>) -> String {
         |_| "; at its top a tilted sponge must be as far off, too: lift it higher",
     );
     colon(too_near) + hint
+}
+
+/// Two bodies nearer than a transit may bring them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TooNear {
+    /// The bodies and their distance.
+    pub pair: PairClearance,
+    /// The clearance asked for \[m\].
+    pub asked_m: f64,
+    /// What is kept on top of it \[m\]: [`Stretch::reserve_m`].
+    pub reserve_m: f64,
+}
+
+impl TooNear {
+    /// The nearest of the pairs that count at `q` \[rad\], where it is too near.
+    #[must_use]
+    pub fn at(surroundings: &dyn Surroundings, q: &JointVector, stretch: Stretch, asked_m: f64) -> Option<Self> {
+        let reserve_m = stretch.reserve_m();
+        let pair = surroundings.too_near(q, stretch, asked_m + reserve_m)?;
+        Some(Self {
+            pair,
+            asked_m,
+            reserve_m,
+        })
+    }
+}
+
+/// Distances that differ by less than this are not told apart by their digits \[m\].
+const ALIKE_M: f64 = 1e-9;
+
+/// What is kept, before the reserve.
+const KEPT: &str = "the clearance asked for and";
+
+impl fmt::Display for TooNear {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let PairClearance { a, b, distance_m, .. } = &self.pair;
+        let mm = |m: f64| 1e3 * m;
+        let [distance, required] = told_apart(mm(*distance_m), mm(self.asked_m + self.reserve_m), 2);
+        if *distance_m > 0.0 && self.asked_m + self.reserve_m - distance_m < ALIKE_M {
+            write!(f, "{a} is a little nearer to {b} than allowed")?;
+            return write!(
+                f,
+                "; {:.2} mm must be kept: {KEPT} {:.2} mm in reserve",
+                mm(self.asked_m + self.reserve_m),
+                mm(self.reserve_m)
+            );
+        }
+        if *distance_m > 0.0 {
+            write!(f, "{a} is {distance} mm from {b}")?;
+        } else {
+            write!(f, "{a} touches {b}")?;
+        }
+        write!(
+            f,
+            "; {required} mm must be kept: {KEPT} {:.2} mm in reserve",
+            mm(self.reserve_m)
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_kinematics::RobotModel;
+    use platewash_workcell::clearance::ClearanceModel;
+    use platewash_workcell::fixtures::{kitchen_tool, workcell};
+    use platewash_workcell::plate::Plate;
+
+    /// A plate whose surface is `gap` below the free sponge, under the tool that points straight down.
+    #[test]
+    fn the_pair_its_distance_and_what_is_required_are_named() {
+        let robot = RobotModel::irb120().unwrap();
+        let tool = kitchen_tool();
+        let q = JointVector::new(0.0, 0.0, 0.0, 0.0, 90.0_f64.to_radians(), 0.0);
+        let tip = robot.fk(&q).rigid(&tool.tip_frame(&robot)).translation;
+        let free_m = tool.sponge.compression_m;
+        let workcell = workcell(&robot, tool);
+        for (gap, near) in [(0.0105, true), (0.0112, false)] {
+            let plate = Plate::level_disc([tip.x, tip.y, tip.z - free_m - gap], 0.1, 0.02);
+            let clearance = ClearanceModel::new(&robot, &workcell, &[plate]).unwrap();
+            let found = TooNear::at(&clearance, &q, Stretch::Free, 0.01);
+            assert_eq!(found.is_some(), near);
+            let at_plate = TooNear::at(&clearance, &q, Stretch::AtPlate(0), 0.01);
+            assert_eq!(at_plate, None, "the sponge may be near a plate");
+            if let Some(found) = found {
+                let message = found.to_string();
+                for part in ["sponge", "plate 0", "10.50 mm", "11.00 mm", "1.00 mm in reserve"] {
+                    assert!(message.contains(part), "{message}");
+                }
+            }
+        }
+    }
 }

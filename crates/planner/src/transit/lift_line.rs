@@ -1,8 +1,15 @@
 //! Where a transit begins or ends.
+//!
+//! The arc round the base, as a path of the joints.
+//!
+//! A quintic from one state of the joints to another: C² where it joins what comes before and after.
 
 use crate::joint_path::{Ends, JointPath, JointPathError, PathState};
+use crate::scene::{Contact, Scene};
 use crate::timing::Slow;
-use platewash_kinematics::JointVector;
+use crate::transit::search::{BaseArc, FreePath};
+use platewash_kinematics::{JointVector, Pose};
+use platewash_workcell::arc;
 
 /// Home, or a plate with the line along its normal: configurations from where the arm rests to where it is free.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,7 +73,7 @@ impl LiftLine {
     }
 
     /// Where a path that leaves from here is slow: its parameter is the height.
-    pub(super) fn slow_from(&self, u: f64) -> Option<Slow> {
+    pub(crate) fn slow_from(&self, u: f64) -> Option<Slow> {
         self.slow.map(|[height_m, most]| Slow {
             u: [u, u + height_m],
             most,
@@ -74,7 +81,7 @@ impl LiftLine {
     }
 
     /// The same for a path that ends here.
-    pub(super) fn slow_until(&self, u: f64) -> Option<Slow> {
+    pub(crate) fn slow_until(&self, u: f64) -> Option<Slow> {
         self.slow.map(|[height_m, most]| Slow {
             u: [u - height_m, u],
             most,
@@ -112,7 +119,7 @@ impl LiftLine {
     }
 
     /// State at the top on the way out; home leaves at the slope given \[rad/m\].
-    pub(super) fn leaving(&self, slope: JointVector) -> PathState {
+    pub(crate) fn leaving(&self, slope: JointVector) -> PathState {
         let (first, second) = match self.slopes {
             Some([_, first, second]) => (first, second),
             None => (slope, JointVector::zeros()),
@@ -125,7 +132,78 @@ impl LiftLine {
     }
 
     /// Slope at rest on the way out \[rad/m\].
-    pub(super) fn slope_at_rest(&self, slope: JointVector) -> JointVector {
+    pub(crate) fn slope_at_rest(&self, slope: JointVector) -> JointVector {
         self.slopes.map_or(slope, |[low, ..]| low)
+    }
+}
+
+/// The path over the arc; `None` where a point of it is out of reach, or reached by a jump only.
+pub(crate) fn path(scene: &Scene<'_>, over: &BaseArc, from: &LiftLine, to: &LiftLine) -> Option<FreePath> {
+    let tip = |q| scene.robot.fk(q).rigid(&scene.tip).translation;
+    let (start, end) = (tip(from.top()), tip(to.top()));
+    let points = arc::waypoints(start, end, &over.arc);
+    let inner = &points[1..points.len() - 1];
+    let pose = |point: &_| scene.pose(&Contact::level(*point), &over.policy);
+    let poses: Vec<Pose> = inner.iter().map(pose).collect();
+    let q = scene.solver.solve_path(&poses, from.top()).ok()?.q;
+    let mut length = 0.0;
+    let u = points[..points.len() - 1].windows(2).map(|ends| {
+        length += (ends[1] - ends[0]).norm().max(1e-4);
+        length
+    });
+    let u: Vec<f64> = u.collect();
+    let last = (end - points[points.len() - 2]).norm().max(1e-4);
+    Some(FreePath {
+        length: u.last()? + last,
+        u,
+        q,
+    })
+}
+
+/// Quintic with given states at both ends of [0, length]; at `share` of it, in [0, 1].
+///
+/// In `s = u / length`, with `v = length · first` and `w = length² · second` (Hermite form; Farin, *Curves and Surfaces for
+/// CAGD*, ch. 7): the value is `Σ H_k(s) · (q₀, v₀, w₀, w₁, v₁, q₁)`.
+pub(crate) fn quintic(from: &PathState, to: &PathState, length: f64, share: f64) -> JointVector {
+    let s = share;
+    let (s2, t) = (s * s, 1.0 - s);
+    let (s3, t2) = (s2 * s, t * t);
+    let t3 = t2 * t;
+    let (v, w) = (length, length * length);
+    from.q * (t3 * (1.0 + 3.0 * s + 6.0 * s2))
+        + from.first * (v * t3 * s * (1.0 + 3.0 * s))
+        + from.second * (w * t3 * s2 * 0.5)
+        + to.second * (w * s3 * t2 * 0.5)
+        - to.first * (v * s3 * t * (1.0 + 3.0 * t))
+        + to.q * (s3 * (1.0 + 3.0 * t + 6.0 * t2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn joints() -> impl Strategy<Value = JointVector> {
+        prop::array::uniform6(-2.0..2.0f64).prop_map(JointVector::from)
+    }
+
+    fn states() -> impl Strategy<Value = PathState> {
+        (joints(), joints(), joints()).prop_map(|(q, first, second)| PathState { q, first, second })
+    }
+
+    proptest! {
+        #[test]
+        fn the_ends_are_met_with_both_derivatives(a in states(), b in states(), length in 0.1..3.0f64) {
+            let at = |u: f64| quintic(&a, &b, length, u / length);
+            let h = 1e-4 * length;
+            for (end, state, h) in [(0.0, a, h), (length, b, -h)] {
+                let q: Vec<_> = (0..4).map(|k| at(end + h * f64::from(k))).collect();
+                prop_assert!((q[0] - state.q).amax() < 1e-12);
+                let first = (q[0] * -11.0 + q[1] * 18.0 - q[2] * 9.0 + q[3] * 2.0) / (6.0 * h);
+                prop_assert!((first - state.first).amax() < 1e-6 * (1.0 + 1.0 / length));
+                let second = (q[0] * 2.0 - q[1] * 5.0 + q[2] * 4.0 - q[3]) / (h * h);
+                prop_assert!((second - state.second).amax() < 1e-2 * (1.0 + 1.0 / (length * length)), "{second}");
+            }
+        }
     }
 }

@@ -1,8 +1,7 @@
 //! Bidirectional random trees for what nothing simple solves (RRT-Connect: Kuffner & LaValle 2000), shortened and smoothed.
 
-use super::free_path::{FreePath, STEP_RAD};
-use super::rules::TransitRules;
 use crate::scene::Stretch;
+use crate::transit::search::{FreePath, STEP_RAD, TransitRules};
 use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;
 use rand::RngExt;
@@ -18,11 +17,11 @@ const SHORTCUTS: usize = 150;
 const LENGTH_M_RAD: f64 = 0.3;
 /// Distances of the samples through which a smooth path is laid \[rad of the fastest joint\], those to be tried first first: the closer
 /// they lie, the less it leaves the straight lines that were found to be free, and the more it slows down at their corners.
-pub(super) const SPACINGS_RAD: [f64; 3] = [0.12, 0.06, 0.03];
+pub(crate) const SPACINGS_RAD: [f64; 3] = [0.12, 0.06, 0.03];
 
 /// Straight lines of the joints that are free, one after the other.
 #[derive(Debug)]
-pub(super) struct FreeLines {
+pub(crate) struct FreeLines {
     /// Where they meet, with both ends \[rad\].
     corners: Vec<JointVector>,
     /// Configurations that were sampled for them.
@@ -38,7 +37,7 @@ struct Node {
 ///
 /// # Errors
 /// [`Cancelled`].
-pub(super) fn lines(
+pub(crate) fn lines(
     rules: &TransitRules<'_>,
     from: &JointVector,
     to: &JointVector,
@@ -170,7 +169,7 @@ fn shorten(rules: &TransitRules<'_>, corners: &mut Vec<JointVector>, rng: &mut P
 
 impl FreeLines {
     /// Samples along them, both ends left out, no farther apart than `spacing_rad` of the fastest joint.
-    pub(super) fn dense(&self, spacing_rad: f64) -> FreePath {
+    pub(crate) fn dense(&self, spacing_rad: f64) -> FreePath {
         let (mut u, mut q, mut length) = (Vec::new(), Vec::new(), 0.0);
         for ends in self.corners.windows(2) {
             let (a, b) = (ends[0], ends[1]);

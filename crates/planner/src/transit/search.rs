@@ -1,18 +1,22 @@
 //! Candidates of a transit, and the choice among them.
+//!
+//! What a transit must keep, and what it may try.
+//!
+//! Kinds of transits.
+//!
+//! The free part of a transit, between two tops.
 
-use super::arc;
-use super::blend::quintic;
-use super::error::{Blocked, TransitError};
-use super::free_path::{FreePath, STEP_RAD};
-use super::kind::TransitKind;
-use super::lift_line::LiftLine;
-use super::rules::TransitRules;
-use super::sampled;
 use crate::joint_path::{Ends, JointPath, JointPathError, PathState};
-use crate::scene::Stretch;
-use crate::timing::{self, Slow, Timed};
+use crate::scene::{Scene, Stretch, TiltPolicy};
+use crate::timing::{self, MotionLimits, Slow, Timed};
+use crate::transit::error::{Blocked, TooNear, TransitError};
+use crate::transit::lift_line::{self, LiftLine, quintic};
+use crate::transit::sampled;
 use platewash_kinematics::{Axes, JointVector, RobotModel};
+use platewash_workcell::arc::Arc;
 use rand_pcg::Pcg64;
+use serde::Serialize;
+use std::fmt;
 
 /// Pace of the joints on a direct path \[rad of the fastest joint per metre of the parameter\], the candidates.
 const PACES_RAD_M: [f64; 3] = [2.0, 3.5, 6.0];
@@ -62,7 +66,7 @@ pub fn plan(
         }
     }
     if search.best.is_none()
-        && let Some(path) = rules.arc.and_then(|over| arc::path(rules.scene, &over, from, to))
+        && let Some(path) = rules.arc.and_then(|over| lift_line::path(rules.scene, &over, from, to))
     {
         search.consider(TransitKind::Arc, &path)?;
     }
@@ -266,4 +270,76 @@ fn blended(from: &PathState, to: &PathState, length: f64) -> FreePath {
         q: shares.map(|s| quintic(from, to, length, s)).collect(),
         length,
     }
+}
+
+/// What a transit must keep, and what it may try.
+#[derive(Debug, Clone, Copy)]
+pub struct TransitRules<'a> {
+    /// Where it goes.
+    pub scene: &'a Scene<'a>,
+    /// Limits of the motion.
+    pub limits: &'a MotionLimits,
+    /// The clearance asked for \[m\]; [`Stretch::reserve_m`] is kept on top of it.
+    pub clearance_m: f64,
+    /// The arc round the base, where it may be tried.
+    pub arc: Option<BaseArc>,
+}
+
+/// The arc round the base, and how the tool stands on it.
+#[derive(Debug, Clone, Copy)]
+pub struct BaseArc {
+    /// Points, radius and height.
+    pub arc: Arc,
+    /// Tilt of the tool.
+    pub policy: TiltPolicy,
+}
+
+impl TransitRules<'_> {
+    /// Whether a configuration \[rad\] keeps its clearance.
+    pub(crate) fn is_clear(&self, q: &JointVector, stretch: Stretch) -> bool {
+        let required_m = self.clearance_m + stretch.reserve_m();
+        self.scene.surroundings.is_clear(q, stretch, required_m)
+    }
+
+    /// The bodies that are too near where it does not.
+    pub(crate) fn too_near(&self, q: &JointVector, stretch: Stretch) -> Option<TooNear> {
+        TooNear::at(self.scene.surroundings, q, stretch, self.clearance_m)
+    }
+}
+
+/// How a transit goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TransitKind {
+    /// From top to top in the joints.
+    Direct,
+    /// The same over a raised configuration.
+    Raised,
+    /// Round the base.
+    Arc,
+    /// Found by random trees.
+    Sampled,
+}
+
+impl fmt::Display for TransitKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Direct => "straight in joint space",
+            Self::Raised => "in joint space over a raised point",
+            Self::Arc => "on an arc around the base",
+            Self::Sampled => "found by sampling",
+        })
+    }
+}
+
+/// Joint motion between neighbouring configurations that are looked at, at most \[rad\].
+pub const STEP_RAD: f64 = 0.02;
+
+/// Configurations between two tops, both left out, with the parameter counted from the first top \[m\], and its
+/// value at the second.
+#[derive(Debug, Clone)]
+pub(crate) struct FreePath {
+    pub u: Vec<f64>,
+    pub q: Vec<JointVector>,
+    pub length: f64,
 }

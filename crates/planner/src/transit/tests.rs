@@ -1,8 +1,8 @@
 //! Transits among made-up obstacles: each kind is needed once, and is really free.
 
-use super::*;
 use crate::scene::{Contact, Scene, Stretch, Surroundings, TiltPolicy};
 use crate::timing::MotionLimits;
+use crate::transit::*;
 use nalgebra::Vector3;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_workcell::arc::Arc;

@@ -6,7 +6,7 @@ use crate::work::{STRETCH, released};
 use nalgebra::Matrix6;
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
 use platewash::kinematics::batch::{self, Backend};
-use platewash::kinematics::jacobian::manipulability as manipulability_of;
+use platewash::kinematics::model::manipulability as manipulability_of;
 use platewash::{Axes, Frame, Jacobian, RobotModel};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;

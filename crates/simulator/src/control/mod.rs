@@ -2,43 +2,32 @@
 //!
 //! | law | what it commands | file |
 //! | --- | --- | --- |
-//! | `paper` | positions, the paper's low-pass filter to the letter | `paper.rs` |
-//! | `exact` | the commanded positions themselves | `exact.rs` |
-//! | `pd` | τ = Kp e + Kd ė | `pd.rs` |
-//! | `pd_gravity` | that and g(q) | `pd_gravity.rs` |
-//! | `computed_torque` | τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q) | `computed_torque.rs` |
+//! | `paper` | positions, the paper's low-pass filter to the letter | `laws.rs` |
+//! | `exact` | the commanded positions themselves | `laws.rs` |
+//! | `pd` | τ = Kp e + Kd ė | `laws.rs` |
+//! | `pd_gravity` | that and g(q) | `laws.rs` |
+//! | `computed_torque` | τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q) | `laws.rs` |
 //!
-//! The trait: `law.rs`. Gains and where they come from: `gains.rs`. Whether the sampled loop is stable: `stability.rs`. Why a law is
-//! refused: `error.rs`, and within which limits it would not be: `refusal.rs`.
+//! The trait: `laws.rs`. Gains and where they come from: `laws.rs`. Whether the sampled loop is stable: `stability.rs`. Why a law is
+//! refused: `error.rs`, and within which limits it would not be: `stability.rs`.
 //!
 //! Another law is a name in [`ControlLawName`], a file here, and what [`kinematic`] and [`law`] then miss.
 
-mod computed_torque;
 mod error;
-mod exact;
-mod gains;
-mod law;
-mod paper;
-mod pd;
-mod pd_gravity;
-mod refusal;
+pub(crate) mod laws;
 mod stability;
 
-pub use computed_torque::ComputedTorque;
-pub use error::ControlError;
-pub use exact::ExactLaw;
-pub use gains::{Gains, Loop};
-pub use law::{Command, ControlLaw, Reference};
-pub use paper::PaperLaw;
-pub use pd::Pd;
-pub use pd_gravity::PdGravity;
-pub use stability::{Stability, Standing, check};
+pub use crate::control::error::ControlError;
+pub use crate::control::laws::{
+    Command, ComputedTorque, ControlLaw, ExactLaw, Gains, Loop, PaperLaw, Pd, PdGravity, Reference,
+};
+pub use crate::control::stability::{Stability, Standing, check};
 
+use crate::control::stability::unstable;
 use crate::dynamics::DynamicsModel;
 use crate::plant::Plant;
 use platewash_kinematics::JointLimits;
 use platewash_workcell::simulation::{ControlLawName, ControlSettings, FeedForward};
-use refusal::unstable;
 
 /// How a torque law is made.
 type Made<'a> = fn(&'a DynamicsModel, Gains, FeedForward) -> Box<dyn ControlLaw + 'a>;

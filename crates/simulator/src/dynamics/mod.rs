@@ -6,33 +6,19 @@
 //!
 //! | concept | file |
 //! | --- | --- |
-//! | mass, centre and inertia of a body | `body.rs` |
-//! | whether a body can exist | `physical.rs` |
-//! | the tool as a body | `tool.rs` |
-//! | the arm's bodies, joint by joint | `model.rs` |
+//! | mass, centre and inertia of a body; whether a body can exist; the tool as a body | `body.rs` |
+//! | the arm's bodies, joint by joint; axes and inertias in base axes | `model.rs` |
 //! | inverse dynamics, gravity, bias | `rnea.rs` |
-//! | axes and inertias in base axes | `pass.rs` |
-//! | mass matrix | `crba.rs` |
-//! | forward dynamics | `aba.rs` |
-//! | torques of a force on the tool | `push.rs` |
-//! | kinetic and potential energy | `energy.rs` |
-//! | the largest inertia that each joint meets | `largest.rs` |
+//! | mass matrix; kinetic and potential energy; the largest inertia that each joint meets | `mass_matrix.rs` |
+//! | forward dynamics; torques of a force on the tool | `aba.rs` |
 
 mod aba;
 mod body;
-mod crba;
-mod energy;
-mod largest;
+pub(crate) mod mass_matrix;
 pub mod model;
-mod pass;
-mod physical;
-mod push;
 mod rnea;
-mod tool;
 
-pub use crba::MassMatrix;
-pub use energy::Energy;
-pub use largest::spread;
-pub use model::{DynamicsError, DynamicsModel, STANDARD_GRAVITY_M_S2};
-pub use physical::Unphysical;
-pub use push::FrameMotion;
+pub use crate::dynamics::aba::FrameMotion;
+pub use crate::dynamics::body::Unphysical;
+pub use crate::dynamics::mass_matrix::{Energy, MassMatrix, spread};
+pub use crate::dynamics::model::{DynamicsError, DynamicsModel, STANDARD_GRAVITY_M_S2};

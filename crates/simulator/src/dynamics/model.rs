@@ -3,12 +3,17 @@
 //! Body i is everything that joint i moves and joint i + 1 does not, in the folded frame of joint i (z along its axis, origin
 //! on it). A body whose inertia about its own joint's axis is above zero moves only if kinetic energy does: by induction from
 //! joint 1, ½ q̇ᵀ M q̇ = 0 then implies q̇ = 0, so that M is positive definite in every configuration.
+//!
+//! The pass over the whole arm at one configuration: axes and inertias, all in one frame: base axes, origin at joint 6.
+//!
+//! In a common frame spatial vectors of different bodies are added without being transformed first (Featherstone 2008, §2.9),
+//! and with the origin at the wrist the small inertias there are not drowned by those of a long lever.
 
-use super::body::RigidBody;
-use super::physical::{self, Unphysical};
+use crate::dynamics::body::{self, RigidBody, Unphysical, steiner};
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::rotation::Rigid;
-use platewash_kinematics::{AXES, Link, Pose, RobotModel, ToolFrameError};
+use platewash_kinematics::trig::{Separate, sin_cos_lanes};
+use platewash_kinematics::{AXES, JointVector, Link, Pose, RobotModel, ToolFrameError};
 use platewash_workcell::tool::Tool;
 
 /// Standard gravity as rigid-body codes round it \[m/s²\].
@@ -63,15 +68,15 @@ pub enum DynamicsError {
 #[derive(Debug, Clone, PartialEq)]
 pub struct DynamicsModel {
     /// `F_i = T_{i−1}_i` at q = 0.
-    pub(super) folded: [Rigid; AXES],
-    pub(super) bodies: [Body; AXES],
+    pub(crate) folded: [Rigid; AXES],
+    pub(crate) bodies: [Body; AXES],
     /// Acceleration of free fall, base frame \[m/s²\].
-    pub(super) gravity: Vector3<f64>,
+    pub(crate) gravity: Vector3<f64>,
 }
 
 /// A body in its joint's frame, in the forms that the algorithms use.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Body {
+pub(crate) struct Body {
     /// Mass \[kg\].
     pub mass: f64,
     /// Centre of mass \[m\].
@@ -102,7 +107,7 @@ impl DynamicsModel {
         if let Some((tool, mass)) = tool.and_then(|tool| Some((tool, tool.mass.as_ref()?))) {
             tool.check_mount(robot)?;
             let body = RigidBody::from(mass);
-            physical::check(&body).map_err(|cause| DynamicsError::Tool { cause })?;
+            body::check(&body).map_err(|cause| DynamicsError::Tool { cause })?;
             bodies[AXES - 1] = bodies[AXES - 1].with(&body.in_frame(tool.mounting_frame(robot).on_body()));
         }
         for (body, joint) in bodies.iter().zip(robot.joints()) {
@@ -182,6 +187,73 @@ fn mass_of(robot: &RobotModel, link: &Link) -> Result<Option<RigidBody>, Dynamic
         };
     };
     let part = RigidBody::from(inertial);
-    physical::check(&part).map_err(|cause| DynamicsError::Link { link: name(), cause })?;
+    body::check(&part).map_err(|cause| DynamicsError::Link { link: name(), cause })?;
     Ok(Some(part))
+}
+
+/// Joint axes and rigid-body inertias in the common frame.
+pub(crate) struct Pass {
+    /// z_i: direction of the axis.
+    pub axes: [Vector3<f64>; AXES],
+    /// r_i × z_i: velocity of the origin when the joint turns at 1 rad/s \[m\].
+    pub moments: [Vector3<f64>; AXES],
+    /// The bodies.
+    pub bodies: [Spatial; AXES],
+}
+
+/// A rigid body's spatial inertia about the common origin.
+#[derive(Clone, Copy)]
+pub(crate) struct Spatial {
+    /// m \[kg\].
+    pub mass: f64,
+    /// h = m d, d the centre of mass \[kg·m\].
+    pub first_moment: Vector3<f64>,
+    /// I about the origin \[kg·m²\].
+    pub inertia: Matrix3<f64>,
+}
+
+impl DynamicsModel {
+    /// Axes and inertias at `q` \[rad\].
+    #[inline(always)]
+    pub(crate) fn pass(&self, q: &JointVector) -> Pass {
+        let poses = self.poses(q);
+        let origin = poses[AXES - 1].translation;
+        let axis = |i: usize| -> Vector3<f64> { poses[i].rotation.column(2).into() };
+        Pass {
+            axes: std::array::from_fn(axis),
+            moments: std::array::from_fn(|i| (poses[i].translation - origin).cross(&axis(i))),
+            bodies: std::array::from_fn(|i| {
+                let (body, Rigid { rotation, translation }) = (&self.bodies[i], &poses[i]);
+                let d = translation - origin + rotation * body.com;
+                Spatial {
+                    mass: body.mass,
+                    first_moment: d * body.mass,
+                    inertia: rotation * body.about_com * rotation.transpose() + steiner(body.mass, &d),
+                }
+            }),
+        }
+    }
+
+    /// `T_base_i` of the six bodies at `q` \[rad\].
+    #[inline(always)]
+    pub(crate) fn poses(&self, q: &JointVector) -> [Rigid; AXES] {
+        let (sines, cosines) = sin_cos_lanes::<Separate, AXES>(q.as_ref());
+        let mut poses = self.folded;
+        let mut before = Rigid::identity();
+        for (i, pose) in poses.iter_mut().enumerate() {
+            *pose = before.then(pose).turned_about_z(sines[i], cosines[i]);
+            before = *pose;
+        }
+        poses
+    }
+}
+
+impl Spatial {
+    /// I v: moment and force of the momentum (or of the wrench) that belongs to an angular part `w` and a linear part `v`:
+    /// (I ω + h × v, m v − h × ω).
+    #[inline(always)]
+    pub fn times(&self, w: &Vector3<f64>, v: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        let h = &self.first_moment;
+        (self.inertia * w + h.cross(v), v * self.mass - h.cross(w))
+    }
 }

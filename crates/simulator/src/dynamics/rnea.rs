@@ -10,7 +10,7 @@
 //!
 //! with h = m c and I about the origin. Inwards f_{i−1} += R f_i, n_{i−1} += R n_i + t × R f_i, and τ_i = z · n_i.
 
-use super::model::{Body, DynamicsModel};
+use crate::dynamics::model::{Body, DynamicsModel};
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::trig::{Separate, sin_cos_lanes};

@@ -5,15 +5,14 @@
 //! plate, the sums over columns have a closed form: Σ share = 1, Σ share x = Σ share y = Σ share x y = 0 and Σ share x² = Σ share y² = m, as
 //! each ring of columns is a regular polygon of six corners or more. Then Σ share w = w₀ and Σ share w² = w₀² + m |s|².
 
-use super::felt::{Felt, Wrench, rim_within, share_within};
-use super::foam::{DENSE_STRAIN, Foam};
+use crate::plant::foam::{DENSE_STRAIN, Felt, Foam, Wrench, rim_within, share_within};
 use nalgebra::Vector3;
 use platewash_workcell::contact::{Columns, SpongePose};
 use std::f64::consts::PI;
 
 /// The columns of a sponge, for flat faces.
 #[derive(Debug, Clone)]
-pub(super) struct LevelColumns {
+pub(crate) struct LevelColumns {
     /// Place on the unit disc, and area \[m²\]; ring by ring, the outermost last.
     parts: Vec<([f64; 2], f64)>,
     /// Columns of the outermost ring: the most compressed one is among them.

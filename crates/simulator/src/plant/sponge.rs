@@ -11,11 +11,10 @@
 //! The law is one of the sponge's face. Where the tool leans more than about 50° from a plate's axis its side would meet the plate; energy and
 //! force then fade, to nothing at about 65°, with the moment about the tip that goes with it. No plan comes there.
 
-use super::felt::{Felt, Wrench, share_within};
-use super::foam::{DENSE_FACTOR, Foam};
-use super::level::LevelColumns;
-use super::state::PlantState;
 use crate::dynamics::{DynamicsModel, FrameMotion, MassMatrix};
+use crate::plant::arm::PlantState;
+use crate::plant::foam::{DENSE_FACTOR, Felt, Foam, Wrench, share_within};
+use crate::plant::level::LevelColumns;
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_workcell::contact::{Columns, Foundation, SpongePose};

@@ -5,55 +5,35 @@
 //!
 //! | concept | file |
 //! | --- | --- |
-//! | whether settings make sense | `settings.rs` |
-//! | how much work it may be | `work.rs` |
-//! | the loop of samples | `run.rs` |
-//! | about which configurations it must be stable | `footing.rs` |
-//! | segments of a plan in time | `schedule.rs` |
-//! | the executed motion, sample by sample | `execution.rs` |
-//! | it as CSV | `csv.rs` |
-//! | root mean square, 95 %, largest | `statistics.rs` |
-//! | errors of joints and tip | `tracking.rs` |
-//! | torques, work, power | `effort.rs` |
-//! | contact, coverage and verdict of a plate | `washing.rs`, `contact.rs`, `cause.rs` |
+//! | whether settings make sense | `error.rs` |
+//! | how much work it may be; the loop of samples; about which configurations it must be stable; segments of a plan in time | `run.rs` |
+//! | the executed motion, sample by sample; it as CSV | `execution.rs` |
+//! | root mean square, 95 %, largest; errors of joints and tip; torques, work, power; the tool's mass against the arm's payload | `measures.rs` |
+//! | contact, coverage and verdict of a plate | `washing.rs`, `run.rs` |
 //! | force while washing, contact lost | `pressing.rs` |
-//! | the tool's mass against the arm's payload | `payload.rs` |
 //! | all of it | `report.rs` |
 //! | it as text | `text.rs` |
 //! | many frequencies and dampings | `tune.rs` |
 
-mod cause;
-mod contact;
-mod csv;
-mod effort;
 mod error;
 mod execution;
-mod footing;
-mod payload;
+pub(crate) mod measures;
 mod pressing;
 mod report;
 mod run;
-mod schedule;
-mod settings;
-mod statistics;
 mod text;
-mod tracking;
 mod tune;
 mod washing;
-mod words;
-mod work;
 
-pub use cause::Cause;
-pub use csv::{HEADER, table};
-pub use effort::{Effort, JointEffort};
-pub use error::SimulationError;
-pub use execution::{Execution, Sample};
-pub use payload::{PayloadCheck, PayloadVerdict};
-pub use pressing::{ContactLost, ExecutedContact, ForceAtHeight, ForceRange, HEIGHT_ERRORS_M, Pressing};
-pub use report::{SimulationReport, SimulationVerdict};
-pub use run::{simulate, simulate_watched, simulate_with};
-pub use statistics::Spread;
-pub use tracking::{SegmentTracking, Tracking};
-pub use tune::{TuneOutcome, TuneRow, tune};
-pub use washing::{PlateOutcome, PlateVerdict};
-pub use work::{MAX_SAMPLES, MAX_STEPS};
+pub use crate::simulate::error::SimulationError;
+pub use crate::simulate::execution::{Execution, HEADER, Sample, table};
+pub use crate::simulate::measures::{
+    Effort, JointEffort, PayloadCheck, PayloadVerdict, SegmentTracking, Spread, Tracking,
+};
+pub use crate::simulate::pressing::{
+    ContactLost, ExecutedContact, ForceAtHeight, ForceRange, HEIGHT_ERRORS_M, Pressing,
+};
+pub use crate::simulate::report::{SimulationReport, SimulationVerdict};
+pub use crate::simulate::run::{MAX_SAMPLES, MAX_STEPS, simulate, simulate_watched, simulate_with};
+pub use crate::simulate::tune::{TuneOutcome, TuneRow, tune};
+pub use crate::simulate::washing::{Cause, PlateOutcome, PlateVerdict};

@@ -2,9 +2,9 @@
 //!
 //! Forces are those along the tool's axis, Σ p dA, as in the certificate. Measurements at samples, not bounds.
 
-use super::execution::Sample;
 use crate::dynamics::DynamicsModel;
 use crate::plant::{Felt, SpongeOnPlates};
+use crate::simulate::execution::Sample;
 use platewash_kinematics::{Frame, JointVector};
 use platewash_workcell::contact::{Foundation, Looks, Moment, SpongePose, Wanted};
 use platewash_workcell::job::ContactRequirements;
@@ -15,7 +15,7 @@ use serde::Serialize;
 pub const HEIGHT_ERRORS_M: [f64; 5] = [-0.002, -0.001, 0.0, 0.001, 0.002];
 
 /// The one of these at which the plate is where it should be.
-pub(super) const AS_STATED: usize = 2;
+pub(crate) const AS_STATED: usize = 2;
 
 /// Poses of a plan, at most, from which the force at another height is taken.
 const POSES: usize = 200;
@@ -89,7 +89,7 @@ pub struct Pressing {
 }
 
 /// What a wash is judged with.
-pub(super) struct Judge<'a> {
+pub(crate) struct Judge<'a> {
     pub model: &'a DynamicsModel,
     pub sponge: &'a SpongeOnPlates,
     pub tip: &'a Frame,

@@ -1,14 +1,12 @@
 //! The report of an execution.
 
-use super::contact::Contact;
-use super::effort::Effort;
-use super::error::SimulationError;
-use super::execution::Execution;
-use super::payload::{PayloadCheck, PayloadVerdict};
-use super::tracking::{self, SegmentTracking, Tracking};
-use super::washing::{self, PlateOutcome};
-use super::words::shown;
 use crate::plant::foam::{DENSE_FACTOR, DENSE_STRAIN};
+use crate::simulate::error::SimulationError;
+use crate::simulate::execution::Execution;
+use crate::simulate::measures::{self, Effort, PayloadCheck, PayloadVerdict, SegmentTracking, Tracking};
+use crate::simulate::run::Contact;
+use crate::simulate::text::shown;
+use crate::simulate::washing::{self, PlateOutcome};
 use platewash_kinematics::RobotModel;
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::Treatment;
@@ -75,7 +73,7 @@ impl SimulationVerdict {
 
 /// Whether a plan is as it was written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Seal {
+pub(crate) enum Seal {
     /// Its hash is that of its contents.
     Whole,
     /// It is not, or there is none.
@@ -83,7 +81,7 @@ pub(super) enum Seal {
 }
 
 impl Seal {
-    pub(super) fn of(plan: &Plan) -> Self {
+    pub(crate) fn of(plan: &Plan) -> Self {
         if plan.is_sealed() { Self::Whole } else { Self::Broken }
     }
 }
@@ -127,7 +125,7 @@ pub struct SimulationReport {
 }
 
 impl SimulationReport {
-    /// Judges an execution of `plan` by [`super::simulate`] with that arm and those settings.
+    /// Judges an execution of `plan` by [`crate::simulate::simulate`] with that arm and those settings.
     ///
     /// # Errors
     /// [`SimulationError::Coverage`] for plates or sponges that make no sense.
@@ -141,7 +139,7 @@ impl SimulationReport {
     }
 
     /// The report where it is known whether the plan is as it was written.
-    pub(super) fn judge(
+    pub(crate) fn judge(
         plan: &Plan,
         robot: &RobotModel,
         settings: &SimulationSettings,
@@ -150,7 +148,7 @@ impl SimulationReport {
     ) -> Result<Self, SimulationError> {
         let plan = &*plan.seen_from_base();
         let contact = Contact::new(plan, robot);
-        let tip_errors = tracking::tip_errors(execution, robot, contact.tip());
+        let tip_errors = measures::tip_errors(execution, robot, contact.tip());
         let dry_run = plan.job.dry_run.clone();
         let plates = washing::plates(plan, robot, settings, execution)?;
         let payload = PayloadCheck::new(&plan.job.workcell.tool, settings.payload_kg, robot);
@@ -166,7 +164,7 @@ impl SimulationReport {
         let before = dry_run
             .as_ref()
             .map_or_else(String::new, |dry_run| dry_run.words() + "; ");
-        let tracking = tracking::tracking(&execution.samples, &tip_errors);
+        let tracking = measures::tracking(&execution.samples, &tip_errors);
         Ok(Self {
             scenario: plan.provenance.scenario.clone(),
             seed: plan.job.seed,
@@ -188,7 +186,7 @@ impl SimulationReport {
             period_s: execution.period_s,
             plates,
             tracking,
-            segments: tracking::by_segment(execution, &plan.segments, &tip_errors),
+            segments: measures::by_segment(execution, &plan.segments, &tip_errors),
             effort: Effort::of(execution),
             payload,
             assumptions: assumptions(plan, settings),

@@ -1,22 +1,27 @@
 //! The loop of samples: reference, law, plant.
+//!
+//! Segments of a plan in time.
+//!
+//! How much work an execution may be.
+//!
+//! The sponge on a plate.
+//!
+//! About which configurations a run must be stable: with nothing touching, and with the sponge on plates.
 
-use super::contact::Contact;
-use super::error::SimulationError;
-use super::execution::{Execution, Sample};
-use super::footing::{check_steps, sponge, standings};
-use super::schedule::Schedule;
-use super::settings;
-use super::work::{MAX_SAMPLES, MAX_STEPS, highest_rate};
 use crate::control::{self, Command, ControlError, ControlLaw, Reference, Standing};
 use crate::dynamics::DynamicsModel;
-use crate::plant::{Felt, Plant, PlantState, SpongeOnPlates};
-use platewash_kinematics::words::rounded;
-use platewash_kinematics::{JointVector, Pose, RobotModel};
+use crate::plant::{Felt, Plant, PlantState, SpongeOnPlates, longest_step_s};
+use crate::simulate::error::{self, SimulationError};
+use crate::simulate::execution::{Execution, Sample};
+use nalgebra::Vector3;
+use platewash_kinematics::words::{rounded, rounded_down, rounded_up};
+use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
+use platewash_workcell::plate::Plate;
 use platewash_workcell::simulation::SimulationSettings;
-use platewash_workcell::trajectory::SegmentKind;
-use platewash_workcell::trajectory::{JointState, Trajectory};
+use platewash_workcell::tool::Sponge;
+use platewash_workcell::trajectory::{JointState, PlanSegment, SegmentKind, Trajectory};
 
 /// Significant digits of a rate in messages.
 const RATE_DIGITS: usize = 6;
@@ -66,7 +71,7 @@ pub fn simulate_watched(
     plan.job.validate()?;
     let mount = plan.job.workcell.mount;
     let plan = &*plan.seen_from_base();
-    settings::check(settings, &plan.job.workcell.tool)?;
+    error::check(settings, &plan.job.workcell.tool)?;
     let motion = plan.knots.motion()?;
     let schedule = Schedule::new(plan, settings.period_s())?;
     let count = count(motion.duration_s(), settings.period_s(), settings.plant.substeps)?;
@@ -303,6 +308,189 @@ fn check_bounded(t_s: f64, state: &PlantState) -> Result<(), SimulationError> {
         }),
         None => Ok(()),
     }
+}
+
+/// What a sampling time may be past a segment's end and still belong to it, as a part of the sampling period: rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// The segment at ascending times.
+#[derive(Debug, Clone)]
+pub(crate) struct Schedule<'a> {
+    segments: &'a [PlanSegment],
+    index: usize,
+    slack_s: f64,
+}
+
+impl<'a> Schedule<'a> {
+    /// The segments of a plan, looked up every `period_s`.
+    ///
+    /// # Errors
+    /// [`SimulationError::Empty`] without segments, [`SimulationError::Plate`] for a segment of no plate.
+    pub fn new(plan: &'a Plan, period_s: f64) -> Result<Self, SimulationError> {
+        let (segments, plates) = (&plan.segments[..], plan.job.plates.len());
+        if segments.is_empty() || plan.knots.t_s.is_empty() {
+            return Err(SimulationError::Empty {
+                knots: plan.knots.t_s.len(),
+                segments: segments.len(),
+            });
+        }
+        if let Some(segment) = segments.iter().position(|s| s.plate >= plates) {
+            let plate = segments[segment].plate;
+            return Err(SimulationError::Plate { segment, plate, plates });
+        }
+        Ok(Self {
+            segments,
+            index: 0,
+            slack_s: ROUNDING * period_s,
+        })
+    }
+
+    /// Index of the segment that ends at or after `t`, not before the one asked for last; the last one beyond the end.
+    pub fn at(&mut self, t: f64) -> usize {
+        while self.index + 1 < self.segments.len() && self.segments[self.index].t_end_s + self.slack_s < t {
+            self.index += 1;
+        }
+        self.index
+    }
+
+    /// A segment.
+    pub fn segment(&self, index: usize) -> &'a PlanSegment {
+        &self.segments[index]
+    }
+
+    /// The plate that the sponge shall be on in a segment, if on any.
+    pub fn washed_plate(&self, index: usize) -> Option<usize> {
+        let segment = &self.segments[index];
+        (segment.kind == SegmentKind::Wash).then_some(segment.plate)
+    }
+}
+
+/// Most samples of an execution, some 500 MB.
+pub const MAX_SAMPLES: usize = 2_000_000;
+
+/// Most steps of integration.
+pub const MAX_STEPS: usize = 50_000_000;
+
+/// Significant digits of a rate or period that is suggested.
+const DIGITS: usize = 3;
+
+/// Periods of an execution that is not too much work, but for two of rounding.
+fn most_periods(substeps: usize) -> f64 {
+    MAX_SAMPLES.min(MAX_STEPS / substeps.max(1)).saturating_sub(3) as f64
+}
+
+/// A rate \[Hz\] at which so much motion is not too much work.
+pub(crate) fn highest_rate(duration_s: f64, substeps: usize) -> f64 {
+    rounded_down(most_periods(substeps) / duration_s, DIGITS)
+}
+
+/// A period \[s\] with which it is not.
+pub(crate) fn shortest_period(duration_s: f64, substeps: usize) -> f64 {
+    rounded_up(duration_s / most_periods(substeps), DIGITS)
+}
+
+/// Tip and plates.
+#[derive(Debug, Clone)]
+pub(crate) struct Contact<'a> {
+    tip: Frame,
+    sponge: &'a Sponge,
+    plates: &'a [Plate],
+}
+
+impl<'a> Contact<'a> {
+    pub fn new(plan: &'a Plan, robot: &RobotModel) -> Self {
+        let tool = &plan.job.workcell.tool;
+        Self {
+            tip: tool.tip_frame(robot),
+            sponge: &tool.sponge,
+            plates: &plan.job.plates,
+        }
+    }
+
+    /// The frame of the tip.
+    pub fn tip(&self) -> &Frame {
+        &self.tip
+    }
+
+    /// Torques of the plate's force \[N\] on the sponge, where it touches \[N·m\].
+    pub fn push(&self, model: &DynamicsModel, q: &JointVector, plate: usize, force_n: f64) -> JointVector {
+        let plate = &self.plates[plate];
+        let tip: Vector3<f64> = model.position(q, &self.tip).coords;
+        if plate.height_of(&tip) > self.sponge.compression_m {
+            return JointVector::zeros();
+        }
+        model.torque_of_force(q, &self.tip, &(plate.axis() * force_n))
+    }
+}
+
+/// Configurations along a plan about which the sampled loop is checked, at most; as many in washes, on each kind of foam.
+const STABLE_AT: usize = 64;
+
+/// The sponge among the plates, where its foam is simulated.
+pub(crate) fn sponge(plan: &Plan, robot: &RobotModel, settings: &SimulationSettings) -> Option<SpongeOnPlates> {
+    if settings.law.is_kinematic() {
+        return None;
+    }
+    let contact = settings.plant.contact.as_ref()?;
+    SpongeOnPlates::new(robot, &plan.job.workcell.tool, &plan.job.plates, contact)
+}
+
+/// Configurations along the motion, with nothing touching, and those of washes with foam on the plate, as it is within its limit and bottoming
+/// out.
+pub(crate) fn standings(
+    plan: &Plan,
+    motion: &Trajectory,
+    plant: &Plant,
+    sponge: Option<&SpongeOnPlates>,
+) -> Vec<Standing> {
+    let stride = motion.positions().len().div_ceil(STABLE_AT).max(1);
+    let free = motion.positions().iter().step_by(stride).map(|q| Standing::from(*q));
+    let mut all: Vec<_> = free.collect();
+    let Some(sponge) = sponge else { return all };
+    let washes = plan.segments.iter().filter(|segment| segment.kind == SegmentKind::Wash);
+    let each = (STABLE_AT / washes.clone().count().max(1)).max(1);
+    for segment in washes {
+        let moments = (0..each).map(|k| (k as f64 + 0.5) / each as f64);
+        let moments = moments.map(|share| segment.t_start_s + share * (segment.t_end_s - segment.t_start_s));
+        for q in moments.filter_map(|t_s| motion.at(t_s)).map(|state| state.q) {
+            let slopes = sponge.slopes(&plant.model, &q, segment.plate);
+            all.extend(slopes.map(|slope| Standing {
+                q,
+                contact: Some(slope),
+            }));
+        }
+    }
+    all
+}
+
+/// Whether the steps of integration are short enough for the foam.
+///
+/// # Errors
+/// [`SimulationError::StiffContact`], with what would do.
+pub(crate) fn check_steps(
+    plant: &Plant,
+    standings: &[Standing],
+    settings: &SimulationSettings,
+) -> Result<(), SimulationError> {
+    let Some(contact) = &settings.plant.contact else {
+        return Ok(());
+    };
+    let longest = |at: &Standing| {
+        let slope = at.contact.as_ref()?;
+        Some(longest_step_s(&plant.model.mass_matrix(&at.q), slope, plant.integrator))
+    };
+    let longest_s = standings.iter().filter_map(longest).fold(f64::INFINITY, f64::min);
+    let (substeps, period_s) = (settings.plant.substeps, settings.period_s());
+    if period_s / (substeps as f64) <= longest_s {
+        return Ok(());
+    }
+    Err(SimulationError::StiffContact {
+        stiffness_pa: contact.stiffness_pa,
+        rate_hz: rounded(1.0 / period_s, RATE_DIGITS),
+        substeps,
+        least_substeps: (period_s / longest_s * (1.0 + 1e-9)).ceil() as usize,
+        least_rate_hz: 1.0 / (longest_s * substeps as f64),
+    })
 }
 
 #[cfg(test)]

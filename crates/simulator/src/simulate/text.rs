@@ -1,12 +1,11 @@
 //! The report as a person reads it.
+//!
+//! Numbers as people read them.
 
-use super::effort::Effort;
-use super::payload::PayloadVerdict;
-use super::pressing::{AS_STATED, ForceRange, HEIGHT_ERRORS_M, Pressing};
-use super::report::{SimulationReport, SimulationVerdict};
-use super::tracking::Tracking;
-use super::words::shown;
-use platewash_kinematics::words::{percent, told_apart};
+use crate::simulate::measures::{Effort, PayloadVerdict, Tracking};
+use crate::simulate::pressing::{AS_STATED, ForceRange, HEIGHT_ERRORS_M, Pressing};
+use crate::simulate::report::{SimulationReport, SimulationVerdict};
+use platewash_kinematics::words::{percent, rounded, told_apart};
 use std::fmt::{self, Display, Formatter};
 
 impl Display for SimulationReport {
@@ -219,4 +218,12 @@ fn payload(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
         ),
     };
     writeln!(f, "payload: {line}")
+}
+
+/// Significant digits of what a job states.
+const SHOWN_DIGITS: usize = 6;
+
+/// What a job states, as people read it.
+pub(crate) fn shown(value: f64) -> f64 {
+    rounded(value, SHOWN_DIGITS)
 }

@@ -1,8 +1,8 @@
 //! Many frequencies and dampings: the trade-off between tip error, torque and coverage.
 
-use super::error::SimulationError;
-use super::report::{Seal, SimulationReport, SimulationVerdict};
-use super::run::simulate_with;
+use crate::simulate::error::SimulationError;
+use crate::simulate::report::{Seal, SimulationReport, SimulationVerdict};
+use crate::simulate::run::simulate_with;
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use platewash_workcell::plan::Plan;

@@ -1,11 +1,10 @@
 //! The eight branches.
+//!
+//! The names of the branches, and where they end.
 
-use super::arm::AnalyticArm;
-use super::error::{AnalyticError, check_finite};
-use super::label::{Degenerate, Elbow, Label, OutOfReach, Shoulder};
-use super::position::{Bend, Goal, Swing};
-use super::wrist::Turn;
 use crate::JointVector;
+use crate::ik::analytic::wrist::{Bend, Goal, Swing, Turn};
+use crate::ik::analytic::{AnalyticArm, AnalyticError, check_finite};
 use crate::rotation::Rigid;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
@@ -57,7 +56,7 @@ impl AnalyticArm {
     }
 
     /// All branches in the order of [`Label::ALL`], each with its wrist.
-    pub(super) fn all_branches(
+    pub(crate) fn all_branches(
         &self,
         target: &Rigid,
         previous: &JointVector,
@@ -105,4 +104,121 @@ fn principal(angle: f64) -> f64 {
     }
     let turned = angle - TAU * (angle / TAU).round();
     if turned <= -PI { turned + TAU } else { turned }
+}
+
+/// On which side of axis 1 the wrist centre lies, in the direction the arm faces. The two meet in the plane that
+/// holds axis 1 and is parallel to axis 2.
+///
+/// The front is the side of axis 2; where axes 1 and 2 meet, the side of the wrist centre at q = 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shoulder {
+    /// The wrist centre is in front.
+    Front,
+    /// The wrist centre is behind, over the arm's shoulder.
+    Back,
+}
+
+/// To which side the forearm is bent out of the upper arm's line. The two meet at full stretch and full fold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Elbow {
+    /// Bent outwards and down: towards the front when [`Shoulder::Front`], towards the back when [`Shoulder::Back`], so
+    /// that the elbow is above the line from shoulder to wrist centre for a wrist centre further out.
+    Up,
+    /// Bent the other way.
+    Down,
+}
+
+/// The sense of axis 5 (as the description directs it) against axes 4 and 6. The two meet where axes 4 and 6 are
+/// parallel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Wrist {
+    /// Axis 5 points along axis 4 × axis 6.
+    Plain,
+    /// Axis 5 points against axis 4 × axis 6.
+    Flipped,
+}
+
+/// The name of a branch. It depends on where the arm's axes are, not on zero positions or turns, and so stays the
+/// same along any path that crosses no singularity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Label {
+    /// Shoulder side.
+    pub shoulder: Shoulder,
+    /// Elbow side.
+    pub elbow: Elbow,
+    /// Wrist sense.
+    pub wrist: Wrist,
+}
+
+impl Label {
+    /// All eight: front before back, then up before down, then plain before flipped.
+    pub const ALL: [Self; 8] = {
+        use {Elbow::*, Shoulder::*, Wrist::*};
+        [
+            Self::new(Front, Up, Plain),
+            Self::new(Front, Up, Flipped),
+            Self::new(Front, Down, Plain),
+            Self::new(Front, Down, Flipped),
+            Self::new(Back, Up, Plain),
+            Self::new(Back, Up, Flipped),
+            Self::new(Back, Down, Plain),
+            Self::new(Back, Down, Flipped),
+        ]
+    };
+
+    /// A label from its parts.
+    #[must_use]
+    pub const fn new(shoulder: Shoulder, elbow: Elbow, wrist: Wrist) -> Self {
+        Self { shoulder, elbow, wrist }
+    }
+
+    /// Position in [`Label::ALL`].
+    #[must_use]
+    pub const fn index(self) -> usize {
+        4 * self.shoulder as usize + 2 * self.elbow as usize + self.wrist as usize
+    }
+}
+
+/// Where a branch meets its neighbour or leaves a joint free.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Degenerate {
+    /// Front and back meet; with b = 0 joint 1 is free and keeps its previous value.
+    pub shoulder: bool,
+    /// Elbow up and down meet (full stretch or full fold).
+    pub elbow: bool,
+    /// Axes 4 and 6 are parallel: joint 4 is free and keeps its previous value.
+    pub wrist: bool,
+}
+
+/// Which border of the reachable space lies before the wrist centre.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ReachBorder {
+    /// Too far from axis 2: the arm at full stretch.
+    Stretch,
+    /// Too close to axis 2: the arm fully folded.
+    Fold,
+    /// Too close to axis 1: inside the column of radius |b|.
+    Column,
+}
+
+/// A wrist centre that one shoulder side cannot reach.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
+#[error("the wrist centre is {by_m:.3e} m beyond {border:?}")]
+pub struct OutOfReach {
+    /// The border.
+    pub border: ReachBorder,
+    /// Distance of the wrist centre from that border, in the plane of the arm \[m\].
+    pub by_m: f64,
+}
+
+impl OutOfReach {
+    /// Beyond everything: no wrist centre is as bad.
+    pub(crate) const NOWHERE: Self = Self {
+        border: ReachBorder::Stretch,
+        by_m: f64::INFINITY,
+    };
 }

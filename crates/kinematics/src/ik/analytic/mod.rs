@@ -52,29 +52,126 @@
 //! A joint is taken as within its limits up to [`LIMIT_ROUNDING_RAD`] and set onto the limit. Near a singularity a
 //! joint may be uncertain by more than that; a branch within [`LIMIT_NEAR_RAD`] is moved onto the limit and the other
 //! joints closed by Gauss–Newton, and counts only if the pose is met to [`CLOSED`] m and rad.
+//!
+//! An arm with a closed form, in its own terms.
+//!
+//! What counts as zero, as a limit, as met.
+//!
+//! Why there is no analytic answer.
 
 mod all;
-mod arm;
 mod branch;
-mod critical;
-mod error;
-mod label;
 mod nearest;
-mod position;
 mod recognise;
-mod settle;
-mod tolerance;
-mod window;
 mod wrist;
 
-pub use all::{Configurations, Rejection, Solution, Solutions};
-pub use arm::AnalyticArm;
-pub use branch::{Branch, Branches};
-pub use error::AnalyticError;
-pub use label::{Degenerate, Elbow, Label, OutOfReach, ReachBorder, Shoulder, Wrist};
-pub use nearest::Nearest;
-pub use recognise::NotAnalytic;
-pub use tolerance::{
-    CLOSED, FREE_SHOULDER_M, FREE_WRIST_RAD, GEOMETRY_TOLERANCE_M, GEOMETRY_TOLERANCE_RAD, LIMIT_NEAR_RAD,
-    LIMIT_ROUNDING_RAD, MOST_TURNS, REACH_ROUNDING_M, SHORTEST_LINK_M,
+pub use crate::ik::analytic::all::{Configurations, Rejection, Solution, Solutions};
+pub use crate::ik::analytic::branch::{
+    Branch, Branches, Degenerate, Elbow, Label, OutOfReach, ReachBorder, Shoulder, Wrist,
 };
+pub use crate::ik::analytic::nearest::Nearest;
+pub use crate::ik::analytic::recognise::NotAnalytic;
+
+use crate::rotation::Rigid;
+use crate::{AXES, JointVector, LimitViolation};
+use nalgebra::{Complex, Matrix3};
+
+/// An arm whose inverse kinematics has a closed form: see the [module](super) text. Immutable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AnalyticArm {
+    /// `F_i` of the model.
+    pub(crate) folded: [Rigid; AXES],
+    /// `T_S_base`: base coordinates to the shoulder frame at q₁ = 0.
+    pub(crate) shoulder_from_base: Rigid,
+    /// Wrist centre on the z axis of body 6 \[m\].
+    pub(crate) wrist_along_axis_6: f64,
+    /// x of axis 2 in the shoulder frame, a₁ \[m\].
+    pub(crate) shoulder_offset: f64,
+    /// y of the wrist centre in the shoulder frame, b \[m\]; exactly 0 when within tolerance.
+    pub(crate) lateral_offset: f64,
+    /// Upper arm L₂ and forearm L₃ \[m\].
+    pub(crate) lengths: [f64; 2],
+    /// +1 where axis 2 (axis 3) points along y of the shoulder frame, −1 where against it.
+    pub(crate) signs: [f64; 2],
+    /// `e^{i φ₂}` at q₂ = 0.
+    pub(crate) upper_at_zero: Complex<f64>,
+    /// ψ at q₃ = 0 \[rad\], and `e^{i ψ}` there.
+    pub(crate) bend_at_zero: f64,
+    pub(crate) turn_at_zero: Complex<f64>,
+    /// `Kᵀ`, K the rotation from the z–y–z wrist's first frame to the shoulder frame at q₁ = q₂ = q₃ = 0.
+    pub(crate) wrist_from_shoulder: Matrix3<f64>,
+    /// α₅ and α₆ \[rad\].
+    pub(crate) wrist_at_zero: [f64; 2],
+}
+
+/// Largest deviation of a length that must be zero for an arm to be recognised \[m\].
+pub const GEOMETRY_TOLERANCE_M: f64 = 1e-10;
+/// Largest deviation of an angle that must be 0° or 90° for an arm to be recognised \[rad\].
+pub const GEOMETRY_TOLERANCE_RAD: f64 = 1e-10;
+/// Shortest upper arm and forearm \[m\].
+pub const SHORTEST_LINK_M: f64 = 1e-3;
+/// A target this far beyond full stretch, full fold or the column around axis 1 is still answered \[m\].
+pub const REACH_ROUNDING_M: f64 = 5e-10;
+/// A wrist centre this close to axis 1 (or axis 2, where the arm can fold so far) leaves the joint free \[m\].
+pub const FREE_SHOULDER_M: f64 = 1e-10;
+/// Axes 4 and 6 this close to parallel leave joint 4 free \[rad\].
+pub const FREE_WRIST_RAD: f64 = 1e-10;
+/// A joint this far beyond a limit is set onto it \[rad\].
+pub const LIMIT_ROUNDING_RAD: f64 = 1e-11;
+/// A branch this far beyond a limit is moved onto it if the other joints can make up for it \[rad\].
+pub const LIMIT_NEAR_RAD: f64 = 1e-5;
+/// … to this much \[m and rad\].
+pub const CLOSED: f64 = 2e-10;
+/// At most this many whole turns of a continuous joint are followed, either way.
+pub const MOST_TURNS: f64 = 1000.0;
+
+/// Why there is no analytic answer.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AnalyticError {
+    /// The target has NaN or infinite entries.
+    #[error("the target pose is not finite: position {position:?} m")]
+    Target {
+        /// The position as given.
+        position: [f64; 3],
+    },
+    /// The start has a NaN or infinite entry.
+    #[error("the start of joint {} is not finite: {found}", .joint + 1)]
+    Start {
+        /// Joint index, 0 for joint 1.
+        joint: usize,
+        /// What was given \[rad\].
+        found: f64,
+    },
+    /// No branch reaches the wrist centre; the one that misses it by least.
+    #[error("out of reach: {0}")]
+    OutOfReach(OutOfReach),
+    /// Every branch that reaches the target breaks a limit; the one that breaks its worst limit by least.
+    #[error(
+        "outside the limits: the nearest branch needs joint {} at {} rad, limit {} rad",
+        .violation.joint + 1, .violation.position_rad, .violation.limit_rad
+    )]
+    Limits {
+        /// The branch.
+        label: Label,
+        /// Its worst joint.
+        violation: LimitViolation,
+    },
+}
+
+/// Refuses targets and starts with NaN or infinite entries.
+#[inline]
+pub(crate) fn check_finite(target: &Rigid, start: &JointVector) -> Result<(), AnalyticError> {
+    // A sum is finite only if its terms are; targets so large that it overflows are no poses either.
+    if !(target.rotation.sum() + target.translation.sum()).is_finite() {
+        let position = target.translation.into();
+        return Err(AnalyticError::Target { position });
+    }
+    match (0..AXES).find(|&joint| !start[joint].is_finite()) {
+        Some(joint) => Err(AnalyticError::Start {
+            joint,
+            found: start[joint],
+        }),
+        None => Ok(()),
+    }
+}

@@ -1,14 +1,15 @@
 //! The answer nearest to a start.
+//!
+//! Joint limits and the start against which values are weighed.
 
-use super::all::{Rejection, Solutions};
-use super::arm::AnalyticArm;
-use super::error::{AnalyticError, check_finite};
-use super::label::{Degenerate, Elbow, Label, OutOfReach, Shoulder, Wrist};
-use super::position::{Bend, Goal, Swing};
-use super::window::Window;
+use crate::ik::analytic::all::{Rejection, Solutions};
+use crate::ik::analytic::branch::{Degenerate, Elbow, Label, OutOfReach, Shoulder, Wrist};
+use crate::ik::analytic::wrist::{Bend, Goal, Swing};
+use crate::ik::analytic::{AnalyticArm, AnalyticError, LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, MOST_TURNS, check_finite};
 use crate::rotation::Rigid;
 use crate::{JointLimits, JointVector, LimitViolation};
 use serde::Serialize;
+use std::f64::consts::TAU;
 
 /// A configuration within the limits, and how far it is from the start.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -29,7 +30,7 @@ impl AnalyticArm {
     /// all branches and whole turns. Equals go to the first in [`Label::ALL`], and to the turn further from zero.
     ///
     /// Free joints keep their value in `start` (set to the nearer limit if it is outside), as far as the
-    /// limits of the others allow. A continuous joint follows the start for up to [`super::MOST_TURNS`] turns.
+    /// limits of the others allow. A continuous joint follows the start for up to [`crate::ik::analytic::MOST_TURNS`] turns.
     ///
     /// # Errors
     /// [`AnalyticError`]: the input is not finite, or the branch that misses the reach or the limits by least.
@@ -147,4 +148,90 @@ fn least_miss(solutions: &Solutions) -> AnalyticError {
         (label, Rejection::Limit(violation)) => AnalyticError::Limits { label, violation },
         (_, Rejection::OutOfReach(miss)) => AnalyticError::OutOfReach(miss),
     }
+}
+
+/// Limits and a start.
+pub(crate) struct Window<'a> {
+    pub limits: &'a JointLimits,
+    pub start: JointVector,
+    /// The start within the limits: the value within limits that is nearest to it is nearest to the start too.
+    pub anchor: JointVector,
+}
+
+impl<'a> Window<'a> {
+    #[inline]
+    pub fn new(limits: &'a JointLimits, start: &JointVector) -> Self {
+        let reach = JointVector::repeat(MOST_TURNS * TAU);
+        Self {
+            limits,
+            start: *start,
+            anchor: limits.clamp(start).sup(&-reach).inf(&reach),
+        }
+    }
+
+    /// The same window with joint 1, where it is free, kept at another value \[rad\].
+    pub fn anchored(&self, q1: f64) -> Self {
+        let mut anchor = self.anchor;
+        anchor[0] = q1;
+        Self {
+            limits: self.limits,
+            start: self.start,
+            anchor,
+        }
+    }
+
+    /// The value `angle + 2πk` within the limits that is nearest to the start, or failing that the one
+    /// within [`LIMIT_NEAR_RAD`] of them.
+    #[inline]
+    pub fn value(&self, joint: usize, angle: f64) -> Option<f64> {
+        let q = angle + TAU * nearest_integer((self.anchor[joint] - angle) * (1.0 / TAU));
+        self.within(joint, q, LIMIT_ROUNDING_RAD)
+            .or_else(|| self.within(joint, q, LIMIT_NEAR_RAD))
+    }
+
+    /// `q`, at most half a turn from the anchor, or the next turn towards the limits.
+    #[inline]
+    fn within(&self, joint: usize, q: f64, slack: f64) -> Option<f64> {
+        let (lower, upper) = (self.limits.lower[joint] - slack, self.limits.upper[joint] + slack);
+        let q = if q > upper {
+            q - TAU
+        } else if q < lower {
+            q + TAU
+        } else {
+            q
+        };
+        (lower <= q && q <= upper).then_some(q)
+    }
+
+    /// How far the turn of `angle` that misses the limits by least misses them, and at which value \[rad\].
+    pub fn miss(&self, joint: usize, angle: f64) -> (f64, LimitViolation) {
+        let (lower, upper) = (self.limits.lower[joint], self.limits.upper[joint]);
+        let q = angle + TAU * nearest_integer((self.anchor[joint] - angle) / TAU);
+        let miss = |position_rad: f64| {
+            let limit_rad = if position_rad < lower { lower } else { upper };
+            let violation = LimitViolation {
+                joint,
+                position_rad,
+                limit_rad,
+            };
+            ((lower - position_rad).max(position_rad - upper), violation)
+        };
+        [q - TAU, q + TAU]
+            .map(miss)
+            .into_iter()
+            .fold(miss(q), |best, other| if other.0 < best.0 { other } else { best })
+    }
+
+    /// Squared distance of the first joints' values from the start \[rad²\].
+    #[inline]
+    pub fn squared_distance(&self, q: &[f64]) -> f64 {
+        let squared = |(q, start): (&f64, &f64)| (q - start) * (q - start);
+        q.iter().zip(self.start.iter()).map(squared).sum()
+    }
+}
+
+/// The nearest integer, halves away from zero; the argument must fit an `i32`.
+#[inline]
+pub(crate) fn nearest_integer(x: f64) -> f64 {
+    f64::from((x + 0.5_f64.copysign(x)) as i32)
 }

@@ -1,8 +1,7 @@
 //! Recognising the structure: the geometry of the folded chain at q = 0, in the base frame.
 
-use super::arm::AnalyticArm;
-use super::tolerance::{GEOMETRY_TOLERANCE_M, GEOMETRY_TOLERANCE_RAD, SHORTEST_LINK_M};
-use crate::frame::Frame;
+use crate::ik::analytic::{AnalyticArm, GEOMETRY_TOLERANCE_M, GEOMETRY_TOLERANCE_RAD, SHORTEST_LINK_M};
+use crate::model::Frame;
 use crate::rotation::Rigid;
 use crate::trig::{atan2, sin_cos};
 use crate::{AXES, RobotModel};

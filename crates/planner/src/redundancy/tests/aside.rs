@@ -1,6 +1,6 @@
 //! Leaning away from what stands beside the arm.
 
-use super::*;
+use crate::redundancy::tests::*;
 use crate::scene::Stance;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;

@@ -1,6 +1,6 @@
 //! How the wrist is held by tools that lean.
 
-use super::*;
+use crate::redundancy::tests::*;
 use crate::scene::Stance;
 use platewash_kinematics::Pose;
 use platewash_workcell::tool_chain::{Handle, ToolChain};

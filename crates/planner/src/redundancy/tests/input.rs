@@ -1,6 +1,6 @@
 //! Input that makes no sense, and arms of other kinds.
 
-use super::*;
+use crate::redundancy::tests::*;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::urdf::MeshSource;
 

@@ -1,6 +1,6 @@
 //! Arms of other makers: branches that are searched for, and what follows where none is found.
 
-use super::*;
+use crate::redundancy::tests::*;
 use platewash_kinematics::urdf::MeshSource;
 
 /// No closed form here: its wrist is not spherical.

@@ -1,6 +1,6 @@
 //! Measurements, not run by default: `cargo test --release -p platewash-planner --lib redundancy -- --ignored --nocapture`.
 
-use super::*;
+use crate::redundancy::tests::*;
 use platewash_workcell::layout::{
     BaseFootprint, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing, sample,
 };
@@ -47,7 +47,7 @@ impl Tally {
                     }
                 }
                 let gentle = TiltPolicy::sloping(
-                    path.cone_rad.min(policy::GENTLE_TILT_RAD),
+                    path.cone_rad.min(crate::scene::stance::GENTLE_TILT_RAD),
                     world.scene.distance(&at),
                     path.curve.radius_m,
                 );

@@ -1,15 +1,21 @@
-use super::elsewhere::Elsewhere;
-use super::exhaustive::anywhere;
-use super::relocation::{MOST_CHECKS, nearest_washable, on_grid};
-use super::search::Graph;
-use super::task::Profile;
-use super::washable::{Cause, Points, Washable, washable};
-use super::washing::{by_policy, by_search, policies, search_starts};
-use super::*;
-use crate::scene::{Contact, Filter, Hindrance, Inverse, Scene, TiltPolicy, Width, policy};
+mod aside;
+mod held;
+mod input;
+mod other_arms;
+mod scale;
+
+use crate::redundancy::places::{Elsewhere, MOST_CHECKS, nearest_washable, on_grid};
+use crate::redundancy::search::Graph;
+use crate::redundancy::stuck::anywhere;
+use crate::redundancy::task::Profile;
+use crate::redundancy::washable::{Cause, Points, Washable, washable};
+use crate::redundancy::washing::{by_policy, by_search, policies, search_starts};
+use crate::redundancy::*;
+use crate::scene::{Contact, Filter, Hindrance, Inverse, Scene, TiltPolicy, Width, stance};
 use crate::trig::sin_cos;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use platewash_kinematics::{JointVector, RobotModel, rotation::Rigid};
+use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::{ClearanceModel, PairClearance};
 use platewash_workcell::fixtures::{kitchen_tool, workcell};
@@ -18,12 +24,6 @@ use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{StraightTool, Tool};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use proptest::prelude::*;
-
-mod aside;
-mod held;
-mod input;
-mod other_arms;
-mod scale;
 
 const RADIUS_M: f64 = 0.12385;
 const CLEARANCE_M: f64 = 0.01;
@@ -128,7 +128,8 @@ fn check(world: &World<'_>, path: &WashPath, washing: &Washing) {
     let (plate, limits) = (&scene.plates[path.plate], scene.robot.limits());
     assert_eq!(
         washing.theta,
-        path.curve.parameters(&plate.surface, settings::CHORD_ERROR_M)
+        path.curve
+            .parameters(&plate.surface, crate::redundancy::task::CHORD_ERROR_M)
     );
     assert_eq!([washing.q.len(), washing.tilt_rad.len()], [washing.theta.len(); 2]);
     let stance = scene.clone().leaning_aside(washing.aside_rad).stance;
@@ -259,7 +260,7 @@ proptest! {
             assert!(washing.travel_rad() < 15.0, "{}", washing.travel_rad());
             let rates = washing.tilt_rad.windows(2).zip(task.samples.length_m.windows(2));
             for (tilts, lengths) in rates {
-                assert!((tilts[1] - tilts[0]).abs() <= 1.05 * policy::FASTEST_RAD_M * (lengths[1] - lengths[0]) + 1e-12);
+                assert!((tilts[1] - tilts[0]).abs() <= 1.05 * stance::FASTEST_RAD_M * (lengths[1] - lengths[0]) + 1e-12);
             }
         });
     }

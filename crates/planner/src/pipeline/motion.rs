@@ -1,0 +1,198 @@
+//! Motions one after the other as one trajectory, and the plan's segments in time.
+//!
+//! Transits between the plates, and from and to home.
+//!
+//! Whether the tool keeps its largest tilt between the points that were solved too.
+
+use crate::error::PlanError;
+use crate::pipeline::shared::Pipeline;
+use crate::pipeline::visit::Visit;
+use crate::scene::{Scene, TILT_RESERVE_RAD};
+use crate::timing::Timed;
+use crate::transit::{self, BaseArc, LiftLine, Transit, TransitRules};
+use crate::trig::{asin, sin};
+use crate::watch::Activity;
+use nalgebra::Vector3;
+use platewash_kinematics::JointVector;
+use platewash_workcell::random;
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
+use platewash_workcell::wash_path::WashPath;
+
+/// The whole motion in time.
+#[derive(Debug)]
+pub(crate) struct Assembled {
+    pub motion: Trajectory,
+    pub segments: Vec<PlanSegment>,
+}
+
+#[derive(Default)]
+struct Assembly {
+    t_s: Vec<f64>,
+    q: Vec<JointVector>,
+    qd: Vec<JointVector>,
+    segments: Vec<PlanSegment>,
+}
+
+/// Joins `visits` by `transits`, one more than visits: from home, between, home.
+pub(crate) fn assemble(visits: &[Visit], transits: &[Transit]) -> Result<Assembled, PlanError> {
+    let mut assembly = Assembly::default();
+    for (k, transit) in transits.iter().enumerate() {
+        let plate = |visit: &Visit| visit.path.plate;
+        let (before, after) = (k.checked_sub(1).map(|k| &visits[k]), visits.get(k));
+        assembly.transit(before.map(plate), transit, after.map(plate));
+        if let Some(visit) = after {
+            assembly.declare(SegmentKind::Wash, plate(visit), &visit.wash, f64::INFINITY);
+            assembly.append(&visit.wash);
+        }
+    }
+    let Assembly { t_s, q, qd, segments } = assembly;
+    Ok(Assembled {
+        motion: Trajectory::from_knots(t_s, q, qd)?,
+        segments,
+    })
+}
+
+impl Assembly {
+    /// Retreat from a plate, free motion and approach to a plate of one transit.
+    fn transit(&mut self, before: Option<usize>, transit: &Transit, after: Option<usize>) {
+        let [leaves, enters] = transit.free;
+        let kind = match (before, after) {
+            (None, _) => SegmentKind::Depart,
+            (_, None) => SegmentKind::Return,
+            _ => SegmentKind::Transit,
+        };
+        let plate = after.or(before).unwrap_or(0);
+        if let Some(before) = before {
+            self.declare(SegmentKind::Retreat, before, &transit.timed, leaves);
+        }
+        self.declare(kind, plate, &transit.timed, enters);
+        if let Some(after) = after {
+            self.declare(SegmentKind::Approach, after, &transit.timed, f64::INFINITY);
+        }
+        self.append(&transit.timed);
+    }
+
+    /// Declares a segment up to the knot at `parameter` of a motion that is appended later, or up to its end.
+    fn declare(&mut self, kind: SegmentKind, plate: usize, timed: &Timed, parameter: f64) {
+        let start = self.t_s.last().copied().unwrap_or(0.0);
+        let last = timed.parameters.len() - 1;
+        // The knot there, whichever way its parameter was rounded.
+        let after = timed.parameters.partition_point(|u| *u < parameter).clamp(1, last);
+        let off = |knot: usize| (timed.parameters[knot] - parameter).abs();
+        let knot = if off(after - 1) < off(after) { after - 1 } else { after };
+        let t_start_s = self.segments.last().map_or(0.0, |s| s.t_end_s);
+        self.segments.push(PlanSegment {
+            kind,
+            plate,
+            t_start_s,
+            t_end_s: start + timed.motion.times()[knot],
+        });
+    }
+
+    /// Appends the knots of a motion; its first one is the last one so far.
+    fn append(&mut self, timed: &Timed) {
+        let start = self.t_s.last().copied().unwrap_or(0.0);
+        let from = usize::from(!self.t_s.is_empty());
+        let motion = &timed.motion;
+        self.t_s.extend(motion.times()[from..].iter().map(|t| start + t));
+        self.q.extend(&motion.positions()[from..]);
+        self.qd.extend(&motion.speeds()[from..]);
+    }
+}
+
+impl Pipeline<'_> {
+    /// Transits between neighbours of the lines over the plates, and from and to home; those that `wanted` names by their index.
+    /// Each draws from a stream of its own.
+    pub fn transits(
+        &self,
+        scene: &Scene<'_>,
+        lines: &[[&LiftLine; 2]],
+        wanted: impl Fn(usize) -> bool,
+    ) -> Result<Vec<Transit>, PlanError> {
+        let [start, end] = self.terms.home_rad.map(LiftLine::home);
+        let leaving = std::iter::once(&start).chain(lines.iter().map(|[_, exit]| *exit));
+        let entering = lines.iter().map(|[entry, _]| *entry).chain(std::iter::once(&end));
+        let rules = TransitRules {
+            scene,
+            limits: &self.transit,
+            clearance_m: self.clearance_m(),
+            arc: Some(BaseArc {
+                arc: self.settings.arc,
+                policy: self.policy(),
+            }),
+        };
+        let pairs = leaving.zip(entering).enumerate().filter(|(k, _)| wanted(*k));
+        let of = self.plates.len() + 1;
+        pairs
+            .map(|(k, (from, to))| {
+                (self.watch.tell)(&Activity::Transit { turn: k + 1, of });
+                let mut rng = random::stream(self.terms.seed, &format!("crossing {k}"));
+                Ok(transit::plan(&rules, from, to, &mut rng)?)
+            })
+            .collect()
+    }
+}
+
+/// Looks into every piece of the motion.
+const LOOKS: u32 = 16;
+
+/// What a tilt of zero may be by rounding \[rad\].
+const ROUNDING_RAD: f64 = 1e-8;
+
+/// The part of the usual reserve that is left for the certificate: it bounds the tilt between what is looked at here.
+const LEFT: f64 = 0.1;
+
+impl Pipeline<'_> {
+    /// Refuses a motion on which the tool, at a plate, tilts by more than the terms allow.
+    ///
+    /// # Errors
+    /// [`PlanError::Tilt`], with the worst place.
+    pub fn check_tilt(&self, scene: &Scene<'_>, whole: &Assembled, paths: &[WashPath]) -> Result<(), PlanError> {
+        let most_rad = self.terms.tilt_max_rad();
+        let left_rad = LEFT * TILT_RESERVE_RAD.min(0.5 * most_rad);
+        let most = sin(most_rad + ROUNDING_RAD - left_rad);
+        let times = whole.motion.times();
+        let mut worst: Option<(f64, SegmentKind, usize)> = None;
+        for segment in &whole.segments {
+            scene.check_cancelled()?;
+            let Some(face) = self.face(segment, paths) else {
+                continue;
+            };
+            let from = times.partition_point(|t| *t < segment.t_start_s);
+            let to = times.partition_point(|t| *t < segment.t_end_s);
+            for ends in times[from..=to.min(times.len() - 1)].windows(2) {
+                for k in 0..=LOOKS {
+                    let at = ends[0] + (ends[1] - ends[0]) * (f64::from(k) / f64::from(LOOKS));
+                    let Some(state) = whole.motion.at(at) else { continue };
+                    let tip = scene.robot.fk(&state.q).rigid(&scene.tip);
+                    let sine = tip.rotation.column(2).cross(&face(&tip.translation)).norm();
+                    if sine > worst.map_or(most, |(sine, ..)| sine) {
+                        worst = Some((sine, segment.kind, segment.plate));
+                    }
+                }
+            }
+        }
+        match worst {
+            None => Ok(()),
+            Some((sine, kind, plate)) => Err(PlanError::Tilt {
+                plate,
+                kind,
+                tilt_rad: asin(sine.min(1.0)),
+                most_rad,
+            }),
+        }
+    }
+
+    /// The normal from which the tilt counts at a place of the tip \[m\] in a segment at a plate: that of the line, or of the face.
+    fn face(&self, segment: &PlanSegment, paths: &[WashPath]) -> Option<impl Fn(&Vector3<f64>) -> Vector3<f64> + '_> {
+        let plate = self.plates.get(segment.plate)?;
+        let [start, end] = paths.iter().find(|path| path.plate == segment.plate)?.feet(plate);
+        let foot = match segment.kind {
+            SegmentKind::Approach => Some(start),
+            SegmentKind::Wash => None,
+            SegmentKind::Retreat => Some(end),
+            _ => return None,
+        };
+        Some(move |tip: &Vector3<f64>| plate.normal_at(&foot.unwrap_or(*tip)))
+    }
+}

@@ -1,0 +1,235 @@
+//! A plate at another place than its own, the others as they lie: whether it could be washed there.
+//!
+//! Where else a plate could lie to be washed whole.
+//!
+//! The chance that a plate can be washed, told in milliseconds: a guess to show while somebody thinks.
+
+use crate::redundancy::stuck::is_blocked;
+use crate::redundancy::task::{RedundancyError, Task};
+use crate::redundancy::washable::is_beyond_reach;
+use crate::redundancy::washing::by_policy;
+use crate::scene::{Scene, Width};
+use crate::trig::sin_cos;
+use nalgebra::Vector2;
+use platewash_kinematics::JointVector;
+use platewash_workcell::cancel::Cancelled;
+use platewash_workcell::clearance::{ClearanceModel, gap_of_plates};
+use platewash_workcell::layout::base_footprint;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::wash_path::WashPath;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// A plate to be looked at elsewhere.
+#[derive(Debug, Clone, Copy)]
+pub struct Elsewhere<'a> {
+    /// The scene, with the plates as they lie.
+    pub scene: &'a Scene<'a>,
+    /// Its bodies, to be moved.
+    pub clearance: &'a ClearanceModel,
+    /// The wash path on the plate to move.
+    pub path: &'a WashPath,
+    /// Clearance that must be kept \[m\].
+    pub clearance_m: f64,
+    /// The configuration it starts not far from \[rad\].
+    pub near: &'a JointVector,
+}
+
+/// One place after the other, with the plate moved there.
+#[derive(Debug, Clone)]
+pub struct Trial<'a> {
+    asked: Elsewhere<'a>,
+    plates: Vec<Plate>,
+    clearance: ClearanceModel,
+}
+
+impl<'a> Trial<'a> {
+    /// Trials with the plate of the wash path.
+    #[must_use]
+    pub fn new(asked: &Elsewhere<'a>) -> Self {
+        Self {
+            asked: *asked,
+            plates: asked.scene.plates.to_vec(),
+            clearance: asked.clearance.clone(),
+        }
+    }
+
+    /// The bodies, with the plate where it last had room.
+    pub fn bodies(&self) -> &ClearanceModel {
+        &self.clearance
+    }
+
+    /// Whether a policy of tilts washes the plate whole with its centre there \[m\], and it has room there: it overlaps neither
+    /// another plate nor the base.
+    ///
+    /// # Errors
+    /// [`RedundancyError`] for numbers out of range, or where the search was given up.
+    pub fn suits(&mut self, centre: &Vector2<f64>) -> Result<bool, RedundancyError> {
+        let Elsewhere {
+            scene,
+            path,
+            clearance_m,
+            near,
+            ..
+        } = self.asked;
+        scene.check_cancelled()?;
+        let (plate, count) = (path.plate, self.plates.len());
+        let lies = self
+            .plates
+            .get_mut(plate)
+            .ok_or(RedundancyError::Plate { plate, count })?;
+        let moved = scene.moved(lies, (*centre).into());
+        *lies = moved;
+        let mut others = self.plates.iter().enumerate().filter(|(i, _)| *i != path.plate);
+        let meets = |gap_m: f64| gap_m < 0.0;
+        let over_base = base_footprint(scene.robot).gap_m(&moved).is_some_and(meets);
+        if over_base || others.any(|(_, other)| meets(gap_of_plates(scene.robot, &moved, other))) {
+            return Ok(false);
+        }
+        self.clearance.lay(&self.plates);
+        if self.clearance.plate_in_base(path.plate).is_some() {
+            return Ok(false);
+        }
+        let scene = scene.among(&self.clearance, &self.plates);
+        let task = Task::new(&scene, path, clearance_m, near)?;
+        Ok(by_policy(&task, Width::Near)?.is_some())
+    }
+}
+
+/// Distance of the rings on which other positions are tried \[m\].
+pub const RING_M: f64 = 0.02;
+
+/// Rings tried.
+pub const RINGS: u32 = 30;
+
+/// How far from where a plate lies another place is looked for \[m\].
+pub const SEARCHED_M: f64 = 0.6;
+
+/// Places of the grid in a metre.
+const PER_METRE: f64 = 1000.0;
+
+/// Grid of the answers, so that they can be printed in full \[m\].
+pub const GRID_M: f64 = 1.0 / PER_METRE;
+
+/// Positions tried on a ring.
+const DIRECTIONS: u32 = 24;
+
+/// Halvings between a ring and the one within it.
+const HALVINGS: u32 = 6;
+
+/// Steps outwards from the least distance that suits, tried until one holds on the grid \[m\].
+const FURTHER_M: [f64; 7] = [0.0, 1e-3, 2e-3, 3e-3, 5e-3, 9e-3, 17e-3];
+
+/// Times that the caller's check is asked, at most: it may plan a whole job.
+pub const MOST_CHECKS: usize = 32;
+
+/// The nearest centre (x, y) on the grid of [`GRID_M`] \[m\] at which the plate can be washed whole by a policy of tilts,
+/// overlaps neither another plate nor the base, and `holds` agrees; `None` within [`SEARCHED_M`] of where it lies. Tried in 24
+/// directions on growing rings, halved towards where it lies, put on the grid, and stepped further out until the place on the
+/// grid itself passes: right to about a tenth of its distance. `holds` is asked [`MOST_CHECKS`] times at most; `tell` hears of
+/// each ring before it is tried, from 1 to [`RINGS`].
+///
+/// # Errors
+/// [`RedundancyError`] for numbers out of range, or where the search was given up.
+pub fn nearest_washable(
+    asked: &Elsewhere<'_>,
+    holds: &mut dyn FnMut(&Vector2<f64>) -> bool,
+    tell: &dyn Fn(u32),
+) -> Result<Option<Vector2<f64>>, RedundancyError> {
+    let (plate, plates) = (asked.path.plate, asked.scene.plates);
+    let count = plates.len();
+    let here = plates.get(plate).ok_or(RedundancyError::Plate { plate, count })?;
+    let here = Vector2::from(asked.scene.centre_in_world(here));
+    let mut trial = Trial::new(asked);
+    let at_rest = on_grid(&here);
+    if trial.suits(&at_rest)? && holds(&at_rest) {
+        return Ok(Some(at_rest));
+    }
+    let mut checks = 1;
+    for ring in 1..=RINGS {
+        tell(ring);
+        for (distance, away) in on_ring(&mut trial, &here, ring)? {
+            for further in FURTHER_M {
+                let place = on_grid(&(here + away * (distance + further)));
+                if !trial.suits(&place)? {
+                    continue;
+                }
+                if checks == MOST_CHECKS {
+                    return Ok(None);
+                }
+                checks += 1;
+                if holds(&place) {
+                    return Ok(Some(place));
+                }
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// Directions in which a place on the ring suits, and the least distance there that does \[m\]; the nearest first.
+fn on_ring(trial: &mut Trial<'_>, here: &Vector2<f64>, ring: u32) -> Result<Vec<(f64, Vector2<f64>)>, RedundancyError> {
+    let mut found = Vec::new();
+    for k in 0..DIRECTIONS {
+        let (s, c) = sin_cos(TAU * f64::from(k) / f64::from(DIRECTIONS));
+        let away = Vector2::new(c, s);
+        if trial.suits(&(here + away * (RING_M * f64::from(ring))))? {
+            found.push((halve(trial, here, &away, ring)?, away));
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(found)
+}
+
+/// The least distance from `here` in a direction that suits, between a ring that does and the one within it \[m\].
+fn halve(trial: &mut Trial<'_>, here: &Vector2<f64>, away: &Vector2<f64>, ring: u32) -> Result<f64, RedundancyError> {
+    let [mut bad, mut good] = [ring - 1, ring].map(|ring| RING_M * f64::from(ring));
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (bad + good);
+        if trial.suits(&(here + away * middle))? {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    Ok(good)
+}
+
+/// The nearest place of the grid; what three decimals print is it to the bit.
+pub(crate) fn on_grid(place: &Vector2<f64>) -> Vector2<f64> {
+    // Adding 0 makes −0 into 0.
+    place.map(|at| (at * PER_METRE).round() / PER_METRE + 0.0)
+}
+
+/// The chance that a plate can be washed whole: nothing is planned, nothing proved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Chance {
+    /// A policy of tilts washes it from end to end. How the arm gets there and away was not looked at.
+    Washable,
+    /// No policy washes it, and a search along the wash path finds nothing: some contact point is beyond the lengths of the links, or
+    /// without a configuration at any tilt that the search would try. Whether that proves anything,
+    /// [`Conclusion`](crate::redundancy::Conclusion) tells.
+    Unwashable,
+    /// Neither: a search may find a way.
+    Unclear,
+}
+
+/// The chance of a plate, where branches are searched for on those found from nearby.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn chance(task: &Task<'_>) -> Result<Chance, Cancelled> {
+    let mut contacts = task.samples.contact.iter();
+    if contacts.any(|contact| is_beyond_reach(task, &contact.point)) {
+        return Ok(Chance::Unwashable);
+    }
+    if by_policy(task, Width::Near)?.is_some() {
+        return Ok(Chance::Washable);
+    }
+    Ok(if is_blocked(task)? {
+        Chance::Unwashable
+    } else {
+        Chance::Unclear
+    })
+}

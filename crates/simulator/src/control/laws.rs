@@ -1,0 +1,258 @@
+//! What every law is asked and answers.
+//!
+//! A perfect servo.
+//!
+//! Gains of the torque laws.
+//!
+//! The paper's law, to the letter.
+//!
+//! Proportional–derivative control of independent joints.
+//!
+//! Proportional–derivative control with gravity compensation.
+//!
+//! Computed torque: the arm's own model makes every joint a double integrator.
+
+use crate::dynamics::DynamicsModel;
+use crate::plant::PlantState;
+use platewash_kinematics::{JointLimits, JointVector};
+use platewash_workcell::simulation::{ControlSettings, FeedForward};
+use platewash_workcell::trajectory::JointState;
+
+/// What is asked of the arm at a sample and at the next one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reference {
+    /// At the sample.
+    pub now: JointState,
+    /// At the next one.
+    pub next: JointState,
+}
+
+impl Reference {
+    /// To be at rest at `q` \[rad\], now and at the next sample: a waypoint.
+    #[must_use]
+    pub fn towards(q: JointVector) -> Self {
+        let still = JointVector::zeros();
+        let now = JointState {
+            q,
+            qd: still,
+            qdd: still,
+        };
+        Self { now, next: now }
+    }
+
+    /// Errors of position and speed at the sample \[rad, rad/s\].
+    pub(crate) fn errors(&self, state: &PlantState, feed: FeedForward) -> (JointVector, JointVector) {
+        let speed = match feed {
+            FeedForward::Velocity => self.now.qd - state.qd,
+            FeedForward::None => -state.qd,
+        };
+        (self.now.q - state.q, speed)
+    }
+}
+
+/// What a law answers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Command {
+    /// Joint torques, held until the next sample \[N·m\].
+    Torque(JointVector),
+    /// Joint positions at the next sample \[rad\]: there is no plant.
+    Position(JointVector),
+}
+
+/// A law that follows a commanded motion, sampled; or waypoints, one sample a waypoint.
+pub trait ControlLaw: std::fmt::Debug {
+    /// Called before the first sample of every segment of the plan.
+    fn begin_segment(&mut self) {}
+
+    /// The answer at one sample.
+    fn command(&mut self, reference: &Reference, state: &PlantState) -> Command;
+}
+
+/// The commanded configuration is taken at once.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ExactLaw;
+
+impl ControlLaw for ExactLaw {
+    fn command(&mut self, reference: &Reference, _state: &PlantState) -> Command {
+        Command::Position(reference.next.q)
+    }
+}
+
+/// Proportional and derivative gains, joint by joint: \[N·m/rad\] and \[N·m·s/rad\], or \[1/s²\] and \[1/s\] for computed
+/// torque.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gains {
+    /// Kp.
+    pub kp: JointVector,
+    /// Kd.
+    pub kd: JointVector,
+}
+
+/// What gains multiply.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Loop {
+    /// Torques: `pd` and `pd_gravity`.
+    Torque,
+    /// Accelerations: `computed_torque`.
+    Acceleration,
+}
+
+impl Gains {
+    /// Kp = M ω², Kd = 2 ζ ω M: a joint of inertia M alone is then a second-order system of natural frequency ω \[rad/s\] and
+    /// damping ratio ζ.
+    #[must_use]
+    pub fn of_frequency(inertia_kg_m2: &JointVector, frequency_rad_s: f64, damping_ratio: f64) -> Self {
+        Self {
+            kp: inertia_kg_m2 * (frequency_rad_s * frequency_rad_s),
+            kd: inertia_kg_m2 * (2.0 * damping_ratio * frequency_rad_s),
+        }
+    }
+
+    /// Those of the settings: given outright, or from frequency and damping with M each joint's largest inertia within the limits, 1
+    /// where they multiply accelerations.
+    #[must_use]
+    pub fn new(settings: &ControlSettings, of: Loop, model: &DynamicsModel, limits: &JointLimits) -> Self {
+        if let (Some(kp), Some(kd)) = (settings.joint_kp, settings.joint_kd) {
+            return Self {
+                kp: kp.into(),
+                kd: kd.into(),
+            };
+        }
+        let inertia = match of {
+            Loop::Acceleration => JointVector::repeat(1.0),
+            Loop::Torque => model.largest_inertias(limits),
+        };
+        Self::of_frequency(&inertia, settings.frequency_rad_s, settings.damping_ratio)
+    }
+}
+
+/// The paper's "PD control", to the letter: `e = q_des − q`, `de = (e − e_prev)/dt`, `u = Kp e + Kd de`,
+/// `q ← q + u dt`, with `e_prev` zero at the start of every segment.
+///
+/// There is no plant in it: `u` is a speed, and the law is the low-pass filter `q += Kp dt e + Kd Δe`. It steps once a sample towards
+/// the next sample's configuration, as the paper's program steps towards the next waypoint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PaperLaw {
+    /// Kp \[1/s\].
+    pub kp: f64,
+    /// Kd.
+    pub kd: f64,
+    /// Time step \[s\].
+    pub dt_s: f64,
+    previous_error: JointVector,
+}
+
+impl PaperLaw {
+    /// The law with the given gains and time step.
+    #[must_use]
+    pub fn new(kp: f64, kd: f64, dt_s: f64) -> Self {
+        Self {
+            kp,
+            kd,
+            dt_s,
+            previous_error: JointVector::zeros(),
+        }
+    }
+}
+
+impl ControlLaw for PaperLaw {
+    fn begin_segment(&mut self) {
+        self.previous_error = JointVector::zeros();
+    }
+
+    fn command(&mut self, reference: &Reference, state: &PlantState) -> Command {
+        let position = &state.q;
+        let error = reference.next.q - position;
+        let rate = (error - self.previous_error) / self.dt_s;
+        self.previous_error = error;
+        Command::Position(position + (error * self.kp + rate * self.kd) * self.dt_s)
+    }
+}
+
+/// τ = Kp e + Kd ė with e = q_d − q. Nothing holds the arm up: where it rests, Kp e = g(q).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pd {
+    /// Gains \[N·m/rad, N·m·s/rad\].
+    pub gains: Gains,
+    /// Whether ė is that of the error or of the arm alone.
+    pub feed_forward: FeedForward,
+}
+
+impl ControlLaw for Pd {
+    fn command(&mut self, reference: &Reference, state: &PlantState) -> Command {
+        let (position, speed) = reference.errors(state, self.feed_forward);
+        Command::Torque(self.gains.kp.component_mul(&position) + self.gains.kd.component_mul(&speed))
+    }
+}
+
+/// τ = Kp e + Kd ė + g(q): at rest the error is zero (Takegaki, Arimoto, *J. Dyn. Sys. Meas. Control* 103, 1981); moving, it
+/// is what accelerations need, about q̈_d/ω².
+#[derive(Debug, Clone, PartialEq)]
+pub struct PdGravity<'a> {
+    /// The arm as the law believes it to be.
+    pub model: &'a DynamicsModel,
+    /// Gains \[N·m/rad, N·m·s/rad\].
+    pub gains: Gains,
+    /// Whether ė is that of the error or of the arm alone.
+    pub feed_forward: FeedForward,
+}
+
+impl ControlLaw for PdGravity<'_> {
+    fn command(&mut self, reference: &Reference, state: &PlantState) -> Command {
+        let (position, speed) = reference.errors(state, self.feed_forward);
+        let correction = self.gains.kp.component_mul(&position) + self.gains.kd.component_mul(&speed);
+        Command::Torque(self.model.gravity_torque(&state.q) + correction)
+    }
+}
+
+/// τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q), one inverse dynamics; then ë + Kd ė + Kp e = 0 (Lynch, Park, *Modern
+/// Robotics*, §11.4.2).
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComputedTorque<'a> {
+    /// The arm as the law believes it to be.
+    pub model: &'a DynamicsModel,
+    /// Gains \[1/s², 1/s\].
+    pub gains: Gains,
+    /// Whether speeds and accelerations of the commanded motion are used.
+    pub feed_forward: FeedForward,
+}
+
+impl ControlLaw for ComputedTorque<'_> {
+    fn command(&mut self, reference: &Reference, state: &PlantState) -> Command {
+        let (position, speed) = reference.errors(state, self.feed_forward);
+        let correction = self.gains.kp.component_mul(&position) + self.gains.kd.component_mul(&speed);
+        let wanted = match self.feed_forward {
+            FeedForward::Velocity => reference.now.qdd + correction,
+            FeedForward::None => correction,
+        };
+        Command::Torque(self.model.inverse_dynamics(&state.q, &state.qd, &wanted))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By hand with Kp = 20, Kd = 0.1, dt = 0.01 towards a constant 1:
+    /// e₁ = 1, q₁ = 0.2·1 + 0.1·(1 − 0) = 0.3; e₂ = 0.7, q₂ = 0.3 + 0.2·0.7 + 0.1·(0.7 − 1) = 0.41.
+    #[test]
+    fn the_papers_law_steps_as_written() {
+        let mut law = PaperLaw::new(20.0, 0.1, 0.01);
+        let target = Reference::towards(JointVector::repeat(1.0));
+        let mut step = |q: JointVector| match law.command(&target, &PlantState::at_rest(q)) {
+            Command::Position(q) => q,
+            Command::Torque(_) => JointVector::repeat(f64::NAN),
+        };
+        let q1 = step(JointVector::zeros());
+        let q2 = step(q1);
+        assert!((q1 - JointVector::repeat(0.3)).amax() < 1e-15);
+        assert!((q2 - JointVector::repeat(0.41)).amax() < 1e-15);
+        law.begin_segment();
+        let again = law.command(&target, &PlantState::at_rest(JointVector::zeros()));
+        assert_eq!(
+            again,
+            Command::Position(q1),
+            "the previous error is forgotten between segments"
+        );
+    }
+}

@@ -1,0 +1,246 @@
+//! Torques, work and power.
+//!
+//! Root mean square, 95 % and largest of many numbers.
+//!
+//! How far the arm is from where the plan wants it, at the same time.
+//!
+//! The tool's mass against the arm's rated payload.
+
+use crate::simulate::execution::{Execution, Sample};
+use crate::simulate::text::shown;
+use platewash_kinematics::irb120::IRB120_URDF;
+use platewash_kinematics::words::told_apart;
+use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
+use platewash_workcell::tool::Tool;
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use serde::Serialize;
+
+/// What a joint's motor does.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct JointEffort {
+    /// |τ| \[N·m\].
+    pub torque_n_m: Spread,
+    /// Largest |τ| as a share of the limit; `None` where none is known.
+    pub share_of_limit: Option<f64>,
+    /// Work done by the motor, braking apart: Σ max(τ Δq, 0) \[J\].
+    pub work_j: f64,
+    /// Work taken up while braking: Σ max(−τ Δq, 0) \[J\].
+    pub braking_j: f64,
+    /// Largest |τ q̇| \[W\].
+    pub power_w: f64,
+}
+
+/// What the motors do.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Effort {
+    /// Joint by joint.
+    pub joints: [JointEffort; AXES],
+    /// Work of all motors, none of what braking takes up being used again \[J\].
+    pub work_j: f64,
+    /// Share of the samples at which a torque limit cut what the law asked for.
+    pub saturated_share: f64,
+}
+
+impl Effort {
+    /// Of an execution; `None` under a kinematic law, which has no torques.
+    #[must_use]
+    pub(crate) fn of(execution: &Execution) -> Option<Self> {
+        let limits = execution.limits?;
+        let joints = std::array::from_fn(|joint| {
+            let torques: Vec<_> = execution.samples.iter().map(|s| s.torque[joint].abs()).collect();
+            let torque_n_m = Spread::of(torques);
+            let [work_j, braking_j] = work(execution, joint);
+            let powers = execution
+                .samples
+                .iter()
+                .map(|s| (s.torque[joint] * s.state.qd[joint]).abs());
+            JointEffort {
+                torque_n_m,
+                share_of_limit: limits.0[joint].map(|most| torque_n_m.max / most),
+                work_j,
+                braking_j,
+                power_w: powers.fold(0.0, f64::max),
+            }
+        });
+        Some(Self {
+            joints,
+            work_j: joints.iter().map(|j| j.work_j).sum(),
+            saturated_share: execution.saturated as f64 / execution.samples.len().max(1) as f64,
+        })
+    }
+}
+
+/// Work done and taken up by a joint: the torque is constant between samples, so that τ Δq is exact.
+fn work(execution: &Execution, joint: usize) -> [f64; 2] {
+    let steps = execution.samples.windows(2);
+    steps.fold([0.0, 0.0], |[done, taken], pair| {
+        let work = pair[0].torque[joint] * (pair[1].state.q[joint] - pair[0].state.q[joint]);
+        [done + work.max(0.0), taken - work.min(0.0)]
+    })
+}
+
+/// How large errors are.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Spread {
+    /// Root mean square.
+    pub rms: f64,
+    /// 95 of 100 are not above it (the nearest rank).
+    pub p95: f64,
+    /// The largest.
+    pub max: f64,
+}
+
+impl Spread {
+    /// Of magnitudes, in any order; zeros of none.
+    #[must_use]
+    pub fn of(mut values: Vec<f64>) -> Self {
+        if values.is_empty() {
+            return Self::default();
+        }
+        let squares: f64 = values.iter().map(|v| v * v).sum();
+        let rms = (squares / values.len() as f64).sqrt();
+        let rank = (19 * values.len()).div_ceil(20) - 1;
+        let (_, p95, above) = values.select_nth_unstable_by(rank, f64::total_cmp);
+        let p95 = *p95;
+        let max = above.iter().copied().fold(p95, f64::max);
+        Self { rms, p95, max }
+    }
+}
+
+/// Errors over some samples.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Tracking {
+    /// Distance of the tip from the planned one \[m\].
+    pub tip_m: Spread,
+    /// |q − q_d| of each joint \[rad\].
+    pub joints_rad: [Spread; AXES],
+}
+
+/// Errors over a segment of the plan.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SegmentTracking {
+    /// What the segment is for.
+    pub kind: SegmentKind,
+    /// The plate washed, or the plate it leads to.
+    pub plate: usize,
+    /// Start and end in the plan \[s\].
+    pub span_s: [f64; 2],
+    /// Samples within it.
+    pub samples: usize,
+    /// The errors.
+    #[serde(flatten)]
+    pub tracking: Tracking,
+}
+
+/// Distance of the tip from the planned one at every sample \[m\].
+pub(crate) fn tip_errors(execution: &Execution, robot: &RobotModel, tip: &Frame) -> Vec<f64> {
+    let at = |q: &JointVector| robot.fk(q).rigid(tip).translation;
+    let off = |sample: &Sample| (at(&sample.state.q) - at(&sample.commanded)).norm();
+    execution.samples.iter().map(off).collect()
+}
+
+/// Errors over all samples that `of` takes, with the tip's errors at all samples.
+pub(crate) fn tracking(samples: &[Sample], tip_errors: &[f64]) -> Tracking {
+    Tracking {
+        tip_m: Spread::of(tip_errors.to_vec()),
+        joints_rad: std::array::from_fn(|joint| {
+            let error = |sample: &Sample| (sample.state.q[joint] - sample.commanded[joint]).abs();
+            Spread::of(samples.iter().map(error).collect())
+        }),
+    }
+}
+
+/// Errors segment by segment; segments between two samples have zeros.
+pub(crate) fn by_segment(execution: &Execution, segments: &[PlanSegment], tip_errors: &[f64]) -> Vec<SegmentTracking> {
+    let samples = &execution.samples;
+    segments
+        .iter()
+        .enumerate()
+        .map(|(index, segment)| {
+            let from = samples.partition_point(|s| s.segment < index);
+            let to = samples.partition_point(|s| s.segment <= index);
+            SegmentTracking {
+                kind: segment.kind,
+                plate: segment.plate,
+                span_s: [segment.t_start_s, segment.t_end_s],
+                samples: to - from,
+                tracking: tracking(&samples[from..to], &tip_errors[from..to]),
+            }
+        })
+        .collect()
+}
+
+/// Rated payload of the ABB IRB 120 \[kg\] (ABB's data sheet).
+pub const IRB120_PAYLOAD_KG: f64 = 3.0;
+
+/// Whether the arm may carry its tool.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PayloadVerdict {
+    /// The tool weighs no more than the rated payload.
+    Within,
+    /// It weighs more.
+    Exceeded,
+    /// No payload is known for this arm, and none is stated.
+    Unknown,
+}
+
+/// The tool's mass against the arm's rated payload.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PayloadCheck {
+    /// Mass of the tool \[kg\].
+    pub tool_kg: f64,
+    /// Rated payload \[kg\], where known.
+    pub rated_kg: Option<f64>,
+    /// What follows.
+    pub verdict: PayloadVerdict,
+}
+
+impl PayloadCheck {
+    /// A tool on an arm: against the payload that is stated \[kg\], otherwise 3 kg for the built-in IRB 120.
+    #[must_use]
+    pub fn new(tool: &Tool, payload_kg: Option<f64>, robot: &RobotModel) -> Self {
+        let is_built_in = robot.sha256() == platewash_kinematics::sha256_hex(IRB120_URDF.as_bytes());
+        let built_in = is_built_in.then_some(IRB120_PAYLOAD_KG);
+        let rated_kg = payload_kg.or(built_in);
+        let tool_kg = tool.mass.map_or(0.0, |mass| mass.mass_kg);
+        let verdict = match rated_kg {
+            Some(rated) if tool_kg <= rated => PayloadVerdict::Within,
+            Some(_) => PayloadVerdict::Exceeded,
+            None => PayloadVerdict::Unknown,
+        };
+        Self {
+            tool_kg,
+            rated_kg,
+            verdict,
+        }
+    }
+
+    /// That the tool is too heavy, in words: `tool 5 kg, rated 3 kg`; `None` where it is not, or no payload is known.
+    #[must_use]
+    pub fn overload(&self) -> Option<String> {
+        let rated_kg = self.rated_kg.filter(|_| self.verdict == PayloadVerdict::Exceeded)?;
+        let mut told = [self.tool_kg, rated_kg].map(|mass| shown(mass).to_string());
+        if told[0] == told[1] {
+            told = told_apart(self.tool_kg, rated_kg, 0);
+        }
+        let [tool, rated] = told;
+        Some(format!("tool {tool} kg, rated {rated} kg"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_are_counted_from_one() {
+        let spread = Spread::of((1..=20).rev().map(f64::from).collect());
+        assert_eq!((spread.p95, spread.max), (19.0, 20.0));
+        assert!((spread.rms - (2870.0f64 / 20.0).sqrt()).abs() < 1e-15);
+        let one = Spread::of(vec![3.0]);
+        assert_eq!((one.rms, one.p95, one.max), (3.0, 3.0, 3.0));
+        assert_eq!(Spread::of(Vec::new()), Spread::default());
+        assert_eq!(Spread::of((1..=100).map(f64::from).collect()).p95, 95.0);
+    }
+}
