@@ -188,7 +188,7 @@ pub const FASTEST_RAD_M: f64 = PI / 90.0 / 5e-3;
 /// The steepest slope of S.
 const STEEPEST: f64 = 1.875;
 
-/// The tilt as a function of the distance from axis 1; see the [module](self) text.
+/// The tilt as a function of the distance from axis 1.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TiltPolicy {
     /// T: the tilt outwards near the base, and inwards far out \[rad\].
@@ -213,7 +213,7 @@ impl TiltPolicy {
         }
     }
 
-    /// Upright but for the borders of the arm's reach. Above [`GENTLE_TILT_RAD`] the ramps grow with the amplitude.
+    /// Upright but for the borders of the arm's reach. Above `GENTLE_TILT_RAD` the ramps grow with the amplitude.
     #[must_use]
     pub fn upright(tilt_rad: f64, reach: &ReachBorders) -> Self {
         let stretch = (tilt_rad / GENTLE_TILT_RAD).max(1.0);
