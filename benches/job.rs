@@ -4,11 +4,10 @@
 #![allow(missing_docs)]
 
 use criterion::{BenchmarkId, Criterion};
-use platewash::Scenario;
 use platewash::kinematics::trig;
 use platewash::planner::joint_path::{Ends, JointPath};
 use platewash::planner::timing::{MotionLimits, TipLimits, time_optimal};
-use platewash::{JointVector, RobotModel, ToolFrame};
+use platewash::{JointVector, RobotModel, Scenario, ToolFrame};
 use platewash_problems::crowded::crowded;
 use platewash_problems::stages::{Stage, Stages};
 use std::error::Error;

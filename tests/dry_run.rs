@@ -3,8 +3,7 @@
 use platewash::certificate::{Status, Verdict, differences};
 use platewash::planner::{Planned, Watch, plan_in_order};
 use platewash::simulator::simulate::PlateVerdict;
-use platewash::workcell::dry_run::DryRun;
-use platewash::workcell::dry_run::{DryRunError, dry_run_terms, least_height_m};
+use platewash::workcell::dry_run::{DryRun, DryRunError, dry_run_terms, least_height_m};
 use platewash::workcell::job::JobError;
 use platewash::workcell::workcell::{Exclusion, ExclusionReason, ObstacleShape};
 use platewash::{

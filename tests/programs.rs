@@ -7,10 +7,8 @@
 //! More seeds, and excursions at every tenth row of every program: cargo test --release --test main programs::many -- --ignored
 
 use platewash::certificate::{ClearanceRule, ProgramLimits, Requirement, Status, prove_program};
-use platewash::export::dialect::{Dialect, Points};
-use platewash::export::dialects::DIALECTS;
-use platewash::export::interpret::motions;
-use platewash::export::judged::JOINT_SPEED_SHARE;
+use platewash::export::dialect::{DIALECTS, Dialect, Points};
+use platewash::export::judged::{JOINT_SPEED_SHARE, motions};
 use platewash::export::reading::{Between, Reading};
 use platewash::export::{ExportSettings, Exported, compare, export};
 use platewash::kinematics::sha256_hex;

@@ -9,9 +9,7 @@ use anyhow::{anyhow, bail};
 use clap::Args;
 use nalgebra::{Quaternion, UnitQuaternion};
 use platewash::certificate::{CertifyError, Check, Requirement, certify_with};
-use platewash::export::dialect::Dialect;
-use platewash::export::dialects;
-use platewash::export::file::ProgramFile;
+use platewash::export::dialect::{self, Dialect, ProgramFile};
 use platewash::export::judged::Asked;
 use platewash::export::{ExportError, ExportSettings, Exported, Refusal, contact_not_judged, export};
 use platewash::workcell::dry_run::DryRun;
@@ -251,7 +249,7 @@ fn refuse_others(folder: &Path, target: &dyn Dialect, files: &[ProgramFile]) -> 
 }
 
 fn target(name: &str) -> Result<&'static dyn Dialect, String> {
-    dialects::by_name(name).ok_or_else(|| format!("expected one of {}", dialects::names()))
+    dialect::by_name(name).ok_or_else(|| format!("expected one of {}", dialect::names()))
 }
 
 fn waived(name: &str) -> Result<Requirement, String> {

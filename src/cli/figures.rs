@@ -2,10 +2,9 @@
 
 use super::failure::{ExitCode, Failure};
 use super::options::Options;
-use super::output;
 use super::plan_file::PlanFile;
 use super::progress::Progress;
-use super::{execution, region, text};
+use super::{execution, output, region, text};
 use clap::Args;
 use platewash::certificate::prove_with;
 use platewash::viewer::figures::{Figure, FigureError, Ideal, Subject, draw};

@@ -2,9 +2,8 @@
 
 use super::failure::{self, ExitCode, Failure};
 use super::options::Options;
-use super::output;
 use super::progress::Progress;
-use super::study_text;
+use super::{output, study_text};
 use anyhow::{Context, anyhow};
 use clap::{Args, Subcommand};
 use platewash::study::{self, Journal, Resolver, Study, StudyError};

@@ -1,20 +1,18 @@
 //! `platewash tune`: a control law at many frequencies and dampings, and what each buys.
 
-use super::exit;
 use super::failure::{ExitCode, Failure};
 use super::law::{LawArguments, positive};
 use super::options::Options;
-use super::output;
 use super::plan_file::PlanFile;
 use super::progress::Progress;
+use super::{exit, output};
 use anyhow::ensure;
 use clap::Args;
-use platewash::Plan;
 use platewash::kinematics::words::percent;
 use platewash::simulator::simulate::{TuneOutcome, TuneRow};
 use platewash::workcell::simulation::SimulationSettings;
 use platewash::workcell::words::quoted;
-use platewash::{SimulationVerdict, tune};
+use platewash::{Plan, SimulationVerdict, tune};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;

@@ -1,7 +1,6 @@
 //! Programs to be written: a job of the UR5, and points that need not be a plan's.
 
-use platewash_export::file::ProgramFile;
-use platewash_export::program::{Point, Program};
+use platewash_export::dialect::{Point, Program, ProgramFile};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::fixtures::{kitchen_plates, kitchen_terms};

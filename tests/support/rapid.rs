@@ -1,9 +1,6 @@
 //! What the tests of programs share.
 
-use platewash_export::dialect::{Dialect, ReadError};
-use platewash_export::dialects::by_name;
-use platewash_export::file::ProgramFile;
-use platewash_export::program::{Point, Program};
+use platewash_export::dialect::{Dialect, Point, Program, ProgramFile, ReadError, by_name};
 use platewash_export::reading::Reading;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::plan::Plan;

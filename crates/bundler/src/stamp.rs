@@ -3,9 +3,8 @@
 //! A bundle whose stamp is not that of the sources is old.
 
 use sha2::{Digest, Sha256};
-use std::fs;
-use std::io;
 use std::path::Path;
+use std::{fs, io};
 
 /// The files of a bundle, beside its stamp.
 pub const FILES: [&str; 4] = ["index.html", "page.js", "page.css", "notices.txt"];

@@ -15,8 +15,7 @@ use platewash_certificate::prove_with;
 use platewash_planner::{Chance, PlanError, Planned, PlateOutlook, Watch, outlook, plan_here};
 use platewash_scenario::Failure;
 use platewash_viewer::view::{Beside, Certificate, View};
-use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::cancel::Deadline;
+use platewash_workcell::cancel::{CancelToken, Deadline};
 use platewash_workcell::layout::Finding;
 use std::sync::Arc;
 

@@ -9,8 +9,7 @@ use crate::stopwatch::Stopwatch;
 use crate::subject::Subject;
 use crate::told::Told;
 use platewash_planner::{MapArea, MapPatch, Watch, washable_map};
-use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::cancel::Deadline;
+use platewash_workcell::cancel::{CancelToken, Deadline};
 
 /// What a map means.
 const MEANING: &str = "Where a plate of this size could lie, the others as they are: at the middle of each square it has room, and \

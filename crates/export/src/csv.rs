@@ -3,10 +3,8 @@
 //! The table is strict: a header with a unit in each name, rows of numbers, nothing else. `plan_t_s` is the moment of the plan that a row
 //! is, so that the table itself says at which share of the plan's speed it runs.
 
-use crate::comment::wrapped;
-use crate::dialect::{Dialect, Points, ReadError};
-use crate::file::{Place, ProgramFile};
-use crate::program::{Point, Program};
+use crate::dialect::{Dialect, Place, Point, Points, Program, ProgramFile, ReadError};
+use crate::header::wrapped;
 use crate::reading::{Between, ReadPoint, Reading};
 use crate::refusal::Refusal;
 use platewash_kinematics::words::fixed;

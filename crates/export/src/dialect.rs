@@ -1,12 +1,22 @@
-//! A language of robot programs. Another one is one file, one fixture and one line in `dialects.rs`.
+//! A language of robot programs. Another one is one file, one fixture and one line in `dialect.rs`.
+//!
+//! All dialects. Another one is a line here, beside its file and its fixture.
+//!
+//! What is handed over, in no dialect.
+//!
+//! Text files of a program, and lines in them.
 
-use crate::file::{Place, ProgramFile};
-use crate::program::Program;
+use crate::csv::Csv;
+use crate::rapid::Rapid;
 use crate::reading::Reading;
 use crate::refusal::Refusal;
-use platewash_kinematics::RobotModel;
+use crate::ros2::Ros2;
+use crate::urscript::UrScript;
+use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::job::JobTerms;
-use std::fmt::Debug;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::tool::Tool;
+use std::fmt::{self, Debug};
 
 /// A language of robot programs.
 pub trait Dialect: Debug + Sync {
@@ -72,6 +82,123 @@ impl ReadError {
         Self {
             place: Place { file, line },
             reason,
+        }
+    }
+}
+
+/// All dialects.
+pub static DIALECTS: [&dyn Dialect; 4] = [&Rapid, &Ros2, &UrScript, &Csv];
+
+/// The dialect of that name.
+#[must_use]
+pub fn by_name(name: &str) -> Option<&'static dyn Dialect> {
+    DIALECTS.into_iter().find(|dialect| dialect.name() == name)
+}
+
+/// The names of all dialects, with commas between.
+#[must_use]
+pub fn names() -> String {
+    DIALECTS.map(Dialect::name).join(", ")
+}
+
+/// How far the arm may stand from the start of the plan, joint by joint \[°\]: programs check it where they can.
+pub const START_WITHIN_DEG: f64 = 0.5;
+
+/// A program to be written: points in time, and what must be said with them.
+#[derive(Debug, Clone)]
+pub struct Program<'a> {
+    /// A name that every dialect takes: a letter, then letters, digits and `_`, 20 at most.
+    pub name: String,
+    /// The plan, which is certified.
+    pub plan: &'a Plan,
+    /// Its arm.
+    pub arm: &'a RobotModel,
+    /// Points in the order of time; the first is where the arm must stand, at 0 s.
+    pub points: Vec<Point>,
+    /// Share of the plan's speed at which the program runs, above 0 and at most 1: every time is divided by it.
+    pub speed_share: f64,
+    /// Radius of corners between points that are not stops \[m\].
+    pub corner_m: f64,
+    /// What stands at the head of the text, a sentence or statement an entry, without line ends: verdict, hashes, assumptions.
+    pub header: Vec<String>,
+}
+
+/// A point that the arm passes or stops at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// When, in the plan's time \[s\].
+    pub t_s: f64,
+    /// Joint positions \[rad\].
+    pub q_rad: JointVector,
+    /// Joint speeds in the plan's time \[rad/s\].
+    pub qd_rad_s: JointVector,
+    /// Whether the plan rests here.
+    pub rests: bool,
+    /// Index of the plan's segment that ends here or holds the point; 0 for the first one.
+    pub segment: usize,
+}
+
+impl Program<'_> {
+    /// The tool that the arm holds.
+    #[must_use]
+    pub fn tool(&self) -> &Tool {
+        &self.plan.job.workcell.tool
+    }
+
+    /// Duration of the program at its share of the speed \[s\].
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.points.last().map_or(0.0, |point| point.t_s) / self.speed_share
+    }
+}
+
+/// A text file of a program.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProgramFile {
+    /// Its name, without a folder.
+    pub name: String,
+    /// What is in it; lines end with a line feed.
+    pub text: String,
+}
+
+/// A line of a file.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Place {
+    /// The file's name.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.file, self.line)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ProgramFile, *};
+
+    #[test]
+    fn a_name_or_a_file_is_of_one_dialect() {
+        for dialect in DIALECTS {
+            let found = by_name(dialect.name()).map(Dialect::name);
+            assert_eq!(found, Some(dialect.name()));
+            assert!(!dialect.assumptions().is_empty(), "{dialect:?}");
+        }
+        assert!(by_name("krl").is_none());
+        let text = "t_s,q1_rad".to_owned();
+        for name in ["a.script", "a.csv"] {
+            let file = ProgramFile {
+                name: name.to_owned(),
+                text: text.clone(),
+            };
+            assert_eq!(
+                DIALECTS.iter().filter(|dialect| dialect.is_in(&file)).count(),
+                1,
+                "{name}"
+            );
         }
     }
 }

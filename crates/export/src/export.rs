@@ -1,15 +1,12 @@
 //! A certified plan becomes a program, which is read back and judged before it is handed over.
 
-use crate::dialect::{Dialect, ReadError};
-use crate::file::ProgramFile;
-use crate::header;
+use crate::dialect::{Dialect, Program, ProgramFile, ReadError, START_WITHIN_DEG};
 use crate::judged::{self, Judged};
 use crate::points::Source;
-use crate::program::{Program, START_WITHIN_DEG};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
-use crate::tool_frame;
+use crate::{header, tool_frame};
 use platewash_certificate::{Certified, ProveError};
 use platewash_kinematics::words::told_apart;
 use platewash_kinematics::{AXES, JointVector, RobotModel};

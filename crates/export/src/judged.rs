@@ -1,14 +1,22 @@
 //! What is proved of a program that was read back: of the motion that it leads to under each assumption about corners.
+//!
+//! How an arm is assumed to move along a program that was read: straight in the joints with rounded corners, or on cubics.
+//!
+//! At a corner between segments of the speeds v₀ and v₁ the joints are assumed to accelerate evenly, for as long before the point as after
+//! it: a parabola that leaves the straight segments where the corner begins and meets them again where it ends. A corner begins no farther
+//! from the point than its radius, nor than half-way to either neighbour, measured at the tip. How large a controller really makes it is not
+//! known: programs are judged with no corners, and with corners of half, once and twice their size.
 
-use crate::interpret::{self, Interpreted};
-use crate::reading::Reading;
+use crate::reading::{Between, ReadPoint, Reading};
 use crate::refusal::Refusal;
 use platewash_certificate::{
     Certified, Check, Measure, ProgramLimits, ProgramProof, ProveError, Requirement, Sense, prove_program,
 };
-use platewash_kinematics::{AXES, RobotModel};
+use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::plan::Plan;
+use platewash_workcell::trajectory::KnotError;
 use serde::Serialize;
 
 /// Share of the arm's joint speeds that a program may use: what a controller needs to keep its time is left.
@@ -17,7 +25,7 @@ pub const JOINT_SPEED_SHARE: f64 = 0.95;
 /// What came of a program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
-    /// Under each assumption, in the order of [`interpret::CORNER_SCALES`] where there are corners.
+    /// Under each assumption, in the order of [`CORNER_SCALES`] where there are corners.
     pub cases: Vec<Case>,
 }
 
@@ -70,7 +78,7 @@ pub fn judge(
             asked: Asked::of(&interpreted, &job.limits.joint_acceleration_rad_s2),
         })
     };
-    let motions = interpret::motions(reading, arm, &tip)?;
+    let motions = motions(reading, arm, &tip)?;
     Ok(Judged {
         cases: motions.into_iter().map(case).collect::<Result<_, ProveError>>()?,
     })
@@ -182,4 +190,286 @@ fn badness(check: &Check) -> (bool, f64) {
         }
     };
     (!check.status.is_kept(), check.measure.as_ref().map_or(0.0, beyond))
+}
+
+/// Sizes of corners, relative to what a program says, with which its motion is judged.
+pub const CORNER_SCALES: [f64; 4] = [0.0, 0.5, 1.0, 2.0];
+
+/// What is shorter is no line between two corners \[s\].
+const NOTHING_S: f64 = 1e-9;
+
+/// The motion of a program under one assumption.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interpreted {
+    /// Size of its corners relative to what the program says; `None` where it has none.
+    pub corner_scale: Option<f64>,
+    /// The motion in the plan's time.
+    pub motion: PiecewiseMotion,
+}
+
+/// A point of a program in the plan's time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Passed {
+    /// \[s\]
+    pub t_s: f64,
+    /// \[rad\]
+    pub q_rad: JointVector,
+    /// \[rad/s\]
+    pub qd_rad_s: JointVector,
+    /// Radius of the corner \[m\]; 0 where the arm stops.
+    pub corner_m: f64,
+}
+
+/// The motions that a program is assumed to lead to, in the plan's time.
+///
+/// # Errors
+/// [`KnotError`] for points that are no motion: times that do not ascend, numbers that are not finite.
+pub fn motions(reading: &Reading, arm: &RobotModel, tip: &Frame) -> Result<Vec<Interpreted>, KnotError> {
+    let share = reading.share();
+    let in_plan_time = |point: &ReadPoint| Passed {
+        t_s: point.t_s * share,
+        q_rad: point.q_rad,
+        qd_rad_s: point.qd_rad_s.unwrap_or_default() / share,
+        corner_m: point.corner_m.unwrap_or(0.0),
+    };
+    let points: Vec<_> = reading.points.iter().map(in_plan_time).collect();
+    let piece: fn(&Passed, &Passed) -> MotionPiece = match reading.between {
+        Between::RoundedLines => return rounded_motions(&points, arm, tip),
+        Between::Lines => |a, b| MotionPiece::line([a.t_s, b.t_s], [a.q_rad, b.q_rad]),
+        Between::Cubics => |a, b| MotionPiece {
+            t_s: [a.t_s, b.t_s],
+            q_rad: [a.q_rad, b.q_rad],
+            qd_rad_s: [a.qd_rad_s, b.qd_rad_s],
+        },
+    };
+    check(&points)?;
+    let pieces = points.windows(2).map(|both| piece(&both[0], &both[1]));
+    Ok(vec![Interpreted {
+        corner_scale: None,
+        motion: PiecewiseMotion::new(pieces.collect())?,
+    }])
+}
+
+/// The motions on straight segments, with corners of each size.
+///
+/// # Errors
+/// As [`motions`].
+pub(crate) fn rounded_motions(points: &[Passed], arm: &RobotModel, tip: &Frame) -> Result<Vec<Interpreted>, KnotError> {
+    check(points)?;
+    let at = |point: &Passed| arm.fk(&point.q_rad).rigid(tip).translation;
+    let places: Vec<_> = points.iter().map(at).collect();
+    let reach_m: Vec<_> = places.windows(2).map(|both| (both[1] - both[0]).norm()).collect();
+    let motion = |scale| {
+        Ok(Interpreted {
+            corner_scale: Some(scale),
+            motion: PiecewiseMotion::new(rounded(points, &reach_m, scale))?,
+        })
+    };
+    CORNER_SCALES.into_iter().map(motion).collect()
+}
+
+/// Refuses what is no motion.
+fn check(points: &[Passed]) -> Result<(), KnotError> {
+    for (knot, point) in points.iter().enumerate() {
+        let t_s = point.t_s;
+        let numbers = point.q_rad.iter().chain(&point.qd_rad_s).copied();
+        if !numbers.chain([t_s, point.corner_m]).all(f64::is_finite) {
+            return Err(KnotError::NotFinite { knot });
+        }
+        let ascends = match knot {
+            0 => t_s == 0.0,
+            _ => t_s > points[knot - 1].t_s,
+        };
+        if !ascends {
+            return Err(KnotError::Time { knot, t_s });
+        }
+    }
+    Ok(())
+}
+
+/// Straight segments with corners of `scale` times their radius.
+fn rounded(points: &[Passed], reach_m: &[f64], scale: f64) -> Vec<MotionPiece> {
+    let [first, .., last] = points else {
+        return Vec::new();
+    };
+    let mut pieces = Vec::with_capacity(2 * points.len());
+    let (mut t_s, mut q_rad) = (first.t_s, first.q_rad);
+    for k in 1..points.len() - 1 {
+        let mut corner = corner(points, reach_m, k, scale);
+        if corner.t_s[0] - t_s > NOTHING_S {
+            pieces.push(MotionPiece::line([t_s, corner.t_s[0]], [q_rad, corner.q_rad[0]]));
+        } else {
+            (corner.t_s[0], corner.q_rad[0]) = (t_s, q_rad);
+        }
+        let is_round = corner.length_s() > NOTHING_S;
+        pieces.extend(is_round.then_some(corner));
+        (t_s, q_rad) = (corner.t_s[usize::from(is_round)], corner.q_rad[usize::from(is_round)]);
+    }
+    if last.t_s > t_s {
+        pieces.push(MotionPiece::line([t_s, last.t_s], [q_rad, last.q_rad]));
+    }
+    pieces
+}
+
+/// The corner at a point.
+fn corner(points: &[Passed], reach_m: &[f64], k: usize, scale: f64) -> MotionPiece {
+    let [before, after] = [k - 1, k];
+    let radius_m = (points[k].corner_m * scale)
+        .min(0.5 * reach_m[before])
+        .min(0.5 * reach_m[after]);
+    let step_s = |segment: usize| points[segment + 1].t_s - points[segment].t_s;
+    // The time from where the corner begins to the point, and from the point to where it would end.
+    let time_s = |segment: usize| match reach_m[segment] {
+        reach if reach > 0.0 => radius_m / reach * step_s(segment),
+        _ => 0.0,
+    };
+    let half_s = time_s(before).min(time_s(after));
+    let Passed { t_s: t, q_rad: q, .. } = points[k];
+    let qd_rad_s = [before, after].map(|i| (points[i + 1].q_rad - points[i].q_rad) / step_s(i));
+    MotionPiece {
+        t_s: [t - half_s, t + half_s],
+        q_rad: [q - qd_rad_s[0] * half_s, q + qd_rad_s[1] * half_s],
+        qd_rad_s,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dialect::Place;
+    use proptest::prelude::*;
+
+    fn reading(steps: &[(f64, [f64; 6], Option<f64>)], between: Between) -> Reading {
+        let mut t_s = 0.0;
+        let mut points = vec![(0.0, [0.1; 6], None)];
+        for &(step_s, q, corner_m) in steps {
+            t_s += step_s;
+            points.push((t_s, q, corner_m));
+        }
+        let place = Place {
+            file: "made.up".to_owned(),
+            line: 1,
+        };
+        let point = |(t_s, q, corner_m): (f64, [f64; 6], Option<f64>)| ReadPoint {
+            place: place.clone(),
+            t_s,
+            q_rad: JointVector::from(q),
+            qd_rad_s: None,
+            corner_m,
+        };
+        Reading {
+            speed_share: None,
+            points: points.into_iter().map(point).collect(),
+            between,
+            tool: None,
+            checks_start: false,
+        }
+    }
+
+    fn steps() -> impl Strategy<Value = Vec<(f64, [f64; 6], Option<f64>)>> {
+        let corner = prop::option::weighted(0.9, 0.0..0.02_f64);
+        prop::collection::vec((0.01..0.1_f64, prop::array::uniform6(0.0..0.2_f64), corner), 2..12)
+    }
+
+    fn interpreted(reading: &Reading) -> (Vec<Interpreted>, RobotModel, Frame) {
+        let arm = RobotModel::irb120().unwrap();
+        let tip = platewash_workcell::fixtures::kitchen_tool().tip_frame(&arm);
+        (motions(reading, &arm, &tip).unwrap(), arm, tip)
+    }
+
+    proptest! {
+        /// Through every stop, near every other point, in speed without a step but at stops, and as long as the program.
+        #[test]
+        fn corners_are_smooth_and_small(steps in steps()) {
+            let reading = reading(&steps, Between::RoundedLines);
+            let (motions, arm, tip) = interpreted(&reading);
+            prop_assert_eq!(motions.len(), CORNER_SCALES.len());
+            let place = |q: &JointVector| arm.fk(q).rigid(&tip).translation;
+            for Interpreted { corner_scale, motion } in &motions {
+                let scale = corner_scale.unwrap();
+                let last = reading.points.last().unwrap();
+                prop_assert!((motion.duration_s() - last.t_s).abs() < 1e-12);
+                for (k, point) in reading.points.iter().enumerate() {
+                    let [q, _] = motion.at(point.t_s.min(motion.duration_s())).unwrap();
+                    let ends = k == 0 || k + 1 == reading.points.len();
+                    match point.corner_m {
+                        Some(radius_m) if !ends => {
+                            // The parabola's middle is nearer to the point than where it begins, which is within the radius: a chord of the
+                            // joints' motion may be a little longer than that of the tip.
+                            let off_m = (place(&q) - place(&point.q_rad)).norm();
+                            prop_assert!(off_m <= 1.1 * scale * radius_m + 1e-12, "{off_m} {radius_m}");
+                        }
+                        _ => prop_assert!((q - point.q_rad).amax() < 1e-12),
+                    }
+                }
+                for both in motion.pieces().windows(2) {
+                    prop_assert!((both[0].q_rad[1] - both[1].q_rad[0]).amax() < 1e-12);
+                    let step = (both[0].qd_rad_s[1] - both[1].qd_rad_s[0]).amax();
+                    let at = reading.points.iter().find(|point| (point.t_s - both[0].t_s[1]).abs() < 1e-9);
+                    let sharp = at.is_some_and(|point| point.corner_m.unwrap_or(0.0) * scale < 1e-6);
+                    prop_assert!(sharp || step < 1e-6, "{step} at {}", both[0].t_s[1]);
+                }
+            }
+        }
+
+        /// A corner is the parabola of even acceleration, worked out here from its three points.
+        #[test]
+        fn a_corner_is_a_parabola(steps in steps(), share in 0.0..1.0_f64) {
+            let reading = reading(&steps, Between::RoundedLines);
+            let (motions, ..) = interpreted(&reading);
+            for piece in motions[2].motion.pieces() {
+                let [from, to] = piece.accelerations();
+                prop_assert!((from - to).amax() < 1e-6 * (1.0 + from.amax()), "even");
+                if from.amax() < 1e-6 {
+                    continue;
+                }
+                // A Bezier curve of three points: its middle one is where both tangents meet.
+                let h = piece.length_s();
+                let middle = piece.q_rad[0] + piece.qd_rad_s[0] * (0.5 * h);
+                let [a, b] = [1.0 - share, share];
+                let bezier = piece.q_rad[0] * (a * a) + middle * (2.0 * a * b) + piece.q_rad[1] * (b * b);
+                prop_assert!((piece.at(piece.t_s[0] + share * h)[0] - bezier).amax() < 1e-9);
+            }
+        }
+
+        #[test]
+        fn without_corners_it_is_a_polyline(steps in steps(), share in 0.0..1.0_f64) {
+            let reading = reading(&steps, Between::RoundedLines);
+            let (motions, ..) = interpreted(&reading);
+            for both in reading.points.windows(2) {
+                let t_s = both[0].t_s + share * (both[1].t_s - both[0].t_s);
+                let [q, _] = motions[0].motion.at(t_s).unwrap();
+                let line = both[0].q_rad + (both[1].q_rad - both[0].q_rad) * share;
+                prop_assert!((q - line).amax() < 1e-9);
+            }
+        }
+    }
+
+    /// A share of the speed stretches time; what is judged is in the plan's.
+    #[test]
+    fn motions_are_in_the_time_of_the_plan() {
+        let steps = [(0.2, [0.2; 6], Some(0.005)), (0.2, [0.15; 6], None)];
+        let whole = reading(&steps, Between::RoundedLines);
+        let mut slow = whole.clone();
+        slow.speed_share = Some(0.25);
+        slow.points.iter_mut().for_each(|point| point.t_s *= 4.0);
+        let [a, b] = [&whole, &slow].map(|reading| interpreted(reading).0);
+        for (a, b) in a.iter().zip(&b) {
+            let [q, qd] = [0, 1].map(|i| a.motion.at(0.17).unwrap()[i] - b.motion.at(0.17).unwrap()[i]);
+            assert!(q.amax() < 1e-12 && qd.amax() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn points_that_are_no_motion_are_refused() {
+        let arm = RobotModel::irb120().unwrap();
+        let tip = platewash_workcell::fixtures::kitchen_tool().tip_frame(&arm);
+        for between in [Between::Lines, Between::RoundedLines, Between::Cubics] {
+            for t_s in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+                let mut reading = reading(&[(0.1, [0.2; 6], Some(0.005)), (0.1, [0.3; 6], None)], between);
+                reading.points[2].t_s = t_s;
+                assert!(motions(&reading, &arm, &tip).is_err(), "{between:?} {t_s}");
+            }
+        }
+    }
 }

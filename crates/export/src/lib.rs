@@ -10,37 +10,27 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | a text file of a program, and a line in it | `file` |
-//! | what is handed over, in no dialect | `program` |
-//! | what a program says, read back | `reading` |
-//! | a language of programs; the list of all | `dialect`, `dialects` |
-//! | words, numbers and signs of a text | `tokens` |
+//! | a language of programs, what it writes and its files; the list of all | `dialect` |
+//! | what a program says, read back; words, numbers and signs of a text | `reading` |
 //! | RAPID, of ABB: written and read | `rapid` |
 //! | URScript, of Universal Robots: written and read | `urscript` |
 //! | a table of positions and speeds, for any other use | `csv` |
-//! | sentences as lines of a comment | `comment` |
 //! | a tool as a controller has it, beside the plan's | `tool_frame` |
 //! | settings, and as lines of a program | `settings` |
 //! | which points of a plan a program names | `points` |
-//! | how an arm is assumed to move along a program | `interpret` |
-//! | what is proved of that motion | `judged` |
-//! | what stands at the head of a program | `header` |
+//! | how an arm is assumed to move along a program, and what is proved of that motion | `judged` |
+//! | what stands at the head of a program, as comments | `header` |
 //! | all of it, one after the other; why a plan is not handed over | `export`, `refusal` |
 //! | a program that may have been changed since | `compare` |
 //! | ROS 2 | `ros2` |
 
-mod comment;
 pub mod compare;
 pub mod csv;
 pub mod dialect;
-pub mod dialects;
 mod export;
-pub mod file;
 mod header;
-pub mod interpret;
 pub mod judged;
 mod points;
-pub mod program;
 pub mod rapid;
 pub mod reading;
 mod refusal;
@@ -49,12 +39,11 @@ mod settings;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests;
-mod tokens;
 mod tool_frame;
 pub mod urscript;
 
-pub use compare::{Change, CompareError, Compared, compare};
-pub use export::{ExportError, Exported, export};
-pub use header::contact_not_judged;
-pub use refusal::Refusal;
-pub use settings::ExportSettings;
+pub use crate::compare::{Change, CompareError, Compared, compare};
+pub use crate::export::{ExportError, Exported, export};
+pub use crate::header::contact_not_judged;
+pub use crate::refusal::Refusal;
+pub use crate::settings::ExportSettings;

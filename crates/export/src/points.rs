@@ -5,15 +5,13 @@
 //! √(‖J q̈‖ / 8 tol). What that leads to is measured on the interpreted motion, corners and all, and points are packed more closely where it
 //! is too far away.
 
-use crate::dialect::Points;
-use crate::interpret::{Passed, rounded_motions};
-use crate::program::Point;
+use crate::dialect::{Point, Points};
+use crate::judged::{Passed, rounded_motions};
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
 use platewash_kinematics::{Axes, Frame, JointVector, RobotModel};
 use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::SegmentKind;
-use platewash_workcell::trajectory::{KnotError, Trajectory};
+use platewash_workcell::trajectory::{KnotError, SegmentKind, Trajectory};
 
 /// The longest step between two points \[s\].
 const LONGEST_S: f64 = 0.1;

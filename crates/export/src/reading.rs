@@ -1,8 +1,11 @@
 //! What a program says, read back out of its text.
+//!
+//! Text of a program as words, numbers, texts and signs. RAPID and URScript share it.
 
-use crate::file::Place;
+use crate::dialect::Place;
 use nalgebra::UnitQuaternion;
 use platewash_kinematics::{JointVector, Pose};
+use platewash_workcell::words::shortened;
 
 /// What a program does, as its text says.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,4 +67,202 @@ pub struct ReadTool {
     pub com_m: [f64; 3],
     /// Moments of inertia about the principal axes \[kg·m²\] and those axes in the mounting frame, where they are stated.
     pub inertia: Option<([f64; 3], UnitQuaternion<f64>)>,
+}
+
+/// Longest line that is read \[bytes\].
+const LONGEST: usize = 100_000;
+
+/// Most characters of a text that a message repeats.
+const MOST: usize = 40;
+
+/// Signs of two characters.
+const TWO: [&str; 6] = [":=", "<=", ">=", "<>", "==", "!="];
+
+/// Signs of one character.
+const ONE: &str = "()[]{},;:\\+-*/=<>%?.";
+
+/// A token.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Token {
+    /// A letter or `_`, then letters, digits and `_`.
+    Word(String),
+    /// A decimal number without a sign.
+    Number(f64),
+    /// What stands between quotation marks; `""` in it is a quotation mark.
+    Text(String),
+    /// Anything else.
+    Sign(&'static str),
+}
+
+impl Token {
+    /// Whether it is that sign.
+    pub(crate) fn is(&self, sign: &str) -> bool {
+        matches!(self, Self::Sign(found) if *found == sign)
+    }
+
+    /// Whether it is the same token where the case of words does not count.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Word(a), Self::Word(b)) => a.eq_ignore_ascii_case(b),
+            (a, b) => a == b,
+        }
+    }
+}
+
+impl std::fmt::Display for Token {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Word(word) => write!(f, "`{}`", shortened(word, MOST)),
+            Self::Number(number) => write!(f, "{number}"),
+            Self::Text(_) => f.write_str("a text"),
+            Self::Sign(sign) => write!(f, "`{sign}`"),
+        }
+    }
+}
+
+/// Appends the tokens of a line; `comment` begins a comment up to its end.
+///
+/// # Errors
+/// What cannot be read, and where in the line.
+pub(crate) fn line(text: &str, comment: char, mut add: impl FnMut(Token)) -> Result<(), String> {
+    if text.len() > LONGEST {
+        return Err(format!(
+            "the line is longer than {LONGEST} bytes, the most that are read"
+        ));
+    }
+    // Where a controller ends a line, so must this reader: in comments, too.
+    if let Some(c) = text
+        .chars()
+        .find(|c| (c.is_control() && *c != '\t') || matches!(c, '\u{2028}' | '\u{2029}'))
+    {
+        return Err(format!(
+            "found the character U+{:04X}, which may end a line elsewhere",
+            u32::from(c)
+        ));
+    }
+    let mut rest = text;
+    let mut follows_word = false;
+    while let Some(c) = rest.chars().next() {
+        if c == comment {
+            break;
+        }
+        let number = if follows_word { 0 } else { number_length(rest) };
+        let (token, length) = if c == ' ' || c == '\t' {
+            rest = &rest[1..];
+            follows_word = false;
+            continue;
+        } else if c == '"' {
+            quoted(rest)?
+        } else if number > 0 {
+            let value = rest[..number].parse().ok().filter(|value: &f64| value.is_finite());
+            match (value, rest[number..].chars().next()) {
+                (Some(_), Some(next)) if is_letter(next) || next == '.' => {
+                    return Err(format!("expected a decimal number, found {:?}", shortened(rest, MOST)));
+                }
+                (Some(value), _) => (Token::Number(value), number),
+                (None, _) => return Err(format!("expected a decimal number, found {:?}", shortened(rest, MOST))),
+            }
+        } else if is_letter(c) {
+            let length = rest
+                .find(|c| !is_letter(c) && !char::is_ascii_digit(&c))
+                .unwrap_or(rest.len());
+            (Token::Word(rest[..length].to_owned()), length)
+        } else if let Some(sign) = TWO.into_iter().find(|sign| rest.starts_with(sign)) {
+            (Token::Sign(sign), sign.len())
+        } else if let Some(at) = ONE.find(c) {
+            (Token::Sign(&ONE[at..=at]), 1)
+        } else {
+            return Err(format!("unexpected character {c:?}"));
+        };
+        follows_word = matches!(token, Token::Word(_));
+        add(token);
+        rest = &rest[length..];
+    }
+    Ok(())
+}
+
+fn is_letter(c: char) -> bool {
+    c.is_ascii_alphabetic() || c == '_'
+}
+
+/// A text with its length between and with the quotation marks \[bytes\].
+fn quoted(text: &str) -> Result<(Token, usize), String> {
+    let mut inside = String::new();
+    let mut chars = text.char_indices().skip(1).peekable();
+    while let Some((at, c)) = chars.next() {
+        match (c, chars.peek()) {
+            ('"', Some((_, '"'))) => {
+                chars.next();
+                inside.push('"');
+            }
+            ('"', _) => return Ok((Token::Text(inside), at + 1)),
+            _ => inside.push(c),
+        }
+    }
+    Err("a text without its closing quotation mark".to_owned())
+}
+
+/// How many bytes at the beginning of a text are a decimal number without a sign.
+pub(crate) fn number_length(text: &str) -> usize {
+    let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
+    let whole = digits(0);
+    let fraction = if text[whole..].starts_with('.') {
+        digits(whole + 1)
+    } else {
+        0
+    };
+    if whole + fraction == 0 {
+        return 0;
+    }
+    let mut length = whole;
+    if text[whole..].starts_with('.') {
+        length += 1 + fraction;
+    }
+    if text[length..].starts_with(['e', 'E']) {
+        let sign = usize::from(text[length + 1..].starts_with(['+', '-']));
+        let exponent = digits(length + 1 + sign);
+        if exponent > 0 {
+            length += 1 + sign + exponent;
+        }
+    }
+    length
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(text: &str) -> Result<Vec<Token>, String> {
+        let mut tokens = Vec::new();
+        line(text, '!', |token| tokens.push(token)).map(|()| tokens)
+    }
+
+    #[test]
+    fn a_line_is_words_numbers_texts_and_signs() {
+        let told: Vec<_> = all("A_1.x:=-.5E-3/[9E9,1.] \"a\"\"!\" ! a note")
+            .unwrap()
+            .iter()
+            .map(ToString::to_string)
+            .collect();
+        let expected = [
+            "`A_1`",
+            "`.`",
+            "`x`",
+            "`:=`",
+            "`-`",
+            "0.0005",
+            "`/`",
+            "`[`",
+            "9000000000",
+            "`,`",
+            "1",
+            "`]`",
+            "a text",
+        ];
+        assert_eq!(told, expected);
+        assert_eq!(all("\"\"").unwrap(), [Token::Text(String::new())]);
+        for wrong in ["1e", "1.2.3", "0x10", "\"a", "a\u{2028}b", "! a\rb", "é", "1e999", "&"] {
+            assert!(all(wrong).is_err(), "{wrong}");
+        }
+    }
 }

@@ -165,14 +165,14 @@ fn faults_are_refused_with_their_line() {
 #[test]
 fn a_table_stands_beside_what_explains_it() {
     let plan = plan(&ARM);
-    let still = platewash_export::program::Point {
+    let still = platewash_export::dialect::Point {
         t_s: 0.0,
         q_rad: JointVector::zeros(),
         qd_rad_s: JointVector::zeros(),
         rests: true,
         segment: 0,
     };
-    let then = platewash_export::program::Point { t_s: 0.004, ..still };
+    let then = platewash_export::dialect::Point { t_s: 0.004, ..still };
     let [table, about] = <[_; 2]>::try_from(Csv.write(&program(&plan, &ARM, vec![still, then], 0.5))).unwrap();
     assert_eq!((table.name.as_str(), about.name.as_str()), ("small.csv", "small.txt"));
     assert!(Csv.is_in(&table) && !Csv.is_in(&about));

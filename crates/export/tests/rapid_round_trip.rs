@@ -1,7 +1,7 @@
 //! What is written in RAPID is read back as it was meant.
 
 use crate::rapid::{every, kitchen, program, rapid};
-use platewash_export::program::Point;
+use platewash_export::dialect::Point;
 use platewash_export::reading::{Between, Reading};
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::fixtures::kitchen_tool;

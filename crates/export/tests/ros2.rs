@@ -1,12 +1,9 @@
 //! A plan as ROS 2 messages, read back: knots, times, bytes, several files as one program.
 
 use platewash_certificate::{Certified, certify};
-use platewash_export::dialect::Dialect;
-use platewash_export::dialects::by_name;
-use platewash_export::file::ProgramFile;
-use platewash_export::program::{Point, Program};
+use platewash_export::dialect::{Dialect, Point, Program, ProgramFile, by_name};
 use platewash_export::reading::{Between, Reading};
-use platewash_export::ros2::timing::LEAD_IN_S;
+use platewash_export::ros2::write::LEAD_IN_S;
 use platewash_export::{Compared, ExportSettings, compare, export};
 use platewash_kinematics::RobotModel;
 use platewash_workcell::cancel::CancelToken;

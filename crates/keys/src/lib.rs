@@ -12,7 +12,7 @@
 //!
 //! The doc comment is the key's meaning, as messages, the page's form and the reference print it. The macro writes
 //! `impl Default` with the defaults, which are `Default::default()` where none is stated, and a constant `KEYS` with a
-//! `crate::key::Key` for each field that has a `#[key]`, in their order.
+//! `crate::keys::key::Key` for each field that has a `#[key]`, in their order.
 
 use proc_macro::{Delimiter, Group, TokenStream, TokenTree};
 
@@ -34,14 +34,14 @@ pub fn section(input: TokenStream) -> TokenStream {
         if let Some(domain) = &field.domain {
             let path = format!("concat!({section}, \".\", \"{}\")", field.name);
             let meaning = format!("concat!({})", field.meaning.join(", \" \", "));
-            keys += &format!("crate::key::key({path}, {}, {domain}, {meaning}),", field.unit);
+            keys += &format!("crate::keys::key::key({path}, {}, {domain}, {meaning}),", field.unit);
         }
     }
     let text = format!(
         "impl ::core::default::Default for {name} {{ fn default() -> Self {{ Self {{ {defaults} }} }} }}
          impl {name} {{
              /// The keys of the section, in the order of the reference.
-             pub(crate) const KEYS: &'static [crate::key::Key] = {{ use crate::key::Domain::*; &[{keys}] }};
+             pub(crate) const KEYS: &'static [crate::keys::key::Key] = {{ use crate::keys::key::Domain::*; &[{keys}] }};
          }}"
     );
     text.parse()

@@ -8,8 +8,7 @@ use platewash_kinematics::JointVector;
 use platewash_kinematics::ik::IkSolver;
 use platewash_simulator::control;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::trajectory::Trajectory;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
 
 /// A job planned and followed, before it is judged.
 #[derive(Debug, Clone)]

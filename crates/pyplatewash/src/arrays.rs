@@ -3,14 +3,12 @@
 //! A contiguous array of doubles is read where it lies. Anything else that NumPy makes an array of real numbers from (lists,
 //! integers, strides, other byte orders) is copied once. Wrong shapes are answered with the shape found and the shapes wanted.
 
-use crate::argument;
-use crate::errors;
+use crate::{argument, errors};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods};
 use platewash::JointVector;
-use pyo3::PyTypeInfo;
-use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyInt, PyList, PyString, PyTuple};
+use pyo3::{PyTypeInfo, intern};
 
 /// Shapes that an argument may have, as words for a message.
 #[derive(Debug, Clone, Copy)]

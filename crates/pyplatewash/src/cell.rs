@@ -1,14 +1,13 @@
 //! The live cell: what answers a page in a notebook. Threads, messages and traits are Python's (`python/pyplatewash/_cell.py`).
 
-use crate::argument;
 use crate::certificate::CertificateObject;
-use crate::errors;
 use crate::notes::warn;
 use crate::page::{bundle, height_px};
 use crate::plan::PlanObject;
 use crate::robot::Robot;
 use crate::scenario::ScenarioObject;
 use crate::work::{alone, aside};
+use crate::{argument, errors};
 use platewash::editor::{Editor, EditorError};
 use platewash::scenario::Draft;
 use platewash::{CancelToken, Scenario};

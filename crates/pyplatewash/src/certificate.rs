@@ -1,13 +1,11 @@
 //! `Certificate`: what is proved about a plan.
 
-use crate::argument;
-use crate::errors;
 use crate::job::PaperJobObject;
 use crate::plan::PlanObject;
 use crate::robot::Robot;
-use crate::scenario;
 use crate::value::{records, to_python, to_record};
 use crate::work::patiently;
+use crate::{argument, errors, scenario};
 use platewash::certificate::{self, Verdict};
 use platewash::{Certificate, Check};
 use pyo3::prelude::*;

@@ -1,11 +1,8 @@
 //! Python's plain values are checked when they are made.
 
-use crate::curves;
-use crate::errors;
-use crate::page;
 use crate::plate::{self, PlateFields};
-use crate::robot;
 use crate::tool::ToolFields;
+use crate::{curves, errors, page, robot};
 use pyo3::prelude::*;
 
 /// Checks one of Python's plain values when it is made, field by field; `kind` is its class in lower case.

@@ -2,15 +2,14 @@
 
 use crate::argument::{self, ANY_COUNT, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
-use crate::errors;
 use crate::job::{PaperJobObject, WashJobObject};
-use crate::made;
 use crate::plan::PlanObject;
 use crate::plate::PlateFields;
 use crate::robot::Robot;
 use crate::tool::ToolFields;
 use crate::value::to_record;
 use crate::work::{STRETCH, alone, released};
+use crate::{errors, made};
 use nalgebra::Point3;
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
 use platewash::workcell::tool::StraightTool;

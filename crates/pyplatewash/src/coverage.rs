@@ -1,10 +1,9 @@
 //! How much of a plate the sponge sweeps: as a number, and as a picture.
 
 use crate::argument::{self, ANY_COUNT};
-use crate::arrays;
-use crate::errors;
 use crate::made::{self, line};
 use crate::work::patiently;
+use crate::{arrays, errors};
 use platewash::workcell::coverage::{CoverageError, CoverageSettings, RasterCell, coverage, raster};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;

@@ -1,10 +1,7 @@
 //! Generators of the tip's curves: wash curve, the paper's spiral, arc round the base, cubic.
 
-use crate::argument;
-use crate::arrays;
-use crate::errors;
-use crate::made;
 use crate::plate::PlateFields;
+use crate::{argument, arrays, errors, made};
 use nalgebra::Vector3;
 use numpy::PyArrayDyn;
 use platewash::paper::PaperSpiral;

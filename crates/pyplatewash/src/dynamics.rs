@@ -2,11 +2,10 @@
 
 use crate::argument::{self, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
-use crate::errors;
-use crate::made;
 use crate::robot::Robot;
 use crate::tool::ToolFields;
 use crate::work::{STRETCH, released};
+use crate::{errors, made};
 use nalgebra::Vector3;
 use numpy::PyArrayDyn;
 use platewash::simulator::dynamics::STANDARD_GRAVITY_M_S2;

@@ -1,14 +1,10 @@
 //! Robot programs of a plan.
 
-use crate::argument;
 use crate::arrays::{self, Numbers, ONE_POSE};
-use crate::errors;
-use crate::pose;
 use crate::work::patiently;
+use crate::{argument, errors, pose};
 use platewash::certificate::{CertifyError, Requirement, certify_with};
-use platewash::export::dialect::Dialect;
-use platewash::export::dialects::DIALECTS;
-use platewash::export::file::ProgramFile;
+use platewash::export::dialect::{DIALECTS, Dialect, ProgramFile};
 use platewash::export::{ExportError, ExportSettings, Refusal, export};
 use platewash::{CancelToken, Plan, Pose, ProveError, RobotModel};
 use pyo3::prelude::*;

@@ -1,13 +1,11 @@
 //! `WashJob` and `PaperJob`: what is asked, resolved.
 
-use crate::argument;
-use crate::errors;
 use crate::layout::LayoutObject;
-use crate::made;
 use crate::plate::{PlateFields, plates};
 use crate::robot::Robot;
 use crate::simulation::SettingsObject;
 use crate::value::{to_python, to_record};
+use crate::{argument, errors, made};
 use numpy::PyArrayDyn;
 use platewash::paper::PaperSettings;
 use platewash::workcell::job::{Limits, Requirements};

@@ -1,10 +1,8 @@
 //! `Layout`: where the plates lie.
 
-use crate::argument;
-use crate::errors;
-use crate::made;
 use crate::plate::plates;
 use crate::value::to_record;
+use crate::{argument, errors, made};
 use numpy::PyArrayDyn;
 use platewash::workcell::words::counted;
 use platewash::{Layout, Plate};

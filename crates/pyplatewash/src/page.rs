@@ -1,7 +1,5 @@
 //! Pages in three dimensions.
 
-use crate::argument;
-use crate::arrays;
 use crate::certificate::CertificateObject;
 use crate::errors::{self, FileOf, SystemWord};
 use crate::plan::PlanObject;
@@ -11,6 +9,7 @@ use crate::scenario::ScenarioObject;
 use crate::simulation::{Done, ExecutionObject, Question};
 use crate::tool::ToolFields;
 use crate::work::patiently;
+use crate::{argument, arrays};
 use platewash::viewer::bundle::Bundle;
 use platewash::viewer::page;
 use platewash::viewer::view::{Beside, Executed, Plate, View};

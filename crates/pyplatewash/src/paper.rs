@@ -1,14 +1,11 @@
 //! `PaperRun`: the paper's program, planned and followed.
 
-use crate::argument;
-use crate::errors;
 use crate::job::PaperJobObject;
-use crate::made;
 use crate::plan::PlanObject;
-use crate::scenario;
 use crate::trajectory::TrajectoryObject;
 use crate::value::to_record;
 use crate::work::patiently;
+use crate::{argument, errors, made, scenario};
 use numpy::{PyArray1, PyArrayDyn};
 use platewash::paper::run_with;
 use platewash::workcell::csv;

@@ -1,14 +1,12 @@
 //! `Plan`: the plan file.
 
-use crate::argument;
 use crate::by_python::ask;
-use crate::dry_run;
 use crate::errors::{self, FileOf, SystemWord};
-use crate::export;
 use crate::plate::plates;
 use crate::robot::Robot;
 use crate::trajectory::TrajectoryObject;
 use crate::value::{records, to_python, to_record};
+use crate::{argument, dry_run, export};
 use platewash::export::ros2::{self, Ros2};
 use platewash::kinematics::urdf::file;
 use platewash::workcell::csv::table as csv_table;

@@ -1,12 +1,10 @@
 //! `Planned`: a washing, planned, and what is to be said of it.
 
-use crate::errors;
 use crate::job::WashJobObject;
-use crate::made;
 use crate::plan::PlanObject;
-use crate::scenario;
 use crate::value::{records, to_record};
 use crate::work::patiently;
+use crate::{errors, made, scenario};
 use numpy::PyArrayDyn;
 use platewash::certificate::prove_with;
 use platewash::planner::{Watch, plan_with};

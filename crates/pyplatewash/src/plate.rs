@@ -1,9 +1,7 @@
 //! Python's `Plate`, read field by field, and plates as Python's.
 
-use crate::argument;
-use crate::arrays;
-use crate::errors;
 use crate::tool::{LARGEST_M, check_length};
+use crate::{argument, arrays, errors};
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use platewash::workcell::plate::Foot;
 use platewash::workcell::surface::{Knot, SHIPPED_PROFILES, Surface};

@@ -1,9 +1,8 @@
 //! The paper's program re-measured.
 
-use crate::argument;
-use crate::errors;
 use crate::value::to_record;
 use crate::work::patiently;
+use crate::{argument, errors};
 use platewash::paper::reproduce::{ReproduceSettings, reproduce as measure};
 use pyo3::prelude::*;
 use std::ops::ControlFlow;

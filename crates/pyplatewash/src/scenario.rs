@@ -1,13 +1,12 @@
 //! `Scenario`: a job in full.
 
-use crate::argument;
-use crate::errors;
 use crate::job::{PaperJobObject, WashJobObject};
 use crate::layout::LayoutObject;
 use crate::notes::warn;
 use crate::robot::Robot;
 use crate::value::{from_mapping, records, to_python, to_record};
 use crate::work::patiently;
+use crate::{argument, errors};
 use platewash::planner::Watch;
 use platewash::scenario::{Program, SHIPPED};
 use platewash::{Failure, Layout, RobotModel, Scenario};

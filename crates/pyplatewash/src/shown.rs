@@ -1,14 +1,13 @@
 //! Figures of a plan, and arguments of the methods that show it on a page: checked before any work is done.
 
-use crate::argument;
 use crate::certificate::CertificateObject;
-use crate::errors;
 use crate::page::{bundle, height_px, of_the_plan};
 use crate::plan::PlanObject;
 use crate::robot::Robot;
 use crate::scenario::{self, ScenarioObject};
 use crate::simulation::{ExecutionObject, Question};
 use crate::work::patiently;
+use crate::{argument, errors};
 use platewash::viewer::figures::{Figure, Subject, draw};
 use platewash::workcell::plan::Process;
 use platewash::workcell::workcell::ArmId;

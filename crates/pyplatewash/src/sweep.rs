@@ -1,10 +1,8 @@
 //! Many layouts of one scenario.
 
-use crate::argument;
-use crate::errors;
-use crate::scenario;
 use crate::value::records;
 use crate::work::patiently;
+use crate::{argument, errors, scenario};
 use platewash::scenario::Program;
 use platewash::{Failure, SweepRow, sweep_each};
 use pyo3::prelude::*;

@@ -1,8 +1,7 @@
 //! Python's `Tool`, read field by field.
 
 use crate::argument::{self, TOOL};
-use crate::arrays;
-use crate::errors;
+use crate::{arrays, errors};
 use platewash::Tool;
 use platewash::workcell::tool::StraightTool;
 use pyo3::prelude::*;

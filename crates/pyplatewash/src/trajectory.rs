@@ -1,10 +1,8 @@
 //! `Trajectory`: joint motion over time.
 
-use crate::argument;
 use crate::arrays::{Count, MANY_JOINTS, Numbers, Wanted};
-use crate::errors;
-use crate::made;
 use crate::work::released;
+use crate::{argument, errors, made};
 use numpy::PyArrayDyn;
 use platewash::workcell::trajectory::{JointState, KnotError, SegmentExtremes};
 use platewash::{JointVector, Trajectory};

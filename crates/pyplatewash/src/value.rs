@@ -1,7 +1,6 @@
 //! Data as plain Python objects and back, by way of JSON's types.
 
-use crate::argument;
-use crate::errors;
+use crate::{argument, errors};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple, PyType};

@@ -2,10 +2,9 @@
 //!
 //! Whoever plans, proves or simulates knows no keys: the errors name things of the domain. Here each gets the keys that decide it.
 
-use crate::arm::ArmError;
-use crate::body_error::BodyError;
-use crate::error::ScenarioError;
-use crate::tool_body::tool_keys;
+use crate::error::{BodyError, ScenarioError};
+use crate::resolve::arm::ArmError;
+use crate::sections::tool::tool_keys;
 use platewash_certificate::ProveError;
 use platewash_paper::PaperError;
 use platewash_paper::tracking::TrackingError;

@@ -1,21 +1,23 @@
 //! From a file or a shipped name to a checked [`Scenario`].
+//!
+//! The text of a scenario: of a file, or of one that comes with the program.
+//!
+//! Scenarios that come with the program, by name.
+//!
+//! Paths as text: TOML and JSON are UTF-8, the system's paths need not be.
 
 use crate::error::{Problem, ScenarioError, conflict};
-use crate::fits::check;
-use crate::job::Program;
-use crate::keys::{KEYS, Key};
-use crate::line::{byte_of, line_at};
-use crate::listed::{Misfit, check_list};
-use crate::lists::LISTS;
-use crate::scenario::Scenario;
-use crate::seed::check_seed;
-use crate::source::source;
-use crate::surroundings::in_folder;
-use crate::unknown::unknown;
-use crate::value::{describe, json_of};
+use crate::keys::fits::{Misfit, byte_of, check, check_list, line_at, nearest, unknown};
+use crate::keys::value::{describe, json_of};
+use crate::keys::{KEYS, Key, LISTS};
+use crate::resolve::surroundings::in_folder;
+use crate::scenario::{Scenario, check_seed};
+use crate::sections::motion::Program;
 use platewash_kinematics::Pose;
+use platewash_kinematics::urdf::file::{self, FileError};
 use platewash_workcell::job::OrderRule;
-use std::path::Path;
+use serde::ser::{Serialize, Serializer};
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -219,6 +221,157 @@ fn check_value(key: &Key, value: &Spanned<DeValue<'_>>) -> Result<(), Misfit> {
     check(key, &json_of(value.get_ref()), found).map_err(|problem| (value.span().start, problem))
 }
 
+/// Longest text that is read \[bytes\].
+pub(crate) const MAX_BYTES: u64 = 1 << 20;
+
+/// A scenario's text, and where it stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ScenarioSource {
+    /// What it was asked for by: a shipped name, or the file as it was given.
+    pub name: String,
+    /// Its TOML text, as it stands there; not checked.
+    pub text: String,
+    /// The file; `None` for one that comes with the program.
+    pub file: Option<PathBuf>,
+    /// The folder to which paths in the text are relative: that of the file.
+    pub folder: Option<PathBuf>,
+}
+
+/// The text of a scenario: a shipped name (`paper-appendix`), or a file.
+///
+/// # Errors
+/// [`ScenarioError`]: neither of them, no regular file, longer than 1 MiB, or no UTF-8.
+pub fn source(name_or_file: &str) -> Result<ScenarioSource, ScenarioError> {
+    if let Some(shipped) = SHIPPED.iter().find(|s| s.name == name_or_file) {
+        return Ok(ScenarioSource {
+            name: shipped.name.to_owned(),
+            text: shipped.text.to_owned(),
+            file: None,
+            folder: None,
+        });
+    }
+    let fail = |problem| ScenarioError::new(name_or_file, None, problem);
+    let path = Path::new(name_or_file);
+    if !path.exists() {
+        let shipped: Vec<_> = SHIPPED.iter().map(|s| s.name).collect();
+        let name = name_or_file.strip_suffix(".toml").unwrap_or(name_or_file);
+        let nearest = nearest(name, shipped.iter().copied()).map(str::to_owned);
+        let shipped = shipped.join(", ");
+        return Err(fail(Problem::NotFound { nearest, shipped }));
+    }
+    let text = file::read_text(path, MAX_BYTES).map_err(|e| fail(unread(e)))?;
+    Ok(ScenarioSource {
+        name: name_or_file.to_owned(),
+        text,
+        file: Some(path.to_owned()),
+        folder: Some(path.parent().unwrap_or(Path::new("")).to_owned()),
+    })
+}
+
+fn unread(error: FileError) -> Problem {
+    match error {
+        FileError::TooLong { limit } => Problem::TooLarge { limit },
+        other => Problem::Unreadable {
+            detail: other.to_string(),
+        },
+    }
+}
+
+/// A scenario that comes with the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ShippedScenario {
+    /// The name under which it is found.
+    pub name: &'static str,
+    /// Its commented TOML text.
+    pub text: &'static str,
+}
+
+/// All shipped scenarios; the first is the default.
+pub const SHIPPED: &[ShippedScenario] = &[
+    ShippedScenario {
+        name: "kitchen",
+        text: include_str!("../../../scenarios/kitchen.toml"),
+    },
+    ShippedScenario {
+        name: "kitchen-spiral",
+        text: include_str!("../../../scenarios/kitchen-spiral.toml"),
+    },
+    ShippedScenario {
+        name: "kitchen-roomy",
+        text: include_str!("../../../scenarios/kitchen-roomy.toml"),
+    },
+    ShippedScenario {
+        name: "kitchen-rim",
+        text: include_str!("../../../scenarios/kitchen-rim.toml"),
+    },
+    ShippedScenario {
+        name: "coupe",
+        text: include_str!("../../../scenarios/coupe.toml"),
+    },
+    ShippedScenario {
+        name: "rim",
+        text: include_str!("../../../scenarios/rim.toml"),
+    },
+    ShippedScenario {
+        name: "deep",
+        text: include_str!("../../../scenarios/deep.toml"),
+    },
+    ShippedScenario {
+        name: "dessert",
+        text: include_str!("../../../scenarios/dessert.toml"),
+    },
+    ShippedScenario {
+        name: "angled-tool",
+        text: include_str!("../../../scenarios/angled-tool.toml"),
+    },
+    ShippedScenario {
+        name: "bracket-tool",
+        text: include_str!("../../../scenarios/bracket-tool.toml"),
+    },
+    ShippedScenario {
+        name: "sink",
+        text: include_str!("../../../scenarios/sink.toml"),
+    },
+    ShippedScenario {
+        name: "pedestal",
+        text: include_str!("../../../scenarios/pedestal.toml"),
+    },
+    ShippedScenario {
+        name: "ceiling",
+        text: include_str!("../../../scenarios/ceiling.toml"),
+    },
+    ShippedScenario {
+        name: "wall",
+        text: include_str!("../../../scenarios/wall.toml"),
+    },
+    ShippedScenario {
+        name: "rack",
+        text: include_str!("../../../scenarios/rack.toml"),
+    },
+    ShippedScenario {
+        name: "sizes",
+        text: include_str!("../../../scenarios/sizes.toml"),
+    },
+    ShippedScenario {
+        name: "paper-appendix",
+        text: include_str!("../../../scenarios/paper-appendix.toml"),
+    },
+    ShippedScenario {
+        name: "paper-text",
+        text: include_str!("../../../scenarios/paper-text.toml"),
+    },
+];
+
+/// A path with U+FFFD in place of what is not UTF-8.
+pub(crate) fn lossy<S: Serializer>(path: &Option<PathBuf>, serializer: S) -> Result<S::Ok, S::Error> {
+    path.as_ref().map(|p| p.to_string_lossy()).serialize(serializer)
+}
+
+/// The same for several paths.
+pub(crate) fn lossy_all<S: Serializer>(paths: &[PathBuf], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(paths.iter().map(|p| p.to_string_lossy()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -257,5 +410,36 @@ mod tests {
             let message = refused(line);
             assert!(!message.contains("millimetres"), "{message}");
         }
+    }
+
+    #[test]
+    fn only_regular_files_of_sensible_length_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("long.toml");
+        std::fs::write(&path, " ".repeat(MAX_BYTES as usize + 1)).unwrap();
+        let problem = |path: &Path| source(&path.to_string_lossy()).unwrap_err().problem;
+        assert_eq!(problem(&path), Problem::TooLarge { limit: MAX_BYTES });
+        assert!(problem(folder.path()).to_string().contains("not a regular file"));
+        assert!(matches!(
+            problem(&folder.path().join("none.toml")),
+            Problem::NotFound { .. }
+        ));
+        std::fs::write(&path, b"name = \"\xff\"").unwrap();
+        assert!(problem(&path).to_string().contains("UTF-8"));
+    }
+
+    #[test]
+    fn the_text_is_that_of_the_file_byte_for_byte() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.toml");
+        let text = "\u{feff}# no scenario, but a text\r\nname = 3";
+        std::fs::write(&path, text).unwrap();
+        let read = source(&path.to_string_lossy()).unwrap();
+        assert_eq!(read.text, text);
+        assert_eq!(read.file.as_deref(), Some(&*path));
+        assert_eq!(read.folder.as_deref(), Some(folder.path()));
+        let shipped = source("kitchen").unwrap();
+        assert_eq!((shipped.file, shipped.folder), (None, None));
+        assert_eq!(shipped.text, SHIPPED[0].text);
     }
 }

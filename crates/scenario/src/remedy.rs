@@ -12,8 +12,7 @@ use platewash_kinematics::RobotModel;
 use platewash_planner::scene::Hindrance;
 use platewash_planner::transit::TransitError;
 use platewash_planner::{PlanError, Promised, Watch, plan_unexplained};
-use platewash_workcell::cancel::Deadline;
-use platewash_workcell::cancel::{CancelToken, Cancelled};
+use platewash_workcell::cancel::{CancelToken, Cancelled, Deadline};
 use platewash_workcell::job::{End, JobError};
 use platewash_workcell::layout::LayoutError;
 use rayon::prelude::*;
@@ -449,8 +448,6 @@ fn of_hindrance(hindrance: &Hindrance) -> Vec<&'static Grid> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
-
     use super::*;
     use std::cell::Cell;
 

@@ -1,22 +1,20 @@
 //! A scenario: everything that a file states, section by section.
+//!
+//! Seeds that a plan file can state.
 
-use crate::control::ControlSection;
-use crate::ik::IkSection;
-use crate::job::{JobSection, Program};
-use crate::layout::LayoutSection;
-use crate::limits::LimitsSection;
-use crate::obstacle::ObstacleSection;
-use crate::plant::PlantSection;
-use crate::plate::PlateSection;
-use crate::robot::RobotSection;
-use crate::room::{FloorSection, TableSection};
-use crate::solids::Solids;
-use crate::tool::ToolSection;
-use crate::tool_body::ToolBodySection;
-use crate::transition::TransitionSection;
-use crate::wash::WashSection;
+use crate::error::Problem;
+use crate::resolve::solids::Solids;
+use crate::sections::layout::{LayoutSection, PlateSection};
+use crate::sections::motion::{IkSection, JobSection, LimitsSection, Program, TransitionSection};
+use crate::sections::obstacle::ObstacleSection;
+use crate::sections::robot::RobotSection;
+use crate::sections::room::{FloorSection, TableSection};
+use crate::sections::simulation::{ControlSection, PlantSection};
+use crate::sections::tool::{ToolBodySection, ToolSection};
+use crate::sections::wash::WashSection;
 use platewash_kinematics::urdf::Files;
 use platewash_kinematics::{AXES, JointVector};
+use platewash_workcell::job::MAX_SEED;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -135,4 +133,19 @@ mod tests {
         assert_eq!(scenario.validate(), Ok(()));
         assert!(serde_json::to_string(&scenario).unwrap().contains("arm\u{fffd}.urdf"));
     }
+}
+
+/// Refuses a seed above [`MAX_SEED`], by the name of whatever states it.
+///
+/// # Errors
+/// [`Problem::Value`].
+pub fn check_seed(key: &str, seed: u64) -> Result<(), Problem> {
+    if seed <= MAX_SEED {
+        return Ok(());
+    }
+    Err(Problem::Value {
+        key: key.to_owned(),
+        expected: format!("a whole number from 0 to {MAX_SEED} (2^53 − 1)"),
+        found: seed.to_string(),
+    })
 }

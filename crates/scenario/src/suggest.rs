@@ -2,9 +2,9 @@
 
 use crate::error::{Problem, ScenarioError};
 use crate::failure::Failure;
-use crate::job::Program;
-use crate::obstacle::HeldPlates;
 use crate::scenario::Scenario;
+use crate::sections::motion::Program;
+use crate::sections::obstacle::HeldPlates;
 use platewash_kinematics::RobotModel;
 use platewash_planner::Watch;
 use platewash_planner::suggest::{SuggestedHome, SuggestedRegion, place_in_front, suggest_home, suggest_region};

@@ -1,10 +1,8 @@
 use platewash_kinematics::JointVector;
 use platewash_workcell::fixtures::kitchen;
 use platewash_workcell::plan::*;
-use platewash_workcell::trajectory::PlanSegment;
-use platewash_workcell::trajectory::SegmentKind;
-use platewash_workcell::wash_path::WashCurve;
-use platewash_workcell::wash_path::WashPath;
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash_workcell::wash_path::{WashCurve, WashPath};
 
 fn plan() -> Plan {
     let job = kitchen();

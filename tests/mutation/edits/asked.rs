@@ -1,12 +1,11 @@
 //! Requirements and limits of the job: numbers that the motion keeps, and numbers that it does not.
 
 use crate::mutation::edit::{Edits, Expected, Kind};
-use platewash::JobTerms;
-use platewash::Plan;
 use platewash::certificate::Requirement::{
     self, Clearance, ContactSpeed, JointAcceleration, LineDeviation, PathDeviation, Reach, Swept, Tilt,
     TipAcceleration, TipSpeed, WashAcceleration, WashPaths, WashSpeed,
 };
+use platewash::{JobTerms, Plan};
 
 type Change = fn(&mut JobTerms);
 

@@ -1,6 +1,6 @@
 //! Which jobs can be handed to an ABB controller: the make of the arm, and what it may carry.
 
-use super::values::LEAST_KG;
+use crate::rapid::parse::LEAST_KG;
 use crate::refusal::Refusal;
 use nalgebra::Matrix2;
 use platewash_kinematics::irb120::IRB120_URDF;

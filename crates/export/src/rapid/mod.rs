@@ -6,18 +6,17 @@
 //! | a program's text | `write` |
 //! | modules into data and procedures; what a program does | `parse`, `read` |
 //! | joint targets, zones and tools; zones and speeds by name; names that are taken | `values`, `zone`, `names` |
+//!
+//! Names that RAPID or its controllers have given: a program must not name anything by them.
+//!
+//! Zones and speeds that every controller has by name.
 
 mod accepts;
-mod names;
 mod parse;
 mod read;
-mod values;
 mod write;
-mod zone;
 
-use crate::dialect::{Dialect, Points, ReadError};
-use crate::file::ProgramFile;
-use crate::program::Program;
+use crate::dialect::{Dialect, Points, Program, ProgramFile, ReadError};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
 use platewash_kinematics::RobotModel;
@@ -81,9 +80,75 @@ fn begins_a_module(text: &str) -> bool {
     first.starts_with("%%%") || first.get(..7).is_some_and(|word| word.eq_ignore_ascii_case("MODULE "))
 }
 
+/// Keywords, in capitals.
+const KEYWORDS: &str = "ALIAS AND BACKWARD CASE CONNECT CONST DEFAULT DIV DO ELSE ELSEIF ENDFOR ENDFUNC ENDIF ENDMODULE ENDPROC \
+                        ENDRECORD ENDTEST ENDTRAP ENDWHILE ERROR EXIT FALSE FOR FROM FUNC GOTO IF INOUT LOCAL MOD MODULE NOSTEPIN NOT \
+                        NOVIEW OR PERS PROC RAISE READONLY RECORD RETRY RETURN STEP SYSMODULE TASK TEST THEN TO TRAP TRUE TRYNEXT \
+                        UNDO VAR VIEWONLY WHILE WITH XOR";
+
+/// Types, functions and data of the controller that programs may use, and its common instructions, in small letters.
+const CONTROLLER: &str = "num byte errnum bool string pos orient pose confdata robjoint extjoint jointtarget robtarget loaddata tooldata \
+                          wobjdata zonedata speeddata abs sqrt sin cos tan round trunc atan2 numtostr valtostr strlen dim present \
+                          cjointt pi stempty tool0 load0 wobj0 fine vmax moveabsj waittime tperase tpwrite errwrite confj confl \
+                          singarea accset velset set reset setdo setgo setao pulsedo invertdo movej movel movec moveextj movejdo \
+                          moveldo movecdo movejsync movelsync movecsync triggj triggl triggc triggabsj searchl searchc stop break \
+                          waituntil waitdi waitdo waitgi waitgo waitai waitao waitrob waitload tpreadfk tpreadnum startmove stopmove \
+                          speedrefresh pathacclim worldacclim motionsup softact softdeact gripload pdispon pdispoff pdispset eoffson \
+                          eoffsoff eoffsset actunit deactunit isignaldi isignaldo itimer ienable idisable";
+
+/// Whether a name is a keyword or the controller's own, in any case of letters.
+pub(crate) fn is_taken(name: &str) -> bool {
+    let (capitals, small) = (name.to_ascii_uppercase(), name.to_ascii_lowercase());
+    KEYWORDS.split_ascii_whitespace().any(|word| word == capitals)
+        || CONTROLLER.split_ascii_whitespace().any(|word| word == small)
+        || zone_mm(&small).is_some()
+        || is_speed(&small)
+}
+
+/// Zones: radius at the tip \[mm\].
+const ZONES: [(&str, f32); 14] = [
+    ("z0", 0.3),
+    ("z1", 1.0),
+    ("z5", 5.0),
+    ("z10", 10.0),
+    ("z15", 15.0),
+    ("z20", 20.0),
+    ("z30", 30.0),
+    ("z40", 40.0),
+    ("z50", 50.0),
+    ("z60", 60.0),
+    ("z80", 80.0),
+    ("z100", 100.0),
+    ("z150", 150.0),
+    ("z200", 200.0),
+];
+
+/// Speeds of the tip \[mm/s\]: `v5` and so on.
+const SPEEDS: [u16; 25] = [
+    5, 10, 20, 30, 40, 50, 60, 80, 100, 150, 200, 300, 400, 500, 600, 800, 1000, 1500, 2000, 2500, 3000, 4000, 5000,
+    6000, 7000,
+];
+
+/// The zone with a radius at the tip \[m\], if there is one by name.
+pub(crate) fn zone_named(radius_m: f64) -> Option<&'static str> {
+    let is_it = |mm: f32| (f64::from(mm) - radius_m * 1e3).abs() < 1e-6;
+    ZONES.iter().find(|(_, mm)| is_it(*mm)).map(|(name, _)| *name)
+}
+
+/// The radius of a zone \[mm\], by its name in small letters.
+pub(crate) fn zone_mm(name: &str) -> Option<f32> {
+    ZONES.iter().find(|(zone, _)| *zone == name).map(|(_, mm)| *mm)
+}
+
+/// Whether a name, in small letters, is that of a speed.
+pub(crate) fn is_speed(name: &str) -> bool {
+    let number = name.strip_prefix('v').and_then(|number| number.parse().ok());
+    name == "vmax" || number.is_some_and(|number| SPEEDS.contains(&number) && name == format!("v{number}"))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{is_taken, *};
 
     #[test]
     fn modules_are_known_by_name_or_text() {
@@ -96,5 +161,24 @@ mod tests {
         assert!(is_in("wash.txt", "%%%\n  VERSION:1\n%%%\n"));
         assert!(!is_in("wash.txt", "") && !is_in("wash.script", "def wash():\n  MODULE = 1\n"));
         assert!(!is_in("wash.yaml", "é: MODULE a"));
+    }
+
+    #[test]
+    fn keywords_and_names_of_the_controller_are_taken() {
+        assert!(
+            ["Proc", "z5", "V100", "wobj0", "MoveL", "JointTarget", "fine"]
+                .into_iter()
+                .all(is_taken)
+        );
+        assert!(!["pwWash3", "kitchen", "z3", "v05", ""].into_iter().any(is_taken));
+    }
+
+    #[test]
+    fn zones_and_speeds_by_name() {
+        let zones = [0.005, 0.000_3, 0.004, f64::NAN].map(zone_named);
+        assert_eq!(zones, [Some("z5"), Some("z0"), None, None]);
+        assert_eq!((zone_mm("z5"), zone_mm("z3")), (Some(5.0), None));
+        let speeds = ["v100", "vmax", "v7000", "v05", "v7", "v"].map(is_speed);
+        assert_eq!(speeds, [true, true, true, false, false, false]);
     }
 }

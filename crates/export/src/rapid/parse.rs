@@ -1,9 +1,12 @@
 //! Modules as data and procedures.
+//!
+//! What a motion is made of: joint targets, zones and tools.
 
-use super::names::is_taken;
-use crate::dialect::ReadError;
-use crate::file::{Place, ProgramFile};
-use crate::tokens::{self, Token};
+use crate::dialect::{Place, ProgramFile, ReadError};
+use crate::rapid::is_taken;
+use crate::reading::{self, ReadTool, Token};
+use nalgebra::{Quaternion, Translation3, UnitQuaternion};
+use platewash_kinematics::{JointVector, Pose};
 use std::collections::HashMap;
 
 /// Most files and lines that are read.
@@ -14,14 +17,14 @@ const DEEPEST: usize = 8;
 
 /// A token and its line, from 1.
 #[derive(Debug, Clone)]
-pub(super) struct Placed {
-    pub(super) token: Token,
-    pub(super) line: usize,
+pub(crate) struct Placed {
+    pub(crate) token: Token,
+    pub(crate) line: usize,
 }
 
 /// A value of literals.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     /// A number, as the controller's single.
     Number(f32),
     Truth(bool),
@@ -31,32 +34,32 @@ pub(super) enum Value {
 
 /// Declared data.
 #[derive(Debug)]
-pub(super) struct Data {
-    pub(super) place: Place,
+pub(crate) struct Data {
+    pub(crate) place: Place,
     /// Its type, in small letters.
-    pub(super) type_name: String,
-    pub(super) is_constant: bool,
+    pub(crate) type_name: String,
+    pub(crate) is_constant: bool,
     /// `None` where none is stated.
-    pub(super) value: Option<Value>,
+    pub(crate) value: Option<Value>,
 }
 
 /// A procedure.
 #[derive(Debug)]
-pub(super) struct Procedure {
-    pub(super) place: Place,
+pub(crate) struct Procedure {
+    pub(crate) place: Place,
     /// Its name, as it stands.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// What stands between the brackets behind its name.
-    pub(super) parameters: Vec<Placed>,
+    pub(crate) parameters: Vec<Placed>,
     /// What stands before `ENDPROC`.
-    pub(super) body: Vec<Placed>,
+    pub(crate) body: Vec<Placed>,
 }
 
 /// The modules of a program; names in small letters.
 #[derive(Debug, Default)]
-pub(super) struct Modules {
-    pub(super) data: HashMap<String, Data>,
-    pub(super) procedures: HashMap<String, Procedure>,
+pub(crate) struct Modules {
+    pub(crate) data: HashMap<String, Data>,
+    pub(crate) procedures: HashMap<String, Procedure>,
     names: HashMap<String, Place>,
 }
 
@@ -64,7 +67,7 @@ pub(super) struct Modules {
 ///
 /// # Errors
 /// [`ReadError`] with the line of what is not read.
-pub(super) fn modules(files: &[ProgramFile]) -> Result<Modules, ReadError> {
+pub(crate) fn modules(files: &[ProgramFile]) -> Result<Modules, ReadError> {
     let mut modules = Modules::default();
     for file in files {
         let tokens = placed(file)?;
@@ -102,7 +105,7 @@ fn placed(file: &ProgramFile) -> Result<Vec<Placed>, ReadError> {
             continue;
         }
         let add = |token| all.push(Placed { token, line });
-        tokens::line(text, '!', add).map_err(|reason| ReadError::at(&file.name, line, reason))?;
+        reading::line(text, '!', add).map_err(|reason| ReadError::at(&file.name, line, reason))?;
     }
     Ok(all)
 }
@@ -187,23 +190,23 @@ impl Modules {
 
 /// Tokens one by one.
 #[derive(Debug, Clone)]
-pub(super) struct Cursor<'a> {
+pub(crate) struct Cursor<'a> {
     file: &'a str,
     tokens: &'a [Placed],
     at: usize,
 }
 
 impl<'a> Cursor<'a> {
-    pub(super) fn new(file: &'a str, tokens: &'a [Placed]) -> Self {
+    pub(crate) fn new(file: &'a str, tokens: &'a [Placed]) -> Self {
         Self { file, tokens, at: 0 }
     }
 
-    pub(super) fn peek(&self) -> Option<&'a Token> {
+    pub(crate) fn peek(&self) -> Option<&'a Token> {
         self.tokens.get(self.at).map(|placed| &placed.token)
     }
 
     /// The place of the next token; at the end that of the last one.
-    pub(super) fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> Place {
         let line = self
             .tokens
             .get(self.at)
@@ -215,25 +218,25 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    pub(super) fn refused(&self, reason: impl Into<String>) -> ReadError {
+    pub(crate) fn refused(&self, reason: impl Into<String>) -> ReadError {
         ReadError {
             place: self.place(),
             reason: reason.into(),
         }
     }
 
-    pub(super) fn expected(&self, what: &str) -> ReadError {
+    pub(crate) fn expected(&self, what: &str) -> ReadError {
         let found = self.peek().map_or_else(|| "the end".to_owned(), ToString::to_string);
         self.refused(format!("expected {what}, found {found}"))
     }
 
-    pub(super) fn next(&mut self, expected: &str) -> Result<&'a Token, ReadError> {
+    pub(crate) fn next(&mut self, expected: &str) -> Result<&'a Token, ReadError> {
         let token = self.peek().ok_or_else(|| self.expected(expected))?;
         self.at += 1;
         Ok(token)
     }
 
-    pub(super) fn word(&mut self, expected: &str) -> Result<String, ReadError> {
+    pub(crate) fn word(&mut self, expected: &str) -> Result<String, ReadError> {
         match self.peek() {
             Some(Token::Word(word)) => {
                 self.at += 1;
@@ -244,26 +247,26 @@ impl<'a> Cursor<'a> {
     }
 
     /// Whether the next token is that word, which is taken then.
-    pub(super) fn takes(&mut self, word: &str) -> bool {
+    pub(crate) fn takes(&mut self, word: &str) -> bool {
         let is_it = matches!(self.peek(), Some(Token::Word(found)) if found.eq_ignore_ascii_case(word));
         self.at += usize::from(is_it);
         is_it
     }
 
-    pub(super) fn keyword(&mut self, word: &str) -> Result<(), ReadError> {
+    pub(crate) fn keyword(&mut self, word: &str) -> Result<(), ReadError> {
         match self.takes(word) {
             true => Ok(()),
             false => Err(self.expected(&format!("`{word}`"))),
         }
     }
 
-    pub(super) fn takes_sign(&mut self, sign: &str) -> bool {
+    pub(crate) fn takes_sign(&mut self, sign: &str) -> bool {
         let is_it = self.peek().is_some_and(|token| token.is(sign));
         self.at += usize::from(is_it);
         is_it
     }
 
-    pub(super) fn sign(&mut self, sign: &str) -> Result<(), ReadError> {
+    pub(crate) fn sign(&mut self, sign: &str) -> Result<(), ReadError> {
         match self.takes_sign(sign) {
             true => Ok(()),
             false => Err(self.expected(&format!("`{sign}`"))),
@@ -271,14 +274,14 @@ impl<'a> Cursor<'a> {
     }
 
     /// The tokens before the first one that ends them, which is taken, too.
-    pub(super) fn up_to(&mut self, ends: impl Fn(&Token) -> bool, expected: &str) -> Result<Vec<Placed>, ReadError> {
+    pub(crate) fn up_to(&mut self, ends: impl Fn(&Token) -> bool, expected: &str) -> Result<Vec<Placed>, ReadError> {
         let from = self.at;
         while !ends(self.next(expected)?) {}
         Ok(self.tokens[from..self.at - 1].to_vec())
     }
 
     /// A value of literals.
-    pub(super) fn value(&mut self, depth: usize) -> Result<Value, ReadError> {
+    pub(crate) fn value(&mut self, depth: usize) -> Result<Value, ReadError> {
         if depth > DEEPEST {
             return Err(self.refused(format!("brackets nested deeper than {DEEPEST}")));
         }
@@ -304,7 +307,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// A literal number, as the controller's single.
-    pub(super) fn number(&mut self) -> Result<f32, ReadError> {
+    pub(crate) fn number(&mut self) -> Result<f32, ReadError> {
         let sign = match self.takes_sign("-") {
             true => -1.0,
             false => {
@@ -319,5 +322,151 @@ impl<'a> Cursor<'a> {
             }
             _ => Err(self.expected("a number")),
         }
+    }
+}
+
+/// What stands for an axis that is not used \[°\].
+pub(crate) const UNUSED: f32 = 9e9;
+
+/// Least mass that a controller takes \[kg\].
+pub(crate) const LEAST_KG: f64 = 0.001;
+
+/// How far the length of a quaternion of four singles may be from 1.
+const UNIT: f64 = 1e-4;
+
+/// How large a zone may be for turning, as a multiple of its radius at the tip: corners are judged up to twice their size.
+const MOST_TURNING: f32 = 2.0;
+
+impl Value {
+    fn list<const N: usize>(&self) -> Option<[&Self; N]> {
+        match self {
+            Self::List(values) => values.iter().collect::<Vec<_>>().try_into().ok(),
+            _ => None,
+        }
+    }
+
+    fn number(&self) -> Option<f32> {
+        match self {
+            Self::Number(number) => Some(*number),
+            _ => None,
+        }
+    }
+
+    fn numbers<const N: usize>(&self) -> Option<[f32; N]> {
+        let numbers: Option<Vec<_>> = self.list::<N>()?.into_iter().map(Self::number).collect();
+        numbers?.try_into().ok()
+    }
+}
+
+/// The tool of an arm that holds none.
+pub(crate) fn tool0() -> Value {
+    let list = |numbers: &[f32]| Value::List(numbers.iter().copied().map(Value::Number).collect());
+    let (turn, mut load) = (
+        list(&[1.0, 0.0, 0.0, 0.0]),
+        vec![Value::Number(0.001), list(&[0.0, 0.0, 0.001])],
+    );
+    load.push(turn.clone());
+    load.extend([Value::Number(0.0), Value::Number(0.0), Value::Number(0.0)]);
+    let frame = Value::List(vec![list(&[0.0; 3]), turn]);
+    Value::List(vec![Value::Truth(true), frame, Value::List(load)])
+}
+
+/// Joint positions of a joint target \[rad\].
+pub(crate) fn target(value: &Value) -> Result<JointVector, String> {
+    let parts = value
+        .list()
+        .and_then(|[robot, external]| Some((robot.numbers::<6>()?, external.numbers::<6>()?)));
+    let (robot, external) = parts.ok_or("expected a joint target [[6 angles],[6 external axes]]")?;
+    if let Some(joint) = robot.iter().position(|deg| deg.abs() >= UNUSED) {
+        return Err(format!(
+            "expected an angle in degrees for joint {}, found {:E}",
+            joint + 1,
+            robot[joint]
+        ));
+    }
+    if external != [UNUSED; 6] {
+        return Err("expected 9E9 for every external axis: external axes are not read".to_owned());
+    }
+    Ok(JointVector::from(robot.map(|deg| f64::from(deg).to_radians())))
+}
+
+/// The radius of the corner of a zone \[m\]; `None` for a stop.
+pub(crate) fn corner(value: &Value) -> Result<Option<f64>, String> {
+    let shape = || "expected zone data [FALSE,5,8,8,0.8,8,0.8]".to_owned();
+    let [is_stop, rest @ ..] = value.list::<7>().ok_or_else(shape)?;
+    let numbers: Option<Vec<_>> = rest.into_iter().map(Value::number).collect();
+    match (is_stop, numbers.as_deref()) {
+        (Value::Truth(true), Some(_)) => Ok(None),
+        (Value::Truth(false), Some([tip, turning, ..])) if *tip >= 0.0 => match *turning <= MOST_TURNING * tip {
+            true => Ok(Some(f64::from(*tip) / 1e3)),
+            false => Err(format!(
+                "expected a zone for turning (pzone_ori) of at most {MOST_TURNING} times its radius at the tip, found {turning} and {tip} \
+                 mm: how far from the target the corner begins is judged up to that"
+            )),
+        },
+        _ => Err(shape()),
+    }
+}
+
+/// Whether a value is speed data: four numbers.
+pub(crate) fn is_speed(value: &Value) -> bool {
+    value.numbers::<4>().is_some()
+}
+
+/// A tool, in SI units.
+pub(crate) fn tool(value: &Value) -> Result<ReadTool, String> {
+    let shape = || "expected tool data [TRUE,[[x,y,z],[q1,q2,q3,q4]],[kg,[x,y,z],[q1,q2,q3,q4],ix,iy,iz]]".to_owned();
+    let parts = value.list().and_then(|[held, frame, load]: [&Value; 3]| {
+        let [trans, rot] = frame.list()?;
+        let [mass, cog, aom, ix, iy, iz] = load.list()?;
+        let moments = [ix.number()?, iy.number()?, iz.number()?];
+        let lengths = [trans.numbers::<3>()?, cog.numbers::<3>()?];
+        Some((
+            held,
+            lengths,
+            [rot.numbers::<4>()?, aom.numbers::<4>()?],
+            mass.number()?,
+            moments,
+        ))
+    });
+    let (held, lengths, rotations, mass, moments) = parts.ok_or_else(shape)?;
+    if *held != Value::Truth(true) {
+        return Err("expected a tool that the arm holds (robhold TRUE), found one that stands still".to_owned());
+    }
+    // The least mass as a single is a little off.
+    if f64::from(mass) < LEAST_KG * (1.0 - 1e-6) {
+        return Err(format!(
+            "expected a tool's mass of at least {LEAST_KG} kg, found {mass}: the controller refuses it"
+        ));
+    }
+    let [tip_m, com_m] = lengths.map(|mm| mm.map(|mm| f64::from(mm) / 1e3));
+    if com_m == [0.0; 3] {
+        return Err(
+            "expected a centre of mass away from the flange, found [0, 0, 0]: the controller refuses it".to_owned(),
+        );
+    }
+    if let Some(moment) = moments.into_iter().find(|moment| *moment < 0.0) {
+        return Err(format!(
+            "expected moments of inertia of 0 kg·m² or more, found {moment}"
+        ));
+    }
+    let [tip, axes] = rotations.map(rotation);
+    Ok(ReadTool {
+        tip: Some(Pose::from_parts(Translation3::from(tip_m), tip?)),
+        mass_kg: f64::from(mass),
+        com_m,
+        inertia: Some((moments.map(f64::from), axes?)),
+    })
+}
+
+fn rotation(parts: [f32; 4]) -> Result<UnitQuaternion<f64>, String> {
+    let [w, x, y, z] = parts.map(f64::from);
+    let quaternion = Quaternion::new(w, x, y, z);
+    let length = quaternion.norm();
+    match (length - 1.0).abs() <= UNIT {
+        true => Ok(UnitQuaternion::from_quaternion(quaternion)),
+        false => Err(format!(
+            "expected a quaternion of length 1 in the tool, found length {length}"
+        )),
     }
 }

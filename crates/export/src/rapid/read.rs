@@ -6,13 +6,11 @@
 //!
 //! Numbers are IEEE singles, as on the controller.
 
-use super::parse::{Cursor, Data, Modules, Placed, Procedure, Value, modules};
-use super::write::{MOST, RUNNING, SHARE, checks};
-use super::{values, zone};
-use crate::dialect::ReadError;
-use crate::file::{Place, ProgramFile};
-use crate::reading::{Between, ReadPoint, ReadTool, Reading};
-use crate::tokens::Token;
+use crate::dialect::{Place, ProgramFile, ReadError};
+use crate::rapid::parse::{self, Cursor, Data, Modules, Placed, Procedure, Value, modules};
+use crate::rapid::write::{MOST, RUNNING, SHARE, checks};
+use crate::rapid::{self};
+use crate::reading::{Between, ReadPoint, ReadTool, Reading, Token};
 use platewash_kinematics::JointVector;
 use std::collections::HashMap;
 
@@ -73,7 +71,7 @@ struct Time {
 ///
 /// # Errors
 /// [`ReadError`] with the line of what is not read.
-pub(super) fn reading(files: &[ProgramFile]) -> Result<Reading, ReadError> {
+pub(crate) fn reading(files: &[ProgramFile]) -> Result<Reading, ReadError> {
     let modules = modules(files)?;
     check_blocks(&modules)?;
     let mut procedures: Vec<_> = modules.procedures.iter().filter(|(key, _)| !is_block(key)).collect();
@@ -202,7 +200,7 @@ impl Modules {
         options(cursor, |cursor, _| Err(cursor.expected("a target")))?;
         let at = cursor.clone();
         let (target, declared) = self.named(cursor, "jointtarget")?;
-        let q_rad = values::target(&target).map_err(|reason| at.refused(reason))?;
+        let q_rad = parse::target(&target).map_err(|reason| at.refused(reason))?;
         options(cursor, |cursor, option| match option {
             "noeoffs" => Ok(()),
             _ => Err(cursor.expected("\\NoEOffs or `,` after the target")),
@@ -224,7 +222,7 @@ impl Modules {
         cursor.sign(",")?;
         let at = cursor.clone();
         let tool = self.tool(cursor)?;
-        let tool = values::tool(&tool).map_err(|reason| at.refused(reason))?;
+        let tool = parse::tool(&tool).map_err(|reason| at.refused(reason))?;
         options(cursor, |cursor, option| match option {
             "wobj" => {
                 cursor.sign(":=")?;
@@ -267,13 +265,13 @@ impl Modules {
     /// A speed, which counts for nothing where `\T` is given.
     fn speed(&self, cursor: &mut Cursor<'_>) -> Result<(), ReadError> {
         if let Some(Token::Word(name)) = cursor.peek()
-            && zone::is_speed(&name.to_ascii_lowercase())
+            && rapid::is_speed(&name.to_ascii_lowercase())
         {
             cursor.next("a speed")?;
             return Ok(());
         }
         let at = cursor.clone();
-        match values::is_speed(&self.named(cursor, "speeddata")?.0) {
+        match parse::is_speed(&self.named(cursor, "speeddata")?.0) {
             true => Ok(()),
             false => Err(at.expected("speed data of four numbers")),
         }
@@ -284,18 +282,18 @@ impl Modules {
             return Ok(None);
         }
         if let Some(Token::Word(name)) = cursor.peek()
-            && let Some(mm) = zone::zone_mm(&name.to_ascii_lowercase())
+            && let Some(mm) = rapid::zone_mm(&name.to_ascii_lowercase())
         {
             cursor.next("a zone")?;
             return Ok(Some(f64::from(mm) / 1e3));
         }
         let at = cursor.clone();
-        values::corner(&self.named(cursor, "zonedata")?.0).map_err(|reason| at.refused(reason))
+        parse::corner(&self.named(cursor, "zonedata")?.0).map_err(|reason| at.refused(reason))
     }
 
     fn tool(&self, cursor: &mut Cursor<'_>) -> Result<Value, ReadError> {
         if cursor.takes("tool0") {
-            return Ok(values::tool0());
+            return Ok(parse::tool0());
         }
         Ok(self.named(cursor, "tooldata")?.0)
     }
@@ -332,7 +330,7 @@ fn options<'a>(
 fn time(cursor: &mut Cursor<'_>) -> Result<Time, ReadError> {
     let at = cursor.clone();
     let written_s = cursor.number()?;
-    if !(0.0..values::UNUSED).contains(&written_s) {
+    if !(0.0..parse::UNUSED).contains(&written_s) {
         return Err(at.refused(format!("expected a time of 0 s or more, found {written_s}")));
     }
     let is_divided = cursor.takes_sign("/");
@@ -477,7 +475,7 @@ impl<'a> Run<'a> {
                     .get("pwstart")
                     .filter(|data| data.type_name == "jointtarget");
                 let start = start.and_then(|data| data.value.as_ref());
-                self.start_rad = Some(values::target(
+                self.start_rad = Some(parse::target(
                     start.ok_or("expected `pwStart` to be declared as a jointtarget")?,
                 )?);
             }

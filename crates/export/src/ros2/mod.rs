@@ -1,7 +1,7 @@
 //! ROS 2: a plan as messages for joint_trajectory_controller, and a player that sends them.
 //!
 //! Positions and speeds at every knot and nothing else: between two points the controller draws the cubic that has both, which is the
-//! plan's own. The first point is [`timing::LEAD_IN_S`] after the goal is taken, so that the arm is led to it and does not jump.
+//! plan's own. The first point is [`write::LEAD_IN_S`] after the goal is taken, so that the arm is led to it and does not jump.
 //!
 //! | concept | module |
 //! | --- | --- |
@@ -10,25 +10,19 @@
 //! | messages as YAML and JSON | `write` |
 //! | YAML as a tree with lines; that as a reading | `node`, `read` |
 //! | the script that sends a goal | `player`, `play.py` |
+//!
+//! What a message says.
 
-mod language;
-mod message;
 mod node;
 mod number;
-mod player;
 mod read;
-pub mod timing;
-mod write;
+pub mod write;
 
-use crate::dialect::{Dialect, Points, ReadError};
-use crate::file::ProgramFile;
-use crate::program::Program;
+use crate::dialect::{Dialect, Points, Program, ProgramFile, ReadError};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
-use language::Language;
-use message::{GOAL_RAD, Message};
-use platewash_kinematics::AXES;
-use platewash_kinematics::RobotModel;
+use crate::ros2::read::Language;
+use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::job::JobTerms;
 
 /// The file that holds the `trajectory_msgs/JointTrajectory` as JSON.
@@ -40,7 +34,7 @@ pub const FILES: [&str; 5] = [
     TRAJECTORY_JSON,
     "follow_joint_trajectory.yaml",
     "follow_joint_trajectory.json",
-    player::NAME,
+    write::NAME,
 ];
 
 /// The dialect `ros2`.
@@ -53,7 +47,7 @@ impl Dialect for Ros2 {
     }
 
     fn is_in(&self, file: &ProgramFile) -> bool {
-        player::is_it(file) || (Language::of(&file.name).is_some() && file.text.contains("time_from_start"))
+        write::is_it(file) || (Language::of(&file.name).is_some() && file.text.contains("time_from_start"))
     }
 
     fn points(&self) -> Points {
@@ -87,7 +81,7 @@ impl Dialect for Ros2 {
             trajectory(Language::Json),
             of_goal + &goal(Language::Yaml),
             goal(Language::Json),
-            player::TEXT.to_owned(),
+            write::TEXT.to_owned(),
         ];
         let file = |(name, text): (&str, String)| ProgramFile {
             name: name.to_owned(),
@@ -97,11 +91,11 @@ impl Dialect for Ros2 {
     }
 
     fn read(&self, files: &[ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {
-        let (players, messages): (Vec<_>, Vec<_>) = files.iter().partition(|file| player::is_it(file));
-        let check = |file: &ProgramFile| player::check(file).map_err(|fault| read::refused(file, fault));
+        let (players, messages): (Vec<_>, Vec<_>) = files.iter().partition(|file| write::is_it(file));
+        let check = |file: &ProgramFile| write::check(file).map_err(|fault| read::refused(file, fault));
         players.into_iter().try_for_each(check)?;
         // The player compares the start; a message alone cannot.
-        let checks_start = files.iter().any(player::is_it);
+        let checks_start = files.iter().any(write::is_it);
         read::reading(&messages, arm).map(|reading| Reading {
             checks_start,
             ..reading
@@ -111,7 +105,7 @@ impl Dialect for Ros2 {
 
 /// What the head of a message says beside that of every program.
 fn said(program: &Program<'_>) -> Vec<String> {
-    let lead_in_s = timing::LEAD_IN_S;
+    let lead_in_s = write::LEAD_IN_S;
     vec![
         "trajectory_msgs/JointTrajectory: positions in rad, velocities in rad/s; no accelerations, no effort."
             .to_owned(),
@@ -141,4 +135,75 @@ fn said_of_goal(message: &Message) -> Vec<String> {
         format!("goal_tolerance {} rad.", each([GOAL_RAD; AXES])),
         "A tolerance of 0.0 would mean the controller's own, -1.0 none. None of them is part of the proof.".to_owned(),
     ]
+}
+
+/// How late a joint may be before the controller aborts \[s\].
+const LATE_S: f64 = 0.05;
+
+/// Least tolerance of the path \[rad\].
+const LEAST_PATH_RAD: f64 = 0.02;
+
+/// Tolerance of the goal \[rad\].
+pub(crate) const GOAL_RAD: f64 = 0.01;
+
+/// How much later than planned the goal may be reached \[ns\].
+pub(crate) const GOAL_TIME_NS: i64 = write::NS_PER_S;
+
+/// Tolerances are whole multiples of one radian by this.
+const STEPS_PER_RAD: f64 = 1000.0;
+
+/// A point of a trajectory.
+#[derive(Debug)]
+pub(crate) struct MessagePoint {
+    pub(crate) q_rad: JointVector,
+    pub(crate) qd_rad_s: JointVector,
+    /// Time from the start of the message \[ns\].
+    pub(crate) time_ns: i64,
+}
+
+/// A trajectory with its tolerances.
+#[derive(Debug)]
+pub(crate) struct Message {
+    pub(crate) joint_names: Vec<String>,
+    pub(crate) points: Vec<MessagePoint>,
+    /// Tolerance of the path, joint by joint \[rad\].
+    pub(crate) path_rad: [f64; AXES],
+}
+
+impl Message {
+    /// That of a program.
+    pub(crate) fn of(program: &Program<'_>) -> Self {
+        let share = program.speed_share;
+        let times = write::nanoseconds(program.points.iter().map(|point| point.t_s / share));
+        let points = program.points.iter().zip(times).map(|(point, time_ns)| MessagePoint {
+            q_rad: point.q_rad,
+            qd_rad_s: point.qd_rad_s * share,
+            time_ns,
+        });
+        let points: Vec<_> = points.collect();
+        let speeds = program.points.iter().map(|point| point.qd_rad_s.abs());
+        let fastest = speeds.fold(JointVector::zeros(), |fastest, speeds| fastest.sup(&speeds)) * share;
+        Self {
+            joint_names: program.arm.joints().iter().map(|joint| joint.name.clone()).collect(),
+            points,
+            path_rad: <[f64; AXES]>::from(fastest).map(path_tolerance_rad),
+        }
+    }
+}
+
+/// The tolerance of the path for a joint of that greatest speed \[rad\].
+fn path_tolerance_rad(speed_rad_s: f64) -> f64 {
+    let late = (LATE_S * speed_rad_s).max(LEAST_PATH_RAD);
+    (late * STEPS_PER_RAD).ceil() / STEPS_PER_RAD
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tolerance_of_the_path_is_that_of_a_late_joint() {
+        let tolerances = [0.0, 0.39, 0.5, 2.4, 2.401].map(path_tolerance_rad);
+        assert_eq!(tolerances, [0.02, 0.02, 0.025, 0.12, 0.121]);
+    }
 }

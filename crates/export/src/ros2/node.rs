@@ -1,12 +1,12 @@
 //! YAML as a tree with lines, strictly and within bounds: what a message needs, and nothing else of the language.
 
-use super::language::Language;
+use crate::ros2::read::Language;
 use platewash_workcell::words::{quoted, shortened};
 use saphyr_parser::{Event, Parser, ScalarStyle, Span};
 use std::borrow::Cow;
 
 /// Longest text that is read \[bytes\].
-pub(super) const MAX_BYTES: usize = 1 << 25;
+pub(crate) const MAX_BYTES: usize = 1 << 25;
 
 /// Most values of a text, keys among them.
 const MAX_NODES: usize = 4_000_000;
@@ -19,15 +19,15 @@ const LONGEST: usize = 40;
 
 /// A value of a text.
 #[derive(Debug)]
-pub(super) struct Node<'a> {
+pub(crate) struct Node<'a> {
     /// The line at which it begins, from 1.
-    pub(super) line: usize,
-    pub(super) kind: Kind<'a>,
+    pub(crate) line: usize,
+    pub(crate) kind: Kind<'a>,
 }
 
 /// What a value is.
 #[derive(Debug)]
-pub(super) enum Kind<'a> {
+pub(crate) enum Kind<'a> {
     /// Without quotes: a number, or a word.
     Plain(Cow<'a, str>),
     /// The same in a text that is JSON, too: its numbers are those of JSON.
@@ -41,21 +41,21 @@ pub(super) enum Kind<'a> {
 
 /// A key of a table, and its value.
 #[derive(Debug)]
-pub(super) struct Entry<'a> {
-    pub(super) key: Cow<'a, str>,
-    pub(super) line: usize,
-    pub(super) value: Node<'a>,
+pub(crate) struct Entry<'a> {
+    pub(crate) key: Cow<'a, str>,
+    pub(crate) line: usize,
+    pub(crate) value: Node<'a>,
 }
 
 /// A line, and what is wrong with it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Fault {
-    pub(super) line: usize,
-    pub(super) reason: String,
+pub(crate) struct Fault {
+    pub(crate) line: usize,
+    pub(crate) reason: String,
 }
 
 impl Fault {
-    pub(super) fn new(line: usize, reason: impl Into<String>) -> Self {
+    pub(crate) fn new(line: usize, reason: impl Into<String>) -> Self {
         let reason = reason.into();
         Self { line, reason }
     }
@@ -63,7 +63,7 @@ impl Fault {
 
 impl Kind<'_> {
     /// In words, for messages.
-    pub(super) fn told(&self) -> String {
+    pub(crate) fn told(&self) -> String {
         match self {
             Self::Plain(text) | Self::OfJson(text) => told(text),
             Self::Quoted(text) => format!("the text {}", quoted(&told(text))),
@@ -81,7 +81,7 @@ fn told(text: &str) -> String {
 }
 
 /// Reads a text: one document, no anchors, aliases and tags, no key twice in a table.
-pub(super) fn read(text: &str, language: Language) -> Result<Node<'_>, Fault> {
+pub(crate) fn read(text: &str, language: Language) -> Result<Node<'_>, Fault> {
     if text.len() > MAX_BYTES {
         let reason = format!("expected {MAX_BYTES} bytes at most; found {}", text.len());
         return Err(Fault::new(1, reason));

@@ -3,7 +3,7 @@
 /// A finite number as a float's text: always with a point, an exponent always with its sign, never a negative zero.
 ///
 /// YAML 1.1, which ROS 2 reads, takes `1e-05` and `1e16` for texts; `1.0e-5` is a number to everybody.
-pub(super) fn float(value: f64) -> String {
+pub(crate) fn float(value: f64) -> String {
     let value = if value == 0.0 { 0.0 } else { value };
     let shortest = format!("{value:?}");
     let Some((mantissa, exponent)) = shortest.split_once('e') else {
@@ -15,7 +15,7 @@ pub(super) fn float(value: f64) -> String {
 }
 
 /// A text in double quotes, as JSON and YAML read it: of the first 65536 characters what is not ASCII is written out.
-pub(super) fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 2);
     out.push('"');
     for c in text.chars() {
@@ -32,7 +32,7 @@ pub(super) fn quoted(text: &str) -> String {
 
 /// What a text says as a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Said {
+pub(crate) enum Said {
     /// A finite number that every reader takes for a float.
     Float(f64),
     /// A whole number.
@@ -44,7 +44,7 @@ pub(super) enum Said {
 }
 
 /// Reads a number's text.
-pub(super) fn read(text: &str) -> Said {
+pub(crate) fn read(text: &str) -> Said {
     let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
     let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => (mantissa, Some(exponent)),

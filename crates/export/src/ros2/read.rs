@@ -3,15 +3,14 @@
 //! The controller's own rules are those of its check of messages in ros2_controllers 2.54 (Humble) and 6.9, with the parameters that
 //! it has by default; they are the same in both, but that 6.9 takes effort where it commands effort. Those of 4.42 (Jazzy), between them, were
 //! not read.
+//!
+//! The languages of messages.
 
-use super::language::Language;
-use super::node::{self, Entry, Fault, Kind, Node};
-use super::number::{self, Said};
-use super::timing::{LEAD_IN_NS, LEAD_IN_S, NS_PER_S, seconds_between};
-use super::write;
-use crate::dialect::ReadError;
-use crate::file::{Place, ProgramFile};
+use crate::dialect::{Place, ProgramFile, ReadError};
 use crate::reading::{Between, ReadPoint, Reading};
+use crate::ros2::node::{self, Entry, Fault, Kind, Node};
+use crate::ros2::number::{self, Said};
+use crate::ros2::write::{self, LEAD_IN_NS, LEAD_IN_S, NS_PER_S, seconds_between};
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::words::quoted;
 
@@ -29,12 +28,12 @@ fn broken<T>(line: usize, (rule, by): (&str, &str), found: impl AsRef<str>) -> R
 }
 
 /// A fault in a file, as a dialect states it.
-pub(super) fn refused(file: &ProgramFile, Fault { line, reason }: Fault) -> ReadError {
+pub(crate) fn refused(file: &ProgramFile, Fault { line, reason }: Fault) -> ReadError {
     ReadError::at(&file.name, line.max(1), reason)
 }
 
 /// What the files say, all the same.
-pub(super) fn reading(files: &[&ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {
+pub(crate) fn reading(files: &[&ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {
     let mut first: Option<(&ProgramFile, Reading)> = None;
     for file in files {
         let found = one(file, arm).map_err(|fault| refused(file, fault))?;
@@ -417,5 +416,25 @@ impl<'n, 'a> Fields<'n, 'a> {
                 format!("expected {} with {key}; it is missing", self.what),
             )
         })
+    }
+}
+
+/// How keys and lists are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Language {
+    /// YAML 1.1 and 1.2, with a head of comments.
+    Yaml,
+    /// JSON, which has no comments.
+    Json,
+}
+
+impl Language {
+    /// That of a file, by its name.
+    pub(crate) fn of(name: &str) -> Option<Self> {
+        match name.rsplit_once('.')?.1 {
+            "yaml" | "yml" => Some(Self::Yaml),
+            "json" => Some(Self::Json),
+            _ => None,
+        }
     }
 }

@@ -2,11 +2,10 @@
 
 mod toy;
 
-use crate::compare;
+use crate::dialect::ProgramFile;
 use crate::export::{self, ExportError};
-use crate::file::ProgramFile;
-use crate::judged;
-use crate::{CompareError, Compared, ExportSettings, Exported, Refusal, contact_not_judged};
+use crate::tests::toy::Toy;
+use crate::{CompareError, Compared, ExportSettings, Exported, Refusal, compare, contact_not_judged, judged};
 use nalgebra::{Translation3, UnitQuaternion};
 use platewash_certificate::{Certified, Requirement, certify};
 use platewash_kinematics::urdf::MeshSource;
@@ -16,7 +15,6 @@ use platewash_workcell::fixtures;
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plan::Plan;
 use std::sync::OnceLock;
-use toy::Toy;
 
 fn arm() -> RobotModel {
     RobotModel::irb120().unwrap()

@@ -1,9 +1,7 @@
 //! The plainest of dialects: a line a point, with its time, its joints in radians and whether the arm stops.
 
-use crate::comment::wrapped;
-use crate::dialect::{Dialect, Points, ReadError};
-use crate::file::{Place, ProgramFile};
-use crate::program::Program;
+use crate::dialect::{Dialect, Place, Points, Program, ProgramFile, ReadError};
+use crate::header::wrapped;
 use crate::reading::{Between, ReadPoint, Reading};
 use crate::refusal::Refusal;
 use platewash_kinematics::{JointVector, RobotModel};

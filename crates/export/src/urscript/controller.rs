@@ -3,7 +3,7 @@
 //! The arm goes evenly in the joints to where a `servoj` sends it, and is there when its time is over. `movej` has a path in time of its
 //! own: it may bring the arm to the start, before the program's time begins, and to where it stands already.
 
-use crate::file::Place;
+use crate::dialect::Place;
 use crate::reading::{Between, ReadPoint, ReadTool, Reading};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::trig::sin_cos;
@@ -42,7 +42,7 @@ const INSTRUCTIONS: [(&str, &[&str]); 12] = [
 
 /// A value.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     Number(f64),
     Bool,
     Text,
@@ -70,7 +70,7 @@ impl Value {
     }
 
     /// As many numbers as `COUNT`.
-    pub(super) fn list<const COUNT: usize>(&self) -> Result<[f64; COUNT], String> {
+    pub(crate) fn list<const COUNT: usize>(&self) -> Result<[f64; COUNT], String> {
         let found = match self {
             Self::List(list) => match list.as_slice().try_into() {
                 Ok(numbers) => return Ok(numbers),
@@ -96,7 +96,7 @@ enum Stage {
 
 /// A controller, so far.
 #[derive(Debug, Default)]
-pub(super) struct Controller {
+pub(crate) struct Controller {
     stage: Stage,
     t_s: f64,
     points: Vec<ReadPoint>,
@@ -109,7 +109,7 @@ type Given = Vec<Option<Value>>;
 
 impl Controller {
     /// The parameters of an instruction that is read.
-    pub(super) fn parameters(name: &str) -> Option<&'static [&'static str]> {
+    pub(crate) fn parameters(name: &str) -> Option<&'static [&'static str]> {
         INSTRUCTIONS
             .iter()
             .find(|(instruction, _)| *instruction == name)
@@ -117,7 +117,7 @@ impl Controller {
     }
 
     /// The points so far.
-    pub(super) fn points(&self) -> &[ReadPoint] {
+    pub(crate) fn points(&self) -> &[ReadPoint] {
         &self.points
     }
 
@@ -127,7 +127,7 @@ impl Controller {
     }
 
     /// One of [`INSTRUCTIONS`].
-    pub(super) fn instruction(&mut self, name: &str, given: &Given, place: Place) -> Result<(), String> {
+    pub(crate) fn instruction(&mut self, name: &str, given: &Given, place: Place) -> Result<(), String> {
         match name {
             "set_tcp" => {
                 self.check_standing("the tip")?;
@@ -232,7 +232,7 @@ impl Controller {
     }
 
     /// What the program did.
-    pub(super) fn reading(mut self, speed_share: f64) -> Result<Reading, String> {
+    pub(crate) fn reading(mut self, speed_share: f64) -> Result<Reading, String> {
         // Where it stays for a step, and at both ends, it rests.
         let stays: Vec<bool> = self
             .points

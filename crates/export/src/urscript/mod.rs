@@ -14,9 +14,7 @@ mod controller;
 mod read;
 mod write;
 
-use crate::dialect::{Dialect, Points, ReadError};
-use crate::file::ProgramFile;
-use crate::program::Program;
+use crate::dialect::{Dialect, Points, Program, ProgramFile, ReadError};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
 use platewash_kinematics::RobotModel;

@@ -4,12 +4,9 @@
 //! The check of the start is read as it is written. Everything else is refused with its line: loops, other conditions, threads, functions
 //! with parameters, and computed values.
 
-use super::controller::{Controller, Value};
-use crate::dialect::ReadError;
-use crate::file::{Place, ProgramFile};
-use crate::program::START_WITHIN_DEG;
-use crate::reading::Reading;
-use crate::tokens::{self, Token};
+use crate::dialect::{Place, ProgramFile, ReadError, START_WITHIN_DEG};
+use crate::reading::{self, Reading, Token};
+use crate::urscript::controller::{Controller, Value};
 use platewash_kinematics::{AXES, JointVector};
 use std::collections::BTreeMap;
 
@@ -39,7 +36,7 @@ struct Line {
 ///
 /// # Errors
 /// [`ReadError`] with the line of what is not read.
-pub(super) fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
+pub(crate) fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
     let lines = lines(file)?;
     let at = |line: usize, reason: String| ReadError::at(&file.name, line, reason);
     let Some((first, rest)) = lines.split_first() else {
@@ -74,7 +71,7 @@ fn lines(file: &ProgramFile) -> Result<Vec<Line>, ReadError> {
         if number > MOST_LINES {
             return Err(refused(format!("more than {MOST_LINES} lines, the most that are read")));
         }
-        tokens::line(text, '#', |token| tokens.push(token)).map_err(refused)?;
+        reading::line(text, '#', |token| tokens.push(token)).map_err(refused)?;
         if !tokens.is_empty() {
             lines.push(Line { number, tokens });
         }

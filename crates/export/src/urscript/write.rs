@@ -3,8 +3,8 @@
 //! The first line is the program's `def`, and the header stands inside: what reaches the controller by a socket is taken from the first
 //! `def` to its `end`. A stretch of the plan is a function of its own.
 
-use crate::comment::wrapped;
-use crate::program::{Point, Program, START_WITHIN_DEG};
+use crate::dialect::{Point, Program, START_WITHIN_DEG};
+use crate::header::wrapped;
 use platewash_kinematics::rotation::{Rigid, rotation_vector};
 use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector};
@@ -31,7 +31,7 @@ const SERVO: &str =
 ";
 
 /// The program's text.
-pub(super) fn text(program: &Program<'_>) -> String {
+pub(crate) fn text(program: &Program<'_>) -> String {
     let mut text = format!("def pw_{}():\n", program.name);
     text.push_str(&head(program));
     text.push_str(SERVO);

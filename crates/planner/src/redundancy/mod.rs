@@ -14,7 +14,7 @@
 //!
 //! # How
 //!
-//! 1. [`policy`](crate::scene::stance): a tilt by the distance from axis 1 alone. It mostly suffices, and costs one pass over the
+//! 1. `TiltPolicy` (`scene/stance.rs`): a tilt by the distance from axis 1 alone. It mostly suffices, and costs one pass over the
 //!    points.
 //! 2. `search`: the cheapest path through a graph of tilts along the wash path, near the policy where that will do, smoothed
 //!    (`tilt_spline`) as far as it stays within what will do.

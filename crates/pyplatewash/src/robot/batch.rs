@@ -2,9 +2,8 @@
 
 use super::rows::{Desk, Problems, Rows, Seeds};
 use crate::arrays::{JOINTS, MANY_POSES, Numbers};
-use crate::errors;
-use crate::made;
 use crate::work::released;
+use crate::{errors, made};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
 use platewash::{IkSolver, JointVector};
 use pyo3::prelude::*;

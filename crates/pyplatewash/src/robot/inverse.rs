@@ -3,9 +3,8 @@
 use super::settings::IkSolutionRecord;
 use crate::arrays::{self, MANY_POSES, Numbers, ONE_POSE};
 use crate::errors::{self, Input};
-use crate::made;
-use crate::pose;
 use crate::work::{alone, patiently, released};
+use crate::{made, pose};
 use numpy::PyArrayDyn;
 use platewash::kinematics::ik::AllBranchesError;
 use platewash::kinematics::ik::analytic::{AnalyticError, Label};

@@ -8,15 +8,13 @@ mod settings;
 mod source;
 
 use crate::argument::{self, ROBOT};
-use crate::errors;
-use crate::made;
 use crate::notes::warn;
 use crate::tool::ToolFields;
+use crate::{errors, made};
 use numpy::PyArrayDyn;
-use platewash::Scenario;
 use platewash::kinematics::urdf::Files;
 use platewash::scenario::Note;
-use platewash::{Axes, Frame, IkSolver, RobotModel, ToolFrame};
+use platewash::{Axes, Frame, IkSolver, RobotModel, Scenario, ToolFrame};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use settings::Solvers;

@@ -1,7 +1,6 @@
 //! Neighbouring rows of a batch of inverse kinematics: the problems, a thread's desk, and the places for the answers.
 
-use crate::errors;
-use crate::pose;
+use crate::{errors, pose};
 use nalgebra::Quaternion;
 use platewash::kinematics::batch::{self, Backend, BatchError};
 use platewash::{IkError, IkSolution, IkSolver, JointVector, Pose};

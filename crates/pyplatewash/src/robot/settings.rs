@@ -1,9 +1,6 @@
 //! Settings of the inverse kinematics, and solvers that are kept between calls.
 
-use crate::argument;
-use crate::arrays;
-use crate::errors;
-use crate::made;
+use crate::{argument, arrays, errors, made};
 use numpy::PyArrayDyn;
 use platewash::kinematics::ik::{AnalyticStarts, Method, RandomRestarts, Start};
 use platewash::{Frame, IkSettings, IkSolution, IkSolver, RobotModel};

@@ -1,11 +1,10 @@
 //! Where an arm's description comes from: enough to make the arm again in another process.
 
 use crate::errors::{self, FileOf};
-use platewash::RobotModel;
-use platewash::Scenario;
 use platewash::kinematics::DisabledPairs;
 use platewash::kinematics::irb120::{IRB120_SRDF, IRB120_URDF};
 use platewash::kinematics::urdf::{Files, MAX_BYTES, MeshSource};
+use platewash::{RobotModel, Scenario};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use std::path::{Path, PathBuf};

@@ -2,13 +2,11 @@
 
 use super::question::Question;
 use super::settings::SettingsObject;
-use crate::argument;
-use crate::errors;
-use crate::made;
 use crate::plan::PlanObject;
 use crate::robot::Robot;
 use crate::value::to_record;
 use crate::work::patiently;
+use crate::{argument, errors, made};
 use numpy::{PyArray1, PyArrayDyn};
 use platewash::simulator::plant::Felt;
 use platewash::simulator::simulate::{Sample, table as csv_table};

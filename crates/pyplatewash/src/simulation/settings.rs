@@ -1,9 +1,8 @@
 //! `SimulationSettings`: under which law, with which gains and on which plant.
 
-use crate::argument;
-use crate::errors;
 use crate::plan::PlanObject;
 use crate::value::{from_mapping, to_python, to_record};
+use crate::{argument, errors};
 use platewash::Scenario;
 use platewash::scenario::plant_keys;
 use platewash::workcell::simulation::{ControlLawName, SimulationSettings};

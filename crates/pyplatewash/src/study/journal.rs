@@ -1,9 +1,8 @@
 //! The folder of a study while somebody works on it.
 
 use super::StudyObject;
-use crate::argument;
-use crate::errors;
 use crate::work::patiently_by;
+use crate::{argument, errors};
 use platewash::CancelToken;
 use platewash::study::{self, Journal, Outcome, Resolver, Study, StudyError};
 use pyo3::prelude::*;

@@ -8,12 +8,11 @@ mod worker;
 pub use journal::StudyJournalObject;
 pub use worker::StudyWorkerObject;
 
-use crate::argument;
 use crate::by_python::ask;
-use crate::errors;
 use crate::scenario::ScenarioObject;
 use crate::value::to_record;
 use crate::work::patiently;
+use crate::{argument, errors};
 use platewash::kinematics::urdf::Files;
 use platewash::scenario::Draft;
 use platewash::study::{self, Study, StudyParts};

@@ -1,9 +1,8 @@
 //! The text of a study file out of what a call states.
 
-use crate::argument;
-use crate::errors;
 use crate::scenario::ScenarioObject;
 use crate::value::from_mapping;
+use crate::{argument, errors};
 use platewash::study::StudyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyFrozenSet, PyMapping, PyRange, PyRangeMethods, PySet, PyString};

@@ -1,9 +1,8 @@
 //! What makes rows: on a thread of a worker, without any file of the study.
 
 use super::restored;
-use crate::argument;
-use crate::errors;
 use crate::work::patiently_by;
+use crate::{argument, errors};
 use platewash::CancelToken;
 use platewash::study::{Outcome, Resolver, Study};
 use pyo3::prelude::*;

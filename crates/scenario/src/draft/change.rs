@@ -1,13 +1,10 @@
 //! What a text becomes where a key gets a value, or loses it.
 
-use super::elements;
-use super::error::EditError;
-use super::target::Target;
-use crate::key::Domain;
+use crate::draft::{EditError, Target, elements};
 use crate::keys::KEYS;
-use crate::line::line_at;
-use crate::value::json_of;
-use crate::write::{in_style_of, on_one_line, on_rows};
+use crate::keys::fits::line_at;
+use crate::keys::key::Domain;
+use crate::keys::value::{in_style_of, json_of, on_one_line, on_rows};
 use serde_json::Value as Json;
 use toml::de::DeValue;
 use toml_edit::{Document, DocumentMut, InlineTable, Item, Key, KeyMut, RawString, Table, Value};
@@ -22,7 +19,7 @@ const MOST_ON_A_LINE: usize = 4;
 const LONGEST: usize = 40;
 
 /// Why a text is not changed.
-pub(super) enum Stop {
+pub(crate) enum Stop {
     /// The value is there already.
     Same,
     /// Something else stands where the key would go.
@@ -34,7 +31,7 @@ pub(super) enum Stop {
 }
 
 /// The text in which a key has a value, or none; `None` where it is the same text.
-pub(super) fn changed(text: &str, target: &Target, value: Option<&Json>) -> Result<Option<String>, EditError> {
+pub(crate) fn changed(text: &str, target: &Target, value: Option<&Json>) -> Result<Option<String>, EditError> {
     let plain = plain(text);
     let change = || {
         let document = Document::parse(plain.as_str()).map_err(|_| Stop::Unplaced)?;
@@ -310,7 +307,7 @@ fn tables_of(table: &mut Table) -> Vec<&mut Table> {
     all
 }
 
-pub(super) fn text_of(raw: Option<&RawString>) -> String {
+pub(crate) fn text_of(raw: Option<&RawString>) -> String {
     raw.and_then(RawString::as_str).unwrap_or_default().to_owned()
 }
 
@@ -347,7 +344,7 @@ fn replace(old: &mut Value, value: &Json, domain: Domain) -> Result<(), Stop> {
 }
 
 /// Puts a value in the place of another, element by element where both are lists.
-pub(super) fn merge(old: &mut Value, value: &Json) -> Result<(), Stop> {
+pub(crate) fn merge(old: &mut Value, value: &Json) -> Result<(), Stop> {
     if let (Value::Array(old), Json::Array(new)) = (&mut *old, value) {
         return elements::merge(old, new);
     }
@@ -362,7 +359,7 @@ fn put(old: &mut Value, mut new: Value) {
     *old = new;
 }
 
-pub(super) fn parsed(text: &str) -> Result<Value, Stop> {
+pub(crate) fn parsed(text: &str) -> Result<Value, Stop> {
     text.parse().map_err(|_| Stop::Unplaced)
 }
 
@@ -373,13 +370,13 @@ fn bare(value: &Value) -> String {
     bare.to_string()
 }
 
-pub(super) fn json(value: &Value) -> Json {
+pub(crate) fn json(value: &Value) -> Json {
     DeValue::parse(&bare(value)).map_or(Json::Null, |value| json_of(value.get_ref()))
 }
 
 /// Whether two values are the same to whoever reads the file: numbers to the bit, and a whole number with a point is the one
 /// without.
-pub(super) fn same(a: &Json, b: &Json) -> bool {
+pub(crate) fn same(a: &Json, b: &Json) -> bool {
     match (a, b) {
         (Json::Number(a), Json::Number(b)) => a.as_f64().map(f64::to_bits) == b.as_f64().map(f64::to_bits),
         (Json::Array(a), Json::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b)),

@@ -2,13 +2,13 @@
 //!
 //! `toml_edit` keeps what stands between two elements, a comment behind the comma too, before the second one.
 
-use super::change::{Stop, json, merge as merge_value, parsed, same, text_of};
-use crate::write::on_one_line;
+use crate::draft::change::{Stop, json, merge as merge_value, parsed, same, text_of};
+use crate::keys::value::on_one_line;
 use serde_json::Value as Json;
 use toml_edit::Array;
 
 /// Puts elements in the place of others: those at the beginning and at the end that are the same stay.
-pub(super) fn merge(old: &mut Array, new: &[Json]) -> Result<(), Stop> {
+pub(crate) fn merge(old: &mut Array, new: &[Json]) -> Result<(), Stop> {
     let was: Vec<Json> = old.iter().map(json).collect();
     let most = was.len().min(new.len());
     let before = was.iter().zip(new).take_while(|(a, b)| same(a, b)).count();

@@ -1,21 +1,22 @@
 //! A scenario's text that is being changed: key by key, all else in it kept.
 //!
 //! `toml_edit` keeps comments, order and layout.
+//!
+//! Which key of a text is changed: one of the table, as `wash.turns`, or one in a section of a list, as `plate[1].at_m`.
+//!
+//! Why a change was refused.
 
 mod change;
 mod elements;
-mod error;
-mod target;
 
-pub use error::EditError;
-
-use self::target::Target;
 use crate::error::{Problem, ScenarioError};
-use crate::key::{Domain, Key};
-use crate::keys::KEYS;
+use crate::keys::fits::{check, unknown};
+use crate::keys::key::{Domain, Key};
+use crate::keys::value::{describe, describe_json, json_of};
+use crate::keys::{KEYS, LISTS, own_name};
+use crate::load::MAX_BYTES;
 use crate::scenario::Scenario;
-use crate::source::MAX_BYTES;
-use crate::value::{describe, json_of};
+use platewash_workcell::words::printable;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -126,5 +127,128 @@ fn json_or_words(value: &DeValue<'_>) -> Value {
         (Value::Array(_), DeValue::Array(array)) => array.iter().map(|v| json_or_words(v.get_ref())).collect(),
         (Value::Null, _) => Value::String(describe(value)),
         (known, _) => known,
+    }
+}
+
+/// A key that is changed.
+pub(crate) struct Target {
+    /// Its row of a table of keys.
+    pub key: &'static Key,
+    /// The list and, from 0, which of its sections it is in; none for keys of the table.
+    pub row: Option<(&'static str, usize)>,
+}
+
+impl Target {
+    /// The key of a path; `None` where there is no such key.
+    pub fn of(path: &str) -> Option<Self> {
+        if let Some(key) = KEYS.iter().find(|key| key.path == path) {
+            return Some(Self { key, row: None });
+        }
+        let (name, rest) = path.split_once('[')?;
+        let (index, own) = rest.split_once("].")?;
+        let list = LISTS.iter().find(|list| list.name == name)?;
+        let key = list.keys.iter().find(|key| own_name(key) == own)?;
+        // No sign, and one way to write a number.
+        let index = index.parse().ok().filter(|k: &usize| k.to_string() == index)?;
+        let row = Some((list.name, index));
+        Some(Self { key, row })
+    }
+
+    /// The key that a path names, and a value as the key takes it: JSON has one type of numbers, so that where a whole one is wanted, one
+    /// with a point is as good.
+    pub fn with_value(path: &str, value: Option<&Value>) -> Result<(Self, Option<Value>), EditError> {
+        /// Up to here all whole numbers are there \[2^53\].
+        const EXACT: f64 = 9_007_199_254_740_992.0;
+        let target = Self::of(path).ok_or_else(|| EditError::Refused(unknown(path)))?;
+        let Some(value) = value else {
+            return Ok((target, None));
+        };
+        let value = match value.as_f64() {
+            Some(v) if matches!(target.key.domain, Domain::Integer(..)) && v.fract() == 0.0 && v.abs() < EXACT => {
+                Value::from(v as i64)
+            }
+            _ => value.clone(),
+        };
+        match check(target.key, &value, || describe_json(&value)) {
+            Ok(()) => Ok((target, Some(value))),
+            Err(Problem::Value { expected, found, .. }) => {
+                let key = target.path();
+                Err(EditError::Refused(Problem::Value { key, expected, found }))
+            }
+            Err(problem) => Err(EditError::Refused(problem)),
+        }
+    }
+
+    /// What it is called.
+    pub fn path(&self) -> String {
+        match self.row {
+            Some((list, index)) => format!("{list}[{index}].{}", self.name()),
+            None => self.key.path.to_owned(),
+        }
+    }
+
+    /// Its name in its section.
+    pub fn name(&self) -> &'static str {
+        own_name(self.key)
+    }
+
+    /// Its section, if it has one.
+    pub fn section(&self) -> Option<&'static str> {
+        self.key.path.rsplit_once('.').map(|(section, _)| section)
+    }
+}
+
+/// Why a change of a scenario's text was refused; the text stays as it was.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EditError {
+    /// A key or a value that a file would be refused for, in the same words.
+    #[error("{0}")]
+    Refused(Problem),
+    /// What the text states does not leave room for the key.
+    #[error("{key} cannot be changed: line {line} of the scenario has '{}' where it would go; change that line by hand", printable(.found))]
+    Blocked {
+        /// The key.
+        key: String,
+        /// Line of the text, from 1.
+        line: usize,
+        /// How that line begins.
+        found: String,
+    },
+    /// A list has no such section.
+    #[error("{key} cannot be changed: there is no such [[{list}]] section; sections are counted from 0")]
+    NoRow {
+        /// The key.
+        key: String,
+        /// The list.
+        list: &'static str,
+    },
+    /// The text would become longer than is read.
+    #[error("{key} cannot be changed: the scenario would be longer than {limit} bytes, the most that are read")]
+    TooLong {
+        /// The key.
+        key: String,
+        /// The most that are read \[bytes\].
+        limit: u64,
+    },
+    /// The changed text would not state what it should.
+    #[error("{key} cannot be changed without changing something else; change it by hand")]
+    Unplaced {
+        /// The key.
+        key: String,
+    },
+}
+
+impl EditError {
+    /// The key that was to be changed.
+    #[must_use]
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::Refused(problem) => problem.key(),
+            Self::Blocked { key, .. }
+            | Self::NoRow { key, .. }
+            | Self::TooLong { key, .. }
+            | Self::Unplaced { key } => Some(key),
+        }
     }
 }

@@ -6,8 +6,7 @@ use super::subject::{Subject, short};
 use super::svg::{BAD, DASHED, Drawing, END, INK, LIFT, MIDDLE, PAPER, Rect, TRANSIT, WASH, fill, stroke, width};
 use platewash_certificate::ClearanceRule;
 use platewash_kinematics::AXES;
-use platewash_workcell::trajectory::JointState;
-use platewash_workcell::trajectory::SegmentKind;
+use platewash_workcell::trajectory::{JointState, SegmentKind};
 use rayon::prelude::*;
 
 /// Moments that are drawn.

@@ -10,8 +10,7 @@ use platewash_kinematics::{Axes, JointVector, Pose, RobotModel};
 use platewash_simulator::{Execution, SimulationReport};
 use platewash_workcell::layout::TaskRegion;
 use platewash_workcell::plan::{Plan, Process};
-use platewash_workcell::trajectory::Trajectory;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve};
 use platewash_workcell::words::quoted;
 

@@ -1,8 +1,7 @@
 //! The planned motion and its segments.
 
 use super::numbers::Numbers;
-use platewash_workcell::trajectory::Trajectory;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use serde::Serialize;
 
 /// A stretch of the motion.

@@ -4,8 +4,7 @@ use nalgebra::Vector3;
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::SegmentKind;
-use platewash_workcell::trajectory::Trajectory;
+use platewash_workcell::trajectory::{SegmentKind, Trajectory};
 
 /// How far the tip moves between two moments at most, but for very fast ones \[m\].
 const STEP_M: f64 = 4e-3;

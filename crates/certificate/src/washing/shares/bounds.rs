@@ -4,8 +4,7 @@ use crate::washing::shares::Sags;
 use crate::washing::shares::cell::{Cell, Lower, Seen};
 use crate::washing::shares::doses::{Polynomial, Sums};
 use crate::washing::shares::edges::{Edges, Gain, Touch};
-use platewash_workcell::contact::Foundation;
-use platewash_workcell::contact::{Moment, Wanted};
+use platewash_workcell::contact::{Foundation, Moment, Wanted};
 use platewash_workcell::surface::Surface;
 use std::ops::Range;
 

@@ -7,8 +7,7 @@
 //! What is affine over a square cell, and how much of the cell is below 0.
 
 use nalgebra::{Vector2, Vector3};
-use platewash_workcell::contact::Moment;
-use platewash_workcell::contact::{Foundation, SpongePose};
+use platewash_workcell::contact::{Foundation, Moment, SpongePose};
 use platewash_workcell::coverage::area_of_rectangle_in_disc;
 use platewash_workcell::surface::Surface;
 

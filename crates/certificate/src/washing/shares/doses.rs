@@ -21,8 +21,7 @@ use crate::washing::shares::Sags;
 use crate::washing::shares::cell::{Cell, Lower, Seen};
 use crate::washing::shares::edges::{Edges, Gain, Leaving, Window};
 use nalgebra::{Matrix3, Vector3};
-use platewash_workcell::contact::Foundation;
-use platewash_workcell::contact::{Moment, at_least_0, both};
+use platewash_workcell::contact::{Foundation, Moment, at_least_0, both};
 use std::ops::{Add, AddAssign, Sub};
 
 /// What q is made of at a moment: compression \[m\] and speed \[m/s\], at least.

@@ -18,8 +18,7 @@
 use crate::washing::shares::Sags;
 use crate::washing::shares::cell::{Cell, Lower, Seen};
 use nalgebra::Vector3;
-use platewash_workcell::contact::Foundation;
-use platewash_workcell::contact::{Moment, Wanted};
+use platewash_workcell::contact::{Foundation, Moment, Wanted};
 
 /// What rounding of the formulas above may make of a length \[m\].
 const ROUNDING_M: f64 = 1e-12;

@@ -1,10 +1,8 @@
 //! The motion: a routine a segment, a line a target.
 
-use super::line::Lines;
-use super::names::RUNNING;
-use super::names::Routines;
-use crate::program::{Point, Program};
-use crate::rapid::zone::zone_named;
+use crate::dialect::{Point, Program};
+use crate::rapid::write::{Lines, RUNNING, Routines};
+use crate::rapid::zone_named;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::fixed;
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind};

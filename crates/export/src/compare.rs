@@ -1,0 +1,516 @@
+//! A program that was handed over and may have been changed since: what changed, and whether it still holds.
+//!
+//! The program is made again of its plan with the settings that it states, and both texts are compared line by line. Spaces, and how a
+//! number is written, do not count: editors and controllers change them. What a changed line says otherwise of a point is told in numbers.
+//!
+//! Two texts, line by line.
+//!
+//! The share of the plan's speed that a program's times tell, where it states none.
+//!
+//! The points of a program, by the lines that name them.
+
+use crate::dialect::{self, DIALECTS, Dialect, Points, ProgramFile, ReadError};
+use crate::export::{self, ExportError};
+use crate::judged::{self, Judged};
+use crate::reading::{ReadPoint, Reading, number_length};
+use crate::refusal::Refusal;
+use crate::settings::ExportSettings;
+use platewash_certificate::{Certified, ProveError};
+use platewash_kinematics::words::told_apart;
+use platewash_kinematics::{AXES, JointVector, RobotModel};
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::words::shortened;
+use serde::Serialize;
+use similar::{Algorithm, DiffTag, capture_diff_slices};
+use std::collections::HashMap;
+
+/// Changes that are listed; more would help nobody.
+const MOST_CHANGES: usize = 20;
+
+/// What came of a program that was read back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Compared {
+    /// Its dialect.
+    pub dialect: &'static str,
+    /// What it says otherwise than the program that was handed over, in the order of its lines; the first of them.
+    pub changes: Vec<Change>,
+    /// How many more there are.
+    pub more_changes: usize,
+    /// How far its tip may be from the plan, as the program states it; otherwise what is usual \[m\].
+    pub tolerance_m: f64,
+    /// What is proved of it as it stands.
+    pub judged: Judged,
+    /// That the tool that it states is not the plan's.
+    pub tool: Option<Refusal>,
+    /// Whether the program refuses to move where the arm does not stand at the start ([`Reading::checks_start`]).
+    pub checks_start: bool,
+}
+
+/// Why a program could not be compared.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompareError {
+    /// No dialect knows it.
+    #[error("{name}: no program of {}", dialect::names())]
+    Unknown {
+        /// The file's name.
+        name: String,
+    },
+    /// It is of another plan.
+    #[error("{name}: the program is of the plan with SHA-256 {found}; the one given has {expected}")]
+    OtherPlan {
+        /// The file's name.
+        name: String,
+        /// The plan that the program states.
+        found: String,
+        /// The plan given.
+        expected: String,
+    },
+    /// It cannot be interpreted.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A line that states how the program was made cannot be understood.
+    #[error("{name}: a line \"platewash setting: …\" was changed to something that cannot be read")]
+    Setting {
+        /// The file's name.
+        name: String,
+    },
+    /// The program that was handed over cannot be made again.
+    #[error("the program that was handed over cannot be made again: {0}")]
+    Again(ExportError),
+    /// Its motion cannot be judged.
+    #[error(transparent)]
+    Prove(#[from] ProveError),
+}
+
+/// Reads a program back, compares it with the one that was handed over of a certified plan, and judges it as it stands.
+///
+/// # Errors
+/// [`CompareError`] for a text that cannot be interpreted or judged. One that does not hold is no error.
+pub fn compare(
+    certified: &Certified<Plan>,
+    arm: &RobotModel,
+    files: &[ProgramFile],
+    cancel: &CancelToken,
+) -> Result<Compared, CompareError> {
+    let of = |dialect: &&&'static dyn Dialect| files.iter().any(|file| dialect.is_in(file));
+    let unknown = || CompareError::Unknown { name: name(files) };
+    let dialect = *DIALECTS.iter().find(of).ok_or_else(unknown)?;
+    compare_in(certified, arm, (dialect, files), cancel)
+}
+
+/// [`compare`] for a dialect that is known.
+pub(crate) fn compare_in(
+    certified: &Certified<Plan>,
+    arm: &RobotModel,
+    (dialect, files): (&dyn Dialect, &[ProgramFile]),
+    cancel: &CancelToken,
+) -> Result<Compared, CompareError> {
+    refuse_other_plan(certified.plan(), files)?;
+    let found = dialect.read(files, arm)?;
+    // Of a program that states no settings the share of the speed is the one that it says otherwise, or that its times tell.
+    let told = || speed_share(certified.plan(), &found, dialect.points());
+    let otherwise = ExportSettings {
+        speed_share: found.speed_share.unwrap_or_else(told),
+        ..ExportSettings::default()
+    };
+    let mut texts = files.iter().map(|file| &file.text);
+    let settings = texts.try_fold(otherwise, |settings, text| ExportSettings::stated(text, settings));
+    let settings = settings.ok_or_else(|| CompareError::Setting { name: name(files) })?;
+    // A text that states no share of the speed runs at the one that it was made with.
+    let at_share = |reading: Reading| Reading {
+        speed_share: reading.speed_share.or(Some(settings.speed_share)),
+        ..reading
+    };
+    let found = at_share(found);
+    let expected = match export::again(certified, arm, dialect, &settings, cancel) {
+        Err(ExportError::Prove(error)) => return Err(error.into()),
+        other => other.map_err(CompareError::Again)?,
+    };
+    // Of a program in several files that say the same, the ones that are given.
+    let given = |file: &&ProgramFile| files.iter().any(|other| other.name == file.name);
+    let given: Vec<_> = expected.files.iter().filter(given).cloned().collect();
+    let said = dialect.read(&given, arm);
+    let said = said.map_or_else(|_| expected.reading.clone(), at_share);
+    let mut changes = changes((files, &found), (&expected.files, &said));
+    let more_changes = changes.len().saturating_sub(MOST_CHANGES);
+    changes.truncate(MOST_CHANGES);
+    Ok(Compared {
+        dialect: dialect.name(),
+        changes,
+        more_changes,
+        tolerance_m: settings.tolerance_m,
+        // One that says nothing else was judged just now, when it was made again.
+        judged: match found == expected.reading {
+            true => expected.judged,
+            false => judged::judge(certified, &found, arm, settings.tolerance_m, cancel)?,
+        },
+        checks_start: found.checks_start,
+        tool: found
+            .tool
+            .and_then(|tool| tool.refusal(&certified.plan().job.workcell.tool)),
+    })
+}
+
+fn name(files: &[ProgramFile]) -> String {
+    files
+        .first()
+        .map_or_else(|| "program".to_owned(), |file| file.name.clone())
+}
+
+/// Refuses a program that states the hash of another plan.
+fn refuse_other_plan(plan: &Plan, files: &[ProgramFile]) -> Result<(), CompareError> {
+    let Some(expected) = &plan.hash else { return Ok(()) };
+    for file in files {
+        // The hash may stand on a line of its own, behind the sign of a comment.
+        let mut words = file.text.split_whitespace().skip_while(|word| *word != "plan").skip(1);
+        let stated = words.next() == Some("sha256:");
+        let is_hash = |word: &&str| word.len() == expected.len() && word.bytes().all(|c| c.is_ascii_hexdigit());
+        let found = words.take(2).find(is_hash).filter(|found| stated && found != expected);
+        if let Some(found) = found {
+            return Err(CompareError::OtherPlan {
+                name: file.name.clone(),
+                found: found.to_owned(),
+                expected: expected.clone(),
+            });
+        }
+    }
+    Ok(())
+}
+
+impl Compared {
+    /// Whether nothing was changed but spaces and how numbers are written.
+    #[must_use]
+    pub fn is_unchanged(&self) -> bool {
+        self.changes.is_empty()
+    }
+
+    /// Whether what the program does holds, under every assumption, with the tool of the plan.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.tool.is_none() && self.judged.holds()
+    }
+}
+
+/// Most characters of a line that are told.
+const TOLD: usize = 80;
+
+/// Something that a program says otherwise than the one that was handed over.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Change {
+    /// File and line, as `FILE:LINE`; of a line that is missing the one before it.
+    pub place: String,
+    /// What it is about, e.g. `joint 3`.
+    pub what: String,
+    /// What the line says.
+    pub found: String,
+    /// What was handed over.
+    pub expected: String,
+}
+
+/// A program: its files, and what they say.
+type Said<'a> = (&'a [ProgramFile], &'a Reading);
+
+/// What the lines of one program say otherwise than those of another one.
+pub(crate) fn changes(found: Said<'_>, expected: Said<'_>) -> Vec<Change> {
+    let steps = [found, expected].map(|(_, reading)| by_line(reading));
+    let rounding_s = rounding_s(found.1, expected.1);
+    let mut all = Vec::new();
+    for file in found.0 {
+        let named = expected.0.iter().find(|other| other.name == file.name);
+        // A single file under another name, of a program of one file.
+        let only = match (found.0, expected.0) {
+            ([_], [only]) => Some(only),
+            _ => None,
+        };
+        let texts = Texts {
+            found: file,
+            expected: named.or(only),
+            steps: &steps,
+            rounding_s,
+        };
+        texts.changes(&mut all);
+    }
+    all
+}
+
+/// One file beside the one that was handed over.
+struct Texts<'a> {
+    found: &'a ProgramFile,
+    expected: Option<&'a ProgramFile>,
+    steps: &'a [HashMap<(&'a str, usize), Vec<Step<'a>>>; 2],
+    rounding_s: f64,
+}
+
+/// A line that says something: its number, from 1, as it stands, and without what does not count.
+struct Line<'a> {
+    number: usize,
+    text: &'a str,
+    plain: String,
+}
+
+impl Texts<'_> {
+    fn changes(&self, all: &mut Vec<Change>) {
+        let found = lines(&self.found.text);
+        let expected = self.expected.map_or_else(Vec::new, |file| lines(&file.text));
+        let [old, new] = [&expected, &found].map(|lines| lines.iter().map(|line| &line.plain).collect::<Vec<_>>());
+        for difference in capture_diff_slices(Algorithm::Myers, &old, &new) {
+            let (tag, old, new) = difference.as_tag_tuple();
+            if tag == DiffTag::Equal {
+                continue;
+            }
+            let last = found[..new.end].last().map_or(1, |line| line.number);
+            let (old, new) = (&expected[old], &found[new]);
+            let both = old.len().min(new.len());
+            old.iter().zip(new).for_each(|(old, new)| self.changed(new, old, all));
+            all.extend(new[both..].iter().map(|line| {
+                let nothing = "no such line".to_owned();
+                self.change(line.number, "line", shown_line(line.text), nothing)
+            }));
+            all.extend(old[both..].iter().map(|line| {
+                let missing = shown_line(line.text);
+                self.change(last, "line that is missing behind it", String::new(), missing)
+            }));
+        }
+    }
+
+    /// A line in place of another one: what it says otherwise of its points, or that it is another one.
+    fn changed(&self, new: &Line<'_>, old: &Line<'_>, all: &mut Vec<Change>) {
+        let [found, expected] = self.steps;
+        let found = found.get(&(self.found.name.as_str(), new.number));
+        let expected = self
+            .expected
+            .and_then(|file| expected.get(&(file.name.as_str(), old.number)));
+        let points = found
+            .zip(expected)
+            .into_iter()
+            .flat_map(|(found, expected)| found.iter().zip(expected));
+        let told_before = all.len();
+        for (what, found, expected) in points.flat_map(|(a, b)| a.differences(b, self.rounding_s)) {
+            all.push(self.change(new.number, &what, found, expected));
+        }
+        if all.len() == told_before {
+            all.push(self.change(new.number, "line", shown_line(new.text), shown_line(old.text)));
+        }
+    }
+
+    fn change(&self, line: usize, what: &str, found: String, expected: String) -> Change {
+        Change {
+            place: format!("{}:{line}", self.found.name),
+            what: what.to_owned(),
+            found,
+            expected,
+        }
+    }
+}
+
+/// The lines of a text that say something.
+fn lines(text: &str) -> Vec<Line<'_>> {
+    let line = |(i, text)| Line {
+        number: i + 1,
+        text,
+        plain: plain(text),
+    };
+    let all = text.trim_start_matches('\u{feff}').lines().enumerate().map(line);
+    all.filter(|line| !line.plain.is_empty()).collect()
+}
+
+/// A line without spaces that say nothing, its numbers in one spelling: 9E9 is 9E+09, and 0.5000 is 0.5.
+fn plain(text: &str) -> String {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
+    let mut plain = String::with_capacity(text.len());
+    let mut rest = text.trim();
+    while let Some(c) = rest.chars().next() {
+        if c.is_whitespace() {
+            rest = rest.trim_start();
+            // Two words, or two numbers, are not one.
+            if plain.ends_with(is_word) && rest.starts_with(is_word) {
+                plain.push(' ');
+            }
+            continue;
+        }
+        let length = if plain.ends_with(is_word) {
+            0
+        } else {
+            number_length(rest)
+        };
+        let taken = length.max(c.len_utf8());
+        match rest[..length].parse::<f64>() {
+            Ok(number) => plain.push_str(&number.to_string()),
+            Err(_) => plain.push_str(&rest[..taken]),
+        }
+        rest = &rest[taken..];
+    }
+    plain
+}
+
+/// A line as it is told: without spaces around it, and not too long.
+fn shown_line(text: &str) -> String {
+    shortened(text.trim(), TOLD)
+}
+
+/// Shares are told in steps of one in so many.
+const STEPS: f64 = 1e6;
+
+/// Least share that is told.
+const LEAST: f64 = 1e-3;
+
+/// Steps of the search, each of which squares what it is off by.
+const ROUNDS: usize = 8;
+
+/// The share of the plan's speed at which a program runs, by its times.
+pub(crate) fn speed_share(plan: &Plan, found: &Reading, points: Points) -> f64 {
+    let share = match points {
+        Points::Knots if found.points.len() == plan.knots.t_s.len() => of_knots(plan, found),
+        Points::Steps { .. } => of_rows(plan, found),
+        _ => of_duration(plan, found),
+    };
+    let share = (share * STEPS).round() / STEPS;
+    if (LEAST..=1.0).contains(&share) { share } else { 1.0 }
+}
+
+/// Of a program of all the plan's knots: that of most of them, so that a time that was changed does not count.
+fn of_knots(plan: &Plan, found: &Reading) -> f64 {
+    let both = plan.knots.t_s.iter().zip(&found.points).skip(1);
+    let mut shares: Vec<_> = both.map(|(plan_s, point)| plan_s / point.t_s).collect();
+    shares.sort_by(f64::total_cmp);
+    shares.get(shares.len() / 2).copied().unwrap_or(1.0)
+}
+
+fn of_duration(plan: &Plan, found: &Reading) -> f64 {
+    plan.duration_s() / found.points.last().map_or(0.0, |point| point.t_s)
+}
+
+/// Of rows at even steps, the last of which is up to a step after the plan's end: that at which they are nearest to the plan, in the sense
+/// of least squares.
+fn of_rows(plan: &Plan, found: &Reading) -> f64 {
+    let least = of_duration(plan, found);
+    let ([.., before, _], Ok(motion)) = (found.points.as_slice(), plan.knots.motion()) else {
+        return least;
+    };
+    let most = (plan.duration_s() / before.t_s).min(1.0).max(least);
+    (0..ROUNDS).fold(least, |share, _| {
+        let (mut off, mut slope) = (0.0, 0.0);
+        for row in &found.points {
+            if let Some(state) = motion.at(share * row.t_s) {
+                let moves = state.qd * row.t_s;
+                off += (row.q_rad - state.q).dot(&moves);
+                slope += moves.norm_squared();
+            }
+        }
+        match slope > 0.0 {
+            true => (share + off / slope).clamp(least, most),
+            // An arm that does not move tells nothing.
+            false => share,
+        }
+    })
+}
+
+/// What is rounding of angles and their speeds \[rad, rad/s\], and of lengths \[m\].
+const ROUNDING: (f64, f64) = (1e-12, 1e-9);
+
+/// What is rounding of a step that was worked out of sums of times \[s\]: of programs that run at the same share of the speed, and at
+/// different ones.
+const ROUNDING_S: [f64; 2] = [1e-10, 2e-7];
+
+/// A point, with speeds and the time since the point before in the plan's time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Step<'a> {
+    point: &'a ReadPoint,
+    /// \[s\]
+    lasts_s: f64,
+    /// \[rad/s\]
+    qd_rad_s: Option<JointVector>,
+}
+
+/// What is rounding of the steps of two programs \[s\].
+pub(crate) fn rounding_s(a: &Reading, b: &Reading) -> f64 {
+    ROUNDING_S[usize::from(a.share() != b.share())]
+}
+
+/// The points that each line names, in order; lines by file and number.
+pub(crate) fn by_line(reading: &Reading) -> HashMap<(&str, usize), Vec<Step<'_>>> {
+    let share = reading.share();
+    let mut before_s = 0.0;
+    let mut all: HashMap<_, Vec<_>> = HashMap::new();
+    for point in &reading.points {
+        let step = Step {
+            point,
+            lasts_s: (point.t_s - before_s) * share,
+            qd_rad_s: point.qd_rad_s.map(|qd| qd / share),
+        };
+        before_s = point.t_s;
+        let place = &point.place;
+        all.entry((place.file.as_str(), place.line)).or_default().push(step);
+    }
+    all
+}
+
+impl Step<'_> {
+    /// What is different, as name, found and expected.
+    pub fn differences(&self, other: &Self, most_s: f64) -> Vec<(String, String, String)> {
+        let (most_rad, most_m) = ROUNDING;
+        let mut all = Vec::new();
+        let mut tell = |what: String, [a, b]: [f64; 2], most: f64, (decimals, unit): (usize, &str)| {
+            if a.is_nan() || (a - b).abs() > most {
+                let [a, b] = told_apart(a, b, decimals);
+                all.push((what, format!("{a} {unit}"), format!("{b} {unit}")));
+            }
+        };
+        for j in 0..AXES {
+            let most_deg = most_rad.to_degrees();
+            let joint = format!("joint {}", j + 1);
+            let speeds = self.qd_rad_s.zip(other.qd_rad_s);
+            let speeds = speeds.map(|(a, b)| [a[j], b[j]].map(f64::to_degrees));
+            let positions = [self, other].map(|step| step.point.q_rad[j].to_degrees());
+            tell(joint.clone(), positions, most_deg, (4, "deg"));
+            if let Some(speeds) = speeds {
+                tell(format!("speed of {joint}"), speeds, most_deg, (4, "deg/s"));
+            }
+        }
+        tell("time".to_owned(), [self.lasts_s, other.lasts_s], most_s, (6, "s"));
+        let corners = [self, other].map(|step| step.point.corner_m);
+        let is_same = match corners {
+            [Some(a), Some(b)] => (a - b).abs() <= most_m,
+            [a, b] => a.is_none() == b.is_none(),
+        };
+        if !is_same {
+            let told = |corner: Option<f64>| corner.map_or_else(|| "stop".to_owned(), |m| format!("{} mm", 1e3 * m));
+            let [a, b] = corners.map(told);
+            all.push(("corner".to_owned(), a, b));
+        }
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn spaces_and_spellings_of_numbers_do_not_count() {
+        for (a, b) in [
+            ("MoveAbsJ [[1.0000,-0.50],[9E9]]", "  MoveAbsJ [ [1,-0.5],[9E+09] ]\t"),
+            ("\\T:=0.030898/pwShare", "\\T:=3.0898e-2 / pwShare"),
+            ("joint_1: 1.0", "joint_1: 1"),
+            ("1.0\t5.0E-03", "1 0.005"),
+            (".5,e5", "0.5 , e5"),
+        ] {
+            assert_eq!(plain(a), plain(b));
+        }
+        for (a, b) in [
+            ("joint_1", "joint_01"),
+            ("v100", "v0100"),
+            ("1.5", "15"),
+            ("z5", "z50"),
+            ("1e", "1"),
+            ("a1.0", "a1"),
+            ("0.1 2", "0.12"),
+            ("RETURN x", "RETURNx"),
+            ("e5", "e05"),
+        ] {
+            assert_ne!(plain(a), plain(b));
+        }
+    }
+}

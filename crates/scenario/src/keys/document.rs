@@ -1,0 +1,226 @@
+//! The reference of scenario keys (`docs/scenario.md`), made from the table and the types' defaults.
+//!
+//! The table of keys as data, for whoever draws a form of it.
+
+use crate::keys::key::{Domain, Key};
+use crate::keys::value::{on_one_line, values_of};
+use crate::keys::{KEYS, LISTS};
+use crate::scenario::Scenario;
+use serde::Serialize;
+use serde_json::{Number, Value};
+use std::fmt::Write;
+
+/// Markdown reference of every key: unit, default, range, meaning.
+#[must_use]
+pub fn reference() -> String {
+    let defaults = values_of(&Scenario::default());
+    let mut text = String::from(HEAD);
+    let mut section = None;
+    for (key, is_listed) in in_order() {
+        let (here, name) = key.path.rsplit_once('.').unwrap_or(("", key.path));
+        if section != Some(here) {
+            let title = match (here, is_listed) {
+                ("", _) => "Top level".to_owned(),
+                (_, false) => format!("`[{here}]`"),
+                (_, true) => format!("`[[{here}]]`, as often as there are any"),
+            };
+            // Writing to a String cannot fail.
+            let _ = write!(
+                text,
+                "\n## {title}\n\n| key | unit | default | range | meaning |\n| --- | --- | --- | --- | --- |\n"
+            );
+            section = Some(here);
+        }
+        let default = defaults.get(key.path);
+        let default = default.map_or_else(|| "none".to_owned(), |v| format!("`{}`", on_one_line(v)));
+        let unit = if key.unit.is_empty() { "–" } else { key.unit };
+        let _ = writeln!(
+            text,
+            "| `{name}` | {unit} | {default} | {} | {} |",
+            key.domain.describe(),
+            key.meaning
+        );
+    }
+    text
+}
+
+/// Every key, and whether it is one of a list: a list stands behind the section that its name begins with, or at the end.
+fn in_order() -> Vec<(&'static Key, bool)> {
+    let mut keys: Vec<_> = KEYS.iter().map(|key| (key, false)).collect();
+    for list in LISTS {
+        let section = |key: &Key| key.path.split_once('.').map_or("", |(section, _)| section);
+        let owner = list.name.split('_').next();
+        let behind = keys.iter().rposition(|(key, _)| Some(section(key)) == owner);
+        let at = behind.map_or(keys.len(), |last| last + 1);
+        keys.splice(at..at, list.keys.iter().map(|key| (key, true)));
+    }
+    keys
+}
+
+const HEAD: &str = "# The scenario file
+
+A TOML file that decides a job in full. Unknown keys, values out of range, NaN and infinity are refused with the line, the
+key, what was expected and what was found. `platewash validate --scenario FILE` checks one without running it. Files in
+`scenarios/` are shipped: their names work in place of a path.
+
+This page is made from the program's own table of keys by `cargo xtask docs`; a test keeps it current. Places are
+those of the world, in metres, z up. The arm's base stands at its origin unless robot.mount_m and robot.mount_rpy_deg say otherwise, and
+the floor is at z = 0 unless floor.height_m does. Where a key is in another frame, its row says so.
+";
+
+/// A row of the table of keys.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FormKey {
+    /// Dotted path.
+    pub path: &'static str,
+    /// Unit; empty for none.
+    pub unit: &'static str,
+    /// Values it takes.
+    pub domain: FormDomain,
+    /// The domain in words, as messages and the reference print it.
+    pub expected: String,
+    /// What it means.
+    pub meaning: &'static str,
+    /// Its value where a file states none; `None` where there is none then.
+    pub default: Option<Value>,
+}
+
+/// What a key's value may be.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FormDomain {
+    /// The kind of [`Domain`], in lower case with underscores.
+    pub kind: &'static str,
+    /// The words that it can be, where it is one of some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub words: Option<&'static [&'static str]>,
+    /// The least number; of kinds that end in `_above` it is not reached.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least: Option<Number>,
+    /// The greatest number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub most: Option<Number>,
+}
+
+/// Every key, in the order of the reference.
+#[must_use]
+pub fn form() -> Vec<FormKey> {
+    let mut defaults = values_of(&Scenario::default());
+    let rows = KEYS.iter().map(|key| FormKey {
+        path: key.path,
+        unit: key.unit,
+        domain: form_domain(key.domain),
+        expected: key.domain.describe(),
+        meaning: key.meaning,
+        default: defaults.remove(key.path),
+    });
+    rows.collect()
+}
+
+fn form_domain(domain: Domain) -> FormDomain {
+    let bare = |kind| FormDomain {
+        kind,
+        words: None,
+        least: None,
+        most: None,
+    };
+    let between = |kind, least, most| FormDomain {
+        least: Number::from_f64(least),
+        most: Number::from_f64(most),
+        ..bare(kind)
+    };
+    match domain {
+        Domain::Text => bare("text"),
+        Domain::Path => bare("path"),
+        Domain::Paths => bare("paths"),
+        Domain::Bool => bare("bool"),
+        Domain::Word(words) => FormDomain {
+            words: Some(words),
+            ..bare("word")
+        },
+        Domain::Integer(least, most) => FormDomain {
+            least: Some(least.into()),
+            most: Some(most.into()),
+            ..bare("integer")
+        },
+        Domain::Number(least, most) => between("number", least, most),
+        Domain::NumberAbove(above, most) => between("number_above", above, most),
+        Domain::Range(least, most) => between("range", least, most),
+        Domain::Joints(least, most) => between("joints", least, most),
+        Domain::JointsAbove(above, most) => between("joints_above", above, most),
+        Domain::Points(least, most) => between("points", least, most),
+        Domain::PairAbove(above, most) => between("pair_above", above, most),
+        Domain::Pair(least, most) => between("pair", least, most),
+        Domain::Scale(least, most) => between("triple", least, most),
+        Domain::Plates => bare("text"),
+        Domain::Triple(least, most) => between("triple", least, most),
+        Domain::TripleAbove(above, most) => between("triple_above", above, most),
+        // Pairs, too; which of them are knots is for the scenario to say.
+        Domain::Knots(most_m, most_deg) => between("points", -most_m.max(most_deg), most_m.max(most_deg)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    /// Sections with a shape state their keys beside their type: both have the same ones.
+    #[test]
+    fn the_keys_of_bodies_are_those_of_their_types() {
+        let body = crate::StatedShape {
+            shape: Some(crate::BodyShape::Box),
+            size_m: Some([0.1; 3]),
+            radius_m: Some(0.1),
+            length_m: Some(0.1),
+            mesh: Some("a.stl".into()),
+            mesh_scale: Some([1.0; 3]),
+        };
+        let tool_body = crate::ToolBodySection {
+            body: body.clone(),
+            mass_kg: Some(0.1),
+            ..crate::ToolBodySection::default()
+        };
+        let obstacle = crate::ObstacleSection {
+            body,
+            mesh_parts: Some(crate::MeshPartsName::Hull),
+            at_m: Some([1.0; 3]),
+            holds_plates: Some(crate::HeldPlates::These(vec![0])),
+            ..crate::ObstacleSection::default()
+        };
+        let of_types = [
+            ("tool_body", toml::Value::try_from(tool_body).unwrap()),
+            ("obstacle", toml::Value::try_from(obstacle).unwrap()),
+        ];
+        for (name, of_type) in of_types {
+            let list = LISTS.iter().find(|list| list.name == name).unwrap();
+            let mut leaves: Vec<_> = of_type.as_table().unwrap().keys().cloned().collect();
+            let mut keys: Vec<_> = list
+                .keys
+                .iter()
+                .map(|key| crate::keys::own_name(key).to_owned())
+                .collect();
+            leaves.sort();
+            keys.sort();
+            assert_eq!(keys, leaves, "{name}");
+        }
+    }
+
+    #[test]
+    fn no_key_is_there_twice() {
+        let paths: BTreeSet<_> = in_order().iter().map(|(key, _)| key.path).collect();
+        assert_eq!(paths.len(), in_order().len());
+    }
+
+    #[test]
+    fn the_committed_page_is_current() {
+        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scenario.md");
+        if std::env::var_os("PLATEWASH_WRITE_DOCS").is_some() {
+            std::fs::write(page, reference()).unwrap();
+        }
+        let committed = std::fs::read_to_string(page).unwrap();
+        assert!(
+            committed == reference(),
+            "docs/scenario.md is out of date: run `cargo xtask docs`"
+        );
+    }
+}

@@ -1,0 +1,86 @@
+//! From the `[robot]` section to an arm.
+
+use crate::sections::robot::{BuiltInArm, RobotSection};
+use platewash_kinematics::irb120::EmbeddedModelError;
+use platewash_kinematics::urdf::{Files, MAX_BYTES, MeshSource};
+use platewash_kinematics::{DisabledPairs, RobotModel, SrdfError, UrdfError};
+use std::path::{Path, PathBuf};
+
+/// Why the arm of a scenario could not be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ArmError {
+    /// The built-in description is broken.
+    #[error(transparent)]
+    BuiltIn(#[from] EmbeddedModelError),
+    /// A file cannot be read.
+    #[error("{file}: cannot be read: {detail}")]
+    Unreadable {
+        /// The file.
+        file: String,
+        /// The system's words.
+        detail: String,
+    },
+    /// The URDF was refused.
+    #[error("{file}: {error}")]
+    Urdf {
+        /// The file.
+        file: String,
+        /// Why.
+        error: UrdfError,
+    },
+    /// The SRDF was refused.
+    #[error("{file}: {error}")]
+    Srdf {
+        /// The file.
+        file: String,
+        /// Why.
+        error: SrdfError,
+    },
+}
+
+/// The arm that the section asks for, out of files of the disk or of what was read before.
+///
+/// # Errors
+/// [`ArmError`] with the file and what is wrong in it.
+pub fn load_arm(section: &RobotSection, files: &Files) -> Result<RobotModel, ArmError> {
+    match (&section.urdf, section.model) {
+        (Some(urdf), _) => load_description(urdf, section.srdf.as_deref(), &section.package_path, files),
+        (None, BuiltInArm::Irb120) => Ok(RobotModel::irb120()?),
+    }
+}
+
+/// The arm of a URDF file, with the pairs that an SRDF file disables where one is given; `package://` names of meshes are looked up
+/// in `package_path`, the others in the folder of the URDF.
+///
+/// # Errors
+/// [`ArmError`] with the file and what is wrong in it.
+pub fn load_description(
+    urdf: &Path,
+    srdf: Option<&Path>,
+    package_path: &[PathBuf],
+    files: &Files,
+) -> Result<RobotModel, ArmError> {
+    let file = urdf.display().to_string();
+    let meshes = MeshSource::new(package_path, urdf.parent()).reading(files);
+    let robot = RobotModel::from_urdf(&read(urdf, files)?, &meshes).map_err(|error| ArmError::Urdf { file, error })?;
+    let Some(path) = srdf else {
+        return Ok(robot);
+    };
+    let srdf = |error| ArmError::Srdf {
+        file: path.display().to_string(),
+        error,
+    };
+    robot
+        .with_disabled_pairs(DisabledPairs::parse(&read(path, files)?).map_err(srdf)?)
+        .map_err(srdf)
+}
+
+fn read(path: &Path, files: &Files) -> Result<String, ArmError> {
+    files
+        .read_text(path, MAX_BYTES as u64)
+        .map_err(|e| ArmError::Unreadable {
+            file: path.display().to_string(),
+            detail: e.to_string(),
+        })
+}

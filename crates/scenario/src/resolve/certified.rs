@@ -1,0 +1,292 @@
+//! What a certified job needs of keys whose ranges are wider for the paper's program, or for messages that name the key.
+//!
+//! How much work a scenario asks for, known before any of it is done.
+
+use crate::error::{Problem, ScenarioError, conflict};
+use crate::resolve::placement::ShapeKeys;
+use crate::scenario::Scenario;
+use crate::sections::motion::Program;
+use platewash_paper::WorkError;
+use platewash_planner::redundancy::task::CHORD_ERROR_M;
+use platewash_workcell::layout::PlateGeometry;
+use platewash_workcell::surface::Surface;
+use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve};
+use platewash_workcell::words::counted;
+use std::f64::consts::PI;
+
+/// Plates thinner or smaller than this are none to the certificate \[m\].
+const LEAST_PLATE_M: f64 = 1e-6;
+
+/// Distance of the windings over the sponge's diameter, as it is estimated where no turns are stated.
+const PITCH_SHARE: f64 = 0.8;
+
+/// The slowest tip whose time can be computed \[m/s, m/s²\].
+const LEAST_OF_TIP: f64 = 1e-6;
+
+/// The least joint acceleration \[rad/s²\]: a transit then takes a minute or two.
+const LEAST_JOINT_ACCELERATION: f64 = 1e-3;
+
+impl Scenario {
+    /// The wash curve on a plate, as far as the scenario alone decides it: otherwise a spiral to the rim, its windings as far apart as is
+    /// usual, to estimate how much work it is.
+    #[must_use]
+    pub(crate) fn wash_curve_on(&self, surface: &Surface) -> WashCurve {
+        let radius_m = self.wash.path_radius_m.unwrap_or(surface.arc_m());
+        let pitch_m = PITCH_SHARE * 2.0 * self.tool.sponge_radius_m;
+        WashCurve {
+            radius_m,
+            turns: self
+                .wash
+                .turns
+                .unwrap_or((radius_m / pitch_m).clamp(LEAST_TURNS, MOST_TURNS)),
+            start_angle_rad: 0.0,
+            closing_ring: self.wash.closing_ring.unwrap_or(true),
+            rings: None,
+        }
+    }
+
+    /// Refuses what no certified job can be planned or proved with, by its key.
+    pub(crate) fn check_certified(&self) -> Result<(), Problem> {
+        if self.job.program != Program::Certified {
+            return Ok(());
+        }
+        let (wash, limits) = (&self.wash, &self.limits);
+        let from = |key, found, least| refuse(key, found, found >= least, format!("at least {least}"));
+        for (layout, keys) in self.shapes() {
+            let above = |key: &str, found: f64| {
+                let expected = format!("above {LEAST_PLATE_M:e}");
+                refuse(&keys.called(key), found, found > LEAST_PLATE_M, expected)
+            };
+            above(layout.shape_key(), layout.surface().rim_m())?;
+            above("layout.plate_thickness_m", layout.plate_thickness_m)?;
+            for found in layout.plate_foot_m.into_iter().flatten() {
+                above("layout.plate_foot_m", found)?;
+            }
+        }
+        let tool = &self.tool;
+        refuse(
+            "tool.sponge_compression_m",
+            tool.sponge_compression_m,
+            tool.sponge_compression_m <= tool.sponge_height_m,
+            format!("at most tool.sponge_height_m = {}", tool.sponge_height_m),
+        )?;
+        for (layout, keys) in self.shapes() {
+            self.check_curve(&layout.surface(), keys)?;
+        }
+        from("wash.speed_m_s", wash.speed_m_s, LEAST_OF_TIP)?;
+        from("wash.acceleration_m_s2", wash.acceleration_m_s2, LEAST_OF_TIP)?;
+        for (key, stated) in [
+            ("wash.landing_speed_m_s", wash.landing_speed_m_s),
+            ("wash.lifting_speed_m_s", wash.lifting_speed_m_s),
+        ] {
+            stated.map_or(Ok(()), |found| from(key, found, LEAST_OF_TIP))?;
+        }
+        from("limits.tip_speed_m_s", limits.tip_speed_m_s, LEAST_OF_TIP)?;
+        from(
+            "limits.tip_acceleration_m_s2",
+            limits.tip_acceleration_m_s2,
+            LEAST_OF_TIP,
+        )?;
+        for found in limits.joint_acceleration_rad_s2 {
+            from("limits.joint_acceleration_rad_s2", found, LEAST_JOINT_ACCELERATION)?;
+        }
+        Ok(())
+    }
+
+    /// Refuses a wash curve on a face that cannot be computed with.
+    fn check_curve(&self, surface: &Surface, keys: ShapeKeys) -> Result<(), Problem> {
+        let curve = self.wash_curve_on(surface);
+        refuse(
+            "wash.turns",
+            curve.turns,
+            (LEAST_TURNS..=MOST_TURNS).contains(&curve.turns),
+            format!("from {LEAST_TURNS} to {MOST_TURNS}"),
+        )?;
+        let radius_key = match self.wash.path_radius_m {
+            Some(_) => "wash.path_radius_m".to_owned(),
+            None => keys.called("layout.plate_radius_m"),
+        };
+        let expected = format!("at least {LEAST_RADIUS_M}");
+        refuse(&radius_key, curve.radius_m, curve.radius_m >= LEAST_RADIUS_M, expected)?;
+        // As the planner bounds it: a spiral of mean radius R/2, and a ring.
+        let length = PI * curve.radius_m * (curve.turns + 2.0);
+        let expected = format!("such that the wash curve π · {radius_key} · (wash.turns + 2) is at most {LONGEST_M} m");
+        refuse(&radius_key, curve.radius_m, length <= LONGEST_M, expected)
+    }
+}
+
+fn refuse(key: &str, found: f64, fits: bool, expected: String) -> Result<(), Problem> {
+    if fits {
+        return Ok(());
+    }
+    Err(Problem::Value {
+        key: key.to_owned(),
+        expected: format!("{expected} in a certified job"),
+        // As the file may state it: no row of zeros for a tiny number.
+        found: format!("{found:?}"),
+    })
+}
+
+/// Most checks of a contact point of a certified job against a plate: a minute or so of planning.
+pub const MAX_CONTACT_CHECKS: usize = 25_000_000;
+
+/// The keys that decide how many waypoints there are.
+const WAYPOINT_KEYS: &str = "wash.points, transition.samples";
+
+impl Scenario {
+    /// Contact points of a certified job: those of every plate's wash path.
+    #[must_use]
+    pub fn contact_points(&self) -> usize {
+        let of_kind = |(count, geometry): (usize, PlateGeometry)| {
+            let curve = self.wash_curve_on(&geometry.surface);
+            let a_plate = curve.parameters(&geometry.surface, CHORD_ERROR_M).len();
+            a_plate.saturating_mul(count)
+        };
+        let kinds = self.kinds().into_iter().map(of_kind);
+        kinds.fold(0, usize::saturating_add)
+    }
+
+    /// Refuses a job whose clearances would take minutes: many plates, each of which is checked at every waypoint or contact
+    /// point. Only keys that the job's program uses count.
+    ///
+    /// # Errors
+    /// [`Problem::Conflict`] with how much work it is and the most that is taken on.
+    pub fn check_work(&self) -> Result<(), ScenarioError> {
+        let checked = match self.job.program {
+            Program::Paper => self.check_paper_work(),
+            Program::Certified => self.check_contacts(),
+        };
+        checked.map_err(|problem| ScenarioError::new(&self.name, None, problem))
+    }
+
+    fn check_paper_work(&self) -> Result<(), Problem> {
+        let plates = "layout.count or positions_m, ";
+        self.paper_settings().check_work(self.plates()).or_else(|error| {
+            let plates = if matches!(error, WorkError::Waypoints { .. }) {
+                ""
+            } else {
+                plates
+            };
+            conflict(format!("{plates}{WAYPOINT_KEYS}"), error.to_string())
+        })
+    }
+
+    fn check_contacts(&self) -> Result<(), Problem> {
+        let (plates, points) = (self.plates(), self.contact_points());
+        if plates.saturating_mul(points) <= MAX_CONTACT_CHECKS {
+            return Ok(());
+        }
+        let detail = format!(
+            "{} and up to {points} contact points are too much work: their product must be at most {MAX_CONTACT_CHECKS}; give fewer \
+             plates or contact points",
+            counted(plates, "plate")
+        );
+        let keys = "layout.count or positions_m, wash.turns, wash.path_radius_m";
+        conflict(keys, detail)
+    }
+
+    /// Refuses more waypoints of the paper's program than are planned; a certified job has none.
+    pub(crate) fn check_waypoints(&self) -> Result<(), Problem> {
+        if self.job.program == Program::Certified {
+            return Ok(());
+        }
+        let checked = self.paper_settings().check_waypoints(self.plates());
+        checked.or_else(|error| conflict(WAYPOINT_KEYS, error.to_string()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type Change = fn(&mut Scenario);
+
+    #[test]
+    fn what_no_certified_job_can_have_is_refused_by_its_key() {
+        let cases: [(&str, Change); 18] = [
+            ("layout.plate_foot_m", |s| s.layout.plate_foot_m = Some([1e-6, 0.01])),
+            ("layout.plate_foot_m", |s| s.layout.plate_foot_m = Some([0.05, 1e-6])),
+            ("tool.sponge_compression_m", |s| {
+                s.tool.sponge_compression_m = 1.001 * s.tool.sponge_height_m
+            }),
+            ("layout.plate_thickness_m", |s| s.layout.plate_thickness_m = 1e-6),
+            ("layout.plate_radius_m", |s| s.layout.plate_radius_m = Some(1e-6)),
+            ("wash.turns", |s| s.wash.turns = Some(0.249)),
+            ("wash.turns", |s| s.wash.turns = Some(200.1)),
+            ("wash.path_radius_m", |s| s.wash.path_radius_m = Some(0.99e-4)),
+            ("wash.path_radius_m", |s| {
+                (s.wash.path_radius_m, s.wash.turns) = (Some(10.0), Some(3.0))
+            }),
+            // Without a path radius the plate decides.
+            ("layout.plate_radius_m", |s| {
+                (s.wash.path_radius_m, s.layout.plate_radius_m) = (None, Some(2e-6))
+            }),
+            ("layout.plate_radius_m", |s| {
+                (s.wash.path_radius_m, s.layout.plate_radius_m) = (None, Some(9.0))
+            }),
+            ("wash.landing_speed_m_s", |s| s.wash.landing_speed_m_s = Some(1e-7)),
+            ("wash.lifting_speed_m_s", |s| s.wash.lifting_speed_m_s = Some(1e-7)),
+            ("wash.speed_m_s", |s| s.wash.speed_m_s = 1e-300),
+            ("wash.acceleration_m_s2", |s| s.wash.acceleration_m_s2 = 1e-9),
+            ("limits.tip_speed_m_s", |s| s.limits.tip_speed_m_s = 1e-9),
+            ("limits.tip_acceleration_m_s2", |s| {
+                s.limits.tip_acceleration_m_s2 = 1e-9
+            }),
+            ("limits.joint_acceleration_rad_s2", |s| {
+                s.limits.joint_acceleration_rad_s2[3] = 1e-9
+            }),
+        ];
+        for (key, change) in cases {
+            let mut scenario = Scenario::load("kitchen").unwrap();
+            assert!(scenario.validate().is_ok());
+            change(&mut scenario);
+            let problem = scenario.validate().unwrap_err().problem;
+            assert!(
+                matches!(&problem, Problem::Value { key: named, .. } if named == key),
+                "{problem}"
+            );
+            // The paper's program takes them.
+            let mut paper = Scenario::load("paper-text").unwrap();
+            change(&mut paper);
+            assert!(paper.validate().is_ok(), "{key}");
+        }
+    }
+
+    fn with(points: usize, plates: usize) -> Scenario {
+        let mut scenario = Scenario::load("paper-text").unwrap();
+        scenario.wash.points = points;
+        scenario.layout.count = plates;
+        scenario
+    }
+
+    #[test]
+    fn too_much_work_is_refused_before_it_is_begun() {
+        assert!(with(49_950, 4).validate().is_ok());
+        let message = with(49_951, 4).validate().unwrap_err().to_string();
+        assert!(
+            message.contains("200004 waypoints") && message.contains("wash.points"),
+            "{message}"
+        );
+        assert!(with(55, 218).check_work().is_ok());
+        let message = with(55, 1000).check_work().unwrap_err().to_string();
+        assert!(
+            message.contains("1000 plates") && message.contains("5000000"),
+            "{message}"
+        );
+    }
+
+    /// Waypoints are the paper program's alone: they refuse no certified job, whose own wash paths count.
+    #[test]
+    fn only_keys_that_the_program_uses_count() {
+        let mut scenario = Scenario::load("kitchen-spiral").unwrap();
+        (scenario.wash.points, scenario.transition.samples) = (100_000, 100_000);
+        scenario.layout.count = 200;
+        assert!(scenario.validate().is_ok() && scenario.check_work().is_ok());
+        scenario.layout.count = 1000;
+        let message = scenario.check_work().unwrap_err().to_string();
+        assert!(
+            message.contains("1000 plates") && message.contains("wash.turns") && !message.contains("wash.points"),
+            "{message}"
+        );
+    }
+}

@@ -1,0 +1,411 @@
+//! What `[wash]` asks of the contact of sponge and plate, with its defaults, and keys of it that contradict each other.
+
+use crate::error::{Problem, conflict};
+use crate::scenario::Scenario;
+use crate::sections::motion::Program;
+use crate::sections::tool::ASSUMED_STIFFNESS_KPA;
+use crate::sections::wash::WashSection;
+use platewash_kinematics::trig::sin_cos;
+use platewash_workcell::job::{ContactRequirements, PATH_TOLERANCE_M, PatternName};
+use platewash_workcell::tool::Tool;
+use platewash_workcell::wash_path::MOST_RINGS;
+use std::f64::consts::PI;
+
+/// How fast the sponge may meet a plate and leave it, where contact is promised and nothing is stated \[m/s\].
+const LANDING_M_S: f64 = 0.05;
+
+/// How far joint 5 keeps from 0, where contact is promised and nothing is stated \[deg\].
+const WRIST_DEG: f64 = 3.0;
+
+/// What is promised where nothing else is stated.
+const PROMISED: ContactRequirements = ContactRequirements {
+    compression_m: 0.001,
+    height_error_m: 0.001,
+    share: 0.995,
+    strain: 0.6,
+    force_n: [1.0, 40.0],
+    time_s: 0.1,
+    time_share: 0.99,
+    dose_pa_m: 50.0,
+    dose_share: 0.99,
+};
+
+impl WashSection {
+    /// What the contact must keep; `None` where it is no part of the job.
+    #[must_use]
+    pub fn contact_requirements(&self) -> Option<ContactRequirements> {
+        self.contact.then(|| ContactRequirements {
+            compression_m: self.contact_compression_m.unwrap_or(PROMISED.compression_m),
+            height_error_m: self.contact_height_error_m.unwrap_or(PROMISED.height_error_m),
+            share: self.contact_share.unwrap_or(PROMISED.share),
+            strain: self.contact_strain.unwrap_or(PROMISED.strain),
+            force_n: self.contact_force_n.unwrap_or(PROMISED.force_n),
+            time_s: self.contact_time_s.unwrap_or(PROMISED.time_s),
+            time_share: self.contact_time_share.unwrap_or(PROMISED.time_share),
+            dose_pa_m: self.contact_dose_pa_m.unwrap_or(PROMISED.dose_pa_m),
+            dose_share: self.contact_dose_share.unwrap_or(PROMISED.dose_share),
+        })
+    }
+
+    /// How fast the free sponge may meet a plate, and leave it \[m/s\]; `None` where that is no limit of its own.
+    #[must_use]
+    pub fn landing_and_lifting_m_s(&self) -> [Option<f64>; 2] {
+        let promised = self.contact.then_some(LANDING_M_S);
+        [self.landing_speed_m_s, self.lifting_speed_m_s].map(|stated| stated.or(promised))
+    }
+
+    /// How far joint 5 keeps from 0 at a plate \[rad\]; `None` where nothing is asked of it.
+    #[must_use]
+    pub fn wrist_rad(&self) -> Option<f64> {
+        let promised = self.contact.then_some(WRIST_DEG);
+        self.wrist_min_deg.or(promised).map(f64::to_radians)
+    }
+
+    /// The keys that say how much contact, of those that are stated.
+    fn stated_contact_key(&self) -> Option<&'static str> {
+        let stated = [
+            ("wash.contact_compression_m", self.contact_compression_m.is_some()),
+            ("wash.contact_height_error_m", self.contact_height_error_m.is_some()),
+            ("wash.contact_share", self.contact_share.is_some()),
+            ("wash.contact_strain", self.contact_strain.is_some()),
+            ("wash.contact_force_n", self.contact_force_n.is_some()),
+            ("wash.contact_time_s", self.contact_time_s.is_some()),
+            ("wash.contact_time_share", self.contact_time_share.is_some()),
+            ("wash.contact_dose_pa_m", self.contact_dose_pa_m.is_some()),
+            ("wash.contact_dose_share", self.contact_dose_share.is_some()),
+        ];
+        stated.into_iter().find_map(|(key, is_stated)| is_stated.then_some(key))
+    }
+}
+
+impl Scenario {
+    /// Refuses keys of the wash path and of its contact that contradict each other.
+    pub(crate) fn check_contact(&self) -> Result<(), Problem> {
+        let (wash, certified) = (&self.wash, self.job.program == Program::Certified);
+        if let Some(key) = wash.stated_contact_key().filter(|_| !wash.contact) {
+            return conflict(
+                key,
+                "says how much contact there must be, which wash.contact = true asks for",
+            );
+        }
+        if wash.contact && !certified {
+            let detail = "contact is promised of a plan as a whole: it needs job.program = \"certified\"";
+            return conflict("wash.contact", detail);
+        }
+        if let Some(planned) = wash.tilt_deg.filter(|planned| *planned > wash.tilt_max_deg) {
+            let most = wash.tilt_max_deg;
+            return conflict(
+                "wash.tilt_deg",
+                format!("what is planned must be at most wash.tilt_max_deg = {most}; found {planned}"),
+            );
+        }
+        if let Some(wanted) = wash.contact_requirements() {
+            self.check_promise(&wanted)?;
+        }
+        if certified && wash.pattern == Some(PatternName::Rings) {
+            return self.check_rings();
+        }
+        Ok(())
+    }
+
+    /// Refuses a promise that no plan can keep, whatever it does.
+    ///
+    /// The tip washes on the face, so that the column at the sponge's axis is compressed by c + δ cos τ with the plate at its highest. Nowhere
+    /// is the sponge pressed by more than its greatest strain, and its force is then E π s² times that at most. With the plate at its lowest
+    /// an inclined sponge presses a flat one by c − δ cos τ + s tan τ at most, which grows with τ; other faces may be hollow.
+    fn check_promise(&self, wanted: &ContactRequirements) -> Result<(), Problem> {
+        let sponge = Tool::from(self.tool.straight()).sponge;
+        let (c, error_m, s) = (sponge.compression_m, wanted.height_error_m, sponge.radius_m);
+        let (sine, cosine) = sin_cos(self.wash.tilt_max_deg.to_radians().min(sponge.greatest_tilt_rad()));
+        let (most_m, free_m) = (c + error_m * cosine, sponge.free_height_m());
+        if most_m > wanted.strain * free_m {
+            return conflict(
+                "tool.sponge_compression_m, wash.contact_height_error_m, wash.contact_strain",
+                format!(
+                    "with the plate higher by contact_height_error_m = {error_m} the sponge would be compressed by at least {most_m:.6} m; expected at most \
+                     contact_strain = {} of its free height of {free_m:.6} m, {:.6} m",
+                    wanted.strain,
+                    wanted.strain * free_m
+                ),
+            );
+        }
+        let least_m = c + PATH_TOLERANCE_M - error_m * cosine + s * sine / cosine;
+        if self.kinds().iter().any(|(_, geometry)| geometry.surface.is_flat()) && least_m < wanted.compression_m {
+            return conflict(
+                "tool.sponge_compression_m, wash.contact_compression_m, wash.contact_height_error_m",
+                format!(
+                    "with the plate lower by contact_height_error_m = {error_m} no place would be pressed by more than {least_m:.6} m; expected at least \
+                     contact_compression_m = {}",
+                    wanted.compression_m
+                ),
+            );
+        }
+        let [softest_kpa, _] = self.tool.sponge_stiffness_kpa.unwrap_or(ASSUMED_STIFFNESS_KPA);
+        let most_n = 1e3 * softest_kpa * PI * s * s * wanted.strain;
+        let [asked_n, _] = wanted.force_n;
+        if most_n < asked_n {
+            return conflict(
+                "wash.contact_force_n, tool.sponge_stiffness_kpa, tool.sponge_radius_m",
+                format!(
+                    "the softest sponge, of {softest_kpa} kPa, presses with at most {most_n:.3} N at wash.contact_strain = {}; expected at least {asked_n} N",
+                    wanted.strain
+                ),
+            );
+        }
+        Ok(())
+    }
+
+    /// Rings are whole ones, and the last closes the path.
+    fn check_rings(&self) -> Result<(), Problem> {
+        let wash = &self.wash;
+        if wash.closing_ring == Some(false) {
+            let detail = "rings end with one: leave it out, or state wash.pattern = \"spiral\"";
+            return conflict("wash.closing_ring", detail);
+        }
+        let most = (MOST_RINGS - 1) as f64;
+        match wash.turns {
+            Some(turns) if turns.fract() != 0.0 || !(1.0..=most).contains(&turns) => conflict(
+                "wash.turns",
+                format!(
+                    "with wash.pattern = \"rings\" these are the rings but the last, a whole number from 1 to {most}; found {turns:?}"
+                ),
+            ),
+            _ => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::keys::KEYS;
+    use platewash_workcell::job::Planner;
+
+    const REGION: &str = "layout.region = \"appendix\"\n";
+
+    fn parsed(lines: &str) -> Result<Scenario, String> {
+        Scenario::parse(&format!("{REGION}tool.length_m = 0.15\n{lines}"), "case").map_err(|e| e.problem.to_string())
+    }
+
+    fn requirements(lines: &str) -> (platewash_workcell::job::Requirements, Option<[f64; 2]>) {
+        let job = parsed(&format!("wash.height_m = 0\n{lines}")).unwrap().job().unwrap();
+        let terms = job.terms();
+        (terms.requirements, terms.workcell.tool.sponge.stiffness_pa)
+    }
+
+    #[test]
+    fn a_promise_has_defaults_and_nothing_is_promised_without_it() {
+        let (asked, stiffness) = requirements("wash.contact = true");
+        assert_eq!(asked.contact, Some(PROMISED));
+        assert_eq!((asked.landing_m_s, asked.lifting_m_s), (Some(0.05), Some(0.05)));
+        assert_eq!(asked.wrist_rad, Some(3_f64.to_radians()));
+        assert_eq!(stiffness, Some([11e3, 44e3]));
+        for off in ["", "wash.contact = false"] {
+            let (asked, stiffness) = requirements(off);
+            assert_eq!((asked.contact, asked.wrist_rad, stiffness), (None, None, None));
+            assert_eq!((asked.landing_m_s, asked.lifting_m_s), (None, None));
+        }
+    }
+
+    #[test]
+    fn every_key_of_contact_counts_with_the_promise_and_is_refused_without_it() {
+        let keys: Vec<_> = KEYS
+            .iter()
+            .filter(|key| key.path.starts_with("wash.contact_"))
+            .collect();
+        assert_eq!(keys.len(), 9);
+        let (default, _) = requirements("wash.contact = true");
+        for key in keys {
+            let value = if key.path.ends_with("force_n") {
+                "[2, 30]"
+            } else if key.path.ends_with("_m") {
+                "0.002"
+            } else {
+                "0.25"
+            };
+            let line = format!("{} = {value}\n", key.path);
+            let refused = parsed(&line).unwrap_err();
+            assert!(
+                refused.starts_with(key.path) && refused.contains("wash.contact = true"),
+                "{refused}"
+            );
+            let (asked, _) = requirements(&format!("wash.contact = true\n{line}"));
+            assert_ne!(asked.contact, default.contact, "{line}");
+            // Nothing else changes.
+            let rest = platewash_workcell::job::Requirements {
+                contact: default.contact,
+                ..asked
+            };
+            assert_eq!(rest, default, "{line}");
+        }
+    }
+
+    #[test]
+    fn what_is_stated_is_what_is_asked_for() {
+        let (asked, stiffness) = requirements(
+            "wash.contact = true\nwash.landing_speed_m_s = 0.1\nwash.wrist_min_deg = 5\ntool.sponge_stiffness_kpa = [15, 20]",
+        );
+        assert_eq!((asked.landing_m_s, asked.lifting_m_s), (Some(0.1), Some(0.05)));
+        assert_eq!(
+            (asked.wrist_rad, stiffness),
+            (Some(5_f64.to_radians()), Some([15e3, 20e3]))
+        );
+        // Speeds, wrist and stiffness mean something without the promise, too.
+        let (asked, stiffness) =
+            requirements("wash.lifting_speed_m_s = 0.2\nwash.wrist_min_deg = 0\ntool.sponge_stiffness_kpa = [15, 20]");
+        assert_eq!(
+            (asked.landing_m_s, asked.lifting_m_s, asked.contact),
+            (None, Some(0.2), None)
+        );
+        assert_eq!((asked.wrist_rad, stiffness), (Some(0.0), Some([15e3, 20e3])));
+    }
+
+    #[test]
+    fn the_wash_path_is_the_planners_where_it_is_not_stated() {
+        let settings = |lines: &str| {
+            let job = parsed(&format!("wash.height_m = 0\n{lines}")).unwrap().job().unwrap();
+            let Planner::Wash(settings) = job.terms().planner.clone() else {
+                unreachable!("a washing")
+            };
+            settings
+        };
+        let free = settings("");
+        assert_eq!((free.path_radius_m, free.turns, free.closing_ring), (None, None, None));
+        assert_eq!((free.pattern, free.tilt_rad, free.axis_share), (None, None, None));
+        for (name, pattern) in PatternName::NAMES
+            .into_iter()
+            .zip([PatternName::Spiral, PatternName::Rings])
+        {
+            let pinned = settings(&format!(
+                "wash.pattern = \"{name}\"\nwash.turns = 2\nwash.path_radius_m = 0.12\nwash.tilt_deg = 8\nwash.axis_share = 0.5"
+            ));
+            assert_eq!(
+                (pinned.pattern, pinned.turns, pinned.path_radius_m),
+                (Some(pattern), Some(2.0), Some(0.12))
+            );
+            assert_eq!(
+                (pinned.tilt_rad, pinned.axis_share),
+                (Some(8_f64.to_radians()), Some(0.5))
+            );
+        }
+    }
+
+    #[test]
+    fn keys_that_contradict_each_other_are_refused_with_both() {
+        for (lines, parts) in [
+            (
+                "job.program = \"paper\"\nwash.contact = true",
+                &["wash.contact", "job.program = \"certified\""][..],
+            ),
+            (
+                "wash.tilt_deg = 15.5",
+                &["wash.tilt_deg", "wash.tilt_max_deg = 15", "15.5"],
+            ),
+            (
+                "wash.pattern = \"rings\"\nwash.closing_ring = false",
+                &["wash.closing_ring", "wash.pattern"],
+            ),
+            (
+                "wash.pattern = \"rings\"\nwash.turns = 2.5",
+                &["wash.turns", "wash.pattern = \"rings\"", "from 1 to 99", "found 2.5"],
+            ),
+            (
+                "wash.pattern = \"rings\"\nwash.turns = 100",
+                &["wash.turns", "found 100.0"],
+            ),
+        ] {
+            let refused = parsed(lines).unwrap_err();
+            assert!(parts.iter().all(|part| refused.contains(part)), "{refused}");
+        }
+        for lines in [
+            "wash.tilt_deg = 15",
+            "wash.pattern = \"rings\"\nwash.turns = 99\nwash.path_radius_m = 0.1\nwash.closing_ring = true",
+            "wash.pattern = \"spiral\"\nwash.closing_ring = false\nwash.turns = 2.5",
+            // The paper's program takes what it does not use.
+            "job.program = \"paper\"\nwash.pattern = \"rings\"\nwash.turns = 2.5",
+        ] {
+            assert!(parsed(lines).is_ok(), "{lines}");
+        }
+    }
+
+    #[test]
+    fn a_promise_that_no_plan_keeps_is_refused_with_its_keys() {
+        // By hand: H = 30 mm, 60 % of it 18 mm; c + δ cos 15° = 5 + 13.5 · 0.966 = 18.04 mm, and 17.94 mm with 13.4 mm.
+        // c + 0.2 − δ cos 15° + 25 tan 15° = 5 + 0.2 − 0.966 + 6.699 = 10.933 mm. 11 kPa · π · 25² mm² · 0.6 = 12.96 N.
+        for (line, parts) in [
+            (
+                "wash.contact_height_error_m = 0.0135",
+                &[
+                    "tool.sponge_compression_m",
+                    "wash.contact_strain",
+                    "0.018040 m",
+                    "at most",
+                    "0.018000 m",
+                ][..],
+            ),
+            (
+                "wash.contact_compression_m = 0.01094",
+                &[
+                    "tool.sponge_compression_m",
+                    "wash.contact_compression_m",
+                    "0.0109",
+                    "expected at least",
+                    "0.01094",
+                ],
+            ),
+            (
+                "wash.contact_force_n = [12.97, 40]",
+                &[
+                    "wash.contact_force_n",
+                    "tool.sponge_stiffness_kpa",
+                    "12.959 N",
+                    "at least 12.97 N",
+                ],
+            ),
+        ] {
+            let refused = parsed(&format!("wash.tilt_max_deg = 15\nwash.contact = true\n{line}")).unwrap_err();
+            assert!(parts.iter().all(|part| refused.contains(part)), "{refused}");
+        }
+        for lines in [
+            // A hollow face may press more.
+            "wash.contact_height_error_m = 0.0134\nlayout.plate_profile = \"deep230\"",
+            "wash.contact_compression_m = 0.01093",
+            "wash.contact_force_n = [12.95, 40]",
+            "wash.contact_compression_m = 0.01094\nlayout.plate_profile = \"deep230\"",
+        ] {
+            let lines = format!("wash.tilt_max_deg = 15\nwash.contact = true\n{lines}");
+            assert!(parsed(&lines).is_ok(), "{lines}: {:?}", parsed(&lines));
+        }
+    }
+
+    #[test]
+    fn values_that_make_no_sense_are_refused_with_their_range() {
+        for (line, key) in [
+            ("tool.sponge_stiffness_kpa = [0, 44]", "tool.sponge_stiffness_kpa"),
+            ("tool.sponge_stiffness_kpa = [44, 11]", "tool.sponge_stiffness_kpa"),
+            ("tool.sponge_stiffness_kpa = [11, inf]", "tool.sponge_stiffness_kpa"),
+            ("tool.sponge_stiffness_kpa = 20", "tool.sponge_stiffness_kpa"),
+            ("wash.contact = 1", "wash.contact"),
+            ("wash.contact_strain = 0", "wash.contact_strain"),
+            ("wash.contact_strain = nan", "wash.contact_strain"),
+            ("wash.contact_share = 1.001", "wash.contact_share"),
+            ("wash.contact_height_error_m = -0.001", "wash.contact_height_error_m"),
+            ("wash.contact_compression_m = 1.5", "wash.contact_compression_m"),
+            ("wash.contact_force_n = [40, 1]", "wash.contact_force_n"),
+            ("wash.contact_force_n = []", "wash.contact_force_n"),
+            ("wash.contact_time_s = inf", "wash.contact_time_s"),
+            ("wash.contact_dose_pa_m = 1e300", "wash.contact_dose_pa_m"),
+            ("wash.landing_speed_m_s = 0", "wash.landing_speed_m_s"),
+            ("wash.lifting_speed_m_s = 1e-9", "wash.lifting_speed_m_s"),
+            ("wash.wrist_min_deg = 90.1", "wash.wrist_min_deg"),
+            ("wash.axis_share = 1.1", "wash.axis_share"),
+            ("wash.pattern = \"raster\"", "wash.pattern"),
+        ] {
+            let refused = parsed(line).unwrap_err();
+            assert!(
+                refused.starts_with(key) && refused.contains("must be"),
+                "{line}: {refused}"
+            );
+        }
+    }
+}

@@ -1,0 +1,346 @@
+//! From a scenario to the job that it states.
+
+pub(crate) mod arm;
+pub(crate) mod certified;
+pub(crate) mod contact;
+pub(crate) mod placement;
+pub(crate) mod solids;
+pub(crate) mod surroundings;
+pub(crate) mod tool_on_arm;
+
+use crate::failure::Failure;
+use crate::resolve::arm::load_arm;
+use crate::scenario::Scenario;
+use crate::sections::motion::Program;
+use crate::sections::wash::{PAPER_RADIUS_M, PAPER_TURNS};
+use platewash_kinematics::urdf::MeshSource;
+use platewash_kinematics::{JointVector, RobotModel};
+use platewash_paper::order::PaperOrder;
+use platewash_paper::settings::{PaperIk, TransitCurve};
+use platewash_paper::{PaperJob, PaperSettings, PaperSpiral};
+use platewash_planner::Watch;
+use platewash_planner::suggest::suggest_home;
+use platewash_workcell::arc::Arc as ArcRoundBase;
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::job::{
+    End, JobError, JobTerms, Limits, OrderRule, Planner, PlannerSettings, ReachBorders, Requirements, WashJob,
+};
+use platewash_workcell::layout::{Finding, Layout};
+use platewash_workcell::simulation::{ControlLawName, SimulationSettings};
+use platewash_workcell::tool::{Sponge, Tool};
+use platewash_workcell::workcell::Workcell;
+use std::sync::Arc;
+
+impl Scenario {
+    /// The arm.
+    ///
+    /// # Errors
+    /// [`Failure::Arm`].
+    pub fn arm(&self) -> Result<Arc<RobotModel>, Failure> {
+        Ok(Arc::new(load_arm(&self.robot, &self.files)?))
+    }
+
+    /// Reads every file that the scenario names, as its job would. What is wrong with one is for the job to tell.
+    pub fn read_files(&self) {
+        // Errors are dropped on purpose.
+        let _ = self.arm();
+        let of_tool = self.tool_body.iter().map(|section| &section.body);
+        for body in of_tool.chain(self.obstacle.iter().map(|section| &section.body)) {
+            if let Some(mesh) = &body.mesh {
+                let _ = self.meshes().solid(&mesh.to_string_lossy(), [1.0; 3]);
+            }
+        }
+    }
+
+    /// Where the meshes of its bodies are.
+    pub(crate) fn meshes(&self) -> MeshSource {
+        MeshSource::new(&self.robot.package_path, None).reading(&self.files)
+    }
+
+    /// The washing that the scenario asks for, resolved: the arm loaded, the plates placed.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub fn job(&self) -> Result<WashJob, Failure> {
+        let arm = self.arm()?;
+        let layout = self.place(&arm, &Watch::silent(&CancelToken::new()))?;
+        self.job_on(&arm, &layout)
+    }
+
+    /// The washing that the scenario asks for with an arm loaded and plates placed before.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub fn job_on(&self, arm: &Arc<RobotModel>, layout: &Layout) -> Result<WashJob, Failure> {
+        self.validate()?;
+        self.check_work()?;
+        Ok(WashJob::new(arm.clone(), self.terms(arm, layout)?)?.named(&self.name))
+    }
+
+    /// The run of the paper's program that the scenario asks for, resolved.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub fn paper_job(&self) -> Result<PaperJob, Failure> {
+        let arm = self.arm()?;
+        let layout = self.layout(&arm)?;
+        self.paper_job_on(&arm, layout)
+    }
+
+    /// The run of the paper's program that the scenario asks for with an arm loaded and plates placed before.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub fn paper_job_on(&self, arm: &Arc<RobotModel>, layout: Layout) -> Result<PaperJob, Failure> {
+        self.validate()?;
+        self.check_work()?;
+        let [start, _] = self.homes();
+        Ok(PaperJob {
+            name: self.name.clone(),
+            arm: arm.clone(),
+            workcell: self.workcell(arm, layout.plates.len())?,
+            layout,
+            seed: self.seed,
+            start_rad: start.unwrap_or_else(JointVector::zeros),
+            requirements: self.requirements(),
+            limits: self.limits(),
+            settings: self.paper_settings(),
+            simulation: self.simulation(),
+        })
+    }
+
+    /// Checks a scenario without carrying it out: the arm loads, its ends are within its limits and clear, and the plates have room in
+    /// principle (given ones are placed; for sampled ones the region is not empty).
+    ///
+    /// Returns the arm, and what is to be said about given plates.
+    ///
+    /// # Errors
+    /// As carrying it out, for the same fault.
+    pub fn check(&self) -> Result<(Arc<RobotModel>, Vec<Finding>), Failure> {
+        self.validate()?;
+        let arm = self.arm()?;
+        let given = self.lists_plates();
+        let layout = if given {
+            self.layout(&arm)?
+        } else {
+            self.check_region()?;
+            Layout::of(Vec::new())
+        };
+        let [start, _] = self.homes();
+        if let Some(violation) = start.and_then(|start| arm.limits().violation(&start)) {
+            return Err(JobError::Home {
+                end: End::Start,
+                violation,
+            }
+            .into());
+        }
+        if given {
+            self.check_on(&arm, &layout)?;
+        } else if self.job.program == Program::Certified {
+            platewash_planner::check(&arm, &self.terms(&arm, &layout)?)?;
+        }
+        Ok((arm, layout.findings))
+    }
+
+    /// Refuses what carrying it out on some plates refuses before anything is planned.
+    ///
+    /// # Errors
+    /// As carrying it out, for the same fault.
+    pub fn check_on(&self, arm: &Arc<RobotModel>, layout: &Layout) -> Result<(), Failure> {
+        match self.job.program {
+            Program::Certified => platewash_planner::check(arm, self.job_on(arm, layout)?.terms())?,
+            Program::Paper => self.paper_job_on(arm, layout.clone())?.validate()?,
+        }
+        Ok(())
+    }
+
+    /// The terms of the job on some plates; where no home is stated, one is found for them.
+    ///
+    /// # Errors
+    /// [`Failure`]: a tip that washes off the plates, or an arm with a shape that is none.
+    pub fn terms(&self, arm: &RobotModel, layout: &Layout) -> Result<JobTerms, Failure> {
+        if self.wash.height_m != 0.0 {
+            let height_m = self.wash.height_m;
+            return Err(Failure::NoContact { height_m });
+        }
+        let workcell = self.workcell(arm, layout.plates.len())?;
+        self.check_bodies(&workcell)?;
+        let wash = &self.wash;
+        let [start, end] = self.homes();
+        let zeros = JointVector::zeros;
+        let mut terms = JobTerms {
+            workcell,
+            plates: layout.plates.clone(),
+            requirements: self.requirements(),
+            limits: self.limits(),
+            home_rad: [start.unwrap_or_else(zeros), end.unwrap_or_else(zeros)],
+            planner: Planner::Wash(PlannerSettings {
+                path_radius_m: wash.path_radius_m,
+                turns: wash.turns,
+                closing_ring: wash.closing_ring,
+                pattern: wash.pattern,
+                tilt_rad: wash.tilt_deg.map(f64::to_radians),
+                axis_share: wash.axis_share,
+                lift_m: wash.lift_m,
+                order: self.job.order,
+                arc: self.arc(),
+                reach: ReachBorders::IRB_120,
+                relocate: self.lists_plates(),
+            }),
+            seed: self.seed,
+            simulation: self.simulation(),
+            dry_run: None,
+        };
+        if start.is_none() {
+            // What stands where it cannot leaves no home either, and is the better reason.
+            let overlaps = terms.standing_overlaps(arm)?;
+            if !overlaps.is_empty() {
+                return Err(JobError::Standing(overlaps).into());
+            }
+            let found = suggest_home(arm, &terms, &CancelToken::new())?.q_rad();
+            terms.home_rad = [found, end.unwrap_or(found)];
+        }
+        Ok(terms)
+    }
+
+    /// The settings of the paper's program.
+    #[must_use]
+    pub fn paper_settings(&self) -> PaperSettings {
+        let (wash, transition, ik) = (&self.wash, &self.transition, &self.ik);
+        PaperSettings {
+            spiral: PaperSpiral {
+                points: wash.points,
+                turns: wash.turns.unwrap_or(PAPER_TURNS),
+                radius_m: wash.path_radius_m.unwrap_or(PAPER_RADIUS_M),
+                closing_ring: wash.closing_ring.unwrap_or(false),
+            },
+            height_m: wash.height_m,
+            transit: TransitCurve {
+                interpolation: transition.interpolation,
+                samples: transition.samples,
+            },
+            arc: self.arc(),
+            ik: PaperIk {
+                method: ik.method,
+                seed: ik.seed,
+                position_tolerance_m: ik.position_tolerance_m,
+                orientation_tolerance_rad: ik.orientation_tolerance_rad,
+            },
+            order: match self.job.order {
+                OrderRule::Given => PaperOrder::Given,
+                // The least travel time is refused for the paper's program before.
+                OrderRule::Nearest | OrderRule::Fastest => PaperOrder::Nearest,
+            },
+        }
+    }
+
+    /// The arm with its tool where it is mounted, and what stands around it, among so many plates.
+    ///
+    /// # Errors
+    /// [`Failure`]: an obstacle that is none, or an arm with a shape that is none.
+    pub fn workcell(&self, arm: &RobotModel, plates: usize) -> Result<Workcell, Failure> {
+        let tool = self.tool_on(arm)?;
+        let obstacles = self.obstacles(arm, &tool, plates)?;
+        Ok(Workcell::new(arm, tool, self.robot.mount(), obstacles)?)
+    }
+
+    fn requirements(&self) -> Requirements {
+        let wash = &self.wash;
+        let [landing_m_s, lifting_m_s] = wash.landing_and_lifting_m_s();
+        Requirements {
+            coverage: self.job.required_coverage,
+            clearance_m: wash.clearance_m,
+            tilt_rad: wash.tilt_max_deg.to_radians(),
+            wash_speed_m_s: wash.speed_m_s,
+            wash_acceleration_m_s2: wash.acceleration_m_s2,
+            overlap: self.layout.overlap,
+            as_listed: self.job.order == OrderRule::Given,
+            landing_m_s,
+            lifting_m_s,
+            wrist_rad: wash.wrist_rad(),
+            contact: wash.contact_requirements(),
+        }
+    }
+
+    fn limits(&self) -> Limits {
+        let limits = &self.limits;
+        Limits {
+            joint_acceleration_rad_s2: limits.joint_acceleration_rad_s2,
+            tip_speed_m_s: limits.tip_speed_m_s,
+            tip_acceleration_m_s2: limits.tip_acceleration_m_s2,
+        }
+    }
+
+    /// The sponge, where there is a tool that holds one.
+    fn sponge(&self) -> Option<Sponge> {
+        let tool = Tool::from(self.tool.straight());
+        tool.is_present().then_some(tool.sponge)
+    }
+
+    fn simulation(&self) -> SimulationSettings {
+        SimulationSettings {
+            law: self.law(),
+            control: self.control.settings(),
+            plant: self.plant.settings(self.sponge().as_ref()),
+            payload_kg: self.robot.payload_kg,
+        }
+    }
+
+    /// The control law: the one stated, otherwise the paper's for the paper's program and computed torque for a certified job.
+    #[must_use]
+    pub fn law(&self) -> ControlLawName {
+        self.control.law.unwrap_or(match self.job.program {
+            Program::Paper => ControlLawName::Paper,
+            Program::Certified => ControlLawName::ComputedTorque,
+        })
+    }
+
+    /// The arc round the base.
+    #[must_use]
+    pub fn arc(&self) -> ArcRoundBase {
+        let section = &self.transition;
+        let outside_m = (self.layout.base_radius_m + 0.1).max(0.3);
+        ArcRoundBase {
+            points: section.mid_points,
+            radius_m: section.mid_radius_m.unwrap_or(outside_m),
+            height_m: section.mid_height_m,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_workcell::fixtures;
+
+    #[test]
+    fn the_kitchen_of_other_crates_tests_is_the_shipped_one() {
+        for (name, fixture) in [
+            ("kitchen-spiral", fixtures::kitchen()),
+            ("kitchen", fixtures::contact_kitchen()),
+        ] {
+            let job = Scenario::load(name).unwrap().job().unwrap();
+            assert_eq!(job.terms(), fixture.terms(), "{name}");
+            assert_eq!(job.name(), name);
+        }
+    }
+
+    #[test]
+    fn the_papers_own_settings_are_those_of_its_scenarios() {
+        for (name, settings) in [
+            ("paper-appendix", PaperSettings::appendix()),
+            ("paper-text", PaperSettings::text()),
+        ] {
+            let job = Scenario::load(name).unwrap().paper_job().unwrap();
+            assert_eq!(job.settings, settings, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_tip_that_hovers_washes_nothing() {
+        let mut scenario = Scenario::load("kitchen").unwrap();
+        scenario.wash.height_m = 0.01;
+        let failure = scenario.job().unwrap_err();
+        assert!(failure.to_string().starts_with("wash.height_m must be 0"), "{failure}");
+    }
+}

@@ -1,0 +1,129 @@
+//! Meshes as convex bodies, cut once: a scenario is resolved again and again, for every seed of a sweep and every move on a page.
+
+use crate::error::BodyFault;
+use nalgebra::Point3;
+use platewash_kinematics::fingerprint::sha256_hex;
+use platewash_kinematics::urdf::MeshSource;
+use platewash_workcell::clearance::{SolidParts, excess_m, solid_parts};
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Meshes that are kept.
+const KEPT: usize = 64;
+
+/// The corners of the convex parts of a mesh \[m\].
+pub(crate) type Hulls = Arc<Vec<Vec<Point3<f64>>>>;
+
+/// What became of meshes that were cut before, by their triangles: the files are read each time, so that a changed one counts at once. Clones share it;
+/// it decides nothing, and all of them are equal.
+#[derive(Debug, Clone, Default)]
+pub struct Solids {
+    kept: Arc<Mutex<Vec<(String, Hulls)>>>,
+}
+
+impl PartialEq for Solids {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Solids {
+    /// The convex parts of the mesh in a file, scaled.
+    pub(crate) fn parts(
+        &self,
+        source: &MeshSource,
+        file: &Path,
+        scale: [f64; 3],
+        parts: SolidParts,
+    ) -> Result<Hulls, BodyFault> {
+        let triangles = source.solid(&file.to_string_lossy(), scale).map_err(BodyFault::Mesh)?;
+        let id = id(&triangles, parts);
+        if let Some(hulls) = self.found(&id) {
+            return Ok(hulls);
+        }
+        let hulls = solid_parts(&triangles, parts).map_err(|why| BodyFault::Solid {
+            file: file.display().to_string(),
+            why,
+        })?;
+        let hulls = Arc::new(hulls);
+        self.keep(id, hulls.clone());
+        Ok(hulls)
+    }
+
+    /// Upper bound on how far the convex parts of a mesh reach beyond it \[m\]; `None` where there are none.
+    pub(crate) fn excess_m(&self, source: &MeshSource, file: &Path, scale: [f64; 3], parts: SolidParts) -> Option<f64> {
+        let triangles = source.solid(&file.to_string_lossy(), scale).ok()?;
+        let hulls = self.parts(source, file, scale, parts).ok()?;
+        Some(excess_m(&triangles, &hulls))
+    }
+
+    /// What became of a mesh, which is then the last to be forgotten.
+    fn found(&self, id: &str) -> Option<Hulls> {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let at = kept.iter().position(|(of, _)| of == id)?;
+        let found = kept.remove(at);
+        let hulls = found.1.clone();
+        kept.push(found);
+        Some(hulls)
+    }
+
+    fn keep(&self, id: String, hulls: Hulls) {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        // Another thread may have cut it meanwhile.
+        if kept.iter().all(|(of, _)| *of != id) {
+            kept.push((id, hulls));
+        }
+        if kept.len() > KEPT {
+            kept.remove(0);
+        }
+    }
+}
+
+/// What decides the parts of a mesh.
+fn id(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> String {
+    let numbers = triangles.iter().flatten().flat_map(|corner| corner.iter().copied());
+    let bytes = numbers.flat_map(f64::to_le_bytes);
+    let kind: u8 = match parts {
+        SolidParts::Hull => 0,
+        SolidParts::Decomposed => 1,
+    };
+    sha256_hex(&bytes.chain([kind]).collect::<Vec<u8>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+    #[test]
+    fn a_mesh_is_cut_once_until_it_changes() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.obj");
+        std::fs::write(&file, TETRAHEDRON).unwrap();
+        let (solids, source) = (Solids::default(), MeshSource::none());
+        let parts = |of: &Solids, scale: f64, parts| of.parts(&source, &file, [scale; 3], parts).unwrap();
+        let first = parts(&solids, 1.0, SolidParts::Hull);
+        assert!(Arc::ptr_eq(&first, &parts(&solids.clone(), 1.0, SolidParts::Hull)));
+        assert_eq!(first, parts(&Solids::default(), 1.0, SolidParts::Hull));
+        assert!(!Arc::ptr_eq(&first, &parts(&solids, 1.0, SolidParts::Decomposed)));
+        assert_ne!(first, parts(&solids, 2.0, SolidParts::Hull));
+        // Of the same length, and perhaps within the same tick of the file system's clock.
+        std::fs::write(&file, TETRAHEDRON.replace("v 0 0 1", "v 0 0 3")).unwrap();
+        let second = parts(&solids, 1.0, SolidParts::Hull);
+        assert_ne!(first, second);
+        assert_eq!(second, parts(&Solids::default(), 1.0, SolidParts::Hull));
+    }
+
+    #[test]
+    fn what_is_kept_has_a_bound_and_the_longest_unused_goes_first() {
+        let (solids, hulls) = (Solids::default(), Hulls::default());
+        for k in 0..KEPT {
+            solids.keep(k.to_string(), hulls.clone());
+        }
+        assert!(solids.found("0").is_some());
+        solids.keep("more".to_owned(), hulls);
+        assert_eq!(solids.kept.lock().unwrap().len(), KEPT);
+        assert!(solids.found("0").is_some() && solids.found("1").is_none());
+    }
+}

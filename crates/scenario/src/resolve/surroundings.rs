@@ -1,0 +1,175 @@
+//! From the sections of floor, table and obstacles to the bodies that stand around the arm.
+
+use crate::error::{BodyError, BodyFault, BodySection, Problem, ScenarioError, conflict};
+use crate::failure::Failure;
+use crate::scenario::Scenario;
+use crate::sections::body_shape::{Stated, pose};
+use crate::sections::obstacle::{MeshPartsName, ObstacleSection};
+use crate::sections::room::TABLE;
+use crate::sections::tool::ToolBodySection;
+use crate::units::Note;
+use platewash_kinematics::RobotModel;
+use platewash_kinematics::geometry::Shape;
+use platewash_workcell::clearance::SolidParts;
+use platewash_workcell::tool::Tool;
+use platewash_workcell::words::counted;
+use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcell};
+use std::path::{Path, PathBuf};
+
+/// Parts that reach no farther beyond a mesh are not told of \[m\].
+const LEAST_EXCESS_M: f64 = 1e-3;
+
+/// A mesh's path as a file in a folder states it: those of packages stay as they are.
+pub(crate) fn in_folder(mesh: &Path, folder: &Path) -> PathBuf {
+    let text = mesh.to_string_lossy();
+    match text.strip_prefix("file://") {
+        _ if text.starts_with("package://") => mesh.to_owned(),
+        Some(path) => folder.join(path),
+        None => folder.join(mesh),
+    }
+}
+
+impl Scenario {
+    /// Refuses obstacles without a name or with one that another has, without a place, and shapes without their sizes; plates held that
+    /// are not there; and what is stated of a floor or a table that is not there.
+    pub(crate) fn check_surroundings(&self) -> Result<(), Problem> {
+        for (index, obstacle) in self.obstacle.iter().enumerate() {
+            let at = format!("obstacle[{index}]");
+            let name = &obstacle.name;
+            if name.is_empty() {
+                conflict(format!("{at}.name"), "is missing; every obstacle has a name of its own")?;
+            }
+            let taken = self.obstacle[..index].iter().position(|other| other.name == *name);
+            if let Some(other) = taken {
+                conflict(
+                    format!("{at}.name"),
+                    format!("'{name}' is the name of obstacle[{other}] already"),
+                )?;
+            }
+            obstacle.stated(&at)?;
+            if obstacle.at_m.is_none() {
+                conflict(format!("{at}.at_m"), "is missing; every obstacle has its place")?;
+            }
+            let plates = self.plates();
+            if let Some(plate) = obstacle.held(plates).into_iter().find(|plate| *plate >= plates) {
+                let there = counted(plates, "plate");
+                let are = if plates == 1 { "is" } else { "are" };
+                let found = format!("it holds plate {plate}; there {are} {there}, counted from 0");
+                conflict(format!("{at}.holds_plates"), found)?;
+            }
+        }
+        self.floor.check()?;
+        self.table.check()
+    }
+
+    /// What stands around an arm with its tool, among so many plates.
+    ///
+    /// # Errors
+    /// [`Failure`]: a mesh that cannot be read or is no body, a name that another body has.
+    pub(crate) fn obstacles(&self, arm: &RobotModel, tool: &Tool, plates: usize) -> Result<Vec<Obstacle>, Failure> {
+        let mut all: Vec<_> = self.floor.obstacle().into_iter().chain(self.table.obstacle()).collect();
+        for (index, section) in self.obstacle.iter().enumerate() {
+            if let Some(of) = self.owner(&section.name, arm, tool) {
+                return Err(obstacle_error(index, section, BodyFault::NameTaken { of }).into());
+            }
+            all.push(Obstacle {
+                name: section.name.clone(),
+                shape: self.shape(index, section)?,
+                pose: pose(section.at_m.unwrap_or_default(), section.rpy_deg),
+                margin_m: section.margin_m,
+                holds_plates: section.held(plates),
+            });
+        }
+        Ok(all)
+    }
+
+    /// Refuses more bodies than can be judged soon.
+    pub(crate) fn check_bodies(&self, world: &Workcell) -> Result<(), ScenarioError> {
+        if world.bodies() <= MOST_BODIES {
+            return Ok(());
+        }
+        let found = self.obstacle.len();
+        let others = world.bodies().saturating_sub(found);
+        let problem = Problem::Value {
+            key: "obstacle".to_owned(),
+            expected: format!(
+                "a list of at most {} sections: {MOST_BODIES} bodies can be judged, and {others} of them are floor, table and tool",
+                MOST_BODIES.saturating_sub(others)
+            ),
+            found: format!("{found} of them"),
+        };
+        Err(ScenarioError::new(&self.name, None, problem))
+    }
+
+    /// Which other body has a name.
+    fn owner(&self, name: &str, arm: &RobotModel, tool: &Tool) -> Option<&'static str> {
+        let is_plate = |name: &str| {
+            let number = name.strip_prefix("plate ").or_else(|| name.strip_prefix("real plate "));
+            number.is_some_and(|number| number.parse::<usize>().is_ok())
+        };
+        match name {
+            "floor" if self.floor.present => Some("the floor"),
+            TABLE if self.table.size_m.is_some() => Some("the table"),
+            "sponge" => Some("the sponge"),
+            _ if is_plate(name) => Some("a plate"),
+            _ if tool.bodies.iter().any(|body| body.name == name) => Some("a body of the tool"),
+            _ if arm.links().iter().any(|link| link.name == name) => Some("a link of the arm"),
+            _ => None,
+        }
+    }
+
+    /// How far the convex parts that count reach beyond the meshes of tool and obstacles, where they do. Meshes that cannot be read are
+    /// left out: whoever makes the workcell is told of them.
+    #[must_use]
+    pub fn notes_on_meshes(&self) -> Vec<Note> {
+        let source = self.meshes();
+        let note = |name: &str, (file, scale): (&Path, [f64; 3]), parts: SolidParts| {
+            let by_m = self.solids.excess_m(&source, file, scale, parts)?;
+            let body = name.to_owned();
+            (by_m > LEAST_EXCESS_M).then_some(Note::LargerThanMesh { body, by_m })
+        };
+        let of_obstacle = |section: &ObstacleSection| match section.stated("obstacle") {
+            Ok(Stated::Mesh { file, scale }) => note(&section.name, (file, scale), solid_parts(section)),
+            _ => None,
+        };
+        let of_tool = |section: &ToolBodySection| match section.body.stated("tool_body") {
+            Ok(Stated::Mesh { file, scale }) => note(&section.name, (file, scale), SolidParts::Hull),
+            _ => None,
+        };
+        let of_tools = self.tool_body.iter().filter_map(of_tool);
+        of_tools.chain(self.obstacle.iter().filter_map(of_obstacle)).collect()
+    }
+
+    fn shape(&self, index: usize, section: &ObstacleSection) -> Result<ObstacleShape, Failure> {
+        let refused = |problem| ScenarioError::new(&self.name, None, problem);
+        let stated = section.stated(&format!("obstacle[{index}]")).map_err(refused)?;
+        let (file, scale) = match stated {
+            Stated::HalfSpace => return Ok(ObstacleShape::HalfSpace),
+            Stated::Convex(shape) => return Ok(ObstacleShape::Convex(shape)),
+            Stated::Mesh { file, scale } => (file, scale),
+        };
+        let source = self.meshes();
+        let hulls = self.solids.parts(&source, file, scale, solid_parts(section));
+        let hulls = hulls.map_err(|why| obstacle_error(index, section, why))?;
+        Ok(match hulls.as_slice() {
+            [points] => ObstacleShape::Convex(Shape::Hull { points: points.clone() }),
+            hulls => ObstacleShape::Parts(hulls.to_vec()),
+        })
+    }
+}
+
+fn solid_parts(section: &ObstacleSection) -> SolidParts {
+    match section.mesh_parts.unwrap_or_default() {
+        MeshPartsName::Hull => SolidParts::Hull,
+        MeshPartsName::Decomposed => SolidParts::Decomposed,
+    }
+}
+
+fn obstacle_error(index: usize, section: &ObstacleSection, why: BodyFault) -> BodyError {
+    BodyError {
+        section: BodySection::Obstacle,
+        index,
+        name: section.name.clone(),
+        why,
+    }
+}

@@ -1,0 +1,68 @@
+//! The `[robot]` section: which arm, and where it starts and ends.
+
+use crate::load;
+use crate::sections::body_shape::pose;
+use platewash_keys::Section;
+use platewash_kinematics::{Pose, ToolFrame};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// `[robot]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
+#[section("robot")]
+#[serde(default, deny_unknown_fields)]
+pub struct RobotSection {
+    /// Built-in arm.
+    #[key(domain = Word(&["irb120"]), default = BuiltInArm::Irb120)]
+    pub model: BuiltInArm,
+    /// Expanded URDF of another six-axis arm, in place of the built-in one; relative to the scenario's folder.
+    #[key(domain = Path)]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::lossy")]
+    pub urdf: Option<PathBuf>,
+    /// SRDF whose `disable_collisions` elements name the link pairs that need no check. Without it: adjacent pairs and pairs that always
+    /// touch.
+    #[key(domain = Path)]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::lossy")]
+    pub srdf: Option<PathBuf>,
+    /// Folders in which `package://` mesh names are looked up.
+    #[key(domain = Paths)]
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "load::lossy_all")]
+    pub package_path: Vec<PathBuf>,
+    /// Frame in which tool poses are stated and returned; nothing else changes.
+    #[key(domain = Word(&["flange", "tool0", "matlab_tool0"]), default = ToolFrame::Tool0)]
+    pub tool_frame: ToolFrame,
+    /// Joint positions at the start, within the arm's limits; without it, a clear home that is looked for (certified), or 0 (paper).
+    #[key(unit = "deg", domain = Joints(-36000.0, 36000.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_deg: Option<[f64; 6]>,
+    /// Joint positions at the end, within the arm's limits; without it, those at the start (certified).
+    #[key(unit = "deg", domain = Joints(-36000.0, 36000.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub home_deg: Option<[f64; 6]>,
+    /// Where the arm's base is in the world, whose z = 0 is the floor and whose z points up: 0.4 above it on a pedestal of that height.
+    #[key(unit = "m", domain = Triple(-10.0, 10.0))]
+    pub mount_m: [f64; 3],
+    /// How the base is turned there: roll, pitch and yaw about the fixed axes x, y, z of the world; [180, 0, 0] hangs from a ceiling.
+    #[key(unit = "deg", domain = Triple(-360.0, 360.0))]
+    pub mount_rpy_deg: [f64; 3],
+    /// Rated payload, against which the tool's mass is checked; without it, 3 kg for the built-in arm, unknown for others.
+    #[key(unit = "kg", domain = NumberAbove(0.0, 1e6))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub payload_kg: Option<f64>,
+}
+
+/// Arms that are built in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BuiltInArm {
+    /// ABB IRB 120.
+    Irb120,
+}
+
+impl RobotSection {
+    /// `T_world_base`.
+    #[must_use]
+    pub fn mount(&self) -> Pose {
+        pose(self.mount_m, self.mount_rpy_deg)
+    }
+}
