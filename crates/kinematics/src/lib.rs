@@ -17,13 +17,10 @@
 //! | --- | --- |
 //! | URDF text → [`RobotModel`], every malformation named | [`urdf`] |
 //! | collision pairs that may be ignored (SRDF) | [`srdf`] |
-//! | the immutable arm: joints and links | [`model`] |
+//! | the immutable arm: joints, links and frames; forward kinematics, Jacobian, manipulability | [`model`] |
 //! | the built-in arm | [`irb120`] |
-//! | frames on its links | [`frame`] |
 //! | joint limits and margins | [`limits`] |
 //! | shapes: collision and looks | [`geometry`] |
-//! | forward kinematics | [`fk`] |
-//! | geometric Jacobian, manipulability | [`jacobian`] |
 //! | tool frames by name | [`tool_frame`] |
 //! | inverse kinematics | [`ik`] |
 //! | many configurations at once | [`batch`] |

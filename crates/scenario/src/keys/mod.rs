@@ -23,7 +23,7 @@ use platewash_workcell::job::MAX_SEED;
 use platewash_workcell::workcell::MOST_BODIES;
 use std::sync::LazyLock;
 
-/// Every key, in the order of the reference; those of sections that may be stated several times are in [`LISTS`](crate::LISTS).
+/// Every key, in the order of the reference; those of sections that may be stated several times are in [`LISTS`].
 pub static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
     let sections = [
         TOP_LEVEL,
