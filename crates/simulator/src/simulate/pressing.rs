@@ -24,7 +24,7 @@ const POSES: usize = 200;
 const MOMENT_S: f64 = 0.005;
 
 /// Distance between the points of a face at which contact is measured \[m\].
-const POINTS_APART_M: f64 = 2e-3;
+const POINTS_APART_M: f64 = 3e-3;
 
 /// Least, mean and greatest of a force \[N\].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
@@ -59,7 +59,7 @@ pub struct ContactLost {
 }
 
 /// Shares of a plate's face that the executed wash kept in contact as the job asks, the plate where it is stated and of the stiffness simulated:
-/// measured at points of the face, 2 mm apart, and at samples of the motion. No bound.
+/// measured at points of the face, 3 mm apart, and at samples of the motion. No bound.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ExecutedContact {
     /// Compressed by the least compression.
@@ -151,9 +151,10 @@ impl Judge<'_> {
             dose_pa_m: required.dose_pa_m,
         };
         let looks = Looks::new(&self.foundation, &moments, &wanted);
-        let mut kept_m2 = [0.0; 3];
+        let (mut whole_m2, mut kept_m2) = (0.0, [0.0; 3]);
         for (point, area_m2) in plate.surface.points(POINTS_APART_M) {
             let got = looks.at(&point);
+            whole_m2 += area_m2;
             let keeps = [
                 got.compression_m >= wanted.compression_m,
                 got.time_s >= wanted.time_s,
@@ -163,7 +164,7 @@ impl Judge<'_> {
                 *kept_m2 += area_m2;
             }
         }
-        let [contact, time, dose] = kept_m2.map(|kept_m2| (kept_m2 / plate.surface.area_m2()).min(1.0));
+        let [contact, time, dose] = kept_m2.map(|kept_m2| kept_m2 / whole_m2);
         ExecutedContact { contact, time, dose }
     }
 
