@@ -38,7 +38,7 @@ pub mod obstacle;
 pub mod piecewise;
 pub mod plan;
 pub mod plate;
-mod pose;
+pub mod pose;
 pub mod raised;
 pub mod random;
 pub mod recorded;
