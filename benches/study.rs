@@ -98,7 +98,6 @@ fn rows(study: &Arc<Study>) -> Result<f64, Box<dyn Error>> {
     let mut journal = Journal::open(folder.path(), study)?;
     let resolver = Resolver::new(study.clone());
     run(
-        study,
         &mut journal,
         &cancel,
         |index, cancel| resolver.row(index, cancel),

@@ -1,8 +1,7 @@
 //! Many layouts of one scenario, each planned and proved.
 
-use platewash_certificate::{Certificate, Requirement};
+use platewash_certificate::Requirement;
 use platewash_kinematics::RobotModel;
-use platewash_planner::Planned;
 use platewash_scenario::{Failure, Scenario, ScenarioError, check_seed};
 use platewash_study::{Outcome, judged};
 use platewash_workcell::cancel::CancelToken;
@@ -64,81 +63,55 @@ pub fn sweep_each(
         Err(error) if error.infeasibility().is_some() => scenario.arm()?,
         Err(error) => return Err(error),
     };
-    let in_order = Mutex::new(InOrder {
-        rows: Vec::new(),
-        waiting: BTreeMap::new(),
-        flow: ControlFlow::Continue(()),
-        done,
-    });
+    let (first, told) = (*seeds.start(), ControlFlow::Continue(()));
+    let in_order = Mutex::new((Vec::new(), BTreeMap::new(), told, done));
     let locked = || in_order.lock().unwrap_or_else(PoisonError::into_inner);
     // A bridge hands the seeds out one after the other, so that the first rows are done first. That somebody broke off is no
     // error: the rows up to there are kept.
-    let _: Option<()> = seeds.enumerate().par_bridge().try_for_each(|(place, seed)| {
+    let _: Option<()> = seeds.par_bridge().try_for_each(|seed| {
         let row = row(scenario, &arm, seed, cancel)?;
-        locked().add(place, row).continue_value()
-    });
-    Ok(in_order.into_inner().unwrap_or_else(PoisonError::into_inner).rows)
-}
-
-/// Rows that come in any order, told and kept in that of the seeds.
-struct InOrder<'a> {
-    rows: Vec<SweepRow>,
-    waiting: BTreeMap<usize, SweepRow>,
-    /// Whether somebody still wants rows.
-    flow: ControlFlow<()>,
-    done: &'a mut (dyn FnMut(&SweepRow) -> ControlFlow<()> + Send),
-}
-
-impl InOrder<'_> {
-    fn add(&mut self, place: usize, row: SweepRow) -> ControlFlow<()> {
-        self.waiting.insert(place, row);
-        while self.flow.is_continue() {
-            let Some(row) = self.waiting.remove(&self.rows.len()) else {
-                break;
-            };
-            self.flow = (self.done)(&row);
-            self.rows.push(row);
+        let (rows, waiting, flow, done) = &mut *locked();
+        waiting.insert(seed, row);
+        while flow.is_continue()
+            && let Some(row) = waiting.remove(&(first + rows.len() as u64))
+        {
+            *flow = done(&row);
+            rows.push(row);
         }
-        self.flow
-    }
+        flow.continue_value()
+    });
+    Ok(in_order.into_inner().unwrap_or_else(PoisonError::into_inner).0)
 }
 
 /// One layout; `None` where it was given up.
 fn row(scenario: &Scenario, arm: &Arc<RobotModel>, seed: u64, cancel: &CancelToken) -> Option<SweepRow> {
-    let scenario = Scenario {
+    let mut scenario = scenario.clone();
+    scenario.seed = seed;
+    let none = SweepRow {
         seed,
-        ..scenario.clone()
+        outcome: Outcome::Error,
+        duration_s: None,
+        transits_s: None,
+        swept: None,
+        clearance_m: None,
+        reason: None,
     };
     match judged(&scenario, arm, cancel) {
-        Ok((planned, certificate)) => Some(SweepRow::planned(seed, &planned, &certificate)),
-        Err(error) if error.is_cancelled() => None,
-        Err(error) => Some(SweepRow::nothing(seed, Outcome::from(&error), error.to_string())),
-    }
-}
-
-impl SweepRow {
-    fn nothing(seed: u64, outcome: Outcome, reason: String) -> Self {
-        Self {
-            seed,
-            outcome,
-            duration_s: None,
-            transits_s: None,
-            swept: None,
-            clearance_m: None,
-            reason: Some(reason),
-        }
-    }
-
-    fn planned(seed: u64, planned: &Planned, certificate: &Certificate) -> Self {
-        Self {
-            seed,
+        Ok((planned, certificate)) => Some(SweepRow {
             outcome: Outcome::judged(certificate.verdict),
             duration_s: Some(planned.plan.duration_s()),
             transits_s: Some(planned.transits.iter().map(|c| c.duration_s).sum()),
             swept: certificate.bound(Requirement::Swept),
             clearance_m: certificate.bound(Requirement::Clearance),
             reason: certificate.reason(),
-        }
+            ..none
+        }),
+        Err(error) if error.is_cancelled() => None,
+        Err(error) => Some(SweepRow {
+            outcome: Outcome::from(&error),
+            reason: Some(error.to_string()),
+            ..none
+        }),
     }
 }
 
@@ -170,27 +143,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rows_are_told_in_the_order_of_the_seeds_whichever_is_done_first() {
-        let mut told = Vec::new();
-        let mut tell = |row: &SweepRow| {
-            told.push(row.seed);
-            ControlFlow::Continue(())
+    fn a_reason_is_quoted_as_csv_has_it() {
+        let row = SweepRow {
+            seed: 7,
+            outcome: Outcome::Error,
+            duration_s: None,
+            transits_s: None,
+            swept: None,
+            clearance_m: Some(0.5),
+            reason: Some("a \"b\"".to_owned()),
         };
-        let mut in_order = InOrder {
-            rows: Vec::new(),
-            waiting: BTreeMap::new(),
-            flow: ControlFlow::Continue(()),
-            done: &mut tell,
-        };
-        let row = |seed| SweepRow::nothing(seed, Outcome::Error, "a \"b\"".to_owned());
-        assert!(in_order.add(2, row(12)).is_continue());
-        assert!(in_order.rows.is_empty());
-        assert!(in_order.add(0, row(10)).is_continue());
-        assert_eq!(in_order.rows.len(), 1);
-        assert!(in_order.add(1, row(11)).is_continue());
-        assert_eq!(in_order.rows.len(), 3);
-        assert_eq!(told, [10, 11, 12]);
-        assert_eq!(row(7).csv_line(), "7,error,,,,,\"a \"\"b\"\"\"\n");
+        assert_eq!(row.csv_line(), "7,error,,,,0.5,\"a \"\"b\"\"\"\n");
     }
 
     /// Of more seeds than could ever be planned.

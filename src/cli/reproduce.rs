@@ -7,13 +7,6 @@ use super::progress::Progress;
 use anyhow::anyhow;
 use clap::Args;
 use platewash::paper::reproduce::{ReproduceSettings, reproduce};
-use std::ops::ControlFlow;
-
-/// Most layouts that are simulated in a region: minutes of work.
-const MOST_LAYOUTS: usize = 10_000;
-
-/// Most layouts begun for each dead-end rate: tens of seconds of work, for rates right to a tenth of a percent.
-const MOST_DRAWS: usize = 1_000_000;
 
 /// Arguments of `reproduce`.
 #[derive(Debug, Args)]
@@ -29,8 +22,8 @@ pub struct ReproduceArguments {
 /// Measures and prints the table; with `--out`, writes `reproduce.json` and `reproduce.txt`.
 pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode, Failure> {
     for (name, value, most) in [
-        ("--layouts", arguments.layouts, MOST_LAYOUTS),
-        ("--draws", arguments.draws, MOST_DRAWS),
+        ("--layouts", arguments.layouts, ReproduceSettings::MOST_LAYOUTS),
+        ("--draws", arguments.draws, ReproduceSettings::MOST_DRAWS),
     ] {
         if !(1..=most).contains(&value) {
             return Err(Failure::input(anyhow!(
@@ -49,15 +42,7 @@ pub fn run(options: &Options, arguments: &ReproduceArguments) -> Result<ExitCode
         .map(|folder| ["reproduce.json", "reproduce.txt"].map(|name| folder.join(name)));
     output::check_places(places.as_ref().map_or(&[][..], |places| places))?;
     let progress = Progress::new(options.quiet, "measuring dead ends");
-    let result = reproduce(&settings, &|done, total| {
-        if done > 0 {
-            progress.note(done, total);
-        }
-        match options.cancel.check() {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(_) => ControlFlow::Break(()),
-        }
-    });
+    let result = reproduce(&settings, &options.cancel, &|done, total| progress.note(done, total));
     drop(progress);
     let result = result.map_err(platewash::Failure::from)?;
     if let Some([json, text]) = places {

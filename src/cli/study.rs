@@ -92,27 +92,23 @@ fn work(options: &Options, file: &Path) -> Result<ExitCode, Failure> {
         if before > 0 {
             output::message(options.quiet, &format!("going on: {before} of {rows} rows are there"));
         }
-        let resolver = Resolver::new(study.clone());
+        let resolver = Resolver::new(study);
         let progress = Progress::new(options.quiet, "planning and proving");
         let made = study::run(
-            &study,
             &mut journal,
             &options.cancel,
             |index, cancel| resolver.row(index, cancel),
             |at| progress.rows(&at),
         );
         drop(progress);
-        if let Err(error) = made {
-            if journal.done() == rows {
-                return Err(error.into());
-            }
+        if made.is_err() && journal.done() < rows {
             let kept = format!(
                 "{} of {rows} rows are kept; the same command goes on with the others",
                 journal.done()
             );
             output::message(options.quiet, &kept);
-            return Err(error.into());
         }
+        made?;
     }
     let summary = study::summary(folder)?;
     output::print_either(options.json, &summary, || study_text::outcomes(&summary))?;

@@ -49,7 +49,7 @@ pub fn shown(of: &Summary, folder: &Path) -> String {
             text,
             "\na row alone, here row {}:\n  platewash study scenario {} --row {} > row.toml && platewash run --scenario row.toml",
             row.index,
-            quoted(&path_argument(folder)),
+            quoted(folder),
             row.index
         );
         if !of.manifest.files.is_empty() {
@@ -57,16 +57,6 @@ pub fn shown(of: &Summary, folder: &Path) -> String {
         }
     }
     text
-}
-
-/// A path that is not taken for an option.
-fn path_argument(path: &Path) -> String {
-    let path = path.display().to_string();
-    if path.starts_with('-') {
-        format!("./{path}")
-    } else {
-        path
-    }
 }
 
 fn list(text: &mut String, of: &Summary, title: &str, rows: &[Row]) {
@@ -95,11 +85,17 @@ fn list(text: &mut String, of: &Summary, title: &str, rows: &[Row]) {
     }
 }
 
-/// A file's name as a shell takes it.
-fn quoted(name: &str) -> String {
+/// A path as a shell takes it, and no command takes it for an option.
+fn quoted(path: &Path) -> String {
+    let path = path.display().to_string();
+    let path = if path.starts_with('-') {
+        format!("./{path}")
+    } else {
+        path
+    };
     let plain = |c: char| c.is_ascii_alphanumeric() || "/._-".contains(c);
-    match name.chars().all(plain) && !name.starts_with('-') {
-        true => name.to_owned(),
-        false => format!("'{}'", name.replace('\'', "'\\''")),
+    match path.chars().all(plain) {
+        true => path,
+        false => format!("'{}'", path.replace('\'', "'\\''")),
     }
 }

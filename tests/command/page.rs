@@ -24,7 +24,7 @@ fn a_run_leaves_a_page_or_says_why_not() {
                 let document = document(&page);
                 assert_eq!(document["heading"]["process"], process);
                 assert_eq!(document["execution"]["source"], "simulated");
-                assert!(document["surroundings"]["region_m"].as_array().unwrap().len() == 4);
+                assert!(document["surroundings"]["polygon_m"].as_array().unwrap().len() == 4);
                 assert_eq!(document["certificate"].is_null(), process == "paper");
             }
             None => assert!(ran.stderr.contains("no page: "), "{}", ran.stderr),

@@ -59,7 +59,7 @@ def document(page: pw.Page) -> dict[str, Any]:
     shown = [text for (tag, attributes), text in zip(elements.found, elements.texts) if attributes.get("id") == "platewash-view"]
     assert len(shown) == 1
     found = json.loads(shown[0])
-    assert isinstance(found, dict) and found["format"] == "platewash-view/1"
+    assert isinstance(found, dict) and found["format"] == "platewash-view/2"
     return found
 
 

@@ -114,22 +114,22 @@ def test_a_study_under_way_is_read_up_to_its_last_whole_line(tmp_path: Path) -> 
 
 
 DAMAGED = {
-    b"{}\n": "is no row",
-    b'{"schema":1,"index":1}\n': "is no row",
+    b"{}\n": "is no row: missing field `schema`",
     line(mixed()[1])[:200] + b"\n": "is no row: ",
     line(mixed()[1]).replace(b'"schema":2', b'"schema":1'): "is a row of schema 1; this program reads schema 2",
-    line(row(7, {})): "is row 7; the study has 7, counted from 0",
+    line(row(7, {})): "row 7 is none of 7, counted from 0",
     line(mixed()[0]): "row 0 is there before",
-    line(mixed()[1] | {"outcome": "fine"}): "is no row: outcome must be one of proved, .* found 'fine'",
-    line(mixed()[1] | {"place": None}): "is no row: place must be an object; found None",
-    line(mixed()[1] | {"duration_s": math.nan}): "is no row: NaN is no number of JSON",
-    line(mixed()[1] | {"clearance_m": "1"}): "is no row: clearance_m must be a number or null; found '1'",
-    line(mixed()[1] | {"place": {"point_m": [1, "2", 3]}}): r"is no row: place.point_m must be three numbers or null; found \[1, '2', 3\]",
-    line(mixed()[1] | {"place": {"plate": 0.5}}): "is no row: place.plate must be an integer or null; found 0.5",
-    line(mixed()[1] | {"axes": {"seed": 1}}): r"is no row: axes must be those of manifest.json, plate\[0\].at_m, robot.model, tool.length_m; found seed",
-    line(mixed()[1] | {"axes": mixed()[1]["axes"] | {"tool.length_m": "long"}}): "is no row: axes: tool.length_m must be of the kind that manifest.json states, number; found 'long'",
-    line(mixed()[1] | {"axes": mixed()[1]["axes"] | {"plate[0].at_m": [0, 1]}}): r"is no row: axes: plate\[0\].at_m must be of the kind",
-    line(mixed()[1] | {"clearance_pair": ["a"]}): r"is no row: clearance_pair must be two texts or null; found \['a'\]",
+    line(mixed()[1] | {"outcome": "fine"}): "is no row: unknown variant `fine`",
+    line(mixed()[1] | {"place": None}): "is no row: invalid type: null",
+    line(mixed()[1] | {"duration_s": math.nan}): "is no row: ",
+    line(mixed()[1] | {"clearance_m": "1"}): 'is no row: invalid type: string "1", expected f64',
+    line(mixed()[1] | {"place": {"point_m": [1, "2", 3]}}): 'is no row: invalid type: string "2"',
+    line(mixed()[1] | {"place": {"plate": 0.5}}): "is no row: invalid type: floating point `0.5`",
+    line(mixed()[1] | {"axes": {"seed": 1}}): "row 1 has other axes than manifest.json states",
+    line(mixed()[1] | {"axes": mixed()[1]["axes"] | {"tool.length_m": "long"}}): "row 1 has other axes than manifest.json states",
+    line(mixed()[1] | {"axes": mixed()[1]["axes"] | {"plate[0].at_m": [0, 1]}}): "row 1 has other axes than manifest.json states",
+    line(mixed()[1] | {"clearance_pair": ["a"]}): "is no row: invalid length 1",
+    line(mixed()[1]).replace(b'"index":1', b'"index": 1'): "row 1 is not as it was written",
     b"\xff\xfe\n": "is no row",
 }
 
@@ -137,7 +137,7 @@ DAMAGED = {
 @pytest.mark.parametrize("damaged", DAMAGED, ids=list(DAMAGED.values()))
 def test_a_damaged_line_is_told_by_its_file_and_number(damaged: bytes, tmp_path: Path) -> None:
     at = folder(tmp_path / "s", AXES, mixed()[:1], 7, torn=damaged + line(mixed()[2]))
-    with pytest.raises(pw.StudyError, match=rf"rows\.jsonl:2: {DAMAGED[damaged]}") as caught:
+    with pytest.raises(pw.StudyError, match=rf"rows\.jsonl: line 2: {re.escape(DAMAGED[damaged])}") as caught:
         list(pw.StudyRows(at))
     assert (caught.value.line, caught.value.source) == (2, str(at / "rows.jsonl"))
 
@@ -167,19 +167,17 @@ def test_what_is_no_studys_folder_is_refused(tmp_path: Path) -> None:
         pw.StudyRows(tmp_path)
     assert isinstance(caught.value, pw.StudyError) and isinstance(caught.value, pw.FileError) and caught.value.errno == 2
     wrong: list[tuple[dict[str, Any], str]] = [
-        ({"format": "other/1"}, "format must be platewash-study-manifest/1; found 'other/1'"),
-        ({"row_schema": 1}, "row_schema must be 2; found 1"),
-        ({"rows": True}, "rows must be an integer from 1"),
-        ({"axes": [{}]}, "axes must be a list, each with its key"),
-        ({"axes": 2 * [{"key": "seed", "count": 7, "kind": "whole"}]}, "axes must be a list of different ones; found one twice"),
-        ({"axes": [{"key": "seed", "count": 7, "kind": "odd"}]}, "axes: the kind of seed must be one that docs/studies.md names; found 'odd'"),
-        ({"axes": [{"key": "seed", "count": 7, "kind": {"numbers": 0}}]}, "axes: the kind of seed must be"),
+        ({"format": "other/1"}, 'format must be platewash-study-manifest/1; found "other/1"'),
+        ({"rows": True}, "is no manifest: .*rows"),
+        ({"rows": 0}, "rows must be from 1"),
+        ({"axes": [{}]}, "is no manifest: "),
+        ({"axes": [{"key": "seed", "count": 7, "kind": "odd"}]}, "is no manifest: .*odd"),
     ]
     for place, (changed, words) in enumerate(wrong):
         with pytest.raises(pw.StudyError, match=words):
             pw.StudyRows(folder(tmp_path / str(place), AXES, (), 7, **changed))
     (tmp_path / "0" / "manifest.json").write_bytes(b"\xff")
-    with pytest.raises(pw.StudyError, match="is no manifest"):
+    with pytest.raises(pw.StudyError, match=r"manifest\.json: cannot be read, .*UTF-8"):
         pw.StudyRows(tmp_path / "0")
     (folder(tmp_path / "gone", AXES, (), 7) / "rows.jsonl").unlink()
     with pytest.raises(FileNotFoundError, match=r"rows\.jsonl: cannot be read"):
@@ -365,7 +363,7 @@ def test_rows_that_were_changed_since_are_no_evidence(tmp_path: Path) -> None:
 def test_a_timing_that_is_none_is_told_by_its_line(wrong: str, tmp_path: Path) -> None:
     at = folder(tmp_path / "s", AXES, mixed(), 7)
     (at / "timings.jsonl").write_text(f'{{"index":0,"wall_s":1.5e-7}}\n{{"index":1,"wall_s":{wrong}}}\n')
-    with pytest.raises(pw.StudyError, match=r"timings\.jsonl:2: is no timing"):
+    with pytest.raises(pw.StudyError, match=r"timings\.jsonl: line 2: is no timing"):
         pw.StudyRows(at).to_frame()
 
 

@@ -85,25 +85,34 @@ impl PaperJob {
     /// The job that a plan file of the paper's program states, its plates as they lie there, to be run again.
     ///
     /// # Errors
-    /// [`PaperError::Terms`] for another program's plan, or settings that are none of this one's.
+    /// As [`PaperJob::of_terms`].
     pub fn of_plan(plan: &Plan, arm: Arc<RobotModel>) -> Result<Self, PaperError> {
+        let (name, terms) = (plan.provenance.scenario.clone(), plan.job.clone());
+        let layout = Layout::of(terms.plates.clone());
+        Self::of_terms(name, terms, layout, arm)
+    }
+
+    /// The job of [`PaperJob::terms`].
+    ///
+    /// # Errors
+    /// [`PaperError::Terms`] for another program's job, or settings that are none of this one's.
+    pub fn of_terms(name: String, terms: JobTerms, layout: Layout, arm: Arc<RobotModel>) -> Result<Self, PaperError> {
         let unreadable = |reason: String| PlanFileError::Unreadable(JsonError { reason });
-        let terms = &plan.job;
-        let Planner::Paper(stated) = &terms.planner else {
+        let Planner::Paper(stated) = terms.planner else {
             return Err(unreadable("the plan is none of the paper's program".to_owned()).into());
         };
-        let settings = serde_json::from_value(stated.clone());
+        let settings = serde_json::from_value(stated);
         Ok(Self {
-            name: plan.provenance.scenario.clone(),
+            name,
             arm,
-            workcell: terms.workcell.clone(),
-            layout: Layout::of(terms.plates.clone()),
+            workcell: terms.workcell,
+            layout,
             seed: terms.seed,
             start_rad: terms.home_rad[0],
             requirements: terms.requirements,
             limits: terms.limits,
             settings: settings.map_err(|e| unreadable(e.to_string()))?,
-            simulation: terms.simulation.clone(),
+            simulation: terms.simulation,
         })
     }
 

@@ -19,7 +19,6 @@ mod error;
 mod job;
 pub mod order;
 mod part;
-mod plan;
 pub mod report;
 pub mod reproduce;
 mod run;

@@ -8,6 +8,7 @@ use platewash_kinematics::JointVector;
 use platewash_kinematics::ik::IkSolver;
 use platewash_simulator::control;
 use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::plan::{Knots, Plan, PlanFileError, PlanParts, Provenance};
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
 
 /// A job planned and followed, before it is judged.
@@ -90,5 +91,20 @@ impl PaperRun {
             });
         }
         all
+    }
+
+    /// The plan file of the commanded motion, sealed. There is no certificate for it.
+    ///
+    /// # Errors
+    /// [`PlanFileError::Unwritable`].
+    pub fn plan(&self) -> Result<Plan, PlanFileError> {
+        let parts = PlanParts {
+            provenance: Provenance::of(&self.job.name),
+            order: self.tool_path.order.clone(),
+            wash_paths: Vec::new(),
+            segments: self.segments(),
+            knots: Knots::from(&self.planned),
+        };
+        Plan::sealed(self.job.terms()?, parts)
     }
 }

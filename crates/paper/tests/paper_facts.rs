@@ -2,7 +2,7 @@
 //! collision library, the real arm's meshes). Its half-widths are of 95 % intervals.
 
 use platewash_paper::reproduce::{ReproduceSettings, Reproduction, reproduce};
-use std::ops::ControlFlow;
+use platewash_workcell::cancel::CancelToken;
 
 /// Dead-end rates in percent: key, earlier value, its 95 % half-width (binomial with 1500 runs where not stated).
 const DEAD_ENDS: [(&str, f64, f64); 6] = [
@@ -32,7 +32,7 @@ fn measured() -> Reproduction {
         draws: 20_000,
         seed: 1,
     };
-    reproduce(&settings, &|_, _| ControlFlow::Continue(())).unwrap()
+    reproduce(&settings, &CancelToken::new(), &|_, _| ()).unwrap()
 }
 
 fn value(r: &Reproduction, key: &str) -> (f64, f64) {
@@ -125,8 +125,7 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
     };
     let with = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        serde_json::to_string(&pool.install(|| reproduce(&settings, &|_, _| ControlFlow::Continue(())).unwrap()))
-            .unwrap()
+        serde_json::to_string(&pool.install(|| reproduce(&settings, &CancelToken::new(), &|_, _| ()).unwrap())).unwrap()
     };
     assert_eq!(with(1), with(2));
     assert_eq!(with(1), with(8));

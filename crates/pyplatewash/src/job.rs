@@ -7,11 +7,8 @@ use crate::simulation::SettingsObject;
 use crate::value::{to_python, to_record};
 use crate::{argument, errors, made};
 use numpy::PyArrayDyn;
-use platewash::paper::PaperSettings;
-use platewash::workcell::job::{Limits, Requirements};
-use platewash::workcell::simulation::SimulationSettings;
 use platewash::workcell::words::{counted, quoted};
-use platewash::{Failure, JobTerms, JointVector, Layout, PaperJob, WashJob, Workcell};
+use platewash::{Failure, JobTerms, Layout, PaperJob, WashJob};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple, PyType};
 use serde::{Deserialize, Serialize};
@@ -32,13 +29,38 @@ impl PartialEq for WashJobObject {
     }
 }
 
-/// What a pickled washing says; its arm is beside it.
+/// What a pickled job says; its arm is beside it.
 #[derive(Serialize, Deserialize)]
-struct PickledWash {
+struct Pickled {
     name: String,
     terms: JobTerms,
     layout: Layout,
 }
+
+impl Pickled {
+    /// What restores a job: `_restore` of its class, this as text, and the arm.
+    fn reduced<'py>(&self, job: &Bound<'py, PyAny>, robot: Py<Robot>) -> PyResult<Reduced<'py>> {
+        let text = serde_json::to_string(self).map_err(|e| errors::internal(job.py(), &e.to_string()))?;
+        Ok((
+            job.get_type().getattr("_restore")?,
+            (text, robot).into_pyobject(job.py())?,
+        ))
+    }
+
+    /// Reads it back.
+    fn restored<'a, 'py>(
+        text: &Bound<'py, PyAny>,
+        robot: &'a Bound<'py, PyAny>,
+    ) -> PyResult<(Self, &'a Bound<'py, Robot>)> {
+        let read = argument::text("text", text, "a pickled job")?;
+        let robot = argument::object::<Robot>("robot", robot, argument::ROBOT)?;
+        let pickled = serde_json::from_str(&read).map_err(|e| errors::input(text.py(), "text", &e.to_string()))?;
+        Ok((pickled, robot))
+    }
+}
+
+/// What `__reduce__` gives.
+type Reduced<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
 
 impl WashJobObject {
     /// A job on a layout.
@@ -153,18 +175,14 @@ impl WashJobObject {
         format!("WashJob({}, seed={}, {plates})", quoted(self.inner.name()), terms.seed)
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let (py, job) = (slf.py(), slf.get());
-        let pickled = PickledWash {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let job = slf.get();
+        let pickled = Pickled {
             name: job.inner.name().to_owned(),
             terms: job.inner.terms().clone(),
             layout: job.layout.clone(),
         };
-        let text = serde_json::to_string(&pickled).map_err(|e| errors::internal(py, &e.to_string()))?;
-        Ok((
-            slf.get_type().getattr("_restore")?,
-            (text, job.robot(py)).into_pyobject(py)?,
-        ))
+        pickled.reduced(slf, job.robot(slf.py()))
     }
 
     /// Restores a pickled job.
@@ -175,10 +193,7 @@ impl WashJobObject {
         text: &Bound<'_, PyAny>,
         robot: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {
-        let text = argument::text("text", text, "a pickled job")?;
-        let robot = argument::object::<Robot>("robot", robot, argument::ROBOT)?;
-        let pickled: PickledWash =
-            serde_json::from_str(&text).map_err(|e| errors::input(py, "text", &e.to_string()))?;
+        let (pickled, robot) = Pickled::restored(text, robot)?;
         let job = WashJob::new(robot.get().model().clone(), pickled.terms);
         Ok(Self {
             inner: job.map_err(|e| errors::failure(py, &e.into()))?.named(&pickled.name),
@@ -197,37 +212,8 @@ pub struct PaperJobObject {
 
 impl PartialEq for PaperJobObject {
     fn eq(&self, other: &Self) -> bool {
-        PickledPaper::from(&self.inner) == PickledPaper::from(&other.inner)
-    }
-}
-
-/// What a pickled run says; its arm is beside it.
-#[derive(PartialEq, Serialize, Deserialize)]
-struct PickledPaper {
-    name: String,
-    workcell: Workcell,
-    layout: Layout,
-    seed: u64,
-    start_rad: JointVector,
-    requirements: Requirements,
-    limits: Limits,
-    settings: PaperSettings,
-    simulation: SimulationSettings,
-}
-
-impl From<&PaperJob> for PickledPaper {
-    fn from(job: &PaperJob) -> Self {
-        Self {
-            name: job.name.clone(),
-            workcell: job.workcell.clone(),
-            layout: job.layout.clone(),
-            seed: job.seed,
-            start_rad: job.start_rad,
-            requirements: job.requirements,
-            limits: job.limits,
-            settings: job.settings,
-            simulation: job.simulation.clone(),
-        }
+        let (a, b) = (&self.inner, &other.inner);
+        (&a.name, &a.layout, a.terms().ok()) == (&b.name, &b.layout, b.terms().ok())
     }
 }
 
@@ -317,14 +303,14 @@ impl PaperJobObject {
         )
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let (py, job) = (slf.py(), slf.get());
-        let text = serde_json::to_string(&PickledPaper::from(&job.inner));
-        let text = text.map_err(|e| errors::internal(py, &e.to_string()))?;
-        Ok((
-            slf.get_type().getattr("_restore")?,
-            (text, job.robot(py)).into_pyobject(py)?,
-        ))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let job = slf.get();
+        let pickled = Pickled {
+            name: job.inner.name.clone(),
+            terms: job.terms(slf.py())?,
+            layout: job.inner.layout.clone(),
+        };
+        pickled.reduced(slf, job.robot(slf.py()))
     }
 
     /// Restores a pickled job.
@@ -335,22 +321,9 @@ impl PaperJobObject {
         text: &Bound<'_, PyAny>,
         robot: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {
-        let text = argument::text("text", text, "a pickled job")?;
-        let robot = argument::object::<Robot>("robot", robot, argument::ROBOT)?;
-        let pickled: PickledPaper =
-            serde_json::from_str(&text).map_err(|e| errors::input(py, "text", &e.to_string()))?;
-        let inner = PaperJob {
-            name: pickled.name,
-            arm: robot.get().model().clone(),
-            workcell: pickled.workcell,
-            layout: pickled.layout,
-            seed: pickled.seed,
-            start_rad: pickled.start_rad,
-            requirements: pickled.requirements,
-            limits: pickled.limits,
-            settings: pickled.settings,
-            simulation: pickled.simulation,
-        };
+        let (pickled, robot) = Pickled::restored(text, robot)?;
+        let job = PaperJob::of_terms(pickled.name, pickled.terms, pickled.layout, robot.get().model().clone());
+        let inner = job.map_err(|e| errors::failure(py, &e.into()))?;
         let robot = robot.clone().unbind();
         Ok(Self { inner, robot })
     }

@@ -6,12 +6,15 @@ use crate::trajectory::TrajectoryObject;
 use crate::value::to_record;
 use crate::work::patiently;
 use crate::{argument, errors, made, scenario};
-use numpy::{PyArray1, PyArrayDyn};
+use nalgebra::SVector;
+use numpy::{Element, PyArray1, PyArrayDyn};
+use platewash::PaperRun;
 use platewash::paper::run_with;
+use platewash::paper::tool_path::Segment;
+use platewash::paper::tracking::Step;
 use platewash::workcell::csv;
 use platewash::workcell::trajectory::SegmentKind;
 use platewash::workcell::words::counted;
-use platewash::{JointVector, PaperRun};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::sync::Arc;
@@ -26,12 +29,22 @@ pub struct PaperRunObject {
 }
 
 impl PaperRunObject {
-    fn positions<'py>(
+    /// Some numbers of each step, shape (N, count).
+    fn rows<'py, const N: usize>(
         &self,
         py: Python<'py>,
-        of: fn(&PaperRun) -> Vec<JointVector>,
+        of: fn(&Step) -> &SVector<f64, N>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        made::joint_rows(py, &of(&self.inner))
+        let steps = &self.inner.steps;
+        let all: Vec<f64> = steps.iter().flat_map(of).copied().collect();
+        made::array(py, &[steps.len(), N], &all)
+    }
+
+    /// A value of each step, shape (N,), from the segment that it belongs to.
+    fn line<'py, T: Element>(&self, py: Python<'py>, of: impl Fn(&Segment) -> T) -> Bound<'py, PyArray1<T>> {
+        let segments = &self.inner.tool_path.segments;
+        let steps = self.inner.steps.iter();
+        made::line(py, steps.map(|step| of(&segments[step.segment])).collect())
     }
 }
 
@@ -64,37 +77,25 @@ impl PaperRunObject {
     /// Where the tip shall be, shape (N, 3) [m].
     #[getter]
     fn targets<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let all: Vec<f64> = self
-            .inner
-            .steps
-            .iter()
-            .flat_map(|s| <[f64; 3]>::from(s.target))
-            .collect();
-        made::array(py, &[self.inner.steps.len(), 3], &all)
+        self.rows(py, |step| &step.target)
     }
 
     /// Where the tip is after each step, shape (N, 3) [m].
     #[getter]
     fn executed_tip<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let all: Vec<f64> = self
-            .inner
-            .steps
-            .iter()
-            .flat_map(|s| <[f64; 3]>::from(s.executed_tip))
-            .collect();
-        made::array(py, &[self.inner.steps.len(), 3], &all)
+        self.rows(py, |step| &step.executed_tip)
     }
 
     /// Configurations commanded, shape (N, 6) [rad].
     #[getter]
     fn commanded_q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.positions(py, |run| run.steps.iter().map(|s| s.commanded).collect())
+        self.rows(py, |step| &step.commanded)
     }
 
     /// Configurations after each step, shape (N, 6) [rad].
     #[getter]
     fn executed_q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.positions(py, |run| run.steps.iter().map(|s| s.executed).collect())
+        self.rows(py, |step| &step.executed)
     }
 
     /// Whether the inverse kinematics solved each waypoint, shape (N,).
@@ -106,23 +107,13 @@ impl PaperRunObject {
     /// Plate of each waypoint (the one washed, or the one a transit leads to), shape (N,).
     #[getter]
     fn plate<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        let segments = &self.inner.tool_path.segments;
-        made::line(
-            py,
-            self.inner
-                .steps
-                .iter()
-                .map(|s| segments[s.segment].plate as i64)
-                .collect(),
-        )
+        self.line(py, |segment| segment.plate as i64)
     }
 
     /// Whether each waypoint washes, rather than belongs to a transit, shape (N,).
     #[getter]
     fn washing<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        let segments = &self.inner.tool_path.segments;
-        let washes = |segment: usize| segments[segment].kind == SegmentKind::Wash;
-        made::line(py, self.inner.steps.iter().map(|s| washes(s.segment)).collect())
+        self.line(py, |segment| segment.kind == SegmentKind::Wash)
     }
 
     /// Judges the run: what was reached, how near it came, what it covered. A record; its text is the report that the command

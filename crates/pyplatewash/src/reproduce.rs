@@ -5,12 +5,6 @@ use crate::work::patiently;
 use crate::{argument, errors};
 use platewash::paper::reproduce::{ReproduceSettings, reproduce as measure};
 use pyo3::prelude::*;
-use std::ops::ControlFlow;
-
-/// Most layouts a region, as of the command.
-const MOST_LAYOUTS: u64 = 10_000;
-/// Most layouts begun a dead-end rate, as of the command.
-const MOST_DRAWS: u64 = 1_000_000;
 
 /// Measures what the paper's program does, over `layouts` layouts in each of its two regions and `draws` layouts begun for
 /// each dead-end rate. A record whose `rows` hold `key`, `group`, `quantity`, `unit`, `paper`, `measured` and
@@ -26,20 +20,16 @@ pub fn reproduce<'py>(
     draws: Option<&Bound<'py, PyAny>>,
     seed: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let layouts = layouts.map_or(Ok(400), |given| argument::count("layouts", given, [1, MOST_LAYOUTS]))?;
-    let draws = draws.map_or(Ok(20_000), |given| argument::count("draws", given, [1, MOST_DRAWS]))?;
-    let seed = seed.map_or(Ok(1), |given| argument::seed("seed", given))?;
-    let settings = ReproduceSettings { layouts, draws, seed };
-    let measured = patiently(py, move |cancel| {
-        let go_on = |_, _| {
-            if cancel.is_cancelled() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        };
-        measure(&settings, &go_on)
-    })?;
+    let count = |name, given: Option<&Bound<'py, PyAny>>, usual: usize, most: usize| {
+        given.map_or(Ok(usual), |given| argument::count(name, given, [1, most as u64]))
+    };
+    let usual = ReproduceSettings::default();
+    let settings = ReproduceSettings {
+        layouts: count("layouts", layouts, usual.layouts, ReproduceSettings::MOST_LAYOUTS)?,
+        draws: count("draws", draws, usual.draws, ReproduceSettings::MOST_DRAWS)?,
+        seed: seed.map_or(Ok(usual.seed), |given| argument::seed("seed", given))?,
+    };
+    let measured = patiently(py, move |cancel| measure(&settings, cancel, &|_, _| ()))?;
     let measured = measured.map_err(|e| errors::failure(py, &e.into()))?;
     to_record(py, &measured, Some(measured.to_string()))
 }

@@ -63,6 +63,11 @@ impl AxisKind {
         }
     }
 
+    /// Whether a value is of this kind.
+    pub(crate) fn fits(self, value: &Value) -> bool {
+        Self::of(value).with(self) == self
+    }
+
     fn with(self, other: Self) -> Self {
         match (self, other) {
             (one, other) if one == other => one,

@@ -34,10 +34,12 @@ pub enum StudyError {
         given: String,
     },
     /// The folder keeps something that is no study of this program.
-    #[error("{}: {problem}", .file.display())]
+    #[error("{}: {}{problem}", .file.display(), line.map_or_else(String::new, |line| format!("line {line}: ")))]
     Kept {
         /// The file.
         file: PathBuf,
+        /// Its line at fault, from 1.
+        line: Option<usize>,
         /// What is wrong with it.
         problem: String,
     },
@@ -89,5 +91,21 @@ impl StudyError {
     pub(crate) fn disk(file: &Path, doing: &'static str) -> impl FnOnce(std::io::Error) -> Self {
         let file = file.to_owned();
         move |cause| Self::Disk { file, doing, cause }
+    }
+
+    /// A file of a study's folder that is not as this program writes it.
+    pub(crate) fn kept(file: &Path, line: Option<usize>, problem: String) -> Self {
+        Self::Kept {
+            file: file.to_owned(),
+            line,
+            problem,
+        }
+    }
+
+    /// Data that was sent and is of no study.
+    pub(crate) fn sent(error: &impl std::fmt::Display) -> Self {
+        Self::Sent {
+            problem: error.to_string(),
+        }
     }
 }

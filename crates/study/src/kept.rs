@@ -1,9 +1,8 @@
 //! What a folder keeps, read: its manifest, its rows in the order in which they were done or in that of their indices.
 
-use crate::done::Done;
 use crate::error::StudyError;
 use crate::lines;
-use crate::manifest::{FORMAT, Manifest};
+use crate::manifest::{FORMAT, Manifest, ManifestAxis};
 use crate::row::{ROW_SCHEMA, Row};
 use crate::study::MOST_ROWS;
 use platewash_kinematics::fingerprint::Sha256;
@@ -18,6 +17,8 @@ pub(crate) const MANIFEST: &str = "manifest.json";
 pub(crate) const PARTS: &str = "study.json";
 /// The name of the file of rows.
 pub(crate) const ROWS: &str = "rows.jsonl";
+/// The words of a file of rows that the disk does not give.
+const UNREAD: &str = "cannot be read";
 
 /// The manifest in a folder.
 ///
@@ -29,28 +30,28 @@ pub fn read_manifest(folder: &Path) -> Result<Manifest, StudyError> {
         &file,
         "cannot be read, so that this is no study's folder",
     ))?;
-    let wrong = |problem: String| StudyError::Kept {
-        file: file.clone(),
-        problem,
+    let wrong = |problem: String| Err(StudyError::kept(&file, None, problem));
+    let manifest: Manifest = match json::read(&text) {
+        Ok(manifest) => manifest,
+        Err(error) => return wrong(format!("is no manifest: {error}")),
     };
-    let manifest: Manifest = json::read(&text).map_err(|error| wrong(format!("is no manifest: {error}")))?;
     if manifest.format != FORMAT {
-        return Err(wrong(format!("format must be {FORMAT}; found {:?}", manifest.format)));
+        return wrong(format!("format must be {FORMAT}; found {:?}", manifest.format));
     }
     if !(1..=MOST_ROWS).contains(&manifest.rows) {
-        return Err(wrong(format!(
-            "rows must be from 1 to {MOST_ROWS}; found {}",
-            manifest.rows
-        )));
+        return wrong(format!("rows must be from 1 to {MOST_ROWS}; found {}", manifest.rows));
     }
     Ok(manifest)
 }
 
+/// Index and place \[bytes\] of each row in the file of a folder's rows, in the order of the indices.
+pub type Places = Vec<(u64, u64)>;
+
 /// Tells the rows of a folder, in the order in which they were done.
-pub(crate) fn rows(folder: &Path, manifest: &Manifest, mut each: impl FnMut(&Row)) -> Result<(), StudyError> {
+pub(crate) fn rows(folder: &Path, manifest: &Manifest, mut each: impl FnMut(u64, Row)) -> Result<(), StudyError> {
     let (path, file) = opened(folder)?;
-    each_row((&path, &file), manifest, |_, row, _| {
-        each(&row);
+    each_row((&path, &file), manifest, |at, row, _| {
+        each(at, row);
         Ok(())
     })?;
     Ok(())
@@ -65,75 +66,73 @@ pub fn counted(folder: &Path) -> Result<(u64, u64), StudyError> {
     if manifest.rows_sha256.is_some() {
         return Ok((manifest.rows, manifest.rows));
     }
-    rows(folder, &manifest, |_| done += 1)?;
+    rows(folder, &manifest, |_, _| done += 1)?;
     Ok((done, manifest.rows))
 }
 
 /// Writes the rows of a folder as JSON Lines in the order of their indices: the same bytes, however they came to be. How many there are.
 ///
 /// # Errors
-/// [`StudyError`]: no study; rows that were changed since it was finished, of which nothing is written; or a disk that fails: `to` is
-/// called `name` then.
+/// As [`check`], and nothing is written then; or a disk that fails: `to` is called `name` then.
 pub fn export(folder: &Path, to: &mut dyn Write, name: &Path) -> Result<u64, StudyError> {
-    let manifest = read_manifest(folder)?;
-    check_unchanged(folder, &manifest)?;
-    in_order(folder, &manifest, to, name)
-}
-
-fn in_order(folder: &Path, manifest: &Manifest, to: &mut dyn Write, name: &Path) -> Result<u64, StudyError> {
-    let (path, file) = opened(folder)?;
-    let mut places = Vec::new();
-    each_row((&path, &file), manifest, |at, row, _| {
-        places.push((row.index, at));
-        Ok(())
-    })?;
-    places.sort_unstable();
-    let mut from = BufReader::new(&file);
-    let cannot = || StudyError::disk(&path, "cannot be read");
-    let (mut here, mut line) = (u64::MAX, Vec::new());
-    for (_, at) in &places {
-        if here != *at {
-            from.seek(SeekFrom::Start(*at)).map_err(cannot())?;
-        }
-        line.clear();
-        here = at + from.read_until(b'\n', &mut line).map_err(cannot())? as u64;
-        to.write_all(&line)
-            .map_err(StudyError::disk(name, "cannot be written"))?;
-    }
-    to.flush().map_err(StudyError::disk(name, "cannot be written"))?;
+    let places = check(folder)?;
+    in_order(folder, &places, to, name)?;
     Ok(places.len() as u64)
 }
 
-/// How many rows a folder has, and the SHA-256 of them as [`export`] writes them.
-pub(crate) fn rows_sha256(folder: &Path, manifest: &Manifest) -> Result<(u64, String), StudyError> {
-    let mut hash = Hash::default();
-    let count = in_order(folder, manifest, &mut hash, folder)?;
-    Ok((count, hash.0.hex()))
+fn in_order(folder: &Path, places: &Places, to: &mut dyn Write, name: &Path) -> Result<(), StudyError> {
+    let (path, file) = opened(folder)?;
+    let mut from = BufReader::new(&file);
+    let (mut here, mut line) = (u64::MAX, Vec::new());
+    for (_, at) in places {
+        if here != *at {
+            from.seek(SeekFrom::Start(*at))
+                .map_err(StudyError::disk(&path, UNREAD))?;
+        }
+        line.clear();
+        let length = from.read_until(b'\n', &mut line);
+        here = at + length.map_err(StudyError::disk(&path, UNREAD))? as u64;
+        to.write_all(&line)
+            .map_err(StudyError::disk(name, "cannot be written"))?;
+    }
+    to.flush().map_err(StudyError::disk(name, "cannot be written"))
 }
 
-/// Refuses the folder of a finished study whose rows are not those that it was finished with.
+/// The rows of a folder, and the SHA-256 of them as [`export`] writes them.
+pub(crate) fn hashed(folder: &Path, manifest: &Manifest) -> Result<(Places, String), StudyError> {
+    let (places, mut hash) = (places(folder, manifest)?, Hash::default());
+    in_order(folder, &places, &mut hash, folder)?;
+    Ok((places, hash.0.hex()))
+}
+
+fn places(folder: &Path, manifest: &Manifest) -> Result<Places, StudyError> {
+    let mut places = Places::new();
+    rows(folder, manifest, |at, row| places.push((row.index, at)))?;
+    places.sort_unstable();
+    Ok(places)
+}
+
+/// The rows of a folder, each looked at. Those of a finished study are refused where it was finished with others.
 ///
 /// # Errors
-/// [`StudyError`]: these rows; no study; or a file that cannot be read.
-pub fn check(folder: &Path) -> Result<(), StudyError> {
+/// [`StudyError`]: these rows, or one that is none; no study; or a file that cannot be read.
+pub fn check(folder: &Path) -> Result<Places, StudyError> {
     check_unchanged(folder, &read_manifest(folder)?)
 }
 
 /// [`check`], for a manifest that was read.
-pub(crate) fn check_unchanged(folder: &Path, manifest: &Manifest) -> Result<(), StudyError> {
+pub(crate) fn check_unchanged(folder: &Path, manifest: &Manifest) -> Result<Places, StudyError> {
     let Some(stated) = &manifest.rows_sha256 else {
-        return Ok(());
+        return places(folder, manifest);
     };
-    let (_, found) = rows_sha256(folder, manifest)?;
-    if found == *stated {
-        return Ok(());
-    }
-    Err(StudyError::Kept {
-        file: folder.join(ROWS),
-        problem: format!(
+    let (places, found) = hashed(folder, manifest)?;
+    if found != *stated {
+        let problem = format!(
             "the rows were changed since the study was finished: their SHA-256 is {found}, {MANIFEST} states {stated}"
-        ),
-    })
+        );
+        return Err(StudyError::kept(&folder.join(ROWS), None, problem));
+    }
+    Ok(places)
 }
 
 #[derive(Default)]
@@ -152,49 +151,48 @@ impl Write for Hash {
 
 fn opened(folder: &Path) -> Result<(PathBuf, File), StudyError> {
     let path = folder.join(ROWS);
-    let file = File::open(&path).map_err(StudyError::disk(&path, "cannot be opened"))?;
+    let file = File::open(&path).map_err(StudyError::disk(&path, UNREAD))?;
     Ok((path, file))
 }
 
-/// Tells each row of a study with its place in the file and its line, from 1; the length of all whole lines. Each of them is there
-/// once at most, as this program writes it.
+/// Tells each row of a study with its place in the file and its line, from 1; which rows are there, and the length of all whole lines.
+/// Each of them is there once at most, as this program writes it.
 pub(crate) fn each_row(
     (path, file): (&Path, &File),
     manifest: &Manifest,
     mut each: impl FnMut(u64, Row, usize) -> Result<(), StudyError>,
-) -> Result<u64, StudyError> {
+) -> Result<(Vec<bool>, u64), StudyError> {
     let rows = manifest.rows;
-    let (mut number, mut seen) = (0, Done::none_of(rows));
-    let mut axes: Vec<_> = manifest.axes.iter().map(|axis| &axis.key).collect();
-    axes.sort_unstable();
-    lines::read(file, StudyError::disk(path, "cannot be read"), |at, line| {
+    let (mut number, mut seen) = (0, vec![false; rows as usize]);
+    let whole = lines::read((path, file), |at, line| {
         number += 1;
-        let wrong = |problem: String| StudyError::Kept {
-            file: path.to_owned(),
-            problem: format!("line {number}: {problem}"),
+        let wrong = |problem: String| Err(StudyError::kept(path, Some(number), problem));
+        let row: Row = match serde_json::from_slice(line) {
+            Ok(row) => row,
+            Err(error) => return wrong(format!("is no row: {error}")),
         };
-        let row: Row = serde_json::from_slice(line).map_err(|error| wrong(format!("is no row: {error}")))?;
+        let index = row.index;
         if row.schema != ROW_SCHEMA {
-            return Err(wrong(format!(
-                "is a row of schema {}; this program reads schema {ROW_SCHEMA}",
-                row.schema
-            )));
+            let schema = row.schema;
+            return wrong(format!(
+                "is a row of schema {schema}; this program reads schema {ROW_SCHEMA}"
+            ));
         }
-        if row.index >= rows {
-            return Err(wrong(format!("row {} is none of {rows}, counted from 0", row.index)));
-        }
-        if !row.axes.keys().eq(axes.iter().copied()) {
-            return Err(wrong(format!(
-                "row {} has other axes than {MANIFEST} states",
-                row.index
-            )));
+        let Some(seen) = seen.get_mut(index as usize) else {
+            return wrong(format!("row {index} is none of {rows}, counted from 0"));
+        };
+        let mut axes = manifest.axes.iter();
+        let is_stated = |axis: &ManifestAxis| row.axes.get(&axis.key).is_some_and(|value| axis.kind.fits(value));
+        if row.axes.len() != manifest.axes.len() || !axes.all(is_stated) {
+            return wrong(format!("row {index} has other axes than {MANIFEST} states"));
         }
         if row.line().as_bytes() != line {
-            return Err(wrong(format!("row {} is not as it was written", row.index)));
+            return wrong(format!("row {index} is not as it was written"));
         }
-        if !seen.add(row.index) {
-            return Err(wrong(format!("row {} is there before", row.index)));
+        if std::mem::replace(seen, true) {
+            return wrong(format!("row {index} is there before"));
         }
         each(at, row, number)
-    })
+    })?;
+    Ok((seen, whole))
 }

@@ -5,20 +5,11 @@
 //! The rows of a study are the same bytes for every number of threads and every order in which they were done.
 
 mod axis;
-mod base;
-mod done;
 mod error;
 mod journal;
-mod keep;
 mod kept;
 mod lines;
-mod load;
-mod made;
 mod manifest;
-mod named_files;
-mod outcome;
-mod parts;
-mod place;
 mod resolve;
 mod row;
 mod run;
@@ -27,18 +18,12 @@ mod study;
 mod summary;
 
 pub use axis::{Axis, AxisKind};
-pub use base::Base;
 pub use error::StudyError;
 pub use journal::Journal;
-pub use keep::Keep;
-pub use kept::{check, counted, export, read_manifest};
-pub use made::Made;
+pub use kept::{Places, check, counted, export, read_manifest};
 pub use manifest::{Manifest, ManifestAxis, ManifestFile, ManifestScenario};
-pub use outcome::Outcome;
-pub use parts::{PartsFile, StudyParts};
-pub use place::Place;
 pub use resolve::{Resolver, judged};
-pub use row::{ROW_SCHEMA, Row};
+pub use row::{Keep, Made, Outcome, Place, ROW_SCHEMA, Row};
 pub use run::{Progress, run};
-pub use study::{MOST_ROWS, RowAddress, Study};
+pub use study::{Base, MOST_ROWS, PartsFile, RowAddress, Study, StudyParts};
 pub use summary::{AxisValue, Summary, summary};

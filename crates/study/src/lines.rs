@@ -4,18 +4,21 @@ use crate::error::StudyError;
 use platewash_workcell::atomic_file;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Time between two calls that wait until the disk has what was written.
 const SYNC: Duration = Duration::from_secs(5);
+
+/// The words of a file that the disk does not take.
+const UNWRITTEN: &str = "cannot be written";
 
 /// Writes a file whole.
 ///
 /// # Errors
 /// [`StudyError::Disk`].
 pub(crate) fn write_whole(file: &Path, text: &[u8]) -> Result<(), StudyError> {
-    atomic_file::write(file, text).map_err(StudyError::disk(file, "cannot be written"))
+    atomic_file::write(file, text).map_err(StudyError::disk(file, UNWRITTEN))
 }
 
 /// What a file of lines is written to; a file, and in tests one that fails.
@@ -42,6 +45,7 @@ impl Sink for File {
 
 /// Lines that are appended, each whole.
 pub(crate) struct Lines<S> {
+    path: PathBuf,
     sink: S,
     /// Length of the lines that are whole \[bytes\].
     whole: u64,
@@ -49,40 +53,36 @@ pub(crate) struct Lines<S> {
 }
 
 /// Opens a file for reading and appending, made where there is none.
-pub(crate) fn open(path: &Path) -> io::Result<File> {
-    OpenOptions::new()
-        .read(true)
-        .write(true)
-        .create(true)
-        .truncate(false)
-        .open(path)
+pub(crate) fn open(path: &Path) -> Result<File, StudyError> {
+    let mut options = OpenOptions::new();
+    let options = options.read(true).write(true).create(true).truncate(false);
+    options.open(path).map_err(StudyError::disk(path, "cannot be opened"))
 }
 
 /// Reads whole lines, one after the other, with their place in the file; the length of all of them.
-pub(crate) fn read<E>(
-    from: impl io::Read,
-    cannot: impl FnOnce(io::Error) -> E,
-    mut each: impl FnMut(u64, &[u8]) -> Result<(), E>,
-) -> Result<u64, E> {
+pub(crate) fn read(
+    (path, from): (&Path, impl io::Read),
+    mut each: impl FnMut(u64, &[u8]) -> Result<(), StudyError>,
+) -> Result<u64, StudyError> {
     let (mut from, mut line, mut whole) = (BufReader::new(from), Vec::new(), 0);
     loop {
         line.clear();
-        match from.read_until(b'\n', &mut line) {
-            Ok(length) if line.ends_with(b"\n") => {
-                each(whole, &line[..length - 1])?;
-                whole += length as u64;
-            }
-            Ok(_) => return Ok(whole),
-            Err(error) => return Err(cannot(error)),
+        let length = from.read_until(b'\n', &mut line);
+        let length = length.map_err(StudyError::disk(path, "cannot be read"))?;
+        if !line.ends_with(b"\n") {
+            return Ok(whole);
         }
+        each(whole, &line[..length - 1])?;
+        whole += length as u64;
     }
 }
 
 impl<S: Sink> Lines<S> {
     /// Goes on behind so many bytes of whole lines; what is beyond them goes.
-    pub fn after(mut sink: S, whole: u64) -> io::Result<Self> {
-        sink.cut(whole)?;
+    pub fn after(path: &Path, mut sink: S, whole: u64) -> Result<Self, StudyError> {
+        sink.cut(whole).map_err(StudyError::disk(path, UNWRITTEN))?;
         Ok(Self {
+            path: path.to_owned(),
             sink,
             whole,
             synced: Instant::now(),
@@ -91,24 +91,25 @@ impl<S: Sink> Lines<S> {
 
     /// Appends a line, which is handed to the system before this returns. Where that fails, what was written of it is taken away again,
     /// as far as that can be done.
-    pub fn append(&mut self, line: &str) -> io::Result<()> {
+    pub fn append(&mut self, line: &str) -> Result<(), StudyError> {
         let line = format!("{line}\n");
         if let Err(error) = self.sink.write_all(line.as_bytes()).and_then(|()| self.sink.flush()) {
             // A torn line that stays is dropped when the file is opened again.
             let _ = self.sink.cut(self.whole);
-            return Err(error);
+            return Err(StudyError::disk(&self.path, UNWRITTEN)(error));
         }
         self.whole += line.len() as u64;
         if self.synced.elapsed() >= SYNC {
-            self.sync()?;
+            self.sync()
+        } else {
+            Ok(())
         }
-        Ok(())
     }
 
     /// Waits until all lines are kept.
-    pub fn sync(&mut self) -> io::Result<()> {
+    pub fn sync(&mut self) -> Result<(), StudyError> {
         self.synced = Instant::now();
-        self.sink.sync()
+        self.sink.sync().map_err(StudyError::disk(&self.path, UNWRITTEN))
     }
 }
 
@@ -147,10 +148,10 @@ mod tests {
 
     #[test]
     fn a_full_disk_is_an_error_and_keeps_the_lines_before_whole() {
-        let mut lines = Lines::after(Full(Vec::new(), 8), 0).unwrap();
+        let mut lines = Lines::after(Path::new("rows"), Full(Vec::new(), 8), 0).unwrap();
         lines.append("one").unwrap();
         let error = lines.append("three").unwrap_err();
-        assert_eq!(error.kind(), io::ErrorKind::StorageFull);
+        assert!(matches!(error, StudyError::Disk { cause, .. } if cause.kind() == io::ErrorKind::StorageFull));
         assert_eq!(lines.sink.0, b"one\n");
         lines.append("two").unwrap();
         assert_eq!(lines.sink.0, b"one\ntwo\n");
@@ -159,14 +160,10 @@ mod tests {
     #[test]
     fn a_torn_line_does_not_count() {
         let mut told = Vec::new();
-        let whole = read(
-            &b"one\ntwo\nthr"[..],
-            |error| error,
-            |at, line| {
-                told.push((at, line.to_vec()));
-                Ok(())
-            },
-        );
+        let whole = read((Path::new("rows"), &b"one\ntwo\nthr"[..]), |at, line| {
+            told.push((at, line.to_vec()));
+            Ok(())
+        });
         assert_eq!(whole.unwrap(), 8);
         assert_eq!(told, [(0, b"one".to_vec()), (4, b"two".to_vec())]);
     }

@@ -1,11 +1,11 @@
 //! What a folder keeps a study of: enough to tell it from every other.
 
 use crate::axis::AxisKind;
-use crate::base::Base;
 use crate::error::StudyError;
+use crate::kept::MANIFEST;
 use crate::lines::write_whole;
 use crate::row::ROW_SCHEMA;
-use crate::study::Study;
+use crate::study::{Base, Study};
 use platewash_kinematics::fingerprint::sha256_hex;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -115,48 +115,48 @@ impl Manifest {
         }
     }
 
-    /// Writes it, whole.
-    pub(crate) fn write(&self, path: &Path) -> Result<(), StudyError> {
-        let text = serde_json::to_string_pretty(self).map_err(|error| StudyError::Kept {
-            file: path.to_owned(),
-            problem: error.to_string(),
-        })?;
-        write_whole(path, format!("{text}\n").as_bytes())
+    /// Writes it to a folder, whole.
+    pub(crate) fn write(&self, folder: &Path) -> Result<(), StudyError> {
+        let path = folder.join(MANIFEST);
+        let text =
+            serde_json::to_string_pretty(self).map_err(|error| StudyError::kept(&path, None, error.to_string()))?;
+        write_whole(&path, format!("{text}\n").as_bytes())
     }
 
-    /// What tells this study from another one, with what each of them has.
+    /// What tells this study from another one, with what each of them has: of lists, what the other has not.
     pub(crate) fn difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
-        let texts = |of: &Self| {
-            let text = |scenario: &ManifestScenario| format!("{} {}", scenario.name, &scenario.sha256);
-            of.scenarios.iter().map(text).collect::<Vec<_>>().join(", ")
+        let mut pairs = self.facts().into_iter().zip(other.facts());
+        let ((what, mine), (_, its)) = pairs.find(|((_, mine), (_, its))| mine != its)?;
+        let without = |these: &[String], those: &[String]| {
+            let others: Vec<_> = these.iter().filter(|one| !those.contains(one)).cloned().collect();
+            if others.is_empty() {
+                "none".to_owned()
+            } else {
+                others.join(", ")
+            }
         };
-        let named = |of: &Self| {
-            let text = |file: &ManifestFile| format!("{} {}", file.path, &file.sha256);
-            of.files.iter().map(text).collect::<Vec<_>>()
-        };
-        // Of many files, those that are not the same.
-        let files = |of: &Self, other: &Self| {
-            let other = named(other);
-            let mine = named(of).into_iter().filter(|file| !other.contains(file));
-            let mine = mine.collect::<Vec<_>>().join(", ");
-            if mine.is_empty() { "none".to_owned() } else { mine }
-        };
-        let axes = |of: &Self| {
-            let text = |axis: &ManifestAxis| format!("{} ({} values, {:?})", axis.key, axis.count, axis.kind);
-            of.axes.iter().map(text).collect::<Vec<_>>().join(", ")
-        };
-        let facts = |of: &Self, other: &Self| {
-            [
-                ("its version of the program", of.version.clone()),
-                ("its version of rows", of.row_schema.to_string()),
-                ("the study file (by its SHA-256)", of.study_sha256.clone()),
-                ("a scenario (by its SHA-256)", texts(of)),
-                ("a file that rows name (by its SHA-256)", files(of, other)),
-                ("the number of rows", of.rows.to_string()),
-                ("an axis", axes(of)),
-            ]
-        };
-        let mut pairs = facts(self, other).into_iter().zip(facts(other, self));
-        pairs.find_map(|((what, mine), (_, its))| (mine != its).then_some((what, mine, its)))
+        Some((what, without(&mine, &its), without(&its, &mine)))
+    }
+
+    /// All that tells studies apart, with what it is called.
+    fn facts(&self) -> [(&'static str, Vec<String>); 7] {
+        let axis = |axis: &ManifestAxis| format!("{} ({} values, {:?})", axis.key, axis.count, axis.kind);
+        let scenario = |scenario: &ManifestScenario| format!("{} {}", scenario.name, scenario.sha256);
+        let file = |file: &ManifestFile| format!("{} {}", file.path, file.sha256);
+        [
+            ("its version of the program", vec![self.version.clone()]),
+            ("its version of rows", vec![self.row_schema.to_string()]),
+            ("the study file (by its SHA-256)", vec![self.study_sha256.clone()]),
+            (
+                "a scenario (by its SHA-256)",
+                self.scenarios.iter().map(scenario).collect(),
+            ),
+            (
+                "a file that rows name (by its SHA-256)",
+                self.files.iter().map(file).collect(),
+            ),
+            ("the number of rows", vec![self.rows.to_string()]),
+            ("an axis", self.axes.iter().map(axis).collect()),
+        ]
     }
 }

@@ -1,16 +1,13 @@
 //! From a row's values to what came of them: planned and proved, by the row alone.
 
-use crate::base::changed;
 use crate::error::StudyError;
-use crate::made::Made;
-use crate::outcome::Outcome;
-use crate::row::Row;
+use crate::row::{Made, Outcome, Row};
 use crate::study::{RowAddress, Study};
 use platewash_certificate::{Certificate, prove_with};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::urdf::Files;
 use platewash_planner::{Planned, Watch, plan_with};
-use platewash_scenario::{Draft, Failure, Scenario, Solids};
+use platewash_scenario::{Failure, Scenario, Solids};
 use platewash_workcell::cancel::CancelToken;
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
@@ -116,32 +113,21 @@ impl Resolver {
         let mut values = address.axes.clone();
         let seed = values.remove("seed").and_then(|seed| seed.as_u64());
         let what = (address.base, values);
-        let kept = self.kept(&what);
+        let last = || self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = last().clone().filter(|(of, _)| *of == what);
         // Nothing is made while others wait: whoever comes at the same time makes it, too.
-        let scenario = match kept {
-            Some(scenario) => scenario,
+        let mut scenario = match kept {
+            Some((_, scenario)) => Scenario::clone(&scenario),
             None => {
-                let base = &self.study.bases[address.base];
-                let text = changed(&base.text, &what.1)?;
-                let draft = Draft::new(&text).and_then(|draft| draft.scenario(&base.name, base.folder.as_deref()));
-                let mut scenario = draft.map_err(|error| error.to_string())?;
+                let mut scenario = self.study.bases[address.base].scenario(&what.1)?;
                 scenario.solids = self.solids.clone();
                 scenario.files = Files::held(self.study.files.clone());
-                let scenario = Arc::new(scenario);
-                *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some((what, scenario.clone()));
+                *last() = Some((what, Arc::new(scenario.clone())));
                 scenario
             }
         };
-        let mut scenario = Scenario::clone(&scenario);
         scenario.seed = seed.unwrap_or(scenario.seed);
         Ok(scenario)
-    }
-
-    /// The scenario of these values, where it was the last one that was read.
-    fn kept(&self, what: &(usize, BTreeMap<String, Value>)) -> Option<Arc<Scenario>> {
-        let last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
-        let (of, scenario) = last.as_ref()?;
-        (of == what).then(|| scenario.clone())
     }
 
     fn arm(&self, scenario: &Scenario) -> Result<Arc<RobotModel>, Failure> {
@@ -170,8 +156,9 @@ fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, clippy::panic)]
 mod tests {
+    #![allow(clippy::panic)]
+
     use super::*;
     use crate::journal::Journal;
     use crate::kept::{read_manifest, rows};
@@ -199,7 +186,6 @@ mod tests {
         let mut journal = Journal::open(folder.path(), &study).unwrap();
         let cancel = CancelToken::new();
         run(
-            &study,
             &mut journal,
             &cancel,
             |index, cancel| resolver.row(index, cancel),
@@ -208,8 +194,8 @@ mod tests {
         .unwrap();
         let mut ended = vec![None; 4];
         let manifest = read_manifest(folder.path()).unwrap();
-        rows(folder.path(), &manifest, |row| {
-            ended[row.index as usize] = Some((row.outcome, row.reason.clone()))
+        rows(folder.path(), &manifest, |_, row| {
+            ended[row.index as usize] = Some((row.outcome, row.reason))
         })
         .unwrap();
         let crashed = Some("the program failed: index 7 is none".to_owned());

@@ -1,10 +1,10 @@
 //! A row: what came of one scenario of a study. `docs/studies.md` says what each field means; they change with [`ROW_SCHEMA`] alone.
 
-use crate::outcome::Outcome;
-use crate::place::Place;
-use platewash_certificate::{Certificate, Requirement};
-use platewash_planner::Planned;
+use platewash_certificate::{Certificate, Requirement, Verdict};
+use platewash_kinematics::ik::IkPathError;
+use platewash_planner::{InfeasibleReport, PlanError, Planned};
 use platewash_scenario::Failure;
+use platewash_workcell::verdict::Infeasibility;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -106,5 +106,196 @@ impl Row {
             reason: Some(reason),
             ..self
         }
+    }
+}
+
+/// How a row ended. The words are those of `sweep`, and one more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// Planned, and every requirement proved.
+    Proved,
+    /// Planned, but a requirement is violated or not proved.
+    NotProved,
+    /// The job cannot be done.
+    Infeasible,
+    /// No way to do it was found; there may be one.
+    NotFound,
+    /// The values of this row state no job.
+    Error,
+    /// The program failed on this row, which is a fault of the program.
+    Crashed,
+}
+
+impl Outcome {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::Proved,
+        Self::NotProved,
+        Self::Infeasible,
+        Self::NotFound,
+        Self::Error,
+        Self::Crashed,
+    ];
+
+    /// Its code, as in rows.
+    #[must_use]
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Proved => "proved",
+            Self::NotProved => "not_proved",
+            Self::Infeasible => "infeasible",
+            Self::NotFound => "not_found",
+            Self::Error => "error",
+            Self::Crashed => "crashed",
+        }
+    }
+
+    /// Of a layout that was planned and judged.
+    #[must_use]
+    pub fn judged(verdict: Verdict) -> Self {
+        match verdict {
+            Verdict::Pass => Self::Proved,
+            Verdict::Fail => Self::NotProved,
+        }
+    }
+}
+
+impl From<&Failure> for Outcome {
+    /// Of a layout that came to no plan, or to none that could be judged.
+    fn from(error: &Failure) -> Self {
+        match error.infeasibility() {
+            Some(Infeasibility::Proved) => Self::Infeasible,
+            Some(Infeasibility::NotFound) => Self::NotFound,
+            None => Self::Error,
+        }
+    }
+}
+
+/// The place of a reason; what does not apply is `None`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    /// The requirement that is not kept, as in a certificate.
+    pub requirement: Option<Requirement>,
+    /// Index of the plate.
+    pub plate: Option<usize>,
+    /// Index of the plan's segment.
+    pub segment: Option<usize>,
+    /// Index of the waypoint, from 0, on the line over the plate that the arm does not follow.
+    pub waypoint: Option<usize>,
+    /// Time in the plan \[s\].
+    pub time_s: Option<f64>,
+    /// The place, world frame \[m\]: of a plan, where it is worst; of a plate that cannot be washed, the first point of its wash path
+    /// for which no configuration was found.
+    pub point_m: Option<[f64; 3]>,
+}
+
+impl Place {
+    /// Of the first requirement that is not kept.
+    pub(crate) fn of_certificate(certificate: &Certificate) -> Self {
+        let place = certificate.broken().next().map(|check| Self {
+            requirement: Some(check.requirement),
+            plate: check.worst.plate,
+            segment: check.worst.segment.map(|(index, _)| index),
+            waypoint: None,
+            time_s: check.worst.time_s,
+            point_m: check.worst.place_m,
+        });
+        place.unwrap_or_default()
+    }
+
+    /// Of what stood in the way of a plan.
+    pub(crate) fn of_failure(error: &Failure) -> Self {
+        let Failure::Plan(error) = error else {
+            return Self::default();
+        };
+        let report = InfeasibleReport::new("", 0, error);
+        let point_m = match error {
+            PlanError::Unwashable(plate) => plate.dead_m.first().copied(),
+            _ => None,
+        };
+        let waypoint = match error {
+            PlanError::Line { error, .. } => waypoint(error),
+            _ => None,
+        };
+        Self {
+            plate: report.and_then(|report| Some(report.plates.first()?.plate)),
+            waypoint,
+            point_m,
+            ..Self::default()
+        }
+    }
+}
+
+fn waypoint(error: &IkPathError) -> Option<usize> {
+    match error {
+        IkPathError::Waypoint { waypoint, .. } | IkPathError::Broken { waypoint, .. } => Some(*waypoint),
+        _ => None,
+    }
+}
+
+/// Which plans a study keeps beside its rows: the key `plans` of a study file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Keep {
+    /// No plan: a row has its hash, and `study scenario` makes it again.
+    #[default]
+    None,
+    /// The plans that are not proved.
+    Failed,
+    /// Every plan.
+    All,
+}
+
+impl Keep {
+    /// Whether the plan of a row is kept; a row without one has none to keep.
+    #[must_use]
+    pub fn wants(self, row: &Row) -> bool {
+        row.plan.is_some()
+            && match self {
+                Self::None => false,
+                Self::Failed => row.outcome == Outcome::NotProved,
+                Self::All => true,
+            }
+    }
+}
+
+/// A row, and the plan where the study keeps it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Made {
+    /// What came of the scenario.
+    pub row: Row,
+    /// The plan's file, as `run` writes `plan.json`; there exactly where [`Keep::wants`](crate::Keep::wants) it.
+    pub plan: Option<Vec<u8>>,
+}
+
+impl From<Row> for Made {
+    /// A row whose plan is not kept.
+    fn from(row: Row) -> Self {
+        Self { row, plan: None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use platewash_kinematics::ik::PathBreak;
+
+    #[test]
+    fn a_line_that_breaks_off_is_told_by_plate_and_waypoint() {
+        let error = IkPathError::Broken {
+            waypoint: 7,
+            reason: PathBreak::Limit { joint: 4 },
+            solved: Vec::new(),
+        };
+        let error = Box::new(error);
+        let line = PlanError::Line {
+            plate: 2,
+            lift_m: 0.05,
+            error,
+        };
+        let place = Place::of_failure(&Failure::Plan(line));
+        assert_eq!((place.plate, place.waypoint), (Some(2), Some(7)));
     }
 }

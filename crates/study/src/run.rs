@@ -2,8 +2,7 @@
 
 use crate::error::StudyError;
 use crate::journal::Journal;
-use crate::made::Made;
-use crate::study::Study;
+use crate::row::Made;
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use rayon::prelude::*;
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -31,38 +30,26 @@ pub struct Progress {
 /// # Errors
 /// [`StudyError`]: a row could not be made or kept, or the token cancelled. The rows that were kept by then stay.
 pub fn run(
-    study: &Study,
     journal: &mut Journal,
     cancel: &CancelToken,
     make: impl Fn(u64, &CancelToken) -> Result<Option<Made>, StudyError> + Sync,
     told: impl FnMut(Progress) + Send,
 ) -> Result<(), StudyError> {
-    let missing = journal.missing(study);
+    let missing = journal.missing();
     let (sender, receiver) = sync_channel(WAITING);
-    let rows = study.rows();
     std::thread::scope(|scope| {
-        let keeping = scope.spawn(move || keep(&receiver, journal, rows, told));
+        let keeping = scope.spawn(move || keep(&receiver, journal, told));
         // A bridge hands the rows out one after the other, so that the first ones are done first.
         let made = missing.par_bridge().try_for_each_with(sender, |sender, index| {
             let began = Instant::now();
-            let row = cancel
-                .check()
-                .map_err(StudyError::from)
-                .and_then(|()| make(index, cancel));
-            match row {
-                // Where nobody keeps rows any more, that is told below.
-                Ok(Some(row)) => sender.send((row, began.elapsed())).map_err(|_| None),
-                Ok(None) => Err(Some(StudyError::from(Cancelled))),
-                Err(error) => Err(Some(error)),
-            }
+            cancel.check()?;
+            let row = make(index, cancel)?.ok_or(Cancelled)?;
+            // Where nobody keeps rows any more, that is told below.
+            sender.send((row, began.elapsed())).map_err(|_| Cancelled.into())
         });
         match keeping.join() {
-            Ok(kept) => kept?,
+            Ok(kept) => kept.and(made),
             Err(panic) => std::panic::resume_unwind(panic),
-        }
-        match made {
-            Err(Some(error)) => Err(error),
-            Ok(()) | Err(None) => Ok(()),
         }
     })
 }
@@ -71,10 +58,9 @@ pub fn run(
 fn keep(
     rows: &Receiver<(Made, Duration)>,
     journal: &mut Journal,
-    total: u64,
     mut told: impl FnMut(Progress),
 ) -> Result<(), StudyError> {
-    let (began, before) = (Instant::now(), journal.done());
+    let (began, before, total) = (Instant::now(), journal.done(), journal.rows());
     for (made, took) in rows {
         journal.append(&made, took)?;
         let done = journal.done();

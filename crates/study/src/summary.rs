@@ -3,8 +3,7 @@
 use crate::error::StudyError;
 use crate::kept::{check_unchanged, read_manifest, rows};
 use crate::manifest::Manifest;
-use crate::outcome::Outcome;
-use crate::row::Row;
+use crate::row::{Outcome, Row};
 use serde::Serialize;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -70,7 +69,8 @@ pub fn summary(folder: &Path) -> Result<Summary, StudyError> {
     let (mut durations, mut done) = (Vec::new(), 0);
     let mut not_proved: BTreeMap<Outcome, Vec<Row>> = BTreeMap::new();
     let (mut nearest, mut slowest) = (Vec::new(), Vec::new());
-    rows(folder, &manifest, |row| {
+    rows(folder, &manifest, |_, row| {
+        let row = &row;
         done += 1;
         let code = row.outcome.code();
         *outcomes.entry(code).or_default() += 1;

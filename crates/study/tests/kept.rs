@@ -23,7 +23,7 @@ fn what_is_finished_is_not_written_any_more_and_a_change_is_refused() {
         |index, _: &CancelToken| Ok(Some(empty(&study, index).into())),
         CancelToken::new(),
     );
-    run(&study, &mut journal, &cancel, make, |_| ()).unwrap();
+    run(&mut journal, &cancel, make, |_| ()).unwrap();
     drop(journal);
     let names = ["manifest.json", "study.toml", "rows.jsonl", "timings.jsonl"];
     let state = || {
@@ -36,7 +36,7 @@ fn what_is_finished_is_not_written_any_more_and_a_change_is_refused() {
     };
     let before = state();
     let mut journal = Journal::open(out, &study).unwrap();
-    run(&study, &mut journal, &cancel, make, |_| ()).unwrap();
+    run(&mut journal, &cancel, make, |_| ()).unwrap();
     drop(journal);
     assert_eq!(state(), before);
     fs::remove_file(out.join("timings.jsonl")).unwrap();
@@ -103,7 +103,7 @@ fn rows_that_somebody_takes_away_meanwhile_are_missed_and_made_again() {
     assert_eq!(read_manifest(out).unwrap().rows_sha256, None);
     drop(journal);
     let mut journal = Journal::open(out, &study).unwrap();
-    assert_eq!(journal.missing(&study).collect::<Vec<_>>(), [2, 3]);
+    assert_eq!(journal.missing().collect::<Vec<_>>(), [2, 3]);
     for index in [2, 3] {
         journal.append(&empty(&study, index).into(), Duration::ZERO).unwrap();
     }
@@ -233,7 +233,8 @@ fn a_row_that_is_ended_has_no_time() {
     let (study, folder) = (four(), tempfile::tempdir().unwrap());
     let out = folder.path();
     let mut journal = Journal::open(out, &study).unwrap();
-    journal.append_ended(&study, 1, Outcome::Crashed, "gone").unwrap();
+    let crashed = study.ended(1, Outcome::Crashed, "gone").unwrap();
+    journal.append(&crashed.into(), None).unwrap();
     journal.append(&empty(&study, 0).into(), Duration::ZERO).unwrap();
     assert_eq!(journal.done(), 2);
     let timings = fs::read_to_string(out.join("timings.jsonl")).unwrap();

@@ -58,7 +58,7 @@ fn work(folder: &Path, study: &Study, pause: Duration) {
         std::thread::sleep(pause);
         Ok(Some(empty(study, index)))
     };
-    run(study, &mut journal, &CancelToken::new(), make, |_| ()).unwrap();
+    run(&mut journal, &CancelToken::new(), make, |_| ()).unwrap();
 }
 
 fn exported(folder: &Path) -> Vec<u8> {
@@ -155,7 +155,6 @@ fn real_work(folder: &Path) {
     let mut journal = Journal::open(folder, &study).unwrap();
     let resolver = Resolver::new(study.clone());
     run(
-        &study,
         &mut journal,
         &CancelToken::new(),
         |index, cancel| resolver.row(index, cancel),

@@ -68,7 +68,7 @@ proptest! {
         let mut journal = Journal::open(folder.path(), &study).unwrap();
         prop_assert!(journal.done() <= done as u64);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| run(&study, &mut journal, &CancelToken::new(), |i, _| Ok(Some(empty(&study, i))), |_| ())).unwrap();
+        pool.install(|| run(&mut journal, &CancelToken::new(), |i, _| Ok(Some(empty(&study, i))), |_| ())).unwrap();
         prop_assert_eq!(journal.done(), study.rows());
         prop_assert_eq!(exported(folder.path()), undisturbed(&study));
     }
@@ -195,7 +195,7 @@ fn rows_that_were_kept_stay_where_it_is_told_to_give_up() {
         }
         Ok((index != 17).then(|| empty(&study, index)))
     };
-    let ended = run(&study, &mut journal, &cancel, make, |_| ());
+    let ended = run(&mut journal, &cancel, make, |_| ());
     assert!(matches!(ended, Err(StudyError::Cancelled(_))));
     assert!(journal.done() >= 1 && journal.done() < 40);
     assert_eq!(summary(folder.path()).unwrap().done, journal.done());

@@ -37,7 +37,7 @@ pub mod obstacle;
 pub mod piecewise;
 pub mod plan;
 pub mod plate;
-mod pose;
+pub mod pose;
 pub mod random;
 pub mod simulation;
 pub mod surface;

@@ -25,7 +25,11 @@ struct InFile {
     quaternion_wxyz: [f64; 4],
 }
 
-pub(crate) fn serialize<S: Serializer>(pose: &Pose, serializer: S) -> Result<S::Ok, S::Error> {
+/// Writes a pose.
+///
+/// # Errors
+/// The serializer's.
+pub fn serialize<S: Serializer>(pose: &Pose, serializer: S) -> Result<S::Ok, S::Error> {
     let q = pose.rotation.quaternion();
     let in_file = InFile {
         position_m: pose.translation.vector.into(),
@@ -34,7 +38,11 @@ pub(crate) fn serialize<S: Serializer>(pose: &Pose, serializer: S) -> Result<S::
     in_file.serialize(serializer)
 }
 
-pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Pose, D::Error> {
+/// Reads a pose, to the bit.
+///
+/// # Errors
+/// What is no pose, or has a quaternion whose length is not 1.
+pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Pose, D::Error> {
     let InFile {
         position_m,
         quaternion_wxyz: [w, x, y, z],

@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 from .._errors import InputError
-from .._studies.folder import Folder
-from .._studies.row import Row
+from .._studies.folder import Folder, Row
 
 #: x and y [m].
 Place: TypeAlias = tuple[float, float]

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from .._errors import MissingError
-from .row import Row
+from .folder import Row
+from .needed import needed
 from .table import Column, batches
 
 if TYPE_CHECKING:
     import pandas as _pd  # type: ignore[import-untyped]
-
-MISSING = "a frame needs pandas, which is not installed: pip install 'pyplatewash[study]'"
 
 #: Rows that are dictionaries at a time.
 BATCH_ROWS = 10_000
@@ -43,13 +41,7 @@ def frame(rows: Iterable[Row], of: list[Column], manifest: dict[str, Any]) -> _p
 
 def imported() -> Any:
     """pandas. Raises MissingError."""
-    try:
-        import pandas
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.split(".")[0] != "pandas":
-            raise
-        raise MissingError(MISSING, name="pandas") from error
-    return pandas
+    return needed("pandas", "a frame needs", "study")
 
 
 def _shared(texts: dict[Any, Any], text: Any) -> Any:

@@ -7,11 +7,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from .._errors import MissingError
-from .row import Row
+from .folder import Row
+from .needed import needed
 from .table import Column, batches
-
-MISSING = "a Parquet data set needs pyarrow, which is not installed: pip install 'pyplatewash[study]'"
 
 #: Rows that are in memory at a time, a row group each; rows of a file of a data set.
 GROUP_ROWS, FILE_ROWS = 10_000, 1_000_000
@@ -49,11 +47,4 @@ def _file(path: Path, part: int) -> Path:
 
 def imported() -> tuple[Any, Any]:
     """pyarrow and its Parquet. Raises MissingError."""
-    try:
-        import pyarrow  # type: ignore[import-untyped]
-        import pyarrow.parquet  # type: ignore[import-untyped]
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.split(".")[0] != "pyarrow":
-            raise
-        raise MissingError(MISSING, name="pyarrow") from error
-    return pyarrow, pyarrow.parquet
+    return needed("pyarrow", "a Parquet data set needs", "study"), needed("pyarrow.parquet", "a Parquet data set needs", "study")

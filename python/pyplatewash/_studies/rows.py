@@ -15,8 +15,7 @@ from .._records import Record
 from .._whole_file import staged
 from . import frame as frames
 from . import parquet
-from .folder import Folder, one_by_one, refused
-from .row import Row
+from .folder import Folder, Row, one_by_one, refused
 from .table import Column, columns
 
 if TYPE_CHECKING:
@@ -30,7 +29,7 @@ class StudyRows:
     Iteration gives the rows that are there, as dictionaries, in the order of their indices; ``docs/studies.md`` says what each field
     means. Nothing but where a row stands is kept in memory: 16 bytes each. A last line that is torn, or is being written, is left out.
 
-    Raises StudyError for what is no study's folder, for damaged lines, as ``FILE:LINE: …``, and for rows that were changed since the
+    Raises StudyError for what is no study's folder, for damaged lines, by their file and line, and for rows that were changed since the
     study was finished; what cannot be read at all is a FileError, too.
     """
 

@@ -8,9 +8,8 @@ from typing import Any
 
 from .. import __version__, _core
 from .._errors import InputError, InputTypeError
-from .engines.contract import WORKERS, Engine
+from .engines.contract import WORKERS, Engine, asking, processors
 from .engines.drive import drive
-from .engines.here import processors
 from .engines.worker import Kit
 from .progress import Progress
 from .rows import StudyRows
@@ -41,7 +40,8 @@ def by_engine(
 ) -> None:
     """Works on the missing rows with an engine, which is begun and let go."""
     kit = Kit(uuid.uuid4().hex, __version__, study._parts(), is_empty)
-    begun = begin(engine, kit, workers, client, address)
+    with asking(engine.capitalize()):
+        begun = begin(engine, kit, workers, client, address)
     try:
         drive(begun, journal, len(study), told)
     finally:

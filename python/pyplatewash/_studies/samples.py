@@ -13,13 +13,13 @@ import numpy as np
 
 from .. import _arguments
 from .._arguments import shown
-from .._errors import InputError, InputTypeError, MissingError
+from .._errors import InputError, InputTypeError
+from .needed import needed
 from .table import as_json
 
 if TYPE_CHECKING:
     from .._values import Floats
 
-MISSING = "samples need SciPy, which is not installed: pip install 'pyplatewash[study]'"
 METHODS = ("sobol", "latin_hypercube", "random")
 #: Most rows, as of a study; most numbers that are drawn for a row.
 MOST_ROWS, MOST_NUMBERS = 10_000_000, 1000
@@ -94,12 +94,7 @@ def _row(draws: dict[str, Draw], point: Floats) -> dict[str, Any]:
 
 
 def _engine(method: str, numbers: int, seed: int) -> Callable[[int], Floats]:
-    try:
-        from scipy.stats import qmc  # type: ignore[import-untyped]
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.split(".")[0] != "scipy":
-            raise
-        raise MissingError(MISSING, name="scipy") from error
+    qmc = needed("scipy.stats", "samples need", "study").qmc
     generator = np.random.default_rng(seed)
     if method == "random":
         return lambda rows: generator.random((rows, numbers))

@@ -3,6 +3,8 @@
 use crate::stopwatch::Milliseconds;
 use platewash_planner::Chance;
 use platewash_viewer::view;
+use platewash_workcell::tool::Tool;
+use platewash_workcell::trajectory::PlanSegment;
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -102,7 +104,7 @@ pub struct CellParts<'a> {
     /// Its id.
     pub arm_id: &'a str,
     /// The tool.
-    pub tool: &'a Option<view::Tool>,
+    pub tool: &'a Option<Tool>,
     /// What stands around.
     pub surroundings: &'a view::Surroundings,
     /// The plates.
@@ -204,7 +206,7 @@ pub struct PlanParts<'a> {
     /// What the tip follows.
     pub paths: &'a [view::WashPath],
     /// The stretches of the motion.
-    pub segments: &'a [view::Segment],
+    pub segments: &'a [PlanSegment],
     /// The motion.
     pub motion: &'a Option<view::Motion>,
     /// The smallest distance over time.

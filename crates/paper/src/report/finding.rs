@@ -1,6 +1,6 @@
 //! What is worth knowing of a run and no figure shows.
 
-use super::plate::PlateReport;
+use super::PlateReport;
 use crate::cubic::Interpolation;
 use crate::run::PaperRun;
 use platewash_workcell::layout;

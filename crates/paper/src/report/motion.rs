@@ -1,9 +1,11 @@
-//! A motion against the limits.
+//! A motion against the limits, and how near the arm comes to itself and to what stands around it.
 
-use super::nearness::{ClosestApproach, Nearness, nearest};
 use crate::run::PaperRun;
-use platewash_kinematics::{AXES, JointVector};
-use platewash_workcell::trajectory::{SegmentExtremes, Trajectory};
+use crate::tracking::Step;
+use platewash_kinematics::JointVector;
+use platewash_workcell::cancel::{CancelToken, Cancelled};
+use platewash_workcell::clearance::{ClearanceModel, PairClearance, is_clear};
+use platewash_workcell::trajectory::{SegmentExtremes, SegmentKind, Trajectory};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -38,6 +40,16 @@ pub struct Violation {
     pub limit: f64,
 }
 
+/// The nearest approach of two bodies, and when.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ClosestApproach {
+    /// When \[s\].
+    pub t_s: f64,
+    /// What and where.
+    #[serde(flatten)]
+    pub pair: PairClearance,
+}
+
 /// A motion against the limits. Speeds and accelerations are the exact extremes of the cubics through the waypoints
 /// (speeds at the waypoints are central differences).
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -52,135 +64,149 @@ pub struct MotionReport {
     pub violations: Vec<Violation>,
 }
 
-/// Which side of a limit is forbidden.
-#[derive(Clone, Copy, PartialEq)]
-enum Side {
-    Above,
-    Below,
-}
-
-/// Merges consecutive spans of the same violation.
-struct Merger {
-    kind: ViolationKind,
-    who: String,
-    side: Side,
-    limit: f64,
-    found: Vec<Violation>,
-}
-
 impl MotionReport {
     pub(super) fn new<'a>(
         run: &PaperRun,
         motion: &Trajectory,
-        nearness: impl Iterator<Item = &'a Nearness> + Clone,
+        near: impl Iterator<Item = &'a Nearness> + Clone,
     ) -> Self {
+        type Extreme = fn(&SegmentExtremes) -> &JointVector;
         let limits = run.job.arm.limits();
         let accelerations = JointVector::from(run.job.limits.joint_acceleration_rad_s2);
         let extremes: Vec<_> = motion.extremes().collect();
-        let largest = |of: fn(&SegmentExtremes) -> &JointVector| {
-            extremes
-                .iter()
-                .fold(JointVector::zeros(), |most, segment| most.sup(of(segment)))
-        };
+        // A limit is broken above it (1) or below it (−1).
+        let sides: [(ViolationKind, f64, &JointVector, Extreme); 4] = [
+            (ViolationKind::Position, -1.0, &limits.lower, |s| &s.position[0]),
+            (ViolationKind::Position, 1.0, &limits.upper, |s| &s.position[1]),
+            (ViolationKind::Speed, 1.0, &limits.velocity, |s| &s.speed),
+            (ViolationKind::Acceleration, 1.0, &accelerations, |s| &s.acceleration),
+        ];
         let mut violations = Vec::new();
-        for joint in 0..AXES {
-            let who = || run.job.arm.joints()[joint].name.clone();
-            let mut note = |kind, side, limit: f64, of: &dyn Fn(&SegmentExtremes) -> f64| {
-                let mut merger = Merger::new(kind, who(), side, limit);
-                extremes
-                    .iter()
-                    .for_each(|segment| merger.note(segment.span_s, of(segment)));
-                violations.extend(merger.found);
-            };
-            note(ViolationKind::Position, Side::Below, limits.lower[joint], &|s| {
-                s.position[0][joint]
-            });
-            note(ViolationKind::Position, Side::Above, limits.upper[joint], &|s| {
-                s.position[1][joint]
-            });
-            note(ViolationKind::Speed, Side::Above, limits.velocity[joint], &|s| {
-                s.speed[joint]
-            });
-            note(ViolationKind::Acceleration, Side::Above, accelerations[joint], &|s| {
-                s.acceleration[joint]
-            });
+        for (joint, named) in run.job.arm.joints().iter().enumerate() {
+            for (kind, side, limit, of) in sides {
+                let limit = limit[joint];
+                // A break within rounding of the limit is none.
+                let is_broken = |s: &&SegmentExtremes| side * (of(s)[joint] - limit) > 1e-9 * limit.abs();
+                let broken = extremes.iter().filter(is_broken).map(|s| Violation {
+                    kind,
+                    who: named.name.clone(),
+                    t_start_s: s.span_s[0],
+                    t_end_s: s.span_s[1],
+                    worst: of(s)[joint],
+                    limit,
+                });
+                violations.extend(merged(broken, 0.0));
+            }
         }
-        violations.extend(clearance_violations(nearness.clone().flat_map(|n| &n.too_near), run));
+        violations.extend(too_near(near.clone().flat_map(|step| &step.too_near), run));
+        let largest = |of: Extreme| extremes.iter().fold(JointVector::zeros(), |most, s| most.sup(of(s)));
         Self {
             speed_share: largest(|s| &s.speed).component_div(&limits.velocity),
             acceleration_share: largest(|s| &s.acceleration).component_div(&accelerations),
-            clearance: nearest(nearness.filter_map(|n| n.nearest.as_ref())),
+            clearance: nearest(near.filter_map(|step| step.nearest.as_ref())),
             violations,
         }
     }
 }
 
 /// Consecutive steps in which the same pair comes too near, pair by pair.
-fn clearance_violations<'a>(approaches: impl Iterator<Item = &'a ClosestApproach>, run: &PaperRun) -> Vec<Violation> {
-    let (limit, dt) = (run.job.requirements.clearance_m, run.job.simulation.control.dt_s);
+fn too_near<'a>(approaches: impl Iterator<Item = &'a ClosestApproach>, run: &PaperRun) -> Vec<Violation> {
     let mut by_pair: BTreeMap<String, Vec<Violation>> = BTreeMap::new();
-    for approach in approaches {
-        let who = format!("{} – {}", approach.pair.a, approach.pair.b);
-        let found = by_pair.entry(who.clone()).or_default();
-        match found.last_mut().filter(|open| approach.t_s - open.t_end_s < 1.5 * dt) {
-            Some(open) => {
-                open.t_end_s = approach.t_s;
-                open.worst = open.worst.min(approach.pair.distance_m);
-            }
-            None => found.push(Violation {
-                kind: ViolationKind::Clearance,
-                who,
-                t_start_s: approach.t_s,
-                t_end_s: approach.t_s,
-                worst: approach.pair.distance_m,
-                limit,
-            }),
-        }
+    for ClosestApproach { t_s, pair } in approaches {
+        let who = format!("{} – {}", pair.a, pair.b);
+        by_pair.entry(who.clone()).or_default().push(Violation {
+            kind: ViolationKind::Clearance,
+            who,
+            t_start_s: *t_s,
+            t_end_s: *t_s,
+            worst: pair.distance_m,
+            limit: run.job.requirements.clearance_m,
+        });
     }
-    by_pair.into_values().flatten().collect()
+    let gap_s = 1.5 * run.job.simulation.control.dt_s;
+    by_pair
+        .into_values()
+        .flat_map(|all| merged(all.into_iter(), gap_s))
+        .collect()
 }
 
-impl Merger {
-    fn new(kind: ViolationKind, who: String, side: Side, limit: f64) -> Self {
-        Self {
-            kind,
-            who,
-            side,
-            limit,
-            found: Vec::new(),
-        }
-    }
-
-    /// How far a value is on the forbidden side of the limit.
-    fn excess(&self, value: f64) -> f64 {
-        match self.side {
-            Side::Above => value - self.limit,
-            Side::Below => self.limit - value,
-        }
-    }
-
-    /// Notes a span with its extreme value; a break within rounding of the limit is none.
-    fn note(&mut self, [start, end]: [f64; 2], value: f64) {
-        if self.excess(value) <= 1e-9 * self.limit.abs() {
-            return;
-        }
-        let follows = self.found.last().filter(|open| open.t_end_s == start);
-        let worse = follows.is_none_or(|open| self.excess(value) > self.excess(open.worst));
-        if follows.is_none() {
-            self.found.push(Violation {
-                kind: self.kind,
-                who: self.who.clone(),
-                t_start_s: start,
-                t_end_s: end,
-                worst: value,
-                limit: self.limit,
-            });
-        }
-        if let Some(open) = self.found.last_mut() {
-            open.t_end_s = end;
-            if worse {
-                open.worst = value;
+/// Violations of one limit in the order of time, those merged between which there is no more than a gap \[s\].
+fn merged(violations: impl Iterator<Item = Violation>, gap_s: f64) -> Vec<Violation> {
+    let excess = |violation: &Violation| (violation.worst - violation.limit).abs();
+    let mut all: Vec<Violation> = Vec::new();
+    for next in violations {
+        match all.last_mut().filter(|open| next.t_start_s - open.t_end_s <= gap_s) {
+            Some(open) => {
+                open.t_end_s = next.t_end_s;
+                if excess(&next) > excess(open) {
+                    open.worst = next.worst;
+                }
             }
+            None => all.push(next),
         }
     }
+    all
+}
+
+/// How near the arm comes at one step.
+pub(super) struct Nearness {
+    /// The nearest pair.
+    pub nearest: Option<ClosestApproach>,
+    /// All pairs that keep too little clearance.
+    pub too_near: Vec<ClosestApproach>,
+}
+
+/// How near the arm comes at every step, commanded and executed.
+pub(super) fn nearnesses(
+    run: &PaperRun,
+    clearance: &ClearanceModel,
+    cancel: &CancelToken,
+) -> Result<Vec<[Nearness; 2]>, Cancelled> {
+    let at = |(k, step): (usize, &Step)| {
+        cancel.check()?;
+        let working = worked_on(run, k);
+        Ok([step.commanded, step.executed].map(|q| nearness(clearance, &q, &working, run, k)))
+    };
+    run.steps.iter().enumerate().map(at).collect()
+}
+
+fn nearness(clearance: &ClearanceModel, q: &JointVector, working: &[usize], run: &PaperRun, step: usize) -> Nearness {
+    let required_m = run.job.requirements.clearance_m;
+    let timed = |pair| ClosestApproach {
+        t_s: run.time_of(step),
+        pair,
+    };
+    let nearest = clearance.smallest(q, working);
+    // Nearly all configurations keep their distance; only the others are looked at pair by pair.
+    let too_near = match &nearest {
+        Some(pair) if !is_clear(pair.distance_m, required_m) => clearance.too_near(q, working, required_m),
+        _ => Vec::new(),
+    };
+    Nearness {
+        nearest: nearest.map(timed),
+        too_near: too_near.into_iter().map(timed).collect(),
+    }
+}
+
+/// The plate that the sponge may touch at a step: the one it washes; on the way, the one it leaves for the first half and
+/// the one it comes to for the second.
+fn worked_on(run: &PaperRun, step: usize) -> [usize; 1] {
+    let segments = &run.tool_path.segments;
+    let index = run.steps[step].segment;
+    let segment = &segments[index];
+    let first_half = || {
+        let before: usize = segments[..index].iter().map(|s| s.waypoints.len()).sum();
+        2 * (step - before) < segment.waypoints.len()
+    };
+    match (segment.kind, index.checked_sub(1)) {
+        (SegmentKind::Transit, Some(left)) if first_half() => [segments[left].plate],
+        _ => [segment.plate],
+    }
+}
+
+/// The nearest of several approaches (the first of equals).
+pub(super) fn nearest<'a>(approaches: impl Iterator<Item = &'a ClosestApproach>) -> Option<ClosestApproach> {
+    approaches
+        .min_by(|a, b| a.pair.distance_m.total_cmp(&b.pair.distance_m))
+        .cloned()
 }

@@ -1,10 +1,6 @@
 //! The report as a person reads it.
 
-use super::contents::PaperReport;
-use super::motion::{MotionReport, Violation, ViolationKind};
-use super::nearness::ClosestApproach;
-use super::unreached::Unreached;
-use platewash_kinematics::JointVector;
+use super::{ClosestApproach, MotionReport, PaperReport, Unreached, Violation, ViolationKind};
 use platewash_kinematics::words::{angles_told_apart, rounded, told_apart};
 use platewash_workcell::coverage::Coverage;
 use platewash_workcell::words::quoted;
@@ -37,16 +33,14 @@ impl Display for PaperReport {
         }
         writeln!(
             f,
-            "\nWhole job, largest share of each joint's limit (1 to 6; acceleration limits are assumptions), of the cubics"
+            "\nWhole job, largest share of each joint's limit (1 to 6; acceleration limits are assumptions), of the cubics\n\
+             through the waypoints (their speeds there are central differences: the program commands positions only)"
         )?;
-        writeln!(
-            f,
-            "through the waypoints (their speeds there are central differences: the program commands positions only)"
-        )?;
-        motion(f, "planned", &self.planned)?;
-        motion(f, "executed", &self.executed)?;
-        violations(f, "planned", &self.planned.violations)?;
-        violations(f, "executed", &self.executed.violations)?;
+        let motions = [("planned", &self.planned), ("executed", &self.executed)];
+        motions.iter().try_for_each(|(what, report)| motion(f, what, report))?;
+        motions
+            .iter()
+            .try_for_each(|(what, report)| violations(f, what, &report.violations))?;
         if !self.findings.is_empty() {
             writeln!(f, "\nFindings")?;
         }
@@ -64,33 +58,37 @@ impl PaperReport {
             f,
             "\nPlates, in the order of washing (swept by a sponge of radius {sponge} mm; {wanted} % wanted)"
         )?;
-        writeln!(
-            f,
-            "  {:<6} {:>16} {:>9} {:>12} {:>11} {:>11} {:>19} {:>8} {:>7}",
+        let mut row = |cells: [&str; 9]| {
+            let [plate, centre, reached, ik, ideal, done, error, contact, washed] = cells;
+            writeln!(
+                f,
+                "  {plate:<6} {centre:>16} {reached:>9} {ik:>12} {ideal:>11} {done:>11} {error:>19} {contact:>8} {washed:>7}"
+            )
+        };
+        let [ik, error] = ["worst IK, mm", "error rms, max, mm"];
+        row([
             "plate",
             "centre, mm",
             "reached",
-            "worst IK, mm",
+            ik,
             "ideal, %",
             "done, %",
-            "error rms, max, mm",
+            error,
             "contact",
-            "washed"
-        )?;
+            "washed",
+        ])?;
         for p in &self.plates {
-            writeln!(
-                f,
-                "  {:<6} {:>16} {:>9} {:>12.4} {:>11} {:>11} {:>19} {:>8} {:>7}",
-                p.plate,
-                format!("({:.0}, {:.0})", 1e3 * p.centre_m[0], 1e3 * p.centre_m[1]),
-                format!("{}/{}", p.reached, p.waypoints),
-                1e3 * p.worst_ik_position_error_m,
-                percent(&p.ideal_coverage),
-                percent(&p.executed_coverage),
-                format!("{:.1}, {:.1}", 1e3 * p.tracking_rms_m, 1e3 * p.tracking_max_m),
-                format!("{}/{}", p.in_contact, p.waypoints),
+            row([
+                &p.plate.to_string(),
+                &format!("({:.0}, {:.0})", 1e3 * p.centre_m[0], 1e3 * p.centre_m[1]),
+                &format!("{}/{}", p.reached, p.waypoints),
+                &format!("{:.4}", 1e3 * p.worst_ik_position_error_m),
+                &percent(&p.ideal_coverage),
+                &percent(&p.executed_coverage),
+                &format!("{:.1}, {:.1}", 1e3 * p.tracking_rms_m, 1e3 * p.tracking_max_m),
+                &format!("{}/{}", p.in_contact, p.waypoints),
                 if p.washed { "yes" } else { "no" },
-            )?;
+            ])?;
         }
         for p in &self.plates {
             let what = format!("plate {}", p.plate);
@@ -102,12 +100,8 @@ impl PaperReport {
             1e3 * self.clearance_required_m
         )?;
         for p in &self.plates {
-            nearest(f, &format!("plate {}, planned", p.plate), p.planned_clearance.as_ref())?;
-            nearest(
-                f,
-                &format!("plate {}, executed", p.plate),
-                p.executed_clearance.as_ref(),
-            )?;
+            let what = format!("plate {}", p.plate);
+            nearest(f, &what, [&p.planned_clearance, &p.executed_clearance])?;
         }
         Ok(())
     }
@@ -117,8 +111,7 @@ impl PaperReport {
         if t.waypoints == 0 {
             return Ok(());
         }
-        nearest(f, "transitions, planned", t.planned_clearance.as_ref())?;
-        nearest(f, "transitions, executed", t.executed_clearance.as_ref())?;
+        nearest(f, "transitions", [&t.planned_clearance, &t.executed_clearance])?;
         let (rms, most) = (1e3 * t.tracking_rms_m, 1e3 * t.tracking_max_m);
         writeln!(
             f,
@@ -147,33 +140,39 @@ fn unreached(f: &mut Formatter<'_>, what: &str, count: usize, worst: Option<&Unr
     )
 }
 
-fn nearest(f: &mut Formatter<'_>, what: &str, approach: Option<&ClosestApproach>) -> fmt::Result {
-    let Some(ClosestApproach { t_s, pair }) = approach else {
-        return writeln!(f, "  {what:<22} nothing to check");
-    };
-    let [x, y, z] = pair.place_m.map(|v| 1e3 * v);
-    let bodies = format!("{} – {}", pair.a, pair.b);
-    writeln!(
-        f,
-        "  {what:<22} {:>7.1} mm  {bodies:<22} at ({x:.0}, {y:.0}, {z:.0}) mm, t = {t_s:.2} s",
-        1e3 * pair.distance_m
-    )
+fn nearest(f: &mut Formatter<'_>, what: &str, approaches: [&Option<ClosestApproach>; 2]) -> fmt::Result {
+    for (motion, approach) in ["planned", "executed"].into_iter().zip(approaches) {
+        let what = format!("{what}, {motion}");
+        let Some(ClosestApproach { t_s, pair }) = approach else {
+            writeln!(f, "  {what:<22} nothing to check")?;
+            continue;
+        };
+        let [x, y, z] = pair.place_m.map(|v| 1e3 * v);
+        let (bodies, distance_mm) = (format!("{} – {}", pair.a, pair.b), 1e3 * pair.distance_m);
+        writeln!(
+            f,
+            "  {what:<22} {distance_mm:>7.1} mm  {bodies:<22} at ({x:.0}, {y:.0}, {z:.0}) mm, t = {t_s:.2} s"
+        )?;
+    }
+    Ok(())
 }
 
 fn motion(f: &mut Formatter<'_>, what: &str, report: &MotionReport) -> fmt::Result {
-    let shares = |v: &JointVector| {
-        v.iter()
-            .map(|share| {
-                if *share < 1e4 {
-                    format!("{share:>10.2}")
-                } else {
-                    format!("{share:>10.2e}")
-                }
-            })
-            .collect::<String>()
-    };
-    writeln!(f, "  {what:<9} speed       {}", shares(&report.speed_share))?;
-    writeln!(f, "  {what:<9} acceleration{}", shares(&report.acceleration_share))
+    for (quantity, shares) in [
+        ("speed", &report.speed_share),
+        ("acceleration", &report.acceleration_share),
+    ] {
+        write!(f, "  {what:<9} {quantity:<12}")?;
+        for share in shares.iter() {
+            if *share < 1e4 {
+                write!(f, "{share:>10.2}")?;
+            } else {
+                write!(f, "{share:>10.2e}")?;
+            }
+        }
+        writeln!(f)?;
+    }
+    Ok(())
 }
 
 fn violations(f: &mut Formatter<'_>, what: &str, all: &[Violation]) -> fmt::Result {
@@ -208,24 +207,17 @@ impl Violation {
 impl Display for Violation {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let (worst, limit) = (self.worst, self.limit);
-        match self.kind {
-            ViolationKind::Position => {
-                let [worst, limit] = angles_told_apart(worst, limit, 2);
-                write!(f, "{} position {worst} beyond {limit}", self.who)
-            }
-            ViolationKind::Speed => {
-                let [worst, limit] = told_apart(worst, limit, 2);
-                write!(f, "{} speed {worst} rad/s of {limit}", self.who)
-            }
-            ViolationKind::Acceleration => {
-                let [worst, limit] = told_apart(worst, limit, 1);
-                write!(f, "{} acceleration {worst} rad/s² of {limit}", self.who)
-            }
-            ViolationKind::Clearance => {
-                let [worst, limit] = told_apart(1e3 * worst, 1e3 * limit, 1);
-                write!(f, "{} clearance {worst} mm of {limit} mm", self.who)
-            }
-        }?;
-        write!(f, ", t = {:.2} … {:.2} s", self.t_start_s, self.t_end_s)
+        let (what, [worst, limit], of, unit) = match self.kind {
+            ViolationKind::Position => ("position", angles_told_apart(worst, limit, 2), "beyond", ""),
+            ViolationKind::Speed => ("speed", told_apart(worst, limit, 2), "rad/s of", ""),
+            ViolationKind::Acceleration => ("acceleration", told_apart(worst, limit, 1), "rad/s² of", ""),
+            ViolationKind::Clearance => ("clearance", told_apart(1e3 * worst, 1e3 * limit, 1), "mm of", " mm"),
+        };
+        let [from, to] = [self.t_start_s, self.t_end_s];
+        write!(
+            f,
+            "{} {what} {worst} {of} {limit}{unit}, t = {from:.2} … {to:.2} s",
+            self.who
+        )
     }
 }

@@ -1,6 +1,6 @@
 //! The paper's control law as what it is: a filter, with a gain and a phase.
 
-use super::result::{Row, row};
+use super::Row;
 use super::statistics::Estimate;
 use crate::tracking::moved;
 use platewash_kinematics::JointVector;
@@ -46,33 +46,17 @@ impl FrequencyResponse {
     }
 }
 
-pub(super) fn rows() -> Vec<Row> {
+/// Gain and phase of the paper's law.
+pub(super) fn rows() -> [Row; 2] {
     const GROUP: &str = "The control law as a filter, at 20° per waypoint";
     let control = ControlSettings::default();
     let mut law = PaperLaw::new(control.kp, control.kd, control.dt_s);
-    let response = FrequencyResponse::measure(&mut law, TURN_PER_WAYPOINT);
-    let exact = |value| Estimate {
-        value,
-        half_width_95: None,
-    };
-    vec![
-        row(
-            GROUP,
-            "law_gain".into(),
-            "gain".into(),
-            "",
-            Some(1.0),
-            exact(response.gain),
-        ),
-        row(
-            GROUP,
-            "law_phase".into(),
-            "phase".into(),
-            "deg",
-            Some(0.0),
-            exact(response.phase_rad.to_degrees()),
-        ),
-    ]
+    let FrequencyResponse { gain, phase_rad } = FrequencyResponse::measure(&mut law, TURN_PER_WAYPOINT);
+    let quantities = [
+        ("law_gain", "gain", "", 1.0, gain),
+        ("law_phase", "phase", "deg", 0.0, phase_rad.to_degrees()),
+    ];
+    quantities.map(|(key, words, unit, paper, value)| Row::new(GROUP, key, words, unit, paper, Estimate::exact(value)))
 }
 
 #[cfg(test)]

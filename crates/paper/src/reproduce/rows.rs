@@ -1,99 +1,74 @@
 //! The measured quantities, from samples of layouts.
 
-use super::layout::LayoutSample;
-use super::result::{Row, row};
-use super::sponges::{SPONGES_MM, ideal_coverage};
-use super::statistics::{Estimate, batch_means, percentile};
-use platewash_workcell::coverage::{Coverage, CoverageError};
+use super::Row;
+use super::layout::{SPONGES_MM, Sample, by_sponge};
+use super::statistics::{Estimate, batch_means, percentile, root_mean_square};
+use crate::part::PaperPart;
+use crate::tool_path::ToolPath;
+use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings};
+use platewash_workcell::plate::Plate;
 
-type Count = fn(&LayoutSample) -> usize;
-type Values = fn(&LayoutSample) -> &[f64];
-
-/// A share in percent: key, words, what the paper takes for granted, part, whole.
-struct Share(&'static str, &'static str, f64, Count, Count);
-
-/// Shares of each region.
-const FEASIBILITY: [Share; 9] = [
-    Share(
-        "plates_overlap",
-        "layouts whose plates overlap",
-        0.0,
-        |s| s.plates_overlap as usize,
-        |_| 1,
-    ),
-    Share(
-        "base_overlap",
-        "layouts with a plate over the robot's base",
-        0.0,
-        |s| s.base_overlap as usize,
-        |_| 1,
-    ),
-    Share(
-        "points_reached",
-        "spiral points with an exact solution",
-        100.0,
-        LayoutSample::reached,
-        LayoutSample::points,
-    ),
-    Share(
-        "points_clear",
-        "spiral points reached and free of contact",
-        100.0,
-        LayoutSample::clear,
-        LayoutSample::points,
-    ),
-    Share(
-        "plates_clear",
-        "plates with every point reached and free",
-        100.0,
-        LayoutSample::clear_plates,
-        |s| s.plates.len(),
-    ),
-    Share(
-        "layouts_clear",
-        "layouts with every point reached and free",
-        100.0,
-        |s| s.is_clear() as usize,
-        |_| 1,
-    ),
-    Share(
-        "transitions_reached",
-        "transition points with an exact solution",
-        100.0,
-        |s| s.transit.reached,
-        |s| s.transit.points,
-    ),
-    Share(
+/// Shares in each region: key, words, what the paper takes for granted \[%\].
+const SHARES: [(&str, &str, f64); 9] = [
+    ("plates_overlap", "layouts whose plates overlap", 0.0),
+    ("base_overlap", "layouts with a plate over the robot's base", 0.0),
+    ("points_reached", "spiral points with an exact solution", 100.0),
+    ("points_clear", "spiral points reached and free of contact", 100.0),
+    ("plates_clear", "plates with every point reached and free", 100.0),
+    ("layouts_clear", "layouts with every point reached and free", 100.0),
+    ("transitions_reached", "transition points with an exact solution", 100.0),
+    (
         "transition_points_clear",
         "reached transition points free of contact",
         100.0,
-        |s| s.transit.clear,
-        |s| s.transit.reached,
     ),
-    Share(
+    (
         "transitions_clear",
         "transitions whose reached points are all free",
         100.0,
-        |s| s.clear_transits,
-        |s| s.transits,
     ),
 ];
 
+/// Tip errors: key, which ends with that of the lengths; words; the share of the values below, or `None` for the root mean square.
+const TIP_ERRORS: [(&str, &str, Option<f64>); 4] = [
+    ("tracking_rms.first_spiral", "the first spiral, rms", None),
+    ("tracking_rms.later_spirals", "later spirals, rms", None),
+    (
+        "tracking_p95.later_spirals",
+        "later spirals, 95th percentile",
+        Some(0.95),
+    ),
+    ("tracking_rms.transitions", "transitions, rms", None),
+];
+
+/// Percentiles of the outermost radius: key, words, what the paper takes for granted \[mm\], the share of the values below.
+const RADII: [(&str, &str, Option<f64>, f64); 3] = [
+    (
+        "executed_radius.median",
+        "outermost executed radius on later plates, median",
+        Some(145.0),
+        0.5,
+    ),
+    ("executed_radius.p05", "the same, 5th percentile", None, 0.05),
+    ("executed_radius.p90", "the same, 90th percentile", None, 0.9),
+];
+
 /// Reach and contact in one region.
-pub(super) fn feasibility(region: &'static str, samples: &[LayoutSample]) -> Vec<Row> {
+pub(super) fn feasibility(region: &str, samples: &[Sample]) -> Vec<Row> {
     const GROUP: &str = "Layouts, reach and contact (tool straight down, exact inverse kinematics)";
-    let make = |Share(key, words, paper, part, whole): &Share| {
-        let (key, quantity) = (format!("{key}.{region}"), format!("{words}, {region} region"));
-        row(GROUP, key, quantity, "%", Some(*paper), percent(samples, *part, *whole))
+    let make = |(key, words, paper): (&str, &str, f64)| {
+        let (name, quantity) = (format!("{key}.{region}"), format!("{words}, {region} region"));
+        Row::new(GROUP, name, quantity, "%", paper, percent(samples, key))
     };
-    FEASIBILITY.iter().map(make).collect()
+    SHARES.map(make).into()
 }
 
 /// 100 × the share of a count in another, both summed over layouts.
-fn percent(samples: &[LayoutSample], part: Count, whole: Count) -> Estimate {
+fn percent(samples: &[Sample], key: &str) -> Estimate {
     let estimate = batch_means(samples, |batch| {
-        let sum = |of: Count| batch.iter().map(of).sum::<usize>() as f64;
-        100.0 * sum(part) / sum(whole).max(1.0)
+        let counts = batch.iter().filter_map(|sample| sample.counts.get(key));
+        let [part, whole] = counts.fold([0, 0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
+        100.0 * part as f64 / (whole as f64).max(1.0)
     });
     // The rule of three: no exception in n layouts bounds their share by 3/n.
     let certain = estimate.value <= 0.0 || estimate.value >= 100.0;
@@ -104,114 +79,41 @@ fn percent(samples: &[LayoutSample], part: Count, whole: Count) -> Estimate {
     }
 }
 
-/// A length in millimetres: key, words, what the paper takes for granted, statistic, values \[m\].
-struct Length(&'static str, &'static str, Option<f64>, Statistic, Values);
-
-enum Statistic {
-    RootMeanSquare,
-    Percentile(f64),
-}
-
-/// Lengths of both regions together.
-const TRACKING: [Length; 7] = {
-    use Statistic::{Percentile, RootMeanSquare};
-    [
-        Length(
-            "tracking_rms.first_spiral",
-            "tip error on the first spiral, rms",
-            Some(0.0),
-            RootMeanSquare,
-            |s| &s.first_spiral_errors,
-        ),
-        Length(
-            "tracking_rms.later_spirals",
-            "tip error on later spirals, rms",
-            Some(0.0),
-            RootMeanSquare,
-            |s| &s.later_spiral_errors,
-        ),
-        Length(
-            "tracking_p95.later_spirals",
-            "tip error on later spirals, 95th percentile",
-            Some(0.0),
-            Percentile(0.95),
-            |s| &s.later_spiral_errors,
-        ),
-        Length(
-            "tracking_rms.transitions",
-            "tip error on transitions, rms",
-            Some(0.0),
-            RootMeanSquare,
-            |s| &s.transit_errors,
-        ),
-        Length(
-            "executed_radius.median",
-            "outermost executed radius on later plates, median",
-            Some(145.0),
-            Percentile(0.5),
-            |s| &s.outermost_radii,
-        ),
-        Length(
-            "executed_radius.p05",
-            "the same, 5th percentile",
-            None,
-            Percentile(0.05),
-            |s| &s.outermost_radii,
-        ),
-        Length(
-            "executed_radius.p90",
-            "the same, 90th percentile",
-            None,
-            Percentile(0.9),
-            |s| &s.outermost_radii,
-        ),
-    ]
-};
-
 /// How well the control law tracks, over both regions.
-pub(super) fn tracking(samples: &[LayoutSample]) -> Vec<Row> {
+pub(super) fn tracking(samples: &[Sample]) -> Vec<Row> {
     const GROUP: &str = "Tracking under the paper's control law (both regions)";
-    let lengths = TRACKING.iter().map(|Length(key, words, paper, statistic, values)| {
-        let estimate = batch_means(samples, |batch| {
-            1e3 * statistic.of(batch.iter().flat_map(values).copied().collect())
-        });
-        row(GROUP, (*key).into(), (*words).into(), "mm", *paper, estimate)
-    });
-    let too_fast = percent(samples, |s| s.steps_too_fast, |s| s.steps);
-    let (key, words) = (
-        "steps_too_fast".into(),
-        "steps that exceed a joint's speed limit".into(),
-    );
-    lengths
-        .chain([row(GROUP, key, words, "%", Some(0.0), too_fast)])
-        .collect()
-}
-
-impl Statistic {
-    fn of(&self, values: Vec<f64>) -> f64 {
-        match self {
-            Self::RootMeanSquare => f64::sqrt(values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64),
-            Self::Percentile(share) => percentile(values, *share),
-        }
-    }
+    let millimetres = |lengths: &str, share: Option<f64>| {
+        batch_means(samples, |batch| {
+            let values = batch.iter().filter_map(|sample| sample.lengths_m.get(lengths));
+            let values: Vec<f64> = values.flatten().copied().collect();
+            1e3 * share.map_or_else(|| root_mean_square(&values), |share| percentile(&values, share))
+        })
+    };
+    let error = |(key, words, share): (&'static str, &str, Option<f64>)| {
+        let lengths = key.rsplit('.').next().unwrap_or(key);
+        let quantity = format!("tip error on {words}");
+        Row::new(GROUP, key, quantity, "mm", 0.0, millimetres(lengths, share))
+    };
+    let radius =
+        |(key, words, paper, share)| Row::new(GROUP, key, words, "mm", paper, millimetres("radius", Some(share)));
+    let (key, words) = ("steps_too_fast", "steps that exceed a joint's speed limit");
+    let too_fast = Row::new(GROUP, key, words, "%", 0.0, percent(samples, key));
+    let lengths = TIP_ERRORS.map(error).into_iter().chain(RADII.map(radius));
+    lengths.chain([too_fast]).collect()
 }
 
 /// Coverage by sponge radius, ideal and executed; the raster's proven error is part of the error stated.
-pub(super) fn coverage(samples: &[LayoutSample]) -> Result<Vec<Row>, CoverageError> {
+pub(super) fn coverage(samples: &[Sample]) -> Result<Vec<Row>, CoverageError> {
     const GROUP: &str = "Coverage of the disc of radius 145 mm, by sponge radius (executed: all spirals pooled)";
-    let ideal = ideal_coverage()?;
     let mut rows = Vec::new();
-    for (k, (sponge, ideal)) in SPONGES_MM.into_iter().zip(ideal).enumerate() {
-        let mean = |batch: &[LayoutSample], of: fn(&Coverage) -> f64| {
-            let all: Vec<f64> = batch
-                .iter()
-                .flat_map(|s| &s.plates)
-                .map(|p| of(&p.executed_coverage[k]))
-                .collect();
+    for (k, (sponge, ideal)) in SPONGES_MM.into_iter().zip(ideal_coverage()?).enumerate() {
+        let mean = |batch: &[Sample], of: fn(&Coverage) -> f64| {
+            let plates = batch.iter().flat_map(|sample| &sample.coverage);
+            let all: Vec<f64> = plates.map(|plate| of(&plate[k])).collect();
             100.0 * all.iter().sum::<f64>() / all.len().max(1) as f64
         };
         let executed = batch_means(samples, |batch| mean(batch, |c| c.fraction));
-        let raster = 0.5 * mean(samples, |c| c.error());
+        let raster = 0.5 * mean(samples, Coverage::error);
         let executed = Estimate {
             half_width_95: executed.half_width_95.map(|h| h + raster),
             ..executed
@@ -223,8 +125,19 @@ pub(super) fn coverage(samples: &[LayoutSample]) -> Result<Vec<Row>, CoverageErr
         for (path, estimate) in [("ideal", exact), ("executed", executed)] {
             let key = format!("coverage.{path}.{sponge}mm");
             let quantity = format!("{path} path, sponge radius {sponge} mm");
-            rows.push(row(GROUP, key, quantity, "%", Some(100.0), estimate));
+            rows.push(Row::new(GROUP, key, quantity, "%", 100.0, estimate));
         }
     }
     Ok(rows)
+}
+
+/// Coverage of a plate of the paper's appendix had the tip followed the waypoints, by sponge radius.
+fn ideal_coverage() -> Result<Vec<Coverage>, CoverageError> {
+    let part = PaperPart::Appendix;
+    let size = part.geometry();
+    let plate = Plate::level_disc([0.3, 0.0, size.height_m], size.surface.rim_m(), size.thickness_m);
+    let path = ToolPath::new(&part.settings(), &[plate]);
+    let spiral = path.segments.iter().flat_map(|segment| &segment.waypoints);
+    let spiral: Vec<_> = spiral.map(|p| [p.x, p.y]).collect();
+    by_sponge(&spiral, &plate, &CoverageSettings { cell_m: 1e-4 })
 }

@@ -16,6 +16,16 @@ pub(super) struct Estimate {
     pub half_width_95: Option<f64>,
 }
 
+impl Estimate {
+    /// A value without a sampling error.
+    pub fn exact(value: f64) -> Self {
+        Self {
+            value,
+            half_width_95: None,
+        }
+    }
+}
+
 /// A statistic of all samples, with its error from the spread of the same statistic over batches of samples
 /// (batch means; fewer than 8 samples give no error).
 pub(super) fn batch_means<T>(samples: &[T], statistic: impl Fn(&[T]) -> f64) -> Estimate {
@@ -48,8 +58,14 @@ pub(super) fn binomial_percent(successes: usize, trials: usize) -> Estimate {
     }
 }
 
+/// Root mean square; 0 without values.
+pub(super) fn root_mean_square(values: &[f64]) -> f64 {
+    f64::sqrt(values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64)
+}
+
 /// The value below which the given share lies (linear between order statistics); 0 without values.
-pub(super) fn percentile(mut values: Vec<f64>, share: f64) -> f64 {
+pub(super) fn percentile(values: &[f64], share: f64) -> f64 {
+    let mut values = values.to_vec();
     values.sort_unstable_by(f64::total_cmp);
     let Some(last) = values.len().checked_sub(1) else {
         return 0.0;
@@ -66,9 +82,9 @@ mod tests {
 
     #[test]
     fn percentiles_by_hand() {
-        assert_eq!(percentile(vec![3.0, 1.0, 2.0], 0.5), 2.0);
-        assert_eq!(percentile(vec![0.0, 10.0], 0.95), 9.5);
-        assert_eq!(percentile(Vec::new(), 0.5), 0.0);
+        assert_eq!(percentile(&[3.0, 1.0, 2.0], 0.5), 2.0);
+        assert_eq!(percentile(&[0.0, 10.0], 0.95), 9.5);
+        assert_eq!(percentile(&[], 0.5), 0.0);
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub fn study(py: Python<'_>, error: StudyError) -> PyErr {
             system_file(py, FileOf::Study, word, &file.display().to_string(), &message)
         }
         StudyError::File { file, line, .. } => of(file.clone(), *line),
-        StudyError::Kept { file, .. } => of(file.display().to_string(), None),
+        StudyError::Kept { file, line, .. } => of(file.display().to_string(), *line),
         StudyError::Other { folder, .. } | StudyError::Busy { folder } => of(folder.display().to_string(), None),
         StudyError::NoRow { .. } | StudyError::Row { .. } => of("study".to_owned(), None),
         StudyError::Cancelled(_) => PyKeyboardInterrupt::new_err(()),

@@ -4,7 +4,7 @@ use super::StudyObject;
 use crate::work::patiently_by;
 use crate::{argument, errors};
 use platewash::CancelToken;
-use platewash::study::{self, Journal, Outcome, Resolver, Study, StudyError};
+use platewash::study::{self, Journal, Made, Outcome, Resolver, Study, StudyError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::sync::mpsc::channel;
@@ -52,7 +52,7 @@ impl StudyJournalObject {
     fn new(py: Python<'_>, folder: &Bound<'_, PyAny>, study: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (folder, study) = (argument::path("out", folder)?, StudyObject::given(study)?);
         let journal = Journal::open(&folder, &study).map_err(|error| errors::study(py, error))?;
-        let missing = Box::new(journal.missing(&study));
+        let missing = Box::new(journal.missing());
         let held = Mutex::new(Some(Held { journal, missing }));
         Ok(Self { study, held })
     }
@@ -77,16 +77,18 @@ impl StudyJournalObject {
         plan: Option<&Bound<'_, PyBytes>>,
     ) -> PyResult<()> {
         let took = Duration::try_from_secs_f64(wall_s).unwrap_or_default();
-        let plan = plan.map(|plan| plan.as_bytes());
+        let plan = plan.map(|plan| plan.as_bytes().to_vec());
         self.with(py, |held, study| {
-            held.journal.append_line(study, line.as_bytes(), plan, took)
+            let row = study.received(line.as_bytes())?;
+            held.journal.append(&Made { row, plan }, took)
         })
     }
 
     /// Keeps that a row killed its workers.
     fn killed(&self, py: Python<'_>, index: u64) -> PyResult<()> {
         self.with(py, |held, study| {
-            held.journal.append_ended(study, index, Outcome::Crashed, KILLED)
+            let row = study.ended(index, Outcome::Crashed, KILLED)?;
+            held.journal.append(&row.into(), None)
         })
     }
 
@@ -106,7 +108,7 @@ impl StudyJournalObject {
         let (raises, gives_up) = (raised.clone(), heard.clone());
         let (back, returned) = channel();
         let worked = patiently_by(py, threads, &heard, move |cancel| {
-            let resolver = Resolver::new(study.clone());
+            let resolver = Resolver::new(study);
             let mut last: Option<Instant> = None;
             let tell = |at: study::Progress| {
                 if at.done < at.rows && last.is_some_and(|last| last.elapsed() < TOLD_EVERY) {
@@ -120,7 +122,7 @@ impl StudyJournalObject {
                 }
             };
             let make = |index: u64, cancel: &CancelToken| resolver.row(index, cancel);
-            let done = study::run(&study, &mut held.journal, cancel, make, tell);
+            let done = study::run(&mut held.journal, cancel, make, tell);
             // Who was interrupted still waits for the folder.
             let _ = back.send(held);
             done

@@ -15,7 +15,7 @@ use crate::work::patiently;
 use crate::{argument, errors};
 use platewash::kinematics::urdf::Files;
 use platewash::scenario::Draft;
-use platewash::study::{self, Study, StudyParts};
+use platewash::study::{self, Study, StudyError, StudyParts};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple, PyType};
 use std::path::Path;
@@ -46,11 +46,9 @@ impl StudyObject {
         Ok(argument::object::<Self>("study", value, "a Study")?.get().inner.clone())
     }
 
-    fn of_text(py: Python<'_>, text: &str, file: &str, folder: &Path) -> PyResult<Self> {
-        match Study::parse(text, file, folder) {
-            Ok(study) => Ok(Self { inner: Arc::new(study) }),
-            Err(error) => Err(errors::study(py, error)),
-        }
+    fn of(py: Python<'_>, study: Result<Study, StudyError>) -> PyResult<Self> {
+        let inner = study.map(Arc::new).map_err(|error| errors::study(py, error))?;
+        Ok(Self { inner })
     }
 
     /// An index of a row.
@@ -72,10 +70,8 @@ impl StudyObject {
         plans: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let text = stated::text(py, scenario, (axes, rows), name, plans)?;
-        match Study::parse(&text, UNSAVED, Path::new("")) {
-            Ok(study) => Ok(Self { inner: Arc::new(study) }),
-            Err(error) => Err(errors::study(py, stated::without_line(error))),
-        }
+        let study = Study::parse(&text, UNSAVED, Path::new(""));
+        Self::of(py, study.map_err(stated::without_line))
     }
 
     /// The study of a file, or the one that a folder keeps the rows of, which needs no other file.
@@ -84,10 +80,7 @@ impl StudyObject {
     #[classmethod]
     fn load(_class: &Bound<'_, PyType>, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<Self> {
         let path = argument::path("path", path)?;
-        match Study::load(&path) {
-            Ok(study) => Ok(Self { inner: Arc::new(study) }),
-            Err(error) => Err(errors::study(py, error)),
-        }
+        Self::of(py, Study::load(&path))
     }
 
     /// A study from TOML text; files that it names are relative to the working folder.
@@ -96,7 +89,7 @@ impl StudyObject {
     #[classmethod]
     fn parse(_class: &Bound<'_, PyType>, py: Python<'_>, text: &Bound<'_, PyAny>) -> PyResult<Self> {
         let text = argument::text("text", text, "TOML text")?;
-        Self::of_text(py, &text, UNSAVED, Path::new(""))
+        Self::of(py, Study::parse(&text, UNSAVED, Path::new("")))
     }
 
     /// Its name.
@@ -199,9 +192,7 @@ impl StudyObject {
 
     #[classmethod]
     fn _restored(_class: &Bound<'_, PyType>, py: Python<'_>, parts: &Bound<'_, PyBytes>) -> PyResult<Self> {
-        Ok(Self {
-            inner: restored(py, parts)?,
-        })
+        Self::of(py, restored(parts))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
@@ -223,11 +214,15 @@ impl StudyObject {
     }
 }
 
-/// Refuses the folder of a finished study whose rows are not those that it was finished with.
+/// Looks at each row in a folder, those of a finished study are refused where it was finished with others. The answer is their indices,
+/// growing, and where each begins in the file \[bytes\]: 8 bytes a number, the lowest first.
 #[pyfunction]
-pub fn _study_check(py: Python<'_>, folder: &Bound<'_, PyAny>) -> PyResult<()> {
+pub fn _study_check<'py>(py: Python<'py>, folder: &Bound<'_, PyAny>) -> PyResult<[Bound<'py, PyBytes>; 2]> {
     let folder = argument::path("folder", folder)?;
-    patiently(py, move |_| study::check(&folder))?.map_err(|error| errors::study(py, error))
+    let rows = patiently(py, move |_| study::check(&folder))?.map_err(|error| errors::study(py, error))?;
+    let (indices, places): (Vec<u64>, Vec<u64>) = rows.into_iter().unzip();
+    let bytes = |values: Vec<u64>| values.into_iter().flat_map(u64::to_le_bytes).collect::<Vec<_>>();
+    Ok([indices, places].map(|values| PyBytes::new(py, &bytes(values))))
 }
 
 /// What the rows in a folder come to.
@@ -239,8 +234,7 @@ pub fn _study_summary<'py>(py: Python<'py>, folder: &Bound<'py, PyAny>) -> PyRes
 }
 
 /// A study from its parts.
-fn restored(py: Python<'_>, parts: &Bound<'_, PyBytes>) -> PyResult<Arc<Study>> {
+fn restored(parts: &Bound<'_, PyBytes>) -> Result<Study, StudyError> {
     let text = String::from_utf8_lossy(parts.as_bytes());
-    let study = StudyParts::from_json(&text).and_then(Study::from_parts);
-    study.map(Arc::new).map_err(|error| errors::study(py, error))
+    StudyParts::from_json(&text).and_then(Study::from_parts)
 }

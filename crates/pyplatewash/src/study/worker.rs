@@ -1,6 +1,6 @@
 //! What makes rows: on a thread of a worker, without any file of the study.
 
-use super::restored;
+use super::{StudyObject, restored};
 use crate::work::patiently_by;
 use crate::{argument, errors};
 use platewash::CancelToken;
@@ -26,7 +26,7 @@ impl StudyWorkerObject {
     /// Of a study by its parts.
     #[new]
     fn new(py: Python<'_>, parts: &Bound<'_, PyBytes>) -> PyResult<Self> {
-        let study = restored(py, parts)?;
+        let study = StudyObject::of(py, restored(parts))?.inner;
         Ok(Self {
             resolver: Arc::new(Resolver::new(study.clone())),
             study,

@@ -225,21 +225,20 @@ export class App {
 
   /** Marks a requirement's worst place, or none. */
   #mark(check: Check | null): void {
-    this.#stage.scene?.focus(check?.worst?.place_m ?? null);
+    this.#stage.scene?.focus(check?.worst.place_m ?? null);
     this.#requirements.mark(check);
   }
 
   /** Goes to where a requirement is worst. */
   #choose(check: Check): void {
-    const worst = check.worst;
-    if (worst === null) return;
+    const { time_s } = check.worst;
     this.#controls.pause();
-    if (worst.time_s !== null) this.#controls.seek(worst.time_s);
+    if (time_s !== undefined) this.#controls.seek(time_s);
     this.#panels.show("requirements");
     this.#mark(check);
     this.#stage.root.scrollIntoView({ block: "nearest" });
     this.#show();
-    announce(`${check.words}, worst${worst.time_s === null ? "" : ` at ${quantity(worst.time_s, 2, "seconds")}`}: ${worst.words}`);
+    announce(`${check.words}, worst${time_s === undefined ? "" : ` at ${quantity(time_s, 2, "seconds")}`}: ${check.place}`);
   }
 
   #toPlate(plate: number): void {

@@ -2,7 +2,7 @@
 import type { EditDocument } from "./edit/protocol.ts";
 import type { View } from "./view.ts";
 
-const VIEW = "platewash-view/1";
+const VIEW = "platewash-view/2";
 const EDIT = "platewash-edit/1";
 const NO_PLAN = "This page holds no plan. Write one with “platewash run”.";
 

@@ -170,7 +170,7 @@ export class Feed {
     const { view, recording } = this.#player;
     if (view.live === null || recording === null) return;
     const live = new Live(
-      view.live.events,
+      view.live,
       {
         phase: (phase) => {
           this.#player.phase = phase;

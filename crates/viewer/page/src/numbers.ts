@@ -16,21 +16,21 @@ export function indexBefore(times: ArrayLike<number>, count: number, t: number, 
   return Math.max(0, low - 1);
 }
 
-export type Decoded = Float64Array | Float32Array | Uint32Array | Uint16Array | Uint8Array;
+export type Decoded = Float64Array | Float32Array | Uint16Array | Uint8Array;
 
 /** An array that is not what the document says it is. */
 export class NumbersError extends Error {
   override name = "NumbersError";
 }
 
-const ARRAYS = { f64: Float64Array, f32: Float32Array, u32: Uint32Array, u16: Uint16Array, u8: Uint8Array } as const;
+const ARRAYS = { f64: Float64Array, f32: Float32Array, u16: Uint16Array, u8: Uint8Array } as const;
 type Kind = keyof typeof ARRAYS;
 
 function kindOf(numbers: Numbers): { kind: Kind; text: string } {
   for (const [kind, text] of Object.entries(numbers)) {
     if (kind in ARRAYS && typeof text === "string") return { kind: kind as Kind, text };
   }
-  throw new NumbersError("array without numbers: expected one of f64, f32, u32, u16, u8");
+  throw new NumbersError("array without numbers: expected one of f64, f32, u16, u8");
 }
 
 function bytesOf(text: string): Uint8Array {

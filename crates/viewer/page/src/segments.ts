@@ -21,7 +21,7 @@ export function plateNumber(plates: readonly Plate[], index: number): string {
 /** What the arm does in a segment. */
 export function segmentWords(segment: Segment, { heading, plates }: Pick<View, "heading" | "plates">): string {
   const names = heading.dry_run === null ? NAMES : IN_AIR;
-  const plate = segment.plate === null ? undefined : plates[segment.plate];
+  const plate = plates[segment.plate];
   if (segment.kind === "depart" || segment.kind === "return") return names[segment.kind];
   if (plate === undefined) return segment.kind === "transit" ? "On the way" : names[segment.kind].replace(/ (from|over)$/, "");
   return `${names[segment.kind]} ${plate.name}`;

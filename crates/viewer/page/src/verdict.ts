@@ -56,7 +56,7 @@ function withoutCertificate(view: View): string {
   switch (view.heading.process) {
     case "paper":
       return "No certificate: the paper’s program is judged by what is measured on its motion.";
-    case "configuration":
+    case null:
       return "No certificate: one configuration, not a motion.";
     case "wash":
       return "No certificate: nothing was proved about this plan.";

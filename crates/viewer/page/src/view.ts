@@ -1,5 +1,5 @@
 /**
- * What a page shows: the document `platewash-view/1`, which `crates/viewer/src/view` writes.
+ * What a page shows: the document `platewash-view/2`, which `crates/viewer/src/view` writes.
  *
  * Units are SI and radians. World, arm base and plate frames are three things: `mount` is `T_world_base`, a plate's `pose` is
  * `T_world_plate`. Everything that is drawn is in the world frame unless it says otherwise.
@@ -12,33 +12,28 @@ export interface Pose {
 }
 
 /** An array of numbers, little-endian and in base64, row by row. */
-export type Numbers = { shape: number[] } & (
-  | { f64: string }
-  | { f32: string }
-  | { u32: string }
-  | { u16: string }
-  | { u8: string }
-);
+export type Numbers = { shape: number[] } & ({ f64: string } | { f32: string } | { u16: string } | { u8: string });
 
-/** A shape in its own frame. `cylinder` and `capsule` lie along z. */
-export type Shape =
+/** A convex shape in its own frame. `cylinder` and `capsule` lie along z. */
+export type Solid =
   | { box: { half_m: [number, number, number] } }
   | { cylinder: { radius_m: number; half_length_m: number } }
   | { sphere: { radius_m: number } }
   | { capsule: { radius_m: number; half_length_m: number } }
-  | { hull: { points: [number, number, number][] } }
-  /** Triangles [count, 3 corners, 3 coordinates]. */
-  | { mesh: { triangles: Numbers } }
-  /** All below z = 0. */
-  | { half_space: Record<string, never> };
+  | { hull: { points: [number, number, number][] } };
+
+/** Of what stands around: all below z = 0, a convex shape, or the convex hulls of some lists of points. */
+export type ObstacleShape = "half_space" | { convex: Solid } | { parts: [number, number, number][][] };
+
+/** Triangles are [count, 3 corners, 3 coordinates]. */
+export type Shape = Solid | ObstacleShape | { mesh: { triangles: Numbers } };
 
 /** A shape somewhere. */
 export interface Body {
-  name: string;
   shape: Shape;
   pose: Pose;
-  /** Red, green, blue, alpha from 0 to 1. */
-  rgba: [number, number, number, number] | null;
+  /** Red, green, blue, alpha from 0 to 1; of links alone, where they are stated. */
+  rgba?: [number, number, number, number] | null;
 }
 
 /** What the page is about. */
@@ -47,7 +42,8 @@ export interface Heading {
   seed: number;
   /** SHA-256 of the plan; null for one configuration. */
   hash: string | null;
-  process: "wash" | "paper" | "configuration";
+  /** Null for one configuration. */
+  process: "wash" | "paper" | null;
   /** What must be read first of a dry run: nothing is washed; null for everything else. */
   dry_run: string | null;
   /** What the motion does to the plates. */
@@ -67,14 +63,10 @@ export interface Check {
   status: Status;
   /** Bound, seen and limit with units; the discrepancies; empty where there is nothing to add. */
   detail: string;
-  /** Where it is worst. */
-  worst: {
-    time_s: number | null;
-    /** World frame [m]. */
-    place_m: [number, number, number] | null;
-    /** Joint, plate, segment and pair in words. */
-    words: string;
-  } | null;
+  /** Where it is worst: when, and in the world frame [m]. What does not apply is left out. */
+  worst: { time_s?: number; place_m?: [number, number, number] };
+  /** The rest of it in words: joint, plate, segment and pair. */
+  place: string;
 }
 
 /** The proof. */
@@ -112,18 +104,17 @@ export interface ContactRequirements {
   dose_share: number;
 }
 
-/** What is proved of the contact with a plate: shares at least, strain at most. */
+/** What is proved of the contact with a plate, in the words of the certificate. */
 export interface PlateContact {
   plate: number;
-  pressed: number;
-  time_share: number;
-  dose_share: number;
-  /** Null where nothing is proved. */
-  strain: number | null;
-  /** Least and greatest. */
-  force_n: [number | null, number | null];
-  /** Of friction, at most: with the least and the greatest friction, which are assumptions. */
-  friction_torque_n_m: [number, number] | null;
+  pressed: { at_least: number };
+  time: { at_least: number };
+  dose: { at_least: number };
+  strain: { bound?: number };
+  least_force_n: { bound?: number };
+  greatest_force_n: { bound?: number };
+  /** Of friction, at most: with the least and the greatest friction, which are assumptions. Left out where nothing is proved. */
+  friction_torque_nm?: [number, number];
 }
 
 /** What counts as pressed: sampled on a raster, or proved. */
@@ -147,7 +138,6 @@ export interface Joint {
 
 /** A link, fixed to the frame behind `joints` joints: 0 for the base. */
 export interface Link {
-  name: string;
   joints: number;
   /** `T_frame_link`. */
   pose: Pose;
@@ -177,11 +167,11 @@ export interface Tool {
 
 export interface Surroundings {
   /** World frame. */
-  obstacles: Body[];
+  obstacles: (Body & { name: string })[];
   /** Radius about the base axis that plates' centres keep away from [m]. */
   base_circle_m: number | null;
   /** Where plates' centres are drawn, a closed polygon seen from above [m]. */
-  region_m: [number, number][] | null;
+  polygon_m: [number, number][] | null;
 }
 
 export interface Plate {
@@ -192,7 +182,7 @@ export interface Plate {
   meridian_m: [number, number][];
   thickness_m: number;
   /** What it stands on: a cylinder below the body under the pole. */
-  foot: { radius_m: number; height_m: number } | null;
+  foot?: { radius_m: number; height_m: number };
 }
 
 /** What the tip follows on a plate. */
@@ -206,7 +196,8 @@ export type SegmentKind = "depart" | "approach" | "wash" | "retreat" | "transit"
 
 export interface Segment {
   kind: SegmentKind;
-  plate: number | null;
+  /** The plate washed, or the plate it leads to. */
+  plate: number;
   t_start_s: number;
   t_end_s: number;
 }
@@ -281,7 +272,7 @@ export interface Execution {
 }
 
 export interface View {
-  format: "platewash-view/1";
+  format: "platewash-view/2";
   /** Of platewash. */
   version: string;
   heading: Heading;
@@ -302,8 +293,8 @@ export interface View {
   /** Of the planned motion. */
   coverage: PlateCoverage[];
   execution: Execution | null;
-  /** Where a live run's events come from; null where there is none. */
-  live: { events: string } | null;
+  /** Address of a live run's events; null where there is none. */
+  live: string | null;
 }
 
 /**

@@ -4,7 +4,7 @@ import { clusters, MARK_PX } from "../src/shell/transport.ts";
 import type { Check, Status } from "../src/view.ts";
 
 function check(words: string, time_s: number | null, status: Status = "proved"): Check {
-  return { requirement: words, words, status, detail: "", worst: time_s === null ? null : { time_s, place_m: null, words: "" } };
+  return { requirement: words, words, status, detail: "", worst: time_s === null ? {} : { time_s }, place: "" };
 }
 
 test("marks that would cover each other are one, at the worst of them", () => {

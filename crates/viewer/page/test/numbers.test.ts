@@ -12,7 +12,6 @@ test("every kind is little-endian", () => {
   const half = Buffer.alloc(4);
   half.writeFloatLE(0.5);
   assert.deepEqual([...decode({ shape: [1], f32: half.toString("base64") })], [0.5]);
-  assert.deepEqual([...decode({ shape: [1], u32: base64([1, 2, 3, 4]) })], [0x04030201]);
   assert.deepEqual([...decode({ shape: [2], u16: base64([255, 255, 254, 0]) })], [65535, 254]);
   assert.deepEqual([...decode({ shape: [1, 3], u8: base64([7, 0, 255]) })], [7, 0, 255]);
 });

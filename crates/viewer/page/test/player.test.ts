@@ -115,7 +115,7 @@ test("rows of the tests have as many columns as the server sends", () => {
 });
 
 function liveRun(): ReturnType<typeof played> & { runTo(seconds: number): void } {
-  const run = played({ execution: execution("live", []), live: { events: "events" } });
+  const run = played({ execution: execution("live", []), live: "events" });
   run.player.phase = "running";
   const runTo = (seconds: number): void => {
     for (; run.clock.now <= 1000 * seconds; run.clock.now += 20) {

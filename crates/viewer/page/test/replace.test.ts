@@ -9,14 +9,14 @@ import type { Plate, View } from "../src/view.ts";
 import { irb120, pose, TOOL } from "./irb120.ts";
 
 function plate(x: number, rim = 0.145): Plate {
-  return { name: "plate", pose: pose([x, 0, 0.03]), meridian_m: [[0, 0], [rim, 0]], thickness_m: 0.02, foot: null };
+  return { name: "plate", pose: pose([x, 0, 0.03]), meridian_m: [[0, 0], [rim, 0]], thickness_m: 0.02 };
 }
 
 function view(): View {
   return {
-    format: "platewash-view/1", version: "0",
+    format: "platewash-view/2", version: "0",
     heading: { scenario: "", seed: 0, hash: null, process: "wash", dry_run: null, treatment: "swept", robot: "", duration_s: 0 },
-    certificate: null, arm: irb120(pose([0, 0, 0])), tool: TOOL, surroundings: { obstacles: [], base_circle_m: 0.28, region_m: null },
+    certificate: null, arm: irb120(pose([0, 0, 0])), tool: TOOL, surroundings: { obstacles: [], base_circle_m: 0.28, polygon_m: null },
     plates: [plate(0.3), plate(0.6)], paths: [], segments: [], motion: null, pose_rad: [0, 0, 0, 0, 0, 0], clearance: null, coverage: [],
     execution: null, live: null,
   };
@@ -36,8 +36,8 @@ test("each change has made anew what depends on it, and nothing else", () => {
     [{ plates: [plate(0.31), plate(0.6)] }, ["plates", "paths", "extent"]],
     [{ tool: { ...TOOL, tip: pose([0, 0, 0.2]) } }, ["tool", "paths", "extent"]],
     [{ surroundings: { ...before.surroundings, base_circle_m: 0.3 } }, ["floor"]],
-    [{ surroundings: { ...before.surroundings, region_m: [[0, 0], [1, 0], [1, 1]] } }, ["floor"]],
-    [{ surroundings: { ...before.surroundings, obstacles: [{ name: "box", shape: { sphere: { radius_m: 0.1 } }, pose: pose([1, 0, 0]), rgba: null }] } }, ["obstacles", "extent"]],
+    [{ surroundings: { ...before.surroundings, polygon_m: [[0, 0], [1, 0], [1, 1]] } }, ["floor"]],
+    [{ surroundings: { ...before.surroundings, obstacles: [{ name: "box", shape: { convex: { sphere: { radius_m: 0.1 } } }, pose: pose([1, 0, 0]) }] } }, ["obstacles", "extent"]],
     [{ pose_rad: [1, 0, 0, 0, 0, 0] }, ["extent"]],
     [{ paths: [{ plate: 0, points_m: { shape: [0, 3], f32: "" } }] }, ["paths"]],
     [{ heading: { ...before.heading, seed: 2 } }, []],

@@ -7,7 +7,7 @@ import { segmentAt, segmentWords } from "../src/segments.ts";
 import { verdict, washed } from "../src/verdict.ts";
 import type { Certificate, Check, Execution, Plate, Segment, Status, View } from "../src/view.ts";
 
-const check = (status: Status): Check => ({ requirement: "tilt", words: "tilt", status, detail: "", worst: null });
+const check = (status: Status): Check => ({ requirement: "tilt", words: "tilt", status, detail: "", worst: {}, place: "" });
 
 function viewWith(statuses: Status[] | null, certificate: Partial<Certificate> = {}): View {
   const checks = (statuses ?? []).map(check);
@@ -67,10 +67,10 @@ test("washing is judged only where it was", () => {
 });
 
 test("a document that cannot be read says why", () => {
-  for (const text of ["", "{", "[]", "null", "{}", '{"format":"platewash-view/2"}']) {
+  for (const text of ["", "{", "[]", "null", "{}", '{"format":"platewash-view/1"}']) {
     assert.throws(() => parseView(text), DocumentError);
   }
-  assert.equal(parseView('{"format":"platewash-view/1"}').format, "platewash-view/1");
+  assert.equal(parseView('{"format":"platewash-view/2"}').format, "platewash-view/2");
 });
 
 test("links go there and back, and garbage goes nowhere", () => {

@@ -1,7 +1,8 @@
 //! The arm: joints, links, what they look like and what counts for the proof.
 
-use super::body::{Body, Pose};
-use platewash_kinematics::{AXES, Frame, Link as ModelLink, Pose as Rigid, RobotModel};
+use super::body::{Body, Shape};
+use platewash_kinematics::{AXES, Frame, Link as ModelLink, Pose, RobotModel};
+use platewash_workcell::pose;
 use serde::Serialize;
 
 /// An arm where it is mounted.
@@ -10,12 +11,14 @@ pub struct Arm {
     /// Its name.
     pub name: String,
     /// `T_world_base`.
+    #[serde(serialize_with = "pose::serialize")]
     pub mount: Pose,
     /// From the base to the tip.
     pub joints: Vec<Joint>,
     /// All links.
     pub links: Vec<Link>,
     /// `T_6_flange`: the mounting frame behind joint 6.
+    #[serde(serialize_with = "pose::serialize")]
     pub flange: Pose,
 }
 
@@ -25,6 +28,7 @@ pub struct Joint {
     /// Its name.
     pub name: String,
     /// `T_parent_joint` at 0.
+    #[serde(serialize_with = "pose::serialize")]
     pub origin: Pose,
     /// Lowest and highest position \[rad\]; `None` where it turns without end.
     pub position_rad: Option<[f64; 2]>,
@@ -37,13 +41,12 @@ pub struct Joint {
 /// A link, fixed to the frame behind some joints.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Link {
-    /// Its name.
-    pub name: String,
     /// How many joints are between it and the base.
     pub joints: usize,
     /// `T_frame_link`.
+    #[serde(serialize_with = "pose::serialize")]
     pub pose: Pose,
-    /// What it looks like, link frame; the shapes that count for the proof where nothing else is known.
+    /// What it looks like, link frame; where nothing is known, the page shows the shapes that count for the proof.
     pub visuals: Vec<Body>,
     /// The shapes that count for the proof, link frame.
     pub collision: Vec<Body>,
@@ -51,14 +54,14 @@ pub struct Link {
 
 impl Arm {
     /// The arm at `mount` (`T_world_base`) with the frame that carries the tool at `flange`, and the accelerations that a job states \[rad/s²\].
-    pub(super) fn new(robot: &RobotModel, mount: &Rigid, flange: &Frame, accelerations: Option<[f64; AXES]>) -> Self {
+    pub(super) fn new(robot: &RobotModel, mount: &Pose, flange: &Frame, accelerations: Option<[f64; AXES]>) -> Self {
         let joints = (0..AXES).map(|k| joint(robot, k, accelerations.map(|all| all[k])));
         Self {
             name: robot.name().to_owned(),
-            mount: mount.into(),
+            mount: *mount,
             joints: joints.collect(),
             links: robot.links().iter().map(link).collect(),
-            flange: Pose::from(&Rigid::from(flange.on_body())),
+            flange: flange.on_body().into(),
         }
     }
 }
@@ -68,7 +71,7 @@ fn joint(robot: &RobotModel, k: usize, acceleration_rad_s2: Option<f64>) -> Join
     let range = [limits.lower[k], limits.upper[k]];
     Joint {
         name: robot.joints()[k].name.clone(),
-        origin: Pose::from(&Rigid::from(&robot.folded()[k])),
+        origin: (&robot.folded()[k]).into(),
         position_rad: range.iter().all(|limit| limit.is_finite()).then_some(range),
         speed_rad_s: limits.velocity[k],
         acceleration_rad_s2,
@@ -76,25 +79,20 @@ fn joint(robot: &RobotModel, k: usize, acceleration_rad_s2: Option<f64>) -> Join
 }
 
 fn link(link: &ModelLink) -> Link {
-    let numbered = |k: usize| format!("{} {}", link.name, k + 1);
-    let collision = link.collision.iter().enumerate();
-    let collision = collision.map(|(k, shape)| Body::plain(&numbered(k), (&shape.shape).into(), &shape.pose));
-    let collision: Vec<_> = collision.collect();
-    let visuals = link.visuals.iter().enumerate().map(|(k, visual)| Body {
-        name: visual.name.clone().unwrap_or_else(|| numbered(k)),
+    let collision = link.collision.iter().map(|part| Body {
+        shape: Shape::Solid(part.shape.clone()),
+        pose: part.pose,
+        rgba: None,
+    });
+    let visuals = link.visuals.iter().map(|visual| Body {
         shape: (&visual.shape).into(),
-        pose: (&visual.pose).into(),
+        pose: visual.pose,
         rgba: visual.rgba,
     });
-    let mut visuals: Vec<_> = visuals.collect();
-    if visuals.is_empty() {
-        visuals.clone_from(&collision);
-    }
     Link {
-        name: link.name.clone(),
         joints: link.frame.body(),
-        pose: Pose::from(&Rigid::from(link.frame.on_body())),
-        visuals,
-        collision,
+        pose: link.frame.on_body().into(),
+        visuals: visuals.collect(),
+        collision: collision.collect(),
     }
 }

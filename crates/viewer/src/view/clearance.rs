@@ -1,8 +1,7 @@
 //! The smallest distance of all pairs that count, over time: sampled to look at, not the proof.
 
-use super::motion::segment_at;
 use super::numbers::Numbers;
-use nalgebra::{Point3, SVector, Vector6};
+use nalgebra::{Point3, Vector3};
 use platewash_certificate::{self as proved, ClearanceRule, Requirement};
 use platewash_kinematics::RobotModel;
 use platewash_workcell::clearance::Nearest;
@@ -46,27 +45,24 @@ impl Clearance {
         let times = times(plan, certificate);
         let look = |t_s: &f64| {
             let state = motion.at(*t_s)?;
-            Some((*t_s, rule.nearest(&state.q, segment_at(&plan.segments, *t_s))?))
+            Some((*t_s, rule.nearest(&state.q, segment_at(plan, *t_s))?))
         };
         let found: Vec<(f64, Nearest)> = times.par_iter().filter_map(look).collect();
         let mount = &plan.job.workcell.mount;
-        let in_world = |at: &[f64; 3]| mount.transform_point(&Point3::from(*at)).coords;
-        let points = found
-            .iter()
-            .map(|(_, nearest)| nearest.points_m.each_ref().map(in_world));
-        let points: Vec<Vector6<f64>> = points
-            .map(|[a, b]| SVector::from_iterator(a.iter().chain(&b).copied()))
-            .collect();
+        let in_world = |at: &[f64; 3]| -> Vector3<f64> { mount.transform_point(&Point3::from(*at)).coords };
+        let points = found.iter().flat_map(|(_, nearest)| nearest.points_m);
+        let points = points.flat_map(|point| <[f64; 3]>::from(in_world(&point)));
         let pairs = found.iter().flat_map(|(_, nearest)| nearest.bodies);
-        let mut nearest_m = Numbers::f32_rows(points.iter());
-        nearest_m.shape = vec![found.len(), 2, 3];
         (!found.is_empty()).then(|| Self {
             margin_m: plan.job.requirements.clearance_m,
-            t_s: Numbers::f64(&found.iter().map(|(t_s, _)| *t_s).collect::<Vec<_>>()),
-            distance_m: Numbers::f32(found.iter().map(|(_, nearest)| nearest.distance_m)),
-            nearest_m,
-            pair: Numbers::u16_shaped(
-                vec![found.len(), 2],
+            t_s: Numbers::f64([found.len()], found.iter().map(|(t_s, _)| *t_s)),
+            distance_m: Numbers::f32(
+                [found.len()],
+                found.iter().map(|(_, nearest)| nearest.distance_m as f32),
+            ),
+            nearest_m: Numbers::f32([found.len(), 2, 3], points.map(|value| value as f32)),
+            pair: Numbers::u16(
+                [found.len(), 2],
                 pairs.map(|body| u16::try_from(body).unwrap_or(u16::MAX)),
             ),
             names: rule.body_names().into_iter().map(str::to_owned).collect(),
@@ -87,4 +83,10 @@ fn times(plan: &Plan, certificate: Option<&proved::Certificate>) -> Vec<f64> {
     times.sort_unstable_by(f64::total_cmp);
     times.dedup();
     times
+}
+
+/// The segment of a time \[s\]: at a boundary the later one.
+fn segment_at(plan: &Plan, t_s: f64) -> Option<usize> {
+    let begun = plan.segments.partition_point(|segment| segment.t_start_s <= t_s);
+    begun.checked_sub(1)
 }

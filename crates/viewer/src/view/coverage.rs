@@ -5,9 +5,8 @@
 //! tilted by τ, its face is an ellipse that holds this disc. It counts while the plan washes the plate, as long as the sponge touches
 //! ([`platewash_workcell::tool::Tool::touch`]).
 
-use super::numbers::Numbers;
 use super::pressed::Counted;
-use super::raster::{Disc, Raster};
+use super::raster::{Disc, Marks, Raster};
 use super::tips::{Tip, washes};
 use platewash_certificate as proved;
 use platewash_workcell::plan::Plan;
@@ -34,15 +33,9 @@ pub struct PlateCoverage {
     pub half_m: f64,
     /// What counts; `None` where the sponge has but to be over a place.
     pub counted: Option<Counted>,
-    /// \[rows, columns\], y then x ascending in the plate's frame: when the cell's middle first counts, in steps of `step_s`;
-    /// 65535 for never, 65534 for cells with their middle outside the rim.
-    pub first: Numbers,
-    /// \[s\]
-    pub step_s: f64,
-    /// \[rows, columns\]: for how long, in steps of `dwell_step_s`.
-    pub dwell: Numbers,
-    /// \[s\]
-    pub dwell_step_s: f64,
+    /// When and for how long.
+    #[serde(flatten)]
+    pub marks: Marks,
     /// The least share of what counts that the certificate proves; `None` without one.
     pub proved: Option<f64>,
 }
@@ -75,15 +68,11 @@ pub(super) fn plates(
         let ways = of_plate.map(|(_, span)| tips(span));
         let counted = Counted::on(plate, &plan.job);
         let tool = &plan.job.workcell.tool;
-        let marks = swept(plate, tool, counted.as_ref(), ways, cells).marks(duration_s);
         Some(PlateCoverage {
             plate: index,
             half_m: plate.rim_m(),
             counted,
-            first: marks.first,
-            step_s: marks.step_s,
-            dwell: marks.dwell,
-            dwell_step_s: marks.dwell_step_s,
+            marks: swept(plate, tool, counted.as_ref(), ways, cells).marks(duration_s),
             proved: certificate.and_then(|certificate| proved_share(certificate, index, counted)),
         })
     };

@@ -1,14 +1,16 @@
-//! What an arm did with a plan.
+//! What an arm did with a plan, however that is known: simulated, followed without a plant, recorded, or still to come.
 
 use super::coverage::{self, PlateCoverage};
 use super::error::ViewError;
-use super::executed::{Executed, Source};
 use super::numbers::Numbers;
 use super::tips::{Tip, Tips};
 use platewash_certificate as proved;
 use platewash_kinematics::JointVector;
-use platewash_workcell::csv::RecordedSample;
+use platewash_simulator::{self as simulator, SimulationReport};
+use platewash_workcell::csv::{RecordedMotion, RecordedSample};
 use platewash_workcell::plan::Plan;
+use platewash_workcell::simulation::ControlLawName;
+use platewash_workcell::trajectory::Trajectory;
 use serde::Serialize;
 
 /// Time between two samples at least \[s\].
@@ -23,17 +25,131 @@ const WASH_STEP_S: f64 = 4e-3;
 /// How much later than the plan a motion may end \[s\].
 const SLACK_S: f64 = 1.0;
 
-/// What an arm did.
+/// Where an execution comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Source {
+    /// A simulation.
+    Simulated,
+    /// A recorded motion.
+    Recorded,
+    /// A simulation that is running: there are no samples yet.
+    Live,
+}
+
+/// What is known of an execution beside its samples.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Execution {
+pub struct Told {
     /// Where it comes from.
     pub source: Source,
-    /// Name of the control law, where it is known.
-    pub law: Option<String>,
+    /// The control law, where it is known.
+    pub law: Option<ControlLawName>,
     /// First line of its report, where there is one.
     pub headline: Option<String>,
     /// Whether every plate is washed, where that is judged.
     pub washed: Option<bool>,
+    /// Six limits \[N·m\]; `None` where not all are known.
+    pub torque_limit_n_m: Option<[f64; 6]>,
+}
+
+impl Told {
+    /// Of an execution of which nothing is known but where it comes from.
+    fn new(source: Source, law: Option<ControlLawName>) -> Self {
+        Self {
+            source,
+            law,
+            headline: None,
+            washed: None,
+            torque_limit_n_m: None,
+        }
+    }
+}
+
+/// What an arm did, sample by sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Executed {
+    told: Told,
+    samples: Vec<RecordedSample>,
+}
+
+impl Executed {
+    /// A simulation with its report. Under a kinematic law there are no torques.
+    #[must_use]
+    pub fn simulated(execution: &simulator::Execution, report: &SimulationReport) -> Self {
+        let driven = !report.law.is_kinematic();
+        let samples = execution.samples.iter().map(|sample| RecordedSample {
+            t_s: sample.t_s,
+            q: sample.state.q,
+            qd: sample.state.qd,
+            qdd: sample.qdd,
+            torque: driven.then_some(sample.torque),
+            force_n: None,
+        });
+        let told = Told {
+            headline: Some(report.headline.clone()),
+            // Nothing is asked of a dry run that could be washed.
+            washed: report.dry_run.is_none().then_some(report.verdict.is_done()),
+            torque_limit_n_m: execution.limits.and_then(|limits| all(limits.0)),
+            ..Told::new(Source::Simulated, Some(report.law))
+        };
+        let samples = samples.collect();
+        Self { told, samples }
+    }
+
+    /// A motion that a kinematic law made of the commands, as the paper's program does; `headline` is the first line of its report.
+    #[must_use]
+    pub fn followed(motion: &Trajectory, law: ControlLawName, headline: &str, washed: bool) -> Self {
+        let states = motion.times().iter().filter_map(|t_s| Some((*t_s, motion.at(*t_s)?)));
+        let samples = states.map(|(t_s, state)| RecordedSample {
+            t_s,
+            q: state.q,
+            qd: state.qd,
+            qdd: state.qdd,
+            torque: None,
+            force_n: None,
+        });
+        let told = Told {
+            headline: Some(headline.to_owned()),
+            washed: Some(washed),
+            ..Told::new(Source::Simulated, Some(law))
+        };
+        let samples = samples.collect();
+        Self { told, samples }
+    }
+
+    /// A recorded motion: nothing but its samples is known.
+    #[must_use]
+    pub fn recorded(motion: &RecordedMotion) -> Self {
+        Self {
+            told: Told::new(Source::Recorded, None),
+            samples: motion.samples.clone(),
+        }
+    }
+
+    /// A simulation under a law that begins now: its samples come as it runs.
+    #[must_use]
+    pub fn live(law: ControlLawName, torque_limit_n_m: [Option<f64>; 6]) -> Self {
+        let told = Told {
+            torque_limit_n_m: all(torque_limit_n_m),
+            ..Told::new(Source::Live, Some(law))
+        };
+        let samples = Vec::new();
+        Self { told, samples }
+    }
+}
+
+/// All six, or none.
+fn all(limits: [Option<f64>; 6]) -> Option<[f64; 6]> {
+    let known: Option<Vec<f64>> = limits.into_iter().collect();
+    known.and_then(|known| known.try_into().ok())
+}
+
+/// What an arm did, as it is shown.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Execution {
+    /// What is known of it.
+    #[serde(flatten)]
+    pub told: Told,
     /// \[n\] \[s\].
     pub t_s: Numbers,
     /// \[n, 6\] \[rad\].
@@ -44,8 +160,6 @@ pub struct Execution {
     pub qdd_rad_s2: Option<Numbers>,
     /// \[n, 6\] \[N·m\]; `None` where no torques are known.
     pub torque_n_m: Option<Numbers>,
-    /// Six limits \[N·m\]; `None` where not all are known.
-    pub torque_limit_n_m: Option<[f64; 6]>,
     /// \[n\]: distance of the tip from where the plan has it at that time \[m\].
     pub error_m: Numbers,
     /// What was swept.
@@ -78,17 +192,16 @@ impl Execution {
             coverage::plates(plan, certificate, |span| way(samples, tips, span))
         };
         Ok(Self {
-            source: executed.source,
-            law: executed.law.clone(),
-            headline: executed.headline.clone(),
-            washed: executed.washed,
-            t_s: Numbers::f64(&shown.iter().map(|sample| sample.t_s).collect::<Vec<_>>()),
+            told: executed.told.clone(),
+            t_s: Numbers::f64([shown.len()], shown.iter().map(|sample| sample.t_s)),
             q_rad: Numbers::f32_rows(shown.iter().map(|sample| &sample.q)),
             qd_rad_s: Numbers::f32_rows(shown.iter().map(|sample| &sample.qd)),
             qdd_rad_s2: column(&shown, |sample| Some(&sample.qdd)),
             torque_n_m: column(&shown, |sample| sample.torque.as_ref()),
-            torque_limit_n_m: executed.torque_limit_n_m,
-            error_m: Numbers::f32(shown.iter().map(|sample| off_m(sample).unwrap_or(f64::NAN))),
+            error_m: Numbers::f32(
+                [shown.len()],
+                shown.iter().map(|sample| off_m(sample).unwrap_or(f64::NAN) as f32),
+            ),
             coverage,
         })
     }

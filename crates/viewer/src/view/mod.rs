@@ -1,4 +1,4 @@
-//! What a page shows: the document `platewash-view/1`. `page/src/view.ts` states the same for those who read it.
+//! What a page shows: the document `platewash-view/2`. `page/src/view.ts` states the same for those who read it.
 //!
 //! Units are SI and radians. What is drawn is in the world frame unless it says otherwise. Nothing in a document is a proof but what it
 //! repeats of the certificate: distances and swept areas over time are sampled to look at.
@@ -6,13 +6,15 @@
 //! | concept | file |
 //! | --- | --- |
 //! | arrays as text | `numbers.rs` |
-//! | shapes and poses | `body.rs` |
+//! | shapes of links | `body.rs` |
 //! | what the page is about; what is proved | `heading.rs`, `certificate.rs` |
-//! | arm, tool, surroundings, plates and paths | `arm.rs`, `tool.rs`, `surroundings.rs`, `plates.rs` |
-//! | planned motion, and its tip | `motion.rs`, `tips.rs` |
+//! | arm; plates and paths | `arm.rs`; `plates.rs` |
+//! | the tip along the planned motion | `tips.rs` |
 //! | smallest distance over time | `clearance.rs` |
 //! | swept or pressed area over time | `coverage.rs`, `pressed.rs`, `raster.rs` |
-//! | what an arm did: as it is known, as it is shown | `executed.rs`, `execution.rs` |
+//! | what an arm did: as it is known, as it is shown | `execution.rs` |
+//!
+//! Tool, obstacles, plates, segments and checks are as plan files and certificates state them.
 
 mod arm;
 mod body;
@@ -20,45 +22,40 @@ mod certificate;
 mod clearance;
 pub(crate) mod coverage;
 mod error;
-mod executed;
 mod execution;
 mod heading;
-mod motion;
 mod numbers;
 mod plates;
 pub(crate) mod pressed;
 pub(crate) mod raster;
-mod surroundings;
 pub(crate) mod tips;
-mod tool;
 
 pub use arm::{Arm, Joint, Link};
-pub use body::{Body, Pose, Shape};
-pub use certificate::{Certificate, Check, Contact, Place, PlateContact};
+pub use body::{Body, Shape};
+pub use certificate::{Certificate, Check, Contact};
 pub use clearance::Clearance;
 pub use coverage::PlateCoverage;
 pub use error::ViewError;
-pub use executed::{Executed, Source};
-pub use execution::Execution;
-pub use heading::{Heading, Process};
-pub use motion::{Motion, Segment};
+pub use execution::{Executed, Execution, Source, Told};
+pub use heading::Heading;
 pub use numbers::{Data, Numbers};
 pub use plates::{Plate, WashPath};
 pub use pressed::Counted;
-pub use surroundings::Surroundings;
-pub use tool::{Sponge, Tool};
+pub use raster::Marks;
 
 use platewash_certificate as proved;
-use platewash_kinematics::{JointVector, Pose as Rigid, RobotModel};
+use platewash_kinematics::{AXES, JointVector, Pose, RobotModel};
 use platewash_workcell::job::{JobTerms, WashJob};
 use platewash_workcell::layout::TaskRegion;
+use platewash_workcell::obstacle::Obstacle;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::tool as held;
+use platewash_workcell::tool::Tool;
+use platewash_workcell::trajectory::{PlanSegment, Trajectory};
 use serde::Serialize;
 use tips::Tips;
 
 /// The format of the document.
-pub const FORMAT: &str = "platewash-view/1";
+pub const FORMAT: &str = "platewash-view/2";
 
 /// What a page shows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -82,7 +79,7 @@ pub struct View {
     /// What the tip follows, in the order of washing.
     pub paths: Vec<WashPath>,
     /// The stretches of the motion.
-    pub segments: Vec<Segment>,
+    pub segments: Vec<PlanSegment>,
     /// The planned motion; `None` for one configuration.
     pub motion: Option<Motion>,
     /// What the arm shows where there is no motion \[rad\].
@@ -93,15 +90,40 @@ pub struct View {
     pub coverage: Vec<PlateCoverage>,
     /// What an arm did.
     pub execution: Option<Execution>,
-    /// Where a live run's events come from.
-    pub live: Option<Live>,
+    /// Address of a live run's events, beside that of the page.
+    pub live: Option<String>,
 }
 
-/// A live run.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Live {
-    /// Address of its events, beside that of the page.
-    pub events: String,
+/// What stands around an arm, and where plates may lie.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Surroundings {
+    /// World frame.
+    pub obstacles: Vec<Obstacle>,
+    /// Where the centres of plates are drawn.
+    #[serde(flatten)]
+    pub region: TaskRegion,
+}
+
+/// The planned motion: between two knots each joint is the cubic of their positions and speeds (Hermite).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Motion {
+    /// \[n\], from 0 \[s\].
+    pub t_s: Numbers,
+    /// \[n, 6\], in double precision: knots lie close, and the accelerations between them are differences of positions \[rad\].
+    pub q_rad: Numbers,
+    /// \[n, 6\] \[rad/s\].
+    pub qd_rad_s: Numbers,
+}
+
+impl From<&Trajectory> for Motion {
+    fn from(motion: &Trajectory) -> Self {
+        let (times, positions) = (motion.times(), motion.positions());
+        Self {
+            t_s: Numbers::f64([times.len()], times.iter().copied()),
+            q_rad: Numbers::f64([positions.len(), AXES], positions.iter().flatten().copied()),
+            qd_rad_s: Numbers::f32_rows(motion.speeds().iter()),
+        }
+    }
 }
 
 /// What is shown beside a plan.
@@ -135,14 +157,12 @@ impl View {
             heading: Heading::of_plan(plan),
             certificate: certificate.map(Certificate::new),
             paths: plates::paths(plan, &tips),
-            segments: plan.segments.iter().map(Segment::from).collect(),
+            segments: plan.segments.clone(),
             motion: Some((&motion).into()),
             clearance: Clearance::new(plan, robot, &motion, certificate),
             coverage: coverage::plates(plan, certificate, |[from, to]| tips.during(from, to)),
             execution: execution.transpose()?,
-            live: beside.events.map(|events| Live {
-                events: events.to_owned(),
-            }),
+            live: beside.events.map(str::to_owned),
             ..Self::of_terms(job, robot, &region, start)
         })
     }
@@ -165,7 +185,10 @@ impl View {
         let plates = terms.plates.iter().enumerate();
         Self {
             arm: Arm::new(robot, &workcell.mount, &flange, accelerations),
-            surroundings: Surroundings::new(&workcell.obstacles, region),
+            surroundings: Surroundings {
+                obstacles: workcell.obstacles.clone(),
+                region: region.clone(),
+            },
             plates: plates.map(|(index, plate)| Plate::new(index, plate)).collect(),
             ..Self::of_configuration(robot, Some(&workcell.tool), q)
         }
@@ -173,15 +196,15 @@ impl View {
 
     /// One configuration of an arm that stands at the origin \[rad\], with a tool or without.
     #[must_use]
-    pub fn of_configuration(robot: &RobotModel, tool: Option<&held::Tool>, q: &JointVector) -> Self {
+    pub fn of_configuration(robot: &RobotModel, tool: Option<&Tool>, q: &JointVector) -> Self {
         let flange = tool.map_or(robot.last_link_frame(), |tool| tool.mounting_frame(robot));
         Self {
             format: FORMAT,
             version: env!("CARGO_PKG_VERSION"),
             heading: Heading::of_configuration(robot.name()),
             certificate: None,
-            arm: Arm::new(robot, &Rigid::identity(), &flange, None),
-            tool: tool.map(Tool::from),
+            arm: Arm::new(robot, &Pose::identity(), &flange, None),
+            tool: tool.cloned(),
             surroundings: Surroundings::default(),
             plates: Vec::new(),
             paths: Vec::new(),

@@ -1,6 +1,5 @@
 //! Plates, and what the tip follows on them.
 
-use super::body::Pose;
 use super::numbers::Numbers;
 use super::tips::{Tips, washes};
 use nalgebra::Vector3;
@@ -26,14 +25,11 @@ const TURN_RAD: f64 = 0.06;
 pub struct Plate {
     /// Its name, as the pairs of bodies have it.
     pub name: String,
-    /// `T_world_plate`: origin at the pole of the face, z out of the plate.
-    pub pose: Pose,
     /// The face from the pole to the rim: distance from the axis, and height \[m\].
     pub meridian_m: Vec<[f64; 2]>,
-    /// Thickness, from the face against its axis \[m\].
-    pub thickness_m: f64,
-    /// What it stands on, below the body under the pole; `None` of a plate without a foot.
-    pub foot: Option<plate::Foot>,
+    /// The rest of it.
+    #[serde(flatten)]
+    pub plate: plate::Plate,
 }
 
 /// What the tip follows on a plate.
@@ -49,13 +45,10 @@ impl Plate {
     /// The plate of that index.
     #[must_use]
     pub fn new(index: usize, plate: &plate::Plate) -> Self {
-        let surface = &plate.surface;
         Self {
             name: format!("plate {index}"),
-            pose: (&plate.pose).into(),
-            meridian_m: surface.outline_m(TURN_RAD),
-            thickness_m: plate.thickness_m,
-            foot: plate.foot,
+            meridian_m: plate.surface.outline_m(TURN_RAD),
+            plate: *plate,
         }
     }
 }

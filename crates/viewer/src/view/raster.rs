@@ -1,6 +1,7 @@
 //! When a sponge is first on each cell of the square around a face, and for how long: a disc that moves over it, or by the stays of points.
 
 use super::numbers::Numbers;
+use serde::Serialize;
 
 /// The mark of a cell that the disc is never over.
 const NEVER: u16 = u16::MAX;
@@ -34,11 +35,16 @@ pub(crate) struct Raster {
 }
 
 /// A raster as the page reads it.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Marks {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Marks {
+    /// \[rows, columns\], y then x ascending in the plate's frame: when the cell's middle first counts, in steps of `step_s`;
+    /// 65535 for never, 65534 for cells with their middle outside the rim.
     pub first: Numbers,
+    /// \[s\]
     pub step_s: f64,
+    /// \[rows, columns\]: for how long, in steps of `dwell_step_s`.
     pub dwell: Numbers,
+    /// \[s\]
     pub dwell_step_s: f64,
 }
 
@@ -109,7 +115,7 @@ impl Raster {
 
     /// The raster in steps of time, for a motion of that duration \[s\].
     pub fn marks(&self, duration_s: f64) -> Marks {
-        let shape = || vec![self.cells, self.cells];
+        let shape = [self.cells, self.cells];
         let step_s = (duration_s / MOST_STEPS).max(1e-3);
         let longest_s = self.dwell_s.iter().copied().fold(0.0, f64::max);
         let dwell_step_s = (longest_s / 255.0).max(1e-3);
@@ -127,9 +133,9 @@ impl Raster {
             .iter()
             .map(|s| (s / dwell_step_s).round().clamp(0.0, 255.0) as u8);
         Marks {
-            first: Numbers::u16_shaped(shape(), first),
+            first: Numbers::u16(shape, first),
             step_s,
-            dwell: Numbers::u8_shaped(shape(), dwell),
+            dwell: Numbers::u8(shape, dwell),
             dwell_step_s,
         }
     }
@@ -250,9 +256,9 @@ mod tests {
         let marks = raster.marks(60.0);
         assert_eq!(
             marks.first,
-            Numbers::u16_shaped(vec![2, 2], [NEVER, 3000, NEVER, NEVER].into_iter())
+            Numbers::u16([2, 2], [NEVER, 3000, NEVER, NEVER].into_iter())
         );
-        assert_eq!(marks.dwell, Numbers::u8_shaped(vec![2, 2], [0, 255, 0, 0].into_iter()));
+        assert_eq!(marks.dwell, Numbers::u8([2, 2], [0, 255, 0, 0].into_iter()));
         assert!((255.0 * marks.dwell_step_s - 2.0).abs() < 1e-12);
     }
 
@@ -265,7 +271,7 @@ mod tests {
         let marks = raster.marks(1e9);
         let corner = |cell: usize| [0, 4, 20, 24].contains(&cell);
         let expected = (0..25).map(|cell| if corner(cell) { OUTSIDE } else { NEVER });
-        assert_eq!(marks.first, Numbers::u16_shaped(vec![5, 5], expected));
+        assert_eq!(marks.first, Numbers::u16([5, 5], expected));
         // However long a motion lasts, its steps can be counted.
         assert!(marks.step_s * MOST_STEPS >= 1e9);
     }

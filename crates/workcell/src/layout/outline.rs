@@ -4,6 +4,7 @@
 
 use crate::layout::region::Region;
 use crate::trig::sin_cos;
+use serde::Serialize;
 
 /// Greatest angle between two points of an arc \[rad\].
 const ARC_STEP_RAD: f64 = 0.05;
@@ -71,7 +72,7 @@ fn kept(polygon: &[Point], inside: impl Fn(&Point) -> f64) -> Vec<Point> {
 }
 
 /// Where the centres of plates are drawn. A plan has its plates and does not say it.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct TaskRegion {
     /// Radius about the base axis that the centres keep away from \[m\].
     pub base_circle_m: Option<f64>,

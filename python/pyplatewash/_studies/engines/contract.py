@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
 
 from ..._errors import EngineError, PlatewashError
 from .worker import Made, Share
-
 
 #: Why a number of workers is refused.
 WORKERS = "workers: is for workers that are begun here; a cluster that is there has its own"
@@ -29,8 +29,21 @@ def asking(cluster: str) -> Iterator[None]:
         raise EngineError(f"the {cluster} cluster does not answer any more: {type(error).__name__}: {error}") from error
 
 
+def given_back(cluster: str, error: BaseException) -> PlatewashError:
+    """What to raise for the fault with which a share came back."""
+    return error if isinstance(error, PlatewashError) else EngineError(f"{cluster} gave a share back: {type(error).__name__}: {error}")
+
+
+def processors() -> int:
+    """The processors that this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:
+        return os.cpu_count() or 1
+
+
 class Engine(Protocol):
-    """Workers. What is not for a share of rows to say, such as a cluster that is gone, raises EngineError."""
+    """Workers. What is not for a share of rows to say, such as a cluster that is gone, raises EngineError or what its package raises."""
 
     #: Shares that are sent for each worker: more than one where the way to it takes long.
     depth: int

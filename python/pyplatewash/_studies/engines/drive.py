@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any
 
 from ... import _core
-from .contract import Died, Engine
+from .contract import Died, Engine, asking
 from .worker import Share
 
 #: How long a share shall take [s]: the way to a worker and back takes some milliseconds.
@@ -29,8 +29,8 @@ MOST_DEATHS = 2
 LAST_S = 5.0
 #: How long workers may be lacking before that is said [s].
 LACKING_S = 10.0
-#: Time between two looks for signals [s].
-LOOK_S = 0.2
+#: Time between two looks for signals [s], and between two questions of how many workers there are.
+LOOK_S, ASK_S = 0.2, 2.0
 
 
 @dataclass
@@ -83,7 +83,8 @@ def drive(engine: Engine, journal: _core.StudyJournal, rows: int, told: Callable
 
 class _Driver:
     def __init__(self, engine: Engine, journal: _core.StudyJournal, rows: int, told: Callable[[int, int], object]) -> None:
-        self._engine = engine
+        self._engine, self._name = engine, type(engine).__name__
+        self._asked, self._slots = -ASK_S, 0
         self._journal = journal
         self._rows = rows
         self._told = told
@@ -107,9 +108,16 @@ class _Driver:
                 continue
             self._take(ended)
 
+    def _workers(self) -> int:
+        if time.monotonic() - self._asked >= ASK_S:
+            with asking(self._name):
+                self._slots = self._engine.slots()
+            self._asked = time.monotonic()
+        return self._slots
+
     def _look(self) -> None:
         """Says once that there are no workers; some may come."""
-        if self._engine.slots() > 0:
+        if self._workers() > 0:
             self._staffed = time.monotonic()
         elif self._staffed is not None and time.monotonic() - self._staffed >= LACKING_S:
             self._staffed = None
@@ -128,13 +136,14 @@ class _Driver:
 
     def _send(self) -> bool:
         """Sends what workers are free for; whether anything is under way."""
-        lanes = max(self._engine.slots(), 1) * self._engine.depth
+        lanes = max(self._workers(), 1) * self._engine.depth
         while len(self._flying) < lanes and not self._is_alone:
             share = self._share(lanes)
             if share is None:
                 break
             self._sent += 1
-            answer = self._engine.send(share)
+            with asking(self._name):
+                answer = self._engine.send(share)
             self._flying[self._sent] = answer, share
             answer.add_done_callback(partial(self._is_done, self._sent))
         return bool(self._flying)
@@ -158,7 +167,8 @@ class _Driver:
         answer, share = self._flying.pop(number)
         self._is_alone = False
         try:
-            made = self._engine.rows(answer)
+            with asking(self._name):
+                made = self._engine.rows(answer)
         except Died:
             self._died(share)
             return

@@ -1,4 +1,4 @@
-"""Workers that are processes of this machine, each of its own: the death of one tells of no other."""
+"""Workers that are processes of this machine: the death of one tells of no other."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from typing import IO, Any
 
 from ..._errors import EngineError
 from .contract import Died
 from .worker import Kit, Made, Share, stop, work
 
-#: What a process runs, which imports what this one would.
+#: What a process runs. It imports what this one would, and never the program that calls it.
 BEGIN = f"import sys; sys.path[:] = {{path!r}}; from {__name__} import main; main()"
 #: What a process says once it has begun: one that dies before tells of no row.
 READY = b"ready"
@@ -28,20 +29,20 @@ LONGEST_S = 10.0
 
 
 class Processes:
-    """An engine of so many processes. What it is sent and sends back goes through its standard input and output, which it
-    does not share with anything else: where this process ends, however it does, they end too."""
+    """An engine of so many processes, each with a thread that asks it. What it is sent and sends back goes through its standard
+    input and output, which it does not share with anything else: where this process ends, however it does, they end too."""
 
     depth = 1
     blames_exactly = True
 
     def __init__(self, kit: Kit, workers: int) -> None:
-        self._workers = workers
-        self._kit = kit
-        self._seats: queue.SimpleQueue[_Seat] = queue.SimpleQueue()
-        self._all = [_Seat(kit) for _ in range(workers)]
-        for seat in self._all:
-            self._seats.put(seat)
+        self._kit, self._workers = kit, workers
         self._threads = ThreadPoolExecutor(workers, thread_name_prefix="platewash study")
+        self._idle: list[subprocess.Popen[bytes]] = []
+        self._all: set[subprocess.Popen[bytes]] = set()
+        self._is_stopped = False
+        #: For what is begun and what is told to stop.
+        self._lock = threading.Lock()
 
     def slots(self) -> int:
         return self._workers
@@ -54,100 +55,67 @@ class Processes:
         return made
 
     def stop(self) -> None:
-        for seat in self._all:
-            seat.stop()
+        with self._lock:
+            self._is_stopped = True
+            for process in self._all:
+                _close(process.stdin)
 
     def close(self) -> None:
         self.stop()
         self._threads.shutdown(cancel_futures=True)
-        for seat in self._all:
-            seat.end()
+        for process in list(self._all):
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(LONGEST_S)
+            self._end(process)
 
     def _work(self, share: Share) -> list[Made]:
-        seat = self._seats.get()
-        try:
-            return seat.work(share)
-        finally:
-            self._seats.put(seat)
-
-
-class _Seat:
-    """A place for a process: one that died is followed by another."""
-
-    def __init__(self, kit: Kit) -> None:
-        self._kit = kit
-        self._process: subprocess.Popen[bytes] | None = None
-        self._is_stopped = False
-        self._lock = threading.Lock()
-
-    def work(self, share: Share) -> list[Made]:
-        """What the process makes of a share. Raises Died, EngineError where no process begins, and what it raised."""
-        process = self._at_work()
+        """What a process makes of a share. Raises Died, EngineError where no process begins, and what it raised."""
+        process = self._idle.pop() if self._idle else self._begun()
         if process is None:
             return []
         try:
             _write(process.stdin, share)
             answer = _read(process.stdout)
         except FAULTS:
-            code = self._let_go(process)
+            code = self._end(process)
             if self._is_stopped:
                 return []
             raise Died(f"a worker process ended with {code}") from None
+        self._idle.append(process)
         if isinstance(answer, BaseException):
             raise answer
         made: list[Made] = answer
         return made
 
-    def stop(self) -> None:
-        """Nothing more is begun; what is under way comes back soon."""
-        with self._lock:
-            self._is_stopped = True
-            process = self._process
-        if process is not None and process.stdin is not None:
-            try:
-                process.stdin.close()
-            except OSError:
-                pass
-
-    def end(self) -> None:
-        """Waits for the process."""
-        process = self._process
-        if process is None:
-            return
-        try:
-            process.wait(LONGEST_S)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-        if process.stdout is not None:
-            process.stdout.close()
-
-    def _at_work(self) -> subprocess.Popen[bytes] | None:
-        """The process, begun where there is none; None where it was told to stop."""
+    def _begun(self) -> subprocess.Popen[bytes] | None:
+        """A process that has begun; None where it was told to stop."""
         code = None
         for _ in range(MOST_STARTS):
             with self._lock:
-                if self._is_stopped or self._process is not None:
-                    return None if self._is_stopped else self._process
-                process = self._process = _begun()
+                if self._is_stopped:
+                    return None
+                process = _started()
+                self._all.add(process)
             try:
                 _write(process.stdin, self._kit)
                 if _read(process.stdout) == READY:
                     return process
             except FAULTS:
                 pass
-            code = self._let_go(process)
+            code = self._end(process)
         raise EngineError(f"no worker process begins: '{sys.executable}' ended {MOST_STARTS} times before it was ready, with {code}")
 
-    def _let_go(self, process: subprocess.Popen[bytes]) -> int:
+    def _end(self, process: subprocess.Popen[bytes]) -> int:
         """Ends a process that is of no use; how it ended."""
         process.kill()
         with self._lock:
-            self._process = None
+            self._all.discard(process)
+        _close(process.stdin)
+        _close(process.stdout)
         return process.wait()
 
 
-def _begun() -> subprocess.Popen[bytes]:
+def _started() -> subprocess.Popen[bytes]:
     # A session of its own, or on Windows a group (CREATE_NEW_PROCESS_GROUP): Ctrl-C of a terminal is for whoever reads what comes back.
     windows = sys.platform == "win32"
     line = [sys.executable or "python", "-c", BEGIN.format(path=sys.path)]
@@ -157,6 +125,12 @@ def _begun() -> subprocess.Popen[bytes]:
         )
     except OSError as error:
         raise EngineError(f"no worker process begins: '{line[0]}': {error.strerror}") from error
+
+
+def _close(stream: IO[bytes] | None) -> None:
+    assert stream is not None
+    with suppress(OSError):
+        stream.close()
 
 
 def _write(stream: IO[bytes] | None, what: object) -> None:

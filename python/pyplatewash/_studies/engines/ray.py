@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import os
 import socket
-import time
 from contextlib import suppress
 from typing import Any
 from urllib.parse import urlsplit
 
-from ..._errors import EngineError, InputError, MissingError, PlatewashError
-from .contract import WORKERS, Died, asking
-from .here import processors
+from ..._errors import EngineError, InputError
+from ..needed import needed
+from .contract import WORKERS, Died, given_back, processors
 from .worker import Kit, Made, Share, work
 
-MISSING = "engine 'ray' needs ray, which is not installed: pip install 'pyplatewash[ray]'"
-#: Time between two questions of how many processors there are [s].
-LOOK_S = 2.0
 #: How long somebody is waited for who answers at an address [s].
 ANSWER_S = 10.0
 
@@ -29,14 +25,7 @@ class Ray:
     blames_exactly = True
 
     def __init__(self, kit: Kit, workers: int | None, address: str | None) -> None:
-        try:
-            import ray as package
-        except ModuleNotFoundError as error:
-            if error.name is None or error.name.split(".")[0] != "ray":
-                raise
-            raise MissingError(MISSING, name="ray") from error
-        ray: Any = package
-        self._ray = ray
+        self._ray = ray = needed("ray", "engine 'ray' needs", "ray")
         self._is_own = not ray.is_initialized()
         if self._is_own:
             # As `ray.init` itself would.
@@ -44,41 +33,29 @@ class Ray:
         else:
             _refuse_beside_a_session(workers, address)
         self._died = (ray.exceptions.WorkerCrashedError, ray.exceptions.NodeDiedError, ray.exceptions.OutOfMemoryError)
-        self._work: Any = ray.remote(num_cpus=1, max_retries=0)(work)
-        with asking("Ray"):
-            self._kit = ray.put(kit)
+        self._work = ray.remote(num_cpus=1, max_retries=0)(work)
+        self._kit = ray.put(kit)
         self._refs: dict[Any, Any] = {}
-        self._looked, self._slots = -LOOK_S, 0
 
     def slots(self) -> int:
-        if time.monotonic() - self._looked >= LOOK_S:
-            with asking("Ray"):
-                self._slots = int(self._ray.cluster_resources().get("CPU", 0))
-            self._looked = time.monotonic()
-        return self._slots
+        return int(self._ray.cluster_resources().get("CPU", 0))
 
     def send(self, share: Share) -> Any:
-        with asking("Ray"):
-            ref = self._work.remote(self._kit, share)
-            future = ref.future()
+        ref = self._work.remote(self._kit, share)
+        future = ref.future()
         self._refs[future] = ref
         return future
 
     def rows(self, answer: Any) -> list[Made]:
         self._refs.pop(answer, None)
-        with asking("Ray"):
-            error = answer.exception()
+        error = answer.exception()
         if isinstance(error, self._died):
             raise Died(str(error))
-        if isinstance(error, self._ray.exceptions.TaskCancelledError):
-            return []
-        if isinstance(error, self._ray.exceptions.RayTaskError):
-            if isinstance(error.cause, KeyboardInterrupt):
-                return []  # It was told to stop.
-            if isinstance(error.cause, PlatewashError):
-                raise error.cause
-        if error is not None:
-            raise EngineError(f"Ray gave a share back: {error}") from error
+        cause = error.cause if isinstance(error, self._ray.exceptions.RayTaskError) else error
+        if isinstance(cause, (KeyboardInterrupt, self._ray.exceptions.TaskCancelledError)):
+            return []  # It was told to stop.
+        if cause is not None:
+            raise given_back("Ray", cause) from error
         made: list[Made] = answer.result()
         return made
 

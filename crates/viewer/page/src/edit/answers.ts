@@ -6,27 +6,15 @@ import type { CellLine } from "./protocol.ts";
 
 type Of<K extends CellLine["kind"]> = Extract<CellLine, { kind: K }>;
 
-export type ScenarioLine = Of<"scenario">;
-export type RefusedLine = Of<"refused">;
 export type CellDrawn = Of<"cell">;
-export type PreviewLine = Of<"preview">;
 export type PlanLine = Of<"plan">;
-export type UnplannedLine = Of<"unplanned">;
-export type PlaceLine = Of<"place">;
 export type ProofLine = Of<"proof">;
 
 /** What has been said about one version of the scenario. */
-export interface Answers {
-  scenario: ScenarioLine | null;
-  refused: RefusedLine | null;
-  cell: CellDrawn | null;
-  preview: PreviewLine | null;
-  plan: PlanLine | null;
-  unplanned: UnplannedLine | null;
-  places: readonly PlaceLine[];
-  proof: ProofLine | null;
+export type Answers = { [K in "scenario" | "refused" | "cell" | "preview" | "plan" | "unplanned" | "proof"]: Of<K> | null } & {
+  places: readonly Of<"place">[];
   failed: string | null;
-}
+};
 
 export const NOTHING: Answers = {
   scenario: null,
@@ -62,12 +50,12 @@ export function isWhole(answers: Answers, want: "preview" | "proof"): boolean {
 /** What is shown of a scenario whatever is asked: the newest that was said of it, until something newer is. */
 export class Seen {
   /** What keys state and what counts. */
-  scenario: ScenarioLine | null = null;
+  scenario: Answers["scenario"] = null;
   /** Plates, tool and surroundings, planned or not. Its arm is in `arm`. */
   drawn: CellDrawn | null = null;
   arm: CellDrawn["arm"] = null;
   /** Null where more is known than a guess. */
-  preview: PreviewLine | null = null;
+  preview: Answers["preview"] = null;
 
   /** `counts`: the line is about the version that counts, and not of a moment ago. */
   hear(line: CellLine, counts: boolean): void {
@@ -110,7 +98,7 @@ export function standing(answers: Answers): Standing {
   return { kind: "preview", words: answers.preview === null ? "Being looked at …" : previewWords(answers.preview, answers) };
 }
 
-function previewWords(preview: PreviewLine, { cell }: Answers): string {
+function previewWords(preview: Of<"preview">, { cell }: Answers): string {
   const names = (chance: string): string[] =>
     preview.plates.filter((one) => one.chance === chance).map(({ plate }) => cell?.plates[plate]?.name ?? `plate ${plate}`);
   const [no, open] = [names("unwashable"), names("unclear")];

@@ -5,7 +5,7 @@
  * The page holds the scenario, as the text of its file; whoever plans holds nothing but files and what is being worked on. Each
  * question carries all that its answer needs. An answer is a stream of lines, each a JSON object with its `kind`. Units are SI.
  */
-import type { Arm, Certificate, Clearance, Heading, Motion, Plate, PlateCoverage, Segment, Surroundings, Tool, WashPath } from "../view.ts";
+import type { Arm, Certificate, Motion, View } from "../view.ts";
 
 /** A value of a scenario's key, as TOML has it. */
 export type Value = string | number | boolean | readonly Value[];
@@ -65,8 +65,18 @@ export type Milliseconds = Record<string, number>;
 
 export type Chance = "washable" | "unwashable" | "unclear";
 
-/** Lines of the answer to `/cell`, in this order; `refused`, `failed` and `superseded` end it. */
+/** A line behind which nothing follows. */
+type LastLine =
+  /** It is no scenario, or states no job. */
+  | { kind: "refused"; words: string; key: string | null; line: number | null; ms: Milliseconds }
+  /** A later question of the same page came. */
+  | { kind: "superseded" }
+  /** Too much work, or a fault of the program. */
+  | { kind: "failed"; words: string };
+
+/** Lines of the answer to `/cell`, in this order. */
 export type CellLine =
+  | LastLine
   | {
       kind: "scenario";
       /** The scenario with the changes, its comments and order kept. */
@@ -77,18 +87,12 @@ export type CellLine =
       values: Record<string, Value>;
       ms: Milliseconds;
     }
-  /** It is no scenario, or states no job. */
-  | { kind: "refused"; words: string; key: string | null; line: number | null; ms: Milliseconds }
   /** What there is before anything is planned. */
-  | {
+  | (Pick<View, "heading" | "tool" | "surroundings" | "plates" | "pose_rad"> & {
       kind: "cell";
-      heading: Heading;
       /** Null where the page has it already. */
       arm: { id: string; arm: Arm } | null;
       arm_id: string;
-      tool: Tool | null;
-      surroundings: Surroundings;
-      plates: Plate[];
       /** Centres of the plates [m]. */
       centres_m: [number, number][];
       /** Radius of the plates [m], each. */
@@ -97,25 +101,14 @@ export type CellLine =
       listed: boolean;
       /** How plates and what stands around are moved. */
       moves: Moves;
-      pose_rad: number[];
       /** What is to be said about how plates lie. */
       findings: { words: string; plates: number[] }[];
       ms: Milliseconds;
-    }
+    })
   /** A guess, plate by plate: not planned, not proved. */
   | { kind: "preview"; plates: { plate: number; chance: Chance; words: string }[]; ms: Milliseconds }
   /** Planned, not proved. */
-  | {
-      kind: "plan";
-      heading: Heading;
-      headline: string;
-      paths: WashPath[];
-      segments: Segment[];
-      motion: Motion;
-      clearance: Clearance | null;
-      coverage: PlateCoverage[];
-      ms: Milliseconds;
-    }
+  | (Pick<View, "heading" | "paths" | "segments" | "clearance" | "coverage"> & { kind: "plan"; headline: string; motion: Motion; ms: Milliseconds })
   /** No plan. */
   | {
       kind: "unplanned";
@@ -129,11 +122,7 @@ export type CellLine =
   /** Where else a plate could lie; a line a plate behind `unplanned`. Null: nowhere within `searched_m`. */
   | { kind: "place"; plate: number; nearest_m: [number, number] | null; searched_m: number; ms: Milliseconds }
   /** Behind `plan`. */
-  | { kind: "proof"; certificate: Certificate; headline: string; proved: { plate: number; at_least: number }[]; ms: Milliseconds }
-  /** A later question of the same page came; nothing follows. */
-  | { kind: "superseded" }
-  /** Too much work, or a fault of the program. */
-  | { kind: "failed"; words: string };
+  | { kind: "proof"; certificate: Certificate; headline: string; proved: { plate: number; at_least: number }[]; ms: Milliseconds };
 
 /** How the things of a cell are moved. */
 export interface Moves {
@@ -185,12 +174,10 @@ export interface MapQuestion {
 }
 
 export type MapLine =
+  | LastLine
   /** Squares of edge `step_m`, coarse ones first: centre x and y [m]. */
   | { kind: "map"; step_m: number; washable_m: [number, number][]; unwashable_m: [number, number][]; done: number; of: number }
-  | { kind: "map_done"; words: string; ms: Milliseconds }
-  | { kind: "refused"; words: string; key: string | null; line: number | null; ms: Milliseconds }
-  | { kind: "superseded" }
-  | { kind: "failed"; words: string };
+  | { kind: "map_done"; words: string; ms: Milliseconds };
 
 /** `POST /save`: writes the scenario, and plan, report and page beside it. */
 export interface SaveQuestion {

@@ -23,7 +23,7 @@ export class ViewMaker {
     if (made !== null && made.cell === cell && made.plan === plan && made.proof === proof) return made.view;
     if (arm !== null && arm.id === cell.arm_id) this.#arm = arm.arm;
     const view: View = {
-      format: "platewash-view/1",
+      format: "platewash-view/2",
       version: this.#version,
       heading: plan?.heading ?? cell.heading,
       certificate: proof?.certificate ?? null,

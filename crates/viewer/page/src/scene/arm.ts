@@ -77,8 +77,7 @@ export class ArmGraph {
       this.frames.push(frame);
     }
     this.frames[this.frames.length - 1]!.add(fix(this.flange, arm.flange));
-    const drawn = arm.links.some((link) => link.visuals.length > 0);
-    for (const link of arm.links) this.#dress(link, drawn ? link.visuals : link.collision, studio);
+    for (const link of arm.links) this.#dress(link, link.visuals.length > 0 ? link.visuals : link.collision, studio);
   }
 
   #dress(link: Link, bodies: readonly Body[], studio: Studio): void {

@@ -80,7 +80,7 @@ export function keptOf(before: View, after: View): Kept {
     floor:
       same(before.arm.mount, after.arm.mount) &&
       before.surroundings.base_circle_m === after.surroundings.base_circle_m &&
-      same(before.surroundings.region_m, after.surroundings.region_m) &&
+      same(before.surroundings.polygon_m, after.surroundings.polygon_m) &&
       marksHeight(before) === marksHeight(after),
     plates,
     planned: sameList(before.coverage, after.coverage),

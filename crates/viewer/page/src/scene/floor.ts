@@ -99,7 +99,7 @@ export class Floor {
       );
     };
     this.ground.add(this.#plane, patch);
-    const { base_circle_m: radius, region_m: region } = surroundings;
+    const { base_circle_m: radius, polygon_m: region } = surroundings;
     if (radius !== null && radius > 0) this.#outline(circle(radius, height).map((x, i) => x + (i % 3 < 2 ? base[i % 3]! : 0)), [0.02, 0.014]);
     if (region !== null && region.length > 2) this.#fill = this.#area(region, height);
   }

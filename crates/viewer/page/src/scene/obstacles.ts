@@ -10,7 +10,7 @@ import type { Studio } from "./studio.ts";
 /** Whether a body is the floor at z = 0, which is drawn as such. */
 function isFloor(body: Body): boolean {
   const [, x, y] = body.pose.quaternion_wxyz;
-  return "half_space" in body.shape && Math.abs(body.pose.position_m[2]) < 1e-6 && Math.hypot(x, y) < 1e-9;
+  return body.shape === "half_space" && Math.abs(body.pose.position_m[2]) < 1e-6 && Math.hypot(x, y) < 1e-9;
 }
 
 /** The obstacles but the floor. */
@@ -29,11 +29,9 @@ export class Obstacles {
     this.#poses = bodies.map(({ pose }) => matrixOf(pose));
     this.#meshes = bodies.map((body) => {
       if (isFloor(body)) return null;
-      const flat = "half_space" in body.shape;
-      const alpha = flat ? 0.25 : (body.rgba?.[3] ?? 1);
-      const material = studio.material({ roughness: 0.7, transparent: alpha < 1, opacity: alpha, depthWrite: alpha >= 1, ...(flat ? { side: DoubleSide } : {}) });
-      if (body.rgba === null) this.#plain.push(material);
-      else material.color.setRGB(body.rgba[0], body.rgba[1], body.rgba[2], "srgb");
+      const flat = body.shape === "half_space";
+      const material = studio.material({ roughness: 0.7, ...(flat ? { transparent: true, opacity: 0.25, depthWrite: false, side: DoubleSide } : {}) });
+      this.#plain.push(material);
       const mesh = fix(new Mesh(geometryOf(body.shape, "rounded"), material), body.pose);
       mesh.castShadow = !flat;
       mesh.receiveShadow = true;

@@ -69,7 +69,7 @@ export class ProofBodies {
     const tool = this.#view.tool;
     if (tool === null || tool.bodies.length === 0) return;
     const { radius_m, height_m, pose } = tool.sponge;
-    const sponge: Body = { name: "sponge", shape: { cylinder: { radius_m, half_length_m: height_m / 2 } }, pose, rgba: null };
+    const sponge: Body = { shape: { cylinder: { radius_m, half_length_m: height_m / 2 } }, pose };
     this.#arm.flange.add(this.#groupOf([...tool.bodies, sponge]));
   }
 

@@ -2,7 +2,7 @@
 import { BoxGeometry, BufferAttribute, BufferGeometry, Float32BufferAttribute, LatheGeometry, PlaneGeometry, SphereGeometry, Vector2, Vector3, type Color } from "three";
 import { ConvexGeometry } from "three/examples/jsm/geometries/ConvexGeometry.js";
 import { RoundedBoxGeometry } from "three/examples/jsm/geometries/RoundedBoxGeometry.js";
-import { mergeVertices, toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+import { mergeGeometries, mergeVertices, toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { floats } from "../numbers.ts";
 import type { Plate, Shape } from "../view.ts";
 
@@ -95,6 +95,12 @@ function hull(points: [number, number, number][]): BufferGeometry {
   }
 }
 
+/** Those that have triangles, as one. */
+function merged(hulls: BufferGeometry[]): BufferGeometry {
+  const solid = hulls.filter((one) => one.hasAttribute("position"));
+  return solid.length === 0 ? new BufferGeometry() : mergeGeometries(solid);
+}
+
 function mesh(triangles: Float64Array): BufferGeometry {
   const geometry = new BufferGeometry();
   const corners = Float32Array.from(triangles.subarray(0, triangles.length - (triangles.length % 9)));
@@ -116,6 +122,10 @@ export function geometryOf(shape: Shape, edges: Edges): BufferGeometry {
 }
 
 function trianglesOf(shape: Shape, edges: Edges): BufferGeometry {
+  if (shape === "half_space") return new PlaneGeometry(2 * HALF_SPACE_M, 2 * HALF_SPACE_M);
+  if ("convex" in shape) return trianglesOf(shape.convex, edges);
+  if ("parts" in shape) return merged(shape.parts.map(hull));
+  if ("mesh" in shape) return mesh(floats(shape.mesh.triangles));
   const round = edges === "rounded";
   // Where edges are drawn as lines, sides of few segments would have such.
   const segments = (radius: number): number => (round ? segmentsRound(radius, ROUND) : ROUND);
@@ -137,9 +147,7 @@ function trianglesOf(shape: Shape, edges: Edges): BufferGeometry {
     const radius = length(shape.capsule.radius_m);
     return capsule(radius, length(shape.capsule.half_length_m), segments(radius));
   }
-  if ("hull" in shape) return hull(shape.hull.points);
-  if ("mesh" in shape) return mesh(floats(shape.mesh.triangles));
-  return new PlaneGeometry(2 * HALF_SPACE_M, 2 * HALF_SPACE_M);
+  return hull(shape.hull.points);
 }
 
 /** The underside from the middle out, as the face is shifted by the thickness, with the foot below it. */

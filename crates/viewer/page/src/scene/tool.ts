@@ -150,7 +150,7 @@ export class ToolGraph {
     this.root.add(this.tip);
     if (tool === null) return;
     fix(this.tip, tool.tip);
-    for (const mesh of meshesOf(tool.bodies, studio)) this.#addHandle(mesh, tool.bodies.every((body) => body.rgba === null));
+    for (const mesh of meshesOf(tool.bodies, studio)) this.#addHandle(mesh);
     const { radius_m, height_m, compression_m, pose } = tool.sponge;
     if (!(radius_m > 0 && height_m > 0) || tool.bodies.length === 0) return;
     this.#compression = Math.max(0, Math.min(compression_m, 0.9 * height_m));
@@ -171,14 +171,12 @@ export class ToolGraph {
     this.root.add(mesh);
   }
 
-  #addHandle(mesh: Mesh, plain: boolean): void {
+  #addHandle(mesh: Mesh): void {
     const material = mesh.material as MeshStandardMaterial;
-    if (plain) {
-      material.vertexColors = false;
-      material.metalness = 0.55;
-      material.roughness = 0.38;
-      this.#handles.push(material);
-    }
+    material.vertexColors = false;
+    material.metalness = 0.55;
+    material.roughness = 0.38;
+    this.#handles.push(material);
     this.visuals.push(mesh);
     this.root.add(mesh);
   }

@@ -29,7 +29,7 @@ function facts(view: View): HTMLElement[] {
   const { heading, certificate } = view;
   const list: HTMLElement[] = [];
   if (view.motion !== null) list.push(fact("cycle", quantity(heading.duration_s, 2, "s")));
-  if (heading.process !== "configuration") list.push(fact("seed", String(heading.seed)));
+  if (heading.process !== null) list.push(fact("seed", String(heading.seed)));
   list.push(fact("arm", isolated(heading.robot)));
   if (heading.hash !== null) {
     const altered = certificate !== null && certificate.hash !== "proved" ? ` (${statusWord(certificate.hash).toLowerCase()})` : "";

@@ -17,30 +17,31 @@ function down(value: number, decimals: number): string {
 }
 
 /** Least and greatest force in words, rounded outwards. */
-export function forceWords([least, greatest]: readonly [number | null, number | null]): string {
-  return `${least === null ? "?" : down(least, 1)} – ${greatest === null ? "?" : up(greatest, 1)}`;
+export function forceWords(least: number | undefined, greatest: number | undefined): string {
+  return `${least === undefined ? "?" : down(least, 1)} – ${greatest === undefined ? "?" : up(greatest, 1)}`;
 }
 
 function row(view: View, asked: Contact["asked"], proved: PlateContact): HTMLElement {
-  const share = (value: number, required: number): HTMLElement => el("td", { class: value >= required ? "" : "bad" }, percentDown(value));
-  const [least, greatest] = proved.force_n;
-  const holds = least !== null && greatest !== null && least >= asked.force_n[0] && greatest <= asked.force_n[1];
+  const cell = (holds: boolean, words: string): HTMLElement => el("td", { class: holds ? "" : "bad" }, words);
+  const share = ({ at_least }: { at_least: number }, required: number): HTMLElement => cell(at_least >= required, percentDown(at_least));
+  const [strain, least, greatest] = [proved.strain.bound, proved.least_force_n.bound, proved.greatest_force_n.bound];
+  const holds = least !== undefined && greatest !== undefined && least >= asked.force_n[0] && greatest <= asked.force_n[1];
   return el(
     "tr",
     {},
     el("th", { set: { scope: "row" } }, isolated(view.plates[proved.plate]?.name ?? `plate ${proved.plate}`)),
     share(proved.pressed, asked.share),
-    share(proved.time_share, asked.time_share),
-    share(proved.dose_share, asked.dose_share),
-    el("td", { class: proved.strain !== null && proved.strain <= asked.strain ? "" : "bad" }, proved.strain === null ? "?" : `${up(100 * proved.strain, 1)}\u202f%`),
-    el("td", { class: holds ? "" : "bad" }, forceWords(proved.force_n)),
+    share(proved.time, asked.time_share),
+    share(proved.dose, asked.dose_share),
+    cell(strain !== undefined && strain <= asked.strain, strain === undefined ? "?" : `${up(100 * strain, 1)}\u202f%`),
+    cell(holds, forceWords(least, greatest)),
   );
 }
 
 /** In words what the columns say. */
 export function contactWords({ asked, plates }: Contact): string {
   const mm = (length: number): string => `${fixedShort(1000 * length, 2)}\u202fmm`;
-  const torques = plates.flatMap(({ friction_torque_n_m: torque }) => (torque === null ? [] : [torque]));
+  const torques = plates.flatMap(({ friction_torque_nm: torque }) => (torque === undefined ? [] : [torque]));
   const most = [0, 1].map((k) => Math.max(...torques.map((torque) => torque[k]!)));
   const torque =
     torques.length === plates.length && plates.length > 0
@@ -86,15 +87,14 @@ function statusCell(status: Status): HTMLElement {
 
 /** Whether all that there is to say is that it is proved. */
 function isBrief(check: Check): boolean {
-  return check.status === "proved" && check.detail === "" && check.worst === null;
+  return check.status === "proved" && check.detail === "" && check.place === "" && Object.keys(check.worst).length === 0;
 }
 
 function worstButton(check: Check, onSelect: (check: Check) => void): HTMLElement | null {
-  const worst = check.worst;
-  if (worst === null) return null;
-  const when = worst.time_s === null ? "" : quantity(worst.time_s, 2, "s");
-  if (worst.time_s === null && worst.place_m === null) {
-    return worst.words === "" ? null : el("span", { class: "where" }, isolated(worst.words));
+  const { time_s, place_m } = check.worst;
+  const when = time_s === undefined ? "" : quantity(time_s, 2, "s");
+  if (time_s === undefined && place_m === undefined) {
+    return check.place === "" ? null : el("span", { class: "where" }, isolated(check.place));
   }
   return button(
     { class: "where where-button", title: `Show where ${check.words} is worst` },
@@ -102,7 +102,7 @@ function worstButton(check: Check, onSelect: (check: Check) => void): HTMLElemen
     icon("target"),
     el("span", { class: "spoken" }, `${check.words}, worst: `),
     el("span", {}, when),
-    isolated(worst.words),
+    isolated(check.place),
   );
 }
 

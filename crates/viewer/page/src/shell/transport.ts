@@ -21,8 +21,8 @@ export const MARK_PX = 20;
 
 export function clusters(checks: readonly Check[], duration: number, width: number): Cluster[] {
   const timed = checks
-    .map((check) => ({ check, time: check.worst?.time_s ?? null }))
-    .filter((entry): entry is { check: Check; time: number } => entry.time !== null && entry.time >= 0 && entry.time <= duration)
+    .map((check) => ({ check, time: check.worst.time_s }))
+    .filter((entry): entry is { check: Check; time: number } => entry.time !== undefined && entry.time >= 0 && entry.time <= duration)
     .sort((a, b) => a.time - b.time);
   const apart = width > 0 ? (MARK_PX * duration) / width : Number.POSITIVE_INFINITY;
   const groups = timed.map(({ check, time }): Cluster => ({ time, status: check.status, checks: [check] }));
@@ -182,7 +182,7 @@ export class Scrubber {
     const inset = segment.kind === "wash" ? 0 : 0.28 * height;
     bars.fillStyle = this.#palette.segments[segment.kind];
     bars.fillRect(from, inset, Math.max(0.5, to - from - (segment.kind === "wash" ? 1 : 0)), height - 2 * inset);
-    if (segment.kind !== "wash" || segment.plate === null || to - from < NUMBER_PX) return;
+    if (segment.kind !== "wash" || to - from < NUMBER_PX) return;
     const number = plateNumber(this.#view.plates, segment.plate);
     numbers.strokeText(number, (from + to) / 2, height / 2 + 0.5);
     numbers.fillText(number, (from + to) / 2, height / 2 + 0.5);
