@@ -4,7 +4,9 @@ use crate::draft::changed;
 use crate::end::End;
 use crate::moves::moves;
 use crate::placed::{Placed, placed};
-use crate::protocol::{ArmLine, CellLine, CellParts, CellQuestion, FindingLine, PlanParts, PlateChance, PlateProof, Refusal, Want};
+use crate::protocol::{
+    ArmLine, CellLine, CellParts, CellQuestion, FindingLine, PlanParts, PlateChance, PlateProof, Refusal, Want,
+};
 use crate::stopwatch::Stopwatch;
 use crate::subject::{Latest, Subject};
 use crate::told::Told;

@@ -1,7 +1,6 @@
 //! What is edited, and who answers the page's questions.
 
 use crate::bounds::{LONGEST, LONGEST_MAP};
-use crate::{cell, map};
 use crate::document::{Channel, EditDocument};
 use crate::draft::{accepted, may_name_its_files, stated};
 use crate::error::EditorError;
@@ -10,6 +9,7 @@ use crate::protocol::{CellLine, CellQuestion, DiskQuestion, MapQuestion, SaveQue
 use crate::sessions::{Lane, Sessions, Turn, is_name};
 use crate::subject::{Latest, Subject};
 use crate::told::Told;
+use crate::{cell, map};
 use platewash_kinematics::JointVector;
 use platewash_scenario::{Draft, Scenario, source};
 use platewash_viewer::bundle::Bundle;

@@ -2,9 +2,14 @@
 //!
 //! A contiguous array of doubles is read where it lies. Anything else that NumPy makes an array of real numbers from (lists,
 //! integers, strides, other byte orders) is copied once. Wrong shapes are answered with the shape found and the shapes wanted.
+//!
+//! NumPy arrays out.
 
 use crate::{argument, errors};
-use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods};
+use numpy::{
+    Element, PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArray,
+    PyUntypedArrayMethods,
+};
 use platewash::JointVector;
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyInt, PyList, PyString, PyTuple};
@@ -205,4 +210,40 @@ fn nothing_masked(name: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResul
         };
     }
     argument::unmasked(name, value)
+}
+
+/// A new array of zeros of the given shape.
+#[must_use]
+pub fn zeros<'py, T: Element>(py: Python<'py>, shape: &[usize]) -> Bound<'py, PyArrayDyn<T>> {
+    PyArray::zeros(py, shape, false)
+}
+
+/// A new array of the given shape with these values, row by row.
+///
+/// # Errors
+/// When the shape does not hold as many values.
+pub fn array<'py, T: Element + Copy>(
+    py: Python<'py>,
+    shape: &[usize],
+    values: &[T],
+) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+    let array = zeros::<T>(py, shape);
+    let mut writable: PyReadwriteArrayDyn<'_, T> = array.readwrite();
+    writable.as_slice_mut()?.copy_from_slice(values);
+    drop(writable);
+    Ok(array)
+}
+
+/// Configurations as an array of shape (N, 6).
+///
+/// # Errors
+/// None in practice.
+pub fn joint_rows<'py>(py: Python<'py>, q: &[JointVector]) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    array(py, &[q.len(), 6], bytemuck::cast_slice(q))
+}
+
+/// Values as an array of one axis, without a copy.
+#[must_use]
+pub fn line<'py, T: Element>(py: Python<'py>, values: Vec<T>) -> Bound<'py, PyArray1<T>> {
+    PyArray1::from_vec(py, values)
 }

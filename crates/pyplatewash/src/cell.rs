@@ -1,11 +1,11 @@
 //! The live cell: what answers a page in a notebook. Threads, messages and traits are Python's (`python/pyplatewash/_cell.py`).
 
 use crate::certificate::CertificateObject;
-use crate::notes::warn;
 use crate::page::{bundle, height_px};
 use crate::plan::PlanObject;
 use crate::robot::Robot;
 use crate::scenario::ScenarioObject;
+use crate::value::warn;
 use crate::work::{alone, aside};
 use crate::{argument, errors};
 use platewash::editor::{Editor, EditorError};

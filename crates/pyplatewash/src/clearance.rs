@@ -2,14 +2,13 @@
 
 use crate::argument::{self, ANY_COUNT, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
+use crate::errors;
 use crate::job::{PaperJobObject, WashJobObject};
 use crate::plan::PlanObject;
-use crate::plate::PlateFields;
+use crate::plate::{PlateFields, ToolFields};
 use crate::robot::Robot;
-use crate::tool::ToolFields;
 use crate::value::to_record;
 use crate::work::{STRETCH, alone, released};
-use crate::{errors, made};
 use nalgebra::Point3;
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
 use platewash::workcell::tool::StraightTool;
@@ -172,7 +171,7 @@ impl ClearanceObject {
         } else {
             &shape[1..]
         };
-        let distances = made::zeros::<f64>(py, shape);
+        let distances = arrays::zeros::<f64>(py, shape);
         if pairs == 0 {
             return Ok(distances);
         }

@@ -2,10 +2,10 @@
 
 use crate::argument::{self, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
+use crate::errors;
+use crate::plate::ToolFields;
 use crate::robot::Robot;
-use crate::tool::ToolFields;
 use crate::work::{STRETCH, released};
-use crate::{errors, made};
 use nalgebra::Vector3;
 use numpy::PyArrayDyn;
 use platewash::simulator::dynamics::STANDARD_GRAVITY_M_S2;
@@ -88,8 +88,8 @@ impl<'py, const K: usize> States<'py, K> {
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let all = self.each(py, of)?;
         match self.stacked {
-            None => made::array(py, &[6], bytemuck::cast_slice(&all)),
-            Some(_) => made::joint_rows(py, &all),
+            None => arrays::array(py, &[6], bytemuck::cast_slice(&all)),
+            Some(_) => arrays::joint_rows(py, &all),
         }
     }
 }
@@ -168,8 +168,8 @@ impl DynamicsObject {
         // Symmetric, so that rows and columns are the same.
         let values = bytemuck::cast_slice(&all);
         match states.stacked {
-            None => made::array(py, &[6, 6], values),
-            Some(n) => made::array(py, &[n, 6, 6], values),
+            None => arrays::array(py, &[6, 6], values),
+            Some(n) => arrays::array(py, &[n, 6, 6], values),
         }
     }
 
@@ -212,7 +212,7 @@ impl DynamicsObject {
             (None, Some(one)) => class.call1((one.kinetic_j, one.potential_j)),
             _ => {
                 let (kinetic, potential) = all.iter().map(|e| (e.kinetic_j, e.potential_j)).unzip();
-                class.call1((made::line::<f64>(py, kinetic), made::line::<f64>(py, potential)))
+                class.call1((arrays::line::<f64>(py, kinetic), arrays::line::<f64>(py, potential)))
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::arrays::{self, Numbers, ONE_POSE};
 use crate::work::patiently;
-use crate::{argument, errors, pose};
+use crate::{argument, errors, plate};
 use platewash::certificate::{CertifyError, Requirement, certify_with};
 use platewash::export::dialect::{DIALECTS, Dialect, ProgramFile};
 use platewash::export::{ExportError, ExportSettings, Refusal, export};
@@ -56,7 +56,7 @@ fn accepted(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Requirement> {
 
 fn tip(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
     let numbers = Numbers::read("tip", value, ONE_POSE)?;
-    pose::pose(numbers.values()?).map_err(|e| errors::input(value.py(), "tip", &e.0))
+    plate::pose(numbers.values()?).map_err(|e| errors::input(value.py(), "tip", &e.0))
 }
 
 /// The dialect of the argument called `to`.

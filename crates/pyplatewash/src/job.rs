@@ -5,7 +5,7 @@ use crate::plate::{PlateFields, plates};
 use crate::robot::Robot;
 use crate::simulation::SettingsObject;
 use crate::value::{to_python, to_record};
-use crate::{argument, errors, made};
+use crate::{argument, arrays, errors};
 use numpy::PyArrayDyn;
 use platewash::workcell::words::{counted, quoted};
 use platewash::{Failure, JobTerms, Layout, PaperJob, WashJob};
@@ -123,7 +123,7 @@ impl WashJobObject {
     /// Joint positions at the start and at the end, shape (2, 6) [rad].
     #[getter]
     fn home_rad<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        made::joint_rows(py, &self.inner.terms().home_rad)
+        arrays::joint_rows(py, &self.inner.terms().home_rad)
     }
 
     /// The world: arm, tool, obstacles, pairs of bodies that need not keep clear of each other.
@@ -274,7 +274,7 @@ impl PaperJobObject {
     /// Joint positions at the start, shape (6,) [rad].
     #[getter]
     fn start_rad<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        made::array(py, &[6], self.inner.start_rad.as_slice())
+        arrays::array(py, &[6], self.inner.start_rad.as_slice())
     }
 
     /// Settings of the paper's program.

@@ -2,7 +2,7 @@
 
 use crate::plate::plates;
 use crate::value::to_record;
-use crate::{argument, errors, made};
+use crate::{argument, arrays, errors};
 use numpy::PyArrayDyn;
 use platewash::workcell::words::counted;
 use platewash::{Layout, Plate};
@@ -51,7 +51,7 @@ impl LayoutObject {
     #[getter]
     fn centres<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let centres: Vec<f64> = self.inner.plates.iter().flat_map(Plate::centre_xy).collect();
-        made::array(py, &[self.inner.plates.len(), 2], &centres)
+        arrays::array(py, &[self.inner.plates.len(), 2], &centres)
     }
 
     /// What is wrong with the plates: one record a finding, whose text says it in words.

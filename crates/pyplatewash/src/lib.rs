@@ -1,18 +1,14 @@
 //! The Python wheel of platewash: the same nouns, NumPy in and out.
 //!
-//! This crate holds no logic of its own. It reads arguments (`argument`), turns array-likes into slices (`arrays`) and back (`made`), errors into
+//! This crate holds no logic of its own. It reads arguments (`argument`), turns array-likes into slices and back (`arrays`), errors into
 //! exceptions (`errors`), and data into dictionaries (`value`), and works without the interpreter lock (`work`). What is plain data on
 //! Python's side (`Tool`, `Plate`, settings, records) are Python dataclasses in `python/pyplatewash`.
 
 mod argument;
 mod arrays;
-mod by_python;
 mod cell;
 mod certificate;
-mod checks;
 mod clearance;
-mod command;
-mod coverage;
 mod curves;
 mod dry_run;
 mod dynamics;
@@ -20,22 +16,15 @@ mod errors;
 mod export;
 mod job;
 mod layout;
-mod made;
-mod notes;
 mod page;
 mod paper;
 mod plan;
 mod planned;
 mod plate;
-mod pose;
-mod reproduce;
 mod robot;
 mod scenario;
-mod shown;
 mod simulation;
 mod study;
-mod sweep;
-mod tool;
 mod trajectory;
 mod value;
 mod work;
@@ -55,15 +44,11 @@ mod _core {
     #[pymodule_export]
     use crate::certificate::{CertificateObject, differences, prove};
     #[pymodule_export]
-    use crate::checks::_check;
-    #[pymodule_export]
     use crate::clearance::ClearanceObject;
     #[pymodule_export]
-    use crate::command::{_program, run_command};
-    #[pymodule_export]
-    use crate::coverage::{measure, picture};
-    #[pymodule_export]
     use crate::curves::{_paper_spiral, _rings_turns, _wash_curve, _wash_curve_on, cubic_samples, transit_waypoints};
+    #[pymodule_export]
+    use crate::curves::{measure, picture};
     #[pymodule_export]
     use crate::dynamics::DynamicsObject;
     #[pymodule_export]
@@ -73,27 +58,31 @@ mod _core {
     #[pymodule_export]
     use crate::page::{_configuration_page, _plan_page, _save};
     #[pymodule_export]
+    use crate::page::{_plan_figure, _show_arguments};
+    #[pymodule_export]
+    use crate::paper::reproduce;
+    #[pymodule_export]
     use crate::paper::{PaperRunObject, run_paper};
     #[pymodule_export]
     use crate::plan::PlanObject;
     #[pymodule_export]
+    use crate::planned::sweep;
+    #[pymodule_export]
     use crate::planned::{PlannedObject, plan};
     #[pymodule_export]
-    use crate::plate::_plate_made;
+    use crate::plate::_check;
     #[pymodule_export]
-    use crate::reproduce::reproduce;
+    use crate::plate::_plate_made;
     #[pymodule_export]
     use crate::robot::{IkSolutionRecord, Robot};
     #[pymodule_export]
     use crate::scenario::{_task_region, ScenarioObject, place_plates};
     #[pymodule_export]
-    use crate::shown::{_plan_figure, _show_arguments};
-    #[pymodule_export]
     use crate::simulation::{ExecutionObject, SettingsObject, simulate, tune};
     #[pymodule_export]
     use crate::study::{_study_check, _study_summary, StudyJournalObject, StudyObject, StudyWorkerObject};
     #[pymodule_export]
-    use crate::sweep::sweep;
-    #[pymodule_export]
     use crate::trajectory::TrajectoryObject;
+    #[pymodule_export]
+    use crate::work::{_program, run_command};
 }

@@ -1,11 +1,11 @@
 //! `Plan`: the plan file.
 
-use crate::by_python::ask;
 use crate::errors::{self, FileOf, SystemWord};
 use crate::plate::plates;
 use crate::robot::Robot;
 use crate::trajectory::TrajectoryObject;
 use crate::value::{records, to_python, to_record};
+use crate::work::ask;
 use crate::{argument, dry_run, export};
 use platewash::export::ros2::{self, Ros2};
 use platewash::kinematics::urdf::file;

@@ -1,17 +1,22 @@
 //! `Planned`: a washing, planned, and what is to be said of it.
+//!
+//! Many layouts of one scenario.
 
 use crate::job::WashJobObject;
 use crate::plan::PlanObject;
 use crate::value::{records, to_record};
 use crate::work::patiently;
-use crate::{errors, made, scenario};
+use crate::{argument, arrays, errors, scenario};
 use numpy::PyArrayDyn;
 use platewash::certificate::prove_with;
 use platewash::planner::{Watch, plan_with};
+use platewash::scenario::Program;
 use platewash::workcell::words::{counted, quoted};
-use platewash::{Planned, WashReport};
+use platewash::{Failure, Planned, SweepRow, WashReport, sweep_each};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
+use rayon::prelude::*;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// A washing, from home to home, planned before anything moves: the `plan`, and how it came about. Immutable.
@@ -57,7 +62,7 @@ impl PlannedObject {
     /// jump.
     #[getter]
     fn largest_jerk_rad_s3<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        made::array(py, &[6], self.inner.largest_jerk().as_slice())
+        arrays::array(py, &[6], self.inner.largest_jerk().as_slice())
     }
 
     /// Proves the plan and sums it up. A record; its text is the report that the command prints.
@@ -101,4 +106,30 @@ pub fn plan(py: Python<'_>, job: &Bound<'_, PyAny>, seed: Option<&Bound<'_, PyAn
         inner: Arc::new(planned.map_err(|e| errors::failure(py, &e.into()))?),
         job: job.unbind(),
     })
+}
+
+/// Plans and proves a scenario once a seed: one record a seed with `seed`, `outcome` (`"proved"`, `"not_proved"`,
+/// `"infeasible"`, `"not_found"`, `"error"`), `duration_s`, `transits_s`, `coverage`, `clearance_m` and `reason`. Works on all processors.
+///
+/// Raises InputError for a scenario of the paper's program; ScenarioError or PlanError for one that is wrong for every seed.
+#[pyfunction]
+pub fn sweep<'py>(
+    py: Python<'py>,
+    scenario: &Bound<'_, PyAny>,
+    seeds: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyList>> {
+    let scenario = scenario::given(scenario)?;
+    scenario::of_program(py, &scenario, Program::Certified)?;
+    let seeds = argument::each("seeds", seeds, "a list of seeds", argument::seed)?;
+    let rows = patiently(py, move |cancel| {
+        let one = |&seed: &u64| {
+            cancel.check()?;
+            sweep_each(&scenario, seed..=seed, cancel, &mut |_| ControlFlow::Continue(()))
+        };
+        seeds
+            .par_iter()
+            .map(one)
+            .collect::<Result<Vec<Vec<SweepRow>>, Failure>>()
+    })?;
+    records(py, &rows.map_err(|e| errors::failure(py, &e))?.concat())
 }

@@ -1,11 +1,19 @@
 //! Python's `Plate`, read field by field, and plates as Python's.
+//!
+//! Python's `Tool`, read field by field.
+//!
+//! Poses from 4 × 4 matrices.
+//!
+//! Python's plain values are checked when they are made.
 
-use crate::tool::{LARGEST_M, check_length};
-use crate::{argument, arrays, errors};
-use nalgebra::{Quaternion, Translation3, UnitQuaternion};
+use crate::argument::{self, TOOL};
+use crate::errors::{self, Input};
+use crate::{arrays, curves, page, robot};
+use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use platewash::workcell::plate::Foot;
 use platewash::workcell::surface::{Knot, SHIPPED_PROFILES, Surface};
-use platewash::{Plate, Pose};
+use platewash::workcell::tool::StraightTool;
+use platewash::{Plate, Pose, Tool};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyList, PyString, PyTuple, PyType};
@@ -227,4 +235,274 @@ fn foot_object<'py>(py: Python<'py>, foot: &Foot) -> PyResult<Bound<'py, PyAny>>
     fields.set_item("radius_m", foot.radius_m)?;
     fields.set_item("height_m", foot.height_m)?;
     FOOT.import(py, "pyplatewash._values", "Foot")?.call((), Some(&fields))
+}
+
+/// Largest length that is believed \[m\].
+pub const LARGEST_M: f64 = 100.0;
+
+/// Largest stiffness that is believed \[Pa\].
+const LARGEST_PA: f64 = 1e9;
+
+/// Largest mass that is believed \[kg\], and largest entry of an inertia \[kg·m²\].
+const LARGEST_KG: f64 = 1e4;
+
+/// Fields of Python's `Tool`.
+#[derive(Debug)]
+pub struct ToolFields {
+    length_m: f64,
+    radius_m: f64,
+    sponge_radius_m: f64,
+    sponge_height_m: f64,
+    sponge_compression_m: f64,
+    sponge_stiffness_pa: Option<[f64; 2]>,
+    mass_kg: f64,
+    com_m: Option<f64>,
+    inertia_kg_m2: Option<[f64; 6]>,
+    mounted_on: Option<String>,
+}
+
+impl ToolFields {
+    /// The fields of the argument called `tool`.
+    ///
+    /// # Errors
+    /// `InputTypeError` for what is no `Tool`, or a field of a wrong type.
+    pub fn of(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let number = |field| argument::field(("tool", TOOL), value, ("tool", field), argument::number);
+        let com_m = argument::field(("tool", TOOL), value, ("tool", "com_m"), |name, value| {
+            (!value.is_none()).then(|| argument::number(name, value)).transpose()
+        });
+        let sponge_stiffness_pa =
+            argument::field(("tool", TOOL), value, ("tool", "sponge_stiffness_pa"), |name, value| {
+                (!value.is_none()).then(|| arrays::fixed::<2>(name, value)).transpose()
+            });
+        let inertia_kg_m2 = argument::field(("tool", TOOL), value, ("tool", "inertia_kg_m2"), |name, value| {
+            (!value.is_none()).then(|| arrays::fixed::<6>(name, value)).transpose()
+        });
+        let mounted_on = argument::field(("tool", TOOL), value, ("tool", "mounted_on"), |name, value| {
+            (!value.is_none())
+                .then(|| argument::text(name, value, "a link's name"))
+                .transpose()
+        });
+        Ok(Self {
+            mounted_on: mounted_on?,
+            length_m: number("length_m")?,
+            radius_m: number("radius_m")?,
+            sponge_radius_m: number("sponge_radius_m")?,
+            sponge_height_m: number("sponge_height_m")?,
+            sponge_compression_m: number("sponge_compression_m")?,
+            sponge_stiffness_pa: sponge_stiffness_pa?,
+            mass_kg: number("mass_kg")?,
+            com_m: com_m?,
+            inertia_kg_m2: inertia_kg_m2?,
+        })
+    }
+
+    /// The tool.
+    ///
+    /// # Errors
+    /// `InputError` for a number that makes no sense.
+    pub fn tool(&self, py: Python<'_>) -> PyResult<Tool> {
+        let lengths = [
+            ("tool.length_m", self.length_m),
+            ("tool.radius_m", self.radius_m),
+            ("tool.sponge_radius_m", self.sponge_radius_m),
+            ("tool.sponge_height_m", self.sponge_height_m),
+            ("tool.sponge_compression_m", self.sponge_compression_m),
+            ("tool.com_m", self.com_m.map_or(0.0, f64::abs)),
+        ];
+        for (name, length_m) in lengths {
+            check_length(py, name, length_m)?;
+        }
+        if self.length_m > 0.0 && self.sponge_height_m >= self.length_m {
+            let problem = format!(
+                "must be below length_m = {}; found {}",
+                self.length_m, self.sponge_height_m
+            );
+            return Err(errors::input(py, "tool.sponge_height_m", &problem));
+        }
+        self.check_stiffness(py)?;
+        self.check_masses(py)?;
+        let straight = StraightTool {
+            length_m: self.length_m,
+            radius_m: self.radius_m,
+            sponge_radius_m: self.sponge_radius_m,
+            sponge_height_m: self.sponge_height_m,
+            sponge_compression_m: self.sponge_compression_m,
+            sponge_stiffness_pa: self.sponge_stiffness_pa,
+            mass_kg: self.mass_kg,
+            com_m: self.com_m,
+            inertia_kg_m2: self.inertia_kg_m2,
+        };
+        Ok(Tool::from(straight).mounted(self.mounted_on.clone()))
+    }
+
+    fn check_stiffness(&self, py: Python<'_>) -> PyResult<()> {
+        match self.sponge_stiffness_pa {
+            Some([least, most]) if !(least > 0.0 && least <= most && most <= LARGEST_PA) => {
+                let problem =
+                    format!("must be (least, greatest), above 0 and up to {LARGEST_PA} Pa; found ({least}, {most})");
+                Err(errors::input(py, "tool.sponge_stiffness_pa", &problem))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn check_masses(&self, py: Python<'_>) -> PyResult<()> {
+        if !(0.0..=LARGEST_KG).contains(&self.mass_kg) {
+            let problem = format!("must be from 0 to {LARGEST_KG} kg; found {}", self.mass_kg);
+            return Err(errors::input(py, "tool.mass_kg", &problem));
+        }
+        let mut entries = self.inertia_kg_m2.iter().flatten();
+        match entries.find(|entry| !(-LARGEST_KG..=LARGEST_KG).contains(*entry)) {
+            None => Ok(()),
+            Some(found) => {
+                let problem = format!("must be within ±{LARGEST_KG} kg·m²; found {found}");
+                Err(errors::input(py, "tool.inertia_kg_m2", &problem))
+            }
+        }
+    }
+}
+
+/// Refuses what is no length from 0 to 100 m.
+///
+/// # Errors
+/// `InputError`.
+pub fn check_length(py: Python<'_>, name: &str, length_m: f64) -> PyResult<()> {
+    if (0.0..=LARGEST_M).contains(&length_m) {
+        return Ok(());
+    }
+    let problem = format!("must be from 0 to {LARGEST_M} m; found {length_m}");
+    Err(errors::input(py, name, &problem))
+}
+
+/// Entries of RᵀR − I may be this large: entries of R that are rounded to six decimals come to 2e-6. What is that near a rotation
+/// stands for the nearest one.
+const ROUNDED: f64 = 1e-5;
+
+/// Entries that small need no nearest rotation: they are below the tolerance of any solver.
+const EXACT: f64 = 1e-7;
+
+/// Stands for a matrix that is no pose.
+const NO_POSE: Quaternion<f64> = Quaternion {
+    coords: nalgebra::Vector4::new(f64::NAN, f64::NAN, f64::NAN, f64::NAN),
+};
+
+/// A pose `T_base_frame` from a 4 × 4 matrix, row by row.
+///
+/// # Errors
+/// What is wrong with it, in words.
+pub fn pose(matrix: &[f64]) -> Result<Pose, Input> {
+    let Ok(m) = <&[f64; 16]>::try_from(matrix) else {
+        return Err(Input("16 numbers are needed".to_owned()));
+    };
+    Ok(scaled(m, multiple(m)?))
+}
+
+/// The same of many, into `poses` in place of what was there; `room` is scratch. A matrix that is no pose becomes one of NaN.
+///
+/// Roots and divisions wait for each other within one pose, but not from pose to pose: they have a loop of their own.
+pub fn poses(matrices: &[[f64; 16]], room: &mut Vec<Quaternion<f64>>, poses: &mut Vec<Pose>) {
+    room.clear();
+    room.extend(matrices.iter().map(|matrix| multiple(matrix).unwrap_or(NO_POSE)));
+    poses.clear();
+    poses.extend(matrices.iter().zip(room).map(|(matrix, q)| scaled(matrix, *q)));
+}
+
+/// A pose with a matrix's translation and a multiple of its quaternion.
+fn scaled(m: &[f64; 16], quaternion: Quaternion<f64>) -> Pose {
+    let rotation = UnitQuaternion::new_normalize(quaternion);
+    Pose::from_parts(Vector3::new(m[3], m[7], m[11]).into(), rotation)
+}
+
+/// A multiple of the quaternion of a matrix that is a pose.
+fn multiple(m: &[f64; 16]) -> Result<Quaternion<f64>, Input> {
+    if let Some(found) = m.iter().find(|v| !v.is_finite()) {
+        return Err(Input(format!("entries must be finite; found {found}")));
+    }
+    if m[12..] != [0.0, 0.0, 0.0, 1.0] {
+        let row = &m[12..];
+        return Err(Input(format!("the last row must be (0, 0, 0, 1); found {row:?}")));
+    }
+    let rows = [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]];
+    if surely_rotation(&rows) {
+        return Ok(quaternion(&rows));
+    }
+    Ok(quaternion(&nearest_rotation(&rows)?))
+}
+
+/// Whether three rows are a rotation to within [`EXACT`]: two unit rows at right angles, and their product.
+fn surely_rotation(&[a, b, c, d, e, f, g, h, i]: &[f64; 9]) -> bool {
+    let off = [
+        a * a + b * b + c * c - 1.0,
+        d * d + e * e + f * f - 1.0,
+        a * d + b * e + c * f,
+        b * f - c * e - g,
+        c * d - a * f - h,
+        a * e - b * d - i,
+    ];
+    // Not a comparison with the largest: NaN must not pass.
+    off.iter().all(|off| off.abs() < EXACT)
+}
+
+/// The rotation nearest to three rows that are nearly one, in the sum of squares: the orthogonal factor of the polar decomposition,
+/// by the iteration R ← R (3 I − RᵀR) / 2, which squares the error (Björck and Bowie, SIAM J. Numer. Anal. 8, 1971).
+fn nearest_rotation(rows: &[f64; 9]) -> Result<[f64; 9], Input> {
+    let mut rotation = Matrix3::from_row_slice(rows);
+    let gram = |r: &Matrix3<f64>| r.tr_mul(r);
+    let off = (gram(&rotation) - Matrix3::identity()).amax();
+    if off > ROUNDED {
+        return Err(Input(format!(
+            "the upper left 3 × 3 must be a rotation; its columns are {off:.1e} from orthonormal, and up to {ROUNDED:.0e} is taken for \
+             rounding: give more digits, or its nearest rotation, U @ Vt of U, s, Vt = np.linalg.svd(target[:3, :3])"
+        )));
+    }
+    if rotation.determinant() < 0.0 {
+        return Err(Input("the upper left 3 × 3 is a reflection, no rotation".to_owned()));
+    }
+    for _ in 0..2 {
+        rotation *= (Matrix3::identity() * 3.0 - gram(&rotation)) * 0.5;
+    }
+    let [x, y, z] = rotation.transpose().data.0;
+    Ok([x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]])
+}
+
+/// A multiple of the quaternion of a rotation: of the four rows of `4 q qᵀ`, which the entries of the matrix add up to, the one with the
+/// largest diagonal (Shepperd, J. Guidance and Control 1, 1978). No branches: they cost more than the rest.
+fn quaternion(&[a, b, c, d, e, f, g, h, i]: &[f64; 9]) -> Quaternion<f64> {
+    let squares = [1.0 + a + e + i, 1.0 + a - e - i, 1.0 - a + e - i, 1.0 - a - e + i];
+    let (wx, wy, wz) = (h - f, c - g, d - b);
+    let (xy, xz, yz) = (b + d, c + g, f + h);
+    let rows = [
+        [squares[0], wx, wy, wz],
+        [wx, squares[1], xy, xz],
+        [wy, xy, squares[2], yz],
+        [wz, xz, yz, squares[3]],
+    ];
+    let first = usize::from(squares[1] > squares[0]);
+    let second = 2 + usize::from(squares[3] > squares[2]);
+    let [w, x, y, z] = rows[if squares[second] > squares[first] {
+        second
+    } else {
+        first
+    }];
+    Quaternion::new(w, x, y, z)
+}
+
+/// Checks one of Python's plain values when it is made, field by field; `kind` is its class in lower case.
+///
+/// Raises InputTypeError for a field of a wrong type, InputError for one out of its range.
+#[pyfunction]
+pub fn _check(py: Python<'_>, kind: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+    match kind {
+        "tool" => ToolFields::of(value)?.tool(py).map(|_| ()),
+        "plate" => PlateFields::of("plate", value)?.plate(py).map(|_| ()),
+        "foot" => check_foot(py, value),
+        "ik_settings" => robot::settings(value).map(|_| ()),
+        "paper_spiral" => curves::spiral_of(value).map(|_| ()),
+        "figure" => page::check_figure(value),
+        "page" => page::check(value),
+        "rings" => curves::rings_of("rings", value).map(|_| ()),
+        "wash_curve" => curves::curve_of(value).map(|_| ()),
+        _ => Err(errors::internal(py, "no such kind of value")),
+    }
 }

@@ -2,9 +2,8 @@
 
 use crate::job::{PaperJobObject, WashJobObject};
 use crate::layout::LayoutObject;
-use crate::notes::warn;
 use crate::robot::Robot;
-use crate::value::{from_mapping, records, to_python, to_record};
+use crate::value::{from_mapping, records, to_python, to_record, warn};
 use crate::work::patiently;
 use crate::{argument, errors};
 use platewash::planner::Watch;

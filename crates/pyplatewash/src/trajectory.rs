@@ -1,8 +1,8 @@
 //! `Trajectory`: joint motion over time.
 
-use crate::arrays::{Count, MANY_JOINTS, Numbers, Wanted};
+use crate::arrays::{self, Count, MANY_JOINTS, Numbers, Wanted};
 use crate::work::released;
-use crate::{argument, errors, made};
+use crate::{argument, errors};
 use numpy::PyArrayDyn;
 use platewash::workcell::trajectory::{JointState, KnotError, SegmentExtremes};
 use platewash::{JointVector, Trajectory};
@@ -95,19 +95,19 @@ impl TrajectoryObject {
     /// Times of the knots, shape (N,) [s].
     #[getter]
     fn t_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        made::array(py, &[self.inner.times().len()], self.inner.times())
+        arrays::array(py, &[self.inner.times().len()], self.inner.times())
     }
 
     /// Positions at the knots, shape (N, 6) [rad].
     #[getter]
     fn q_rad<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        made::joint_rows(py, self.inner.positions())
+        arrays::joint_rows(py, self.inner.positions())
     }
 
     /// Speeds at the knots, shape (N, 6) [rad/s].
     #[getter]
     fn qd_rad_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        made::joint_rows(py, self.inner.speeds())
+        arrays::joint_rows(py, self.inner.speeds())
     }
 
     /// Time of the last knot [s].
@@ -131,8 +131,8 @@ impl TrajectoryObject {
         let column = |of: fn(&JointState) -> JointVector| {
             let rows: Vec<_> = states.iter().map(of).collect();
             match times.stacked {
-                None => made::array(py, &[6], rows[0].as_slice()),
-                Some(_) => made::joint_rows(py, &rows),
+                None => arrays::array(py, &[6], rows[0].as_slice()),
+                Some(_) => arrays::joint_rows(py, &rows),
             }
         };
         Ok((column(|s| s.q)?, column(|s| s.qd)?, column(|s| s.qdd)?))
@@ -144,9 +144,9 @@ impl TrajectoryObject {
         let all: Vec<SegmentExtremes> = self.inner.extremes().collect();
         let spans: Vec<f64> = all.iter().flat_map(|s| s.span_s).collect();
         let rows =
-            |of: fn(&SegmentExtremes) -> JointVector| made::joint_rows(py, &all.iter().map(of).collect::<Vec<_>>());
+            |of: fn(&SegmentExtremes) -> JointVector| arrays::joint_rows(py, &all.iter().map(of).collect::<Vec<_>>());
         let extremes = PyDict::new(py);
-        extremes.set_item("span_s", made::array(py, &[all.len(), 2], &spans)?)?;
+        extremes.set_item("span_s", arrays::array(py, &[all.len(), 2], &spans)?)?;
         extremes.set_item("q_min_rad", rows(|s| s.position[0])?)?;
         extremes.set_item("q_max_rad", rows(|s| s.position[1])?)?;
         extremes.set_item("speed_rad_s", rows(|s| s.speed)?)?;

@@ -1,10 +1,18 @@
 //! Work without the interpreter lock: threads that survive a fork, Ctrl-C, no panic.
+//!
+//! What Python's side of the package does for methods of ours: figures, pages in cells.
+//!
+//! The command `platewash`: the same code as the Rust program.
 
-use crate::errors;
+use crate::{argument, errors};
 use platewash::CancelToken;
+use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
+use pyo3::types::PyString;
 use rayon::ThreadPool;
+use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -144,4 +152,45 @@ fn panic_text(panic: &(dyn std::any::Any + Send)) -> String {
         .map(|text| (*text).to_owned())
         .or_else(|| panic.downcast_ref::<String>().cloned());
     format!("a fault in platewash, please report it: {}", words.unwrap_or_default())
+}
+
+/// What a function of one of the package's modules answers.
+///
+/// # Errors
+/// What the function raises.
+pub fn ask<'py>(
+    py: Python<'py>,
+    module: &str,
+    function: &str,
+    arguments: impl PyCallArgs<'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let module = py.import(format!("pyplatewash.{module}"))?;
+    module.getattr(function)?.call1(arguments)
+}
+
+/// Runs the command `platewash` with these arguments (its own name left out) in this process: results on standard output,
+/// messages on standard error. The answer is the exit code: 0 done, 1 internal error, 2 bad usage or input, 3 infeasible,
+/// 4 verification failed. Ctrl-C raises, and ends long work and `view`.
+#[pyfunction]
+pub fn run_command(py: Python<'_>, arguments: &Bound<'_, PyAny>) -> PyResult<u8> {
+    let line = line(arguments)?;
+    patiently(py, move |cancel| platewash::cli::main_until(line, cancel))
+}
+
+/// The same as a program of its own, which answers Ctrl-C: exit code 130.
+#[pyfunction]
+pub fn _program(py: Python<'_>, arguments: &Bound<'_, PyAny>) -> PyResult<u8> {
+    let line = line(arguments)?;
+    alone(py, move || platewash::cli::program(line))
+}
+
+/// The command's own name and its arguments.
+fn line(arguments: &Bound<'_, PyAny>) -> PyResult<Vec<OsString>> {
+    const NEEDED: &str = "a list of strings";
+    if arguments.is_instance_of::<PyString>() {
+        return Err(argument::wrong_type("arguments", arguments, NEEDED));
+    }
+    let arguments = argument::each("arguments", arguments, NEEDED, argument::path)?;
+    let arguments = arguments.into_iter().map(PathBuf::into_os_string);
+    Ok(std::iter::once(OsString::from("platewash")).chain(arguments).collect())
 }

@@ -1,8 +1,7 @@
 //! Scenarios that are refused, and jobs that cannot be carried out.
 
-use super::simulation::simulation;
-use super::{FileOf, SystemWord, any, input, keyed, named, raise, system_file};
-use crate::made;
+use crate::arrays;
+use crate::errors::{FileOf, SystemWord, any, input, keyed, named, raise, simulation, system_file};
 use platewash::paper::PaperError;
 use platewash::paper::tracking::TrackingError;
 use platewash::planner::UnwashablePlate;
@@ -163,7 +162,7 @@ fn unwashable<'py>(py: Python<'py>, plate: &UnwashablePlate) -> Vec<Field<'py>> 
         true => "unwashable",
         false => "not_found",
     };
-    let nearest = plate.nearest_m.and_then(|at| made::array(py, &[2], &at).ok());
+    let nearest = plate.nearest_m.and_then(|at| arrays::array(py, &[2], &at).ok());
     vec![
         ("cause", any(py, cause)),
         ("plate", any(py, plate.plate)),

@@ -1,15 +1,29 @@
 //! Inverse kinematics of many targets, straight into NumPy's arrays.
+//!
+//! Neighbouring rows of a batch of inverse kinematics: the problems, a thread's desk, and the places for the answers.
+//!
+//! Forward kinematics and Jacobians, one at a time or in batches.
+//!
+//! Inverse kinematics: one target, all branches, a path.
 
-use super::rows::{Desk, Problems, Rows, Seeds};
-use crate::arrays::{JOINTS, MANY_POSES, Numbers};
-use crate::work::released;
-use crate::{errors, made};
+use crate::arrays::{self, JOINTS, MANY_POSES, Numbers, ONE_POSE};
+use crate::errors::{self, Input};
+use crate::plate;
+use crate::robot::settings::IkSolutionRecord;
+use crate::work::{STRETCH, alone, patiently, released};
+use nalgebra::{Matrix6, Quaternion};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
-use platewash::{IkSolver, JointVector};
+use platewash::kinematics::batch::{self, Backend, BatchError};
+use platewash::kinematics::ik::AllBranchesError;
+use platewash::kinematics::ik::analytic::{AnalyticError, Label};
+use platewash::kinematics::model::manipulability as manipulability_of;
+use platewash::{Axes, Frame, IkError, IkSolution, IkSolver, Jacobian, JointVector, Pose, RobotModel};
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyType};
 use rayon::prelude::*;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Rows between the first two looks for signals; doubled as long as they take less than [`PATIENCE`].
@@ -48,10 +62,10 @@ pub fn solve<'py>(
         }
     };
     let columns = Columns {
-        q: made::zeros(py, &[n, 6]),
-        solved: made::zeros(py, &[n]),
-        iterations: made::zeros(py, &[n]),
-        errors: [made::zeros(py, &[n]), made::zeros(py, &[n])],
+        q: arrays::zeros(py, &[n, 6]),
+        solved: arrays::zeros(py, &[n]),
+        iterations: arrays::zeros(py, &[n]),
+        errors: [arrays::zeros(py, &[n]), arrays::zeros(py, &[n])],
     };
     let problems = Problems {
         solver,
@@ -122,4 +136,344 @@ fn finite(py: Python<'_>, seed: JointVector) -> PyResult<JointVector> {
             Err(errors::input(py, "seeds", &problem))
         }
     }
+}
+
+/// Rows to a unit of work: their poses and answers stay in a processor's cache.
+const CHUNK: usize = 512;
+
+/// Rows that are not solved, with the word for the cause.
+pub type Causes = Vec<(usize, &'static str)>;
+
+/// Seeds of a batch.
+#[derive(Clone, Copy)]
+pub enum Seeds<'a> {
+    /// One for all targets.
+    One(JointVector),
+    /// One a target.
+    Each(&'a [JointVector]),
+}
+
+/// What is to be solved.
+#[derive(Clone, Copy)]
+pub struct Problems<'a> {
+    /// How.
+    pub solver: &'a IkSolver<'a>,
+    /// Targets `T_base_frame`, row by row.
+    pub matrices: &'a [[f64; 16]],
+    /// From where.
+    pub seeds: Seeds<'a>,
+}
+
+/// What a thread works with, chunk after chunk.
+pub struct Desk {
+    room: Vec<Quaternion<f64>>,
+    targets: Vec<Pose>,
+    seeds: Vec<JointVector>,
+    answers: Vec<Result<IkSolution, IkError>>,
+}
+
+impl Desk {
+    /// A desk for the problems.
+    #[must_use]
+    pub fn new(problems: &Problems<'_>) -> Self {
+        let not_yet = IkError::Target {
+            position: [f64::NAN; 3],
+        };
+        Self {
+            room: Vec::with_capacity(CHUNK),
+            targets: Vec::with_capacity(CHUNK),
+            seeds: match problems.seeds {
+                Seeds::One(seed) => vec![seed; CHUNK],
+                Seeds::Each(_) => Vec::new(),
+            },
+            answers: vec![Err(not_yet); CHUNK],
+        }
+    }
+}
+
+/// Places for the answers of neighbouring rows.
+pub struct Rows<'a> {
+    /// Index of the first.
+    pub first: usize,
+    /// Configurations \[rad\].
+    pub q: &'a mut [JointVector],
+    /// Whether the target is reached.
+    pub solved: &'a mut [bool],
+    /// Linear systems and quadratic programs.
+    pub iterations: &'a mut [i64],
+    /// Distances \[m\].
+    pub position_error_m: &'a mut [f64],
+    /// Angles \[rad\].
+    pub orientation_error_rad: &'a mut [f64],
+}
+
+impl<'a> Rows<'a> {
+    /// Cuts off the first `n` rows.
+    pub fn split(self, n: usize) -> (Self, Self) {
+        let (q, q_rest) = self.q.split_at_mut(n);
+        let (solved, solved_rest) = self.solved.split_at_mut(n);
+        let (iterations, iterations_rest) = self.iterations.split_at_mut(n);
+        let (position, position_rest) = self.position_error_m.split_at_mut(n);
+        let (orientation, orientation_rest) = self.orientation_error_rad.split_at_mut(n);
+        let rows = |first, q, solved, iterations, position_error_m, orientation_error_rad| Self {
+            first,
+            q,
+            solved,
+            iterations,
+            position_error_m,
+            orientation_error_rad,
+        };
+        (
+            rows(self.first, q, solved, iterations, position, orientation),
+            rows(
+                self.first + n,
+                q_rest,
+                solved_rest,
+                iterations_rest,
+                position_rest,
+                orientation_rest,
+            ),
+        )
+    }
+
+    /// Units of work.
+    #[must_use]
+    pub fn chunks(self) -> Vec<Self> {
+        let mut all = Vec::with_capacity(self.q.len().div_ceil(CHUNK));
+        let mut rest = self;
+        while rest.q.len() > CHUNK {
+            let (chunk, others) = rest.split(CHUNK);
+            all.push(chunk);
+            rest = others;
+        }
+        all.push(rest);
+        all
+    }
+
+    /// Solves these rows, a unit of work.
+    ///
+    /// # Errors
+    /// What must not happen, in words.
+    pub fn solve(&mut self, desk: &mut Desk, problems: &Problems<'_>) -> Result<Causes, BatchError> {
+        let (first, n) = (self.first, self.q.len());
+        let matrices = &problems.matrices[first..first + n];
+        plate::poses(matrices, &mut desk.room, &mut desk.targets);
+        let seeds = match problems.seeds {
+            Seeds::One(_) => &desk.seeds[..n],
+            Seeds::Each(seeds) => &seeds[first..first + n],
+        };
+        let answers = &mut desk.answers[..n];
+        batch::solve_into(problems.solver, &desk.targets, seeds, answers, Backend::Detected)?;
+        let mut causes = Causes::new();
+        for (k, answer) in answers.iter().enumerate() {
+            if let Some(cause) = self.put(k, answer) {
+                causes.push((first + k, cause));
+            }
+        }
+        Ok(causes)
+    }
+
+    /// Writes an answer down; the word for why it is none.
+    fn put(&mut self, k: usize, answer: &Result<IkSolution, IkError>) -> Option<&'static str> {
+        let not_a_number = JointVector::repeat(f64::NAN);
+        let (q, iterations, [position, orientation], cause) = match answer {
+            Ok(s) => (s.q, s.iterations, [s.position_error_m, s.orientation_error_rad], None),
+            Err(IkError::NotSolved(f)) => {
+                let missed = [f.position_error_m, f.orientation_error_rad];
+                (f.q, f.iterations, missed, Some(errors::cause(&f.cause).0))
+            }
+            Err(IkError::Seed { .. }) => (not_a_number, 0, [f64::NAN; 2], Some("seed")),
+            Err(_) => (not_a_number, 0, [f64::NAN; 2], Some("target")),
+        };
+        self.solved[k] = answer.is_ok();
+        self.q[k] = q;
+        self.iterations[k] = iterations as i64;
+        (self.position_error_m[k], self.orientation_error_rad[k]) = (position, orientation);
+        cause
+    }
+}
+
+/// See `Robot.fk`.
+pub fn fk<'py>(
+    robot: &RobotModel,
+    py: Python<'py>,
+    q: &Bound<'py, PyAny>,
+    frame: &Frame,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let numbers = Numbers::read("q", q, JOINTS)?;
+    let q = numbers.joints()?;
+    let Some(count) = numbers.stacked else {
+        let r = robot.fk(&q[0]).rigid(frame);
+        let (m, t) = (&r.rotation, &r.translation);
+        let rows = [
+            m.m11, m.m12, m.m13, t.x, m.m21, m.m22, m.m23, t.y, m.m31, m.m32, m.m33, t.z, 0.0, 0.0, 0.0, 1.0,
+        ];
+        return arrays::array(py, &[4, 4], &rows);
+    };
+    let poses = arrays::zeros::<f64>(py, &[count, 4, 4]);
+    let mut writable: PyReadwriteArrayDyn<'_, f64> = poses.readwrite();
+    let (matrices, _) = writable.as_slice_mut()?.as_chunks_mut::<16>();
+    for (q, matrices) in q.chunks(STRETCH).zip(matrices.chunks_mut(STRETCH)) {
+        let done = released(py, || {
+            batch::fk_matrices_into(robot, frame, q, matrices, Backend::Detected)
+        })?;
+        done.map_err(|e| crate::errors::internal(py, &e.to_string()))?;
+        py.check_signals()?;
+    }
+    drop(writable);
+    Ok(poses)
+}
+
+/// See `Robot.jacobian`.
+pub fn jacobian<'py>(
+    robot: &RobotModel,
+    py: Python<'py>,
+    q: &Bound<'py, PyAny>,
+    frame: &Frame,
+    axes: Axes,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let numbers = Numbers::read("q", q, JOINTS)?;
+    let q = numbers.joints()?;
+    let Some(count) = numbers.stacked else {
+        let jacobian = robot.fk(&q[0]).jacobian(frame, axes);
+        return arrays::array(py, &[6, 6], jacobian.transpose().as_slice());
+    };
+    let result = arrays::zeros::<f64>(py, &[count, 6, 6]);
+    let mut writable: PyReadwriteArrayDyn<'_, f64> = result.readwrite();
+    let jacobians: &mut [Jacobian] = bytemuck::cast_slice_mut(writable.as_slice_mut()?);
+    for (q, jacobians) in q.chunks(STRETCH).zip(jacobians.chunks_mut(STRETCH)) {
+        let done = released(py, || {
+            batch::jacobian_into(robot, frame, q, axes, jacobians, Backend::Detected)?;
+            // Rust's matrices lie column by column, NumPy's row by row.
+            jacobians
+                .par_chunks_mut(CHUNK)
+                .for_each(|chunk| chunk.iter_mut().for_each(Matrix6::transpose_mut));
+            Ok::<_, batch::BatchError>(())
+        })?;
+        done.map_err(|e| crate::errors::internal(py, &e.to_string()))?;
+        py.check_signals()?;
+    }
+    drop(writable);
+    Ok(result)
+}
+
+/// See `Robot.manipulability`.
+pub fn manipulability<'py>(
+    robot: &RobotModel,
+    py: Python<'py>,
+    q: &Bound<'py, PyAny>,
+    frame: &Frame,
+) -> PyResult<Bound<'py, PyAny>> {
+    let numbers = Numbers::read("q", q, JOINTS)?;
+    let q = numbers.joints()?;
+    let of = |q| manipulability_of(&robot.fk(q).jacobian(frame, Axes::Base));
+    if numbers.stacked.is_none() {
+        return of(&q[0]).into_bound_py_any(py);
+    }
+    let all: Vec<f64> = released(py, || q.par_iter().with_min_len(CHUNK).map(of).collect())?;
+    Ok(arrays::line(py, all).into_any())
+}
+
+/// See `Robot.limit_margins`.
+pub fn limit_margins<'py>(
+    robot: &RobotModel,
+    py: Python<'py>,
+    q: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let numbers = Numbers::read("q", q, JOINTS)?;
+    let margins: Vec<_> = numbers.joints()?.iter().map(|q| robot.limits().margins(q)).collect();
+    match numbers.stacked {
+        None => arrays::array(py, &[6], margins[0].as_slice()),
+        Some(_) => arrays::joint_rows(py, &margins),
+    }
+}
+
+static BRANCHES: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+
+/// One pose, shape (4, 4).
+fn target(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
+    let numbers = Numbers::read("target", value, ONE_POSE)?;
+    plate::pose(numbers.values()?).map_err(|e| errors::input(value.py(), "target", &e.0))
+}
+
+fn seed(value: Option<&Bound<'_, PyAny>>, name: &'static str) -> PyResult<JointVector> {
+    value.map_or_else(|| Ok(JointVector::zeros()), |value| arrays::joint_vector(name, value))
+}
+
+/// Poses, shape (N, 4, 4); the first that is none is named.
+fn poses(matrices: &[[f64; 16]]) -> Result<Vec<Pose>, (usize, Input)> {
+    let all = matrices.par_iter().with_min_len(512).enumerate();
+    all.map(|(k, m)| plate::pose(m).map_err(|e| (k, e))).collect()
+}
+
+/// A target that is no pose.
+fn no_pose(py: Python<'_>, (k, e): (usize, Input)) -> PyErr {
+    errors::input(py, "targets", &format!("in pose {k}: {e}"))
+}
+
+/// See `Robot.ik`.
+pub fn one(
+    solver: &IkSolver<'_>,
+    py: Python<'_>,
+    to: &Bound<'_, PyAny>,
+    from: Option<&Bound<'_, PyAny>>,
+) -> PyResult<IkSolutionRecord> {
+    let (to, from) = (target(to)?, seed(from, "seed")?);
+    let answer = alone(py, || solver.solve(&to, &from))?;
+    answer
+        .map(|s| IkSolutionRecord::from(&s))
+        .map_err(|e| errors::ik(py, &e))
+}
+
+/// See `Robot.ik_all`.
+pub fn all<'py>(
+    solver: &IkSolver<'_>,
+    py: Python<'py>,
+    to: &Bound<'py, PyAny>,
+    previous: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (to, previous) = (target(to)?, seed(previous, "previous")?);
+    let answer = alone(py, || solver.solve_all(&to, &previous))?;
+    let answer = answer.map_err(|e| no_branches(py, &e))?;
+    let name = |label: Label| {
+        let words = [
+            format!("{:?}", label.shoulder),
+            format!("{:?}", label.elbow),
+            format!("{:?}", label.wrist),
+        ];
+        words.map(|word| word.to_lowercase()).join(" ")
+    };
+    let (labels, q): (Vec<_>, Vec<_>) = answer.configurations().map(|(label, q)| (name(label), q)).unzip();
+    let rejections = PyDict::new(py);
+    for (label, why) in answer.rejections() {
+        rejections.set_item(name(label), why.to_string())?;
+    }
+    let class = BRANCHES.import(py, "pyplatewash._records", "IkBranches")?;
+    class.call1((arrays::joint_rows(py, &q)?, labels, rejections))
+}
+
+/// Names the argument for which there are no branches.
+fn no_branches(py: Python<'_>, error: &AllBranchesError) -> PyErr {
+    let argument = match error {
+        AllBranchesError::NotAnalytic(_) => "robot",
+        AllBranchesError::Frame => "frame",
+        AllBranchesError::Input(AnalyticError::Start { .. }) => "previous",
+        _ => "target",
+    };
+    errors::input(py, argument, &error.to_string())
+}
+
+/// See `Robot.ik_path`.
+pub fn path<'py>(
+    solver: Arc<IkSolver<'static>>,
+    py: Python<'py>,
+    targets: &Bound<'py, PyAny>,
+    from: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let numbers = Numbers::read("targets", targets, MANY_POSES)?;
+    let (matrices, _) = numbers.values()?.as_chunks::<16>();
+    let from = seed(from, "seed")?;
+    let targets = released(py, || poses(matrices))?.map_err(|e| no_pose(py, e))?;
+    let answer = patiently(py, move |_| solver.solve_path(&targets, &from))?;
+    arrays::joint_rows(py, &answer.map_err(|e| errors::ik_path(py, &e))?.q)
 }

@@ -1,27 +1,24 @@
 //! `Robot`: the arm as Python sees it.
 
 mod batch;
-mod forward;
-mod inverse;
-mod rows;
 mod settings;
 mod source;
 
+pub use crate::robot::settings::{IkSolutionRecord, settings};
+
 use crate::argument::{self, ROBOT};
-use crate::notes::warn;
-use crate::tool::ToolFields;
-use crate::{errors, made};
+use crate::plate::ToolFields;
+use crate::robot::settings::Solvers;
+use crate::robot::source::Source;
+use crate::value::warn;
+use crate::{arrays, errors};
 use numpy::PyArrayDyn;
 use platewash::kinematics::urdf::Files;
 use platewash::scenario::Note;
 use platewash::{Axes, Frame, IkSolver, RobotModel, Scenario, ToolFrame};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
-use settings::Solvers;
-use source::Source;
 use std::sync::Arc;
-
-pub use settings::{IkSolutionRecord, settings};
 
 /// A six-axis arm. Immutable.
 ///
@@ -214,19 +211,19 @@ impl Robot {
     /// Lowest joint positions, shape (6,) [rad]; -inf for a continuous joint.
     #[getter]
     fn lower<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        made::array(py, &[6], self.model.limits().lower.as_slice())
+        arrays::array(py, &[6], self.model.limits().lower.as_slice())
     }
 
     /// Highest joint positions, shape (6,) [rad]; inf for a continuous joint.
     #[getter]
     fn upper<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        made::array(py, &[6], self.model.limits().upper.as_slice())
+        arrays::array(py, &[6], self.model.limits().upper.as_slice())
     }
 
     /// Highest joint speeds, shape (6,) [rad/s].
     #[getter]
     fn velocity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        made::array(py, &[6], self.model.limits().velocity.as_slice())
+        arrays::array(py, &[6], self.model.limits().velocity.as_slice())
     }
 
     /// Highest joint torques [N·m], None where the description states none.
@@ -237,7 +234,7 @@ impl Robot {
 
     /// Distance of each joint from its nearer limit [rad], shape of `q`; negative outside.
     fn limit_margins<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        forward::limit_margins(&self.model, py, q)
+        batch::limit_margins(&self.model, py, q)
     }
 
     /// Pose `T_base_frame` at `q`: shape (6,) gives (4, 4), (N, 6) gives (N, 4, 4). Limits are not checked; NaN in, NaN out.
@@ -249,7 +246,7 @@ impl Robot {
         frame: Option<&Bound<'_, PyAny>>,
         tool: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        forward::fk(&self.model, py, q, &self.frame(py, frame, tool)?)
+        batch::fk(&self.model, py, q, &self.frame(py, frame, tool)?)
     }
 
     /// Geometric Jacobian of a frame at `q`: shape (6,) gives (6, 6), (N, 6) gives (N, 6, 6).
@@ -267,7 +264,7 @@ impl Robot {
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let words = [("base", Axes::Base), ("local", Axes::Local)];
         let axes = axes.map_or(Ok(Axes::Base), |axes| argument::word("axes", axes, &words))?;
-        forward::jacobian(&self.model, py, q, &self.frame(py, frame, tool)?, axes)
+        batch::jacobian(&self.model, py, q, &self.frame(py, frame, tool)?, axes)
     }
 
     /// Yoshikawa's manipulability `|det J|` of a frame at `q` [m³]: shape (6,) gives a number, (N, 6) gives (N,).
@@ -279,7 +276,7 @@ impl Robot {
         frame: Option<&Bound<'_, PyAny>>,
         tool: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        forward::manipulability(&self.model, py, q, &self.frame(py, frame, tool)?)
+        batch::manipulability(&self.model, py, q, &self.frame(py, frame, tool)?)
     }
 
     /// A configuration within the limits that brings the frame to `target`, shape (4, 4), found from `seed`, shape (6,), by
@@ -297,7 +294,7 @@ impl Robot {
         settings: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<IkSolutionRecord> {
         let frame = self.frame(py, frame, tool)?;
-        inverse::one(&*self.solver(py, frame, settings)?, py, target, seed)
+        batch::one(&*self.solver(py, frame, settings)?, py, target, seed)
     }
 
     /// Every configuration within the limits that brings the frame to `target`, shape (4, 4), with the names of their branches,
@@ -314,7 +311,7 @@ impl Robot {
         tool: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let frame = self.frame(py, frame, tool)?;
-        inverse::all(&*self.solver(py, frame, None)?, py, target, previous)
+        batch::all(&*self.solver(py, frame, None)?, py, target, previous)
     }
 
     /// Configurations, shape (N, 6), that bring the frame through `targets`, shape (N, 4, 4), without a jump. The first one is
@@ -332,7 +329,7 @@ impl Robot {
         settings: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let frame = self.frame(py, frame, tool)?;
-        inverse::path(self.solver(py, frame, settings)?, py, targets, seed)
+        batch::path(self.solver(py, frame, settings)?, py, targets, seed)
     }
 
     /// Solves many targets, shape (N, 4, 4), each from its own seed, shape (N, 6), or all from one, shape (6,).

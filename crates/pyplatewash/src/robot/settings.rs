@@ -1,6 +1,6 @@
 //! Settings of the inverse kinematics, and solvers that are kept between calls.
 
-use crate::{argument, arrays, errors, made};
+use crate::{argument, arrays, errors};
 use numpy::PyArrayDyn;
 use platewash::kinematics::ik::{AnalyticStarts, Method, RandomRestarts, Start};
 use platewash::{Frame, IkSettings, IkSolution, IkSolver, RobotModel};
@@ -195,7 +195,7 @@ impl IkSolutionRecord {
     /// Joint positions, shape (6,) [rad].
     #[getter]
     fn q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        made::array(py, &[6], &self.q)
+        arrays::array(py, &[6], &self.q)
     }
 
     fn __repr__(&self) -> String {

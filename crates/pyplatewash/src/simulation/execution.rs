@@ -1,12 +1,12 @@
 //! `Execution`: what the arm did, sample by sample, and its report.
 
-use super::question::Question;
-use super::settings::SettingsObject;
 use crate::plan::PlanObject;
 use crate::robot::Robot;
+use crate::simulation::Question;
+use crate::simulation::settings::SettingsObject;
 use crate::value::to_record;
 use crate::work::patiently;
-use crate::{argument, errors, made};
+use crate::{argument, arrays, errors};
 use numpy::{PyArray1, PyArrayDyn};
 use platewash::simulator::plant::Felt;
 use platewash::simulator::simulate::{Sample, table as csv_table};
@@ -54,12 +54,12 @@ impl ExecutionObject {
     }
 
     fn rows<'py>(&self, py: Python<'py>, of: impl Fn(&Sample) -> JointVector) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        made::joint_rows(py, &self.samples().iter().map(of).collect::<Vec<_>>())
+        arrays::joint_rows(py, &self.samples().iter().map(of).collect::<Vec<_>>())
     }
 
     fn felt<'py>(&self, py: Python<'py>, of: impl Fn(&Felt) -> f64) -> Option<Bound<'py, PyArray1<f64>>> {
         let felt: Option<Vec<f64>> = self.samples().iter().map(|s| s.felt.as_ref().map(&of)).collect();
-        felt.map(|felt| made::line(py, felt))
+        felt.map(|felt| arrays::line(py, felt))
     }
 }
 
@@ -86,13 +86,13 @@ impl ExecutionObject {
     /// Times of the samples, shape (N,) [s].
     #[getter]
     fn t_s<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        made::line(py, self.samples().iter().map(|s| s.t_s).collect())
+        arrays::line(py, self.samples().iter().map(|s| s.t_s).collect())
     }
 
     /// Index of the plan's segment at each sample, shape (N,).
     #[getter]
     fn segment<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        made::line(py, self.samples().iter().map(|s| s.segment as i64).collect())
+        arrays::line(py, self.samples().iter().map(|s| s.segment as i64).collect())
     }
 
     /// Positions that the plan asks for, shape (N, 6) [rad].

@@ -1,6 +1,6 @@
 //! The folder of a study while somebody works on it.
 
-use super::StudyObject;
+use crate::study::StudyObject;
 use crate::work::patiently_by;
 use crate::{argument, errors};
 use platewash::CancelToken;

@@ -1,25 +1,28 @@
 //! `Study`: many scenarios as one value. Its rows are worked on by `journal` and `worker`, which Python's engines drive
 //! (`python/pyplatewash/_studies/`).
+//!
+//! The text of a study file out of what a call states.
+//!
+//! What makes rows: on a thread of a worker, without any file of the study.
 
 mod journal;
-mod stated;
-mod worker;
 
-pub use journal::StudyJournalObject;
-pub use worker::StudyWorkerObject;
+pub use crate::study::journal::StudyJournalObject;
 
-use crate::by_python::ask;
 use crate::scenario::ScenarioObject;
-use crate::value::to_record;
-use crate::work::patiently;
+use crate::value::{from_mapping, to_record};
+use crate::work::{ask, patiently, patiently_by};
 use crate::{argument, errors};
+use platewash::CancelToken;
 use platewash::kinematics::urdf::Files;
 use platewash::scenario::Draft;
-use platewash::study::{self, Study, StudyError, StudyParts};
+use platewash::study::{self, Outcome, Resolver, Study, StudyError, StudyParts};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyTuple, PyType};
+use pyo3::types::{PyBytes, PyDict, PyFrozenSet, PyMapping, PyRange, PyRangeMethods, PySet, PyString, PyTuple, PyType};
+use serde_json::{Map, Value, json};
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// What a study that no file states is called in messages.
 const UNSAVED: &str = "study";
@@ -69,9 +72,9 @@ impl StudyObject {
         name: Option<&Bound<'_, PyAny>>,
         plans: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let text = stated::text(py, scenario, (axes, rows), name, plans)?;
+        let text = text(py, scenario, (axes, rows), name, plans)?;
         let study = Study::parse(&text, UNSAVED, Path::new(""));
-        Self::of(py, study.map_err(stated::without_line))
+        Self::of(py, study.map_err(without_line))
     }
 
     /// The study of a file, or the one that a folder keeps the rows of, which needs no other file.
@@ -237,4 +240,199 @@ pub fn _study_summary<'py>(py: Python<'py>, folder: &Bound<'py, PyAny>) -> PyRes
 fn restored(parts: &Bound<'_, PyBytes>) -> Result<Study, StudyError> {
     let text = String::from_utf8_lossy(parts.as_bytes());
     StudyParts::from_json(&text).and_then(Study::from_parts)
+}
+
+/// The keys of `plans`.
+const PLANS: [(&str, &str); 3] = [("none", "none"), ("failed", "failed"), ("all", "all")];
+/// What a scenario must be.
+const SCENARIO: &str = "a Scenario, the name of a shipped one, the path of a file or a list of them";
+
+/// The TOML text of a study.
+///
+/// # Errors
+/// `InputTypeError` and `InputError`, naming the argument and the key.
+pub fn text(
+    py: Python<'_>,
+    scenario: &Bound<'_, PyAny>,
+    (axes, rows): (Option<&Bound<'_, PyAny>>, Option<&Bound<'_, PyAny>>),
+    name: Option<&Bound<'_, PyAny>>,
+    plans: Option<&Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let mut study = Map::new();
+    let mut put = |key: &str, value: Value| drop(study.insert(key.to_owned(), value));
+    put("format", json!("platewash-study/1"));
+    let name = name.map_or_else(|| Ok("study".to_owned()), |name| argument::text("name", name, "a name"))?;
+    put("name", json!(name));
+    put("scenario", scenarios(scenario)?);
+    if let Some(plans) = plans {
+        put("plans", json!(argument::word("plans", plans, &PLANS)?));
+    }
+    if let Some(axes) = axes {
+        put("axis", Value::Array(each_axis(axes)?));
+    }
+    if let Some(rows) = rows {
+        let row = |name: &str, row: &Bound<'_, PyAny>| from_mapping(name, row).map(Value::Object);
+        let rows = argument::each("rows", rows, "a list of dictionaries", row)?;
+        refuse_nulls("rows", &Value::Array(rows.clone())).map_err(|at| none(py, &at))?;
+        put("rows", Value::Array(rows));
+    }
+    toml::to_string(&study).map_err(|error| errors::input(py, "axes", &error.to_string()))
+}
+
+/// An error without the line of a text that nobody has seen.
+pub fn without_line(error: StudyError) -> StudyError {
+    match error {
+        StudyError::File { file, problem, .. } => StudyError::File {
+            file,
+            line: None,
+            problem,
+        },
+        other => other,
+    }
+}
+
+fn scenarios(given: &Bound<'_, PyAny>) -> PyResult<Value> {
+    let is_one = given.is_instance_of::<PyString>()
+        || given.is_instance_of::<ScenarioObject>()
+        || given.hasattr("__fspath__")?;
+    let one = |name: &str, given: &Bound<'_, PyAny>| {
+        if let Ok(scenario) = given.cast::<ScenarioObject>() {
+            let text = scenario.get().to_toml(given.py())?;
+            return Ok(json!({"name": scenario.get().inner().name, "text": text}));
+        }
+        let path = argument::path(name, given).map_err(|e| argument::refused(name, given, SCENARIO, e))?;
+        match path.to_str() {
+            Some(path) => Ok(Value::from(path)),
+            None => Err(errors::input(given.py(), name, "is not valid Unicode")),
+        }
+    };
+    if is_one {
+        return one("scenario", given);
+    }
+    argument::each("scenario", given, SCENARIO, one).map(Value::Array)
+}
+
+fn each_axis(axes: &Bound<'_, PyAny>) -> PyResult<Vec<Value>> {
+    const NEEDED: &str = "a dictionary from keys to their values";
+    let mapping = axes.cast::<PyMapping>();
+    let mapping = mapping.map_err(|_| argument::wrong_type("axes", axes, NEEDED))?;
+    let mut all = Vec::new();
+    for item in mapping.items()?.iter() {
+        let (key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
+        let key = argument::text("axes", &key, "the key of a scenario")?;
+        all.push(axis(&key, &values)?);
+    }
+    Ok(all)
+}
+
+/// One axis. Seeds in a row are a range of the file, which is not listed.
+fn axis(key: &str, values: &Bound<'_, PyAny>) -> PyResult<Value> {
+    let at = format!("axes[{key}]");
+    if let Ok(range) = values.cast::<PyRange>()
+        && key == "seed"
+    {
+        let wide = |e| argument::refused(&at, values, "a range of seeds up to 2⁵³ − 1", e);
+        let (first, end, step) = (
+            range.start().map_err(wide)?,
+            range.stop().map_err(wide)?,
+            range.step().map_err(wide)?,
+        );
+        if step == 1 && first < end {
+            return Ok(json!({"key": key, "seeds": format!("{first}..{}", end - 1)}));
+        }
+    }
+    // A set has no order, so that each start of the interpreter gave other rows.
+    let is_unordered = values.is_instance_of::<PySet>() || values.is_instance_of::<PyFrozenSet>();
+    if is_unordered || values.is_instance_of::<PyString>() || values.cast::<PyMapping>().is_ok() {
+        return Err(argument::wrong_type(&at, values, "a list of values"));
+    }
+    let py = values.py();
+    let one = |name: &str, value: &Bound<'_, PyAny>| {
+        let held = pyo3::types::PyDict::new(py);
+        held.set_item(name, value)?;
+        let mut held = from_mapping("", &held)?;
+        let value = held.remove(name).unwrap_or_default();
+        refuse_nulls(name, &value).map_err(|at| none(py, &at))?;
+        Ok(value)
+    };
+    let values = argument::each(&at, values, "a list of values", one)?;
+    Ok(json!({"key": key, "values": values}))
+}
+
+/// The place of the first value that no file can state.
+fn refuse_nulls(at: &str, value: &Value) -> Result<(), String> {
+    match value {
+        Value::Null => Err(at.to_owned()),
+        Value::Array(all) => {
+            let mut all = all.iter().enumerate();
+            all.try_for_each(|(k, value)| refuse_nulls(&format!("{at}[{k}]"), value))
+        }
+        Value::Object(all) => all
+            .iter()
+            .try_for_each(|(key, value)| refuse_nulls(&format!("{at}.{key}"), value)),
+        _ => Ok(()),
+    }
+}
+
+fn none(py: Python<'_>, at: &str) -> PyErr {
+    errors::wrong_type(py, at, "a value is needed; found None")
+}
+
+/// A row's line, the seconds that it took, and the bytes of its plan where the study keeps it.
+type Made<'py> = (Bound<'py, PyBytes>, f64, Option<Bound<'py, PyBytes>>);
+
+/// Makes rows of a study, each on one thread of its own, whatever number of threads calls it.
+#[pyclass(frozen, module = "pyplatewash._core", name = "StudyWorker")]
+pub struct StudyWorkerObject {
+    study: Arc<Study>,
+    resolver: Arc<Resolver>,
+    cancel: CancelToken,
+}
+
+#[pymethods]
+impl StudyWorkerObject {
+    /// Of a study by its parts.
+    #[new]
+    fn new(py: Python<'_>, parts: &Bound<'_, PyBytes>) -> PyResult<Self> {
+        let study = StudyObject::of(py, restored(parts))?.inner;
+        Ok(Self {
+            resolver: Arc::new(Resolver::new(study.clone())),
+            study,
+            cancel: CancelToken::new(),
+        })
+    }
+
+    /// Makes a row; None where it was told to stop.
+    fn make<'py>(&self, py: Python<'py>, index: &Bound<'_, PyAny>) -> PyResult<Option<Made<'py>>> {
+        let index = argument::count("index", index, argument::ANY_COUNT)? as u64;
+        let resolver = self.resolver.clone();
+        let began = Instant::now();
+        let made = patiently_by(py, 1, &self.cancel, move |cancel| resolver.row(index, cancel))?;
+        let Some(made) = made.map_err(|error| errors::study(py, error))? else {
+            return Ok(None);
+        };
+        let line = made.row.line();
+        let plan = made.plan.map(|plan| PyBytes::new(py, &plan));
+        Ok(Some((
+            PyBytes::new(py, line.as_bytes()),
+            began.elapsed().as_secs_f64(),
+            plan,
+        )))
+    }
+
+    /// A row of a planner that does nothing: what an engine costs by itself is measured with it.
+    fn unplanned<'py>(&self, py: Python<'py>, index: &Bound<'_, PyAny>) -> PyResult<Option<Made<'py>>> {
+        let index = argument::count("index", index, argument::ANY_COUNT)? as u64;
+        if self.cancel.is_cancelled() {
+            return Ok(None);
+        }
+        let row = self.study.ended(index, Outcome::NotFound, "nothing was planned");
+        let line = row.map_err(|error| errors::study(py, error))?.line();
+        Ok(Some((PyBytes::new(py, line.as_bytes()), 0.0, None)))
+    }
+
+    /// Gives up what it works on, and all that comes.
+    fn stop(&self) {
+        self.cancel.cancel();
+    }
 }

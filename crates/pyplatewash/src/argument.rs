@@ -3,20 +3,18 @@
 //! Every public callable takes plain Python objects and reads them here (arrays in `arrays`, tables in `value`). What does not do
 //! is refused in one form: the argument's name, what is needed, what was found. A wrong type is an `InputTypeError`, a wrong
 //! value an `InputError`. What a foreign object raises itself, such as an iterator of the caller's, is passed on.
-
-mod for_python;
-mod scalar;
-
-pub use for_python::{
-    _argument_count, _argument_flag, _argument_number, _argument_path, _argument_shown, _argument_texts, _argument_word,
-};
-pub use scalar::{ANY_COUNT, count, flag, number, number_or, seed, text, word};
+//!
+//! Numbers, integers, truth values and texts.
+//!
+//! Arguments of the functions that are written in Python: read and refused as those of Rust's. `python/pyplatewash/_arguments.py` names
+//! these.
 
 use crate::errors;
+use numpy::{PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyBool, PyBytes, PyFloat, PyInt, PyString, PyType};
+use pyo3::types::{PyBool, PyBytes, PyComplex, PyFloat, PyInt, PyString, PyType};
 use pyo3::{PyClass, intern};
 use std::path::PathBuf;
 
@@ -197,4 +195,160 @@ pub fn field<'py, T>(
     let found = value.getattr_opt(field)?;
     let found = found.ok_or_else(|| wrong_type(name, value, needed))?;
     read(&format!("{class}.{field}"), &found)
+}
+
+/// Largest seed: beyond 2⁵³ − 1, neighbouring integers are one number in a plan file.
+pub const LARGEST_SEED: u64 = platewash::workcell::job::MAX_SEED;
+/// Largest count that is passed on, to be judged by whoever counts.
+pub const ANY_COUNT: [u64; 2] = [0, i64::MAX as u64];
+
+/// A number; NaN and infinities are judged by whoever uses it.
+///
+/// # Errors
+/// `InputTypeError` for what is no real number (a boolean is none), `InputError` for what no double can hold.
+pub fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    const NEEDED: &str = "a number";
+    if value.is_exact_instance_of::<PyFloat>() {
+        return value.extract();
+    }
+    unmasked(name, value)?;
+    let array = value.cast::<PyUntypedArray>().is_ok_and(|array| array.ndim() > 0);
+    if array || value.is_instance_of::<PyBool>() || value.is_instance_of::<PyComplex>() || !real(value)? {
+        return Err(wrong_type(name, value, NEEDED));
+    }
+    value.extract().map_err(|e| refused(name, value, NEEDED, e))
+}
+
+/// A number, or another one where none is given.
+///
+/// # Errors
+/// As [`number`].
+pub fn number_or(name: &str, value: Option<&Bound<'_, PyAny>>, otherwise: f64) -> PyResult<f64> {
+    value.map_or(Ok(otherwise), |value| number(name, value))
+}
+
+/// Whether a value of NumPy's is an integer or a real number; true of anything else.
+fn real(value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    let py = value.py();
+    let Some(dtype) = value.getattr_opt(intern!(py, "dtype"))? else {
+        return Ok(true);
+    };
+    let Some(kind) = dtype.getattr_opt(intern!(py, "kind"))? else {
+        return Ok(true);
+    };
+    Ok(kind
+        .extract::<String>()
+        .is_ok_and(|kind| ["f", "i", "u"].contains(&kind.as_str())))
+}
+
+/// An integer from `least` to `most`.
+///
+/// # Errors
+/// `InputTypeError` for what is no integer (a boolean is none), `InputError` for one out of range.
+fn integer(name: &str, value: &Bound<'_, PyAny>, [least, most]: [u64; 2]) -> PyResult<u64> {
+    let needed = match most {
+        most if most == ANY_COUNT[1] => format!("an integer, {least} or more,"),
+        most => format!("an integer from {least} to {most}"),
+    };
+    if value.is_instance_of::<PyBool>() {
+        return Err(wrong_type(name, value, &needed));
+    }
+    let found: i64 = value.extract().map_err(|e| refused(name, value, &needed, e))?;
+    let found = u64::try_from(found).ok().filter(|found| (least..=most).contains(found));
+    found.ok_or_else(|| wrong_value(name, value, &needed))
+}
+
+/// A count or an index.
+///
+/// # Errors
+/// As [`integer`].
+pub fn count(name: &str, value: &Bound<'_, PyAny>, range: [u64; 2]) -> PyResult<usize> {
+    let found = integer(name, value, range)?;
+    usize::try_from(found).map_err(|_| wrong_value(name, value, "a smaller integer"))
+}
+
+/// A seed of random numbers.
+///
+/// # Errors
+/// As [`integer`].
+pub fn seed(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
+    integer(name, value, [0, LARGEST_SEED])
+}
+
+/// True or False.
+///
+/// # Errors
+/// `InputTypeError`.
+pub fn flag(name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    const NEEDED: &str = "True or False";
+    value.extract().map_err(|e| refused(name, value, NEEDED, e))
+}
+
+/// A text; `needed` says of what.
+///
+/// # Errors
+/// `InputTypeError`; `InputError` for lone surrogates.
+pub fn text(name: &str, value: &Bound<'_, PyAny>, needed: &str) -> PyResult<String> {
+    value.extract().map_err(|e| refused(name, value, needed, e))
+}
+
+/// One of the given words.
+///
+/// # Errors
+/// `InputTypeError`; `InputError` for another word.
+pub fn word<T: Copy>(name: &str, value: &Bound<'_, PyAny>, words: &[(&str, T)]) -> PyResult<T> {
+    let names: Vec<_> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
+    let needed = format!("one of {}", names.join(", "));
+    let given = text(name, value, &needed)?;
+    let found = words.iter().find(|(word, _)| *word == given);
+    found
+        .map(|(_, meaning)| *meaning)
+        .ok_or_else(|| wrong_value(name, value, &needed))
+}
+
+/// A number; it may be NaN or infinite.
+#[pyfunction]
+pub fn _argument_number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    number(name, value)
+}
+
+/// An integer from `least` to `most`.
+#[pyfunction]
+pub fn _argument_count(name: &str, value: &Bound<'_, PyAny>, least: u64, most: u64) -> PyResult<usize> {
+    count(name, value, [least, most])
+}
+
+/// True or False.
+#[pyfunction]
+pub fn _argument_flag(name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    flag(name, value)
+}
+
+/// A path.
+#[pyfunction]
+pub fn _argument_path(name: &str, value: &Bound<'_, PyAny>) -> PyResult<PathBuf> {
+    path(name, value)
+}
+
+/// One of `words`.
+#[pyfunction]
+pub fn _argument_word(name: &str, value: &Bound<'_, PyAny>, words: Vec<String>) -> PyResult<String> {
+    let words: Vec<_> = words.iter().map(|word| (word.as_str(), word.as_str())).collect();
+    word(name, value, &words).map(str::to_owned)
+}
+
+/// Texts, or one.
+#[pyfunction]
+pub fn _argument_texts(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
+    let one = |name: &str, value: &Bound<'_, PyAny>| text(name, value, "a text");
+    if value.is_instance_of::<PyString>() {
+        return Ok(vec![one(name, value)?]);
+    }
+    each(name, value, "a list of texts", one)
+}
+
+/// A value as messages show it.
+#[pyfunction]
+pub fn _argument_shown(value: &Bound<'_, PyAny>) -> String {
+    shown(value)
 }
