@@ -135,10 +135,7 @@ pub fn prove_program(
     cancel.check()?;
     world.tell_checks(&mut checks);
     world.tell_pairs(&mut clearance);
-    let is_implied = |check: &Check| {
-        use Requirement::{TipSpeed, WashSpeed};
-        matches!(check.requirement, TipSpeed | WashSpeed)
-    };
+    let is_implied = |check: &Check| matches!(check.requirement, Requirement::TipSpeed | Requirement::WashSpeed);
     Ok(ProgramProof {
         checks,
         implied: rates.into_iter().filter(is_implied).collect(),

@@ -69,6 +69,53 @@ pub struct Row<'t> {
     most: f64,
 }
 
+/// The names of the columns in a header.
+///
+/// # Errors
+/// [`TableError`] for an empty header, other separators, and columns that are unknown, missing or there twice.
+fn column_names<'a>((line, header): (usize, &'a str), shape: &TableShape<'_>) -> Result<Vec<&'a str>, TableError> {
+    let expected = shape.required.join(",");
+    if header.trim().is_empty() {
+        return refused(line, format!("it is empty; expected the header \"{expected}\""));
+    }
+    if let Some(found) = OTHER_SEPARATORS.into_iter().find(|other| header.contains(*other)) {
+        let reason = format!(
+            "columns are separated by {found:?}; expected commas between them, and a point for decimals: \"{expected}\""
+        );
+        return refused(line, reason);
+    }
+    let names: Vec<&str> = header.split(',').map(str::trim).collect();
+    let wrong = |column: &str, what: &str| {
+        let column = quoted(&shortened(column, LONGEST));
+        refused(
+            line,
+            format!("column {column} is {what}; expected the header \"{expected}\""),
+        )
+    };
+    for (k, column) in names.iter().enumerate() {
+        if !shape.required.contains(column) && !shape.optional.iter().any(|group| group.contains(column)) {
+            return wrong(column, "unknown");
+        }
+        if names[..k].contains(column) {
+            return wrong(column, "there twice");
+        }
+    }
+    let is_there = |column: &&&str| names.contains(*column);
+    let begun = shape
+        .optional
+        .iter()
+        .filter(|group| group.iter().any(|column| is_there(&column)));
+    let missing = [shape.required]
+        .iter()
+        .chain(begun)
+        .flat_map(|group| group.iter())
+        .find(|column| !is_there(column));
+    if let Some(missing) = missing {
+        return wrong(missing, "missing");
+    }
+    Ok(names)
+}
+
 fn refused<T>(line: usize, reason: String) -> Result<T, TableError> {
     let column = None;
     Err(TableError { line, column, reason })
@@ -93,46 +140,8 @@ impl<'a> NumberTable<'a> {
                 false => (line, text),
             });
         let mut lines = lines.filter(|(_, text)| !(shape.has_comments && text.trim().is_empty()));
-        let expected = shape.required.join(",");
         let (header_line, header) = lines.next().unwrap_or((1, ""));
-        if header.trim().is_empty() {
-            return refused(header_line, format!("it is empty; expected the header \"{expected}\""));
-        }
-        if let Some(found) = OTHER_SEPARATORS.into_iter().find(|other| header.contains(*other)) {
-            let reason = format!(
-                "columns are separated by {found:?}; expected commas between them, and a point for decimals: \"{expected}\""
-            );
-            return refused(header_line, reason);
-        }
-        let names: Vec<&str> = header.split(',').map(str::trim).collect();
-        let wrong = |column: &str, what: &str| {
-            let column = quoted(&shortened(column, LONGEST));
-            refused(
-                header_line,
-                format!("column {column} is {what}; expected the header \"{expected}\""),
-            )
-        };
-        for (k, column) in names.iter().enumerate() {
-            if !shape.required.contains(column) && !shape.optional.iter().any(|group| group.contains(column)) {
-                return wrong(column, "unknown");
-            }
-            if names[..k].contains(column) {
-                return wrong(column, "there twice");
-            }
-        }
-        let is_there = |column: &&&str| names.contains(*column);
-        let begun = shape
-            .optional
-            .iter()
-            .filter(|group| group.iter().any(|column| is_there(&column)));
-        let missing = [shape.required]
-            .iter()
-            .chain(begun)
-            .flat_map(|group| group.iter())
-            .find(|column| !is_there(column));
-        if let Some(missing) = missing {
-            return wrong(missing, "missing");
-        }
+        let names = column_names((header_line, header), shape)?;
         let rows: Vec<_> = lines.take(shape.most_rows + 1).collect();
         match rows
             .get(shape.most_rows)

@@ -103,17 +103,12 @@ pub(crate) fn judge(
     let budget = (BUDGET / tasks.len().max(1)).clamp(LEAST_BUDGET, MOST_BUDGET);
     let search = |task: &Task, parts: &PartPairs<'_>, enough_m: Option<f64>| {
         let during = task.during.as_deref().unwrap_or_default();
-        Search::run(
-            (subject.robot, cancel),
-            timeline,
-            parts,
-            during,
-            Goal {
-                limit_m,
-                enough_m,
-                budget,
-            },
-        )
+        let goal = Goal {
+            limit_m,
+            enough_m,
+            budget,
+        };
+        Search::run((subject.robot, cancel), timeline, parts, during, goal)
     };
     let judged = |task: &Task| task.rule != PairRule::Touching && task.during.is_some();
     let searched = |task: &Task| judged(task).then(|| search(task, &model.parts_of(task.pair), None));
@@ -122,16 +117,11 @@ pub(crate) fn judge(
         .par_iter()
         .map(|task| if beside(task) { None } else { searched(task) })
         .collect();
-    // Obstacles that are never as near as what is nearest among the others need not be known any better.
-    let nearest_m = least_seen(&found, &tasks);
     let beside_obstacles: Vec<_> = tasks.iter().filter(|task| beside(task)).map(|task| task.pair).collect();
     if !beside_obstacles.is_empty() {
-        let near_m = if nearest_m.is_finite() {
-            nearest_m.max(limit_m)
-        } else {
-            limit_m
-        };
-        let needed_m = FAR * near_m.max(FAR_M);
+        // Obstacles that are never as near as the nearest of the others need not be known any better.
+        let nearest_m = Some(least_seen(&found, &tasks)).filter(|nearest_m| nearest_m.is_finite());
+        let needed_m = FAR * nearest_m.map_or(limit_m, |nearest_m| nearest_m.max(limit_m)).max(FAR_M);
         let far = far((subject.robot, cancel), model, timeline, &beside_obstacles, needed_m);
         found
             .par_iter_mut()

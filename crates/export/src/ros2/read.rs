@@ -93,6 +93,24 @@ fn goal(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoint>, F
     Ok(points)
 }
 
+/// Checks that the first point comes after the lead-in, and any other after the point before it \[ns\].
+fn check_order(line: usize, before_ns: Option<i64>, time_ns: i64) -> Result<(), Fault> {
+    let seconds = |ns: i64| format!("{}.{:09} s", ns / NS_PER_S, ns % NS_PER_S);
+    let found = seconds(time_ns);
+    match before_ns {
+        None if time_ns < LEAD_IN_NS => {
+            let found = format!("expected the first point at {LEAD_IN_S} s or later; found {found}");
+            broken(line, ("lead-in", PROOF), found)
+        }
+        Some(before) if time_ns <= before => {
+            let before = seconds(before);
+            let found = format!("expected a time after {before}, that of the point before; found {found}");
+            broken(line, ("time-order", CONTROLLER), found)
+        }
+        _ => Ok(()),
+    }
+}
+
 fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoint>, Fault> {
     let fields = Fields::of(root, "a JointTrajectory", &["header", "joint_names", "points"])?;
     if let Some(header) = fields.get("header") {
@@ -119,23 +137,8 @@ fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoi
         )?;
         let time = point.needed("time_from_start")?;
         let time_ns = duration(time)?;
-        let told = |ns: i64| format!("{}.{:09} s", ns / NS_PER_S, ns % NS_PER_S);
-        match before_ns {
-            None if time_ns < LEAD_IN_NS => {
-                let found = format!(
-                    "expected the first point at {LEAD_IN_S} s or later; found {}",
-                    told(time_ns)
-                );
-                return broken(time.line, ("lead-in", PROOF), found);
-            }
-            None => start_ns = time_ns,
-            Some(before) if time_ns <= before => {
-                let [before, found] = [before, time_ns].map(told);
-                let found = format!("expected a time after {before}, that of the point before; found {found}");
-                return broken(time.line, ("time-order", CONTROLLER), found);
-            }
-            Some(_) => {}
-        }
+        check_order(time.line, before_ns, time_ns)?;
+        start_ns = before_ns.map_or(time_ns, |_| start_ns);
         before_ns = Some(time_ns);
         let positions = row(&point, "positions", AXES, CONTROLLER)?;
         let velocities = row(&point, "velocities", AXES, PROOF)?;
