@@ -1,12 +1,10 @@
 //! `platewash align`: where the arm stands at a table, from points touched with its tip.
 
-use super::exit::Outcome;
-use super::failure::{ExitCode, Failure};
+use super::failure::ExitCode;
 use super::fk::FramePose;
-use super::law::positive;
+use super::numbers::{coordinate, within};
 use super::options::Options;
-use super::output;
-use anyhow::{Context, anyhow, ensure};
+use anyhow::{Context, Result, anyhow};
 use clap::Args;
 use platewash::kinematics::urdf::file::read_text;
 use platewash::kinematics::words::fixed;
@@ -45,13 +43,12 @@ const NOTHING: f64 = 1e-9;
 pub struct AlignArguments {
     /// CSV of touched points: columns x_m,y_m,z_m (in the drawing: world frame, metres) and touched_x_mm,touched_y_mm,touched_z_mm (the
     /// tip in the base frame as the pendant shows it, millimetres); a column name is allowed
-    #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Largest accepted residual in metres, at most 0.05
     #[arg(long, value_name = "M", default_value_t = 0.001, value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: f64,
     /// Point of the drawing in metres, to convert to the base frame (may be repeated)
-    #[arg(long, num_args = 3, allow_negative_numbers = true, value_names = ["X", "Y", "Z"])]
+    #[arg(long, num_args = 3, allow_negative_numbers = true, value_names = ["X", "Y", "Z"], value_parser = coordinate)]
     pub point: Vec<f64>,
     /// CSV of such points: columns x_m,y_m,z_m and name
     #[arg(long, value_name = "FILE")]
@@ -107,40 +104,28 @@ struct Carried {
 }
 
 /// A tolerance \[m\].
-fn tolerance(text: &str) -> anyhow::Result<f64> {
-    let found = positive(text)?;
-    ensure!(
-        found <= GREATEST_TOLERANCE_M,
-        "must be at most {GREATEST_TOLERANCE_M} m (it is in metres: 0.001 is 1 mm)"
-    );
-    Ok(found)
+fn tolerance(text: &str) -> Result<f64> {
+    let expected = format!("must be above 0 and at most {GREATEST_TOLERANCE_M} m (it is in metres: 0.001 is 1 mm)");
+    within(text, f64::MIN_POSITIVE..=GREATEST_TOLERANCE_M, &expected)
 }
 
 /// Finds the mount, tells how well it fits, and carries points over.
-pub fn run(options: &Options, arguments: &AlignArguments) -> Result<ExitCode, Failure> {
-    let touched = in_file(&arguments.file, touched_points).map_err(Failure::input)?;
-    let wanted = wanted(arguments).map_err(Failure::input)?;
+pub fn run(options: &Options, arguments: &AlignArguments) -> Result<ExitCode> {
+    let touched = in_file(&arguments.file, touched_points)?;
+    let wanted = wanted(arguments)?;
     let touches: Vec<Touch> = touched.iter().map(|point| point.touch).collect();
     let order = fitting_order(&touches, arguments.tolerance).map(|order| {
         let order: Vec<String> = order.iter().map(usize::to_string).collect();
         format!("such as {} (points count from 0)", order.join(", "))
     });
     let order = order.as_deref();
-    let alignment = align(&touches)
-        .map_err(|error| match order {
-            Some(order) => anyhow!("{error}; {}", reordered(order)),
-            None => anyhow!(error),
-        })
-        .with_context(|| name_of(&arguments.file))
-        .map_err(Failure::input)?;
+    let alignment = align(&touches).map_err(|error| {
+        let reordered = order.map(|order| format!("; {}", reordered(order)));
+        anyhow!("{}: {error}{}", name_of(&arguments.file), reordered.unwrap_or_default())
+    })?;
     let answer = Answer::new(&alignment, &touched, order, &wanted, arguments.tolerance);
-    output::print_either(options.json, &answer, || answer.text())?;
-    let outcome = if answer.fits && answer.level {
-        Outcome::Good
-    } else {
-        Outcome::NotVerified
-    };
-    Ok(outcome.answer())
+    options.print(&answer, || answer.text())?;
+    Ok(ExitCode::NotVerified.unless(answer.fits && answer.level))
 }
 
 fn name_of(file: &Path) -> String {
@@ -148,16 +133,13 @@ fn name_of(file: &Path) -> String {
 }
 
 /// The points in a file.
-fn in_file<T>(file: &Path, points: fn(&str) -> Result<Vec<T>, TableError>) -> anyhow::Result<Vec<T>> {
+fn in_file<T>(file: &Path, points: fn(&str) -> Result<Vec<T>, TableError>) -> Result<Vec<T>> {
     let text = read_text(file, MAX_BYTES).with_context(|| format!("{}: cannot be read", name_of(file)))?;
     points(&text).with_context(|| name_of(file))
 }
 
 /// The points that shall be told in the base frame.
-fn wanted(arguments: &AlignArguments) -> anyhow::Result<Vec<DrawnPoint>> {
-    if let Some(bad) = arguments.point.iter().find(|number| !number.is_finite()) {
-        return Err(anyhow!("--point: expected three finite numbers; found {bad}"));
-    }
+fn wanted(arguments: &AlignArguments) -> Result<Vec<DrawnPoint>> {
     let given = arguments.point.chunks_exact(3).map(|point| DrawnPoint {
         line: 0,
         name: None,

@@ -1,13 +1,12 @@
 //! `platewash compare`: two plan files side by side: job, cycle time and proved margins.
 
-use super::against::fields_differ;
-use super::failure::{ExitCode, Failure};
+use super::failure::ExitCode;
 use super::options::Options;
-use super::output;
 use super::plan_file::PlanFile;
-use super::progress::Progress;
+use super::verify::fields_differ;
+use anyhow::Result;
 use clap::Args;
-use platewash::certificate::{Difference, Measure, MeasureWords, Requirement, differences, paper_headline};
+use platewash::certificate::{Measure, MeasureWords, Requirement, differences, paper_headline};
 use platewash::workcell::plan::Process;
 use platewash::workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash::workcell::words::{counted, quoted};
@@ -21,10 +20,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 pub struct CompareArguments {
     /// First plan file
-    #[arg(value_name = "A")]
     pub a: PathBuf,
     /// Second plan file
-    #[arg(value_name = "B")]
     pub b: PathBuf,
 }
 
@@ -95,47 +92,41 @@ struct Margins {
 }
 
 /// Compares two plan files, each for the arm that it is for.
-pub fn run(options: &Options, arguments: &CompareArguments) -> Result<ExitCode, Failure> {
+pub fn run(options: &Options, arguments: &CompareArguments) -> Result<ExitCode> {
     let [a, b] = [&arguments.a, &arguments.b].map(|path| Proved::new(options, path));
-    let comparison = Comparison::of(&a?, &b?);
-    output::print_either(options.json, &comparison, || comparison.to_string())?;
-    Ok(ExitCode::SUCCESS)
+    let comparison = Comparison::of(a?, b?);
+    options.print(&comparison, || comparison.to_string())?;
+    Ok(ExitCode::Done)
 }
 
 /// A plan and its certificate; a run of the paper's program has none.
 struct Proved {
-    path: PathBuf,
+    side: Side,
     plan: Plan,
     certificate: Option<Certificate>,
 }
 
 impl Proved {
-    fn new(options: &Options, path: &Path) -> Result<Self, Failure> {
+    fn new(options: &Options, path: &Path) -> Result<Self> {
         let file = PlanFile::read(options, path)?;
         let certificate = match file.plan.process {
             Process::Paper => None,
-            Process::Wash => {
-                let _progress = Progress::new(options.quiet, "proving");
-                Some(file.prove(options)?)
-            }
+            Process::Wash => Some(file.prove(options)?),
+        };
+        let (plan, proof) = (file.plan, certificate.as_ref());
+        let side = Side {
+            plan: path.to_owned(),
+            scenario: plan.provenance.scenario.clone(),
+            seed: plan.job.seed,
+            headline: proof.map_or_else(|| paper_headline(&plan), |proof| proof.headline.clone()),
+            proved: proof.is_some_and(Certificate::passes),
+            duration_s: plan.duration_s(),
         };
         Ok(Self {
-            path: path.to_owned(),
-            plan: file.plan,
+            side,
+            plan,
             certificate,
         })
-    }
-
-    fn side(&self) -> Side {
-        let certificate = self.certificate.as_ref();
-        Side {
-            plan: self.path.clone(),
-            scenario: self.plan.provenance.scenario.clone(),
-            seed: self.plan.job.seed,
-            headline: certificate.map_or_else(|| paper_headline(&self.plan), |proved| proved.headline.clone()),
-            proved: certificate.is_some_and(Certificate::passes),
-            duration_s: self.plan.duration_s(),
-        }
     }
 
     fn measure(&self, requirement: Requirement) -> Option<Measure> {
@@ -144,7 +135,7 @@ impl Proved {
 }
 
 impl Comparison {
-    fn of(a: &Proved, b: &Proved) -> Self {
+    fn of(a: Proved, b: Proved) -> Self {
         let times = |part: String, time_s: &dyn Fn(&Plan) -> Option<f64>| Times {
             part,
             a_s: time_s(&a.plan),
@@ -161,11 +152,12 @@ impl Comparison {
             let is_of = |segment: &PlanSegment| segment.kind == SegmentKind::Wash && segment.plate == plate;
             times(format!("washing plate {plate}"), &|plan| time_s(plan, is_of))
         });
-        let differing = |Difference { key, found, expected }| Differing {
-            key,
-            a: found,
-            b: expected,
-        };
+        let job = differences(&a.plan.job, &b.plan.job).into_iter();
+        let job = job.map(|difference| Differing {
+            key: difference.key,
+            a: difference.found,
+            b: difference.expected,
+        });
         let margins = Requirement::ALL.iter().filter_map(|&requirement| {
             let margins = Margins {
                 requirement,
@@ -175,14 +167,11 @@ impl Comparison {
             (margins.a.is_some() || margins.b.is_some()).then_some(margins)
         });
         Self {
-            job: differences(&a.plan.job, &b.plan.job)
-                .into_iter()
-                .map(differing)
-                .collect(),
+            job: job.collect(),
             times: [whole].into_iter().chain(parts).chain(of_plates).collect(),
             margins: margins.collect(),
-            a: a.side(),
-            b: b.side(),
+            a: a.side,
+            b: b.side,
         }
     }
 }

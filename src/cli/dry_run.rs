@@ -1,30 +1,22 @@
 //! `platewash dry-run`: the motion of a proved plan in the air, slower, as a plan of its own.
 
-use super::details::{DetailArguments, whole};
-use super::exit::Outcome;
-use super::failure::{ExitCode, Failure};
-use super::law::positive;
+use super::failure::ExitCode;
+use super::files::{Files, REPORTS, place};
+use super::numbers::positive;
 use super::options::Options;
+use super::output::{DetailArguments, json, whole};
 use super::plan_file::PlanFile;
-use super::progress::Progress;
-use super::text::text;
-use super::{output, results};
-use anyhow::anyhow;
+use anyhow::{Error, Result, bail};
 use clap::Args;
 use platewash::certificate::prove_with;
-use platewash::planner::{InfeasibleReport, PlanError, Planned, Watch, plan_in_order};
-use platewash::workcell::dry_run::{DryRunError, HEIGHT_M, SPEED_M_S, check_paths, dry_run_job, least_height_m};
+use platewash::planner::{InfeasibleReport, PlanError, Watch, plan_in_order};
+use platewash::workcell::dry_run::{DryRunError, check_paths, dry_run_job, least_height_m};
+use platewash::workcell::dry_run::{HEIGHT_M, SPEED_M_S};
 use platewash::workcell::words::printable;
-use platewash::{Certificate, Plan, Verdict, WashJob};
+use platewash::{Certificate, Failure, WashJob};
 use serde::Serialize;
 use std::fmt;
 use std::path::{Path, PathBuf};
-
-/// Folder in the output folder that its files go to, so that they never take the place of the parent's.
-const FOLDER: &str = "dry-run";
-
-/// Names in that folder that are its own.
-const OWNED: [&str; 4] = ["plan.json", "certificate.json", "report.json", "report.txt"];
 
 /// Lower heights that are tried where the one that was asked for is not found to work.
 const TRIES: u32 = 6;
@@ -36,7 +28,6 @@ const HIGHER_M: [f64; 3] = [0.005, 0.02, 0.05];
 #[derive(Debug, Args)]
 pub struct DryRunArguments {
     /// Plan file; it must be proved
-    #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
     /// Height of the motion above the plates in metres
     #[arg(long, value_name = "M", default_value_t = HEIGHT_M, value_parser = positive, allow_negative_numbers = true)]
@@ -67,8 +58,8 @@ struct Report<'a> {
 
 /// What is said where there is none.
 #[derive(Debug, Serialize)]
-struct NoReport {
-    parent: String,
+struct NoReport<'a> {
+    parent: &'a str,
     height_m: f64,
     /// A height that was found to work \[m\]; `None` where none of those tried does.
     works_at_m: Option<f64>,
@@ -77,13 +68,12 @@ struct NoReport {
 }
 
 /// Proves a plan, plans and proves its dry run, and writes that.
-pub fn run(options: &Options, arguments: &DryRunArguments) -> Result<ExitCode, Failure> {
-    let folder = results::folder(options).join(FOLDER);
-    let places = OWNED.map(|name| folder.join(name));
-    output::check_places(&places)?;
-    refuse_own_place(&arguments.plan, &places)?;
+pub fn run(options: &Options, arguments: &DryRunArguments) -> Result<ExitCode> {
+    // Its own folder in the output folder, so that it never takes the place of its parent's files.
+    let mut files = Files::new(options.folder().join("dry-run"), &REPORTS[..4]);
+    files.check()?;
+    refuse_own_place(&arguments.plan, &files.places(&REPORTS[..4]))?;
     let file = PlanFile::read(options, &arguments.plan)?;
-    let progress = Progress::new(options.quiet, "proving the plan");
     let asked = job(&file, arguments.height, arguments.speed)?;
     let parent = file.prove(options)?;
     if !parent.passes() {
@@ -91,37 +81,54 @@ pub fn run(options: &Options, arguments: &DryRunArguments) -> Result<ExitCode, F
         let words = format_args!("a dry run is one of a proved plan; this one is {first}");
         return Err(file.not_verified(words));
     }
-    let order = &file.plan.order;
+    let progress = options.progress("planning the dry run");
     let watch = Watch {
-        tell: &|activity| progress.say("planning the dry run", activity),
+        tell: &|activity| progress.say(activity),
         cancel: &options.cancel,
     };
-    let planned = match plan_in_order(&asked, order, &file.plan.wash_paths, &watch) {
+    let hash = file.plan.hash.as_deref().unwrap_or_default();
+    let planned = match plan_in_order(&asked, &file.plan.order, &file.plan.wash_paths, &watch) {
         Ok(planned) => planned,
         Err(error) => {
-            let Some(why) = InfeasibleReport::new(asked.name(), asked.terms().seed, &error) else {
-                return Err(platewash::Failure::from(error).into());
-            };
+            let why = InfeasibleReport::new(asked.name(), asked.terms().seed, &error);
+            let why = why.ok_or(Failure::from(error))?;
             let works_at_m = other_height(&file, arguments, &watch)?;
             drop(progress);
-            let end = NoReport::new(&file.plan, arguments.height, works_at_m, why);
-            return end.tell(options, &places);
+            let report = NoReport::new(hash, arguments.height, works_at_m, why);
+            files.add_report("report", &report)?;
+            files.answer(options, &report, || whole(&report))?;
+            return Ok(report.why.verdict.into());
         }
     };
     check_paths(&file.plan, &planned.plan).map_err(|error| refused(&file, error))?;
-    let mut certificate = prove_with(&planned.plan, &file.arm, &options.cancel).map_err(platewash::Failure::from)?;
+    let mut certificate = prove_with(&planned.plan, &file.arm, &options.cancel).map_err(Failure::from)?;
     certificate.set_parent_compared();
     drop(progress);
-    tell(options, arguments, &file.plan, (&planned, &certificate), &places)
+    let report = Report {
+        parent: hash,
+        height_m: arguments.height,
+        tip_speed_m_s: arguments.speed,
+        proved: certificate.passes(),
+        headline: &certificate.headline,
+        duration_s: planned.plan.duration_s(),
+        parent_duration_s: file.plan.duration_s(),
+        plates: planned.plan.order.len(),
+        certificate: &certificate,
+    };
+    files.add("plan.json", planned.plan.to_json().map_err(Failure::from)?);
+    files.add("certificate.json", json(&certificate)?);
+    files.add_report("report", &report)?;
+    files.answer(options, &report, || arguments.details.printed(&report))?;
+    Ok(ExitCode::NotVerified.unless(report.proved))
 }
 
 /// The job of the dry run.
-fn job(file: &PlanFile<'_>, height_m: f64, speed_m_s: f64) -> Result<WashJob, Failure> {
+fn job(file: &PlanFile<'_>, height_m: f64, speed_m_s: f64) -> Result<WashJob> {
     dry_run_job(&file.plan, &file.arm, height_m, speed_m_s).map_err(|error| refused(file, error))
 }
 
 /// Why a plan has no dry run.
-fn refused(file: &PlanFile<'_>, error: DryRunError) -> Failure {
+fn refused(file: &PlanFile<'_>, error: DryRunError) -> Error {
     match error {
         DryRunError::NotSealed | DryRunError::OtherPaths => file.not_verified(error),
         error => file.refused(error),
@@ -129,15 +136,15 @@ fn refused(file: &PlanFile<'_>, error: DryRunError) -> Failure {
 }
 
 /// Another height at which a plan is found \[m\]: the greatest of some lower ones, or the least of some higher ones.
-fn other_height(file: &PlanFile<'_>, arguments: &DryRunArguments, watch: &Watch<'_>) -> Result<Option<f64>, Failure> {
+fn other_height(file: &PlanFile<'_>, arguments: &DryRunArguments, watch: &Watch<'_>) -> Result<Option<f64>> {
     let works = |height_m: f64| {
         // A height at which there is no job works as little as one at which there is no plan.
         let Ok(job) = job(file, height_m, arguments.speed) else {
-            return Ok(false);
+            return anyhow::Ok(false);
         };
         match plan_in_order(&job, &file.plan.order, &file.plan.wash_paths, watch) {
             Ok(_) => Ok(true),
-            Err(PlanError::Cancelled(cancelled)) => Err(Failure::from(cancelled)),
+            Err(PlanError::Cancelled(cancelled)) => Err(cancelled.into()),
             Err(_) => Ok(false),
         }
     };
@@ -167,42 +174,6 @@ fn typed(height_m: f64) -> f64 {
     (1e3 * height_m).floor() / 1e3
 }
 
-fn tell(
-    options: &Options,
-    arguments: &DryRunArguments,
-    parent: &Plan,
-    (planned, certificate): (&Planned, &Certificate),
-    [plan, proof, data, sheet]: &[PathBuf; 4],
-) -> Result<ExitCode, Failure> {
-    let report = Report {
-        parent: parent.hash.as_deref().unwrap_or_default(),
-        height_m: arguments.height,
-        tip_speed_m_s: arguments.speed,
-        proved: certificate.passes(),
-        headline: &certificate.headline,
-        duration_s: planned.plan.duration_s(),
-        parent_duration_s: parent.duration_s(),
-        plates: planned.plan.order.len(),
-        certificate,
-    };
-    let json = planned.plan.to_json().map_err(platewash::Failure::from)?;
-    let files = [
-        output::file(plan.clone(), json),
-        output::file(proof.clone(), output::json(certificate)?),
-        output::file(data.clone(), output::json(&report)?),
-        output::file(sheet.clone(), whole(&report)),
-    ];
-    output::replace(&files, &[plan, proof, data, sheet].map(Clone::clone), &options.cancel)?;
-    output::print_either(options.json, &report, || arguments.details.printed(&report))?;
-    results::name(options, &files);
-    let outcome = if report.proved {
-        Outcome::Good
-    } else {
-        Outcome::NotVerified
-    };
-    Ok(outcome.answer())
-}
-
 impl fmt::Display for Report<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
@@ -221,49 +192,34 @@ impl fmt::Display for Report<'_> {
     }
 }
 
-impl NoReport {
-    fn new(parent: &Plan, height_m: f64, works_at_m: Option<f64>, why: InfeasibleReport) -> Self {
-        let parent = parent.hash.clone().unwrap_or_default();
+impl NoReport<'_> {
+    fn new(parent: &str, height_m: f64, works_at_m: Option<f64>, why: InfeasibleReport) -> NoReport<'_> {
         let lower = match works_at_m {
             Some(works_at_m) => format!("--height {works_at_m} was found to work"),
             None => "none of the heights that were tried besides was found to work".to_owned(),
         };
         let reason = format!("a dry run {height_m} m above the plates: {}; {lower}", why.reason);
-        let why = why.explained(reason);
-        Self {
+        NoReport {
             parent,
             height_m,
             works_at_m,
-            why,
+            why: why.explained(reason),
         }
     }
+}
 
-    fn tell(&self, options: &Options, [plan, proof, data, sheet]: &[PathBuf; 4]) -> Result<ExitCode, Failure> {
-        let words = text(&self.why);
-        let files = [
-            output::file(data.clone(), output::json(self)?),
-            output::file(sheet.clone(), &words),
-        ];
-        output::replace(&files, &[plan, proof, data, sheet].map(Clone::clone), &options.cancel)?;
-        output::print_either(options.json, self, || words.clone())?;
-        results::name(options, &files);
-        let outcome = match self.why.verdict {
-            Verdict::Infeasible | Verdict::NotFound => Outcome::Infeasible,
-            Verdict::Washed | Verdict::Swept | Verdict::DryRun | Verdict::NotVerified => Outcome::NotVerified,
-        };
-        Ok(outcome.answer())
+impl fmt::Display for NoReport<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.why.fmt(f)
     }
 }
 
 /// Refuses a plan that the dry run would be written over.
-fn refuse_own_place(plan: &Path, places: &[PathBuf]) -> Result<(), Failure> {
-    let place = |path: &Path| output::place(path).ok();
-    let Some(own) = place(plan) else { return Ok(()) };
-    if places.iter().any(|other| place(other).as_ref() == Some(&own)) {
+fn refuse_own_place(plan: &Path, places: &[PathBuf]) -> Result<()> {
+    let Ok(own) = place(plan) else { return Ok(()) };
+    if places.iter().any(|other| place(other).is_ok_and(|other| other == own)) {
         let name = printable(&plan.display().to_string());
-        return Err(Failure::input(anyhow!(
-            "{name}: is where the dry run is written: give --out another folder"
-        )));
+        bail!("{name}: is where the dry run is written: give --out another folder");
     }
     Ok(())
 }

@@ -1,32 +1,43 @@
-//! `platewash export`: a proved plan as a robot program, read back and judged before it is written.
+//! `platewash export`: a proved plan as a robot program, read back and judged before it is written. And `platewash verify --program`: a program
+//! that was handed over, read back: what changed since, and whether it still holds.
 
-use super::failure::{self, ExitCode, Failure};
+use super::failure::{ExitCode, internal};
+use super::files::{Files, check_places};
+use super::numbers::between_commas;
 use super::options::Options;
-use super::plan_file::PlanFile;
-use super::progress::Progress;
-use super::{output, results};
-use anyhow::{anyhow, bail};
+use super::output;
+use super::plan_file::{PlanFile, text};
+use anyhow::{Context, Error, Result, bail, ensure};
 use clap::Args;
 use nalgebra::{Quaternion, UnitQuaternion};
 use platewash::certificate::{CertifyError, Check, Requirement, certify_with};
-use platewash::export::dialect::{self, Dialect, ProgramFile};
-use platewash::export::judged::Asked;
-use platewash::export::{ExportError, ExportSettings, Exported, Refusal, contact_not_judged, export};
+use platewash::export::dialect::Dialect;
+use platewash::export::dialect::ProgramFile;
+use platewash::export::judged::{Case, Judged};
+use platewash::export::{
+    Change, CompareError, ExportError, ExportSettings, Exported, Refusal, compare, contact_not_judged, dialect, export,
+    ros2,
+};
 use platewash::workcell::dry_run::DryRun;
 use platewash::workcell::plan::Plan;
-use platewash::{Certified, JointVector, Pose};
+use platewash::workcell::words::{counted, printable};
+use platewash::{Certified, JointVector, Pose, ProveError};
 use serde::Serialize;
+use std::ffi::OsStr;
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Longest name of a file that is looked at beside those that are written.
+/// Most files that are looked at beside those that are written.
 const MOST_FILES: usize = 10_000;
+
+/// Longest program file that is read \[bytes\].
+const MAX_BYTES: u64 = 1 << 26;
 
 /// Arguments of `export`.
 #[derive(Debug, Args)]
 pub struct ExportArguments {
     /// Plan file
-    #[arg(value_name = "PLAN")]
-    pub plan: PathBuf,
+    plan: PathBuf,
     /// Kind of program: rapid, ros2, urscript or csv
     #[arg(long, value_name = "TARGET", value_parser = target)]
     to: &'static dyn Dialect,
@@ -50,6 +61,59 @@ pub struct ExportArguments {
     tip: Option<Pose>,
 }
 
+fn target(name: &str) -> Result<&'static dyn Dialect> {
+    dialect::by_name(name).with_context(|| format!("expected one of {}", dialect::names()))
+}
+
+fn waived(name: &str) -> Result<Requirement> {
+    Requirement::named(name).context("no requirement of a certificate has that name")
+}
+
+fn joints(text: &str) -> Result<JointVector> {
+    Ok(JointVector::from(between_commas::<6>(text)?.map(f64::to_radians)))
+}
+
+fn frame(text: &str) -> Result<Pose> {
+    let [x, y, z, w, i, j, k] = between_commas(text)?;
+    let (place, quaternion) = (nalgebra::Vector3::new(x, y, z) * 1e-3, Quaternion::new(w, i, j, k));
+    let length = quaternion.norm();
+    ensure!(
+        (length - 1.0).abs() <= 1e-3,
+        "the quaternion (the last four numbers) must have length 1; found {length:.4}"
+    );
+    let turn = UnitQuaternion::from_quaternion(quaternion);
+    Ok(Pose::from_parts(place.into(), turn))
+}
+
+/// What is proved of a program as it stands.
+#[derive(Debug, Serialize)]
+struct Proved {
+    /// The worst over all assumptions about corners.
+    checks: Vec<Check>,
+    /// What it implies, which is not judged.
+    implied: Vec<Check>,
+    /// What the plan promises of contact: of the program it is not judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proved_of_the_plan_alone: Option<String>,
+}
+
+impl Proved {
+    fn new(judged: &Judged, plan: &Plan) -> Self {
+        Self {
+            checks: judged.worst(),
+            implied: judged.implied(),
+            proved_of_the_plan_alone: contact_not_judged(&plan.job.requirements),
+        }
+    }
+
+    /// That contact is not judged, a line; nothing where the plan promises none.
+    fn not_judged(&self) -> String {
+        let all = self.proved_of_the_plan_alone.iter();
+        all.map(|all| format!("  proved for the plan, not for the program: {all}\n"))
+            .collect()
+    }
+}
+
 /// What is said of a program that was written.
 #[derive(Debug, Serialize)]
 struct Answer<'a> {
@@ -57,40 +121,28 @@ struct Answer<'a> {
     /// What must be read first where the plan is a dry run.
     #[serde(skip_serializing_if = "Option::is_none")]
     dry_run: Option<String>,
-    files: Vec<&'a Path>,
+    files: Vec<PathBuf>,
     points: usize,
     duration_s: f64,
-    /// What is proved of the program: the worst over all assumptions about corners.
-    checks: Vec<Check>,
-    /// What it implies, which is not judged.
-    implied: Vec<Check>,
-    /// What the controller is asked for, by the size of the corners.
-    asked: Vec<CornerAsked>,
-    /// What the plan promises of contact: of the program it is not judged.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    proved_of_the_plan_alone: Option<String>,
-}
-
-#[derive(Debug, Serialize)]
-struct CornerAsked {
-    corner_scale: Option<f64>,
     #[serde(flatten)]
-    asked: Asked,
+    proved: Proved,
+    /// What the controller is asked for, by the size of the corners.
+    asked: &'a [Case],
 }
 
 /// What is said where there is none.
 #[derive(Debug, Serialize)]
 struct Refused<'a> {
     refused: &'a str,
-    message: String,
+    message: &'a str,
 }
 
 /// Proves a plan file and writes it as a robot program that is proved, too.
-pub fn run(options: &Options, arguments: &ExportArguments) -> Result<ExitCode, Failure> {
+pub fn run(options: &Options, arguments: &ExportArguments) -> Result<ExitCode> {
     let file = PlanFile::read(options, &arguments.plan)?;
     let certified = match certified(options, &file)? {
         Ok(certified) => certified,
-        Err(words) => return uncertified(options, &words),
+        Err(words) => return refused(options, "uncertified", &words, ExitCode::NotVerified),
     };
     let settings = ExportSettings {
         tolerance_m: arguments.tolerance,
@@ -100,145 +152,113 @@ pub fn run(options: &Options, arguments: &ExportArguments) -> Result<ExitCode, F
         stands_rad: arguments.stands,
         tip: arguments.tip,
     };
-    let exported = {
-        let _progress = Progress::new(options.quiet, "judging the program");
+    let exported = options.during("judging the program", || {
         export(&certified, &file.arm, arguments.to, &settings, &options.cancel)
-    };
+    });
     match exported {
         Ok(exported) => write(options, arguments.to, &file.plan, &exported),
         Err(ExportError::Refused(refusal)) => {
-            let message = format!("{refusal}{}", where_to_mend(&refusal));
-            refused(options, refusal.code(), &message, exit_code(&refusal))
+            let (mend, code) = end_of(&refusal);
+            refused(options, refusal.code(), &format!("{refusal}{mend}"), code)
         }
         Err(ExportError::Prove(error)) => Err(file.failure(error.into())),
-        Err(error) => Err(Failure::internal(error)),
+        Err(error) => Err(internal(error)),
     }
 }
 
 /// The plan with its certificate, or why it has none.
-pub fn certified(options: &Options, file: &PlanFile<'_>) -> Result<Result<Certified<Plan>, String>, Failure> {
-    let _progress = Progress::new(options.quiet, "proving");
+fn certified(options: &Options, file: &PlanFile<'_>) -> Result<Result<Certified<Plan>, String>> {
+    let _progress = options.progress("proving");
     match certify_with(file.plan.clone(), &file.arm, &options.cancel) {
         Ok(certified) => Ok(Ok(certified)),
-        Err(CertifyError::Prove(error)) => match error {
-            platewash::ProveError::PaperRun => Ok(Err(error.to_string())),
-            error => Err(file.failure(error.into())),
-        },
+        Err(CertifyError::Prove(error @ ProveError::PaperRun)) => Ok(Err(error.to_string())),
+        Err(CertifyError::Prove(error)) => Err(file.failure(error.into())),
         Err(error) => Ok(Err(format!("{error}; platewash verify says more"))),
     }
 }
 
-/// Says that a plan has no certificate.
-pub fn uncertified(options: &Options, words: &str) -> Result<ExitCode, Failure> {
-    refused(options, "uncertified", words, failure::NOT_VERIFIED)
-}
-
-fn refused(options: &Options, code: &str, message: &str, exit: u8) -> Result<ExitCode, Failure> {
-    let refused = Refused {
-        refused: code,
-        message: message.to_owned(),
-    };
+fn refused(options: &Options, code: &str, message: &str, exit: ExitCode) -> Result<ExitCode> {
     if options.json {
+        let refused = Refused { refused: code, message };
         output::print(&output::json(&refused)?)?;
     }
-    output::message(false, &format!("refused ({code}): {message}"));
-    Ok(ExitCode::from(exit))
+    output::message(&format!("refused ({code}): {message}"));
+    Ok(exit)
 }
 
-/// Keys or options that decide what is refused, as the end of a sentence.
-fn where_to_mend(refusal: &Refusal) -> &'static str {
+/// Keys or options that decide what is refused, as the end of a sentence, and the exit code: what stands against a plan is a verdict; what
+/// stands against what was given beside it is bad input.
+fn end_of(refusal: &Refusal) -> (&'static str, ExitCode) {
     match refusal {
-        Refusal::Load { .. } => " (scenario: tool.mass_kg, tool.com_m, tool.inertia_kg_m2)",
-        Refusal::Waived { .. } => " (--accept NAME)",
-        _ => "",
+        Refusal::Load { .. } => (
+            " (scenario: tool.mass_kg, tool.com_m, tool.inertia_kg_m2)",
+            ExitCode::Input,
+        ),
+        Refusal::Waived { .. } => (" (--accept NAME)", ExitCode::NotVerified),
+        Refusal::NotKept { .. } | Refusal::TooClose { .. } => ("", ExitCode::NotVerified),
+        _ => ("", ExitCode::Input),
     }
 }
 
-/// What stands against a plan is a verdict; what stands against what was given beside it is bad input.
-fn exit_code(refusal: &Refusal) -> u8 {
-    match refusal {
-        Refusal::Waived { .. } | Refusal::NotKept { .. } | Refusal::TooClose { .. } => failure::NOT_VERIFIED,
-        _ => failure::INPUT,
-    }
-}
-
-fn write(options: &Options, target: &dyn Dialect, plan: &Plan, exported: &Exported) -> Result<ExitCode, Failure> {
-    let dry_run = plan.job.dry_run.as_ref();
+fn write(options: &Options, target: &dyn Dialect, plan: &Plan, exported: &Exported) -> Result<ExitCode> {
     let folder = match &options.out {
         Some(folder) => folder.clone(),
-        None => results::folder(options).join(target.name()),
+        None => options.folder().join(target.name()),
     };
-    refuse_others(&folder, target, &exported.files).map_err(Failure::input)?;
-    let paths: Vec<_> = exported.files.iter().map(|file| folder.join(&file.name)).collect();
-    let files: Vec<_> = paths
-        .iter()
-        .zip(&exported.files)
-        .map(|(path, file)| output::file(path.clone(), &file.text))
-        .collect();
-    output::check_places(&paths)?;
-    output::write_files(&files, &options.cancel)?;
+    refuse_others(&folder, target, &exported.files)?;
+    let mut files = Files::new(folder, &[]);
+    for file in &exported.files {
+        files.add(&file.name, &file.text);
+    }
+    let paths: Vec<_> = files.paths().map(Path::to_owned).collect();
+    check_places(&paths)?;
     let judged = &exported.judged;
     let answer = Answer {
         target: target.name(),
-        dry_run: dry_run.map(DryRun::words),
-        files: paths.iter().map(PathBuf::as_path).collect(),
+        dry_run: plan.job.dry_run.as_ref().map(DryRun::words),
+        files: paths,
         points: exported.reading.points.len(),
         duration_s: exported.reading.points.last().map_or(0.0, |point| point.t_s),
-        checks: judged.worst(),
-        implied: judged.implied(),
-        asked: judged
-            .cases
-            .iter()
-            .map(|case| CornerAsked {
-                corner_scale: case.corner_scale,
-                asked: case.asked,
-            })
-            .collect(),
-        proved_of_the_plan_alone: contact_not_judged(&plan.job.requirements),
+        proved: Proved::new(judged, plan),
+        asked: &judged.cases,
     };
-    output::print_either(options.json, &answer, || answer.text())?;
-    results::name(options, &files);
-    Ok(ExitCode::SUCCESS)
+    files.answer(options, &answer, || answer.text())?;
+    Ok(ExitCode::Done)
 }
 
 /// What stands before everything else that is said of a dry run's program.
-pub fn before(dry_run: Option<&str>) -> String {
-    dry_run.map_or_else(String::new, |words| format!("{words}; "))
+fn before(dry_run: Option<String>) -> String {
+    dry_run.map_or_else(String::new, |words| words + "; ")
 }
 
 impl Answer<'_> {
     fn text(&self) -> String {
         let mut text = format!(
             "{}{} program: {} points, {:.3} s; read back and judged: HOLDS\n",
-            before(self.dry_run.as_deref()),
+            before(self.dry_run.clone()),
             self.target,
             self.points,
             self.duration_s
         );
-        for check in &self.checks {
+        for check in &self.proved.checks {
             text += &format!("  {:<20} {}\n", check.requirement.words(), check.detail());
         }
         text += "  not judged: accelerations and stops at the plates, which the controller decides (see the head of the program)\n";
-        if let Some(all) = &self.proved_of_the_plan_alone {
-            text += &format!("  proved for the plan, not for the program: {all}\n");
-        }
-        text
+        text + &self.proved.not_judged()
     }
 }
 
 /// Refuses a folder with programs of the same kind that would stay beside the new one: modules of two plans are none.
-fn refuse_others(folder: &Path, target: &dyn Dialect, files: &[ProgramFile]) -> anyhow::Result<()> {
+fn refuse_others(folder: &Path, target: &dyn Dialect, files: &[ProgramFile]) -> Result<()> {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return Ok(());
     };
     for entry in entries.take(MOST_FILES).flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        let is_new = files.iter().any(|file| file.name == name);
         let other = ProgramFile {
-            name,
+            name: entry.file_name().to_string_lossy().into_owned(),
             text: String::new(),
         };
-        if !is_new && target.is_in(&other) {
+        if files.iter().all(|file| file.name != other.name) && target.is_in(&other) {
             bail!(
                 "{}: stands beside the new program, and may be taken for a part of it: remove it, or give --out another folder",
                 entry.path().display()
@@ -248,44 +268,133 @@ fn refuse_others(folder: &Path, target: &dyn Dialect, files: &[ProgramFile]) -> 
     Ok(())
 }
 
-fn target(name: &str) -> Result<&'static dyn Dialect, String> {
-    dialect::by_name(name).ok_or_else(|| format!("expected one of {}", dialect::names()))
+/// What is said of a program that was handed over.
+#[derive(Debug, Serialize)]
+struct HandedOver {
+    headline: String,
+    target: &'static str,
+    holds: bool,
+    unchanged: bool,
+    /// Whether the program refuses to start where the arm does not stand at the start.
+    checks_start: bool,
+    /// The files that were read.
+    files: Vec<String>,
+    changes: Vec<Change>,
+    more_changes: usize,
+    #[serde(flatten)]
+    proved: Proved,
+    /// That the tool of the program is not the plan's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tool: Option<String>,
 }
 
-fn waived(name: &str) -> Result<Requirement, String> {
-    Requirement::named(name).ok_or_else(|| "no requirement of a certificate has that name".to_owned())
+/// Compares the files of a program with the one that is made of the plan, and judges them as they stand.
+pub fn handed_over(options: &Options, plan: &Path, program: &[PathBuf]) -> Result<ExitCode> {
+    let files = with_siblings(program)
+        .iter()
+        .map(|path| read(path))
+        .collect::<Result<Vec<_>>>()?;
+    let file = PlanFile::read(options, plan)?;
+    let certified = match certified(options, &file)? {
+        Ok(certified) => certified,
+        Err(words) => return refused(options, "uncertified", &words, ExitCode::NotVerified),
+    };
+    let compared = options.during("judging the program", || {
+        compare(&certified, &file.arm, &files, &options.cancel)
+    });
+    let compared = compared.map_err(|error| match error {
+        CompareError::Prove(error) => file.failure(error.into()),
+        error => Error::from(error),
+    })?;
+    let (holds, unchanged) = (compared.holds(), compared.is_unchanged());
+    let changed = match (unchanged, compared.changes.len() + compared.more_changes) {
+        (true, _) => "as it was handed over".to_owned(),
+        (false, count) => format!("CHANGED in {}", counted(count, "place")),
+    };
+    let verdict = match (holds, compared.checks_start) {
+        (true, true) => "HOLDS",
+        (true, false) => "HOLDS, START NOT CHECKED",
+        (false, _) => "DOES NOT HOLD",
+    };
+    let answer = HandedOver {
+        headline: format!(
+            "{}{verdict}{}: {} program, tip within {} mm of the plan; {changed}",
+            before(file.plan.job.dry_run.as_ref().map(DryRun::words)),
+            certified.certificate().but_for(),
+            compared.dialect,
+            1e3 * compared.tolerance_m
+        ),
+        target: compared.dialect,
+        holds,
+        unchanged,
+        checks_start: compared.checks_start,
+        files: files.into_iter().map(|file| file.name).collect(),
+        proved: Proved::new(&compared.judged, &file.plan),
+        changes: compared.changes,
+        more_changes: compared.more_changes,
+        tool: compared.tool.as_ref().map(ToString::to_string),
+    };
+    options.print(&answer, || answer.text())?;
+    Ok(ExitCode::NotVerified.unless(holds))
 }
 
-/// As many finite numbers as asked, between commas.
-fn numbers<const N: usize>(text: &str) -> anyhow::Result<[f64; N]> {
-    let all: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse::<f64>()).collect();
-    let all = all.map_err(|_| anyhow!("expected {N} numbers between commas"))?;
-    let found = all.len();
-    let all: [f64; N] = all
-        .try_into()
-        .map_err(|_| anyhow!("expected {N} numbers between commas; found {found}"))?;
-    if !all.iter().all(|number| number.is_finite()) {
-        bail!("the numbers must be finite");
+/// The files of a program, and those beside them that can be sent in their place: of a ROS 2 program, all that `export` writes.
+fn with_siblings(program: &[PathBuf]) -> Vec<PathBuf> {
+    let mut all = program.to_vec();
+    let is_own = |path: &&PathBuf| {
+        let name = path.file_name().and_then(OsStr::to_str);
+        name.is_some_and(|name| ros2::FILES.contains(&name))
+    };
+    for path in program.iter().filter(is_own) {
+        for sibling in ros2::FILES.map(|name| path.with_file_name(name)) {
+            if sibling.exists() && !all.contains(&sibling) {
+                all.push(sibling);
+            }
+        }
     }
-    Ok(all)
+    all
 }
 
-fn joints(text: &str) -> anyhow::Result<JointVector> {
-    Ok(JointVector::from(numbers::<6>(text)?.map(f64::to_radians)))
+fn read(path: &Path) -> Result<ProgramFile> {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    Ok(ProgramFile {
+        name: name.to_string_lossy().into_owned(),
+        text: text(path, MAX_BYTES)?,
+    })
 }
 
-fn frame(text: &str) -> anyhow::Result<Pose> {
-    let [x, y, z, w, i, j, k] = numbers::<7>(text)?;
-    let quaternion = Quaternion::new(w, i, j, k);
-    if (quaternion.norm() - 1.0).abs() > 1e-3 {
-        bail!(
-            "the quaternion (the last four numbers) must have length 1; found {:.4}",
-            quaternion.norm()
-        );
+impl HandedOver {
+    fn text(&self) -> String {
+        let files: Vec<_> = self.files.iter().map(|name| printable(name)).collect();
+        let mut text = format!("{}\n  read: {}\n", self.headline, files.join(", "));
+        // A text that grows cannot fail to be written.
+        for change in &self.changes {
+            let Change {
+                place,
+                what,
+                found,
+                expected,
+            } = change;
+            let _ = writeln!(text, "  {place}: {what}: {found}; handed over: {expected}");
+        }
+        if self.more_changes > 0 {
+            let _ = writeln!(text, "  and {} more", self.more_changes);
+        }
+        if !self.unchanged {
+            text +=
+                "  only the motion is judged; changed checks before the start, messages and comments are only named\n";
+        }
+        if !self.checks_start {
+            text += "  the start is not checked: the program starts to move wherever the arm stands\n";
+        }
+        if let Some(tool) = &self.tool {
+            let _ = writeln!(text, "  {:<20} {:<9} {tool}", "tool", "NOT KEPT");
+        }
+        for check in &self.proved.checks {
+            let status = if check.status.is_kept() { "kept" } else { "NOT KEPT" };
+            let (name, detail) = (check.requirement.words(), check.detail());
+            let _ = writeln!(text, "  {name:<20} {status:<9} {detail}; {}", check.worst);
+        }
+        text + &self.proved.not_judged()
     }
-    let place = nalgebra::Vector3::new(x, y, z) * 1e-3;
-    Ok(Pose::from_parts(
-        place.into(),
-        UnitQuaternion::from_quaternion(quaternion),
-    ))
 }

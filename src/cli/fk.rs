@@ -1,19 +1,30 @@
-//! `platewash fk`: where the arm is, and how near it comes to itself and its surroundings.
+//! `platewash fk` and `platewash ik`: where the arm is and how near it comes to itself and its surroundings, and a configuration for a pose.
 
-use super::angles::JointArguments;
-use super::failure::{ExitCode, Failure};
+use super::failure::ExitCode;
+use super::numbers::{JointArguments, Unit, coordinate, joints};
 use super::options::Options;
 use super::output::{self, Reader};
 use super::robot;
+use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
+use clap::builder::RangedU64ValueParser;
+use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 use platewash::kinematics::LimitViolation;
+use platewash::kinematics::ik::{AnalyticStarts, IkCause, Method, RandomRestarts, Start};
 use platewash::kinematics::model::manipulability;
+use platewash::kinematics::rotation::from_rpy;
 use platewash::kinematics::words::{fixed, not_as_zero};
-use platewash::{Axes, ClearanceModel, JointVector, PairClearance, Pose, RobotModel, Scenario, ToolFrame};
+use platewash::{
+    Axes, ClearanceModel, Frame, IkError, IkSettings, IkSolver, JointVector, PairClearance, Pose, RobotModel, Scenario,
+    ToolFrame,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
+
+/// Most random restarts: seconds of work.
+const MOST_RESTARTS: u64 = 10_000;
 
 /// Arguments of `fk`.
 #[derive(Debug, Args)]
@@ -25,8 +36,52 @@ pub struct FkArguments {
     file: Option<PathBuf>,
 }
 
+/// Arguments of `ik`.
+#[derive(Debug, Args)]
+pub struct IkArguments {
+    /// Position in the base frame, metres
+    #[arg(long, num_args = 3, required = true, allow_negative_numbers = true, value_names = ["X", "Y", "Z"], value_parser = coordinate)]
+    position: Vec<f64>,
+    #[command(flatten)]
+    orientation: Orientation,
+    /// Frame to place at the pose: flange, tool0, matlab_tool0, tip (of the scenario's tool) or a link's name [default: tool0; with
+    /// --scenario, its tool_frame]
+    #[arg(long, value_name = "NAME")]
+    frame: Option<String>,
+    /// Start configuration of the search in degrees [default: zeros]
+    #[arg(
+        long,
+        num_args = 6,
+        allow_negative_numbers = true,
+        value_name = "Q",
+        conflicts_with = "seed_rad"
+    )]
+    seed_deg: Option<Vec<f64>>,
+    /// Start configuration of the search in radians
+    #[arg(long, num_args = 6, allow_negative_numbers = true, value_name = "Q")]
+    seed_rad: Option<Vec<f64>>,
+    /// Number of random restarts, at most 10000; --seed seeds them
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = RangedU64ValueParser::<usize>::new().range(..=MOST_RESTARTS))]
+    restarts: usize,
+}
+
+/// The orientation of the frame, one way or another.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+struct Orientation {
+    /// Roll, pitch, yaw (URDF: fixed axes x, y, z) in degrees
+    #[arg(long, num_args = 3, allow_negative_numbers = true, value_names = ["R", "P", "Y"], value_parser = coordinate)]
+    rpy_deg: Option<Vec<f64>>,
+    /// Roll, pitch, yaw in radians
+    #[arg(long, num_args = 3, allow_negative_numbers = true, value_names = ["R", "P", "Y"], value_parser = coordinate)]
+    rpy_rad: Option<Vec<f64>>,
+    /// Quaternion w x y z (it is normalised)
+    #[arg(long, num_args = 4, allow_negative_numbers = true, value_names = ["W", "X", "Y", "Z"], value_parser = coordinate)]
+    quaternion: Option<Vec<f64>>,
+}
+
 #[derive(Serialize)]
-struct Answer {
+struct FkAnswer {
     robot: String,
     configurations: Vec<Configuration>,
 }
@@ -41,6 +96,27 @@ struct Configuration {
     manipulability: f64,
     frames: BTreeMap<String, FramePose>,
     clearance: Vec<PairClearance>,
+}
+
+#[derive(Serialize)]
+struct IkAnswer {
+    solved: bool,
+    frame: String,
+    target: FramePose,
+    q_rad: JointVector,
+    q_deg: JointVector,
+    iterations: usize,
+    position_error_m: f64,
+    orientation_error_rad: f64,
+    orientation_error_deg: f64,
+    /// `dls` or `qp`, when solved.
+    method: Option<Method>,
+    /// Where the answer was found from, when solved.
+    start: Option<Start>,
+    /// Every pair at that configuration, as `fk` has them.
+    clearance: Vec<PairClearance>,
+    /// Why not, when not solved.
+    cause: Option<IkCause>,
 }
 
 /// A pose as people and programs read it.
@@ -74,112 +150,223 @@ impl From<&Pose> for FramePose {
 }
 
 /// Poses of all frames, limit margins, manipulability and clearances. With `--scenario`, its tool, plates and obstacles count too.
-pub fn run(options: &Options, arguments: &FkArguments) -> Result<ExitCode, Failure> {
+pub fn fk(options: &Options, arguments: &FkArguments) -> Result<ExitCode> {
     let configurations = arguments.joints.configurations(arguments.file.as_ref())?;
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
     let clearance = clearances(options, &scenario, &robot)?;
-    let mut answers = configurations.iter().map(|q| configuration(&robot, &clearance, q));
+    let mut answers = configurations.iter().map(|q| Configuration::new(&robot, &clearance, q));
     if options.json {
-        let answer = Answer {
+        let answer = FkAnswer {
             robot: robot.name().to_owned(),
             configurations: answers.collect(),
         };
         output::print(&output::json(&answer)?)?;
-        return Ok(ExitCode::SUCCESS);
+        return Ok(ExitCode::Done);
     }
     // One by one, as long as anybody reads them.
     for answer in &mut answers {
-        if output::print(&super::text::text(&text(&answer)))? == Reader::Gone {
+        if output::print(&output::text(&answer.text()))? == Reader::Gone {
             break;
         }
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(ExitCode::Done)
+}
+
+/// Solves one pose; an unreachable one is exit code 3 with the best configuration found.
+pub fn ik(options: &Options, arguments: &IkArguments) -> Result<ExitCode> {
+    let scenario = options.scenario()?;
+    let arm = options.arm(&scenario)?;
+    // The default scenario states poses as the paper does; a bare `ik` means ROS-Industrial's tool0.
+    let stated = match options.scenario {
+        Some(_) => scenario.robot.tool_frame,
+        None => ToolFrame::Tool0,
+    };
+    let name = arguments.frame.as_deref().unwrap_or(stated.name());
+    let frame = frame(&arm, &scenario, name)?;
+    let (target, seed) = (arguments.target()?, arguments.seed()?);
+    let restarts = RandomRestarts {
+        seed: scenario.seed,
+        count: arguments.restarts,
+    };
+    let settings = IkSettings {
+        random_restarts: (arguments.restarts > 0).then_some(restarts),
+        analytic_starts: AnalyticStarts::Used,
+        position_tolerance_m: scenario.ik.position_tolerance_m,
+        orientation_tolerance_rad: scenario.ik.orientation_tolerance_rad,
+        ..IkSettings::default()
+    };
+    let (q_rad, iterations, errors, found, cause) = match IkSolver::new(&arm, frame, settings)?.solve(&target, &seed) {
+        Ok(s) => {
+            let errors = (s.position_error_m, s.orientation_error_rad);
+            (s.q, s.iterations, errors, Some((s.method, s.start)), None)
+        }
+        Err(IkError::NotSolved(f)) => {
+            let errors = (f.position_error_m, f.orientation_error_rad);
+            (f.q, f.iterations, errors, None, Some(f.cause))
+        }
+        Err(other) => return Err(other.into()),
+    };
+    let (position_error_m, orientation_error_rad) = errors;
+    let answer = IkAnswer {
+        solved: cause.is_none(),
+        frame: name.to_owned(),
+        target: (&target).into(),
+        q_rad,
+        q_deg: q_rad.map(f64::to_degrees),
+        iterations,
+        position_error_m,
+        orientation_error_rad,
+        orientation_error_deg: orientation_error_rad.to_degrees(),
+        method: found.map(|(method, _)| method),
+        start: found.map(|(_, start)| start),
+        clearance: clearances(options, &scenario, &arm)?.all(&q_rad),
+        cause,
+    };
+    options.print(&answer, || answer.text(&arm))?;
+    Ok(ExitCode::Infeasible.unless(answer.solved))
 }
 
 /// The pairs that are looked at: those of the arm by itself, and where `--scenario` states a cell those of its tool, plates and obstacles, too.
-pub fn clearances(options: &Options, scenario: &Scenario, robot: &RobotModel) -> Result<ClearanceModel, Failure> {
-    let clearance = if options.scenario.is_some() {
-        let layout = scenario.layout(robot).map_err(platewash::Failure::from)?;
-        let workcell = scenario.workcell(robot, layout.plates.len())?;
-        ClearanceModel::new(robot, &workcell, &layout.plates)
-    } else {
-        robot::clearance(robot, robot::bare(robot), &[])
-    };
-    Ok(clearance.map_err(platewash::Failure::from)?)
+fn clearances(
+    options: &Options,
+    scenario: &Scenario,
+    robot: &RobotModel,
+) -> Result<ClearanceModel, platewash::Failure> {
+    if options.scenario.is_none() {
+        return robot::bare_clearance(robot);
+    }
+    let layout = scenario.layout(robot)?;
+    let workcell = scenario.workcell(robot, layout.plates.len())?;
+    Ok(ClearanceModel::new(robot, &workcell, &layout.plates)?)
 }
 
 /// The pair that comes nearest, a line; nothing where no pair is looked at.
-pub fn smallest(clearance: &[PairClearance]) -> String {
+fn smallest(clearance: &[PairClearance]) -> String {
     let least = clearance.iter().min_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
-    least.map_or_else(String::new, |least| {
-        format!(
-            "smallest clearance: {:.2} mm, {} – {}\n",
-            1e3 * least.distance_m,
-            least.a,
-            least.b
-        )
+    least.map_or_else(String::new, |PairClearance { a, b, distance_m, .. }| {
+        format!("smallest clearance: {:.2} mm, {a} – {b}\n", 1e3 * distance_m)
     })
 }
 
-fn configuration(robot: &RobotModel, clearance: &ClearanceModel, q: &JointVector) -> Configuration {
-    let poses = robot.fk(q);
-    let mut frames: BTreeMap<_, _> = robot
-        .links()
-        .iter()
-        .map(|l| (l.name.clone(), FramePose::from(&poses.pose(&l.frame))))
-        .collect();
-    if let Ok(frame) = robot.tool_frame(ToolFrame::MatlabTool0) {
-        frames.insert(
-            ToolFrame::MatlabTool0.name().to_owned(),
-            FramePose::from(&poses.pose(&frame)),
-        );
+impl Configuration {
+    fn new(robot: &RobotModel, clearance: &ClearanceModel, q: &JointVector) -> Self {
+        let (poses, limits) = (robot.fk(q), robot.limits());
+        let links = robot.links().iter().map(|link| (link.name.as_str(), link.frame));
+        let tool0 = robot.tool_frame(ToolFrame::MatlabTool0).ok();
+        let frames = links.chain(tool0.map(|frame| (ToolFrame::MatlabTool0.name(), frame)));
+        Self {
+            q_rad: *q,
+            q_deg: q.map(f64::to_degrees),
+            within_limits: limits.contain(q),
+            beyond_limits: limits.violations(q),
+            limit_margins_rad: limits.margins(q),
+            manipulability: manipulability(&poses.jacobian(&robot.last_link_frame(), Axes::Base)),
+            frames: frames
+                .map(|(name, frame)| (name.to_owned(), FramePose::from(&poses.pose(&frame))))
+                .collect(),
+            clearance: clearance.all(q),
+        }
     }
-    Configuration {
-        q_rad: *q,
-        q_deg: q.map(f64::to_degrees),
-        within_limits: robot.limits().contain(q),
-        beyond_limits: robot.limits().violations(q),
-        limit_margins_rad: robot.limits().margins(q),
-        manipulability: manipulability(&poses.jacobian(&robot.last_link_frame(), Axes::Base)),
-        frames,
-        clearance: clearance.all(q),
+
+    fn text(&self) -> String {
+        let mut text = both_units(&self.q_rad);
+        let (within, easy) = (if self.within_limits { "yes" } else { "NO" }, self.manipulability);
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "within limits: {within}; manipulability {easy:.3e}");
+        for beyond in &self.beyond_limits {
+            let by = not_as_zero((beyond.position_rad - beyond.limit_rad).abs().to_degrees(), 2);
+            let _ = writeln!(text, "  {beyond}, by {by}°");
+        }
+        let _ = writeln!(
+            text,
+            "\n{:<14} {:>28}   {:>27}   {:>25}",
+            "frame", "position, mm", "roll, pitch, yaw, deg", "rad"
+        );
+        for (name, pose) in &self.frames {
+            let [x, y, z] = pose.position_m.map(|v| fixed(1e3 * v, 3));
+            let ([r, p, w], [a, b, d]) = (pose.rpy_deg.map(|v| fixed(v, 4)), pose.rpy_rad.map(|v| fixed(v, 5)));
+            let _ = writeln!(
+                text,
+                "{name:<14} {x:>9} {y:>9} {z:>9} {r:>10} {p:>9} {w:>9} {a:>9} {b:>8} {d:>8}"
+            );
+        }
+        if !self.clearance.is_empty() {
+            let _ = writeln!(text, "\n{}", smallest(&self.clearance));
+        }
+        text
     }
 }
 
-fn text(c: &Configuration) -> String {
-    let mut text = both_units(&c.q_rad);
-    // Writing to a String cannot fail.
-    let within = if c.within_limits { "yes" } else { "NO" };
-    let _ = writeln!(text, "within limits: {within}; manipulability {:.3e}", c.manipulability);
-    for beyond in &c.beyond_limits {
-        let by = not_as_zero((beyond.position_rad - beyond.limit_rad).abs().to_degrees(), 2);
-        let _ = writeln!(text, "  {beyond}, by {by}°");
+impl IkAnswer {
+    fn text(&self, arm: &RobotModel) -> String {
+        let of = format!("solved for {} of {}", self.frame, arm.name());
+        let head = match self.cause {
+            None => of,
+            Some(cause) => format!("NOT {of}: {cause}; best configuration found:"),
+        };
+        let how = match (self.method, self.start) {
+            (Some(method), Some(start)) => format!(", by {method:?} from {start:?}").to_lowercase(),
+            _ => String::new(),
+        };
+        format!(
+            "{head}\n{}{}error {:.3e} m, {:.3e} rad ({:.3e}°); {} iterations{how}\n",
+            both_units(&self.q_rad),
+            smallest(&self.clearance),
+            self.position_error_m,
+            self.orientation_error_rad,
+            self.orientation_error_deg,
+            self.iterations
+        )
     }
-    let _ = writeln!(
-        text,
-        "\n{:<14} {:>28}   {:>27}   {:>25}",
-        "frame", "position, mm", "roll, pitch, yaw, deg", "rad"
-    );
-    for (name, pose) in &c.frames {
-        let [x, y, z] = pose.position_m.map(|v| fixed(1e3 * v, 3));
-        let ([r, p, w], [a, b, d]) = (pose.rpy_deg.map(|v| fixed(v, 4)), pose.rpy_rad.map(|v| fixed(v, 5)));
-        let _ = writeln!(
-            text,
-            "{name:<14} {x:>9} {y:>9} {z:>9} {r:>10} {p:>9} {w:>9} {a:>9} {b:>8} {d:>8}"
-        );
-    }
-    if !c.clearance.is_empty() {
-        let _ = writeln!(text, "\n{}", smallest(&c.clearance));
-    }
-    text
 }
 
 /// Joint positions in degrees and radians, two lines.
-pub fn both_units(q: &JointVector) -> String {
+fn both_units(q: &JointVector) -> String {
     let line = |v: &JointVector, digits: usize| {
         let all = v.iter().map(|x| format!(" {:>12}", fixed(*x, digits)));
         all.collect::<String>()
     };
     format!("q, deg {}\nq, rad {}\n", line(&q.map(f64::to_degrees), 6), line(q, 9))
+}
+
+fn frame(arm: &RobotModel, scenario: &Scenario, name: &str) -> Result<Frame> {
+    match ToolFrame::ALL.into_iter().find(|f| f.name() == name) {
+        Some(known) => Ok(arm.tool_frame(known)?),
+        None if name == "tip" => Ok(scenario.tool_on(arm)?.tip_frame(arm)),
+        None => Ok(arm.frame(name)?),
+    }
+}
+
+/// As many numbers as are needed.
+fn array<const N: usize>(numbers: &[f64]) -> Result<[f64; N]> {
+    <[f64; N]>::try_from(numbers).map_err(|_| anyhow!("{N} numbers are needed; found {}", numbers.len()))
+}
+
+impl IkArguments {
+    fn target(&self) -> Result<Pose> {
+        let given = &self.orientation;
+        let rotation = match (&given.rpy_deg, &given.rpy_rad, &given.quaternion) {
+            (Some(rpy), ..) => from_rpy(array::<3>(rpy).context("--rpy-deg")?.map(f64::to_radians)),
+            (_, Some(rpy), _) => from_rpy(array(rpy).context("--rpy-rad")?),
+            (.., Some(wxyz)) => {
+                let [w, x, y, z] = array(wxyz).context("--quaternion")?;
+                let unit = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9);
+                let unit = unit.context("--quaternion must not be zero")?;
+                *unit.to_rotation_matrix().matrix()
+            }
+            (None, None, None) => bail!("give --rpy-deg, --rpy-rad or --quaternion"),
+        };
+        let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
+        let position = nalgebra::Vector3::from(array::<3>(&self.position).context("--position")?);
+        Ok(Pose::from_parts(position.into(), rotation))
+    }
+
+    fn seed(&self) -> Result<JointVector> {
+        match (&self.seed_deg, &self.seed_rad) {
+            (Some(values), _) => joints(values, Unit::Degrees).context("--seed-deg"),
+            (None, Some(values)) => joints(values, Unit::Radians).context("--seed-rad"),
+            (None, None) => Ok(JointVector::zeros()),
+        }
+    }
 }

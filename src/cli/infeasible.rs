@@ -1,16 +1,15 @@
 //! Jobs that cannot be done, or for which no way was found: what is said and written of them.
 
-use super::exit::Outcome;
-use super::failure::{ExitCode, Failure};
+use super::failure::ExitCode;
+use super::files::{Files, RESULTS};
 use super::options::Options;
-use super::progress::Progress;
-use super::text::text;
-use super::{output, results};
+use super::output::{self, whole};
+use anyhow::{Error, Result};
 use platewash::paper::PaperError;
 use platewash::planner::{InfeasibleReport, PlanError, Watch, other_unwashable_plates};
 use platewash::scenario::Remedies;
 use platewash::workcell::cancel::Deadline;
-use platewash::{CancelToken, Certificate, RobotModel, Scenario};
+use platewash::{CancelToken, Certificate, Failure, RobotModel, Scenario};
 use serde::Serialize;
 use std::fmt;
 use std::sync::Arc;
@@ -25,19 +24,6 @@ struct NotValid {
     valid: bool,
     #[serde(flatten)]
     why: InfeasibleReport,
-}
-
-/// What is to be said of a scenario that could not be carried out; `None` where the input is at fault.
-pub fn report(scenario: &Scenario, failure: &platewash::Failure) -> Option<InfeasibleReport> {
-    use platewash::Failure::{Layout, Paper, Plan};
-    let new = |error: &PlanError| InfeasibleReport::new(&scenario.name, scenario.seed, error);
-    let report = match failure {
-        Plan(error) => new(error),
-        Layout(error) | Paper(PaperError::Layout(error)) => new(&PlanError::Layout(error.clone())),
-        _ => None,
-    };
-    // With the keys that decide it.
-    Some(report?.explained(failure.to_string()))
 }
 
 /// What is said of a job that cannot be done.
@@ -55,30 +41,42 @@ impl fmt::Display for Told {
     }
 }
 
+/// Why there is no plan, where that is it; `None` where the input is at fault.
+fn cause(failure: &Failure) -> Option<PlanError> {
+    match failure {
+        Failure::Plan(error) => Some(error.clone()),
+        Failure::Layout(error) | Failure::Paper(PaperError::Layout(error)) => Some(PlanError::Layout(error.clone())),
+        _ => None,
+    }
+}
+
+/// What is to be said of a scenario that could not be carried out, with the keys that decide it; `None` where the input is at fault.
+pub fn report(scenario: &Scenario, failure: &Failure) -> Option<InfeasibleReport> {
+    let report = InfeasibleReport::new(&scenario.name, scenario.seed, &cause(failure)?)?;
+    Some(report.explained(failure.to_string()))
+}
+
 /// The same with all plates that stand in the way, and the keys that would mend it.
 fn in_full(
     options: &Options,
     scenario: &Scenario,
-    failure: &platewash::Failure,
+    failure: &Failure,
     why: InfeasibleReport,
     search_time: Duration,
-) -> Result<Told, platewash::Failure> {
-    let error = &match failure {
-        platewash::Failure::Plan(error) => error.clone(),
-        platewash::Failure::Layout(error) => PlanError::Layout(error.clone()),
-        _ => {
-            let remedies = Remedies::default();
-            return Ok(Told { why, remedies });
-        }
+) -> Result<Told, Failure> {
+    // Of the paper's program no keys are tried.
+    let Some(error) = cause(failure).filter(|_| !matches!(failure, Failure::Paper(_))) else {
+        let remedies = Remedies::default();
+        return Ok(Told { why, remedies });
     };
-    let progress = Progress::new(options.quiet, LOOKING);
+    let progress = options.progress(LOOKING);
     let watch = Watch {
-        tell: &|activity| progress.say(LOOKING, activity),
+        tell: &|activity| progress.say(activity),
         cancel: &options.cancel,
     };
     let arm = scenario.arm()?;
     let start = Instant::now();
-    let (why, others) = match error {
+    let (why, others) = match &error {
         PlanError::Unwashable(first) => {
             let job = scenario.job_on(&arm, &scenario.place(&arm, &watch)?)?;
             let is_over = CancelToken::new();
@@ -98,7 +96,7 @@ fn in_full(
         _ => (why, ""),
     };
     let left = search_time.saturating_sub(start.elapsed());
-    let remedies = scenario.remedies(&arm, error, &watch, left)?;
+    let remedies = scenario.remedies(&arm, &error, &watch, left)?;
     let reason = format!("{}{others}{remedies}", why.reason);
     let why = why.explained(reason);
     Ok(Told { why, remedies })
@@ -110,46 +108,40 @@ pub fn remedies_of_proof(
     scenario: &Scenario,
     (arm, certificate): (&Arc<RobotModel>, &Certificate),
     search_time: Duration,
-) -> Result<Option<Remedies>, Failure> {
+) -> Result<Option<Remedies>> {
     if certificate.passes() {
         return Ok(None);
     }
-    let progress = Progress::new(options.quiet, LOOKING);
+    let progress = options.progress(LOOKING);
     let watch = Watch {
-        tell: &|activity| progress.say(LOOKING, activity),
+        tell: &|activity| progress.say(activity),
         cancel: &options.cancel,
     };
-    let found = scenario.remedies_of_proof(arm, certificate, &watch, search_time);
-    Ok(Some(found.map_err(PlanError::from).map_err(platewash::Failure::from)?))
+    Ok(Some(scenario.remedies_of_proof(
+        arm,
+        certificate,
+        &watch,
+        search_time,
+    )?))
 }
 
 /// The end of a job that was not carried out: where it cannot be done, that is reported in place of what earlier calls left.
-pub fn end(
-    options: &Options,
-    scenario: &Scenario,
-    failure: platewash::Failure,
-    search_time: Duration,
-) -> Result<ExitCode, Failure> {
+pub fn end(options: &Options, scenario: &Scenario, error: Error, search_time: Duration) -> Result<ExitCode> {
+    let failure: Failure = error.downcast()?;
     let Some(report) = report(scenario, &failure) else {
         return Err(options.failure(failure));
     };
     let report = in_full(options, scenario, &failure, report, search_time)?;
-    let folder = results::folder(options);
-    let words = text(&report);
-    let files = vec![
-        output::file(folder.join("report.json"), output::json(&report)?),
-        output::file(folder.join("report.txt"), &words),
-    ];
-    results::write(options, &files)?;
-    output::print_either(options.json, &report, || words.clone())?;
-    results::name(options, &files);
-    Ok(Outcome::from(report.why.verdict).job(scenario.job.on_failure))
+    let mut files = Files::new(options.folder(), &RESULTS);
+    files.add_report("report", &report)?;
+    files.answer(options, &report, || whole(&report))?;
+    Ok(ExitCode::from(report.why.verdict).job(scenario.job.on_failure))
 }
 
 /// With `--json`, gives what stands against a scenario (exit code 3) as an answer on standard output too.
-pub fn answer(options: &Options, scenario: &Scenario, failure: &Failure) -> Result<(), Failure> {
-    let why = failure.of_scenario().filter(|_| options.json);
-    if let Some(why) = why.and_then(|failure| report(scenario, failure)) {
+pub fn answer(options: &Options, scenario: &Scenario, error: &Error) -> Result<()> {
+    let failure = error.downcast_ref().filter(|_| options.json);
+    if let Some(why) = failure.and_then(|failure| report(scenario, failure)) {
         output::print(&output::json(&NotValid { valid: false, why })?)?;
     }
     Ok(())

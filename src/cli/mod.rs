@@ -2,61 +2,34 @@
 //!
 //! Exit codes: 0 done, 1 internal error, 2 bad usage or input, 3 infeasible, 4 verification failed, 130 interrupted.
 
-mod against;
 mod align;
-mod angles;
-mod bundle;
 mod compare;
-mod details;
 mod dry_run;
 mod edit;
-mod execution;
-mod exit;
 mod export;
 mod failure;
-mod figures;
+mod files;
 mod fk;
-mod handed_over;
-mod ik;
 mod infeasible;
-mod interrupt;
-mod kept;
-mod law;
-mod layout;
-mod live;
 mod motion;
+mod numbers;
 mod options;
 mod output;
 mod page;
-mod paper;
-mod parent;
-mod plan;
 mod plan_file;
-mod progress;
-mod refused;
-mod region;
 mod reproduce;
-mod results;
 mod robot;
 mod run;
 mod scenario;
-mod serve;
 mod simulate;
 mod study;
-mod study_text;
-mod suggest;
 mod sweep;
-mod text;
-mod time_step;
-mod tips;
-mod tune;
-mod validate;
 mod verify;
 mod view;
-mod wash;
 
+use anyhow::{Error, Result};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use failure::{ExitCode, Failure};
+use failure::ExitCode;
 use options::Options;
 use platewash::CancelToken;
 use std::ffi::OsString;
@@ -140,18 +113,18 @@ enum Verb {
     /// NAME.certificate.json, NAME.report.json, NAME.report.txt and NAME.page.html. Ctrl-C ends it.
     Edit(edit::EditArguments),
     /// Draw a plan file as SVG: the workcell from above, joints, coverage and spirals
-    Figures(figures::FiguresArguments),
+    Figures(view::FiguresArguments),
     /// Export a plan file as a robot program: rapid, ros2, urscript or csv
     ///
     /// The plan is proved first. The program is read back, and its path, joint speeds, clearance, tilt and sweep are proved again; it is
     /// written only if that succeeds, else the exit code is 4. Pressing, landing and accelerations are proved for the plan alone. The files go to the folder of --out, or to out/TARGET.
     Export(export::ExportArguments),
     /// Simulate a plan file at many frequencies and damping ratios of a control law
-    Tune(tune::TuneArguments),
+    Tune(simulate::TuneArguments),
     /// Forward kinematics of one or many configurations, with clearances
     Fk(fk::FkArguments),
     /// Inverse kinematics of one pose
-    Ik(ik::IkArguments),
+    Ik(fk::IkArguments),
     /// Show the arm: joints, limits, frames and the pairs checked for clearance
     ///
     /// --suggest finds, for the scenario's tool and plates: a home position, where plates can be washed (region.svg), and the
@@ -181,37 +154,65 @@ pub fn main_until(arguments: impl IntoIterator<Item = OsString>, cancel: &Cancel
 
 /// The `platewash` program: [`main`], and Ctrl-C tells long work to give up (exit code 130). A second one ends the process at once.
 pub fn program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    answer(arguments, interrupt::token)
+    answer(arguments, || {
+        let token = CancelToken::new();
+        heed_signals(&token);
+        token
+    })
+}
+
+/// From now on Ctrl-C and SIGTERM cancel the token. For the program alone: there is one handler a process, and in a library it is the
+/// caller's. Where none can be set, the system ends the program at the first Ctrl-C; one that was started to ignore it, in the background of
+/// a shell or by nohup, keeps ignoring it.
+fn heed_signals(token: &CancelToken) {
+    let given_up = token.clone();
+    let _ = ctrlc::try_set_handler(move || give_up(&given_up));
+    #[cfg(unix)]
+    if let Ok(mut signals) = signal_hook::iterator::Signals::new([signal_hook::consts::SIGTERM]) {
+        let token = token.clone();
+        std::thread::spawn(move || signals.forever().for_each(|_| give_up(&token)));
+    }
+}
+
+/// Cancels the token; where it is cancelled already, ends the process.
+fn give_up(token: &CancelToken) {
+    if token.is_cancelled() {
+        std::process::exit(ExitCode::Interrupted as i32);
+    }
+    token.cancel();
 }
 
 /// Does what the arguments ask; `token` makes what tells long work to give up.
 fn answer(arguments: impl IntoIterator<Item = OsString>, token: impl FnOnce() -> CancelToken + UnwindSafe) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().map(without_exponent).collect();
-    let outcome = std::panic::catch_unwind(|| {
-        let matches = refused::hide(Arguments::command()).try_get_matches_from(arguments);
-        let parsed =
-            matches.and_then(|matches| Ok((Arguments::from_arg_matches(&matches)?, refused::refuse(&matches))));
-        match parsed {
-            Ok((arguments, taken)) => taken.and_then(|()| dispatch(arguments, token)),
-            Err(e) => {
-                let code = u8::try_from(e.exit_code()).unwrap_or(failure::INPUT);
-                match tips::with_tip(e).print() {
-                    // A closed pipe is no reason to fail; help that cannot be written is.
-                    Err(cannot) if code == 0 && cannot.kind() != ErrorKind::BrokenPipe => Err(Failure::input(cannot)),
-                    _ => Ok(ExitCode::from(code)),
-                }
-            }
-        }
+    let outcome = std::panic::catch_unwind(|| match parsed(arguments) {
+        Ok((arguments, taken)) => taken
+            .and_then(|()| dispatch(arguments, token))
+            .map_or_else(|error| failure::report(&error) as u8, |code| code as u8),
+        Err(refused) => told(refused),
     });
     // A caller that is no Rust program does not flush; a reader that has gone away is no error.
     let _ = std::io::stdout().flush();
-    let ExitCode(code) = match outcome {
-        Ok(Ok(code)) => code,
-        Ok(Err(failure)) => failure.report(),
-        // The panic's own message is on standard error already.
-        Err(_) => ExitCode::from(failure::INTERNAL),
-    };
-    code
+    // The panic's own message is on standard error already.
+    outcome.unwrap_or(ExitCode::Internal as u8)
+}
+
+/// The arguments, and why they are refused, where one is of another verb.
+fn parsed(arguments: Vec<OsString>) -> Result<(Arguments, Result<()>), clap::Error> {
+    let matches = options::hide(Arguments::command()).try_get_matches_from(arguments)?;
+    Ok((Arguments::from_arg_matches(&matches)?, options::refuse(&matches)))
+}
+
+/// Prints what is wrong with the arguments, or the help that was asked for; the exit code.
+fn told(refused: clap::Error) -> u8 {
+    let code = u8::try_from(refused.exit_code()).unwrap_or(ExitCode::Input as u8);
+    match options::with_tip(refused).print() {
+        // A closed pipe is no reason to fail; help that cannot be written is.
+        Err(cannot) if code == 0 && cannot.kind() != ErrorKind::BrokenPipe => {
+            failure::report(&Error::new(cannot)) as u8
+        }
+        _ => code,
+    }
 }
 
 /// A negative number without its exponent, as clap takes `-1e-9` for an option; every other argument as it is.
@@ -220,67 +221,57 @@ fn without_exponent(argument: OsString) -> OsString {
         .to_str()
         .filter(|text| text.starts_with('-') && text.contains(['e', 'E']));
     match text
-        .and_then(|text| text.parse::<f64>().ok())
-        .filter(|number| number.is_finite())
+        .and_then(|text| text.parse().ok())
+        .filter(|number: &f64| number.is_finite())
     {
         Some(number) => number.to_string().into(),
         None => argument,
     }
 }
 
-fn dispatch(arguments: Arguments, token: impl FnOnce() -> CancelToken) -> Result<ExitCode, Failure> {
+fn dispatch(arguments: Arguments, token: impl FnOnce() -> CancelToken) -> Result<ExitCode> {
     let mut options = arguments.options;
     let verb = arguments.verb.unwrap_or(Verb::Run(run::RunArguments::default()));
-    if verb.gives_up() {
+    if !verb.is_soon_done() {
         options.cancel = token();
     }
     options
         .set_up()?
         .install(|| carry_out(&options, verb))
-        .map_err(|failure| options.in_file(failure))
+        .map_err(|error| options.in_file(error))
 }
 
 impl Verb {
-    /// Whether it looks at the token that tells it to give up; others are done soon, and the system ends them.
-    fn gives_up(&self) -> bool {
+    /// Whether it is done soon, and does not look at the token that tells it to give up: the system ends it.
+    fn is_soon_done(&self) -> bool {
         match self {
-            Self::Run(_) | Self::Plan(_) | Self::Verify(_) | Self::Simulate(_) | Self::Tune(_) => true,
-            Self::View(_)
-            | Self::Edit(_)
-            | Self::Export(_)
-            | Self::Compare(_)
-            | Self::DryRun(_)
-            | Self::Figures(_)
-            | Self::Sweep(_)
-            | Self::Study(_)
-            | Self::Reproduce(_) => true,
-            Self::Robot(arguments) => arguments.suggest,
-            Self::Layout | Self::Validate | Self::Scenario(_) | Self::Align(_) | Self::Fk(_) | Self::Ik(_) => false,
+            Self::Robot(arguments) => !arguments.suggest,
+            Self::Layout | Self::Validate | Self::Scenario(_) | Self::Align(_) | Self::Fk(_) | Self::Ik(_) => true,
+            _ => false,
         }
     }
 }
 
-fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode, Failure> {
+fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode> {
     match verb {
         Verb::Run(arguments) => run::run(options, &arguments),
-        Verb::Layout => layout::run(options),
-        Verb::Plan(arguments) => plan::run(options, &arguments),
-        Verb::Validate => validate::run(options),
-        Verb::Scenario(arguments) => scenario::run(options, &arguments),
+        Verb::Layout => scenario::layout(options),
+        Verb::Plan(arguments) => run::plan(options, &arguments),
+        Verb::Validate => scenario::validate(options),
+        Verb::Scenario(arguments) => scenario::show(options, &arguments),
         Verb::Verify(arguments) => verify::run(options, &arguments),
         Verb::Compare(arguments) => compare::run(options, &arguments),
         Verb::DryRun(arguments) => dry_run::run(options, &arguments),
         Verb::Align(arguments) => align::run(options, &arguments),
-        Verb::Simulate(arguments) => simulate::run(options, &arguments),
-        Verb::View(arguments) => view::run(options, &arguments),
+        Verb::Simulate(arguments) => simulate::simulate(options, &arguments),
+        Verb::View(arguments) => view::view(options, &arguments),
         Verb::Edit(arguments) => edit::run(options, &arguments),
         Verb::Export(arguments) => export::run(options, &arguments),
-        Verb::Tune(arguments) => tune::run(options, &arguments),
-        Verb::Figures(arguments) => figures::run(options, &arguments),
-        Verb::Fk(arguments) => fk::run(options, &arguments),
-        Verb::Ik(arguments) => ik::run(options, &arguments),
-        Verb::Robot(arguments) if arguments.suggest => suggest::run(options),
-        Verb::Robot(_) => robot::run(options),
+        Verb::Tune(arguments) => simulate::tune(options, &arguments),
+        Verb::Figures(arguments) => view::figures(options, &arguments),
+        Verb::Fk(arguments) => fk::fk(options, &arguments),
+        Verb::Ik(arguments) => fk::ik(options, &arguments),
+        Verb::Robot(arguments) => robot::run(options, &arguments),
         Verb::Sweep(arguments) => sweep::run(options, &arguments),
         Verb::Study(arguments) => study::run(options, &arguments),
         Verb::Reproduce(arguments) => reproduce::run(options, &arguments),

@@ -1,12 +1,14 @@
-//! Options that every verb takes.
+//! Options that every verb takes, those that some verbs do not take, and tips on arguments that the command does not know.
 
-use super::failure::Failure;
-use super::output;
-use anyhow::{Context, anyhow, ensure};
-use clap::Args;
+use super::failure::internal;
+use super::numbers::seed;
+use super::output::Progress;
+use anyhow::{Error, Result, bail};
+use clap::error::{ContextKind, ContextValue};
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, Command, value_parser};
 use platewash::planner::PlanError;
-use platewash::scenario::{Note, SHIPPED, ScenarioError};
-use platewash::workcell::job::MAX_SEED;
+use platewash::scenario::{Note, SHIPPED, ScenarioError, form};
 use platewash::workcell::words::printable;
 use platewash::{CancelToken, RobotModel, Scenario};
 use rayon::ThreadPool;
@@ -55,8 +57,8 @@ pub struct Options {
     #[arg(long, short, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
     /// Number of threads [default: one for each processor]; it does not change results
-    #[arg(long, global = true, value_name = "N")]
-    pub threads: Option<usize>,
+    #[arg(long, global = true, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
     /// Tells long work to give up.
     #[arg(skip)]
     pub cancel: CancelToken,
@@ -64,7 +66,7 @@ pub struct Options {
 
 impl Options {
     /// Starts logging, where it has not begun yet; the threads to work on.
-    pub fn set_up(&self) -> Result<ThreadPool, Failure> {
+    pub fn set_up(&self) -> Result<ThreadPool> {
         let level = match (self.quiet, self.verbose) {
             (true, _) => tracing::Level::ERROR,
             (false, 0) => tracing::Level::WARN,
@@ -78,21 +80,15 @@ impl Options {
             .without_time()
             .with_target(false)
             .try_init();
-        let threads = self.threads.unwrap_or(0);
-        if self.threads == Some(0) || threads > 1024 {
-            return Err(Failure::input(anyhow!(
-                "--threads must be from 1 to 1024; found {threads}"
-            )));
-        }
         rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
+            .num_threads(self.threads.unwrap_or(0).into())
             .stack_size(STACK_BYTES)
             .build()
-            .map_err(Failure::internal)
+            .map_err(internal)
     }
 
     /// The scenario with what the options override.
-    pub fn scenario(&self) -> Result<Scenario, Failure> {
+    pub fn scenario(&self) -> Result<Scenario> {
         let mut scenario = Scenario::load(self.scenario_name())?;
         if let Some(seed) = self.seed {
             scenario.seed = seed;
@@ -120,27 +116,47 @@ impl Options {
     /// Says on standard error what was probably meant in another unit.
     pub fn warn(&self, notes: &[Note]) {
         for note in notes {
-            output::message(self.quiet, &format!("warning: {note}"));
+            self.say(&format!("warning: {note}"));
         }
     }
 
     /// Why the scenario could not be carried out; what is wrong in it with the file that was given in place of its own name.
-    pub fn failure(&self, error: platewash::Failure) -> Failure {
+    pub fn failure(&self, error: platewash::Failure) -> Error {
         match error {
             platewash::Failure::Scenario(error) => self.of_file(error).into(),
             other => other.into(),
         }
     }
 
-    /// The failure with the scenario's file in front, where a file was given and the failure is one of what it states.
-    pub fn in_file(&self, failure: Failure) -> Failure {
-        match (&self.scenario, failure) {
-            (Some(file), Failure::Wrong { code, error }) if error.downcast_ref().is_some_and(is_of_job) => {
-                let error = error.context(format!("scenario {}", printable(file)));
-                Failure::Wrong { code, error }
+    /// The error with the scenario's file in front, where a file was given and the error is one of what it states.
+    pub fn in_file(&self, error: Error) -> Error {
+        match &self.scenario {
+            Some(file) if error.downcast_ref().is_some_and(is_of_job) => {
+                error.context(format!("scenario {}", printable(file)))
             }
-            (_, failure) => failure,
+            _ => error,
         }
+    }
+
+    /// A sign of life for work that may take long.
+    pub fn progress(&self, work: &'static str) -> Progress {
+        Progress::new(self.quiet, work)
+    }
+
+    /// What some work comes to, with a sign of life while it goes on.
+    pub fn during<T>(&self, work: &'static str, make: impl FnOnce() -> T) -> T {
+        let _progress = self.progress(work);
+        make()
+    }
+
+    /// The output folder, or another one.
+    pub fn folder_or(&self, default: &str) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| default.into())
+    }
+
+    /// The output folder.
+    pub fn folder(&self) -> PathBuf {
+        self.folder_or("out")
     }
 
     /// Waits until it is told to end.
@@ -177,10 +193,107 @@ fn is_of_job(failure: &platewash::Failure) -> bool {
     }
 }
 
-/// A seed as a scenario may state one.
-pub fn seed(text: &str) -> anyhow::Result<u64> {
-    let expected = || format!("must be a whole number from 0 to {MAX_SEED} (2^53 − 1)");
-    let seed = text.parse().with_context(expected)?;
-    ensure!(seed <= MAX_SEED, expected());
-    Ok(seed)
+/// Keys that a tip names at most.
+const MOST_KEYS: usize = 3;
+
+/// Characters that an option begins with as the one that is suggested in its place, to be taken for it, dashes too.
+const NEAR: usize = 6;
+
+/// Of verbs of plan files.
+pub const PLAN_STATES: &str =
+    "the plan file states its job and its seed; leave it out (verify --against compares them with a scenario)";
+
+/// Verbs, options that they do not take, and why.
+const REFUSED: [(&str, &str, &str); 7] = [
+    (
+        "verify simulate tune view figures export dry-run compare",
+        "scenario tool_mount",
+        PLAN_STATES,
+    ),
+    ("simulate tune view figures export dry-run compare", "seed", PLAN_STATES),
+    (
+        "align",
+        "scenario seed urdf package_path srdf tool_mount out",
+        "align works from the points of its file alone, without a scenario or a seed, and writes no file; leave it out",
+    ),
+    (
+        "study",
+        "scenario seed urdf package_path srdf tool_mount",
+        "the study file states its scenarios and seeds; leave it out",
+    ),
+    (
+        "sweep",
+        "seed",
+        "sweep plans one layout for each of --seeds; leave it out",
+    ),
+    (
+        "scenario",
+        "scenario seed urdf package_path srdf tool_mount out",
+        "scenario prints a shipped scenario as it is, `platewash scenario NAME`; leave it out",
+    ),
+    (
+        "reproduce",
+        "scenario urdf package_path srdf tool_mount",
+        "reproduce measures the paper's own scenarios and arm; leave it out",
+    ),
+];
+
+/// The command with the options that a verb does not take left out of its help.
+pub fn hide(mut command: Command) -> Command {
+    let all: Vec<_> = command.get_arguments().cloned().collect();
+    for (verbs, options, _) in REFUSED {
+        let is_refused = |id: &str| options.split(' ').any(|option| option == id);
+        let refused = all.iter().filter(|argument| is_refused(argument.get_id().as_str()));
+        let hidden: Vec<_> = refused.map(|argument| argument.clone().hide(true)).collect();
+        for verb in verbs.split(' ') {
+            command = command.mut_subcommand(verb, |sub| sub.args(&hidden));
+        }
+    }
+    command
+}
+
+/// Refuses an option that the verb does not take.
+pub fn refuse(matches: &ArgMatches) -> Result<()> {
+    let Some((verb, given)) = matches.subcommand() else {
+        return Ok(());
+    };
+    let is_given = |id: &&str| given.value_source(id) == Some(ValueSource::CommandLine);
+    for (verbs, options, why) in REFUSED {
+        let of_verb = verbs.split(' ').any(|other| other == verb);
+        if let Some(id) = options.split(' ').find(|id| of_verb && is_given(id)) {
+            bail!("--{}: {why}", id.replace('_', "-"));
+        }
+    }
+    Ok(())
+}
+
+/// An error about arguments, with a tip where a scenario stands without `--scenario`, or an option has the name of a scenario's key.
+pub fn with_tip(mut error: clap::Error) -> clap::Error {
+    let named = |kind| match error.get(kind) {
+        Some(ContextValue::String(name)) => Some(name.clone()),
+        _ => None,
+    };
+    let given = named(ContextKind::InvalidArg).or_else(|| named(ContextKind::InvalidSubcommand));
+    let known = named(ContextKind::SuggestedArg).unwrap_or_default();
+    let is_near = |given: &String| given.chars().zip(known.chars()).take_while(|(a, b)| a == b).count() >= NEAR;
+    if let Some(tip) = given.filter(|given| !is_near(given)).and_then(|given| tip(&given)) {
+        let _ = error.remove(ContextKind::SuggestedArg);
+        let _ = error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+    }
+    error
+}
+
+fn tip(given: &str) -> Option<String> {
+    if SHIPPED.iter().any(|shipped| shipped.name == given) || given.ends_with(".toml") {
+        return Some(format!("a scenario is given as '--scenario {given}'"));
+    }
+    let option = given.strip_prefix("--")?.split('=').next()?.replace('-', "_");
+    let is_named = |path: &&str| {
+        let name = path.rsplit('.').next().and_then(|name| name.strip_prefix(&*option));
+        name.is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+    };
+    let form = form();
+    let keys = form.iter().map(|key| key.path).filter(is_named).take(MOST_KEYS);
+    let keys: Vec<String> = keys.map(|path| format!("'{path}'")).collect();
+    (!keys.is_empty()).then(|| format!("keys are set in the scenario's file: {}", keys.join(", ")))
 }

@@ -1,15 +1,20 @@
-//! Results: to standard output, and to files that appear whole or not at all.
+//! Results on standard output; messages on standard error, and signs of life for work that takes long: a spinner on a terminal, a line now and
+//! then elsewhere.
 
-use super::failure::Failure;
-use super::text::{self, escaped};
-use anyhow::Context;
-use platewash::CancelToken;
-use platewash::workcell::atomic_file::{FolderLock, StagedFile, folder_of};
+use super::failure;
+use super::options::Options;
+use anyhow::{Context, Result};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
-use std::collections::BTreeMap;
 use std::fmt::Display;
-use std::io::{BufWriter, ErrorKind, IntoInnerError, Write};
-use std::path::{Component, Path, PathBuf};
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+/// Last line of a report that leaves something out.
+const HINT: &str = "\nmore: --details\n";
 
 /// Whether anybody still reads standard output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,217 +26,180 @@ pub enum Reader {
 }
 
 /// Prints to standard output; a reader that has gone away is no error.
-pub fn print(text: &str) -> Result<Reader, Failure> {
+pub fn print(text: &str) -> Result<Reader> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-        Ok(()) => Ok(Reader::There),
-        Err(e) if e.kind() == ErrorKind::BrokenPipe => Ok(Reader::Gone),
-        Err(e) => Err(Failure::input(
-            anyhow::Error::new(e).context("standard output cannot be written"),
-        )),
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(Reader::Gone),
+        printed => printed
+            .map(|()| Reader::There)
+            .context("standard output cannot be written"),
     }
 }
 
-/// A value as indented JSON with a final newline. NaN and infinity become `null`; control characters are escaped, those too
-/// that JSON itself allows.
-pub fn json(value: &impl Serialize) -> Result<String, Failure> {
-    let text = serde_json::to_string_pretty(value).map_err(Failure::internal)?;
-    let mut text = escaped(&text, |c| format!("\\u{:04x}", u32::from(c)));
-    text.push('\n');
-    Ok(text)
-}
+impl Options {
+    /// Prints an answer as JSON, or as text.
+    pub fn print(&self, answer: &impl Serialize, words: impl FnOnce() -> String) -> Result<Reader> {
+        print(&if self.json { json(answer)? } else { text(&words()) })
+    }
 
-/// Prints a value as JSON, or as text.
-pub fn print_either(as_json: bool, value: &impl Serialize, text: impl FnOnce() -> String) -> Result<Reader, Failure> {
-    if as_json {
-        print(&json(value)?)
-    } else {
-        print(&text::text(&text()))
+    /// Says something on standard error, unless quiet was asked for.
+    pub fn say(&self, words: &str) {
+        if !self.quiet {
+            message(words);
+        }
     }
 }
 
 /// A message on standard error.
-pub fn message(quiet: bool, text: &str) {
-    if !quiet {
-        // Nothing is left to do when standard error is closed.
-        let _ = writeln!(std::io::stderr(), "{}", text::text(&text));
-    }
+pub fn message(words: &str) {
+    // Nothing is left to do when standard error is closed.
+    let _ = writeln!(std::io::stderr(), "{}", text(&words));
 }
 
-/// A file and the text that is to stand in it, which may be made while it is written.
-pub type File<'a> = (PathBuf, Box<dyn Display + 'a>);
-
-/// A text file for [`write_files`].
-pub fn file<'a>(path: PathBuf, content: impl Display + 'a) -> File<'a> {
-    (path, Box::new(content))
+/// A value as indented JSON with a final newline. NaN and infinity become `null`; control characters are escaped, those too
+/// that JSON itself allows.
+pub fn json(value: &impl Serialize) -> Result<String> {
+    let text = serde_json::to_string_pretty(value).map_err(failure::internal)?;
+    Ok(escaped(&text, |c| format!("\\u{:04x}", u32::from(c))) + "\n")
 }
 
-/// Writes all files or none: each goes to a temporary file beside its place, and they are renamed once all are complete. None where
-/// `cancel` says so before that.
-pub fn write_files(files: &[File<'_>], cancel: &CancelToken) -> Result<(), Failure> {
-    replace(files, &[], cancel)
+/// A value as text without control characters but new lines, so that a terminal obeys no name out of a file.
+pub fn text(value: &impl Display) -> String {
+    escaped(&value.to_string(), |c| c.escape_default().to_string())
 }
 
-/// Writes all files or none in place of `stale` ones, which go just before.
-pub fn replace(files: &[File<'_>], stale: &[PathBuf], cancel: &CancelToken) -> Result<(), Failure> {
-    replace_if(files, stale, cancel, &|| true).map(|_| ())
+/// A text in which `escape` writes every control character but new lines.
+fn escaped(text: &str, escape: impl Fn(char) -> String) -> String {
+    let is_harmless = |c: char| !c.is_control() || c == '\n';
+    let written = |c| if is_harmless(c) { c.to_string() } else { escape(c) };
+    text.chars().map(written).collect()
 }
 
-/// As [`replace`], unless `still` says no once all files are complete: then none is written. Whether they were.
-pub fn replace_if(
-    files: &[File<'_>],
-    stale: &[PathBuf],
-    cancel: &CancelToken,
-    still: &dyn Fn() -> bool,
-) -> Result<bool, Failure> {
-    refuse_one_place_for_two(files.iter().map(|(path, _)| path)).map_err(Failure::input)?;
-    let locks = locks(files).map_err(Failure::input)?;
-    let mut complete = Vec::new();
-    for (path, content) in files {
-        complete.push((stage(path, content).map_err(Failure::input)?, path));
-        cancel.check()?;
-    }
-    if !still() {
-        return Ok(false);
-    }
-    // Those of an earlier call go first, the last one first, so that at no moment files of two calls stand side by side. A folder of that name
-    // is none of ours.
-    let is_file = |path: &&PathBuf| std::fs::symlink_metadata(path).is_ok_and(|found| !found.is_dir());
-    for path in stale.iter().rev().filter(is_file) {
-        std::fs::remove_file(path)
-            .with_context(|| format!("{}: is of an earlier call and cannot be removed", path.display()))
-            .map_err(Failure::input)?;
-    }
-    for (staged, path) in complete {
-        let renamed = staged.persist(path);
-        renamed
-            .with_context(|| format!("{}: cannot be written", path.display()))
-            .map_err(Failure::input)?;
-    }
-    locks.iter().for_each(FolderLock::sync);
-    Ok(true)
+/// The whole report, as files hold it.
+pub fn whole(report: &impl Display) -> String {
+    text(&format_args!("{report:#}"))
 }
 
-/// The locks of the folders of files, in one order for all callers, without leftovers in them.
-fn locks(files: &[File<'_>]) -> anyhow::Result<Vec<FolderLock>> {
-    let mut folders = BTreeMap::new();
-    for (path, _) in files {
-        let folder = folder_of(path);
-        let place = place(folder).with_context(|| format!("{}: cannot be written", path.display()))?;
-        folders.insert(place, folder);
-    }
-    let lock = |folder: &Path| {
-        let lock = FolderLock::new(folder);
-        let lock = lock.with_context(|| format!("{}: folder cannot be made", folder.display()))?;
-        lock.remove_leftovers();
-        Ok(lock)
-    };
-    folders.into_values().map(lock).collect()
+/// `--details`.
+#[derive(Debug, Args, Default)]
+pub struct DetailArguments {
+    /// Print the whole report: every requirement, plate, pair of bodies and assumption
+    #[arg(long)]
+    details: bool,
 }
 
-/// Refuses, before any work, files that could not be written after it. Nothing is left behind.
-pub fn check_places(files: &[PathBuf]) -> Result<(), Failure> {
-    let check = || {
-        refuse_one_place_for_two(files.iter())?;
-        files.iter().try_for_each(|path| refuse_place(path))
-    };
-    check().map_err(Failure::input)
-}
-
-/// Refuses a file whose folder can neither be written nor made.
-fn refuse_place(path: &Path) -> anyhow::Result<()> {
-    refuse_taken(path)?;
-    if let Err(error) = path.symlink_metadata()
-        && error.kind() == ErrorKind::InvalidFilename
-    {
-        return Err(error).with_context(|| format!("{}: cannot be written", path.display()));
-    }
-    let folder = folder_of(path);
-    let place = place(folder).with_context(|| format!("{}: cannot be written", path.display()))?;
-    // A link that leads nowhere does not exist, but stands in the way.
-    let stands = |place: &&Path| std::fs::symlink_metadata(place).is_ok();
-    let Some(nearest) = place.ancestors().find(stands) else {
-        return Ok(());
-    };
-    let cannot = || format!("{}: cannot be written", path.display());
-    if !nearest.is_dir() {
-        anyhow::bail!("{}: {} is no folder", cannot(), nearest.display());
-    }
-    // Rights are many things; a file that is made and goes again asks for all of them.
-    let made = StagedFile::in_folder(nearest).map(drop);
-    made.map_err(|error| {
-        anyhow::anyhow!(
-            "{}: no file can be made in {}: {}",
-            cannot(),
-            nearest.display(),
-            error.kind()
-        )
-    })
-}
-
-/// Refuses a place where something stands that no file may take the place of.
-fn refuse_taken(path: &Path) -> anyhow::Result<()> {
-    let what = match path.metadata() {
-        Ok(found) if found.is_dir() => "a folder",
-        Ok(found) if !found.is_file() => "no regular file",
-        _ => return Ok(()),
-    };
-    anyhow::bail!("{}: cannot be written: it is {what}", path.display());
-}
-
-/// Writes a file by what makes it piece by piece: whole or not at all.
-pub fn write_to<T>(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<T, Failure>) -> Result<T, Failure> {
-    let cannot = || format!("{}: cannot be written", path.display());
-    refuse_taken(path).map_err(Failure::input)?;
-    let staged = StagedFile::beside(path).with_context(cannot).map_err(Failure::input)?;
-    let mut staged = BufWriter::new(staged);
-    let written = write(&mut staged)?;
-    let staged = staged.into_inner().map_err(IntoInnerError::into_error);
-    let renamed = staged.and_then(|staged| staged.sync().and_then(|()| staged.persist(path)));
-    renamed.with_context(cannot).map_err(Failure::input)?;
-    Ok(written)
-}
-
-fn stage(path: &Path, content: &dyn Display) -> anyhow::Result<StagedFile> {
-    let cannot = || format!("{}: cannot be written", path.display());
-    refuse_taken(path)?;
-    let staged = StagedFile::in_folder(folder_of(path)).with_context(cannot)?;
-    let mut buffered = BufWriter::new(staged);
-    write!(buffered, "{content}").with_context(cannot)?;
-    let staged = buffered.into_inner().map_err(IntoInnerError::into_error);
-    let synced = staged.and_then(|staged| staged.sync().map(|()| staged));
-    synced.with_context(cannot)
-}
-
-/// No file may take the place of another one of the same run.
-fn refuse_one_place_for_two<'a>(files: impl Iterator<Item = &'a PathBuf>) -> anyhow::Result<()> {
-    let mut taken = BTreeMap::new();
-    for path in files {
-        let place = place(path).with_context(|| format!("{}: cannot be written", path.display()))?;
-        if let Some(first) = taken.insert(place, path) {
-            anyhow::bail!(
-                "{}: is also where {} is written: give --csv or --out another place",
-                path.display(),
-                first.file_name().unwrap_or(first.as_os_str()).display()
-            );
+impl DetailArguments {
+    /// The report as it is printed: one screen of it, or the whole.
+    pub fn printed(&self, report: &impl Display) -> String {
+        let (short, whole) = (text(report), whole(report));
+        match self.details || short == whole {
+            true => whole,
+            false => short + HINT,
         }
     }
-    Ok(())
 }
 
-/// Where a file will be, links followed but for its own name, whether its folders exist yet or not.
-pub fn place(path: &Path) -> std::io::Result<PathBuf> {
-    let absolute = std::path::absolute(path)?;
-    let mut place = PathBuf::new();
-    for part in absolute.components() {
-        // What does not exist yet has no links to follow.
-        place = place.canonicalize().unwrap_or(place);
-        match part {
-            Component::ParentDir => drop(place.pop()),
-            part => place.push(part),
+/// On a terminal, work shorter than this shows nothing.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Elsewhere, the time to the first line, and between two.
+const BETWEEN_LINES: Duration = Duration::from_secs(5);
+
+/// Time between two turns of the spinner.
+const TICK: Duration = Duration::from_millis(100);
+
+/// What is done, and what of it is tried at the moment; a spinner, and a bar once it is known how much there is to do. Goes when
+/// it is dropped.
+pub struct Progress {
+    work: &'static str,
+    bar: ProgressBar,
+    timer: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl Progress {
+    /// Shows nothing yet; `work` is what is done. With `quiet` it stays silent.
+    pub fn new(quiet: bool, work: &'static str) -> Self {
+        let silent = Self::silent(work);
+        if quiet {
+            return silent;
         }
+        if !std::io::stderr().is_terminal() {
+            return silent.lines(BETWEEN_LINES, std::io::stderr());
+        }
+        silent.timed(PATIENCE, |bar| {
+            bar.set_draw_target(ProgressDrawTarget::stderr());
+            bar.enable_steady_tick(TICK);
+            false
+        })
     }
-    Ok(place)
+
+    fn silent(work: &'static str) -> Self {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()).with_message(work);
+        style(&bar, "{spinner} {msg}, {elapsed}");
+        let timer = None;
+        Self { work, bar, timer }
+    }
+
+    /// A line to `out` every so often, with what is tried at that moment.
+    fn lines(self, every: Duration, mut out: impl Write + Send + 'static) -> Self {
+        self.timed(every, move |bar| {
+            // Nobody may be reading.
+            let _ = writeln!(out, "{} ({} s)", bar.message(), bar.elapsed().as_secs());
+            true
+        })
+    }
+
+    /// Calls `show` every so often, until it says no.
+    fn timed(mut self, every: Duration, mut show: impl FnMut(&ProgressBar) -> bool + Send + 'static) -> Self {
+        let ((over, waiting), bar) = (channel(), self.bar.clone());
+        let timer = move || while waiting.recv_timeout(every) == Err(RecvTimeoutError::Timeout) && show(&bar) {};
+        self.timer = Some((over, std::thread::spawn(timer)));
+        self
+    }
+
+    /// Notes what is tried now.
+    pub fn say(&self, what: &dyn Display) {
+        self.bar.set_message(format!("{}: {what}", self.work));
+    }
+
+    /// Notes how far a study is.
+    pub fn rows(&self, at: &platewash::study::Progress) {
+        let (done, rows) = (at.done, at.rows);
+        let words = format!("{done} of {rows} rows, {:.1} rows/s, {:.0} s left", at.per_s, at.left_s);
+        self.counted(done, rows, "{bar:40} {msg}", words);
+    }
+
+    /// Notes how many layouts are done.
+    pub fn layouts(&self, done: usize, total: usize) {
+        let words = format!("{done} of {total} layouts");
+        self.counted(done as u64, total as u64, "{bar:40} {msg}, {eta} left", words);
+    }
+
+    fn counted(&self, done: u64, total: u64, template: &str, words: String) {
+        if self.bar.length().is_none() {
+            style(&self.bar, template);
+        }
+        self.bar.set_length(total);
+        self.bar.set_position(done);
+        self.bar.set_message(words);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some((over, timer)) = self.timer.take() {
+            drop(over);
+            // It only waits and shows; there is nothing to tell if it failed.
+            let _ = timer.join();
+        }
+        self.bar.finish_and_clear();
+    }
+}
+
+fn style(bar: &ProgressBar, template: &str) {
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
 }
 
 #[cfg(test)]
@@ -241,9 +209,59 @@ mod tests {
     #[test]
     fn no_control_character_but_a_new_line_leaves() {
         let name = "a\u{1b}[31m\u{7f}\u{9b}2J\t\r\n\u{e9}";
-        assert_eq!(text::text(&name), "a\\u{1b}[31m\\u{7f}\\u{9b}2J\\t\\r\n\u{e9}");
+        assert_eq!(text(&name), "a\\u{1b}[31m\\u{7f}\\u{9b}2J\\t\\r\n\u{e9}");
         let written = json(&name).unwrap();
         assert!(!written.trim_end().contains(char::is_control), "{written:?}");
         assert_eq!(serde_json::from_str::<String>(&written).unwrap(), name);
+    }
+}
+
+#[cfg(test)]
+mod progress_tests {
+    use super::*;
+    use std::sync::{Arc, Mutex};
+
+    /// What was written, shared with the one who writes.
+    #[derive(Clone, Default)]
+    struct Written(Arc<Mutex<Vec<u8>>>);
+
+    impl Written {
+        fn text(&self) -> String {
+            String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
+        }
+    }
+
+    impl Write for Written {
+        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+            self.0.lock().unwrap().write(bytes)
+        }
+
+        fn flush(&mut self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn where_there_is_no_terminal_a_line_now_and_then_says_what_is_tried() {
+        let written = Written::default();
+        let progress = Progress::silent("planning").lines(Duration::from_millis(1), written.clone());
+        for what in ["ring 1 of 30", "ring 2 of 30"] {
+            progress.say(&what);
+            let line = format!("planning: {what} (");
+            while !written.text().contains(&line) {
+                std::thread::yield_now();
+            }
+        }
+        drop(progress);
+        let all = written.text();
+        assert!(all.ends_with(" s)\n"), "{all}");
+        assert!(all.lines().all(|line| line.starts_with("planning")), "{all}");
+    }
+
+    #[test]
+    fn quiet_work_starts_no_one_who_could_speak() {
+        let progress = Progress::new(true, "planning");
+        progress.say(&"ring 1 of 30");
+        assert!(progress.timer.is_none() && progress.bar.is_hidden());
     }
 }

@@ -1,35 +1,278 @@
-//! The page of a plan: what a scenario says of its surroundings, and the file beside the report.
+//! The page of a plan or a scenario: what it is made of, where it is served, and the browser that opens it; and for `platewash run --live` the
+//! simulation on a page in real time, while it runs.
 
-use super::failure::Failure;
+use super::failure::internal;
+use super::files::Files;
 use super::options::Options;
-use super::output::{self, File};
-use super::{bundle, results};
-use anyhow::Context;
+use super::output;
+use super::simulate::Simulated;
+use anyhow::{Context, Error, Result, anyhow, bail};
+use clap::Args;
+use platewash::scenario::{Program, SHIPPED};
+use platewash::simulator::plant::TorqueLimits;
 use platewash::viewer::bundle::Bundle;
-use platewash::viewer::page;
-use platewash::viewer::view::{Beside, View};
-use platewash::{Plan, RobotModel};
+use platewash::viewer::server::{Feed, Listener, Live, Page, Server, Site};
+use platewash::viewer::view::{Beside, Executed, View};
+use platewash::workcell::layout::TaskRegion;
+use platewash::{Certificate, Plan, RobotModel, Scenario};
+use std::io::Write;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::sync::Arc;
+use std::time::Duration;
+use tempfile::NamedTempFile;
 
-/// The page of a plan.
-pub fn html(plan: &Plan, arm: &RobotModel, beside: &Beside<'_>, bundle: &Bundle) -> anyhow::Result<String> {
-    let view = View::of_plan(plan, arm, beside)?;
-    Ok(page::html(&view, bundle)?)
+/// What is wrong without a bundle, and what to do.
+const NO_BUNDLE: &str =
+    "this program was built without it; `cargo xtask page` in its sources makes it, then build again";
+
+/// For how long what opens the browser is looked at; one that goes on is taken to have opened it.
+const TO_OPEN: Duration = Duration::from_secs(3);
+
+/// The bundle that all pages share; none where there is none, which a line on standard error explains, even where quiet was asked for: a file
+/// is missing.
+pub fn bundle() -> Option<Bundle> {
+    let found = Bundle::embedded();
+    if found.is_none() {
+        output::message(&format!("no page: {NO_BUNDLE}"));
+    }
+    found
 }
 
-/// The page of a plan as a file beside its report. The first page of a checkout may take a minute. Without a bundle there is none, and a line
-/// on standard error says why.
-pub fn file(
+/// The bundle, for a verb that can do nothing without it.
+pub fn needed_bundle() -> Result<Bundle> {
+    Bundle::embedded().ok_or_else(|| internal(anyhow!("there is no page to show: {NO_BUNDLE}")))
+}
+
+/// The page of a plan.
+pub fn html(plan: &Plan, arm: &RobotModel, beside: &Beside<'_>, bundle: &Bundle) -> Result<String> {
+    let view = View::of_plan(plan, arm, beside)?;
+    Ok(platewash::viewer::page::html(&view, bundle)?)
+}
+
+/// Adds the page of a plan to the files beside its report. The first page of a checkout may take a minute. Without a bundle there is none, and
+/// a line on standard error says why.
+pub fn add(
+    files: &mut Files<'_>,
     options: &Options,
-    plan: &Plan,
-    arm: &RobotModel,
-    beside: &Beside<'_>,
-) -> Result<Option<File<'static>>, Failure> {
-    let Some(bundle) = bundle::bundle() else {
-        return Ok(None);
-    };
-    options.cancel.check()?;
-    let page = html(plan, arm, beside, &bundle)
-        .context("the page of the plan")
-        .map_err(Failure::internal)?;
-    Ok(Some(output::file(results::folder(options).join(results::PAGE), page)))
+    (plan, arm): (&Plan, &RobotModel),
+    certificate: Option<&Certificate>,
+    executed: Option<&Executed>,
+    region: &TaskRegion,
+) -> Result<()> {
+    if let Some(bundle) = bundle() {
+        options.cancel.check()?;
+        let beside = Beside {
+            certificate,
+            executed,
+            region: Some(region),
+            events: None,
+        };
+        let page = html(plan, arm, &beside, &bundle).context("the page of the plan");
+        files.add("page.html", page.map_err(internal)?);
+    }
+    Ok(())
+}
+
+/// Where a shipped scenario draws its plates, if those of a plan of it lie where it lays them; of any other plan nothing is known.
+pub fn region_of_plan(plan: &Plan, arm: &RobotModel) -> TaskRegion {
+    let name = plan.provenance.scenario.as_str();
+    let shipped = SHIPPED.iter().find(|shipped| shipped.name == name);
+    let region = shipped.and_then(|shipped| {
+        let mut scenario = Scenario::load(shipped.name).ok()?;
+        scenario.seed = plan.job.seed;
+        let layout = scenario.layout(arm).ok()?;
+        (layout.plates == plan.job.plates).then(|| scenario.task_region())
+    });
+    region.unwrap_or_default()
+}
+
+/// Where a page is served.
+#[derive(Debug, Args, Default)]
+pub struct ServeArguments {
+    /// Port of the page's address [default: any free port]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    port: Option<u16>,
+    /// Network address to serve the page on; any but a loopback address lets other machines see it
+    /// [default: 127.0.0.1]
+    #[arg(long, value_name = "ADDR")]
+    bind: Option<IpAddr>,
+    /// Print the page's address but open no browser
+    #[arg(long)]
+    no_open: bool,
+}
+
+impl ServeArguments {
+    /// The first of them that is given.
+    pub fn given(&self) -> Option<&'static str> {
+        let given = [
+            (self.port.is_some(), "--port"),
+            (self.bind.is_some(), "--bind"),
+            (self.no_open, "--no-open"),
+        ];
+        given.into_iter().find_map(|(is_given, name)| is_given.then_some(name))
+    }
+
+    /// Whether this machine alone reaches the page.
+    pub fn is_loopback(&self) -> bool {
+        self.bind.is_none_or(|ip| ip.is_loopback())
+    }
+
+    /// Takes the port, before any long work.
+    pub fn listen(&self, options: &Options) -> Result<Listener> {
+        let ip = self.bind.unwrap_or(Ipv4Addr::LOCALHOST.into());
+        let address = SocketAddr::new(ip, self.port.unwrap_or(0));
+        let listener = Listener::bind(address).map_err(Error::from);
+        let listener = listener.context(match (self.port, self.bind) {
+            (Some(_), None) => "--port",
+            (None, Some(_)) => "--bind",
+            _ => "--bind, --port",
+        })?;
+        if !self.is_loopback() {
+            options.say(&format!(
+                "warning: --bind {ip}: whoever reaches this address sees the page; it asks for no password"
+            ));
+        }
+        Ok(listener)
+    }
+
+    /// Opens an address that nobody else may see: by way of a file that only this user reads, as others see what programs are called with. The
+    /// file goes with what is returned.
+    pub fn open_privately(&self, options: &Options, url: &str) -> Result<Option<NamedTempFile>> {
+        if self.no_open {
+            return Ok(None);
+        }
+        let page = format!(
+            "<!DOCTYPE html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0;url={url}\"><a href=\"{url}\">platewash</a>\n"
+        );
+        let file = tempfile::Builder::new().prefix("platewash-").suffix(".html").tempfile();
+        let file = file.and_then(|mut file| file.write_all(page.as_bytes()).map(|()| file));
+        let file = file.map_err(internal)?;
+        self.open(options, &file.path().display().to_string());
+        Ok(Some(file))
+    }
+
+    /// Opens a page in the browser, where that is asked for. A browser that cannot be opened is no failure: the address is printed.
+    pub fn open(&self, options: &Options, url: &str) {
+        if self.no_open {
+            return;
+        }
+        let (options, url) = (options.clone(), url.to_owned());
+        // What opens it may take its time.
+        std::thread::spawn(move || {
+            if let Err(error) = open::that_detached_with_timeout(&url, TO_OPEN) {
+                options.say(&format!("no browser can be opened ({error}): open {url} yourself"));
+            }
+        });
+    }
+}
+
+/// For how long the simulation waits for a page.
+const TO_COME: Duration = Duration::from_secs(30);
+
+/// For how long the command waits, at its end, until all pages know it.
+const TO_PART: Duration = Duration::from_secs(3);
+
+/// Less than this behind real time is rounding, or a busy machine \[s\].
+const NOTICEABLE_S: f64 = 0.5;
+
+/// Arguments of `run` that show it live.
+#[derive(Debug, Args, Default)]
+pub struct LiveArguments {
+    /// Show the simulation in the browser, in real time, while it runs; --port, --bind and --no-open need this option
+    #[arg(long)]
+    live: bool,
+    #[command(flatten)]
+    serve: ServeArguments,
+}
+
+/// All that a live run needs before there is anything to show.
+pub struct Stage<'a> {
+    serve: &'a ServeArguments,
+    listener: Listener,
+    bundle: Bundle,
+    region: TaskRegion,
+}
+
+/// A page that is served, of a run that has not ended.
+pub struct Show {
+    live: Arc<Live>,
+    /// Serves until it is dropped.
+    _server: Server,
+}
+
+impl LiveArguments {
+    /// Takes the port and finds the page, where the run is to be shown: before any long work, and without a page as if it were not.
+    pub fn prepare(&self, options: &Options, scenario: &Scenario) -> Result<Option<Stage<'_>>> {
+        if !self.live {
+            return match self.serve.given() {
+                Some(name) => bail!("{name}: is for --live, which is not given"),
+                None => Ok(None),
+            };
+        }
+        if scenario.job.program == Program::Paper {
+            bail!("--live: the paper's program has no simulation to watch; `platewash view` shows its plan");
+        }
+        let listener = self.serve.listen(options)?;
+        let bundle = bundle();
+        options.cancel.check()?;
+        Ok(bundle.map(|bundle| Stage {
+            serve: &self.serve,
+            listener,
+            bundle,
+            region: scenario.task_region(),
+        }))
+    }
+}
+
+impl Stage<'_> {
+    /// Serves the page of a plan that is about to be simulated, opens it, and waits until it is there.
+    pub fn open(self, options: &Options, plan: &Plan, arm: &RobotModel, certificate: &Certificate) -> Result<Show> {
+        let live = Live::new(plan.hash.as_deref().unwrap_or_default());
+        let settings = &plan.job.simulation;
+        let executed = Executed::live(settings.law, TorqueLimits::new(&settings.plant, arm.limits()).0);
+        let beside = Beside {
+            certificate: Some(certificate),
+            executed: Some(&executed),
+            region: Some(&self.region),
+            events: Some(&live.events()),
+        };
+        let page = html(plan, arm, &beside, &self.bundle).map_err(internal)?;
+        let url = self.listener.url();
+        let site = Site {
+            live: Some(live.clone()),
+            ..Site::of(Page::Fixed(page))
+        };
+        let server = self.listener.serve(site).map_err(internal)?;
+        options.say(&format!("live at {url}"));
+        self.serve.open(options, &url);
+        if !live.wait_for_page(TO_COME, &options.cancel) {
+            options.cancel.check()?;
+            let waited_s = TO_COME.as_secs();
+            options.say(&format!(
+                "no page has been opened for {waited_s} s: simulating without one"
+            ));
+        }
+        Ok(Show { live, _server: server })
+    }
+}
+
+impl Show {
+    /// Simulates a plan in real time, while it is shown; tells all pages how that ended, and on standard error how late it was.
+    pub fn simulated(&self, options: &Options, plan: &Plan, arm: &RobotModel) -> Result<Simulated> {
+        let mut feed = Feed::new(&self.live, plan, arm, &options.cancel);
+        let simulated = Simulated::new(options, plan, arm, &mut |sample| feed.sample(sample))?;
+        let late_s = feed.end();
+        if late_s > NOTICEABLE_S {
+            options.say(&format!(
+                "the simulation is slower than real time: it ended {late_s:.1} s late"
+            ));
+        }
+        self.live.finish(simulated.live_end());
+        Ok(simulated)
+    }
+
+    /// Waits until all pages know how the run ended.
+    pub fn part(self, options: &Options) {
+        self.live.wait_until_told(TO_PART, &options.cancel);
+    }
 }

@@ -1,13 +1,13 @@
-//! Plan files as input of `verify`, `simulate` and `tune`, with the arm that they are for.
+//! Plan files as input, with the arm that they are for.
 
-use super::failure::Failure;
+use super::failure::not_verified;
 use super::options::Options;
-use anyhow::anyhow;
+use anyhow::{Error, Result, anyhow, bail, ensure};
 use platewash::certificate::prove_with;
 use platewash::kinematics::urdf::{Files, file};
 use platewash::scenario::{Note, load_description};
 use platewash::workcell::workcell::ArmId;
-use platewash::{Certificate, Plan, RobotModel};
+use platewash::{Certificate, Failure, Plan, RobotModel};
 use std::fmt::Display;
 use std::path::Path;
 use std::sync::Arc;
@@ -27,66 +27,63 @@ pub struct PlanFile<'a> {
 
 impl<'a> PlanFile<'a> {
     /// Reads a plan and finds its arm.
-    pub fn read(options: &Options, path: &'a Path) -> Result<Self, Failure> {
+    pub fn read(options: &Options, path: &'a Path) -> Result<Self> {
         Self::with_arm(options, path, read(path)?, None)
     }
 
     /// A plan that was read, with its arm: that of `--urdf`, the one given besides, or the built-in one.
-    pub fn with_arm(
-        options: &Options,
-        path: &'a Path,
-        plan: Plan,
-        besides: Option<&Arc<RobotModel>>,
-    ) -> Result<Self, Failure> {
+    pub fn with_arm(options: &Options, path: &'a Path, plan: Plan, besides: Option<&Arc<RobotModel>>) -> Result<Self> {
         let arm = find_arm(options, &plan.job.workcell.arm, besides).map_err(|error| refused(path, error))?;
         options.warn(&Note::of_arm(&arm));
         Ok(Self { path, plan, arm })
     }
 
     /// The certificate of the plan.
-    pub fn prove(&self, options: &Options) -> Result<Certificate, Failure> {
-        let proved = prove_with(&self.plan, &self.arm, &options.cancel);
+    pub fn prove(&self, options: &Options) -> Result<Certificate> {
+        let proved = options.during("proving", || prove_with(&self.plan, &self.arm, &options.cancel));
         proved.map_err(|error| self.failure(error.into()))
     }
 
     /// Something in the file that cannot be used.
-    pub fn refused(&self, error: impl Display) -> Failure {
+    pub fn refused(&self, error: impl Display) -> Error {
         refused(self.path, error)
     }
 
     /// Something in the file that is not as it was written, or not proved.
-    pub fn not_verified(&self, error: impl Display) -> Failure {
-        Failure::not_verified(anyhow!("{}: {error}", self.path.display()))
+    pub fn not_verified(&self, error: impl Display) -> Error {
+        not_verified(self.refused(error))
     }
 
     /// Why the plan could not be judged or simulated.
-    pub fn failure(&self, error: platewash::Failure) -> Failure {
-        if error.is_cancelled() {
-            return Failure::Interrupted;
+    pub fn failure(&self, error: Failure) -> Error {
+        match error.is_cancelled() {
+            true => error.into(),
+            false => self.refused(error),
         }
-        self.refused(error)
     }
 }
 
 /// The plan of a file.
-pub fn read(path: &Path) -> Result<Plan, Failure> {
+pub fn read(path: &Path) -> Result<Plan> {
     if path.extension().is_some_and(|extension| extension == "toml") {
-        let found = format_args!(
-            "is not a plan file; 'platewash plan --scenario {}' makes one from a scenario",
-            path.display()
-        );
-        return Err(refused(path, found));
+        let name = path.display();
+        bail!("{name}: is not a plan file; 'platewash plan --scenario {name}' makes one from a scenario");
     }
-    let text = file::read_text(path, MAX_BYTES).map_err(|e| refused(path, format_args!("cannot be read: {e}")))?;
-    Plan::from_json(&text).map_err(|e| refused(path, e))
+    Plan::from_json(&text(path, MAX_BYTES)?).map_err(|e| refused(path, e))
 }
 
-fn refused(path: &Path, error: impl Display) -> Failure {
-    Failure::input(anyhow!("{}: {error}", path.display()))
+/// The text of an input file of at most `limit` bytes.
+pub fn text(path: &Path, limit: u64) -> Result<String> {
+    file::read_text(path, limit).map_err(|e| refused(path, format_args!("cannot be read: {e}")))
+}
+
+/// Something in a file that cannot be used.
+pub fn refused(path: &Path, error: impl Display) -> Error {
+    anyhow!("{}: {error}", path.display())
 }
 
 /// The arm of a plan. A plan carries the hashes of its description and its SRDF alone.
-fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>) -> anyhow::Result<Arc<RobotModel>> {
+fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>) -> Result<Arc<RobotModel>> {
     if let Some(urdf) = &options.urdf {
         let arm = load_description(urdf, options.srdf.as_deref(), &options.package_path, &Files::default())?;
         refuse_other(wanted, &ArmId::of(&arm))?;
@@ -104,11 +101,11 @@ fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>
     let srdf = srdf.map_or_else(String::new, |hash| {
         format!(", and its SRDF (SHA-256 {hash}) as --srdf FILE")
     });
-    Err(anyhow!(
+    bail!(
         "the plan is for the arm \"{}\" (URDF SHA-256 {}): give that description as --urdf FILE{srdf}",
         wanted.name,
         wanted.urdf_sha256
-    ))
+    );
 }
 
 fn is_one(wanted: &ArmId, given: &ArmId) -> bool {
@@ -116,24 +113,21 @@ fn is_one(wanted: &ArmId, given: &ArmId) -> bool {
 }
 
 /// Refuses an arm of another description or with another SRDF.
-fn refuse_other(wanted: &ArmId, given: &ArmId) -> anyhow::Result<()> {
-    if wanted.urdf_sha256 != given.urdf_sha256 {
-        return Err(anyhow!(
-            "the plan is for the arm \"{}\" (URDF SHA-256 {}); --urdf describes \"{}\" ({})",
-            wanted.name,
-            wanted.urdf_sha256,
-            given.name,
-            given.urdf_sha256
-        ));
-    }
+fn refuse_other(wanted: &ArmId, given: &ArmId) -> Result<()> {
+    ensure!(
+        wanted.urdf_sha256 == given.urdf_sha256,
+        "the plan is for the arm \"{}\" (URDF SHA-256 {}); --urdf describes \"{}\" ({})",
+        wanted.name,
+        wanted.urdf_sha256,
+        given.name,
+        given.urdf_sha256
+    );
     match (&wanted.srdf_sha256, &given.srdf_sha256) {
-        (Some(wanted), None) => Err(anyhow!(
-            "the plan was made with an SRDF (SHA-256 {wanted}): give it as --srdf FILE"
-        )),
-        (None, Some(_)) => Err(anyhow!("the plan was made without an SRDF: leave out --srdf")),
-        (Some(wanted), Some(given)) if wanted != given => Err(anyhow!(
-            "the plan was made with the SRDF of SHA-256 {wanted}; that of --srdf is {given}"
-        )),
+        (Some(wanted), None) => bail!("the plan was made with an SRDF (SHA-256 {wanted}): give it as --srdf FILE"),
+        (None, Some(_)) => bail!("the plan was made without an SRDF: leave out --srdf"),
+        (Some(wanted), Some(given)) if wanted != given => {
+            bail!("the plan was made with the SRDF of SHA-256 {wanted}; that of --srdf is {given}")
+        }
         _ => Ok(()),
     }
 }

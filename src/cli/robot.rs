@@ -1,17 +1,22 @@
-//! `platewash robot`: the arm as loaded.
+//! `platewash robot`: the arm as loaded, and with `--suggest` a home, where plates can be washed, and pairs of links that need no check.
 
-use super::angles::Unit;
-use super::failure::{ExitCode, Failure};
+use super::failure::ExitCode;
+use super::files::Files;
 use super::options::Options;
-use super::output;
-use anyhow::anyhow;
+use anyhow::{Result, bail};
 use clap::Args;
 use platewash::kinematics::AXES;
-use platewash::workcell::clearance::ClearanceError;
+use platewash::kinematics::words::{decimals_down, decimals_up};
+use platewash::planner::Watch;
+use platewash::planner::suggest::Sector;
+use platewash::scenario::Suggestion;
+use platewash::viewer::figures::{RegionMap, draw_region};
+use platewash::workcell::clearance::TouchingPairs;
 use platewash::workcell::tool::StraightTool;
-use platewash::{ClearanceModel, Plate, RobotModel, Tool, ToolFrame, Workcell};
+use platewash::{ClearanceModel, RobotModel, Scenario, Tool, ToolFrame, Workcell};
 use serde::Serialize;
 use std::fmt::Write;
+use std::path::PathBuf;
 
 /// Arguments of `robot`.
 #[derive(Debug, Args)]
@@ -53,144 +58,255 @@ struct JointRow {
     effort_n_m: Option<f64>,
 }
 
-/// Shows joints, limits, frames and the pairs that are checked for clearance (the bare arm over the floor).
-pub fn run(options: &Options) -> Result<ExitCode, Failure> {
+/// Shows joints, limits, frames and the pairs that are checked for clearance (the bare arm over the floor), or suggests what suits the arm.
+pub fn run(options: &Options, arguments: &RobotArguments) -> Result<ExitCode> {
+    if arguments.suggest {
+        return suggest(options);
+    }
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
     let stated = scenario.tool.mounted_on.as_deref();
-    let mount = robot.tool_mount(stated);
-    if let (Err(error), Some(_)) = (&mount, stated) {
-        return Err(Failure::input(anyhow!("tool.mounted_on: {error}")));
-    }
-    let clearance = clearance(&robot, bare(&robot), &[]).map_err(platewash::Failure::from)?;
+    let link = stated.unwrap_or(ToolFrame::Tool0.name()).to_owned();
+    let (tool_mount, words) = match robot.tool_mount(stated) {
+        Ok(frame) => {
+            let off_axis_6_deg = frame.tilt_rad().to_degrees();
+            let words = format!("on link '{link}', along its z axis, {off_axis_6_deg:.1}° from the axis of joint 6");
+            (Some(ToolMount { link, off_axis_6_deg }), words)
+        }
+        Err(error) if stated.is_some() => bail!("tool.mounted_on: {error}"),
+        Err(error) => (None, format!("nowhere: {error}")),
+    };
+    let pairs = bare_clearance(&robot)?;
+    let pairs = pairs
+        .pair_names()
+        .into_iter()
+        .map(|(a, b)| [a.to_owned(), b.to_owned()]);
     let answer = Answer {
         name: robot.name().to_owned(),
         urdf_sha256: robot.sha256().to_owned(),
-        joints: (0..AXES).map(|i| joint(&robot, i)).collect(),
+        joints: (0..AXES).map(|i| JointRow::new(&robot, i)).collect(),
         frames: robot.links().iter().map(|l| l.name.clone()).collect(),
-        tool_mount: mount.as_ref().ok().map(|frame| ToolMount {
-            link: stated.unwrap_or(ToolFrame::Tool0.name()).to_owned(),
-            off_axis_6_deg: frame.tilt_rad().to_degrees(),
-        }),
+        tool_mount,
         reach_bound_m: robot.reach_bound(&robot.last_link_frame()).1,
-        clearance_pairs: clearance
-            .pair_names()
-            .into_iter()
-            .map(|(a, b)| [a.to_owned(), b.to_owned()])
-            .collect(),
+        clearance_pairs: pairs.collect(),
     };
-    let words = match (&answer.tool_mount, mount) {
-        (Some(mount), _) => format!(
-            "on link '{}', along its z axis, {:.1}° from the axis of joint 6",
-            mount.link, mount.off_axis_6_deg
-        ),
-        (None, Err(error)) => format!("nowhere: {error}"),
-        (None, Ok(_)) => "nowhere".to_owned(),
-    };
-    output::print_either(options.json, &answer, || text(&answer, &words))?;
-    Ok(ExitCode::SUCCESS)
+    options.print(&answer, || answer.text(&words))?;
+    Ok(ExitCode::Done)
 }
 
-/// No tool body.
-pub fn bare(robot: &RobotModel) -> Tool {
-    Tool {
+/// The clearances of an arm without a tool over the floor.
+pub fn bare_clearance(robot: &RobotModel) -> Result<ClearanceModel, platewash::Failure> {
+    let bare = Tool {
         // No link needs to be named for a tool that is not there.
         mounted_on: Some(robot.joints()[AXES - 1].child.clone()),
         ..Tool::from(StraightTool {
             length_m: 0.0,
             ..StraightTool::default()
         })
-    }
-}
-
-/// The clearances of an arm over the floor, with its tool, among plates.
-pub fn clearance(robot: &RobotModel, tool: Tool, plates: &[Plate]) -> Result<ClearanceModel, ClearanceError> {
-    ClearanceModel::new(robot, &Workcell::on_floor(robot, tool)?, plates)
-}
-
-fn joint(robot: &RobotModel, i: usize) -> JointRow {
-    let (joint, limits) = (&robot.joints()[i], robot.limits());
-    JointRow {
-        name: joint.name.clone(),
-        child: joint.child.clone(),
-        lower_rad: limits.lower[i],
-        upper_rad: limits.upper[i],
-        lower_deg: limits.lower[i].to_degrees(),
-        upper_deg: limits.upper[i].to_degrees(),
-        velocity_rad_s: limits.velocity[i],
-        velocity_deg_s: limits.velocity[i].to_degrees(),
-        effort_n_m: limits.effort[i],
-    }
-}
-
-/// A limit as a number of `decimals` decimals that is inside it when it is typed in: the nearest one, or the next one inwards.
-fn inwards(limit: f64, decimals: usize, unit: Unit, limit_rad: f64, end: End) -> String {
-    let nearest = format!("{limit:.decimals$}");
-    let inside = |text: &str| {
-        let typed_rad = text.parse().map_or(f64::NAN, |angle| unit.to_radians(angle));
-        match end {
-            End::Lower => typed_rad >= limit_rad,
-            End::Upper => typed_rad <= limit_rad,
-        }
     };
-    if inside(&nearest) {
-        return nearest;
-    }
-    let step = format!("1e-{decimals}").parse().unwrap_or(0.0);
-    let nearest = nearest.parse().unwrap_or(limit);
-    match end {
-        End::Lower => format!("{:.decimals$}", nearest + step),
-        End::Upper => format!("{:.decimals$}", nearest - step),
+    Ok(ClearanceModel::new(robot, &Workcell::on_floor(robot, bare)?, &[])?)
+}
+
+impl JointRow {
+    fn new(robot: &RobotModel, i: usize) -> Self {
+        let (joint, limits) = (&robot.joints()[i], robot.limits());
+        Self {
+            name: joint.name.clone(),
+            child: joint.child.clone(),
+            lower_rad: limits.lower[i],
+            upper_rad: limits.upper[i],
+            lower_deg: limits.lower[i].to_degrees(),
+            upper_deg: limits.upper[i].to_degrees(),
+            velocity_rad_s: limits.velocity[i],
+            velocity_deg_s: limits.velocity[i].to_degrees(),
+            effort_n_m: limits.effort[i],
+        }
     }
 }
 
-/// An end of a joint's range.
-#[derive(Debug, Clone, Copy)]
-enum End {
-    Lower,
-    Upper,
-}
-
-fn text(answer: &Answer, tool_mount: &str) -> String {
-    let mut text = format!("{} (URDF SHA-256 {})\n\n", answer.name, answer.urdf_sha256);
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        text,
-        "{:<12} {:>23} {:>22} {:>10} {:>9}  moves",
-        "joint", "limits, deg", "limits, rad", "deg/s", "rad/s"
-    );
-    for j in &answer.joints {
-        let degrees = [
-            (j.lower_deg, j.lower_rad, End::Lower),
-            (j.upper_deg, j.upper_rad, End::Upper),
-        ]
-        .map(|(deg, rad, end)| inwards(deg, 4, Unit::Degrees, rad, end))
-        .join(" … ");
-        let radians = [(j.lower_rad, End::Lower), (j.upper_rad, End::Upper)]
-            .map(|(rad, end)| inwards(rad, 5, Unit::Radians, rad, end))
-            .join(" … ");
+impl Answer {
+    fn text(&self, tool_mount: &str) -> String {
+        let mut text = format!("{} (URDF SHA-256 {})\n\n", self.name, self.urdf_sha256);
+        // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "{:<12} {degrees:>23} {radians:>22} {:>10.1} {:>9.4}  {}",
-            j.name, j.velocity_deg_s, j.velocity_rad_s, j.child
+            "{:<12} {:>23} {:>22} {:>10} {:>9}  moves",
+            "joint", "limits, deg", "limits, rad", "deg/s", "rad/s"
         );
+        for j in &self.joints {
+            // Each end is inside the range when it is typed in.
+            let range =
+                |lower, upper, digits| format!("{} … {}", decimals_up(lower, digits), decimals_down(upper, digits));
+            let degrees = range(j.lower_deg, j.upper_deg, 4);
+            let radians = range(j.lower_rad, j.upper_rad, 5);
+            let _ = writeln!(
+                text,
+                "{:<12} {degrees:>23} {radians:>22} {:>10.1} {:>9.4}  {}",
+                j.name, j.velocity_deg_s, j.velocity_rad_s, j.child
+            );
+        }
+        let _ = writeln!(
+            text,
+            "\nreach of the last link, at most {:.3} m\nframes: {}\ntool mounted {tool_mount}\n\npairs checked for clearance ({}):",
+            self.reach_bound_m,
+            self.frames.join(", "),
+            self.clearance_pairs.len()
+        );
+        let pairs = self.clearance_pairs.iter().map(|[a, b]| format!("  {a} – {b}\n"));
+        text + &pairs.collect::<String>()
     }
-    let _ = writeln!(
-        text,
-        "\nreach of the last link, at most {:.3} m\nframes: {}\ntool mounted {tool_mount}",
-        answer.reach_bound_m,
-        answer.frames.join(", ")
-    );
-    let pairs: Vec<_> = answer
-        .clearance_pairs
-        .iter()
-        .map(|[a, b]| format!("{a} – {b}"))
-        .collect();
-    let _ = writeln!(
-        text,
-        "\npairs checked for clearance ({}):\n  {}",
-        pairs.len(),
-        pairs.join("\n  ")
-    );
-    text
+}
+
+/// What is suggested.
+#[derive(Debug, Serialize)]
+struct Suggested {
+    robot: String,
+    scenario: String,
+    /// Joint positions of a home \[deg\].
+    start_deg: [f64; 6],
+    /// The nearest bodies there, and their distance \[m\].
+    nearest: Option<([String; 2], f64)>,
+    /// How far the joint nearest to a limit is from it \[deg\].
+    margin_deg: f64,
+    /// The angle between the tool and the way straight onto the plates \[deg\].
+    tilt_deg: f64,
+    /// Clear configurations out of which home is the best.
+    clear: usize,
+    /// Radius of the plate \[m\].
+    plate_radius_m: f64,
+    /// z of its face \[m\].
+    plate_height_m: f64,
+    /// Distances from axis 1 at which the plate can be washed somewhere \[m\].
+    washable_rho_m: Option<[f64; 2]>,
+    /// What centres of washable plates cover \[m²\].
+    washable_area_m2: f64,
+    /// Edge of the finest squares that were looked at \[m\].
+    square_m: f64,
+    /// The largest sector of such centres, as `layout.rho_m` and `layout.azimuth_deg`.
+    rho_m: Option<[f64; 2]>,
+    azimuth_deg: Option<[f64; 2]>,
+    #[serde(flatten)]
+    pairs: TouchingPairs,
+    has_srdf: bool,
+    written: Vec<PathBuf>,
+}
+
+/// Looks for what suits the arm, the tool and the plates of the scenario, and writes the picture and the SRDF.
+fn suggest(options: &Options) -> Result<ExitCode> {
+    let names = ["region.svg", "touching.srdf"];
+    let mut files = Files::new(options.folder_or("suggested"), &names);
+    files.check()?;
+    let scenario = options.scenario()?;
+    let robot = options.arm(&scenario)?;
+    let found = options.during("looking where plates can be washed", || {
+        scenario.suggest(&robot, &Watch::silent(&options.cancel))
+    });
+    let found = found.map_err(|error| options.failure(error))?;
+    let tool = scenario.tool_on(&robot)?;
+    files.add("region.svg", draw_region(&map(&scenario, &robot, &tool, &found)));
+    files.add("touching.srdf", found.pairs.srdf());
+    files.write(&options.cancel)?;
+    let answer = Suggested::new(&scenario, &robot, found, files.places(&names));
+    options.print(&answer, || answer.text())?;
+    Ok(ExitCode::Done)
+}
+
+fn map(scenario: &Scenario, robot: &RobotModel, tool: &Tool, found: &Suggestion) -> RegionMap {
+    let (axis, _) = robot.reach_bound(&tool.tip_frame(robot));
+    let axis = scenario.robot.mount() * axis;
+    let radius_m = found.plate.rim_m();
+    let squares = found.region.squares.iter();
+    RegionMap {
+        subtitle: format!(
+            "{} with the tool of {}, plates of radius {:.0} mm with their faces at {:.0} mm",
+            robot.name(),
+            scenario.name,
+            1e3 * radius_m,
+            1e3 * found.plate.centre().z
+        ),
+        squares: squares.map(|s| (s.centre_m, s.edge_m, s.is_washable)).collect(),
+        sector: found.region.sector.map(|sector| (sector.rho_m, sector.azimuth_deg)),
+        axis_m: [axis.x, axis.y],
+        plate: (found.plate.centre_xy(), radius_m),
+    }
+}
+
+/// The sector in whole centimetres and degrees, no larger than it is.
+fn whole_units(sector: &Sector) -> ([f64; 2], [f64; 2]) {
+    let within =
+        |[from, to]: [f64; 2], unit: f64| [(from / unit - 1e-9).ceil() * unit, (to / unit + 1e-9).floor() * unit];
+    let millimetres = |m: f64| (1e3 * m).round() / 1e3;
+    let rho_m = within(sector.rho_m, 0.01).map(millimetres);
+    (rho_m, within(sector.azimuth_deg, 1.0))
+}
+
+impl Suggested {
+    fn new(scenario: &Scenario, robot: &RobotModel, found: Suggestion, written: Vec<PathBuf>) -> Self {
+        let (home, region) = (found.home, found.region);
+        let (rho_m, azimuth_deg) = region.sector.as_ref().map(whole_units).unzip();
+        Self {
+            robot: robot.name().to_owned(),
+            scenario: scenario.name.clone(),
+            start_deg: home.q_deg,
+            nearest: home.nearest.map(|pair| ([pair.a, pair.b], pair.distance_m)),
+            margin_deg: home.margin_rad.to_degrees(),
+            tilt_deg: home.tilt_rad.to_degrees(),
+            clear: home.clear,
+            plate_radius_m: found.plate.rim_m(),
+            plate_height_m: found.plate.centre().z,
+            washable_rho_m: region.rho_m,
+            washable_area_m2: region.area_m2,
+            square_m: region.step_m,
+            rho_m,
+            azimuth_deg,
+            pairs: found.pairs,
+            has_srdf: robot.disabled_pairs().is_some(),
+            written,
+        }
+    }
+
+    fn text(&self) -> String {
+        let near = match &self.nearest {
+            Some(([a, b], distance_m)) => format!("nearest are {a} and {b}, {:.1} mm", 1e3 * distance_m),
+            None => "nothing could touch".to_owned(),
+        };
+        let [radius, height, square] = [self.plate_radius_m, self.plate_height_m, self.square_m].map(|m| 1e3 * m);
+        let (robot, scenario, start_deg, clear) = (&self.robot, &self.scenario, self.start_deg, self.clear);
+        let (margin, tilt, area) = (self.margin_deg, self.tilt_deg, self.washable_area_m2);
+        let from_axis = self.washable_rho_m.map_or_else(String::new, |[near, far]| {
+            format!(" from {near:.2} to {far:.2} m from axis 1,")
+        });
+        let washed = match area > 0.0 {
+            true => format!(
+                "washed{from_axis} with centres over {area:.2} m² in all: a guess, as transits are not looked at"
+            ),
+            false => "washed nowhere from this home".to_owned(),
+        };
+        let sector = self
+            .rho_m
+            .zip(self.azimuth_deg)
+            .map_or_else(String::new, |(rho_m, azimuth_deg)| {
+                format!("  largest sector of them: rho_m = {rho_m:?}, azimuth_deg = {azimuth_deg:?}\n")
+            });
+        let (adjacent, touching, samples) = (
+            self.pairs.neighbours.len(),
+            self.pairs.always_touching.len(),
+            self.pairs.samples,
+        );
+        let own = if self.has_srdf {
+            "; the arm has a list of its own"
+        } else {
+            ""
+        };
+        let written = self.written.iter().map(|path| format!("wrote {}\n", path.display()));
+        let written: String = written.collect();
+        format!(
+            "{robot} with the tool of {scenario}\n\n\
+             home\n  start_deg = {start_deg:?}\n  {near}; {margin:.0}° from the nearest limit; \
+             the tool {tilt:.1}° from straight onto the plates; the best of {clear} that are clear\n\n\
+             plates of radius {radius:.0} mm with their faces at {height:.0} mm, by squares of {square:.0} mm\n  {washed}\n{sector}\n\
+             pairs of links that need no check: {adjacent} adjacent, {touching} that touch in each of {samples} configurations{own}\n\
+             {written}"
+        )
+    }
 }

@@ -1,21 +1,27 @@
-//! `platewash run`: a scenario to the end.
+//! `platewash run` and `platewash plan`: a scenario to the end, or to its plan.
 
-use super::details::{DetailArguments, whole};
-use super::exit::Outcome;
-use super::failure::{ExitCode, Failure};
-use super::live::{LiveArguments, Show, Stage};
+use super::failure::ExitCode;
+use super::files::{RESULTS, check_places};
+use super::infeasible;
 use super::motion::MotionArguments;
 use super::options::Options;
-use super::{execution, infeasible, output, page, paper, results, wash};
+use super::output::{DetailArguments, json};
+use super::page::{self, LiveArguments, Stage};
+use super::simulate::{Simulated, lasts_at_most_s};
+use anyhow::Result;
 use clap::Args;
-use platewash::certificate::prove_with;
+use platewash::certificate::{planned_headline, prove_with};
+use platewash::paper::run_with;
+use platewash::planner::{self, PlanError, Planned, Watch, plan_with};
 use platewash::scenario::{Program, Remedies};
-use platewash::simulator::simulate::{Sample, table};
-use platewash::viewer::server::LiveEnd;
-use platewash::viewer::view::{Beside, Executed};
-use platewash::{Execution, Plan, RobotModel, Scenario, SimulationReport, WashReport};
+use platewash::simulator::simulate::table;
+use platewash::viewer::view::Executed;
+use platewash::workcell::layout::Finding;
+use platewash::workcell::words::counted;
+use platewash::{Failure, Layout, PaperReport, PaperRun, RobotModel, Scenario, Verdict, WashReport};
 use serde::Serialize;
 use std::fmt;
+use std::sync::Arc;
 
 /// Arguments of `run`.
 #[derive(Debug, Args, Default)]
@@ -28,45 +34,148 @@ pub struct RunArguments {
     live: LiveArguments,
 }
 
-/// Plans and judges the scenario; writes the plan, both motions and the report.
-pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode, Failure> {
-    let scenario = options.scenario()?;
-    let others = |name: &&str| *name != "trajectory.csv" && !results::SIMULATED.contains(name);
-    let names = results::OWNED.into_iter().filter(others);
-    let csv = arguments.motion.csv_file(options);
-    results::check_places(options, &names.collect::<Vec<_>>(), &csv)?;
-    let stage = arguments.live.prepare(options, &scenario)?;
-    match scenario.job.program {
-        Program::Certified => run_washing(options, &scenario, arguments, stage),
-        Program::Paper => run_paper(options, &scenario, arguments),
-    }
+/// A washing, planned.
+pub struct Washing {
+    /// The arm.
+    pub arm: Arc<RobotModel>,
+    /// What is to be said about the plates.
+    pub findings: Vec<Finding>,
+    /// The plan.
+    pub planned: Planned,
 }
 
-fn run_paper(options: &Options, scenario: &Scenario, arguments: &RunArguments) -> Result<ExitCode, Failure> {
-    let followed = match paper::follow(options, scenario) {
-        Ok(followed) => followed,
-        Err(failure) => return infeasible::end(options, scenario, failure, arguments.motion.search_time()),
+/// Plans the washing that the scenario asks for.
+pub fn wash(options: &Options, scenario: &Scenario) -> Result<Washing, Failure> {
+    let arm = options.arm(scenario)?;
+    options.warn(&scenario.notes_on_meshes());
+    let progress = options.progress("planning");
+    let watch = Watch {
+        tell: &|activity| progress.say(activity),
+        cancel: &options.cancel,
     };
-    let folder = results::folder(options);
-    let report = &followed.report;
-    let mut files = followed.files(options, scenario, &arguments.motion)?;
-    let executed = followed.executed(scenario, &arguments.motion)?;
-    files.push(output::file(folder.join("executed.csv"), executed));
-    files.push(output::file(folder.join("report.json"), output::json(report)?));
-    files.push(output::file(folder.join("report.txt"), whole(report)));
-    let executed = followed.as_executed();
-    let plan = followed.run.plan().map_err(platewash::Failure::from)?;
+    // What fails wherever the plates lie, before they are placed.
+    planner::check(&arm, &scenario.terms(&arm, &Layout::of(Vec::new()))?)?;
+    let layout = scenario.place(&arm, &watch)?;
+    let planned = plan_with(&scenario.job_on(&arm, &layout)?, &watch)?;
+    tracing::info!("planned {} knots", planned.plan.knots.t_s.len());
+    Ok(Washing {
+        arm,
+        findings: layout.findings,
+        planned,
+    })
+}
+
+/// Plans, follows and judges the paper's program for a scenario.
+fn follow(options: &Options, scenario: &Scenario) -> Result<(PaperRun, PaperReport), Failure> {
+    let _progress = options.progress("planning");
+    let arm = options.arm(scenario)?;
+    let layout = scenario.layout(&arm)?;
+    let run = run_with(&scenario.paper_job_on(&arm, layout)?, &options.cancel)?;
+    let plates = counted(run.job.layout.plates.len(), "plate");
+    tracing::info!("planned {} waypoints on {plates}", run.tool_path.len());
+    let report = run.report_with(&options.cancel)?;
+    tracing::info!("checked {} violations", report.executed.violations.len());
+    Ok((run, report))
+}
+
+/// What `plan` says of a plan.
+#[derive(Debug, Serialize)]
+struct Answer {
+    /// Always false: proving is for `run` and `verify`.
+    proved: bool,
+    headline: String,
+    /// Plates in the order of washing.
+    plates: usize,
+    duration_s: f64,
+    #[serde(flatten)]
+    waypoints: Option<Waypoints>,
+}
+
+/// What the paper's program makes of its waypoints.
+#[derive(Debug, Serialize)]
+struct Waypoints {
+    plates_washed: usize,
+    /// Waypoints solved and asked.
+    waypoints_reached: [usize; 2],
+}
+
+/// Plans the scenario and writes the plan and its CSV; nothing is proved.
+pub fn plan(options: &Options, arguments: &MotionArguments) -> Result<ExitCode> {
+    let scenario = options.scenario()?;
+    check_places(&[options.folder().join("plan.json"), arguments.csv_file(options)])?;
+    let ended = match scenario.job.program {
+        Program::Certified => plan_washing(options, &scenario, arguments),
+        Program::Paper => plan_paper(options, &scenario, arguments),
+    };
+    ended.or_else(|error| infeasible::end(options, &scenario, error, arguments.search_time()))
+}
+
+fn plan_washing(options: &Options, scenario: &Scenario, arguments: &MotionArguments) -> Result<ExitCode> {
+    let washing = wash(options, scenario)?;
+    let (plan, motion) = (&washing.planned.plan, washing.motion()?);
+    let answer = Answer {
+        proved: false,
+        headline: planned_headline(plan),
+        plates: plan.order.len(),
+        duration_s: plan.duration_s(),
+        waypoints: None,
+    };
+    let files = arguments.files(options, scenario, &washing.arm, &motion, plan)?;
+    let words = || format!("{}\nplatewash verify proves it\n", answer.headline);
+    files.answer(options, &answer, words)?;
+    Ok(ExitCode::Done)
+}
+
+fn plan_paper(options: &Options, scenario: &Scenario, arguments: &MotionArguments) -> Result<ExitCode> {
+    let (run, report) = follow(options, scenario)?;
+    let plan = run.plan().map_err(Failure::from)?;
+    let (duration_s, [reached, asked]) = (report.duration_s, report.waypoints_reached());
+    let answer = Answer {
+        proved: false,
+        headline: format!("PLANNED, NOT PROVED: {}", report.headline),
+        plates: report.plates.len(),
+        duration_s,
+        waypoints: Some(Waypoints {
+            plates_washed: report.plates_washed(),
+            waypoints_reached: [reached, asked],
+        }),
+    };
+    let files = arguments.files(options, scenario, &run.job.arm, &run.planned, &plan)?;
+    files.answer(options, &answer, || {
+        let headline = &answer.headline;
+        format!("{headline}\n{reached} of {asked} waypoints reached, {duration_s:.2} s of motion\n")
+    })?;
+    Ok(ExitCode::from(report.verdict).job(scenario.job.on_failure))
+}
+
+/// Plans and judges the scenario; writes the plan, both motions and the report.
+pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode> {
+    let scenario = options.scenario()?;
+    let folder = options.folder();
+    let places = RESULTS[..6].iter().map(|name| folder.join(name));
+    let csv = arguments.motion.csv_file(options);
+    check_places(&places.chain([csv]).collect::<Vec<_>>())?;
+    let stage = arguments.live.prepare(options, &scenario)?;
+    let ended = match scenario.job.program {
+        Program::Certified => run_washing(options, &scenario, arguments, stage),
+        Program::Paper => run_paper(options, &scenario, arguments),
+    };
+    ended.or_else(|error| infeasible::end(options, &scenario, error, arguments.motion.search_time()))
+}
+
+fn run_paper(options: &Options, scenario: &Scenario, arguments: &RunArguments) -> Result<ExitCode> {
+    let (run, report) = follow(options, scenario)?;
+    let (arm, motion) = (&run.job.arm, &arguments.motion);
+    let plan = run.plan().map_err(Failure::from)?;
+    let mut files = motion.files(options, scenario, arm, &run.planned, &plan)?;
+    files.add("executed.csv", motion.table(scenario, arm, &run.executed, &plan)?);
+    files.add_report("report", &report)?;
+    let is_swept = report.verdict == Verdict::Swept;
+    let executed = Executed::followed(&run.executed, run.job.simulation.law, &report.headline, is_swept);
     let region = scenario.task_region();
-    let beside = Beside {
-        executed: Some(&executed),
-        region: Some(&region),
-        ..Beside::default()
-    };
-    files.extend(page::file(options, &plan, &followed.run.job.arm, &beside)?);
-    results::write(options, &files)?;
-    output::print_either(options.json, report, || arguments.details.printed(report))?;
-    results::name(options, &files);
-    Ok(Outcome::from(report.verdict).job(scenario.job.on_failure))
+    page::add(&mut files, options, (&plan, arm), None, Some(&executed), &region)?;
+    files.answer(options, &report, || arguments.details.printed(&report))?;
+    Ok(ExitCode::from(report.verdict).job(scenario.job.on_failure))
 }
 
 /// Plans, proves and simulates; writes plan, both motions, certificate and report.
@@ -75,55 +184,54 @@ fn run_washing(
     scenario: &Scenario,
     arguments: &RunArguments,
     stage: Option<Stage<'_>>,
-) -> Result<ExitCode, Failure> {
-    let washing = match wash::plan(options, scenario) {
-        Ok(washing) => washing,
-        Err(failure) => return infeasible::end(options, scenario, failure, arguments.motion.search_time()),
-    };
-    let (plan, arm) = (&washing.planned.plan, &washing.arm);
-    let time_step = &arguments.motion.time_step;
-    let lasts_s = execution::lasts_at_most_s(plan, &plan.job.simulation);
-    let dt_s = time_step.or(scenario.control.dt_s, lasts_s)?;
-    let certificate = prove_with(plan, arm, &options.cancel).map_err(platewash::Failure::from)?;
+) -> Result<ExitCode> {
+    let washing = wash(options, scenario)?;
+    let (plan, arm, motion) = (&washing.planned.plan, &washing.arm, &washing.motion()?);
+    let lasts_s = lasts_at_most_s(plan, &plan.job.simulation);
+    let dt_s = arguments.motion.time_step.or(scenario.control.dt_s, lasts_s)?;
+    let certificate = prove_with(plan, arm, &options.cancel).map_err(Failure::from)?;
     let show = stage
         .map(|stage| stage.open(options, plan, arm, &certificate))
         .transpose()?;
-    let (execution, simulation) = match &show {
-        Some(show) => shown(options, plan, arm, show)?,
-        None => simulated(options, plan, arm, &mut |_| {})?,
+    let simulation = match &show {
+        Some(show) => show.simulated(options, plan, arm)?,
+        None => Simulated::new(options, plan, arm, &mut |_| {})?,
     };
-    let remedies =
-        infeasible::remedies_of_proof(options, scenario, (arm, &certificate), arguments.motion.search_time())?;
-    let proof = output::json(&certificate)?;
-    let report = WashReport::new(&washing.planned, &washing.findings, certificate);
-    let report = RunReport::new(report, simulation, remedies);
-    let folder = results::folder(options);
-    let mut files = washing.files(options, scenario, &arguments.motion)?;
-    files.push(output::file(folder.join("certificate.json"), proof));
-    if let Some(execution) = &execution {
-        let executed = table(execution, plan, arm, dt_s)?;
-        files.push(output::file(folder.join("executed.csv"), executed));
+    let search_time = arguments.motion.search_time();
+    let remedies = infeasible::remedies_of_proof(options, scenario, (arm, &certificate), search_time)?;
+    let proof = json(&certificate)?;
+    let wash = WashReport::new(&washing.planned, &washing.findings, certificate);
+    let report = RunReport::new(wash, simulation, remedies);
+    let mut files = arguments.motion.files(options, scenario, arm, motion, plan)?;
+    files.add("certificate.json", proof);
+    if let Simulated::Done { execution, .. } = &report.simulation {
+        files.add("executed.csv", table(execution, plan, arm, dt_s)?);
     }
-    files.push(output::file(folder.join("report.json"), output::json(&report)?));
-    files.push(output::file(folder.join("report.txt"), whole(&report)));
-    let executed = report.simulation.as_executed(execution.as_ref());
-    let region = scenario.task_region();
-    let beside = Beside {
-        certificate: Some(&report.wash.certificate),
-        executed: executed.as_ref(),
-        region: Some(&region),
-        ..Beside::default()
-    };
-    files.extend(page::file(options, plan, arm, &beside)?);
-    results::write(options, &files)?;
-    output::print_either(options.json, &report, || arguments.details.printed(&report))?;
-    results::name(options, &files);
+    files.add_report("report", &report)?;
+    let executed = report.simulation.executed();
+    let (proof, region) = (&report.wash.certificate, scenario.task_region());
+    page::add(
+        &mut files,
+        options,
+        (plan, arm),
+        Some(proof),
+        executed.as_ref(),
+        &region,
+    )?;
+    files.answer(options, &report, || arguments.details.printed(&report))?;
     if let Some(show) = show {
         show.part(options);
     }
     // The worse of the two.
-    let outcome = Outcome::from(report.wash.verdict).max(report.simulation.outcome());
-    Ok(outcome.job(scenario.job.on_failure))
+    let code = ExitCode::from(report.wash.verdict).max(report.simulation.exit_code());
+    Ok(code.job(scenario.job.on_failure))
+}
+
+impl Washing {
+    /// The planned motion.
+    fn motion(&self) -> Result<platewash::Trajectory, Failure> {
+        Ok(self.planned.plan.knots.motion().map_err(PlanError::from)?)
+    }
 }
 
 /// What `run` says of a washing: the proof of the plan, and what a controlled arm makes of it.
@@ -135,91 +243,6 @@ struct RunReport {
     /// Keys with which the plan would be proved, where it is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     remedies: Option<Remedies>,
-}
-
-/// What the simulation says.
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
-enum Simulated {
-    /// An execution, judged.
-    Done(Box<SimulationReport>),
-    /// None: the arm's dynamics are not known, or the law was refused.
-    Refused { refused: String },
-}
-
-/// Simulates a plan as it asks for itself, and tells `watch` of each sample when it is known.
-fn simulated(
-    options: &Options,
-    plan: &Plan,
-    arm: &RobotModel,
-    watch: &mut dyn FnMut(&Sample),
-) -> Result<(Option<Execution>, Simulated), Failure> {
-    Ok(match execution::tried(plan, arm, &options.cancel, watch)? {
-        Ok((execution, report)) => (Some(execution), Simulated::Done(Box::new(report))),
-        Err(refused) => (None, Simulated::Refused { refused }),
-    })
-}
-
-/// Simulates a plan in real time, while it is shown.
-fn shown(
-    options: &Options,
-    plan: &Plan,
-    arm: &RobotModel,
-    show: &Show,
-) -> Result<(Option<Execution>, Simulated), Failure> {
-    let mut feed = show.feed(options, plan, arm);
-    let (execution, simulation) = simulated(options, plan, arm, &mut |sample| feed.sample(sample))?;
-    show.tell_end(options, feed.end(), simulation.live_end());
-    Ok((execution, simulation))
-}
-
-impl Simulated {
-    /// How it ended, for pages that show it live.
-    fn live_end(&self) -> LiveEnd {
-        match self {
-            Self::Done(report) => LiveEnd {
-                headline: report.headline.clone(),
-                washed: Some(report.verdict.is_done()),
-            },
-            Self::Refused { refused } => LiveEnd {
-                headline: format!("NOT SIMULATED: {refused}"),
-                washed: None,
-            },
-        }
-    }
-
-    /// What the first line adds to what is proved: that nothing was simulated, or that the simulation fails.
-    fn first_line(&self) -> Option<String> {
-        match self {
-            Self::Done(report) if report.verdict.is_done() => None,
-            Self::Done(report) => {
-                let overload = report.payload.overload().map(|words| format!("OVERLOADED: {words}"));
-                let left = report.plates.iter().find(|plate| !plate.verdict.is_done());
-                let words = left.map(|plate| plate.verdict.words());
-                let words = words.or_else(|| overload.is_none().then(|| report.verdict.words()));
-                let not_done = words
-                    .map(|words| format!("in the simulation {} under {}", words.to_uppercase(), report.law.name()));
-                Some(overload.into_iter().chain(not_done).collect::<Vec<_>>().join("; "))
-            }
-            Self::Refused { .. } => Some("NOT SIMULATED".to_owned()),
-        }
-    }
-
-    /// What a page shows of it.
-    fn as_executed(&self, execution: Option<&Execution>) -> Option<Executed> {
-        match (self, execution) {
-            (Self::Done(report), Some(execution)) => Some(Executed::simulated(execution, report)),
-            _ => None,
-        }
-    }
-
-    /// No simulation at all is no failure of the plan.
-    fn outcome(&self) -> Outcome {
-        match self {
-            Self::Done(report) => Outcome::from(report.verdict),
-            Self::Refused { .. } => Outcome::Good,
-        }
-    }
 }
 
 impl RunReport {
@@ -243,7 +266,7 @@ impl fmt::Display for RunReport {
         self.wash.fmt(f)?;
         writeln!(f)?;
         match &self.simulation {
-            Simulated::Done(report) => report.fmt(f),
+            Simulated::Done { report, .. } => report.fmt(f),
             Simulated::Refused { refused } => writeln!(f, "NOT SIMULATED: {refused}"),
         }
     }

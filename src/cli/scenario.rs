@@ -1,10 +1,16 @@
-//! `platewash scenario`: the text of a shipped scenario.
+//! `platewash scenario`, `validate` and `layout`: the text of a shipped scenario, and what is known of one without planning it.
 
-use super::failure::{ExitCode, Failure};
+use super::failure::ExitCode;
+use super::files::Files;
+use super::infeasible;
 use super::options::Options;
-use super::output;
+use anyhow::{Error, Result};
 use clap::Args;
-use platewash::scenario::{SHIPPED, source};
+use platewash::scenario::{Note, SHIPPED, source};
+use platewash::simulator::simulate::PayloadCheck;
+use platewash::workcell::layout::{Finding, LayoutError, LayoutSource};
+use platewash::workcell::words::counted;
+use platewash::{Failure, Layout, Scenario};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -12,7 +18,6 @@ use std::fmt::Write;
 #[derive(Debug, Args)]
 pub struct ScenarioArguments {
     /// Name of a shipped scenario; without it, all names are listed
-    #[arg(value_name = "NAME")]
     pub name: Option<String>,
 }
 
@@ -23,37 +28,160 @@ struct Listed {
 }
 
 /// Prints a shipped scenario as it is, comments included, or lists the shipped scenarios.
-pub fn run(options: &Options, arguments: &ScenarioArguments) -> Result<ExitCode, Failure> {
-    match &arguments.name {
-        Some(name) => {
-            let found = source(name)?;
-            output::print_either(options.json, &found.text, || found.text.clone())?;
-        }
-        None => {
-            let all = SHIPPED.iter().map(|shipped| Listed {
-                name: shipped.name,
-                about: about(shipped.text),
-            });
-            let all: Vec<Listed> = all.collect();
-            output::print_either(options.json, &all, || listed(&all))?;
-        }
+pub fn show(options: &Options, arguments: &ScenarioArguments) -> Result<ExitCode> {
+    if let Some(name) = &arguments.name {
+        let text = source(name)?.text;
+        options.print(&text, || text.clone())?;
+        return Ok(ExitCode::Done);
     }
-    Ok(ExitCode::SUCCESS)
+    let all = SHIPPED.iter().map(|shipped| Listed {
+        name: shipped.name,
+        about: about(shipped.text),
+    });
+    let all: Vec<Listed> = all.collect();
+    let line =
+        |Listed { name, about }: &Listed| format!("{name:<15} {}\n", about.trim_end_matches('.').replace('`', ""));
+    options.print(&all, || all.iter().map(line).collect())?;
+    Ok(ExitCode::Done)
 }
 
 /// The first sentence of the comment at the head of a scenario.
 fn about(text: &str) -> String {
     let lines = text.lines().map_while(|line| line.strip_prefix('#'));
     let words = lines.map(str::trim).collect::<Vec<_>>().join(" ");
-    words
-        .split_once(". ")
-        .map_or(words.clone(), |(first, _)| first.to_owned())
+    words.split(". ").next().unwrap_or_default().to_owned()
 }
 
-fn listed(all: &[Listed]) -> String {
-    let mut text = String::new();
-    for Listed { name, about } in all {
-        let _ = writeln!(text, "{name:<15} {}", about.trim_end_matches('.').replace('`', ""));
+#[derive(Serialize)]
+struct Valid {
+    valid: bool,
+    scenario: String,
+    robot: String,
+    /// What is to be said about the plates.
+    findings: Vec<Finding>,
+    /// What was probably meant in another unit.
+    notes: Vec<Note>,
+    /// That the arm may not carry the tool, by what; `null` where it may, or no payload is known.
+    overload: Option<String>,
+    /// What the seed gives, for plates that are sampled.
+    sampling: Option<Sampling>,
+}
+
+#[derive(Serialize)]
+struct Sampling {
+    seed: u64,
+    layout_found: bool,
+    /// In words.
+    outcome: String,
+}
+
+/// Checks the scenario, its arm and its plates: given ones are looked over, sampled ones placed with the scenario's seed.
+pub fn validate(options: &Options) -> Result<ExitCode> {
+    let scenario = options.scenario()?;
+    let answer = valid(options, &scenario).or_else(|error| told(options, &scenario, error))?;
+    options.print(&answer, || answer.text())?;
+    Ok(ExitCode::Done)
+}
+
+/// The error, once `--json` has told what stands against the scenario.
+fn told<T>(options: &Options, scenario: &Scenario, error: Error) -> Result<T> {
+    infeasible::answer(options, scenario, &error)?;
+    Err(error)
+}
+
+fn valid(options: &Options, scenario: &Scenario) -> Result<Valid> {
+    let arm = options.arm(scenario)?;
+    let mut sampling = None;
+    let listed = scenario.lists_plates();
+    // What depends on where plates lie is known where they do.
+    let drawn_anew = scenario.layout.only_washable && !listed;
+    let drawn = (!listed).then(|| scenario.layout(&arm));
+    if let Some(placed) = &drawn {
+        sampling = Some(Sampling::of(scenario, placed)?);
     }
-    text
+    let (robot, mut findings) = scenario.check().map_err(|error| options.failure(error))?;
+    scenario.check_work().map_err(|error| options.failure(error.into()))?;
+    if let Some(layout) = drawn.and_then(Result::ok).filter(|_| !drawn_anew) {
+        scenario.check_on(&robot, &layout)?;
+        findings = layout.findings;
+    }
+    Ok(Valid {
+        valid: true,
+        notes: [scenario.notes(), Note::of_arm(&robot), scenario.notes_on_meshes()].concat(),
+        overload: PayloadCheck::new(&scenario.tool_on(&robot)?, scenario.robot.payload_kg, &robot).overload(),
+        scenario: scenario.name.clone(),
+        robot: robot.name().to_owned(),
+        findings,
+        sampling,
+    })
+}
+
+impl Sampling {
+    /// What placing the plates as `run` does gives. That another seed may do better is part of the answer; that none can is an error.
+    fn of(scenario: &Scenario, placed: &Result<Layout, LayoutError>) -> Result<Self, Failure> {
+        let outcome = match placed {
+            Ok(layout) => format!("a layout of {} was found", counted(layout.plates.len(), "plate")),
+            Err(error) if error.is_proven() => return Err(error.clone().into()),
+            Err(error) => Failure::from(error.clone()).to_string(),
+        };
+        Ok(Self {
+            seed: scenario.seed,
+            layout_found: placed.is_ok(),
+            outcome,
+        })
+    }
+}
+
+impl Valid {
+    fn text(&self) -> String {
+        let findings: String = self.findings.iter().map(|f| format!("  - {f}\n")).collect();
+        let sampling = self.sampling.as_ref();
+        let sampling = sampling.map_or_else(String::new, |s| format!("seed {}: {}\n", s.seed, s.outcome));
+        let overload = self.overload.as_ref();
+        let overload = overload.map_or_else(String::new, |words| format!("  - OVERLOADED: {words}\n"));
+        let (scenario, robot) = (&self.scenario, &self.robot);
+        format!("{scenario}: valid (robot {robot})\n{sampling}{findings}{overload}")
+    }
+}
+
+/// Places the plates; with `--out`, writes `layout.json`.
+pub fn layout(options: &Options) -> Result<ExitCode> {
+    let scenario = options.scenario()?;
+    let robot = options.arm(&scenario)?;
+    let placed = scenario.layout(&robot).map_err(Failure::from);
+    let layout = placed.or_else(|failure| told(options, &scenario, failure.into()))?;
+    let mut files = Files::new(options.out.clone(), &["layout.json"]);
+    files.add("layout.json", super::output::json(&layout)?);
+    files.answer(options, &layout, || layout_text(&layout))?;
+    Ok(ExitCode::Infeasible.unless(!scenario.forbids(&layout)))
+}
+
+fn layout_text(layout: &Layout) -> String {
+    let mut text = match layout.source {
+        LayoutSource::Sampled { restarts, draws } => {
+            let (restarts, draws) = (counted(restarts as usize, "restart"), counted(draws as usize, "draw"));
+            format!("sampled, {restarts}, {draws}\n")
+        }
+        LayoutSource::Explicit => "given\n".to_owned(),
+    };
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        text,
+        "{:<6} {:>9} {:>9} {:>9} {:>9}",
+        "plate", "x, m", "y, m", "z, m", "radius, m"
+    );
+    for (i, plate) in layout.plates.iter().enumerate() {
+        let (at, radius_m) = (plate.centre(), plate.rim_m());
+        let tilted = plate.tilt_words().map(|tilted| format!("  {tilted}"));
+        let _ = writeln!(
+            text,
+            "{i:<6} {:>9.4} {:>9.4} {:>9.4} {radius_m:>9.4}{}",
+            at.x,
+            at.y,
+            at.z,
+            tilted.unwrap_or_default()
+        );
+    }
+    let findings = layout.findings.iter().map(|finding| format!("  - {finding}\n"));
+    text + &findings.collect::<String>()
 }

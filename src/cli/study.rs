@@ -1,12 +1,13 @@
 //! `platewash study`: scenarios by the thousand, each planned and proved, every row kept as soon as it is done.
 
-use super::failure::{self, ExitCode, Failure};
+use super::failure::ExitCode;
+use super::files::{place, write_to};
 use super::options::Options;
-use super::progress::Progress;
-use super::{output, study_text};
-use anyhow::{Context, anyhow};
+use super::output;
+use anyhow::{Context, Result, bail};
 use clap::{Args, Subcommand};
-use platewash::study::{self, Journal, Resolver, Study, StudyError};
+use platewash::study::{self, AxisValue, Journal, Outcome, Resolver, Row, Study, StudyError, Summary};
+use std::fmt::Write as _;
 use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -55,45 +56,40 @@ enum StudyVerb {
 }
 
 /// Does what is asked of a study.
-pub fn run(options: &Options, arguments: &StudyArguments) -> Result<ExitCode, Failure> {
-    let is_run = matches!(arguments.verb, StudyVerb::Run { .. });
-    if options.out.is_some() && !is_run {
-        return Err(Failure::input(anyhow!(
-            "--out: is of study run alone; export writes where --to says"
-        )));
+pub fn run(options: &Options, arguments: &StudyArguments) -> Result<ExitCode> {
+    if options.out.is_some() && !matches!(arguments.verb, StudyVerb::Run { .. }) {
+        bail!("--out: is of study run alone; export writes where --to says");
     }
     match &arguments.verb {
-        StudyVerb::Run { file } => work(options, file),
-        StudyVerb::Show { folder } => show(options, folder),
-        StudyVerb::Export { folder, to, partial } => export(folder, to.as_deref(), *partial),
+        StudyVerb::Run { file } => return work(options, file),
+        StudyVerb::Show { folder } => {
+            let summary = study::summary(folder)?;
+            options.print(&summary, || shown(&summary, folder))?;
+        }
+        StudyVerb::Export { folder, to, partial } => export(folder, to.as_deref(), *partial)?,
         StudyVerb::Scenario { file, row } => {
             output::print(&Study::load(file)?.scenario_text(*row)?)?;
-            Ok(ExitCode::SUCCESS)
         }
     }
+    Ok(ExitCode::Done)
 }
 
-fn work(options: &Options, file: &Path) -> Result<ExitCode, Failure> {
-    let folder = options
-        .out
-        .as_deref()
-        .context("study run needs --out DIR, where rows are kept");
-    let folder = folder.map_err(Failure::input)?;
+fn work(options: &Options, file: &Path) -> Result<ExitCode> {
+    let folder = options.out.as_deref();
+    let folder = folder.context("study run needs --out DIR, where rows are kept")?;
     let study = Arc::new(Study::load(file)?);
     let mut journal = Journal::open(folder, &study)?;
     let (before, rows) = (journal.done(), study.rows());
     if before == rows {
         journal.finish()?;
-        output::message(
-            options.quiet,
-            &format!("{}: the study is finished, all {rows} rows are there", folder.display()),
-        );
+        let folder = folder.display();
+        options.say(&format!("{folder}: the study is finished, all {rows} rows are there"));
     } else {
         if before > 0 {
-            output::message(options.quiet, &format!("going on: {before} of {rows} rows are there"));
+            options.say(&format!("going on: {before} of {rows} rows are there"));
         }
         let resolver = Resolver::new(study);
-        let progress = Progress::new(options.quiet, "planning and proving");
+        let progress = options.progress("planning and proving");
         let made = study::run(
             &mut journal,
             &options.cancel,
@@ -101,58 +97,130 @@ fn work(options: &Options, file: &Path) -> Result<ExitCode, Failure> {
             |at| progress.rows(&at),
         );
         drop(progress);
-        if made.is_err() && journal.done() < rows {
-            let kept = format!(
-                "{} of {rows} rows are kept; the same command goes on with the others",
-                journal.done()
-            );
-            output::message(options.quiet, &kept);
+        let done = journal.done();
+        if made.is_err() && done < rows {
+            options.say(&format!(
+                "{done} of {rows} rows are kept; the same command goes on with the others"
+            ));
         }
         made?;
     }
     let summary = study::summary(folder)?;
-    output::print_either(options.json, &summary, || study_text::outcomes(&summary))?;
-    Ok(match summary.outcomes.get("crashed") {
-        Some(_) => ExitCode::from(failure::INTERNAL),
-        None => ExitCode::SUCCESS,
-    })
+    options.print(&summary, || outcomes(&summary))?;
+    Ok(ExitCode::Internal.unless(!summary.outcomes.contains_key(Outcome::Crashed.code())))
 }
 
-fn show(options: &Options, folder: &Path) -> Result<ExitCode, Failure> {
-    let summary = study::summary(folder)?;
-    output::print_either(options.json, &summary, || study_text::shown(&summary, folder))?;
-    Ok(ExitCode::SUCCESS)
-}
-
-fn export(folder: &Path, to: Option<&Path>, partial: bool) -> Result<ExitCode, Failure> {
+fn export(folder: &Path, to: Option<&Path>, partial: bool) -> Result<()> {
     let (done, rows) = study::counted(folder)?;
     if done < rows && !partial {
-        return Err(Failure::input(anyhow!(
+        bail!(
             "{}: the study is not finished: {done} of {rows} rows; go on with it, or take what is there: --partial",
             folder.display()
-        )));
+        );
     }
-    match to {
-        Some(to) => {
-            let cannot = || format!("{}: cannot be written", to.display());
-            let places = output::place(to).and_then(|to| Ok((to, output::place(&folder.join("rows.jsonl"))?)));
-            let (place, kept) = places.with_context(cannot).map_err(Failure::input)?;
-            if kept.parent().is_some_and(|folder| place.starts_with(folder)) {
-                return Err(Failure::input(anyhow!(
-                    "{}: it is in the study's folder, which is kept as it is",
-                    cannot()
-                )));
-            }
-            output::write_to(to, |out| Ok(study::export(folder, out, to)?))?;
-        }
-        None => {
-            let out = &mut BufWriter::new(std::io::stdout().lock()) as &mut dyn Write;
-            match study::export(folder, out, Path::new("standard output")) {
-                // A reader that has gone away is no error.
-                Err(StudyError::Disk { cause, .. }) if cause.kind() == ErrorKind::BrokenPipe => {}
-                written => drop(written?),
-            }
+    let Some(to) = to else {
+        let out = &mut BufWriter::new(std::io::stdout().lock()) as &mut dyn Write;
+        return match study::export(folder, out, Path::new("standard output")) {
+            // A reader that has gone away is no error.
+            Err(StudyError::Disk { cause, .. }) if cause.kind() == ErrorKind::BrokenPipe => Ok(()),
+            written => Ok(written.map(drop)?),
+        };
+    };
+    let cannot = || format!("{}: cannot be written", to.display());
+    let place_of = |path: &Path| place(path).with_context(cannot);
+    let (file, kept) = (place_of(to)?, place_of(&folder.join("rows.jsonl"))?);
+    if kept.parent().is_some_and(|folder| file.starts_with(folder)) {
+        bail!("{}: it is in the study's folder, which is kept as it is", cannot());
+    }
+    write_to(to, |out| Ok(study::export(folder, out, to).map(drop)?))
+}
+
+/// How the rows ended, a line.
+fn outcomes(of: &Summary) -> String {
+    let counts = Outcome::ALL.iter().filter_map(|outcome| {
+        let count = of.outcomes.get(outcome.code())?;
+        Some(format!("{count} {}", outcome.code()))
+    });
+    let mut counts = counts.collect::<Vec<_>>().join(", ");
+    if counts.is_empty() {
+        counts = "no row yet".to_owned();
+    }
+    let (name, rows) = (&of.manifest.name, of.manifest.rows);
+    format!("study {name}: {} of {rows} rows: {counts}\n", of.done)
+}
+
+/// All of what the rows in a folder come to.
+fn shown(of: &Summary, folder: &Path) -> String {
+    let mut text = outcomes(of);
+    for (axis, values) in &of.by_axis {
+        let _ = writeln!(text, "\n{axis}");
+        for (AxisValue(value), counts) in values {
+            let total: u64 = counts.values().sum();
+            let proved = counts.get(Outcome::Proved.code()).copied().unwrap_or(0);
+            let others = counts.iter().filter(|(code, _)| **code != Outcome::Proved.code());
+            let others: String = others.map(|(code, count)| format!(", {count} {code}")).collect();
+            let _ = writeln!(text, "  {value}: {proved} of {total} proved{others}");
         }
     }
-    Ok(ExitCode::SUCCESS)
+    if let Some([least, low, middle, high, most]) = of.duration_s {
+        let _ = writeln!(
+            text,
+            "\nduration of what is proved: {least:.2} s least, {low:.2} s at 5 %, {middle:.2} s at 50 %, {high:.2} s at 95 %, {most:.2} s most"
+        );
+    }
+    list(&mut text, of, "not proved, the first of each outcome", &of.not_proved);
+    list(&mut text, of, "proved with the least clearance", &of.nearest);
+    list(&mut text, of, "proved with the longest motion", &of.slowest);
+    if let Some(row) = of.not_proved.iter().chain(&of.nearest).next() {
+        let _ = writeln!(
+            text,
+            "\na row alone, here row {}:\n  platewash study scenario {} --row {} > row.toml && platewash run --scenario row.toml",
+            row.index,
+            argument(folder),
+            row.index
+        );
+        if !of.manifest.files.is_empty() {
+            text.push_str("  (it names files: write row.toml beside the study's scenario; in Python, StudyRows.scenario needs none of them)\n");
+        }
+    }
+    text
+}
+
+fn list(text: &mut String, of: &Summary, title: &str, rows: &[Row]) {
+    if rows.is_empty() {
+        return;
+    }
+    let _ = writeln!(text, "\n{title}");
+    for row in rows {
+        let several = (of.manifest.scenarios.len() > 1).then(|| row.scenario.clone());
+        let axes = row.axes.iter().map(|(key, value)| format!("{key} = {value}"));
+        let axes = several.into_iter().chain(axes).collect::<Vec<_>>().join(", ");
+        let duration = row.duration_s.map(|s| format!(", {s:.2} s"));
+        let clearance = row.clearance_m.map(|v| format!(", clearance {:.1} mm", 1e3 * v));
+        let pair = row.clearance_pair.as_ref().map(|[a, b]| format!(" ({a}, {b})"));
+        let reason = row.reason.as_ref().map(|reason| format!(": {reason}"));
+        let _ = writeln!(
+            text,
+            "  row {} ({axes}) {}{}{}{}{}",
+            row.index,
+            row.outcome.code(),
+            duration.unwrap_or_default(),
+            clearance.unwrap_or_default(),
+            pair.unwrap_or_default(),
+            reason.unwrap_or_default()
+        );
+    }
+}
+
+/// A path as a shell takes it, and the command takes it for no option.
+fn argument(path: &Path) -> String {
+    let mut name = path.display().to_string();
+    if name.starts_with('-') {
+        name.insert_str(0, "./");
+    }
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "/._-".contains(c);
+    match name.chars().all(is_plain) {
+        true => name,
+        false => format!("'{}'", name.replace('\'', "'\\''")),
+    }
 }

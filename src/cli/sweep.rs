@@ -1,17 +1,16 @@
 //! `platewash sweep`: many layouts of one scenario, each planned and proved.
 
-use super::exit::Outcome;
-use super::failure::{ExitCode, Failure};
-use super::options::{self, Options};
-use super::output::{self, Reader};
-use super::progress::Progress;
-use super::text::text;
-use anyhow::{Context, ensure};
+use super::failure::ExitCode;
+use super::files::Files;
+use super::numbers::seed;
+use super::options::Options;
+use super::output::{self, Progress, Reader};
+use anyhow::{Context, Result, ensure};
 use clap::Args;
 use platewash::scenario::Program;
+use platewash::study::Outcome;
 use platewash::workcell::job::MAX_SEED;
-use platewash::{SWEEP_HEADER, Scenario, SweepRow, study, sweep_csv, sweep_each};
-use std::cmp::Ordering;
+use platewash::{SWEEP_HEADER, Scenario, SweepRow, sweep_csv, sweep_each};
 use std::io::IsTerminal;
 use std::ops::{ControlFlow, RangeInclusive};
 
@@ -23,104 +22,86 @@ const MOST_LAYOUTS: u64 = 100_000;
 pub struct SweepArguments {
     /// First and last seed, for example 1..200
     #[arg(long, value_name = "FIRST..LAST", value_parser = seeds, allow_hyphen_values = true)]
-    pub seeds: RangeInclusive<u64>,
+    seeds: RangeInclusive<u64>,
+}
+
+fn seeds(text: &str) -> Result<RangeInclusive<u64>> {
+    let expected = || {
+        format!("must be FIRST..LAST, two whole numbers from 0 to {MAX_SEED} (2^53 − 1), the first at most the last")
+    };
+    let (first, last) = text.split_once("..").with_context(expected)?;
+    let end = |text: &str| seed(text.trim()).with_context(expected);
+    let (first, last) = (end(first)?, end(last)?);
+    ensure!(first <= last, expected());
+    ensure!(last - first < MOST_LAYOUTS, "at most {MOST_LAYOUTS} layouts at a time");
+    Ok(first..=last)
 }
 
 /// Plans and proves a layout a seed; prints a table (CSV), each row as soon as it is done, or JSON, and with `--out` writes `sweep.csv` there.
-pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode, Failure> {
+pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode> {
     let scenario = options.scenario()?;
-    if scenario.job.program != Program::Certified {
-        return Err(Failure::input(anyhow::anyhow!(
-            "sweep plans certified jobs; scenario \"{}\" has job.program = \"paper\": see reproduce",
-            scenario.name
-        )));
-    }
-    let table = options.out.as_ref().map(|folder| folder.join("sweep.csv"));
-    output::check_places(table.as_slice())?;
+    ensure!(
+        scenario.job.program == Program::Certified,
+        "sweep plans certified jobs; scenario \"{}\" has job.program = \"paper\": see reproduce",
+        scenario.name
+    );
+    let mut files = Files::new(options.out.clone(), &["sweep.csv"]);
+    files.check()?;
     options.arm(&scenario)?;
     let (rows, reader) = rows(options, &scenario, arguments)?;
     options.cancel.check()?;
-    if table.is_none() && reader == Reader::Gone {
+    if options.out.is_none() && reader == Reader::Gone {
         // Nobody wants the other rows, nor a verdict about them.
-        return Ok(ExitCode::SUCCESS);
+        return Ok(ExitCode::Done);
     }
-    if let Some(table) = table {
-        output::write_files(&[output::file(table, sweep_csv(&rows))], &options.cancel)?;
-    }
+    files.add("sweep.csv", sweep_csv(&rows));
+    files.write(&options.cancel)?;
     if options.json {
         output::print(&output::json(&rows)?)?;
     }
     let count = |outcome| rows.iter().filter(|row: &&SweepRow| row.outcome == outcome).count();
-    let [proved, not_proved, infeasible, not_found, failed] = [
-        study::Outcome::Proved,
-        study::Outcome::NotProved,
-        study::Outcome::Infeasible,
-        study::Outcome::NotFound,
-        study::Outcome::Error,
-    ]
-    .map(count);
-    let total = rows.len();
-    output::message(
-        options.quiet,
-        &format!(
-            "{proved} of {total} proved, {not_proved} planned but not proved, {infeasible} infeasible, {not_found} not found, {failed} with an error"
-        ),
-    );
+    let (total, proved, not_proved) = (rows.len(), count(Outcome::Proved), count(Outcome::NotProved));
+    let [infeasible, not_found, failed] = [Outcome::Infeasible, Outcome::NotFound, Outcome::Error].map(count);
+    options.say(&format!(
+        "{proved} of {total} proved, {not_proved} planned but not proved, {infeasible} infeasible, {not_found} not found, {failed} with an error"
+    ));
     if let Some(worst) = worst(&rows) {
-        output::message(options.quiet, &worst);
+        options.say(&worst);
     }
-    let outcome = if infeasible + not_found + failed > 0 {
-        Outcome::Infeasible
-    } else if not_proved > 0 {
-        Outcome::NotVerified
-    } else {
-        Outcome::Good
+    let code = match infeasible + not_found + failed {
+        0 => ExitCode::NotVerified.unless(not_proved == 0),
+        _ => ExitCode::Infeasible,
     };
-    Ok(outcome.job(scenario.job.on_failure))
+    Ok(code.job(scenario.job.on_failure))
 }
 
 /// The row to look at first, in words: one that is not proved, or else the one of the least clearance; and the slowest of those proved.
 fn worst(rows: &[SweepRow]) -> Option<String> {
-    if let Some(row) = rows
-        .iter()
-        .filter(|row| row.outcome != study::Outcome::Proved)
-        .max_by_key(|row| row.outcome)
-    {
-        let reason = row
-            .reason
-            .as_ref()
-            .map_or_else(String::new, |reason| format!(": {reason}"));
-        return Some(format!("worst: seed {}, {}{reason}", row.seed, row.outcome.code()));
+    let others = rows.iter().filter(|row| row.outcome != Outcome::Proved);
+    if let Some(row) = others.max_by_key(|row| row.outcome) {
+        let reason = row.reason.as_ref().map(|reason| format!(": {reason}"));
+        let (seed, outcome) = (row.seed, row.outcome.code());
+        return Some(format!("worst: seed {seed}, {outcome}{}", reason.unwrap_or_default()));
     }
-    let nearest = rows
-        .iter()
-        .min_by(|a, b| a.clearance_m.partial_cmp(&b.clearance_m).unwrap_or(Ordering::Equal))?;
-    let slowest = rows
-        .iter()
-        .max_by(|a, b| a.duration_s.partial_cmp(&b.duration_s).unwrap_or(Ordering::Equal))?;
+    let of = |number: fn(&SweepRow) -> Option<f64>| rows.iter().filter_map(move |row| Some((number(row)?, row.seed)));
+    let (clearance_m, nearest) = of(|row| row.clearance_m).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let (duration_s, slowest) = of(|row| row.duration_s).max_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(format!(
-        "least clearance: seed {}, {:.1} mm; slowest: seed {}, {:.2} s",
-        nearest.seed,
-        1e3 * nearest.clearance_m?,
-        slowest.seed,
-        slowest.duration_s?
+        "least clearance: seed {nearest}, {:.1} mm; slowest: seed {slowest}, {duration_s:.2} s",
+        1e3 * clearance_m
     ))
 }
 
 /// The rows; as text they are printed one by one, in the order of the seeds, as JSON in the end. Where nothing is written to a
 /// file, the rows end when the reader of standard output leaves.
-fn rows(
-    options: &Options,
-    scenario: &Scenario,
-    arguments: &SweepArguments,
-) -> Result<(Vec<SweepRow>, Reader), Failure> {
+fn rows(options: &Options, scenario: &Scenario, arguments: &SweepArguments) -> Result<(Vec<SweepRow>, Reader)> {
     let shows_rows = !options.json && std::io::stdout().is_terminal();
     let _progress = Progress::new(options.quiet || shows_rows, "planning and proving");
     let (mut printed, mut header) = (Ok(Reader::There), Some(SWEEP_HEADER));
     let mut print = |row: &SweepRow| {
         if !options.json && matches!(printed, Ok(Reader::There)) {
             let line = header.take().unwrap_or_default().to_owned() + &row.csv_line();
-            printed = output::print(&text(&line));
+            printed = output::print(&output::text(&line));
         }
         match printed {
             Ok(Reader::There) => ControlFlow::Continue(()),
@@ -131,16 +112,4 @@ fn rows(
     let rows = sweep_each(scenario, arguments.seeds.clone(), &options.cancel, &mut print);
     let rows = rows.map_err(|error| options.failure(error))?;
     Ok((rows, printed?))
-}
-
-fn seeds(text: &str) -> anyhow::Result<RangeInclusive<u64>> {
-    let expected = || {
-        format!("must be FIRST..LAST, two whole numbers from 0 to {MAX_SEED} (2^53 − 1), the first at most the last")
-    };
-    let (first, last) = text.split_once("..").with_context(expected)?;
-    let end = |text: &str| options::seed(text.trim()).with_context(expected);
-    let (first, last) = (end(first)?, end(last)?);
-    ensure!(first <= last, expected());
-    ensure!(last - first < MOST_LAYOUTS, "at most {MOST_LAYOUTS} layouts at a time");
-    Ok(first..=last)
 }

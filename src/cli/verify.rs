@@ -1,41 +1,42 @@
-//! `platewash verify`: the certificate of a plan file, and whether its job is the one that a scenario asks for.
+//! `platewash verify`: the certificate of a plan file, and whether it is a plan of the scenario, or a dry run of the plan, that it should
+//! be of.
 
-use super::against::{Against, Asked};
-use super::details::DetailArguments;
-use super::exit::Outcome;
-use super::failure::{ExitCode, Failure};
-use super::options::Options;
-use super::plan_file::{self, PlanFile};
-use super::progress::Progress;
-use super::refused::PLAN_STATES;
-use super::{handed_over, output, parent};
-use anyhow::anyhow;
+use super::export;
+use super::failure::{ExitCode, not_verified};
+use super::options::{Options, PLAN_STATES};
+use super::output::DetailArguments;
+use super::plan_file::{self, PlanFile, refused};
+use anyhow::{Result, bail, ensure};
 use clap::Args;
-use platewash::certificate::{HashFinding, Verdict, paper_headline};
+use platewash::certificate::{Difference, HashFinding, Verdict, differences, paper_headline};
+use platewash::planner::Watch;
+use platewash::scenario::Program;
+use platewash::workcell::dry_run::{DryRunError, dry_run_terms};
 use platewash::workcell::plan::Process;
-use platewash::workcell::words::quoted;
-use platewash::{Certificate, Plan};
+use platewash::workcell::words::{counted, quoted};
+use platewash::{Certificate, Failure, JobTerms, Plan, RobotModel, Scenario};
 use serde::Serialize;
+use serde_json::json;
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Arguments of `verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
     /// Plan file
-    #[arg(value_name = "PLAN")]
-    pub plan: PathBuf,
+    plan: PathBuf,
     /// Scenario that the plan should be for; each field of the job is compared. The seed is --seed, or the plan's
     #[arg(long, value_name = "FILE|NAME")]
-    pub against: Option<String>,
+    against: Option<String>,
     /// All files of a robot program exported from the plan and perhaps changed since: it is compared with a new export and judged
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["against", "parent"])]
-    pub program: Vec<PathBuf>,
+    program: Vec<PathBuf>,
     /// Plan file that this dry run should belong to: job, order and wash paths are compared
     #[arg(long, value_name = "PLAN")]
-    pub parent: Option<PathBuf>,
+    parent: Option<PathBuf>,
     #[command(flatten)]
-    pub details: DetailArguments,
+    details: DetailArguments,
 }
 
 /// What is said of a plan.
@@ -53,97 +54,175 @@ struct Answer {
 #[serde(untagged)]
 enum Judgement {
     Washing(Box<Certificate>),
-    Paper(NoCertificate),
+    /// A run of the paper's program, which has no certificate.
+    Paper {
+        verdict: Verdict,
+        headline: String,
+        process: Process,
+        scenario: String,
+        duration_s: f64,
+        hash: HashFinding,
+    },
 }
 
-/// What is said of a run of the paper's program in place of a certificate.
+/// Where a plan is another one than it should be.
 #[derive(Debug, Serialize)]
-struct NoCertificate {
-    verdict: Verdict,
-    headline: String,
-    process: Process,
-    scenario: String,
-    duration_s: f64,
-    hash: HashFinding,
+struct Against {
+    #[serde(flatten)]
+    other: Other,
+    differences: Vec<Difference>,
+}
+
+/// What a plan should be of.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Other {
+    Scenario { scenario: String, seed: u64 },
+    Parent { hash: Option<String> },
 }
 
 /// Judges a plan file for the arm that it is for.
-pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode, Failure> {
+pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode> {
     if arguments.against.is_none() && options.seed.is_some() {
-        return Err(Failure::input(anyhow!("--seed: {PLAN_STATES}")));
+        bail!("--seed: {PLAN_STATES}");
     }
     if !arguments.program.is_empty() {
-        return handed_over::run(options, &arguments.plan, &arguments.program);
+        return export::handed_over(options, &arguments.plan, &arguments.program);
     }
     let plan = plan_file::read(&arguments.plan)?;
     let asked = arguments.against.as_ref();
-    let asked = asked
-        .map(|name| Asked::resolve(options, name, plan.job.seed))
-        .transpose()?;
-    let against = asked.as_ref().map(|asked| asked.compare(&plan.job));
-    let mut compared = None;
+    let asked = asked.map(|name| against_scenario(options, name, &plan)).transpose()?;
+    let (against, arm) = asked.unzip();
+    let mut parent = None;
     let judgement = match plan.process {
-        Process::Paper if arguments.parent.is_some() => {
+        Process::Paper => {
             let name = arguments.plan.display();
-            return Err(Failure::input(anyhow!(
+            ensure!(
+                arguments.parent.is_none(),
                 "{name}: a run of the paper's program is no dry run"
-            )));
+            );
+            Judgement::of_paper(&plan)
         }
-        Process::Paper => Judgement::Paper(NoCertificate::new(&plan)),
         Process::Wash => {
-            let besides = asked.as_ref().map(|asked| &asked.arm);
-            let file = PlanFile::with_arm(options, &arguments.plan, plan, besides)?;
+            let file = PlanFile::with_arm(options, &arguments.plan, plan, arm.as_ref())?;
             let given = arguments.parent.as_ref();
-            compared = given.map(|path| parent::compare(&file, path)).transpose()?;
-            let progress = Progress::new(options.quiet, "proving");
+            parent = given.map(|path| against_parent(&file, path)).transpose()?;
             let mut certificate = file.prove(options)?;
-            drop(progress);
-            if compared.as_ref().is_some_and(Against::agrees) {
+            if parent.as_ref().is_some_and(Against::agrees) {
                 certificate.set_parent_compared();
             }
-            Judgement::Washing(Box::new(certificate))
+            Judgement::Washing(certificate.into())
         }
     };
     let answer = Answer {
         judgement,
         against,
-        parent: compared,
+        parent,
     };
-    output::print_either(options.json, &answer, || arguments.details.printed(&answer))?;
-    Ok(answer.outcome().answer())
+    options.print(&answer, || arguments.details.printed(&answer))?;
+    let passes = matches!(&answer.judgement, Judgement::Washing(certificate) if certificate.passes());
+    Ok(ExitCode::NotVerified.unless(passes && answer.others().all(Against::agrees)))
+}
+
+/// Compares every field of a job with what a scenario asks for, by its name or file, with the seed of `--seed`, otherwise the plan's; and
+/// the scenario's arm.
+fn against_scenario(options: &Options, name: &str, plan: &Plan) -> Result<(Against, Arc<RobotModel>)> {
+    let options = Options {
+        scenario: Some(name.to_owned()),
+        seed: options.seed.or(Some(plan.job.seed)),
+        ..options.clone()
+    };
+    let scenario = options.scenario()?;
+    let asked = scenario
+        .arm()
+        .and_then(|arm| Ok((terms(&options, &scenario, &arm)?, arm)));
+    let (terms, arm) = asked.map_err(|failure| options.failure(failure))?;
+    let against = Against {
+        differences: differences(&plan.job, &terms),
+        other: Other::Scenario {
+            scenario: scenario.name.clone(),
+            seed: scenario.seed,
+        },
+    };
+    Ok((against, arm))
+}
+
+/// What a scenario asks for, resolved, its plates placed again.
+fn terms(options: &Options, scenario: &Scenario, arm: &Arc<RobotModel>) -> Result<JobTerms, Failure> {
+    let progress = options.progress("placing the plates");
+    let watch = Watch {
+        tell: &|activity| progress.say(activity),
+        cancel: &options.cancel,
+    };
+    match scenario.job.program {
+        Program::Certified => {
+            let layout = scenario.place(arm, &watch)?;
+            Ok(scenario.job_on(arm, &layout)?.terms().clone())
+        }
+        Program::Paper => {
+            let layout = scenario.layout(arm)?;
+            Ok(scenario.paper_job_on(arm, layout)?.terms()?)
+        }
+    }
+}
+
+/// Compares a dry run, field by field, with what a dry run of the plan at `path` would ask for, and its order and paths with those of
+/// that plan.
+fn against_parent(file: &PlanFile<'_>, path: &Path) -> Result<Against> {
+    let Some(dry_run) = &file.plan.job.dry_run else {
+        return Err(file.refused("it is not a dry run; --parent is for plans of platewash dry-run"));
+    };
+    let parent = plan_file::read(path)?;
+    let (found, speed_m_s) = (&file.plan, file.plan.job.limits.tip_speed_m_s);
+    let mut all = match dry_run_terms(&parent, &file.arm, dry_run.height_m, speed_m_s) {
+        Ok(expected) => differences(&found.job, &expected),
+        Err(error @ (DryRunError::Height { .. } | DryRunError::TooLow { .. } | DryRunError::Speed { .. })) => {
+            vec![Difference {
+                key: "dry_run".to_owned(),
+                found: error.to_string(),
+                expected: "is one of the plan given".to_owned(),
+            }]
+        }
+        Err(DryRunError::NotSealed) => return Err(not_verified(refused(path, DryRunError::NotSealed))),
+        Err(error) => return Err(refused(path, error)),
+    };
+    let motion = |plan: &Plan| json!({"order": plan.order, "wash_paths": plan.wash_paths});
+    all.extend(differences(&motion(found), &motion(&parent)));
+    Ok(Against {
+        other: Other::Parent { hash: parent.hash },
+        differences: all,
+    })
 }
 
 impl Answer {
-    fn outcome(&self) -> Outcome {
-        let passes = match &self.judgement {
-            Judgement::Washing(certificate) => certificate.passes(),
-            Judgement::Paper(_) => false,
-        };
-        if passes && [&self.parent, &self.against].into_iter().flatten().all(Against::agrees) {
-            Outcome::Good
-        } else {
-            Outcome::NotVerified
-        }
+    fn others(&self) -> impl Iterator<Item = &Against> {
+        [&self.parent, &self.against].into_iter().flatten()
     }
 }
 
 impl fmt::Display for Answer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for other in [&self.parent, &self.against].into_iter().flatten() {
-            f.write_str(&other.first_words())?;
-        }
+        self.others().try_for_each(|other| f.write_str(&other.first_words()))?;
         match &self.judgement {
             Judgement::Washing(certificate) => certificate.fmt(f)?,
-            Judgement::Paper(no_certificate) => f.write_str(&no_certificate.text())?,
+            Judgement::Paper {
+                headline,
+                scenario,
+                hash,
+                ..
+            } => {
+                let (scenario, hash) = (quoted(scenario), hash.words());
+                writeln!(f, "{headline}\nscenario {scenario}, as the plan names it\n{hash}")?;
+            }
         }
         let mut others = [&self.against, &self.parent].into_iter().flatten();
         others.try_for_each(|other| write!(f, "\n{other}"))
     }
 }
 
-impl NoCertificate {
-    fn new(plan: &Plan) -> Self {
-        Self {
+impl Judgement {
+    fn of_paper(plan: &Plan) -> Self {
+        Self::Paper {
             verdict: Verdict::Fail,
             headline: paper_headline(plan),
             process: plan.process,
@@ -152,13 +231,67 @@ impl NoCertificate {
             hash: HashFinding::of(plan),
         }
     }
+}
 
-    fn text(&self) -> String {
-        format!(
-            "{}\nscenario {}, as the plan names it\n{}\n",
-            self.headline,
-            quoted(&self.scenario),
-            self.hash.words()
-        )
+impl Against {
+    /// Whether the plan is what it should be.
+    fn agrees(&self) -> bool {
+        self.differences.is_empty()
+    }
+
+    /// What stands before everything else; nothing where they agree.
+    fn first_words(&self) -> String {
+        let count = fields_differ(self.differences.len());
+        match &self.other {
+            _ if self.agrees() => String::new(),
+            Other::Scenario { .. } => format!("OTHER JOB than that of {}: {count}; ", self.other),
+            Other::Parent { .. } => format!("NO DRY RUN of the plan given: {count}; "),
+        }
+    }
+}
+
+impl fmt::Display for Other {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scenario { scenario, seed } => write!(f, "{}, seed {seed}", quoted(scenario)),
+            Self::Parent { hash } => f.write_str(hash.as_deref().unwrap_or("without a hash")),
+        }
+    }
+}
+
+impl fmt::Display for Against {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (other, count) = (&self.other, fields_differ(self.differences.len()));
+        let says = match other {
+            Other::Scenario { .. } => {
+                writeln!(f, "against {other}: {count}")?;
+                "the scenario"
+            }
+            Other::Parent { .. } => {
+                let from = match self.agrees() {
+                    true => " from what a dry run must have",
+                    false => "",
+                };
+                writeln!(
+                    f,
+                    "dry run of {other}: {count}{from}; that plan itself is not proved here"
+                )?;
+                "a dry run"
+            }
+        };
+        self.differences
+            .iter()
+            .try_for_each(|Difference { key, found, expected }| {
+                writeln!(f, "  {key}: the plan says {found}, {says} {expected}")
+            })
+    }
+}
+
+/// How many fields of two jobs differ.
+pub fn fields_differ(count: usize) -> String {
+    match count {
+        0 => "no field differs".to_owned(),
+        1 => "1 field differs".to_owned(),
+        several => format!("{} differ", counted(several, "field")),
     }
 }

@@ -1,22 +1,21 @@
-//! `platewash view`: a plan file on a page in the browser.
+//! `platewash view` and `platewash figures`: a plan file on a page in the browser, or as pictures.
 
-use super::failure::{ExitCode, Failure};
+use super::failure::{ExitCode, internal};
+use super::files::{Files, check_places};
 use super::options::Options;
-use super::plan_file::PlanFile;
-use super::progress::Progress;
-use super::serve::ServeArguments;
-use super::{bundle, execution, output, page, region};
-use anyhow::anyhow;
+use super::page::{self, ServeArguments};
+use super::plan_file::{PlanFile, refused, text};
+use super::simulate::Simulated;
+use anyhow::{Error, Result};
 use clap::Args;
-use platewash::Certificate;
 use platewash::certificate::prove_with;
-use platewash::kinematics::urdf::file;
+use platewash::viewer::figures::{Figure, FigureError, Subject, draw};
 use platewash::viewer::server::{Page, Site};
 use platewash::viewer::view::{Beside, Executed, ViewError};
 use platewash::workcell::csv::RecordedMotion;
 use platewash::workcell::plan::Process;
+use platewash::{Certificate, Failure, paper_spirals};
 use serde::Serialize;
-use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// Longest CSV file that is read \[bytes\].
@@ -26,8 +25,7 @@ const MAX_BYTES: u64 = 1 << 28;
 #[derive(Debug, Args)]
 pub struct ViewArguments {
     /// Plan file
-    #[arg(value_name = "PLAN")]
-    pub plan: PathBuf,
+    plan: PathBuf,
     /// CSV of a motion to show instead of a simulation, in the format that run and simulate write
     #[arg(long, value_name = "CSV")]
     executed: Option<PathBuf>,
@@ -41,96 +39,222 @@ pub struct ViewArguments {
 /// Where the page is.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
-enum Answer<'a> {
+enum Shown<'a> {
     Url(&'a str),
     Page(&'a Path),
 }
 
 /// Proves and simulates a plan file, and shows it until it is told to end.
-pub fn run(options: &Options, arguments: &ViewArguments) -> Result<ExitCode, Failure> {
+pub fn view(options: &Options, arguments: &ViewArguments) -> Result<ExitCode> {
     match &arguments.save {
         Some(file) => save(options, arguments, file),
         None => serve(options, arguments),
     }
 }
 
-fn save(options: &Options, arguments: &ViewArguments, file: &Path) -> Result<ExitCode, Failure> {
-    output::check_places(&[file.to_owned()])?;
-    let page = html(options, arguments)?;
-    output::write_files(&[output::file(file.to_owned(), page)], &options.cancel)?;
-    output::print_either(options.json, &Answer::Page(file), || format!("{}\n", file.display()))?;
-    Ok(ExitCode::SUCCESS)
+fn save(options: &Options, arguments: &ViewArguments, file: &Path) -> Result<ExitCode> {
+    check_places(&[file.to_owned()])?;
+    let mut files = Files::new(None, &[]);
+    files.add_at(file.to_owned(), html(options, arguments)?);
+    files.write(&options.cancel)?;
+    options.print(&Shown::Page(file), || format!("{}\n", file.display()))?;
+    Ok(ExitCode::Done)
 }
 
-fn serve(options: &Options, arguments: &ViewArguments) -> Result<ExitCode, Failure> {
+fn serve(options: &Options, arguments: &ViewArguments) -> Result<ExitCode> {
     let listener = arguments.serve.listen(options)?;
     let page = html(options, arguments)?;
     let url = listener.url();
     let site = Site::of(Page::Fixed(page));
-    let server = listener.serve(site).map_err(Failure::internal)?;
-    output::print_either(options.json, &Answer::Url(&url), || format!("{url}\n"))?;
+    let server = listener.serve(site).map_err(internal)?;
+    options.print(&Shown::Url(&url), || format!("{url}\n"))?;
     arguments.serve.open(options, &url);
-    output::message(options.quiet, "Ctrl-C ends it");
+    options.say("Ctrl-C ends it");
     options.wait();
     drop(server);
-    Ok(ExitCode::SUCCESS)
+    Ok(ExitCode::Done)
 }
 
-/// The page of a plan file.
-fn html(options: &Options, arguments: &ViewArguments) -> Result<String, Failure> {
+/// The page of a plan file, with its certificate, where it can have one, and what the arm makes of it, where that is known.
+fn html(options: &Options, arguments: &ViewArguments) -> Result<String> {
     let file = PlanFile::read(options, &arguments.plan)?;
+    let (plan, arm) = (&file.plan, &file.arm);
     let recorded = arguments.executed.as_deref().map(recorded).transpose()?;
-    let bundle = bundle::needed()?;
-    let certificate = certificate(options, &file)?;
+    let bundle = page::needed_bundle()?;
+    let certificate = match plan.process {
+        Process::Paper => None,
+        Process::Wash => Some(file.prove(options)?),
+    };
     let executed = match recorded {
         Some(recorded) => Some(recorded),
-        None => simulated(options, &file)?,
+        None => {
+            let simulated = Simulated::new(options, plan, arm, &mut |_| {})?;
+            if let Simulated::Refused { refused } = &simulated {
+                options.say(&format!("not simulated: {refused}"));
+            }
+            simulated.executed()
+        }
     };
-    let region = region::of_plan(&file.plan, &file.arm);
+    let region = page::region_of_plan(plan, arm);
     let beside = Beside {
         certificate: certificate.as_ref(),
         executed: executed.as_ref(),
         region: Some(&region),
         ..Beside::default()
     };
-    page::html(&file.plan, &file.arm, &beside, &bundle).map_err(|error| {
-        match (error.downcast_ref(), &arguments.executed) {
-            (Some(ViewError::BeyondEnd { .. }), Some(csv)) => refused(csv, error),
-            (Some(_), _) => file.refused(error),
-            (None, _) => Failure::internal(error),
-        }
+    page::html(plan, arm, &beside, &bundle).map_err(|error| match (error.downcast_ref(), &arguments.executed) {
+        (Some(ViewError::BeyondEnd { .. }), Some(csv)) => refused(csv, error),
+        (Some(_), _) => file.refused(error),
+        (None, _) => internal(error),
     })
 }
 
 /// The motion of a CSV file.
-fn recorded(path: &Path) -> Result<Executed, Failure> {
-    let text = file::read_text(path, MAX_BYTES).map_err(|e| refused(path, format_args!("cannot be read: {e}")))?;
-    let motion = RecordedMotion::from_csv(&text).map_err(|e| refused(path, e))?;
+fn recorded(path: &Path) -> Result<Executed> {
+    let motion = RecordedMotion::from_csv(&text(path, MAX_BYTES)?).map_err(|e| refused(path, e))?;
     Ok(Executed::recorded(&motion))
 }
 
-fn refused(path: &Path, error: impl Display) -> Failure {
-    Failure::input(anyhow!("{}: {error}", path.display()))
+/// Arguments of `figures`.
+#[derive(Debug, Args)]
+pub struct FiguresArguments {
+    /// Plan file
+    plan: PathBuf,
+    /// Names of the figures to draw, separated by commas: layout, joints, coverage, spiral
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = Figure::named)]
+    only: Vec<Figure>,
 }
 
-/// The certificate; a run of the paper's program has none.
-fn certificate(options: &Options, file: &PlanFile<'_>) -> Result<Option<Certificate>, Failure> {
-    if file.plan.process == Process::Paper {
-        return Ok(None);
+/// What is written, and what is not.
+#[derive(Debug, Serialize)]
+struct Drawn {
+    scenario: String,
+    /// Paths of the files.
+    written: Vec<PathBuf>,
+    left_out: Vec<LeftOut>,
+}
+
+/// A figure that the plan has nothing for, or a part of the others that is not known.
+#[derive(Debug, Serialize)]
+struct LeftOut {
+    what: String,
+    why: String,
+}
+
+impl LeftOut {
+    fn new(what: &str, why: impl ToString) -> Self {
+        Self {
+            what: what.to_owned(),
+            why: why.to_string(),
+        }
     }
-    let _progress = Progress::new(options.quiet, "proving");
-    let certificate = prove_with(&file.plan, &file.arm, &options.cancel);
-    certificate.map(Some).map_err(|error| file.failure(error.into()))
 }
 
-/// What the arm makes of the plan under the settings that it states; none where that cannot be simulated, which a line on standard
-/// error explains.
-fn simulated(options: &Options, file: &PlanFile<'_>) -> Result<Option<Executed>, Failure> {
-    let _progress = Progress::new(options.quiet, "simulating");
-    match execution::tried(&file.plan, &file.arm, &options.cancel, &mut |_| {})? {
-        Ok((execution, report)) => Ok(Some(Executed::simulated(&execution, &report))),
-        Err(words) => {
-            output::message(options.quiet, &format!("not simulated: {words}"));
+/// Draws a plan file and writes the figures.
+pub fn figures(options: &Options, arguments: &FiguresArguments) -> Result<ExitCode> {
+    let only = &arguments.only;
+    // Each once, in the order of their names' list.
+    let mut wanted = Figure::ALL.to_vec();
+    wanted.retain(|figure| only.is_empty() || only.contains(figure));
+    let name = |figure: &Figure| format!("{}.svg", figure.name());
+    let mut files = Files::new(options.folder_or("figures"), &[]);
+    let names: Vec<_> = wanted.iter().map(name).collect();
+    check_places(&files.places(&names.iter().map(String::as_str).collect::<Vec<_>>()))?;
+    let file = PlanFile::read(options, &arguments.plan)?;
+    let mut left_out = Vec::new();
+    let known = Known::new(options, &file, &wanted, &mut left_out)?;
+    let subject = known.subject(&file).map_err(|error| file.refused(error))?;
+    for figure in &wanted {
+        match draw(&subject, *figure) {
+            Ok(svg) => files.add(&name(figure), svg),
+            // What was asked for by name must be drawn; of the others, those that the plan has nothing for are left out.
+            Err(error @ FigureError::NothingWashed { .. }) if only.is_empty() => {
+                left_out.push(LeftOut::new(figure.name(), error));
+            }
+            Err(error) => return Err(file.refused(error)),
+        }
+    }
+    files.write(&options.cancel)?;
+    let answer = Drawn {
+        scenario: file.plan.provenance.scenario.clone(),
+        written: files.paths().map(Path::to_owned).collect(),
+        left_out,
+    };
+    options.print(&answer, || answer.text())?;
+    Ok(ExitCode::Done)
+}
+
+impl Drawn {
+    fn text(&self) -> String {
+        let written = self.written.iter().map(|path| format!("wrote {}\n", path.display()));
+        let left_out = self.left_out.iter();
+        let left_out = left_out.map(|left| format!("left out: {}, as {}\n", left.what, left.why));
+        written.chain(left_out).collect()
+    }
+}
+
+/// What is known of a plan beside itself.
+struct Known {
+    certificate: Option<Certificate>,
+    simulated: Option<Simulated>,
+    /// Of a plan of the paper's program, what the tip was to follow.
+    ideal: Option<Vec<platewash::viewer::figures::Ideal>>,
+}
+
+impl Known {
+    /// Proves, simulates and, for a plan of the paper's program, follows it again.
+    fn new(options: &Options, file: &PlanFile<'_>, wanted: &[Figure], left_out: &mut Vec<LeftOut>) -> Result<Self> {
+        let (plan, arm) = (&file.plan, &file.arm);
+        let (mut certificate, mut ideal) = (None, None);
+        match plan.process {
+            Process::Wash => {
+                let proved = options.during("proving", || prove_with(plan, arm, &options.cancel));
+                certificate = known(proved, "the certificate", left_out)?;
+            }
+            Process::Paper => {
+                let follow = || paper_spirals(plan, arm, &options.cancel);
+                let spirals = options.during("following the paper's program", follow);
+                ideal = known(spirals, "the paper's spirals", left_out)?;
+            }
+        }
+        let mut simulated = None;
+        if wanted.iter().any(|figure| *figure != Figure::Joints) {
+            simulated = Some(Simulated::new(options, plan, arm, &mut |_| {})?);
+        }
+        if let Some(Simulated::Refused { refused }) = &simulated {
+            left_out.push(LeftOut::new("what an arm makes of it", refused));
+        }
+        Ok(Self {
+            certificate,
+            simulated,
+            ideal,
+        })
+    }
+
+    fn subject<'a>(&'a self, file: &'a PlanFile<'_>) -> Result<Subject<'a>, FigureError> {
+        let mut subject = Subject::new(&file.plan, &file.arm)?;
+        if let Some(Simulated::Done { execution, report }) = &self.simulated {
+            subject = subject.executed(execution, report)?;
+        }
+        if let Some(ideal) = &self.ideal {
+            subject.ideal.clone_from(ideal);
+        }
+        subject.certificate = self.certificate.as_ref();
+        subject.region = page::region_of_plan(&file.plan, &file.arm);
+        Ok(subject)
+    }
+}
+
+/// What was found out, or a note why it is not known; an error where the work was given up.
+fn known<T, E>(found: Result<T, E>, what: &str, left_out: &mut Vec<LeftOut>) -> Result<Option<T>>
+where
+    Failure: From<E>,
+{
+    match found.map_err(Failure::from) {
+        Ok(found) => Ok(Some(found)),
+        Err(error) if error.is_cancelled() => Err(Error::from(error)),
+        Err(error) => {
+            left_out.push(LeftOut::new(what, error));
             Ok(None)
         }
     }

@@ -175,7 +175,8 @@ fn points_that_cannot_be_meant_are_refused_with_what_to_do() {
     );
     platewash(dir, &["align", "none.csv"]).refused(2, &["none.csv: cannot be read"]);
     platewash(dir, &["align", "touched.csv", "--seed", "1"]).refused(2, &["--seed"]);
-    platewash(dir, &["align", "touched.csv", "--point", "0", "nan", "0"]).refused(2, &["three finite numbers"]);
+    platewash(dir, &["align", "touched.csv", "--point", "0", "nan", "0"])
+        .refused(2, &["--point", "from -36000 to 36000"]);
 }
 
 /// Rows that were touched where they are drawn, but for the factor and the order of the touches \[m\].

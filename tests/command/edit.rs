@@ -110,7 +110,7 @@ fn a_cell_is_served_saved_and_ended_by_ctrl_c() {
     std::fs::remove_file(&file).unwrap();
     assert!(Command::new("mkfifo").arg(&file).status().unwrap().success());
     let look = serde_json::json!({"session": "sessionofthistest", "disk": null});
-    assert!(post(url, "/disk", token, &look).contains("no regular file"));
+    assert!(post(url, "/disk", token, &look).contains("not a regular file"));
     std::fs::remove_file(&file).unwrap();
     edit.interrupt();
     assert_eq!(edit.end().0, Some(0));

@@ -1,207 +1,281 @@
-//! From the scenario to the proof, a line a step.
+//! From the scenario to the proof, a line a step: what there is, a guess, the plan and its proof, or why there is none, and where plates could
+//! lie.
 
-use crate::draft::changed;
-use crate::end::End;
 use crate::moves::moves;
-use crate::placed::{Placed, placed};
 use crate::protocol::{
-    ArmLine, CellLine, CellParts, CellQuestion, FindingLine, PlanParts, PlateChance, PlateProof, Refusal, Want,
+    ArmLine, CellLine, CellParts, CellQuestion, FindingLine, MapLine, MapQuestion, PlanParts, PlateChance, PlateProof,
+    Unwashable, Want,
 };
-use crate::stopwatch::Stopwatch;
-use crate::subject::{Latest, Subject};
-use crate::told::Told;
-use crate::unplanned;
-use platewash_certificate::prove_with;
-use platewash_planner::{Chance, PlanError, Planned, PlateOutlook, Watch, outlook, plan_here};
+use crate::refusal::plain;
+use crate::subject::{Latest, Placed, Subject, changed, placed};
+use crate::told::{End, Told};
+use platewash_certificate::{Certificate, prove_with};
+use platewash_planner::{
+    Chance, InfeasibleReport, MapArea, MapPatch, PlanError, Planned, PlateOutlook, SEARCHED_M, UnwashablePlate, Watch,
+    nearest_place, outlook, plan_here, unwashable_plates, washable_map,
+};
 use platewash_scenario::Failure;
-use platewash_viewer::view::{Beside, Certificate, View};
-use platewash_workcell::cancel::{CancelToken, Deadline};
+use platewash_viewer::view::{self, Beside, View};
+use platewash_workcell::cancel::Deadline;
 use platewash_workcell::layout::Finding;
+use platewash_workcell::plan::Plan;
+use platewash_workcell::verdict::Verdict;
 use std::sync::Arc;
 
-/// Answers the question.
-pub fn answer(
-    subject: &Subject,
-    question: &CellQuestion,
-    told: &mut Told<'_>,
-    gone: &CancelToken,
-    deadline: &Deadline,
-) {
-    let mut watch = Stopwatch::start();
-    let answering = Answering {
-        subject,
-        question,
-        gone,
+/// What a map means.
+const MEANING: &str = "Where a plate of this size could lie, the others as they are: at the middle of each square it has room, and \
+                       configurations were found for all of its wash path. Not planned, not proved.";
+
+/// Answers a question for a cell.
+pub fn answer(subject: &Subject, question: &CellQuestion, told: &mut Told<'_>, deadline: &Deadline) {
+    if let Err(end) = told_cell(subject, question, told) {
+        let too_long = "this cell takes longer than a minute to plan and prove; `platewash run` takes its time";
+        told.end(&end, deadline, too_long);
+    }
+}
+
+fn told_cell(subject: &Subject, question: &CellQuestion, told: &mut Told<'_>) -> Result<(), End> {
+    let changed = changed(subject, &question.text, &question.edits, &told.gone)?;
+    told.step("read");
+    told.line(&CellLine::Scenario {
+        text: &changed.text,
+        stated: &changed.stated,
+        values: &changed.values,
+        ms: told.ms(),
+    });
+    let placed = placed(subject, changed.scenario?, &told.gone)?;
+    told.step("place");
+    tell_parts(&placed, question.arm.as_deref(), told);
+    if question.want == Want::Preview {
+        return match tell_preview(&placed, told) {
+            // Where no guess can be made, as where the arm is not clear at home, why.
+            Some(error) => tell_unplanned(&placed, error, false, told).map(drop),
+            None => Ok(()),
+        };
+    }
+    // The guess while it is planned; where none can be made, planning says why.
+    let (mut planned, gone) = (None, told.gone.clone());
+    rayon::in_place_scope(|scope| {
+        scope.spawn(|_| planned = Some(plan_here(&placed.job, &Watch::silent(&gone))));
+        tell_preview(&placed, told);
+    });
+    told.step("plan");
+    let (plan, certificate, headline) = match planned {
+        Some(Ok(planned)) => tell_plan(&placed, planned, told)?,
+        Some(Err(error)) => (None, None, tell_unplanned(&placed, error, true, told)?),
+        None => return Err(End::Failed("planning did not begin".to_owned())),
     };
-    match answering.answer(told, &mut watch) {
-        Ok(()) => {}
-        Err(End::Refused(refusal)) => {
-            let ms = watch.all();
-            told.line(&CellLine::Refused(&Refusal { ms, ..refusal }));
+    subject.remember(|| Latest {
+        text: changed.text,
+        scenario: placed.scenario,
+        plan,
+        certificate,
+        headline,
+    });
+    Ok(())
+}
+
+/// Tells what there is; `arm` is the id of the arm that the page has.
+fn tell_parts(placed: &Placed, arm: Option<&str>, told: &mut Told<'_>) {
+    let Placed {
+        scenario,
+        loaded,
+        layout,
+        job,
+    } = placed;
+    let view = View::of_job(job, &scenario.task_region());
+    let id = loaded.id.as_str();
+    let plates = &layout.plates;
+    told.step("show cell");
+    told.line(&CellLine::Cell(Box::new(CellParts {
+        heading: &view.heading,
+        arm: (arm != Some(id)).then_some(ArmLine { id, arm: &view.arm }),
+        arm_id: id,
+        tool: &view.tool,
+        surroundings: &view.surroundings,
+        plates: &view.plates,
+        centres_m: plates.iter().map(|plate| plate.centre_xy()).collect(),
+        radius_m: plates.iter().map(|plate| plate.rim_m()).collect(),
+        listed: scenario.lists_plates(),
+        moves: moves(scenario),
+        pose_rad: view.pose_rad,
+        findings: layout.findings.iter().map(FindingLine::from).collect(),
+        ms: told.ms(),
+    })));
+}
+
+/// Tells a guess; why none can be made, where that is so.
+fn tell_preview(placed: &Placed, told: &mut Told<'_>) -> Option<PlanError> {
+    let found = outlook(&placed.job, &Watch::silent(&told.gone));
+    told.step("preview");
+    let plates = match found {
+        Ok(found) => found.iter().map(PlateChance::from).collect(),
+        Err(error) => return Some(error),
+    };
+    told.line(&CellLine::Preview { plates, ms: told.ms() });
+    None
+}
+
+/// A plan, the proof of it, and the first line of what came of it.
+type Proved = (Option<Arc<Plan>>, Option<Arc<Certificate>>, String);
+
+/// Tells a plan, then its proof.
+fn tell_plan(placed: &Placed, planned: Planned, told: &mut Told<'_>) -> Result<Proved, End> {
+    let arm = &placed.loaded.arm;
+    let plan = planned.plan;
+    let view = View::of_plan(&plan, arm, &Beside::default()).map_err(|error| End::Failed(error.to_string()))?;
+    told.gone.check()?;
+    told.step("show plan");
+    told.line(&CellLine::Plan(Box::new(PlanParts {
+        heading: &view.heading,
+        headline: format!("planned, not proved yet: {:.2} s", plan.duration_s()),
+        paths: &view.paths,
+        segments: &view.segments,
+        motion: &view.motion,
+        clearance: &view.clearance,
+        coverage: &view.coverage,
+        ms: told.ms(),
+    })));
+    told.step("tell plan");
+    let certificate = prove_with(&plan, arm, &told.gone).map_err(Failure::from)?;
+    told.step("prove");
+    let shown = view::Certificate::new(&certificate);
+    let proved = view.coverage.iter().filter_map(|coverage| {
+        let at_least = coverage.proved_by(&certificate)?;
+        let plate = coverage.plate;
+        Some(PlateProof { plate, at_least })
+    });
+    told.line(&CellLine::Proof {
+        certificate: &shown,
+        headline: &shown.headline,
+        proved: proved.collect(),
+        ms: told.ms(),
+    });
+    let headline = certificate.headline.clone();
+    Ok((Some(plan.into()), Some(certificate.into()), headline))
+}
+
+/// Tells why a job was not planned and, where that is wanted, where each plate that stands in the way could lie; the first line of it.
+fn tell_unplanned(placed: &Placed, error: PlanError, is_wanted: bool, told: &mut Told<'_>) -> Result<String, End> {
+    let scenario = &placed.scenario;
+    let Some(report) = InfeasibleReport::new(&scenario.name, scenario.seed, &error) else {
+        return Err(error.into());
+    };
+    let report = report.explained(reason(error));
+    let gone = told.gone.clone();
+    let planning = Watch::silent(&gone);
+    let plates = match is_wanted {
+        true => unwashable_plates(&placed.job, &planning),
+        false => Ok(Vec::new()),
+    };
+    // Where a plate cannot be looked into, as where the arm is not clear at home, the report says why.
+    let plates = match plates {
+        Err(PlanError::Cancelled(_)) => return Err(End::GivenUp),
+        other => other.unwrap_or_default(),
+    };
+    told.step("explain");
+    let mut shown: Vec<_> = plates.iter().map(Unwashable::from).collect();
+    for of_report in &report.plates {
+        if shown.iter().all(|plate| plate.plate != of_report.plate) {
+            shown.push(Unwashable::reached_in_vain(of_report.plate, &report.reason));
         }
-        Err(End::GivenUp) if deadline.is_missed() => told.line(&CellLine::Failed {
-            words: "this cell takes longer than a minute to plan and prove; `platewash run` takes its time",
+    }
+    shown.sort_by_key(|plate| plate.plate);
+    told.line(&CellLine::Unplanned {
+        headline: &report.headline,
+        reason: &report.reason,
+        proved: report.verdict == Verdict::Infeasible,
+        plates: &shown,
+        ms: told.ms(),
+    });
+    for plate in plates.iter().map(|plate| plate.plate) {
+        let nearest_m = nearest_place(&placed.job, plate, &planning)?;
+        told.step("place elsewhere");
+        told.line(&CellLine::Place {
+            plate,
+            nearest_m,
+            searched_m: SEARCHED_M,
+            ms: told.ms(),
+        });
+    }
+    Ok(report.headline)
+}
+
+/// Answers a question for a map: where a plate could be washed, told as it is found.
+pub fn map(subject: &Subject, question: &MapQuestion, told: &mut Told<'_>, deadline: &Deadline) {
+    let answered = told_map(subject, question, told);
+    told.step("map");
+    match answered {
+        Ok(()) => told.line(&MapLine::MapDone {
+            words: MEANING,
+            ms: told.ms(),
         }),
-        Err(End::GivenUp) => told.line(&CellLine::Superseded),
-        Err(End::Failed(words)) => told.line(&CellLine::Failed { words: &words }),
+        Err(end) => {
+            let too_long = "the map was not finished within two minutes: what is drawn is what was looked at";
+            told.end(&end, deadline, too_long);
+        }
     }
 }
 
-struct Answering<'a> {
-    subject: &'a Subject,
-    question: &'a CellQuestion,
-    gone: &'a CancelToken,
+fn told_map(subject: &Subject, question: &MapQuestion, told: &mut Told<'_>) -> Result<(), End> {
+    let gone = told.gone.clone();
+    let scenario = changed(subject, &question.text, &[], &gone)?.scenario?;
+    let placed = placed(subject, scenario, &gone)?;
+    let (plate, count) = (question.plate, placed.layout.plates.len());
+    if plate >= count {
+        return Err(plain(format!(
+            "there is no plate {plate}: the cell has {count}, counted from 0"
+        ))
+        .into());
+    }
+    let mut tell = |patch: MapPatch| {
+        told.line(&MapLine::Map {
+            step_m: patch.step_m,
+            washable_m: &patch.washable_m,
+            unwashable_m: &patch.unwashable_m,
+            done: patch.done,
+            of: patch.of,
+        });
+    };
+    let area = MapArea::within_reach(&placed.job, plate)?;
+    washable_map(&placed.job, plate, &area, &mut tell, &Watch::silent(&gone))?;
+    Ok(())
 }
 
-impl Answering<'_> {
-    fn answer(&self, told: &mut Told<'_>, watch: &mut Stopwatch) -> Result<(), End> {
-        let changed = changed(self.subject, &self.question.text, &self.question.edits, self.gone)?;
-        watch.step("read");
-        told.line(&CellLine::Scenario {
-            text: &changed.text,
-            stated: &changed.stated,
-            values: &changed.values,
-            ms: watch.all(),
-        });
-        let placed = placed(self.subject, changed.scenario?, self.gone)?;
-        watch.step("place");
-        self.tell_cell(&placed, told, watch);
-        match self.question.want {
-            Want::Preview => self.tell_preview(&placed, told, watch),
-            Want::Proof => self.tell_all(&placed, &changed.text, told, watch),
+/// Why there is no plan, without another place for a plate: that is told behind it.
+fn reason(error: PlanError) -> String {
+    match error {
+        PlanError::Unwashable(plate) => plate.why().to_string(),
+        other => Failure::from(other).to_string(),
+    }
+}
+
+impl From<&UnwashablePlate> for Unwashable {
+    fn from(plate: &UnwashablePlate) -> Self {
+        Self {
+            plate: plate.plate,
+            proved: plate.conclusion.is_proved(),
+            words: plate.why().to_string(),
+            causes: plate.causes.iter().map(|cause| cause.words(plate.conclusion)).collect(),
+            share: plate.share,
+            free_m: plate.free_m.clone(),
+            dead_m: plate.dead_m.clone(),
         }
     }
+}
 
-    /// A guess; where none can be made, as where the arm is not clear at home, why.
-    fn tell_preview(&self, placed: &Placed, told: &mut Told<'_>, watch: &mut Stopwatch) -> Result<(), End> {
-        let found = outlook(&placed.job, &Watch::silent(self.gone));
-        watch.step("preview");
-        match found {
-            Ok(found) => {
-                told.line(&CellLine::Preview {
-                    plates: found.iter().map(PlateChance::from).collect(),
-                    ms: watch.all(),
-                });
-                Ok(())
-            }
-            Err(error) if self.question.want == Want::Preview => {
-                unplanned::tell(placed, error, false, told, watch, self.gone).map(|_| ())
-            }
-            // Planning says it.
-            Err(_) => Ok(()),
+impl Unwashable {
+    /// A plate that could be washed if the arm got there and away.
+    fn reached_in_vain(plate: usize, reason: &str) -> Self {
+        Self {
+            plate,
+            proved: false,
+            words: reason.to_owned(),
+            causes: Vec::new(),
+            share: None,
+            free_m: Vec::new(),
+            dead_m: Vec::new(),
         }
-    }
-
-    /// The guess while it is planned, then the plan, then its proof.
-    fn tell_all(&self, placed: &Placed, text: &str, told: &mut Told<'_>, watch: &mut Stopwatch) -> Result<(), End> {
-        let mut planned = None;
-        let previewed = rayon::in_place_scope(|scope| {
-            scope.spawn(|_| planned = Some(plan_here(&placed.job, &Watch::silent(self.gone))));
-            self.tell_preview(placed, told, watch)
-        });
-        previewed?;
-        watch.step("plan");
-        match planned {
-            Some(Ok(planned)) => self.tell_plan(placed, text, planned, told, watch),
-            Some(Err(error)) => self.unplanned(placed, text, error, told, watch),
-            None => Err(End::Failed("planning did not begin".to_owned())),
-        }
-    }
-
-    fn tell_cell(&self, placed: &Placed, told: &mut Told<'_>, watch: &mut Stopwatch) {
-        let Placed {
-            scenario,
-            loaded,
-            layout,
-            job,
-        } = placed;
-        let view = View::of_job(job, &scenario.task_region());
-        let id = loaded.id.as_str();
-        let is_new = self.question.arm.as_deref() != Some(id);
-        let plates = &layout.plates;
-        watch.step("show cell");
-        told.line(&CellLine::Cell(Box::new(CellParts {
-            heading: &view.heading,
-            arm: is_new.then_some(ArmLine { id, arm: &view.arm }),
-            arm_id: id,
-            tool: &view.tool,
-            surroundings: &view.surroundings,
-            plates: &view.plates,
-            centres_m: plates.iter().map(|plate| plate.centre_xy()).collect(),
-            radius_m: plates.iter().map(|plate| plate.rim_m()).collect(),
-            listed: scenario.lists_plates(),
-            moves: moves(scenario),
-            pose_rad: view.pose_rad,
-            findings: layout.findings.iter().map(FindingLine::from).collect(),
-            ms: watch.all(),
-        })));
-    }
-
-    fn tell_plan(
-        &self,
-        placed: &Placed,
-        text: &str,
-        planned: Planned,
-        told: &mut Told<'_>,
-        watch: &mut Stopwatch,
-    ) -> Result<(), End> {
-        let arm = &placed.loaded.arm;
-        let plan = Arc::new(planned.plan);
-        let view = View::of_plan(&plan, arm, &Beside::default()).map_err(|error| End::Failed(error.to_string()))?;
-        self.gone.check()?;
-        watch.step("show plan");
-        told.line(&CellLine::Plan(Box::new(PlanParts {
-            heading: &view.heading,
-            headline: format!("planned, not proved yet: {:.2} s", plan.duration_s()),
-            paths: &view.paths,
-            segments: &view.segments,
-            motion: &view.motion,
-            clearance: &view.clearance,
-            coverage: &view.coverage,
-            ms: watch.all(),
-        })));
-        watch.step("tell plan");
-        let certificate = prove_with(&plan, arm, self.gone).map_err(Failure::from)?;
-        watch.step("prove");
-        let shown = Certificate::new(&certificate);
-        let proved = view.coverage.iter().filter_map(|coverage| {
-            let at_least = coverage.proved_by(&certificate)?;
-            let plate = coverage.plate;
-            Some(PlateProof { plate, at_least })
-        });
-        told.line(&CellLine::Proof {
-            certificate: &shown,
-            headline: &shown.headline,
-            proved: proved.collect(),
-            ms: watch.all(),
-        });
-        self.subject.remember(|| Latest {
-            text: text.to_owned(),
-            scenario: placed.scenario.clone(),
-            plan: Some(plan),
-            headline: certificate.headline.clone(),
-            certificate: Some(Arc::new(certificate)),
-        });
-        Ok(())
-    }
-
-    fn unplanned(
-        &self,
-        placed: &Placed,
-        text: &str,
-        error: PlanError,
-        told: &mut Told<'_>,
-        watch: &mut Stopwatch,
-    ) -> Result<(), End> {
-        let headline = unplanned::tell(placed, error, true, told, watch, self.gone)?;
-        self.subject.remember(|| Latest {
-            text: text.to_owned(),
-            scenario: placed.scenario.clone(),
-            plan: None,
-            certificate: None,
-            headline,
-        });
-        Ok(())
     }
 }
 

@@ -1,30 +1,49 @@
-//! What is edited, and who answers the page's questions.
+//! An editor: who answers the page's questions, what the page is given to begin with, and the page's server.
 
-use crate::bounds::{LONGEST, LONGEST_MAP};
-use crate::document::{Channel, EditDocument};
-use crate::draft::{accepted, may_name_its_files, stated};
-use crate::error::EditorError;
-use crate::keep::{Keeper, Kept};
-use crate::protocol::{CellLine, CellQuestion, DiskQuestion, MapQuestion, SaveQuestion, Want};
+use crate::cell;
+use crate::keep::{Keeper, Kept, Standing};
+use crate::protocol::{CellQuestion, DiskQuestion, FORMAT, MapQuestion, SaveQuestion, Want};
 use crate::sessions::{Lane, Sessions, Turn, is_name};
-use crate::subject::{Latest, Subject};
+use crate::subject::{
+    LONGEST, LONGEST_MAP, Latest, MOST_QUESTION_BYTES, Subject, accepted, may_name_its_files, stated,
+};
 use crate::told::Told;
-use crate::{cell, map};
 use platewash_kinematics::JointVector;
-use platewash_scenario::{Draft, Scenario, source};
+use platewash_scenario::{Draft, FormKey, Scenario, ScenarioError, form, source};
 use platewash_viewer::bundle::Bundle;
-use platewash_viewer::page;
+use platewash_viewer::page::{self, PageError};
+use platewash_viewer::server::{Asked, Gone, Page, Service, Site, token};
 use platewash_viewer::view::View;
-use platewash_workcell::cancel::{CancelToken, Deadline};
-use serde::Deserialize;
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::cancel::Deadline;
+use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::sync::Arc;
+
+/// Why there is nothing to edit.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum EditorError {
+    /// The scenario cannot be read.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// It cannot be carried out so far that there is anything to show.
+    #[error(transparent)]
+    Failure(#[from] platewash_scenario::Failure),
+    /// The page cannot be made.
+    #[error(transparent)]
+    Page(#[from] PageError),
+    /// The system gives no random numbers for a token.
+    #[error("no token can be made: {0}")]
+    Token(String),
+}
 
 /// A scenario that is edited. It holds no state of a page but what is under way: the page holds the scenario.
 #[derive(Debug)]
 pub struct Editor {
     subject: Subject,
-    pub(crate) kept: Option<Kept>,
+    kept: Option<Kept>,
     sessions: Sessions,
 }
 
@@ -107,7 +126,7 @@ impl Editor {
     }
 
     /// A page of the scenario as `text` has it, or as it was opened where that is none.
-    pub(crate) fn page(&self, channel: Channel, text: &str, bundle: &Bundle) -> Result<String, EditorError> {
+    fn page(&self, channel: Channel, text: &str, bundle: &Bundle) -> Result<String, EditorError> {
         let edit = EditDocument::new(channel, text, self.kept.as_ref());
         let view = self.view(text)?;
         Ok(page::html_with(&view, &edit, bundle)?)
@@ -139,7 +158,7 @@ impl Editor {
             // Its message is on standard error.
             Err(_) => "a fault of the program: see the terminal that it runs in".to_owned(),
         };
-        told.line(&CellLine::Failed { words: &words });
+        told.failed(&words);
     }
 
     fn answer_told(&self, path: &str, question: &[u8], told: &mut Told<'_>, gone: &CancelToken) -> Result<(), String> {
@@ -152,13 +171,13 @@ impl Editor {
                 };
                 let _turn = self.turn(&question.session, lane, gone)?;
                 let deadline = Deadline::after(LONGEST, gone);
-                cell::answer(&self.subject, &question, told, gone, &deadline);
+                cell::answer(&self.subject, &question, told, &deadline);
             }
             ("/map", _) => {
                 let question: MapQuestion = read(question)?;
                 let _turn = self.turn(&question.session, Lane::Map, gone)?;
                 let deadline = Deadline::after(LONGEST_MAP, gone);
-                map::answer(&self.subject, &question, told, gone, &deadline);
+                cell::map(&self.subject, &question, told, &deadline);
             }
             ("/save", Some(kept)) => {
                 let question: SaveQuestion = read(question)?;
@@ -212,4 +231,109 @@ fn named(session: &str) -> Result<(), String> {
 
 fn read<'a, Q: Deserialize<'a>>(question: &'a [u8]) -> Result<Q, String> {
     serde_json::from_slice(question).map_err(|error| format!("the question is none: {error}"))
+}
+
+/// Where the page's questions go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+enum Channel {
+    /// To the page's own address.
+    Server,
+    /// To the window around it, by messages.
+    Frame,
+}
+
+/// The block.
+#[derive(Debug, Serialize)]
+struct EditDocument<'a> {
+    format: &'static str,
+    channel: Channel,
+    file: Option<String>,
+    disk: Option<String>,
+    saved: Option<String>,
+    text: &'a str,
+    keys: Vec<FormKey>,
+}
+
+impl<'a> EditDocument<'a> {
+    /// Of a scenario, and the file that it is saved in.
+    fn new(channel: Channel, text: &'a str, kept: Option<&Kept>) -> Self {
+        let standing = kept.and_then(|kept| kept.standing().ok());
+        Self {
+            format: FORMAT,
+            channel,
+            file: kept.map(Kept::file),
+            disk: standing.as_ref().and_then(Standing::hash),
+            saved: standing.and_then(Standing::into_text),
+            text,
+            keys: form(),
+        }
+    }
+}
+
+/// Longest question about the disk \[bytes\].
+const MOST_SHORT_BYTES: usize = 1 << 10;
+
+/// An editor, its page and its token.
+#[derive(Debug)]
+struct Served {
+    editor: Editor,
+    bundle: Bundle,
+    token: String,
+}
+
+/// The site of an editor: its page, made anew for each who opens it, and its answers. Whoever opens the page sees the scenario; who asks a
+/// question needs the token, which the page takes from its address ([`Service::token`]).
+///
+/// # Errors
+/// [`EditorError::Token`], and [`EditorError`] for a page that cannot be made.
+pub fn site(editor: Editor, bundle: Bundle) -> Result<Site, EditorError> {
+    let token = token().map_err(|error| EditorError::Token(error.to_string()))?;
+    let served = Arc::new(Served { editor, bundle, token });
+    // Found out now, not when somebody looks at it.
+    served.page()?;
+    let pages = served.clone();
+    let page = Page::Made(Box::new(move || pages.page().map_err(Into::into)));
+    Ok(Site {
+        service: Some(served),
+        ..Site::of(page)
+    })
+}
+
+impl Served {
+    /// The page of what stands on disk; of the scenario as it was opened where nothing does, or nothing that is one.
+    fn page(&self) -> Result<String, EditorError> {
+        let on_disk = self.editor.kept.as_ref().and_then(Kept::scenario);
+        let text = on_disk.as_deref().unwrap_or(self.editor.text());
+        self.editor.page(Channel::Server, text, &self.bundle)
+    }
+}
+
+impl Service for Served {
+    fn knows(&self, path: &str) -> Option<Asked> {
+        let asked = |is_work, most_bytes| Some(Asked { is_work, most_bytes });
+        match path {
+            "/cell" | "/map" | "/save" => asked(true, MOST_QUESTION_BYTES),
+            "/disk" | "/hello" => asked(false, MOST_SHORT_BYTES),
+            _ => None,
+        }
+    }
+
+    fn answer(
+        &self,
+        path: &str,
+        question: &[u8],
+        tell: &mut dyn FnMut(String) -> Result<(), Gone>,
+        gone: &CancelToken,
+    ) {
+        let mut tell = |line| tell(line).is_ok();
+        match (path, &self.editor.kept) {
+            ("/hello", Some(kept)) => kept.greet(&mut Told::new(&mut tell, gone)),
+            _ => self.editor.answer(path, question, &mut tell, gone),
+        }
+    }
+
+    fn token(&self) -> &str {
+        &self.token
+    }
 }

@@ -169,10 +169,9 @@ impl Kept {
         cancel: &CancelToken,
     ) {
         let _one = self.one_at_a_time.lock().unwrap_or_else(PoisonError::into_inner);
-        let failed = |told: &mut Told<'_>, words: &str| told.line(&SaveLine::Failed { words });
         let standing = match self.standing() {
             Ok(standing) => standing,
-            Err(words) => return failed(told, &words),
+            Err(words) => return told.failed(&words),
         };
         let hash = standing.hash();
         // What is there already needs no asking.
@@ -191,9 +190,9 @@ impl Kept {
             }),
             Err(NotWritten::Changed) => match self.standing() {
                 Ok(now) => told_conflict(&now, told),
-                Err(words) => failed(told, &words),
+                Err(words) => told.failed(&words),
             },
-            Err(NotWritten::Cannot(words)) => failed(told, &words),
+            Err(NotWritten::Cannot(words)) => told.failed(&words),
         }
     }
 

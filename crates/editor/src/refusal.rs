@@ -1,7 +1,6 @@
 //! Why a scenario is refused, with the key and the line at fault.
 
 use crate::protocol::Refusal;
-use crate::stopwatch::Milliseconds;
 use platewash_scenario::keys::KEYS;
 use platewash_scenario::{EditError, Failure, ScenarioError};
 
@@ -68,6 +67,5 @@ pub fn plain(words: String) -> Refusal {
         words,
         key: None,
         line: None,
-        ms: Milliseconds::default(),
     }
 }

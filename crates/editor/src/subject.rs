@@ -1,12 +1,50 @@
-//! What is edited: a scenario as it was opened, what questions about it may name, and what came last of them.
+//! What is edited: a scenario as it was opened, what a question makes of it, how much work that may be, and what came last.
 
-use crate::arms::Arms;
+use crate::protocol::{Edit, Refusal};
+use crate::refusal::{about, at, of_edit, of_scenario, plain};
+use crate::told::End;
 use platewash_certificate::Certificate;
-use platewash_scenario::{Draft, Scenario, Solids};
+use platewash_kinematics::RobotModel;
+use platewash_kinematics::fingerprint::sha256_hex;
+use platewash_planner::Watch;
+use platewash_scenario::{Draft, Failure, Program, Scenario, Solids, values_of};
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::job::WashJob;
+use platewash_workcell::layout::Layout;
 use platewash_workcell::plan::Plan;
-use std::collections::HashSet;
+use platewash_workcell::words::counted;
+use serde_json::Value;
+use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, SystemTime};
+
+/// Longest question \[bytes\]: a scenario of the largest size, with all its characters escaped.
+pub const MOST_QUESTION_BYTES: usize = 2 << 20;
+
+/// Contact points of all wash paths together, at most. Memory and time of a plan and its proof grow with them.
+pub const MOST_CONTACT_POINTS: usize = 60_000;
+
+/// Changes of one question, at most.
+pub const MOST_EDITS: usize = 1000;
+
+/// How long a question may take to its proof.
+pub const LONGEST: Duration = Duration::from_secs(60);
+
+/// How long a map may take.
+pub const LONGEST_MAP: Duration = Duration::from_secs(120);
+
+/// Why a scenario is too much work for a page that waits; `None` where it is not.
+pub fn too_much(scenario: &Scenario) -> Option<String> {
+    let points = scenario.contact_points();
+    (points > MOST_CONTACT_POINTS).then(|| {
+        format!(
+            "layout.count or positions_m, wash.turns, wash.path_radius_m: {} have {points} contact points in all; up to \
+             {MOST_CONTACT_POINTS} are planned while you wait (`platewash run` plans more)",
+            counted(scenario.plates(), "plate")
+        )
+    })
+}
 
 /// What is edited.
 #[derive(Debug, Default)]
@@ -78,4 +116,163 @@ impl Subject {
         let named: HashSet<&Path> = opened.iter().flat_map(Scenario::files).collect();
         scenario.files().all(|path| named.contains(path))
     }
+}
+
+/// A text with its changes.
+pub struct Changed {
+    /// The text.
+    pub text: String,
+    /// What it states.
+    pub stated: BTreeMap<String, Value>,
+    /// What counts; empty where it is no scenario.
+    pub values: BTreeMap<String, Value>,
+    /// The scenario, or why it is none.
+    pub scenario: Result<Scenario, Refusal>,
+}
+
+/// Changes a text.
+///
+/// # Errors
+/// [`End`]: it is no TOML, a change is none, or it is given up.
+pub fn changed(subject: &Subject, text: &str, edits: &[Edit], cancel: &CancelToken) -> Result<Changed, End> {
+    if edits.len() > MOST_EDITS {
+        let words = format!("{} changes at once; at most {MOST_EDITS} are made", edits.len());
+        return Err(plain(words).into());
+    }
+    let mut draft = Draft::new(text).map_err(|error| of_scenario(&error))?;
+    for edit in edits {
+        cancel.check()?;
+        let set = draft.set(&edit.key, edit.value.as_ref());
+        set.map_err(|error| of_edit(&edit.key, &error))?;
+    }
+    let stated = draft.stated();
+    // Paths are shown as they stand.
+    let values = draft
+        .scenario(&subject.name, None)
+        .as_ref()
+        .map(values_of)
+        .unwrap_or_default();
+    let scenario = in_folder(subject, &draft);
+    Ok(Changed {
+        text: draft.text().to_owned(),
+        stated,
+        values,
+        scenario: scenario.and_then(|scenario| accepted(subject, scenario)),
+    })
+}
+
+/// The scenario that a text states, its paths found from the scenario's folder; not one yet that a page may ask for.
+pub fn stated(subject: &Subject, text: &str) -> Result<Scenario, Refusal> {
+    let draft = Draft::new(text).map_err(|error| of_scenario(&error))?;
+    in_folder(subject, &draft)
+}
+
+fn in_folder(subject: &Subject, draft: &Draft) -> Result<Scenario, Refusal> {
+    let scenario = draft.scenario(&subject.name, subject.folder.as_deref());
+    let mut scenario = scenario.map_err(|error| of_scenario(&error))?;
+    scenario.solids = subject.solids.clone();
+    Ok(scenario)
+}
+
+/// A scenario that a page may ask for.
+pub fn accepted(subject: &Subject, scenario: Scenario) -> Result<Scenario, Refusal> {
+    if scenario.job.program == Program::Paper {
+        let words = "job.program = \"paper\": the paper's program moves from waypoint to waypoint, and nothing of it is proved; set it to \
+                     \"certified\" (its wash.height_m to 0) for a plan with its proof, or look at it with `platewash run`";
+        return Err(at("job.program", words));
+    }
+    may_name_its_files(subject, &scenario)?;
+    match too_much(&scenario) {
+        Some(words) => Err(about(words)),
+        None => Ok(scenario),
+    }
+}
+
+/// Refuses files that a page which other machines can reach may not name.
+pub fn may_name_its_files(subject: &Subject, scenario: &Scenario) -> Result<(), Refusal> {
+    if !subject.may_name_files() && !subject.names_all_of(scenario) {
+        let words = "robot.urdf, robot.srdf, robot.package_path, meshes: a page that other machines can reach names no files but those of \
+                     the scenario on disk; change them there";
+        return Err(at("robot.urdf", words));
+    }
+    Ok(())
+}
+
+/// Arms that are kept.
+const KEPT: usize = 4;
+
+/// Arms by what decides them.
+#[derive(Debug, Default)]
+pub struct Arms {
+    kept: Mutex<Vec<Loaded>>,
+}
+
+/// An arm, and an id of its description.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// The id: another one wherever another arm may come of it.
+    pub id: String,
+    /// The arm.
+    pub arm: Arc<RobotModel>,
+}
+
+impl Arms {
+    /// The arm of a scenario.
+    pub fn of(&self, scenario: &Scenario) -> Result<Loaded, Failure> {
+        let id = id(scenario);
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(at) = kept.iter().position(|loaded| loaded.id == id) {
+            let loaded = kept.remove(at);
+            kept.push(loaded.clone());
+            return Ok(loaded);
+        }
+        drop(kept);
+        let arm = scenario.arm()?;
+        let loaded = Loaded { id, arm };
+        kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.push(loaded.clone());
+        if kept.len() > KEPT {
+            kept.remove(0);
+        }
+        Ok(loaded)
+    }
+}
+
+/// What decides an arm: what the scenario names, and when those files were last written; the accelerations are shown with it.
+fn id(scenario: &Scenario) -> String {
+    let robot = &scenario.robot;
+    let written = [&robot.urdf, &robot.srdf].map(|path| path.as_deref().and_then(written));
+    let named = (robot.model, &robot.urdf, &robot.srdf, &robot.package_path);
+    let shown = scenario.limits.joint_acceleration_rad_s2;
+    sha256_hex(format!("{named:?} {written:?} {shown:?}").as_bytes())
+}
+
+fn written(path: &Path) -> Option<(SystemTime, u64)> {
+    let file = path.metadata().ok()?;
+    Some((file.modified().ok()?, file.len()))
+}
+
+/// A job, and what its scenario says beside it.
+pub struct Placed {
+    /// The scenario.
+    pub scenario: Scenario,
+    /// The arm.
+    pub loaded: Loaded,
+    /// The plates, and what is to be said about them.
+    pub layout: Layout,
+    /// The job.
+    pub job: WashJob,
+}
+
+/// The job of a scenario.
+pub fn placed(subject: &Subject, scenario: Scenario, cancel: &CancelToken) -> Result<Placed, End> {
+    let loaded = subject.arms.of(&scenario)?;
+    let layout = scenario.place(&loaded.arm, &Watch::silent(cancel))?;
+    let job = scenario.job_on(&loaded.arm, &layout)?;
+    Ok(Placed {
+        scenario,
+        loaded,
+        layout,
+        job,
+    })
 }

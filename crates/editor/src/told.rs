@@ -1,21 +1,37 @@
-//! Lines on their way to the page.
+//! An answer on its way to the page, line by line, and how it ends.
 
-use platewash_workcell::cancel::CancelToken;
+use crate::protocol::{EndLine, Refusal};
+use crate::refusal::of_failure;
+use platewash_planner::PlanError;
+use platewash_scenario::Failure;
+use platewash_workcell::cancel::Deadline;
+use platewash_workcell::cancel::{CancelToken, Cancelled};
 use serde::Serialize;
+use std::collections::BTreeMap;
+use std::time::Instant;
 
-/// Takes lines as long as somebody listens.
+/// Time that steps took, by their names \[ms\].
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Milliseconds(BTreeMap<&'static str, f64>);
+
+/// An answer: lines, as long as somebody listens, and how long the steps to them took.
 pub struct Told<'a> {
     tell: &'a mut dyn FnMut(String) -> bool,
-    /// Cancelled once nobody does.
-    gone: CancelToken,
+    /// Cancelled once nobody listens any more, or the work shall end for another reason.
+    pub gone: CancelToken,
+    since: Instant,
+    took: Milliseconds,
 }
 
 impl<'a> Told<'a> {
-    /// Lines go to `tell`, which says whether anybody listens.
+    /// Lines go to `tell`, which says whether anybody listens. The first step begins now.
     pub fn new(tell: &'a mut dyn FnMut(String) -> bool, gone: &CancelToken) -> Self {
         Self {
             tell,
             gone: gone.clone(),
+            since: Instant::now(),
+            took: Milliseconds::default(),
         }
     }
 
@@ -26,5 +42,72 @@ impl<'a> Told<'a> {
         if !(self.tell)(text) {
             self.gone.cancel();
         }
+    }
+
+    /// A step ends here, the next one begins.
+    pub fn step(&mut self, name: &'static str) {
+        let now = Instant::now();
+        let took_ms = 1e3 * (now - self.since).as_secs_f64();
+        // Hundredths are as fine as anybody looks.
+        self.took.0.insert(name, (100.0 * took_ms).round() / 100.0);
+        self.since = now;
+    }
+
+    /// All steps up to now.
+    pub fn ms(&self) -> Milliseconds {
+        self.took.clone()
+    }
+
+    /// Tells that something is wrong.
+    pub fn failed(&mut self, words: &str) {
+        self.line(&EndLine::Failed { words });
+    }
+
+    /// Tells why an answer ends; `too_long` are the words where that is for its deadline.
+    pub fn end(&mut self, end: &End, deadline: &Deadline, too_long: &str) {
+        let ms = self.ms();
+        match end {
+            End::Refused(refusal) => self.line(&EndLine::Refused { refusal, ms }),
+            End::GivenUp if deadline.is_missed() => self.failed(too_long),
+            End::GivenUp => self.line(&EndLine::Superseded),
+            End::Failed(words) => self.failed(words),
+        }
+    }
+}
+
+/// Why an answer ends before its end.
+pub enum End {
+    /// The scenario is none, or states no job.
+    Refused(Refusal),
+    /// A later question came, or it takes too long.
+    GivenUp,
+    /// A fault of the program.
+    Failed(String),
+}
+
+impl From<Refusal> for End {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refused(refusal)
+    }
+}
+
+impl From<Failure> for End {
+    fn from(failure: Failure) -> Self {
+        match failure.is_cancelled() {
+            true => Self::GivenUp,
+            false => Self::Refused(of_failure(&failure)),
+        }
+    }
+}
+
+impl From<PlanError> for End {
+    fn from(error: PlanError) -> Self {
+        Failure::from(error).into()
+    }
+}
+
+impl From<Cancelled> for End {
+    fn from(_: Cancelled) -> Self {
+        Self::GivenUp
     }
 }

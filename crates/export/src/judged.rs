@@ -30,13 +30,15 @@ pub struct Judged {
 }
 
 /// What came of a program under one assumption.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Case {
     /// Size of its corners relative to what the program says; `None` where it has none.
     pub corner_scale: Option<f64>,
     /// What is proved.
+    #[serde(skip)]
     pub proof: ProgramProof,
     /// What the controller is asked for.
+    #[serde(flatten)]
     pub asked: Asked,
 }
 

@@ -12,6 +12,7 @@ use crate::workcell::{Exclusion, ExclusionReason, Obstacle};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
+use serde::Serialize;
 use std::fmt::Write;
 
 /// Configurations sampled to find pairs that always touch.
@@ -150,7 +151,7 @@ fn spread(robot: &RobotModel, k: usize) -> JointVector {
 }
 
 /// Pairs of links that need no check, as they are left out of an arm without an SRDF.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct TouchingPairs {
     /// Those whose links share a joint.
     pub neighbours: Vec<[String; 2]>,

@@ -1,15 +1,90 @@
-//! What the page is told.
+//! Questions of the page and lines of answers, as JSON: `platewash-edit/1`.
 
-use crate::stopwatch::Milliseconds;
+use crate::told::Milliseconds;
 use platewash_planner::Chance;
 use platewash_viewer::view;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::trajectory::PlanSegment;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// A line of the answer to a [`super::CellQuestion`].
+/// The format of the words.
+pub const FORMAT: &str = "platewash-edit/1";
+
+/// What the scenario with some changes looks like, planned and proved.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CellQuestion {
+    /// The page that asks.
+    pub session: String,
+    /// The scenario.
+    pub text: String,
+    /// Changes to it, in order.
+    pub edits: Vec<Edit>,
+    /// How far to go.
+    pub want: Want,
+    /// Id of the arm that the page has.
+    pub arm: Option<String>,
+}
+
+/// A change to a scenario.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Edit {
+    /// The key.
+    pub key: String,
+    /// Its new value; `None` takes it out.
+    pub value: Option<Value>,
+}
+
+/// How far to go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Want {
+    /// To the guess.
+    Preview,
+    /// To the proof.
+    Proof,
+}
+
+/// Where a plate could be washed, the others as they lie.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MapQuestion {
+    /// The page that asks.
+    pub session: String,
+    /// The scenario.
+    pub text: String,
+    /// The plate.
+    pub plate: usize,
+}
+
+/// To write the scenario, and what comes of it beside it.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SaveQuestion {
+    /// The page that asks.
+    pub session: String,
+    /// The scenario.
+    pub text: String,
+    /// SHA-256 of what the page takes to stand on disk; `None` for nothing.
+    pub disk: Option<String>,
+    /// Whether to write whatever stands there.
+    pub force: bool,
+}
+
+/// Whether what stands on disk has changed.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DiskQuestion {
+    /// The page that asks.
+    pub session: String,
+    /// SHA-256 of what the page takes to stand there.
+    pub disk: Option<String>,
+}
+
+/// A line of the answer to a [`CellQuestion`].
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum CellLine<'a> {
@@ -24,8 +99,6 @@ pub enum CellLine<'a> {
         /// How long it took.
         ms: Milliseconds,
     },
-    /// It is no scenario, or states no job; nothing follows.
-    Refused(&'a Refusal),
     /// What there is before anything is planned.
     Cell(Box<CellParts<'a>>),
     /// A guess, plate by plate.
@@ -72,9 +145,23 @@ pub enum CellLine<'a> {
         /// How long it took.
         ms: Milliseconds,
     },
-    /// A later question of the same page came; nothing follows.
+}
+
+/// The end of an answer before all is told; nothing follows.
+#[derive(Debug, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum EndLine<'a> {
+    /// It is no scenario, or states no job, or not what is asked about.
+    Refused {
+        /// Why.
+        #[serde(flatten)]
+        refusal: &'a Refusal,
+        /// How long it took.
+        ms: Milliseconds,
+    },
+    /// A later question of the same page came.
     Superseded,
-    /// Too much work, or a fault of the program; nothing follows.
+    /// Too much work, a file that cannot be written, or a fault of the program.
     Failed {
         /// What is wrong.
         words: &'a str,
@@ -90,8 +177,6 @@ pub struct Refusal {
     pub key: Option<String>,
     /// Its line in the text, from 1.
     pub line: Option<usize>,
-    /// How long it took.
-    pub ms: Milliseconds,
 }
 
 /// What there is before anything is planned.
@@ -245,7 +330,7 @@ pub struct Unwashable {
     pub dead_m: Vec<[f64; 3]>,
 }
 
-/// A line of the answer to a [`super::MapQuestion`].
+/// A line of the answer to a [`MapQuestion`].
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum MapLine<'a> {
@@ -269,18 +354,9 @@ pub enum MapLine<'a> {
         /// How long it took.
         ms: Milliseconds,
     },
-    /// There is no such plate, or no job; nothing follows.
-    Refused(&'a Refusal),
-    /// A later question of the same page came; nothing follows.
-    Superseded,
-    /// Too much work, or a fault of the program; nothing follows.
-    Failed {
-        /// What is wrong.
-        words: &'a str,
-    },
 }
 
-/// The answer to a [`super::SaveQuestion`].
+/// The answer to a [`SaveQuestion`].
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum SaveLine<'a> {
@@ -304,14 +380,9 @@ pub enum SaveLine<'a> {
         /// What is wrong.
         words: &'a str,
     },
-    /// It was not written.
-    Failed {
-        /// What is wrong.
-        words: &'a str,
-    },
 }
 
-/// The answer to a [`super::DiskQuestion`].
+/// The answer to a [`DiskQuestion`].
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename = "disk")]
 pub struct DiskLine<'a> {
@@ -327,7 +398,7 @@ pub struct DiskLine<'a> {
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename = "hello")]
 pub struct HelloLine<'a> {
-    /// [`super::FORMAT`].
+    /// [`FORMAT`].
     pub format: &'a str,
     /// Where it is saved.
     pub file: Option<&'a str>,

@@ -1,0 +1,265 @@
+//! Files that appear whole or not at all, and what belongs to whom in the folders that they go to.
+
+use super::options::Options;
+use super::output::{Reader, json, whole};
+use anyhow::{Context, Result, bail};
+use platewash::CancelToken;
+use platewash::workcell::atomic_file::{FolderLock, StagedFile, folder_of};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::ffi::{OsStr, OsString};
+use std::fmt::Display;
+use std::io::{BufWriter, ErrorKind, IntoInnerError, Write};
+use std::path::{Component, Path, PathBuf};
+
+/// Names in the output folder that belong to `run`, the first six, and to `plan`, and those that `simulate` writes of a plan there: so
+/// no proof of an earlier call stays beside a new result.
+pub const RESULTS: [&str; 10] = [
+    "plan.json",
+    "executed.csv",
+    "certificate.json",
+    "report.json",
+    "report.txt",
+    "page.html",
+    "trajectory.csv",
+    "simulated.csv",
+    "simulation.json",
+    "simulation.txt",
+];
+
+/// Names that belong to a scenario that was saved, behind its own name, and, the first four, to a dry run in its folder.
+pub const REPORTS: [&str; 5] = [
+    "plan.json",
+    "certificate.json",
+    "report.json",
+    "report.txt",
+    "page.html",
+];
+
+/// Files that are written to a folder, all or none, in place of all that belong to the verb there.
+pub struct Files<'a> {
+    /// Without one, nothing is written.
+    folder: Option<PathBuf>,
+    /// What stands before every name.
+    prefix: OsString,
+    /// Names that belong to the verb.
+    owned: &'a [&'a str],
+    files: Vec<(PathBuf, Box<dyn Display + 'a>)>,
+}
+
+impl<'a> Files<'a> {
+    /// None yet; `owned` are the names that belong to the verb in the folder.
+    pub fn new(folder: impl Into<Option<PathBuf>>, owned: &'a [&'a str]) -> Self {
+        Self {
+            folder: folder.into(),
+            prefix: OsString::new(),
+            owned,
+            files: Vec::new(),
+        }
+    }
+
+    /// The same with something before every name.
+    pub fn with_prefix(self, prefix: OsString) -> Self {
+        Self { prefix, ..self }
+    }
+
+    /// The place of a name; none where nothing is written.
+    fn place(&self, name: &str) -> Option<PathBuf> {
+        let mut file = self.prefix.clone();
+        file.push(name);
+        Some(self.folder.as_ref()?.join(file))
+    }
+
+    /// The places of some names.
+    pub fn places(&self, names: &[&str]) -> Vec<PathBuf> {
+        names.iter().filter_map(|name| self.place(name)).collect()
+    }
+
+    /// Refuses, before any work, places of the verb's own names that could not be written after it.
+    pub fn check(&self) -> Result<()> {
+        check_places(&self.places(self.owned))
+    }
+
+    /// Adds a file at a place of its own.
+    pub fn add_at(&mut self, place: PathBuf, content: impl Display + 'a) {
+        self.files.push((place, Box::new(content)));
+    }
+
+    /// Adds a file.
+    pub fn add(&mut self, name: &str, content: impl Display + 'a) {
+        if let Some(place) = self.place(name) {
+            self.add_at(place, content);
+        }
+    }
+
+    /// Adds a report as data and in words.
+    pub fn add_report(&mut self, name: &str, report: &(impl Serialize + Display)) -> Result<()> {
+        self.add(&format!("{name}.json"), json(report)?);
+        self.add(&format!("{name}.txt"), whole(report));
+        Ok(())
+    }
+
+    /// The places of the files.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.files.iter().map(|(place, _)| place.as_path())
+    }
+
+    /// How many files of an earlier call go without another one in their place.
+    pub fn stale(&self) -> usize {
+        let is_stale = |path: &&PathBuf| path.is_file() && self.paths().all(|written| written != path.as_path());
+        self.places(self.owned).iter().filter(is_stale).count()
+    }
+
+    /// Writes the files, prints an answer and says what was written.
+    pub fn answer(&self, options: &Options, answer: &impl Serialize, words: impl FnOnce() -> String) -> Result<Reader> {
+        self.write(&options.cancel)?;
+        let reader = options.print(answer, words)?;
+        let names: Vec<_> = self.paths().map(|path| path.display().to_string()).collect();
+        if !names.is_empty() {
+            options.say(&format!("wrote {}", names.join(", ")));
+        }
+        Ok(reader)
+    }
+
+    /// Writes all files or none: each goes to a temporary file beside its place, and they are renamed once all are complete. None where
+    /// `cancel` says so before that.
+    pub fn write(&self, cancel: &CancelToken) -> Result<()> {
+        self.write_if(cancel, &|| true).map(|_| ())
+    }
+
+    /// As [`Self::write`], unless `still` says no once all files are complete: then none is written. Whether they were.
+    pub fn write_if(&self, cancel: &CancelToken, still: &dyn Fn() -> bool) -> Result<bool> {
+        refuse_one_place_for_two(self.paths())?;
+        let locks = self.locks()?;
+        let mut complete = Vec::new();
+        for (path, content) in &self.files {
+            let write = |out: &mut dyn Write| write!(out, "{content}").with_context(|| cannot(path));
+            complete.push((stage(path, write)?, path));
+            cancel.check()?;
+        }
+        if !still() {
+            return Ok(false);
+        }
+        // Those of an earlier call go first, the last one first, so that at no moment files of two calls stand side by side. A folder of that
+        // name is none of ours.
+        let is_file = |path: &&PathBuf| std::fs::symlink_metadata(path).is_ok_and(|found| !found.is_dir());
+        for path in self.places(self.owned).iter().rev().filter(is_file) {
+            std::fs::remove_file(path)
+                .with_context(|| format!("{}: is of an earlier call and cannot be removed", path.display()))?;
+        }
+        for (staged, path) in complete {
+            staged.persist(path).with_context(|| cannot(path))?;
+        }
+        locks.iter().for_each(FolderLock::sync);
+        Ok(true)
+    }
+
+    /// The locks of the folders of the files, in one order for all callers, without leftovers in them.
+    fn locks(&self) -> Result<Vec<FolderLock>> {
+        let mut folders = BTreeMap::new();
+        for path in self.paths() {
+            folders.insert(place(folder_of(path)).with_context(|| cannot(path))?, folder_of(path));
+        }
+        let lock = |folder: &Path| {
+            let lock = FolderLock::new(folder);
+            let lock = lock.with_context(|| format!("{}: folder cannot be made", folder.display()))?;
+            lock.remove_leftovers();
+            Ok(lock)
+        };
+        folders.into_values().map(lock).collect()
+    }
+}
+
+/// Writes a file by what makes it piece by piece: whole or not at all.
+pub fn write_to(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+    let lock = FolderLock::new(folder_of(path)).with_context(|| cannot(path))?;
+    lock.remove_leftovers();
+    stage(path, write)?.persist(path).with_context(|| cannot(path))
+}
+
+/// A file that is complete, and not in its place yet.
+fn stage(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<StagedFile> {
+    refuse_taken(path)?;
+    let staged = StagedFile::in_folder(folder_of(path)).with_context(|| cannot(path))?;
+    let mut buffered = BufWriter::new(staged);
+    write(&mut buffered)?;
+    let staged = buffered.into_inner().map_err(IntoInnerError::into_error);
+    let synced = staged.and_then(|staged| staged.sync().map(|()| staged));
+    synced.with_context(|| cannot(path))
+}
+
+fn cannot(path: &Path) -> String {
+    format!("{}: cannot be written", path.display())
+}
+
+/// Refuses, before any work, files that could not be written after it. Nothing is left behind.
+pub fn check_places(files: &[PathBuf]) -> Result<()> {
+    refuse_one_place_for_two(files.iter().map(PathBuf::as_path))?;
+    files.iter().try_for_each(|path| refuse_place(path))
+}
+
+/// Refuses a file whose folder can neither be written nor made.
+fn refuse_place(path: &Path) -> Result<()> {
+    refuse_taken(path)?;
+    if let Err(error) = path.symlink_metadata()
+        && error.kind() == ErrorKind::InvalidFilename
+    {
+        return Err(error).with_context(|| cannot(path));
+    }
+    let place = place(folder_of(path)).with_context(|| cannot(path))?;
+    // A link that leads nowhere does not exist, but stands in the way.
+    let stands = |place: &&Path| std::fs::symlink_metadata(place).is_ok();
+    let Some(nearest) = place.ancestors().find(stands) else {
+        return Ok(());
+    };
+    let (cannot, folder) = (cannot(path), nearest.display());
+    if !nearest.is_dir() {
+        bail!("{cannot}: {folder} is no folder");
+    }
+    // Rights are many things; a file that is made and goes again asks for all of them.
+    match StagedFile::in_folder(nearest) {
+        Ok(_) => Ok(()),
+        Err(error) => bail!("{cannot}: no file can be made in {folder}: {}", error.kind()),
+    }
+}
+
+/// Refuses a place where something stands that no file may take the place of.
+fn refuse_taken(path: &Path) -> Result<()> {
+    let what = match path.metadata() {
+        Ok(found) if found.is_dir() => "a folder",
+        Ok(found) if !found.is_file() => "no regular file",
+        _ => return Ok(()),
+    };
+    bail!("{}: it is {what}", cannot(path));
+}
+
+/// No file may take the place of another one of the same run.
+fn refuse_one_place_for_two<'a>(files: impl Iterator<Item = &'a Path>) -> Result<()> {
+    let mut taken = BTreeMap::new();
+    for path in files {
+        let place = place(path).with_context(|| cannot(path))?;
+        if let Some(first) = taken.insert(place, path) {
+            bail!(
+                "{}: is also where {} is written: give --csv or --out another place",
+                path.display(),
+                first.file_name().map_or("a file".into(), OsStr::to_string_lossy)
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Where a file will be, links followed but for its own name, whether its folders exist yet or not.
+pub fn place(path: &Path) -> std::io::Result<PathBuf> {
+    let absolute = std::path::absolute(path)?;
+    let mut place = PathBuf::new();
+    for part in absolute.components() {
+        // What does not exist yet has no links to follow.
+        place = place.canonicalize().unwrap_or(place);
+        match part {
+            Component::ParentDir => drop(place.pop()),
+            part => place.push(part),
+        }
+    }
+    Ok(place)
+}
