@@ -91,7 +91,7 @@ fn what_is_beyond_the_spare_is_refused_and_what_is_within_is_proved() {
     assert!(edits >= 90, "{edits}");
 }
 
-/// How many edits of a plan were judged.
+/// Returns the number of edits of a plan that were judged.
 fn edited((name, plan): (&str, Plan)) -> usize {
     let mut edits = 0;
     let before = judged(&plan);

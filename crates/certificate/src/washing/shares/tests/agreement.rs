@@ -73,7 +73,7 @@ fn little(random: &mut Pcg64, radius_m: f64) -> Surface {
     Surface::profile(&[Knot { radius_m, slope_rad }]).unwrap()
 }
 
-/// What the cell that is a whole face is proved to get.
+/// Returns the amounts proved for a single cell that covers the whole face.
 fn proved(surface: &Surface, foundation: &Foundation, (moments, sags): (&[Moment], &[Sags]), wanted: &Wanted) -> Dwell {
     let fineness = Fineness {
         cell_m: 2.0 * surface.rim_m(),
