@@ -101,7 +101,7 @@ proptest! {
     }
 }
 
-/// What joint 1 turns keeps its height over a floor and under a ceiling, beside a wall it does not.
+/// The body that joint 1 turns keeps its height over a floor and under a ceiling, but not beside a wall.
 #[test]
 fn joint_1_keeps_heights_over_level_planes_alone() {
     let robot = RobotModel::irb120().unwrap();
