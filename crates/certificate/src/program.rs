@@ -225,7 +225,7 @@ fn common<'a>(arm: &Arm<'_>, motion: &'a [Piece], plan: &'a [Piece]) -> Vec<Both
     while let (Some(a), Some(b)) = (motion.get(i), plan.get(j)) {
         let ends = [a, b].map(|piece| piece.start_s + piece.length_s);
         let to = ends[0].min(ends[1]);
-        // What rounding leaves between two ends that are one is no stretch.
+        // A difference of rounding between two equal ends is no stretch.
         let within = |piece: &Piece| [from, to].map(|t| (t - piece.start_s).clamp(0.0, piece.length_s));
         if to > from {
             all.push(Both {

@@ -70,7 +70,7 @@ impl StagedFile {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let file = builder.tempfile_in(folder)?;
-        // Where files cannot be locked, leftovers stay.
+        // If files cannot be locked, leftovers stay.
         let _ = file.as_file().try_lock();
         Ok(Self { file })
     }

@@ -141,7 +141,7 @@ pub(crate) fn judge(
     found.par_iter_mut().zip(&tasks).for_each(|(found, task)| {
         if found.is_some_and(|f| f.at_least_m < enough_m) && least > 0.0 {
             let parts = model.parts_of(task.pair);
-            // Of bodies of many parts the limit is enough: to know them finely takes long.
+            // For bodies of many parts the limit is enough: a fine bound takes long.
             if !parts.is_of_many() {
                 *found = Some(search(task, &parts, Some(enough_m)));
             }

@@ -282,7 +282,7 @@ impl<'a> Search<'a> {
         };
         if known != NO_NORMAL {
             let gap = along(known);
-            // Where the gap itself would do, shorter intervals will: no nearest points are needed.
+            // If the gap itself is enough, shorter intervals will be enough: no nearest points are needed.
             if self.accepts(part, gap) {
                 return (gap - sag, known);
             }

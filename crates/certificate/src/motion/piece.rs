@@ -269,8 +269,8 @@ mod tests {
     }
 
     proptest! {
-        /// However short the piece and however late: what its knots say is within the bounds. Speeds are those of an even motion,
-        /// a few units in the last place off, where rounding is all there is.
+        /// The knots' values are within the bounds, however short and however late a piece is. Speeds are those of an even motion, a few
+        /// units in the last place off, where rounding is all there is.
         #[test]
         fn bounds_hold_for_the_knots_as_they_stand(
             start in 0.0..60.0f64, steps in 1..40i32, long in -16.0..0.0f64, q0 in -3.0..3.0f64, v in -2.0..2.0f64, off in [-4..4i32, -4..4i32],

@@ -201,7 +201,7 @@ impl Check {
         }
     }
 
-    /// The same where the job does not ask for it: what is broken is waived.
+    /// Returns the check with a violation waived, if the job does not require it.
     pub(crate) fn waived_if(mut self, waives: bool) -> Self {
         if waives && self.status == Status::Violated {
             self.status = Status::Waived;

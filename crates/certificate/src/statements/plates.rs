@@ -152,7 +152,7 @@ pub(crate) fn check(subject: &Subject<'_>) -> Result<Check, ClearanceError> {
             "not at all, but for plates that it holds",
         )
     }));
-    // That plates overlap may be waived, that something stands in them is not.
+    // Overlapping plates may be waived; an obstacle in a plate may not.
     let waives = subject.job.requirements.overlap == Overlap::Report && !reaches;
     Ok(Check::stated(Requirement::PlatesApart, wrong).waived_if(waives))
 }

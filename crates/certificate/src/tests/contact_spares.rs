@@ -258,7 +258,7 @@ fn plans() -> [(&'static str, Plan); 3] {
         wanted.lifting_m_s = Some(1.0);
         wanted.coverage = 0.0;
         wanted.contact = Some(NOTHING);
-        // What the arm bears is no matter here.
+        // The limits of the arm do not matter here.
         recipe.terms.limits.joint_acceleration_rad_s2 = [300.0; 6];
         recipe.plan()
     };

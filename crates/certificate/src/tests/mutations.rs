@@ -586,7 +586,7 @@ fn a_tilted_rim_touches_in_motion_and_how_fast_is_said() {
         (touch.status, measure.limit),
         (Status::Proved, plan.job.wash_speed_m_s())
     );
-    // Where: as far below the tip as the rim reaches, which is at the plate's face.
+    // The position is as far below the tip as the rim reaches, which is at the plate's face.
     let place = touch.worst.place_m.unwrap();
     assert!((place[2] - plan.job.plates[0].centre().z).abs() < 1e-3, "{place:?}");
     assert_eq!(touch.worst.plate, Some(0));

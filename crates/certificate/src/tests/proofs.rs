@@ -1,4 +1,4 @@
-//! What comes out of a proof besides its requirements: something certified, a motion alone, what it rests on.
+//! Results of a proof besides its requirements: a certified value, a motion alone, the basis of the verdict.
 
 use crate::Requirement::{Clearance, JointSpeed, TipSpeed};
 use crate::tests::made::{good, irb120, resealed};

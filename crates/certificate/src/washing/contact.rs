@@ -130,7 +130,7 @@ impl Pressed<'_> {
             pressing::on_face(self.plate, foundation, self.instants, wanted.height_error_m)
         };
         self.cancel.check()?;
-        // What is lost between moments is known as long as no column is compressed by more than its height.
+        // The losses between moments are bounded only while no column is compressed by more than its height.
         let known = self.meets && pressing.deepest.bound <= foundation.free_height_m;
         let found = known.then(|| self.shares());
         for instants in self.around {

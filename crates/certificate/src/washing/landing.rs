@@ -352,7 +352,7 @@ impl Rim<'_> {
                 Some(bound) => bound,
             },
         };
-        // How fast exactly is not asked where the limit is kept: the bound is above every speed that is seen, by what the tool turns.
+        // A kept limit needs no exact speed: the bound is above every speed found, by the effect of the tool's turning.
         let rough = self.columns.is_some() || self.far.beyond_m > 0.0;
         let enough = rough && (tracker.keeps(bound) || depth >= MOST_HALVINGS);
         if enough || tracker.accepts(bound) || !tracker.may_split(depth) {

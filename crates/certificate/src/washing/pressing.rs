@@ -166,7 +166,7 @@ impl Pressing {
             if !(low_m.is_finite() && cosine > 0.0) {
                 return Self::unknown();
             }
-            // Where it is matters to the least only.
+            // The distance from the axis matters only for the least volume.
             let most = press(low_m, cosine, 0.0);
             all.take(&Press {
                 volume_m3: most.volume_m3,

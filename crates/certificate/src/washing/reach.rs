@@ -240,7 +240,7 @@ pub(crate) fn swept(subject: &Subject<'_>, upright_cosine: impl Fn(usize) -> f64
                 beyond_rim_m(subject, own, radius_m, cosine),
             )
         };
-        // Of a plate at an angle to it, or all under or over it, the sponge keeps clear.
+        // The sponge keeps clear of a plate at an angle to it, or all under or over it.
         let beside = |other: &Plate| own.is_parallel(other) && !own.is_over(other) && !other.is_over(own);
         let others = subject.plates().iter().enumerate();
         for (j, other) in others.filter(|(j, other)| *j != i && beside(other)) {

@@ -287,7 +287,7 @@ mod tests {
                     1 => [drift.axis, drift.bending],
                     _ => [drift.turning, drift.bending],
                 };
-                // What is not known is no number, where the tool lies across.
+                // A bound is NaN where nothing is known, for a tool that lies across.
                 prop_assert!(most_speed.is_nan() || speed <= most_speed * (1.0 + 1e-6) + 1e-5, "{k}: {speed} {drift:?}");
                 prop_assert!(most_bend.is_nan() || bend <= most_bend * (1.0 + 1e-3) + 1e-2, "{k}: {bend} {drift:?}");
             }

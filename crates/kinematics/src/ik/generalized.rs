@@ -213,7 +213,7 @@ impl Search<'_> {
             let q = q.sup(&self.lowest).inf(&self.highest);
             starts.push((self.cost(&q), (q - seed).norm(), q));
         }
-        // What is already allowed first, and of that the nearest to the seed.
+        // Starts with an allowed pose come first, and of those the nearest to the seed.
         starts.sort_by(|a, b| {
             a.0.max(POLISH_BELOW)
                 .total_cmp(&b.0.max(POLISH_BELOW))

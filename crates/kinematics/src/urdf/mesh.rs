@@ -138,7 +138,7 @@ impl MeshSource {
         if !scale.iter().all(|s| s.is_finite() && *s != 0.0) {
             return Err(file.wrong(format!("its scale {scale:?} must be finite and not zero")));
         }
-        // What cannot be read anyway is not read at all.
+        // A file that cannot be used is not read at all.
         file.format()?;
         file.bytes = self
             .files

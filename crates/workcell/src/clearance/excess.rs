@@ -62,7 +62,7 @@ impl Mesh {
         let mut numbers = BTreeMap::new();
         let mut points = Vec::new();
         let mut number = |corner: &Point3<f64>| {
-            // Of two zeros one is negative.
+            // Adding zero turns −0 into 0.
             let key = corner.coords.map(|c| (c + 0.0).to_bits());
             *numbers.entry([key.x, key.y, key.z]).or_insert_with(|| {
                 points.push(vector(corner));

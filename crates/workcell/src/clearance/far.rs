@@ -152,7 +152,7 @@ impl Crowd {
         let leaf_of = |body: usize| obstacles.iter().position(|(index, _)| *index == body);
         let (mut others, mut moving) = (Vec::new(), Vec::<(usize, Vec<bool>)>::new());
         for &(a, b) in pairs {
-            // What stands follows what moves: it is the second of a pair.
+            // The fixed body is the second of a pair, after the moving one.
             let Some(leaf) = leaf_of(b) else {
                 others.push((a, b));
                 continue;

@@ -197,7 +197,7 @@ impl ClearanceModel {
         let near = pairs.map(|&(a, b)| {
             let candidates = self.part_pairs(a, b);
             let candidates = candidates.filter(|&(p, r)| placed[a][p].sphere_gap(&placed[b][r]) <= required_m);
-            // What is as far as this is not too near.
+            // A pair at this distance or beyond is not too near.
             let below = required_m.max(f64::MIN_POSITIVE);
             let found = candidates.filter_map(|parts| self.separation((a, b), parts, (&placed, &poses), below));
             self.describe(a, b, nearest(found))

@@ -195,7 +195,7 @@ fn decomposed(triangles: &[[Vector; 3]], points: &[Vector]) -> Vec<Vec<Vector>> 
         found.push(points.to_vec());
     }
     let mut parts: Vec<Part> = found.into_iter().map(|part| Part::around(thick(part))).collect();
-    // What is in none of them is added, and the rest stays enclosed: parts only grow.
+    // A rest in none of the parts is added, and everything else stays enclosed: parts only grow.
     let mut missing: Vec<Vec<Vector>> = vec![Vec::new(); parts.len()];
     for triangle in triangles {
         for piece in uncovered(triangle, &parts, rounding) {
@@ -263,7 +263,7 @@ fn thick(points: Vec<Vector>) -> Vec<Vector> {
 
 fn distinct(points: impl Iterator<Item = Vector>) -> Vec<Vector> {
     let mut seen = std::collections::BTreeSet::new();
-    // Of two zeros one is negative.
+    // Adding zero turns −0 into 0.
     points
         .map(|p| p + Vector::ZERO)
         .filter(|p| seen.insert([p.x, p.y, p.z].map(f64::to_bits)))

@@ -84,7 +84,7 @@ pub fn standing_overlaps(
     let poses = robot.fk(&JointVector::zeros());
     let standing = if dry_run.is_some() { &[] } else { plates };
     let tilted: Vec<_> = (0..standing.len()).filter(|&i| !standing[i].is_level()).collect();
-    // Where all plates lie level on the plain floor no link counts: the arm's bodies need not be made.
+    // If all plates lie level on the plain floor, no link counts: the arm's bodies are not needed.
     let arm = match tilted.is_empty() && counting.iter().all(|obstacle| obstacle.is_plain_floor()) {
         true => Vec::new(),
         false => world(robot, &workcell.tool, &[])?,
@@ -101,7 +101,7 @@ pub fn standing_overlaps(
             margin_m: 0.0,
             ..obstacle.clone()
         })?;
-        // What an arm's description lets down below its own ground is in no floor that nothing is said of.
+        // The default floor does not count the parts of an arm that reach below its own ground.
         let stays = |link: &&Body| !obstacle.is_plain_floor() && link.stays_beside(&body, robot);
         let free = bodies
             .iter()

@@ -74,7 +74,7 @@ impl ClearanceModel {
         let mut frames = Vec::with_capacity(4 * self.bodies.len());
         for body in &self.bodies {
             first.push(frames.len());
-            // Of obstacles few are looked at, if any.
+            // Few obstacles are examined, if any.
             let looked_at = body.outer().iter().filter(|_| body.kind != BodyKind::Obstacle);
             frames.extend(looked_at.map(|part| part.rigid(&poses)));
         }
@@ -105,7 +105,7 @@ impl ClearanceModel {
 
     /// True if the parts of a body with a tree are clear of a part of another one; false if neither body has one.
     fn parts_keep(&self, bodies: (usize, usize), parts: (usize, usize), poses: &BodyPoses, required: f64) -> bool {
-        // What is as far as this is clear.
+        // A pair at this distance or beyond is clear.
         let below = required.max(f64::MIN_POSITIVE);
         let found = self.within(bodies, parts, poses, separation, below);
         found.is_some_and(|found| found.is_none_or(|found| is_clear(found.distance, required)))

@@ -289,6 +289,6 @@ pub(crate) fn meet_from(
             return (along_m, there.0, there.1);
         }
     }
-    // Where a knot keeps it from settling nothing is known.
+    // If a knot keeps it from settling, nothing is known.
     (f64::INFINITY, there.0, there.1)
 }

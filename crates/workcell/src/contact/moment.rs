@@ -170,7 +170,7 @@ impl<'a> Looks<'a> {
             let [first, last] = ends.map(|end| self.moments[end.index].t_s);
             let [from, to] = shares.map(|share| first + (last - first) * share);
             match stays.last_mut() {
-                // Of one moment to the end, of the next from its start.
+                // A stay to the end of one interval continues from the start of the next.
                 Some(stay) if stay[1] == from => stay[1] = to,
                 _ => stays.push([from, to]),
             }

@@ -357,7 +357,7 @@ mod tests {
             let found = Bends::of(&surface).between([near, far]);
             let exact = surface.patch([near.max(0.0), far]).curvature;
             let wider = surface.patch([(near - ring).max(0.0), far + ring]).curvature;
-            // Where sin β / ρ is the same everywhere it is rounded differently everywhere.
+            // If sin β / ρ is constant, it is rounded differently everywhere.
             let rounded = 1e-12 * surface.curvature_bounds().map(f64::abs).into_iter().fold(0.0, f64::max);
             prop_assert!(found[0] <= exact[0] + rounded && found[1] >= exact[1] - rounded, "{found:?} {exact:?}");
             prop_assert!(found[0] >= wider[0] - rounded && found[1] <= wider[1] + rounded, "{found:?} {wider:?}");

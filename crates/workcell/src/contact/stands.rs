@@ -221,7 +221,7 @@ impl Columns {
             // above, and no farther from one of them than half of what they are apart.
             let apart_m = apart(from).max(apart(to)) + 0.5 * (low.slid_m + high.slid_m);
             Both {
-                // Where nothing is known it is anywhere.
+                // If nothing is known, the position is unbounded.
                 near_m: if apart_m.is_finite() {
                     low.rho_m[0].min(high.rho_m[0]) - apart_m
                 } else {

@@ -405,7 +405,7 @@ mod tests {
         assert!(matches!(kitchen().terms().seen_from_base(), Cow::Borrowed(_)));
     }
 
-    /// By hand: a base at (1, 2, 0.5), turned by a quarter about z, has what is at (1.3, 2, 0.53) at (0, −0.3, 0.03).
+    /// By hand: for a base at (1, 2, 0.5), turned by a quarter about z, the point (1.3, 2, 0.53) is at (0, −0.3, 0.03).
     #[test]
     fn plates_and_obstacles_are_where_the_arm_has_them() {
         let mut terms = kitchen().terms().clone();

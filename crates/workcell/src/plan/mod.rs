@@ -188,7 +188,7 @@ impl Plan {
         if !numbers.all(|number| number.is_finite()) {
             return refuse("a number of the knots is not finite");
         }
-        // What is not finite is written as `null`, and a whole number of more than 53 bits as its neighbour.
+        // A number that is not finite is written as `null`, and a whole number of more than 53 bits as its neighbour.
         let rest = serde_json_canonicalizer::to_vec(&self).map_err(unwritable)?;
         if serde_json::from_slice::<Self>(&rest).map_err(unwritable)? != self {
             return refuse("a whole number is above 2^53 − 1, the largest that JSON says exactly");

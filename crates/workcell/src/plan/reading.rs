@@ -36,7 +36,7 @@ pub(crate) fn check_contents(text: &str, written: &str, plan: &impl Serialize) -
     }
     let read = serde_json::to_value(plan).map_err(unreadable)?;
     let all = by_place(&said, &read);
-    // What is there says more of a slip than what is missing for it.
+    // A key that is present tells more about a mistake than the one that is missing for it.
     let first = all.iter().find(|difference| difference.found != NOTHING);
     first.or(all.first()).map_or(Ok(()), |first| Err(refused(first)))
 }

@@ -144,11 +144,11 @@ impl Passes<'_> {
             };
             [contact, time.settled(error_m), dose.settled(error_m)]
         };
-        // What is enough all over it is not looked for more closely.
+        // A cell that gets enough everywhere is not refined.
         if is_enough(&bounds(Default::default())) {
             return None;
         }
-        // Of a large cell hardly anything is known while it leaves or enters: its quarters are looked at.
+        // Hardly anything is known of a large cell while it leaves or enters: its quarters are examined instead.
         let is_large = cell.half > LARGE * edges.foundation.radius_m && !spans.is_empty();
         let mut gains = [Lower::flat(0.0, if is_large { f64::INFINITY } else { 0.0 }); 2];
         for span in spans.iter().filter(|_| !is_large) {

@@ -223,7 +223,7 @@ fn share_below_0(value: f64, [a, b]: [f64; 2]) -> f64 {
     }
     let part = |less: f64| (t - less).max(0.0) * (t - less).max(0.0);
     let sum = part(0.0) - part(2.0 * a) - part(2.0 * b);
-    // What cancels is off by less.
+    // The error of the cancellation is less than this.
     (sum / (8.0 * a * b) + 1e-9).clamp(0.0, 1.0)
 }
 

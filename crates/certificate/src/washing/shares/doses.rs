@@ -265,7 +265,7 @@ impl Sums {
         let (mut sum, mut size) = (Polynomial::default(), 0.0);
         for (pair, sags) in moments.windows(2).zip(sags) {
             let part = Polynomial::of_pair(foundation, [&pair[0], &pair[1]], sags);
-            // What is not known belongs to pairs that are in no run.
+            // A dose that is not finite belongs to a pair of moments that is in no run.
             if part.size(far_m).is_finite() {
                 sum += part;
                 size += part.size(far_m);

@@ -125,7 +125,7 @@ impl Edges<'_> {
             enters.then(|| one(true)).flatten(),
         );
         match (left, entered) {
-            // What leaves and comes back counts once where both have some time in common.
+            // A place that leaves and comes back counts once if both parts have some time in common.
             (Some(a), Some(b)) if a.until_s > b.until_s => {
                 if a.time.value > b.time.value {
                     [left, None]
@@ -264,7 +264,7 @@ impl Edges<'_> {
         let lost_m = ROUNDING_M + off_m + sags.compression_m + cell.bend_m + turned * (cell.away_m() + error_m);
         let sooner_s = lost_m / falls * (1.0 + 1e-12);
         let within = window.until(last).all(|seen| self.inside_m(seen) >= sags.aside_m);
-        // Where it begins it is pressed: by more than is lost, and what lies sooner.
+        // The foam must be pressed at the first moment, by more than the losses and the time by which a place leaves sooner.
         (within && line.at_s - spread_s - sooner_s >= 0.0).then_some(Leaving {
             at_s: line.at_s,
             sooner_s,

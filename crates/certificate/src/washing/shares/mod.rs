@@ -6,7 +6,8 @@
 //! left are windows in which places of the cell leave the sponge or get under it (`edges.rs`): together they give lower bounds of time
 //! and dose that are affine over the cell, so that of a cell at the edge of what is wanted the part counts that keeps it.
 //!
-//! What is not shown to keep something counts as not keeping it, with as much area as it may have: so the shares are none too great.
+//! A place that is not shown to get an amount counts as not getting it, with the greatest area that it may have. So the shares are lower
+//! bounds.
 
 pub(crate) mod bounds;
 pub(crate) mod cell;
@@ -23,7 +24,7 @@ use platewash_workcell::coverage::{SMALLEST_CELL, reaches};
 use platewash_workcell::surface::Surface;
 use std::ops::Range;
 
-/// Part of a cell that must be open, in contact to less than it may be, for the cell to be halved.
+/// Share of a cell above which the cell is halved: the part that may get the wanted amount and is not shown to.
 const WORTH: f64 = 0.02;
 
 /// Greatest edge of the first cells, as a part of the sponge's radius, and below their greatest number along an edge of the face.
@@ -84,7 +85,7 @@ pub fn shares(
     fineness: &Fineness,
 ) -> Shares {
     let rim_m = surface.rim_m();
-    // What is no size, or too small a one to end soon, is the least that is looked at.
+    // An edge that is not a number, or too small to end soon, is replaced by the least one.
     let least = 0.5 * fineness.cell_m.max(SMALLEST_CELL * rim_m);
     let mut half = least;
     while half < rim_m {

@@ -44,7 +44,7 @@ proptest! {
             let place = normal.dot(&(Vector3::from(found.place) - plane.translation.vector));
             prop_assert!((place - 0.5 * expected).abs() < 1e-12, "{place} {expected}");
         }
-        // What is grown is nearer by as much, whichever of the two it is.
+        // A grown body is nearer by its margin, whichever of the two it is.
         for (space, body) in [(space.clone().grown(margin), body.clone()), (space, body.grown(margin))] {
             prop_assert!((gap(&space, &body).distance - (expected - margin)).abs() < 1e-12);
         }

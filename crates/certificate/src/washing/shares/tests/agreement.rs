@@ -134,7 +134,7 @@ fn a_point_is_measured_to_get_what_its_cell_is_proved_to() {
         for _ in 0..20 {
             let point = place(random, &surface);
             let got = looks.at(&point);
-            // What is measured takes means of pressure and of speed between moments, which is off by what both change.
+            // The measured dose uses means of pressure and speed between moments, so it is off by the product of their changes.
             let keeps = [
                 (got.compression_m.max(0.0), least.compression_m, 1.0),
                 (got.time_s, least.time_s, 1.0),
