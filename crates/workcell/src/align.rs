@@ -218,7 +218,7 @@ fn check(touches: &[Touch]) -> Result<(), AlignError> {
     Ok(())
 }
 
-/// Refuses points that are about a thousand times closer together as touched than as drawn, or the reverse: one of both is in another unit.
+/// Refuses points that are about a thousand times closer together as touched than as drawn: one of both is in another unit.
 fn check_units(ratio: f64, drawn_m: f64) -> Result<(), AlignError> {
     if !(1e-3 / NEAR..=1e-3 * NEAR).contains(&ratio) {
         return Ok(());

@@ -170,7 +170,7 @@ pub enum DryRunError {
 }
 
 /// Builds the terms of a dry run of `parent`, a plan for `arm`, with its plates raised by `height_m` \[m\] and its tip no faster than
-/// `speed_m_s` \[m/s\]. The caller decides if the parent must be proved.
+/// `speed_m_s` \[m/s\]. The caller must know if the parent is proved.
 ///
 /// # Errors
 /// [`DryRunError`].

@@ -171,7 +171,7 @@ impl Lower {
         self.slack += other.slack;
     }
 
-    /// Returns the bound that holds for every height of the plate within its error; only value and slope are left.
+    /// Returns the bound that holds for every height of the plate within its error; its slope along the height is 0.
     pub fn settled(&self, height_error_m: f64) -> Self {
         Self {
             value: self.value - self.over_height.abs() * height_error_m,
