@@ -1,4 +1,4 @@
-//! What is certified, and by which certificate.
+//! A certified plan and its certificate.
 
 use crate::error::ProveError;
 use crate::prove::prove_with;
@@ -7,27 +7,27 @@ use platewash_kinematics::RobotModel;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
 
-/// Something that a certificate holds for. There is no other way to make one than [`certify`] and [`certify_with`].
+/// A value with the certificate that holds for it. Only [`certify`] and [`certify_with`] make one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Certified<P> {
     plan: P,
     certificate: Certificate,
 }
 
-/// Why a plan is not certified.
+/// Reason that a plan is not certified.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CertifyError {
-    /// It cannot be judged.
+    /// The plan cannot be judged.
     #[error(transparent)]
     Prove(#[from] ProveError),
-    /// It is judged, and does not hold.
+    /// The plan is judged, and its certificate fails.
     #[error("{}", .0.headline)]
     Fails(Box<Certificate>),
 }
 
-/// A plan for an arm with the certificate that holds for it. Requirements that the job waives are named in
-/// [`Certificate::waived`]: whoever needs them kept looks there.
+/// Certifies a plan for an arm. [`Certificate::waived`] names the requirements that the job waives; a caller who needs them kept must check
+/// it.
 ///
 /// # Errors
 /// [`CertifyError`]: the plan cannot be judged, or its certificate fails.
@@ -35,7 +35,7 @@ pub fn certify(plan: Plan, arm: &RobotModel) -> Result<Certified<Plan>, CertifyE
     certify_with(plan, arm, &CancelToken::new())
 }
 
-/// [`certify`], to be given up half-way.
+/// Same as [`certify`], with a token that cancels the work.
 ///
 /// # Errors
 /// As [`certify`], and [`ProveError::Cancelled`].
@@ -49,19 +49,19 @@ pub fn certify_with(plan: Plan, arm: &RobotModel, cancel: &CancelToken) -> Resul
 }
 
 impl<P> Certified<P> {
-    /// What is certified.
+    /// Returns the certified plan.
     #[must_use]
     pub fn plan(&self) -> &P {
         &self.plan
     }
 
-    /// What is proved about it.
+    /// Returns the certificate of the plan.
     #[must_use]
     pub fn certificate(&self) -> &Certificate {
         &self.certificate
     }
 
-    /// Both, no longer tied to each other.
+    /// Splits the value into plan and certificate, no longer tied to each other.
     #[must_use]
     pub fn into_parts(self) -> (P, Certificate) {
         (self.plan, self.certificate)

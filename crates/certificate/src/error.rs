@@ -1,4 +1,4 @@
-//! Why a plan cannot be judged at all.
+//! Reasons that a plan cannot be judged.
 
 use platewash_kinematics::words::told_apart;
 use platewash_workcell::cancel::Cancelled;
@@ -8,32 +8,32 @@ use platewash_workcell::job::JobError;
 use platewash_workcell::trajectory::KnotError;
 use platewash_workcell::words::{counted, printable};
 
-/// Why a plan cannot be judged at all; a plan that breaks a requirement is no error.
+/// Reason that a plan cannot be judged. A plan that breaks a requirement is no error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProveError {
-    /// A run of the paper's program.
+    /// The plan is a run of the paper's program.
     #[error("the plan is a run of the paper's program; there is no certificate for one")]
     PaperRun,
-    /// The work was given up, as it was told to be.
+    /// The work was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// The job of the plan is none that could be judged.
+    /// The job of the plan cannot be judged.
     #[error("the plan's job: {}", printable(&.0.to_string()))]
     Job(JobError),
-    /// A body of the tool or an obstacle has no size, no end or no place.
+    /// A body of the tool or an obstacle has no finite size above 0 or no valid pose.
     #[error("\"{}\": a body must have a finite size above 0 and a pose; lengths up to 1000 m can be judged", printable(.name))]
     Body {
-        /// Its name.
+        /// Name of the body.
         name: String,
     },
-    /// The knots are no motion.
+    /// The knots do not form a motion.
     #[error("{0}")]
     Knots(KnotError),
-    /// Fewer than two knots.
+    /// The motion has fewer than two knots.
     #[error("{}; a motion has at least 2", counted(*.found, "knot"))]
     NoMotion {
-        /// Knots found.
+        /// Number of knots found.
         found: usize,
     },
     /// A piece of the motion is so short that its cubic cannot be computed.
@@ -41,34 +41,34 @@ pub enum ProveError {
     TooShort {
         /// Index of the piece, and of the knot that it starts from.
         piece: usize,
-        /// How long it lasts \[s\].
+        /// Duration of the piece \[s\].
         length_s: f64,
-        /// How long it must last \[s\].
+        /// Least duration \[s\].
         least_s: f64,
     },
-    /// A joint turns so far that its sine means nothing any more.
+    /// A joint turns so far that its sine cannot be computed accurately.
     #[error("joint {} gets to {} rad; no more than ±{most_rad} rad can be judged", .joint + 1, far(*.position_rad, *.most_rad))]
     TurnsTooFar {
         /// Joint index, 0 for joint 1.
         joint: usize,
-        /// How far \[rad\].
+        /// Joint position \[rad\].
         position_rad: f64,
-        /// How far is possible \[rad\].
+        /// Greatest position that can be judged \[rad\].
         most_rad: f64,
     },
-    /// More of something than any plan for that many plates has.
+    /// The plan has more of something than any plan for that many plates needs.
     #[error("{found} {what} for {}; there are {most} at most", counted(*.plates, "plate"))]
     TooMany {
-        /// Segments, wash paths, or entries of the order.
+        /// Kind of thing: segments, wash paths, or entries of the order.
         what: &'static str,
-        /// How many.
+        /// Number found.
         found: usize,
-        /// Plates.
+        /// Number of plates.
         plates: usize,
-        /// How many are possible.
+        /// Greatest number allowed.
         most: usize,
     },
-    /// The collision model cannot be made.
+    /// The collision model cannot be built.
     #[error("clearance: {0}")]
     Clearance(ClearanceError),
     /// Coverage cannot be measured.
@@ -76,7 +76,7 @@ pub enum ProveError {
     Coverage(CoverageError),
 }
 
-/// An angle \[rad\] beyond a limit, as many digits as tell them apart.
+/// Formats an angle \[rad\] beyond a limit with enough digits to tell them apart.
 fn far(position_rad: f64, most_rad: f64) -> String {
     const WRITTEN_OUT: f64 = 1e6;
     if position_rad < WRITTEN_OUT {

@@ -1,11 +1,11 @@
-//! A motion that a controller is assumed to make of a certified plan: judged again, as the motion that it is.
+//! Judgement of the motion that a controller is assumed to make of a certified plan.
 //!
 //! Such a motion is near the plan and not the plan: it is straight between points, its corners are rounded, its speed may jump. What is
 //! proved of it, at every moment: where the tip is, against the plan; joint positions and speeds; clearance of every pair; contact with
 //! each plate, and the share of it that is swept. Accelerations and rest are the controller's to time: what the motion implies of them is
 //! measured and nothing is proved of it.
 //!
-//! How far the tip of one motion is from the tip of another at the same time.
+//! The deviation compares the tips of two motions at the same times.
 //!
 //! Over a stretch in which each motion is one cubic, the deviation e = p₁ − p₂ keeps ‖e‖ ≤ max(‖e(a)‖, ‖e(b)‖) + h²/8 (sup ‖p̈₁‖ + sup ‖p̈₂‖)
 //! (`motion/tip.rs`), which halving makes as tight as is needed.
@@ -33,55 +33,56 @@ use platewash_workcell::job::PATH_TOLERANCE_M;
 use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::plan::Plan;
 
-/// What a program's motion must keep, besides what its plan's job requires.
+/// Limits for a program's motion, in addition to the requirements of its plan's job.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramLimits {
-    /// How far the tip may be from where the plan has it at that time \[m\].
+    /// Greatest distance of the tip from its position in the plan at the same time \[m\].
     pub deviation_m: f64,
-    /// Share of the arm's joint speeds that may be used.
+    /// Share of the arm's joint speeds that may be used, 0 to 1.
     pub joint_speed_share: f64,
     /// Share of the plan's speed at which the program runs, above 0 and at most 1. The motion is given in the plan's time; only speeds
     /// depend on it.
     pub speed_share: f64,
 }
 
-/// What is proved of a program's motion.
+/// Proof about a program's motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProgramProof {
-    /// What it must keep: joint positions and speeds, contact height, deviation from the plan, clearance, coverage, tilt.
+    /// Checks that the motion must keep: joint positions and speeds, contact height, deviation from the plan, clearance, coverage, tilt.
     pub checks: Vec<Check>,
-    /// What it implies besides, in the plan's time, beside the limits of the plan: speed of the tip. Not required of it.
+    /// Speed of the tip that the motion implies, in the plan's time, beside the limit of the plan. It is reported and not required.
     pub implied: Vec<Check>,
     /// Coverage, plate by plate in the order of washing.
     pub swept: Vec<PlateCoverage>,
-    /// Clearance, pair by pair and rule by rule.
+    /// Clearance of each pair under each rule.
     pub clearance: Vec<PairBound>,
 }
 
-/// How near two times are one \[s\]: programs state times in microseconds.
+/// Greatest difference between two times that count as equal \[s\]: programs state times in microseconds.
 const NEAR_S: f64 = 2e-6;
 
-/// How far a program may tilt the tool beyond what the plan may \[rad\]: what a deviation within the tolerance turns it by.
+/// Tilt allowed to a program beyond that of the plan \[rad\]: a deviation within the tolerance may turn the tool by as much.
 const TILT_RAD: f64 = 0.01;
 
-/// What the height over a plate may be off the plan's at most, however far the tip may be from the plan along the face \[m\].
+/// Greatest difference between the tip's height over a plate and that of the plan \[m\], even where the deviation along the face may be
+/// larger.
 const CONTACT_M: f64 = 2e-4;
 
 impl ProgramProof {
-    /// Whether everything that the motion must keep is kept.
+    /// True if the motion keeps every check.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.checks.iter().all(|check| check.status.is_kept())
     }
 
-    /// What is violated or not proved.
+    /// Returns the checks that are violated or not proved.
     pub fn broken(&self) -> impl Iterator<Item = &Check> {
         self.checks.iter().filter(|check| !check.status.is_kept())
     }
 }
 
-/// Judges a motion against a certified plan of an arm. Motion and plan are compared at the same times; where one ends before the other, it
-/// rests.
+/// Judges a motion against a certified plan of an arm. Motion and plan are compared at the same times; the one that ends first is taken to
+/// rest from then on.
 ///
 /// # Errors
 /// [`ProveError`] for a motion that cannot be judged, and when it is given up.
@@ -144,7 +145,7 @@ pub fn prove_program(
     })
 }
 
-/// The pieces of a plan, and its rest at the end until a time \[s\] that is later.
+/// Returns the pieces of a plan, with a rest at its end until `end_s` \[s\], if that is later.
 fn planned(plan: &Plan, end_s: f64) -> Result<Vec<Piece>, ProveError> {
     let mut pieces = piece::pieces(&plan.knots)?;
     let (from, there) = (plan.duration_s(), plan.knots.q_rad.last());
@@ -154,7 +155,7 @@ fn planned(plan: &Plan, end_s: f64) -> Result<Vec<Piece>, ProveError> {
     Ok(pieces)
 }
 
-/// A check of speeds in the time of a program that runs at a share of the plan's speed.
+/// Converts a check of speeds to the time of a program that runs at a share of the plan's speed.
 fn in_program_time(mut check: Check, speed_share: f64) -> Check {
     if let Some(measure) = &mut check.measure {
         measure.limit *= speed_share;
@@ -164,8 +165,8 @@ fn in_program_time(mut check: Check, speed_share: f64) -> Check {
     check
 }
 
-/// Height of the tip over or under the face while it washes: what the plan may have, and what the program may deviate by, but no more than
-/// [`CONTACT_M`], or what is swept would not be touched.
+/// Checks the height of the tip over or under the face while it washes: the plan's tolerance plus the deviation of the program, but at most
+/// [`CONTACT_M`] more. Beyond that the swept area would not be touched.
 fn contact(tips: &Tips, pieces: &[Piece], schedule: &Schedule, deviation_m: f64) -> Check {
     let height = tip_limits::greatest(&tips.height);
     let worst = tip_limits::worst(&height, pieces, Some(schedule));
@@ -180,23 +181,24 @@ fn contact(tips: &Tips, pieces: &[Piece], schedule: &Schedule, deviation_m: f64)
     check
 }
 
-/// How far the bound may be above the greatest deviation found, as a part of the tolerance.
+/// Gap allowed between the bound and the greatest deviation found, as a part of the tolerance.
 const RESOLUTION: f64 = 5e-3;
 
-/// The same stretch of time in both motions.
+/// Same stretch of time in both motions.
 struct Both<'a> {
     motion: Stretch<'a>,
     plan: Stretch<'a>,
 }
 
 impl Both<'_> {
-    /// The deviation at both ends \[m\].
+    /// Deviation at both ends \[m\].
     fn ends_m(&self) -> [f64; 2] {
         [0, 1].map(|k| (self.motion.ends[k].position - self.plan.ends[k].position).norm())
     }
 }
 
-/// How far the tip of a motion leaves that of a plan, for as long as both last, against a tolerance \[m\]. Segments are those of the motion.
+/// Checks the deviation of the tip of a motion from that of a plan, for as long as both last, against a tolerance \[m\]. Segments are those
+/// of the motion.
 pub(crate) fn check(
     arm: &Arm<'_>,
     (motion, schedule): (&[Piece], &Schedule),
@@ -216,14 +218,14 @@ pub(crate) fn check(
     tip_limits::check(Requirement::PlanDeviation, &tracker, (tolerance_m, Unit::Metre), worst)
 }
 
-/// Stretches of time in which each of two motions is one cubic.
+/// Returns the stretches of time in which each of two motions is one cubic.
 fn common<'a>(arm: &Arm<'_>, motion: &'a [Piece], plan: &'a [Piece]) -> Vec<Both<'a>> {
     let mut all = Vec::with_capacity(motion.len() + plan.len());
     let (mut i, mut j, mut from) = (0, 0, 0.0_f64);
     while let (Some(a), Some(b)) = (motion.get(i), plan.get(j)) {
         let ends = [a, b].map(|piece| piece.start_s + piece.length_s);
         let to = ends[0].min(ends[1]);
-        // What rounding leaves between two ends that are one is no stretch.
+        // A difference of rounding between two equal ends is no stretch.
         let within = |piece: &Piece| [from, to].map(|t| (t - piece.start_s).clamp(0.0, piece.length_s));
         if to > from {
             all.push(Both {

@@ -1,4 +1,4 @@
-//! A plan is judged: all requirements, one after the other.
+//! Judgement of a plan: all requirements, one after the other.
 
 use crate::clearance::exclusions::Exclusions;
 use crate::clearance::pairs::{self, PairBound, Work};
@@ -24,31 +24,31 @@ use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::plan::{Knots, Plan, Process};
 
-/// How far joints may turn for their sines to be right (see [`platewash_kinematics::trig`]) \[rad\].
+/// Greatest joint position for which sines are accurate (see [`platewash_kinematics::trig`]) \[rad\].
 const MOST_TURN_RAD: f64 = 1e4;
 
-/// The shortest piece whose cubic can be computed \[s\]. A joint that keeps within [`MOST_TURN_RAD`] is no faster than some 10⁵ rad over
-/// the piece's length, and what is divided by its cube stays below 10¹⁰⁰, whose squares are numbers.
+/// Duration of the shortest piece whose cubic can be computed \[s\]. A joint that keeps within [`MOST_TURN_RAD`] is no faster than some 10⁵
+/// rad over the duration. A quotient by the cube of the duration then stays below 10¹⁰⁰, and its square is finite.
 const SHORTEST_S: f64 = 1e-30;
 
-/// What is proved of a motion alone, whatever it is for.
+/// Proof about a motion alone, without its purpose.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionProof {
-    /// Joint positions, speeds and accelerations; speed and acceleration of the tip; clearance.
+    /// Checks of joint positions, speeds and accelerations, of the tip's speed and acceleration, and of the clearance.
     pub checks: Vec<Check>,
-    /// Clearance, pair by pair: the sponge keeps clear of the plates, too.
+    /// Clearance of each pair. The sponge must keep clear of the plates, too.
     pub clearance: Vec<PairBound>,
 }
 
 /// Judges a plan for an arm.
 ///
 /// # Errors
-/// [`ProveError`] for a plan that says nothing that could be judged. A plan that breaks requirements is no error.
+/// [`ProveError`] for a plan that cannot be judged. A plan that breaks requirements is no error.
 pub fn prove(plan: &Plan, arm: &RobotModel) -> Result<Certificate, ProveError> {
     prove_with(plan, arm, &CancelToken::new())
 }
 
-/// [`prove`], to be given up half-way.
+/// Same as [`prove`], with a token that cancels the work.
 ///
 /// # Errors
 /// As [`prove`], and [`ProveError::Cancelled`].
@@ -85,8 +85,8 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     Ok(certificate(plan, arm, proof))
 }
 
-/// Judges a motion alone: limits of the joints and of the tip, and the clearance of every pair all the time, the sponge and the plates
-/// among them. What follows from the arm and its SRDF is left out, whatever the job leaves out besides.
+/// Judges a motion alone: limits of the joints and of the tip, and the clearance of every pair at all times, including that of the sponge
+/// and the plates. Only pairs that the arm and its SRDF exclude are left out; exclusions of the job are ignored.
 ///
 /// # Errors
 /// [`ProveError`] for a motion or a job that cannot be judged.
@@ -114,7 +114,7 @@ pub fn prove_motion(
     Ok(MotionProof { checks, clearance })
 }
 
-/// A plan that is judged, and its motion.
+/// The plan under judgement, with its motion.
 struct Judged<'a> {
     plan: &'a Plan,
     subject: &'a Subject<'a>,
@@ -124,10 +124,10 @@ struct Judged<'a> {
     cancel: &'a CancelToken,
 }
 
-/// What is swept and pressed, plate by plate.
+/// Coverage and contact of each plate.
 type Washed = (Vec<PlateCoverage>, Vec<PlateContact>);
 
-/// All that is proved of a plan.
+/// Results of the proof of a plan.
 struct Proof {
     checks: Vec<Check>,
     swept: Vec<PlateCoverage>,
@@ -137,7 +137,7 @@ struct Proof {
 }
 
 impl Judged<'_> {
-    /// Judges everything; `segments` was judged before.
+    /// Judges everything. `segments` is the check that was made before.
     fn proof(&self, segments: Check) -> Result<Proof, ProveError> {
         let (subject, schedule) = (self.subject, self.schedule);
         let exclusions = Exclusions::of(subject)?;
@@ -165,7 +165,7 @@ impl Judged<'_> {
         })
     }
 
-    /// What the plan states.
+    /// Checks the plan's statements.
     fn stated(&self, segments: Check, tips: &Tips) -> Result<Vec<Check>, ProveError> {
         let (subject, plan) = (self.subject, self.plan);
         let upright_cosine = |plate| {
@@ -188,7 +188,7 @@ impl Judged<'_> {
         ])
     }
 
-    /// What the tip and the sponge do on the plates: deviations, coverage, contact and reach.
+    /// Checks the motion of the tip and the sponge on the plates: deviations, coverage, contact and reach.
     fn washing(&self, arm: &Arm<'_>, tips: &Tips, checks: &mut Vec<Check>) -> Result<Washed, ProveError> {
         let (subject, pieces) = (self.subject, self.pieces);
         let deviations = following::checks(arm, subject, pieces, self.schedule);
@@ -240,7 +240,7 @@ fn certificate(plan: &Plan, arm: &RobotModel, proof: Proof) -> Certificate {
     certificate
 }
 
-/// Nothing in a plan may be so large that judging it takes for ever.
+/// Checks that no list in a plan is so large that judging it takes too long.
 fn check_sizes(plan: &Plan) -> Result<(), ProveError> {
     let plates = plan.job.plates.len();
     // Twice as many as there should be and more, so that what is wrong with a few too many is said by name.
@@ -261,13 +261,13 @@ fn check_sizes(plan: &Plan) -> Result<(), ProveError> {
     }
 }
 
-/// Refuses a job with which nothing can be computed, and bodies that the bounds do not hold for.
+/// Checks that the job can be computed with, and that its bodies are valid.
 fn check_job(job: &JobTerms) -> Result<(), ProveError> {
     job.validate()?;
     subject::check(job)
 }
 
-/// The pieces of the motion, none so short that time, which divides, squared and cubed, leaves no number.
+/// Returns the pieces of the motion. Refuses a piece so short that divisions by the cube of its duration overflow.
 fn read(knots: &Knots) -> Result<Vec<Piece>, ProveError> {
     let pieces = piece::pieces(knots)?;
     match pieces.iter().position(|piece| piece.length_s < SHORTEST_S) {
@@ -280,7 +280,7 @@ fn read(knots: &Knots) -> Result<Vec<Piece>, ProveError> {
     }
 }
 
-/// The timeline of a motion all along which sines are right.
+/// Returns the timeline of a motion. Refuses joint positions too large for accurate sines.
 pub(crate) fn timeline(pieces: &[Piece], knots: usize) -> Result<Timeline<'_>, ProveError> {
     let timeline = Timeline::new(pieces);
     let Some(whole) = timeline.whole() else {

@@ -1,8 +1,8 @@
-//! What is judged: a job with its arm, the limits that follow from both, and how each plate is washed.
+//! The job under judgement with its arm, the limits that follow from both, and the wash path of each plate.
 //!
-//! The limits that count in judging a plan: those of its job and of the arm.
+//! The limits are those of the job and of the arm.
 //!
-//! The bodies that a job adds to the arm: whether distances to them can be worked out at all.
+//! The bodies that a job adds to the arm are checked here: distances to them must be computable.
 
 use crate::error::ProveError;
 use nalgebra::Point3;
@@ -13,7 +13,7 @@ use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashPath;
 use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape};
 
-/// A job that is judged.
+/// The job under judgement, with its arm.
 #[derive(Debug)]
 pub(crate) struct Subject<'a> {
     pub job: &'a JobTerms,
@@ -23,7 +23,7 @@ pub(crate) struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// A job for an arm, with the wash paths of its plates as far as there are any.
+    /// Joins a job, its arm and the wash paths of its plates; a path may be missing.
     pub fn new(job: &'a JobTerms, robot: &'a RobotModel, paths: Vec<Option<WashPath>>) -> Self {
         let mut limits = Limits::new(job, robot);
         // A path may state a narrower cone than the job allows; what one states, all keep.
@@ -42,12 +42,12 @@ impl<'a> Subject<'a> {
         &self.job.plates
     }
 
-    /// How a plate is washed; `None` where that cannot be judged.
+    /// Wash path of a plate; `None` where it cannot be judged.
     pub fn path_of(&self, plate: usize) -> Option<&WashPath> {
         self.paths.get(plate)?.as_ref()
     }
 
-    /// How far the wash path of a plate gets from its axis \[m\]; `None` where that cannot be judged.
+    /// Greatest distance of a plate's wash path from the plate's axis \[m\]; `None` where it cannot be judged.
     pub fn path_radius_m(&self, plate: usize) -> Option<f64> {
         let surface = &self.plates().get(plate)?.surface;
         let curve = self.path_of(plate)?.curve;
@@ -60,33 +60,33 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// What must not be exceeded.
+/// Limits of the motion, from the job and the arm.
 #[derive(Debug, Clone)]
 pub(crate) struct Limits {
     /// Lowest and highest joint positions \[rad\]; infinite for a continuous joint.
     pub position_rad: [JointVector; 2],
-    /// Joint speeds \[rad/s\].
+    /// Greatest joint speeds \[rad/s\].
     pub speed_rad_s: JointVector,
-    /// Joint accelerations \[rad/s²\]: an assumption.
+    /// Greatest joint accelerations \[rad/s²\]: an assumption.
     pub acceleration_rad_s2: JointVector,
-    /// Speed of the tip anywhere \[m/s\].
+    /// Greatest speed of the tip anywhere \[m/s\].
     pub tip_speed_m_s: f64,
-    /// Acceleration of the tip anywhere \[m/s²\].
+    /// Greatest acceleration of the tip anywhere \[m/s²\].
     pub tip_acceleration_m_s2: f64,
-    /// Speed of the tip while it washes \[m/s\].
+    /// Greatest speed of the tip while it washes \[m/s\].
     pub wash_speed_m_s: f64,
-    /// Acceleration of the tip while it washes \[m/s²\].
+    /// Greatest acceleration of the tip while it washes \[m/s²\].
     pub wash_acceleration_m_s2: f64,
-    /// Angle of the tool from the plate's normal while it approaches, washes and retreats \[rad\].
+    /// Greatest angle of the tool from the plate's normal while it approaches, washes and retreats \[rad\].
     pub tilt_rad: f64,
-    /// Clearance \[m\].
+    /// Least clearance \[m\].
     pub clearance_m: f64,
-    /// Share of a plate's face.
+    /// Least swept share of a plate's face.
     pub coverage: f64,
 }
 
 impl Limits {
-    /// Those of a job and its arm.
+    /// Returns the limits of a job and its arm.
     pub fn new(job: &JobTerms, robot: &RobotModel) -> Self {
         let joints = robot.limits();
         Self {
@@ -107,10 +107,10 @@ impl Limits {
 /// The greatest size of a body, and the greatest distance of one from its frame, along each axis \[m\].
 const GREATEST_M: f64 = 1e3;
 
-/// Points of a hull at least and at most.
+/// Least and greatest number of points of a hull.
 const POINTS: [usize; 2] = [4, 100_000];
 
-/// Refuses shapes that are none and places that are nowhere.
+/// Checks that every shape has a finite size and every pose is valid.
 ///
 /// # Errors
 /// [`ProveError::Body`].
@@ -136,7 +136,8 @@ pub(crate) fn check(job: &JobTerms) -> Result<(), ProveError> {
     }
 }
 
-/// Whether the parts of an obstacle that has some are hulls, not too many of them and of not too many points together.
+/// Checks the parts of an obstacle: each is a hull, and neither their number nor that of all their points is too large. True for an
+/// obstacle without parts.
 fn has_sound_parts(obstacle: &Obstacle) -> bool {
     let ObstacleShape::Parts(hulls) = &obstacle.shape else {
         return true;
@@ -169,7 +170,7 @@ fn is_shape(shape: &Shape) -> bool {
     }
 }
 
-/// Whether a pose is a place not too far away, and a rotation.
+/// Checks that a pose is not too far away and that its rotation is normalised.
 fn is_place(pose: &Pose) -> bool {
     let near = pose.translation.vector.iter().all(|c| c.abs() <= GREATEST_M);
     near && (pose.rotation.quaternion().norm() - 1.0).abs() <= 1e-9

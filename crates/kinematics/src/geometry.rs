@@ -1,27 +1,27 @@
-//! Geometry of a link, as data: what can touch, what is looked at, what has mass. No collision library is involved here.
+//! Geometry of a link, as data: collision shapes, visuals and mass properties. No collision library is used here.
 
 use crate::Pose;
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A convex shape in its own frame; lengths in metres.
+/// Convex shape in its own frame; lengths in metres.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Shape {
-    /// A box centred at the origin.
+    /// Box centred at the origin.
     Box {
         /// Half of each edge \[m\].
         half_m: [f64; 3],
     },
-    /// A cylinder along z, centred at the origin (URDF's convention).
+    /// Cylinder along z, centred at the origin (URDF's convention).
     Cylinder {
         /// Radius \[m\].
         radius_m: f64,
         /// Half of the length along z \[m\].
         half_length_m: f64,
     },
-    /// A sphere centred at the origin.
+    /// Sphere centred at the origin.
     Sphere {
         /// Radius \[m\].
         radius_m: f64,
@@ -33,63 +33,63 @@ pub enum Shape {
         /// Half of the segment's length \[m\].
         half_length_m: f64,
     },
-    /// The convex hull of points: what a collision mesh is taken for.
+    /// Convex hull of points; collision meshes are treated as this.
     Hull {
         /// The mesh's vertices \[m\].
         points: Vec<Point3<f64>>,
     },
 }
 
-/// A shape placed in a link frame.
+/// Shape placed in a link frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Primitive {
-    /// `T_link_shape`.
+    /// Pose of the shape, `T_link_shape`.
     pub pose: Pose,
     /// The shape.
     pub shape: Shape,
 }
 
-/// What a link looks like, or a part of it. It decides nothing: neither clearances nor hashes depend on it.
+/// Visual of a link. Neither clearances nor hashes depend on it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Visual {
-    /// Name in the description, where it has one.
+    /// Name in the description, if it has one.
     pub name: Option<String>,
-    /// `T_link_visual`.
+    /// Pose of the visual, `T_link_visual`.
     pub pose: Pose,
-    /// What is seen.
+    /// Shape that is displayed.
     pub shape: VisualShape,
-    /// Red, green, blue and alpha, from 0 to 1, where the description states them.
+    /// Red, green, blue and alpha, from 0 to 1, if the description states them.
     pub rgba: Option<[f64; 4]>,
 }
 
-/// The shape of a [`Visual`].
+/// Shape of a [`Visual`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum VisualShape {
-    /// A convex solid.
+    /// Convex solid.
     Solid(Shape),
-    /// The surface of a mesh, shared by all who look at it.
+    /// Surface of a mesh, shared by all users.
     Mesh(Arc<[Triangle]>),
 }
 
-/// Three corners of a triangle, counter-clockwise seen from outside \[m\].
+/// Corners of a triangle, counter-clockwise seen from outside \[m\].
 pub type Triangle = [Point3<f32>; 3];
 
-/// A visual that is left out, as it cannot be read.
+/// Visual that is left out because it cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{visual} of link '{link}' is not shown: {why}")]
 pub struct VisualFinding {
     /// Name of the link.
     pub link: String,
-    /// Which of its visuals, by its name or its place among them.
+    /// Name of the visual, or its index among those of the link.
     pub visual: String,
-    /// Why, in words.
+    /// Reason, in words.
     pub why: String,
 }
 
 /// Mass properties of a link, as the description states them (SI; inertia about the centre of mass).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inertial {
-    /// `T_link_com`: the centre of mass and the axes in which the inertia is given.
+    /// Pose of the centre of mass and the axes of the inertia, `T_link_com`.
     pub pose: Pose,
     /// Mass \[kg\].
     pub mass_kg: f64,
@@ -98,8 +98,7 @@ pub struct Inertial {
 }
 
 impl Shape {
-    /// How far the shape extends from its origin along a unit direction, in its own frame \[m\] (its support
-    /// function).
+    /// Support function: extent of the shape from its origin along a unit direction, in its own frame \[m\].
     #[must_use]
     pub fn support(&self, direction: &Vector3<f64>) -> f64 {
         let across = direction.xy().norm();

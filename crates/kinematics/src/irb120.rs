@@ -1,10 +1,10 @@
-//! The arm that is built in: the ABB IRB 120.
+//! The built-in arm: the ABB IRB 120.
 
 use crate::model::RobotModel;
 use crate::srdf::{DisabledPairs, SrdfError};
 use crate::urdf::{MeshSource, UrdfError};
 
-/// What went wrong while the embedded IRB 120 was read; never seen unless the sources were edited.
+/// Error of reading the embedded IRB 120. It only occurs if the embedded sources were edited.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EmbeddedModelError {

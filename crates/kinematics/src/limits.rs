@@ -14,26 +14,26 @@ pub struct JointLimits {
     pub upper: JointVector,
     /// Highest speed, both ways \[rad/s\]; positive.
     pub velocity: JointVector,
-    /// Highest torque \[N·m\], where the description knows one: an effort of 0 means "unknown".
+    /// Highest torque \[N·m\], if the description states one: an effort of 0 means "unknown".
     pub effort: [Option<f64>; AXES],
 }
 
-/// A joint that stands outside its position limits.
+/// Joint that is outside its position limits.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LimitViolation {
     /// Joint index, 0 for joint 1.
     pub joint: usize,
     /// Position found \[rad\].
     pub position_rad: f64,
-    /// The limit that is broken \[rad\].
+    /// Limit that is broken \[rad\].
     pub limit_rad: f64,
 }
 
-/// Decimals of an angle in degrees, where they tell the two apart.
+/// Decimals of an angle in degrees, if they are enough to tell the two apart.
 const DECIMALS: usize = 2;
 
 impl fmt::Display for LimitViolation {
-    /// The joint, where it is and its limit, in degrees that differ.
+    /// Writes the joint, its position and its limit, in degrees that differ.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [position, limit] = angles_told_apart(self.position_rad, self.limit_rad, DECIMALS);
         write!(
@@ -51,19 +51,19 @@ impl JointLimits {
         (q - self.lower).inf(&(self.upper - q))
     }
 
-    /// Whether every joint is at or inside its limits; false for NaN.
+    /// True if every joint is at or inside its limits; false for NaN.
     #[must_use]
     pub fn contain(&self, q: &JointVector) -> bool {
         (0..AXES).all(|i| self.lower[i] <= q[i] && q[i] <= self.upper[i])
     }
 
-    /// The first joint outside its limits (or NaN), if any.
+    /// Returns the first joint outside its limits (or NaN), if any.
     #[must_use]
     pub fn violation(&self, q: &JointVector) -> Option<LimitViolation> {
         (0..AXES).find_map(|joint| self.violation_of(joint, q))
     }
 
-    /// Every joint outside its limits (or NaN), in joint order.
+    /// Returns every joint outside its limits (or NaN), in joint order.
     #[must_use]
     pub fn violations(&self, q: &JointVector) -> Vec<LimitViolation> {
         (0..AXES).filter_map(|joint| self.violation_of(joint, q)).collect()
@@ -80,7 +80,7 @@ impl JointLimits {
         })
     }
 
-    /// The nearest configuration inside the limits, joint by joint.
+    /// Returns the nearest configuration inside the limits, joint by joint.
     #[must_use]
     pub fn clamp(&self, q: &JointVector) -> JointVector {
         q.sup(&self.lower).inf(&self.upper)

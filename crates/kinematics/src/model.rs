@@ -1,8 +1,8 @@
-//! The immutable model of a six-axis arm.
+//! Immutable model of a six-axis arm.
 //!
 //! Frames fixed to the arm's bodies.
 //!
-//! Forward kinematics: joint positions in, the pose of every frame out.
+//! Forward kinematics: from joint positions to the pose of every frame.
 //!
 //! The chain is folded once, when the model is built: each joint gets a frame whose z axis is the joint's
 //! axis, and the constant transforms between neighbours absorb everything fixed. At run time a joint costs
@@ -22,31 +22,31 @@ use crate::trig::{Separate, atan2, sin_cos_lanes};
 use crate::{AXES, JointVector, Pose, SrdfError};
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
 
-/// A revolute joint of the chain.
+/// Revolute joint of the chain.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Joint {
     /// Name in the description.
     pub name: String,
-    /// Name of the link it moves.
+    /// Name of the link that the joint moves.
     pub child: String,
 }
 
-/// A link of the description, moving or fixed.
+/// Link of the description, moving or fixed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
     /// Name in the description.
     pub name: String,
-    /// The link frame, fixed to the body that carries it.
+    /// Link frame, fixed to the body that carries it.
     pub frame: Frame,
     /// Collision geometry in the link frame; empty for pure frames.
     pub collision: Vec<Primitive>,
-    /// What it looks like, in the link frame; visuals that could not be read are left out ([`RobotModel::visual_findings`]).
+    /// Visuals in the link frame. Those that could not be read are left out ([`RobotModel::visual_findings`]).
     pub visuals: Vec<Visual>,
-    /// Mass properties, where stated.
+    /// Mass properties, if stated.
     pub inertial: Option<Inertial>,
 }
 
-/// An arm with six revolute axes in series, as its URDF describes it. Immutable once built.
+/// Arm with six revolute axes in series, as its URDF describes it. Immutable once built.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotModel {
     pub(crate) name: String,
@@ -61,10 +61,10 @@ pub struct RobotModel {
 }
 
 impl RobotModel {
-    /// The same model with a list of link pairs that need no collision check.
+    /// Returns the model with a list of link pairs that need no collision check.
     ///
     /// # Errors
-    /// [`SrdfError::UnknownLink`] when the list names a link that this arm does not have.
+    /// [`SrdfError::UnknownLink`] if the list names a link that this arm does not have.
     pub fn with_disabled_pairs(mut self, disabled: DisabledPairs) -> Result<Self, SrdfError> {
         disabled.check_links(self.links.iter().map(|l| l.name.as_str()))?;
         self.disabled = Some(disabled);
@@ -77,8 +77,8 @@ impl RobotModel {
         &self.name
     }
 
-    /// SHA-256 of the URDF text and of the vertices of its collision meshes, in lower-case hexadecimal; of the text alone
-    /// where there are no meshes.
+    /// SHA-256 of the URDF text and of the vertices of its collision meshes, in lower-case hexadecimal; of the text alone if there are no
+    /// meshes.
     #[must_use]
     pub fn sha256(&self) -> &str {
         &self.sha256
@@ -102,14 +102,14 @@ impl RobotModel {
         &self.links
     }
 
-    /// The links that joints move and that have no collision shapes of their own.
+    /// Names of the links that joints move and that have no collision shapes.
     pub fn links_without_shapes(&self) -> impl Iterator<Item = &str> {
         let has_shapes = |name: &str| self.links.iter().any(|l| l.name == name && !l.collision.is_empty());
         let moved = self.joints.iter().map(|joint| joint.child.as_str());
         moved.filter(move |name| !has_shapes(name))
     }
 
-    /// What of the arm's looks could not be read and is left out. Nothing else depends on it.
+    /// Visuals that could not be read and are left out. Nothing else depends on them.
     #[must_use]
     pub fn visual_findings(&self) -> &[VisualFinding] {
         &self.visual_findings
@@ -121,20 +121,20 @@ impl RobotModel {
         self.last_link
     }
 
-    /// The arm without its list of link pairs that need no collision check.
+    /// Returns the arm without its list of link pairs that need no collision check.
     #[must_use]
     pub fn without_disabled_pairs(self) -> Self {
         let disabled = None;
         Self { disabled, ..self }
     }
 
-    /// Link pairs that need no collision check, where a list was given.
+    /// Link pairs that need no collision check, if a list was given.
     #[must_use]
     pub fn disabled_pairs(&self) -> Option<&DisabledPairs> {
         self.disabled.as_ref()
     }
 
-    /// SHA-256 of the SRDF that the list came from, in lower-case hexadecimal, where one was given.
+    /// SHA-256 of the SRDF of that list, in lower-case hexadecimal, if one was given.
     #[must_use]
     pub fn srdf_sha256(&self) -> Option<&str> {
         self.disabled.as_ref().map(DisabledPairs::sha256)
@@ -142,8 +142,8 @@ impl RobotModel {
 
     /// Upper bound on the distance of `frame`'s origin from a fixed point, and that point in the base frame \[m\].
     ///
-    /// The point is where joint 2's origin projects onto axis 1; the bound is the sum of the constant
-    /// distances along the chain from there (triangle inequality). Beyond it nothing can be reached.
+    /// The point is the projection of joint 2's origin onto axis 1; the bound is the sum of the constant distances along the chain from
+    /// there (triangle inequality). No pose beyond it can be reached.
     #[must_use]
     pub fn reach_bound(&self, frame: &Frame) -> (Point3<f64>, f64) {
         let second = self.folded[1].translation;
@@ -160,7 +160,7 @@ impl RobotModel {
     }
 }
 
-/// A frame fixed to one of the arm's bodies: body 0 is the base, body i is what joint i moves.
+/// Frame fixed to one of the arm's bodies: body 0 is the base, body i is moved by joint i.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     pub(crate) body: usize,
@@ -179,13 +179,13 @@ impl Frame {
         Self::new(0, Rigid::identity())
     }
 
-    /// The body that carries the frame: 0 for the base, 1–6 for what joint 1–6 moves.
+    /// Index of the body that carries the frame: 0 for the base, 1–6 for the bodies that joints 1–6 move.
     #[must_use]
     pub fn body(&self) -> usize {
         self.body
     }
 
-    /// `T_body_frame`: where it is on the folded joint frame of its body.
+    /// Pose on the folded joint frame of its body, `T_body_frame`.
     #[must_use]
     pub fn on_body(&self) -> &Rigid {
         &self.offset
@@ -198,7 +198,7 @@ impl Frame {
         atan2(z.xy().norm(), z.z)
     }
 
-    /// A frame that is nowhere: its coordinates are NaN, so that nothing can be proved of it.
+    /// Returns an invalid frame: its coordinates are NaN, so that nothing can be proved of it.
     #[must_use]
     pub fn nowhere() -> Self {
         let rotation = Matrix3::repeat(f64::NAN);
@@ -206,7 +206,7 @@ impl Frame {
         Self::new(0, Rigid { rotation, translation })
     }
 
-    /// A frame fixed to this one, at `T_this_new`.
+    /// Returns a frame fixed to this one, at `T_this_new`.
     #[must_use]
     pub fn offset(&self, relative: &Rigid) -> Self {
         Self::new(self.body, self.offset.then(relative))
@@ -302,8 +302,7 @@ impl BodyPoses {
     }
 }
 
-/// Manipulability `√det(J Jᵀ) = |det J|` (Yoshikawa 1985) \[m³, as three rows are lengths\]; 0 exactly at
-/// a singularity.
+/// Manipulability `√det(J Jᵀ) = |det J|` (Yoshikawa 1985) \[m³, as three rows are lengths\]; 0 exactly at a singularity.
 #[must_use]
 pub fn manipulability(jacobian: &Jacobian) -> f64 {
     jacobian.determinant().abs()

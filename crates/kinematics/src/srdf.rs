@@ -9,31 +9,31 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Unordered pairs of link names that need no collision check.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct DisabledPairs {
-    /// For the first link of each pair, the second ones.
+    /// Second links of the pairs, by their first link.
     pairs: BTreeMap<String, BTreeSet<String>>,
     /// SHA-256 of the text, lower-case hexadecimal.
     sha256: String,
 }
 
-/// Why an SRDF file was refused.
+/// Reason that an SRDF file was refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SrdfError {
-    /// Not well-formed XML.
+    /// The text is not well-formed XML.
     #[error("SRDF is not well-formed XML at byte {position}: {detail}")]
     Xml {
         /// Byte offset.
         position: u64,
-        /// The parser's words.
+        /// Message of the parser.
         detail: String,
     },
     /// The root element is not `<robot>`.
     #[error("SRDF must have a <robot> root element; found {found}")]
     NotARobot {
-        /// What stands there.
+        /// Root element found.
         found: String,
     },
-    /// A `disable_collisions` element without one of its links.
+    /// A `disable_collisions` element lacks one of its links.
     #[error("SRDF: a <disable_collisions> element at byte {position} has no attribute '{attribute}'")]
     MissingAttribute {
         /// Byte offset.
@@ -41,10 +41,10 @@ pub enum SrdfError {
         /// `link1` or `link2`.
         attribute: &'static str,
     },
-    /// A link that the arm does not have.
+    /// A link is named that the arm does not have.
     #[error("SRDF names link '{link}', which the URDF does not have")]
     UnknownLink {
-        /// The name.
+        /// Name of the link.
         link: String,
     },
 }
@@ -95,7 +95,7 @@ impl DisabledPairs {
         &self.sha256
     }
 
-    /// Whether the pair may be ignored, in either order.
+    /// True if the pair needs no collision check, in either order.
     #[must_use]
     pub fn contains(&self, a: &str, b: &str) -> bool {
         let listed = |x: &str, y: &str| self.pairs.get(x).is_some_and(|others| others.contains(y));

@@ -1,11 +1,11 @@
-//! The frames in which tool poses are stated, by name.
+//! Frames in which tool poses are stated, by name.
 
 use crate::AXES;
 use crate::model::{Frame, Link, RobotModel};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// The frame in which tool poses are stated and returned.
+/// Frame in which tool poses are stated and returned.
 ///
 /// ROS-Industrial's `tool0` has z leaving the flange. MATLAB's `loadrobot("abbIrb120")` has a body called
 /// `tool0` that equals the last link, with **x** leaving the flange: the same numbers mean another pose
@@ -22,10 +22,10 @@ pub enum ToolFrame {
 }
 
 impl ToolFrame {
-    /// All of them, in the order of their declaration.
+    /// All frames, in the order of their declaration.
     pub const ALL: [Self; 3] = [Self::Flange, Self::Tool0, Self::MatlabTool0];
 
-    /// The name used in files and on the command line.
+    /// Returns the name used in files and on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -36,7 +36,7 @@ impl ToolFrame {
     }
 }
 
-/// A tool frame that the arm's description cannot provide.
+/// Tool frame that the arm's description cannot provide.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ToolFrameError {
@@ -50,7 +50,7 @@ pub enum ToolFrameError {
         /// Links rigidly attached behind joint 6.
         found: String,
     },
-    /// Nothing says which link carries the tool, or no link behind joint 6 has the name stated.
+    /// No link is stated to carry the tool, or no link behind joint 6 has the stated name.
     #[error(
         "robot '{robot}' {}; state the link that carries the tool as tool.mounted_on (--tool-mount): the tool leaves it along z, turned \
          by tool.mount_rpy_deg. Links behind joint 6, with their axis that is along axis 6: {candidates}",
@@ -59,9 +59,9 @@ pub enum ToolFrameError {
     NoMount {
         /// Robot name.
         robot: String,
-        /// The link that was stated.
+        /// Link that was stated.
         link: Option<String>,
-        /// Links behind joint 6, with the axis of each that joint 6 turns about.
+        /// Links behind joint 6, each with its axis that joint 6 turns about.
         candidates: String,
     },
 }
@@ -75,7 +75,7 @@ fn unmounted(link: Option<&str>) -> String {
 /// Greatest angle between axes that count as one in a message \[rad\].
 const ALIGNED_RAD: f64 = 0.01;
 
-/// The axes of a link that a tool may have to leave along, and how `tool.mount_rpy_deg` turns it there from z.
+/// Axes of a link along which a tool may leave it, and the `tool.mount_rpy_deg` that turns the tool there from z.
 const TURNS: [([f64; 3], &str, &str); 6] = [
     ([0.0, 0.0, 1.0], "z", "[0, 0, 0]"),
     ([0.0, 0.0, -1.0], "-z", "[180, 0, 0]"),
@@ -85,7 +85,7 @@ const TURNS: [([f64; 3], &str, &str); 6] = [
     ([0.0, -1.0, 0.0], "-y", "[90, 0, 0]"),
 ];
 
-/// Links behind joint 6, each with its axis that joint 6 turns about, and how a tool that leaves z is turned to those axes.
+/// Lists the links behind joint 6, each with its axis that joint 6 turns about, and the rotation of a tool that leaves z to those axes.
 fn candidates<'a>(links: impl Iterator<Item = &'a Link>) -> String {
     let mut turned = Vec::new();
     let along = |link: &Link| {
@@ -115,7 +115,7 @@ fn candidates<'a>(links: impl Iterator<Item = &'a Link>) -> String {
 }
 
 impl RobotModel {
-    /// The frame of a named link (any link of the description).
+    /// Returns the frame of a named link (any link of the description).
     ///
     /// # Errors
     /// [`ToolFrameError::Missing`] when no link has that name.
@@ -127,7 +127,7 @@ impl RobotModel {
             .ok_or_else(|| self.missing(link))
     }
 
-    /// The frame called [`ToolFrame`] on this arm.
+    /// Returns the frame called [`ToolFrame`] on this arm.
     ///
     /// # Errors
     /// [`ToolFrameError::Missing`] when the description has no `tool0` behind joint 6.
@@ -144,11 +144,11 @@ impl RobotModel {
         }
     }
 
-    /// The frame that carries a tool: that of a link behind joint 6, which the tool leaves along the link's z axis. Without a link,
-    /// `tool0`.
+    /// Returns the frame that carries a tool: that of a link behind joint 6, which the tool leaves along the link's z axis. `None` stands
+    /// for `tool0`.
     ///
     /// # Errors
-    /// [`ToolFrameError::NoMount`] for a link that is not behind joint 6, and without a link where the description has no `tool0`.
+    /// [`ToolFrameError::NoMount`] for a link that is not behind joint 6, and for `None` if the description has no `tool0`.
     pub fn tool_mount(&self, link: Option<&str>) -> Result<Frame, ToolFrameError> {
         let name = link.unwrap_or(ToolFrame::Tool0.name());
         self.behind_joint_6(name)

@@ -1,13 +1,13 @@
-//! Numbers in sentences: as many digits as the sentence needs, and no more.
+//! Numbers in sentences, with as many digits as the sentence needs, and no more.
 //!
-//! A message that compares two numbers shows that they differ; one that suggests a number is right when that number is typed in.
+//! A message that compares two numbers shows that they differ; a suggested number is accepted when it is entered.
 //!
-//! Messages of parsers about values of another kind, in words for people who do not know this program's types.
+//! Messages of parsers about values of another type, in words for people who do not know this program's types.
 
-/// Decimals of a double below 10 beyond which nothing is told any more.
+/// Greatest number of decimals that a double below 10 can need.
 const MOST_DECIMALS: usize = 17;
 
-/// Two numbers with `decimals` decimals, or with as many more as they need to read differently where they differ.
+/// Formats two numbers with `decimals` decimals, or with as many more as they need to read differently if they differ.
 #[must_use]
 pub fn told_apart(a: f64, b: f64, decimals: usize) -> [String; 2] {
     let told = |digits: usize| [a, b].map(|v| format!("{v:.digits$}"));
@@ -20,14 +20,14 @@ pub fn told_apart(a: f64, b: f64, decimals: usize) -> [String; 2] {
     enough.unwrap_or_else(|| [a, b].map(|v| format!("{v:e}")))
 }
 
-/// A number with `decimals` decimals, or with as many more as show that it is not zero where it is not.
+/// Formats a number with `decimals` decimals, or with as many more as show that it is not zero if it is not.
 #[must_use]
 pub fn not_as_zero(value: f64, decimals: usize) -> String {
     let [told, _] = told_apart(value.abs(), 0.0, decimals);
     if value < 0.0 { format!("-{told}") } else { told }
 }
 
-/// A number with `decimals` decimals; what rounds to zero has no sign.
+/// Formats a number with `decimals` decimals; a number that rounds to zero has no sign.
 #[must_use]
 pub fn fixed(value: f64, decimals: usize) -> String {
     let told = format!("{value:.decimals$}");
@@ -37,8 +37,8 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// Two angles \[rad\] in degrees, told apart as [`told_apart`] does, each with its unit; in radians where their degrees round to
-/// the same number.
+/// Formats two angles \[rad\] in degrees with their unit, told apart as by [`told_apart`]; in radians if their degrees round to the same
+/// number.
 #[must_use]
 pub fn angles_told_apart(a_rad: f64, b_rad: f64, decimals: usize) -> [String; 2] {
     let (a, b) = (a_rad.to_degrees(), b_rad.to_degrees());
@@ -48,13 +48,13 @@ pub fn angles_told_apart(a_rad: f64, b_rad: f64, decimals: usize) -> [String; 2]
     told_apart(a, b, decimals).map(|v| format!("{v}°"))
 }
 
-/// A number to at most `digits` significant digits, without zeros that say nothing.
+/// Rounds a number to at most `digits` significant digits.
 #[must_use]
 pub fn rounded(value: f64, digits: usize) -> f64 {
     decimal(&format!("{value:.*e}", digits.saturating_sub(1)), value)
 }
 
-/// The least number of at most `digits` significant digits that is not below a positive `value`.
+/// Returns the least number with at most `digits` significant digits that is not below a positive `value`.
 #[must_use]
 pub fn rounded_up(value: f64, digits: usize) -> f64 {
     let near = rounded(value, digits);
@@ -64,7 +64,7 @@ pub fn rounded_up(value: f64, digits: usize) -> f64 {
     rounded(near + unit(near, digits), digits)
 }
 
-/// The greatest number of at most `digits` significant digits that is not above a positive `value`.
+/// Returns the greatest number with at most `digits` significant digits that is not above a positive `value`.
 #[must_use]
 pub fn rounded_down(value: f64, digits: usize) -> f64 {
     let near = rounded(value, digits);
@@ -74,7 +74,7 @@ pub fn rounded_down(value: f64, digits: usize) -> f64 {
     rounded(near - unit(value, digits), digits)
 }
 
-/// A share in percent with one decimal, rounded down: `99.8`. One that only rounding keeps from being whole is `100`.
+/// Formats a share in percent with one decimal, rounded down: `99.8`. A share that is below 1 only by rounding is `100`.
 #[must_use]
 pub fn percent(share: f64) -> String {
     if (1.0 - 1e-9..=1.0).contains(&share) {
@@ -84,7 +84,7 @@ pub fn percent(share: f64) -> String {
     }
 }
 
-/// The least number of `decimals` decimals that is not below `value`: what is told as "at most".
+/// Formats the least number with `decimals` decimals that is not below `value`, for "at most".
 #[must_use]
 pub fn decimals_up(value: f64, decimals: usize) -> String {
     let near = format!("{value:.decimals$}");
@@ -95,7 +95,7 @@ pub fn decimals_up(value: f64, decimals: usize) -> String {
     format!("{:.decimals$}", read + decimal(&format!("1e-{decimals}"), 0.0))
 }
 
-/// The greatest number of `decimals` decimals that is not above `value`: what is told as "at least".
+/// Formats the greatest number with `decimals` decimals that is not above `value`, for "at least".
 #[must_use]
 pub fn decimals_down(value: f64, decimals: usize) -> String {
     let near = format!("{value:.decimals$}");
@@ -106,7 +106,7 @@ pub fn decimals_down(value: f64, decimals: usize) -> String {
     format!("{:.decimals$}", read - decimal(&format!("1e-{decimals}"), 0.0))
 }
 
-/// What the last of `digits` significant digits of a positive number is worth.
+/// Value of a unit in the last of `digits` significant digits of a positive number.
 fn unit(value: f64, digits: usize) -> f64 {
     let text = format!("{value:e}");
     let exponent = text.split('e').nth(1).and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
@@ -114,13 +114,13 @@ fn unit(value: f64, digits: usize) -> f64 {
     decimal(&format!("1e{last}"), 0.0)
 }
 
-/// The number nearest to a decimal.
+/// Returns the number nearest to a decimal.
 fn decimal(text: &str, otherwise: f64) -> f64 {
     text.parse().unwrap_or(otherwise)
 }
 
-/// Whether a character is a control or format character of Unicode, or separates lines or paragraphs (categories Cc, Cf, Zl and Zp): text with
-/// one does not read as what it says.
+/// True for a control or format character of Unicode, and for one that separates lines or paragraphs (categories Cc, Cf, Zl and Zp). Text
+/// with such a character does not read as its contents.
 #[must_use]
 pub fn is_hidden(c: char) -> bool {
     c.is_control() || is_format(c)
@@ -134,7 +134,7 @@ fn is_format(c: char) -> bool {
         | '\u{e0001}' | '\u{e0020}'..='\u{e007f}')
 }
 
-/// A message about a value of another kind, without names of Rust's types: `path` is the key where the value stands, or empty.
+/// Rewrites a message about a value of another type without names of Rust's types. `path` is the key of the value, or empty.
 #[must_use]
 pub fn message_in_words(path: &str, message: &str) -> String {
     let inside = |name: &str| {

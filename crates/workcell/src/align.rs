@@ -1,4 +1,4 @@
-//! Where an arm stands at a table: points touched with its tip give the mount.
+//! Mount of an arm at a table, computed from points touched with its tip.
 //!
 //! A touched point is known twice: in the drawing of the table, which is the world (`p`), and as the pendant shows the tip there, in the
 //! base frame (`b`). The mount `T_world_base` is the rotation R and the translation t for which Σ |p − (R b + t)|² is least (Kabsch 1976,
@@ -9,15 +9,15 @@
 //! | the fit, and how well the points fix it | `fit` |
 //! | touched in another order than drawn | `order` |
 //! | points in text | `table` |
-//! | why there is none | `error` |
+//! | errors | `error` |
 //!
-//! The mount that fits touched points best, and how well they fix it.
+//! The fit is the mount with the least squared residuals; the spread of the points shows how well they fix it.
 //!
-//! Points that were touched in another order than they are drawn.
+//! Points may have been touched in another order than they are drawn.
 //!
-//! Points in text: a header, then a point a line, separated by commas. Empty lines and what follows a `#` are skipped.
+//! Points come as text: a header, then a point per line, separated by commas. Empty lines and comments after `#` are skipped.
 //!
-//! Why points give no mount.
+//! The errors are the cases in which points give no mount.
 
 use crate::number_table::{NumberTable, Row, TableError, TableShape};
 use crate::plate::GREATEST_M;
@@ -26,79 +26,80 @@ use crate::words::millimetres;
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 
-/// Points that are taken at most.
+/// Greatest number of points.
 pub(crate) const MOST: usize = 10_000;
 
-/// How far two points must be apart \[m\].
+/// Least distance between two points \[m\].
 const APART_M: f64 = 0.01;
 
-/// How far the points must be from the line that fits them best, root mean square \[m\], and as a share of how far they are along it.
+/// Least distance of the points from the line that fits them best, root mean square \[m\], and below as a share of their spread along it.
 const BESIDE_M: f64 = 0.005;
 const BESIDE_SHARE: f64 = 0.02;
 
-/// What a coordinate may be at most \[m\]: a drawing in millimetres is refused for that, and not for its size.
+/// Greatest absolute coordinate \[m\]. A drawing in millimetres is below it, so that it is refused for its unit and not for its size.
 pub(crate) const GREATEST: f64 = 1e3 * GREATEST_M;
 
-/// Lengths whose ratio is this near to 1/1000, as a factor, are taken for a slip of units.
+/// Greatest factor between a ratio of lengths and 1/1000 for which the ratio counts as a slip of units.
 const NEAR: f64 = 2.0;
 
-/// No table on which an arm works is larger \[m\].
+/// Greatest size of a table on which an arm works \[m\].
 const TABLE_M: f64 = 10.0;
 
-/// A mirror image fits where it leaves less than this share of what the rotation leaves, and the rotation more than [`MISFIT_M`].
+/// Greatest residual of a mirror image as a share of the rotation's, and below the least residual of the rotation \[m\], for the points to
+/// count as mirrored.
 const MIRROR_SHARE: f64 = 0.25;
 const MISFIT_M: f64 = 0.002;
 
-/// A point that was touched.
+/// Touched point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
-    /// Where the drawing has it, world frame \[m\].
+    /// Position in the drawing, world frame \[m\].
     pub drawn_m: [f64; 3],
-    /// Where the tip was, base frame \[m\].
+    /// Position of the tip, base frame \[m\].
     pub touched_m: [f64; 3],
 }
 
-/// Where the arm stands.
+/// Mount of the arm with the quality of the fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Alignment {
-    /// `T_world_base`, the mount.
+    /// Mount of the arm, `T_world_base`.
     pub mount: Pose,
-    /// What is left of each point: drawn less touched and carried over, world frame \[m\].
+    /// Residual of each point: the drawn position less the touched one in the world frame \[m\].
     pub residuals_m: Vec<[f64; 3]>,
-    /// Their lengths, root mean square \[m\].
+    /// Length of the residuals, root mean square \[m\].
     pub rms_m: f64,
-    /// How far the drawn points are spread about their middle, root mean square, along their longest direction and beside it \[m\].
+    /// Spread of the drawn points about their middle, root mean square, along their longest direction and beside it \[m\].
     pub spread_m: [f64; 2],
-    /// Lengths touched over lengths drawn; 1 where nothing is stretched.
+    /// Ratio of touched to drawn lengths; 1 if nothing is stretched.
     pub stretch: f64,
 }
 
 impl Alignment {
-    /// Angle between the world's z and the base's \[rad\]: how far the table is out of level for the arm.
+    /// Angle between the world's z axis and the base's \[rad\]: the tilt of the table as the arm sees it.
     #[must_use]
     pub fn tilt_rad(&self) -> f64 {
         let up = self.mount.rotation * Vector3::z();
         acos(up.z.clamp(-1.0, 1.0))
     }
 
-    /// Length of the longest residual \[m\], and its point.
+    /// Index of the point with the longest residual, and the length \[m\].
     #[must_use]
     pub fn worst(&self) -> (usize, f64) {
         let lengths = self.residuals_m.iter().map(|r| Vector3::from(*r).norm()).enumerate();
         lengths.fold((0, 0.0), |worst, found| if found.1 > worst.1 { found } else { worst })
     }
 
-    /// A point of the drawing in the base frame \[m\].
+    /// Converts a point of the drawing to the base frame \[m\].
     #[must_use]
     pub fn in_base(&self, drawn_m: [f64; 3]) -> [f64; 3] {
         self.mount.inverse_transform_point(&Point3::from(drawn_m)).coords.into()
     }
 }
 
-/// The mount that fits best, in the sense of least squares.
+/// Computes the mount that fits best, in the sense of least squares.
 ///
 /// # Errors
-/// [`AlignError`]: points that fix no mount, or fix one that cannot be meant. A bad fit is no error: see [`Alignment::rms_m`].
+/// [`AlignError`]: points that fix no mount, or fix an implausible one. A bad fit is no error: see [`Alignment::rms_m`].
 pub fn align(touches: &[Touch]) -> Result<Alignment, AlignError> {
     check(touches)?;
     let drawn = Cloud::of("drawn", touches, |touch| touch.drawn_m);
@@ -143,9 +144,9 @@ pub fn align(touches: &[Touch]) -> Result<Alignment, AlignError> {
     }
 }
 
-/// Points about their middle.
+/// Points relative to their middle.
 struct Cloud {
-    /// Drawn or touched.
+    /// "drawn" or "touched", for messages.
     how: &'static str,
     middle: Vector3<f64>,
     about: Vec<Vector3<f64>>,
@@ -164,7 +165,7 @@ impl Cloud {
         root_mean_square(self.about.iter().copied())
     }
 
-    /// Refuses two points in one place.
+    /// Checks that no two points coincide.
     fn check_apart(&self) -> Result<(), AlignError> {
         for (a, first) in self.about.iter().enumerate() {
             let mut apart_m = (a + 1..).zip(self.about[a + 1..].iter().map(|second| (second - first).norm()));
@@ -180,7 +181,7 @@ impl Cloud {
         Ok(())
     }
 
-    /// How far the points reach along and beside their longest direction \[m\], unless that is a line.
+    /// Returns the spread of the points along and beside their longest direction \[m\]. Refuses points in line.
     fn check_breadth(&self) -> Result<[f64; 2], AlignError> {
         let spread = self.about.iter().map(|p| p * p.transpose()).sum::<Matrix3<f64>>() / self.about.len() as f64;
         let mut along = spread.symmetric_eigenvalues().map(|value| value.max(0.0).sqrt());
@@ -200,7 +201,7 @@ fn root_mean_square(all: impl ExactSizeIterator<Item = Vector3<f64>>) -> f64 {
     (all.map(|one| one.norm_squared()).sum::<f64>() / count).sqrt()
 }
 
-/// Refuses too few points, too many, and coordinates that are none; NaN too.
+/// Checks the number of points and their coordinates. NaN is refused.
 fn check(touches: &[Touch]) -> Result<(), AlignError> {
     let found = touches.len();
     if !(3..=MOST).contains(&found) {
@@ -217,7 +218,7 @@ fn check(touches: &[Touch]) -> Result<(), AlignError> {
     Ok(())
 }
 
-/// Refuses points that are a thousand times nearer to each other as touched than as drawn: one of both is in another unit.
+/// Refuses points that are about a thousand times closer together as touched than as drawn: one of both is in another unit.
 fn check_units(ratio: f64, drawn_m: f64) -> Result<(), AlignError> {
     if !(1e-3 / NEAR..=1e-3 * NEAR).contains(&ratio) {
         return Ok(());
@@ -234,11 +235,11 @@ fn check_units(ratio: f64, drawn_m: f64) -> Result<(), AlignError> {
     })
 }
 
-/// Points of which all orders are tried: 720.
+/// Greatest number of points for which all orders are tried: 720 orders.
 const MOST_IN_ORDER: usize = 6;
 
-/// The order in which the touched points fit the drawn ones to `tolerance_m` \[m\], root mean square: entry k is the touched point that
-/// belongs to the drawn one k. `None` where no other order than the given one fits, and for more than six points.
+/// Returns the order in which the touched points fit the drawn ones within `tolerance_m` \[m\], root mean square. Entry k is the touched
+/// point that belongs to the drawn one k. `None` if no other order than the given one fits, and for more than six points.
 #[must_use]
 pub fn fitting_order(touches: &[Touch], tolerance_m: f64) -> Option<Vec<usize>> {
     let count = touches.len();
@@ -264,7 +265,7 @@ pub fn fitting_order(touches: &[Touch], tolerance_m: f64) -> Option<Vec<usize>> 
     best.map(|(_, order)| order)
 }
 
-/// The next permutation in lexicographic order; false after the last.
+/// Changes `order` to the next permutation in lexicographic order; returns false after the last.
 fn next(order: &mut [usize]) -> bool {
     let Some(at) = order.windows(2).rposition(|pair| pair[0] < pair[1]) else {
         return false;
@@ -281,35 +282,35 @@ fn next(order: &mut [usize]) -> bool {
 /// Columns of a drawn point, world frame \[m\].
 const DRAWN: [&str; 3] = ["x_m", "y_m", "z_m"];
 
-/// Those of a touched point: besides, base frame \[mm\], as a pendant shows them.
+/// Columns of a touched point: those of a drawn one, and the touched position in the base frame \[mm\], as a pendant shows it.
 const TOUCHED: [&str; 6] = ["x_m", "y_m", "z_m", "touched_x_mm", "touched_y_mm", "touched_z_mm"];
 
-/// A column that may be there besides.
+/// Optional column.
 const NAME: [&str; 1] = ["name"];
 
-/// A point with its line.
+/// Touched point with its line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TouchedPoint {
-    /// The line, from 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// Its name, where the text has names.
+    /// Name, if the text has names.
     pub name: Option<String>,
-    /// What is known of it.
+    /// Drawn and touched position.
     pub touch: Touch,
 }
 
-/// A point of the drawing alone.
+/// Point of the drawing with its line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawnPoint {
-    /// The line, from 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// Its name, where the text has names.
+    /// Name, if the text has names.
     pub name: Option<String>,
-    /// Where it is, world frame \[m\].
+    /// Position, world frame \[m\].
     pub drawn_m: [f64; 3],
 }
 
-/// Points with columns `x_m,y_m,z_m,touched_x_mm,touched_y_mm,touched_z_mm` in any order, and a `name` where one is wanted.
+/// Reads points with columns `x_m,y_m,z_m,touched_x_mm,touched_y_mm,touched_z_mm` in any order, and an optional `name`.
 ///
 /// # Errors
 /// [`TableError`], with the line.
@@ -324,7 +325,7 @@ pub fn touched_points(text: &str) -> Result<Vec<TouchedPoint>, TableError> {
     })
 }
 
-/// Points with columns `x_m,y_m,z_m` in any order, and a `name` where one is wanted.
+/// Reads points with columns `x_m,y_m,z_m` in any order, and an optional `name`.
 ///
 /// # Errors
 /// [`TableError`], with the line.
@@ -332,7 +333,7 @@ pub fn drawn_points(text: &str) -> Result<Vec<DrawnPoint>, TableError> {
     points(text, &DRAWN, |line, name, drawn_m| DrawnPoint { line, name, drawn_m })
 }
 
-/// All rows, each of which `point` makes of its line, name and numbers.
+/// Reads all rows. `point` builds a point from its line, name and numbers.
 fn points<const N: usize, T>(
     text: &str,
     columns: &[&str; N],
@@ -356,12 +357,12 @@ fn points<const N: usize, T>(
     table.rows().map(row).collect()
 }
 
-/// A unit of length.
+/// Unit of length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// m
+    /// Metres.
     Metre,
-    /// mm
+    /// Millimetres.
     Millimetre,
 }
 
@@ -374,38 +375,38 @@ impl std::fmt::Display for Unit {
     }
 }
 
-/// Why touched points give no mount. Points count from 0.
+/// Reason that touched points give no mount. Points count from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AlignError {
-    /// Fewer than three points, or more than anybody touches.
+    /// There are fewer than three points, or too many.
     #[error("{found} points; at least 3 that are not in line, and at most {most}, give a mount")]
     Count {
-        /// How many.
+        /// Number of points.
         found: usize,
-        /// How many are possible.
+        /// Greatest number.
         most: usize,
     },
-    /// A coordinate that is not finite or out of this world.
+    /// A coordinate is not finite or too large.
     #[error("point {point}: its coordinates must be numbers from -{most} to {most} m; found {found}")]
     Coordinate {
         /// Index of the point.
         point: usize,
-        /// The coordinate \[m\].
+        /// Coordinate \[m\].
         found: f64,
-        /// What it may be at most \[m\].
+        /// Greatest absolute value \[m\].
         most: f64,
     },
-    /// Two points in one place.
+    /// Two points coincide.
     #[error("points {} and {} are {} apart as they are {how}; touch points that are farther apart than {}", .points[0], .points[1], millimetres(*.apart_m), millimetres(*.least_m))]
     Coincident {
-        /// Their indices.
+        /// Indices of the points.
         points: [usize; 2],
-        /// How far they are apart \[m\].
+        /// Distance between them \[m\].
         apart_m: f64,
-        /// How far they must be apart \[m\].
+        /// Least distance \[m\].
         least_m: f64,
-        /// Drawn or touched.
+        /// "drawn" or "touched".
         how: &'static str,
     },
     /// All points are nearly in line.
@@ -415,26 +416,26 @@ pub enum AlignError {
         millimetres(*.least_m)
     )]
     InLine {
-        /// How far the points are from it, root mean square \[m\].
+        /// Distance of the points from the line, root mean square \[m\].
         beside_m: f64,
-        /// How far they must be \[m\].
+        /// Least distance \[m\].
         least_m: f64,
-        /// Drawn or touched.
+        /// "drawn" or "touched".
         how: &'static str,
     },
-    /// Lengths that differ by a factor of a thousand.
+    /// Touched and drawn lengths differ by a factor of a thousand.
     #[error(
         "the points are {ratio:.6} times as far apart as touched as they are drawn: the {which} coordinates seem to be in {found}; \
          expected {expected}"
     )]
     Units {
-        /// Lengths touched over lengths drawn.
+        /// Ratio of touched to drawn lengths.
         ratio: f64,
-        /// Drawn or touched.
+        /// "drawn" or "touched".
         which: &'static str,
-        /// What they seem to be in.
+        /// Unit that the coordinates seem to have.
         found: Unit,
-        /// What they should be in.
+        /// Unit that they should have.
         expected: Unit,
     },
     /// A mirror image fits, and no rotation does.
@@ -445,12 +446,12 @@ pub enum AlignError {
         millimetres(*.rotated_m)
     )]
     Mirrored {
-        /// Root mean square of what is left with a mirror \[m\].
+        /// Residual with a mirror, root mean square \[m\].
         mirrored_m: f64,
-        /// The same with a rotation \[m\].
+        /// Residual with a rotation, root mean square \[m\].
         rotated_m: f64,
     },
-    /// The table would hang from the ceiling.
+    /// The mount would hang from the ceiling.
     #[error(
         "the table would lie upside down at the arm, its z tilted by {tilt_deg:.1}° against the base's: touched in another order than \
          drawn, or an axis of the drawing points the other way"

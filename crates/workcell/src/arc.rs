@@ -1,4 +1,4 @@
-//! The way from one plate to the next: an arc round the base, high above the plates.
+//! Route from one plate to the next: an arc round the base, high above the plates.
 
 use crate::trig::{atan2, sin_cos};
 use nalgebra::Vector3;
@@ -17,8 +17,8 @@ pub struct Arc {
     pub height_m: f64,
 }
 
-/// Waypoints from `from` to `to` (base frame, m): `from`, the arc from the azimuth of one to the azimuth of the
-/// other the shorter way round, then down to `to`.
+/// Returns the waypoints from `from` to `to` (base frame, m): `from`, the arc from the azimuth of one to that of the other the shorter way
+/// round, then down to `to`.
 ///
 /// As the paper's code: azimuths normalised to [0, 2π); a difference of exactly π goes counter-clockwise.
 #[must_use]
@@ -39,7 +39,7 @@ fn azimuth(p: &Vector3<f64>) -> f64 {
     if angle < 0.0 { angle + TAU } else { angle }
 }
 
-/// The signed turn in (−π, π] that leads from one azimuth to another \[rad\].
+/// Returns the signed turn in (−π, π] from one azimuth to another \[rad\].
 fn shorter_turn(from: f64, to: f64) -> f64 {
     let turn = to - from;
     if turn > PI {

@@ -1,18 +1,18 @@
-//! Files that appear whole or not at all, whatever ends the program.
+//! Files that are written completely or not at all, even if the program is killed.
 //!
 //! A file is written under a temporary name in its folder, flushed to the disk, and renamed. A program that is killed in between leaves its
-//! temporary file; whoever writes into the folder next removes it. A temporary file is locked while somebody writes it, so that nobody else's
-//! is removed. Files of one folder change under a lock of the folder, which the system releases when its holder ends.
+//! temporary file; the next program that writes into the folder removes it. A temporary file is locked while it is written, so that no
+//! other program removes it. Files of one folder change under a lock of the folder, which the system releases when its holder ends.
 
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// How the name of a temporary file begins.
+/// Start of the name of a temporary file.
 pub const PREFIX: &str = ".platewash-";
 
-/// A lock of a folder, held until it is dropped: nobody else of this module changes its files.
+/// Lock of a folder, held until it is dropped. Nothing else in this module changes the folder's files meanwhile.
 #[derive(Debug)]
 pub struct FolderLock {
     folder: PathBuf,
@@ -21,7 +21,7 @@ pub struct FolderLock {
 }
 
 impl FolderLock {
-    /// Waits for the lock of a folder, which is made where it is missing.
+    /// Waits for the lock of a folder. Creates the folder if it is missing.
     ///
     /// # Errors
     /// The folder cannot be made.
@@ -34,7 +34,7 @@ impl FolderLock {
         })
     }
 
-    /// Removes the temporary files that programs left in the folder when they were killed. What cannot be removed stays.
+    /// Removes the temporary files that killed programs left in the folder. Files that cannot be removed stay.
     pub fn remove_leftovers(&self) {
         let files = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
         let left = files.filter(|file| file.file_name().to_string_lossy().starts_with(PREFIX));
@@ -46,20 +46,20 @@ impl FolderLock {
         }
     }
 
-    /// Flushes the names in the folder to the disk, where the system can.
+    /// Flushes the folder's entries to the disk, if the system can.
     pub fn sync(&self) {
         let _ = File::open(&self.folder).and_then(|folder| folder.sync_all());
     }
 }
 
-/// A file under a temporary name, which goes when this is dropped.
+/// File under a temporary name; removed when this is dropped.
 #[derive(Debug)]
 pub struct StagedFile {
     file: NamedTempFile,
 }
 
 impl StagedFile {
-    /// A file in a folder. For holders of its lock, or of a folder without leftovers.
+    /// Creates a file in a folder. The caller holds the folder's lock, or knows that the folder has no leftovers.
     ///
     /// # Errors
     /// No file can be made there.
@@ -70,12 +70,12 @@ impl StagedFile {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let file = builder.tempfile_in(folder)?;
-        // Where files cannot be locked, leftovers stay.
+        // If files cannot be locked, leftovers stay.
         let _ = file.as_file().try_lock();
         Ok(Self { file })
     }
 
-    /// A file beside a place, whose folder is made where it is missing. Leftovers in the folder are removed.
+    /// Creates a file beside `place`. Creates the folder if it is missing, and removes leftovers in it.
     ///
     /// # Errors
     /// No file can be made there.
@@ -93,7 +93,7 @@ impl StagedFile {
         self.file.as_file().sync_all()
     }
 
-    /// Gives the file its name, in place of the file that has it.
+    /// Renames the file to its final name, replacing an existing file.
     ///
     /// # Errors
     /// The name cannot be taken.
@@ -112,10 +112,10 @@ impl Write for StagedFile {
     }
 }
 
-/// Writes a file. Leftovers in its folder stay: there may be many files to look through.
+/// Writes a file. Leftovers in its folder stay, as there may be many files to examine.
 ///
 /// # Errors
-/// It cannot be written; what was there is there still.
+/// The file cannot be written; an existing file is unchanged.
 pub fn write(place: &Path, bytes: &[u8]) -> io::Result<()> {
     let lock = FolderLock::new(folder_of(place))?;
     let mut file = StagedFile::in_folder(folder_of(place))?;
@@ -126,7 +126,7 @@ pub fn write(place: &Path, bytes: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// The folder of a file; the working folder where the path is a name alone.
+/// Returns the folder of a file; the working folder if the path is a name alone.
 #[must_use]
 pub fn folder_of(place: &Path) -> &Path {
     match place.parent() {

@@ -1,52 +1,52 @@
-//! Giving up long work half-way.
+//! Cancelling long work.
 //!
-//! Work may take only so long.
+//! Deadlines for work.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
-/// Tells long work to give up: clones of a token are one token, which whoever waits keeps a clone of.
+/// Token that cancels long work. Clones share one state; the thread that waits keeps a clone.
 #[derive(Debug, Clone, Default)]
 pub struct CancelToken(Arc<AtomicBool>);
 
-/// The work was given up, as it was told to be.
+/// The work was cancelled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("cancelled")]
 pub struct Cancelled;
 
 impl CancelToken {
-    /// A token that nobody has used yet.
+    /// Returns a token that is not cancelled.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Tells all work that looks at this token to give up.
+    /// Cancels all work that uses this token.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the work is to be given up.
+    /// True if the work is cancelled.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Whether the work is to be given up, as an error.
+    /// Returns an error if the work is cancelled.
     ///
     /// # Errors
-    /// [`Cancelled`] from the first [`CancelToken::cancel`] on.
+    /// [`Cancelled`] after the first [`CancelToken::cancel`].
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.is_cancelled() { Err(Cancelled) } else { Ok(()) }
     }
 }
 
-/// How often is looked whether another token is cancelled.
+/// Interval at which another token is polled.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Cancels a token after some time, unless it is dropped before.
+/// Deadline that cancels a token after some time, unless it is dropped before.
 #[derive(Debug)]
 pub struct Deadline {
     shared: Arc<Shared>,
@@ -65,13 +65,13 @@ struct State {
 }
 
 impl Deadline {
-    /// From now on. Where the system gives no thread, there is no deadline.
+    /// Starts a deadline. If the system gives no thread, there is no deadline.
     #[must_use]
     pub fn after(time: Duration, token: &CancelToken) -> Self {
         Self::following(time, token, &CancelToken::new())
     }
 
-    /// The same; the token is cancelled soon after another one, too.
+    /// Starts a deadline that also cancels the token soon after another one is cancelled.
     #[must_use]
     pub fn following(time: Duration, token: &CancelToken, other: &CancelToken) -> Self {
         let other = other.clone();
@@ -95,7 +95,7 @@ impl Deadline {
         Self { shared }
     }
 
-    /// Whether it has passed.
+    /// True if the deadline has passed.
     #[must_use]
     pub fn is_missed(&self) -> bool {
         self.state().is_missed

@@ -1,9 +1,8 @@
 //! A motion as CSV, for spreadsheets and plots.
 //!
-//! A motion read back from CSV, as this program writes it: [`HEADER`], and torques where it was executed.
+//! The CSV is also read back, in the format that this program writes: [`HEADER`], and torques if the motion was executed.
 //!
-//! It is read strictly. What segment and plate a row belongs to, and where its tip is, is the plan's business: these columns are there and
-//! not read.
+//! Reading is strict. The columns for segment, plate and tip must be present but are not read, as they follow from the plan.
 
 use crate::number_table::{NumberTable, Row, TableError, TableShape};
 use crate::trajectory::{PlanSegment, Trajectory};
@@ -12,19 +11,19 @@ use platewash_kinematics::words::rounded_up;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use std::fmt;
 
-/// Most rows that are written.
+/// Greatest number of rows.
 pub const MAX_ROWS: usize = 1_000_000;
 
-/// Why a motion was not written.
+/// Reason that a motion was not written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CsvError {
-    /// A time step that makes no sense.
+    /// The time step is not positive, or gives too many rows.
     #[error("{}", step(*.dt_s, *.duration_s))]
     Step {
-        /// The step \[s\].
+        /// Time step \[s\].
         dt_s: f64,
-        /// The motion's duration \[s\].
+        /// Duration of the motion \[s\].
         duration_s: f64,
     },
 }
@@ -40,20 +39,20 @@ fn step(dt_s: f64, duration_s: f64) -> String {
     }
 }
 
-/// Significant digits of a time step that is suggested.
+/// Significant digits of a suggested time step.
 const STEP_DIGITS: usize = 3;
 
-/// A time step \[s\] with which a motion of `duration_s` or less gives no more than [`MAX_ROWS`] rows: the least one of
-/// three digits, but for a row or two of rounding.
+/// Returns a time step \[s\] with which a motion of `duration_s` \[s\] or less gives no more than [`MAX_ROWS`] rows: the least one with
+/// three digits, up to a row or two for rounding.
 #[must_use]
 pub fn least_step_s(duration_s: f64) -> f64 {
     rounded_up(duration_s / (MAX_ROWS - 2) as f64, STEP_DIGITS)
 }
 
-/// Refuses a time step that is not positive or gives more than [`MAX_ROWS`] rows for a motion of `duration_s`.
+/// Refuses a time step that is not positive, or that gives more than [`MAX_ROWS`] rows for a motion of `duration_s` \[s\].
 ///
 /// # Errors
-/// [`CsvError::Step`] with a step that is accepted.
+/// [`CsvError::Step`]. Its message has a step that is accepted.
 pub fn check_step(duration_s: f64, dt_s: f64) -> Result<(), CsvError> {
     if dt_s > 0.0 && (duration_s / dt_s).ceil() < MAX_ROWS as f64 {
         return Ok(());
@@ -87,14 +86,14 @@ pub const HEADER: &str = "t_s,segment,plate,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q
 qd1_rad_s,qd2_rad_s,qd3_rad_s,qd4_rad_s,qd5_rad_s,qd6_rad_s,\
 qdd1_rad_s2,qdd2_rad_s2,qdd3_rad_s2,qdd4_rad_s2,qdd5_rad_s2,qdd6_rad_s2,tip_x_m,tip_y_m,tip_z_m";
 
-/// What stands in the header behind [`HEADER`] where a motion was executed: torques.
+/// Header columns after [`HEADER`] for an executed motion: torques.
 pub const TORQUES: &str = ",tau1_n_m,tau2_n_m,tau3_n_m,tau4_n_m,tau5_n_m,tau6_n_m";
 
-/// What stands behind [`TORQUES`] where the force on the sponge was simulated, along the tool's axis.
+/// Header column after [`TORQUES`] if the force on the sponge along the tool's axis was simulated.
 pub const FORCE: &str = ",force_n";
 
-/// The motion at multiples of `dt_s` and at its end: time, segment, plate, joint positions, speeds, accelerations (to
-/// the right of the time) and the origin of `tip`. Numbers are the shortest that read back exactly.
+/// Formats the motion at multiples of `dt_s` and at its end: time, segment, plate, joint positions, speeds, accelerations (at a knot those
+/// after it) and the origin of `tip`. Numbers are the shortest that read back exactly.
 ///
 /// # Errors
 /// [`CsvError::Step`].
@@ -115,7 +114,7 @@ pub fn table<'a>(
     })
 }
 
-/// A motion as CSV, made row by row while it is written: [`table`].
+/// A motion as CSV, made row by row while it is written; see [`table`].
 #[derive(Debug, Clone)]
 pub struct MotionTable<'a> {
     motion: &'a Trajectory,
@@ -149,7 +148,7 @@ impl fmt::Display for MotionTable<'_> {
 /// tip \[m\].
 ///
 /// # Errors
-/// That of the writer.
+/// Errors of the writer.
 pub fn write_row(
     f: &mut fmt::Formatter<'_>,
     t_s: f64,
@@ -167,18 +166,18 @@ pub fn write_row(
     write!(f, ",{},{},{}", tip.x, tip.y, tip.z)
 }
 
-/// Writes a number a joint, each behind a comma.
+/// Writes one number per joint, each after a comma.
 ///
 /// # Errors
-/// That of the writer.
+/// Errors of the writer.
 pub fn write_joints(f: &mut fmt::Formatter<'_>, joints: &JointVector) -> fmt::Result {
     joints.iter().try_for_each(|value| write!(f, ",{value}"))
 }
 
-/// What a number may be at most \[rad, rad/s, rad/s², N·m, s\]; beyond it the file is in other units, or no motion.
+/// Greatest absolute value of a number \[rad, rad/s, rad/s², N·m, s\]. A larger one has another unit, or is no motion.
 const GREATEST: f64 = 1e6;
 
-/// Columns of the time; of torques; of the force.
+/// Columns of the time, and below of torques and of the force.
 const TIME: [&str; 1] = ["t_s"];
 const TORQUE: [&str; 6] = ["tau1_n_m", "tau2_n_m", "tau3_n_m", "tau4_n_m", "tau5_n_m", "tau6_n_m"];
 const FORCE_NAMES: [&str; 1] = ["force_n"];
@@ -186,14 +185,14 @@ const FORCE_NAMES: [&str; 1] = ["force_n"];
 /// A recorded motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedMotion {
-    /// Its samples, in time order; at least one.
+    /// Samples in time order; at least one.
     pub samples: Vec<RecordedSample>,
 }
 
-/// A sample.
+/// Sample of a recorded motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RecordedSample {
-    /// When \[s\], from 0.
+    /// Time \[s\], from 0.
     pub t_s: f64,
     /// Positions \[rad\].
     pub q: JointVector,
@@ -201,14 +200,14 @@ pub struct RecordedSample {
     pub qd: JointVector,
     /// Accelerations \[rad/s²\].
     pub qdd: JointVector,
-    /// Torques \[N·m\], where the file has them.
+    /// Torques \[N·m\], if the file has them.
     pub torque: Option<JointVector>,
-    /// Force on the sponge along the tool's axis \[N\], where it was simulated.
+    /// Force on the sponge along the tool's axis \[N\], if it was simulated.
     pub force_n: Option<f64>,
 }
 
 impl RecordedMotion {
-    /// Reads a table with the columns of [`HEADER`], and those of [`TORQUES`] where the motion was executed.
+    /// Reads a table with the columns of [`HEADER`], and those of [`TORQUES`] if the motion was executed.
     ///
     /// # Errors
     /// [`TableError`] with the first line that does not fit, without the file's name.
@@ -260,7 +259,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// What is suggested is accepted when it is typed in, and hardly anything less is.
+        /// A suggested time step is accepted when it is entered, and hardly any smaller one is.
         #[test]
         fn a_suggested_time_step_is_accepted(mantissa in 1.0..10.0_f64, exponent in -3..12_i32, share in 1e-9..0.9_f64) {
             let duration_s = mantissa * 10_f64.powi(exponent);
@@ -391,7 +390,7 @@ mod tests {
     }
 
     proptest! {
-        /// Whatever is done to a table, it is read or refused.
+        /// Any damaged table is read or refused, without a panic.
         #[test]
         fn a_damaged_table_is_no_trouble(at in 0..600usize, with in "\\PC{0,3}|[,\n]", cut in 0..40usize) {
             let text = table(&[row("0", true), row("0.25", true)], true);

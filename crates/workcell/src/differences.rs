@@ -1,4 +1,4 @@
-//! Where two values differ, field by field, as JSON has them.
+//! Differences between two values, field by field, in their JSON form.
 
 use crate::job::MAX_SEED;
 use crate::words::{printable, shortened};
@@ -6,38 +6,38 @@ use serde::Serialize;
 use serde_json::{Number, Value};
 use std::collections::BTreeSet;
 
-/// Longest value that a difference repeats, in characters.
+/// Greatest number of characters of a value in a difference.
 const LONGEST: usize = 80;
 
-/// What stands for a value that is not there. A text of that word has quotes.
+/// Text for a missing value. A string with that text has quotes.
 pub(crate) const NOTHING: &str = "nothing";
 
-/// A field in which two values differ.
+/// Field in which two values differ.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, thiserror::Error)]
 #[error("{}: {}; expected {}", printable(.key), printable(.found), printable(.expected))]
 pub struct Difference {
-    /// Its place, e.g. `plates[2].pose.position_m[0]`.
+    /// Path of the field, e.g. `plates[2].pose.position_m[0]`.
     pub key: String,
-    /// What the one value says, as JSON; `nothing` where it says nothing.
+    /// Value found, as JSON; `nothing` if it is missing.
     pub found: String,
-    /// What the other says.
+    /// Value expected, as JSON.
     pub expected: String,
 }
 
-/// Every field in which the value found differs from the one expected, by the order of their names. In lists of things that have names, or
-/// pairs of names, one thing more or less is one difference, wherever it stands.
+/// Returns every field in which the value found differs from the one expected, ordered by name. In lists of elements with names, or pairs
+/// of names, an added or missing element is one difference, at any position.
 #[must_use]
 pub fn differences<T: Serialize>(found: &T, expected: &T) -> Vec<Difference> {
     let [found, expected] = [found, expected].map(|value| serde_json::to_value(value).unwrap_or(Value::Null));
     Compared::of(&found, &expected, true)
 }
 
-/// The same of two values as JSON has them; things of lists are told apart by their places alone.
+/// Same as [`differences`] for two JSON values; list elements are matched by position alone.
 pub(crate) fn by_place(found: &Value, expected: &Value) -> Vec<Difference> {
     Compared::of(found, expected, false)
 }
 
-/// Two values, as far as they have been compared.
+/// Comparison of two values so far.
 struct Compared {
     by_name: bool,
     all: Vec<Difference>,
@@ -100,7 +100,7 @@ impl Compared {
         }
     }
 
-    /// What tells the things of two lists apart: their names or pairs of names, where all have one of their own.
+    /// Returns the labels that identify the elements of two lists: their names or pairs of names, where each is unique.
     fn labels(&self, found: &[Value], expected: &[Value]) -> Option<[Vec<String>; 2]> {
         let label = |value: &Value| value.get("name").or_else(|| value.get("pair")).map(Value::to_string);
         let labels = |list: &[Value]| {
@@ -113,8 +113,8 @@ impl Compared {
     }
 }
 
-/// Whether two numbers are the same JSON number. Where a whole number is expected, it is one that JSON says exactly (RFC 8785: numbers are
-/// doubles), which bounds seeds for that reason.
+/// Checks that two numbers are the same JSON number. Where a whole number is expected, it must be one that JSON represents exactly (RFC
+/// 8785: numbers are doubles); seeds are bounded for that reason.
 fn same(found: &Number, expected: &Number) -> bool {
     match expected.as_u64() {
         Some(whole) if !found.is_f64() => found.as_u64() == Some(whole) && whole <= MAX_SEED,
@@ -122,7 +122,7 @@ fn same(found: &Number, expected: &Number) -> bool {
     }
 }
 
-/// The beginning of a value.
+/// Returns the beginning of a value.
 fn said(value: Option<&Value>) -> String {
     shortened(&value.map_or_else(|| NOTHING.to_owned(), Value::to_string), LONGEST)
 }

@@ -1,10 +1,10 @@
-//! What makes a job a dry run: the motion of another plan in the air, over plates that stand below as obstacles.
+//! Dry run: the motion of another plan in the air, over plates that stand below as obstacles.
 //!
-//! The job of a dry run, out of the plan that is tried out.
+//! The job of a dry run is built from the plan that it tries out.
 //!
-//! The plates are raised, together with everything that the tip does on them; the real ones stay where they are, as obstacles that must
-//! be kept clear of like any other. Arm, tool, home, requirements and the settings of the planner are those of the plan, but for two
-//! speeds that come down, and a plate that does not push back on a sponge in the air.
+//! The plates are raised, together with everything that the tip does on them. The real ones stay in place, as obstacles with the usual
+//! clearance. Arm, tool, home, requirements and planner settings are those of the plan, except two speeds that are reduced, and the plates'
+//! contact forces, which are absent in the air.
 
 use crate::clearance::{self, ClearanceError};
 use crate::job::{JobError, JobTerms, Limits, PATH_TOLERANCE_M, Requirements, WashJob};
@@ -17,31 +17,31 @@ use platewash_kinematics::RobotModel;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Height of a dry run that is asked for without one \[m\].
+/// Default height of a dry run \[m\].
 pub const HEIGHT_M: f64 = 0.05;
 
-/// The tip's largest speed in a dry run that is asked for without one \[m/s\].
+/// Default greatest speed of the tip in a dry run \[m/s\].
 pub const SPEED_M_S: f64 = 0.1;
 
-/// Digits of a hash that are told.
+/// Number of digits of a hash in messages.
 const TOLD: usize = 12;
 
-/// Digits of a hash.
+/// Number of digits of a hash.
 const DIGITS: usize = 64;
 
-/// That a job is the dry run of a plan. Its plates are those of that plan, raised, and nothing is there; the real ones stand below them as
-/// obstacles.
+/// Statement that a job is the dry run of a plan. Its plates are those of that plan, raised, with nothing there; the real ones stand below
+/// them as obstacles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DryRun {
-    /// Hash of the plan that is tried out: stated; whoever has that plan can compare.
+    /// Hash of the plan that is tried out. It is stated; comparing takes that plan.
     pub parent: String,
-    /// How far its plates are raised \[m\].
+    /// Height by which the plates are raised \[m\].
     pub height_m: f64,
 }
 
 impl DryRun {
-    /// What a person must read wherever a washing would be said to be washed.
+    /// Returns the notice that replaces the words about washed plates in reports.
     #[must_use]
     pub fn words(&self) -> String {
         let height_mm = (1e6 * self.height_m).round() / 1e3;
@@ -51,7 +51,7 @@ impl DryRun {
         )
     }
 
-    /// The first digits of the parent's hash; the beginning of what is no hash, in quotes.
+    /// Returns the first digits of the parent's hash; in quotes the start of a text that is no hash.
     #[must_use]
     pub fn parent_short(&self) -> String {
         let first: String = self.parent.chars().take(TOLD).collect();
@@ -62,26 +62,26 @@ impl DryRun {
         }
     }
 
-    /// Whether the parent is named by what can be a hash: lower-case hexadecimal digits, as many as SHA-256 has.
+    /// True if the parent is a valid hash: lower-case hexadecimal digits, as many as SHA-256 has.
     #[must_use]
     pub fn names_a_hash(&self) -> bool {
         let digit = |c: u8| matches!(c, b'0'..=b'9' | b'a'..=b'f');
         self.parent.len() == DIGITS && self.parent.bytes().all(digit)
     }
 
-    /// Whether the plates are raised at all, and not out of this world.
+    /// True if the height is above 0 and not too large.
     #[must_use]
     pub fn is_above(&self) -> bool {
         self.height_m > 0.0 && self.height_m <= GREATEST_M
     }
 
-    /// Name of the obstacle that a real plate is.
+    /// Name of the obstacle for a real plate.
     #[must_use]
     pub fn real_name(plate: usize) -> String {
         format!("real plate {plate}")
     }
 
-    /// The raised plate of a real one.
+    /// Returns the raised plate of a real one.
     #[must_use]
     pub fn raised(&self, real: &Plate) -> Plate {
         let mut plate = *real;
@@ -89,7 +89,7 @@ impl DryRun {
         plate
     }
 
-    /// The real plate of a raised one.
+    /// Returns the real plate of a raised one.
     #[must_use]
     pub fn lowered(&self, raised: &Plate) -> Plate {
         let mut plate = *raised;
@@ -97,7 +97,7 @@ impl DryRun {
         plate
     }
 
-    /// A real plate as an obstacle.
+    /// Returns a real plate as an obstacle.
     #[must_use]
     pub fn standing(index: usize, real: &Plate) -> Obstacle {
         let (shape, pose) = real.enclosure();
@@ -105,72 +105,72 @@ impl DryRun {
     }
 }
 
-/// Why a plan has no dry run of that kind.
+/// Reason that a plan has no such dry run.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DryRunError {
-    /// A run of the paper's program.
+    /// The plan is a run of the paper's program.
     #[error("the plan is a run of the paper's program, which is not proved; a dry run is one of a washing")]
     PaperRun,
-    /// It is a dry run already.
+    /// The plan is a dry run already.
     #[error("the plan is itself a dry run (of {parent}): give the plan of the washing")]
     OfDryRun {
-        /// The first digits of that plan's hash.
+        /// First digits of its parent's hash.
         parent: String,
     },
-    /// Its hash is missing or not that of its contents.
+    /// The plan's hash is missing, or not that of its contents.
     #[error("the plan was changed after it was written; a dry run names its parent by its hash")]
     NotSealed,
-    /// A height that is none.
+    /// The height is out of range.
     #[error("the height must be a number above 0 m and at most {GREATEST_M} m; found {found}")]
     Height {
-        /// What was asked for \[m\].
+        /// Height asked for \[m\].
         found: f64,
     },
-    /// So low that the sponge would come nearer to the real plates than the job allows.
+    /// The height is so low that the sponge would come nearer to the real plates than the job allows.
     #[error(
         "at {found} m the sponge comes nearer to the real plates than the clearance that the job asks for; at least {least} m are needed, \
          and more where the tool tilts"
     )]
     TooLow {
-        /// What was asked for \[m\].
+        /// Height asked for \[m\].
         found: f64,
-        /// What an upright tool takes \[m\].
+        /// Least height with an upright tool \[m\].
         least: f64,
     },
-    /// A speed that is none, or no slower than the plan.
+    /// The speed is out of range, or above that of the plan.
     #[error("the speed must be a number above 0 m/s and at most the plan's {most} m/s; found {found}")]
     Speed {
-        /// What was asked for \[m/s\].
+        /// Speed asked for \[m/s\].
         found: f64,
-        /// The speed limit of the plan's tip \[m/s\].
+        /// Speed limit of the plan's tip \[m/s\].
         most: f64,
     },
-    /// More plates than can stand in the way.
+    /// There are too many bodies once the real plates are added.
     #[error("{found} bodies of the tool, obstacles and real plates; a dry run may have at most {MOST_BODIES}")]
     TooManyBodies {
-        /// How many.
+        /// Number of bodies.
         found: usize,
     },
     /// A body has the name of a real plate.
     #[error("{} is the name of a body already; a dry run gives it to a plate that stands in the way", quoted(.name))]
     NameTaken {
-        /// The name.
+        /// Name of the body.
         name: String,
     },
-    /// What was planned follows other wash paths.
+    /// The new plan follows other wash paths.
     #[error("its wash paths are not those that this version plans for its job, so that a dry run would follow others")]
     OtherPaths,
-    /// A shape of the arm is none.
+    /// A shape of the arm is invalid.
     #[error(transparent)]
     Clearance(#[from] ClearanceError),
-    /// What comes of it is no job.
+    /// The resulting job is invalid.
     #[error(transparent)]
     Job(#[from] JobError),
 }
 
-/// The terms of a dry run of `parent`, a plan for `arm`, with its plates raised by `height_m` \[m\] and its tip no faster than
-/// `speed_m_s` \[m/s\]. Whether the parent is proved is for whoever hands it over to know.
+/// Builds the terms of a dry run of `parent`, a plan for `arm`, with its plates raised by `height_m` \[m\] and its tip no faster than
+/// `speed_m_s` \[m/s\]. The caller must know if the parent is proved.
 ///
 /// # Errors
 /// [`DryRunError`].
@@ -207,7 +207,7 @@ pub fn dry_run_terms(parent: &Plan, arm: &RobotModel, height_m: f64, speed_m_s: 
     Ok(terms)
 }
 
-/// The job of a dry run: its terms, as [`dry_run_terms`] has them, with the arm of the parent, under the name of the parent's scenario.
+/// Builds the job of a dry run: its terms, from [`dry_run_terms`], with the arm of the parent, under the name of the parent's scenario.
 ///
 /// # Errors
 /// [`DryRunError`].
@@ -222,7 +222,7 @@ pub fn dry_run_job(
     Ok(WashJob::new(arm.clone(), terms)?.named(&name))
 }
 
-/// Refuses a plan for the job of a dry run that does not follow the wash paths of its parent.
+/// Checks that a plan for the job of a dry run follows the wash paths of its parent.
 ///
 /// # Errors
 /// [`DryRunError::OtherPaths`].
@@ -233,13 +233,13 @@ pub fn check_paths(parent: &Plan, planned: &Plan) -> Result<(), DryRunError> {
     }
 }
 
-/// The least height for a dry run of a job \[m\], where its tool is upright: the clearance, and how far the tip may be off its path.
+/// Least height for a dry run of a job with an upright tool \[m\]: the clearance plus the tolerance of the tip's path.
 #[must_use]
 pub fn least_height_m(job: &JobTerms) -> f64 {
     job.requirements.clearance_m + PATH_TOLERANCE_M
 }
 
-/// The hash of a plan that can have a dry run.
+/// Returns the hash of a plan that can have a dry run.
 fn named(parent: &Plan) -> Result<String, DryRunError> {
     if [parent.process, Process::from(&parent.job.planner)].contains(&Process::Paper) {
         return Err(DryRunError::PaperRun);
@@ -271,7 +271,7 @@ fn check(job: &JobTerms, dry_run: &DryRun, speed_m_s: f64) -> Result<(), DryRunE
     Ok(())
 }
 
-/// The world with the real plates in it; pairs that the parent leaves out stay left out, and none besides but what follows from the arm.
+/// Returns the workcell with the real plates in it. The exclusions are those of the parent and those that follow from the arm.
 fn workcell(job: &JobTerms, arm: &RobotModel) -> Result<Workcell, DryRunError> {
     let world = &job.workcell;
     let of_tool = world.tool.bodies.iter().map(|body| &body.name);

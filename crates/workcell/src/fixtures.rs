@@ -1,6 +1,6 @@
-//! Jobs for tests: what the shipped scenarios ask for, without their files.
+//! Jobs for tests: those of the shipped scenarios, without their files.
 //!
-//! `kitchen…` are those of `kitchen-spiral`, which promises nothing about contact; `contact_kitchen…` those of `kitchen`.
+//! Functions named `kitchen…` belong to `kitchen-spiral`, without contact requirements; `contact_kitchen…` belong to `kitchen`.
 
 use crate::arc::Arc;
 use crate::job::{
@@ -13,7 +13,7 @@ use crate::tool::{StraightTool, Tool};
 use crate::workcell::Workcell;
 use platewash_kinematics::{JointVector, RobotModel};
 
-/// The tool of the kitchen without a promise about contact: 150 mm long, with a sponge of 25 mm.
+/// Returns the kitchen's tool for jobs without contact requirements: 150 mm long, with a sponge of 25 mm.
 #[must_use]
 pub fn kitchen_tool() -> Tool {
     Tool::from(StraightTool {
@@ -22,13 +22,13 @@ pub fn kitchen_tool() -> Tool {
     })
 }
 
-/// A plate of the kitchen with its centre there \[m\].
+/// Returns a plate of the kitchen with its centre at `[x, y]` \[m\].
 #[must_use]
 pub fn kitchen_plate([x, y]: [f64; 2]) -> Plate {
     Plate::level_disc([x, y, 0.03], 0.145, 0.02)
 }
 
-/// The plates of the shipped scenarios `kitchen` and `kitchen-spiral`, seed 1.
+/// Returns the plates of the shipped scenarios `kitchen` and `kitchen-spiral`, seed 1.
 #[must_use]
 pub fn kitchen_plates() -> Vec<Plate> {
     let centres = [
@@ -40,14 +40,14 @@ pub fn kitchen_plates() -> Vec<Plate> {
     centres.into_iter().map(kitchen_plate).collect()
 }
 
-/// An arm on the floor with a tool.
+/// Returns an arm on the floor with a tool.
 #[must_use]
 #[allow(clippy::unwrap_used, reason = "fixtures are for tests")]
 pub fn workcell(robot: &RobotModel, tool: Tool) -> Workcell {
     Workcell::on_floor(robot, tool).unwrap()
 }
 
-/// What the shipped scenario `kitchen-spiral` asks for, on some plates.
+/// Returns the terms of the shipped scenario `kitchen-spiral`, for some plates.
 #[must_use]
 pub fn kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
     let home = JointVector::from([0.0, 0.0, 0.0, 0.0, 90.0, 0.0]).map(f64::to_radians);
@@ -101,13 +101,13 @@ pub fn kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
     }
 }
 
-/// The shipped scenario `kitchen-spiral` with seed 1, resolved.
+/// Returns the job of the shipped scenario `kitchen-spiral` with seed 1.
 #[must_use]
 pub fn kitchen() -> WashJob {
     job(kitchen_terms)
 }
 
-/// The tool of the kitchen with a promise about contact: its sponge is pressed in by 6.5 mm, its stiffness stated.
+/// Returns the kitchen's tool for jobs with contact requirements: its sponge is compressed by 6.5 mm, and its stiffness is stated.
 #[must_use]
 pub fn contact_kitchen_tool() -> Tool {
     Tool::from(StraightTool {
@@ -118,7 +118,7 @@ pub fn contact_kitchen_tool() -> Tool {
     })
 }
 
-/// What the shipped scenario `kitchen` promises about contact.
+/// Returns the contact requirements of the shipped scenario `kitchen`.
 #[must_use]
 pub fn kitchen_contact() -> ContactRequirements {
     ContactRequirements {
@@ -134,7 +134,7 @@ pub fn kitchen_contact() -> ContactRequirements {
     }
 }
 
-/// What the shipped scenario `kitchen` asks for, on some plates.
+/// Returns the terms of the shipped scenario `kitchen`, for some plates.
 #[must_use]
 pub fn contact_kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
     let spiral = kitchen_terms(robot, plates);
@@ -172,7 +172,7 @@ pub fn contact_kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms
     }
 }
 
-/// The shipped scenario `kitchen` with seed 1, resolved.
+/// Returns the job of the shipped scenario `kitchen` with seed 1.
 #[must_use]
 pub fn contact_kitchen() -> WashJob {
     job(contact_kitchen_terms)

@@ -1,19 +1,19 @@
-//! JSON out of files: read with the place of what is wrong, in words for people who do not know this program's types.
+//! JSON from files, with error messages for people who do not know this program's types.
 
 use crate::words::{printable, without_mark};
 use platewash_kinematics::words::message_in_words;
 use serde::de::DeserializeOwned;
 use serde_json::error::Category;
 
-/// Why a text is not the JSON that is expected.
+/// Error in a JSON text.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}", printable(.reason))]
 pub struct JsonError {
-    /// What is wrong, and at which key or line.
+    /// Description of the error, with its key or line.
     pub reason: String,
 }
 
-/// What a text says.
+/// Parses a text.
 ///
 /// # Errors
 /// [`JsonError`]
@@ -24,7 +24,7 @@ pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
     })
 }
 
-/// What is wrong, and where.
+/// Describes an error with its position.
 fn words(text: &str, error: &serde_json::Error) -> String {
     let at = format!("line {}, column {}", error.line(), error.column());
     let whole = error.to_string();
@@ -40,15 +40,15 @@ fn words(text: &str, error: &serde_json::Error) -> String {
     }
 }
 
-/// A table or a list that a text is in the middle of.
+/// A table or list that contains the current position.
 enum Inside {
-    /// With the key that was read last.
+    /// Table, with the key that was read last.
     Table(String),
-    /// With the index of the element.
+    /// List, with the index of the element.
     List(usize),
 }
 
-/// The key at which JSON ends that was read up to an error, such as `list[2].name`; empty for the whole.
+/// Returns the key at which the JSON ends that was read up to an error, such as `list[2].name`; empty for the whole.
 fn path_at(read: &[u8]) -> String {
     let mut inside: Vec<Inside> = Vec::new();
     let (mut takes_key, mut k) = (false, 0);

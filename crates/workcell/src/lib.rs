@@ -6,16 +6,16 @@
 //! | --- | --- |
 //! | mount, arm, tool, obstacles, pairs that are left out | [`workcell`], [`tool`], [`tool_chain`], [`obstacle`] |
 //! | plates, and where they lie | [`plate`], [`surface`], [`layout`] |
-//! | what is asked, resolved | [`job`], [`simulation`] |
-//! | how a plate is washed; the arc between plates | [`wash_path`], [`arc`] |
+//! | jobs and their simulation settings, resolved | [`job`], [`simulation`] |
+//! | the wash path on a plate; the arc between plates | [`wash_path`], [`arc`] |
 //! | a motion and its segments; a controller's motion; tables of both as CSV | [`trajectory`], [`piecewise`], [`csv`] |
 //! | the plan file; fields in which two jobs differ | [`plan`]; [`differences`] |
-//! | a plan tried out in the air; where the arm stands at the table | [`dry_run`]; [`align`] |
+//! | dry runs of a plan in the air; the mount of the arm at the table | [`dry_run`]; [`align`] |
 //! | distances between bodies | [`clearance`] |
 //! | the share of a plate that is swept | [`coverage`] |
-//! | how a sponge presses on a plate | [`contact`] |
+//! | the pressure of a sponge on a plate | [`contact`] |
 //! | mass, centre and inertia of shapes | [`uniform`] |
-//! | random streams; giving up; how a job ended; words of messages | [`random`]; [`cancel`]; [`verdict`]; [`words`] |
+//! | random streams; cancelling; verdicts; words of messages | [`random`]; [`cancel`]; [`verdict`]; [`words`] |
 //! | files: JSON, tables of numbers, files that appear whole | [`json`], [`number_table`], [`atomic_file`] |
 
 pub mod align;

@@ -5,33 +5,33 @@ use crate::words::{counted, quoted, shortened, without_mark};
 /// Longest text of a cell that a message repeats, in characters.
 const LONGEST: usize = 40;
 
-/// What spreadsheets put between columns elsewhere.
+/// Column separators of spreadsheets in other locales.
 const OTHER_SEPARATORS: [char; 2] = [';', '\t'];
 
-/// Which columns a table has, and how it is read.
+/// Columns of a table, and rules for reading it.
 #[derive(Debug, Clone, Copy)]
 pub struct TableShape<'s> {
-    /// Columns that must be there, in any order.
+    /// Columns that must be present, in any order.
     pub required: &'s [&'s str],
-    /// Groups of columns of which all or none are there.
+    /// Groups of columns of which all or none must be present.
     pub optional: &'s [&'s [&'s str]],
-    /// What a number may be at most, either way.
+    /// Greatest absolute value of a number.
     pub most: f64,
-    /// Most rows that are read.
+    /// Greatest number of rows.
     pub most_rows: usize,
-    /// Whether empty lines, and what follows a `#`, are skipped.
+    /// True if empty lines are skipped, and comments that start with `#`.
     pub has_comments: bool,
 }
 
-/// Why a text is no such table.
+/// Error in a table, with its line and column.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}{}: {reason}", in_column(.column.as_ref()))]
 pub struct TableError {
-    /// The line, from 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// The column, from 1, and its name.
+    /// Column number, from 1, and column name.
     pub column: Option<(usize, String)>,
-    /// What is wrong, and what was expected.
+    /// Description of the error, and of the expected value.
     pub reason: String,
 }
 
@@ -40,7 +40,7 @@ fn in_column(column: Option<&(usize, String)>) -> String {
 }
 
 impl TableError {
-    /// The reason with the column, for messages that name the line themselves.
+    /// Returns the reason with the column, for messages that name the line themselves.
     #[must_use]
     pub fn without_line(&self) -> String {
         let column = in_column(self.column.as_ref());
@@ -51,7 +51,7 @@ impl TableError {
     }
 }
 
-/// A table whose header was read.
+/// Table whose header was read.
 #[derive(Debug)]
 pub struct NumberTable<'a> {
     names: Vec<&'a str>,
@@ -59,20 +59,20 @@ pub struct NumberTable<'a> {
     most: f64,
 }
 
-/// A row of a table.
+/// Row of a table.
 #[derive(Debug)]
 pub struct Row<'t> {
-    /// Its line, from 1.
+    /// Line number, from 1.
     pub line: usize,
     names: &'t [&'t str],
     cells: Vec<&'t str>,
     most: f64,
 }
 
-/// The names of the columns in a header.
+/// Returns the names of the columns in a header.
 ///
 /// # Errors
-/// [`TableError`] for an empty header, other separators, and columns that are unknown, missing or there twice.
+/// [`TableError`] for an empty header, other separators, and columns that are unknown, missing or repeated.
 fn column_names<'a>((line, header): (usize, &'a str), shape: &TableShape<'_>) -> Result<Vec<&'a str>, TableError> {
     let expected = shape.required.join(",");
     if header.trim().is_empty() {
@@ -163,7 +163,7 @@ impl<'a> NumberTable<'a> {
         }
     }
 
-    /// Where columns are; `None` unless all of them are there.
+    /// Returns the positions of columns; `None` unless all of them are present.
     #[must_use]
     pub fn places<const N: usize>(&self, names: &[&str; N]) -> Option<[usize; N]> {
         let places: Option<Vec<usize>> = names
@@ -173,7 +173,7 @@ impl<'a> NumberTable<'a> {
         places?.try_into().ok()
     }
 
-    /// That a cell of a line is refused.
+    /// Returns an error about a cell of a line.
     ///
     /// # Errors
     /// [`TableError`], always.
@@ -181,7 +181,7 @@ impl<'a> NumberTable<'a> {
         in_cell(&self.names, line, place, reason)
     }
 
-    /// The rows, each with as many cells as the header.
+    /// Returns the rows, each with as many cells as the header.
     pub fn rows(&self) -> impl Iterator<Item = Result<Row<'_>, TableError>> {
         self.rows.iter().map(|(line, text)| {
             let cells: Vec<&str> = text.split(',').map(str::trim).collect();
@@ -203,16 +203,16 @@ impl<'a> NumberTable<'a> {
 }
 
 impl Row<'_> {
-    /// The text of a cell.
+    /// Returns the text of a cell.
     #[must_use]
     pub fn text(&self, place: usize) -> &str {
         self.cells.get(place).copied().unwrap_or_default()
     }
 
-    /// Numbers of columns.
+    /// Returns the numbers in some columns.
     ///
     /// # Errors
-    /// [`TableError`] for a cell that is no number within the bounds.
+    /// [`TableError`] for a cell that is not a number within the bounds.
     pub fn numbers<const N: usize>(&self, places: [usize; N]) -> Result<[f64; N], TableError> {
         let mut numbers = [0.0; N];
         for (number, place) in numbers.iter_mut().zip(places) {
@@ -233,7 +233,7 @@ impl Row<'_> {
         Ok(numbers)
     }
 
-    /// That a cell is refused.
+    /// Returns an error about a cell of the row.
     ///
     /// # Errors
     /// [`TableError`], always.
@@ -241,10 +241,10 @@ impl Row<'_> {
         in_cell(self.names, self.line, place, reason)
     }
 
-    /// That the row's time is not after the one of the row before.
+    /// Checks that the row's time is after that of the row before.
     ///
     /// # Errors
-    /// [`TableError`] where it is not.
+    /// [`TableError`] if it is not.
     pub fn check_after(&self, place: usize, t_s: f64, before_s: Option<f64>) -> Result<(), TableError> {
         match before_s {
             Some(before_s) if t_s <= before_s => self.refused(

@@ -1,4 +1,4 @@
-//! What stands around an arm.
+//! Obstacles around an arm.
 
 use crate::pose;
 use nalgebra::Point3;
@@ -6,25 +6,25 @@ use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use serde::{Deserialize, Serialize};
 
-/// The greatest margin \[m\].
+/// Greatest margin of an obstacle \[m\].
 const GREATEST_MARGIN_M: f64 = 1.0;
 
-/// Something that stands still and must not be touched.
+/// Fixed body that must not be touched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Obstacle {
-    /// Its name, in messages.
+    /// Name, for messages.
     pub name: String,
-    /// Its shape.
+    /// Shape in the obstacle's frame.
     pub shape: ObstacleShape,
-    /// `T_world_obstacle`.
+    /// Pose in the world frame, `T_world_obstacle`.
     #[serde(with = "pose")]
     pub pose: Pose,
-    /// How far it is grown for what moves, beyond the clearance that the job asks for \[m\]: distances to it are those to all that is
-    /// within this of its shape. Left out of files where it is 0.
+    /// Margin added around the shape, beyond the clearance that the job requires \[m\]. Distances to the obstacle are measured from the
+    /// grown shape. Left out of files if it is 0.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub margin_m: f64,
-    /// The plates that it holds, by their index, growing: these it may touch and reach into. Left out of files where there is none.
+    /// Indices of the plates that it holds, in ascending order. It may touch these and reach into them. Left out of files if empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holds_plates: Vec<usize>,
 }
@@ -33,16 +33,16 @@ pub struct Obstacle {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ObstacleShape {
-    /// All of z ≤ 0.
+    /// Half-space z ≤ 0.
     HalfSpace,
-    /// A convex body.
+    /// Convex body.
     Convex(Shape),
-    /// The convex hulls of some lists of points, all together \[m\].
+    /// Union of the convex hulls of some lists of points \[m\].
     Parts(Vec<Vec<Point3<f64>>>),
 }
 
 impl Obstacle {
-    /// A shape that stands somewhere, without a margin and holding nothing.
+    /// Returns an obstacle without a margin that holds no plates.
     #[must_use]
     pub fn new(name: &str, shape: ObstacleShape, pose: Pose) -> Self {
         Self {
@@ -54,13 +54,13 @@ impl Obstacle {
         }
     }
 
-    /// The floor of the room: all of z ≤ 0.
+    /// Returns the floor of the room: the half-space z ≤ 0.
     #[must_use]
     pub fn floor() -> Self {
         Self::new("floor", ObstacleShape::HalfSpace, Pose::identity())
     }
 
-    /// Why nothing could be worked out with it among so many plates, if so.
+    /// Returns the reason that the obstacle is invalid in a job with `plates` plates, if there is one.
     #[must_use]
     pub fn fault(&self, plates: usize) -> Option<ObstacleFault> {
         if !pose::is_sound(&self.pose) {
@@ -82,38 +82,38 @@ impl Obstacle {
         (!grows).then_some(ObstacleFault::HeldTwice)
     }
 
-    /// Whether it is the level plane at height 0, as the floor of a room that nothing is said about.
+    /// True for a level floor at height 0 without a margin, the floor of a room that states nothing else.
     #[must_use]
     pub fn is_plain_floor(&self) -> bool {
         self.shape == ObstacleShape::HalfSpace && self.pose == Pose::identity() && self.margin_m == 0.0
     }
 }
 
-/// Why an obstacle is none.
+/// Reason that an obstacle is invalid.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObstacleFault {
-    /// It is nowhere.
+    /// The pose is not finite, or not normalised.
     #[error("its pose must be finite, its quaternion of length 1")]
     Pose,
-    /// A margin that is none.
+    /// The margin is out of range.
     #[error("margin_m must be from 0 to {GREATEST_MARGIN_M}; found {found}")]
     Margin {
-        /// What it is.
+        /// Margin found \[m\].
         found: f64,
     },
-    /// No parts, or one without points.
+    /// There are no parts, or one has no points.
     #[error("it has no parts, or one without points")]
     NoParts,
-    /// It holds a plate that is not there.
+    /// The obstacle holds a plate that does not exist.
     #[error("it holds plate {plate}; there are {plates}, counted from 0")]
     NoPlate {
         /// Index of the plate.
         plate: usize,
-        /// How many there are.
+        /// Number of plates.
         plates: usize,
     },
-    /// It holds a plate twice, or its list does not grow.
+    /// The obstacle holds a plate twice, or the list is not ascending.
     #[error("the plates that it holds must be named once each, the least first")]
     HeldTwice,
 }

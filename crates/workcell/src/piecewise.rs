@@ -1,9 +1,10 @@
-//! Joint motion of cubic pieces that meet in position, but not needfully in speed: what a controller is assumed to make of a program.
+//! Joint motion of cubic pieces that meet in position, but not necessarily in speed: the motion that a controller is assumed to make of a
+//! program.
 
 use crate::trajectory::KnotError;
 use platewash_kinematics::JointVector;
 
-/// A cubic Hermite piece of joint motion.
+/// Cubic Hermite piece of joint motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionPiece {
     /// Start and end \[s\].
@@ -21,7 +22,7 @@ pub struct PiecewiseMotion {
 }
 
 impl MotionPiece {
-    /// Even motion from one position to another \[rad\].
+    /// Returns the motion at constant speed from one position to another \[rad\].
     #[must_use]
     pub fn line(t_s: [f64; 2], q_rad: [JointVector; 2]) -> Self {
         let speed = (q_rad[1] - q_rad[0]) / (t_s[1] - t_s[0]);
@@ -32,13 +33,13 @@ impl MotionPiece {
         }
     }
 
-    /// Length \[s\].
+    /// Duration \[s\].
     #[must_use]
     pub fn length_s(&self) -> f64 {
         self.t_s[1] - self.t_s[0]
     }
 
-    /// The coefficients c of q = c₀ + c₁u + c₂u² + c₃u³, u from the start of the piece \[s\].
+    /// Returns the coefficients c of q = c₀ + c₁u + c₂u² + c₃u³, u from the start of the piece \[s\].
     fn coefficients(&self) -> [JointVector; 4] {
         let h = self.length_s();
         let ([q0, q1], [v0, v1]) = (self.q_rad, self.qd_rad_s);
@@ -51,7 +52,7 @@ impl MotionPiece {
         ]
     }
 
-    /// Position \[rad\] and speed \[rad/s\] at a time within the piece \[s\].
+    /// Returns position \[rad\] and speed \[rad/s\] at a time within the piece \[s\].
     #[must_use]
     pub fn at(&self, t_s: f64) -> [JointVector; 2] {
         let [c0, c1, c2, c3] = self.coefficients();
@@ -66,7 +67,7 @@ impl MotionPiece {
         [c2 * 2.0, c2 * 2.0 + c3 * (6.0 * self.length_s())]
     }
 
-    /// Both parts of the piece before and after a time within it \[s\].
+    /// Returns the two parts of the piece before and after a time within it \[s\].
     fn split(&self, t_s: f64) -> [Self; 2] {
         let [q, qd] = self.at(t_s);
         let [from, to] = self.t_s;
@@ -115,7 +116,8 @@ impl PiecewiseMotion {
         self.pieces.last().map_or(0.0, |piece| piece.t_s[1])
     }
 
-    /// Position \[rad\] and speed \[rad/s\] at a time \[s\], where pieces meet those of the later one; `None` outside the motion.
+    /// Returns position \[rad\] and speed \[rad/s\] at a time \[s\]. At a time at which pieces meet the later one counts. `None` outside
+    /// the motion.
     #[must_use]
     pub fn at(&self, t_s: f64) -> Option<[JointVector; 2]> {
         let index = self.pieces.partition_point(|piece| piece.t_s[0] <= t_s);
@@ -123,7 +125,7 @@ impl PiecewiseMotion {
         (t_s <= piece.t_s[1]).then(|| piece.at(t_s))
     }
 
-    /// The same motion `factor` times as long, and as much slower.
+    /// Returns the motion stretched in time by `factor`, so that it is slower by that factor.
     #[must_use]
     pub fn stretched(&self, factor: f64) -> Self {
         let stretched = |piece: &MotionPiece| MotionPiece {
@@ -136,7 +138,7 @@ impl PiecewiseMotion {
         }
     }
 
-    /// The same motion with a rest where it ends, until a time \[s\] that is later.
+    /// Returns the motion with a rest at its end, until a later time \[s\].
     #[must_use]
     pub fn resting_until(mut self, end_s: f64) -> Self {
         let from = self.duration_s();
@@ -147,8 +149,8 @@ impl PiecewiseMotion {
         self
     }
 
-    /// The same motion with pieces that end at each of some times \[s\], in ascending order; those outside the motion are left out, and
-    /// so are those that are within `near_s` \[s\] of where a piece ends already.
+    /// Returns the motion with pieces that end at each of some times \[s\], in ascending order. Times outside the motion are ignored, and
+    /// so are those within `near_s` \[s\] of the end of a piece.
     #[must_use]
     pub fn cut_at(&self, times_s: impl IntoIterator<Item = f64>, near_s: f64) -> Self {
         let mut pieces = Vec::with_capacity(self.pieces.len());

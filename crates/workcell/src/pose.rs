@@ -1,19 +1,19 @@
-//! A pose in files: position in metres and unit quaternion (w, x, y, z).
+//! Pose in files: position in metres and unit quaternion (w, x, y, z).
 
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use platewash_kinematics::Pose;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// How far the norm of a quaternion may be from 1.
+/// Greatest difference of a quaternion's norm from 1.
 const UNIT: f64 = 1e-9;
 
-/// Whether a pose is somewhere: finite, its quaternion of length 1.
+/// Checks that a pose is finite and that its quaternion has length 1.
 pub(crate) fn is_sound(pose: &Pose) -> bool {
     pose.translation.vector.iter().all(|c| c.is_finite()) && is_unit(pose.rotation.quaternion())
 }
 
-/// NaN is no unit.
+/// Checks that a quaternion has length 1; false for NaN.
 fn is_unit(q: &Quaternion<f64>) -> bool {
     (q.norm() - 1.0).abs() <= UNIT
 }
@@ -28,7 +28,7 @@ struct InFile {
 /// Writes a pose.
 ///
 /// # Errors
-/// The serializer's.
+/// Errors of the serializer.
 pub fn serialize<S: Serializer>(pose: &Pose, serializer: S) -> Result<S::Ok, S::Error> {
     let q = pose.rotation.quaternion();
     let in_file = InFile {
@@ -38,10 +38,10 @@ pub fn serialize<S: Serializer>(pose: &Pose, serializer: S) -> Result<S::Ok, S::
     in_file.serialize(serializer)
 }
 
-/// Reads a pose, to the bit.
+/// Reads a pose. The numbers are kept to the bit.
 ///
 /// # Errors
-/// What is no pose, or has a quaternion whose length is not 1.
+/// A value that is not a pose, or a quaternion whose length is not 1.
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Pose, D::Error> {
     let InFile {
         position_m,

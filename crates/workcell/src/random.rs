@@ -4,7 +4,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use sha2::{Digest, Sha256};
 
-/// The stream that belongs to a scenario's `seed` and a stage's `name`; portable across machines.
+/// Returns the stream that belongs to a scenario's `seed` and a stage's `name`; portable across machines.
 #[must_use]
 pub fn stream(seed: u64, name: &str) -> Pcg64 {
     let digest = Sha256::new()

@@ -1,20 +1,19 @@
-//! How the arm follows a plan in simulation, as numbers: law, gains, sampling, plant. A plan carries and hashes them; no proof rests
-//! on them.
+//! Settings of a simulation of a plan: control law, gains, sampling, plant. A plan carries and hashes them; no proof depends on them.
 
 use crate::tool::Sponge;
 use serde::{Deserialize, Serialize};
 
-/// Law, gains and plant of a simulation.
+/// Control law, gains and plant of a simulation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SimulationSettings {
-    /// The law.
+    /// Control law.
     pub law: ControlLawName,
-    /// Its gains and sampling.
+    /// Gains and sampling of the law.
     pub control: ControlSettings,
     /// The arm as a physical system; not used by kinematic laws.
     pub plant: PlantSettings,
-    /// Rated payload \[kg\]; without it, that of the built-in arm.
+    /// Rated payload \[kg\]; `None` for that of the built-in arm.
     pub payload_kg: Option<f64>,
 }
 
@@ -30,24 +29,24 @@ impl SimulationSettings {
     }
 }
 
-/// Control laws by name.
+/// Control laws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ControlLawName {
-    /// The paper's law, to the letter: it moves positions, there is no plant.
+    /// The paper's law, unchanged: it moves positions, without a plant.
     Paper,
-    /// The commanded configuration is taken at once.
+    /// The commanded configuration is reached at once.
     Exact,
-    /// Torque in proportion to the errors of position and speed.
+    /// Torque in proportion to the errors of position and speed (PD).
     Pd,
-    /// Pd and the torque that holds the arm against gravity.
+    /// PD plus the torque that holds the arm against gravity.
     PdGravity,
-    /// The torque that the arm's own model asks for, the errors corrected as accelerations.
+    /// Computed torque: the torque that the arm's model gives for the commanded acceleration, corrected by the errors.
     ComputedTorque,
 }
 
 impl ControlLawName {
-    /// All of them.
+    /// All laws.
     pub const ALL: [Self; 5] = [
         Self::Paper,
         Self::Exact,
@@ -56,19 +55,19 @@ impl ControlLawName {
         Self::ComputedTorque,
     ];
 
-    /// Their words, in the same order.
+    /// Names of the laws, in the same order.
     pub const NAMES: [&str; 5] = {
         let [a, b, c, d, e] = Self::ALL;
         [a.name(), b.name(), c.name(), d.name(), e.name()]
     };
 
-    /// The law of that name.
+    /// Returns the law of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|law| law.name() == name)
     }
 
-    /// The word used in files.
+    /// Returns the name used in files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -80,20 +79,20 @@ impl ControlLawName {
         }
     }
 
-    /// Whether the law gives positions, without a plant, as the paper's program needs.
+    /// True if the law gives positions, without a plant, as the paper's program needs.
     #[must_use]
     pub fn is_kinematic(self) -> bool {
         matches!(self, Self::Paper | Self::Exact)
     }
 }
 
-/// What a torque law takes from the commanded motion besides its positions.
+/// Parts of the commanded motion that a torque law uses besides the positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FeedForward {
-    /// Nothing: the arm's own speed is damped.
+    /// None: the arm's own speed is damped.
     None,
-    /// Speeds: the error of speed is damped. Computed torque also takes accelerations.
+    /// Speeds: the error of speed is damped. Computed torque also uses accelerations.
     Velocity,
 }
 
@@ -107,17 +106,17 @@ pub struct ControlSettings {
     pub kd: f64,
     /// Time between waypoints of a kinematic law \[s\].
     pub dt_s: f64,
-    /// Samples of a torque law \[Hz\].
+    /// Sampling rate of a torque law \[Hz\].
     pub rate_hz: f64,
     /// Natural frequency from which the gains of a torque law follow \[rad/s\].
     pub frequency_rad_s: f64,
-    /// Damping ratio from which they follow.
+    /// Damping ratio from which the gains of a torque law follow.
     pub damping_ratio: f64,
-    /// Proportional gains of a torque law in place of those \[N·m/rad; 1/s² for computed torque\].
+    /// Proportional gains of a torque law, instead of those that follow from frequency and damping \[N·m/rad; 1/s² for computed torque\].
     pub joint_kp: Option<[f64; 6]>,
-    /// Derivative gains of a torque law in place of those \[N·m·s/rad; 1/s for computed torque\].
+    /// Derivative gains of a torque law, instead of those that follow from frequency and damping \[N·m·s/rad; 1/s for computed torque\].
     pub joint_kd: Option<[f64; 6]>,
-    /// What a torque law takes from the commanded motion besides its positions.
+    /// Parts of the commanded motion that a torque law uses besides the positions.
     pub feed_forward: FeedForward,
 }
 
@@ -137,41 +136,40 @@ impl Default for ControlSettings {
     }
 }
 
-/// The arm as a physical system, where a law gives torques. Friction, torque limits and contact are off unless given: there
-/// are no published figures.
+/// Dynamics of the arm, for laws that give torques. Friction, torque limits and contact are off by default: there are no published figures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlantSettings {
-    /// How the motion is integrated.
+    /// Integration scheme of the motion.
     pub integrator: Integrator,
-    /// Steps of integration to a sample of the law.
+    /// Integration steps per sample of the law.
     pub substeps: usize,
-    /// Friction torque per joint speed \[N·m·s/rad\].
+    /// Viscous friction per joint \[N·m·s/rad\].
     pub viscous_friction_n_m_s: [f64; 6],
-    /// Friction torque against any motion \[N·m\].
+    /// Coulomb friction per joint \[N·m\].
     pub coulomb_friction_n_m: [f64; 6],
-    /// Largest joint torques \[N·m\]; without them, those of the arm's description where it knows any.
+    /// Greatest joint torques \[N·m\]; `None` for those of the arm's description, if it has any.
     pub torque_limit_n_m: Option<[f64; 6]>,
-    /// A constant force of a plate on the sponge while it washes, along the plate's normal \[N\]; 0 beside [`Self::contact`].
+    /// Constant force of a plate on the sponge while it washes, along the plate's normal \[N\]; 0 if [`Self::contact`] is set.
     pub contact_force_n: f64,
-    /// How plates push back where the sponge's foam meets them; without it, with the constant force.
+    /// Contact model of the sponge's foam; `None` for the constant force.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<FoamContact>,
 }
 
-/// A sponge that plates push back as the elastic foundation of [`crate::contact`]: assumptions, both.
+/// Contact of a sponge with plates as the elastic foundation of [`crate::contact`]. Both values are assumptions.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FoamContact {
-    /// E: the stiffness simulated, pressure over strain, within the range that the sponge states \[Pa\].
+    /// Simulated stiffness E, pressure over strain, within the range that the sponge states \[Pa\].
     pub stiffness_pa: f64,
-    /// η: pressure over the speed of strain \[Pa·s\]; 0 for none.
+    /// Damping η, pressure over the speed of strain \[Pa·s\]; 0 for none.
     pub damping_pa_s: f64,
 }
 
 impl FoamContact {
-    /// Without damping, in the middle of what a sponge states: the geometric mean of least and greatest, as they are bounds of a factor.
-    /// `None` of a sponge of unknown stiffness.
+    /// Returns the contact of a sponge without damping, with the geometric mean of its least and greatest stiffness; `None` for a sponge of
+    /// unknown stiffness.
     #[must_use]
     pub fn of(sponge: &Sponge) -> Option<Self> {
         let [least, most] = sponge.stiffness_pa?;
@@ -182,7 +180,7 @@ impl FoamContact {
     }
 }
 
-/// How the motion is integrated.
+/// Integration scheme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Integrator {

@@ -1,4 +1,4 @@
-//! What the arm holds: a rigid chain of convex bodies behind its flange, a sponge at the end, and its mass.
+//! Tool of an arm: a rigid chain of convex bodies behind its flange, a sponge at the end, and its mass.
 //!
 //! Poses are in the mounting frame, that of the link that carries the tool: `tool0` unless another is stated, z out of the arm.
 
@@ -10,67 +10,67 @@ use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Frame, Pose, RobotModel, ToolFrame, ToolFrameError};
 use serde::{Deserialize, Serialize};
 
-/// Bodies that overlap by less touch: the rounding of places \[m\].
+/// Greatest overlap of bodies that counts as touching: the rounding of positions \[m\].
 const ROUNDING_M: f64 = 1e-9;
 
-/// A tool.
+/// Tool of an arm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tool {
-    /// The link behind joint 6 that carries it, which it leaves along the link's z axis; without a name, `tool0`.
+    /// Link behind joint 6 that carries the tool, which leaves it along the link's z axis; `None` for `tool0`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mounted_on: Option<String>,
-    /// What is between the flange and the sponge; none where there is no tool at all.
+    /// Bodies between the flange and the sponge; empty if there is no tool.
     pub bodies: Vec<ToolBody>,
-    /// The sponge; a body too, where there are others.
+    /// Sponge; it counts as a body if there are others.
     pub sponge: Sponge,
-    /// `T_flange_tip`: the centre of the sponge's far face, z leaving the tool; the mounting frame without a tool.
+    /// Pose of the tip, `T_flange_tip`: the centre of the sponge's far face, with z out of the tool; the mounting frame without a tool.
     #[serde(with = "pose")]
     pub tip: Pose,
-    /// Its mass, all bodies together; none weighs nothing.
+    /// Mass of all bodies together; `None` for none.
     pub mass: Option<ToolMass>,
 }
 
-/// A body of the tool.
+/// Body of a tool.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ToolBody {
-    /// Its name, in messages.
+    /// Name, for messages.
     pub name: String,
-    /// Its shape.
+    /// Shape in the body's frame.
     pub shape: Shape,
-    /// `T_flange_body`.
+    /// Pose in the mounting frame, `T_flange_body`.
     #[serde(with = "pose")]
     pub pose: Pose,
 }
 
-/// A sponge: a cylinder of a height that gives way.
+/// Sponge: a cylinder whose height can be compressed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sponge {
-    /// Radius \[m\]; also decides coverage.
+    /// Radius \[m\]. It also determines coverage.
     pub radius_m: f64,
-    /// Height while it washes \[m\]: what holds it ends as far above the tip.
+    /// Height while it washes \[m\]: the distance of its holder from the tip.
     pub height_m: f64,
-    /// c: how far it is pressed in while it washes \[m\]. Free, it reaches as far beyond the tip: its height is then [`Self::free_height_m`].
-    /// The tip may lift as far and still touch. An assumption.
+    /// Compression c while it washes \[m\], an assumption. Without load it reaches beyond the tip by as much, with the height
+    /// [`Self::free_height_m`]. The tip may lift by as much and the sponge still touches.
     pub compression_m: f64,
-    /// E: least and greatest stiffness of an elastic foundation, pressure over strain \[Pa\]. An assumption; unknown without it.
+    /// Least and greatest stiffness E of an elastic foundation, pressure over strain \[Pa\], an assumption; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness_pa: Option<[f64; 2]>,
-    /// `T_flange_sponge`: its middle while it washes, z along its axis.
+    /// Pose while it washes, `T_flange_sponge`: its middle, with z along its axis.
     #[serde(with = "pose")]
     pub pose: Pose,
 }
 
-/// How a sponge stands to the plate that it shall wash.
+/// State of a sponge relative to the plate that it washes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Touch {
-    /// It touches.
+    /// The sponge touches.
     On,
-    /// The tip is farther above the face than the sponge is compressed.
+    /// The tip is above the face by more than the sponge's compression.
     Lifted,
-    /// The tip is deeper than the sponge is high: what holds it would have to be in the plate.
+    /// The tip is deeper than the sponge is high: its holder would reach into the plate.
     Pressed,
 }
 
@@ -82,14 +82,14 @@ pub struct ToolMass {
     pub mass_kg: f64,
     /// Centre of mass, mounting frame \[m\].
     pub com_m: [f64; 3],
-    /// Inertia about it: ixx, ixy, ixz, iyy, iyz, izz \[kg·m²\].
+    /// Inertia about the centre of mass: ixx, ixy, ixz, iyy, iyz, izz \[kg·m²\].
     pub inertia_kg_m2: [f64; 6],
 }
 
-/// A straight tool: a round handle along z with a sponge at its end.
+/// Straight tool: a round handle along z with a sponge at its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StraightTool {
-    /// From the flange to the sponge's far face \[m\]; 0 for no tool.
+    /// Distance from the flange to the sponge's far face \[m\]; 0 for no tool.
     pub length_m: f64,
     /// Radius of the handle \[m\].
     pub radius_m: f64,
@@ -97,20 +97,20 @@ pub struct StraightTool {
     pub sponge_radius_m: f64,
     /// Height of the sponge \[m\].
     pub sponge_height_m: f64,
-    /// How far the sponge is pressed in while it washes \[m\].
+    /// Compression of the sponge while it washes \[m\].
     pub sponge_compression_m: f64,
-    /// Least and greatest stiffness of the sponge \[Pa\]; unknown without it.
+    /// Least and greatest stiffness of the sponge \[Pa\]; `None` if unknown.
     pub sponge_stiffness_pa: Option<[f64; 2]>,
     /// Mass \[kg\].
     pub mass_kg: f64,
-    /// Distance of the centre of mass from the flange \[m\]; without it, half the length.
+    /// Distance of the centre of mass from the flange \[m\]; `None` for half the length.
     pub com_m: Option<f64>,
-    /// Inertia about the centre of mass; without it, that of a uniform cylinder of the handle's radius over the whole length.
+    /// Inertia about the centre of mass \[kg·m²\]; `None` for that of a uniform cylinder of the handle's radius over the whole length.
     pub inertia_kg_m2: Option<[f64; 6]>,
 }
 
 impl Default for StraightTool {
-    /// No tool, and a sponge of 25 mm.
+    /// Returns no tool, and a sponge of 25 mm.
     fn default() -> Self {
         Self {
             length_m: 0.0,
@@ -173,7 +173,7 @@ impl From<StraightTool> for Tool {
 }
 
 impl Tool {
-    /// The tool on the link that carries it; that `tool0` does need not be stated, and is not kept.
+    /// Returns the tool on the link that carries it. The default `tool0` is not stored.
     #[must_use]
     pub fn mounted(self, on: Option<String>) -> Self {
         Self {
@@ -182,14 +182,14 @@ impl Tool {
         }
     }
 
-    /// Whether there is a tool that can touch anything.
+    /// True if there is a tool that can touch anything.
     #[must_use]
     pub fn is_present(&self) -> bool {
         !self.bodies.is_empty()
     }
 
-    /// How the sponge stands with its tip that high over a face \[m\]. Without a tool body the sponge counts as touching wherever the
-    /// flange passes, as in the report of the paper's program.
+    /// Returns the state of the sponge with its tip at a height over a face \[m\]. Without a tool body the sponge counts as touching
+    /// everywhere, as in the report of the paper's program.
     #[must_use]
     pub fn touch(&self, height_m: f64) -> Touch {
         if self.is_present() {
@@ -199,10 +199,11 @@ impl Tool {
         }
     }
 
-    /// The first body that reaches into the sponge, and how far beyond the plane behind it \[m\], more than the rounding of places.
+    /// Returns the first body that reaches into the sponge, and its depth beyond the plane behind the sponge \[m\], if it is more than the
+    /// rounding of positions.
     ///
-    /// Of a body its box along the axes of the tip counts: it reaches in where that overlaps the sponge's cylinder. A body wholly beside
-    /// the sponge may reach as far as it likes.
+    /// A body counts with its box along the axes of the tip: it reaches in if that overlaps the sponge's cylinder. A body wholly beside the
+    /// sponge may reach any distance.
     #[must_use]
     pub fn in_sponge(&self) -> Option<(&ToolBody, f64)> {
         let [radius_m, height_m] = [self.sponge.radius_m, self.sponge.height_m];
@@ -229,7 +230,7 @@ impl Tool {
         robot.tool_mount(self.mounted_on.as_deref()).map(drop)
     }
 
-    /// The frame that carries it, z out of the arm: [`Frame::nowhere`] on an arm that [`Self::check_mount`] refuses.
+    /// Returns the frame that carries the tool, z out of the arm; [`Frame::nowhere`] on an arm that [`Self::check_mount`] refuses.
     #[must_use]
     pub fn mounting_frame(&self, robot: &RobotModel) -> Frame {
         robot
@@ -237,7 +238,7 @@ impl Tool {
             .unwrap_or_else(|_| Frame::nowhere())
     }
 
-    /// The frame of the tip on an arm.
+    /// Returns the frame of the tip on an arm.
     #[must_use]
     pub fn tip_frame(&self, robot: &RobotModel) -> Frame {
         self.mounting_frame(robot).offset(&Rigid::from(&self.tip))
@@ -256,7 +257,7 @@ impl Sponge {
         atan2(self.height_m, self.radius_m)
     }
 
-    /// How it stands with its tip that high over a face \[m\].
+    /// Returns the state of the sponge with its tip at a height over a face \[m\].
     #[must_use]
     pub fn touch(&self, height_m: f64) -> Touch {
         if height_m < -self.height_m {
@@ -268,13 +269,13 @@ impl Sponge {
         }
     }
 
-    /// Its height while nothing presses it \[m\].
+    /// Height without load \[m\].
     #[must_use]
     pub fn free_height_m(&self) -> f64 {
         self.height_m + self.compression_m
     }
 
-    /// Its shape while it washes, about its pose.
+    /// Shape while it washes, relative to its pose.
     #[must_use]
     pub fn shape(&self) -> Shape {
         Shape::Cylinder {
@@ -283,7 +284,7 @@ impl Sponge {
         }
     }
 
-    /// Its shape while nothing presses it, and `T_flange_shape`.
+    /// Shape without load, and its pose `T_flange_shape`.
     #[must_use]
     pub fn free_body(&self) -> (Shape, Pose) {
         let shape = Shape::Cylinder {
@@ -294,8 +295,8 @@ impl Sponge {
     }
 }
 
-/// Pose of the tip at a position, pointing straight down: a half turn about y, which is what the paper's
-/// `eul2quat([0, pi/2, 0])` means for MATLAB's `tool0`.
+/// Returns the pose of a tip at a position that points straight down: a half turn about y, which the paper's `eul2quat([0, pi/2, 0])` means
+/// for MATLAB's `tool0`.
 #[must_use]
 pub fn tool_down(position: Vector3<f64>) -> Pose {
     // Exact, so that no joint sees the rounding of π: the quaternion (w, x, y, z) = (0, 0, 1, 0).

@@ -1,4 +1,4 @@
-//! A tool as it is: a straight one, mounted anywhere on the flange and turned in any way, with further bodies beside its handle.
+//! Tool assembled from parts: a straight one, mounted at any pose on the flange, with further bodies beside its handle.
 //!
 //! Poses of bodies are in the frame of the tool: at [`ToolChain::mount`] on the flange, z along the handle.
 
@@ -12,101 +12,101 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 
-/// What masses that should add up may miss, as a part of their sum.
+/// Rounding allowed in a sum of masses, as a part of the sum.
 const ROUNDING: f64 = 1e-9;
 
-/// A tool that is put together.
+/// Tool assembled from parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToolChain {
-    /// Sponge, tip, mass and, where it has one, the handle: in the frame of the tool.
+    /// Sponge, tip, mass and, if it has one, the handle, in the frame of the tool.
     pub straight: StraightTool,
-    /// `T_flange_tool`.
+    /// Pose of the tool's frame on the flange, `T_flange_tool`.
     pub mount: Pose,
-    /// What is between the flange and the sponge besides [`Self::bodies`].
+    /// Handle between the flange and the sponge, besides [`Self::bodies`].
     pub handle: Handle,
     /// Further bodies.
     pub bodies: Vec<ChainBody>,
 }
 
-/// What a tool is held by.
+/// Handle of a tool.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Handle {
-    /// A round one, from the origin of the tool's frame to the sponge.
+    /// Round handle from the origin of the tool's frame to the sponge.
     Round,
-    /// Nothing but the bodies of the chain.
+    /// No handle: only the bodies of the chain.
     None,
 }
 
-/// A body of a chain.
+/// Body of a tool chain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChainBody {
-    /// Its name, in messages.
+    /// Name, for messages.
     pub name: String,
-    /// Its shape.
+    /// Shape in the body's frame.
     pub shape: Shape,
-    /// `T_tool_body`.
+    /// Pose in the tool's frame, `T_tool_body`.
     pub pose: Pose,
-    /// Its mass \[kg\]; without it, its share by volume of what the others leave of the tool's.
+    /// Mass \[kg\]; `None` for a share, by volume, of the mass that the others leave of the tool's.
     pub mass_kg: Option<f64>,
 }
 
-/// Why a chain is no tool.
+/// Reason that a chain is no valid tool.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ToolError {
-    /// Nothing holds the sponge.
+    /// No body holds the sponge.
     #[error("nothing holds the sponge: the tool has no handle, and no other body")]
     Bare,
-    /// A body without a volume.
+    /// A body has no volume.
     #[error("body \"{body}\" of the tool has no volume: its points lie in a plane, or are not finite")]
     Flat {
-        /// The body.
+        /// Name of the body.
         body: String,
     },
-    /// Two bodies of one name.
+    /// Two bodies have the same name.
     #[error("two bodies of the tool are named \"{name}\"; a pair of bodies is told by its names")]
     SameName {
-        /// The name.
+        /// The shared name.
         name: String,
     },
-    /// A body with the name of a link of the arm that holds the tool.
+    /// A body has the name of a link of the arm that holds the tool.
     #[error("body \"{body}\" of the tool has the name of a link of the arm; a pair of bodies is told by its names")]
     OfLink {
-        /// The body.
+        /// Name of the body.
         body: String,
     },
-    /// Bodies that weigh more than the tool.
+    /// The bodies weigh more than the tool.
     #[error("the bodies of the tool weigh {bodies_kg} kg, more than the {tool_kg} kg that it has in all")]
     Heavier {
-        /// What they state \[kg\].
+        /// Sum of the stated masses \[kg\].
         bodies_kg: f64,
-        /// What the tool has \[kg\].
+        /// Mass of the tool \[kg\].
         tool_kg: f64,
     },
-    /// Mass that no body has.
+    /// The bodies weigh less than the tool, and all of them state a mass.
     #[error("the bodies of the tool weigh {bodies_kg} kg, and nothing is left to weigh the rest of its {tool_kg} kg")]
     Lighter {
-        /// What they state \[kg\].
+        /// Sum of the stated masses \[kg\].
         bodies_kg: f64,
-        /// What the tool has \[kg\].
+        /// Mass of the tool \[kg\].
         tool_kg: f64,
     },
-    /// A body that reaches into the sponge.
+    /// A body reaches into the sponge.
     #[error("body \"{body}\" of the tool reaches {} into the sponge, all of which counts as foam", millimetres(*.by_m))]
     InSponge {
-        /// The body.
+        /// Name of the body.
         body: String,
-        /// How far \[m\].
+        /// Depth \[m\].
         by_m: f64,
     },
 }
 
 impl ToolChain {
-    /// The tool.
+    /// Builds the tool.
     ///
-    /// Its mass is that of the straight tool. Without further bodies it is spread as there; with them each has what it states, and those that
-    /// state nothing, the handle with the sponge as one cylinder among them, share the rest by their volumes. A sponge that no handle
-    /// holds weighs nothing. A centre of mass and an inertia that are given count instead.
+    /// Its mass is that of the straight tool. Without further bodies the mass is spread as in the straight tool. With further bodies each
+    /// has its stated mass, and those without one, including the handle with the sponge as one cylinder, share the rest by volume. A sponge
+    /// without a handle has no mass. A given centre of mass and inertia replace the computed ones.
     ///
     /// # Errors
     /// [`ToolError`].
@@ -149,7 +149,7 @@ impl ToolChain {
         }
     }
 
-    /// The mass of the straight tool over the bodies, in the frame of the tool.
+    /// Spreads the mass of the straight tool over the bodies, in the frame of the tool.
     fn spread(&self, whole: ToolMass) -> Result<ToolMass, ToolError> {
         let mut parts = Vec::new();
         for body in &self.bodies {
@@ -197,7 +197,7 @@ impl ToolChain {
     }
 }
 
-/// Bodies with their densities as one, by the parallel-axis theorem.
+/// Combines bodies with their densities into one, by the parallel-axis theorem.
 fn sum(mass_kg: f64, dense: &[(&UniformBody, f64)]) -> ToolMass {
     let mass = |(body, density): &(&UniformBody, f64)| body.volume_m3 * density;
     let com: Vector3<f64> = dense.iter().map(|one| one.0.centre_m * (mass(one) / mass_kg)).sum();
@@ -210,7 +210,7 @@ fn sum(mass_kg: f64, dense: &[(&UniformBody, f64)]) -> ToolMass {
     }
 }
 
-/// The tool with its frame at `T_flange_tool`; to the bit as it is where that is the flange.
+/// Returns the tool with its frame at `T_flange_tool`; unchanged to the bit if that is the flange.
 fn mounted(tool: Tool, mount: &Pose) -> Tool {
     if *mount == Pose::identity() {
         return tool;
@@ -234,7 +234,7 @@ fn mounted(tool: Tool, mount: &Pose) -> Tool {
     tool
 }
 
-/// ixx, ixy, ixz, iyy, iyz, izz.
+/// Entries ixx, ixy, ixz, iyy, iyz, izz of an inertia matrix.
 fn entries(inertia: &Matrix3<f64>) -> [f64; 6] {
     [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|at| inertia[at])
 }

@@ -3,7 +3,7 @@
 //! Each segment is a cubic per joint, so that the extremes of position, speed and acceleration are exact: speed is a
 //! parabola, acceleration a line.
 //!
-//! The stretches of a motion, by what they are for.
+//! The segments of a motion have kinds.
 
 use platewash_kinematics::{AXES, JointVector};
 use serde::{Deserialize, Serialize};
@@ -19,18 +19,18 @@ pub struct Trajectory {
     qd_rad_s: Vec<JointVector>,
 }
 
-/// State of the joints at one time.
+/// State of the joints at a moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointState {
     /// Positions \[rad\].
     pub q: JointVector,
     /// Speeds \[rad/s\].
     pub qd: JointVector,
-    /// Accelerations \[rad/s²\], to the right of the time.
+    /// Accelerations \[rad/s²\], at a knot those after it.
     pub qdd: JointVector,
 }
 
-/// Largest magnitudes within one segment.
+/// Extreme values within one segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SegmentExtremes {
     /// Start and end \[s\].
@@ -45,18 +45,18 @@ pub struct SegmentExtremes {
     pub jerk: JointVector,
 }
 
-/// Knots that are no motion.
+/// Reason that knots do not form a motion.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KnotError {
     /// The lists differ in length.
     #[error("knots: {times} times, {positions} positions and {speeds} speeds; there must be as many of each")]
     Count {
-        /// Times.
+        /// Number of times.
         times: usize,
-        /// Positions.
+        /// Number of positions.
         positions: usize,
-        /// Speeds.
+        /// Number of speeds.
         speeds: usize,
     },
     /// A number is not finite.
@@ -65,12 +65,12 @@ pub enum KnotError {
         /// Index of the knot.
         knot: usize,
     },
-    /// Times don't ascend strictly from 0.
+    /// Times do not ascend strictly from 0.
     #[error("knot {knot}: time {t_s} s; times must ascend strictly, from 0")]
     Time {
         /// Index of the knot.
         knot: usize,
-        /// Its time \[s\].
+        /// Time of the knot \[s\].
         t_s: f64,
     },
     /// A piece does not begin where the one before ends.
@@ -82,7 +82,7 @@ pub enum KnotError {
 }
 
 impl Trajectory {
-    /// A motion from its knots.
+    /// Builds a motion from its knots.
     ///
     /// # Errors
     /// [`KnotError`] with the first knot that does not fit.
@@ -107,8 +107,8 @@ impl Trajectory {
         Ok(Self { t_s, q_rad, qd_rad_s })
     }
 
-    /// A motion through positions at equal time steps: speeds at the knots are central differences, and zero at both
-    /// ends (a Catmull–Rom curve at rest at its ends).
+    /// Builds a motion through positions at equal time steps: speeds at the knots are central differences, and zero at both ends (a
+    /// Catmull–Rom curve at rest at its ends).
     #[must_use]
     pub fn through(positions: Vec<JointVector>, dt_s: f64) -> Self {
         let n = positions.len();
@@ -148,8 +148,8 @@ impl Trajectory {
         self.t_s.last().copied().unwrap_or(0.0)
     }
 
-    /// State at time `t` \[s\]; `None` for an empty motion or NaN. Before the first knot and after the last one the arm rests
-    /// there: speeds and accelerations are zero.
+    /// Returns the state at time `t` \[s\]; `None` for an empty motion or NaN. Before the first knot and after the last one the arm rests
+    /// there, with zero speeds and accelerations.
     #[must_use]
     pub fn at(&self, t: f64) -> Option<JointState> {
         if t.is_nan() {
@@ -172,7 +172,7 @@ impl Trajectory {
         Some(state)
     }
 
-    /// Extremes of every segment, in time order.
+    /// Returns the extremes of every segment, in time order.
     pub fn extremes(&self) -> impl Iterator<Item = SegmentExtremes> + '_ {
         (0..self.t_s.len().saturating_sub(1)).filter_map(|k| {
             let span_s = [self.t_s[k], self.t_s[k + 1]];
@@ -247,7 +247,7 @@ impl Cubic {
     }
 }
 
-/// What a segment is for.
+/// Kind of a segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SegmentKind {
@@ -266,7 +266,7 @@ pub enum SegmentKind {
 }
 
 impl SegmentKind {
-    /// The word used in files.
+    /// Returns the word used in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -280,13 +280,13 @@ impl SegmentKind {
     }
 }
 
-/// A segment in time.
+/// Segment of a plan in time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlanSegment {
-    /// What it is for.
+    /// Kind of the segment.
     pub kind: SegmentKind,
-    /// The plate washed, or the plate it leads to.
+    /// Index of the plate that is washed, or that the segment leads to.
     pub plate: usize,
     /// Start \[s\].
     pub t_start_s: f64,

@@ -6,21 +6,21 @@ use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use std::f64::consts::PI;
 
-/// A body of density 1 in some frame.
+/// Body of density 1 in some frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UniformBody {
     /// Volume \[m³\], above 0.
     pub volume_m3: f64,
     /// Centre of mass \[m\].
     pub centre_m: Vector3<f64>,
-    /// Inertia about the centre, axes of the frame \[m⁵\]; times a density it is in kg·m².
+    /// Inertia about the centre, axes of the frame \[m⁵\]; multiplied by a density it is in kg·m².
     pub inertia_m5: Matrix3<f64>,
 }
 
 impl UniformBody {
-    /// The body of a shape in the shape's own frame; `None` where it has no volume, or no finite one.
+    /// Returns the body of a shape in the shape's own frame; `None` if its volume is 0 or not finite.
     ///
-    /// A hull is taken apart into the tetrahedra between its facets and one of its corners, whose integrals are exact.
+    /// A hull is divided into the tetrahedra between its facets and one of its corners, whose integrals are exact.
     #[must_use]
     pub fn of(shape: &Shape) -> Option<Self> {
         let body = match shape {
@@ -59,7 +59,7 @@ impl UniformBody {
         (body.volume_m3 > 0.0 && body.volume_m3.is_finite() && finite).then_some(body)
     }
 
-    /// The body in another frame, placed at `T_new_old`.
+    /// Returns the body in another frame, placed at `T_new_old`.
     #[must_use]
     pub fn placed(&self, pose: &Pose) -> Self {
         let turn = pose.rotation.to_rotation_matrix();
@@ -79,12 +79,13 @@ fn centred(volume_m3: f64, inertia: [f64; 3]) -> UniformBody {
     }
 }
 
-/// What a volume at `d` adds to the inertia about the origin: V (d² 1 − d dᵀ).
+/// Contribution of a volume at `d` to the inertia about the origin: V (d² 1 − d dᵀ).
 pub(crate) fn steiner(volume: f64, d: &Vector3<f64>) -> Matrix3<f64> {
     (Matrix3::identity() * d.norm_squared() - d * d.transpose()) * volume
 }
 
-/// Of a tetrahedron (0, a, b, c) with s = a + b + c: volume `det/6`, first moment `V s/4`, second moment `V/20 (Σ v vᵀ + s sᵀ)`.
+/// Returns the body of a polyhedron. A tetrahedron (0, a, b, c) with s = a + b + c has the volume `det/6`, the first moment `V s/4` and the
+/// second moment `V/20 (Σ v vᵀ + s sᵀ)`.
 fn polyhedron(points: &[Point3<f64>]) -> Option<UniformBody> {
     let hull = hull_triangles(points)?;
     let apex = hull.corners.first()?.coords;
@@ -111,10 +112,10 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Whether a point at ρ and z lies in a shape of some radius and half length.
+    /// Test that a point at ρ and z lies in a shape of some radius and half length.
     type Inside = fn(f64, f64, f64, f64) -> bool;
 
-    /// Corners of a prism along z over a regular polygon of so many sides.
+    /// Returns the hull of a prism along z over a regular polygon.
     fn prism(sides: usize, radius: f64, half: f64) -> Shape {
         let corner = |k: usize| {
             let (s, c) = crate::trig::sin_cos(2.0 * PI * (k % sides) as f64 / sides as f64);
@@ -132,7 +133,7 @@ mod tests {
     }
 
     proptest! {
-        /// The hull of a box's corners is the box, wherever it is and however it is turned.
+        /// The hull of a box's corners equals the box, at any position and rotation.
         #[test]
         fn a_hull_of_corners_is_its_box(half in prop::array::uniform3(0.01..0.3f64), at in prop::array::uniform3(-1.0..1.0f64), turn in prop::array::uniform3(-3.0..3.0f64)) {
             let pose = Pose::new(Vector3::from(at), Vector3::from(turn));

@@ -1,4 +1,4 @@
-//! The path of the sponge on a plate: a curve on its face, and how the tool stands on it.
+//! Path of the sponge on a plate: a curve on its face, and the cone for the tool's axis.
 //!
 //! In its plate's frame the curve is stated by the length ℓ along the meridian from the pole as a function of the angle θ about the axis
 //! ([`WashCurve`]): a spiral that runs into a closing ring, or rings joined by blends. On a flat disc ℓ is the distance from the centre.
@@ -11,9 +11,9 @@
 //!
 //! Rings about the pole, evenly apart along the meridian, joined by blends.
 //!
-//! Of n rings the k-th, from 0, has ℓ = ℓ₀ + k (R − ℓ₀)/(n − 1). The arm goes round on it until λₖ before the full turn, and over the angle
-//! wₖ on to the next one as the septic smoothstep `S(x) = x⁴ (35 − 84 x + 70 x² − 20 x³)`, so that ℓ(θ) is C³. Blends farther out are as
-//! long in metres with less of a turn: λₖ and wₖ fall as (k + 1)^(−3/8). The last ring is the closing one, a full turn.
+//! Of n rings the k-th, from 0, has ℓ = ℓ₀ + k (R − ℓ₀)/(n − 1). The arm follows it until λₖ before the full turn, and then moves over the
+//! angle wₖ to the next one by the septic smoothstep `S(x) = x⁴ (35 − 84 x + 70 x² − 20 x³)`, so that ℓ(θ) is C³. Blends farther out have
+//! about the same length in metres with a smaller angle: λₖ and wₖ fall as (k + 1)^(−3/8). The last ring is the closing one, a full turn.
 
 use crate::plate::Plate;
 use crate::surface::Surface;
@@ -22,17 +22,17 @@ use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// How the tip washes a plate: the curve of the tip on the face, and how the tool stands on it. From parameters alone.
+/// Wash path of a plate: the curve of the tip on the face, and the cone for the tool's axis, given by parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WashPath {
     /// Index of the plate.
     pub plate: usize,
-    /// The curve, seen along the plate's axis; its x is the plate's.
+    /// Curve of the tip, seen along the plate's axis; its x is the plate's.
     pub curve: WashCurve,
-    /// How far the tip approaches and retreats along the normal over the ends of the curve \[m\].
+    /// Length of the approach and the retreat along the normal over the ends of the curve \[m\].
     pub lift_m: f64,
-    /// Half the angle of the cone about the local normal within which the tool stays \[rad\].
+    /// Half angle of the cone about the local normal within which the tool stays \[rad\].
     pub cone_rad: f64,
 }
 
@@ -43,53 +43,53 @@ impl WashPath {
         plate.world(&self.curve.on(&plate.surface, theta).position)
     }
 
-    /// The foot of the line along which the tip approaches, and of the one along which it retreats, world frame \[m\].
+    /// Returns the foot of the line of the approach and that of the retreat, world frame \[m\].
     #[must_use]
     pub fn feet(&self, plate: &Plate) -> [Vector3<f64>; 2] {
         [0.0, self.curve.end()].map(|theta| self.contact(plate, theta))
     }
 }
 
-/// The last part of the spiral, over which it turns into the ring \[rad\].
+/// Angle over which the end of the spiral blends into the ring \[rad\].
 pub const BLEND_RAD: f64 = 1.0;
 
-/// The least outer radius of a wash curve \[m\].
+/// Least outer radius of a wash curve \[m\].
 pub const LEAST_RADIUS_M: f64 = 1e-4;
 
-/// The fewest turns of a wash curve.
+/// Least number of turns of a wash curve.
 pub const LEAST_TURNS: f64 = 0.25;
 
-/// The most turns of a wash curve.
+/// Greatest number of turns of a wash curve.
 pub const MOST_TURNS: f64 = 200.0;
 
-/// The longest wash curve \[m\]; it bounds time and memory.
+/// Greatest length of a wash curve \[m\]. It bounds time and memory.
 pub const LONGEST_M: f64 = 100.0;
 
-/// The steepest slope of S.
+/// Greatest slope of S.
 const STEEPEST: f64 = 1.875;
 
-/// Looks ahead for the bends of a blend, as many over all of it, and at most.
+/// Number of points per blend at which its bend is examined in advance, and below the greatest number.
 const LOOKS_A_BLEND: f64 = 8.0;
 const MOST_LOOKS: f64 = 64.0;
 
-/// How often a step is halved at most.
+/// Greatest depth of halving of a step.
 const MOST_HALVINGS: u32 = 6;
 
-/// By how much more than asked for the chord of a step may leave the curve.
+/// Factor by which the chord of a step may leave the curve by more than asked for.
 const MOST_MORE: f64 = 1.08;
 
-/// A curve on the face of a plate, as parameters.
+/// Curve on the face of a plate, given by parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct WashCurve {
-    /// R: the greatest ℓ, on a flat face the outer radius \[m\], above 0.
+    /// Greatest ℓ, R, on a flat face the outer radius \[m\], above 0.
     pub radius_m: f64,
-    /// Turns before the closing ring; at least a quarter.
+    /// Number of turns before the closing ring; at least a quarter.
     pub turns: f64,
     /// Direction in which the spiral leaves the centre, counter-clockwise from +x \[rad\].
     pub start_angle_rad: f64,
-    /// Whether a full circle at the outer radius follows.
+    /// True if a full circle at the outer radius follows.
     pub closing_ring: bool,
-    /// That it consists of rings joined by blends, which take as many turns; a spiral where it does not.
+    /// Rings joined by blends, which take `turns` turns; `None` for a spiral.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rings: Option<Rings>,
 }
@@ -117,13 +117,13 @@ pub struct SurfacePoint {
 }
 
 impl WashCurve {
-    /// The last θ \[rad\].
+    /// Last θ \[rad\].
     #[must_use]
     pub fn end(&self) -> f64 {
         self.spiral_end() + if self.closing_ring { TAU } else { 0.0 }
     }
 
-    /// θ at which the closing ring begins: where the spiral ends, or the last blend \[rad\].
+    /// θ at which the closing ring begins \[rad\]: the end of the spiral, or of the last blend.
     #[must_use]
     pub fn spiral_end(&self) -> f64 {
         match &self.rings {
@@ -141,7 +141,7 @@ impl WashCurve {
         }
     }
 
-    /// ℓ and its first two derivatives by θ, at θ in [0, [`WashCurve::end`]] \[m, m/rad, m/rad²\].
+    /// Returns ℓ and its first two derivatives by θ, at θ in [0, [`WashCurve::end`]] \[m, m/rad, m/rad²\].
     #[must_use]
     pub fn arc(&self, theta: f64) -> [f64; 3] {
         match &self.rings {
@@ -150,7 +150,7 @@ impl WashCurve {
         }
     }
 
-    /// What |ℓ′| and |ℓ″| are not above between two θ \[m/rad, m/rad²\].
+    /// Upper bounds on |ℓ′| and |ℓ″| between two θ \[m/rad, m/rad²\].
     #[must_use]
     pub fn greatest_rates(&self, [from, to]: [f64; 2]) -> [f64; 2] {
         if let Some(rings) = &self.rings {
@@ -165,7 +165,7 @@ impl WashCurve {
         ]
     }
 
-    /// The point on a surface at θ in [0, [`WashCurve::end`]] \[rad\], and its derivative by θ, plate frame.
+    /// Returns the point on a surface at θ in [0, [`WashCurve::end`]] \[rad\], and its derivative by θ, plate frame.
     #[must_use]
     pub fn on(&self, surface: &Surface, theta: f64) -> SurfacePoint {
         if surface.is_flat() {
@@ -187,8 +187,8 @@ impl WashCurve {
         }
     }
 
-    /// What the second derivative by θ of the point on a surface is not above between two θ \[m/rad²\]: with κ the curvature of the
-    /// meridian, |ℓ″| + |κ| ℓ′² + ρ + 2 |ρ′|.
+    /// Upper bound on the second derivative by θ of the point on a surface between two θ \[m/rad²\]: with κ the curvature of the meridian,
+    /// |ℓ″| + |κ| ℓ′² + ρ + 2 |ρ′|.
     #[must_use]
     pub fn greatest_second(&self, surface: &Surface, between: [f64; 2]) -> f64 {
         let [first, second] = self.greatest_rates(between);
@@ -198,7 +198,7 @@ impl WashCurve {
         second + least.abs().max(most.abs()) * first * first + arc_m + 2.0 * first
     }
 
-    /// The point of a flat face at θ in [0, [`WashCurve::end`]] \[rad\].
+    /// Returns the point of a flat face at θ in [0, [`WashCurve::end`]] \[rad\].
     #[must_use]
     pub fn at(&self, theta: f64) -> CurvePoint {
         let [r, r1, r2] = self.arc(theta);
@@ -211,8 +211,8 @@ impl WashCurve {
         }
     }
 
-    /// Values of θ from 0 to the end, so close that the chord between neighbours leaves the curve on a surface by at most
-    /// `chord_error_m`; the beginning of the closing ring is one of them.
+    /// Returns values of θ from 0 to the end, so close that the chord between neighbours leaves the curve on a surface by at most
+    /// `chord_error_m`. The beginning of the closing ring is one of them.
     #[must_use]
     pub fn parameters(&self, surface: &Surface, chord_error_m: f64) -> Vec<f64> {
         let mut all = vec![0.0];
@@ -245,8 +245,8 @@ impl WashCurve {
         all
     }
 
-    /// A step in θ over which the chord leaves the curve by `error`: |p″| Δθ² / 8, of the second derivative's part
-    /// across the curve.
+    /// Returns a step in θ over which the chord leaves the curve by `error`: |p″| Δθ² / 8, with the part of the second derivative across
+    /// the curve.
     fn step(&self, surface: &Surface, theta: f64, error: f64) -> f64 {
         if !surface.is_flat() {
             // A tenth of a turn ahead the rates are bounded, so that no bend is stepped over.
@@ -261,15 +261,15 @@ impl WashCurve {
         ahead.fold(step, f64::min)
     }
 
-    /// The step on a flat face over which the chord leaves the curve by `error`, where it bends as it does at `at`.
+    /// Returns the step on a flat face over which the chord leaves the curve by `error`, with the bend at `at`.
     fn fitting(&self, at: f64, error: f64) -> f64 {
         let CurvePoint { first, second, .. } = self.at(at.min(self.end()));
         let across = (first.x * second.y - first.y * second.x).abs() / first.norm();
         (8.0 * error / across).sqrt().min(0.25)
     }
 
-    /// Whether the chord of a stretch of a flat face leaves the curve by no more than `error` and a part of it: steps that are shrunk
-    /// are taken a little earlier than where they were found to fit.
+    /// Checks that the chord of a stretch on a flat face leaves the curve by no more than [`MOST_MORE`] times `error`. The tolerance is
+    /// needed as shrunk steps begin a little before the point for which they were computed.
     fn is_straight(&self, [from, to]: [f64; 2], error: f64) -> bool {
         let most = MOST_MORE * error;
         [0.0, 0.25, 0.5, 0.75, 1.0]
@@ -277,7 +277,7 @@ impl WashCurve {
             .all(|share| to - from <= self.fitting(from + share * (to - from), most))
     }
 
-    /// Adds the end of a stretch, and what halves it where its chord leaves the curve by too much.
+    /// Adds the end of a stretch, and the halving points if its chord leaves the curve by too much.
     fn push_straight(&self, all: &mut Vec<f64>, [from, to]: [f64; 2], error: f64, halvings: u32) {
         let middle = 0.5 * (from + to);
         if halvings > 0 && from < middle && middle < to && !self.is_straight([from, to], error) {
@@ -292,7 +292,7 @@ impl WashCurve {
         self.radius_m / (self.spiral_end() - 0.5 * BLEND_RAD)
     }
 
-    /// r, r′, r″ at θ.
+    /// Returns r, r′, r″ at θ.
     fn radius(&self, theta: f64) -> [f64; 3] {
         let (a, blend) = (self.rate(), self.spiral_end() - BLEND_RAD);
         if theta <= blend {
@@ -315,34 +315,34 @@ impl WashCurve {
     }
 }
 
-/// Rings of a curve at most.
+/// Greatest number of rings of a curve.
 pub const MOST_RINGS: usize = 100;
 
-/// The greatest |S′| and |S″|: at x = 1/2, and at x = 1/2 ± √5/10.
+/// Greatest |S′| and |S″|: at x = 1/2, and at x = 1/2 ± √5/10.
 const STEEPEST_BLEND: [f64; 2] = [2.1875, 7.513_188_404_399_293];
 
 /// Rings joined by blends.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rings {
-    /// n, at least 2.
+    /// Number of rings n, at least 2.
     pub count: usize,
-    /// ℓ₀: that of the innermost ring \[m\].
+    /// Length ℓ₀ of the innermost ring \[m\].
     pub inner_m: f64,
-    /// λ₀: how long before a full turn the first blend begins \[rad\].
+    /// Angle λ₀ before a full turn at which the first blend begins \[rad\].
     pub lead_rad: f64,
-    /// w₀: over which angle the first blend goes \[rad\].
+    /// Angle w₀ of the first blend \[rad\].
     pub blend_rad: f64,
 }
 
-/// A ring with its blend, or the closing ring.
+/// Ring with its blend, or the closing ring.
 #[derive(Debug, Clone, Copy)]
 struct Stage {
-    /// Its index.
+    /// Index of the ring.
     k: usize,
-    /// θ since it began \[rad\].
+    /// Angle θ since it began \[rad\].
     theta: f64,
-    /// θ on the ring before the blend, and of the blend \[rad\].
+    /// Angles on the ring before the blend, and of the blend \[rad\].
     lengths: [f64; 2],
 }
 
@@ -353,19 +353,19 @@ impl Rings {
         (0..self.blends()).map(|k| self.lengths(k).iter().sum::<f64>()).sum()
     }
 
-    /// Turns before the closing ring.
+    /// Number of turns before the closing ring.
     #[must_use]
     pub fn turns(&self) -> f64 {
         self.end() / TAU
     }
 
-    /// Distance between neighbouring rings along the meridian, the outermost one at `outer_m` \[m\].
+    /// Distance between neighbouring rings along the meridian, with the outermost one at `outer_m` \[m\].
     #[must_use]
     pub fn pitch_m(&self, outer_m: f64) -> f64 {
         (outer_m - self.inner_m) / self.blends() as f64
     }
 
-    /// ℓ, ℓ′ and ℓ″ at θ.
+    /// Returns ℓ, ℓ′ and ℓ″ at θ.
     pub(crate) fn arc(&self, outer_m: f64, theta: f64) -> [f64; 3] {
         let pitch_m = self.pitch_m(outer_m);
         let Some(Stage {
@@ -393,7 +393,7 @@ impl Rings {
         ]
     }
 
-    /// What |ℓ′| and |ℓ″| are not above between two θ.
+    /// Upper bounds on |ℓ′| and |ℓ″| between two θ.
     pub(crate) fn greatest_rates(&self, outer_m: f64, [from, to]: [f64; 2]) -> [f64; 2] {
         let (pitch_m, mut start, mut rates) = (self.pitch_m(outer_m).abs(), 0.0, [0.0_f64; 2]);
         for [ring, blend] in (0..self.blends()).map(|k| self.lengths(k)) {
@@ -414,14 +414,14 @@ impl Rings {
         self.count.saturating_sub(1).clamp(1, MOST_RINGS)
     }
 
-    /// θ on the k-th ring before its blend, and of the blend \[rad\].
+    /// Returns the angles on the k-th ring before its blend, and of the blend \[rad\].
     fn lengths(&self, k: usize) -> [f64; 2] {
         let n = (k + 1) as f64;
         let share = 1.0 / (n * n * n).sqrt().sqrt().sqrt();
         [(TAU - self.lead_rad * share).max(0.0), self.blend_rad * share]
     }
 
-    /// Where a θ is; `None` on the closing ring.
+    /// Returns the ring or blend at a θ; `None` on the closing ring.
     fn stage(&self, theta: f64) -> Option<Stage> {
         let mut start = 0.0;
         for k in 0..self.blends() {

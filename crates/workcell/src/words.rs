@@ -2,7 +2,7 @@
 
 use platewash_kinematics::words::is_hidden;
 
-/// A text without the byte order mark that some editors put before it.
+/// Returns a text without the byte order mark that some editors put before it.
 #[must_use]
 pub fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
@@ -50,11 +50,11 @@ pub fn printable(text: &str) -> String {
     text.chars().map(written).collect()
 }
 
-/// Characters of a name that are told.
+/// Greatest number of characters of a name in a message.
 const LONGEST_NAME: usize = 100;
 
-/// A name out of a file in quotes, printable; quotes and backslashes in it are written out, so that it ends where its quotes end. Of a long
-/// name the beginning is told, and its length.
+/// Quotes a name from a file, with quotes, backslashes and hidden characters escaped, so that it ends where its quotes end. A long name is
+/// shortened, and its length is added.
 #[must_use]
 pub fn quoted(name: &str) -> String {
     let begins: String = name.chars().take(LONGEST_NAME).collect();

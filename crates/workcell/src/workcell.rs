@@ -1,8 +1,8 @@
-//! The world that an arm works in.
+//! Workcell: the surroundings of an arm.
 //!
-//! An arm in its workcell: mounted anywhere, among obstacles; and that workcell as the arm sees it.
+//! An arm in its workcell is mounted at any pose, among obstacles. The workcell can be converted to the frame of the arm's base.
 //!
-//! What is computed with an arm is computed in the frame of its base. Whoever starts from a world takes it there first, once:
+//! All computations with an arm are in the frame of its base. A caller with data in the world frame converts it first:
 //! [`Workcell::seen_from_base`], [`crate::job::JobTerms::seen_from_base`], [`crate::plan::Plan::seen_from_base`].
 
 pub use crate::obstacle::{Obstacle, ObstacleShape};
@@ -14,35 +14,35 @@ use platewash_kinematics::{Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// Bodies of the tool and obstacles, together, that a workcell has at most.
+/// Greatest number of bodies of a workcell, tool and obstacles together.
 pub const MOST_BODIES: usize = 1000;
 
-/// An arm, what it holds, where it stands and what stands around it, the plates apart.
+/// An arm with its mount, its tool and its obstacles, without the plates.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Workcell {
-    /// `T_world_base`: where the arm is mounted.
+    /// Mount of the arm, `T_world_base`.
     #[serde(with = "pose")]
     pub mount: Pose,
-    /// Which arm.
+    /// Identity of the arm.
     pub arm: ArmId,
-    /// What it holds.
+    /// Tool of the arm.
     pub tool: Tool,
-    /// What stands around it; the floor is one of them.
+    /// Obstacles, including the floor.
     pub obstacles: Vec<Obstacle>,
     /// Pairs of bodies that need not keep clear of each other.
     pub exclusions: Vec<Exclusion>,
 }
 
 impl Workcell {
-    /// Bodies of the tool and obstacles, together.
+    /// Number of bodies of tool and obstacles together.
     #[must_use]
     pub fn bodies(&self) -> usize {
         self.tool.bodies.len() + self.obstacles.len()
     }
 }
 
-/// An arm by its description.
+/// Identity of an arm by its description.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ArmId {
@@ -50,40 +50,40 @@ pub struct ArmId {
     pub name: String,
     /// SHA-256 of the URDF, lower-case hexadecimal.
     pub urdf_sha256: String,
-    /// SHA-256 of the SRDF, where one was given.
+    /// SHA-256 of the SRDF, if one was given.
     pub srdf_sha256: Option<String>,
 }
 
-/// Two bodies that need not keep clear of each other.
+/// Pair of bodies that need not keep clear of each other.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Exclusion {
-    /// Their names.
+    /// Names of the bodies.
     pub pair: [String; 2],
-    /// Why.
+    /// Reason of the exclusion.
     pub reason: ExclusionReason,
 }
 
-/// Why two bodies need not keep clear of each other.
+/// Reason that two bodies need not keep clear of each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ExclusionReason {
     /// The arm's SRDF disables the pair.
     Srdf,
-    /// They are neighbours, of an arm without an SRDF.
+    /// The bodies are neighbours, of an arm without an SRDF.
     Neighbours,
-    /// They touch in every configuration sampled, of an arm without an SRDF.
+    /// The bodies touch in every sampled configuration, of an arm without an SRDF.
     AlwaysTouching,
     /// The wrist carries the tool.
     CarriesTool,
-    /// Neither of them moves.
+    /// Neither body moves.
     NeitherMoves,
-    /// It turns about the vertical, over the floor.
+    /// The body turns about the vertical, over the floor.
     KeepsItsHeight,
 }
 
 impl ArmId {
-    /// That of an arm.
+    /// Returns the identity of an arm.
     #[must_use]
     pub fn of(robot: &RobotModel) -> Self {
         Self {
@@ -95,10 +95,10 @@ impl ArmId {
 }
 
 impl Workcell {
-    /// An arm mounted at `T_world_base`, with its tool, among obstacles given in the world.
+    /// Returns the workcell of an arm mounted at `T_world_base`, with its tool, among obstacles in the world frame.
     ///
     /// # Errors
-    /// [`ClearanceError`] for an arm with a shape that is none.
+    /// [`ClearanceError`] for an arm with an invalid shape.
     pub fn new(robot: &RobotModel, tool: Tool, mount: Pose, obstacles: Vec<Obstacle>) -> Result<Self, ClearanceError> {
         let mut workcell = Self {
             mount,
@@ -111,7 +111,7 @@ impl Workcell {
         Ok(workcell)
     }
 
-    /// An arm that stands on the floor at the world's origin, with its tool.
+    /// Returns the workcell of an arm that stands on the floor at the world's origin, with its tool.
     ///
     /// # Errors
     /// As [`Workcell::new`].
@@ -119,16 +119,16 @@ impl Workcell {
         Self::new(robot, tool, Pose::identity(), vec![Obstacle::floor()])
     }
 
-    /// The pairs that need not keep clear because of what arm, tool and obstacles are ([`clearance::exclusions`]), whatever the
-    /// workcell states.
+    /// Returns the pairs that need not keep clear because of the arm, the tool and the obstacles ([`clearance::exclusions`]), independently
+    /// of the stated exclusions.
     ///
     /// # Errors
-    /// [`ClearanceError`] for a shape that is none.
+    /// [`ClearanceError`] for an invalid shape.
     pub fn own_exclusions(&self, robot: &RobotModel) -> Result<Vec<Exclusion>, ClearanceError> {
         clearance::exclusions(robot, &self.tool, &self.obstacles_from_base())
     }
 
-    /// The same workcell in the frame of the arm's base, in which the arm is mounted at the origin.
+    /// Returns the workcell in the frame of the arm's base, with the arm mounted at the origin.
     #[must_use]
     pub fn seen_from_base(&self) -> Cow<'_, Self> {
         if self.is_in_base_frame() {
@@ -141,13 +141,13 @@ impl Workcell {
         })
     }
 
-    /// Whether world and base are one frame, to the bit.
+    /// True if world and base are one frame, to the bit.
     #[must_use]
     pub fn is_in_base_frame(&self) -> bool {
         self.mount == Pose::identity()
     }
 
-    /// Its obstacles in the frame of the arm's base.
+    /// Returns the obstacles in the frame of the arm's base.
     #[must_use]
     pub fn obstacles_from_base(&self) -> Cow<'_, [Obstacle]> {
         if self.is_in_base_frame() {

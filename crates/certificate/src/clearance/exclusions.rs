@@ -1,4 +1,4 @@
-//! Which pairs of bodies need not keep clear: those that follow from the arm and its SRDF, and no others.
+//! Pairs of bodies that need not keep clear: those that follow from the arm and its SRDF, and no others.
 
 use crate::clearance::pairs::PairBound;
 use crate::report::check::{Check, Discrepancy, Status};
@@ -10,17 +10,17 @@ use platewash_workcell::words::millimetres;
 use platewash_workcell::workcell::{Exclusion, Workcell};
 use std::collections::BTreeSet;
 
-/// The pairs that are left out, and those that the job would leave out besides.
+/// Excluded pairs: those that follow from the arm, and those that only the job excludes.
 #[derive(Debug)]
 pub(crate) struct Exclusions {
-    /// Those that follow from the arm, its SRDF, the tool and the obstacles: not judged.
+    /// Pairs that follow from the arm, its SRDF, the tool and the obstacles. They are not judged.
     pub own: Vec<Exclusion>,
-    /// Those that the job alone leaves out: judged all the same.
+    /// Pairs that only the job excludes. They are judged all the same.
     pub waived: Vec<Exclusion>,
 }
 
 impl Exclusions {
-    /// Those of a job with its arm.
+    /// Returns the exclusions of a job with its arm.
     ///
     /// # Errors
     /// [`ClearanceError`] for a shape that is none.
@@ -32,7 +32,7 @@ impl Exclusions {
         Ok(Self { own, waived })
     }
 
-    /// Bodies and pairs, those that the job alone leaves out among them.
+    /// Builds the collision model. The pairs that only the job excludes are part of it.
     ///
     /// # Errors
     /// [`ClearanceError`] for a shape that is none.
@@ -44,14 +44,15 @@ impl Exclusions {
         ClearanceModel::new(subject.robot, &world, subject.plates())
     }
 
-    /// The pairs of the model, by their index, that the job alone leaves out.
+    /// Returns the indices of the model's pairs that only the job excludes.
     pub fn waived_in(&self, model: &ClearanceModel) -> Vec<usize> {
         let pairs = model.pair_names().into_iter().enumerate();
         let is_waived = |pair: (&str, &str)| self.waived.iter().any(|e| names(e, pair));
         pairs.filter(|(_, pair)| is_waived(*pair)).map(|(i, _)| i).collect()
     }
 
-    /// What is left out is what follows, every body has a shape and a name of its own; what is waived besides keeps clear, or is named.
+    /// Checks that the job excludes the pairs that follow from the arm, and that every body has a shape and a unique name. A pair that only
+    /// the job excludes keeps clear, or is named as waived.
     pub fn check(&self, subject: &Subject<'_>, model: &ClearanceModel, clearance: &[PairBound]) -> Check {
         let mut wrong = shapeless(subject);
         wrong.extend(twice(subject));
@@ -84,7 +85,7 @@ impl Exclusions {
     }
 }
 
-/// A waived pair that does not keep clear.
+/// Returns the discrepancy of a waived pair that does not keep clear.
 fn not_clear(line: &PairBound, clearance_m: f64) -> Discrepancy {
     let [a, b] = &line.pair;
     let near = line.seen_m.map(|seen_m| format!("as near as {}", millimetres(seen_m)));
@@ -96,7 +97,7 @@ fn not_clear(line: &PairBound, clearance_m: f64) -> Discrepancy {
     Discrepancy::new(format!("{a:?} and {b:?}"), stated, expected)
 }
 
-/// Bodies of the arm without a shape: they keep clear of nothing.
+/// Finds bodies of the arm without a shape. They keep clear of nothing.
 fn shapeless(subject: &Subject<'_>) -> Vec<Discrepancy> {
     let links = subject.robot.links();
     let has_shape = |body: &usize| links.iter().any(|l| l.frame.body() == *body && !l.collision.is_empty());
@@ -112,7 +113,7 @@ fn shapeless(subject: &Subject<'_>) -> Vec<Discrepancy> {
     wrong.collect()
 }
 
-/// Names that more than one body has: a pair is left out by its names.
+/// Finds names that more than one body has. Exclusions refer to bodies by name.
 fn twice(subject: &Subject<'_>) -> Vec<Discrepancy> {
     let world = &subject.job.workcell;
     let links = subject.robot.links().iter().filter(|link| !link.collision.is_empty());
@@ -129,7 +130,7 @@ fn twice(subject: &Subject<'_>) -> Vec<Discrepancy> {
         .collect()
 }
 
-/// Whether an exclusion is that of two bodies, in either order.
+/// True if an exclusion is that of the two bodies, in either order.
 fn names(exclusion: &Exclusion, (a, b): (&str, &str)) -> bool {
     let [x, y] = exclusion.pair.each_ref().map(String::as_str);
     (x, y) == (a, b) || (x, y) == (b, a)

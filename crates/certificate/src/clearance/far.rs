@@ -1,8 +1,8 @@
-//! Obstacles that a part of arm or tool never comes near: many of them dismissed at once, before pairs are looked at one by one.
+//! Obstacles that stay far from a part of arm or tool: many are dismissed together, before pairs are examined one by one.
 //!
-//! The motion is halved until what a part can be displaced by is little beside its distance from the obstacles; what is found of where it is and how
-//! far it gets serves for all of them. A bound of an obstacle is that over all intervals; an obstacle that comes too near at a moment, or that
-//! short intervals do not settle, is left to the search over its pair.
+//! The motion is halved until a part can be displaced by little compared with its distance from the obstacles. The pose and the
+//! displacement of the part serve for all obstacles. The bound of an obstacle is the least over all intervals. An obstacle that comes too
+//! near at a moment, or that short intervals do not settle, is left to the search over its pair.
 
 use crate::motion::timeline::{Interval, Timeline};
 use platewash_kinematics::RobotModel;
@@ -12,10 +12,10 @@ use platewash_workcell::clearance::far::MovingPart;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// What a part can be displaced by in an interval that is not halved any more \[m\].
+/// Displacement of a part in an interval below which the interval is not halved any more \[m\].
 const SETTLED_M: f64 = 4e-3;
 
-/// The pairs of the model, by their index, whose distance is never below `needed_m`, with what it is not below \[m\].
+/// Returns the pairs of the model, by index, whose distance is never below `needed_m`, with a lower bound on the distance \[m\].
 pub(crate) fn far(
     (robot, cancel): (&RobotModel, &CancelToken),
     model: &ClearanceModel,
@@ -55,19 +55,19 @@ pub(crate) fn far(
     settled.filter(|(_, bound)| bound.is_finite()).collect()
 }
 
-/// A part on its way past the obstacles.
+/// Sweep of a part past the obstacles.
 struct Sweep<'a> {
     robot: &'a RobotModel,
     cancel: &'a CancelToken,
     timeline: &'a Timeline<'a>,
     part: &'a MovingPart<'a>,
     needed_m: f64,
-    /// Of each obstacle what it is not nearer than; none where that is not enough.
+    /// Lower bound on the distance of each obstacle \[m\]; `None` where it does not suffice.
     bounds: Vec<Option<f64>>,
 }
 
 impl Sweep<'_> {
-    /// Bounds some of the obstacles over an interval.
+    /// Bounds the distance of some obstacles over an interval.
     fn look(&mut self, interval: &Interval, obstacles: &[usize]) {
         let (_, q) = self.timeline.middle(interval);
         let poses = self.robot.fk(&q);

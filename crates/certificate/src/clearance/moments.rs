@@ -1,4 +1,4 @@
-//! The clearance that a plan must keep at a single moment: the rule of the certificate, asked where somebody looks. No proof rests on it.
+//! Clearance that a plan must keep at a single moment, by the rule of the certificate, for a viewer. No proof rests on it.
 
 use crate::clearance::exclusions::Exclusions;
 use crate::clearance::pairs::may_touch;
@@ -11,16 +11,16 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::workcell::Workcell;
 
 /// The pairs of bodies that count in each segment of a plan: all but those that follow from the arm and its SRDF, those that the job
-/// waives besides, and the sponge with the plates that it may touch in that segment.
+/// waives, and the sponge with the plates that it may touch in that segment.
 #[derive(Debug, Clone)]
 pub struct ClearanceRule {
     model: ClearanceModel,
-    /// The plates that the sponge may touch, for each segment.
+    /// Plates that the sponge may touch, for each segment.
     touchable: Vec<Vec<usize>>,
 }
 
 impl ClearanceRule {
-    /// The rule for a plan, which need not be one that can be proved: its segments are taken as they are stated.
+    /// Builds the rule for a plan. The plan need not be provable: its segments are taken as stated.
     ///
     /// # Errors
     /// [`ProveError`] for a job with which nothing can be computed, or a shape that is none.
@@ -53,7 +53,7 @@ impl ClearanceRule {
         self.model.body_names()
     }
 
-    /// The pair that counts and comes nearest at `q` \[rad\] in a segment, or outside of all. `None` where no pair counts.
+    /// Returns the nearest of the pairs that count at `q` \[rad\] in a segment, or outside of all segments. `None` where no pair counts.
     #[must_use]
     pub fn nearest(&self, q: &JointVector, segment: Option<usize>) -> Option<Nearest> {
         let touchable = segment.and_then(|segment| self.touchable.get(segment));

@@ -1,9 +1,9 @@
 //! Clearance of every pair over the whole motion.
 //!
-//! Every pair keeps the job's clearance, always, but for the sponge and the plates. While it approaches, washes or leaves a plate, the
-//! sponge may touch that plate, and over its rim a neighbour within reach: how far it reaches is a requirement of its own. Of all other
-//! plates it keeps clear, and at all other times of all. Pairs that the job alone leaves out are judged, too, and waived where they do
-//! not keep clear.
+//! Every pair keeps the job's clearance at all times, except the sponge and the plates. While it approaches, washes or leaves a plate, the
+//! sponge may touch that plate, and over its rim a neighbour within reach; the reach has a requirement of its own. It keeps clear of all
+//! other plates, and of all plates at all other times. Pairs that only the job excludes are judged, too, and waived where they do not keep
+//! clear.
 
 use crate::clearance::far::far;
 use crate::clearance::search::{FINE_M, Found, Goal, Search};
@@ -21,65 +21,66 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Intervals looked at over all pairs, at most, and what each pair may look at whatever their number.
+/// Intervals examined over all pairs at most, and below the least and the greatest number for each pair.
 const BUDGET: usize = 4_000_000;
 const LEAST_BUDGET: usize = 2_000;
 const MOST_BUDGET: usize = 400_000;
 
-/// What counts as far, as so many times the least distance among the others, and at least \[m\].
+/// Distance from which on a pair counts as far, as a multiple of the least distance among the others, and at least \[m\].
 const FAR: f64 = 2.0;
 const FAR_M: f64 = 0.02;
 
-/// What a pair must keep, during some part of the motion.
+/// Rule that a pair is under during a part of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PairRule {
-    /// The clearance required.
+    /// The pair keeps the required clearance.
     Clearance,
-    /// The clearance required, waived where it is not kept: the job leaves the pair out, and neither the arm nor its SRDF does.
+    /// The pair should keep the required clearance, but the job waives it: the job excludes the pair, and neither the arm nor its SRDF
+    /// does.
     Waived,
-    /// Nothing: the sponge and a plate, while it works on that plate or on one from which it is within reach.
+    /// The pair may touch: the sponge and a plate, while it works on that plate or on one from which it is within reach.
     Touching,
 }
 
-/// A pair of bodies under one rule.
+/// Pair of bodies under one rule, with its bound.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PairBound {
     /// Names of the bodies.
     pub pair: [String; 2],
-    /// What they must keep.
+    /// Rule of the pair.
     pub rule: PairRule,
-    /// The plates on which the sponge works meanwhile, of a pair that may touch.
+    /// Plates on which the sponge works meanwhile, for a pair that may touch.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub working_on: Vec<usize>,
-    /// What came of it.
+    /// Result of the check.
     pub status: Status,
-    /// The distance is never below this \[m\], errors included.
+    /// Lower bound on the distance, errors included \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_least_m: Option<f64>,
-    /// The least distance found at a single moment \[m\].
+    /// Least distance found at a single moment \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seen_m: Option<f64>,
-    /// That moment \[s\].
+    /// Time of that moment \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
-    /// Half-way between the nearest points then, world frame \[m\].
+    /// Midpoint between the nearest points at that moment, world frame \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place_m: Option<[f64; 3]>,
 }
 
-/// What the sponge works on, and when.
+/// Plates that the sponge works on, over time.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Work<'a> {
-    /// On nothing, at any time.
+    /// The sponge works on no plate at any time.
     Nothing,
-    /// As the segments say.
+    /// The segments state the plates.
     Scheduled(&'a Schedule),
-    /// The segments do not say.
+    /// The segments do not state the plates.
     Unknown,
 }
 
-/// A pair, a rule and the pieces during which it holds; `None` where the segments do not say.
+/// Pair with a rule and the pieces during which it holds; `None` where the segments do not state them.
 struct Task {
     pair: usize,
     rule: PairRule,
@@ -87,7 +88,7 @@ struct Task {
     working_on: Vec<usize>,
 }
 
-/// Judges every pair: one line for each rule that a pair is under. Of the `waived` ones, by their index, it is said how near they come.
+/// Judges every pair, with one line for each rule that a pair is under. The `waived` pairs, by index, are only reported.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -140,7 +141,7 @@ pub(crate) fn judge(
     found.par_iter_mut().zip(&tasks).for_each(|(found, task)| {
         if found.is_some_and(|f| f.at_least_m < enough_m) && least > 0.0 {
             let parts = model.parts_of(task.pair);
-            // Of bodies of many parts the limit is enough: to know them finely takes long.
+            // For bodies of many parts the limit is enough: a fine bound takes long.
             if !parts.is_of_many() {
                 *found = Some(search(task, &parts, Some(enough_m)));
             }
@@ -154,7 +155,7 @@ pub(crate) fn judge(
         .collect())
 }
 
-/// The least distance found at a single moment of those that must keep clear \[m\].
+/// Least distance found at a single moment over the pairs that must keep clear \[m\].
 fn least_seen(found: &[Option<Found>], tasks: &[Task]) -> f64 {
     let must = found
         .iter()
@@ -194,7 +195,7 @@ fn measure(limit_m: f64, found: &Found) -> Measure {
     }
 }
 
-/// The requirement about all lines that ask for clearance: the least bound, and where the least distance was found.
+/// Checks the clearance over all lines that require it: the least bound, and the position of the least distance found.
 pub(crate) fn check(limit_m: f64, lines: &[PairBound]) -> Check {
     let lines: Vec<_> = lines.iter().filter(|l| l.rule == PairRule::Clearance).collect();
     let status = |status| lines.iter().any(|l| l.status == status);
@@ -280,12 +281,12 @@ fn tasks(
     tasks
 }
 
-/// Whether the sponge may touch a plate during a segment of a kind, on a plate or towards it.
+/// True if the sponge may touch `plate` during a segment of this kind at the plate `on`.
 pub(crate) fn may_touch(subject: &Subject<'_>, (kind, on): (SegmentKind, usize), plate: usize) -> bool {
     is_at_plate(kind) && (on == plate || reach::is_within_reach(subject, on, plate))
 }
 
-/// The pieces of some spans; neighbours joined.
+/// Returns the piece ranges of some spans, with neighbours joined.
 fn joined(schedule: &Schedule, counts: impl Fn(&Span) -> bool) -> Vec<Range<usize>> {
     let mut all: Vec<Range<usize>> = Vec::new();
     for span in schedule.spans.iter().filter(|span| counts(span)) {

@@ -14,51 +14,50 @@ use platewash_workcell::clearance::motion::{Measured, PartPair, PartPairs};
 use std::collections::BinaryHeap;
 use std::ops::Range;
 
-/// How near to the least distance found a bound must come where it can \[m\]; below the error of the distances there is
-/// no point.
+/// Gap between a bound and the least distance found below which refining stops \[m\]. It is well above the error of the distances.
 const FLOOR_M: f64 = 15.0 * ITERATIVE_ERROR_M;
 
-/// How near to the least distance found the bound of the nearest pair comes \[m\].
+/// Gap allowed between the bound of the nearest pair and its least distance found \[m\].
 pub(crate) const FINE_M: f64 = 1e-4;
 
-/// The same for the others, as a part of that distance.
+/// Gap allowed for the other pairs, as a part of that distance.
 const COARSE: f64 = 0.1;
 
-/// The same for bodies of many parts, whose bounds take longer.
+/// Gap allowed for bodies of many parts, whose bounds take longer, as a part of that distance.
 const COARSE_OF_MANY: f64 = 0.35;
 
 /// Shortest interval that is halved \[s\].
 const SHORTEST_S: f64 = 1e-7;
 
-/// No direction is known.
+/// Value for an unknown direction.
 const NO_NORMAL: [f64; 3] = [0.0; 3];
 
-/// What a pair must keep and how exactly that is to be known.
+/// Clearance that a pair must keep, and the accuracy that is needed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Goal {
-    /// \[m\]
+    /// Required clearance \[m\].
     pub limit_m: f64,
-    /// A bound from here on is exact enough, and below is not \[m\]; by default as near as the pair's own distance asks.
+    /// Bound that is accurate enough, where a smaller one is not \[m\]; by default it follows from the pair's own distance.
     pub enough_m: Option<f64>,
-    /// Intervals that may be looked at.
+    /// Number of intervals that may be examined.
     pub budget: usize,
 }
 
-/// What was found about a pair.
+/// Result for a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Found {
-    /// The distance is never below this \[m\]; −∞ where nothing could be shown.
+    /// Lower bound on the distance \[m\]; −∞ where nothing could be shown.
     pub at_least_m: f64,
-    /// The least distance at a single moment \[m\]; +∞ before any was measured.
+    /// Least distance found at a single moment \[m\]; +∞ before the first one.
     pub seen_m: f64,
-    /// That moment \[s\].
+    /// Time of that moment \[s\].
     pub time_s: f64,
-    /// Half-way between the nearest points then \[m\].
+    /// Midpoint between the nearest points at that moment \[m\].
     pub place_m: [f64; 3],
 }
 
 impl Found {
-    /// What is never nearer than this \[m\], and was not looked at any closer.
+    /// Returns the result of a pair that is never nearer than `at_least_m` \[m\] and was not examined further.
     pub fn never_nearer(at_least_m: f64) -> Self {
         Self {
             at_least_m,
@@ -70,17 +69,17 @@ impl Found {
 }
 
 impl Goal {
-    /// Whether a bound is good enough beside the least distance found.
+    /// True if a bound is good enough beside the least distance found.
     fn accepts(&self, bound: f64, seen: f64) -> bool {
         self.accepts_within(bound, seen, COARSE)
     }
 
-    /// As [`Goal::accepts`], where a bound may be so much below the least distance, as a part of it.
+    /// Same as [`Goal::accepts`], with the allowed gap as a part `coarse` of the least distance.
     fn accepts_within(&self, bound: f64, seen: f64, coarse: f64) -> bool {
         bound >= self.needed(seen, coarse)
     }
 
-    /// The least bound that is good enough.
+    /// Returns the least bound that is good enough.
     fn needed(&self, seen: f64, coarse: f64) -> f64 {
         let broken = seen < self.limit_m - ITERATIVE_ERROR_M || seen <= 0.0;
         if broken {
@@ -94,13 +93,13 @@ impl Goal {
     }
 }
 
-/// An interval with its bound, ordered so that a heap yields the least bound first, and the earliest of equal ones.
+/// Interval with its bound, ordered so that a heap yields the least bound first, and the earliest of equal ones.
 struct Candidate {
     bound: f64,
     order: usize,
     part: usize,
     interval: Interval,
-    /// From one part to the other, in the frame of the earlier one, as it is somewhere in the interval or near it.
+    /// Direction from one part to the other, in the frame of the earlier one, at some moment in the interval or near it.
     normal: [f64; 3],
 }
 
@@ -124,7 +123,7 @@ impl PartialEq for Candidate {
 
 impl Eq for Candidate {}
 
-/// A search over one pair of bodies.
+/// Search over one pair of bodies.
 pub(crate) struct Search<'a> {
     robot: &'a RobotModel,
     timeline: &'a Timeline<'a>,
@@ -136,7 +135,7 @@ pub(crate) struct Search<'a> {
     found: Found,
 }
 
-/// A pair of parts and how near they are at least in the middle of an interval \[m\], ordered so that a heap yields the nearest first.
+/// Pair of parts with a lower bound on their distance in the middle of an interval \[m\], ordered so that a heap yields the nearest first.
 struct Near {
     gap_m: f64,
     inner: usize,
@@ -163,20 +162,20 @@ impl PartialEq for Near {
 
 impl Eq for Near {}
 
-/// An interval in which two bodies are, of which the fixed one has many parts that stand still.
+/// Interval for two bodies, of which the fixed one has many parts that stand still.
 struct Stay<'a> {
-    /// Its middle \[s\], and the arm there and at both ends.
+    /// Time of its middle \[s\], and the arm there and at both ends.
     time_s: f64,
     poses: &'a BodyPoses,
     ends: [BodyPoses; 2],
-    /// By how much a distance may be less than in the middle, and by how much a gap than at both ends \[m\].
+    /// Greatest loss of distance compared with the middle, and of a gap compared with both ends \[m\].
     fall: f64,
     sag: f64,
 }
 
 impl<'a> Search<'a> {
-    /// Bounds the distance of a pair of bodies, given by its pairs of parts, during some pieces. Nothing is shown where the work is
-    /// given up.
+    /// Bounds the distance of a pair of bodies, given by its pairs of parts, during the pieces. Nothing is shown where the work is
+    /// cancelled.
     pub fn run(
         (robot, cancel): (&'a RobotModel, &'a CancelToken),
         timeline: &'a Timeline<'a>,
@@ -228,7 +227,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether a bound of a pair is good enough.
+    /// True if a bound of a pair of parts is good enough.
     fn accepts(&self, part: usize, bound: f64) -> bool {
         if self.parts.within(part).is_empty() {
             self.goal.accepts(bound, self.found.seen_m)
@@ -237,7 +236,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Takes note of a distance at a moment.
+    /// Records a distance at a moment.
     fn see(&mut self, measured: &Measured, time_s: f64) {
         if measured.distance_m < self.found.seen_m {
             self.found.seen_m = measured.distance_m;
@@ -246,7 +245,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Bounds an interval, of which a bound and the direction of an interval around it are known already.
+    /// Bounds an interval. `inherited` and `normal` are the bound and the direction of an interval around it.
     fn look(&mut self, part: usize, interval: Interval, inherited: f64, normal: [f64; 3]) {
         self.looked_at += 1;
         let Some(pair) = self.parts.get(part) else { return };
@@ -260,8 +259,8 @@ impl<'a> Search<'a> {
         });
     }
 
-    /// A lower bound over an interval, and the direction that led to it. The cheapest that is good enough: spheres around the parts, the
-    /// direction known, the nearest points.
+    /// Returns a lower bound over an interval, and the direction that led to it. Tries spheres around the parts, then the known direction,
+    /// then the nearest points, until a bound is good enough.
     fn bound(&mut self, (part, pair): (usize, &PartPair<'_>), interval: &Interval, known: [f64; 3]) -> (f64, [f64; 3]) {
         let extent = self.timeline.extent(interval);
         let (time_s, q) = self.timeline.middle(interval);
@@ -283,7 +282,7 @@ impl<'a> Search<'a> {
         };
         if known != NO_NORMAL {
             let gap = along(known);
-            // Where the gap itself would do, shorter intervals will: no nearest points are needed.
+            // If the gap itself is enough, shorter intervals will be enough: no nearest points are needed.
             if self.accepts(part, gap) {
                 return (gap - sag, known);
             }
@@ -313,8 +312,9 @@ impl<'a> Search<'a> {
         (displaced.max(along(measured.normal) - sag), measured.normal)
     }
 
-    /// What none of the pairs of parts that a pair holds is nearer than over an interval: the nearest ones first, until the rest is far
-    /// enough, or one is not. For each in turn from the sphere around it, along the direction to the one before, from its nearest points.
+    /// Returns a lower bound over an interval on the distance of the pairs of parts that a pair holds. The nearest are examined first,
+    /// until the rest is far enough or one is too near: each from the sphere around it, along the direction of the one before, then from
+    /// its nearest points.
     fn survey(&mut self, part: usize, stay: &Stay<'_>) -> f64 {
         let parts = self.parts;
         let near = |inner: usize| {
@@ -389,8 +389,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(48))]
 
-        /// A motion of lines, slow but for an excursion whose speed jumps: no bound is above the least distance sampled, wherever in the
-        /// tree of intervals the excursion lies. What is enough is far below, so that few intervals are looked at.
+        /// Checks that no bound is above the least distance sampled, for a slow motion of lines with an excursion whose speed jumps,
+        /// anywhere in the tree of intervals. The distance that is enough is far below, so that few intervals are examined.
         #[test]
         fn no_bound_is_above_a_sample_where_speeds_jump(
             q in vector(0.6), drift in vector(2e-3), away in vector(0.4), rows in 2..70_usize, at in 0.0..1.0_f64, half in 1..9_usize,

@@ -6,33 +6,33 @@
 use crate::motion::tip::{Arm, Moment, Stretch};
 use crate::report::check::ROUNDING;
 
-/// How often a piece is halved at most.
+/// Greatest depth of halving of a piece.
 const MOST_HALVINGS: u32 = 24;
 
-/// Halvings that one tracker may spend, whatever it tracks …
+/// Halvings that one tracker may spend in any case.
 const SPLITS: usize = 200_000;
 
-/// … and for every piece more that it tracks: four levels of halving on each. So a long plan can be proved as well as a short
-/// one, and none takes longer than in proportion to its pieces. Washes of the IRB 120 take three or so a piece.
+/// Halvings added for every tracked piece: four levels of halving on each. A long plan is then proved as well as a short one, and the time
+/// stays in proportion to the number of pieces. Washes of the IRB 120 take about three a piece.
 const SPLITS_A_PIECE: usize = 15;
 
-/// The greatest value of a quantity so far.
+/// Greatest value of a quantity found so far, with its bound.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BoundTracker {
     limit: f64,
     resolution: f64,
     splits: usize,
-    /// Worst value seen and its time \[s\]; −∞ before anything was.
+    /// Worst value found, and below its time \[s\]; −∞ before the first value.
     pub seen: f64,
     pub time_s: f64,
     pub place: [f64; 3],
-    /// What no value is above; −∞ before anything was bounded, +∞ or NaN where nothing could be.
+    /// Upper bound; −∞ before the first stretch, +∞ or NaN where none exists.
     pub bound: f64,
 }
 
 impl BoundTracker {
-    /// A tracker of values that shall not be above `limit`; the bound shall be worse than the worst value by at most
-    /// `resolution`.
+    /// Returns a tracker of values that must not be above `limit`. Stretches are halved until the bound is at most `resolution` above the
+    /// worst value.
     pub fn new(limit: f64, resolution: f64) -> Self {
         Self {
             limit,
@@ -45,7 +45,7 @@ impl BoundTracker {
         }
     }
 
-    /// The same tracker in other numbers: its bound and its worst value through a function that never falls.
+    /// Returns the tracker with its bound and its worst value mapped by a non-decreasing function.
     pub fn through(&self, scale: impl Fn(f64) -> f64) -> Self {
         Self {
             bound: scale(self.bound),
@@ -54,7 +54,7 @@ impl BoundTracker {
         }
     }
 
-    /// The worse of two trackers of the same quantity, with a bound for both.
+    /// Combines two trackers of the same quantity: the worse value, and a bound for both.
     pub fn and(&self, other: &Self) -> Self {
         let mut both = if other.seen > self.seen { *other } else { *self };
         both.bound = self.bound;
@@ -62,12 +62,12 @@ impl BoundTracker {
         both
     }
 
-    /// Allows for the halvings of so many pieces more.
+    /// Allows the halvings for so many further pieces.
     pub fn allow_for(&mut self, pieces: usize) {
         self.splits = self.splits.saturating_add(pieces.saturating_mul(SPLITS_A_PIECE));
     }
 
-    /// Takes note of a value at a moment.
+    /// Records a value at a moment.
     pub fn see(&mut self, value: f64, time_s: f64, moment: &Moment) {
         if value > self.seen {
             self.seen = value;
@@ -76,7 +76,7 @@ impl BoundTracker {
         }
     }
 
-    /// Whether a bound needs no refinement.
+    /// True if a bound needs no refinement.
     pub fn accepts(&self, bound: f64) -> bool {
         let slack = ROUNDING * self.limit.abs();
         let within = self.seen + self.resolution;
@@ -88,12 +88,12 @@ impl BoundTracker {
             }
     }
 
-    /// Whether a bound is within the limit.
+    /// True if a bound is within the limit.
     pub fn keeps(&self, bound: f64) -> bool {
         bound <= self.limit + ROUNDING * self.limit.abs()
     }
 
-    /// Takes note of a bound that is not refined further.
+    /// Records a bound that is not refined further.
     pub fn take(&mut self, bound: f64) {
         // NaN must not get lost: nothing is proved then.
         self.bound = if bound.is_nan() || self.bound.is_nan() {
@@ -103,22 +103,22 @@ impl BoundTracker {
         };
     }
 
-    /// Whether another halving is allowed; counts it.
+    /// Returns true if another halving is allowed, and counts it.
     pub fn may_split(&mut self, depth: u32) -> bool {
         let allowed = depth < MOST_HALVINGS && self.splits > 0;
         self.splits -= usize::from(allowed);
         allowed
     }
 
-    /// Sees the ends of a piece.
+    /// Records the values at both ends of a stretch.
     pub fn see_ends(&mut self, stretch: &Stretch<'_>, value: impl Fn(&Moment) -> f64) {
         for (moment, time_s) in stretch.ends.iter().zip(stretch.times()) {
             self.see(value(moment), time_s, moment);
         }
     }
 
-    /// Bounds a stretch whose ends were seen: `value` of a moment, and what it may be above the greater of both ends within a
-    /// stretch (by its second derivative in the sense of [`crate::motion::tip`], and by rounding where that matters).
+    /// Bounds a stretch whose ends were recorded. `value` is the quantity at a moment; the other function bounds its rise above the greater
+    /// end within a stretch (by its second derivative in the sense of [`crate::motion::tip`], and by rounding where that matters).
     pub fn refine(
         &mut self,
         arm: &Arm<'_>,

@@ -8,12 +8,12 @@ use crate::statements::schedule::Schedule;
 use crate::subject::Limits;
 use platewash_kinematics::AXES;
 
-/// The worst joint so far: by its margin for positions, by its share of the limit for speeds and accelerations.
+/// The worst joint so far, compared by margin for positions, and by share of the limit for speeds and accelerations.
 struct Extreme {
     badness: f64,
-    /// What is proved.
+    /// Proved bound.
     bound: f64,
-    /// What the joint certainly attains: the bound less its rounding, twice.
+    /// Value that the joint certainly attains: the bound less twice its rounding.
     attained: f64,
     limit: f64,
     joint: usize,
@@ -21,13 +21,13 @@ struct Extreme {
 }
 
 impl Extreme {
-    /// Whether it is worse than the worst so far. NaN is worse than anything.
+    /// True if this is worse than the worst so far. NaN is worse than anything.
     fn is_worse_than(&self, worst: Option<&Self>) -> bool {
         worst.is_none_or(|w| self.badness > w.badness || self.badness.is_nan())
     }
 }
 
-/// The three requirements, in the order position, speed, acceleration.
+/// Checks the three requirements, in the order position, speed, acceleration.
 pub(crate) fn checks(pieces: &[Piece], limits: &Limits, schedule: Option<&Schedule>) -> [Check; 3] {
     let (speed, acceleration) = (&limits.speed_rad_s, &limits.acceleration_rad_s2);
     let [lower, upper] = &limits.position_rad;
@@ -103,7 +103,7 @@ fn check(
     Check::measured(name, measure, worst)
 }
 
-/// When, within a piece, a joint is worst \[s\].
+/// Time within a piece at which a joint is worst \[s\].
 fn time_of(piece: &Piece, name: Requirement, joint: usize) -> f64 {
     let middle = 0.5 * (piece.position(0.0)[joint] + piece.position(piece.length_s)[joint]);
     let value = |u: f64| match name {

@@ -1,4 +1,4 @@
-//! The motion: its cubics, and what the joints and the tip do over a stretch of time.
+//! The motion: its cubics, and bounds on the joints and the tip over a stretch of time.
 //!
 //! | concept | module |
 //! | --- | --- |

@@ -1,4 +1,4 @@
-//! One cubic of the motion, with its extremes, and what ranges of many have in common.
+//! One cubic of the motion, with its extremes, and bounds over several pieces.
 //!
 //! The motion is what the numbers in the file say: the cubic c through the knots as they stand. What is computed is another one, ĉ,
 //! and the shorter a piece, the farther its derivatives may be from those of c. With m = Δq/h, M = |m| + |v₀| + |v₁| and the unit
@@ -23,7 +23,7 @@ use platewash_workcell::trajectory::{KnotError, Trajectory};
 pub(crate) struct Piece {
     /// Time of u = 0 \[s\].
     pub start_s: f64,
-    /// \[s\]
+    /// Duration \[s\].
     pub length_s: f64,
     c: [JointVector; 4],
     /// Speed that the knot at the end states \[rad/s\].
@@ -31,21 +31,21 @@ pub(crate) struct Piece {
     rounding: Rounding,
 }
 
-/// How far what is computed of a piece may be from what its knots say, anywhere on it: see the head of this file.
+/// Bounds on the difference between computed values and those that the knots define, anywhere on a piece: see the head of this file.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rounding {
-    /// \[rad\]
+    /// For positions \[rad\].
     pub position: JointVector,
-    /// \[rad/s\]
+    /// For speeds \[rad/s\].
     pub speed: JointVector,
-    /// \[rad/s²\]
+    /// For accelerations \[rad/s²\].
     pub acceleration: JointVector,
 }
 
-/// Rounding as a part of |m| + |v₀| + |v₁|: 200 u.
+/// Rounding relative to |m| + |v₀| + |v₁|: 200 u.
 const ROUNDING: f64 = 100.0 * f64::EPSILON;
 
-/// What the joints do within a stretch of time: bounds, for a single piece exact but for its rounding.
+/// Bounds on the joints over a stretch of time. For a single piece they are exact but for its rounding.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Extent {
     /// Lowest positions \[rad\].
@@ -108,12 +108,12 @@ impl Piece {
         }
     }
 
-    /// How far the joints' positions, speeds and accelerations may be from those computed.
+    /// Returns bounds on the rounding of positions, speeds and accelerations.
     pub fn rounding(&self) -> &Rounding {
         &self.rounding
     }
 
-    /// Whether a joint's cubic is made of numbers so small that their squares are numbers.
+    /// Checks that a joint's coefficients are so small that their squares are finite.
     pub fn is_sane(&self, joint: usize) -> bool {
         self.c.iter().all(|c| c[joint].abs() < 1e100)
     }
@@ -132,12 +132,13 @@ impl Piece {
         self.c[2] * 2.0 + self.c[3] * (6.0 * u)
     }
 
-    /// What the third derivative's magnitude, constant over the piece, is not above \[rad/s³\].
+    /// Upper bound on the third derivative of each joint, constant over the piece \[rad/s³\].
     pub fn jerk(&self) -> JointVector {
         (self.c[3] * 6.0).abs() + self.rounding.acceleration / self.length_s
     }
 
-    /// What no joint's speed is above from `u0` to `u1` \[rad/s\]: a parabola's, at an end or where the acceleration is zero.
+    /// Upper bound on the speed of each joint from `u0` to `u1` \[rad/s\]. The speed is a parabola; it is extreme at an end or where the
+    /// acceleration is zero.
     pub fn greatest_speed(&self, [u0, u1]: [f64; 2]) -> JointVector {
         let mut greatest = self.speed(u0).abs().sup(&self.speed(u1).abs());
         for joint in 0..AXES {
@@ -149,12 +150,12 @@ impl Piece {
         greatest + self.rounding.speed
     }
 
-    /// What no joint's acceleration is above from `u0` to `u1` \[rad/s²\]: a line's, at an end.
+    /// Upper bound on the acceleration of each joint from `u0` to `u1` \[rad/s²\]. It is linear in time, so it is extreme at an end.
     pub fn greatest_acceleration(&self, [u0, u1]: [f64; 2]) -> JointVector {
         self.acceleration(u0).abs().sup(&self.acceleration(u1).abs()) + self.rounding.acceleration
     }
 
-    /// All extremes from `u0` to `u1`.
+    /// Returns all bounds from `u0` to `u1`.
     pub fn extent(&self, [u0, u1]: [f64; 2]) -> Extent {
         let (start, end) = (self.position(u0), self.position(u1));
         let mut extent = Extent {
@@ -176,13 +177,13 @@ impl Piece {
         extent
     }
 
-    /// Size of the jump of speed from here to the next piece, as the knots state it: exactly 0 between pieces of a plan, which share
-    /// theirs \[rad/s\].
+    /// Magnitude of the jump of speed from this piece to the next, as the knots state it \[rad/s\]. It is exactly 0 between pieces of a
+    /// plan, which share their knots.
     pub fn jump_to(&self, next: &Self) -> JointVector {
         (next.c[1] - self.end_speed).abs()
     }
 
-    /// Moments at which a joint's position, speed or acceleration may be extreme \[s\].
+    /// Times at which a joint's position, speed or acceleration may be extreme \[s\].
     pub fn candidates(&self, joint: usize) -> Vec<f64> {
         let fastest = -self.c[2][joint] / (3.0 * self.c[3][joint]);
         let [a, b] = self.turns(joint);
@@ -190,7 +191,7 @@ impl Piece {
         [0.0, self.length_s].into_iter().chain(inside).collect()
     }
 
-    /// Where a joint's speed c₁ + 2c₂u + 3c₃u² is zero; NaN or far away where it nowhere is.
+    /// Times at which a joint's speed c₁ + 2c₂u + 3c₃u² is zero; NaN or far away if there are none.
     fn turns(&self, joint: usize) -> [f64; 2] {
         let (a, half_b, c) = (3.0 * self.c[3][joint], self.c[2][joint], self.c[1][joint]);
         let root = (half_b * half_b - a * c).sqrt();
@@ -201,7 +202,7 @@ impl Piece {
 }
 
 impl Extent {
-    /// What two stretches have in common; the knot between them apart, if they meet in one.
+    /// Combines the bounds of two stretches. The jump of speed at a knot between them is not included.
     pub fn and(&self, other: &Self) -> Self {
         Self {
             least: self.least.inf(&other.least),
@@ -212,7 +213,7 @@ impl Extent {
         }
     }
 
-    /// How far the joints get from `q` \[rad\].
+    /// Greatest distance of each joint from `q` \[rad\].
     pub fn drift(&self, q: &JointVector) -> JointVector {
         (self.most - q).sup(&(q - self.least))
     }
@@ -268,8 +269,8 @@ mod tests {
     }
 
     proptest! {
-        /// However short the piece and however late: what its knots say is within the bounds. Speeds are those of an even motion,
-        /// a few units in the last place off, where rounding is all there is.
+        /// The knots' values are within the bounds, however short and however late a piece is. Speeds are those of an even motion, a few
+        /// units in the last place off, where rounding is all there is.
         #[test]
         fn bounds_hold_for_the_knots_as_they_stand(
             start in 0.0..60.0f64, steps in 1..40i32, long in -16.0..0.0f64, q0 in -3.0..3.0f64, v in -2.0..2.0f64, off in [-4..4i32, -4..4i32],

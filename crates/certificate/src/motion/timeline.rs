@@ -1,23 +1,23 @@
-//! Intervals of time from the whole motion down to parts of a piece, each with bounds of what the joints do in it.
+//! Intervals of time, from the whole motion down to parts of a piece, each with bounds on the joints.
 
 use crate::motion::piece::{Extent, Piece};
 use platewash_kinematics::JointVector;
 use std::ops::Range;
 
-/// The pieces, and bounds for groups of them: a binary tree in preorder, so that the left half of a group of n pieces
-/// follows it and the right half comes after the 2m − 1 groups of the left one, of m pieces.
+/// Pieces of a motion with bounds for groups of them, a binary tree in preorder: the left half of a group of n pieces follows it, and the
+/// right half comes after the 2m − 1 groups of the left one, of m pieces.
 #[derive(Debug)]
 pub(crate) struct Timeline<'a> {
     pieces: &'a [Piece],
     groups: Vec<Extent>,
 }
 
-/// An interval of time.
+/// Interval of time.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Interval {
-    /// Pieces from one up to another, a group of the tree.
+    /// Range of pieces, a group of the tree.
     Pieces { group: usize, first: usize, end: usize },
-    /// Part of a piece: from and to within it \[s\].
+    /// Part of a piece: start and end within it \[s\].
     Within { piece: usize, u: [f64; 2] },
 }
 
@@ -56,7 +56,7 @@ impl<'a> Timeline<'a> {
         self.groups.first()
     }
 
-    /// Intervals that together are the pieces asked for.
+    /// Returns intervals that together make up the given pieces.
     pub fn cover(&self, pieces: &Range<usize>) -> Vec<Interval> {
         let mut all = Vec::new();
         if !self.pieces.is_empty() {
@@ -75,7 +75,7 @@ impl<'a> Timeline<'a> {
         }
     }
 
-    /// Both halves; `None` where time cannot be halved any more.
+    /// Returns both halves; `None` if the time cannot be halved any more.
     pub fn halves(&self, interval: &Interval) -> Option<[Interval; 2]> {
         match *interval {
             Interval::Pieces { group, first, end } if end - first > 1 => {
@@ -93,7 +93,7 @@ impl<'a> Timeline<'a> {
         }
     }
 
-    /// Bounds over an interval.
+    /// Returns the bounds over an interval.
     pub fn extent(&self, interval: &Interval) -> Extent {
         match *interval {
             Interval::Pieces { group, .. } => self.groups[group],
@@ -101,7 +101,7 @@ impl<'a> Timeline<'a> {
         }
     }
 
-    /// Length \[s\], not less than it is however late it begins: no difference of times that round.
+    /// Length \[s\]. It is computed without a difference of large times, so it does not round to less however late the interval begins.
     pub fn length_s(&self, interval: &Interval) -> f64 {
         match *interval {
             Interval::Pieces { first, end, .. } => {
@@ -112,7 +112,7 @@ impl<'a> Timeline<'a> {
         }
     }
 
-    /// Start and end \[s\].
+    /// Start and end times \[s\].
     pub fn times(&self, interval: &Interval) -> [f64; 2] {
         match *interval {
             Interval::Pieces { first, end, .. } => {
@@ -123,7 +123,7 @@ impl<'a> Timeline<'a> {
         }
     }
 
-    /// Positions at the start and at the end \[rad\].
+    /// Joint positions at the start and at the end \[rad\].
     pub fn ends(&self, interval: &Interval) -> [JointVector; 2] {
         match *interval {
             Interval::Pieces { first, end, .. } => {
@@ -134,7 +134,7 @@ impl<'a> Timeline<'a> {
         }
     }
 
-    /// A moment in the middle: its time \[s\] and the positions \[rad\].
+    /// A moment in the middle: its time \[s\] and the joint positions \[rad\].
     pub fn middle(&self, interval: &Interval) -> (f64, JointVector) {
         let (piece, u) = match *interval {
             Interval::Pieces { first, end, .. } if end - first > 1 => (middle(first, end), 0.0),

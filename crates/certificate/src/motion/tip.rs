@@ -22,22 +22,22 @@ pub(crate) struct Arm<'a> {
     cancel: &'a CancelToken,
 }
 
-/// State of the tip at one moment, base frame.
+/// State of the tip at a moment, base frame.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moment {
     /// Position \[m\].
     pub position: Vector3<f64>,
-    /// Where the tool's z axis points: out of the tool.
+    /// Direction of the tool's z axis, out of the tool.
     pub axis: Vector3<f64>,
-    /// Where its x axis points: a direction across that turns with the tool.
+    /// Direction of the tool's x axis, across `axis`; it turns with the tool.
     pub side: Vector3<f64>,
-    /// \[m/s\]
+    /// Velocity \[m/s\].
     pub speed: Vector3<f64>,
-    /// \[m/s²\]
+    /// Acceleration \[m/s²\].
     pub acceleration: Vector3<f64>,
-    /// ω: how fast the tool turns \[rad/s\].
+    /// Angular velocity ω of the tool \[rad/s\].
     pub turning: Vector3<f64>,
-    /// ω̇ \[rad/s²\].
+    /// Angular acceleration ω̇ \[rad/s²\].
     pub turning_more: Vector3<f64>,
     levers: Levers,
 }
@@ -46,7 +46,7 @@ pub(crate) struct Moment {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stretch<'a> {
     pub piece: &'a Piece,
-    /// From and to, within the piece \[s\].
+    /// Start and end within the piece \[s\].
     pub u: [f64; 2],
     pub ends: [Moment; 2],
 }
@@ -59,7 +59,7 @@ pub(crate) struct Derivatives {
 }
 
 impl<'a> Arm<'a> {
-    /// An arm with a tool; cancelled, it halves nothing any more.
+    /// Returns an arm with a tool. Once `cancel` is set, it halves no more stretches.
     pub fn new(robot: &'a RobotModel, tool: &Tool, cancel: &'a CancelToken) -> Self {
         let tip = tool.tip_frame(robot);
         let zero = robot.fk(&JointVector::zeros());
@@ -72,7 +72,7 @@ impl<'a> Arm<'a> {
         }
     }
 
-    /// The tip at u \[s\] of a piece.
+    /// Computes the tip at time u \[s\] within a piece.
     pub fn at(&self, piece: &Piece, u: f64) -> Moment {
         let (qd, qdd) = (piece.speed(u), piece.acceleration(u));
         let poses = self.robot.fk(&piece.position(u));
@@ -102,18 +102,18 @@ impl<'a> Arm<'a> {
         }
     }
 
-    /// A whole piece.
+    /// Returns the stretch over a whole piece.
     pub fn stretch<'p>(&self, piece: &'p Piece) -> Stretch<'p> {
         self.part(piece, [0.0, piece.length_s])
     }
 
-    /// Part of a piece: from and to, within it \[s\].
+    /// Returns the stretch over a part of a piece, from `u[0]` to `u[1]` within it \[s\].
     pub fn part<'p>(&self, piece: &'p Piece, u: [f64; 2]) -> Stretch<'p> {
         let ends = u.map(|u| self.at(piece, u));
         Stretch { piece, u, ends }
     }
 
-    /// The two halves of a stretch; `None` when it is too short to halve, or where the work was given up.
+    /// Returns the two halves of a stretch; `None` if it is too short to halve, or if the work was cancelled.
     pub fn halves<'p>(&self, whole: &Stretch<'p>) -> Option<[Stretch<'p>; 2]> {
         let [from, to] = whole.u;
         let middle = 0.5 * (from + to);
@@ -130,7 +130,7 @@ impl<'a> Arm<'a> {
         Some([half([from, middle], [first, there]), half([middle, to], [there, last])])
     }
 
-    /// Bounds of derivatives that hold all over a stretch.
+    /// Returns bounds of derivatives that hold all over a stretch.
     pub fn derivatives(&self, stretch: &Stretch<'_>) -> Derivatives {
         let speed = stretch.piece.greatest_speed(stretch.u);
         // The nearer end is half a stretch away.
@@ -157,54 +157,54 @@ impl Stretch<'_> {
         self.u.map(|u| self.piece.start_s + u)
     }
 
-    /// What a bounded second derivative adds to the ends' values: h²/8 · `curvature`.
+    /// Upper bound on the rise above the ends' values, from a bound on the second derivative: h²/8 · `curvature`.
     pub fn sag(&self, curvature: f64) -> f64 {
         self.length_s() * self.length_s() * 0.125 * curvature
     }
 }
 
 impl Derivatives {
-    /// sup ‖p̈‖ \[m/s²\].
+    /// Upper bound sup ‖p̈‖ \[m/s²\].
     pub fn second(&self) -> f64 {
         let [d1, d2, _] = &self.rates;
         self.sum([d2]) + self.sum([d1, d1])
     }
 
-    /// sup ‖p⃛‖ \[m/s³\].
+    /// Upper bound sup ‖p⃛‖ \[m/s³\].
     pub fn third(&self) -> f64 {
         let [d1, d2, d3] = &self.rates;
         self.sum([d3]) + 3.0 * self.sum([d1, d2]) + self.sum([d1, d1, d1])
     }
 
-    /// sup ‖p⁗‖ \[m/s⁴\].
+    /// Upper bound sup ‖p⁗‖ \[m/s⁴\].
     pub fn fourth(&self) -> f64 {
         let [d1, d2, d3] = &self.rates;
         4.0 * self.sum([d1, d3]) + 3.0 * self.sum([d2, d2]) + 6.0 * self.sum([d1, d1, d2]) + self.sum([d1, d1, d1, d1])
     }
 
-    /// sup of the second derivative of the tool's axis, a unit vector \[1/s²\].
+    /// Upper bound on the second derivative of the tool's axis, a unit vector \[1/s²\].
     pub fn second_of_axis(&self) -> f64 {
         let [d1, d2, _] = &self.rates;
         d2.sum() + d1.sum() * d1.sum()
     }
 
-    /// The same of its third one \[1/s³\].
+    /// Upper bound on the third derivative of the tool's axis \[1/s³\].
     pub fn third_of_axis(&self) -> f64 {
         let [d1, d2, d3] = self.rates.map(|d| d.sum());
         d3 + 3.0 * d1 * d2 + d1 * d1 * d1
     }
 
-    /// sup ‖ω̇‖, ω how fast the tool turns: each joint's axis turns with those before it \[rad/s²\].
+    /// Upper bound sup ‖ω̇‖ on the tool's angular acceleration; each joint's axis turns with the joints before it \[rad/s²\].
     pub fn first_of_turning(&self) -> f64 {
         self.second_of_axis()
     }
 
-    /// sup ‖ω̈‖ \[rad/s³\].
+    /// Upper bound sup ‖ω̈‖ \[rad/s³\].
     pub fn second_of_turning(&self) -> f64 {
         self.third_of_axis()
     }
 
-    /// By how much the tip's acceleration may be above what is computed, where those of the joints are by `joints` \[m/s²\].
+    /// Upper bound on the rounding of the tip's acceleration, given that of the joints' accelerations, `joints` \[m/s²\].
     pub fn rounding(&self, joints: &JointVector) -> f64 {
         self.sum([joints])
     }

@@ -1,4 +1,4 @@
-//! Speed and acceleration of the tip, tilt of the tool and height of the contact.
+//! Limits of the tip: speed, acceleration, tilt of the tool, and height of the contact.
 
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
@@ -13,43 +13,44 @@ use platewash_kinematics::trig::{asin, sin};
 use platewash_workcell::job::PATH_TOLERANCE_M;
 use platewash_workcell::trajectory::SegmentKind;
 
-/// How far a bound of the tip's speed or acceleration may be above the worst value found, as a part of the limit.
+/// Gap allowed between a bound of the tip's speed or acceleration and the worst value found, as a part of the limit.
 const RESOLUTION: f64 = 2e-3;
 
-/// The same for the sine of the tilt.
+/// Gap allowed for the sine of the tilt.
 const TILT_RESOLUTION: f64 = 2e-4;
 
-/// By how much an angle between two directions may be wrong where it is small \[rad\].
+/// Error of a small angle between two directions \[rad\].
 const TILT_ROUNDING_RAD: f64 = 1e-8;
 
-/// The same for the height of the contact \[m\].
+/// Gap allowed for the height of the contact \[m\].
 const HEIGHT_RESOLUTION_M: f64 = 5e-6;
 
-/// What is tracked of the tip.
+/// Trackers of the tip's quantities.
 pub(crate) struct Tips {
     /// Speed and acceleration while the tip does not wash.
     pub moving: [BoundTracker; 2],
     /// Speed and acceleration while it washes.
     pub washing: [BoundTracker; 2],
-    /// Sine of the tilt, for every span at a plate: its index and the tracker.
+    /// Sine of the tilt for every span at a plate, by the span's index.
     pub tilt: Vec<(usize, BoundTracker)>,
-    /// Sine of the angle from the plate's axis, for every span at a plate whose face is no disc; on a disc it is that of the tilt.
+    /// Sine of the angle from the plate's axis for every span at a plate whose face is no disc, by the span's index. On a disc it is that
+    /// of the tilt.
     upright: Vec<(usize, BoundTracker)>,
-    /// Height of the tip over or under the face while it washes, and the index of the span.
+    /// Height of the tip over or under the face for every wash, by the span's index.
     pub height: Vec<(usize, BoundTracker)>,
 }
 
-/// Against which normal the tool is tilted.
+/// Normal against which the tilt is measured.
 #[derive(Debug, Clone, Copy)]
 enum Against {
-    /// One that stays: that of the line along which the tip comes or goes, or of a flat face.
+    /// A constant normal: that of the line of an approach or retreat, or of a flat face.
     Fixed(Vector3<f64>),
-    /// That of the face under the tip.
+    /// The normal of the face under the tip.
     Local,
 }
 
 impl Tips {
-    /// Bounds everything. Without a schedule the whole motion counts as not washing.
+    /// Bounds all quantities. Without a schedule the whole motion counts as not washing.
     pub fn new(arm: &Arm<'_>, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Self {
         let limits = &subject.limits;
         let pair = |speed: f64, acceleration: f64| {
@@ -109,19 +110,19 @@ impl Tips {
         tips
     }
 
-    /// What cos τ is not below during a span; 0 where nothing is known.
+    /// Lower bound on cos τ during a span; 0 where nothing is known.
     pub fn least_cosine_of(&self, span: usize) -> f64 {
         let tilt = self.tilt.iter().find(|(index, _)| *index == span);
         tilt.map_or(0.0, |(_, tracker)| cosine(tracker.bound))
     }
 
-    /// What the cosine of the angle from the plate's axis is not below during a span; 0 where nothing is known.
+    /// Lower bound on the cosine of the angle from the plate's axis during a span; 0 where nothing is known.
     pub fn least_upright_cosine_of(&self, span: usize) -> f64 {
         let upright = self.upright.iter().find(|(index, _)| *index == span);
         upright.map_or_else(|| self.least_cosine_of(span), |(_, tracker)| cosine(tracker.bound))
     }
 
-    /// How far the tip is over or under the face at most during the wash of a span \[m\]; infinite where nothing is known.
+    /// Upper bound on the height of the tip over or under the face during the wash of a span \[m\]; infinite where nothing is known.
     pub fn greatest_height_of(&self, span: usize) -> f64 {
         let height = self.height.iter().find(|(index, _)| *index == span);
         height.map_or(f64::INFINITY, |(_, tracker)| {
@@ -133,7 +134,7 @@ impl Tips {
         })
     }
 
-    /// What the cosine of the angle from the plate's axis is not below in all spans at a plate; 0 where there is none.
+    /// Lower bound on the cosine of the angle from the plate's axis over all spans at a plate; 0 without any.
     pub fn least_upright_cosine_at(&self, schedule: &Schedule, plate: usize) -> f64 {
         let spans = schedule.spans.iter().enumerate();
         let there = spans.filter(|(_, span)| span.plate == plate && is_at_plate(span.kind));
@@ -141,7 +142,7 @@ impl Tips {
         cosines.min_by(f64::total_cmp).unwrap_or(0.0)
     }
 
-    /// Speed and acceleration while the tip does not wash.
+    /// Checks speed and acceleration while the tip does not wash.
     pub fn moving_checks(&self, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> [Check; 2] {
         let (limits, [speed, acceleration]) = (&subject.limits, &self.moving);
         let at = |tracker: &BoundTracker| worst(tracker, pieces, schedule);
@@ -160,7 +161,7 @@ impl Tips {
         ]
     }
 
-    /// The requirements about all of them.
+    /// Checks all requirements about the tip.
     pub fn checks(&self, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Vec<Check> {
         let limits = &subject.limits;
         let (m_s, m_s2) = (Unit::MetrePerSecond, Unit::MetrePerSecondSquared);
@@ -205,7 +206,7 @@ impl Tips {
     }
 }
 
-/// The requirement that a tracked quantity stays at or below its limit.
+/// Checks that a tracked quantity stays at or below its limit.
 pub(crate) fn check(
     requirement: Requirement,
     tracker: &BoundTracker,
@@ -223,7 +224,7 @@ pub(crate) fn check(
     Check::measured(requirement, measure, worst)
 }
 
-/// Where a tracked quantity is worst.
+/// Returns position and time of the worst value of a tracked quantity.
 pub(crate) fn worst(tracker: &BoundTracker, pieces: &[Piece], schedule: Option<&Schedule>) -> Worst {
     match schedule {
         Some(schedule) => in_segment(tracker, pieces, schedule),
@@ -246,18 +247,18 @@ fn in_segment(tracker: &BoundTracker, pieces: &[Piece], schedule: &Schedule) -> 
     }
 }
 
-/// The worst of several trackers, with the greatest bound of all.
+/// Combines several trackers: the worst value, and the greatest bound.
 pub(crate) fn greatest(trackers: &[(usize, BoundTracker)]) -> BoundTracker {
     let nothing = BoundTracker::new(0.0, 0.0);
     trackers.iter().fold(nothing, |all, (_, tracker)| all.and(tracker))
 }
 
-/// The angle of a sine \[rad\]; π for what is no sine of an angle below a right one.
+/// Angle of a sine \[rad\]; π for a value that is not the sine of an angle below a right one.
 fn angle(sine: f64) -> f64 {
     if sine <= 1.0 { asin(sine) } else { std::f64::consts::PI }
 }
 
-/// cos τ from a bound of sin τ; 0 where the bound says nothing.
+/// Lower bound on cos τ from an upper bound on sin τ; 0 where the bound says nothing.
 fn cosine(sine: f64) -> f64 {
     if sine >= 0.0 {
         (1.0 - sine * sine).max(0.0).sqrt()
@@ -266,8 +267,8 @@ fn cosine(sine: f64) -> f64 {
     }
 }
 
-/// Against which normal the tool is tilted during a span: of the line over the end of its path, or of the face. Without a path there is
-/// no line, and it is that of the face.
+/// Returns the normal for the tilt during a span: that of the line over the end of its path, or that of the face. Without a path there is
+/// no line, and the face counts.
 fn against(subject: &Subject<'_>, span: &Span, face: &Face<'_>) -> Against {
     if face.surface().is_flat() {
         return Against::Fixed(*face.upright());
@@ -283,7 +284,7 @@ fn against(subject: &Subject<'_>, span: &Span, face: &Face<'_>) -> Against {
     }
 }
 
-/// Bounds the sine of the tilt during some pieces.
+/// Bounds the sine of the tilt during the pieces.
 fn tilted(
     arm: &Arm<'_>,
     mut tracker: BoundTracker,
@@ -308,7 +309,7 @@ fn tilted(
     tracker
 }
 
-/// What the speed of the tool's axis is not above over a stretch, with its second derivative not above `second` \[1/s\].
+/// Upper bound on the speed of the tool's axis over a stretch, whose second derivative is not above `second` \[1/s\].
 pub(crate) fn turning(stretch: &Stretch<'_>, second: f64) -> f64 {
     let [from, to] = stretch.ends.each_ref().map(|m| m.turning.cross(&m.axis).norm());
     from.max(to) + 0.5 * stretch.length_s() * second

@@ -1,4 +1,4 @@
-//! Joint 5 keeps from 0, always on the same side, while the sponge is at a plate: where axes 4 and 6 are in line the wrist would flip.
+//! Distance of joint 5 from 0 while the sponge is at a plate, always on the same side: where axes 4 and 6 are in line the wrist would flip.
 
 use crate::motion::piece::Piece;
 use crate::report::check::{Check, Measure, Sense, Unit, Worst};
@@ -9,19 +9,19 @@ use crate::subject::Subject;
 /// Index of joint 5.
 const JOINT: usize = 4;
 
-/// What joint 5 does from an approach to the retreat after it.
+/// Range of joint 5 from an approach to the retreat after it.
 #[derive(Debug, Clone, Copy)]
 struct Visit {
     plate: usize,
-    /// Least and greatest position, rounding included \[rad\], and the pieces where it has them.
+    /// Least and greatest position, rounding included \[rad\], each with the index of its piece.
     least: (f64, usize),
     most: (f64, usize),
-    /// What the rounding is not above \[rad\].
+    /// Upper bound on the rounding \[rad\].
     rounding: f64,
 }
 
 impl Visit {
-    /// How far it keeps from 0 on one side; below 0 where it gets beyond by as much \[rad\].
+    /// Distance from 0 on the better side \[rad\], with its piece; negative where the joint passes 0 by as much.
     fn margin(&self) -> (f64, usize) {
         if self.least.0 >= -self.most.0 {
             self.least

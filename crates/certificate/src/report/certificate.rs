@@ -1,6 +1,6 @@
-//! What is proved about a plan.
+//! The certificate of a plan.
 //!
-//! Places that are told in the world: what is proved is proved in the frame of the arm's base.
+//! Positions in a certificate are in the world frame; the proof uses the frame of the arm's base.
 
 use crate::clearance::pairs::PairBound;
 use crate::report::check::{Check, Status};
@@ -15,33 +15,33 @@ use platewash_workcell::plan::Plan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// What a certificate's JSON states as its format. Its keys change with it.
+/// Format name in a certificate's JSON. It changes with the keys.
 pub const CERTIFICATE_FORMAT: &str = "platewash-certificate/2";
 
-/// What came of the whole plan.
+/// Verdict on the whole plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// Every requirement is kept, and the plan is as it was written. [`Certificate::waived`] names those that are not proved, only
-    /// waived by the job.
+    /// Every requirement is kept, and the plan is unchanged since it was sealed. [`Certificate::waived`] names the requirements that are
+    /// not proved, only waived by the job.
     Pass,
     /// A requirement is violated or not proved, or the hash does not match the contents.
     Fail,
 }
 
-/// What the hash says. It tells nothing about the motion: whoever changes a plan can seal it again.
+/// Check of a plan's hash. It proves nothing about the motion: anybody who changes a plan can seal it again.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HashFinding {
     /// The hash in the file.
     pub stated: Option<String>,
-    /// The hash that belongs to the contents; none for contents that JSON cannot say.
+    /// The hash of the contents; `None` for contents that JSON cannot represent.
     pub computed: Option<String>,
-    /// Whether they are the same: proved or violated.
+    /// Proved if both are the same, else violated.
     pub status: Status,
 }
 
 impl HashFinding {
-    /// That of a plan.
+    /// Checks the hash of a plan.
     #[must_use]
     pub fn of(plan: &Plan) -> Self {
         let computed = plan.seal().ok();
@@ -53,7 +53,7 @@ impl HashFinding {
         }
     }
 
-    /// The finding in a line.
+    /// Returns the finding as a line of text.
     #[must_use]
     pub fn words(&self) -> &'static str {
         match (self.status, &self.stated) {
@@ -64,36 +64,36 @@ impl HashFinding {
     }
 }
 
-/// What is proved about a plan.
+/// Certificate of a plan: the verdict with everything that was proved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
-    /// [`CERTIFICATE_FORMAT`].
+    /// Format name, [`CERTIFICATE_FORMAT`].
     pub format: String,
     /// Pass, or fail.
     pub verdict: Verdict,
-    /// The first line in words: the verdict, the numbers reached and required, what is waived, and what is not kept.
+    /// The first line in words: the verdict, the numbers reached and required, the waived and the broken requirements.
     pub headline: String,
-    /// That a dry run was compared with the plan that it tries out, and agrees.
+    /// True if a dry run was compared with its parent plan, and agrees.
     #[serde(default, skip_serializing_if = "is_false")]
     pub parent_compared: bool,
-    /// The requirements that are not kept and that the job waives: [`Status::Waived`].
+    /// Requirements that are not kept and that the job waives: [`Status::Waived`].
     pub waived: Vec<Requirement>,
     /// Name of the scenario, as the plan states it.
     pub scenario: String,
     /// Duration of the motion \[s\].
     pub duration_s: f64,
-    /// The hash.
+    /// Check of the hash.
     pub hash: HashFinding,
-    /// The requirements, one by one.
+    /// Checks, one for each requirement.
     pub checks: Vec<Check>,
-    /// What is swept, plate by plate in the order of washing.
+    /// Swept share of each plate, in the order of washing.
     pub swept: Vec<PlateCoverage>,
-    /// Contact, plate by plate in the order of washing, where the job asks for it.
+    /// Contact with each plate, in the order of washing, where the job has contact requirements.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contact: Vec<PlateContact>,
-    /// Clearance, pair by pair and rule by rule.
+    /// Clearance of each pair under each rule.
     pub clearance: Vec<PairBound>,
-    /// What the verdict rests on.
+    /// Basis of the verdict.
     pub rests_on: RestsOn,
 }
 
@@ -103,13 +103,13 @@ fn is_false(flag: &bool) -> bool {
 }
 
 impl Certificate {
-    /// What came of a requirement.
+    /// Returns the check of a requirement, if it was made.
     #[must_use]
     pub fn check(&self, requirement: Requirement) -> Option<&Check> {
         self.checks.iter().find(|check| check.requirement == requirement)
     }
 
-    /// What is guaranteed of a requirement, in its unit; `None` where nothing finite is.
+    /// Returns the proved bound of a requirement, in its unit; `None` where nothing finite is proved.
     #[must_use]
     pub fn bound(&self, requirement: Requirement) -> Option<f64> {
         self.check(requirement)?
@@ -118,19 +118,19 @@ impl Certificate {
             .filter(|bound| bound.is_finite())
     }
 
-    /// The requirements that are violated or not proved.
+    /// Returns the checks that are violated or not proved.
     pub fn broken(&self) -> impl Iterator<Item = &Check> {
         self.checks.iter().filter(|check| !check.status.is_kept())
     }
 
-    /// Whether every requirement is kept, and the hash is that of the contents.
+    /// True if every requirement is kept, and the hash is that of the contents.
     #[must_use]
     pub fn passes(&self) -> bool {
         self.verdict == Verdict::Pass
     }
 
-    /// Number of plates that are proved to be washed: swept to the share required with the sponge on them and, where contact is required,
-    /// pressed on the share, for the time and with the dose required. A dry run washes none.
+    /// Number of plates that are proved to be washed: swept to the required share with the sponge on them and, where contact is required,
+    /// pressed on the required share, for the required time and with the required dose. It is 0 for a dry run.
     #[must_use]
     pub fn plates_washed(&self) -> usize {
         if self.rests_on.dry_run.is_some() {
@@ -154,31 +154,31 @@ impl Certificate {
     }
 }
 
-/// The world, by the arm's mount in it; `None` where it is the base's own frame.
+/// Mount of the arm in the world; `None` where the world frame is that of the base.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct World(Option<Pose>);
 
 impl World {
-    /// The world in which an arm is mounted at `T_world_base`.
+    /// Returns the world in which an arm is mounted at `T_world_base`.
     pub fn of(mount: &Pose) -> Self {
         Self((*mount != Pose::identity()).then_some(*mount))
     }
 
-    /// The worst places of checks.
+    /// Transforms the worst positions of checks to the world frame.
     pub fn tell_checks(&self, checks: &mut [Check]) {
         for check in checks {
             self.tell(check.worst.place_m.as_mut());
         }
     }
 
-    /// Where pairs come nearest.
+    /// Transforms the nearest positions of pairs to the world frame.
     pub fn tell_pairs(&self, pairs: &mut [PairBound]) {
         for pair in pairs {
             self.tell(pair.place_m.as_mut());
         }
     }
 
-    /// Where plates are pressed most and least.
+    /// Transforms the positions of contact results to the world frame.
     pub fn tell_contact(&self, plates: &mut [PlateContact]) {
         for plate in plates {
             for place in plate.places_mut() {
@@ -187,7 +187,7 @@ impl World {
         }
     }
 
-    /// Takes a place from the base frame to the world \[m\].
+    /// Transforms a position from the base frame to the world frame \[m\].
     fn tell(&self, place: Option<&mut [f64; 3]>) {
         if let (Some(mount), Some(place)) = (&self.0, place) {
             *place = (mount * Point3::from(*place)).into();

@@ -1,26 +1,26 @@
-//! What is checked, and what came of it.
+//! Checks of requirements, with their results.
 
 use crate::report::requirement::Requirement;
 use platewash_workcell::coverage::reaches;
 use platewash_workcell::trajectory::SegmentKind;
 use serde::{Deserialize, Serialize};
 
-/// What came of a requirement.
+/// Result of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
-    /// It holds, at every moment.
+    /// The requirement holds at every moment.
     Proved,
-    /// It is broken: `worst` says where.
+    /// The requirement is broken, at `worst`.
     Violated,
-    /// Neither could be shown.
+    /// Neither the requirement nor a violation was shown.
     NotProved,
-    /// It does not hold, and the job does not ask for it: it is reported.
+    /// The requirement does not hold, and the job waives it; it is reported.
     Waived,
 }
 
 impl Status {
-    /// Whether nothing stands against the plan.
+    /// True if the result does not count against the plan: proved or waived.
     #[must_use]
     pub fn is_kept(self) -> bool {
         matches!(self, Self::Proved | Self::Waived)
@@ -30,67 +30,67 @@ impl Status {
 /// Unit of a measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Unit {
-    /// rad
+    /// Radians.
     #[serde(rename = "rad")]
     Radian,
-    /// rad/s
+    /// Radians per second.
     #[serde(rename = "rad/s")]
     RadianPerSecond,
-    /// rad/s²
+    /// Radians per second squared.
     #[serde(rename = "rad/s^2")]
     RadianPerSecondSquared,
-    /// m
+    /// Metres.
     #[serde(rename = "m")]
     Metre,
-    /// m/s
+    /// Metres per second.
     #[serde(rename = "m/s")]
     MetrePerSecond,
-    /// m/s²
+    /// Metres per second squared.
     #[serde(rename = "m/s^2")]
     MetrePerSecondSquared,
-    /// N
+    /// Newtons.
     #[serde(rename = "N")]
     Newton,
-    /// A share of one.
+    /// Share of one.
     #[serde(rename = "1")]
     Share,
 }
 
-/// On which side of its limit a measure must stay.
+/// Side of its limit on which a measure must stay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sense {
-    /// Not above it.
+    /// Not above the limit.
     AtMost,
-    /// Not below it.
+    /// Not below the limit.
     AtLeast,
-    /// Above it.
+    /// Above the limit.
     Above,
 }
 
-/// A number that is bounded for the whole motion. The true extreme lies between `seen` and `bound`.
+/// A quantity bounded over the whole motion. The true extreme lies between `seen` and `bound`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Measure {
-    /// What is proved: never beyond this. `None` where nothing finite is.
+    /// Proved bound; `None` where nothing finite is proved.
     pub bound: Option<f64>,
-    /// The worst value found at a single moment, at `worst`.
+    /// Worst value found at a single moment, at `worst`.
     pub seen: Option<f64>,
-    /// What is required.
+    /// Required limit.
     pub limit: f64,
-    /// On which side of the limit it must be.
+    /// Side of the limit on which the quantity must stay.
     pub sense: Sense,
-    /// Unit of the three numbers.
+    /// Unit of bound, value and limit.
     pub unit: Unit,
 }
 
-/// Where something is worst. What does not apply is left out.
+/// Position and time of the worst case. Fields that do not apply are `None`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Worst {
-    /// \[s\]
+    /// Time \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
-    /// Place, world frame \[m\].
+    /// Position, world frame \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place_m: Option<[f64; 3]>,
     /// Joint index, 0 for joint 1.
@@ -102,39 +102,39 @@ pub struct Worst {
     /// Index and kind of the segment.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub segment: Option<(usize, SegmentKind)>,
-    /// Names of two bodies.
+    /// Names of the two bodies.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pair: Option<[String; 2]>,
 }
 
-/// Something that a plan states and that is not as it must be for its job and the arm.
+/// Statement of a plan that is not as it must be for its job and the arm.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 #[error("{what}: {stated}; expected {expected}")]
 pub struct Discrepancy {
-    /// The field, as in the file.
+    /// Name of the field, as in the file.
     pub what: String,
-    /// What it says.
+    /// Stated value.
     pub stated: String,
-    /// What it should say.
+    /// Expected value.
     pub expected: String,
 }
 
-/// A requirement and what came of it.
+/// A requirement with the result of its check.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Check {
-    /// What is required.
+    /// The requirement.
     pub requirement: Requirement,
-    /// What came of it.
+    /// Result of the check.
     pub status: Status,
-    /// The number behind it, for requirements about a number.
+    /// Measure, for requirements about a number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measure: Option<Measure>,
-    /// Where the number is worst.
+    /// Position and time at which the number is worst.
     pub worst: Worst,
-    /// What does not agree, for requirements about statements.
+    /// Discrepancies, for requirements about statements.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub discrepancies: Vec<Discrepancy>,
-    /// How many more there are, beyond those listed.
+    /// Number of further discrepancies beyond those listed.
     #[serde(default, skip_serializing_if = "is_none")]
     pub more_discrepancies: usize,
 }
@@ -144,14 +144,14 @@ fn is_none(count: &usize) -> bool {
     *count == 0
 }
 
-/// Discrepancies that one check lists; more would help nobody.
+/// Number of discrepancies listed by one check.
 const MOST_DISCREPANCIES: usize = 20;
 
-/// By how much of it a limit may be exceeded: the rounding of everything that leads to a bound.
+/// Relative amount by which a value may exceed a limit, for the rounding of everything that leads to a bound.
 pub(crate) const ROUNDING: f64 = 1e-9;
 
 impl Measure {
-    /// Whether a value is on the right side of the limit. NaN never is.
+    /// Checks that a value is on the right side of the limit. False for NaN.
     pub(crate) fn keeps(&self, value: f64) -> bool {
         let slack = ROUNDING * self.limit.abs().max(1e-3);
         match self.sense {
@@ -201,7 +201,7 @@ impl Check {
         }
     }
 
-    /// The same where the job does not ask for it: what is broken is waived.
+    /// Returns the check with a violation waived, if the job does not require it.
     pub(crate) fn waived_if(mut self, waives: bool) -> Self {
         if waives && self.status == Status::Violated {
             self.status = Status::Waived;

@@ -1,7 +1,7 @@
-//! The first line: what is proved of a plan, with the numbers reached and required. `verify`, `run`, the page, Python and the heads of
-//! robot programs show it. No name out of a file stands in it unquoted.
+//! The first line of a report: the verdict on a plan, with the numbers reached and required. `verify`, `run`, the page, Python and the
+//! heads of robot programs show it. Names from files are always quoted.
 //!
-//! What is usually required of a washing. A job that requires less is named in the first line.
+//! The file also holds the usual requirements of a washing. A job that requires less is named in the first line.
 
 use crate::report::certificate::{Certificate, Verdict};
 use crate::report::check::{Check, Measure, Sense, Status};
@@ -12,20 +12,20 @@ use platewash_workcell::job::{ContactRequirements, Requirements};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::words::counted;
 
-/// Requirements that are not kept and told with their numbers.
+/// Number of broken requirements that are shown with their numbers.
 const MOST_NUMBERS: usize = 3;
 
-/// What the first line of a dry run ends with until both plans are compared.
+/// End of the first line of a dry run until both plans are compared.
 const NOT_COMPARED: &str = "; not checked: whether it follows the plan that it names";
 
-/// The first line of a plan of which nothing was proved yet.
+/// Returns the first line of a plan that is not proved yet.
 #[must_use]
 pub fn planned_headline(plan: &Plan) -> String {
     let [plates, duration_s] = [counted(plan.order.len(), "plate"), seconds(plan.duration_s())];
     format!("PLANNED, NOT PROVED: {plates} in {duration_s}, from home to home")
 }
 
-/// The first line of a run of the paper's program, which has no certificate.
+/// Returns the first line of a run of the paper's program, which has no certificate.
 #[must_use]
 pub fn paper_headline(plan: &Plan) -> String {
     format!(
@@ -34,7 +34,7 @@ pub fn paper_headline(plan: &Plan) -> String {
     )
 }
 
-/// The first line: proved or not, how much of each plate, at which clearance, what is waived and what is laxer than usual.
+/// Returns the first line: verdict, share of each plate, clearance, waived requirements and laxer ones.
 pub(crate) fn headline(certificate: &Certificate) -> String {
     let plates = counted(certificate.rests_on.plates.len(), "plate");
     let subject = format!("{plates} in {}", seconds(certificate.duration_s));
@@ -57,12 +57,12 @@ pub(crate) fn headline(certificate: &Certificate) -> String {
     }
 }
 
-/// A duration as all reports state it.
+/// Formats a duration \[s\] as all reports show it.
 fn seconds(duration_s: f64) -> String {
     format!("{duration_s:.2} s")
 }
 
-/// How much of each plate is pressed, or swept where contact is not required, and the clearance.
+/// Returns the share of each plate that is pressed, or swept where contact is not required, and the clearance, in words.
 fn reached(certificate: &Certificate) -> String {
     let wanted = &certificate.rests_on.requirements;
     let in_air = certificate.rests_on.dry_run.is_some();
@@ -82,7 +82,7 @@ fn reached(certificate: &Certificate) -> String {
     [share, clearance].into_iter().flatten().collect::<String>() + contact
 }
 
-/// A lower bound beside what is required: "at least 99.8 % (99.5 % required)".
+/// Formats a lower bound with its requirement: "at least 99.8 % (99.5 % required)".
 fn at_least(measure: &Measure) -> Option<String> {
     let (scale, unit) = measure.unit.scale();
     let reached = kept(measure, measure.bound?, 1);
@@ -102,7 +102,7 @@ fn laxer(certificate: &Certificate) -> String {
     }
 }
 
-/// What is violated, what is not proved, the first of them with their numbers; the hash where it is all that is wrong.
+/// Returns the violated and the unproved requirements in words, the first ones with numbers; the hash if nothing else is wrong.
 fn broken(certificate: &Certificate) -> String {
     let broken: Vec<_> = certificate.broken().collect();
     let (told, others) = broken.split_at(broken.len().min(MOST_NUMBERS));
@@ -126,7 +126,7 @@ fn broken(certificate: &Certificate) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
-/// A requirement that is not kept, with what was found or what could be shown, and what is required.
+/// Formats a requirement that is not kept, with the value found or shown and the required one.
 fn shortfall(check: &Check) -> String {
     let name = check.requirement.words();
     let Some(measure) = &check.measure else { return name };
@@ -151,25 +151,25 @@ fn shortfall(check: &Check) -> String {
 }
 
 impl Certificate {
-    /// Whoever has compared the parent plan of a dry run says so.
+    /// Records that the parent plan of a dry run was compared, and rewrites the first line.
     pub fn set_parent_compared(&mut self) {
         self.parent_compared = true;
         self.headline = headline(self);
     }
 
-    /// What a verdict that passes must not be read without: the requirements that the job waives, and the first case of each. Empty
-    /// where nothing is waived.
+    /// Returns the words " but for …" that belong to a passing verdict: the waived requirements with the first case of each. Empty if
+    /// nothing is waived.
     #[must_use]
     pub fn but_for(&self) -> String {
         but_for(self).map_or_else(String::new, |but_for| format!(" {but_for}"))
     }
 
-    /// The same at the end of a verdict that fails, where "but for" would read as if the rest were kept.
+    /// Returns the waived requirements for the end of a failing verdict. "But for" would read there as if the rest were kept.
     fn and_waived(&self) -> String {
         waived(self).map_or_else(String::new, |waived| format!("; waived by the job: {waived}"))
     }
 
-    /// What there is to say of the verdict in a table: what is not kept, by name, else what is waived.
+    /// Returns the remark on the verdict for a table: the broken requirements by name, else the waived ones.
     #[must_use]
     pub fn reason(&self) -> Option<String> {
         let broken: Vec<_> = self.broken().map(|check| check.requirement.words()).collect();
@@ -191,7 +191,7 @@ fn waived(certificate: &Certificate) -> Option<String> {
     (!each.is_empty()).then(|| each.join("; "))
 }
 
-/// A requirement with the first case against it, and how many more there are.
+/// Formats a requirement with the first case against it, and the number of further ones.
 fn cases(check: &Check) -> String {
     let name = check.requirement.words();
     let Some((first, others)) = check.discrepancies.split_first() else {
@@ -225,7 +225,7 @@ const CONTACT_SPEED_M_S: f64 = 0.05;
 /// Least angle of joint 5 from 0 at a plate, where contact is required \[deg\].
 const WRIST_DEG: f64 = 3.0;
 
-/// What the contact must keep.
+/// Usual contact requirements.
 const CONTACT: ContactRequirements = ContactRequirements {
     compression_m: 0.001,
     height_error_m: 0.001,
@@ -238,13 +238,13 @@ const CONTACT: ContactRequirements = ContactRequirements {
     dose_share: 0.98,
 };
 
-/// A requirement with the value that is usual.
+/// Requirement with its usual value.
 struct Row {
     name: &'static str,
     required: f64,
     usual: f64,
     unit: &'static str,
-    /// Whether a greater value requires more.
+    /// True if a greater value requires more.
     more_is_stricter: bool,
 }
 
@@ -267,7 +267,7 @@ impl Row {
         }
     }
 
-    /// Whether less is required than usual. Nine digits are compared: degrees are stated, radians are stored.
+    /// True if less is required than usual. Nine digits are compared, as degrees are stated and radians are stored.
     fn is_laxer(&self) -> bool {
         let slack = 1e-9 * self.usual.abs();
         if self.more_is_stricter {
@@ -288,7 +288,7 @@ impl Row {
     }
 }
 
-/// The requirements of a job that are laxer than usual.
+/// Returns the requirements of a job that are laxer than usual, in words.
 pub(crate) fn laxer_requirements(wanted: &Requirements) -> Vec<String> {
     let mut rows = vec![
         Row::at_least("swept", 100.0 * wanted.coverage, 100.0 * SWEPT, " %"),

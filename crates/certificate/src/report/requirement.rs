@@ -1,12 +1,12 @@
-//! What is required of every plan.
+//! Requirements of a plan.
 
 use serde::{Deserialize, Serialize};
 
-/// The one list of requirements: the enum, [`Requirement::ALL`] and the names in files and settings follow from it, so that none can be
-/// missing from any of them.
+/// Declares the requirements once. The enum, [`Requirement::ALL`] and the names in files and settings follow from the list, so none can be
+/// missing.
 macro_rules! requirements {
     ($($(#[$doc:meta])* $requirement:ident = $name:literal,)*) => {
-        /// What is required of a plan, in the order of the certificate.
+        /// A requirement of a plan, in the order of the certificate.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
         #[non_exhaustive]
         pub enum Requirement {
@@ -14,7 +14,7 @@ macro_rules! requirements {
         }
 
         impl Requirement {
-            /// All, in the order of the certificate. Some are asked of some plans alone.
+            /// All requirements, in the order of the certificate. Some apply only to some plans.
             pub const ALL: &'static [Self] = &[$(Self::$requirement,)*];
 
             /// Name in JSON, settings and Python.
@@ -29,21 +29,21 @@ macro_rules! requirements {
 }
 
 requirements! {
-    /// The plan is for this arm: its name and the hashes of its description and its SRDF.
+    /// The arm is the one that the plan is for: same name, same hashes of the description and the SRDF.
     Arm = "arm",
     /// The tip is the middle of the sponge's far face.
     Tool = "tool",
     /// No plate reaches below the floor.
     Plates = "plates",
-    /// A dry run's plates are raised, and the real ones stand below them as obstacles. Asked of dry runs alone.
+    /// A dry run's plates are raised, and the real ones stand below them as obstacles. For dry runs only.
     DryRun = "dry_run",
-    /// The pairs that are left out are those that follow from the arm and its SRDF; any other keeps clear all the same, or is waived.
+    /// The excluded pairs follow from the arm and its SRDF; any other excluded pair keeps clear all the same, or is waived.
     Exclusions = "exclusions",
     /// Every plate has a wash path that can be judged.
     WashPaths = "wash_paths",
     /// The segments follow one another from home to home.
     Segments = "segments",
-    /// Every plate is washed once and the order says so; while another one is washed no more than its rim is swept.
+    /// Every plate is in the order and is washed once; while another one is washed no more than its rim is swept.
     EveryPlateOnce = "every_plate_once",
     /// The motion starts and ends at rest in the job's home positions.
     HomeToHome = "home_to_home",
@@ -58,9 +58,9 @@ requirements! {
     JointSpeed = "joint_speed",
     /// Joint accelerations.
     JointAcceleration = "joint_acceleration",
-    /// Speed of the tip, wherever it does not wash.
+    /// Speed of the tip while it does not wash.
     TipSpeed = "tip_speed",
-    /// Acceleration of the tip, wherever it does not wash.
+    /// Acceleration of the tip while it does not wash.
     TipAcceleration = "tip_acceleration",
     /// Speed of the tip while it washes.
     WashSpeed = "wash_speed",
@@ -70,9 +70,9 @@ requirements! {
     Tilt = "tilt",
     /// Height of the tip over or under the plate while it washes.
     ContactHeight = "contact_height",
-    /// Speed of the sponge's rim, at every point at or below the plate's face, while it comes down and while it leaves.
+    /// Speed of every touching point of the sponge, at or below the plate's face, while it comes down and while it leaves.
     ContactSpeed = "contact_speed",
-    /// Distance of the tip from the wash path while it washes, the whole of it in order.
+    /// Distance of the tip from the wash path, which it follows completely and in order.
     PathDeviation = "path_deviation",
     /// Distance of the tip from the plate's normal while it approaches and retreats.
     LineDeviation = "line_deviation",
@@ -82,31 +82,31 @@ requirements! {
     Reach = "reach",
     /// Share of each plate that the sponge sweeps.
     Swept = "swept",
-    /// Share of each plate's face, by its area, that presses the sponge together by what counts as contact, wherever within its error of
-    /// height the plate lies. Asked where the job does, like all up to [`Requirement::Wrist`].
+    /// Share of each plate's face, by area, that compresses the sponge enough to count as contact, for every plate height within the error.
+    /// Applies where the job has contact requirements, like all up to [`Requirement::Wrist`].
     Pressed = "pressed",
     /// Share of each plate's face that is in contact long enough.
     ContactTime = "contact_time",
-    /// Share of each plate's face that gets enough of a dose, pressure over sliding distance, in contact.
+    /// Share of each plate's face that gets enough dose, pressure integrated over sliding distance, in contact.
     ContactDose = "contact_dose",
-    /// Strain of the sponge anywhere.
+    /// Greatest strain of the sponge.
     Strain = "strain",
-    /// Force along the sponge's axis while it washes, between its least and its greatest.
+    /// Force along the sponge's axis while it washes, between the least and the greatest allowed.
     ContactForce = "contact_force",
-    /// Joint 5 keeps from 0, always on the same side, from an approach to the retreat after it.
+    /// Distance of joint 5 from 0, on the same side from an approach to the retreat after it.
     Wrist = "wrist",
-    /// Distance of the tip from where the plan has it at that time: of a program alone.
+    /// Distance of the tip from its position in the plan at the same time. For programs only.
     PlanDeviation = "plan_deviation",
 }
 
 impl Requirement {
-    /// The name with spaces, as tables, sentences and pages show it.
+    /// Returns the name with spaces, as tables, sentences and pages show it.
     #[must_use]
     pub fn words(self) -> String {
         self.name().replace('_', " ")
     }
 
-    /// The requirement of a name, with underscores or spaces; `None` where none has it.
+    /// Returns the requirement of a name, written with underscores or spaces; `None` for an unknown name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         let name = name.trim().replace(' ', "_");

@@ -1,4 +1,4 @@
-//! What a verdict rests on: the job that the motion was judged for, what was not judged, and what is assumed.
+//! Basis of a verdict: the job that the motion was judged for, the parts that were not judged, and the assumptions.
 
 use crate::clearance::exclusions::Exclusions;
 use crate::report::words::{list, mm, number, plates};
@@ -15,59 +15,58 @@ use platewash_workcell::workcell::{ArmId, Exclusion, ExclusionReason, Obstacle, 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Digits of a hash that are told.
+/// Number of digits of a hash that are shown.
 const HASH_DIGITS: usize = 12;
 
-/// What is assumed, whatever the job.
+/// Assumptions that hold for every job.
 const ASSUMPTIONS: [&str; 3] = [
     "the arm matches its description and follows the planned motion exactly",
     "the joints and the tip reach the stated accelerations; no published values are known",
     "the collision shapes enclose the arm, the tool and the obstacles",
 ];
 
-/// What is assumed of flat plates, and of others.
+/// Assumption about plates if all are flat, and below if some are not.
 const FLAT: &str = "plates are rigid, flat and round, and lie where the job says";
 const CURVED: &str = "plates are rigid and round, have the stated profiles, and lie where the job says";
 
-/// What is told of contact where nothing is promised of it.
+/// Text about contact where the job has no contact requirements.
 const NOT_ASKED: &str = "not required: a point counts as swept where the sponge's face touches it, pressed or not";
 
-/// What is assumed of the sponge where nothing is promised of contact; of a face that is no disc; and where contact is promised.
+/// Assumptions about the sponge: without contact requirements on flat plates, without them on other faces, and with them.
 const WHOLE_FACE: &str = "the sponge is round and soft, so that its whole face touches; its compression is not judged";
 const TOUCHES: &str = "the sponge is round and a bed of independent columns: it touches where its free face would reach into the plate; its \
                        compression is not judged";
 const FOUNDATION: &str = "the sponge is round and each column of it presses with stiffness × strain; its stiffness lies in the stated range, \
                           which nobody measured";
 
-/// Of what is promised of contact besides: where a plate may lie.
+/// Text added with contact requirements: the height error of the plates.
 const ERROR_OF_HEIGHT: &str = "contact, landing and lifting hold for plates too high or too low by up to the stated height error; everything else, \
                                clearance too, at the stated height";
 
-/// What is assumed of a dry run besides.
+/// Assumption added for a dry run.
 const PARENT: &str =
     "the dry run tries out the plan with the stated hash; checking that takes that plan (verify --parent)";
 
-/// What a verdict rests on.
+/// Basis of a verdict: the job as it was judged, and the assumptions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RestsOn {
-    /// Mount, tool and obstacles; its arm is the one that the motion was judged for, and the pairs that it leaves out are those that
-    /// were not judged.
+    /// Mount, tool and obstacles. The arm is the one that the motion was judged for, and the exclusions are the pairs that were not judged.
     pub workcell: Workcell,
     /// The plates.
     pub plates: Vec<Plate>,
-    /// What the washing must keep.
+    /// Requirements of the washing.
     pub requirements: Requirements,
-    /// What joints and tip must not exceed, beyond the limits of the arm's description.
+    /// Limits of joints and tip, in addition to those of the arm's description.
     pub limits: Limits,
     /// Joint positions at the start and at the end \[rad\].
     pub home_rad: [JointVector; 2],
-    /// Pairs that the job alone leaves out: judged, and waived where they do not keep clear.
+    /// Pairs that only the job excludes. They were judged, and are waived where they do not keep clear.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub waived_pairs: Vec<Exclusion>,
-    /// That the job is a dry run of another plan, which is stated and not judged.
+    /// Parent plan of a dry run, as stated by the job; not judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry_run: Option<DryRun>,
-    /// What is assumed, in words.
+    /// Assumptions in words.
     pub assumptions: Vec<String>,
 }
 
@@ -94,7 +93,7 @@ impl RestsOn {
     }
 }
 
-/// What is assumed of a job.
+/// Returns the assumptions about a job.
 fn assumptions(job: &JobTerms) -> Vec<&'static str> {
     let flat = job.plates.iter().all(|plate| plate.surface.is_flat());
     let mut all = Vec::from(ASSUMPTIONS);
@@ -109,7 +108,7 @@ fn assumptions(job: &JobTerms) -> Vec<&'static str> {
     all
 }
 
-/// That links of the arm have no collision shapes, where some have none.
+/// Returns a note about links of the arm without collision shapes, if there are any.
 fn unchecked(arm: &RobotModel) -> Option<String> {
     let links: Vec<_> = arm.links_without_shapes().map(quoted).collect();
     (!links.is_empty()).then(|| {
@@ -124,7 +123,7 @@ fn unchecked(arm: &RobotModel) -> Option<String> {
 const LEVEL: f64 = 0.5;
 
 impl RestsOn {
-    /// What a first line ends with where the job states no floor; empty where it states one.
+    /// Returns the end of the first line for a job without a floor; empty for a job with one.
     #[must_use]
     pub fn without_floor(&self) -> &'static str {
         match self.workcell.obstacles.iter().any(is_floor) {
@@ -133,7 +132,7 @@ impl RestsOn {
         }
     }
 
-    /// What it says in words: a name and what belongs to it, a line each.
+    /// Returns the basis in words: a name and its text for each line.
     #[must_use]
     pub fn lines(&self) -> Vec<(&'static str, String)> {
         let dry_run = self.dry_run.iter().map(|dry_run| ("dry run", tried_out(dry_run)));
@@ -239,7 +238,7 @@ fn of_flange(pose: &Pose) -> String {
     format!("at ({}) mm of the flange", list(at.iter().map(|v| 1e3 * v)))
 }
 
-/// The direction of a z axis that is not along the z of what it is told in.
+/// Formats the direction of a z axis that is not along the z axis of its reference frame.
 fn slanted(pose: &Pose) -> String {
     let axis = pose.rotation * Vector3::z();
     if axis.xy() == Vector3::zeros().xy() && axis.z > 0.0 {
@@ -248,7 +247,7 @@ fn slanted(pose: &Pose) -> String {
     format!(", along ({})", list(axis.iter().copied()))
 }
 
-/// A rotation, where there is any.
+/// Formats a rotation; empty for none.
 fn turned(pose: &Pose) -> String {
     let [x, y, z, w] = pose.rotation.quaternion().coords.into();
     let along = Vector3::new(x, y, z);
@@ -292,7 +291,7 @@ fn shape(shape: &Shape) -> String {
     }
 }
 
-/// How far points extend along each axis, in millimetres.
+/// Formats the range of points along each axis, in millimetres.
 fn bounds(points: &[Point3<f64>]) -> String {
     let along = |(axis, name): (usize, &str)| {
         let least = points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
@@ -339,13 +338,13 @@ fn obstacles(obstacles: &[Obstacle]) -> String {
     parts.join("; ")
 }
 
-/// Whether an obstacle is all below a plane that faces up, no matter how high: a ceiling or a wall is no floor.
+/// True if an obstacle is a half-space whose normal points up, at any height. A ceiling or a wall is no floor.
 fn is_floor(obstacle: &Obstacle) -> bool {
     let up = obstacle.pose.rotation * Vector3::z();
     obstacle.shape == ObstacleShape::HalfSpace && up.z > 0.0 && up.xy().norm() <= LEVEL
 }
 
-/// That an obstacle is grown, where it is.
+/// Returns a note about the margin of an obstacle; empty for none.
 fn grown(margin_m: f64) -> String {
     if margin_m == 0.0 {
         return String::new();
@@ -353,7 +352,7 @@ fn grown(margin_m: f64) -> String {
     format!(", grown by {} mm", mm(margin_m))
 }
 
-/// Which plates an obstacle holds, where it does.
+/// Returns a note about the plates that an obstacle holds; empty for none.
 fn holding(plates: &[usize]) -> String {
     match plates {
         [] => String::new(),
@@ -411,7 +410,8 @@ fn requirements(wanted: &Requirements) -> String {
     )
 }
 
-/// What contact means, and what is asked of it. Where nothing is, that is said, but of a dry run, which washes nothing.
+/// Returns the text about contact and its requirements, with a note where there are none; `None` for a dry run without them, which washes
+/// nothing.
 fn contact(tool: &Tool, wanted: &Requirements, dry_run: Option<&DryRun>) -> Option<String> {
     let speed = |what: &str, limit: Option<f64>| limit.map(|limit| format!("{what} at most {} m/s", number(limit)));
     let wrist = wanted.wrist_rad.map(|wrist| {
@@ -449,7 +449,7 @@ fn contact(tool: &Tool, wanted: &Requirements, dry_run: Option<&DryRun>) -> Opti
     (!told.is_empty()).then(|| told.join("; "))
 }
 
-/// Pairs by the reason why they are left out.
+/// Groups the excluded pairs by reason, in words.
 fn left_out(pairs: &[Exclusion]) -> String {
     let reasons = [
         (ExclusionReason::Srdf, "disabled by the SRDF"),

@@ -1,4 +1,4 @@
-//! A certificate as a table to read.
+//! The certificate as a text table.
 
 use crate::clearance::pairs::{PairBound, PairRule};
 use crate::report::certificate::Certificate;
@@ -12,17 +12,17 @@ use platewash_kinematics::words::{decimals_down, decimals_up, percent, told_apar
 use platewash_workcell::words::{printable, quoted};
 use std::fmt;
 
-/// The requirements that the short report always shows.
+/// Requirements that the short report always shows.
 const MAIN: [Requirement; 3] = [Requirement::JointSpeed, Requirement::TipSpeed, Requirement::Clearance];
 
-/// Those that it shows of a washing besides: a dry run washes nothing.
+/// Requirements that it also shows for a washing. A dry run washes nothing.
 const OF_WASHING: [Requirement; 3] = [Requirement::Swept, Requirement::Pressed, Requirement::ContactForce];
 
-/// How the table of a dry run is to be read.
+/// Note on the plate names in the table of a dry run.
 const IN_THE_AIR: &str = "dry run: \"plate 0\" is the raised plate, where nothing is; the plate on the table is the obstacle \"real plate 0\"";
 
 impl fmt::Display for Certificate {
-    /// One screen: verdict, main bounds, all that is not kept, and the assumptions. The alternate form (`{:#}`) shows everything.
+    /// Short report: verdict, main bounds, broken requirements and assumptions. The alternate form (`{:#}`) shows everything.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.headline)?;
         writeln!(f, "scenario {}, as the plan names it", quoted(&self.scenario))?;
@@ -37,13 +37,13 @@ impl fmt::Display for Certificate {
 }
 
 impl Certificate {
-    /// What the verdict rests on, in words; the first line says whether the hash is right.
+    /// Returns the basis of the verdict in words. The first line is the finding on the hash.
     #[must_use]
     pub fn basis(&self) -> String {
         format!("{}\n{}\n", self.hash.words(), self.rests_on)
     }
 
-    /// Writes the bounds that most users look at, each requirement that is not kept, and the assumptions.
+    /// Writes the main bounds, each requirement that is not kept, and the assumptions.
     ///
     /// # Errors
     /// [`fmt::Error`] from `f`.
@@ -108,7 +108,7 @@ impl Certificate {
     }
 }
 
-/// All pairs of bodies: those that do not keep clear, then the nearest, then those that may touch.
+/// Writes all pairs of bodies: those that do not keep clear, then the nearest, then those that may touch.
 fn pairs(f: &mut impl fmt::Write, all: &[PairBound]) -> fmt::Result {
     let mut sorted: Vec<_> = all.iter().collect();
     let rank = |line: &PairBound| {
@@ -147,7 +147,7 @@ fn row(f: &mut impl fmt::Write, check: &Check) -> fmt::Result {
     }
 }
 
-/// The worst value found, where the limit is not proved to be kept.
+/// Formats the worst value found, where the limit is not proved to be kept.
 fn found(check: &Check) -> Option<String> {
     let measure = check.measure.as_ref().filter(|_| check.status != Status::Proved)?;
     let (scale, unit) = measure.unit.scale();
@@ -156,8 +156,8 @@ fn found(check: &Check) -> Option<String> {
 }
 
 impl Check {
-    /// What the table says of it besides its name, its status and its worst place, in one line: bound and limit, what was found where
-    /// it is not proved, and what does not agree. Empty where there is nothing to add.
+    /// Returns the table's detail about the requirement in one line, without name, status and worst place: bound and limit, the value found
+    /// where it is not proved, and the discrepancies. Empty if there is nothing to add.
     #[must_use]
     pub fn detail(&self) -> String {
         let measured = self.measure.as_ref().map(|measure| {
@@ -173,7 +173,7 @@ impl Check {
 }
 
 impl fmt::Display for Worst {
-    /// Pair, joint, segment, plate, time and place, as far as they apply.
+    /// Writes pair, joint, segment, plate, time and position, as far as they apply.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&place(self))
     }
@@ -232,7 +232,7 @@ fn contact_row(f: &mut impl fmt::Write, contact: &PlateContact) -> fmt::Result {
     )
 }
 
-/// Between what forces lie \[N\].
+/// Formats the range of the forces \[N\].
 fn force([least_n, most_n]: [Option<f64>; 2]) -> String {
     let least = least_n.map(|v| decimals_down(v, 2));
     let most = most_n.map(|v| decimals_up(v, 2));
@@ -244,7 +244,7 @@ fn force([least_n, most_n]: [Option<f64>; 2]) -> String {
     }
 }
 
-/// What a row on force leaves out, which has the side that is nearer to its limit: both, of all plates.
+/// Returns a note with the least and the greatest force over all plates. The row on force shows only the one nearer to its limit.
 fn both_sides(certificate: &Certificate) -> Option<String> {
     let asked = certificate.rests_on.requirements.contact?;
     let worst = |of: fn(&PlateContact) -> Option<f64>, worse: fn(f64, f64) -> f64| {
@@ -263,19 +263,19 @@ fn both_sides(certificate: &Certificate) -> Option<String> {
     ))
 }
 
-/// A measure as people read it.
+/// Measure formatted for people.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MeasureWords {
-    /// What is proved; `none` where nothing finite is.
+    /// Proved bound; `none` where nothing finite is proved.
     pub bound: String,
-    /// Sign and limit.
+    /// Sign of comparison and limit.
     pub limit: String,
-    /// The unit of both.
+    /// Unit of both.
     pub unit: &'static str,
 }
 
 impl Measure {
-    /// The measure as people read it, in mm, degrees and per cent.
+    /// Formats the measure in mm, degrees and per cent.
     #[must_use]
     pub fn words(&self) -> MeasureWords {
         let (scale, unit) = self.unit.scale();
@@ -302,7 +302,7 @@ impl Measure {
     }
 }
 
-/// A reach beyond a rim, at most; one that is negative ends within it.
+/// Formats an upper bound of the reach beyond a rim; a negative reach ends within it.
 fn beyond_rim(reach_m: f64) -> String {
     let reach_mm = 1e3 * reach_m;
     let told = if reach_m < 0.0 {

@@ -1,20 +1,20 @@
-//! Numbers as a certificate tells them.
+//! Formatting of numbers in a certificate.
 //!
-//! Plates in words: of what shape they are, how high they lie, and where.
+//! Plates in words: shape, height and position.
 
 use crate::report::check::{Measure, Sense, Unit};
 use platewash_kinematics::words::{decimals_down, decimals_up, percent, rounded};
 use platewash_workcell::plate::Plate;
 
-/// Significant digits of a number that are told at most.
+/// Greatest number of significant digits of a number.
 const DIGITS: usize = 9;
 
-/// A length in millimetres, as short as it is.
+/// Formats a length in millimetres with as few digits as possible.
 pub(crate) fn mm(length_m: f64) -> String {
     number(1e3 * length_m)
 }
 
-/// A number as people write it: as short as it is, up to nine digits.
+/// Formats a number with as few digits as possible, up to nine.
 pub(crate) fn number(value: f64) -> String {
     // A negative zero is 0.
     let told = rounded(value, DIGITS) + 0.0;
@@ -25,17 +25,17 @@ pub(crate) fn number(value: f64) -> String {
     }
 }
 
-/// Numbers with commas between.
+/// Formats numbers separated by commas.
 pub(crate) fn list(numbers: impl IntoIterator<Item = f64>) -> String {
     let each: Vec<_> = numbers.into_iter().map(number).collect();
     each.join(", ")
 }
 
-/// Decimals beyond which a bound and its limit are the same number.
+/// Number of decimals from which on a bound and its limit count as the same number.
 const MOST_DECIMALS: usize = 9;
 
 impl Unit {
-    /// Factor and unit in which people read a quantity.
+    /// Returns the factor and the unit in which a quantity is shown.
     #[must_use]
     pub fn scale(self) -> (f64, &'static str) {
         match self {
@@ -51,7 +51,7 @@ impl Unit {
     }
 }
 
-/// Decimals of a quantity in a table.
+/// Number of decimals of a quantity in a table.
 pub(crate) fn decimals(unit: Unit) -> usize {
     match unit {
         Unit::Share => 1,
@@ -59,7 +59,7 @@ pub(crate) fn decimals(unit: Unit) -> usize {
     }
 }
 
-/// The bound of a measure that keeps its limit, in its unit; a share that only rounding keeps from being whole is 100.
+/// Formats the bound of a measure that keeps its limit, in its unit. A share that is less than whole only by rounding reads 100.
 pub(crate) fn kept(measure: &Measure, bound: f64, decimals: usize) -> String {
     if measure.unit == Unit::Share && measure.sense == Sense::AtLeast && bound >= 1.0 - 1e-9 {
         return percent(bound);
@@ -68,8 +68,8 @@ pub(crate) fn kept(measure: &Measure, bound: f64, decimals: usize) -> String {
     toward_limit(bound * scale, measure.limit * scale, measure.sense, decimals)
 }
 
-/// A bound that keeps its limit, with `decimals` decimals. It is rounded towards the limit, so that no more is said than is proved, with as
-/// many more decimals as it takes to read as one that keeps the limit.
+/// Formats a bound that keeps its limit. It is rounded towards the limit, so that no more is said than is proved, with `decimals` decimals
+/// or as many more as it takes to keep the limit after rounding.
 fn toward_limit(bound: f64, limit: f64, sense: Sense, decimals: usize) -> String {
     let told = |decimals| match sense {
         Sense::AtMost => decimals_up(bound, decimals),
@@ -87,10 +87,10 @@ fn toward_limit(bound: f64, limit: f64, sense: Sense, decimals: usize) -> String
     shown.unwrap_or_else(|| number(limit))
 }
 
-/// Plates whose places are listed in words; the JSON has them all.
+/// Number of plates whose positions are listed in words. The JSON has all.
 const PLACES: usize = 12;
 
-/// Sizes and heights of all, and the places of the first ones.
+/// Formats sizes and heights of all plates, and the positions of the first ones.
 pub(crate) fn plates(plates: &[Plate]) -> String {
     let mut alike: Vec<(String, Vec<usize>)> = Vec::new();
     for (i, plate) in plates.iter().enumerate() {
@@ -110,7 +110,7 @@ pub(crate) fn plates(plates: &[Plate]) -> String {
     }
 }
 
-/// Where some of the plates are, as far as they are among the first ones.
+/// Formats the positions of some plates, as far as they are among the first ones.
 fn places(plates: &[Plate], those: &[usize]) -> String {
     let first = those.iter().filter(|i| **i < PLACES);
     let told: Vec<_> = first
@@ -123,7 +123,7 @@ fn places(plates: &[Plate], those: &[usize]) -> String {
     }
 }
 
-/// Shape, height and, where it does not lie level, tilt: a flat face has one height, of a profile the pole's is told.
+/// Formats shape, height and tilt of a plate, without the tilt of a level one. For a profile the height is that of the pole.
 fn size(plate: &Plate) -> String {
     let (rim, thick, height) = (mm(plate.rim_m()), mm(plate.thickness_m), mm(plate.centre().z));
     let size = match plate.surface.profile_words() {

@@ -1,8 +1,8 @@
-//! A dry run is what it says: its plates are raised, and the real ones stand below them as obstacles.
+//! Checks of a dry run: its plates are raised, and the real ones stand below them as obstacles.
 //!
-//! The real plates are checked as those of a washing are: they reach into no floor, no obstacle, each other or the base. That they are kept
-//! clear of is the clearance's to prove, as of any obstacle. Which plan the dry run is one of is stated, and not judged: that takes the
-//! other plan.
+//! The real plates are checked like those of a washing: they must not reach into the floor, an obstacle, each other or the base. The
+//! clearance check covers them, as it covers any obstacle. The name of the parent plan is stated and not judged: comparing takes the other
+//! plan.
 
 use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
@@ -17,7 +17,8 @@ use platewash_workcell::plate::Plate;
 use platewash_workcell::words::millimetres;
 use platewash_workcell::workcell::Obstacle;
 
-/// Every plate of a dry run has its real one below it, and the real ones are where plates can be; `None` where the job is no dry run.
+/// Checks that every plate of a dry run has its real one below it, and that the real plates have valid places. Returns `None` where the job
+/// is no dry run.
 ///
 /// # Errors
 /// [`ClearanceError`] for a shape that is none.
@@ -38,7 +39,7 @@ pub(crate) fn check(subject: &Subject<'_>) -> Result<Option<Check>, ClearanceErr
     Ok(Some(Check::stated(Requirement::DryRun, wrong)))
 }
 
-/// Where real plates cannot be: in the floor, in an obstacle, in each other or in the base.
+/// Finds real plates at places that are taken: in the floor, in an obstacle, in each other or in the base.
 fn misplaced(subject: &Subject<'_>, dry_run: &DryRun) -> Result<Vec<Discrepancy>, ClearanceError> {
     let job = subject.job;
     let plates: Vec<_> = job.plates.iter().map(|plate| dry_run.lowered(plate)).collect();
@@ -63,7 +64,7 @@ fn misplaced(subject: &Subject<'_>, dry_run: &DryRun) -> Result<Vec<Discrepancy>
     Ok(broken.flat_map(|check| check.discrepancies).map(of_real).collect())
 }
 
-/// What is wrong with the real plate below a raised one.
+/// Returns the error of the real plate below a raised one, if there is any.
 fn missing(dry_run: &DryRun, obstacles: &[Obstacle], index: usize, plate: &Plate) -> Option<Discrepancy> {
     let name = DryRun::real_name(index);
     let expected = DryRun::standing(index, &dry_run.lowered(plate));

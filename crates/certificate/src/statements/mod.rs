@@ -1,4 +1,4 @@
-//! What a plan states, compared with what must be so.
+//! Checks of the plan's statements.
 //!
 //! | concept | module |
 //! | --- | --- |

@@ -1,4 +1,4 @@
-//! What the plan states about its arm, its tool, its plates and their order, compared with what must be so.
+//! Checks of the plan's statements about its arm, its tool, its plates and their order.
 //!
 //! Plates keep apart from each other and from the base, obstacles from both.
 
@@ -15,7 +15,7 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::words::{millimetres, printable};
 use platewash_workcell::workcell::{ArmId, ObstacleShape};
 
-/// The plan is for this arm.
+/// Checks that the plan is for this arm.
 pub(crate) fn arm(subject: &Subject<'_>) -> Check {
     let (stated, given) = (&subject.job.workcell.arm, ArmId::of(subject.robot));
     let srdf = |id: &ArmId| id.srdf_sha256.as_ref().map_or("none".to_owned(), |hash| quoted(hash));
@@ -30,9 +30,9 @@ pub(crate) fn arm(subject: &Subject<'_>) -> Check {
     Check::stated(Requirement::Arm, wrong.collect())
 }
 
-/// The tip is the middle of the sponge's far face, and z leaves the tool there: what is proved of the tip tells of the sponge. All of the
-/// sponge is foam: no body reaches into it. Without
-/// bodies there is no tool that could touch anything, and the tip is the arm's own.
+/// Checks that the tip is the middle of the sponge's far face, with z out of the tool there, so that bounds of the tip hold for the sponge.
+/// No body may reach into the sponge, which is all foam. Without bodies there is no tool that could touch anything, and the tip is the
+/// arm's own.
 pub(crate) fn tool(subject: &Subject<'_>) -> Check {
     let tool = &subject.job.workcell.tool;
     let face = tool.sponge.pose * Pose::translation(0.0, 0.0, tool.sponge.height_m / 2.0);
@@ -52,7 +52,7 @@ pub(crate) fn tool(subject: &Subject<'_>) -> Check {
     Check::stated(Requirement::Tool, wrong)
 }
 
-/// A tip that is not where it should be, or points elsewhere. NaN is nowhere.
+/// Returns a discrepancy where the tip is not in the expected position or direction. NaN counts as wrong.
 fn off(expected: &Pose, tip: &Pose, words: &str) -> Vec<Discrepancy> {
     let off_m = (tip.translation.vector - expected.translation.vector).norm();
     let turned = (tip.rotation * Vector3::z() - expected.rotation * Vector3::z()).norm();
@@ -63,7 +63,7 @@ fn off(expected: &Pose, tip: &Pose, words: &str) -> Vec<Discrepancy> {
     vec![Discrepancy::new("tip of the tool", found, words)]
 }
 
-/// No plate reaches below the floor, or into another half-space.
+/// Checks that no plate reaches below the floor, or into another half-space.
 pub(crate) fn plates(subject: &Subject<'_>) -> Check {
     let mut wrong = Vec::new();
     for obstacle in &subject.job.workcell.obstacles {
@@ -86,8 +86,8 @@ pub(crate) fn plates(subject: &Subject<'_>) -> Check {
     Check::stated(Requirement::Plates, wrong)
 }
 
-/// Every plate is in the order once, and no more than its rim is swept while another one is washed. Plates that overlap are
-/// [`crate::statements::plates`]'s to judge: where that is only reported, so is what is swept twice.
+/// Checks that every plate is in the order once, and that no more than its rim is swept while another one is washed. Overlapping plates are
+/// judged in [`crate::statements::plates`]: where the overlap is only reported, so is the double sweeping.
 pub(crate) fn every_plate_once(subject: &Subject<'_>, plan: &Plan, upright_cosine: impl Fn(usize) -> f64) -> Check {
     let mut wrong = washed_once(plan);
     let swept = reach::swept(subject, upright_cosine);
@@ -123,8 +123,9 @@ fn quoted(text: &str) -> String {
     format!("{text:?}")
 }
 
-/// No two plates share a place, none that lies level lies over the base's footprint and no other one reaches into the base; findings alone where the job only wants to be told.
-/// No obstacle reaches into a plate that it does not hold, or into the base; of floors [`plates`] tells.
+/// Checks that no two plates overlap, that no level plate lies over the base's footprint, and that no other plate reaches into the base.
+/// The check is waived where the job asks for a report only. No obstacle may reach into a plate that it does not hold, or into the base;
+/// [`plates`] covers floors.
 ///
 /// # Errors
 /// [`ClearanceError`] for a shape that is none.
@@ -151,7 +152,7 @@ pub(crate) fn check(subject: &Subject<'_>) -> Result<Check, ClearanceError> {
             "not at all, but for plates that it holds",
         )
     }));
-    // That plates overlap may be waived, that something stands in them is not.
+    // Overlapping plates may be waived; an obstacle in a plate may not.
     let waives = subject.job.requirements.overlap == Overlap::Report && !reaches;
     Ok(Check::stated(Requirement::PlatesApart, wrong).waived_if(waives))
 }

@@ -1,4 +1,4 @@
-//! Which piece of the motion belongs to which segment, and whether the segments are those of a washing.
+//! The piece ranges of the segments, and the check that the segments are those of a washing.
 //!
 //! depart, then for each plate in order approach, wash, retreat, with a transit between plates, and return;
 //! without a gap from 0 to the last knot, every boundary a knot.
@@ -14,26 +14,26 @@ use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::words::counted;
 use std::ops::Range;
 
-/// The segments by their pieces, in time order.
+/// Segments by their pieces, in time order.
 #[derive(Debug, Clone)]
 pub(crate) struct Schedule {
     pub spans: Vec<Span>,
 }
 
-/// A segment.
+/// Segment of the motion.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Span {
     pub kind: SegmentKind,
     pub plate: usize,
-    /// Its pieces; at least one.
+    /// Range of its pieces; at least one.
     pub pieces: Range<usize>,
 }
 
 impl Schedule {
-    /// The schedule that a plan states.
+    /// Builds the schedule that a plan states.
     ///
     /// # Errors
-    /// What keeps it from being that of a washing.
+    /// Discrepancies where the segments are not those of a washing.
     pub fn new(plan: &Plan, pieces: &[Piece]) -> Result<Self, Vec<Discrepancy>> {
         let mut wrong = kinds(plan);
         let mut spans = Vec::with_capacity(plan.segments.len());
@@ -80,8 +80,8 @@ impl Schedule {
         }
     }
 
-    /// The schedule of another motion that does what a plan does at the same times: each of its `ends_s`, the ends of its pieces \[s\],
-    /// belongs to the segment in which it is, up to `near_s` \[s\]. What comes after the plan belongs to its last segment.
+    /// Builds the schedule of another motion that follows a plan at the same times. Each piece, given by its end in `ends_s` \[s\], belongs
+    /// to the segment that contains its end, up to `near_s` \[s\]. Pieces after the end of the plan belong to its last segment.
     pub fn along(plan: &Plan, ends_s: &[f64], near_s: f64) -> Self {
         let mut next = 0;
         let last = plan.segments.len().saturating_sub(1);
@@ -100,14 +100,14 @@ impl Schedule {
         }
     }
 
-    /// The spans with which the tip comes to a plate, and with which it leaves.
+    /// Returns the approach and retreat spans at a plate.
     pub fn around(&self, plate: usize) -> impl Iterator<Item = &Span> {
         let is_around =
             move |span: &&Span| span.plate == plate && is_at_plate(span.kind) && span.kind != SegmentKind::Wash;
         self.spans.iter().filter(is_around)
     }
 
-    /// Index and kind of the segment at a plate of a time \[s\]: the wash, also at its ends, or that with which the tip comes or leaves.
+    /// Returns index and kind of the segment at a plate at a time \[s\]: the wash, also at its ends, or the approach or retreat.
     pub fn at_plate(&self, pieces: &[Piece], (plate, time_s): (usize, f64)) -> Option<(usize, SegmentKind)> {
         let has = |span: &Span| {
             let there = pieces.get(span.pieces.clone()).unwrap_or_default();
@@ -129,19 +129,19 @@ impl Schedule {
         self.spans.get(i).map(|s| (i, s.kind))
     }
 
-    /// Index and kind of the segment of a time \[s\]; at a boundary that of the later one.
+    /// Returns index and kind of the segment at a time \[s\]; at a boundary, of the later one.
     pub fn segment_at(&self, pieces: &[Piece], time_s: f64) -> Option<(usize, SegmentKind)> {
         let piece = pieces.partition_point(|p| p.start_s <= time_s).saturating_sub(1);
         self.segment_of(piece)
     }
 }
 
-/// Whether the tip is on a plate, or on its normal.
+/// True if the tip is on a plate, or on the normal over it, during a segment of this kind.
 pub(crate) fn is_at_plate(kind: SegmentKind) -> bool {
     matches!(kind, SegmentKind::Approach | SegmentKind::Wash | SegmentKind::Retreat)
 }
 
-/// The sequence of kinds and plates against what the order asks for.
+/// Compares the sequence of kinds and plates with the one that the order implies.
 fn kinds(plan: &Plan) -> Vec<Discrepancy> {
     let expected = expected(&plan.order);
     let mut wrong = Vec::new();
@@ -158,7 +158,7 @@ fn kinds(plan: &Plan) -> Vec<Discrepancy> {
     wrong
 }
 
-/// Kinds and plates of a job that washes in this order. Depart leads to the first plate; a return belongs to the last.
+/// Returns kinds and plates of a job that washes in this order. Depart belongs to the first plate, return to the last.
 fn expected(order: &[usize]) -> Vec<(SegmentKind, usize)> {
     let mut all = Vec::with_capacity(4 * order.len() + 1);
     for (i, &plate) in order.iter().enumerate() {
@@ -180,10 +180,10 @@ fn expected(order: &[usize]) -> Vec<(SegmentKind, usize)> {
     all
 }
 
-/// Largest distance from home that counts as there \[rad\], and largest speed that counts as rest \[rad/s\].
+/// Greatest distance from home that counts as home \[rad\], and greatest speed that counts as rest \[rad/s\].
 const THERE: f64 = 1e-9;
 
-/// The first and the last knot are the job's home positions, at rest.
+/// Checks that the first and the last knot are the job's home positions, at rest.
 pub(crate) fn home_to_home(plan: &Plan) -> Check {
     let mut wrong = Vec::new();
     let knots = &plan.knots;
@@ -208,7 +208,7 @@ pub(crate) fn home_to_home(plan: &Plan) -> Check {
     Check::stated(Requirement::HomeToHome, wrong)
 }
 
-/// The arm rests where a wash begins and where it ends.
+/// Checks that the arm rests at both ends of every wash.
 pub(crate) fn rest_at_wash_ends(plan: &Plan, schedule: &Schedule) -> Check {
     let mut wrong = Vec::new();
     for span in schedule.spans.iter().filter(|s| s.kind == SegmentKind::Wash) {

@@ -1,7 +1,7 @@
-//! The wash paths: one for each plate, in the order of washing, within the ranges that can be judged.
+//! Checks of the wash paths: one for each plate, in the order of washing, within the ranges that can be judged.
 //!
-//! How a plate is washed is the planner's choice. What a path does is judged by the coverage, the deviation of the tip and the reach of
-//! the sponge; what follows here is that it is a path at all.
+//! The planner is free to choose a wash path. Its quality is judged by the coverage, the deviation of the tip and the reach of the sponge;
+//! here only its numbers are checked.
 
 use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
@@ -9,13 +9,13 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_RINGS, MOST_TURNS, WashPath};
 use std::f64::consts::{PI, TAU};
 
-/// The greatest outer radius of a path, and the greatest lift \[m\].
+/// Greatest outer radius of a path, and greatest lift \[m\].
 const GREATEST_M: f64 = 10.0;
 
-/// The shortest blend between two rings \[rad\].
+/// Least angle of a blend between two rings \[rad\].
 const LEAST_BLEND_RAD: f64 = 1e-3;
 
-/// A number of a path and the range in which it must be.
+/// Number of a path with its allowed range.
 struct Number {
     name: &'static str,
     found: f64,
@@ -29,7 +29,7 @@ impl Number {
     }
 }
 
-/// The numbers of a path; what is swept grows with them, and so does the time that it takes to judge it.
+/// Returns the numbers of a path with their ranges. The swept area grows with them, and so does the time of judging it.
 fn numbers(path: &WashPath, tilt_rad: f64) -> Vec<Number> {
     let number = |name, found, range| Number { name, found, range };
     let curve = &path.curve;
@@ -58,7 +58,7 @@ fn numbers(path: &WashPath, tilt_rad: f64) -> Vec<Number> {
     numbers
 }
 
-/// The wash path of each plate, where there is one that can be judged.
+/// Returns the wash path of each plate, if there is one that can be judged.
 pub(crate) fn by_plate(plan: &Plan) -> Vec<Option<WashPath>> {
     let tilt_rad = plan.job.tilt_max_rad();
     let is_sound = |path: &&WashPath| numbers(path, tilt_rad).iter().all(Number::is_within);
@@ -66,7 +66,7 @@ pub(crate) fn by_plate(plan: &Plan) -> Vec<Option<WashPath>> {
     (0..plan.job.plates.len()).map(of).collect()
 }
 
-/// Every plate has its path.
+/// Checks that every plate has its path.
 pub(crate) fn check(plan: &Plan) -> Check {
     let mut wrong = Vec::new();
     let (found, asked) = (plan.wash_paths.len(), plan.order.len());

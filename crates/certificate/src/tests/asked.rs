@@ -1,4 +1,4 @@
-//! What no plan may be asked for, an order that is asked for, and what only the job's owner can tell.
+//! Requests that no plan can meet, an order that a job requires, and facts that only the job's owner knows.
 
 use crate::Requirement::{self, EveryPlateOnce, Plates};
 use crate::tests::made::{Recipe, good, irb120, resealed};
@@ -36,8 +36,8 @@ fn an_order_that_is_asked_for_is_kept() {
     assert_eq!(broken(&judged(recipe.plan())), []);
 }
 
-/// A job that asks for less than was wanted is done all the same: the certificate holds, and the comparison with the job that was wanted
-/// names what was lowered.
+/// A job that requires less than was wanted is done all the same: the certificate holds, and the comparison with the wanted job names the
+/// lowered requirements.
 #[test]
 fn a_requirement_that_was_lowered_is_found_by_comparison_alone() {
     type Change = fn(&mut JobTerms);

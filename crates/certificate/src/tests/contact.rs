@@ -1,4 +1,4 @@
-//! What is proved of contact, against the same model on fine squares: never more, and little less.
+//! Bounds of the contact, against the same model on fine squares: never above it, and little below.
 
 use crate::tests::foundation::raster;
 use crate::tests::made::{Recipe, irb120};
@@ -31,7 +31,7 @@ pub fn rings() -> WashCurve {
     }
 }
 
-/// A profile as the facts have it: height of the sponge, distance from the base, length of the path, turns.
+/// Returns the recipe of a profile: height of the sponge, distance from the base, length of the path, turns.
 pub fn profile(name: &str) -> Recipe {
     let surface = Surface::shipped(name).unwrap();
     let (height_m, rho, inside_m, pitch_m) = match name {
@@ -43,7 +43,8 @@ pub fn profile(name: &str) -> Recipe {
     washed(surface, [rho, height_m], [inside_m, pitch_m])
 }
 
-/// A face with a spiral that ends inside its rim: distance from the base, height of the sponge; how far inside, and the pitch \[m\].
+/// Returns a face with a spiral that ends inside its rim: distance from the base and height of the sponge, distance inside the rim and
+/// pitch \[m\].
 pub fn washed(surface: Surface, place: [f64; 2], [inside_m, pitch_m]: [f64; 2]) -> Recipe {
     let radius_m = surface.arc_m() - inside_m;
     let mut recipe = Recipe::on(surface, place, spiral(radius_m, (radius_m / pitch_m).max(1.5)));
@@ -51,7 +52,7 @@ pub fn washed(surface: Surface, place: [f64; 2], [inside_m, pitch_m]: [f64; 2]) 
     recipe
 }
 
-/// A disc: with a compression, a lean and a curve.
+/// Returns a disc with a compression, a lean and a curve.
 pub fn disc(compression_m: f64, lean_deg: f64, curve: WashCurve) -> Recipe {
     let mut recipe = Recipe::on(Surface::Disc { radius_m: 0.145 }, [0.37, 0.025], curve);
     recipe.terms.workcell.tool.sponge.compression_m = compression_m;
@@ -68,7 +69,7 @@ fn judged(plan: &Plan) -> (PlateContact, crate::Certificate) {
     (certificate.contact[0], certificate)
 }
 
-/// Compares a plan with the raster; shares are asked for in full, so that the finest cells are looked at.
+/// Compares a plan with the raster. Shares are required in full, so that the finest cells are examined.
 fn compare(name: &str, recipe: &Recipe) {
     let mut recipe = recipe.clone();
     let contact = recipe.terms.requirements.contact.as_mut().unwrap();

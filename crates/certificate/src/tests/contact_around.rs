@@ -9,7 +9,7 @@ use platewash_workcell::surface::{Knot, Surface};
 use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::wash_path::WashCurve;
 
-/// How far below the face \[m\]: less than the millimetre that the line over a path allows.
+/// Depth below the face \[m\]: less than the millimetre that the line over a path allows.
 const DIP_M: f64 = 9e-4;
 
 fn judged(recipe: &Recipe, dips_m: [f64; 2]) -> (Plan, Certificate) {

@@ -91,11 +91,11 @@ fn what_is_beyond_the_spare_is_refused_and_what_is_within_is_proved() {
     assert!(edits >= 90, "{edits}");
 }
 
-/// How many edits of a plan were judged.
+/// Returns the number of edits of a plan that were judged.
 fn edited((name, plan): (&str, Plan)) -> usize {
     let mut edits = 0;
     let before = judged(&plan);
-    // Where all is asked for, the finest cells are looked at: no more can be proved.
+    // If everything is required, the finest cells are examined: no more can be proved.
     let mut all = plan.clone();
     all.job.requirements.coverage = 1.0;
     (

@@ -28,7 +28,7 @@ struct Kind {
     edit: fn(&mut Plan, f64),
 }
 
-/// What is proved of a plan's plate: the greatest strain, the least and the greatest force \[N\].
+/// Bounds proved for a plan's plate: the greatest strain, the least and the greatest force \[N\].
 struct Proved {
     strain: f64,
     force_n: [f64; 2],
@@ -258,7 +258,7 @@ fn plans() -> [(&'static str, Plan); 3] {
         wanted.lifting_m_s = Some(1.0);
         wanted.coverage = 0.0;
         wanted.contact = Some(NOTHING);
-        // What the arm bears is no matter here.
+        // The limits of the arm do not matter here.
         recipe.terms.limits.joint_acceleration_rad_s2 = [300.0; 6];
         recipe.plan()
     };
@@ -295,8 +295,8 @@ fn edited(plan: &Plan, kind: &Kind, size: f64) -> Plan {
     plan
 }
 
-/// Tries an edit at a tenth less and a tenth more than a size, and looks for that size where what a plan bears is not between them.
-/// What is wrong with it, if anything.
+/// Tries an edit a tenth smaller and a tenth larger than `about`, the size that the plan should just bear. Returns the error if that size
+/// is not between them.
 fn complaint(plan: &Plan, kind: &Kind, about: f64) -> Option<String> {
     let [mut kept, mut broken] = [0.0, 1.0];
     let mut size = about;

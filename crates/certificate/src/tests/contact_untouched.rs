@@ -1,5 +1,5 @@
-//! Faces of which hardly anything is washed: what is not touched counts for nothing, also where contact begins with no compression at all,
-//! and where nothing is asked about contact.
+//! Faces of which hardly anything is washed: an untouched area does not count, also if contact begins with no compression at all, and if
+//! there are no contact requirements.
 
 use crate::tests::contact::{disc, spiral, washed};
 use crate::tests::foundation::raster;
@@ -7,7 +7,7 @@ use crate::tests::made::{Recipe, irb120};
 use crate::{Requirement, Status, prove};
 use platewash_workcell::surface::{Knot, Surface};
 
-/// A disc and a face that is none, of which the sponge reaches the middle only.
+/// Returns a disc and a face that is none, of which the sponge reaches the middle only.
 fn recipes() -> [(&'static str, Recipe); 2] {
     let flat = disc(0.005, 0.0, spiral(0.01, 0.5));
     let knots = [(0.055, 0.0), (0.075, 22.0), (0.095, 22.0), (0.105, 6.0)];

@@ -13,7 +13,7 @@ const CELL_M: f64 = 2.5e-4;
 /// Between two moments \[s\].
 const STEP_S: f64 = 2e-3;
 
-/// What a raster of the model finds, at the least of both extremes of the plate's height.
+/// Results of a raster of the model, the smaller ones of both extremes of the plate's height.
 #[derive(Debug)]
 pub struct Found {
     /// Shares of the area.

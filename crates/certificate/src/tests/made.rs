@@ -17,7 +17,7 @@ use std::sync::OnceLock;
 /// Time between knots \[s\].
 const STEP_S: f64 = 0.012;
 
-/// What a test may change before planning.
+/// Parameters of a plan that a test may change before planning.
 #[derive(Clone)]
 pub struct Recipe {
     pub terms: JobTerms,
@@ -29,7 +29,7 @@ pub struct Recipe {
     pub share: f64,
     /// Share of the wash limits that is used.
     pub pace: f64,
-    /// How far below the face the tip goes before a wash and after it \[m\].
+    /// Depth below the face that the tip reaches before a wash and after it \[m\].
     pub dips_m: [f64; 2],
 }
 
@@ -76,7 +76,7 @@ impl Recipe {
         recipe
     }
 
-    /// How a plate is washed.
+    /// Returns the wash path of a plate.
     pub fn path(&self, plate: usize) -> WashPath {
         WashPath {
             plate,
@@ -91,7 +91,7 @@ impl Recipe {
     }
 }
 
-/// What a job may ask of contact.
+/// Returns contact requirements as a job may have them.
 pub fn promise() -> ContactRequirements {
     ContactRequirements {
         compression_m: 1e-3,

@@ -128,7 +128,7 @@ fn statements_that_are_not_so_are_named() {
     assert!(told.to_string().contains(words), "{told}");
 }
 
-/// What the arm and its SRDF leave out is not judged; the job must say so, and nothing else.
+/// Pairs that the arm and its SRDF exclude are not judged; the job must state them, and nothing else.
 #[test]
 fn pairs_that_are_left_out_follow_from_the_arm() {
     let told = breaks(&[Exclusions], |p| _ = p.job.workcell.exclusions.remove(0));
@@ -327,8 +327,8 @@ fn the_sponge_may_touch_only_what_is_within_reach() {
     assert_eq!(line.working_on, [0, 1]);
 }
 
-/// How fast and how deep the sponge touches is bounded up to the face that it works on: a plate that is higher, if only by a micron, it
-/// keeps clear of.
+/// Touching speed and depth are bounded up to the face being worked on: the sponge keeps clear of a plate that is higher, if only by a
+/// micron.
 #[test]
 fn the_sponge_keeps_clear_of_a_higher_neighbour() {
     let mut plan = Recipe::arc(&[-23.5, 23.5]).plan();
@@ -375,7 +375,7 @@ fn plates_elsewhere_are_not_washed() {
     });
 }
 
-/// How a plate is washed is free, but the tip must do what is stated, and the lines stand over the ends of the curve.
+/// The wash path is free to choose, but the tip must follow the stated one, and the lines must stand over the ends of the curve.
 #[test]
 fn the_wash_path_stated_must_be_followed() {
     let edit = |p: &mut Plan, change: fn(&mut WashCurve)| change(&mut p.wash_paths[0].curve);
@@ -586,7 +586,7 @@ fn a_tilted_rim_touches_in_motion_and_how_fast_is_said() {
         (touch.status, measure.limit),
         (Status::Proved, plan.job.wash_speed_m_s())
     );
-    // Where: as far below the tip as the rim reaches, which is at the plate's face.
+    // The position is as far below the tip as the rim reaches, which is at the plate's face.
     let place = touch.worst.place_m.unwrap();
     assert!((place[2] - plan.job.plates[0].centre().z).abs() < 1e-3, "{place:?}");
     assert_eq!(touch.worst.plate, Some(0));

@@ -94,7 +94,7 @@ proptest! {
             let at_least = line.at_least_m.unwrap_or(f64::NEG_INFINITY);
             prop_assert!(at_least <= least + 1e-8, "{line:?}, found {least}");
             prop_assert!(least >= 0.01 || line.status != Status::Proved, "{line:?}, found {least}");
-            // What is far is told to be as far as it matters.
+            // Far obstacles need no exact distance.
             prop_assert!(least < 0.2 || at_least > 0.03, "{line:?}, found {least}");
             seen += 1;
         }

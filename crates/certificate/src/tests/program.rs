@@ -226,7 +226,7 @@ fn a_program_that_goes_through_something_is_not_clear() {
     assert_eq!(check(&proof, Requirement::Clearance).status, Status::Violated);
 }
 
-/// One that ends early rests where it is, one that ends late is compared with the plan's rest.
+/// A motion that ends early rests where it is; one that ends late is compared with the plan's rest.
 #[test]
 fn a_motion_may_be_shorter_or_longer_than_the_plan() {
     let plan = good();

@@ -1,4 +1,4 @@
-//! What comes out of a proof besides its requirements: something certified, a motion alone, what it rests on.
+//! Results of a proof besides its requirements: a certified value, a motion alone, the basis of the verdict.
 
 use crate::Requirement::{Clearance, JointSpeed, TipSpeed};
 use crate::tests::made::{good, irb120, resealed};
@@ -127,7 +127,7 @@ fn what_the_verdict_rests_on_is_told() {
     assert_eq!(data["rests_on"]["assumptions"].as_array().unwrap().len(), 5);
 }
 
-/// What is proved does not rest on how it was planned: of this project, the crate uses kinematics and the workcell and nothing else.
+/// The proof does not depend on the planner: of this project, the crate uses only kinematics and workcell.
 #[test]
 fn the_certificate_knows_no_planner() {
     let manifest: toml::Table = include_str!("../../Cargo.toml").parse().unwrap();

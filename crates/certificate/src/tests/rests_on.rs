@@ -1,4 +1,4 @@
-//! What a verdict rests on, in words: nothing that differs reads alike, and no name reads as more than a name.
+//! The basis of a verdict in words: different jobs read differently, and a name never reads as more than a name.
 
 use crate::RestsOn;
 use crate::tests::made::{good, post};

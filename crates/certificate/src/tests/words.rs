@@ -1,4 +1,4 @@
-//! What a certificate says in words, and what it is that cannot be judged.
+//! The words of a certificate, and of errors for plans that cannot be judged.
 
 use crate::tests::contact::{disc, rings};
 use crate::tests::made::{good, irb120, resealed};

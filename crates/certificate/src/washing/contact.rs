@@ -1,4 +1,4 @@
-//! Contact with a plate: what of it is pressed, for how long and how much, and how hard.
+//! Contact of the sponge with a plate: the pressed share, contact time and dose, and the load on the sponge.
 
 use crate::error::ProveError;
 use crate::motion::piece::Piece;
@@ -17,78 +17,78 @@ use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plate::Plate;
 use serde::{Deserialize, Serialize};
 
-/// Edges of the smallest cells, each where those before it do not suffice \[m\].
+/// Edges of the smallest cells \[m\]. Each is used where the ones before it do not suffice.
 pub(crate) const CELLS_M: [f64; 2] = [1e-3, 2.5e-4];
 
-/// The same for contact, time and dose, where all that is coarser does not suffice. What a place gets in passes that graze it changes fast
-/// from place to place.
+/// Edge of the smallest cells for contact, time and dose, where coarser ones do not suffice \[m\]. Dose and time change fast from place to
+/// place where passes only graze it.
 const SMALLEST_CELL_M: f64 = 6.25e-5;
 
-/// A share of a plate's face that is proved.
+/// Proved share of a plate's face.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ProvedShare {
-    /// No less than this of the face, by its area, gets as much as `threshold` or more.
+    /// Lower bound on the share of the face, by area, that gets `threshold` or more.
     pub at_least: f64,
-    /// How much of the face must.
+    /// Required share of the face.
     pub required: f64,
     /// Compression \[m\], time in contact \[s\] or dose \[Pa·m\].
     pub threshold: f64,
-    /// What the place that was seen to get least gets of it; `None` where all get enough.
+    /// Value at the worst place found, in the unit of `threshold`; `None` where all places get enough.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst: Option<f64>,
-    /// That place, world frame \[m\].
+    /// Position of that place, world frame \[m\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst_m: Option<[f64; 3]>,
 }
 
-/// A quantity through a wash, by what is proved and by what was seen.
+/// Extreme of a quantity over a wash: a proved bound and an attained value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ProvedExtreme {
-    /// It never gets beyond this; `None` where nothing is proved.
+    /// Proved bound of the quantity; `None` where nothing is proved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound: Option<f64>,
-    /// As far it gets for certain.
+    /// Value that is certainly attained.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seen: Option<f64>,
-    /// When \[s\].
+    /// Time of `seen` \[s\].
     pub time_s: f64,
-    /// Where on the plate or, of a force, where the tip is then, world frame \[m\].
+    /// Position on the plate or, for a force, of the tip at that time, world frame \[m\].
     pub place_m: [f64; 3],
 }
 
-/// What is proved about the contact of the sponge with a plate from approach to retreat, wherever within the stated error of its height the
-/// plate lies and whatever within its stated range the sponge's stiffness is.
+/// Proved bounds of the contact between the sponge and a plate from approach to retreat. They hold for every plate height within the stated
+/// error and every sponge stiffness in the stated range.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PlateContact {
     /// Index of the plate.
     pub plate: usize,
-    /// Compressed by the least compression that counts, or more, at some moment.
+    /// Share that is compressed by the least compression that counts, or more, at some moment.
     pub pressed: ProvedShare,
-    /// In contact long enough.
+    /// Share that is in contact long enough.
     pub time: ProvedShare,
-    /// With enough of a dose ∫ p dl in contact.
+    /// Share with enough dose ∫ p dl in contact.
     pub dose: ProvedShare,
-    /// The greatest strain of the sponge, from approach to retreat.
+    /// Greatest strain of the sponge, from approach to retreat.
     pub strain: ProvedExtreme,
-    /// The least force along the sponge's axis in the wash \[N\].
+    /// Least force along the sponge's axis during the wash \[N\].
     pub least_force_n: ProvedExtreme,
-    /// The greatest force along the sponge's axis, from approach to retreat \[N\].
+    /// Greatest force along the sponge's axis, from approach to retreat \[N\].
     pub greatest_force_n: ProvedExtreme,
-    /// The greatest torque of friction about the sponge's axis, with a friction of 0.3 and of 1.0, which are assumptions \[N·m\]; `None`
-    /// where nothing is proved.
+    /// Greatest friction torque about the sponge's axis \[N·m\], for the assumed friction coefficients 0.3 and 1.0; `None` where nothing is
+    /// proved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_torque_nm: Option<[f64; 2]>,
 }
 
 impl PlateContact {
-    /// Whether as much of the face as required is pressed, is in contact long enough, and gets the dose.
+    /// True where the required shares are pressed, are in contact long enough, and get the dose.
     pub(crate) fn is_enough(&self) -> bool {
         [self.pressed, self.time, self.dose]
             .iter()
             .all(|share| reaches(share.at_least, share.required))
     }
 
-    /// Every place that is told of.
+    /// Returns every position in the result, for a change of frame.
     pub(crate) fn places_mut(&mut self) -> impl Iterator<Item = &mut [f64; 3]> {
         let shares = [&mut self.pressed, &mut self.time, &mut self.dose];
         let extremes = [&mut self.strain, &mut self.least_force_n, &mut self.greatest_force_n];
@@ -97,26 +97,26 @@ impl PlateContact {
     }
 }
 
-/// A wash that is judged for its contact.
+/// Wash whose contact is judged, with the data it needs.
 pub(crate) struct Pressed<'a> {
     pub plate: &'a Plate,
     pub index: usize,
     pub foundation: &'a Foundation,
     pub wanted: &'a ContactRequirements,
     pub instants: &'a Instants,
-    /// Those with which the tip comes to the plate, and with which it leaves.
+    /// Moments of the approaches to the plate and the retreats from it.
     pub around: &'a [Instants],
-    /// What is known of it, as far as a disc is concerned.
+    /// Bounds of the wash that a disc needs.
     pub known: Known,
-    /// Whether every line along the tool's axis meets the face once, from above.
+    /// True where every line along the tool's axis meets the face once, from above, during the wash.
     pub meets: bool,
-    /// The same from approach to retreat.
+    /// Same as `meets`, from approach to retreat.
     pub around_meets: bool,
     pub cancel: &'a CancelToken,
 }
 
 impl Pressed<'_> {
-    /// What is proved of it.
+    /// Bounds the contact.
     ///
     /// # Errors
     /// [`ProveError::Cancelled`].
@@ -130,7 +130,7 @@ impl Pressed<'_> {
             pressing::on_face(self.plate, foundation, self.instants, wanted.height_error_m)
         };
         self.cancel.check()?;
-        // What is lost between moments is known as long as no column is compressed by more than its height.
+        // The losses between moments are bounded only while no column is compressed by more than its height.
         let known = self.meets && pressing.deepest.bound <= foundation.free_height_m;
         let found = known.then(|| self.shares());
         for instants in self.around {
@@ -171,7 +171,7 @@ impl Pressed<'_> {
         })
     }
 
-    /// How hard the sponge is pressed at most before or after the wash.
+    /// Bounds the load before or after the wash.
     fn around(&self, instants: &Instants, wash: &Pressing) -> Pressing {
         let (plate, foundation, error_m) = (self.plate, self.foundation, self.wanted.height_error_m);
         if plate.surface.is_flat() {
@@ -183,7 +183,7 @@ impl Pressed<'_> {
         }
     }
 
-    /// The shares, as finely as it takes to show that they suffice.
+    /// Computes the shares, refined until they suffice or the smallest cells are reached.
     fn shares(&self) -> Shares {
         let wanted = self.wanted;
         let asked = Wanted {
@@ -205,7 +205,7 @@ impl Pressed<'_> {
     }
 }
 
-/// The requirements about contact, where the job has any.
+/// Checks the contact requirements, where the job has any.
 pub(crate) fn checks(
     subject: &Subject<'_>,
     (pieces, schedule): (&[Piece], Option<&Schedule>),
@@ -265,7 +265,7 @@ fn of_share(requirement: Requirement, plate: usize, share: &ProvedShare) -> Chec
     Check::measured(requirement, measure, worst)
 }
 
-/// The requirement that an extreme keeps its limit on every plate: the plate where it comes nearest to it, or gets beyond.
+/// Checks that an extreme keeps its limit on every plate. Reports the plate with the worst bound.
 fn of_extreme(
     (requirement, limit, sense, unit): (Requirement, f64, Sense, Unit),
     (pieces, schedule): (&[Piece], Option<&Schedule>),
@@ -300,7 +300,7 @@ fn of_extreme(
     Check::measured(requirement, measure, place)
 }
 
-/// Of two sides of a requirement the one that is not kept, or the one with less to spare as a part of its limit.
+/// Returns the worse of two sides of a requirement: the one that is not kept, or the one with the smaller relative margin to its limit.
 pub(crate) fn tighter(a: Check, b: Check) -> Check {
     let spare = |check: &Check| {
         let Some(Measure {

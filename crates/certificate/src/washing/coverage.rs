@@ -1,4 +1,4 @@
-//! How much of a plate the sponge sweeps, at least: of a disc by its face, of other faces by what of it touches.
+//! Lower bound on the swept share of a plate: from the sponge's face on a disc, from the area it touches on other faces.
 //!
 //! Tilted by τ, the sponge's face lies over a disc of radius s cos τ about the tip. Between neighbours of a polyline of
 //! moments the tip leaves the chord by at most h²/8 · sup ‖p̈‖; less the greatest of these, the disc sweeps at least what it
@@ -34,37 +34,37 @@ use serde::{Deserialize, Serialize};
 pub struct PlateCoverage {
     /// Index of the plate.
     pub plate: usize,
-    /// What is proved: no smaller share is swept.
+    /// Proved lower bound of the swept share.
     pub at_least: f64,
-    /// No greater share is swept; `None` where it was not needed.
+    /// Proved upper bound of the swept share; `None` where it was not needed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_most: Option<f64>,
-    /// Least cos τ while washing, proved.
+    /// Proved lower bound of cos τ while washing.
     pub cos_tilt: f64,
-    /// How far the sponge reaches beyond the rim at the height of the plate's face while it comes down, washes and leaves, at most,
-    /// negative where it stays within it \[m\]; `None` where nothing is proved.
+    /// Upper bound on the reach of the sponge beyond the rim, at the height of the plate's face, while it comes down, washes and leaves
+    /// \[m\]; negative where it stays within the rim, `None` where nothing is proved.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond_rim_m: Option<f64>,
-    /// How far a sponge that is tilted as much would reach where the tip was seen \[m\].
+    /// Reach beyond the rim of a sponge with the same tilt at the tip positions that were computed \[m\].
     pub beyond_rim_seen_m: f64,
-    /// How far it may reach \[m\].
+    /// Reach beyond the rim that the wash path allows \[m\].
     pub beyond_rim_allowed_m: f64,
-    /// The neighbours that it may touch there.
+    /// Neighbouring plates that the sponge may touch there.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub touches: Vec<Touched>,
 }
 
-/// What came of one wash.
+/// Results for one wash.
 #[derive(Debug)]
 pub(crate) struct Wash {
     /// Index of its span.
     pub span: usize,
-    /// The tip is never farther from the plate's pole, seen along its axis \[m\].
+    /// Upper bound on the distance of the tip from the plate's pole, seen along the plate's axis \[m\].
     pub tip_m: f64,
-    /// How far it was seen to be \[m\].
+    /// Greatest such distance at the moments that were computed \[m\].
     pub seen_m: f64,
     pub swept: PlateCoverage,
-    /// What is proved of contact, where the job asks for it.
+    /// Bounds of the contact, where the job has contact requirements.
     pub contact: Option<PlateContact>,
 }
 
@@ -101,14 +101,14 @@ pub(crate) fn washes(
     washed.map(|washing| washing.judge()).collect()
 }
 
-/// A wash that is judged.
+/// The wash under judgement, with the data it needs.
 struct Washing<'a> {
     arm: &'a Arm<'a>,
     subject: &'a Subject<'a>,
     pieces: &'a [Piece],
-    /// Those with which the tip comes to the plate, and with which it leaves.
+    /// Pieces of the approaches to the plate and the retreats from it.
     around: Vec<&'a [Piece]>,
-    /// The cosine of the angle between the tool and the plate's axis is never below this from approach to retreat.
+    /// Lower bound on the cosine of the angle between the tool and the plate's axis, from approach to retreat.
     around_cosine: f64,
     span: usize,
     plate: &'a Plate,
@@ -148,7 +148,8 @@ impl Washing<'_> {
         })
     }
 
-    /// What the sponge sweeps of a disc: with cos τ never below that of the tilt, at least what a disc of radius s cos τ does.
+    /// Bounds the share of a disc that the sponge sweeps: with cos τ at its lower bound, at least the share swept by a disc of radius s cos
+    /// τ.
     fn sweep(&self, line: &Polyline, swept: &mut PlateCoverage) -> Result<(), ProveError> {
         let (plate, sponge_m) = (self.plate, self.subject.sponge_m());
         let share = |radius_m: f64, cell_m: f64| {
@@ -173,7 +174,8 @@ impl Washing<'_> {
         Ok(())
     }
 
-    /// What the sponge touches of any other face with the plate where it is stated to lie, by its area. What is in contact is touched.
+    /// Returns a lower bound on the share of a face that is no disc that the sponge touches, by area, with the plate at its stated
+    /// position. Pressed area counts as touched.
     fn touched(&self, contact: Option<&PlateContact>) -> Result<f64, ProveError> {
         let required = self.subject.limits.coverage;
         let pressed = contact.map_or(0.0, |contact| contact.pressed.at_least);
@@ -200,7 +202,7 @@ impl Washing<'_> {
         Ok(found.contact.at_least.max(pressed))
     }
 
-    /// What is proved of contact, where the job asks for it.
+    /// Bounds the contact, where the job has contact requirements.
     fn contact(&self, line: &Polyline) -> Result<Option<PlateContact>, ProveError> {
         let job = self.subject.job;
         let (Some(wanted), Some(foundation)) = (&job.requirements.contact, Foundation::of(&job.workcell.tool.sponge))
@@ -231,13 +233,13 @@ impl Washing<'_> {
         Ok(Some(pressed.judge()?))
     }
 
-    /// Whether every line along the tool's axis meets the face once, and from above: the tool is less tilted from the plate's axis than
-    /// the steepest slope leaves of a right angle.
+    /// Checks that every line along the tool's axis meets the face once, and from above: the tilt of the tool from the plate's axis is less
+    /// than a right angle minus the steepest slope.
     fn meets_from_above(&self) -> bool {
         self.meets_at(self.tips.least_upright_cosine_of(self.span))
     }
 
-    /// The same where the cosine of the angle between the tool and the plate's axis is at least `cosine`.
+    /// Same check, with a lower bound `cosine` on the cosine of the angle between the tool and the plate's axis.
     fn meets_at(&self, cosine: f64) -> bool {
         let surface = &self.plate.surface;
         let steepest = surface.patch([0.0, f64::INFINITY]);
@@ -247,7 +249,7 @@ impl Washing<'_> {
     }
 }
 
-/// Every plate is swept to the share required: the plate of which the least is.
+/// Checks that every plate is swept to the required share. Reports the plate with the least share.
 pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check {
     let worst = coverage.iter().min_by(|a, b| a.at_least.total_cmp(&b.at_least));
     let Some(worst) = worst else {
@@ -268,26 +270,26 @@ pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check 
     Check::measured(Requirement::Swept, measure, place)
 }
 
-/// How far the tip may leave the polyline \[m\], where halving helps.
+/// Distance between tip and chord above which a stretch is halved \[m\].
 const CHORD_M: f64 = 5e-5;
 
-/// How often a piece of a wash is halved at most.
+/// Greatest depth of halving of a piece of a wash.
 pub(crate) const MOST_HALVINGS: u32 = 6;
 
-/// Halvings that any motion may have besides those of its pieces.
+/// Halvings allowed for any motion besides those of its pieces.
 const SPLITS: usize = 4096;
 
-/// Moments of the tip, from the pole of a plate \[m\].
+/// Positions of the tip, seen along the plate's axis, from the plate's pole \[m\].
 #[derive(Debug)]
 pub(crate) struct Polyline {
     pub points: Vec<[f64; 2]>,
-    /// The tip is never farther from it \[m\].
+    /// Upper bound on the distance of the tip from the polyline \[m\].
     pub off_m: f64,
-    /// Largest distance of a moment from the pole \[m\].
+    /// Largest distance of a point from the pole \[m\].
     pub seen_m: f64,
-    /// The tip is never farther from the pole \[m\].
+    /// Upper bound on the distance of the tip from the pole \[m\].
     pub within_m: f64,
-    /// How far it may be \[m\].
+    /// Distance from the pole that the tip should keep within \[m\].
     allowed_m: f64,
     most_halvings: u32,
     /// Halvings left.
@@ -347,7 +349,7 @@ impl Polyline {
     }
 }
 
-/// An end of a stretch.
+/// Returns the tip at an end of a stretch, seen along the plate's axis, from the pole \[m\].
 fn seen(face: &Face<'_>, stretch: &Stretch<'_>, end: usize) -> [f64; 2] {
     face.seen(&stretch.ends[end].position).into()
 }

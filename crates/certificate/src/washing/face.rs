@@ -1,9 +1,9 @@
-//! The face of a plate, as the bounds see it: heights over it, and its normal.
+//! The face of a plate as the bounds need it: heights over it, and its normal.
 //!
-//! Heights are along the plate's axis. The normal of a face that is no disc is the one under a place, seen along that axis; `Pass` has
-//! how fast it turns.
+//! Heights are along the plate's axis. The normal of a face that is no disc is taken under a place, seen along that axis; `Pass` bounds its
+//! rate of turning.
 //!
-//! What the place under the tip does on a curved face over a stretch of time: how the height over the face bends, how the normal turns.
+//! The change under the tip on a curved face over a stretch: second derivative of the height over the face, and turning of the normal.
 //!
 //! With ρ the place's distance from the plate's axis, v and a bounds of the tip's speed and acceleration, β the slope, K the greatest
 //! curvature within the places passed, a length of the meridian κ and across it sin β / ρ:
@@ -16,7 +16,7 @@
 //! - where pieces of the meridian meet within the places passed, sin β leaves the line through its values at both ends by no more than
 //!   the difference of the greatest and the least κ times the width of the places, and the normal by that over cos β.
 //!
-//! What is said of a sum n × a of normal and axis follows: its second derivative is at most ‖n̈‖ + 2 ‖ṅ‖ ‖ȧ‖ + ‖ä‖.
+//! For a sum n × a of normal and axis, the second derivative is then at most ‖n̈‖ + 2 ‖ṅ‖ ‖ȧ‖ + ‖ä‖.
 
 use crate::motion::tip::{Derivatives, Stretch};
 use nalgebra::{Vector2, Vector3};
@@ -38,7 +38,7 @@ pub(crate) struct Face<'a> {
 }
 
 impl<'a> Face<'a> {
-    /// That of a plate.
+    /// Returns the face of a plate.
     pub fn of(plate: &'a Plate) -> Self {
         let upright = plate.axis();
         Self {
@@ -80,14 +80,14 @@ impl<'a> Face<'a> {
         point.dot(&self.upright) - radius_m * across(axis, &self.upright) - self.level_m
     }
 
-    /// Where that lowest point is, from the point \[m\]; the point itself where all are equally low.
+    /// Returns the position of that lowest point relative to `point` \[m\]; zero where all points are equally low.
     pub fn lowest(&self, axis: &Vector3<f64>, radius_m: f64) -> Vector3<f64> {
         // −n less its part along the axis, written so that nothing cancels when the axis is nearly upright.
         let down = axis.cross(&axis.cross(&self.upright));
         down.try_normalize(0.0).map_or_else(Vector3::zeros, |d| d * radius_m)
     }
 
-    /// A point of the world, seen along the axis of the plate, from the pole \[m\].
+    /// Returns a point of the world seen along the axis of the plate, relative to the pole \[m\].
     pub fn seen(&self, point: &Vector3<f64>) -> Vector2<f64> {
         self.plate.local(point).xy()
     }
@@ -111,7 +111,7 @@ pub(crate) fn sine_of_tilt(axis: &Vector3<f64>, normal: &Vector3<f64>) -> f64 {
     }
 }
 
-/// How long the part of an axis across a normal is.
+/// Returns the length of the part of an axis across a normal.
 fn across(axis: &Vector3<f64>, normal: &Vector3<f64>) -> f64 {
     (axis - normal * axis.dot(normal)).norm()
 }
@@ -121,28 +121,28 @@ pub(crate) fn norm(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// What the place under the tip does on a curved face over a stretch.
+/// Bounds for the place under the tip on a curved face over a stretch.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pass {
     /// Least and greatest distance from the plate's axis \[m\].
     rho_m: [f64; 2],
-    /// v \[m/s\].
+    /// Bound v on the tip's speed \[m/s\].
     speed: f64,
-    /// a \[m/s²\].
+    /// Bound a on the tip's acceleration \[m/s²\].
     acceleration: f64,
-    /// The greatest |sin β|, and the least cos β.
+    /// Greatest |sin β|, and below the least cos β.
     sine: f64,
     cosine: f64,
-    /// K \[1/m\].
+    /// Greatest curvature K \[1/m\].
     greatest: f64,
-    /// Least and greatest κ \[1/m\].
+    /// Least and greatest curvature κ of the meridian \[1/m\].
     kappa: [f64; 2],
-    /// The greatest |A|.
+    /// Greatest |A|.
     intercept: f64,
 }
 
 impl Pass {
-    /// That of a stretch over a face.
+    /// Bounds the pass of a stretch over a face.
     pub fn new(face: &Face<'_>, stretch: &Stretch<'_>, bounds: &Derivatives) -> Self {
         let surface = face.surface();
         let acceleration = bounds.second();
@@ -185,21 +185,21 @@ impl Pass {
         }
     }
 
-    /// What the second derivative of the height over the face is not above \[m/s²\].
+    /// Returns an upper bound on the second derivative of the height over the face \[m/s²\].
     pub fn bend_of_height(&self) -> f64 {
         let (c, v) = (self.cosine, self.speed);
         self.acceleration / c + self.greatest / (c * c * c) * v * v
     }
 
-    /// By how much the sine of an axis against the normal may be above its values at the ends of a stretch, where the axis has at most
-    /// a first and a second derivative \[1/s, 1/s²\].
+    /// Returns an upper bound on the rise of the sine between an axis and the normal above its values at the ends of a stretch. `first` and
+    /// `second` bound the derivatives of the axis \[1/s, 1/s²\].
     pub fn sag_of_sine(&self, stretch: &Stretch<'_>, [first, second]: [f64; 2]) -> f64 {
         let [turn, bend] = self.of_normal();
         let kinks = (self.kappa[1] - self.kappa[0]) * (self.rho_m[1] - self.rho_m[0]) / self.cosine;
         stretch.sag(bend + 2.0 * turn * first + second) + kinks
     }
 
-    /// ‖ṅ‖ and ‖n̈‖ at most \[1/s, 1/s²\].
+    /// Returns upper bounds on ‖ṅ‖ and ‖n̈‖ \[1/s, 1/s²\].
     fn of_normal(&self) -> [f64; 2] {
         let Self {
             speed: v,
@@ -228,7 +228,8 @@ impl Pass {
     }
 }
 
-/// Least and greatest curvature along the meridian between two ρ \[1/m\], and whether all of it belongs to the piece next to the pole.
+/// Returns the least and greatest curvature along the meridian between two ρ \[1/m\], and true if all of it belongs to the piece next to
+/// the pole.
 fn curvatures(surface: &Surface, [least, most]: [f64; 2]) -> ([f64; 2], bool) {
     let Surface::Profile(meridian) = surface else {
         return ([0.0; 2], true);

@@ -23,7 +23,7 @@ use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::wash_path::{BLEND_RAD, WashCurve, WashPath};
 use std::f64::consts::TAU;
 
-/// How far a bound of a deviation may be above the worst one found, as a part of the tolerance.
+/// Gap allowed between the bound of a deviation and the worst deviation found, as a part of the tolerance.
 const RESOLUTION: f64 = 0.02;
 
 /// A stretch with the curve's parameters at its ends.
@@ -33,7 +33,7 @@ struct Leg<'a> {
     theta: [f64; 2],
 }
 
-/// How far the tip leaves the wash paths, and the lines over their ends.
+/// Checks the deviation of the tip from the wash paths, and from the lines over their ends.
 pub(crate) fn checks(
     arm: &Arm<'_>,
     subject: &Subject<'_>,
@@ -67,7 +67,7 @@ pub(crate) fn checks(
     })
 }
 
-/// Bounds how far the tip leaves a curve during some pieces.
+/// Bounds the deviation of the tip from a curve during the pieces.
 fn follow(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve<'_>, tracker: &mut BoundTracker) {
     tracker.allow_for(pieces.len());
     let theta = in_order(nearest(arm, pieces, curve));
@@ -249,8 +249,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Of two values of which the later is less, one must move by half of their difference: no sequence that never falls
-        /// is nearer than by the greatest such half.
+        /// If a later value is less than an earlier one, one of them must move by half the difference: no non-decreasing sequence is nearer
+        /// than the greatest such half.
         #[test]
         fn the_order_costs_half_the_greatest_fall(values in prop::collection::vec(-3.0..3.0f64, 1..40)) {
             let ordered = in_order(values.clone());

@@ -1,4 +1,4 @@
-//! The moments of a wash, so near each other that contact is known between them.
+//! Moments of a wash, close enough to each other that contact between them is bounded.
 //!
 //! With p the tip, a the tool's axis, x a point in contact, d = x − p, R what ‖d‖ is not above, ω how fast the tool turns and
 //! P = I − a aᵀ; V, A, J bound ‖ṗ‖, ‖p̈‖, ‖p⃛‖, a₁ and a₂ bound ‖ȧ‖ and ‖ä‖, W, W₁ and W₂ bound ω and its derivatives:
@@ -18,42 +18,42 @@ use crate::washing::shares::Sags;
 use platewash_workcell::contact::{Drift, Foundation, Moment, SpongePose};
 use platewash_workcell::plate::Plate;
 
-/// How far apart neighbours may be on a disc and on other faces \[m\], …
+/// Greatest distance of the tip between neighbouring moments on a disc, and below on other faces \[m\].
 const STEP_M: f64 = 2.5e-3;
 const STEP_ON_BENDS_M: f64 = 8e-4;
 
-/// … and how much may be lost between them of compression, of distance and of way \[m\], where halving helps.
+/// Loss of compression, distance or sliding way between moments above which a stretch is halved, on a disc, and below on other faces \[m\].
 const SAG_M: f64 = 3e-5;
 const SAG_ON_BENDS_M: f64 = 1e-5;
 
-/// How often a piece is halved at most.
+/// Greatest depth of halving of a piece.
 const MOST_HALVINGS: u32 = 6;
 
 /// The moments of a wash on a plate, in the plate's frame.
 #[derive(Debug, Default)]
 pub(crate) struct Instants {
-    /// In order.
+    /// Moments in order of time.
     pub moments: Vec<Moment>,
-    /// The tip at each, base frame.
+    /// State of the tip at each moment, base frame.
     pub tips: Vec<tip::Moment>,
-    /// Between each and the next.
+    /// Sags between each moment and the next.
     pub sags: Vec<Sags>,
-    /// How the sponge moves between each and the next.
+    /// Motion of the sponge between each moment and the next.
     pub drifts: Vec<Drift>,
-    /// The same of third derivatives.
+    /// Bounds on third derivatives between each moment and the next.
     pub jerks: Vec<Jerk>,
 }
 
-/// Third derivatives over a stretch, at most.
+/// Upper bounds on third derivatives over a stretch.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Jerk {
-    /// Of the tip \[m/s³\].
+    /// Bound for the tip \[m/s³\].
     pub tip_m_s3: f64,
-    /// Of the tool's axis \[1/s³\].
+    /// Bound for the tool's axis \[1/s³\].
     pub axis: f64,
 }
 
-/// What a stretch is looked at for.
+/// Data needed to bound a stretch.
 struct Look<'a> {
     arm: &'a Arm<'a>,
     plate: &'a Plate,
@@ -62,7 +62,7 @@ struct Look<'a> {
 }
 
 impl Instants {
-    /// Those of some pieces, for a sponge on a plate that may lie higher or lower by `error_m`.
+    /// Returns the moments of the pieces, for a sponge on a plate that may lie higher or lower by `error_m`.
     pub fn new(arm: &Arm<'_>, pieces: &[Piece], plate: &Plate, (foundation, error_m): (&Foundation, f64)) -> Self {
         let look = Look {
             arm,
@@ -81,7 +81,7 @@ impl Instants {
         all
     }
 
-    /// Adds a stretch whose first end is there already.
+    /// Adds a stretch whose first end has been added already.
     fn add(&mut self, look: &Look<'_>, stretch: &Stretch<'_>, depth: u32) {
         let bounds = look.arm.derivatives(stretch);
         let drift = drift(stretch, &bounds);
@@ -124,7 +124,7 @@ impl Instants {
     }
 }
 
-/// Where a sponge stands in the frame of a plate.
+/// Returns the pose of the sponge in the frame of a plate.
 pub(crate) fn pose(plate: &Plate, there: &tip::Moment) -> SpongePose {
     SpongePose {
         tip: plate.local(&there.position),
@@ -132,7 +132,7 @@ pub(crate) fn pose(plate: &Plate, there: &tip::Moment) -> SpongePose {
     }
 }
 
-/// How a sponge moves over a stretch.
+/// Bounds the motion of a sponge over a stretch.
 pub(crate) fn drift(stretch: &Stretch<'_>, bounds: &Derivatives) -> Drift {
     let half_s = 0.5 * stretch.length_s();
     let greatest = |of: fn(&tip::Moment) -> f64| {
@@ -153,7 +153,7 @@ pub(crate) fn drift(stretch: &Stretch<'_>, bounds: &Derivatives) -> Drift {
 }
 
 impl Look<'_> {
-    /// What may be lost over a stretch: see the head of this file.
+    /// Bounds the sags over a stretch: see the head of this file.
     fn sags(&self, stretch: &Stretch<'_>, bounds: &Derivatives, drift: &Drift) -> Sags {
         let h = stretch.length_s();
         let (s, height_m) = (self.foundation.radius_m, self.foundation.free_height_m);

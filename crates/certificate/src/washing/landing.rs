@@ -1,11 +1,11 @@
-//! How fast the sponge touches a plate: whatever of it touches while it comes down and while it leaves.
+//! Touching speed: the speed of any point of the sponge that touches a plate while it comes down or leaves.
 //!
 //! Where a job states how fast it may land, or lift off, the free sponge counts: its face lies beyond the tip by its compression, and the
 //! plate as much higher as it may lie. Where it states nothing, the face that the sponge has while it washes counts, and it touches no
 //! faster than it washes. Stretches in which nothing touches count for nothing; the others are halved like those of every quantity
 //! (`motion/bound_tracker.rs`).
 //!
-//! The sponge over the face of a plate that it comes down on or leaves: whether it touches, and how fast what touches may be.
+//! The sponge over the face of a plate that it comes down on or leaves: contact or no contact, and a bound of the touching speed.
 //!
 //! Its far face lies b beyond the tip: b = 0 for the one that it has while it washes, b = c for the free one.
 //!
@@ -41,18 +41,18 @@ use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Sponge;
 use platewash_workcell::trajectory::SegmentKind;
 
-/// How far the bound of the speed may be above the greatest one found, as a part of the limit.
+/// Gap allowed between the bound of the speed and the greatest speed found, as a part of the limit.
 const RESOLUTION: f64 = 2e-3;
 
-/// What is asked of the segments of some kinds.
+/// Limits for the segments of some kinds.
 struct Asked<'a> {
     kinds: &'a [SegmentKind],
-    /// \[m/s\]
+    /// Greatest touching speed \[m/s\].
     limit: f64,
     far: FarFace,
 }
 
-/// The speed of whatever of the sponge touches a plate that it comes down on or leaves.
+/// Checks the touching speed on every plate that the sponge comes down on or leaves.
 pub(crate) fn check(
     arm: &Arm<'_>,
     subject: &Subject<'_>,
@@ -138,7 +138,7 @@ fn judge(
     )
 }
 
-/// Sees both ends of all pieces.
+/// Records the speed at both ends of all pieces.
 fn look(arm: &Arm<'_>, rim: &Rim<'_>, pieces: &[Piece], tracker: &mut BoundTracker) {
     for stretch in pieces.iter().map(|piece| arm.stretch(piece)) {
         for (moment, time_s) in stretch.ends.iter().zip(stretch.times()) {
@@ -147,22 +147,22 @@ fn look(arm: &Arm<'_>, rim: &Rim<'_>, pieces: &[Piece], tracker: &mut BoundTrack
     }
 }
 
-/// What a height may be wrong by \[m\].
+/// Rounding error allowed in a height \[m\].
 const ROUNDING_M: f64 = 1e-9;
 
-/// How often a piece is halved at most, where it is not asked how fast exactly the sponge touches.
+/// Greatest depth of halving of a piece once the limit is kept.
 const MOST_HALVINGS: u32 = 6;
 
-/// Which of the sponge's faces counts, and where the plate may lie.
+/// The face of the sponge that counts, free or compressed, and the height error of the plate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FarFace {
-    /// b \[m\].
+    /// Distance b of that face beyond the tip \[m\].
     pub beyond_m: f64,
-    /// How much higher than stated a plate may lie \[m\].
+    /// Height by which a plate may lie above its stated position \[m\].
     pub error_m: f64,
 }
 
-/// The sponge over the face of a plate.
+/// Sponge over the face of a plate.
 #[derive(Debug)]
 pub(crate) struct Rim<'a> {
     plate: &'a Plate,
@@ -170,11 +170,11 @@ pub(crate) struct Rim<'a> {
     /// Radius of the sponge \[m\].
     radius_m: f64,
     far: FarFace,
-    /// ρ \[m\].
+    /// Greatest distance ρ of a touching point from the tip \[m\].
     reach_m: f64,
-    /// How high the face gets over its pole \[m\].
+    /// Greatest height of the face over its pole \[m\].
     highest_m: f64,
-    /// The columns over a face that is no disc, and how it bends.
+    /// Columns over a face that is no disc, with the curvature of the face.
     columns: Option<(Columns, Bends<'a>)>,
 }
 
@@ -217,7 +217,7 @@ impl<'a> Rim<'a> {
         }
     }
 
-    /// Where the far face of the sponge has its middle.
+    /// Returns the centre of the sponge's far face.
     fn middle(&self, m: &Moment) -> Vector3<f64> {
         if self.far.beyond_m == 0.0 {
             m.position
@@ -231,12 +231,12 @@ impl<'a> Rim<'a> {
         columns.stand(bends, &instants::pose(self.plate, m), &side, self.far.error_m)
     }
 
-    /// H over a disc \[m\].
+    /// Height H of the lowest point of the rim over a disc \[m\].
     fn height(&self, m: &Moment) -> f64 {
         self.face.height_of_rim(&self.middle(m), &m.axis, self.radius_m) - self.far.error_m
     }
 
-    /// Whether nothing of the sponge touches anywhere in a stretch of a disc's approach or retreat.
+    /// Checks that no part of the sponge touches anywhere in a stretch over a disc.
     fn is_clear(&self, stretch: &Stretch<'_>, bounds: &Derivatives) -> bool {
         let [from, to] = stretch.ends.each_ref().map(|m| self.height(m));
         let lower = if from < to || from.is_nan() { from } else { to };
@@ -244,7 +244,7 @@ impl<'a> Rim<'a> {
         lower - stretch.sag(bounds.second() + arm_m * bounds.second_of_axis()) - ROUNDING_M > 0.0
     }
 
-    /// Whether a face that is no disc is certainly too far away to be touched anywhere in a stretch: the plate's enclosing cylinder is.
+    /// Checks that a face that is no disc is out of reach all through a stretch, by the plate's enclosing cylinder.
     fn is_far(&self, stretch: &Stretch<'_>, bounds: &Derivatives) -> bool {
         let arm_m = self.reach_m + self.far.error_m;
         let [from, to] = stretch.ends.each_ref().map(|m| {
@@ -258,20 +258,20 @@ impl<'a> Rim<'a> {
         nearer - 0.5 * stretch.length_s() * speed - arm_m - ROUNDING_M > 0.0
     }
 
-    /// G: what no point that touches is faster than \[m/s\].
+    /// Upper bound G on the speed of a touching point at a moment \[m/s\].
     fn fastest(&self, m: &Moment) -> f64 {
         let (v, w, r) = (m.speed, m.turning, self.reach_m);
         (v.norm_squared() + 2.0 * r * v.cross(&w).norm() + r * r * w.norm_squared()).sqrt()
     }
 
-    /// What no point that touches is faster than anywhere in a stretch \[m/s\].
+    /// Upper bound on the speed of a touching point over a stretch \[m/s\].
     fn at_most(&self, stretch: &Stretch<'_>, bounds: &Derivatives) -> f64 {
         let [from, to] = stretch.ends.each_ref().map(|m| self.fastest(m));
         let greater = if from > to || from.is_nan() { from } else { to };
         greater + stretch.sag(bounds.third() + self.reach_m * bounds.third_of_axis())
     }
 
-    /// What no point of some parts that touch is faster than anywhere in a stretch \[m/s\], part by part.
+    /// Upper bound on the speed of a point of the touching parts over a stretch \[m/s\], taken part by part.
     fn at_most_of(&self, parts: &Parts<'_>, stretch: &Stretch<'_>, bounds: &Derivatives) -> f64 {
         let reach_m = parts.columns.reach_m();
         let ends = stretch.ends.each_ref();
@@ -297,7 +297,7 @@ impl<'a> Rim<'a> {
         greatest.min(whole) + stretch.sag(bounds.third() + arm_m * bounds.third_of_axis())
     }
 
-    /// Takes note of the speed of a point that touches at a moment, where one does.
+    /// Records the speed of a touching point at a moment, if there is one.
     pub fn see(&self, tracker: &mut BoundTracker, m: &Moment, time_s: f64) {
         let Some(r) = self.touching(m) else { return };
         let speed = (m.speed + m.turning.cross(&r)).norm();
@@ -306,7 +306,7 @@ impl<'a> Rim<'a> {
         tracker.see(speed, time_s, &there);
     }
 
-    /// A point of the sponge that touches, from the tip \[m\]: the lowest of its rim over a disc, the deepest column elsewhere.
+    /// Returns a touching point of the sponge relative to the tip \[m\]: the lowest of its rim over a disc, the deepest column elsewhere.
     fn touching(&self, m: &Moment) -> Option<Vector3<f64>> {
         let Some(columns) = &self.columns else {
             let from_middle = self.face.lowest(&m.axis, self.radius_m);
@@ -323,8 +323,8 @@ impl<'a> Rim<'a> {
     }
 }
 
-/// What no point within a disc across the axis about one that moves at p is faster than \[m/s\]:
-/// |p + ω × u|² = |p|² + 2 u·(p × ω) + |ω × u|² ≤ |p|² + 2 r |P (p × ω)| + r² |ω|², P across the axis, r the disc's radius.
+/// Upper bound on the speed of the points within a disc of radius r across the axis, whose centre moves at p \[m/s\]:
+/// |p + ω × u|² = |p|² + 2 u·(p × ω) + |ω × u|² ≤ |p|² + 2 r |P (p × ω)| + r² |ω|², P the projection across the axis.
 fn fastest_within(m: &Moment, p: &Vector3<f64>, radius_m: f64) -> f64 {
     let across = {
         let way = p.cross(&m.turning);
@@ -333,14 +333,14 @@ fn fastest_within(m: &Moment, p: &Vector3<f64>, radius_m: f64) -> f64 {
     (p.norm_squared() + 2.0 * radius_m * across + radius_m * radius_m * m.turning.norm_squared()).sqrt()
 }
 
-/// The velocity of a point of the tool: across its axis, and along it from the tip \[m/s\].
+/// Returns the velocity of a point of the tool \[m/s\]: `[x, y]` across the axis, `along_m` along it from the tip.
 fn velocity(m: &Moment, [x, y]: [f64; 2], along_m: f64) -> Vector3<f64> {
     let r = m.side * x + m.axis.cross(&m.side) * y + m.axis * along_m;
     m.speed + m.turning.cross(&r)
 }
 
 impl Rim<'_> {
-    /// Looks at a stretch and, where that is needed, at its halves.
+    /// Bounds a stretch and, where needed, its halves.
     pub fn halve(&self, arm: &Arm<'_>, stretch: &Stretch<'_>, tracker: &mut BoundTracker, depth: u32) {
         let bounds = arm.derivatives(stretch);
         let bound = match &self.columns {
@@ -352,7 +352,7 @@ impl Rim<'_> {
                 Some(bound) => bound,
             },
         };
-        // How fast exactly is not asked where the limit is kept: the bound is above every speed that is seen, by what the tool turns.
+        // A kept limit needs no exact speed: the bound is above every speed found, by the effect of the tool's turning.
         let rough = self.columns.is_some() || self.far.beyond_m > 0.0;
         let enough = rough && (tracker.keeps(bound) || depth >= MOST_HALVINGS);
         if enough || tracker.accepts(bound) || !tracker.may_split(depth) {
@@ -367,7 +367,7 @@ impl Rim<'_> {
         }
     }
 
-    /// What nothing that touches a face that is no disc is faster than in a stretch \[m/s\]; `None` where nothing touches.
+    /// Upper bound on the touching speed on a face that is no disc over a stretch \[m/s\]; `None` where nothing touches.
     fn bound_on(
         &self,
         columns: &(Columns, Bends<'_>),

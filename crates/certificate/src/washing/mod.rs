@@ -1,4 +1,4 @@
-//! What the tip and the sponge do on the plates.
+//! The tip and the sponge on the plates.
 //!
 //! | concept | module |
 //! | --- | --- |

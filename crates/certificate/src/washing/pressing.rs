@@ -1,4 +1,4 @@
-//! How hard the sponge is pressed while it washes: its greatest strain, the force along its axis, the torque of friction about it.
+//! Load on the sponge while it washes: greatest strain, force along its axis, and friction torque about that axis.
 //!
 //! The foam presses with E w / H over a column of the cross-section dA, along the sponge's axis: with the volume V = ∫ max(w, 0) dA the
 //! force along the axis is E V / H, whatever way the surface faces, as long as there is no friction. Friction μ acts on what the plate
@@ -11,7 +11,7 @@
 //! On a disc all of this follows from the height of the tip and the tilt alone (`contact/level.rs`), on other faces from columns at the
 //! moments of the wash and what they may do between them (`contact/stands.rs`).
 //!
-//! How hard the sponge is pressed on a face that is no disc: branch and bound over the wash, the worst stretch first.
+//! On a face that is no disc the bounds come from branch and bound over the wash, the worst stretch first.
 //!
 //! The wash is cut into stretches of many moments each. What the plate asks of the foam over a stretch follows from where the columns
 //! stand at both ends of it and from how the sponge may move between them (`contact/stands.rs`): loosely over a long stretch or with few
@@ -26,45 +26,45 @@ use platewash_workcell::plate::Plate;
 /// Friction between a wet sponge and a plate, least and greatest: an assumption.
 pub(crate) const FRICTION: [f64; 2] = [0.3, 1.0];
 
-/// What is known of a wash on a disc.
+/// Proved bounds of a wash on a disc.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Known {
-    /// The tip is never farther over or under the face \[m\].
+    /// Upper bound on the height of the tip over or under the face \[m\].
     pub height_m: f64,
-    /// cos τ is never below this.
+    /// Lower bound on cos τ, with τ the tilt of the tool.
     pub cosine: f64,
-    /// The tip is never farther from the plate's axis \[m\].
+    /// Upper bound on the distance of the tip from the plate's axis \[m\].
     pub distance_m: f64,
-    /// ±δ \[m\].
+    /// Height error of the plate, ±δ \[m\].
     pub error_m: f64,
 }
 
-/// An extreme over a wash.
+/// Extreme value of a quantity over a wash, with the bound proved for it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Extreme {
-    /// What is proved.
+    /// Proved bound: the quantity never gets beyond it.
     pub bound: f64,
-    /// What is certainly attained.
+    /// Value that is certainly attained.
     pub seen: f64,
-    /// When \[s\].
+    /// Time of `seen` \[s\].
     pub time_s: f64,
-    /// Where, plate frame \[m\].
+    /// Position of `seen`, plate frame \[m\].
     pub place_m: [f64; 3],
 }
 
-/// How hard the sponge is pressed through a wash.
+/// Load on the sponge during a wash, as compression and volumes of foam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pressing {
-    /// The greatest compression \[m\].
+    /// Greatest compression \[m\].
     pub deepest: Extreme,
-    /// The least volume of compressed foam, the plate at its lowest, and the greatest, at its highest \[m³\].
+    /// Volume of compressed foam \[m³\]: the least, with the plate at its lowest, and the greatest, with the plate at its highest.
     pub volume: [Extreme; 2],
-    /// ∫ max(w, 0) r / cos γ dA at most \[m⁴\].
+    /// Upper bound on ∫ max(w, 0) r / cos γ dA \[m⁴\].
     pub twist_m4: f64,
 }
 
 impl Pressing {
-    /// Of nothing yet.
+    /// Returns the start value of a fold: no moment and no stretch seen yet.
     pub fn new() -> Self {
         let extreme = |worst| Extreme {
             bound: worst,
@@ -80,7 +80,7 @@ impl Pressing {
         }
     }
 
-    /// Where nothing is known.
+    /// Returns the result where nothing is proved: every bound is as bad as possible.
     pub fn unknown() -> Self {
         let mut all = Self::new();
         all.deepest.bound = f64::INFINITY;
@@ -89,7 +89,7 @@ impl Pressing {
         all
     }
 
-    /// On a disc.
+    /// Bounds the load during a wash on a disc.
     pub fn on_disc(plate: &Plate, foundation: &Foundation, instants: &Instants, known: &Known) -> Self {
         let mut all = Self::new();
         let rim_m = plate.rim_m();
@@ -131,9 +131,9 @@ impl Pressing {
         all
     }
 
-    /// How hard it is pressed at most on a disc that may lie higher by `error_m`, through moments before or after a wash: from what two
-    /// neighbours say of the stretch between them. With h its length, the tip is no lower than the lower end by more than h²/8 · sup ‖p̈‖,
-    /// and the axis no farther from the nearer end than h/2 times its greatest speed.
+    /// Bounds the load before or after the wash, on a disc that may lie higher by `error_m`. Each stretch is bounded from the two moments
+    /// at its ends. With h the length of the stretch, the tip is no lower than the lower end by more than h²/8 · sup ‖p̈‖, and the axis no
+    /// farther from the nearer end than h/2 times its greatest speed.
     pub fn around_disc(plate: &Plate, foundation: &Foundation, instants: &Instants, error_m: f64) -> Self {
         let mut all = Self::new();
         let press = |tip_m: f64, cosine: f64, distance_m: f64| {
@@ -166,7 +166,7 @@ impl Pressing {
             if !(low_m.is_finite() && cosine > 0.0) {
                 return Self::unknown();
             }
-            // Where it is matters to the least only.
+            // The distance from the axis matters only for the least volume.
             let most = press(low_m, cosine, 0.0);
             all.take(&Press {
                 volume_m3: most.volume_m3,
@@ -178,7 +178,7 @@ impl Pressing {
         all
     }
 
-    /// Counts how hard it is pressed at most before or after.
+    /// Raises the upper bounds to cover the load `around`, before or after the wash.
     pub fn widen(&mut self, around: &Self) {
         let greater = |most: &mut Extreme, other: &Extreme| {
             let bound = most.bound.max(other.bound);
@@ -192,7 +192,7 @@ impl Pressing {
         self.twist_m4 = self.twist_m4.max(around.twist_m4);
     }
 
-    /// Takes note of what is seen at a moment.
+    /// Updates the attained values with those of one moment.
     pub fn see(&mut self, seen: &Seen, time_s: f64, place_m: [f64; 3]) {
         let [least, most] = &mut self.volume;
         if seen.volume_m3[0] < least.seen {
@@ -207,7 +207,7 @@ impl Pressing {
         }
     }
 
-    /// Takes note of bounds over a stretch. NaN, which bounds nothing, must not get lost.
+    /// Updates the bounds with those over a stretch. NaN bounds nothing; it counts as the worst value.
     pub fn take(&mut self, press: &Press) {
         let greater = |most: f64, found: f64| if found.is_nan() { f64::INFINITY } else { most.max(found) };
         self.deepest.bound = greater(self.deepest.bound, press.deepest_m);
@@ -219,54 +219,54 @@ impl Pressing {
     }
 }
 
-/// Moments of a stretch at first.
+/// Number of moments in a stretch at the start of the search.
 const LONGEST: usize = 64;
 
-/// How near the bounds come to those of single moments, as a part of them: of volumes and the greatest compression, and of the torque.
+/// Relative gap allowed between the bounds and the values at single moments, per quantity: least and greatest volume, compression, twist.
 const NEAR: [f64; QUANTITIES] = [0.01, 0.01, 0.01, 0.02];
 
-/// What a compression lacks between moments is not looked at more closely with more columns, but in halves, from here on \[m\].
+/// Loss of compression between moments above which a stretch is halved instead of given more columns \[m\].
 const MOST_SAG_M: f64 = 1e-4;
 
-/// Looks: with few columns, and with many.
+/// Number of column grids: a coarse one and a fine one.
 const LOOKS: usize = 2;
 
-/// The quantities: each the greater the worse.
+/// Number of bounded quantities. Each is expressed so that greater is worse, see [`badness`].
 const QUANTITIES: usize = 4;
 
-/// A stretch between two moments by their index, and what is known of it.
+/// Stretch between two moments, given by their indices, with the bounds over it.
 struct Span {
     from: usize,
     to: usize,
-    /// With which columns.
+    /// Index of the column grid: 0 is coarse, 1 is fine.
     look: usize,
     press: Press,
 }
 
-/// A search through the wash of a plate.
+/// Branch-and-bound search through the wash of one plate.
 struct Search<'a> {
     bends: Bends<'a>,
     instants: &'a Instants,
     turning: TurningFrame<'a>,
     error_m: f64,
     looks: [Columns; LOOKS],
-    /// Where the columns of each look stand at each moment, as far as was asked.
+    /// State of the columns by column grid and moment; `None` until it is computed.
     standings: [Vec<Option<Standing>>; LOOKS],
     spans: Vec<Span>,
-    /// The worst bound of a single moment.
+    /// Worst value at a single moment, per quantity.
     at_moments: [f64; QUANTITIES],
-    /// What is no worse is not looked at more closely.
+    /// Bounds no worse than these are not refined.
     enough: [f64; QUANTITIES],
     found: Pressing,
 }
 
-/// How hard the sponge is pressed on any face, which may lie higher or lower by `error_m`.
+/// Bounds the load during a wash on any face, which may lie higher or lower by `error_m`.
 pub(crate) fn on_face(plate: &Plate, foundation: &Foundation, instants: &Instants, error_m: f64) -> Pressing {
     search((plate, error_m), foundation, instants, [f64::NEG_INFINITY; QUANTITIES])
 }
 
-/// How hard it is pressed at most before or after a wash of which that is known: as closely as it takes to show that it is no harder than in the wash, and
-/// otherwise as [`on_face`].
+/// Bounds the load before or after a wash on any face. Refines until the load is shown to be no higher than in `wash`, otherwise as far as
+/// [`on_face`] does.
 pub(crate) fn around_face(
     plate: &Plate,
     foundation: &Foundation,
@@ -314,14 +314,14 @@ fn search(
     search.found
 }
 
-/// By how bad a press is, of each quantity; what is no number is the worst.
+/// Returns the quantities of a press, each expressed so that greater is worse. NaN counts as infinite.
 fn badness(press: &Press) -> [f64; QUANTITIES] {
     let all = [-press.volume_m3[0], press.volume_m3[1], press.deepest_m, press.twist_m4];
     all.map(|bad| if bad.is_nan() { f64::INFINITY } else { bad })
 }
 
 impl Search<'_> {
-    /// Looks at the stretches that are the worst of a quantity, until that is known.
+    /// Refines the worst stretches of a quantity until its bound is near enough to the values at single moments.
     fn settle(&mut self, quantity: usize) {
         loop {
             let bad = |span: &Span| badness(&span.press)[quantity];
@@ -335,7 +335,7 @@ impl Search<'_> {
         }
     }
 
-    /// Looks at a stretch more closely; `false` where that is not possible.
+    /// Refines a stretch, by halving or with more columns. Returns `false` where neither is possible.
     fn refine(&mut self, span: usize) -> bool {
         let Span {
             from, to, look, press, ..
@@ -353,7 +353,7 @@ impl Search<'_> {
         longer || !finest
     }
 
-    /// Looks at a stretch.
+    /// Bounds a stretch with the given column grid.
     fn look(&mut self, from: usize, to: usize, look: usize) -> Span {
         self.stand(from, look);
         self.stand(to, look);
@@ -368,7 +368,7 @@ impl Search<'_> {
         Span { from, to, look, press }
     }
 
-    /// Sees where the columns stand at a moment, and with the most of them what is certain of it.
+    /// Computes the state of the columns at a moment. With the fine grid it also updates the attained values.
     fn stand(&mut self, at: usize, look: usize) {
         if self.standings[look][at].is_some() {
             return;

@@ -1,6 +1,6 @@
-//! How far the sponge reaches beyond the rims.
+//! Reach of the sponge beyond the rims.
 //!
-//! Which plates the sponge may touch while it works on one, and how far beyond that one's rim.
+//! Two questions are answered: which plates the sponge may touch while it works on another, and its reach beyond the rim of that one.
 //!
 //! The tip keeps within the wash path's radius R of the pole of its plate of radius r. At the height of the plate's face a sponge of
 //! radius s, tilted by τ, reaches s / cos τ from the tip: upright it is its own radius, tilted its side wall lies as far out. (Below the
@@ -24,28 +24,28 @@ use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::words::millimetres;
 use serde::{Deserialize, Serialize};
 
-/// How often a piece of an approach or a retreat is halved at most: pieces are long there.
+/// Greatest depth of halving of a piece of an approach or a retreat. The pieces are long there.
 const LINE_HALVINGS: u32 = 12;
 
-/// What is proved of the tip, as far as the reach of the sponge depends on it.
+/// Proved bounds of the tip on which the reach of the sponge depends.
 pub(crate) struct Proved<'a> {
     pub arm: &'a Arm<'a>,
     pub pieces: &'a [Piece],
     pub schedule: &'a Schedule,
     pub tips: &'a Tips,
-    /// How far the tip is from its wash path at most, where that is proved \[m\].
+    /// Upper bound on the distance of the tip from its wash path \[m\]; `None` where it is not proved.
     pub path_deviation_m: Option<f64>,
 }
 
 impl Proved<'_> {
-    /// The spans at a plate, with their indices.
+    /// Returns the spans at a plate, with their indices.
     fn spans_at(&self, plate: usize) -> impl Iterator<Item = (usize, &Span)> {
         let spans = self.schedule.spans.iter().enumerate();
         spans.filter(move |(_, span)| span.plate == plate && is_at_plate(span.kind))
     }
 }
 
-/// Fills in how far the sponge may reach beyond the rim of each plate, and what it may touch there.
+/// Fills in the reach of the sponge beyond the rim of each plate, and the plates it may touch there.
 pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], proved: &Proved<'_>) {
     let most_tilted = cos(subject.limits.tilt_rad);
     for wash in washes {
@@ -72,7 +72,8 @@ pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], proved: &Proved
     }
 }
 
-/// How far outwards the lines along the normal over the ends of a wash path lead: where the face falls towards the rim \[m\].
+/// Returns the outward distance covered by the lines along the normal over the ends of a wash path \[m\]. It is 0 where the face does not
+/// fall towards the rim.
 fn outward_m(subject: &Subject<'_>, plate: usize) -> f64 {
     let (Some(path), Some(plate)) = (subject.path_of(plate), subject.plates().get(plate)) else {
         return 0.0;
@@ -84,8 +85,8 @@ fn outward_m(subject: &Subject<'_>, plate: usize) -> f64 {
     path.lift_m * ends[0].max(ends[1]).max(0.0)
 }
 
-/// What the tip is not farther from the pole of a plate, seen along its axis, in its wash and in all approaches to the plate and
-/// retreats from it, and how far it was seen to be \[m\]; infinite where that is not bounded.
+/// Returns an upper bound on the distance of the tip from the pole of a plate, seen along its axis, in its wash and in all approaches and
+/// retreats at the plate, and the greatest distance found \[m\]. The bound is infinite where nothing is proved.
 fn tip_m(allowed_m: f64, (radius_m, plate): (f64, &Plate), wash: &Wash, proved: &Proved<'_>) -> [f64; 2] {
     let along_path_m = (proved.path_deviation_m).map_or(f64::INFINITY, |off_m| radius_m + PLACE_M + off_m);
     let tips = proved.spans_at(wash.swept.plate).map(|(i, span)| match span.kind {
@@ -105,7 +106,7 @@ fn tip_m(allowed_m: f64, (radius_m, plate): (f64, &Plate), wash: &Wash, proved: 
     })
 }
 
-/// The sponge reaches no farther beyond any rim than the wash path and its own radius make it.
+/// Checks that the sponge reaches no farther beyond any rim than its wash path and its own radius imply.
 pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check {
     if coverage.iter().any(|c| subject.path_of(c.plate).is_none()) {
         return Check::not_judged(Requirement::Reach);
@@ -128,23 +129,23 @@ pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check 
     Check::measured(Requirement::Reach, measure, place)
 }
 
-/// A neighbour that the sponge reaches while it works on another plate.
+/// Neighbouring plate that the sponge reaches while it works on another plate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Touched {
-    /// Index of the plate that is reached.
+    /// Index of the neighbouring plate.
     pub plate: usize,
-    /// How far over its rim, at most \[m\].
+    /// Upper bound on the reach over its rim \[m\].
     pub depth_m: f64,
 }
 
-/// How far beyond the rim of a plate the sponge reaches at the height of its face, at most, with the tip within `tip_m` of the plate's
-/// centre and cos τ not below `cos_tilt` \[m\]; infinite without a bound of the tilt. A tip below the face by d has the side wall at the
-/// face d tan τ farther out: other requirements see to it that d is no more than the tolerance of the lines.
+/// Returns an upper bound on the reach of the sponge beyond the rim of a plate, at the height of its face \[m\]. The tip is within `tip_m`
+/// of the plate's centre, and cos τ is not below `cos_tilt`; without a bound of the tilt the result is infinite. For a tip at a depth d
+/// below the face, the side wall at the face is d tan τ farther out: other requirements keep d within the tolerance of the lines.
 ///
-/// On a face that is no disc, τ is the angle between the tool's axis and the plate's, and what counts are all heights up to the highest
-/// one of the face: with the tip at a distance ρ from the plate's axis its side wall reaches (top − f(ρ)) tan τ farther there, which grows
-/// with ρ more slowly than ρ falls short where the slope β keeps tan β tan τ ≤ 1. Nothing presses the sponge together beyond the rim: its
-/// face lies c beyond the tip there, and reaches no more than s cos τ + c sin τ to the side.
+/// On a face that is no disc, τ is the angle between the tool's axis and the plate's, and all heights up to the highest one of the face
+/// count. With the tip at a distance ρ from the plate's axis, the side wall reaches (top − f(ρ)) tan τ farther. That grows with ρ more
+/// slowly than ρ falls short as long as the slope β keeps tan β tan τ ≤ 1. Beyond the rim nothing compresses the sponge: its face lies c
+/// beyond the tip there, and reaches no more than s cos τ + c sin τ to the side.
 pub(crate) fn beyond_rim_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, cos_tilt: f64) -> f64 {
     if cos_tilt > 0.0 {
         let sine = (1.0 - cos_tilt * cos_tilt).max(0.0).sqrt();
@@ -155,7 +156,7 @@ pub(crate) fn beyond_rim_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, cos
     }
 }
 
-/// How far the sponge reaches from the tip at the heights of a face, with `level_m` at the height of the tip \[m\].
+/// Returns the reach of the sponge from the tip at the heights of a face, given the reach `level_m` at the height of the tip \[m\].
 fn raised_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, [sine, cosine]: [f64; 2], level_m: f64) -> f64 {
     let surface = &plate.surface;
     if surface.is_flat() {
@@ -172,7 +173,8 @@ fn raised_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, [sine, cosine]: [f
     wall_m.max(free_m)
 }
 
-/// The plates but one, beside it and no higher ([`Plate::may_touch_beside`]), that a sponge reaches which gets `beyond_rim_m` beyond the rim of that one, in order.
+/// Returns the plates beside `plate` and no higher ([`Plate::may_touch_beside`]) that a sponge reaches if it gets `beyond_rim_m` beyond the
+/// rim of `plate`, in order.
 pub(crate) fn touched(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) -> Vec<Touched> {
     let Some(own) = subject.plates().get(plate) else {
         return Vec::new();
@@ -186,9 +188,9 @@ pub(crate) fn touched(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) ->
     depths.filter(|touched| touched.depth_m > 0.0).collect()
 }
 
-/// Whether the sponge, tilted as it likes, may come nearer to one plate than the clearance while it works on another. Of a plate whose
-/// face is higher than that of the one it works on, stands at an angle to it or lies under it, it keeps clear, but for the other face of the same disc: how fast it touches, and
-/// how far beyond the rim it reaches, is bounded at the height of the plate that it works on and below.
+/// True if the sponge, at any tilt, may come nearer to `plate` than the clearance while it works on `working_on`. The sponge keeps clear of
+/// a plate whose face is higher, that stands at an angle, or that lies under the one it works on, except the other face of the same disc.
+/// The touching speed and the reach beyond the rim are bounded at the height of the plate being worked on and below.
 pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: usize) -> bool {
     let (Some(own), Some(other)) = (subject.plates().get(working_on), subject.plates().get(plate)) else {
         return false;
@@ -209,17 +211,18 @@ pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: u
     own.aside_m(other) - other.rim_m() <= reach_m
 }
 
-/// What is swept besides the plate that is washed.
+/// Plates that are swept besides the plate being washed.
 #[derive(Debug, Default)]
 pub(crate) struct Swept {
-    /// Plates that lie apart from the one that is washed.
+    /// Plates that lie apart from the one being washed.
     pub apart: Vec<Discrepancy>,
     /// Plates that overlap it.
     pub overlapping: Vec<Discrepancy>,
 }
 
-/// Plates of which more than the rim may be swept while another one is washed. How far the tool is tilted is the requirement's to say; on
-/// a face that is no disc, where that is about its normal, `upright_cosine` says what is proved of it about the plate's axis.
+/// Finds plates of which more than the rim may be swept while another one is washed. The tilt of the tool is limited by its own
+/// requirement. On a face that is no disc that tilt is about the normal; `upright_cosine` then gives the bound proved about the plate's
+/// axis.
 pub(crate) fn swept(subject: &Subject<'_>, upright_cosine: impl Fn(usize) -> f64) -> Swept {
     let tilted_m = subject.sponge_m() / cos(subject.limits.tilt_rad);
     let mut swept = Swept::default();
@@ -237,7 +240,7 @@ pub(crate) fn swept(subject: &Subject<'_>, upright_cosine: impl Fn(usize) -> f64
                 beyond_rim_m(subject, own, radius_m, cosine),
             )
         };
-        // Of a plate at an angle to it, or all under or over it, the sponge keeps clear.
+        // The sponge keeps clear of a plate at an angle to it, or all under or over it.
         let beside = |other: &Plate| own.is_parallel(other) && !own.is_over(other) && !other.is_over(own);
         let others = subject.plates().iter().enumerate();
         for (j, other) in others.filter(|(j, other)| *j != i && beside(other)) {

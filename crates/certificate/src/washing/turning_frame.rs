@@ -1,4 +1,4 @@
-//! A wash as it is seen from a frame that turns about the plate's axis, as the sponge goes round it.
+//! Motion of the sponge in a frame that turns about the plate's axis with it.
 //!
 //! A plate is a body of revolution: in a frame that turns about its axis it is at rest, too. The sponge, which goes round with its lean,
 //! hardly moves there, so that much more is known of it between two moments. The frame stands at an angle φ at every moment; over a stretch
@@ -29,31 +29,31 @@ use platewash_kinematics::trig::{atan2, sin_cos};
 use platewash_workcell::contact::{Drift, Moment};
 use platewash_workcell::plate::Plate;
 
-/// Nearer to the plate's axis the frame turns more slowly than the sponge goes round \[m\].
+/// Distance from the plate's axis below which the frame turns more slowly than the sponge goes round \[m\].
 const LEAST_RADIUS_M: f64 = 0.02;
 
-/// A frame that turns about a plate's axis through a wash.
+/// Frame that turns about a plate's axis through a wash.
 #[derive(Debug)]
 pub(crate) struct TurningFrame<'a> {
     instants: &'a Instants,
-    /// φ at every moment \[rad\].
+    /// Angle φ of the frame at every moment \[rad\].
     angles: Vec<f64>,
     states: Vec<State>,
 }
 
-/// The sponge at a moment, in the frame of the plate.
+/// State of the sponge at a moment, in the frame of the plate.
 #[derive(Debug)]
 struct State {
     tip: Vector3<f64>,
     speed: Vector3<f64>,
     acceleration: Vector3<f64>,
     axis: Vector3<f64>,
-    /// ȧ and ä.
+    /// Time derivatives ȧ and ä of the axis.
     first: Vector3<f64>,
     second: Vector3<f64>,
 }
 
-/// The greatest of what is seen from the frame, at a moment or over a stretch: see the head of this file.
+/// Upper bounds in the turning frame, at a moment or over a stretch. The head of this file defines the symbols.
 #[derive(Debug, Clone, Copy, Default)]
 struct Greatest {
     speed: f64,
@@ -64,7 +64,7 @@ struct Greatest {
 }
 
 impl<'a> TurningFrame<'a> {
-    /// The one that follows the sponge.
+    /// Returns the frame that follows the sponge.
     pub fn new(plate: &Plate, instants: &'a Instants) -> Self {
         let local = |v: &Vector3<f64>| plate.pose.inverse_transform_vector(v);
         let state = |(tip, moment): (&tip::Moment, &Moment)| {
@@ -97,13 +97,13 @@ impl<'a> TurningFrame<'a> {
         }
     }
 
-    /// u at a moment, in the plate's frame.
+    /// Returns u at a moment, in the plate's frame.
     pub fn side(&self, at: usize) -> Vector3<f64> {
         let (d, a) = (direction(self.angles[at]), self.states[at].axis);
         (d - a * d.dot(&a)).normalize()
     }
 
-    /// How the sponge moves from one moment to a later one, with the columns along u.
+    /// Bounds the motion of the sponge from one moment to a later one, with the columns along u.
     pub fn drift(&self, from: usize, to: usize) -> Drift {
         let time = |at: usize| self.instants.moments[at].t_s;
         let length_s = time(to) - time(from);
@@ -127,7 +127,7 @@ impl<'a> TurningFrame<'a> {
         greatest.drift(length_s)
     }
 
-    /// What is added between a moment and the next.
+    /// Returns the amounts by which the values between a moment and the next may exceed those at both.
     fn between(&self, at: usize, rate: f64) -> Greatest {
         let (Some(drift), Some(jerk)) = (self.instants.drifts.get(at), self.instants.jerks.get(at)) else {
             return Greatest::UNKNOWN;
@@ -146,7 +146,7 @@ impl<'a> TurningFrame<'a> {
 }
 
 impl State {
-    /// What is seen of it from a frame that turns at a rate, and in which a direction is at rest.
+    /// Returns the values seen from a frame that turns at `rate` and in which the direction `d` is at rest.
     fn seen(&self, rate: f64, d: &Vector3<f64>) -> Greatest {
         let omega = Vector3::z() * rate;
         let round = |v: &Vector3<f64>| omega.cross(v);
@@ -169,7 +169,7 @@ impl State {
 }
 
 impl Greatest {
-    /// Where nothing is known.
+    /// Bounds where nothing is known: infinite.
     const UNKNOWN: Self = Self {
         speed: f64::INFINITY,
         acceleration: f64::INFINITY,
@@ -178,12 +178,12 @@ impl Greatest {
         m: f64::INFINITY,
     };
 
-    /// The greater of both, each; what is no number is not lost.
+    /// Returns the greater of both, value by value. NaN is kept.
     fn with(&self, other: &Self) -> Self {
         self.each(other, |a, b| if a > b || a.is_nan() { a } else { b })
     }
 
-    /// The sum of both, each.
+    /// Returns the sum of both, value by value.
     fn plus(&self, other: &Self) -> Self {
         self.each(other, |a, b| a + b)
     }
@@ -198,7 +198,7 @@ impl Greatest {
         }
     }
 
-    /// How columns move that stand along u.
+    /// Bounds the motion of columns along u.
     fn drift(&self, length_s: f64) -> Drift {
         let Self { a1, a2, m, .. } = *self;
         let c = (1.0 - m * m).sqrt();
@@ -216,7 +216,7 @@ impl Greatest {
     }
 }
 
-/// The direction across the plate's axis at an angle.
+/// Returns the direction across the plate's axis at an angle \[rad\].
 fn direction(angle: f64) -> Vector3<f64> {
     let (s, c) = sin_cos(angle);
     Vector3::new(c, s, 0.0)
@@ -241,7 +241,7 @@ mod tests {
         stiffness_pa: [2e4; 2],
     };
 
-    /// Between two of three moments of which differences are taken \[s\].
+    /// Step of the finite differences in the test \[s\].
     const STEP_S: f64 = 1e-4;
 
     fn vector(size: f64) -> impl Strategy<Value = JointVector> {
@@ -251,7 +251,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
 
-        /// By differences of what is seen from the frame, wherever a plate lies: no tip, no axis and no column moves, turns or bends more.
+        /// Checks by finite differences in the turning frame that no tip, axis or column moves, turns or bends more than the bounds say.
         #[test]
         fn nothing_moves_more_than_is_said(
             q in vector(1.2), step in vector(0.05), v in [vector(0.4), vector(0.4)], aside in [-0.15..0.15f64, -0.15..0.15f64], share in 0.05..0.95f64,
@@ -287,7 +287,7 @@ mod tests {
                     1 => [drift.axis, drift.bending],
                     _ => [drift.turning, drift.bending],
                 };
-                // What is not known is no number, where the tool lies across.
+                // A bound is NaN where nothing is known, for a tool that lies across.
                 prop_assert!(most_speed.is_nan() || speed <= most_speed * (1.0 + 1e-6) + 1e-5, "{k}: {speed} {drift:?}");
                 prop_assert!(most_bend.is_nan() || bend <= most_bend * (1.0 + 1e-3) + 1e-2, "{k}: {bend} {drift:?}");
             }

@@ -15,17 +15,17 @@ use crate::trig::{atan2, sin_cos};
 use crate::{AXES, RobotModel};
 use nalgebra::{Matrix3, Vector3};
 
-/// Constants (m, or sines and cosines) smaller than this are rounding and become 0.
+/// Magnitude of a constant (m, or a sine or cosine) below which it counts as rounding and becomes 0.
 const ROUNDING: f64 = 1e-15;
 
-/// The constant rotation about x after a joint.
+/// Constant rotation about x after a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Bend {
     /// α = 0, and the translation is along x.
     Parallel,
     /// α = π/2, and the translation has no y entry.
     Perpendicular,
-    /// Anything else.
+    /// Any other α.
     General {
         /// sin α.
         sin: f64,
@@ -34,29 +34,29 @@ pub(crate) enum Bend {
     },
 }
 
-/// What stands behind a joint.
+/// Constant transform after a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Link {
-    /// `t`: translation in the turned frame \[m\].
+    /// Translation `t` in the turned frame \[m\].
     pub translation: [f64; 3],
-    /// `Rx(α)`.
+    /// Rotation `Rx(α)`.
     pub bend: Bend,
 }
 
-/// A frame's chain.
+/// Chain of a frame.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Chain {
-    /// `S`: the frame of joint 1 at q = 0, or the frame itself on the base.
+    /// Frame of joint 1 at q = 0, `S`, or the frame itself on the base.
     pub start: Rigid,
-    /// `o`, added to the joint positions \[rad\]; 0 beyond the frame.
+    /// Offsets `o` added to the joint positions \[rad\]; 0 beyond the frame.
     pub offsets: [f64; AXES],
-    /// The joints between the base and the frame.
+    /// Joints between the base and the frame.
     pub links: Vec<Link>,
     /// (sin ω, cos ω), unless ω = 0.
     pub end: Option<(f64, f64)>,
 }
 
-/// A constant transform `Rz(φ) Trans(t) Rx(α) Rz(ψ)`.
+/// Constant transform `Rz(φ) Trans(t) Rx(α) Rz(ψ)`.
 struct Split {
     phi: f64,
     translation: Vector3<f64>,
@@ -66,7 +66,7 @@ struct Split {
 }
 
 impl Chain {
-    /// The chain of `frame`.
+    /// Builds the chain of `frame`.
     pub fn new(robot: &RobotModel, frame: &Frame) -> Self {
         let joints = frame.body();
         if joints == 0 {
@@ -125,7 +125,7 @@ fn slide(mut start: Rigid, splits: &mut [Split]) -> Rigid {
     start
 }
 
-/// The z–x–z angles; parallel axes take φ along the translation, which then has an entry less.
+/// Returns the z–x–z angles. For parallel axes φ is along the translation, which then has an entry less.
 fn split(rigid: &Rigid) -> Split {
     let r = &rigid.rotation;
     let sin = r.m13.hypot(r.m23);
@@ -151,7 +151,7 @@ fn split(rigid: &Rigid) -> Split {
     }
 }
 
-/// The cheapest form that fits the angle and the translation.
+/// Returns the cheapest form that fits the angle and the translation.
 fn link(split: &Split) -> Link {
     let t = split.translation.map(without_rounding);
     let (sin, cos) = (without_rounding(split.sin), without_rounding(split.cos));

@@ -5,7 +5,7 @@ use crate::batch::kernel::{LANES, Vector};
 use crate::trig::sin_cos_lanes;
 use crate::{AXES, JointVector};
 
-/// Frames: the columns of the rotation and the origin \[m\].
+/// Frames: columns of the rotation, and the origin \[m\].
 #[derive(Clone, Copy)]
 pub(crate) struct Tips<V> {
     pub x: [V; 3],
@@ -14,14 +14,14 @@ pub(crate) struct Tips<V> {
     pub p: [V; 3],
 }
 
-/// A joint's axis and a point on it \[m\].
+/// Axis of a joint, and a point on it \[m\].
 #[derive(Clone, Copy)]
 pub(crate) struct Line<V> {
     pub axis: [V; 3],
     pub point: [V; 3],
 }
 
-/// Lines of joints beyond the frame: zero, so that their columns are zero.
+/// Returns the lines of joints beyond the frame: zero, so that their columns are zero.
 #[inline(always)]
 pub(crate) fn no_lines<V: Vector>() -> [Line<V>; AXES] {
     let zero = [V::splat(0.0); 3];
@@ -31,7 +31,7 @@ pub(crate) fn no_lines<V: Vector>() -> [Line<V>; AXES] {
     }; AXES]
 }
 
-/// At most four configurations side by side; the lanes left over repeat the last one.
+/// Gathers at most four configurations side by side; unused lanes repeat the last one.
 #[inline(always)]
 pub(crate) fn gather<V: Vector>(configurations: &[JointVector]) -> [V; AXES] {
     let mut rows = [[0.0; LANES]; AXES];
@@ -44,7 +44,7 @@ pub(crate) fn gather<V: Vector>(configurations: &[JointVector]) -> [V; AXES] {
     vectors(&rows)
 }
 
-/// Arrays of lanes as vectors.
+/// Converts arrays of lanes to vectors.
 #[inline(always)]
 pub(crate) fn vectors<V: Vector, const N: usize>(rows: &[[f64; LANES]; N]) -> [V; N] {
     let mut out = [V::splat(0.0); N];
@@ -54,7 +54,7 @@ pub(crate) fn vectors<V: Vector, const N: usize>(rows: &[[f64; LANES]; N]) -> [V
     out
 }
 
-/// Poses of the chain's frame at `q` \[rad\]. A lane with NaN or ∞ in a joint of the chain becomes NaN throughout.
+/// Computes the poses of the chain's frame at `q` \[rad\]. A lane with NaN or ∞ in a joint of the chain becomes NaN throughout.
 #[inline(always)]
 pub(crate) fn frames<V: Vector>(chain: &Chain, q: &[V; AXES]) -> Tips<V> {
     let turns = sines_and_cosines(chain, q);
@@ -65,7 +65,7 @@ pub(crate) fn frames<V: Vector>(chain: &Chain, q: &[V; AXES]) -> Tips<V> {
     finish(tips, chain)
 }
 
-/// The same, and the lines of the chain's joints.
+/// Same as [`frames`], with the lines of the chain's joints.
 #[inline(always)]
 pub(crate) fn frames_and_lines<V: Vector>(chain: &Chain, q: &[V; AXES], lines: &mut [Line<V>; AXES]) -> Tips<V> {
     let turns = sines_and_cosines(chain, q);
@@ -80,7 +80,7 @@ pub(crate) fn frames_and_lines<V: Vector>(chain: &Chain, q: &[V; AXES], lines: &
     finish(tips, chain)
 }
 
-/// `z_i × (p − p_i)`, the linear part of a Jacobian's column.
+/// Linear part of a Jacobian's column, `z_i × (p − p_i)`.
 #[inline(always)]
 pub(crate) fn moment<V: Vector>(line: &Line<V>, p: &[V; 3]) -> [V; 3] {
     let arm = [p[0] - line.point[0], p[1] - line.point[1], p[2] - line.point[2]];
@@ -114,7 +114,7 @@ fn start<V: Vector>(chain: &Chain) -> Tips<V> {
     }
 }
 
-/// Of all joint angles `q + o`, two joints at a time.
+/// Sines and cosines of all joint angles `q + o`, two joints at a time.
 #[inline(always)]
 fn sines_and_cosines<V: Vector>(chain: &Chain, q: &[V; AXES]) -> [(V, V); AXES] {
     let mut turns = [(V::splat(0.0), V::splat(0.0)); AXES];
@@ -138,7 +138,7 @@ fn halves<V: Vector>(v: &[f64; 2 * LANES]) -> [V; 2] {
     ]
 }
 
-/// One joint and what stands behind it: `Rz(θ) · Trans(t) · Rx(α)`.
+/// Applies one joint and the transform after it: `Rz(θ) · Trans(t) · Rx(α)`.
 #[inline(always)]
 fn advance<V: Vector>(mut tips: Tips<V>, sin: V, cos: V, link: &Link) -> Tips<V> {
     let t = &link.translation;
@@ -166,7 +166,7 @@ fn advance<V: Vector>(mut tips: Tips<V>, sin: V, cos: V, link: &Link) -> Tips<V>
     tips
 }
 
-/// (u cos + v sin, v cos − u sin).
+/// Returns (u cos + v sin, v cos − u sin).
 #[inline(always)]
 fn turned<V: Vector>(u: &[V; 3], v: &[V; 3], sin: V, cos: V) -> ([V; 3], [V; 3]) {
     let [(u0, v0), (u1, v1), (u2, v2)] = [
@@ -194,7 +194,7 @@ fn moved<V: Vector>(p: &[V; 3], d: &[V; 3], by: V) -> [V; 3] {
     [d[0].mul_add(by, p[0]), d[1].mul_add(by, p[1]), d[2].mul_add(by, p[2])]
 }
 
-/// The last constant turn, and NaN where a joint position is not finite.
+/// Applies the last constant turn, and sets NaN where a joint position is not finite.
 #[inline(always)]
 fn finish<V: Vector>(mut tips: Tips<V>, chain: &Chain) -> Tips<V> {
     if let Some((sin, cos)) = chain.end {

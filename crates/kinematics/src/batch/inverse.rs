@@ -10,21 +10,21 @@ use crate::ik::{Damping, IkError, IkSettings, IkSolution, IkSolver, Method, Star
 use crate::{AXES, JointVector, Pose};
 use rayon::prelude::*;
 
-/// Most steps of a lane; a problem that needs more is not warm.
+/// Greatest number of steps of a lane; a problem that needs more is not warm.
 const MOST_STEPS: usize = 8;
-/// A lane counts as solved when it is this far inside both tolerances (m, rad), so that the scalar error, which is
-/// rounded otherwise, is inside too.
+/// Distance inside both tolerances (m, rad) from which a lane counts as solved, so that the scalar error, which is rounded differently, is
+/// inside too.
 const GUARD: f64 = 1e-14;
 
-/// Rounding must not call a seed warm that the scalar solver calls cold.
+/// Factor on the cold threshold, so that rounding calls no seed warm that the scalar solver calls cold.
 const COLD_MARGIN: f64 = 1.0 + 1e-9;
 
-/// What stands in an answer's place before it is written.
+/// Placeholder for an answer before it is written.
 const NOT_YET: IkError = IkError::Target {
     position: [f64::NAN; 3],
 };
 
-/// One problem between two visits to the lanes.
+/// Problem between two visits to the lanes.
 #[derive(Clone, Copy)]
 struct Problem {
     index: usize,
@@ -42,9 +42,7 @@ struct Problem {
 /// the last bits; with [`Backend::Portable`] the bits are the same on every machine. No answer depends on the other
 /// problems, nor on the number of threads.
 ///
-/// # Errors
-/// [`BatchError::Length`] when there are not as many seeds as targets. What is wrong with one problem is in its
-/// own entry.
+/// [`BatchError::Length`] if the numbers of seeds and targets differ. An error in one problem is in its own entry.
 pub fn solve(
     solver: &IkSolver<'_>,
     targets: &[Pose],
@@ -56,10 +54,10 @@ pub fn solve(
     Ok(answers)
 }
 
-/// [`solve`] into a slice of the caller's, which is overwritten.
+/// Same as [`solve`], into a slice of the caller's, which is overwritten.
 ///
 /// # Errors
-/// [`BatchError::Length`] when there are not as many seeds, or places for answers, as targets; nothing is written then.
+/// [`BatchError::Length`] if the numbers of seeds, or of places for answers, differ from that of targets; nothing is written then.
 pub fn solve_into(
     solver: &IkSolver<'_>,
     targets: &[Pose],
@@ -93,7 +91,7 @@ pub fn solve_into(
     Ok(())
 }
 
-/// One chunk of problems; what is found is written to `answers` and marked, the rest stays as it is.
+/// Chunk of problems. Answers that are found are written to `answers` and marked, the rest stays unchanged.
 struct Chunk<'a> {
     solver: &'a IkSolver<'a>,
     chain: &'a Chain,
@@ -155,8 +153,8 @@ impl Chunk<'_> {
         numbers.chain(self.seeds[k].iter()).all(|v| v.is_finite())
     }
 
-    /// Takes the first `count` problems of a block as far as it pays: most of the lanes until they are solved or
-    /// given up; the few that are left then go back to `waiting`.
+    /// Solves the first `count` problems of a block as far as it pays: most of the lanes until they are solved or given up; the few that
+    /// are left then go back to `waiting`.
     #[inline(always)]
     fn block<V: Vector>(
         &mut self,
@@ -243,7 +241,7 @@ fn lane<V: Vector>(q: &[V; AXES], l: usize) -> [f64; AXES] {
     out
 }
 
-/// The targets of a block as columns and origins.
+/// Loads the targets of a block as columns and origins.
 #[inline(always)]
 fn load_targets<V: Vector>(block: &[Problem; LANES], poses: &[Pose]) -> Tips<V> {
     let (mut quaternions, mut origins) = ([[0.0; LANES]; 4], [[0.0; LANES]; 3]);

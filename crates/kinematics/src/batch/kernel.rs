@@ -1,4 +1,4 @@
-//! Work on four configurations at once, whatever the processor.
+//! Work on four configurations at once, for any processor.
 
 use crate::trig::MulAdd;
 use std::ops::{Add, Div, Mul, Sub};
@@ -10,30 +10,30 @@ pub(crate) const LANES: usize = 4;
 pub(crate) trait Vector:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// How [`Vector::mul_add`] rounds.
+    /// Rounding of [`Vector::mul_add`].
     type Rounding: MulAdd;
-    /// The lanes of an array.
+    /// Builds a vector from its lanes.
     fn from_array(lanes: [f64; LANES]) -> Self;
-    /// The array of the lanes.
+    /// Returns the lanes.
     fn to_array(self) -> [f64; LANES];
-    /// `self · b + c`.
+    /// Returns `self · b + c`.
     fn mul_add(self, b: Self, c: Self) -> Self;
-    /// `self · b − c`.
+    /// Returns `self · b − c`.
     fn mul_sub(self, b: Self, c: Self) -> Self;
-    /// `c − self · b`.
+    /// Returns `c − self · b`.
     fn neg_mul_add(self, b: Self, c: Self) -> Self;
-    /// Where `self > bound` (false for NaN) `yes`, elsewhere `no`.
+    /// Selects `yes` in lanes with `self > bound` (false for NaN), `no` elsewhere.
     fn if_above(self, bound: Self, yes: Self, no: Self) -> Self;
 
-    /// The same number in every lane.
+    /// Returns the same number in every lane.
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self::from_array([x; LANES])
     }
 }
 
-/// Work that is written once and compiled twice. `run` is `#[inline(always)]`, and so is all that it calls often,
-/// because a function is compiled for the instructions of the one it is inlined into.
+/// Work that is written once and compiled twice. `run` is `#[inline(always)]`, and so are all functions that it calls often, because a
+/// function is compiled for the instructions of the one it is inlined into.
 pub(crate) trait Kernel {
     /// Does the work.
     fn run<V: Vector>(self);

@@ -33,21 +33,21 @@ pub use crate::batch::inverse::{solve, solve_into};
 pub use crate::batch::poses::{fk, fk_into, fk_matrices_into, jacobian, jacobian_into};
 pub use crate::batch::vector::Backend;
 
-/// Configurations to a unit of work for the thread pool. Fixed, so that nothing depends on the number of threads.
+/// Number of configurations per unit of work for the thread pool. It is fixed, so that nothing depends on the number of threads.
 const CHUNK: usize = 512;
 
-/// Slices that don't fit together.
+/// Slices whose lengths do not match.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BatchError {
     /// One slice is longer or shorter than the first.
     #[error("{name}: {expected} entries are needed; found {found}")]
     Length {
-        /// Which slice.
+        /// Name of the slice.
         name: &'static str,
-        /// Its due length.
+        /// Expected length.
         expected: usize,
-        /// The length found.
+        /// Length found.
         found: usize,
     },
 }

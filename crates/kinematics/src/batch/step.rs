@@ -5,16 +5,16 @@ use crate::AXES;
 use crate::batch::forward::{Line, Tips, cross, dot, moment};
 use crate::batch::kernel::Vector;
 
-/// Below this cosine of the error angle (0.5 rad) a lane is left to the scalar solver.
+/// Cosine of the error angle (0.5 rad) below which a lane is left to the scalar solver.
 pub(crate) const LEAST_COSINE: f64 = 0.877_582_561_890_372_8;
 
 /// Pose errors.
 pub(crate) struct Errors<V> {
-    /// `p* − p` \[m\], base axes.
+    /// Linear error `p* − p` \[m\], base axes.
     pub linear: [V; 3],
-    /// `log(R* Rᵀ)` \[rad\], base axes; meaningless where `cosine` is below [`LEAST_COSINE`].
+    /// Angular error `log(R* Rᵀ)` \[rad\], base axes; meaningless if `cosine` is below [`LEAST_COSINE`].
     pub angular: [V; 3],
-    /// `‖p* − p‖²` \[m²\].
+    /// Squared linear error `‖p* − p‖²` \[m²\].
     pub position: V,
     /// Squared error angle \[rad²\].
     pub angle: V,
@@ -22,7 +22,7 @@ pub(crate) struct Errors<V> {
     pub cosine: V,
 }
 
-/// The errors of `tips` against `targets`.
+/// Computes the errors of `tips` against `targets`.
 ///
 /// With v = sin θ · axis, the skew part of `R* Rᵀ = Σ r*_k r_kᵀ` over the columns, and t = tan(θ/2) = sin θ / (1 + cos θ), the
 /// rotation vector is `v · 2 arctan(t) / (t (1 + cos θ))`.
@@ -51,7 +51,7 @@ pub(crate) fn errors<V: Vector>(targets: &Tips<V>, tips: &Tips<V>) -> Errors<V> 
     }
 }
 
-/// arctan(t)/t as a function of t², for |t| ≤ tan(0.25): `Σ (−t²)ᵏ/(2k + 1)`, cut where a term is below 1e-13.
+/// Returns arctan(t)/t as a function of t², for |t| ≤ tan(0.25): `Σ (−t²)ᵏ/(2k + 1)`, cut where a term is below 1e-13.
 #[inline(always)]
 fn arctan_over<V: Vector>(square: V) -> V {
     let mut sum = V::splat(1.0 / 21.0);
@@ -61,21 +61,21 @@ fn arctan_over<V: Vector>(square: V) -> V {
     sum
 }
 
-/// What bounds the steps of all lanes.
+/// Bounds on the steps of all lanes.
 pub(crate) struct Bounds {
-    /// λ = gain ‖e‖² …
+    /// Gain of the damping, λ = gain ‖e‖².
     pub gain: f64,
-    /// … and at least this.
+    /// Least damping λ.
     pub least_damping: f64,
     /// Largest joint step \[rad\].
     pub step_rad: f64,
-    /// Joint limits \[rad\].
+    /// Lower joint limits \[rad\].
     pub lower: [f64; AXES],
-    /// Joint limits \[rad\].
+    /// Upper joint limits \[rad\].
     pub upper: [f64; AXES],
 }
 
-/// The damped step `Δq = (JᵀJ + λI)⁻¹ Jᵀ e` \[rad\].
+/// Computes the damped step `Δq = (JᵀJ + λI)⁻¹ Jᵀ e` \[rad\].
 #[inline(always)]
 pub(crate) fn damped_step<V: Vector>(bounds: &Bounds, p: &[V; 3], lines: &[Line<V>; AXES], e: &Errors<V>) -> [V; AXES] {
     let cost = e.position + e.angle;
@@ -94,7 +94,7 @@ pub(crate) fn damped_step<V: Vector>(bounds: &Bounds, p: &[V; 3], lines: &[Line<
     solve(normal, gradient)
 }
 
-/// `q + Δq`, shortened to the step bound and clamped to the limits, and how many steps in a row a limit cut.
+/// Returns `q + Δq`, shortened to the step bound and clamped to the limits, and the number of steps in a row that a limit cut.
 #[inline(always)]
 pub(crate) fn moved<V: Vector>(bounds: &Bounds, mut q: [V; AXES], dq: &[V; AXES], clamped: V) -> ([V; AXES], V) {
     let (zero, one) = (V::splat(0.0), V::splat(1.0));
@@ -114,14 +114,14 @@ pub(crate) fn moved<V: Vector>(bounds: &Bounds, mut q: [V; AXES], dq: &[V; AXES]
     (q, streak * (clamped + one))
 }
 
-/// The larger one; the second if either is NaN.
+/// Returns the larger one; the second if either is NaN.
 #[inline(always)]
 fn larger<V: Vector>(a: V, b: V) -> V {
     a.if_above(b, a, b)
 }
 
-/// `A x = b` by LDLᵀ from A's lower triangle, as the scalar solver does it, but without its test of the pivots: a
-/// step that is nonsense does not lower the error, and the lane is given up for it.
+/// Solves `A x = b` by LDLᵀ from A's lower triangle, as the scalar solver does it, but without its test of the pivots: an invalid step does
+/// not lower the error, and the lane is then given up.
 #[inline(always)]
 fn solve<V: Vector>(mut a: [[V; AXES]; AXES], mut x: [V; AXES]) -> [V; AXES] {
     let mut inverse = x;

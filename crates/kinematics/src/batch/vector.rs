@@ -9,11 +9,11 @@ use crate::batch::kernel::{Kernel, LANES, Vector};
 use crate::trig::Separate;
 use std::ops::{Add, Div, Mul, Sub};
 
-/// Which instructions a batch runs on.
+/// Instructions that a batch runs on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Backend {
-    /// AVX2 and FMA where the processor has them, found at run time; the portable instructions elsewhere. Products
-    /// and sums are fused, so that the last bits differ from the portable ones.
+    /// AVX2 and FMA if the processor has them, found at run time; otherwise the portable instructions. Products and sums are fused, so that
+    /// the last bits differ from the portable ones.
     #[default]
     Detected,
     /// The instructions every processor of the target has: slower, and the same bits on every machine.
@@ -21,7 +21,7 @@ pub enum Backend {
 }
 
 impl Backend {
-    /// Whether a batch on this path runs on AVX2 and FMA on this machine.
+    /// True if a batch with this setting runs on AVX2 and FMA on this machine.
     #[must_use]
     pub fn is_vectorised(self) -> bool {
         #[cfg(target_arch = "x86_64")]
@@ -32,7 +32,7 @@ impl Backend {
     }
 }
 
-/// Runs the kernel on the path.
+/// Runs the kernel on the given instructions.
 pub(crate) fn run<K: Kernel>(path: Backend, kernel: K) {
     #[cfg(target_arch = "x86_64")]
     if path.is_vectorised() {

@@ -14,11 +14,11 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::borrow::Cow;
 
-/// A gradient this small against `‖J‖ ‖e‖` is no descent.
+/// Ratio of the gradient to `‖J‖ ‖e‖` below which no joint motion reduces the error.
 const STATIONARY: f64 = 1e-3;
-/// A smallest singular value below this is a lost direction.
+/// Smallest singular value below which a direction counts as lost.
 const SINGULAR: f64 = 1e-3;
-/// Solves for one frame of one arm; build it once and call [`IkSolver::solve`] often.
+/// Solver for one frame of one arm; build it once and call [`IkSolver::solve`] often.
 #[derive(Debug, Clone)]
 pub struct IkSolver<'a> {
     pub(crate) robot: Cow<'a, RobotModel>,
@@ -28,7 +28,7 @@ pub struct IkSolver<'a> {
     analytic: Option<AnalyticArm>,
 }
 
-/// Why [`IkSolver::solve_all`] has no answer.
+/// Reason that [`IkSolver::solve_all`] has no answer.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AllBranchesError {
@@ -49,18 +49,18 @@ impl From<NotAnalytic> for AllBranchesError {
     }
 }
 
-/// Above this squared error (m², rad²) at the seed, the seed is cold.
+/// Squared error (m², rad²) at the seed above which the seed is cold.
 const COLD: f64 = 0.09;
-/// Below this squared error (m², rad²) the QP follows DLS at once.
+/// Squared error (m², rad²) below which the QP follows DLS at once.
 const NEAR: f64 = 1e-2;
-/// How many stops of the list the QP takes up.
+/// Number of stops of the list from which the QP continues.
 const QP_FROM_LIST: usize = 6;
-/// One search: the task, the best iterate over all starts, and the work spent.
+/// State of one search: the task, the best iterate over all starts, and the work spent.
 struct Search<'t> {
     task: &'t Task<'t>,
     best: Iterate,
     iterations: usize,
-    /// Why no analytic branch will do, once they were tried.
+    /// Reason that no analytic branch is a solution, once they were tried.
     no_branch: Option<AnalyticError>,
 }
 
@@ -85,7 +85,7 @@ impl<'a> IkSolver<'a> {
         })
     }
 
-    /// The same solver with an arm of its own, for callers that cannot lend one.
+    /// Returns the same solver with an arm of its own, for callers that cannot lend one.
     #[must_use]
     pub fn into_owned(self) -> IkSolver<'static> {
         IkSolver {
@@ -97,31 +97,31 @@ impl<'a> IkSolver<'a> {
         }
     }
 
-    /// The arm.
+    /// Returns the arm.
     #[must_use]
     pub fn robot(&self) -> &RobotModel {
         &self.robot
     }
 
-    /// Whether a seed with this squared error (m², rad²) is too far away to begin at.
+    /// True if a seed with this squared error (m², rad²) is too far away to start from.
     pub(crate) fn is_cold(squared_error: f64) -> bool {
         squared_error > COLD
     }
 
-    /// The settings in force.
+    /// Returns the settings.
     #[must_use]
     pub fn settings(&self) -> &IkSettings {
         &self.settings
     }
 
-    /// The frame that is brought to the target.
+    /// Returns the frame that is moved to the target.
     #[must_use]
     pub fn frame(&self) -> &Frame {
         &self.frame
     }
 
-    /// A configuration within the limits that brings the frame to `target` (`T_base_frame`), found from `seed`
-    /// \[rad\] (clamped to the limits first) by the cascade in the [module](super) text.
+    /// Returns a configuration within the limits that brings the frame to `target` (`T_base_frame`), found from `seed` \[rad\] (clamped to
+    /// the limits first) by the cascade in the [module](super) text.
     ///
     /// # Errors
     /// [`IkError::NotSolved`] with the best configuration and the cause; [`IkError::Target`] and
@@ -140,11 +140,11 @@ impl<'a> IkSolver<'a> {
         answer.ok_or_else(|| IkError::NotSolved(self.failure(&search)))
     }
 
-    /// Every configuration within the limits that brings the frame to `target`, branch by branch with all wraps, and why
-    /// each other branch is none. `previous` \[rad\] decides free joints at singularities.
+    /// Returns every configuration within the limits that brings the frame to `target`, branch by branch with all wraps, and the reason
+    /// that each other branch has none. `previous` \[rad\] decides free joints at singularities.
     ///
     /// # Errors
-    /// [`AllBranchesError`] when the arm has no closed form, or for input that is not finite. No solution is no error: see
+    /// [`AllBranchesError`] if the arm has no closed form, or for input that is not finite. No solution is no error: see
     /// [`Solutions::rejections`].
     pub fn solve_all(&self, target: &Pose, previous: &JointVector) -> Result<Solutions, AllBranchesError> {
         let target = AnalyticArm::body_target(&self.frame, &Rigid::from(target)).ok_or(AllBranchesError::Frame)?;
@@ -155,7 +155,7 @@ impl<'a> IkSolver<'a> {
         Ok(solutions?)
     }
 
-    /// The stages in order; `None` when all of them fail.
+    /// Runs the stages in order; `None` if all of them fail.
     fn search(&self, search: &mut Search<'_>, start: Iterate) -> Option<IkSolution> {
         let cold = Self::is_cold(start.cost);
         if cold && let Some(answer) = self.try_branches(&start.q, search) {
@@ -183,7 +183,7 @@ impl<'a> IkSolver<'a> {
         self.try_list(postponed, search).or_else(|| self.try_random(search))
     }
 
-    /// DLS from the analytic branch nearest to `seed`, where the arm has branches.
+    /// Runs DLS from the analytic branch nearest to `seed`, if the arm has branches.
     fn try_branches(&self, seed: &JointVector, search: &mut Search<'_>) -> Option<IkSolution> {
         let arm = self.analytic.as_ref()?;
         let target = AnalyticArm::body_target(&self.frame, &search.task.target)?;
@@ -200,7 +200,7 @@ impl<'a> IkSolver<'a> {
         }
     }
 
-    /// DLS from the listed starts, then the QP where it is due.
+    /// Runs DLS from the listed starts, then the QP if it is due.
     fn try_list(&self, postponed: Option<(Iterate, Start)>, search: &mut Search<'_>) -> Option<IkSolution> {
         let mut stopped = Vec::new();
         let starts = self.starts.nearest(&search.task.target, self.settings.listed_starts);
@@ -220,7 +220,7 @@ impl<'a> IkSolver<'a> {
         due.find_map(|(from, start)| self.bounded(from, start, search))
     }
 
-    /// Random restarts, if the caller asked for any.
+    /// Runs random restarts, if the caller asked for any.
     fn try_random(&self, search: &mut Search<'_>) -> Option<IkSolution> {
         let RandomRestarts { seed, count } = self.settings.random_restarts?;
         let mut rng = Pcg64::seed_from_u64(seed);
@@ -235,7 +235,7 @@ impl<'a> IkSolver<'a> {
         })
     }
 
-    /// The QP from where DLS stopped.
+    /// Runs the QP from the stop of DLS.
     fn bounded(&self, from: Iterate, start: Start, search: &mut Search<'_>) -> Option<IkSolution> {
         let descent = qp::descend(search.task, from, &self.settings);
         self.note(&descent, Method::Qp, start, search)
@@ -253,7 +253,7 @@ impl<'a> IkSolver<'a> {
         Err(IkError::Target { position })
     }
 
-    /// The task for a target that is known to be finite.
+    /// Returns the task for a target that is known to be finite.
     pub(crate) fn task_unchecked(&self, target: &Pose) -> Task<'_> {
         Task {
             robot: &self.robot,
@@ -266,7 +266,7 @@ impl<'a> IkSolver<'a> {
         }
     }
 
-    /// Notes a descent. The one place where a solution is accepted: within the limits and both tolerances.
+    /// Records a descent. This is the one place where a solution is accepted: within the limits and both tolerances.
     fn note(&self, descent: &Descent, method: Method, start: Start, search: &mut Search<'_>) -> Option<IkSolution> {
         search.iterations += descent.iterations;
         let best = &descent.best;
@@ -284,7 +284,7 @@ impl<'a> IkSolver<'a> {
         })
     }
 
-    /// Whether the target lies beyond [`RobotModel::reach_bound`]: then no start can help.
+    /// True if the target lies beyond [`RobotModel::reach_bound`]: then no start can help.
     pub(crate) fn beyond_reach(&self, target: &Rigid) -> bool {
         let (centre, bound) = self.robot.reach_bound(&self.frame);
         (target.translation - centre.coords).norm() > bound + self.settings.position_tolerance_m

@@ -14,14 +14,15 @@ use nalgebra::{Matrix6, Vector6};
 
 /// Smallest damping: keeps the normal matrix definite at an exact singularity without slowing convergence.
 pub(crate) const LEAST_DAMPING: f64 = 1e-11;
-/// Stagnation: the error norm fell by less than 10 % (its square by less than 19 %) …
+/// Ratio of squared errors above which the descent stagnates: the error norm fell by less than 10 % (its square by less than 19 %) within
+/// [`STAGNATION_WINDOW`] iterations.
 const STAGNATION_RATIO: f64 = 0.81;
-/// … within this many iterations.
+/// Number of iterations over which stagnation is judged.
 const STAGNATION_WINDOW: usize = 8;
-/// An active limit: this many accepted steps in a row were clamped.
+/// Number of accepted steps in a row that were clamped, from which on a limit counts as active.
 pub(crate) const CLAMPED_IN_A_ROW: usize = 3;
 
-/// Joints that may move; the others are held where they are.
+/// Joints that may move; the others keep their positions.
 pub(crate) type Free = [bool; AXES];
 
 /// Every joint may move.
@@ -79,7 +80,7 @@ pub(crate) fn descend(task: &Task<'_>, start: Iterate, free: &Free, settings: &I
     }
 }
 
-/// The damped step on the free joints; `None` when the normal matrix is not positive definite (NaN).
+/// Returns the damped step on the free joints; `None` if the normal matrix is not positive definite (NaN).
 fn step(jacobian: &Matrix6<f64>, error: &Vector6<f64>, lambda: f64, free: &Free) -> Option<JointVector> {
     let mut jacobian = *jacobian;
     for (mut column, _) in jacobian.column_iter_mut().zip(free).filter(|(_, free)| !**free) {
@@ -89,7 +90,7 @@ fn step(jacobian: &Matrix6<f64>, error: &Vector6<f64>, lambda: f64, free: &Free)
     solve_spd(&normal, &jacobian.tr_mul(error))
 }
 
-/// The step shortened so that no joint moves more than `bound` \[rad\]; its direction is kept.
+/// Returns the step shortened so that no joint moves more than `bound` \[rad\]; its direction is kept.
 fn bounded(step: JointVector, bound: f64) -> JointVector {
     let largest = step.amax();
     if largest > bound {
@@ -99,7 +100,7 @@ fn bounded(step: JointVector, bound: f64) -> JointVector {
     }
 }
 
-/// How strongly a step is damped: the λ of `(JᵀJ + λI) Δq = Jᵀe`. Whatever is chosen, a step that does not reduce the error raises it tenfold, and
+/// Damping of a step: the λ of `(JᵀJ + λI) Δq = Jᵀe`. For every choice, a step that does not reduce the error raises it tenfold, and
 /// accepted steps let it fall again (Levenberg–Marquardt).
 ///
 /// A motion of the joints that moves the tip by σ (m, rad) per radian is damped where σ² is not far above λ: with a constant
@@ -134,7 +135,7 @@ impl Default for Damping {
 }
 
 impl Damping {
-    /// λ at a squared error and a Jacobian.
+    /// Returns λ at a squared error and a Jacobian.
     #[inline]
     pub(crate) fn lambda(&self, squared_error: f64, jacobian: &Jacobian) -> f64 {
         match *self {
@@ -147,7 +148,7 @@ impl Damping {
         }
     }
 
-    /// The first number out of its range, if any.
+    /// Returns the first number out of its range, if any.
     pub(crate) fn misfit(&self) -> Option<f64> {
         let fits = |v: f64| (0.0..=1e6).contains(&v);
         match *self {
@@ -205,10 +206,10 @@ pub(crate) fn solve_spd(a: &Matrix6<f64>, b: &Vector6<f64>) -> Option<Vector6<f6
     Some(x)
 }
 
-/// A joint this close to a limit counts as standing on it \[rad\].
+/// Distance from a limit below which a joint counts as standing on it \[rad\].
 pub(crate) const ON_LIMIT_RAD: f64 = 1e-6;
 
-/// One inverse-kinematics problem: an arm, a frame on it, and where that frame shall be.
+/// Inverse-kinematics problem: an arm, a frame on it, and the target pose of that frame.
 pub(crate) struct Task<'a> {
     pub robot: &'a RobotModel,
     pub frame: Frame,
@@ -217,14 +218,14 @@ pub(crate) struct Task<'a> {
     pub tolerance: [f64; 2],
 }
 
-/// A configuration with its error.
+/// Configuration with its error.
 #[derive(Clone, Copy)]
 pub(crate) struct Iterate {
     pub q: JointVector,
     bodies: BodyPoses,
-    /// `e = (p* − p, log(R* Rᵀ))`, metres and radians in base axes.
+    /// Error `e = (p* − p, log(R* Rᵀ))`, metres and radians in base axes.
     pub error: Vector6<f64>,
-    /// `‖e‖²`.
+    /// Squared error `‖e‖²`.
     pub cost: f64,
 }
 
@@ -264,20 +265,20 @@ impl Iterate {
     }
 }
 
-/// Why a descent stopped.
+/// Reason that a descent stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stop {
-    /// Within both tolerances.
+    /// The error is within both tolerances.
     Solved,
     /// The error hardly falls any more.
     Stagnation,
     /// Steps keep being clamped to a limit.
     ActiveLimit,
-    /// Iterations ran out.
+    /// The iterations ran out.
     Iterations,
 }
 
-/// Where and why a descent stopped.
+/// Stop of a descent.
 pub(crate) struct Descent {
     pub best: Iterate,
     pub iterations: usize,

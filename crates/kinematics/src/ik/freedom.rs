@@ -1,4 +1,4 @@
-//! Freedom in the task: how far a frame may deviate from its target.
+//! Freedom in the task: the deviations of a frame from its target that are allowed.
 //!
 //! The deviation of a frame from its target `T_target_frame` is written as six numbers: the origin in target axes
 //! (x, y, z \[m\]), the tilt of the frame's z axis as a vector in the target's xy plane (direction of the lean, length = angle \[rad\]), and
@@ -11,16 +11,16 @@ use crate::trig::atan2;
 use nalgebra::{Matrix3, Matrix6, RowVector3, Unit, UnitQuaternion, Vector3, Vector6};
 use std::f64::consts::PI;
 
-/// Whether the frame may turn about its own z axis.
+/// Freedom of the frame to turn about its own z axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Yaw {
-    /// It may not.
+    /// No rotation.
     Fixed,
-    /// It may, without bound.
+    /// Any rotation.
     Free,
 }
 
-/// How far a frame may deviate from its target.
+/// Allowed deviations of a frame from its target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskFreedom {
     /// Largest deviation of the origin along each axis of the target \[m\]; 0 for none.
@@ -31,20 +31,20 @@ pub struct TaskFreedom {
     pub yaw: Yaw,
 }
 
-/// A freedom that makes no sense.
+/// Number of a freedom that is out of range.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("task freedom {name} must be {expected}; found {found}")]
 pub struct TaskFreedomError {
-    /// Which number.
+    /// Name of the number.
     pub name: &'static str,
-    /// Its range.
+    /// Allowed range.
     pub expected: &'static str,
-    /// What was given.
+    /// Value given.
     pub found: f64,
 }
 
 impl TaskFreedom {
-    /// No freedom: the pose is met exactly.
+    /// Returns no freedom: the pose is met exactly.
     #[must_use]
     pub fn none() -> Self {
         Self {
@@ -54,7 +54,7 @@ impl TaskFreedom {
         }
     }
 
-    /// Freedom to tilt within a cone of half-angle `tilt_rad` \[rad\] and to turn about the tool's axis.
+    /// Returns the freedom to tilt within a cone of half-angle `tilt_rad` \[rad\] and to turn about the tool's axis.
     #[must_use]
     pub fn cone(tilt_rad: f64) -> Self {
         Self {
@@ -85,7 +85,7 @@ impl TaskFreedom {
 pub(crate) struct Deviation(pub Vector6<f64>);
 
 impl Deviation {
-    /// Of `frame` from `target`, both `T_base_…`.
+    /// Returns the deviation of `frame` from `target`, both `T_base_…`.
     pub fn of(frame: &Rigid, target: &Rigid) -> Self {
         let origin = target.rotation.tr_mul(&(frame.translation - target.translation));
         let r = target.rotation.tr_mul(&frame.rotation);
@@ -93,7 +93,7 @@ impl Deviation {
         Self(Vector6::new(origin.x, origin.y, origin.z, tilt[0], tilt[1], twist(&r)))
     }
 
-    /// Derivative by the joints, from the Jacobian of the frame in base axes.
+    /// Returns the derivative by the joints, from the Jacobian of the frame in base axes.
     pub fn jacobian(frame: &Rigid, target: &Rigid, jacobian: &Jacobian) -> Matrix6<f64> {
         let r = target.rotation.tr_mul(&frame.rotation);
         let to_target = target.rotation.transpose();
@@ -112,7 +112,7 @@ impl Deviation {
         all
     }
 
-    /// The nearest allowed deviation, pulled inside by a relative 1e-9 so that it stays allowed after rounding.
+    /// Returns the nearest allowed deviation, pulled inside by a relative 1e-9 so that it stays allowed after rounding.
     pub fn allowed(&self, freedom: &TaskFreedom) -> Self {
         let mut v = self.0;
         for (value, most) in v.iter_mut().zip(freedom.position_m) {
@@ -129,7 +129,7 @@ impl Deviation {
         Self(v)
     }
 
-    /// The pose that deviates by this much from `target`.
+    /// Returns the pose that deviates by this much from `target`.
     pub fn applied_to(&self, target: &Rigid) -> Rigid {
         let v = &self.0;
         let angle = f64::sqrt(v[3] * v[3] + v[4] * v[4]);
@@ -148,7 +148,7 @@ impl Deviation {
     }
 }
 
-/// Tilt vector of the z axis of `r`, and its derivative by that axis (2 × 3).
+/// Returns the tilt vector of the z axis of `r`, and its derivative by that axis (2 × 3).
 fn lean(r: &Matrix3<f64>) -> ([f64; 2], nalgebra::Matrix2x3<f64>) {
     let (x, y, c) = (r.m13, r.m23, r.m33);
     let sine = f64::sqrt(x * x + y * y);
@@ -165,7 +165,7 @@ fn lean(r: &Matrix3<f64>) -> ([f64; 2], nalgebra::Matrix2x3<f64>) {
     ([x * g, y * g], rows)
 }
 
-/// Yaw left when the tilt is undone by the shortest way, in (−π, π].
+/// Returns the yaw that is left when the tilt is undone by the shortest way, in (−π, π].
 fn twist(r: &Matrix3<f64>) -> f64 {
     // With the quaternion (w, x, y, z): ψ = 2 atan2(z, w), and z : w = (r21 − r12) : (r11 + r22) for that half-angle doubled.
     atan2(r.m21 - r.m12, r.m11 + r.m22)

@@ -30,25 +30,25 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
 use nalgebra::{DMatrix, DVector, Vector6};
 use std::f64::consts::{PI, TAU};
 
-/// Most convex programs from one start.
+/// Greatest number of convex programs from one start.
 const MAX_PROGRAMS: usize = 40;
-/// Below this squared distance from what is allowed (m², rad²) the exact pose is tried.
+/// Squared distance from the allowed deviations (m², rad²) below which the exact pose is tried.
 const POLISH_BELOW: f64 = 1e-6;
-/// A program that gains less than this share of the squared distance ends the search from a start.
+/// Share of the squared distance that a program must gain at least. Otherwise the search from that start ends.
 const LEAST_GAIN: f64 = 1e-4;
 /// Smallest damping of a program.
 const LEAST_DAMPING: f64 = 1e-9;
-/// Directions of tilt, and yaws, that give further starts.
+/// Number of tilt directions, and of yaws, that give further starts.
 const DIRECTIONS: usize = 12;
-/// How many of the further starts that meet nothing exactly are improved by programs.
+/// Number of the further starts without an exact solution that are improved by programs.
 const IMPROVED: usize = 8;
 
-/// A linear model of a distance that must be kept.
+/// Linear model of a distance that must be kept.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClearanceRow {
     /// Distance at the configuration \[m\].
     pub distance_m: f64,
-    /// Its derivative by the joints \[m/rad\].
+    /// Derivative of the distance by the joints \[m/rad\].
     pub gradient: JointVector,
     /// Distance that must be kept \[m\].
     pub required_m: f64,
@@ -57,10 +57,10 @@ pub struct ClearanceRow {
 /// Clearance rows at a configuration \[rad\].
 pub type ClearanceRows<'c> = dyn Fn(&JointVector) -> Vec<ClearanceRow> + 'c;
 
-/// What is asked besides the target pose.
+/// Task besides the target pose.
 #[derive(Clone, Copy)]
 pub struct GeneralizedTask<'c> {
-    /// How far the frame may deviate from its target.
+    /// Allowed deviations of the frame from its target.
     pub freedom: TaskFreedom,
     /// Largest motion of each joint from the seed \[rad\], e.g. speed × time; `None` for no bound.
     pub motion_rad: Option<JointVector>,
@@ -68,7 +68,7 @@ pub struct GeneralizedTask<'c> {
     pub clearance: Option<&'c ClearanceRows<'c>>,
 }
 
-/// A configuration that meets a [`GeneralizedTask`].
+/// Configuration that meets a [`GeneralizedTask`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GeneralizedSolution {
     /// Joint positions \[rad\].
@@ -79,37 +79,37 @@ pub struct GeneralizedSolution {
     pub tilt_rad: f64,
     /// Rotation about z once the tilt is undone \[rad\].
     pub yaw_rad: f64,
-    /// Programs and linear systems solved.
+    /// Number of programs and linear systems solved.
     pub iterations: usize,
 }
 
-/// Why a [`GeneralizedTask`] was not met.
+/// Reason that a [`GeneralizedTask`] was not met.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeneralizedError {
-    /// A freedom that makes no sense.
+    /// The freedom is invalid.
     #[error(transparent)]
     Freedom(#[from] TaskFreedomError),
-    /// A bound on the motion that is negative or NaN.
+    /// A bound on the motion is negative or NaN.
     #[error("motion_rad of joint {} must not be negative; found {found}", .joint + 1)]
     Motion {
         /// Joint index, 0 for joint 1.
         joint: usize,
-        /// The bound found \[rad\].
+        /// Bound found \[rad\].
         found: f64,
     },
     /// The target or the seed is not finite.
     #[error(transparent)]
     Ik(#[from] IkError),
-    /// No start led to an allowed pose: the best configuration, with its distance from what is allowed.
+    /// No start led to an allowed pose; holds the best configuration, with its distance from the allowed deviations.
     #[error("no configuration with an allowed deviation: the best is {:.3e} m and {:.3e} rad beyond it", .0.position_error_m, .0.orientation_error_rad)]
     NotSolved(IkFailure),
 }
 
-/// A row of constraints: entries by variable, and the bound.
+/// Row of constraints: entries by variable, and the bound.
 type Row = (Vec<(usize, f64)>, f64);
 
-/// One search.
+/// State of one search.
 struct Search<'s> {
     solver: &'s IkSolver<'s>,
     asked: &'s GeneralizedTask<'s>,
@@ -121,10 +121,10 @@ struct Search<'s> {
 }
 
 impl IkSolver<'_> {
-    /// A configuration that meets `asked` for the target `T_base_frame`, as near to `seed` \[rad\] as the search finds one.
+    /// Returns a configuration that meets `asked` for the target `T_base_frame`, as near to `seed` \[rad\] as the search finds one.
     ///
     /// # Errors
-    /// [`GeneralizedError`]; a failure reports the best configuration and how far it is from what is allowed.
+    /// [`GeneralizedError`]; a failure reports the best configuration and its distance from the allowed deviations.
     pub fn solve_generalized(
         &self,
         target: &Pose,
@@ -168,7 +168,7 @@ impl IkSolver<'_> {
 }
 
 impl Search<'_> {
-    /// Programs from one configuration until an allowed pose is met or nothing is gained.
+    /// Runs programs from one configuration until an allowed pose is met or nothing is gained.
     fn improve(&mut self, start: JointVector) -> Option<GeneralizedSolution> {
         let mut q = start;
         let mut cost = self.cost(&q);
@@ -199,7 +199,7 @@ impl Search<'_> {
         None
     }
 
-    /// Further starts: exact solutions for tilted and turned targets.
+    /// Tries further starts: exact solutions for tilted and turned targets.
     fn try_grid(&mut self, seed: &JointVector) -> Option<GeneralizedSolution> {
         let mut starts: Vec<(f64, f64, JointVector)> = Vec::new();
         for deviation in self.grid() {
@@ -213,7 +213,7 @@ impl Search<'_> {
             let q = q.sup(&self.lowest).inf(&self.highest);
             starts.push((self.cost(&q), (q - seed).norm(), q));
         }
-        // What is already allowed first, and of that the nearest to the seed.
+        // Starts with an allowed pose come first, and of those the nearest to the seed.
         starts.sort_by(|a, b| {
             a.0.max(POLISH_BELOW)
                 .total_cmp(&b.0.max(POLISH_BELOW))
@@ -223,7 +223,7 @@ impl Search<'_> {
         starts.into_iter().find_map(|(_, _, q)| self.improve(q))
     }
 
-    /// Deviations on a coarse grid of the allowed ones.
+    /// Returns allowed deviations on a coarse grid.
     fn grid(&self) -> Vec<Deviation> {
         let freedom = &self.asked.freedom;
         let circle = |k: usize| TAU * k as f64 / DIRECTIONS as f64;
@@ -261,7 +261,7 @@ impl Search<'_> {
         Deviation::of(&self.solver.robot.fk(q).rigid(self.solver.frame()), &self.target)
     }
 
-    /// Squared distance from what is allowed (m², rad²); clearance that is missing counts too.
+    /// Squared distance from the allowed deviations (m², rad²); missing clearance counts too.
     fn cost(&self, q: &JointVector) -> f64 {
         let beyond = self.beyond(q);
         let missing = |row: ClearanceRow| (row.required_m - row.distance_m).max(0.0);
@@ -269,7 +269,7 @@ impl Search<'_> {
         beyond.norm_squared() + rows
     }
 
-    /// The deviation less the nearest allowed one.
+    /// Deviation less the nearest allowed one.
     fn beyond(&self, q: &JointVector) -> Vector6<f64> {
         let deviation = self.deviation(q);
         deviation.0 - deviation.allowed(&self.asked.freedom).0
@@ -299,7 +299,7 @@ impl Search<'_> {
         })
     }
 
-    /// The convex program at `q`; its joint step, or `None` unless it is solved.
+    /// Solves the convex program at `q`. Returns its joint step, or `None` unless it is solved.
     fn program(&self, q: &JointVector, cost: f64, boost: f64) -> Option<JointVector> {
         // Variables: Δq (6), p (3), s (2).
         const N: usize = AXES + 5;
@@ -337,7 +337,7 @@ impl Search<'_> {
             .then(|| JointVector::from_column_slice(&x[..AXES]))
     }
 
-    /// `A x + s = b` with s in the cones: bounds on the step, freedom of position and tilt, clearance.
+    /// Returns the constraints `A x + s = b` with s in the cones: bounds on the step, freedom of position and tilt, clearance.
     fn constraints(&self, q: &JointVector, n: usize) -> (DMatrix<f64>, Vec<f64>, Vec<SupportedConeT<f64>>) {
         let freedom = &self.asked.freedom;
         let step = self.solver.settings.step_bound_rad;

@@ -45,8 +45,7 @@
 //! A failure reports the configuration with the smallest error over all starts, which may be on another branch than the
 //! seed: MATLAB's solver, which the paper uses, restarts and does the same.
 //!
-//! Whatever step answers, the result is checked once more in one place: inside the limits and within both
-//! tolerances, or it is an error.
+//! The result of every step is checked once more in one place: it is within the limits and within both tolerances, or it is an error.
 
 pub mod analytic;
 mod cascade;
@@ -69,7 +68,7 @@ pub use crate::ik::settings::{AnalyticStarts, IkSettings, IkSettingsError, Rando
 use crate::JointVector;
 use serde::Serialize;
 
-/// Which method found the answer.
+/// Method that found the answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
@@ -79,7 +78,7 @@ pub enum Method {
     Qp,
 }
 
-/// From where the answer was found.
+/// Start from which the answer was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Start {
@@ -93,16 +92,16 @@ pub enum Start {
     Random(usize),
 }
 
-/// A configuration within the limits that meets both tolerances.
+/// Configuration within the limits that meets both tolerances.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct IkSolution {
     /// Joint positions \[rad\].
     pub q: JointVector,
-    /// Linear systems and QPs solved, over all starts.
+    /// Number of linear systems and QPs solved, over all starts.
     pub iterations: usize,
-    /// The method that answered.
+    /// Method that found the answer.
     pub method: Method,
-    /// The start that led to the answer.
+    /// Start that led to the answer.
     pub start: Start,
     /// Distance of the frame's origin from the target's \[m\].
     pub position_error_m: f64,
@@ -110,7 +109,7 @@ pub struct IkSolution {
     pub orientation_error_rad: f64,
 }
 
-/// Why no start led to the target; read at the best configuration found.
+/// Reason that no start led to the target, read at the best configuration found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, thiserror::Error)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -132,21 +131,21 @@ pub enum IkCause {
     /// The Jacobian has nearly lost a direction (smallest singular value below 10⁻³) that is needed.
     #[error("singular")]
     Singular,
-    /// Iterations ran out while the error was still falling.
+    /// The iterations ran out while the error was still falling.
     #[error("out of iterations")]
     Iterations,
 }
 
-/// No solution was found: the best configuration and why it stopped there.
+/// Failure to find a solution: the best configuration and the reason that it stopped there.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct IkFailure {
-    /// The configuration with the smallest error found, within the limits \[rad\].
+    /// Configuration with the smallest error found, within the limits \[rad\].
     pub q: JointVector,
-    /// Linear systems and QPs solved, over all starts.
+    /// Number of linear systems and QPs solved, over all starts.
     pub iterations: usize,
-    /// Why.
+    /// Reason of the failure.
     pub cause: IkCause,
-    /// For a limit found by the analytic branches: how far the joint would have to go beyond it \[rad\].
+    /// Distance by which the joint would have to go beyond its limit \[rad\], for a limit found by the analytic branches.
     pub limit_excess_rad: Option<f64>,
     /// Distance of the frame's origin from the target's \[m\].
     pub position_error_m: f64,
@@ -154,14 +153,14 @@ pub struct IkFailure {
     pub orientation_error_rad: f64,
 }
 
-/// Why [`IkSolver::solve`] did not answer.
+/// Reason that [`IkSolver::solve`] did not answer.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum IkError {
     /// The target pose has NaN or infinite entries.
     #[error("the target pose is not finite: position {position:?} m")]
     Target {
-        /// The position as given.
+        /// Position of the target \[m\].
         position: [f64; 3],
     },
     /// The seed has a NaN or infinite entry.
@@ -169,7 +168,7 @@ pub enum IkError {
     Seed {
         /// Joint index, 0 for joint 1.
         joint: usize,
-        /// What was given \[rad\].
+        /// Value given \[rad\].
         found: f64,
     },
     /// No start led to the target.

@@ -18,22 +18,22 @@ use crate::ik::{IkCause, IkError, IkSolver};
 use crate::{JointVector, Pose};
 use nalgebra::UnitQuaternion;
 
-/// Largest joint motion that counts as continuous without looking closer \[rad\].
+/// Largest joint motion between waypoints that counts as continuous without further checks \[rad\].
 pub const LARGEST_STEP_RAD: f64 = 0.1;
 
-/// How often the way between two waypoints is halved before a step that stays large is called a jump.
+/// Greatest number of halvings of the way between two waypoints before a step that stays large is called a jump.
 pub const MOST_HALVINGS: u32 = 12;
 
-/// Answers along a path.
+/// Solution along a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IkPath {
     /// One configuration per waypoint \[rad\].
     pub q: Vec<JointVector>,
-    /// Linear systems solved, over all waypoints.
+    /// Number of linear systems solved, over all waypoints.
     pub iterations: usize,
 }
 
-/// Why a path breaks off.
+/// Reason that a path breaks off.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PathBreak {
@@ -49,19 +49,19 @@ pub enum PathBreak {
         /// Largest joint motion that remains on the shortest step tried \[rad\].
         jump_rad: f64,
     },
-    /// The branch ends: the next pose is out of reach, or within it on another branch only.
+    /// The branch ends: the next pose is out of reach, or can be reached on another branch only.
     #[error("this branch ends ({cause}), {position_error_m:.3e} m and {orientation_error_rad:.3e} rad short")]
     BranchEnd {
-        /// Why no configuration near the last one reaches the next pose.
+        /// Reason that no configuration near the last one reaches the next pose.
         cause: IkCause,
-        /// Distance that remains \[m\].
+        /// Remaining distance \[m\].
         position_error_m: f64,
-        /// Angle that remains \[rad\].
+        /// Remaining angle \[rad\].
         orientation_error_rad: f64,
     },
 }
 
-/// Why no continuous motion along a path was found.
+/// Reason that no continuous motion along a path was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum IkPathError {
@@ -70,7 +70,7 @@ pub enum IkPathError {
     Waypoint {
         /// Index of the waypoint.
         waypoint: usize,
-        /// Why.
+        /// Reason.
         error: IkError,
     },
     /// The motion breaks off on the way to a waypoint.
@@ -78,19 +78,19 @@ pub enum IkPathError {
     Broken {
         /// Index of the waypoint that is not reached.
         waypoint: usize,
-        /// Why.
+        /// Reason.
         reason: PathBreak,
-        /// The answers up to there \[rad\].
+        /// Configurations up to there \[rad\].
         solved: Vec<JointVector>,
     },
 }
 
 impl IkSolver<'_> {
-    /// Configurations that bring the frame through `targets` (`T_base_frame`) without a jump. The first waypoint is
-    /// solved from `seed` \[rad\] as by [`IkSolver::solve`].
+    /// Returns configurations that bring the frame through `targets` (`T_base_frame`) without a jump. The first waypoint is solved from
+    /// `seed` \[rad\] as by [`IkSolver::solve`].
     ///
     /// # Errors
-    /// [`IkPathError`], naming the waypoint and why; an empty path is no error.
+    /// [`IkPathError`] with the waypoint and the reason; an empty path is no error.
     pub fn solve_path(&self, targets: &[Pose], seed: &JointVector) -> Result<IkPath, IkPathError> {
         let Some(first) = targets.first() else {
             return Ok(IkPath {
@@ -125,7 +125,7 @@ impl IkSolver<'_> {
         Ok(IkPath { q, iterations })
     }
 
-    /// The answer from a prediction, if it is a small step away from the last one.
+    /// Returns the answer from a prediction, if it is a small step away from the last one.
     fn near(
         &self,
         task: &Task<'_>,
@@ -186,7 +186,7 @@ fn step(a: &JointVector, b: &JointVector) -> f64 {
     (a - b).amax()
 }
 
-/// The next configuration by the polynomial through the last one, two or three.
+/// Predicts the next configuration by the polynomial through the last one, two or three.
 fn predict(q: &[JointVector]) -> JointVector {
     match q {
         [.., a, b, c] => (c - b) * 3.0 + a,
@@ -196,7 +196,7 @@ fn predict(q: &[JointVector]) -> JointVector {
     }
 }
 
-/// The pose half-way: straight for the position, geodesic for the orientation.
+/// Returns the pose half-way: straight for the position, geodesic for the orientation.
 fn halfway(from: &Pose, to: &Pose) -> Pose {
     let middle = (from.translation.vector + to.translation.vector) * 0.5;
     let turn = (to.rotation * from.rotation.inverse()).scaled_axis() * 0.5;

@@ -14,9 +14,9 @@ use nalgebra::{Matrix6, Vector6};
 
 /// Smallest damping of the program.
 const LEAST_DAMPING: f64 = 1e-9;
-/// A program that would reduce the squared error by less than this share has nothing left to gain.
+/// Share of the squared error that a program must gain at least. Otherwise the descent ends.
 const LEAST_GAIN: f64 = 1e-3;
-/// Below this squared error (m², rad²) DLS tries to polish.
+/// Squared error (m², rad²) below which DLS tries to polish.
 const POLISH_BELOW: f64 = 1e-2;
 /// Descends from `start` (within the limits) by bounded steps and polishes the answer.
 pub(crate) fn descend(task: &Task<'_>, start: Iterate, settings: &IkSettings) -> Descent {
@@ -66,7 +66,7 @@ pub(crate) fn descend(task: &Task<'_>, start: Iterate, settings: &IkSettings) ->
     }
 }
 
-/// DLS on the joints that do not stand on a limit, the others set exactly onto theirs.
+/// Runs DLS on the joints that do not stand on a limit, with the others set exactly onto theirs.
 fn polish(task: &Task<'_>, from: Iterate, settings: &IkSettings) -> Descent {
     let limits = task.robot.limits();
     let mut q = from.q;

@@ -8,16 +8,16 @@ use std::f64::consts::PI;
 pub struct RandomRestarts {
     /// Seed of the random stream; the same seed gives the same answer.
     pub seed: u64,
-    /// How many to try.
+    /// Number of restarts.
     pub count: usize,
 }
 
-/// Whether analytic branches serve as starts on arms that have them.
+/// Use of analytic branches as starts, on arms that have them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AnalyticStarts {
-    /// They do, where [`crate::ik::analytic::AnalyticArm::recognise`] accepts the arm.
+    /// Branches are starts, if [`crate::ik::analytic::AnalyticArm::recognise`] accepts the arm.
     Used,
-    /// They do not: the numeric cascade alone.
+    /// Branches are not starts: only the numeric cascade runs.
     Unused,
 }
 
@@ -28,17 +28,17 @@ pub struct IkSettings {
     pub position_tolerance_m: f64,
     /// Largest accepted angle between the frame and the target \[rad\]; default 1e-6.
     pub orientation_tolerance_rad: f64,
-    /// Most DLS iterations from one start; default 60.
+    /// Greatest number of DLS iterations from one start; default 60.
     pub max_iterations: usize,
-    /// Most quadratic programs from one start; default 30.
+    /// Greatest number of quadratic programs from one start; default 30.
     pub max_qp_iterations: usize,
-    /// How strongly steps are damped; default `λ = 0.3 ‖e‖²`.
+    /// Damping of the steps; default `λ = 0.3 ‖e‖²`.
     pub damping: Damping,
     /// Largest joint step of one iteration \[rad\]; default 0.7.
     pub step_bound_rad: f64,
     /// Analytic branches as starts; default [`AnalyticStarts::Used`].
     pub analytic_starts: AnalyticStarts,
-    /// How many of the listed starts are tried after the seed; default 64, at most [`crate::ik::starts::LISTED`].
+    /// Number of listed starts tried after the seed; default 64, at most [`crate::ik::starts::LISTED`].
     pub listed_starts: usize,
     /// Random restarts after the listed ones; default none.
     pub random_restarts: Option<RandomRestarts>,
@@ -60,15 +60,15 @@ impl Default for IkSettings {
     }
 }
 
-/// A setting out of its range.
+/// Setting that is out of its range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("IK setting {name} must be {expected}; found {found}")]
 pub struct IkSettingsError {
-    /// The setting's name.
+    /// Name of the setting.
     pub name: &'static str,
-    /// Its range.
+    /// Allowed range.
     pub expected: &'static str,
-    /// The value found.
+    /// Value found.
     pub found: f64,
 }
 

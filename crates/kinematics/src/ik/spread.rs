@@ -1,4 +1,4 @@
-//! Many answers to one pose, on arms without a closed form: the branches that descents from many starts find.
+//! Several answers to one pose, on arms without a closed form: the branches that descents from many starts find.
 //!
 //! An arm whose base joint turns about a fixed axis looks the same from every direction: a configuration that reaches a pose
 //! reaches, with joint 1 turned by δ, that pose turned by δ about axis 1. So every start is first turned towards the target: joint
@@ -6,8 +6,7 @@
 //! nearest in pose after that turn are descended from (damped least squares). Each answer then serves as a start again with joint 1
 //! half a turn on, with its elbow mirrored and with its wrist flipped, until nothing new comes.
 //!
-//! Every answer is a configuration within the limits that meets both tolerances. That there is no further one is *not*
-//! known: what is not found may exist.
+//! Every answer is a configuration within the limits that meets both tolerances. It is *not* known that there are no further ones.
 
 use crate::ik::dls::{self, ALL_FREE, Task};
 use crate::ik::{IkError, IkSolver};
@@ -17,10 +16,10 @@ use crate::{AXES, JointVector, Pose};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
-/// Answers this near to each other, whole turns apart, are one answer \[rad\].
+/// Greatest difference of answers, up to whole turns, that count as one answer \[rad\].
 const SAME_RAD: f64 = 1e-3;
 
-/// At most so many answers: sixteen branches are the most that a six-axis arm of revolute joints has (Primrose 1986).
+/// Greatest number of answers: a six-axis arm of revolute joints has at most sixteen branches (Primrose 1986).
 const MOST_ANSWERS: usize = 16;
 
 /// Joints mirrored or turned to guess one branch from another: half a turn of joint 1, the elbow mirrored, the wrist flipped.
@@ -33,7 +32,7 @@ const MIRRORS: [Mirror; 3] = [
     ),
 ];
 
-/// What is added to each joint \[rad\], and which of them change their sign.
+/// Amounts added to the joints \[rad\], and the joints that change their sign.
 struct Mirror([Option<f64>; AXES], [bool; AXES]);
 
 impl Mirror {
@@ -46,10 +45,10 @@ impl Mirror {
 }
 
 impl IkSolver<'_> {
-    /// Configurations within the limits that bring the frame to `target` (`T_base_frame`), each on another branch of the arm as far
-    /// as that shows: no two agree up to whole turns. Of whole turns the nearest to `near` \[rad\] counts; the nearest
-    /// configuration to `near` comes first. `starts` of the listed starts are tried, at most [`crate::ik::starts::LISTED`]; see
-    /// the [module](self) text. An empty answer proves nothing.
+    /// Returns configurations within the limits that bring the frame to `target` (`T_base_frame`), each on another branch of the arm, as
+    /// far as that can be seen: no two agree up to whole turns. Among whole turns the nearest to `near` \[rad\] is taken; the configuration
+    /// nearest to `near` comes first. `starts` of the listed starts are tried, at most [`crate::ik::starts::LISTED`]; see the
+    /// [module](self) text. An empty answer proves nothing.
     ///
     /// # Errors
     /// [`IkError::Target`] and [`IkError::Seed`] for input that is not finite.
@@ -83,7 +82,7 @@ impl IkSolver<'_> {
         Ok(answers)
     }
 
-    /// The listed starts with joint 1 turned towards the target, the `count` nearest in pose, nearest first.
+    /// Returns the listed starts with joint 1 turned towards the target, the `count` nearest in pose, nearest first.
     fn facing(&self, target: &Rigid, count: usize) -> Vec<JointVector> {
         let axis = Axis::of(self);
         let entries = self.starts.entries().iter();
@@ -99,7 +98,7 @@ impl IkSolver<'_> {
     }
 }
 
-/// Axis 1: a point of it \[m\] and its direction, base frame.
+/// Axis 1: a point on it \[m\] and its direction, base frame.
 struct Axis {
     point: Vector3<f64>,
     along: Vector3<f64>,
@@ -114,7 +113,7 @@ impl Axis {
         }
     }
 
-    /// The turn about the axis that brings the direction of `from` \[m\] onto that of `to` \[m\], in (−π, π\] \[rad\].
+    /// Returns the turn about the axis that brings the direction of `from` \[m\] onto that of `to` \[m\], in (−π, π\] \[rad\].
     fn azimuth(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
         let across = |p: &Vector3<f64>| {
             let away = p - self.point;
@@ -124,7 +123,7 @@ impl Axis {
         atan2(self.along.dot(&a.cross(&b)), a.dot(&b))
     }
 
-    /// A pose turned about the axis.
+    /// Returns a pose turned about the axis.
     fn turned(&self, pose: &Rigid, by_rad: f64) -> Rigid {
         let (s, c) = sin_cos(by_rad);
         let cross = self.along.cross_matrix();
@@ -136,7 +135,7 @@ impl Axis {
     }
 }
 
-/// Answers so far.
+/// Answers found so far.
 struct Found<'a> {
     solver: &'a IkSolver<'a>,
     task: &'a Task<'a>,
@@ -145,7 +144,7 @@ struct Found<'a> {
 }
 
 impl Found<'_> {
-    /// The start with joint 1 turned towards the target.
+    /// Returns the start with joint 1 turned towards the target.
     fn turned(&self, start: &JointVector) -> JointVector {
         let axis = Axis::of(self.solver);
         let tip = self.solver.robot().fk(start).rigid(self.solver.frame()).translation;
@@ -172,7 +171,7 @@ impl Found<'_> {
         }
     }
 
-    /// Each joint in whole turns as near to `near` as the limits allow; clamped to them where no turn is within.
+    /// Returns each joint moved by whole turns as near to `near` as the limits allow; clamped to them if no turn is within.
     fn nearest_turns(&self, q: &JointVector) -> JointVector {
         let limits = self.solver.robot().limits();
         let nearest = JointVector::from_fn(|joint, _| {

@@ -14,7 +14,7 @@ pub const LISTED: usize = 256;
 
 const ROTATION_WEIGHT: f64 = 0.05;
 
-/// The list for one frame of one arm.
+/// List of starts for one frame of one arm.
 #[derive(Debug, Clone)]
 pub(crate) struct Starts {
     entries: Vec<(JointVector, Rigid)>,
@@ -31,12 +31,12 @@ impl Starts {
         }
     }
 
-    /// All of them, with the frame's pose at each.
+    /// Returns all starts, with the frame's pose at each.
     pub fn entries(&self) -> &[(JointVector, Rigid)] {
         &self.entries
     }
 
-    /// The `count` starts nearest to the target, nearest first (ties by position in the list).
+    /// Returns the `count` starts nearest to the target, nearest first (ties by position in the list).
     pub fn nearest(&self, target: &Rigid, count: usize) -> Vec<JointVector> {
         let ranked = self.entries.iter().map(|(q, pose)| (distance(pose, target), q));
         let mut ranked: Vec<_> = ranked.collect();
@@ -45,13 +45,13 @@ impl Starts {
     }
 }
 
-/// How far a pose is from the target: squared metres, and a weighted squared chord.
+/// Distance of a pose from the target: squared metres plus a weighted squared chord.
 pub(crate) fn distance(pose: &Rigid, target: &Rigid) -> f64 {
     let chord = (pose.rotation - target.rotation).norm_squared();
     (pose.translation - target.translation).norm_squared() + ROTATION_WEIGHT * chord
 }
 
-/// Point `k` of the sequence within the arm's limits \[rad\].
+/// Returns point `k` of the sequence within the arm's limits \[rad\].
 fn scaled(robot: &RobotModel, k: u32) -> JointVector {
     let shares = halton::point(k);
     JointVector::from_fn(|joint, _| {

@@ -24,7 +24,7 @@ const HIGH: [f64; 6] = [
     0.0319141942135886,
 ];
 
-/// π/2 as a double and the rest.
+/// π/2 as a double, and the remainder.
 const HALF_PI: (f64, f64) = (FRAC_PI_2, 6.123233995736766e-17);
 
 /// arccos x = β + f·arcsin s, as (β, rest of β, f), indexed by (|x| > 1/2) and, in steps of two, (x < 0).
@@ -69,7 +69,7 @@ pub fn asin(sine: f64) -> f64 {
     f64::from_bits(angle.to_bits() ^ (sine.to_bits() & SIGN))
 }
 
-/// Whether x > 1/2, the s ≤ 1/2 that stands for x, and arcsin s − s.
+/// Returns true for x > 1/2, the s ≤ 1/2 that stands for x, and arcsin s − s.
 #[inline(always)]
 fn first_third(x: f64) -> (bool, f64, f64) {
     let large = x > 0.5;
@@ -82,7 +82,7 @@ fn first_third(x: f64) -> (bool, f64, f64) {
     (large, s, s * (z * p))
 }
 
-/// β + f (s + bend): the large terms first, with what rounding takes from their sum (T. J. Dekker, 1971).
+/// Returns β + f (s + bend): the large terms first, with the rounding error of their sum (T. J. Dekker, 1971).
 #[inline(always)]
 fn combine((base, base_low, factor): (f64, f64, f64), s: f64, bend: f64) -> f64 {
     let turn = factor * s;

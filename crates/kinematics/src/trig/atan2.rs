@@ -9,15 +9,15 @@ use std::f64::consts::{FRAC_PI_2, PI};
 const SMALL: f64 = f64::from_bits((1023 - 900) << 52);
 const LARGE: f64 = f64::from_bits((1023 + 1000) << 52);
 
-/// 2²⁰⁰ and 2⁻¹⁰⁰: what brings a pair outside these bounds back between them.
+/// Factors 2²⁰⁰ and 2⁻¹⁰⁰ that bring a pair outside these bounds back between them.
 const UP: f64 = f64::from_bits((1023 + 200) << 52);
 const DOWN: f64 = f64::from_bits((1023 - 100) << 52);
 
-/// tan of the angles that the first octant is turned back by; five bits each, so that products with 48 bits are
-/// exact. The last three only fill the table to a power of two.
+/// Tangents of the angles that the first octant is turned back by; five bits each, so that products with 48 bits are exact. The last three
+/// only fill the table to a power of two.
 const TANGENTS: [f64; 8] = [0.0, 3.0 / 16.0, 11.0 / 32.0, 9.0 / 16.0, 27.0 / 32.0, 0.0, 0.0, 0.0];
 
-/// Ratios at which the next entry of [`TANGENTS`] takes over: what is left is a tangent of at most 1/8.
+/// Ratios from which on the next entry of [`TANGENTS`] is used: the rest is a tangent of at most 1/8.
 const STEPS: [f64; 4] = [0.125, 0.27, 0.45, 0.6953125];
 
 /// β ± arctan of [`TANGENTS`] as a double and the rest, for the four octant pairs: 0 +, π/2 −, π −, π/2 +.
@@ -122,7 +122,7 @@ fn ordinary(y: f64, x: f64) -> f64 {
     f64::from_bits(angle.to_bits() ^ (y.to_bits() & SIGN))
 }
 
-/// Not finite, both zero, or so large or small that the fast path would over- or underflow: brought into range.
+/// Slow path for a pair that is not finite, both zero, or so large or small that the fast path would over- or underflow.
 #[cold]
 #[inline(never)]
 fn extraordinary(y: f64, x: f64) -> f64 {

@@ -27,7 +27,7 @@ pub use crate::trig::atan2::atan2;
 pub use crate::trig::mul_add::{Fused, MulAdd, Separate};
 pub use crate::trig::sin_cos::{cos, sin, sin_cos, sin_cos_lanes};
 
-/// Natural logarithm: of 0 −∞, of negative numbers and NaN NaN. The `libm` crate's, below 1 ulp.
+/// Natural logarithm: −∞ for 0, NaN for negative numbers and NaN. From the `libm` crate, below 1 ulp.
 #[inline]
 #[must_use]
 pub fn ln(x: f64) -> f64 {

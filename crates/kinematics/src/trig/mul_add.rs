@@ -1,14 +1,14 @@
-//! a·b + c with one rounding or two: the one thing in which the portable and the vector kernels differ.
+//! a·b + c with one rounding or two: the only difference between the portable and the vector kernels.
 
-/// How a·b + c is rounded. A kernel that is generic over this is written once and gives the portable bits
-/// with [`Separate`] and the fastest ones with [`Fused`].
+/// Rounding of a·b + c. A kernel that is generic over this is written once; it gives the portable bits with [`Separate`] and the fastest
+/// code with [`Fused`].
 pub trait MulAdd {
-    /// a·b + c.
+    /// Returns a·b + c.
     fn mul_add(a: f64, b: f64, c: f64) -> f64;
 }
 
-/// Rounds the product, then the sum: the same bits on every machine and at every optimisation level, because
-/// Rust never contracts the two into one instruction.
+/// Rounds the product, then the sum: the same bits on every machine and at every optimisation level, because Rust never contracts the two
+/// into one instruction.
 #[derive(Debug, Clone, Copy)]
 pub struct Separate;
 
@@ -31,7 +31,7 @@ impl MulAdd for Fused {
     }
 }
 
-/// c₀ + c₁z + … + c₅z⁵, in pairs to shorten the chain of dependent operations (G. Estrin, 1960).
+/// Returns c₀ + c₁z + … + c₅z⁵, in pairs to shorten the chain of dependent operations (G. Estrin, 1960).
 #[inline(always)]
 pub(crate) fn polynomial<M: MulAdd>(c: &[f64; 6], z: f64, z2: f64) -> f64 {
     let pair = |k: usize| M::mul_add(z, c[k + 1], c[k]);

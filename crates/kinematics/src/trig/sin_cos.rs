@@ -2,11 +2,11 @@
 
 use crate::trig::mul_add::{MulAdd, Separate, polynomial};
 
-/// Largest |angle| \[rad\] that the fast path takes. Up to here a quadrant number has at most 16 bits, so that its
-/// products with [`HALF_PI_HIGH`] and [`HALF_PI_MIDDLE`] (37 bits each) are exact.
+/// Largest |angle| \[rad\] of the fast path. Up to here a quadrant number has at most 16 bits, so that its products with [`HALF_PI_HIGH`]
+/// and [`HALF_PI_MIDDLE`] (37 bits each) are exact.
 const BOUND: f64 = 1e5;
 
-/// 1.5 · 2⁵²: adding it rounds to the nearest integer, which then stands in the last bits of the sum.
+/// Constant 1.5 · 2⁵²: adding it rounds to the nearest integer, which is then in the last bits of the sum.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 // π/2 = HIGH + MIDDLE + LOW + 2⁻¹³⁰·0.7.
@@ -135,7 +135,7 @@ fn reduce<M: MulAdd>(angle: f64) -> (f64, f64, u64) {
     (r, (second - r) - low, rounded.to_bits())
 }
 
-/// What the fast path can't do: large angles by Payne and Hanek's method in the `libm` crate; not finite → NaN.
+/// Slow path: large angles by Payne and Hanek's method in the `libm` crate; NaN for angles that are not finite.
 #[cold]
 #[inline(never)]
 fn beyond_bound(angle: f64) -> (f64, f64) {
@@ -146,7 +146,7 @@ fn beyond_bound(angle: f64) -> (f64, f64) {
     }
 }
 
-/// Replaces the lanes that the fast path could not do.
+/// Replaces the lanes that the fast path cannot compute.
 #[cold]
 #[inline(never)]
 fn mend(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {

@@ -1,30 +1,30 @@
-//! Why a URDF was refused.
+//! Errors of reading a URDF.
 //!
-//! `urdf-rs` says what is wrong but not where: this finds the element.
+//! `urdf-rs` reports the error but not its position: this file finds the element.
 
 use crate::urdf::scan::line_at;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
-/// Why a URDF was refused; every variant says which element is at fault.
+/// Reason that a URDF was refused. Every variant states the element at fault.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[allow(missing_docs)] // the fields are named after what the message prints
 pub enum UrdfError {
-    /// Larger than any sensible description.
+    /// The text is larger than any sensible description.
     #[error("URDF is {bytes} bytes long; at most {limit} are read")]
     TooLarge { bytes: usize, limit: usize },
-    /// More links or collision elements than any sensible description.
+    /// There are more links or collision elements than in any sensible description.
     #[error("URDF has {found} <{kind}> elements; at most {limit} are read: leave out what does not belong to the arm")]
     TooMany {
         kind: &'static str,
         found: usize,
         limit: usize,
     },
-    /// Nested deeper than any sensible description.
+    /// The elements are nested deeper than in any sensible description.
     #[error("URDF nests elements {depth} deep at line {line}; at most {limit} are read")]
     TooDeep { depth: usize, limit: usize, line: usize },
-    /// Not well-formed XML.
+    /// The text is not well-formed XML.
     #[error("URDF is not well-formed XML at line {line}: {detail}")]
     Xml { line: usize, detail: String },
     /// The file ends in the middle.
@@ -33,13 +33,13 @@ pub enum UrdfError {
     /// The root element is not `<robot>`.
     #[error("URDF must have a <robot> root element; found {found}")]
     NotARobot { found: String },
-    /// An unexpanded xacro file.
+    /// The file is an unexpanded xacro file.
     #[error("line {line} has the xacro tag <{tag}>: expand the file first with `xacro FILE.xacro > FILE.urdf`")]
     Xacro { tag: String, line: usize },
-    /// An element that cannot be read (a bad number, a missing attribute, an unknown joint type).
+    /// An element cannot be read (a bad number, a missing attribute, an unknown joint type).
     #[error("URDF cannot be read at {at}: {detail}")]
     Syntax { at: String, detail: String },
-    /// A name that does not read as what it says.
+    /// A name has hidden characters.
     #[error("the {kind} named '{name}' (escaped) has a control or direction character in its name: rename it")]
     HiddenCharacter { kind: &'static str, name: String },
     /// Two links or two joints share a name.
@@ -59,40 +59,40 @@ pub enum UrdfError {
         first: String,
         second: String,
     },
-    /// Links that hang together in a ring.
+    /// Links form a ring.
     #[error("link '{link}' is part of a cycle of joints")]
     Cycle { link: String },
-    /// No link, or several links without a parent.
+    /// There is no link without a parent, or there are several.
     #[error("URDF must have exactly one root link; found {}", list(.found))]
     Roots { found: Vec<String> },
-    /// Another number of axes than six.
+    /// The number of axes is not six.
     #[error("six revolute or continuous joints are needed; found {}: {}", .found.len(), list(.found))]
     AxisCount { found: Vec<String> },
     /// The moving joints are not in series.
     #[error("the six axes must be in series; joint '{joint}' does not move what joint '{previous}' moves")]
     Branch { joint: String, previous: String },
-    /// A joint of a kind that this project does not handle.
+    /// A joint has a type that this project does not handle.
     #[error("joint '{joint}' is {kind}; only revolute, continuous and fixed joints are handled")]
     JointKind { joint: String, kind: String },
-    /// A joint that follows another one.
+    /// A joint mimics another one.
     #[error("joint '{joint}' mimics joint '{follows}'; independent axes are needed")]
     Mimic { joint: String, follows: String },
-    /// A zero or non-finite axis.
+    /// An axis is zero or not finite.
     #[error("joint '{joint}': axis must be a finite vector other than zero; found {found:?}")]
     Axis { joint: String, found: [f64; 3] },
-    /// No `<limit>` element (or all zeros, which reads the same).
+    /// A joint has no `<limit>` element (or all zeros, which reads the same).
     #[error("joint '{joint}' has no <limit> element (or one of zeros only): give lower, upper and velocity")]
     MissingLimit { joint: String },
-    /// A continuous joint without a `<limit>` element (or all zeros, which reads the same).
+    /// A continuous joint has no `<limit>` element (or all zeros, which reads the same).
     #[error(
         "continuous joint '{joint}' has no <limit> element (or one of zeros only): give velocity, as motions are checked \
          against every joint's speed limit; its position needs none"
     )]
     MissingVelocity { joint: String },
-    /// Reversed or empty limits.
+    /// Limits are reversed or empty.
     #[error("joint '{joint}': lower limit {lower} rad must be below upper limit {upper} rad")]
     LimitOrder { joint: String, lower: f64, upper: f64 },
-    /// Limits too large to be radians.
+    /// Limits are too large to be radians.
     #[error("joint '{joint}': limits {lower} … {upper} exceed ±{limit_rad} rad; URDF states radians, not degrees")]
     LimitSize {
         joint: String,
@@ -100,16 +100,16 @@ pub enum UrdfError {
         upper: f64,
         limit_rad: f64,
     },
-    /// A speed limit that is not positive and finite.
+    /// A speed limit is not positive and finite.
     #[error("joint '{joint}': speed limit must be positive and finite [rad/s]; found {found}")]
     Velocity { joint: String, found: f64 },
-    /// A negative torque limit.
+    /// A torque limit is negative.
     #[error("joint '{joint}': effort must not be negative [N·m]; found {found} (0 means unknown)")]
     Effort { joint: String, found: f64 },
-    /// NaN or infinity.
+    /// A number is NaN or infinite.
     #[error("{at}: {what} must be finite; found {found}")]
     NotFinite { at: String, what: String, found: String },
-    /// A length too large to be metres.
+    /// A length is too large to be in metres.
     #[error("{at}: {what} {found} exceeds {limit_m} m; URDF states metres")]
     TooLong {
         at: String,
@@ -117,29 +117,29 @@ pub enum UrdfError {
         found: String,
         limit_m: f64,
     },
-    /// A negative mass.
+    /// A mass is negative.
     #[error("link '{link}': mass must not be negative [kg]; found {found}")]
     Mass { link: String, found: f64 },
-    /// A collision shape with a size that is not positive.
+    /// A collision shape has a size that is not positive.
     #[error("link '{link}': {shape} needs positive sizes; found {found}")]
     ShapeSize {
         link: String,
         shape: &'static str,
         found: String,
     },
-    /// A mesh that cannot be found.
+    /// A mesh cannot be found.
     #[error("link '{link}': mesh '{file}' not found; looked in {}; give its package's folder as package path", list(.searched))]
     MeshNotFound {
         link: String,
         file: String,
         searched: Vec<String>,
     },
-    /// A mesh that cannot be read.
+    /// A mesh cannot be read.
     #[error("link '{link}': mesh '{file}' cannot be read: {detail}")]
     Mesh { link: String, file: String, detail: String },
 }
 
-/// Most names that a message lists.
+/// Greatest number of names that a message lists.
 const LISTED: usize = 20;
 
 fn list(names: &[String]) -> String {
@@ -150,7 +150,7 @@ fn list(names: &[String]) -> String {
     }
 }
 
-/// The first child of `<robot>` that `urdf-rs` does not read on its own, as "joint 'NAME' (line N)".
+/// Returns the first child of `<robot>` that `urdf-rs` cannot read on its own, as "joint 'NAME' (line N)".
 pub(crate) fn find(text: &str) -> Option<String> {
     let mut reader = Reader::from_str(text);
     let (mut root, mut child) = ("", None);

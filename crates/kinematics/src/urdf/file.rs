@@ -1,41 +1,41 @@
-//! Input files: regular ones only (a pipe or device may never end), read up to a limit whatever their stated length.
+//! Input files: regular ones only (a pipe or device may never end), read up to a limit even if their stated length is smaller.
 
 use std::fs::{File, metadata};
 use std::io::Read;
 use std::path::Path;
 
-/// Why an input file was not read.
+/// Reason that an input file was not read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
-    /// It does not exist, or the system refuses it.
+    /// The file does not exist, or the system refuses it.
     #[error("{detail}")]
     System {
-        /// The system's words.
+        /// Message of the system.
         detail: String,
-        /// What kind of fault it is.
+        /// Kind of the system's error.
         kind: std::io::ErrorKind,
-        /// The system's number for it, where it has one.
+        /// Number of the system's error, if it has one.
         code: Option<i32>,
     },
-    /// A folder, pipe, socket or device.
+    /// The path is a folder, pipe, socket or device.
     #[error("not a regular file, but a folder, pipe, socket or device")]
     NotRegular,
-    /// Longer than anything sensible.
+    /// The file is too long.
     #[error("longer than {limit} bytes, the most that are read")]
     TooLong {
-        /// The most that are read \[bytes\].
+        /// Greatest length \[bytes\].
         limit: u64,
     },
-    /// Bytes that are no text.
+    /// The file is not UTF-8 text.
     #[error("not UTF-8 text: byte {position} is at fault")]
     NotText {
-        /// Offset of the first byte at fault.
+        /// Offset of the first invalid byte.
         position: usize,
     },
 }
 
-/// The bytes of a regular file of at most `limit` bytes.
+/// Reads the bytes of a regular file of at most `limit` bytes.
 ///
 /// # Errors
 /// [`FileError`], without the file's name.
@@ -55,7 +55,7 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     Ok(bytes)
 }
 
-/// The text of a regular file of at most `limit` bytes.
+/// Reads the text of a regular file of at most `limit` bytes.
 ///
 /// # Errors
 /// [`FileError`], without the file's name.
@@ -63,7 +63,7 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
     text(read_bytes(path, limit)?)
 }
 
-/// The text that bytes are.
+/// Converts bytes to text.
 pub(crate) fn text(bytes: Vec<u8>) -> Result<String, FileError> {
     String::from_utf8(bytes).map_err(|e| FileError::NotText {
         position: e.utf8_error().valid_up_to(),

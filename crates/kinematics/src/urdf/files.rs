@@ -1,14 +1,14 @@
-//! Where input files come from: the disk, or what was read of it before, for whoever has none of them.
+//! Source of input files: the disk, or files that were read from it before, for programs without a disk.
 
 use crate::urdf::file::{self, FileError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Files by their names, as they were read.
+/// Files by name, as they were read.
 pub type HeldFiles = BTreeMap<PathBuf, Arc<[u8]>>;
 
-/// Where input files come from. It decides nothing about what is stated, and all of them are equal.
+/// Source of input files. It has no effect on the contents, so all sources compare as equal.
 #[derive(Debug, Clone, Default)]
 pub struct Files(From);
 
@@ -16,7 +16,7 @@ pub struct Files(From);
 enum From {
     #[default]
     Disk,
-    /// The disk, and what is read of it is kept; what could not be read, too.
+    /// The disk; everything that is read is kept, and so is the first file that could not be read.
     Recorded(Arc<Mutex<Record>>),
     Held(Arc<HeldFiles>),
 }
@@ -36,22 +36,22 @@ impl PartialEq for Files {
 impl Eq for Files {}
 
 impl Files {
-    /// The disk, of which everything that is read is kept: [`recorded`](Self::recorded) gives it.
+    /// Returns the disk as a source that keeps everything that is read; [`recorded`](Self::recorded) returns it.
     #[must_use]
     pub fn recording() -> Self {
         Self(From::Recorded(Arc::default()))
     }
 
-    /// Files that were read before, under the names that they were read by; no others are there.
+    /// Returns files that were read before, under the same names, as a source; no other files exist in it.
     #[must_use]
     pub fn held(files: Arc<HeldFiles>) -> Self {
         Self(From::Held(files))
     }
 
-    /// What was read so far, where it is recorded.
+    /// Returns the files that were read so far, if this source records them.
     ///
     /// # Errors
-    /// The first file that is there and could not be read, and why.
+    /// The first file that exists and could not be read, with the reason.
     pub fn recorded(&self) -> Result<HeldFiles, (PathBuf, FileError)> {
         let From::Recorded(record) = &self.0 else {
             return Ok(HeldFiles::new());
@@ -63,7 +63,7 @@ impl Files {
         }
     }
 
-    /// Whether there is such a regular file.
+    /// True if there is such a regular file.
     #[must_use]
     pub fn is_file(&self, path: &Path) -> bool {
         match &self.0 {
@@ -81,7 +81,7 @@ impl Files {
         }
     }
 
-    /// As [`file::read_bytes`].
+    /// Same as [`file::read_bytes`].
     ///
     /// # Errors
     /// [`FileError`], without the file's name.
@@ -109,7 +109,7 @@ impl Files {
         }
     }
 
-    /// As [`file::read_text`].
+    /// Same as [`file::read_text`].
     ///
     /// # Errors
     /// [`FileError`], without the file's name.

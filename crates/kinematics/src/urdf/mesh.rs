@@ -1,8 +1,8 @@
-//! Meshes: found through package folders; those that can touch are read as vertices (their convex hull is what counts), those that
-//! are looked at, or whose surface counts, as triangles.
+//! Meshes, found through package folders. Collision meshes are read as vertices (their convex hull counts), visuals and meshes whose
+//! surface counts as triangles.
 //!
-//! Vertices of STL and OBJ files. Their convex hull is what counts, so faces, normals and materials are not
-//! read; what could make the hull smaller than the part (a cut file, a wrong count) is refused.
+//! Vertices of STL and OBJ files. Their convex hull counts, so faces, normals and materials are not read; errors that could make the hull
+//! smaller than the part (a cut file, a wrong count) are refused.
 
 use crate::geometry::Triangle;
 use crate::urdf::error::UrdfError;
@@ -13,13 +13,13 @@ use nalgebra::Point3;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Longest mesh file that is read \[bytes\].
+/// Greatest length of a mesh file \[bytes\].
 const MAX_BYTES: u64 = 64 << 20;
 
-/// Most triangles of a mesh whose surface counts.
+/// Greatest number of triangles of a mesh whose surface counts.
 const MAX_SOLID: usize = 200_000;
 
-/// Where mesh files are looked for.
+/// Folders in which mesh files are looked for.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct MeshSource {
     package_paths: Vec<PathBuf>,
@@ -28,7 +28,7 @@ pub struct MeshSource {
 }
 
 impl MeshSource {
-    /// No folder at all: descriptions without meshes still load.
+    /// Returns a source without folders: descriptions without meshes still load.
     #[must_use]
     pub fn none() -> Self {
         Self::default()
@@ -45,7 +45,7 @@ impl MeshSource {
         }
     }
 
-    /// The same, with files that come from elsewhere than the disk.
+    /// Returns the source with files from elsewhere than the disk.
     #[must_use]
     pub fn reading(self, files: &Files) -> Self {
         Self {
@@ -54,7 +54,7 @@ impl MeshSource {
         }
     }
 
-    /// The scaled vertices of a mesh file, each once.
+    /// Returns the scaled vertices of a mesh file, each once \[m\].
     pub(crate) fn vertices(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<Vec<Point3<f64>>, UrdfError> {
         let file = self.read(link, name, scale)?;
         let points = match file.format()? {
@@ -69,7 +69,7 @@ impl MeshSource {
         Ok(points)
     }
 
-    /// The scaled triangles of a mesh file, three corners each; no more than `most`.
+    /// Returns the scaled triangles of a mesh file, three corners each \[m\], no more than `most`.
     pub(crate) fn triangles(
         &self,
         link: &str,
@@ -98,11 +98,11 @@ impl MeshSource {
         Ok(corners.chunks_exact(3).map(triangle).collect())
     }
 
-    /// The scaled triangles of a mesh file \[m\], three corners each, in the order in which the file has them: those of a mirrored part
-    /// are seen from inside.
+    /// Returns the scaled triangles of a mesh file \[m\], three corners each, in the order of the file: those of a mirrored part are seen
+    /// from inside.
     ///
     /// # Errors
-    /// [`MeshError`]: the file is not there, not STL or OBJ, damaged, has no triangles or too many, or coordinates that are no lengths.
+    /// [`MeshError`]: the file is not found, not STL or OBJ, damaged, has no triangles or too many, or coordinates that are not lengths.
     pub fn solid(&self, name: &str, scale: [f64; 3]) -> Result<Vec<[Point3<f64>; 3]>, MeshError> {
         let file = self.open(name, scale)?;
         let corners = match file.format()? {
@@ -119,7 +119,7 @@ impl MeshSource {
         Ok(corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect())
     }
 
-    /// A mesh file of a link, with its scale.
+    /// Reads a mesh file of a link, with its scale.
     fn read(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<OfLink, UrdfError> {
         let of = |error: MeshError| error.of(link);
         let file = self.open(name, scale).map_err(of)?;
@@ -127,7 +127,7 @@ impl MeshSource {
         Ok(OfLink { link, file })
     }
 
-    /// A mesh file, with its scale.
+    /// Reads a mesh file, with its scale.
     fn open(&self, name: &str, scale: [f64; 3]) -> Result<MeshFile, MeshError> {
         let path = self.find(name)?;
         let mut file = MeshFile {
@@ -138,7 +138,7 @@ impl MeshSource {
         if !scale.iter().all(|s| s.is_finite() && *s != 0.0) {
             return Err(file.wrong(format!("its scale {scale:?} must be finite and not zero")));
         }
-        // What cannot be read anyway is not read at all.
+        // A file that cannot be used is not read at all.
         file.format()?;
         file.bytes = self
             .files
@@ -176,31 +176,31 @@ impl MeshSource {
     }
 }
 
-/// Formats of meshes. Collada is none of them: the readers that there are panic at a wrong index, and put parts elsewhere than the
-/// file's nodes say.
+/// Formats of meshes. Collada is not supported: the available readers panic at a wrong index, and put parts elsewhere than the file's nodes
+/// say.
 enum Format {
     Stl,
     Obj,
 }
 
-/// Why a mesh was not read.
+/// Reason that a mesh was not read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshError {
-    /// It is nowhere.
+    /// The file was not found.
     #[error("mesh '{file}' was not found; looked for {}", searched_in(.searched))]
     NotFound {
-        /// As it was asked for.
+        /// Name as it was asked for.
         file: String,
-        /// Where it was looked for.
+        /// Places where it was looked for.
         searched: Vec<String>,
     },
-    /// What the file holds is no mesh.
+    /// The contents of the file are not a valid mesh.
     #[error("mesh '{file}': {detail}")]
     Wrong {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Why.
+        /// Reason.
         detail: String,
     },
 }
@@ -222,14 +222,14 @@ fn searched_in(places: &[String]) -> String {
     }
 }
 
-/// A mesh file that was found.
+/// Mesh file that was found.
 struct MeshFile {
     path: PathBuf,
     scale: [f64; 3],
     bytes: Vec<u8>,
 }
 
-/// A mesh file of a link.
+/// Mesh file of a link.
 struct OfLink {
     link: String,
     file: MeshFile,
@@ -294,15 +294,15 @@ impl MeshFile {
     }
 }
 
-/// The vertices, or what is wrong with the file.
+/// Vertices, or an error in the file.
 type Vertices = Result<Vec<Point3<f64>>, String>;
 
-/// Vertices of a binary or ASCII STL file, each once.
+/// Reads the vertices of a binary or ASCII STL file, each once.
 pub(crate) fn stl(bytes: &[u8]) -> Vertices {
     Ok(distinct(triangles::stl(bytes)?.into_iter()))
 }
 
-/// Vertices of an OBJ file, used by a face or not, each once.
+/// Reads the vertices of an OBJ file, used by a face or not, each once.
 pub(crate) fn obj(bytes: &[u8]) -> Vertices {
     let text = String::from_utf8_lossy(bytes);
     let vertex = |(index, line): (usize, &str)| {

@@ -33,14 +33,14 @@ use crate::urdf::tree::{Tree, finite, pose, rigid};
 use crate::words::message_in_words;
 use nalgebra::{Matrix3, Vector3};
 
-/// Most links that are read; real descriptions need fewer than 50.
+/// Greatest number of links that are read; real descriptions need fewer than 50.
 const MAX_LINKS: usize = 1000;
 
-/// Most collision elements that are read, all links together: every pair of them may need a check.
+/// Greatest number of collision elements that are read, all links together: every pair of them may need a check.
 const MAX_COLLISIONS: usize = 500;
 
 impl RobotModel {
-    /// A model from expanded URDF text; `meshes` says where `package://` and relative mesh files are.
+    /// Builds a model from expanded URDF text. `meshes` finds `package://` and relative mesh files.
     ///
     /// # Errors
     /// [`UrdfError`], naming the joint or link at fault.
@@ -85,8 +85,7 @@ fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
     })
 }
 
-/// SHA-256 of the text, followed by the vertices of its collision meshes, as bytes of little-endian doubles in metres, where
-/// there are any.
+/// Returns the SHA-256 of the text, followed by the vertices of its collision meshes, if any, as bytes of little-endian doubles in metres.
 fn fingerprint(text: &str, links: &[Link]) -> String {
     let mut bytes = text.as_bytes().to_vec();
     for primitive in links.iter().flat_map(|link| &link.collision) {
@@ -98,7 +97,7 @@ fn fingerprint(text: &str, links: &[Link]) -> String {
     sha256_hex(&bytes)
 }
 
-/// Refuses descriptions so large that the checks of every pair would not end.
+/// Refuses descriptions so large that the checks of every pair would take too long.
 fn sizes(robot: &urdf_rs::Robot) -> Result<(), UrdfError> {
     let collisions = robot.links.iter().map(|link| link.collision.len()).sum();
     for (kind, found, limit) in [
@@ -179,14 +178,14 @@ fn unit_axis(joint: &urdf_rs::Joint) -> Result<Vector3<f64>, UrdfError> {
     })
 }
 
-/// A rotation whose third column is the given unit vector; exact (a permutation) for coordinate axes.
+/// Returns a rotation whose third column is the given unit vector; exact (a permutation) for coordinate axes.
 fn frame_with_z_along(z: &Vector3<f64>) -> Matrix3<f64> {
     let helper = if z.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
     let x = (helper - z * z.dot(&helper)).normalize();
     Matrix3::from_columns(&[x, z.cross(&x), *z])
 }
 
-/// Mass properties of a link; `None` where the file states none (`urdf-rs` then reports zeros).
+/// Returns the mass properties of a link; `None` if the file states none (`urdf-rs` then reports zeros).
 fn inertial(link: &urdf_rs::Link) -> Result<Option<Inertial>, UrdfError> {
     let at = format!("link '{}'", link.name);
     let urdf_rs::Inertial { origin, mass, inertia } = &link.inertial;

@@ -7,11 +7,11 @@ use quick_xml::events::attributes::Attribute;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
-/// Longest text that is read \[bytes\].
+/// Greatest length of a text \[bytes\].
 pub const MAX_BYTES: usize = 16 << 20;
 /// Deepest nesting that is read; real descriptions need fewer than 10 levels.
 const MAX_DEPTH: usize = 64;
-/// Elements whose attributes below are vectors; `urdf-rs` skips what is not a number in them.
+/// Elements with vector attributes, and below those attributes. `urdf-rs` skips words that are not numbers in them.
 const WITH_VECTORS: [&str; 4] = ["origin", "axis", "box", "mesh"];
 const VECTORS: [&str; 4] = ["xyz", "rpy", "size", "scale"];
 
@@ -36,16 +36,16 @@ pub(crate) fn check(text: &str) -> Result<(), UrdfError> {
     }
 }
 
-/// The line of a byte position, counted from 1.
+/// Line of a byte position, counted from 1.
 pub(crate) fn line_at(text: &str, position: u64) -> usize {
     let end = usize::try_from(position).unwrap_or(text.len()).min(text.len());
     1 + text.as_bytes()[..end].iter().filter(|b| **b == b'\n').count()
 }
 
-/// What has been seen so far.
+/// State of the scan.
 struct Scan<'a> {
     text: &'a str,
-    /// Bytes read.
+    /// Number of bytes read.
     position: u64,
     /// Names of the elements that are not closed yet.
     open: Vec<String>,
@@ -62,7 +62,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Counted only when an error needs it: counting at every tag would take quadratic time.
+    /// Line of the current position. It is counted only when an error needs it: counting at every tag would take quadratic time.
     fn line(&self) -> usize {
         line_at(self.text, self.position)
     }
@@ -152,7 +152,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// A parser error: a syntax error means that the text ended inside some markup, but for a wrong `<!…`.
+    /// Converts a parser error: a syntax error means that the text ended inside some markup, except for a wrong `<!…`.
     fn broken(mut self, error: &quick_xml::Error) -> UrdfError {
         let cut = match error {
             quick_xml::Error::Syntax(SyntaxError::InvalidBangMarkup) => self.text.ends_with("<!"),
@@ -180,7 +180,7 @@ impl<'a> Scan<'a> {
     }
 }
 
-/// A message about attributes without its count of bytes: the line is told.
+/// Returns a message about attributes without its byte position, as the line is stated.
 fn without_position(message: &str) -> &str {
     message
         .split_once(": ")

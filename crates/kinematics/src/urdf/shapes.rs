@@ -1,10 +1,10 @@
-//! Geometry elements: boxes, cylinders, capsules and spheres, all of some size, and meshes, which are files.
+//! Geometry elements: boxes, cylinders, capsules and spheres of positive size, and meshes, which are files.
 //!
-//! URDF knows no capsule; tools write one as a cylinder followed by the two spheres that close its ends.
+//! URDF has no capsule; tools write one as a cylinder followed by the two spheres that close its ends.
 //!
-//! Collision elements of a link as shapes.
+//! Collision elements of a link are read as shapes.
 //!
-//! What links look like. It decides nothing, so that a visual which cannot be read is left out, by name, and the arm loads all the same.
+//! Visuals of links have no effect on results. A visual that cannot be read is left out, by name, and the arm loads all the same.
 
 use crate::geometry::{Primitive, Shape, Visual, VisualFinding, VisualShape};
 use crate::urdf::error::UrdfError;
@@ -14,11 +14,11 @@ use nalgebra::Point3;
 use std::collections::BTreeMap;
 use urdf_rs::Geometry;
 
-/// What a geometry element states.
+/// Contents of a geometry element.
 pub(crate) enum Stated<'a> {
-    /// A solid.
+    /// Solid.
     Solid(Shape),
-    /// A mesh: its file and its scale.
+    /// Mesh: its file and its scale.
     Mesh(&'a str, [f64; 3]),
 }
 
@@ -70,7 +70,7 @@ fn positive(link: &str, shape: &'static str, sizes: &[f64]) -> Result<(), UrdfEr
     })
 }
 
-/// How far a sphere's centre or radius may be off the cylinder's end \[m\].
+/// Greatest deviation of a sphere's centre or radius from the cylinder's end \[m\].
 const TOLERANCE_M: f64 = 1e-9;
 
 /// Replaces each run of cylinder, sphere, sphere that forms a capsule by that capsule.
@@ -116,7 +116,7 @@ fn capsule(cylinder: &Primitive, ends: &[Primitive]) -> Option<Primitive> {
     })
 }
 
-/// All collision shapes of a link, in its frame.
+/// Returns all collision shapes of a link, in its frame.
 pub(crate) fn primitives(link: &urdf_rs::Link, meshes: &MeshSource) -> Result<Vec<Primitive>, UrdfError> {
     let at = format!("link '{}'", link.name);
     let convert = |element: &urdf_rs::Collision| {
@@ -142,30 +142,30 @@ fn shape(geometry: &Geometry, link: &str, meshes: &MeshSource) -> Result<Shape, 
     }
 }
 
-/// Most visuals that are read, all links together.
+/// Greatest number of visuals that are read, all links together.
 pub const MAX_VISUALS: usize = 1000;
 
-/// Most triangles of visual meshes that are read, all links together.
+/// Greatest number of triangles of visual meshes that are read, all links together.
 pub const MAX_TRIANGLES: usize = 100_000;
 
-/// Why a visual is left out.
+/// Reason that a visual is left out.
 #[derive(Debug, thiserror::Error)]
 enum VisualError {
-    /// It is stated wrongly, or its mesh cannot be read.
+    /// The element is invalid, or its mesh cannot be read.
     #[error(transparent)]
     Stated(#[from] UrdfError),
-    /// There are more than anybody can look at.
+    /// There are too many visuals.
     #[error("it comes after {MAX_VISUALS} others, the most that are read")]
     TooMany,
 }
 
-/// What is needed to read the visuals of a description one link after the other.
+/// State for reading the visuals of a description one link after the other.
 pub(crate) struct Looks<'a> {
     meshes: &'a MeshSource,
     colours: BTreeMap<&'a str, [f64; 4]>,
     visuals_left: usize,
     triangles_left: usize,
-    /// What was left out so far.
+    /// Visuals left out so far.
     pub findings: Vec<VisualFinding>,
 }
 
@@ -180,7 +180,7 @@ impl<'a> Looks<'a> {
         }
     }
 
-    /// The visuals of a link, but for those that cannot be read.
+    /// Returns the visuals of a link, without those that cannot be read.
     pub fn of(&mut self, link: &urdf_rs::Link) -> Vec<Visual> {
         let mut visuals = Vec::new();
         for (index, element) in link.visual.iter().enumerate() {
@@ -213,13 +213,13 @@ impl<'a> Looks<'a> {
         })
     }
 
-    /// The colour of a material: its own, or that of its name.
+    /// Returns the colour of a material: its own, or that of its name.
     fn colour(&self, material: &urdf_rs::Material) -> Option<[f64; 4]> {
         rgba(material).or_else(|| self.colours.get(material.name.as_str()).copied())
     }
 }
 
-/// The note that the visual of an index is left out.
+/// Returns the note that the visual of an index is left out.
 fn finding(link: &urdf_rs::Link, index: usize, why: &VisualError) -> VisualFinding {
     let named = link.visual.get(index).and_then(|visual| visual.name.as_ref());
     let why = why.to_string();
@@ -234,7 +234,7 @@ fn finding(link: &urdf_rs::Link, index: usize, why: &VisualError) -> VisualFindi
     }
 }
 
-/// Colours by name: those stated for the whole description, then those stated in a link, the first of each name.
+/// Returns the colours by name: those stated for the whole description, then those stated in a link, the first of each name.
 fn colours(robot: &urdf_rs::Robot) -> BTreeMap<&str, [f64; 4]> {
     let in_links = robot.links.iter().flat_map(|link| &link.visual);
     let in_links = in_links.filter_map(|visual| visual.material.as_ref());
@@ -247,7 +247,7 @@ fn colours(robot: &urdf_rs::Robot) -> BTreeMap<&str, [f64; 4]> {
     all
 }
 
-/// The colour that a material states itself, each share between 0 and 1; none where one is no number.
+/// Returns the colour stated in a material, each share between 0 and 1; `None` if one is not a number.
 fn rgba(material: &urdf_rs::Material) -> Option<[f64; 4]> {
     let shares = material.color.as_ref()?.rgba.0;
     let finite = shares.iter().all(|share| share.is_finite());

@@ -1,4 +1,4 @@
-//! The structure of a URDF: one root, no cycles, six axes in series.
+//! Structure of a URDF: one root, no cycles, six axes in series.
 //!
 //! The `<limit>` elements of the six axes.
 //!
@@ -12,7 +12,7 @@ use crate::{AXES, JointVector, Pose};
 use std::collections::{BTreeMap, BTreeSet};
 use urdf_rs::{JointType, Robot};
 
-/// A checked URDF tree: links from the root outwards, and the six axes from the base to the tip.
+/// Checked URDF tree: links from the root outwards, and the six axes from the base to the tip.
 pub(crate) struct Tree<'a> {
     /// Every link, a parent always before its children.
     pub links: Vec<&'a urdf_rs::Link>,
@@ -40,18 +40,18 @@ impl<'a> Tree<'a> {
         })
     }
 
-    /// Index in `links` of a link that the tree is known to hold.
+    /// Returns the index in `links` of a link that the tree is known to hold.
     pub(crate) fn position(&self, link: &str) -> usize {
         self.positions[link]
     }
 
-    /// The joint whose child is `link`, which is known not to be the root.
+    /// Returns the joint whose child is `link`, which is known not to be the root.
     pub(crate) fn joint_above(&self, link: &str) -> &'a urdf_rs::Joint {
         self.above[link]
     }
 }
 
-/// Refuses names that stand there twice, and names that do not read as what they say.
+/// Refuses repeated names, and names with hidden characters.
 fn check_names<'a>(kind: &'static str, names: impl Iterator<Item = &'a str>) -> Result<(), UrdfError> {
     let mut seen = BTreeSet::new();
     for name in names {
@@ -83,7 +83,7 @@ fn check_kind(joint: &urdf_rs::Joint) -> Result<(), UrdfError> {
     }
 }
 
-/// For every link but the root, the joint above it.
+/// Returns, for every link but the root, the joint above it.
 fn joints_above(robot: &Robot) -> Result<BTreeMap<&str, &urdf_rs::Joint>, UrdfError> {
     let known: BTreeSet<_> = robot.links.iter().map(|l| l.name.as_str()).collect();
     let mut above: BTreeMap<&str, &urdf_rs::Joint> = BTreeMap::new();
@@ -140,7 +140,7 @@ fn links_from_root<'a>(
     }
 }
 
-/// The cycle that `link`, which no root leads to, is in or hangs below: upwards, the first link that repeats is in it.
+/// Returns the cycle that `link`, which no root leads to, is in or below. Going upwards, the first link that repeats is in the cycle.
 fn cycle<'a>(mut link: &'a str, above: &BTreeMap<&str, &'a urdf_rs::Joint>) -> UrdfError {
     let mut seen = BTreeSet::new();
     while seen.insert(link) {
@@ -181,10 +181,10 @@ fn nearest_axis_above<'a>(mut link: &'a str, above: &BTreeMap<&str, &'a urdf_rs:
     }
 }
 
-/// Largest position limit that is believed \[rad\]; beyond it the file is probably in degrees.
+/// Greatest position limit that is accepted \[rad\]; a larger one is probably in degrees.
 const LARGEST_POSITION_LIMIT_RAD: f64 = 100.0;
 
-/// Limits of the axes in series; a continuous joint has none on its position, whatever the file says.
+/// Returns the limits of the axes in series; the position of a continuous joint has none, even if the file states some.
 pub(crate) fn limits(tree: &Tree<'_>) -> Result<JointLimits, UrdfError> {
     let mut limits = JointLimits {
         lower: JointVector::repeat(f64::NEG_INFINITY),
@@ -245,7 +245,7 @@ fn velocity(joint: &urdf_rs::Joint) -> Result<f64, UrdfError> {
     Err(UrdfError::Velocity { joint, found })
 }
 
-/// Zero means "unknown" by custom, infinity means "no limit" since URDF 1.2: neither is a limit.
+/// Returns the effort limit. Zero means "unknown" by custom, infinity means "no limit" since URDF 1.2: neither is a limit.
 fn effort(joint: &urdf_rs::Joint) -> Result<Option<f64>, UrdfError> {
     let found = joint.limit.effort;
     if found >= 0.0 {
@@ -255,7 +255,7 @@ fn effort(joint: &urdf_rs::Joint) -> Result<Option<f64>, UrdfError> {
     Err(UrdfError::Effort { joint, found })
 }
 
-/// Largest length that is believed \[m\]; beyond it the file is probably in millimetres.
+/// Greatest length that is accepted \[m\]; a larger one is probably in millimetres.
 pub(crate) const LARGEST_LENGTH_M: f64 = 100.0;
 
 pub(crate) fn rigid(origin: &urdf_rs::Pose, at: &str) -> Result<Rigid, UrdfError> {

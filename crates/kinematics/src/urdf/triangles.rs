@@ -1,9 +1,9 @@
-//! Triangles of STL and OBJ files, as corners in a row. What could leave a part out (a cut file, a wrong count, an index of no vertex) is
-//! refused; normals, textures and materials are not read.
+//! Triangles of STL and OBJ files, as corners in a row. Errors that could leave a part out (a cut file, a wrong count, an index of no
+//! vertex) are refused; normals, textures and materials are not read.
 
 use nalgebra::Point3;
 
-/// Corners, three a triangle, or what is wrong with the file.
+/// Corners, three per triangle, or the error in the file.
 type Corners = Result<Vec<Point3<f64>>, String>;
 
 /// Header, count, then 50 bytes a triangle.
@@ -11,7 +11,7 @@ const BINARY_HEADER: usize = 80;
 const BINARY_START: usize = 84;
 const BINARY_TRIANGLE: usize = 50;
 
-/// Corners of the triangles of a binary or ASCII STL file, three each.
+/// Reads the corners of the triangles of a binary or ASCII STL file, three each.
 ///
 /// Some programs begin the header of a binary file with `solid`, like an ASCII file: the length decides.
 pub(crate) fn stl(bytes: &[u8]) -> Corners {
@@ -58,8 +58,8 @@ fn ascii_stl(text: &str) -> Corners {
     Ok(points)
 }
 
-/// Corners of the faces of an OBJ file, three a triangle; a face of more corners is a fan about its first one. Reading ends where there
-/// are more than `most` triangles.
+/// Reads the corners of the faces of an OBJ file, three per triangle; a face with more corners is a fan about its first one. Reading stops
+/// once there are more than `most` triangles.
 pub(crate) fn obj(bytes: &[u8], most: usize) -> Corners {
     let text = String::from_utf8_lossy(bytes);
     let mut vertices = Vec::new();
@@ -88,7 +88,8 @@ pub(crate) fn obj(bytes: &[u8], most: usize) -> Corners {
     Ok(corners)
 }
 
-/// The vertex of a face's corner: its index from 1, or from the last one backwards as a negative number; more may follow behind a slash.
+/// Returns the vertex of a face's corner, given by its index from 1, or from the last one backwards as a negative number; more may follow
+/// after a slash.
 fn vertex(word: &str, vertices: &[Point3<f64>], line: usize) -> Result<Point3<f64>, String> {
     let index = word.split('/').next().and_then(|index| index.parse::<i64>().ok());
     let from_1 = match index {
@@ -102,7 +103,7 @@ fn vertex(word: &str, vertices: &[Point3<f64>], line: usize) -> Result<Point3<f6
     })
 }
 
-/// Three numbers of a line, counted from 0; more may follow (OBJ has weights and colours).
+/// Reads three numbers of a line, counted from 0; more may follow (OBJ has weights and colours).
 pub(crate) fn point<'a>(mut words: impl Iterator<Item = &'a str>, line: usize) -> Result<Point3<f64>, String> {
     let mut number = || {
         let word = words.next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The bodies of a world, and which of them are what.
+//! Bodies of a world, and their kinds.
 
 use crate::clearance::convex::HullFault;
 use crate::clearance::model::ClearanceError;
@@ -10,18 +10,18 @@ use crate::workcell::{Obstacle, ObstacleShape};
 use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{BodyPoses, Frame, JointVector, Pose, RobotModel};
 
-/// Something that must not be touched or must not touch.
+/// Body for which clearances are computed.
 #[derive(Debug, Clone)]
 pub(crate) struct Body {
     pub name: String,
     pub kind: BodyKind,
     pub parts: Vec<Part>,
-    /// What holds the parts, where they are many.
+    /// Tree of shapes that hold the parts, if there are many.
     pub tree: Option<Tree>,
 }
 
 impl Body {
-    /// Whether it never gets away from an obstacle: the base, and over a half-space what joint 1 turns there.
+    /// True if the body never gets away from an obstacle: the base, and over a half-space also the body that joint 1 turns there.
     pub fn stays_beside(&self, obstacle: &Self, robot: &RobotModel) -> bool {
         match self.kind {
             BodyKind::Link(0) => true,
@@ -30,7 +30,7 @@ impl Body {
         }
     }
 
-    /// What is looked at first: the parts, or the one that holds them.
+    /// Returns the parts to examine first: all parts, or the one that holds them.
     pub fn outer(&self) -> &[Part] {
         match &self.tree {
             Some(tree) => std::slice::from_ref(&tree.whole),
@@ -39,24 +39,24 @@ impl Body {
     }
 }
 
-/// What a body is; decides which pairs are checked.
+/// Kind of a body; it decides which pairs are checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum BodyKind {
-    /// A link, with the index of the arm's body that carries it.
+    /// Link, with the index of the arm's body that carries it.
     Link(usize),
-    /// Of the tool, but for the sponge.
+    /// Body of the tool, except the sponge.
     Tool,
-    /// The sponge.
+    /// Sponge.
     Sponge,
-    /// An obstacle.
+    /// Obstacle that is bounded.
     Obstacle,
-    /// An obstacle that is a half-space.
+    /// Obstacle that is a half-space.
     Floor,
-    /// A plate.
+    /// Plate, with its index.
     Plate(usize),
 }
 
-/// Whether what joint 1 moves keeps its height over a half-space: it turns about what is upright there.
+/// True if joint 1 turns about the normal of a half-space, so that the body it moves keeps its height over it.
 pub(crate) fn keeps_its_height(robot: &RobotModel, floor: &Body) -> bool {
     let poses = robot.fk(&JointVector::zeros());
     let [axis_1, ..] = poses.joint_axes();
@@ -64,7 +64,7 @@ pub(crate) fn keeps_its_height(robot: &RobotModel, floor: &Body) -> bool {
     floor.parts.iter().all(upright)
 }
 
-/// The bodies of a world without plates.
+/// Returns the bodies of a world without plates.
 pub(crate) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> Result<Vec<Body>, ClearanceError> {
     tool.check_mount(robot)?;
     let mut bodies = Vec::new();
@@ -89,13 +89,13 @@ pub(crate) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> 
     Ok(bodies)
 }
 
-/// The pairs of what is looked at first of two bodies.
+/// Returns the pairs of outer parts of two bodies.
 pub(crate) fn part_pairs(a: &Body, b: &Body) -> impl Iterator<Item = (usize, usize)> + use<> {
     let (in_a, in_b) = (a.outer().len(), b.outer().len());
     (0..in_a).flat_map(move |p| (0..in_b).map(move |r| (p, r)))
 }
 
-/// What is looked at first of the bodies, where the arm's bodies stand.
+/// Places the outer parts of the bodies at the poses of the arm's bodies.
 pub(crate) fn place<'a>(bodies: &'a [Body], poses: &BodyPoses) -> Vec<Vec<Placed<'a>>> {
     let parts = |body: &'a Body| body.outer().iter().map(|part| part.place(poses)).collect();
     bodies.iter().map(parts).collect()
@@ -119,7 +119,7 @@ fn body(name: &str, kind: BodyKind, part: Result<Part, HullFault>) -> Result<Bod
     })
 }
 
-/// The bodies of a tool, fixed to the mounting frame: none where there is no tool.
+/// Returns the bodies of a tool, fixed to the mounting frame; empty without a tool.
 fn tool_bodies(robot: &RobotModel, tool: &Tool) -> Result<Vec<Body>, ClearanceError> {
     if !tool.is_present() {
         return Ok(Vec::new());
@@ -137,7 +137,7 @@ fn tool_bodies(robot: &RobotModel, tool: &Tool) -> Result<Vec<Body>, ClearanceEr
     Ok(bodies)
 }
 
-/// The body of an obstacle.
+/// Returns the body of an obstacle.
 pub(crate) fn obstacle_body(obstacle: &Obstacle) -> Result<Body, ClearanceError> {
     let frame = Frame::base().offset(&Rigid::from(&obstacle.pose));
     let grown = |part: Part| part.grown(obstacle.margin_m);
@@ -161,7 +161,7 @@ pub(crate) fn obstacle_body(obstacle: &Obstacle) -> Result<Body, ClearanceError>
     })
 }
 
-/// The body of a plate; where `like` is one of the same shape, its parts are not made again.
+/// Returns the body of a plate. The parts of `like` are reused if it has the same shape.
 pub(crate) fn plate_body(index: usize, plate: &Plate, like: Option<&Body>) -> Body {
     let known = like.and_then(|body| body.tree.as_ref());
     let (tree, parts) = Tree::of(plate, known).map_or_else(

@@ -1,10 +1,10 @@
-//! Convex hulls, and whether they are to be relied on.
+//! Convex hulls, with a check that they are reliable.
 //!
-//! A hull that the collision library makes may be too small, down to a flat one for a body that is much wider than high, or bent inwards. So
-//! it is held against its points, and where it fails made once more of the same points drawn out to be as high as wide: a hull stays
-//! one under any such map.
+//! A hull from the collision library may be too small, down to a flat one for a body that is much wider than high, or bent inwards. So it
+//! is compared with its points. If it fails, it is computed once more from the same points scaled to be as high as wide: a hull stays a
+//! hull under any such map.
 //!
-//! The facets of a convex hull, to look at.
+//! The facets of a convex hull are available for display.
 
 use nalgebra::Point3;
 use parry3d_f64::math::Vector;
@@ -12,20 +12,20 @@ use parry3d_f64::shape::ConvexPolyhedron;
 use parry3d_f64::transformation::try_convex_hull;
 use std::collections::HashMap;
 
-/// Most distinct corners of a mesh: a hull that has them all is made in seconds.
+/// Greatest number of distinct corners of a mesh. A hull with all of them takes seconds.
 pub(crate) const MOST_CORNERS: usize = 10_000;
 
-/// Most vertices of a mesh whose hull is made: beyond that it takes minutes.
+/// Greatest number of vertices of a mesh whose hull is computed. Beyond that it takes minutes.
 pub(crate) const MOST_VERTICES: usize = 50_000;
 
-/// What a point may be outside of a face by rounding, and how thin a hull may be, as a part of its size.
+/// Distance of a point outside of a face that counts as rounding, and below the least thickness of a hull, both as a part of its size.
 const HULL_ROUNDING: f64 = 1e-12;
 const THINNEST_HULL: f64 = 1e-9;
 
-/// How far a point that counts as one within a hull may be from it \[m\]: less than [`crate::clearance::motion`] allows for rounding.
+/// Greatest distance from the hull of a point that counts as within \[m\]: less than [`crate::clearance::motion`] allows for rounding.
 const LEFT_OUT_M: f64 = 1e-10;
 
-/// Why no hull is made of points.
+/// Reason that points have no hull.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum HullFault {
     /// The points have no volume.
@@ -36,19 +36,19 @@ pub(crate) enum HullFault {
     ManyCorners(usize),
 }
 
-/// The convex hull of points.
+/// Convex hull of points.
 pub(crate) struct ConvexHull {
-    /// As the collision library has it.
+    /// The hull as a solid of the collision library.
     pub solid: ConvexPolyhedron,
-    /// Points whose hull holds all points: what reaches farthest along a direction is among these, whatever became of the solid, so that a gap
+    /// Points whose hull holds all points. The farthest point along a direction is among these, even if the solid is wrong, so that a gap
     /// along a direction is never overstated.
     pub corners: Vec<Vector>,
-    /// Whether the faces of the solid are those of the hull: its corners are all there are.
+    /// True if the faces of the solid are those of the hull: its corners are complete.
     pub is_sound: bool,
 }
 
 impl ConvexHull {
-    /// That of points.
+    /// Computes the hull of points.
     pub fn of(points: &[Vector]) -> Result<Self, HullFault> {
         if points.len() > MOST_VERTICES {
             return Err(HullFault::ManyPoints(points.len()));
@@ -70,9 +70,9 @@ impl ConvexHull {
         hull.ok_or(HullFault::Flat)
     }
 
-    /// A hull held against the points it was made of. Points are left out only of one whose faces close it, and behind each of which all its
-    /// vertices are. Where it holds a ball of radius r about c, a point p that is ε beyond faces at most is no farther from it than ε ‖p − c‖/r:
-    /// drawn towards c by r/(r + ε) it is behind all of them.
+    /// Compares a hull with the points that it was computed from. Points are left out only of a solid whose faces close it, and behind each
+    /// of which all its vertices are. If it holds a ball of radius r about c, a point p that is ε beyond faces at most is no farther from
+    /// it than ε ‖p − c‖/r: moved towards c by r/(r + ε) it is behind all of them.
     fn held(solid: ConvexPolyhedron, points: &[Vector]) -> Self {
         let size = points.iter().map(|p| p.length()).fold(0.0, f64::max);
         let planes = planes(&solid);
@@ -99,7 +99,7 @@ impl ConvexHull {
         }
     }
 
-    /// The planes of its faces: unit normals outwards and their distances from the origin \[m\]; of a hull that is not to be relied on none.
+    /// Returns the planes of its faces: outward unit normals and their distances from the origin \[m\]; empty for an unreliable hull.
     pub fn planes(&self) -> Vec<(Vector, f64)> {
         if self.is_sound { planes(&self.solid) } else { Vec::new() }
     }
@@ -114,7 +114,7 @@ fn planes(solid: &ConvexPolyhedron) -> Vec<(Vector, f64)> {
         .collect()
 }
 
-/// Whether the faces of a hull have no border: each of their edges is one of two faces.
+/// True if the faces of a hull have no border: each edge belongs to two faces.
 fn is_closed(hull: &ConvexPolyhedron) -> bool {
     let mut faces_of: HashMap<[u32; 2], usize> = HashMap::new();
     for face in hull.faces() {
@@ -128,7 +128,7 @@ fn is_closed(hull: &ConvexPolyhedron) -> bool {
     !faces_of.is_empty() && faces_of.values().all(|count| *count == 2)
 }
 
-/// Axes along which points extend, the longest first, and how far.
+/// Axes along which points extend, the longest first, with their extents.
 struct Frame {
     origin: Vector,
     axes: [Vector; 3],
@@ -136,7 +136,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// That of points; `None` where they have no volume: none of them is off the plane through three that are far apart.
+    /// Returns the axes of points; `None` if they have no volume: no point is off the plane through three that are far apart.
     fn of(points: &[Vector]) -> Option<Self> {
         let origin = points.first().copied()?;
         let farthest = |distance: &dyn Fn(Vector) -> f64| {
@@ -159,7 +159,7 @@ impl Frame {
         })
     }
 
-    /// The hull of points, made where they are as high as wide.
+    /// Computes the hull of points after scaling them to be as high as wide.
     fn hull(&self, points: &[Vector]) -> Option<ConvexPolyhedron> {
         let [x, y, z] = [0, 1, 2].map(|k| self.axes[k] / self.lengths[k]);
         let drawn_out: Vec<_> = points
@@ -174,12 +174,12 @@ impl Frame {
     }
 }
 
-/// Whether points span a volume.
+/// True if the points span a volume.
 pub(crate) fn has_volume(points: &[Vector]) -> bool {
     Frame::of(points).is_some()
 }
 
-/// A body by its triangles.
+/// Body given by its triangles.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Triangulated {
     /// Corners \[m\].
@@ -188,7 +188,7 @@ pub struct Triangulated {
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// The convex hull of points \[m\]; `None` where it has no volume or is too large to judge.
+/// Returns the convex hull of points \[m\]; `None` if it has no volume or is too large to judge.
 #[must_use]
 pub fn hull_triangles(points: &[Point3<f64>]) -> Option<Triangulated> {
     let vertices: Vec<_> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();

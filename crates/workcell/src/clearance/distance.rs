@@ -2,11 +2,11 @@
 //!
 //! The distance of two convex parts between two bounds.
 //!
-//! Where routines of the GJK kind stop, and how far from the distance, depends on the shapes: 21 µm too much were seen between the arm and
-//! its tool, 75 µm with tools thinner than a millimetre. Nothing can rest on that. But along any direction n the gap g(n) = min n·b − max n·a
-//! over the points of both parts is a lower bound of the distance, and the distance of any two of their points an upper one; both
+//! Routines of the GJK kind stop at a distance from the true one that depends on the shapes: 21 µm too much were seen between the arm and
+//! its tool, 75 µm with tools thinner than a millimetre. A proof cannot depend on that. But along any direction n the gap g(n) = min n·b −
+//! max n·a over the points of both parts is a lower bound of the distance, and the distance of any two of their points an upper one; both
 //! meet at the nearest points (duality of the nearest point of a convex set). So the directions and points that a routine finds are only
-//! proposals, and how good they are is known afterwards.
+//! proposals, and their quality is known afterwards.
 //!
 //! Where the first proposal leaves more than [`ERROR_M`] between the bounds, the nearest point of the Minkowski difference b − a to the origin
 //! is looked for once more, by Wolfe's method (Finding the nearest point in a polytope, Math. Programming 11, 1976): it keeps at most four
@@ -19,19 +19,19 @@ use parry3d_f64::query::details::closest_points_segment_segment;
 use parry3d_f64::query::{ClosestPoints, DefaultQueryDispatcher, QueryDispatcher};
 use parry3d_f64::shape::{Shape, SharedShape};
 
-/// Distance between two parts and the middle between their nearest points.
+/// Distance between two parts, with the middle between their nearest points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Separation {
-    /// \[m\]; ≤ 0 when they touch or overlap.
+    /// Distance \[m\]; ≤ 0 if they touch or overlap.
     pub distance: f64,
-    /// Base frame \[m\].
+    /// Middle between the nearest points, base frame \[m\].
     pub place: [f64; 3],
     /// Unit vector from the first part to the second along the nearest points, base frame; zero where their cores meet.
     pub normal: [f64; 3],
 }
 
 impl Separation {
-    /// The nearest point of either part \[m\], base frame: half of the distance from the middle, either way.
+    /// Nearest point of each part \[m\], base frame: half of the distance from the middle, either way.
     pub fn points(&self) -> [[f64; 3]; 2] {
         let (middle, half) = (
             Vector::from_array(self.place),
@@ -41,8 +41,8 @@ impl Separation {
     }
 }
 
-/// The distance between two parts, and what it is not below \[m\] but for the rounding of closed forms and support functions. Where
-/// the cores meet, that is what the radii around them make it.
+/// Returns the distance between two parts, and a lower bound of it \[m\], up to the rounding of closed forms and support functions. If the
+/// cores meet, the radii around them determine it.
 pub(crate) fn bracketed(a: &Placed<'_>, b: &Placed<'_>) -> (Separation, f64) {
     let mut found = separation(a, b);
     let normal = Vector::from_array(found.normal);
@@ -57,11 +57,11 @@ pub(crate) fn bracketed(a: &Placed<'_>, b: &Placed<'_>) -> (Separation, f64) {
     (found, bracket.at_least.max(0.0) - radii)
 }
 
-/// Nearest points of two cores, base frame; equal when the cores meet.
+/// Nearest points of two cores, base frame; equal if the cores meet.
 type Nearest = (Vector, Vector);
 
-/// The distance between two parts, quickly: it may be too great by some hundredths of a millimetre (see [`bracket`]). NaN poses give
-/// NaN (never a distance of 0).
+/// Returns the distance between two parts quickly. It may be too great by some hundredths of a millimetre (see [`bracket`]). NaN poses give
+/// NaN, never a distance of 0.
 pub(crate) fn separation(a: &Placed<'_>, b: &Placed<'_>) -> Separation {
     if !(a.pose.translation.is_finite() && b.pose.translation.is_finite()) {
         return Separation {
@@ -92,7 +92,7 @@ pub(crate) fn separation(a: &Placed<'_>, b: &Placed<'_>) -> Separation {
     }
 }
 
-/// Segment against segment, a closed form.
+/// Nearest points of two segments, a closed form.
 fn segments(a: &Placed<'_>, half_a: f64, b: &Placed<'_>, half_b: f64) -> Nearest {
     let (sa, sb) = (a.segment(half_a), b.segment(half_b));
     match closest_points_segment_segment(&Pose::IDENTITY, &sa, &sb, f64::MAX) {
@@ -101,7 +101,7 @@ fn segments(a: &Placed<'_>, half_a: f64, b: &Placed<'_>, half_b: f64) -> Nearest
     }
 }
 
-/// The point of a part's core that is nearest to a point, base frame; of a half-space, the point itself.
+/// Returns the point of a part's core that is nearest to a point, base frame; for a half-space, the point itself.
 pub(crate) fn nearest_to(part: &Placed<'_>, point: Vector) -> Vector {
     match part.core {
         Core::Segment(half) => {
@@ -114,7 +114,7 @@ pub(crate) fn nearest_to(part: &Placed<'_>, point: Vector) -> Vector {
     }
 }
 
-/// Segment or point against a solid: a point has a projection, a segment goes through the iterative routine.
+/// Nearest points of a segment or point and a solid: a point is projected, a segment uses the iterative routine.
 fn segment_and_solid(a: &Placed<'_>, half: f64, b: &Placed<'_>, solid: &SharedShape) -> Nearest {
     let segment = a.segment(half);
     if half == 0.0 {
@@ -133,7 +133,7 @@ fn iterative(pose_a: &Pose, a: &dyn Shape, pose_b: &Pose, b: &dyn Shape) -> Near
     }
 }
 
-/// Height of a part over a half-space, a closed form; `towards` is 1 when the half-space comes first, else −1.
+/// Height of a part over a half-space, a closed form. `towards` is 1 if the half-space comes first, else −1.
 fn over_half_space(space: &Placed<'_>, part: &Placed<'_>, towards: f64) -> Separation {
     let up = space.pose.rotation * Vector::Z;
     let height = |p: &Vector| space.height_of(*p);
@@ -160,13 +160,13 @@ fn over_half_space(space: &Placed<'_>, part: &Placed<'_>, towards: f64) -> Separ
     }
 }
 
-/// Some unit vector that is level where `up` is up: x, where that is.
+/// Returns a unit vector that is level where `up` is up: x, if that is level.
 fn level_direction(up: Vector) -> Vector {
     let side = if up.x.abs() < 0.9 { Vector::X } else { Vector::Y };
     (side - up * side.dot(up)).normalize()
 }
 
-/// The point of a cylinder that is lowest where `up` is up: down along its axis, then down the steepest way across.
+/// Returns the lowest point of a cylinder where `up` is up: down along its axis, then down the steepest way across.
 fn lowest_of_cylinder(part: &Placed<'_>, radius: f64, half: f64, up: Vector) -> Vector {
     let axis = part.pose.rotation * Vector::Y;
     let along = axis.dot(up);
@@ -182,28 +182,28 @@ fn lowest_of_cylinder(part: &Placed<'_>, radius: f64, half: f64, up: Vector) -> 
     part.pose.translation + down_axis * half + across * radius
 }
 
-/// How far apart the bounds are, where the search ends by itself \[m\].
+/// Gap between the bounds at which the search ends \[m\].
 pub(crate) const ERROR_M: f64 = 2e-6;
 
-/// Directions that are tried at most.
+/// Greatest number of directions that are tried.
 const MOST_STEPS: usize = 64;
 
-/// A part of a whole below which a weight or a direction counts as none.
+/// Share below which a weight or a direction counts as zero.
 const NOTHING: f64 = 1e-13;
 
 /// Bounds of the distance between two cores, without the radii around them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bracket {
-    /// The gap along `normal` \[m\].
+    /// Gap along `normal`, a lower bound \[m\].
     pub at_least: f64,
-    /// The distance of two points \[m\].
+    /// Distance of two points, an upper bound \[m\].
     pub at_most: f64,
     /// Unit vector from the first part towards the second, base frame.
     pub normal: Vector,
 }
 
 impl Bracket {
-    /// The bounds for the cores of two parts, from the nearest points that another routine found: their direction, not zero, and
+    /// Returns the bounds for the cores of two parts, from the nearest points that another routine found: their direction, not zero, and
     /// their distance \[m\].
     pub fn new(a: &Placed<'_>, b: &Placed<'_>, normal: Vector, distance: f64) -> Self {
         let nearest = |n: Vector| b.extreme(-n) - a.extreme(n);
@@ -225,7 +225,7 @@ impl Bracket {
         between <= ERROR_M || between.is_nan()
     }
 
-    /// Improves both bounds, from an extreme point of the difference; `nearest` gives that which is least along a direction.
+    /// Improves both bounds, from an extreme point of the difference. `nearest` returns the extreme point that is least along a direction.
     fn search(&mut self, first: Vector, nearest: impl Fn(Vector) -> Vector) {
         let mut hull = Hull::point(first);
         for _ in 0..MOST_STEPS {
@@ -248,7 +248,7 @@ impl Bracket {
     }
 }
 
-/// A simplex of up to four points, with the weights of its point nearest to the origin.
+/// Simplex of up to four points, with the weights of its point nearest to the origin.
 #[derive(Debug, Clone, Copy)]
 struct Hull {
     points: [Vector; 4],
@@ -265,13 +265,13 @@ impl Hull {
         }
     }
 
-    /// Its point nearest to the origin.
+    /// Returns the simplex's point nearest to the origin.
     fn nearest(&self) -> Vector {
         (0..self.count).fold(Vector::ZERO, |sum, i| sum + self.points[i] * self.weights[i])
     }
 
-    /// Takes in a point and leaves those that the nearest point does not need. False where nothing comes of it: the point is known, or
-    /// there are four already, with the origin among them.
+    /// Adds a point and keeps only those that the nearest point needs. Returns false if nothing changes: the point is known, or there are
+    /// four already, with the origin among them.
     fn add(&mut self, point: Vector) -> bool {
         if self.count == 4 || self.points[..self.count].contains(&point) {
             return false;
@@ -299,8 +299,8 @@ impl Hull {
         }
     }
 
-    /// Weights, of sum 1, of the affine hull's point nearest to the origin; `None` where the points are not independent. Least squares by
-    /// Gram and Schmidt, from the point last taken in.
+    /// Returns the weights, of sum 1, of the affine hull's point nearest to the origin; `None` if the points are not independent. Least
+    /// squares by Gram and Schmidt, from the point added last.
     fn affine(&self) -> Option<[f64; 4]> {
         let last = self.count - 1;
         let origin = self.points[last];

@@ -1,4 +1,4 @@
-//! How far the convex parts of a mesh reach beyond it.
+//! Distance by which the convex parts of a mesh reach beyond it.
 
 use crate::clearance::convex::ConvexHull;
 use nalgebra::Point3;
@@ -8,14 +8,14 @@ use parry3d_f64::shape::{TriMesh, TriMeshFlags};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
-/// How far the bound is from a distance that was found, at most, unless [`MOST_CUTS`] come first \[m\].
+/// Greatest gap between the bound and a distance that was found, unless [`MOST_CUTS`] come first \[m\].
 const WITHIN_M: f64 = 5e-4;
 
-/// Most triangles that are cut.
+/// Greatest number of triangles that are cut.
 const MOST_CUTS: usize = 30_000;
 
-/// Upper bound on how far the faces of convex parts reach beyond the mesh that the parts enclose \[m\]. What a closed mesh encloses is not
-/// beyond it; of an open one the surface alone counts.
+/// Upper bound on the distance by which the faces of convex parts reach beyond the mesh that the parts enclose \[m\]. The inside of a
+/// closed mesh is not beyond it; for an open one the surface alone counts.
 ///
 /// Over a triangle of a face, the distance from the mesh is at most that of the middle and the distance from there to the farthest corner,
 /// as it is 1-Lipschitz; and at most that of the farthest corner from any triangle of the mesh, as the distance from a convex set is a convex
@@ -51,7 +51,7 @@ pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f
     open.peek().map_or(0.0, |cell| cell.bound_m)
 }
 
-/// A mesh that distances are measured from.
+/// Mesh from which distances are measured.
 struct Mesh {
     surface: TriMesh,
     is_closed: bool,
@@ -62,7 +62,7 @@ impl Mesh {
         let mut numbers = BTreeMap::new();
         let mut points = Vec::new();
         let mut number = |corner: &Point3<f64>| {
-            // Of two zeros one is negative.
+            // Adding zero turns −0 into 0.
             let key = corner.coords.map(|c| (c + 0.0).to_bits());
             *numbers.entry([key.x, key.y, key.z]).or_insert_with(|| {
                 points.push(vector(corner));
@@ -86,7 +86,7 @@ impl Mesh {
         Some(Self { surface, is_closed })
     }
 
-    /// A triangle with its bound; raises the distance that was found.
+    /// Returns a triangle with its bound, and raises the distance that was found.
     fn cell(&self, corners: [Vector; 3], found_m: &mut f64) -> Cell {
         let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
         let (nearest, (triangle, _)) = self.surface.project_local_point_and_get_location(middle, false);
@@ -111,14 +111,14 @@ impl Mesh {
     }
 }
 
-/// Whether each edge is that of one triangle on each side.
+/// True if each edge belongs to one triangle on each side.
 fn is_closed(faces: &[[u32; 3]]) -> bool {
     let edges = faces.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
     let mut seen = BTreeSet::new();
     edges.clone().all(|edge| seen.insert(edge)) && edges.into_iter().all(|(a, b)| seen.contains(&(b, a)))
 }
 
-/// A triangle of a face, and the bound on its distance from the mesh.
+/// Triangle of a face, with the bound on its distance from the mesh.
 struct Cell {
     corners: [Vector; 3],
     bound_m: f64,

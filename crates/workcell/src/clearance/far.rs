@@ -1,9 +1,10 @@
-//! How far a body that the arm carries is from many that stand still, at once: bounds that are quick and good enough for what is far.
+//! Lower bounds on the distances of a body that the arm carries from many fixed bodies at once. They are quick, and good enough for far
+//! bodies.
 //!
-//! Along any direction n the gap min n·b − max n·a is a lower bound of the distance of two parts. The direction that is tried leads from the point
-//! of the standing part that is nearest to the middle of the moving one to that middle: the better, the farther they are apart.
+//! Along any direction n the gap min n·b − max n·a is a lower bound of the distance of two parts. The direction used leads from the point
+//! of the fixed part that is nearest to the middle of the moving one to that middle: it is the better the farther they are apart.
 //!
-//! The obstacles that have an end, in a tree of boxes: those that a part of arm or tool is far from are passed over many at once.
+//! The bounded obstacles are in a tree of boxes: many of those far from a part of arm or tool are skipped together.
 
 #[cfg(test)]
 mod tests;
@@ -19,7 +20,7 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use platewash_kinematics::{BodyPoses, JointVector};
 
-/// A part of a body that the arm carries, and the obstacles that it must keep clear of.
+/// Part of a body that the arm carries, with the obstacles that it must keep clear of.
 #[derive(Debug)]
 pub struct MovingPart<'a> {
     part: &'a Part,
@@ -27,7 +28,7 @@ pub struct MovingPart<'a> {
     obstacles: Vec<Standing<'a>>,
 }
 
-/// An obstacle, placed.
+/// Obstacle, placed.
 struct Standing<'a> {
     pair: usize,
     parts: Vec<Placed<'a>>,
@@ -40,7 +41,8 @@ impl std::fmt::Debug for Standing<'_> {
 }
 
 impl ClearanceModel {
-    /// The parts of what moves, each with the obstacles of some pairs, by their index; pairs of anything else are left aside, half-spaces among them.
+    /// Returns the parts of the moving bodies, each with the obstacles of the given pairs, by index. Other pairs are ignored, including
+    /// those with half-spaces.
     #[must_use]
     pub fn moving_parts(&self, pairs: &[usize]) -> Vec<MovingPart<'_>> {
         let zero = self.robot.fk(&JointVector::zeros());
@@ -73,19 +75,20 @@ impl ClearanceModel {
 }
 
 impl MovingPart<'_> {
-    /// How many obstacles it must keep clear of.
+    /// Number of obstacles that it must keep clear of.
     #[must_use]
     pub fn obstacle_count(&self) -> usize {
         self.obstacles.len()
     }
 
-    /// The pair of an obstacle, by its index in the model.
+    /// Returns the index of the pair of an obstacle in the model.
     #[must_use]
     pub fn pair(&self, obstacle: usize) -> Option<usize> {
         self.obstacles.get(obstacle).map(|standing| standing.pair)
     }
 
-    /// How far no point of the part is displaced from where it is in the configuration of `poses` while each joint is within `drift` of that \[rad\], \[m\].
+    /// Upper bound on the displacement of the part's points from the configuration of `poses` \[m\], while each joint is within `drift`
+    /// \[rad\] of it.
     #[must_use]
     pub fn displaced(&self, poses: &BodyPoses, drift: &JointVector) -> f64 {
         let point = poses.rigid(&self.part.frame()).translation;
@@ -93,7 +96,7 @@ impl MovingPart<'_> {
         lever::within(&here, drift, &self.greatest).dot(drift)
     }
 
-    /// Lower bounds of the distances from some of the obstacles \[m\], by their place in the list.
+    /// Returns lower bounds of the distances from some obstacles \[m\], by their index in the list.
     pub fn gaps<'b>(&'b self, poses: &BodyPoses, obstacles: &'b [usize]) -> impl Iterator<Item = f64> + 'b {
         let placed = self.part.place(poses);
         let of = move |standing: &Standing<'_>| {
@@ -109,7 +112,7 @@ impl MovingPart<'_> {
     }
 }
 
-/// A lower bound of the distance of a standing and a moving part \[m\], rounding included.
+/// Lower bound of the distance of a fixed and a moving part \[m\], rounding included.
 fn gap(standing: &Placed<'_>, moving: &Placed<'_>) -> f64 {
     let spheres = standing.sphere_gap(moving);
     let middle = moving.pose.translation;
@@ -126,19 +129,20 @@ fn gap(standing: &Placed<'_>, moving: &Placed<'_>) -> f64 {
 /// Pairs of bodies, by their indices.
 pub(crate) type Pairs = Vec<(usize, usize)>;
 
-/// Obstacles, and what must keep clear of which.
+/// Obstacles, with the bodies that must keep clear of them.
 #[derive(Debug, Clone)]
 pub(crate) struct Crowd {
-    /// Its leaves are the obstacles.
+    /// Tree whose leaves are the obstacles.
     tree: Bvh,
-    /// The bodies that are its leaves, in order, each with the box around it along the axes of the base.
+    /// Bodies that are its leaves, in order, each with the box around it along the axes of the base.
     obstacles: Vec<(usize, Aabb)>,
-    /// Each body that moves, with the leaves that it is checked with.
+    /// Bodies that move, each with the leaves that it is checked with.
     pub moving: Vec<(usize, Vec<bool>)>,
 }
 
 impl Crowd {
-    /// The crowd among some pairs, and all other pairs. An arm lends its frames, whose base is where obstacles stand.
+    /// Separates the pairs with bounded obstacles from all others. The poses give the frames of the arm, whose base frame is that of the
+    /// obstacles.
     pub fn among(bodies: &[Body], pairs: &[(usize, usize)], poses: &BodyPoses) -> (Self, Pairs) {
         let stands = |body: &Body| body.kind == BodyKind::Obstacle;
         let standing = bodies.iter().enumerate().filter(|(_, body)| stands(body));
@@ -148,7 +152,7 @@ impl Crowd {
         let leaf_of = |body: usize| obstacles.iter().position(|(index, _)| *index == body);
         let (mut others, mut moving) = (Vec::new(), Vec::<(usize, Vec<bool>)>::new());
         for &(a, b) in pairs {
-            // What stands follows what moves: it is the second of a pair.
+            // The fixed body is the second of a pair, after the moving one.
             let Some(leaf) = leaf_of(b) else {
                 others.push((a, b));
                 continue;
@@ -169,7 +173,8 @@ impl Crowd {
         (crowd, others)
     }
 
-    /// The obstacles, of those that `leaves` lets in, whose box is not far from a part: `is_enough` tells of a distance \[m\] whether it is.
+    /// Returns the obstacles, among those that `leaves` admits, whose box is not far from a part. `is_enough` decides if a distance \[m\]
+    /// is far.
     pub fn near<'a>(
         &'a self,
         leaves: &'a [bool],
@@ -190,13 +195,13 @@ impl Crowd {
     }
 }
 
-/// Distance of two boxes; 0 where they overlap \[m\].
+/// Distance of two boxes \[m\]; 0 if they overlap.
 fn gap_m(a: &Aabb, b: &Aabb) -> f64 {
     let beyond = (a.mins - b.maxs).max(b.mins - a.maxs);
     beyond.max(Vector::ZERO).length()
 }
 
-/// The box around a body that stands still; `None` of half-spaces.
+/// Returns the box around a fixed body; `None` for half-spaces.
 fn around(body: &Body, poses: &BodyPoses) -> Option<Aabb> {
     let parts = body.outer().iter().map(|part| part.place(poses));
     let boxes = parts.map(|part| part.outwards().is_none().then(|| around_part(&part)));
@@ -205,7 +210,7 @@ fn around(body: &Body, poses: &BodyPoses) -> Option<Aabb> {
         .reduce(|a, b| Aabb::new(a.mins.min(b.mins), a.maxs.max(b.maxs)))
 }
 
-/// The box around a part with an end, where it is now.
+/// Returns the box around a bounded part at its current pose.
 fn around_part(part: &Placed<'_>) -> Aabb {
     let along = |way: [Vector; 3]| Vector::from(way.map(|way| part.support(way)));
     let ways = [Vector::X, Vector::Y, Vector::Z];

@@ -1,4 +1,4 @@
-//! How far a point that the arm carries can be from each joint's axis, and how fast that lets it move.
+//! Levers: bounds on the distance of a point that the arm carries from each joint's axis, and so on its speed.
 //!
 //! With z_i the axis of joint i and p a point on the body behind joint k, ∂p/∂q_i = z_i × (p − p_i), and every further
 //! derivative puts one more z × in front of that of the outermost joint: for i ≤ j ≤ … ≤ m,
@@ -43,14 +43,13 @@ pub fn within(here: &Levers, drift: &JointVector, greatest: &Levers) -> Levers {
     levers
 }
 
-/// The joints from index `first` on alone: how a body moves in the frame of an earlier one.
+/// Keeps the levers of the joints from index `first` on, for the motion of a body in the frame of an earlier one.
 pub fn from(levers: &Levers, first: usize) -> Levers {
     Levers::from_fn(|i, _| if i < first { 0.0 } else { levers[i] })
 }
 
-/// Σ ρ over all tuples of joints, one index from each of `rates`, of the outermost joint's lever times the product of the
-/// rates: Σ_m ρ_m (Π_r S_r,m − Π_r S_r,m−1) with the partial sums S_r,m = Σ_{i ≤ m} rate_r,i. Joints before `first` do
-/// not count.
+/// Sum over all tuples of joints, one index from each of `rates`, of the outermost joint's lever times the product of the rates: Σ_m ρ_m
+/// (Π_r S_r,m − Π_r S_r,m−1) with the partial sums S_r,m = Σ_{i ≤ m} rate_r,i. Joints before `first` do not count.
 pub fn tuples<const N: usize>(levers: &Levers, first: usize, rates: [&JointVector; N]) -> f64 {
     let mut sums = [0.0; N];
     let mut before = 0.0;

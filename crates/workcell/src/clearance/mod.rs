@@ -49,5 +49,5 @@ pub use crate::clearance::pairs::{TouchingPairs, exclusions};
 pub use crate::clearance::solid::{SolidError, SolidParts, solid_parts};
 pub use crate::clearance::standing::{Standing, StandingOverlap, gap_of_plates, standing_overlaps};
 
-/// How far apart the bounds of a distance between solids are that is stated \[m\].
+/// Greatest gap between the bounds of a stated distance between solids \[m\].
 pub const ITERATIVE_ERROR_M: f64 = distance::ERROR_M;

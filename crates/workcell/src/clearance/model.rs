@@ -1,6 +1,6 @@
 //! Distances of all pairs at one configuration.
 //!
-//! Why no clearance model could be made.
+//! Errors of building a clearance model.
 
 use crate::clearance::body::{Body, BodyKind, part_pairs, place, plate_body, world};
 use crate::clearance::convex::{MOST_CORNERS, MOST_VERTICES};
@@ -18,47 +18,47 @@ use serde::Serialize;
 /// Distance between two bodies at one configuration.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairClearance {
-    /// One body.
+    /// Name of the first body.
     pub a: String,
-    /// The other.
+    /// Name of the second body.
     pub b: String,
-    /// Distance \[m\]; ≤ 0 when they touch or overlap.
+    /// Distance \[m\]; ≤ 0 if they touch or overlap.
     pub distance_m: f64,
-    /// Half-way between the two nearest points \[m\], base frame.
+    /// Midpoint between the two nearest points \[m\], base frame.
     pub place_m: [f64; 3],
 }
 
-/// The two bodies of a model that come nearest to each other at one configuration, and where.
+/// The two bodies of a model that are nearest to each other at one configuration, with their nearest points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
-    /// The two bodies, by their place in [`ClearanceModel::body_names`].
+    /// The two bodies, by index in [`ClearanceModel::body_names`].
     pub bodies: [usize; 2],
-    /// Distance \[m\]; ≤ 0 when they touch or overlap.
+    /// Distance \[m\]; ≤ 0 if they touch or overlap.
     pub distance_m: f64,
-    /// The nearest point of either body \[m\], base frame; where they overlap, one point of their common part, or two.
+    /// Nearest point of each body \[m\], base frame; if they overlap, one point of their common part, or two.
     pub points_m: [[f64; 3]; 2],
 }
 
-/// The bodies and pairs of one job, ready for many configurations.
+/// Bodies and pairs of one job, ready for many configurations.
 #[derive(Debug, Clone)]
 pub struct ClearanceModel {
     pub(crate) robot: RobotModel,
     pub(crate) bodies: Vec<Body>,
     pub(crate) pairs: Vec<(usize, usize)>,
-    /// Those with obstacles that have an end, and all others.
+    /// Pairs with bounded obstacles, and below all others.
     pub(crate) crowd: Crowd,
     pub(crate) others: Pairs,
-    /// `T_base_world`, where the arm's base is not the world.
+    /// Pose of the world in the base frame, `T_base_world`, if they differ.
     pub(crate) to_base: Option<Pose>,
-    /// The plates in the world.
+    /// Plates, world frame.
     pub(crate) plates: Vec<Plate>,
 }
 
 impl ClearanceModel {
-    /// An arm in its workcell, with the plates, both in the world.
+    /// Builds the model of an arm in its workcell, with the plates, both in the world.
     ///
-    /// Pairs: links with each other; the tool's bodies with the links; everything that moves with the obstacles and the plates. Those
-    /// that the workcell excludes are left out.
+    /// Pairs: links with each other; the tool's bodies with the links; every moving body with the obstacles and the plates. Pairs that the
+    /// workcell excludes are left out.
     ///
     /// # Errors
     /// [`ClearanceError::FlatHull`] for a mesh without volume.
@@ -82,8 +82,8 @@ impl ClearanceModel {
         })
     }
 
-    /// The same arm and tool among plates that lie elsewhere, as many as before: which pairs are checked does not depend on where
-    /// plates lie, and the arm's bodies need not be made again.
+    /// Returns the model of the same arm and tool among as many plates that lie elsewhere. The pairs do not depend on the positions of the
+    /// plates, and the arm's bodies are reused.
     #[must_use]
     pub fn among(&self, plates: &[Plate]) -> Self {
         let mut model = self.clone();
@@ -91,7 +91,7 @@ impl ClearanceModel {
         model
     }
 
-    /// [`ClearanceModel::among`] in place.
+    /// Same as [`ClearanceModel::among`], in place.
     pub fn lay(&mut self, plates: &[Plate]) {
         for (here, plate) in self.plates.iter_mut().zip(plates) {
             *here = *plate;
@@ -105,7 +105,7 @@ impl ClearanceModel {
         }
     }
 
-    /// Names of the pairs that are checked.
+    /// Names of the bodies of each pair that is checked.
     #[must_use]
     pub fn pair_names(&self) -> Vec<(&str, &str)> {
         let name = |i: usize| self.bodies[i].name.as_str();
@@ -118,7 +118,7 @@ impl ClearanceModel {
         self.bodies.iter().map(|body| body.name.as_str()).collect()
     }
 
-    /// Whether the body of that name is an obstacle: not of the arm, its tool or the plates.
+    /// True if the body of that name is an obstacle, and not of the arm, its tool or the plates.
     #[must_use]
     pub fn is_obstacle(&self, name: &str) -> bool {
         let stands_around = |body: &Body| matches!(body.kind, BodyKind::Obstacle | BodyKind::Floor);
@@ -139,16 +139,16 @@ impl ClearanceModel {
         all.collect()
     }
 
-    /// The smallest distance at `q` \[rad\] and where it is. The sponge may touch the plates in `working`.
+    /// Returns the pair with the smallest distance at `q` \[rad\]. The sponge may touch the plates in `working`.
     ///
-    /// `None` when there is nothing to check: a description without collision geometry.
+    /// `None` if there is nothing to check: a description without collision geometry.
     #[must_use]
     pub fn smallest(&self, q: &JointVector, working: &[usize]) -> Option<PairClearance> {
         let (a, b, found) = self.least(q, working)?;
         Some(self.describe(a, b, found))
     }
 
-    /// As [`ClearanceModel::smallest`], with both of the nearest points.
+    /// Same as [`ClearanceModel::smallest`], with both of the nearest points.
     #[must_use]
     pub fn nearest(&self, q: &JointVector, working: &[usize]) -> Option<Nearest> {
         let (a, b, found) = self.least(q, working)?;
@@ -159,7 +159,7 @@ impl ClearanceModel {
         })
     }
 
-    /// The pair with the smallest distance.
+    /// Returns the pair with the smallest distance.
     fn least(&self, q: &JointVector, working: &[usize]) -> Option<(usize, usize, Separation)> {
         let poses = self.robot.fk(q);
         let placed = place(&self.bodies, &poses);
@@ -187,8 +187,8 @@ impl ClearanceModel {
         best
     }
 
-    /// All pairs that are in contact or nearer than `required_m` at `q` \[rad\], nearest first. The sponge may touch the
-    /// plates in `working`.
+    /// Returns all pairs that are in contact or nearer than `required_m` at `q` \[rad\], nearest first. The sponge may touch the plates in
+    /// `working`.
     #[must_use]
     pub fn too_near(&self, q: &JointVector, working: &[usize], required_m: f64) -> Vec<PairClearance> {
         let poses = self.robot.fk(q);
@@ -197,7 +197,7 @@ impl ClearanceModel {
         let near = pairs.map(|&(a, b)| {
             let candidates = self.part_pairs(a, b);
             let candidates = candidates.filter(|&(p, r)| placed[a][p].sphere_gap(&placed[b][r]) <= required_m);
-            // What is as far as this is not too near.
+            // A pair at this distance or beyond is not too near.
             let below = required_m.max(f64::MIN_POSITIVE);
             let found = candidates.filter_map(|parts| self.separation((a, b), parts, (&placed, &poses), below));
             self.describe(a, b, nearest(found))
@@ -207,7 +207,7 @@ impl ClearanceModel {
         near
     }
 
-    /// Whether the sponge may be near a plate while it works on another one, or on that one itself.
+    /// True if the sponge may be near a plate while it works on another one, or on that one itself.
     pub(crate) fn may_touch(&self, working_on: usize, plate: usize) -> bool {
         let beside = || self.plates.get(working_on).zip(self.plates.get(plate));
         working_on == plate || beside().is_some_and(|(own, other)| own.may_touch_beside(other) || own.is_back_of(other))
@@ -224,8 +224,8 @@ impl ClearanceModel {
         part_pairs(&self.bodies[a], &self.bodies[b])
     }
 
-    /// The distance of two bodies by a pair of what is looked at first of them, between bounds. Of a body with a tree that of its parts,
-    /// where it is less than `below` \[m\]; else nothing, or one from there on.
+    /// Returns the distance of two bodies by a pair of their outer parts, between bounds. For a body with a tree it is that of its parts if
+    /// less than `below` \[m\]; otherwise `None`, or a distance not below it.
     fn separation(
         &self,
         (a, b): (usize, usize),
@@ -241,8 +241,8 @@ impl ClearanceModel {
             .unwrap_or(Some(outer))
     }
 
-    /// The distance of the parts of a body with a tree to a part of another one, where it is less than `below` \[m\]; `None` where neither
-    /// body has one.
+    /// Returns the distance of the parts of a body with a tree to a part of another one, if it is less than `below` \[m\]; `None` if
+    /// neither body has one.
     pub(crate) fn within(
         &self,
         (a, b): (usize, usize),
@@ -275,12 +275,12 @@ impl ClearanceModel {
     }
 }
 
-/// A plate of the world in the base frame.
+/// Converts a plate from the world to the base frame.
 pub(crate) fn from_base(to_base: Option<&Pose>, plate: &Plate) -> Plate {
     to_base.map_or(*plate, |to_base| plate.seen_from(to_base))
 }
 
-/// Whether a distance \[m\] keeps the clearance asked for \[m\]; at 0 only contact breaks it. NaN keeps nothing.
+/// True if a distance \[m\] keeps the required clearance \[m\]. If that is 0, only contact breaks it. False for NaN.
 #[must_use]
 pub fn is_clear(distance_m: f64, required_m: f64) -> bool {
     distance_m > 0.0 && distance_m >= required_m
@@ -296,36 +296,36 @@ pub(crate) fn nearest(separations: impl Iterator<Item = Separation>) -> Separati
         })
 }
 
-/// Why no clearance model could be made.
+/// Reason that no clearance model could be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ClearanceError {
-    /// A hull whose points span no volume.
+    /// The points of a hull span no volume.
     #[error("body '{}': its hull is flat; a convex hull needs a volume", printable(.link))]
     FlatHull {
-        /// The link, the body of the tool or the obstacle.
+        /// Name of the link, the body of the tool or the obstacle.
         link: String,
     },
-    /// A mesh of too many vertices for its hull to be made in time.
+    /// A mesh has too many vertices for its hull to be computed in time.
     #[error(
         "body '{}': its collision mesh has {found} vertices; at most {MOST_VERTICES} can be judged: simplify it",
         printable(.link)
     )]
     LargeMesh {
-        /// The link, or the body of the tool.
+        /// Name of the link, or the body of the tool.
         link: String,
-        /// The vertices.
+        /// Number of vertices.
         found: usize,
     },
-    /// A hull of too many corners to be judged in time.
+    /// A hull has too many corners to be judged in time.
     #[error(
         "body '{}': its convex hull has {found} corners; at most {MOST_CORNERS} can be judged: simplify its collision mesh",
         printable(.link)
     )]
     LargeHull {
-        /// The link, or the body of the tool.
+        /// Name of the link, or the body of the tool.
         link: String,
-        /// The corners.
+        /// Number of corners.
         found: usize,
     },
     /// The arm has no link that carries the tool.

@@ -1,8 +1,8 @@
 //! Bounds of the distance between two parts while the joints move, for proofs that hold between samples.
 //!
-//! A pair of bodies is a list of pairs of convex parts, one of them *fixed*, on the earlier body of the chain, and one
-//! *moving*. Seen from the fixed part only the joints between the two bodies move the other. Where a body has many parts, shapes that
-//! hold some of them come first: what is far from them is far from these ([`PartPairs`]).
+//! A pair of bodies is a list of pairs of convex parts, one of them *fixed*, on the earlier body of the chain, and one *moving*. In the
+//! frame of the fixed part only the joints between the two bodies move the other. If a body has many parts, shapes that hold some of them
+//! come first: a body far from a shape is far from its parts ([`PartPairs`]).
 //!
 //! - **First order.** No point of the moving part is displaced by more than Σ_j ρ_j |Δq_j|, so that the distance does
 //!   not fall by more (ρ: [`super::lever`]).
@@ -12,7 +12,7 @@
 //!   Between two times h apart it is therefore at least the smaller of its end values less A h²/8 and less h/4 of each such jump,
 //!   and so is g (proof: `docs/certificate.md`, "Clearance").
 //!
-//! Nothing here allocates.
+//! No function here allocates.
 
 use crate::clearance::body::BodyKind;
 use crate::clearance::distance::bracketed;
@@ -23,65 +23,65 @@ use parry3d_f64::math::Vector;
 use platewash_kinematics::{BodyPoses, JointVector};
 use std::ops::Range;
 
-/// What a closed form or a support function may be wrong by \[m\].
+/// Error of a closed form or a support function \[m\].
 pub(crate) const ROUNDING_M: f64 = 1e-9;
 
-/// What a pair is, for rules that depend on it.
+/// Kind of a pair, for rules that depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PairKind {
     /// The sponge and a plate.
     SpongeAndPlate(usize),
-    /// Any other.
+    /// Any other pair.
     Other,
 }
 
-/// Two convex parts, the joints between them and their levers.
+/// Two convex parts, with the joints between them and their levers.
 #[derive(Debug, Clone)]
 pub struct PartPair<'a> {
     fixed: &'a Part,
     moving: &'a Part,
-    /// Indices of the joints that move one in the frame of the other.
+    /// Indices of the joints that move one part in the frame of the other.
     joints: Range<usize>,
     /// Levers of the moving part that hold in every configuration.
     greatest: Levers,
 }
 
-/// The pairs of parts of two bodies, from the outside in: a pair of shapes that hold parts holds further pairs, and bounds their distances
-/// from below; the innermost are parts themselves.
+/// Pairs of parts of two bodies, from the outside in: a pair of shapes that hold parts contains further pairs, and bounds their distances
+/// from below; the innermost pairs are parts themselves.
 #[derive(Debug, Clone)]
 pub struct PartPairs<'a> {
     pairs: Vec<PartPair<'a>>,
-    /// The pairs that each one holds.
+    /// Ranges of the pairs that each pair contains.
     within: Vec<Range<usize>>,
     outermost: usize,
 }
 
 impl<'a> PartPairs<'a> {
-    /// The indices of the outermost pairs, which hold all others.
+    /// Indices of the outermost pairs, which contain all others.
     #[must_use]
     pub fn outermost(&self) -> Range<usize> {
         0..self.outermost
     }
 
-    /// Whether one of the bodies has many parts.
+    /// True if one of the bodies has many parts.
     #[must_use]
     pub fn is_of_many(&self) -> bool {
         self.pairs.len() > self.outermost
     }
 
-    /// A pair by its index.
+    /// Returns a pair by its index.
     #[must_use]
     pub fn get(&self, index: usize) -> Option<&PartPair<'a>> {
         self.pairs.get(index)
     }
 
-    /// The indices of the pairs that a pair holds; none where it is one of parts.
+    /// Indices of the pairs that a pair contains; empty for a pair of parts.
     #[must_use]
     pub fn within(&self, index: usize) -> Range<usize> {
         self.within.get(index).cloned().unwrap_or_default()
     }
 
-    /// The pairs of parts.
+    /// Returns the pairs of parts.
     pub fn parts(&self) -> impl Iterator<Item = &PartPair<'a>> {
         let innermost = self.pairs.iter().zip(&self.within);
         innermost.filter(|(_, within)| within.is_empty()).map(|(pair, _)| pair)
@@ -91,13 +91,13 @@ impl<'a> PartPairs<'a> {
 /// Distance of two parts at one configuration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// What was found \[m\]; ≤ 0 when they touch or overlap.
+    /// Distance found \[m\]; ≤ 0 if they touch or overlap.
     pub distance_m: f64,
-    /// What the true distance is not below \[m\]: the gap along `normal` where the parts do not overlap, whatever a routine says.
+    /// Proved lower bound of the distance \[m\]: the gap along `normal` if the parts do not overlap.
     pub at_least_m: f64,
-    /// Half-way between the nearest points \[m\], base frame.
+    /// Midpoint between the nearest points \[m\], base frame.
     pub place_m: [f64; 3],
-    /// From the fixed part to the moving one, in the frame of the fixed part; zero where they overlap.
+    /// Direction from the fixed part to the moving one, in the frame of the fixed part; zero if they overlap.
     pub normal: [f64; 3],
 }
 
@@ -107,7 +107,7 @@ impl ClearanceModel {
         self.pairs.len()
     }
 
-    /// What a pair is.
+    /// Returns the kind of a pair.
     pub fn pair_kind(&self, pair: usize) -> PairKind {
         let (a, b) = self.pairs[pair];
         match (self.bodies[a].kind, self.bodies[b].kind) {
@@ -118,13 +118,13 @@ impl ClearanceModel {
         }
     }
 
-    /// Whether one of a pair is an obstacle with an end: a half-space is none.
+    /// True if one of a pair is a bounded obstacle, not a half-space.
     pub fn is_beside_obstacle(&self, pair: usize) -> bool {
         let (a, b) = self.pairs[pair];
         [a, b].iter().any(|&body| self.bodies[body].kind == BodyKind::Obstacle)
     }
 
-    /// The pairs of parts of a pair of bodies.
+    /// Returns the pairs of parts of a pair of bodies.
     pub fn parts_of(&self, pair: usize) -> PartPairs<'_> {
         let zero = self.robot.fk(&JointVector::zeros());
         let (a, b) = self.pairs[pair];
@@ -185,19 +185,19 @@ impl<'a> PartPair<'a> {
         self.fixed.sphere_gap(self.moving, poses)
     }
 
-    /// A lower bound of the distance from the moving part and a sphere around the fixed one \[m\]: exact but for rounding where the moving
-    /// part is a capsule or a cylinder.
+    /// Lower bound of the distance from the moving part and a sphere around the fixed one \[m\]; exact up to rounding if the moving part is
+    /// a capsule or a cylinder.
     pub fn gap_to_sphere(&self, poses: &BodyPoses) -> f64 {
         let [here, there] = [self.moving, self.fixed].map(|part| part.rigid(poses));
         self.moving.gap_to_sphere(&here, self.fixed, &there) - ROUNDING_M
     }
 
-    /// A direction in the frame of the fixed part, in the base frame.
+    /// Converts a direction from the frame of the fixed part to the base frame.
     pub fn in_base(&self, normal: [f64; 3], poses: &BodyPoses) -> [f64; 3] {
         (self.fixed.place(poses).pose.rotation * Vector::from_array(normal)).to_array()
     }
 
-    /// The distance.
+    /// Measures the distance.
     pub fn measure(&self, poses: &BodyPoses) -> Measured {
         let (fixed, moving) = (self.fixed.place(poses), self.moving.place(poses));
         let (found, at_least) = bracketed(&fixed, &moving);
@@ -210,12 +210,12 @@ impl<'a> PartPair<'a> {
         }
     }
 
-    /// The gap along a direction in the frame of the fixed part: a lower bound of the distance \[m\], rounding included.
+    /// Gap along a direction in the frame of the fixed part: a lower bound of the distance \[m\], rounding included.
     pub fn gap_along(&self, normal: [f64; 3], poses: &BodyPoses) -> f64 {
         self.gap_along_in_base(self.in_base(normal, poses), poses)
     }
 
-    /// The same along a direction in the base frame: where the fixed part stands still, that is one in its frame.
+    /// Gap along a direction in the base frame. If the fixed part stands still, that is a direction in its frame.
     pub fn gap_along_in_base(&self, normal: [f64; 3], poses: &BodyPoses) -> f64 {
         let (fixed, moving) = (self.fixed.place(poses), self.moving.place(poses));
         // Over a half-space there is one direction with a gap, which is fixed to it.
@@ -233,8 +233,8 @@ impl<'a> PartPair<'a> {
         lever::within(&lever::from(&here, self.joints.start), drift, &self.greatest)
     }
 
-    /// The greatest acceleration of a point of the moving part as the fixed one sees it, for joint speeds \[rad/s\] and
-    /// accelerations \[rad/s²\] up to those given \[m/s²\].
+    /// Upper bound on the acceleration of the moving part's points relative to the fixed part \[m/s²\], for joint speeds \[rad/s\] and
+    /// accelerations \[rad/s²\] up to those given.
     pub fn acceleration(&self, levers: &Levers, speed: &JointVector, acceleration: &JointVector) -> f64 {
         let first = self.joints.start;
         lever::tuples(levers, first, [acceleration]) + lever::tuples(levers, first, [speed, speed])

@@ -1,8 +1,8 @@
-//! Which pairs of bodies are checked, and why the others are not.
+//! Choice of the pairs of bodies that are checked, with the reasons for excluding others.
 //!
-//! Pairs of links that need no check, found where nobody listed them, as an SRDF.
+//! Pairs of links that need no check are found if there is no list of them, and can be written as an SRDF.
 //!
-//! Bodies of a tool that joint 6 turns on the spot.
+//! Bodies of a tool that joint 6 turns on the spot are recognised.
 
 use crate::clearance::body::{Body, BodyKind, keeps_its_height, part_pairs, place, world};
 use crate::clearance::distance::separation;
@@ -15,13 +15,13 @@ use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Configurations sampled to find pairs that always touch.
+/// Number of configurations sampled to find pairs that always touch.
 pub(crate) const SAMPLES: usize = 64;
 
-/// The body of the arm that carries joint 6: it is checked against what joint 6 moves relative to it.
+/// Body of the arm that carries joint 6. It is checked against the bodies that joint 6 moves relative to it.
 const CARRIER: usize = 5;
 
-/// All pairs (indices of bodies) that can meet, but for those excluded.
+/// Returns all pairs (indices of bodies) that can meet, without the excluded ones.
 pub(crate) fn choose(bodies: &[Body], exclusions: &[Exclusion]) -> Vec<(usize, usize)> {
     let name = |i: usize| &bodies[i].name;
     let is_excluded = |&(a, b): &(usize, usize)| {
@@ -35,14 +35,14 @@ pub(crate) fn choose(bodies: &[Body], exclusions: &[Exclusion]) -> Vec<(usize, u
     candidates(bodies).filter(|pair| !is_excluded(pair)).collect()
 }
 
-/// The pairs that need not keep clear, with the reason: those that follow from an arm, its SRDF, its tool and what stands around it.
+/// Returns the pairs that need not keep clear, with the reason: those that follow from an arm, its SRDF, its tool and its obstacles.
 ///
-/// With an SRDF the pairs of links that it disables; without one, neighbours and pairs that touch in every configuration sampled.
-/// The tool and the flange; what of the tool is round about axis 6 and the link that carries joint 6, as it turns on the spot there; the
-/// base, which moves as little as the obstacles; what joint 1 turns about the vertical of a half-space, over it.
+/// With an SRDF these are the pairs of links that it disables; without one, neighbours and pairs that touch in every sampled configuration.
+/// Further pairs: the tool and the flange; bodies of the tool that are round about axis 6 and the link that carries joint 6, as they turn
+/// on the spot there; the base and the obstacles, which both stand still; a half-space and the body that joint 1 turns about its normal.
 ///
 /// # Errors
-/// [`ClearanceError`] for a shape that is none.
+/// [`ClearanceError`] for an invalid shape.
 pub fn exclusions(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> Result<Vec<Exclusion>, ClearanceError> {
     let bodies = world(robot, tool, obstacles)?;
     let pairs: Vec<_> = candidates(&bodies).collect();
@@ -66,7 +66,7 @@ pub fn exclusions(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> Re
     Ok(named.collect())
 }
 
-/// The pairs of bodies that can move relative to each other.
+/// Returns the pairs of bodies that can move relative to each other.
 fn candidates(bodies: &[Body]) -> impl Iterator<Item = (usize, usize)> {
     let count = bodies.len();
     let all = (0..count).flat_map(move |a| (a + 1..count).map(move |b| (a, b)));
@@ -84,7 +84,7 @@ fn can_meet(a: &Body, b: &Body) -> bool {
     }
 }
 
-/// Whether all bodies of the tool by the name of one are round about axis 6.
+/// True if all bodies of the tool with the name of this one are round about axis 6.
 fn turns_on_the_spot(robot: &RobotModel, tool: &Tool, body: &Body) -> bool {
     let flange = tool.mounting_frame(robot);
     match body.kind {
@@ -100,7 +100,8 @@ fn turns_on_the_spot(robot: &RobotModel, tool: &Tool, body: &Body) -> bool {
     }
 }
 
-/// Why a pair need not keep clear, as far as the bodies alone tell, and whether a body of the tool moves relative to what carries joint 6.
+/// Returns the reason that a pair need not keep clear, as far as the bodies alone decide it. `moves` tells if a body of the tool moves
+/// relative to the one that carries joint 6.
 fn reason(robot: &RobotModel, first: &Body, second: &Body, moves: impl Fn(&Body) -> bool) -> Option<ExclusionReason> {
     use BodyKind::{Floor, Link, Obstacle, Sponge, Tool};
     match (first.kind, second.kind) {
@@ -118,13 +119,13 @@ fn reason(robot: &RobotModel, first: &Body, second: &Body, moves: impl Fn(&Body)
     }
 }
 
-/// Whether a link carries a body of the tool, which does not move relative to it.
+/// Returns the reason if a link carries a body of the tool, which does not move relative to it.
 fn carries(link: usize, held: &Body, moves: impl Fn(&Body) -> bool) -> Option<ExclusionReason> {
     let still = link > CARRIER || (link == CARRIER && !moves(held));
     still.then_some(ExclusionReason::CarriesTool)
 }
 
-/// Of some pairs, by their index, those that touch in every configuration sampled: neighbouring links of a description without a list
+/// Returns those of some pairs, by index, that touch in every sampled configuration. Neighbouring links of a description without a list
 /// often do by design.
 fn always_touching(robot: &RobotModel, bodies: &[Body], pairs: &[(usize, usize)], mut open: Vec<usize>) -> Vec<usize> {
     for k in 0..SAMPLES {
@@ -138,8 +139,8 @@ fn always_touching(robot: &RobotModel, bodies: &[Body], pairs: &[(usize, usize)]
     open
 }
 
-/// Evenly spread configurations within the limits: an additive sequence on the generalised golden ratio
-/// (Roberts 2018), the first one the middle of the limits.
+/// Returns evenly spread configurations within the limits: an additive sequence on the generalised golden ratio (Roberts 2018), the first
+/// one the middle of the limits.
 fn spread(robot: &RobotModel, k: usize) -> JointVector {
     // The positive root of x⁷ = x + 1.
     const PHI: f64 = 1.112_775_684_278_705_5;
@@ -150,23 +151,23 @@ fn spread(robot: &RobotModel, k: usize) -> JointVector {
     })
 }
 
-/// Pairs of links that need no check, as they are left out of an arm without an SRDF.
+/// Pairs of links that need no check, for an arm without an SRDF.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct TouchingPairs {
-    /// Those whose links share a joint.
+    /// Pairs whose links share a joint.
     pub neighbours: Vec<[String; 2]>,
-    /// Those of all others that touch in every configuration sampled.
+    /// Other pairs, which touch in every sampled configuration.
     pub always_touching: Vec<[String; 2]>,
-    /// Configurations that were sampled.
+    /// Number of configurations sampled.
     pub samples: usize,
     robot: String,
 }
 
 impl TouchingPairs {
-    /// Those of an arm, whatever its SRDF lists.
+    /// Finds the pairs of an arm, independently of its SRDF.
     ///
     /// # Errors
-    /// [`ClearanceError`] for a shape that is none.
+    /// [`ClearanceError`] for an invalid shape.
     pub fn of(robot: &RobotModel) -> Result<Self, ClearanceError> {
         let bare = Tool::from(StraightTool::default());
         let found = exclusions(&robot.clone().without_disabled_pairs(), &bare, &[])?;
@@ -182,7 +183,7 @@ impl TouchingPairs {
         })
     }
 
-    /// The list as an SRDF, which says in comments why each pair is in it.
+    /// Returns the list as an SRDF, with the reason of each pair in a comment.
     #[must_use]
     pub fn srdf(&self) -> String {
         let name = escaped(&self.robot);
@@ -211,7 +212,7 @@ impl TouchingPairs {
     }
 }
 
-/// Text as an attribute of XML has it.
+/// Escapes text for an attribute of XML.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
@@ -219,12 +220,12 @@ fn escaped(text: &str) -> String {
         .replace('"', "&quot;")
 }
 
-/// How far a body may be off axis 6 and still count as round about it \[m\], and its axis turned from it \[rad\]: what descriptions with five
-/// digits of an angle leave open.
+/// Greatest distance of a body from axis 6 that counts as round about it \[m\], and greatest angle of its axis \[rad\]: the rounding of
+/// descriptions with five digits of an angle.
 const OFF: f64 = 1e-4;
 
-/// Whether a body at `T_flange_body` of a mounting frame is round about axis 6, to [`OFF`]: its distance from what carries joint 6 is then the same in every
-/// configuration.
+/// True if a body at `T_flange_body` of a mounting frame is round about axis 6, to [`OFF`]. Its distance from the body that carries joint 6
+/// is then the same in every configuration.
 pub(crate) fn is_round_about_axis_6(flange: &Frame, shape: &Shape, pose: &Pose) -> bool {
     // Axis 6 is z of the frame of its body.
     let body = flange.on_body().then(&Rigid::from(pose));
@@ -244,7 +245,7 @@ mod tests {
     use crate::workcell::Obstacle;
     use platewash_kinematics::DisabledPairs;
 
-    /// Read back, the list leaves out what was found.
+    /// An SRDF that is read back excludes the pairs that were found.
     #[test]
     fn the_srdf_leaves_out_what_was_found() {
         let robot = RobotModel::irb120().unwrap();

@@ -1,4 +1,4 @@
-//! A convex part of a body: a core shape with a radius around it.
+//! Convex part of a body: a core shape with a radius around it.
 //!
 //! A sphere is a point with a radius and a capsule a segment with one, so that their distances have closed forms.
 
@@ -13,41 +13,41 @@ use platewash_kinematics::{BodyPoses, Frame};
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-/// A quarter turn that lays parry's cylinder (along y) along z.
+/// Quarter turn that rotates parry's cylinder (along y) to z.
 const Y_TO_Z: f64 = FRAC_PI_2;
 
-/// The core of a part, in its own frame.
+/// Core of a part, in its own frame.
 #[derive(Clone)]
 pub(crate) enum Core {
-    /// A segment on z, half length \[m\]; 0 for a point.
+    /// Segment on z, with its half length \[m\]; 0 for a point.
     Segment(f64),
-    /// A solid of the collision library.
+    /// Solid of the collision library.
     Solid(SharedShape, Extent),
-    /// The half-space z ≤ 0 of the part's own frame.
+    /// Half-space z ≤ 0 of the part's own frame.
     HalfSpace,
 }
 
-/// What the height of a solid over a half-space needs.
+/// Data for the height of a solid over a half-space.
 #[derive(Debug, Clone)]
 pub(crate) enum Extent {
-    /// Vertices \[m\], shared by parts that are alike.
+    /// Vertices \[m\], shared by parts of the same shape.
     Vertices(Arc<[Vector]>),
-    /// A cylinder along y: radius and half length \[m\].
+    /// Cylinder along y: radius and half length \[m\].
     Cylinder(f64, f64),
 }
 
-/// A part of a body, fixed to one of the arm's frames.
+/// Part of a body, fixed to one of the arm's frames.
 #[derive(Debug, Clone)]
 pub(crate) struct Part {
     core: Core,
-    /// All within this distance of the core belongs to the part \[m\].
+    /// Radius around the core \[m\]: all points within it belong to the part.
     radius: f64,
     /// Radius of the sphere about the origin that holds the part \[m\].
     bounding: f64,
     frame: Frame,
 }
 
-/// A part at one configuration, base frame.
+/// Part at one configuration, base frame.
 pub(crate) struct Placed<'a> {
     pub core: &'a Core,
     pub radius: f64,
@@ -66,7 +66,7 @@ impl std::fmt::Debug for Core {
 }
 
 impl Part {
-    /// The part for a link's shape; a fault for a mesh that has no volume or is too large.
+    /// Builds the part of a link's shape. Fails for a mesh that has no volume or is too large.
     pub fn new(shape: &Shape, frame: Frame) -> Result<Self, HullFault> {
         Ok(match shape {
             Shape::Sphere { radius_m } => Self::round(0.0, *radius_m, frame),
@@ -104,14 +104,14 @@ impl Part {
         })
     }
 
-    /// A cylinder along the frame's z axis; lengths in metres.
+    /// Returns a cylinder along the frame's z axis; lengths in metres.
     pub fn cylinder(radius: f64, half_length: f64, frame: Frame) -> Self {
         // parry's cylinder lies along y; `place` turns it.
         let extent = Extent::Cylinder(radius, half_length);
         Self::solid(SharedShape::new(Cylinder::new(half_length, radius)), extent, frame)
     }
 
-    /// All of z ≤ 0 of a frame.
+    /// Returns the half-space z ≤ 0 of a frame.
     pub fn half_space(frame: Frame) -> Self {
         Self {
             core: Core::HalfSpace,
@@ -121,7 +121,7 @@ impl Part {
         }
     }
 
-    /// The part with all that is within `margin_m` of it.
+    /// Returns the part grown by `margin_m` on all sides.
     pub fn grown(self, margin_m: f64) -> Self {
         Self {
             radius: self.radius + margin_m,
@@ -130,12 +130,12 @@ impl Part {
         }
     }
 
-    /// A sphere about the frame's origin \[m\].
+    /// Returns a sphere about the frame's origin \[m\].
     pub fn ball(radius: f64, frame: Frame) -> Self {
         Self::round(0.0, radius, frame)
     }
 
-    /// The part where a body fixed to the base carries it that stands elsewhere.
+    /// Returns the part moved by a transform, for a body that is fixed to the base and stands elsewhere.
     pub fn carried(&self, by: &Rigid) -> Self {
         Self {
             frame: Frame::base().offset(&by.then(self.frame.on_body())),
@@ -143,7 +143,7 @@ impl Part {
         }
     }
 
-    /// The corners of a hull or box in the frame that carries the part; of others none \[m\].
+    /// Returns the corners of a hull or box in the frame that carries the part \[m\]; empty for others.
     pub fn corners(&self) -> impl Iterator<Item = Vector3<f64>> {
         let vertices: &[Vector] = match &self.core {
             Core::Solid(_, Extent::Vertices(vertices)) => vertices,
@@ -177,19 +177,18 @@ impl Part {
         }
     }
 
-    /// The frame that the part is fixed to, base frame.
+    /// Returns the frame that the part is fixed to, base frame.
     pub fn rigid(&self, poses: &BodyPoses) -> Rigid {
         poses.rigid(&self.frame)
     }
 
-    /// A lower bound of the distance to another part from its bounding sphere; `here` and `there` are the parts'
-    /// [`Part::rigid`] \[m\].
+    /// Lower bound of the distance to another part from its bounding sphere \[m\]; `here` and `there` are the parts' [`Part::rigid`].
     pub fn gap_to_sphere(&self, here: &Rigid, other: &Self, there: &Rigid) -> f64 {
         self.distance_to_point(here, &there.translation) - other.bounding
     }
 
-    /// Distance of a point of the base frame from the part \[m\]: exact for capsules, cylinders and half-spaces, below 0
-    /// within the latter; otherwise a lower bound from the bounding sphere.
+    /// Distance of a point of the base frame from the part \[m\]: exact for capsules, cylinders and half-spaces, below 0 within the latter;
+    /// otherwise a lower bound from the bounding sphere.
     fn distance_to_point(&self, here: &Rigid, point: &Vector3<f64>) -> f64 {
         let away = point - here.translation;
         match &self.core {
@@ -208,7 +207,7 @@ impl Part {
         }
     }
 
-    /// The arm's body that carries the part: 0 for what never moves.
+    /// Index of the arm's body that carries the part: 0 for fixed parts.
     pub fn body(&self) -> usize {
         self.frame.body()
     }
@@ -218,18 +217,18 @@ impl Part {
         self.bounding
     }
 
-    /// The frame that the part is fixed to.
+    /// Returns the frame that the part is fixed to.
     pub fn frame(&self) -> Frame {
         self.frame
     }
 
-    /// Levers of the part's origin, widened to the whole part; those of joints that do not move it stay 0.
+    /// Returns the levers of the part's origin, widened to the whole part; those of joints that do not move it stay 0.
     pub fn widened(&self, levers: &Levers) -> Levers {
         let body = self.body();
         Levers::from_fn(|i, _| if i < body { levers[i] + self.bounding } else { 0.0 })
     }
 
-    /// [`Placed::sphere_gap`] without placing the parts.
+    /// Same as [`Placed::sphere_gap`], without placing the parts.
     pub fn sphere_gap(&self, other: &Self, poses: &BodyPoses) -> f64 {
         let (here, there) = (poses.rigid(&self.frame), poses.rigid(&other.frame));
         match (&self.core, &other.core) {
@@ -239,7 +238,7 @@ impl Part {
         }
     }
 
-    /// The part where the arm's bodies stand.
+    /// Places the part at the poses of the arm's bodies.
     pub fn place(&self, poses: &BodyPoses) -> Placed<'_> {
         let pose: Pose = poses.pose(&self.frame).into();
         let pose = match &self.core {
@@ -261,8 +260,8 @@ impl Placed<'_> {
         self.bounding
     }
 
-    /// Whether the distance to another part is right to rounding: over a half-space and between two spheres. Between segments
-    /// the closed form takes nearly parallel ones for parallel, which costs more the shorter they are.
+    /// True if the distance to another part is exact up to rounding: over a half-space and between two spheres. Between segments the closed
+    /// form takes nearly parallel ones for parallel; the error grows as they get shorter.
     pub fn is_exact_with(&self, other: &Self) -> bool {
         let is_sphere = |core: &Core| matches!(core, Core::Segment(half) if *half == 0.0);
         match (self.core, other.core) {
@@ -271,12 +270,12 @@ impl Placed<'_> {
         }
     }
 
-    /// The unit vector out of a half-space, base frame; `None` of other parts, which are bounded.
+    /// Outward unit vector of a half-space, base frame; `None` for other parts, which are bounded.
     pub fn outwards(&self) -> Option<Vector> {
         matches!(self.core, Core::HalfSpace).then(|| self.pose.rotation * Vector::Z)
     }
 
-    /// The axis of what is round about one, base frame.
+    /// Axis of a part that is round about one, base frame.
     pub fn axis(&self) -> Option<Vector> {
         match self.core {
             Core::Segment(half) if *half > 0.0 => Some(self.pose.rotation * Vector::Z),
@@ -285,8 +284,8 @@ impl Placed<'_> {
         }
     }
 
-    /// How far the part reaches along a unit direction from the base frame's origin \[m\]; a half-space is asked along
-    /// [`Placed::outwards`] alone, as there is no end to it along any other.
+    /// Reach of the part along a unit direction from the base frame's origin \[m\]. A half-space has a finite reach only along
+    /// [`Placed::outwards`].
     pub fn support(&self, direction: Vector) -> f64 {
         let local = self.pose.rotation.inverse() * direction;
         let beyond = match self.core {
@@ -303,7 +302,7 @@ impl Placed<'_> {
         self.pose.translation.dot(direction) + (beyond + self.radius)
     }
 
-    /// The point of the core that is farthest along a direction, base frame; that of a half-space is not defined.
+    /// Returns the point of the core that is farthest along a direction, base frame; undefined for a half-space.
     pub fn extreme(&self, direction: Vector) -> Vector {
         let local = self.pose.rotation.inverse() * direction;
         let point = match self.core {
@@ -323,13 +322,13 @@ impl Placed<'_> {
         self.pose * point
     }
 
-    /// The core segment's ends, base frame.
+    /// Returns the core's segment, base frame.
     pub fn segment(&self, half: f64) -> Segment {
         let end = |z: f64| self.pose * Vector::new(0.0, 0.0, z);
         Segment::new(end(-half), end(half))
     }
 
-    /// How far a point is from the plane of a half-space, below 0 within \[m\].
+    /// Distance of a point from the plane of a half-space \[m\]; below 0 within.
     pub fn height_of(&self, point: Vector) -> f64 {
         let normal = self.pose.rotation * Vector::Z;
         normal.dot(point - self.pose.translation) - self.radius

@@ -1,9 +1,9 @@
-//! The convex parts of a mesh: one hull, or several that together enclose its surface.
+//! Convex parts of a mesh: one hull, or several that together enclose its surface.
 //!
-//! Where the mesh is cut is a proposal (VHACD, Mamou & Ghorbel 2009, by the collision library): cells that overlap at will. Of each triangle
-//! what is within a cell goes to the part of that cell, which is the hull of all that. Then each triangle is cut by the planes of each part, and what
-//! is left in none of them is added to the nearest: so the parts enclose the surface, whatever was proposed. A part without thickness, as
-//! of a mesh that is a sheet, gets one.
+//! The cuts of the mesh are a proposal (VHACD, Mamou & Ghorbel 2009, by the collision library): cells that may overlap. The piece of each
+//! triangle within a cell goes to the part of that cell, which is the hull of all its pieces. Then each triangle is cut by the planes of
+//! each part, and the rest that is in none of them is added to the nearest. So the parts enclose the surface for any proposal. A part
+//! without thickness, as of a mesh that is a sheet, gets one.
 
 #[cfg(test)]
 mod tests;
@@ -13,65 +13,65 @@ use nalgebra::Point3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 
-/// Most triangles of a mesh that is decomposed.
+/// Greatest number of triangles of a mesh that is decomposed.
 const MOST_TRIANGLES: usize = 20_000;
 
-/// Most parts of a mesh.
+/// Greatest number of parts of a mesh.
 const MOST_PARTS: u32 = 64;
 
-/// Cells along the longest edge of a mesh when it is looked at where to cut it.
+/// Number of cells along the longest edge of a mesh for proposing cuts.
 const CELLS: u32 = 64;
 
-/// How deep a part may be hollow, as a share of the mesh's hull.
+/// Greatest depth of a hollow in a part, as a share of the mesh's hull.
 const HOLLOW: f64 = 0.004;
 
-/// Half of the thickness that a part without one gets \[m\].
+/// Half of the thickness added to a part without one \[m\].
 const SHEET_M: f64 = 5e-5;
 
-/// What a piece of a surface may be beyond a plane and count as behind it, as a part of the mesh's size.
+/// Distance beyond a plane at which a piece of a surface counts as behind it, as a part of the mesh's size.
 const ROUNDING: f64 = 1e-12;
 
-/// What counts of a mesh.
+/// Interpretation of a mesh as a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SolidParts {
-    /// Its convex hull.
+    /// The convex hull of the mesh.
     Hull,
     /// Convex parts that together enclose its surface.
     Decomposed,
 }
 
-/// Why a mesh is no body.
+/// Reason that a mesh is not a valid body.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolidError {
-    /// It has no triangle.
+    /// The mesh has no triangles.
     #[error("it has no triangles")]
     Empty,
-    /// A coordinate is no number.
+    /// A coordinate is not a number.
     #[error("a corner of triangle {triangle} is no number")]
     NotFinite {
-        /// Which, from 0.
+        /// Index of the triangle, from 0.
         triangle: usize,
     },
-    /// All of it lies in a plane.
+    /// The mesh lies in a plane.
     #[error("it is flat; a body needs a volume")]
     Flat,
-    /// Too many corners.
+    /// The mesh has too many corners.
     #[error("it has {found} distinct corners; at most {MOST_CORNERS} can be judged: simplify the mesh")]
     TooManyCorners {
-        /// How many.
+        /// Number of corners.
         found: usize,
     },
-    /// Too many triangles.
+    /// The mesh has too many triangles.
     #[error("it has {found} triangles; at most {MOST_TRIANGLES} can be decomposed (its hull may have more)")]
     TooMany {
-        /// How many.
+        /// Number of triangles.
         found: usize,
     },
 }
 
-/// The corners of the convex parts of a mesh's triangles \[m\]: whatever a triangle holds is in one of their hulls, to rounding. A mesh need not be
-/// closed: its surface counts, and of its inside what the parts enclose.
+/// Returns the corners of the convex parts of a mesh's triangles \[m\]. Every point of a triangle is in one of their hulls, up to rounding.
+/// A mesh need not be closed: its surface counts, and its inside as far as the parts enclose it.
 ///
 /// # Errors
 /// [`SolidError`].
@@ -112,10 +112,10 @@ pub fn solid_parts(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> Result<
         .collect())
 }
 
-/// A convex part: its corners, and the planes that it is behind.
+/// Convex part: its corners, and the planes that it is behind.
 struct Part {
     corners: Vec<Vector>,
-    /// Unit normals outwards, and their distances from the origin; none where the hull is none to rely on.
+    /// Outward unit normals and their distances from the origin; empty for an unreliable hull.
     planes: Vec<(Vector, f64)>,
 }
 
@@ -133,7 +133,7 @@ impl Part {
         }
     }
 
-    /// Cuts a polygon into what is within the part and pieces of what is not.
+    /// Cuts a polygon into the piece within the part and the pieces outside.
     fn cut(&self, polygon: &[Vector], rounding: f64) -> (Vec<Vector>, Vec<Vec<Vector>>) {
         let (mut within, mut without) = (polygon.to_vec(), Vec::new());
         if self.planes.is_empty() {
@@ -159,7 +159,7 @@ impl Part {
     }
 }
 
-/// The parts of a convex polygon behind a plane and beyond it, both with what lies in it.
+/// Splits a convex polygon into the pieces behind a plane and beyond it, both with the points in the plane.
 fn split(polygon: &[Vector], height: impl Fn(&Vector) -> f64) -> (Vec<Vector>, Vec<Vector>) {
     let (mut behind, mut beyond) = (Vec::new(), Vec::new());
     for (i, p) in polygon.iter().enumerate() {
@@ -195,7 +195,7 @@ fn decomposed(triangles: &[[Vector; 3]], points: &[Vector]) -> Vec<Vec<Vector>> 
         found.push(points.to_vec());
     }
     let mut parts: Vec<Part> = found.into_iter().map(|part| Part::around(thick(part))).collect();
-    // What is in none of them is added, and the rest stays enclosed: parts only grow.
+    // A rest in none of the parts is added, and everything else stays enclosed: parts only grow.
     let mut missing: Vec<Vec<Vector>> = vec![Vec::new(); parts.len()];
     for triangle in triangles {
         for piece in uncovered(triangle, &parts, rounding) {
@@ -219,7 +219,7 @@ fn decomposed(triangles: &[[Vector; 3]], points: &[Vector]) -> Vec<Vec<Vector>> 
         .collect()
 }
 
-/// What of a triangle is in none of the parts.
+/// Returns the pieces of a triangle that are in none of the parts.
 fn uncovered(triangle: &[Vector; 3], parts: &[Part], rounding: f64) -> Vec<Vec<Vector>> {
     let mut left = vec![triangle.to_vec()];
     for part in parts {
@@ -231,7 +231,7 @@ fn uncovered(triangle: &[Vector; 3], parts: &[Part], rounding: f64) -> Vec<Vec<V
     left
 }
 
-/// Where a mesh could be cut into parts that are nearly convex.
+/// Proposes parts of a mesh that are nearly convex.
 fn cells(triangles: &[[Vector; 3]]) -> Vec<Part> {
     let corners: Vec<Vector> = triangles.iter().flatten().copied().collect();
     let indices: Vec<[u32; 3]> = (0..triangles.len() as u32)
@@ -248,7 +248,7 @@ fn cells(triangles: &[[Vector; 3]]) -> Vec<Part> {
     hulls.map(|(points, _)| Part::around(points)).collect()
 }
 
-/// The points of a part with a volume; of one in a plane with a thickness.
+/// Returns the points of a part with a volume unchanged; gives a part in a plane a thickness.
 fn thick(points: Vec<Vector>) -> Vec<Vector> {
     if has_volume(&points) {
         return points;
@@ -263,7 +263,7 @@ fn thick(points: Vec<Vector>) -> Vec<Vector> {
 
 fn distinct(points: impl Iterator<Item = Vector>) -> Vec<Vector> {
     let mut seen = std::collections::BTreeSet::new();
-    // Of two zeros one is negative.
+    // Adding zero turns −0 into 0.
     points
         .map(|p| p + Vector::ZERO)
         .filter(|p| seen.insert([p.x, p.y, p.z].map(f64::to_bits)))

@@ -1,13 +1,13 @@
-//! What stands still stands apart: obstacles from plates and from the arm's base, plates at an angle to it from the base.
+//! Check that fixed bodies are apart: obstacles from plates and from the arm's base, plates at an angle to the base from the base.
 //!
-//! Two convex parts reach into each other by no more than max n·a − min n·b along any direction n, from the first to the second. So parts are apart
-//! where one of the directions that are tried says so: those of their faces and axes, of their nearest points, and the one in which the collision library
-//! would push them apart. The least that is found is stated as how far they reach into each other.
+//! Two convex parts overlap by no more than max n·a − min n·b along any direction n, from the first to the second. So parts are apart if
+//! one of the directions tried shows it: those of their faces and axes, of their nearest points, and the one in which the collision library
+//! would push them apart. The least value found is stated as the overlap.
 //!
-//! The margins of obstacles do not count here: they are for what moves. Nor does the arm in the floor at height 0 that a job has where nothing is said
-//! of one.
+//! The margins of obstacles do not count here, as they apply to moving bodies. Nor does the arm count in the floor at height 0 that a job
+//! has by default.
 //!
-//! The distance of two plates, which do not move.
+//! The distance of two plates, which do not move, is computed here, too.
 
 #[cfg(test)]
 mod tests;
@@ -26,17 +26,17 @@ use parry3d_f64::query;
 use platewash_kinematics::{BodyPoses, JointVector, RobotModel};
 use std::fmt;
 
-/// How far bodies that touch may reach into each other by rounding \[m\].
+/// Depth by which touching bodies may overlap by rounding \[m\].
 pub const TOUCH_M: f64 = 1e-6;
 
-/// What stands where it cannot.
+/// Fixed body that overlaps another.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Standing {
-    /// An obstacle, by its name.
+    /// Obstacle, by its name.
     Obstacle(String),
-    /// An obstacle of several convex parts, by its name.
+    /// Obstacle of several convex parts, by its name.
     Parts(String),
-    /// A plate, by its index.
+    /// Plate, by its index.
     Plate(usize),
 }
 
@@ -49,25 +49,26 @@ impl fmt::Display for Standing {
     }
 }
 
-/// Two bodies that stand still and reach into each other.
+/// Two fixed bodies that overlap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StandingOverlap {
-    /// The one.
+    /// The first body.
     pub standing: Standing,
-    /// The plate, or the link of the arm.
+    /// Name of the plate, or of the link of the arm.
     pub other: String,
-    /// How far the one reaches into the other, at most \[m\].
+    /// Upper bound on the depth of the overlap \[m\].
     pub by_m: f64,
 }
 
-/// The obstacles of a workcell that reach into its plates, but for those that they hold, or into what of the arm they can never get away from: its
-/// base, and of half-spaces what joint 1 turns above them; and the plates that reach into the base. Of plates that lie level with the base
-/// [`BaseFootprint::gap_m`] tells. The raised plates of a dry run are not there; its real ones are those of its parent.
+/// Finds the obstacles of a workcell that reach into its plates, except those that they hold, or into the bodies of the arm that never get
+/// away from them: its base, and for half-spaces also the body that joint 1 turns above them. Also finds the plates that reach into the
+/// base. Plates that are level with the base are checked with [`BaseFootprint::gap_m`]. The raised plates of a dry run are ignored, as
+/// nothing is there; its real ones are those of its parent.
 ///
 /// [`BaseFootprint::gap_m`]: crate::layout::BaseFootprint::gap_m
 ///
 /// # Errors
-/// [`ClearanceError`] for a shape that is none.
+/// [`ClearanceError`] for an invalid shape.
 pub fn standing_overlaps(
     robot: &RobotModel,
     workcell: &Workcell,
@@ -83,7 +84,7 @@ pub fn standing_overlaps(
     let poses = robot.fk(&JointVector::zeros());
     let standing = if dry_run.is_some() { &[] } else { plates };
     let tilted: Vec<_> = (0..standing.len()).filter(|&i| !standing[i].is_level()).collect();
-    // Where all plates lie level on the plain floor no link counts: the arm's bodies need not be made.
+    // If all plates lie level on the plain floor, no link counts: the arm's bodies are not needed.
     let arm = match tilted.is_empty() && counting.iter().all(|obstacle| obstacle.is_plain_floor()) {
         true => Vec::new(),
         false => world(robot, &workcell.tool, &[])?,
@@ -100,7 +101,7 @@ pub fn standing_overlaps(
             margin_m: 0.0,
             ..obstacle.clone()
         })?;
-        // What an arm's description lets down below its own ground is in no floor that nothing is said of.
+        // The default floor does not count the parts of an arm that reach below its own ground.
         let stays = |link: &&Body| !obstacle.is_plain_floor() && link.stays_beside(&body, robot);
         let free = bodies
             .iter()
@@ -123,7 +124,7 @@ pub fn standing_overlaps(
 }
 
 impl ClearanceModel {
-    /// Where a plate that does not lie level with the base reaches into it.
+    /// Returns the overlap with the base of a plate that is not level with it, if there is one.
     #[must_use]
     pub fn plate_in_base(&self, plate: usize) -> Option<StandingOverlap> {
         let here = self.bodies.iter().find(|body| body.kind == BodyKind::Plate(plate))?;
@@ -136,7 +137,7 @@ impl ClearanceModel {
     }
 }
 
-/// Where a plate reaches into the base, which is among some bodies.
+/// Returns the overlap of a plate with the base, which is among `bodies`, if there is one.
 fn in_base(index: usize, plate: &Body, bodies: &[Body], poses: &BodyPoses) -> Option<StandingOverlap> {
     let mut base = bodies.iter().filter(|body| body.kind == BodyKind::Link(0));
     base.find_map(|link| {
@@ -149,7 +150,7 @@ fn in_base(index: usize, plate: &Body, bodies: &[Body], poses: &BodyPoses) -> Op
     })
 }
 
-/// How far two bodies reach into each other at most; 0 where they do not \[m\].
+/// Upper bound on the depth by which two bodies overlap \[m\]; 0 if they do not.
 fn overlap(a: &Body, b: &Body, poses: &BodyPoses) -> f64 {
     let outer = [a, b].map(|body| place(std::slice::from_ref(body), poses).remove(0));
     let near = |p: &Placed<'_>, r: &Placed<'_>| p.sphere_gap(r) <= 0.0;
@@ -168,7 +169,7 @@ fn overlap(a: &Body, b: &Body, poses: &BodyPoses) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// How far two parts reach into each other, at most; 0 or less where they do not \[m\].
+/// Upper bound on the depth by which two parts overlap \[m\]; 0 or less if they do not.
 fn depth(a: &Placed<'_>, b: &Placed<'_>) -> f64 {
     let (found, at_least) = bracketed(a, b);
     if a.outwards().is_some() || b.outwards().is_some() || at_least > 0.0 {
@@ -191,7 +192,7 @@ fn depth(a: &Placed<'_>, b: &Placed<'_>) -> f64 {
     least
 }
 
-/// Directions between the middles of two parts: as they are, and across the axes of both, which part what is round.
+/// Returns directions between the middles of two parts: directly, and across the axes of both, which separate round parts.
 fn between(a: &Placed<'_>, b: &Placed<'_>) -> impl Iterator<Item = Vector> {
     let way = b.pose.translation - a.pose.translation;
     let across = [a, b].map(|part| {
@@ -203,7 +204,7 @@ fn between(a: &Placed<'_>, b: &Placed<'_>) -> impl Iterator<Item = Vector> {
         .filter(|way| *way != Vector::ZERO)
 }
 
-/// The directions of a part's faces, and of its axis where it has one; either way.
+/// Returns the directions of a part's faces, and of its axis if it has one; both ways.
 fn faces(part: &Placed<'_>) -> std::vec::IntoIter<Vector> {
     let own: Vec<Vector> = match part.core {
         Core::Solid(solid, Extent::Vertices(_)) => match solid.as_convex_polyhedron() {
@@ -217,8 +218,9 @@ fn faces(part: &Placed<'_>) -> std::vec::IntoIter<Vector> {
     turned.into_iter()
 }
 
-/// How far two plates are apart at least, negative where they share a place \[m\]: those that are parallel, seen along their axis, all others by
-/// their bodies; 0 where one lies over the other, or both are faces of one disc. An arm lends its frames, whose base is where both lie.
+/// Lower bound on the distance of two plates \[m\], negative if they overlap: for parallel plates seen along their axis, for others by
+/// their bodies. It is 0 if one lies over the other, or both are faces of one disc. The arm gives the frames; both plates are in its base
+/// frame.
 #[must_use]
 pub fn gap_of_plates(robot: &RobotModel, a: &Plate, b: &Plate) -> f64 {
     if a.is_over(b) || b.is_over(a) || a.is_back_of(b) {
@@ -230,7 +232,7 @@ pub fn gap_of_plates(robot: &RobotModel, a: &Plate, b: &Plate) -> f64 {
     gap_of_bodies(robot, a, b)
 }
 
-/// What the distance of the bodies of two plates is not below \[m\].
+/// Lower bound on the distance of the bodies of two plates \[m\].
 fn gap_of_bodies(robot: &RobotModel, a: &Plate, b: &Plate) -> f64 {
     let poses = robot.fk(&Vector6::zeros());
     let [a, b] = [a, b].map(|plate| plate_body(0, plate, None));

@@ -1,7 +1,7 @@
-//! A body of many parts that stands still, looked at from the outside in: as a whole, in groups, part by part.
+//! Fixed body of many parts, examined from the outside in: as a whole, in groups, part by part.
 //!
-//! The whole and each group are shapes that hold their parts, so that what is far enough from them is far enough from these. A body
-//! of one part has no tree.
+//! The whole and each group are shapes that hold their parts, so that a body far from a shape is far from its parts. A body of one part has
+//! no tree.
 
 use crate::clearance::convex::HullFault;
 use crate::clearance::distance::Separation;
@@ -15,28 +15,28 @@ use platewash_kinematics::{BodyPoses, Frame, Pose};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Sectors of a plate in a group.
+/// Number of sectors of a plate in a group.
 const SECTORS: usize = 3;
 
-/// What holds the parts of a body.
+/// Shapes that hold the parts of a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Tree {
-    /// All of them.
+    /// Shape that holds all parts.
     pub whole: Part,
-    /// Some of them each; all of them together.
+    /// Groups of parts. Together they have all parts.
     pub groups: Vec<Group>,
-    /// Of a plate, what it has wherever it lies.
+    /// Pose-independent body of a plate; `None` for other bodies.
     solid: Option<Arc<Solid>>,
 }
 
-/// Some parts of a body and a sphere that holds them.
+/// Some parts of a body with a sphere that holds them.
 #[derive(Debug, Clone)]
 pub(crate) struct Group {
     pub ball: Part,
     pub members: Range<usize>,
 }
 
-/// The body of a plate wherever it lies, in the plate's frame.
+/// Pose-independent body of a plate, in the plate's frame.
 #[derive(Debug)]
 struct Solid {
     surface: Surface,
@@ -47,12 +47,12 @@ struct Solid {
     parts: Vec<Part>,
 }
 
-/// Which of two parts comes first in a distance.
+/// Order of two parts in a distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Order {
-    /// A part of the tree.
+    /// The part of the tree comes first.
     TreeFirst,
-    /// The other part.
+    /// The other part comes first.
     TreeSecond,
 }
 
@@ -95,7 +95,7 @@ impl Solid {
     }
 }
 
-/// The sphere about the middle of the corners of parts that holds them; `None` of none.
+/// Returns the sphere about the middle of the parts' corners that holds them; `None` without parts.
 fn around(parts: &[Part]) -> Option<Part> {
     let corners: Vec<_> = parts.iter().flat_map(Part::corners).collect();
     let first = corners.first()?;
@@ -112,8 +112,8 @@ fn around(parts: &[Part]) -> Option<Part> {
 }
 
 impl Tree {
-    /// Of a plate that is no flat disc, and its parts; those of a plate like it, which `like` may be, need not be made again. `None` of
-    /// a disc, and of a plate so thin that its parts have no volume.
+    /// Returns the tree of a plate that is no flat disc, and its parts. The parts of `like` are reused if it has the same shape. `None` for
+    /// a disc, and for a plate so thin that its parts have no volume.
     pub fn of(plate: &Plate, like: Option<&Self>) -> Option<(Self, Vec<Part>)> {
         if plate.surface.is_flat() {
             return None;
@@ -139,8 +139,8 @@ impl Tree {
         Some((tree, parts))
     }
 
-    /// Of some hulls in a frame that stands still, and their parts; no tree where there is one hull only. `None` where there is
-    /// none, or one has no volume.
+    /// Returns the tree of some hulls in a fixed frame, and their parts; no tree for a single hull. Fails if there is no hull, or one has
+    /// no volume.
     pub fn of_hulls(hulls: &[Vec<Point3<f64>>], frame: Frame) -> Result<(Option<Self>, Vec<Part>), HullFault> {
         let hull = |points: Vec<Point3<f64>>| Part::new(&Shape::Hull { points }, frame);
         let parts = hulls
@@ -164,7 +164,7 @@ impl Tree {
         Ok((Some(tree), parts))
     }
 
-    /// The tree of parts that are all grown by so much \[m\].
+    /// Returns the tree of parts that are all grown by a margin \[m\].
     pub fn grown(self, margin_m: f64) -> Self {
         let groups = self.groups.into_iter().map(|group| Group {
             ball: group.ball.grown(margin_m),
@@ -177,7 +177,7 @@ impl Tree {
         }
     }
 
-    /// The distance of the nearest of its parts to another part, where that is less than `below` \[m\].
+    /// Returns the distance of the nearest of its parts to another part, if it is less than `below` \[m\].
     pub fn nearest(
         &self,
         parts: &[Part],
@@ -214,7 +214,7 @@ impl Tree {
     }
 }
 
-/// Items with a bound of their distances that is not from `below` on, the least first; NaN is left to be seen.
+/// Returns the items whose bound on the distance is less than `below`, in ascending order; NaN is kept.
 fn ascending<T>(
     items: impl Iterator<Item = T>,
     bound: impl Fn(&T) -> f64,

@@ -1,4 +1,4 @@
-//! Clearance decided early: a quick yes or no, and what stands in the way.
+//! Early decision on the clearance: a quick yes or no, and the pair that is too near.
 //!
 //! While the sponge washes every pair keeps the margin, with one exception: the sponge and some plates. It lies on the one
 //! that it works on and runs over its rim by up to its radius, where a neighbour may lie ([`Plate::may_touch_beside`]).
@@ -11,24 +11,24 @@ use crate::clearance::model::{ClearanceModel, PairClearance, is_clear, nearest};
 use crate::clearance::part::Placed;
 use platewash_kinematics::{BodyPoses, JointVector};
 
-/// How a distance is worked out.
+/// Function that computes a distance.
 type Measure = fn(&Placed<'_>, &Placed<'_>) -> Separation;
 
 impl ClearanceModel {
-    /// Whether at `q` \[rad\] every pair keeps `required_m`. False for NaN; touching keeps nothing, not even 0.
+    /// True if every pair keeps `required_m` at `q` \[rad\]. False for NaN; touching pairs do not even keep 0.
     #[must_use]
     pub fn keeps(&self, q: &JointVector, required_m: f64) -> bool {
         self.all_keep(q, required_m, |_, _| true)
     }
 
-    /// Whether at `q` \[rad\] every pair keeps `required_m` but the sponge and the plates that it may touch while it works on one;
-    /// otherwise as [`ClearanceModel::keeps`].
+    /// True if every pair keeps `required_m` at `q` \[rad\], except the sponge and the plates that it may touch while it works on
+    /// `working_on`; otherwise as [`ClearanceModel::keeps`].
     #[must_use]
     pub fn keeps_washing(&self, q: &JointVector, working_on: usize, required_m: f64) -> bool {
         self.all_keep(q, required_m, |a, b| self.counts_washing(working_on, a, b))
     }
 
-    /// The nearest of the pairs that [`ClearanceModel::keeps_washing`] finds too near; `None` where there is none.
+    /// Returns the nearest of the pairs that [`ClearanceModel::keeps_washing`] finds too near; `None` if there are none.
     #[must_use]
     pub fn nearest_washing(&self, q: &JointVector, working_on: usize, required_m: f64) -> Option<PairClearance> {
         let poses = self.robot.fk(q);
@@ -57,7 +57,7 @@ impl ClearanceModel {
         Some(self.describe(a, b, found))
     }
 
-    /// Whether a pair must keep clear while the sponge washes a plate.
+    /// True if a pair must keep clear while the sponge washes a plate.
     fn counts_washing(&self, working_on: usize, a: usize, b: usize) -> bool {
         use BodyKind::{Plate, Sponge};
         match (self.bodies[a].kind, self.bodies[b].kind) {
@@ -66,7 +66,7 @@ impl ClearanceModel {
         }
     }
 
-    /// Stops at the first pair that is too near, and asks for a distance only where boxes and bounding spheres leave it open.
+    /// Stops at the first pair that is too near, and computes a distance only where boxes and bounding spheres do not decide.
     fn all_keep(&self, q: &JointVector, required: f64, counts: impl Fn(usize, usize) -> bool) -> bool {
         let poses = self.robot.fk(q);
         let is_enough = |gap: f64| gap > 0.0 && gap >= required;
@@ -74,7 +74,7 @@ impl ClearanceModel {
         let mut frames = Vec::with_capacity(4 * self.bodies.len());
         for body in &self.bodies {
             first.push(frames.len());
-            // Of obstacles few are looked at, if any.
+            // Few obstacles are examined, if any.
             let looked_at = body.outer().iter().filter(|_| body.kind != BodyKind::Obstacle);
             frames.extend(looked_at.map(|part| part.rigid(&poses)));
         }
@@ -103,9 +103,9 @@ impl ClearanceModel {
             && self.crowd.moving.iter().all(keeps_from_obstacles)
     }
 
-    /// Whether the parts of a body with a tree are clear of a part of another one; false where neither body has one.
+    /// True if the parts of a body with a tree are clear of a part of another one; false if neither body has one.
     fn parts_keep(&self, bodies: (usize, usize), parts: (usize, usize), poses: &BodyPoses, required: f64) -> bool {
-        // What is as far as this is clear.
+        // A pair at this distance or beyond is clear.
         let below = required.max(f64::MIN_POSITIVE);
         let found = self.within(bodies, parts, poses, separation, below);
         found.is_some_and(|found| found.is_none_or(|found| is_clear(found.distance, required)))

@@ -1,4 +1,4 @@
-//! The face of a sponge as columns of foam, each pressed by what of a plate lies in its way.
+//! Face of a sponge as columns of foam, each compressed by the plate's surface below it.
 //!
 //! The face is cut into a disc and rings of equal width, the k-th ring into 6 k sectors. A column stands at the centroid of its part: of
 //! a compression that is linear over the part it has the mean, exactly. Where the surface bends, the mean is off by no more than
@@ -13,69 +13,69 @@ use crate::trig::{sin, sin_cos};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
-/// Rings about the disc in the middle, as a rule and where bounds shall be tight on sharp bends.
+/// Number of rings about the disc in the middle, and below for bounds that must be tight on sharp bends.
 const RINGS: usize = 5;
 const FINE_RINGS: usize = 8;
 
-/// Steps of Newton's method at most; each squares the error.
+/// Greatest number of steps of Newton's method; each squares the error.
 const STEPS: usize = 20;
 
-/// How exactly a column meets the surface \[m\].
+/// Accuracy at which a column meets the surface \[m\].
 const MEETS_M: f64 = 1e-11;
 
-/// A part of the sponge's face, by its centroid on the unit disc.
+/// Part of the sponge's face, by its centroid on the unit disc.
 #[derive(Debug, Clone, Copy)]
 struct Part {
     at: [f64; 2],
-    /// Area, of that of the unit disc.
+    /// Area as a share of the unit disc.
     share: f64,
-    /// The mean over it of the square of the distance from its centroid.
+    /// Mean square of the distance from the centroid.
     square: f64,
-    /// Its neighbour on the ring within; of the disc in the middle itself.
+    /// Index of its neighbour on the ring within; for the disc in the middle its own.
     inner: usize,
 }
 
-/// The face of a sponge in columns.
+/// Face of a sponge in columns.
 #[derive(Debug, Clone)]
 pub struct Columns {
     parts: Vec<Part>,
     foundation: Foundation,
-    /// Rings about the disc in the middle.
+    /// Number of rings about the disc in the middle.
     rings: usize,
 }
 
-/// A column that meets a surface.
+/// Column that meets a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Column {
-    /// Where it meets the surface, plate frame \[m\].
+    /// Point where the column meets the surface, plate frame \[m\].
     pub point: Vector3<f64>,
-    /// The normal of the surface there.
+    /// Normal of the surface there.
     pub normal: Vector3<f64>,
-    /// w: its compression, below 0 where it does not reach the surface \[m\].
+    /// Compression w \[m\]; below 0 where the column does not reach the surface.
     pub compression_m: f64,
-    /// Its cross-section \[m²\].
+    /// Cross-section \[m²\].
     pub area_m2: f64,
 }
 
-/// What a pose asks of the foam.
+/// Load on the foam for a pose, as bounds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Load {
-    /// ∫ max(w, 0) dA at least and at most \[m³\].
+    /// Least and greatest ∫ max(w, 0) dA \[m³\].
     pub volume_m3: [f64; 2],
-    /// No column is compressed by more \[m\].
+    /// Upper bound on the compression of the columns \[m\].
     pub deepest_m: f64,
-    /// No column is compressed by less \[m\]; below 0 where one does not reach the surface.
+    /// Lower bound on the compression of the columns \[m\]; below 0 where one does not reach the surface.
     pub shallowest_m: f64,
 }
 
 impl Columns {
-    /// The columns of a sponge.
+    /// Returns the columns of a sponge.
     #[must_use]
     pub fn new(foundation: &Foundation) -> Self {
         Self::in_rings(foundation, RINGS)
     }
 
-    /// More and smaller columns, for bounds that are tight on sharp bends.
+    /// Returns more and smaller columns, for bounds that are tight on sharp bends.
     #[must_use]
     pub fn fine(foundation: &Foundation) -> Self {
         Self::in_rings(foundation, FINE_RINGS)
@@ -114,13 +114,13 @@ impl Columns {
         }
     }
 
-    /// The columns on a surface, as they stand. Where a column runs along the surface without meeting it, it counts as not compressed.
+    /// Returns the columns on a surface for a pose. A column that runs along the surface without meeting it counts as not compressed.
     pub fn on<'a>(&'a self, surface: &'a Surface, pose: &'a SpongePose) -> impl Iterator<Item = Column> + 'a {
         self.turned(surface, pose, across(&pose.axis))
     }
 
-    /// As [`Self::on`], with the columns turned about the axis so that they stand along two unit vectors across it and each other: those of
-    /// a sponge that turns with its tool.
+    /// Same as [`Self::on`], with the columns turned about the axis so that they stand along two unit vectors across it and each other:
+    /// those of a sponge that turns with its tool.
     pub fn turned<'a>(
         &'a self,
         surface: &'a Surface,
@@ -145,24 +145,25 @@ impl Columns {
         })
     }
 
-    /// Half of how wide a part is \[m\].
+    /// Half of the width of a part \[m\].
     #[must_use]
     pub fn half_width_m(&self) -> f64 {
         self.foundation.radius_m / (2 * self.rings + 1) as f64
     }
 
-    /// Rings about the disc in the middle: the k-th has 6 k columns, the last one the last of [`Self::on_unit_disc`].
+    /// Number of rings about the disc in the middle: the k-th has 6 k columns, the last one the last of [`Self::on_unit_disc`].
     #[must_use]
     pub fn rings(&self) -> usize {
         self.rings
     }
 
-    /// Where the columns stand on the unit disc, and their shares of its area: the disc in the middle first, then ring by ring.
+    /// Returns the positions of the columns on the unit disc, and their shares of its area: the disc in the middle first, then ring by
+    /// ring.
     pub fn on_unit_disc(&self) -> impl Iterator<Item = ([f64; 2], f64)> + '_ {
         self.parts.iter().map(|part| (part.at, part.share))
     }
 
-    /// What a pose asks of the foam where every column is compressed by `more_m` more.
+    /// Bounds the load on the foam for a pose, with every column compressed by `more_m` more.
     #[must_use]
     pub fn load(&self, surface: &Surface, pose: &SpongePose, more_m: f64) -> Load {
         let mut load = Load::NONE;
@@ -176,13 +177,13 @@ impl Columns {
         load
     }
 
-    /// How far the part of a column reaches from it at most \[m\]: a part is no longer than it is wide, or hardly.
+    /// Upper bound on the reach of a column's part from the column \[m\]. A part is hardly longer than it is wide.
     #[must_use]
     pub fn reach_m(&self) -> f64 {
         0.85 * 2.0 / (2 * self.rings + 1) as f64 * self.foundation.radius_m
     }
 
-    /// How large the parts are.
+    /// Returns the sizes of the parts.
     pub(crate) fn sizes(&self) -> impl Iterator<Item = Size> {
         let (reach_m, radius_m) = (self.reach_m(), self.foundation.radius_m);
         let r2 = radius_m * radius_m;
@@ -199,18 +200,18 @@ impl Columns {
         })
     }
 
-    /// Where the parts have their middles on the sponge's face, along the two unit vectors of [`Self::turned`] \[m\].
+    /// Returns the middles of the parts on the sponge's face, along the two unit vectors of [`Self::turned`] \[m\].
     pub(crate) fn middles_m(&self) -> impl Iterator<Item = [f64; 2]> {
         let radius_m = self.foundation.radius_m;
         self.parts.iter().map(move |part| part.at.map(|x| x * radius_m))
     }
 
-    /// The neighbours of the parts on the ring within.
+    /// Returns the indices of the parts' neighbours on the ring within.
     pub(crate) fn inner(&self) -> impl Iterator<Item = usize> {
         self.parts.iter().map(|part| part.inner)
     }
 
-    /// The sponge.
+    /// Returns the sponge as a foundation.
     #[must_use]
     pub fn foundation(&self) -> &Foundation {
         &self.foundation
@@ -218,14 +219,14 @@ impl Columns {
 }
 
 impl Load {
-    /// Of nothing.
+    /// Load without any part, the start value of a fold.
     const NONE: Self = Self {
         volume_m3: [0.0; 2],
         deepest_m: f64::NEG_INFINITY,
         shallowest_m: f64::INFINITY,
     };
 
-    /// Counts a part on a plate of that rim.
+    /// Adds a part on a plate with the given rim.
     fn see(&mut self, part: &PartBounds, area_m2: f64, rim_m: f64) {
         let [near_m, far_m] = part.rho_m;
         if near_m > rim_m {
@@ -240,22 +241,22 @@ impl Load {
     }
 }
 
-/// Two unit vectors across a unit vector, and each other.
+/// Returns two unit vectors across a unit vector and each other.
 fn across(axis: &Vector3<f64>) -> [Vector3<f64>; 2] {
     let side = if axis.x.abs() < 0.6 { Vector3::x() } else { Vector3::y() };
     let u = axis.cross(&side).normalize();
     [u, axis.cross(&u)]
 }
 
-/// Where a line meets a surface: how far along it \[m\], the place and the normal there.
+/// Intersection of a line with a surface: the length along the line \[m\], the point \[m\] and the normal there.
 pub(crate) type Meets = (f64, Vector3<f64>, Vector3<f64>);
 
-/// Where a line along a unit vector from a point meets a surface: by Newton's method on the height over the surface.
+/// Intersects a line along a unit vector from a point with a surface, by Newton's method on the height over the surface.
 fn meet(surface: &Surface, start: &Vector3<f64>, axis: &Vector3<f64>) -> Meets {
     meet_from(surface, (start, axis), 0.0, MEETS_M)
 }
 
-/// As [`meet`], from a guess, until a step is no longer than `settled_m`: each squares the error.
+/// Same as [`meet`], from a guess, until a step is no longer than `settled_m`: each squares the error.
 pub(crate) fn meet_from(
     surface: &Surface,
     (start, axis): (&Vector3<f64>, &Vector3<f64>),
@@ -288,6 +289,6 @@ pub(crate) fn meet_from(
             return (along_m, there.0, there.1);
         }
     }
-    // Where a knot keeps it from settling nothing is known.
+    // If a knot keeps it from settling, nothing is known.
     (f64::INFINITY, there.0, there.1)
 }

@@ -1,4 +1,4 @@
-//! What a flat face asks of the foam, from bounds of the tip's height and the tilt alone.
+//! Load on the foam by a flat face, from bounds of the tip's height and the tilt alone.
 //!
 //! With the tip at a height z over the face and the axis tilted by τ, the compression is linear across the sponge: its mean is
 //! m = c − z / cos τ, and at the rim it is m ± k, k = s tan τ. The mean of max(w, 0) over the whole face of the sponge is at least m and,
@@ -9,31 +9,30 @@ use crate::contact::Foundation;
 use crate::trig::acos;
 use std::f64::consts::PI;
 
-/// A sponge on a flat face through a wash: bounds.
+/// Bounds of a sponge's pose on a flat face through a wash.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Level {
-    /// How high the tip is over the face, or below it where that is negative: least and greatest, errors of the plate's height
-    /// included \[m\].
+    /// Least and greatest height of the tip over the face, negative below it, errors of the plate's height included \[m\].
     pub height_m: [f64; 2],
-    /// The least cos τ.
+    /// Least cos τ, with τ the tilt.
     pub cosine: f64,
-    /// The greatest distance of the tip from the plate's axis \[m\].
+    /// Greatest distance of the tip from the plate's axis \[m\].
     pub distance_m: f64,
 }
 
-/// What a flat face asks of the foam.
+/// Load on the foam by a flat face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LevelPress {
-    /// ∫ max(w, 0) dA at least and at most \[m³\].
+    /// Least and greatest ∫ max(w, 0) dA \[m³\].
     pub volume_m3: [f64; 2],
-    /// The greatest of the compressions on the sponge's axis, and that no column exceeds \[m\].
+    /// Greatest compression on the sponge's axis, and an upper bound on that of all columns \[m\].
     pub deepest_m: [f64; 2],
-    /// ∫ max(w, 0) r / cos γ dA at most, r the distance from the sponge's axis \[m⁴\].
+    /// Upper bound on ∫ max(w, 0) r / cos γ dA \[m⁴\], r the distance from the sponge's axis.
     pub twist_m4: f64,
 }
 
 impl Foundation {
-    /// What a flat face with a rim asks of the foam.
+    /// Bounds the load on the foam by a flat face with a rim.
     #[must_use]
     pub fn level_press(&self, level: &Level, rim_m: f64) -> LevelPress {
         let Level {
@@ -64,7 +63,7 @@ impl Foundation {
     }
 }
 
-/// How much of a disc at a distance from the axis is beyond a rim about it, at most \[m²\].
+/// Upper bound on the area of a disc, at a distance from the axis, beyond a rim about the axis \[m²\].
 fn beyond_rim_m2(disc_m: f64, distance_m: f64, rim_m: f64) -> f64 {
     let (r, d, big) = (disc_m, distance_m, rim_m);
     let whole = PI * r * r;
@@ -91,7 +90,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Against squares a hundredth of the disc's radius wide.
+        /// Compared with squares a hundredth of the disc's radius wide.
         #[test]
         fn what_is_beyond_a_rim_is_what_squares_say(r in 0.01..0.04f64, d in 0.0..0.2f64) {
             let (big, n) = (0.145, 200);
@@ -110,7 +109,7 @@ mod tests {
             prop_assert!((beyond_rim_m2(r, d, big) / (PI * r * r) - share).abs() < 5e-3, "{share}");
         }
 
-        /// Dense sums over the sponge's face at every height and tilt within the bounds stay within what is said of them.
+        /// Dense sums over the sponge's face, at every height and tilt within the bounds, stay within the computed bounds.
         #[test]
         fn no_pose_within_the_bounds_asks_for_more_or_less(
             height in [-2e-3..2e-3f64, -2e-3..2e-3f64], tilt in 0.0..0.3f64, share in [0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64], far in 0.05..0.15f64,

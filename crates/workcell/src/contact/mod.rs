@@ -1,4 +1,4 @@
-//! How a sponge presses on a plate: an elastic foundation.
+//! Contact model: the pressure of a sponge on a plate as an elastic foundation.
 //!
 //! The sponge is a cylinder of radius s whose free face lies c beyond the tip, across the tool's axis a (a unit vector out of the tool).
 //! Columns of foam along the axis give way independently of each other: where a point x of the face of a plate lies within the cylinder,
@@ -11,8 +11,9 @@
 //!
 //! A plate that lies higher by e along its axis ẑ compresses each column by −e ẑ·a more, and lies −e (ẑ − a (ẑ·a)) to the side.
 //!
-//! All in the frame of the plate, lengths in metres. `columns.rs` has the sponge's face in columns: forces, and the greatest compression;
-//! `stands.rs` the same over a stretch of time, `level.rs` on a flat face; `moment.rs` what single points of the plate's face get from a wash.
+//! All quantities are in the frame of the plate, lengths in metres. `columns.rs` has the sponge's face in columns: forces, and the greatest
+//! compression; `stands.rs` the same over a stretch of time, `level.rs` on a flat face; `moment.rs` the contact time and dose of single
+//! points of the plate's face.
 
 mod columns;
 mod level;
@@ -33,30 +34,30 @@ use crate::tool::{Sponge, Tool};
 use nalgebra::Vector3;
 use platewash_kinematics::rotation::Rigid;
 
-/// A sponge as an elastic foundation.
+/// Sponge as an elastic foundation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Foundation {
-    /// s \[m\].
+    /// Radius s \[m\].
     pub radius_m: f64,
-    /// H: its height while nothing presses it \[m\].
+    /// Height without load, H \[m\].
     pub free_height_m: f64,
-    /// c: how far its free face lies beyond the tip \[m\].
+    /// Distance of the free face beyond the tip, c \[m\].
     pub compression_m: f64,
-    /// Least and greatest E \[Pa\].
+    /// Least and greatest stiffness E \[Pa\].
     pub stiffness_pa: [f64; 2],
 }
 
-/// Where a sponge stands, in the frame of a plate.
+/// Pose of a sponge in the frame of a plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpongePose {
-    /// The tip \[m\].
+    /// Position of the tip \[m\].
     pub tip: Vector3<f64>,
-    /// a: the axis, out of the tool; a unit vector.
+    /// Axis a, out of the tool; a unit vector.
     pub axis: Vector3<f64>,
 }
 
 impl Foundation {
-    /// A sponge whose stiffness is stated; `None` of another one.
+    /// Returns the foundation of a sponge with a stated stiffness; `None` without one.
     #[must_use]
     pub fn of(sponge: &Sponge) -> Option<Self> {
         sponge
@@ -64,7 +65,7 @@ impl Foundation {
             .map(|stiffness_pa| Self::stiff(sponge, stiffness_pa))
     }
 
-    /// A sponge of that stiffness \[Pa\], whatever is stated of it.
+    /// Returns the foundation of a sponge with another stiffness than stated \[Pa\].
     #[must_use]
     pub fn stiff(sponge: &Sponge, stiffness_pa: [f64; 2]) -> Self {
         Self {
@@ -75,19 +76,19 @@ impl Foundation {
         }
     }
 
-    /// That of a tool.
+    /// Returns the foundation of a tool's sponge; `None` without a tool or a stated stiffness.
     #[must_use]
     pub fn of_tool(tool: &Tool) -> Option<Self> {
         Self::of(&tool.sponge).filter(|_| tool.is_present())
     }
 
-    /// w at a point of a face: below 0 where the free face does not reach it \[m\].
+    /// Compression w at a point of a face \[m\]; below 0 where the free face does not reach it.
     #[must_use]
     pub fn compression(&self, pose: &SpongePose, point: &Vector3<f64>) -> f64 {
         self.compression_m + (pose.tip - point).dot(&pose.axis)
     }
 
-    /// The force of a volume of compressed foam, of least and of greatest stiffness \[N\].
+    /// Forces of a volume of compressed foam, for the least and the greatest stiffness \[N\].
     #[must_use]
     pub fn forces_n(&self, volume_m3: f64) -> [f64; 2] {
         self.stiffness_pa.map(|pa| pa * volume_m3 / self.free_height_m)
@@ -95,7 +96,7 @@ impl Foundation {
 }
 
 impl SpongePose {
-    /// A tip frame of the world, seen from a plate.
+    /// Returns the pose of a tip frame of the world, relative to a plate.
     #[must_use]
     pub fn on(plate: &Plate, tip: &Rigid) -> Self {
         let axis: Vector3<f64> = tip.rotation.column(2).into_owned();

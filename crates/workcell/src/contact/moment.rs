@@ -1,42 +1,42 @@
-//! Moments of a wash, what may happen between two of them, and what a place is wanted to get through them.
+//! Moments of a wash, bounds of the motion between two of them, and the amounts wanted at a place.
 //!
-//! What one point of a plate gets from a wash: measured, not bounded.
+//! The amounts that one point of a plate gets from a wash are measured here, not bounded.
 
 use crate::contact::{Foundation, SpongePose};
 use nalgebra::Vector3;
 
-/// A moment of a wash, in the frame of the plate.
+/// Moment of a wash, in the frame of the plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
-    /// Its time \[s\].
+    /// Time \[s\].
     pub t_s: f64,
-    /// Where the sponge stands.
+    /// Pose of the sponge.
     pub pose: SpongePose,
-    /// Speed of the tip \[m/s\].
+    /// Velocity of the tip \[m/s\].
     pub speed: Vector3<f64>,
-    /// ω: how fast the sponge turns \[rad/s\].
+    /// Angular velocity ω of the sponge \[rad/s\].
     pub turning: Vector3<f64>,
 }
 
-/// How a sponge moves over a stretch of time, at most.
+/// Upper bounds on the motion of a sponge over a stretch of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drift {
-    /// h \[s\].
+    /// Length h of the stretch \[s\].
     pub length_s: f64,
     /// Speed of the tip \[m/s\].
     pub tip_m_s: f64,
-    /// Its acceleration \[m/s²\].
+    /// Acceleration of the tip \[m/s²\].
     pub tip_m_s2: f64,
-    /// ω: how fast the tool turns \[rad/s\].
+    /// Angular speed ω of the tool \[rad/s\].
     pub turning: f64,
-    /// How fast the axis turns \[1/s\].
+    /// Rate of change of the axis, a unit vector \[1/s\].
     pub axis: f64,
-    /// The second derivative of any direction that turns with the tool \[1/s²\].
+    /// Second derivative of any unit vector that turns with the tool \[1/s²\].
     pub bending: f64,
 }
 
 impl Drift {
-    /// Of a sponge that does not move.
+    /// Motion of a sponge at rest.
     pub const NONE: Self = Self {
         length_s: 0.0,
         tip_m_s: 0.0,
@@ -46,7 +46,7 @@ impl Drift {
         bending: 0.0,
     };
 
-    /// That of a stretch and of the one after it together.
+    /// Bounds the motion over a stretch and the one after it together.
     #[must_use]
     pub fn then(&self, next: &Self) -> Self {
         Self {
@@ -60,23 +60,23 @@ impl Drift {
     }
 }
 
-/// What is wanted of a place of a plate.
+/// Amounts wanted at a place of a plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wanted {
-    /// Least compression of the foam that counts \[m\].
+    /// Least compression of the foam that counts as contact \[m\].
     pub compression_m: f64,
-    /// By how much a plate may lie higher or lower along its axis \[m\].
+    /// Height error of a plate along its axis \[m\].
     pub height_error_m: f64,
     /// Least time in contact \[s\].
     pub time_s: f64,
-    /// Least dose ∫ p dl in contact, of the least stiffness \[Pa·m\].
+    /// Least dose ∫ p dl in contact, for the least stiffness \[Pa·m\].
     pub dose_pa_m: f64,
 }
 
-/// What a place gets, at least: with the plate where it gets the least.
+/// Amounts that a place gets, with the plate at the height where it gets the least.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Dwell {
-    /// The greatest of its compressions at all moments \[m\].
+    /// Greatest compression over all moments \[m\].
     pub compression_m: f64,
     /// Time in contact \[s\].
     pub time_s: f64,
@@ -84,7 +84,7 @@ pub struct Dwell {
     pub dose_pa_m: f64,
 }
 
-/// Where between 0 and 1 a line through two values is not below 0.
+/// Returns the part of [0, 1] on which the line through two values is not below 0.
 #[must_use]
 pub fn at_least_0([from, to]: [f64; 2]) -> Option<[f64; 2]> {
     let crossing = from / (from - to);
@@ -96,37 +96,37 @@ pub fn at_least_0([from, to]: [f64; 2]) -> Option<[f64; 2]> {
     }
 }
 
-/// What two ranges have in common; `None` where that has no length.
+/// Intersection of two ranges; `None` if it has no length.
 #[must_use]
 pub fn both([a, b]: [f64; 2], [c, d]: [f64; 2]) -> Option<[f64; 2]> {
     let common = [a.max(c), b.min(d)];
     (common[0] < common[1]).then_some(common)
 }
 
-/// What single points of a face get through some moments in order, as it goes evenly between them. The plate lies where a point gets the
-/// least.
+/// Measures the amounts that single points of a face get through some moments in order, with linear interpolation between them. The plate
+/// is at the height where a point gets the least.
 #[derive(Debug, Clone)]
 pub struct Looks<'a> {
     foundation: &'a Foundation,
     moments: &'a [Moment],
     wanted: &'a Wanted,
-    /// The longest way of the tip between two moments \[m\].
+    /// Longest distance of the tip between two moments \[m\].
     stride_m: f64,
 }
 
-/// A point at a moment.
+/// State of a point at a moment.
 #[derive(Clone, Copy)]
 struct Instant {
     index: usize,
     compression_m: f64,
-    /// How far it lies within the sponge \[m\].
+    /// Depth within the sponge's rim \[m\]; negative outside.
     inside_m: f64,
-    /// How fast the sponge slides over it \[m/s\].
+    /// Sliding speed of the sponge over it \[m/s\].
     slide_m_s: f64,
 }
 
 impl<'a> Looks<'a> {
-    /// Looks at a wash.
+    /// Prepares the moments of a wash.
     #[must_use]
     pub fn new(foundation: &'a Foundation, moments: &'a [Moment], wanted: &'a Wanted) -> Self {
         let strides = moments
@@ -140,7 +140,7 @@ impl<'a> Looks<'a> {
         }
     }
 
-    /// What a point gets \[m\], plate frame.
+    /// Returns the amounts at a point \[m\], plate frame.
     #[must_use]
     pub fn at(&self, point: &Vector3<f64>) -> Dwell {
         let mut dwell = Dwell {
@@ -158,7 +158,7 @@ impl<'a> Looks<'a> {
         dwell
     }
 
-    /// From when to when a point is in contact \[s\], plate frame, in the order of the moments.
+    /// Returns the intervals in which a point is in contact \[s\], plate frame, in the order of the moments.
     #[must_use]
     pub fn stays(&self, point: &Vector3<f64>) -> Vec<[f64; 2]> {
         let mut stays: Vec<[f64; 2]> = Vec::new();
@@ -170,7 +170,7 @@ impl<'a> Looks<'a> {
             let [first, last] = ends.map(|end| self.moments[end.index].t_s);
             let [from, to] = shares.map(|share| first + (last - first) * share);
             match stays.last_mut() {
-                // Of one moment to the end, of the next from its start.
+                // A stay to the end of one interval continues from the start of the next.
                 Some(stay) if stay[1] == from => stay[1] = to,
                 _ => stays.push([from, to]),
             }
@@ -178,7 +178,7 @@ impl<'a> Looks<'a> {
         stays
     }
 
-    /// Goes through the moments that are near enough to a point, each with the one before it where that is near enough, too.
+    /// Visits the moments that are near enough to a point, each with the one before it if that is near enough, too.
     fn pass(&self, point: &Vector3<f64>, mut at: impl FnMut(Option<&Instant>, &Instant)) {
         // One moment more on either side.
         let reach_m = self.foundation.radius_m + self.foundation.free_height_m + self.stride_m;
@@ -212,7 +212,7 @@ impl<'a> Looks<'a> {
         }
     }
 
-    /// From and to which share of the time between two moments a point is in contact; `None` where it is not.
+    /// Returns the part of the time between two moments in which a point is in contact; `None` if it is not.
     fn in_contact(&self, ends: [&Instant; 2]) -> Option<[f64; 2]> {
         let pressed = ends.map(|end| end.compression_m - self.wanted.compression_m);
         let inside = ends.map(|end| end.inside_m);

@@ -1,4 +1,4 @@
-//! What a part of the sponge's face is, at a moment or over a stretch of time: bounds from where its middle meets the surface.
+//! Bounds of a part of the sponge's face, at a moment or over a stretch of time, from the point where its middle meets the surface.
 //!
 //! The columns belong to the tool. A column meets the surface λ along the sponge's axis a, so that w = c − λ. With n the normal where it
 //! meets, cos γ = −a·n, v the velocity of the tool's point there, K the greatest curvature there, h the length of the stretch:
@@ -15,54 +15,54 @@
 //! function of sin γ, no longer than r times the mean of 1 / cos γ at both ends. As long as way and place do not leave the rings of the
 //! surface of which K is known, K holds all along.
 //!
-//! How much a face bends between two distances from its axis, looked up: the curvatures of narrow rings.
+//! The bend of a face between two distances from its axis is looked up in a table: the curvatures of narrow rings.
 
 use crate::contact::Foundation;
 use crate::contact::moment::Drift;
 use crate::surface::{Patch, Surface};
 use nalgebra::{Vector2, Vector3};
 
-/// Nothing is said of parts that the surface meets more steeply: 78°.
+/// Greatest sine of the angle between a column and the normal for which parts are bounded: 78°.
 const STEEPEST_SINE: f64 = 0.98;
 
-/// No less than its cosine, the other way round.
+/// Upper bound on the inverse cosine of that angle.
 const LONGEST: f64 = 5.1;
 
-/// How often the rings of which the curvature is asked are widened, for a part that leaves them.
+/// Greatest number of times that the range of rings is widened for a part that leaves it.
 const WIDENED: usize = 4;
 
-/// How large a part of a sponge's face is.
+/// Size of a part of a sponge's face.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Size {
-    /// How far it reaches from its middle at most \[m\].
+    /// Greatest distance of a point of the part from its middle \[m\].
     pub reach_m: f64,
-    /// The mean of the square of the distance from its middle \[m²\].
+    /// Mean square of the distance from its middle \[m²\].
     pub square_m2: f64,
-    /// Its cross-section \[m²\].
+    /// Cross-section \[m²\].
     pub area_m2: f64,
-    /// The root of that mean \[m\].
+    /// Root mean square of the distance from its middle \[m\].
     pub spread_m: f64,
-    /// The root of the mean of the square of the distance from the sponge's axis \[m\].
+    /// Root mean square of the distance from the sponge's axis \[m\].
     pub arm_m: f64,
 }
 
-/// Where the middle of a part meets a surface.
+/// Point where the middle of a part meets a surface.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Met {
-    /// w: its compression \[m\].
+    /// Compression w \[m\].
     pub compression_m: f64,
-    /// cos γ; what is not above 0 says that it does not meet it, or only along it.
+    /// cos γ. It is not above 0 if the column does not meet the surface, or only along it.
     pub cosine: f64,
     /// sin γ.
     pub sine: f64,
     /// Distance from the plate's axis \[m\].
     pub rho_m: f64,
-    /// The place, seen along the plate's axis \[m\].
+    /// Position, seen along the plate's axis \[m\].
     pub seen_m: Vector2<f64>,
 }
 
 impl Met {
-    /// At a point with that normal, for a sponge with that axis.
+    /// Returns the state for a point and its normal, and the sponge's axis.
     pub fn new(compression_m: f64, point: &Vector3<f64>, normal: &Vector3<f64>, axis: &Vector3<f64>) -> Self {
         let cosine = -normal.dot(axis);
         let seen_m = point.xy();
@@ -76,24 +76,24 @@ impl Met {
     }
 }
 
-/// What a stretch of time adds to the values at its ends.
+/// Bounds on the change over a stretch of time.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Spread {
-    /// h/2 \[s\].
+    /// Half of the length, h/2 \[s\].
     half_s: f64,
-    /// |v| \[m/s\] and |r̈| \[m/s²\].
+    /// Bounds |v| \[m/s\], and below |r̈| \[m/s²\].
     speed: f64,
     acceleration: f64,
-    /// |ȧ| \[1/s\].
+    /// Bound |ȧ| \[1/s\].
     axis: f64,
-    /// |v| and |r̈| are those of points whose λ has changed by no more \[m\].
+    /// Change of λ for which |v| and |r̈| hold \[m\].
     slid_m: f64,
-    /// What a compression at the ends may be wrong by \[m\].
+    /// Error of a compression at the ends \[m\].
     unsure_m: f64,
 }
 
 impl Spread {
-    /// Of a single moment at which the places are known to rounding.
+    /// Spread of a single moment at which the positions are exact up to rounding.
     pub const NONE: Self = Self {
         half_s: 0.0,
         speed: 0.0,
@@ -103,7 +103,8 @@ impl Spread {
         unsure_m: 0.0,
     };
 
-    /// Of a sponge whose parts reach so far from their middles, which are met no farther than `along_m` along its axis at both ends.
+    /// Returns the spread of a sponge. Its parts reach `reach_m` from their middles, which meet the surface no farther than `along_m` along
+    /// its axis at both ends.
     pub fn new(foundation: &Foundation, reach_m: f64, along_m: f64, drift: &Drift) -> Self {
         let s = foundation.radius_m;
         let half_s = 0.5 * drift.length_s;
@@ -125,25 +126,25 @@ impl Spread {
     }
 }
 
-/// What a part is, at a moment or over a stretch of time.
+/// Bounds of a part, at a moment or over a stretch of time.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PartBounds {
-    /// Between what its compression is \[m\].
+    /// Least and greatest compression \[m\].
     pub ends_m: [f64; 2],
-    /// Between what the mean of it is \[m\].
+    /// Least and greatest mean of the compression over the part \[m\].
     pub mean_m: [f64; 2],
-    /// Between what distances from the plate's axis it is met \[m\].
+    /// Least and greatest distance from the plate's axis at which it is met \[m\].
     pub rho_m: [f64; 2],
-    /// The least cosine of the angle between the axis of the sponge and the way onto the surface.
+    /// Least cosine of the angle between the axis of the sponge and the direction onto the surface.
     pub cosine: f64,
-    /// How far it gets along the surface from where it is at the nearer end \[m\].
+    /// Greatest distance along the surface from its position at the nearer end \[m\].
     pub slid_m: f64,
-    /// h²/8 of what bounds the second derivative of its compression, and what that may be wrong by \[m\].
+    /// Sag of the compression: h²/8 times the bound of its second derivative, plus its error \[m\].
     pub sag_m: f64,
 }
 
 impl PartBounds {
-    /// One of which nothing is known.
+    /// Bounds of a part of which nothing is known.
     const UNKNOWN: Self = Self {
         ends_m: [f64::NEG_INFINITY, f64::INFINITY],
         mean_m: [f64::NEG_INFINITY, f64::INFINITY],
@@ -153,7 +154,8 @@ impl PartBounds {
         sag_m: f64::INFINITY,
     };
 
-    /// What a part is between two moments, on a face with those least and greatest curvatures between two distances from its axis.
+    /// Bounds a part between two moments, on a face whose `curvatures` returns the least and greatest one between two distances from its
+    /// axis.
     pub fn over(
         [from, to]: [&Met; 2],
         size: &Size,
@@ -215,7 +217,7 @@ impl PartBounds {
         Self::UNKNOWN
     }
 
-    /// What the mean of max(w, 0) is not above \[m\]: max(w, 0) is convex, and no higher than the chord between its extremes.
+    /// Upper bound on the mean of max(w, 0) \[m\]. This function is convex, and no higher than the chord between its extremes.
     pub fn most_mean_m(&self) -> f64 {
         let ([least, most], [_, mean]) = (self.ends_m, self.mean_m);
         if most <= 0.0 {
@@ -230,42 +232,43 @@ impl PartBounds {
     }
 }
 
-/// The lesser of two numbers, the second where one is none: quicker than `f64::min`.
+/// Returns the lesser of two numbers, the second one if either is NaN: quicker than `f64::min`.
 fn lesser(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-/// The greater of two numbers, the second where one is none.
+/// Returns the greater of two numbers, the second one if either is NaN.
 fn greater(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
-/// Rings between the axis and the rim, and all of them: what is farther out is asked of the surface.
+/// Number of rings between the axis and the rim, and below of all rings. Beyond those the surface itself is asked.
 const RINGS: usize = 128;
 const ALL: usize = RINGS + RINGS / 2;
 
-/// How exactly a line meets a face where Newton's method has settled \[m\].
+/// Accuracy at which a line meets a face once Newton's method has settled \[m\].
 pub(crate) const MEETS_WITHIN_M: f64 = 1e-9;
 
-/// With the height F over the face along the line, the error after a step e is no more than max|F″| / (2 min|F′|) e². Slopes are at most
-/// 60°, and where nothing is steeper than 78° against the line that is at most 10 K e², K the greatest curvature.
+/// Factor of the error of Newton's method. With the height F over the face along the line, the error after a step e is no more than max|F″|
+/// / (2 min|F′|) e². Slopes are at most 60°, and where nothing is steeper than 78° against the line that is at most 10 K e², K the greatest
+/// curvature.
 const NEWTON: f64 = 10.0;
 
-/// A face with the curvatures of its rings.
+/// Face with the curvatures of its rings.
 #[derive(Debug, Clone)]
 pub struct Bends<'a> {
     surface: &'a Surface,
     rim_m: f64,
-    /// Rings a metre.
+    /// Number of rings per metre.
     per_m: f64,
-    /// A step of Newton's method after which a line meets the face to [`MEETS_WITHIN_M`] \[m\].
+    /// Length of a Newton step after which a line meets the face to [`MEETS_WITHIN_M`] \[m\].
     settled_m: f64,
-    /// Least and greatest curvature of each ring and of as many after it as make 1, 2, 4 … \[1/m\]; none of a flat face.
+    /// Least and greatest curvature of runs of 1, 2, 4 … rings from each ring on \[1/m\]; empty for a flat face.
     levels: Vec<Vec<[f64; 2]>>,
 }
 
 impl<'a> Bends<'a> {
-    /// Those of a face.
+    /// Computes the table of a face.
     #[must_use]
     pub fn of(surface: &'a Surface) -> Self {
         let rim_m = surface.rim_m();
@@ -299,25 +302,25 @@ impl<'a> Bends<'a> {
         }
     }
 
-    /// A step of Newton's method after which a line meets the face to [`MEETS_WITHIN_M`] \[m\].
+    /// Length of a Newton step after which a line meets the face to [`MEETS_WITHIN_M`] \[m\].
     pub(crate) fn settled_m(&self) -> f64 {
         self.settled_m
     }
 
-    /// The face.
+    /// Returns the face.
     #[must_use]
     pub fn surface(&self) -> &'a Surface {
         self.surface
     }
 
-    /// Radius of its rim \[m\].
+    /// Radius of the rim \[m\].
     #[must_use]
     pub fn rim_m(&self) -> f64 {
         self.rim_m
     }
 
-    /// Between what the curvatures along and across the meridian lie between two distances from the axis \[1/m\]; below 0 is as far out
-    /// on the other side.
+    /// Least and greatest curvature, along and across the meridian, between two distances from the axis \[1/m\]. A negative distance stands
+    /// for the same one on the other side.
     #[must_use]
     pub fn between(&self, [near_m, far_m]: [f64; 2]) -> [f64; 2] {
         if self.levels.is_empty() {
@@ -334,7 +337,7 @@ impl<'a> Bends<'a> {
     }
 }
 
-/// What holds two ranges.
+/// Returns the smallest range that holds two ranges.
 fn both([a, b]: [f64; 2], [least, most]: [f64; 2]) -> [f64; 2] {
     [if least < a { least } else { a }, if most > b { most } else { b }]
 }
@@ -345,7 +348,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// What is looked up holds all that the surface says, and no more than that of a ring more to each side.
+        /// The curvatures looked up hold those of the surface, and are within those of a range that is one ring wider on each side.
         #[test]
         fn what_is_looked_up_is_what_the_face_says(profile in 0..4usize, near in -0.01..0.2f64, wide in 0.0..0.04f64) {
             let surface = Surface::shipped(crate::surface::SHIPPED_PROFILES[profile]).unwrap();
@@ -354,7 +357,7 @@ mod tests {
             let found = Bends::of(&surface).between([near, far]);
             let exact = surface.patch([near.max(0.0), far]).curvature;
             let wider = surface.patch([(near - ring).max(0.0), far + ring]).curvature;
-            // Where sin β / ρ is the same everywhere it is rounded differently everywhere.
+            // If sin β / ρ is constant, it is rounded differently everywhere.
             let rounded = 1e-12 * surface.curvature_bounds().map(f64::abs).into_iter().fold(0.0, f64::max);
             prop_assert!(found[0] <= exact[0] + rounded && found[1] >= exact[1] - rounded, "{found:?} {exact:?}");
             prop_assert!(found[0] >= wider[0] - rounded && found[1] <= wider[1] + rounded, "{found:?} {wider:?}");

@@ -1,9 +1,10 @@
-//! What a plate asks of the foam over a stretch of time, wherever within an error of its height it lies.
+//! Load on the foam by a plate over a stretch of time, for every plate height within its error.
 //!
-//! What every part of the sponge's face is, from where its middle meets the plate at both ends of the stretch, stands in `parts.rs`.
+//! The bounds of every part of the sponge's face, from the points where its middle meets the plate at both ends of the stretch, are in
+//! `parts.rs`.
 //!
-//! A plate that lies higher presses every column more, as the surface is a graph that no column meets from below: what holds for the
-//! lowest and the highest place of a plate holds for all between.
+//! A plate that lies higher compresses every column more, as the surface is a graph that no column meets from below: bounds for the lowest
+//! and the highest position of a plate hold for all between.
 //!
 //! Over a part W = max(w, 0), with r the distance from the sponge's axis, the mean of W r is that of W times that of r and what both vary
 //! together. The mean of r is at most the root of that of r², which is the square of the distance of the part's middle and the mean of the
@@ -15,21 +16,21 @@ use crate::contact::moment::Drift;
 use crate::contact::parts::{Bends, Met, PartBounds, Size, Spread};
 use nalgebra::Vector3;
 
-/// What a plate asks of the foam, wherever within its error of height it lies.
+/// Load on the foam by a plate, for every height within its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Press {
-    /// ∫ max(w, 0) dA: at least with the plate at its lowest, at most with it at its highest \[m³\].
+    /// Bounds on ∫ max(w, 0) dA \[m³\]: the least with the plate at its lowest, the greatest with it at its highest.
     pub volume_m3: [f64; 2],
-    /// No column is compressed by more \[m\].
+    /// Upper bound on the compression of the columns \[m\].
     pub deepest_m: f64,
-    /// ∫ max(w, 0) r / cos γ dA at most, r the distance from the sponge's axis \[m⁴\].
+    /// Upper bound on ∫ max(w, 0) r / cos γ dA \[m⁴\], r the distance from the sponge's axis.
     pub twist_m4: f64,
-    /// How much of a compression may be due to what is not known between the ends of a stretch \[m\].
+    /// Part of a compression that comes from the bounds between the ends of a stretch \[m\].
     pub sag_m: f64,
 }
 
 impl Press {
-    /// Where nothing is known.
+    /// Load of which nothing is known.
     pub const UNKNOWN: Self = Self {
         volume_m3: [0.0, f64::INFINITY],
         deepest_m: f64::INFINITY,
@@ -37,7 +38,7 @@ impl Press {
         sag_m: f64::INFINITY,
     };
 
-    /// Of nothing.
+    /// Load without any part, the start value of a fold.
     const NONE: Self = Self {
         volume_m3: [0.0; 2],
         deepest_m: f64::NEG_INFINITY,
@@ -45,7 +46,7 @@ impl Press {
         sag_m: 0.0,
     };
 
-    /// Adds a part on a plate of that rim.
+    /// Adds a part on a plate with the given rim.
     fn add(&mut self, both: &Both, size: &Size, rim_m: f64) {
         let Both { low, high, .. } = both;
         let is_on = both.far_m < rim_m;
@@ -68,48 +69,48 @@ impl Press {
     }
 }
 
-/// As much as a plate certainly asks of the foam at a moment, somewhere within its error of height.
+/// Load that a plate certainly puts on the foam at a moment, for some height within its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seen {
-    /// ∫ max(w, 0) dA: no more than the first with the plate at its lowest, no less than the second with it at its highest \[m³\].
+    /// Attained ∫ max(w, 0) dA \[m³\]: no more than the first with the plate at its lowest, no less than the second with it at its highest.
     pub volume_m3: [f64; 2],
-    /// A column is compressed by as much or more \[m\].
+    /// Compression that a column has at least \[m\].
     pub deepest_m: f64,
-    /// Where the deepest column meets the surface, plate frame \[m\].
+    /// Point where the deepest column meets the surface, plate frame \[m\].
     pub deepest_at_m: [f64; 3],
 }
 
-/// A part of the sponge's face that may touch a plate over a stretch of time: points of the tool.
+/// Part of the sponge's face that may touch a plate over a stretch of time, in the frame of the tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touching {
-    /// Its middle, along the direction that turns with the tool and across that and the axis \[m\].
+    /// Middle of the part, along the direction that turns with the tool, and across that and the axis \[m\].
     pub at_m: [f64; 2],
-    /// Between what distances from the tip along the axis it touches \[m\].
+    /// Least and greatest distance from the tip along the axis at which it touches \[m\].
     pub along_m: [f64; 2],
 }
 
-/// A sponge on a plate at a moment: where its columns meet it with the plate at its lowest and at its highest.
+/// State of a sponge on a plate at a moment: the points where its columns meet the plate at its lowest and at its highest.
 #[derive(Debug, Clone)]
 pub struct Standing {
     met: Vec<[Met; 2]>,
-    /// Where the deepest of the columns meets the plate at its highest \[m\].
+    /// Point where the deepest column meets the plate at its highest \[m\].
     deepest_at_m: [f64; 3],
-    /// The greatest |λ| \[m\].
+    /// Greatest |λ| \[m\].
     along_m: f64,
 }
 
-/// What a part is over a stretch, with the plate at its lowest and at its highest.
+/// Bounds of a part over a stretch, with the plate at its lowest and at its highest.
 struct Both {
     low: PartBounds,
     high: PartBounds,
-    /// Between what distances from the plate's axis it is met, wherever the plate lies \[m\].
+    /// Least, and below greatest distance from the plate's axis at which it is met, for every height of the plate \[m\].
     near_m: f64,
     far_m: f64,
 }
 
 impl Columns {
-    /// How the sponge stands on a surface that may lie higher and lower by `error_m`; `side` is a direction that turns with the tool,
-    /// across its axis.
+    /// Computes the state of the sponge on a surface that may lie higher and lower by `error_m` \[m\]. `side` is a direction that turns
+    /// with the tool, across its axis.
     #[must_use]
     pub fn stand(&self, bends: &Bends<'_>, pose: &SpongePose, side: &Vector3<f64>, error_m: f64) -> Standing {
         let (surface, rim_m, axis) = (bends.surface(), bends.rim_m(), &pose.axis);
@@ -150,7 +151,7 @@ impl Columns {
         standing
     }
 
-    /// What the plate asks of the foam from one moment to another one.
+    /// Bounds the load on the foam from one moment to another.
     #[must_use]
     pub fn press(&self, bends: &Bends<'_>, ends: [&Standing; 2], drift: &Drift) -> Press {
         let mut press = Press::NONE;
@@ -160,7 +161,7 @@ impl Columns {
         press
     }
 
-    /// As much as the plate certainly asks of the foam at a moment, and what it asks at most.
+    /// Returns the load that the plate certainly puts on the foam at a moment, and bounds of it.
     #[must_use]
     pub fn seen(&self, bends: &Bends<'_>, at: &Standing) -> (Seen, Press) {
         let rim_m = bends.rim_m();
@@ -184,8 +185,8 @@ impl Columns {
         (seen, press)
     }
 
-    /// The parts that may touch the plate at some moment of a stretch, wherever within its error of height it lies; none reaches farther
-    /// than [`Columns::reach_m`] from its middle. `None` where of one nothing is known.
+    /// Returns the parts that may touch the plate at some moment of a stretch, for every height within its error. None reaches farther than
+    /// [`Columns::reach_m`] from its middle. `None` if nothing is known of a part.
     #[must_use]
     pub fn touching(&self, bends: &Bends<'_>, ends: [&Standing; 2], drift: &Drift) -> Option<Vec<Touching>> {
         let (rim_m, c) = (bends.rim_m(), self.foundation().compression_m);
@@ -204,7 +205,7 @@ impl Columns {
         Some(all)
     }
 
-    /// What every part is over a stretch.
+    /// Bounds every part over a stretch.
     fn over<'a>(
         &'a self,
         bends: &'a Bends<'_>,
@@ -220,7 +221,7 @@ impl Columns {
             // above, and no farther from one of them than half of what they are apart.
             let apart_m = apart(from).max(apart(to)) + 0.5 * (low.slid_m + high.slid_m);
             Both {
-                // Where nothing is known it is anywhere.
+                // If nothing is known, the position is unbounded.
                 near_m: if apart_m.is_finite() {
                     low.rho_m[0].min(high.rho_m[0]) - apart_m
                 } else {
@@ -234,7 +235,7 @@ impl Columns {
     }
 }
 
-/// Half of what the places of a part with the plate at its lowest and at its highest are apart \[m\].
+/// Half of the distance between the positions of a part with the plate at its lowest and at its highest \[m\].
 fn apart([low, high]: &[Met; 2]) -> f64 {
     0.5 * (low.seen_m - high.seen_m).norm()
 }

@@ -1,4 +1,4 @@
-//! How much of a plate the sponge sweeps.
+//! Share of a plate that the sponge sweeps.
 
 mod picture;
 mod raster;
@@ -10,27 +10,26 @@ use crate::coverage::raster::{Capsule, Raster, Uncovered};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Cells may not be smaller than this part of the plate's radius, so that every call ends soon.
+/// Least edge of the cells as a part of the plate's radius, so that every call ends soon.
 pub const SMALLEST_CELL: f64 = 1e-5;
 
-/// What is added to both sides of the bounds for rounding, as a part of the disc's area.
+/// Rounding added to both sides of the bounds, as a part of the disc's area.
 const ROUNDING: f64 = 1e-11;
 
-/// By how much of it a required share may be missed: the rounding of everything that leads to a share.
+/// Relative amount by which a required share may be missed: the rounding of everything that leads to a share.
 const SLACK: f64 = 1e-9;
 
-/// Whether a share is at least the required one, but for the rounding of what leads to it: whoever proves and whoever simulates asks
-/// this one question. NaN is not.
+/// True if a share is at least the required one, up to rounding. Proof and simulation both use this test. False for NaN.
 #[must_use]
 pub fn reaches(share: f64, required: f64) -> bool {
     share >= required - SLACK * required.abs().max(1e-3)
 }
 
-/// How finely to look.
+/// Resolution of the coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CoverageSettings {
-    /// Edge of the smallest cells, metres, at least 1e-5 of the disc's radius. The error falls in proportion.
+    /// Edge of the smallest cells \[m\], at least 1e-5 of the disc's radius. The error falls in proportion.
     pub cell_m: f64,
 }
 
@@ -40,15 +39,15 @@ impl Default for CoverageSettings {
     }
 }
 
-/// The swept part of a disc, as fractions of the disc's area, 0 to 1.
+/// Swept part of a disc, as fractions of the disc's area, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Coverage {
-    /// Best estimate: of the smallest cells that remain undecided, the swept share of eight columns of each counts, so that
-    /// the sponge's edge and the plate's rim are both where they are, even in the same cell.
+    /// Best estimate. Of the smallest undecided cells the swept share of eight columns counts, so that the sponge's edge and the plate's
+    /// rim are both at their true positions, even in the same cell.
     pub fraction: f64,
-    /// The true value is not below this.
+    /// Lower bound on the true value.
     pub lower: f64,
-    /// The true value is not above this.
+    /// Upper bound on the true value.
     pub upper: f64,
 }
 
@@ -60,7 +59,7 @@ impl Coverage {
     }
 }
 
-/// A number that makes no sense.
+/// Invalid number in a request.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CoverageError {
@@ -76,36 +75,35 @@ pub enum CoverageError {
     /// A length is not finite or not greater than zero.
     #[error("{quantity} = {value_m} m is not a finite length greater than zero")]
     NotPositive {
-        /// Which length.
+        /// Name of the length.
         quantity: &'static str,
-        /// Its value, metres.
+        /// Value \[m\].
         value_m: f64,
     },
-    /// The cells are so small that the raster would not end in reasonable time.
+    /// The cells are so small that the raster would take too long.
     #[error("cell_m = {cell_m} m is less than {smallest_m} m, 1e-5 of the disc's radius")]
     CellTooSmall {
-        /// Its value, metres.
+        /// Edge of the cells \[m\].
         cell_m: f64,
-        /// The smallest value allowed for this disc, metres.
+        /// Least edge for this disc \[m\].
         smallest_m: f64,
     },
-    /// A raster without cells, or with too many.
+    /// The raster has no cells, or too many.
     #[error("a raster has from 1 to {MAX_CELLS} cells along an edge; found {cells}")]
     Cells {
-        /// Cells along an edge.
+        /// Number of cells along an edge.
         cells: usize,
     },
 }
 
-/// The part of a disc that a round sponge sweeps while its centre follows a polyline.
+/// Computes the part of a disc that a round sponge sweeps while its centre follows a polyline.
 ///
-/// `polyline` and `centre` are in one plane frame, metres; `radius_m` is the disc's radius, `sponge_radius_m` the sponge's.
-/// An empty polyline sweeps nothing, one of a single point the sponge's own disc; repeated points do no harm.
+/// `polyline` and `centre` are in one plane frame \[m\]; `radius_m` is the disc's radius, `sponge_radius_m` the sponge's. An empty polyline
+/// sweeps nothing, one of a single point the sponge's own disc; repeated points are allowed.
 ///
-/// The swept area is the union of capsules, one a segment. Square cells are halved while they are neither wholly within one
-/// capsule nor wholly outside of all, down to `cell_m`; only those that remain undecided enter the error, so that
-/// [`Coverage::lower`] and [`Coverage::upper`] are proven (rounding included, for points within a hundred radii or so).
-/// Areas along the rim of the disc are exact.
+/// The swept area is the union of capsules, one per segment. Square cells are halved while they are neither wholly within one capsule nor
+/// wholly outside of all, down to `cell_m`. Only cells that remain undecided enter the error, so that [`Coverage::lower`] and
+/// [`Coverage::upper`] are proven (rounding included, for points within about a hundred radii). Areas along the rim of the disc are exact.
 ///
 /// # Errors
 ///
@@ -120,11 +118,11 @@ pub fn coverage(
     coverage_of_strokes(&[polyline], centre, radius_m, sponge_radius_m, settings)
 }
 
-/// The same for several polylines, between which the sponge does not touch: the union of what each one sweeps.
+/// Same as [`coverage`] for several polylines, between which the sponge does not touch: the union of the parts swept by each.
 ///
 /// # Errors
 ///
-/// As [`coverage`]; the index of a point counts all polylines one after the other.
+/// As [`coverage`]; the index of a point counts through all polylines.
 pub fn coverage_of_strokes<P: AsRef<[[f64; 2]]>>(
     polylines: &[P],
     centre: [f64; 2],
@@ -142,7 +140,7 @@ pub fn coverage_of_strokes<P: AsRef<[[f64; 2]]>>(
     Ok(as_fractions(&uncovered, std::f64::consts::PI * radius_m * radius_m))
 }
 
-/// One capsule a segment, relative to the disc's centre.
+/// Returns one capsule per segment, relative to the disc's centre.
 fn capsules(polyline: &[[f64; 2]], centre: [f64; 2]) -> Vec<Capsule> {
     let about_centre = |p: [f64; 2]| [p[0] - centre[0], p[1] - centre[1]];
     match polyline {

@@ -1,10 +1,10 @@
-//! What the sponge sweeps as a regular raster, to look at.
+//! The swept part of a disc as a regular raster, for display.
 
 use crate::coverage::raster::Capsule;
 use crate::coverage::{CoverageError, capsules, check_lengths};
 use rayon::prelude::*;
 
-/// Most cells along an edge of a raster.
+/// Greatest number of cells along an edge of a raster.
 pub const MAX_CELLS: usize = 4096;
 
 /// State of a cell of a raster.
@@ -14,16 +14,16 @@ pub enum RasterCell {
     Outside,
     /// The sponge sweeps no part of the cell.
     Missed,
-    /// The cell is swept in part, or it takes more than one segment of the path to sweep it.
+    /// The cell is swept in part, or by more than one segment of the path together.
     Partly,
     /// One segment of the path sweeps the cell wholly.
     Swept,
 }
 
-/// A raster over the square around a disc.
+/// Raster over the square around a disc.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoverageRaster {
-    /// The cells row by row, y ascending; `x_m.len()` a row.
+    /// Cells row by row, y ascending, `x_m.len()` per row.
     pub cells: Vec<RasterCell>,
     /// x of the cells' middles, in the polyline's frame \[m\].
     pub x_m: Vec<f64>,
@@ -31,8 +31,8 @@ pub struct CoverageRaster {
     pub y_m: Vec<f64>,
 }
 
-/// The swept part of a disc as a raster of `cells` × `cells`; the arguments are those of [`coverage`](crate::coverage::coverage). A cell
-/// that is called swept or missed is so wholly; no cell outside the disc is called either.
+/// Returns the swept part of a disc as a raster of `cells` × `cells`; the other arguments are those of
+/// [`coverage`](crate::coverage::coverage). A cell that is called swept or missed is so wholly; no cell outside the disc is called either.
 ///
 /// # Errors
 /// [`CoverageError`] as for [`coverage`](crate::coverage::coverage), and [`CoverageError::Cells`] for a raster without cells or with
@@ -70,7 +70,7 @@ pub fn raster(
     })
 }
 
-/// The state of the cell about `middle`, all relative to the disc's centre.
+/// Returns the state of the cell about `middle`, all relative to the disc's centre.
 fn state(middle: [f64; 2], half: f64, radius: f64, sponge: f64, capsules: &[&Capsule]) -> RasterCell {
     let nearest = middle.map(|c| (c.abs() - half).max(0.0));
     if nearest[0] * nearest[0] + nearest[1] * nearest[1] >= radius * radius {

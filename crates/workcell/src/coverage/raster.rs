@@ -1,14 +1,15 @@
-//! The quadtree that decides, cell by cell, what is swept.
+//! Quadtree that decides for each cell if it is swept.
 //!
-//! The swept share of a cell, by columns: within each, what the disc and every capsule cut out of its middle line is exact.
+//! The swept share of an undecided cell is computed by columns: the parts that the disc and every capsule cut out of a column's middle line
+//! are exact.
 //!
-//! Where the disc of a sponge is along a straight way.
+//! Sections of the disc of a sponge on a straight segment.
 //!
-//! The area that a disc and a rectangle have in common.
+//! The common area of a disc and a rectangle.
 
 use crate::trig::atan2;
 
-/// Area of the disc that is not swept, in the square of the unit of the lengths.
+/// Unswept area of the disc, in the square of the unit of the lengths.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Uncovered {
     /// Proven lower bound.
@@ -19,22 +20,22 @@ pub(crate) struct Uncovered {
     pub(crate) estimate: f64,
 }
 
-/// The state of a recursion over square cells about the disc's centre.
+/// State of a recursion over square cells about the disc's centre.
 #[derive(Debug)]
 pub(crate) struct Raster<'a> {
     capsules: &'a [Capsule],
     radius: f64,
     sponge_radius: f64,
     cell: f64,
-    /// The capsules that reach the current cell, after those that reach the cells around it.
+    /// Capsules that reach the current cell, after those that reach the cells around it.
     near: Vec<u32>,
-    /// Room for the sections of a column.
+    /// Buffer for the sections of a column.
     sections: Vec<[f64; 2]>,
     uncovered: Uncovered,
 }
 
 impl<'a> Raster<'a> {
-    /// Lengths in one unit, the disc's centre at the origin.
+    /// Prepares the recursion. Lengths have one unit, and the disc's centre is the origin.
     pub(crate) fn new(capsules: &'a [Capsule], radius: f64, sponge_radius: f64, cell: f64) -> Self {
         let near = (0..capsules.len() as u32).collect();
         Self {
@@ -48,7 +49,7 @@ impl<'a> Raster<'a> {
         }
     }
 
-    /// The area of the disc that no capsule covers.
+    /// Returns the area of the disc that no capsule covers.
     pub(crate) fn uncovered(mut self) -> Uncovered {
         // The root is the smallest square around the disc that halves down to cells of the wanted size.
         let mut half = 0.5 * self.cell;
@@ -127,11 +128,11 @@ impl<'a> Raster<'a> {
     }
 }
 
-/// Columns of a cell.
+/// Number of columns of a cell.
 const COLUMNS: u32 = 8;
 
-/// The swept share of the part of a cell, [x0, x1] × [y0, y1], that lies in the disc of `radius` about the origin: an
-/// estimate, from 0 to 1. `sections` is room to work in.
+/// Estimates the swept share, 0 to 1, of the part of a cell [x0, x1] × [y0, y1] that lies in the disc of `radius` about the origin.
+/// `sections` is a buffer.
 pub(crate) fn swept_share<'a>(
     [[x0, x1], [y0, y1]]: [[f64; 2]; 2],
     radius: f64,
@@ -159,7 +160,7 @@ pub(crate) fn swept_share<'a>(
     if whole > 0.0 { (swept / whole).min(1.0) } else { 0.0 }
 }
 
-/// The length of an interval that others cover together.
+/// Returns the length of an interval that others together cover.
 fn covered_length([from, to]: [f64; 2], others: &mut [[f64; 2]]) -> f64 {
     others.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
     let (mut done, mut covered) = (from, 0.0);
@@ -173,12 +174,12 @@ fn covered_length([from, to]: [f64; 2], others: &mut [[f64; 2]]) -> f64 {
     covered
 }
 
-/// The axis of a capsule: a segment, which may be a point.
+/// Axis of a capsule: a segment, which may be a point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Capsule {
     start: [f64; 2],
     along: [f64; 2],
-    /// 1 / length², 0 for a point.
+    /// Inverse of the squared length; 0 for a point.
     inverse_length_squared: f64,
 }
 
@@ -193,7 +194,7 @@ impl Capsule {
         }
     }
 
-    /// Whether some point of the axis is within `reach` of the line at the given y.
+    /// True if a point of the axis is within `reach` of the line at the given y.
     pub(crate) fn comes_near_height(&self, y: f64, reach: f64) -> bool {
         let ends = [self.start[1], self.start[1] + self.along[1]];
         ends[0].min(ends[1]) - reach <= y && y <= ends[0].max(ends[1]) + reach
@@ -207,7 +208,7 @@ impl Capsule {
         dx * dx + dy * dy
     }
 
-    /// The y within `reach` of the axis on the line at the given x, from and to: those of both ends' discs and of the
+    /// Returns the range of y within `reach` of the axis on the line at the given x. It joins those of both ends' discs and of the
     /// rectangle between them, which together are convex.
     pub(crate) fn section(&self, x: f64, reach: f64) -> Option<[f64; 2]> {
         let [ax, ay] = self.start;
@@ -221,7 +222,7 @@ impl Capsule {
         parts.into_iter().flatten().reduce(both)
     }
 
-    /// The y on the line at the given x whose nearest point of the axis is none of its ends', and within `reach`.
+    /// Returns the range of y on the line at the given x whose nearest point of the axis is not an end, and within `reach`.
     fn beside_axis(&self, x: f64, reach: f64) -> Option<[f64; 2]> {
         let [ux, uy] = self.along;
         let (length_squared, x) = (ux * ux + uy * uy, x - self.start[0]);
@@ -234,7 +235,7 @@ impl Capsule {
     }
 }
 
-/// The y with least ≤ slope · y + offset ≤ most; all where the slope is zero and the offset fits.
+/// Returns the range of y with least ≤ slope · y + offset ≤ most; all y if the slope is zero and the offset fits.
 fn solutions(slope: f64, offset: f64, [least, most]: [f64; 2]) -> Option<[f64; 2]> {
     if slope == 0.0 {
         return (least <= offset && offset <= most).then_some([f64::NEG_INFINITY, f64::INFINITY]);
@@ -272,7 +273,7 @@ mod tests {
     use std::f64::consts::PI;
 
     proptest! {
-        /// Against a look at many points of the line.
+        /// Compared with many points of the line.
         #[test]
         fn a_section_is_where_the_axis_is_near(
             start in prop::array::uniform2(-1.0..1.0f64),

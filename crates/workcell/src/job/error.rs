@@ -1,4 +1,4 @@
-//! Why a job is none.
+//! Errors of a job.
 
 use crate::clearance::{ClearanceError, Standing, StandingOverlap};
 use crate::layout::MAX_PLATES;
@@ -9,38 +9,38 @@ use crate::workcell::{ArmId, MOST_BODIES};
 use platewash_kinematics::LimitViolation;
 use serde::{Deserialize, Serialize};
 
-/// Why a job is none.
+/// Reason that a job is invalid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum JobError {
-    /// A promise about contact, and a sponge whose stiffness is not stated.
+    /// The job has contact requirements, but the sponge states no stiffness.
     #[error(
         "workcell.tool.sponge.stiffness_pa is missing; a promise about contact needs the least and the greatest stiffness of the sponge"
     )]
     NoStiffness,
-    /// A number out of range.
+    /// A number is out of range.
     #[error("job: {name} must be {expected}; found {found}")]
     Number {
-        /// Its place in the job.
+        /// Path of the number in the job.
         name: &'static str,
-        /// What it must be.
+        /// Allowed range, in words.
         expected: String,
-        /// What it is.
+        /// Number found.
         found: f64,
     },
-    /// A seed that JSON cannot say.
+    /// The seed is too large for JSON.
     #[error("job: seed must be at most 2^53 − 1; found {found}")]
     Seed {
-        /// What it is.
+        /// Seed found.
         found: u64,
     },
-    /// No plates, or too many.
+    /// The job has no plates, or too many.
     #[error("{found} plates; a job has at least 1 and at most {MAX_PLATES}")]
     PlateCount {
-        /// Plates found.
+        /// Number of plates found.
         found: usize,
     },
-    /// A plate of no size, or nowhere.
+    /// A plate has an invalid size or pose.
     #[error(
         "plate {plate}: its centre, height, radius and thickness must be finite, the latter two above 0; a foot has a height above 0 and \
          a radius above 0, within the rim"
@@ -49,56 +49,56 @@ pub enum JobError {
         /// Index of the plate.
         plate: usize,
     },
-    /// The arm is mounted nowhere.
+    /// The pose of the arm's mount is invalid.
     #[error(
         "the mount of the arm must be a place within {GREATEST_M} m of the world's origin along each axis, and a rotation"
     )]
     Mount,
-    /// More bodies than can be judged soon.
+    /// There are more bodies than can be judged in reasonable time.
     #[error("{found} bodies of the tool and obstacles; {MOST_BODIES} can be judged at most")]
     TooManyBodies {
-        /// How many there are.
+        /// Number of bodies.
         found: usize,
     },
-    /// An obstacle that is none.
+    /// An obstacle is invalid.
     #[error("obstacle '{}': {fault}", printable(.name))]
     Obstacle {
-        /// The obstacle.
+        /// Name of the obstacle.
         name: String,
-        /// Why.
+        /// Reason.
         fault: ObstacleFault,
     },
-    /// Obstacles that reach into plates or the arm's base, plates that reach into the base.
+    /// Obstacles reach into plates or the arm's base, or plates reach into the base.
     #[error("{}", overlaps(.0))]
     Standing(Vec<StandingOverlap>),
-    /// A dry run of the paper's program.
+    /// A run of the paper's program is marked as a dry run.
     #[error("a run of the paper's program is no dry run")]
     PaperDryRun,
-    /// A dry run of what is no plan.
+    /// The parent of a dry run is not the hash of a plan.
     #[error("job: dry_run.parent must be the hash of a plan, 64 digits of lower-case hexadecimal")]
     Parent,
     /// The terms are for another arm.
     #[error("the job is for the arm \"{}\" with description {}; given is \"{}\" with {}", .job.name, .job.urdf_sha256, .given.name, .given.urdf_sha256)]
     OtherArm {
-        /// That of the job.
+        /// Arm of the job.
         job: Box<ArmId>,
-        /// The one given.
+        /// Arm that was given.
         given: Box<ArmId>,
     },
-    /// An end configuration beyond the arm's limits.
+    /// An end configuration is beyond the arm's limits.
     #[error("at the {end} of the motion: {violation}")]
     Home {
-        /// Which end.
+        /// End of the motion.
         end: End,
-        /// Which joint, and by how much.
+        /// Joint and violation.
         violation: LimitViolation,
     },
-    /// A shape of the arm is none.
+    /// A shape of the arm is invalid.
     #[error(transparent)]
     Clearance(#[from] ClearanceError),
 }
 
-/// What stands where it cannot, the first few.
+/// Formats the first few overlaps.
 fn overlaps(all: &[StandingOverlap]) -> String {
     const FEW: usize = 3;
     let one = |overlap: &StandingOverlap| {
@@ -123,13 +123,13 @@ fn overlaps(all: &[StandingOverlap]) -> String {
     format!("{}{more}", few.join("; "))
 }
 
-/// An end of a motion.
+/// End of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum End {
-    /// Where it starts.
+    /// Start of the motion.
     Start,
-    /// Where it ends.
+    /// End of the motion.
     End,
 }
 

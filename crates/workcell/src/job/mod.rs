@@ -1,5 +1,5 @@
-//! A job: what is to be washed, in which workcell, and what the washing must keep. Resolved: every number is stated, there are no
-//! defaults and no files left.
+//! A job: plates, workcell, and requirements of the washing. It is resolved: every number is stated; no defaults and no file references are
+//! left.
 
 mod error;
 mod requirements;

@@ -1,24 +1,24 @@
-//! What a washing must keep, and what the arm must not exceed.
+//! Requirements of a washing, and limits of the arm.
 //!
-//! What the contact of sponge and plate must keep.
+//! Requirements of the contact between sponge and plate.
 //!
-//! How a washing is planned: stated with the job, hashed, not judged.
+//! Settings of the planner. They are part of the job and its hash, and are not judged.
 
 use crate::arc::Arc as ArcRoundBase;
 use platewash_kinematics::AXES;
 use serde::{Deserialize, Serialize};
 
-/// How far the tip of a plan may be from its wash path while it washes \[m\].
+/// Greatest distance of a plan's tip from its wash path while it washes \[m\].
 pub const PATH_TOLERANCE_M: f64 = 2e-4;
 
-/// How far the tip of a plan may be from the line over the end of a wash path while it approaches and retreats \[m\].
+/// Greatest distance of a plan's tip from the line over the end of a wash path while it approaches and retreats \[m\].
 pub const LINE_TOLERANCE_M: f64 = 1e-3;
 
-/// What a washing must keep.
+/// Requirements of a washing.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Requirements {
-    /// Share of a plate that must be swept for it to count as washed.
+    /// Share of a plate that must be swept.
     pub coverage: f64,
     /// Least clearance of every pair that must keep clear \[m\]; at 0 only contact breaks it.
     pub clearance_m: f64,
@@ -29,40 +29,40 @@ pub struct Requirements {
     pub wash_speed_m_s: f64,
     /// Largest acceleration of the tip while it washes \[m/s²\]; see [`crate::job::JobTerms::wash_acceleration_m_s2`].
     pub wash_acceleration_m_s2: f64,
-    /// What follows where plates overlap.
+    /// Consequence of overlapping plates.
     pub overlap: Overlap,
-    /// Whether plates must be washed as they are listed.
+    /// True if plates must be washed in the order in which they are listed.
     pub as_listed: bool,
-    /// How fast the free sponge may meet a plate, and leave it \[m/s\]: the speed of every point of it that touches while it comes down
-    /// and while it leaves; without them, that of washing.
+    /// Greatest touching speed of the free sponge while it comes down on a plate \[m/s\], for every point of it that touches. Without
+    /// `landing_m_s` and `lifting_m_s` it is the speed of washing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub landing_m_s: Option<f64>,
-    /// The same while it leaves \[m/s\].
+    /// Greatest touching speed of the free sponge while it leaves a plate \[m/s\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lifting_m_s: Option<f64>,
-    /// How far joint 5 keeps from 0 while the sponge is at a plate, always on the same side \[rad\]: a wrist with axes 4 and 6 in line
-    /// there would flip. Without it, nothing is asked of it.
+    /// Least distance of joint 5 from 0 while the sponge is at a plate, always on the same side \[rad\]: a wrist with axes 4 and 6 in line
+    /// would flip there. `None` for no requirement.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wrist_rad: Option<f64>,
-    /// What the contact of sponge and plate must keep; without it, the sponge counts as touching with its whole face.
+    /// Requirements of the contact; `None` if the sponge counts as touching with its whole face.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactRequirements>,
 }
 
-/// What a job does to its plates, as every report names it.
+/// Treatment of the plates by a job, as every report names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Treatment {
-    /// The sponge presses them on the share, for the time and with the dose required.
+    /// The sponge presses the plates on the required share, for the required time and with the required dose.
     Washed,
-    /// The sponge's face passes over them; contact is not required.
+    /// The sponge's face passes over the plates; contact is not required.
     Swept,
-    /// A dry run: nothing is there.
+    /// A dry run: no plates are there.
     SweptInAir,
 }
 
 impl Treatment {
-    /// The participle: `washed`, `swept`, `swept in the air`.
+    /// Returns the participle: `washed`, `swept`, `swept in the air`.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -73,95 +73,95 @@ impl Treatment {
     }
 }
 
-/// What plates that overlap lead to.
+/// Consequence of overlapping plates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Overlap {
-    /// It is waived, and reported.
+    /// The overlap is waived, and reported.
     Report,
     /// The plan is not certified.
     Fail,
 }
 
-/// What joints and tip must not exceed.
+/// Limits of joints and tip.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
-    /// Joint accelerations \[rad/s²\]: an assumption, as the manufacturer publishes none.
+    /// Greatest joint accelerations \[rad/s²\]: an assumption, as the manufacturer publishes none.
     pub joint_acceleration_rad_s2: [f64; AXES],
-    /// Speed of the tip anywhere \[m/s\]: an assumption.
+    /// Greatest speed of the tip anywhere \[m/s\]: an assumption.
     pub tip_speed_m_s: f64,
-    /// Acceleration of the tip anywhere \[m/s²\]: an assumption.
+    /// Greatest acceleration of the tip anywhere \[m/s²\]: an assumption.
     pub tip_acceleration_m_s2: f64,
 }
 
-/// What the contact of sponge and plate must keep while it washes, wherever within its error of height a plate lies, and whatever within
-/// its range the sponge's stiffness is. Shares are of the area of a plate's face.
+/// Requirements of the contact between sponge and plate while it washes. They hold for every plate height within the error and every
+/// stiffness within the sponge's range. Shares are of the area of a plate's face.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ContactRequirements {
-    /// c_min: the least compression of the sponge that counts as contact \[m\].
+    /// Least compression of the sponge that counts as contact, c_min \[m\].
     pub compression_m: f64,
-    /// ±δ: how much higher or lower than stated, along its axis, a plate may lie \[m\].
+    /// Height error ±δ of a plate along its axis \[m\].
     pub height_error_m: f64,
-    /// Least share that comes into contact.
+    /// Least share of the face that comes into contact.
     pub share: f64,
-    /// Greatest strain of the sponge anywhere: its compression over its free height.
+    /// Greatest strain of the sponge: its compression over its free height.
     pub strain: f64,
     /// Least and greatest normal force on the sponge while it washes \[N\].
     pub force_n: [f64; 2],
-    /// Least time in contact \[s\] …
+    /// Least time in contact \[s\], required on `time_share`.
     pub time_s: f64,
-    /// … on at least this share.
+    /// Least share of the face with that time in contact.
     pub time_share: f64,
-    /// Least dose ∫ p dl of pressure over sliding distance in contact \[Pa·m\] …
+    /// Least dose ∫ p dl in contact, pressure over sliding distance \[Pa·m\], required on `dose_share`.
     pub dose_pa_m: f64,
-    /// … on at least this share.
+    /// Least share of the face with that dose.
     pub dose_share: f64,
 }
 
-/// Who plans, and with which settings.
+/// Planner of a job, with its settings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[allow(clippy::large_enum_variant)]
 pub enum Planner {
     /// The planner of washings.
     Wash(PlannerSettings),
-    /// The paper's program, with the settings that it alone knows.
+    /// The paper's program, with its own settings.
     Paper(serde_json::Value),
 }
 
-/// How a washing is planned.
+/// Settings of the planner of washings.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannerSettings {
-    /// Greatest length of the wash path along the meridian, on a flat plate its outer radius \[m\]; without it, the planner chooses.
+    /// Greatest length of the wash path along the meridian, on a flat plate its outer radius \[m\]; `None` lets the planner choose.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path_radius_m: Option<f64>,
-    /// Turns of its spiral, or its rings but the last; without it, the planner chooses.
+    /// Turns of the spiral, or number of rings without the last; `None` lets the planner choose.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turns: Option<f64>,
-    /// Whether a full circle at the outer radius follows a spiral; without it, the planner chooses.
+    /// True if a full circle at the outer radius follows a spiral; `None` lets the planner choose.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closing_ring: Option<bool>,
-    /// Kind of the wash path; without it, a spiral where its turns or its radius are stated, otherwise the planner chooses.
+    /// Kind of the wash path. `None` means a spiral if its turns or its radius are stated; otherwise the planner chooses.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pattern: Option<PatternName>,
-    /// The tool's largest angle from the normal that is planned \[rad\]; without it, the planner chooses, up to what is required.
+    /// Greatest planned angle of the tool from the normal \[rad\]; `None` lets the planner choose, up to the required angle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt_rad: Option<f64>,
-    /// Slope of the sponge's axis as a share of that of the face: 0 keeps it along the plate's axis, 1 along the normal; without it, half.
+    /// Slope of the sponge's axis as a share of that of the face: 0 keeps it along the plate's axis, 1 along the normal; `None` means half.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis_share: Option<f64>,
-    /// How far the tip approaches and retreats along the plate's normal \[m\].
+    /// Length of the approach and the retreat along the plate's normal \[m\].
     pub lift_m: f64,
-    /// In which order plates are washed.
+    /// Rule for the order of the plates.
     pub order: OrderRule,
-    /// The arc round the base, one of the ways that are tried.
+    /// Arc round the base, one of the routes that the planner tries.
     pub arc: ArcRoundBase,
-    /// Where the upright tool leans at the borders of the arm's reach.
+    /// Distances beyond which the tool leans, at the borders of the arm's reach.
     pub reach: ReachBorders,
-    /// Whether another place is looked for, for a plate that cannot be washed.
+    /// True if the planner looks for another place for a plate that cannot be washed.
     pub relocate: bool,
 }
 
@@ -176,19 +176,19 @@ pub enum PatternName {
 }
 
 impl PatternName {
-    /// The names, as files state them.
+    /// Names, as files state them.
     pub const NAMES: [&'static str; 2] = ["spiral", "rings"];
 }
 
-/// In which order plates are washed.
+/// Rule for the order in which plates are washed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OrderRule {
-    /// Always the plate that is reached soonest.
+    /// Always the plate that is reached soonest next.
     Nearest,
     /// As listed.
     Given,
-    /// The least travel time in all.
+    /// The order with the least total travel time.
     Fastest,
 }
 
@@ -203,8 +203,8 @@ pub struct ReachBorders {
 }
 
 impl ReachBorders {
-    /// Those measured on the IRB 120 with a tool of 150 mm, where they suffice for every plate of the paper up to a path radius of
-    /// 0.13 m. Other arms start from them, too.
+    /// Distances measured on the IRB 120 with a tool of 150 mm. They suffice for every plate of the paper up to a path radius of 0.13 m.
+    /// Other arms start from them, too.
     pub const IRB_120: Self = Self {
         near_m: 0.14,
         far_m: 0.62,

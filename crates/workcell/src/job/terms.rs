@@ -1,8 +1,8 @@
 //! The terms of a job: everything about it but the arm itself.
 //!
-//! A job as its arm sees it: the world in the frame of the arm's base.
+//! The frame of a job can be changed to that of the arm's base.
 //!
-//! Plates that share a place, with each other or with the arm's base.
+//! Overlaps of plates with each other and with the arm's base are found here.
 
 use crate::clearance::{ClearanceError, StandingOverlap, gap_of_plates, standing_overlaps};
 use crate::dry_run::DryRun;
@@ -20,43 +20,43 @@ use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
-/// The largest seed: up to here every whole number is a JSON number of its own (RFC 8785 writes them all as doubles), so that no two
-/// seeds are one text in a plan file.
+/// Largest seed. Up to here every whole number is a distinct JSON number (RFC 8785 writes them all as doubles), so that no two seeds have
+/// the same text in a plan file.
 pub const MAX_SEED: u64 = (1 << 53) - 1;
 
-/// The stiffest sponge \[Pa\]: stiffer ones are none.
+/// Greatest stiffness of a sponge \[Pa\].
 const STIFFEST_PA: f64 = 1e9;
 
-/// The greatest force that can be asked for \[N\].
+/// Greatest force that a job may state \[N\].
 const GREATEST_N: f64 = 1e6;
 
 /// The terms of a job: everything about it but the arm itself, as a plan file states it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JobTerms {
-    /// The world.
+    /// Workcell: arm, mount, tool and obstacles.
     pub workcell: Workcell,
-    /// The plates, by their index.
+    /// Plates, by index.
     pub plates: Vec<Plate>,
-    /// What the washing must keep.
+    /// Requirements of the washing.
     pub requirements: Requirements,
-    /// What joints and tip must not exceed, beyond the limits of the arm's description.
+    /// Limits of joints and tip, in addition to those of the arm's description.
     pub limits: Limits,
     /// Joint positions at the start and at the end \[rad\].
     pub home_rad: [JointVector; 2],
-    /// How it is planned: hashed, not judged.
+    /// Planner and its settings: hashed, not judged.
     pub planner: Planner,
     /// Seed of every random stream.
     pub seed: u64,
-    /// How its plan is simulated: hashed, not judged.
+    /// Settings of the simulation: hashed, not judged.
     pub simulation: SimulationSettings,
-    /// That it is the dry run of another plan; left out of files where it is none.
+    /// Parent plan and height of a dry run; left out of files if the job is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry_run: Option<DryRun>,
 }
 
 impl JobTerms {
-    /// What the job does to its plates.
+    /// Returns the treatment of the plates by the job.
     #[must_use]
     pub fn treatment(&self) -> Treatment {
         match (&self.dry_run, &self.requirements.contact) {
@@ -66,7 +66,7 @@ impl JobTerms {
         }
     }
 
-    /// How the washing is planned; `None` for a run of the paper's program.
+    /// Returns the settings of the planner; `None` for a run of the paper's program.
     #[must_use]
     pub fn planner_settings(&self) -> Option<&PlannerSettings> {
         match &self.planner {
@@ -75,39 +75,39 @@ impl JobTerms {
         }
     }
 
-    /// Largest angle of the tool from a plate's normal \[rad\]: what is required, and no more than the sponge allows.
+    /// Largest angle of the tool from a plate's normal \[rad\]: the required one, or that of the sponge if it is smaller.
     #[must_use]
     pub fn tilt_max_rad(&self) -> f64 {
         let sponge = self.workcell.tool.sponge.greatest_tilt_rad();
         self.requirements.tilt_rad.min(sponge)
     }
 
-    /// Largest speed of the tip while it washes \[m/s\], never above that anywhere.
+    /// Largest speed of the tip while it washes \[m/s\], never above that for the whole motion.
     #[must_use]
     pub fn wash_speed_m_s(&self) -> f64 {
         self.requirements.wash_speed_m_s.min(self.limits.tip_speed_m_s)
     }
 
-    /// Largest acceleration of the tip while it washes \[m/s²\], never above that anywhere.
+    /// Largest acceleration of the tip while it washes \[m/s²\], never above that for the whole motion.
     #[must_use]
     pub fn wash_acceleration_m_s2(&self) -> f64 {
         let anywhere = self.limits.tip_acceleration_m_s2;
         self.requirements.wash_acceleration_m_s2.min(anywhere)
     }
 
-    /// Obstacles that reach into plates or the base of the arm, plates that reach into the base: see [`standing_overlaps`].
+    /// Finds obstacles that reach into plates or the base of the arm, and plates that reach into the base: see [`standing_overlaps`].
     ///
     /// # Errors
-    /// [`ClearanceError`] for a shape that is none.
+    /// [`ClearanceError`] for an invalid shape.
     pub fn standing_overlaps(&self, arm: &RobotModel) -> Result<Vec<StandingOverlap>, ClearanceError> {
         let seen = self.seen_from_base();
         standing_overlaps(arm, &seen.workcell, &seen.plates, seen.dry_run.as_ref())
     }
 
-    /// Refuses terms with which nothing can be computed, NaN and infinity included.
+    /// Checks that the terms can be computed with. NaN and infinity are refused.
     ///
     /// # Errors
-    /// [`JobError`], naming the first.
+    /// [`JobError`] with the first error.
     pub fn validate(&self) -> Result<(), JobError> {
         let wanted = &self.requirements;
         within("requirements.coverage", wanted.coverage, [0.0, 1.0])?;
@@ -223,7 +223,7 @@ impl JobTerms {
         }
     }
 
-    /// What this version can judge of a world.
+    /// Checks that the mount, the bodies and the obstacles are valid.
     fn check_world(&self) -> Result<(), JobError> {
         let workcell = &self.workcell;
         let is_near = |pose: &Pose| pose.translation.vector.iter().all(|at| at.abs() <= GREATEST_M);
@@ -262,10 +262,10 @@ fn positive(name: &'static str, found: f64) -> Result<(), JobError> {
 }
 
 impl JobTerms {
-    /// The same terms in the frame of the arm's base: the arm is mounted at the origin, obstacles and plates are where the arm has
-    /// them. Terms whose world is that frame are returned as they are.
+    /// Returns the terms in the frame of the arm's base: the arm is mounted at the origin, and obstacles and plates are moved accordingly.
+    /// Terms whose world frame is that of the base are returned unchanged.
     ///
-    /// Joint positions, requirements and limits do not change: what is planned, proved or simulated for the one is for the other.
+    /// Joint positions, requirements and limits do not change: a plan, proof or simulation for one is valid for the other.
     #[must_use]
     pub fn seen_from_base(&self) -> Cow<'_, Self> {
         if self.workcell.is_in_base_frame() {
@@ -280,23 +280,23 @@ impl JobTerms {
     }
 }
 
-/// Plates that overlap by less than this touch: the rounding of places \[m\].
+/// Greatest overlap of plates that counts as touching: the rounding of positions \[m\].
 const PLACE_M: f64 = 1e-9;
 
-/// A plate that shares its place.
+/// Overlap of a plate with another one or with the base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlateOverlap {
-    /// The plate.
+    /// Index of the plate.
     pub plate: usize,
-    /// The other plate; `None` for the arm's base.
+    /// Index of the other plate; `None` for the arm's base.
     pub other: Option<usize>,
-    /// How far they would have to be moved apart \[m\].
+    /// Distance by which they would have to be moved apart \[m\].
     pub by_m: f64,
 }
 
 impl JobTerms {
-    /// The plates that lie over the base's footprint, then those that share a place with another: what
-    /// [`Overlap::Fail`](crate::job::Overlap::Fail) allows none of. Plates that stand at an angle and reach into the base are told by
+    /// Finds the plates that lie over the base's footprint, then those that overlap another one: all the cases that
+    /// [`Overlap::Fail`](crate::job::Overlap::Fail) forbids. Plates that stand at an angle and reach into the base are found by
     /// [`JobTerms::standing_overlaps`].
     #[must_use]
     pub fn plate_overlaps(&self, arm: &RobotModel) -> Vec<PlateOverlap> {
@@ -405,7 +405,7 @@ mod tests {
         assert!(matches!(kitchen().terms().seen_from_base(), Cow::Borrowed(_)));
     }
 
-    /// By hand: a base at (1, 2, 0.5), turned by a quarter about z, has what is at (1.3, 2, 0.53) at (0, −0.3, 0.03).
+    /// By hand: for a base at (1, 2, 0.5), turned by a quarter about z, the point (1.3, 2, 0.53) is at (0, −0.3, 0.03).
     #[test]
     fn plates_and_obstacles_are_where_the_arm_has_them() {
         let mut terms = kitchen().terms().clone();

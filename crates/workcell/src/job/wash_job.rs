@@ -14,16 +14,16 @@ pub struct WashJob {
     name: String,
     arm: Arc<RobotModel>,
     terms: JobTerms,
-    /// The terms in the frame of the arm's base, where that is not the world's.
+    /// Terms in the frame of the arm's base, if that is not the world frame.
     from_base: Option<Box<JobTerms>>,
 }
 
 impl WashJob {
-    /// The terms with the arm that they are for.
+    /// Joins the terms with the arm that they are for.
     ///
     /// # Errors
-    /// [`JobError`]: terms with which nothing can be computed, another arm, an end configuration beyond its limits, or obstacles that reach
-    /// into plates or the arm's base.
+    /// [`JobError`]: terms that cannot be computed with, another arm, an end configuration beyond its limits, or obstacles that reach into
+    /// plates or the arm's base.
     pub fn new(arm: Arc<RobotModel>, terms: JobTerms) -> Result<Self, JobError> {
         terms.validate()?;
         let given = ArmId::of(&arm);
@@ -53,14 +53,14 @@ impl WashJob {
         })
     }
 
-    /// The same job under the name of a scenario, for reports and the plan's provenance.
+    /// Returns the job under the name of a scenario, for reports and the plan's provenance.
     #[must_use]
     pub fn named(self, name: &str) -> Self {
         let name = name.to_owned();
         Self { name, ..self }
     }
 
-    /// Its name.
+    /// Name of the job.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
@@ -72,28 +72,28 @@ impl WashJob {
         &self.arm
     }
 
-    /// The arm, to be shared.
+    /// The arm, shared.
     #[must_use]
     pub fn shared_arm(&self) -> Arc<RobotModel> {
         self.arm.clone()
     }
 
-    /// Everything else.
+    /// Terms of the job.
     #[must_use]
     pub fn terms(&self) -> &JobTerms {
         &self.terms
     }
 
-    /// The terms in the frame of the arm's base ([`JobTerms::seen_from_base`]): those to compute with.
+    /// Terms in the frame of the arm's base ([`JobTerms::seen_from_base`]), for computations.
     #[must_use]
     pub fn seen_from_base(&self) -> &JobTerms {
         self.from_base.as_deref().unwrap_or(&self.terms)
     }
 
-    /// The same job on other plates.
+    /// Returns the same job with other plates.
     ///
     /// # Errors
-    /// [`JobError`] for plates that are none.
+    /// [`JobError`] for invalid plates.
     pub fn on_plates(&self, plates: Vec<Plate>) -> Result<Self, JobError> {
         let terms = JobTerms {
             plates,

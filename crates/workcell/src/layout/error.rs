@@ -1,72 +1,72 @@
-//! Why a layout could not be made.
+//! Errors of a layout.
 
 use crate::verdict::Infeasibility;
 use crate::words::counted;
 use thiserror::Error;
 
-/// What is wrong with one number of the request.
+/// Error in one number of the request.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum InputProblem {
-    /// NaN or infinite.
+    /// The number is NaN or infinite.
     #[error("is not a finite number")]
     NotFinite,
-    /// Below zero where only zero or more makes sense.
+    /// The number is below zero, where zero or more is needed.
     #[error("is negative")]
     Negative,
-    /// Zero or negative where a size is needed.
+    /// The number is zero or negative, where a size is needed.
     #[error("is not greater than zero")]
     NotPositive,
-    /// A range whose lower end lies above its upper end.
+    /// The lower end of a range lies above its upper end.
     #[error("is reversed: its first number is greater than its second")]
     Reversed,
-    /// A range of zero width, which has no area to draw from.
+    /// The range has zero width, so that there is no area to draw from.
     #[error("has no width")]
     NoWidth,
-    /// An azimuth range of more than a full turn.
+    /// The azimuth range is more than a full turn.
     #[error("spans more than 360 degrees")]
     MoreThanATurn,
-    /// Above the largest supported value.
+    /// The number is above the greatest supported value.
     #[error("is greater than {max}")]
     TooLarge {
-        /// The largest supported value, in the unit of the key.
+        /// Greatest supported value, in the unit of the key.
         max: usize,
     },
 }
 
-/// Why a region holds no admissible position even before the first plate.
+/// Reason that a region has no admissible position for a first plate.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum EmptyReason {
     /// The ranges `x_m`, `y_m`, `rho_m` and `azimuth_deg` have no area in common.
     #[error("its ranges (x_m, y_m, rho_m, azimuth_deg) have no area in common")]
     Disjoint,
-    /// What the ranges have in common is a point, a line or a strip of about a nanometre.
+    /// The intersection of the ranges is a point, a line or a strip of about a nanometre.
     #[error(
         "what its ranges (x_m, y_m, rho_m, azimuth_deg) have in common is too thin to draw from: a point, a line, or a \
          strip of about a nanometre; widen one of them"
     )]
     TooThin,
-    /// Every point of the region, but for slivers of about a nanometre, is within `base_radius_m` of the base axis.
+    /// Every point of the region, except slivers of about a nanometre, is within `base_radius_m` of the base axis.
     #[error(
         "all of it (but for what is too thin to draw from) lies within base_radius_m = {base_radius_m} m of the base axis"
     )]
     WithinBase {
-        /// The radius around the base axis that must stay free, metres.
+        /// Radius around the base axis that must stay free \[m\].
         base_radius_m: f64,
     },
 }
 
-/// Why a layout could not be made.
+/// Reason that a layout could not be made.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LayoutError {
-    /// A number of the request makes no sense.
+    /// A number of the request is invalid.
     #[error("{key} {problem}")]
     InvalidInput {
-        /// Its name.
+        /// Name of the number.
         key: &'static str,
-        /// What is wrong with it.
+        /// Description of the error.
         problem: InputProblem,
     },
     /// A coordinate of an explicitly given plate is not a finite number.
@@ -75,25 +75,25 @@ pub enum LayoutError {
         /// Index of the plate, from 0.
         plate: usize,
     },
-    /// The region admits no plate at all.
+    /// The region has no room for any plate.
     #[error("the region is empty: {reason}")]
     EmptyRegion {
-        /// Why.
+        /// Reason.
         reason: EmptyReason,
     },
-    /// Every random layout ran into a dead end; proven infeasible when `count` exceeds `upper_bound`.
+    /// Every random layout ran into a dead end. This is proved infeasible if `count` exceeds `upper_bound`.
     #[error(
         "{}: the best of {layouts_tried} random layouts held {most_placed} before no room was left{}{}",
         verdict(*.count, *.upper_bound), upper_bound_text(*.upper_bound), remedy(*.count, *.upper_bound)
     )]
     NoRoom {
-        /// Plates asked for.
+        /// Number of plates asked for.
         count: usize,
-        /// The largest number of plates placed before a dead end.
+        /// Greatest number of plates placed before a dead end.
         most_placed: usize,
-        /// Layouts begun, each of which ended with no room for the next plate.
+        /// Number of layouts begun. Each ended with no room for the next plate.
         layouts_tried: u32,
-        /// No arrangement holds more plates than this, from the region's area and outline; `None` without a spacing.
+        /// Upper bound on the number of plates in any arrangement, from the region's area and outline; `None` without a spacing.
         upper_bound: Option<usize>,
     },
 }
@@ -102,7 +102,7 @@ fn cannot_fit(count: usize, upper_bound: Option<usize>) -> bool {
     upper_bound.is_some_and(|bound| count > bound)
 }
 
-/// What may do where a layout was only not found.
+/// Returns advice if a layout was only not found.
 fn remedy(count: usize, upper_bound: Option<usize>) -> &'static str {
     if cannot_fit(count, upper_bound) {
         ""
@@ -130,7 +130,7 @@ impl LayoutError {
         Self::InvalidInput { key, problem }
     }
 
-    /// Whether no seed can give a layout, as opposed to none having been found.
+    /// True if no seed can give a layout; false if none was found.
     #[must_use]
     pub fn is_proven(&self) -> bool {
         match self {
@@ -139,7 +139,7 @@ impl LayoutError {
         }
     }
 
-    /// Whether the plates have no room, or none was found for them; `None` for bad input.
+    /// Returns the kind of infeasibility: proved, or only not found; `None` for bad input.
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
         match self {
@@ -149,7 +149,7 @@ impl LayoutError {
     }
 }
 
-/// Refuses what is not a finite number.
+/// Refuses a number that is not finite.
 pub(crate) fn finite(key: &'static str, value: f64) -> Result<(), LayoutError> {
     if value.is_finite() {
         Ok(())
@@ -158,7 +158,7 @@ pub(crate) fn finite(key: &'static str, value: f64) -> Result<(), LayoutError> {
     }
 }
 
-/// Refuses what is not a finite number of zero or more.
+/// Refuses a number that is not finite or is negative.
 pub(crate) fn not_negative(key: &'static str, value: f64) -> Result<(), LayoutError> {
     finite(key, value)?;
     if value < 0.0 {
@@ -168,7 +168,7 @@ pub(crate) fn not_negative(key: &'static str, value: f64) -> Result<(), LayoutEr
     }
 }
 
-/// Refuses what is not a finite number greater than zero.
+/// Refuses a number that is not finite and greater than zero.
 pub(crate) fn positive(key: &'static str, value: f64) -> Result<(), LayoutError> {
     finite(key, value)?;
     if value <= 0.0 {
@@ -178,7 +178,7 @@ pub(crate) fn positive(key: &'static str, value: f64) -> Result<(), LayoutError>
     }
 }
 
-/// Refuses what is not a finite range `[low, high]` of positive width.
+/// Refuses a range that is not `[low, high]`, finite and of positive width.
 pub(crate) fn range(key: &'static str, [low, high]: [f64; 2]) -> Result<(), LayoutError> {
     finite(key, low)?;
     finite(key, high)?;

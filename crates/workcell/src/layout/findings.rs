@@ -1,4 +1,4 @@
-//! What is wrong with a layout, without making it useless.
+//! Problems of a layout that do not make it unusable.
 
 use crate::layout::{BaseFootprint, Region, Spacing};
 use crate::plate::Plate;
@@ -6,54 +6,54 @@ use platewash_kinematics::words::{not_as_zero, told_apart};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Something that a layout breaks. Plates are named by index, from 0; lengths are in metres, positions in the base frame.
+/// Problem of a layout. Plates are given by index, from 0; lengths are in metres, positions in the base frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Finding {
-    /// Two centres are not farther apart than `min_distance_m`. A rule of the layout: the plates need not touch.
+    /// Two centres are not farther apart than `min_distance_m`. This breaks a rule of the layout; the plates need not touch.
     SpacingBroken {
-        /// The plate that comes first.
+        /// Index of the first plate.
         a: usize,
-        /// The other plate.
+        /// Index of the other plate.
         b: usize,
-        /// Distance between the centres, metres.
+        /// Distance between the centres \[m\].
         distance_m: f64,
-        /// The distance that must be exceeded, metres.
+        /// Distance that must be exceeded \[m\].
         required_m: f64,
     },
-    /// A centre is not farther from the base axis than `base_radius_m`. A rule of the layout: plate and base need not touch.
+    /// A centre is not farther from the base axis than `base_radius_m`. This breaks a rule of the layout; plate and base need not touch.
     TooCloseToBase {
-        /// The plate.
+        /// Index of the plate.
         plate: usize,
-        /// Distance of its centre from the base axis, metres.
+        /// Distance of its centre from the base axis \[m\].
         distance_m: f64,
-        /// The distance that must be exceeded, metres.
+        /// Distance that must be exceeded \[m\].
         required_m: f64,
     },
-    /// Two plates occupy the same space.
+    /// Two plates overlap.
     PlatesOverlap {
-        /// The plate that comes first.
+        /// Index of the first plate.
         a: usize,
-        /// The other plate.
+        /// Index of the other plate.
         b: usize,
-        /// How far they would have to be moved apart, metres.
+        /// Distance by which they would have to be moved apart \[m\].
         overlap_m: f64,
     },
     /// A plate lies over the footprint of the robot's base.
     OverlapsBase {
-        /// The plate.
+        /// Index of the plate.
         plate: usize,
-        /// How far it would have to be moved away, metres.
+        /// Distance by which it would have to be moved away \[m\].
         overlap_m: f64,
     },
     /// A centre lies outside the region.
     LeavesRegion {
-        /// The plate.
+        /// Index of the plate.
         plate: usize,
-        /// Its x, metres.
+        /// x of its centre \[m\].
         x_m: f64,
-        /// Its y, metres.
+        /// y of its centre \[m\].
         y_m: f64,
     },
 }
@@ -112,7 +112,7 @@ impl fmt::Display for Finding {
 }
 
 impl Finding {
-    /// The same of a layout about another origin, so much farther \[m\].
+    /// Moves the positions in the finding by `[x, y]` \[m\], for a layout about another origin.
     pub(crate) fn move_by(&mut self, [x, y]: [f64; 2]) {
         if let Self::LeavesRegion { x_m, y_m, .. } = self {
             (*x_m, *y_m) = (*x_m + x, *y_m + y);
@@ -120,8 +120,8 @@ impl Finding {
     }
 }
 
-/// Plates that overlap each other or the base: those that are parallel, seen along their axis, and those that lie level over the base. What
-/// plates at an angle meet is for their bodies to tell.
+/// Finds plates that overlap each other or the base: parallel plates, seen along their axis, and level plates over the base. Plates at an
+/// angle are checked by their bodies elsewhere.
 pub(crate) fn overlaps(plates: &[Plate], base: Option<&BaseFootprint>) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (i, plate) in plates.iter().enumerate() {
@@ -143,7 +143,7 @@ pub(crate) fn overlaps(plates: &[Plate], base: Option<&BaseFootprint>) -> Vec<Fi
     findings
 }
 
-/// Plates that break the rules by which layouts are drawn.
+/// Finds plates that break the rules by which layouts are drawn.
 pub(crate) fn broken_rules(plates: &[Plate], region: Option<&Region>, spacing: &Spacing) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (i, plate) in plates.iter().enumerate() {
@@ -173,7 +173,7 @@ pub(crate) fn broken_rules(plates: &[Plate], region: Option<&Region>, spacing: &
     findings
 }
 
-/// Every pair of plates once, with the distance between their centres.
+/// Returns every pair of plates once, with the distance between their centres.
 fn pairs(plates: &[Plate]) -> impl Iterator<Item = (usize, usize, f64)> {
     (0..plates.len()).flat_map(move |a| {
         (a + 1..plates.len()).map(move |b| {

@@ -1,40 +1,40 @@
-//! The cells that may still hold a free point: exact sampling from however little room is left, and the proof that none is.
+//! Cells that may still hold a free point: exact sampling from any small remaining room, and the proof that none is left.
 //!
-//! The discs that earlier plates forbid to later ones.
+//! Discs around earlier plates that are forbidden to later ones.
 
 use crate::layout::MAX_PLATES;
 
-/// Cells are halved at most this often: to 2⁻³⁰ of the region's box, below 1e-9 m for a box of 1 m.
+/// Greatest number of halvings of cells: to 2⁻³⁰ of the region's box, below 1e-9 m for a box of 1 m.
 const MAX_LEVEL: u32 = 30;
 
-/// More cells than this are not halved any further.
+/// Number of cells above which they are not halved any further.
 const MAX_CELLS: usize = 1 << 16;
 
 use crate::layout::region::QuadCell;
 use crate::layout::sampling::Space;
 
-/// Equal rectangles of one level of a quadtree over the region's box, which together contain every free point.
+/// Equal rectangles of one level of a quadtree over the region's box. Together they contain every free point.
 #[derive(Debug)]
 pub(crate) struct Cells {
     level: u32,
-    /// Number of discs that were there when closed cells were last sorted out.
+    /// Number of discs at the time when closed cells were last removed.
     discs_seen: usize,
     items: Vec<[u32; 2]>,
 }
 
-/// What [`Cells::refine`] could do.
+/// Result of [`Cells::refine`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Refined {
-    /// There are fewer or smaller cells now.
+    /// There are fewer or smaller cells.
     Yes,
     /// No cell is left: there is no room, up to rounding.
     Empty,
-    /// As small or as many as is allowed.
+    /// The cells are as small or as many as allowed.
     Exhausted,
 }
 
 impl Cells {
-    /// One cell, the whole box.
+    /// Returns one cell, the whole box.
     pub(crate) fn root() -> Self {
         Self {
             level: 0,
@@ -47,7 +47,7 @@ impl Cells {
         self.items.len()
     }
 
-    /// A uniform point of the cells, from three numbers that are uniform in [0, 1).
+    /// Returns a uniform point of the cells, from three numbers that are uniform in [0, 1).
     pub(crate) fn point(&self, space: &Space, [pick, u, v]: [f64; 3]) -> [f64; 2] {
         let index = (pick * self.items.len() as f64) as usize;
         let [i, j] = self.items[index.min(self.items.len() - 1)];
@@ -56,13 +56,13 @@ impl Cells {
         [x + (f64::from(i) + u) * width, y + (f64::from(j) + v) * height]
     }
 
-    /// The middles of all cells.
+    /// Returns the middles of all cells.
     pub(crate) fn middles(&self, space: &Space) -> impl Iterator<Item = [f64; 2]> {
         self.items.iter().map(|&item| self.cell(space, item).middle)
     }
 
-    /// Sorts out the cells that new discs have closed, or, when there is no new disc, halves the cells first. Adds to
-    /// `examined` the number of cells looked at.
+    /// Removes the cells that new discs have closed or, if there is no new disc, halves the cells first. Adds the number of examined cells
+    /// to `examined`.
     pub(crate) fn refine(&mut self, space: &Space, examined: &mut u64) -> Refined {
         let discs_are_new = space.discs.len() > self.discs_seen;
         if !discs_are_new && (self.level == MAX_LEVEL || self.items.len() > MAX_CELLS) {
@@ -108,14 +108,14 @@ impl Cells {
     }
 }
 
-/// Up to here a linear search is faster than buckets.
+/// Number of discs up to which a linear search is faster than buckets.
 const LINEAR_LIMIT: usize = 24;
 
-/// At most this many buckets along x and along y.
+/// Greatest number of buckets along x and along y.
 const MAX_BUCKETS: usize = 64;
 
-/// Discs of one radius around the plates placed so far. Many of them are kept in square buckets at least one radius wide,
-/// so that a query looks at nine buckets only.
+/// Discs of one radius around the plates placed so far. Large numbers of them are kept in square buckets at least one radius wide, so that
+/// a query examines nine buckets only.
 #[derive(Debug)]
 pub(crate) struct Discs {
     radius_squared: f64,
@@ -132,7 +132,7 @@ struct Buckets {
 }
 
 impl Discs {
-    /// No disc yet, in a box given by its lower corner and size, about `count` of which are to come.
+    /// Returns an empty set in a box given by its lower corner and size, for about `count` discs.
     pub(crate) fn new(radius: f64, origin: [f64; 2], size: [f64; 2], count: usize) -> Self {
         let buckets = (count > LINEAR_LIMIT && radius > 0.0).then(|| Buckets::new(radius, origin, size));
         Self {
@@ -158,8 +158,8 @@ impl Discs {
         self.centres
     }
 
-    /// Whether a disc within one radius of `p` meets a condition on (its centre, radius squared). Discs farther from `p`
-    /// may be asked as well.
+    /// True if a disc within one radius of `p` meets a condition on its centre and its squared radius. Discs farther from `p` may be
+    /// examined as well.
     pub(crate) fn any_near(&self, p: [f64; 2], condition: impl Fn([f64; 2], f64) -> bool) -> bool {
         let met = |centres: &[[f64; 2]]| centres.iter().any(|&centre| condition(centre, self.radius_squared));
         match &self.buckets {

@@ -1,9 +1,9 @@
-//! Where the plates lie: drawn at random or given, and what is wrong with the result.
+//! Layout: positions of the plates, drawn at random or given, and the problems of the result.
 //!
-//! All positions are in the frame of the layout: origin on the base axis, axes along those of the world, z = 0 at the height 0 of the
-//! world, metres. Of an arm that stands at the world's origin that is its base frame.
+//! All positions are in the frame of the layout \[m\]: origin on the base axis, axes along those of the world, z = 0 at the height 0 of the
+//! world. For an arm that stands at the world's origin that is its base frame.
 //!
-//! What all plates of a layout share, and the distances that they keep.
+//! The geometry that all plates of a layout share, and their spacing.
 
 mod error;
 mod findings;
@@ -28,34 +28,34 @@ use platewash_kinematics::Pose;
 use rand::Rng;
 use serde::{Deserialize, Serialize};
 
-/// Where the positions of a layout come from.
+/// Source of the positions of a layout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum LayoutSource {
     /// Drawn at random.
     Sampled {
-        /// Layouts begun and given up before this one.
+        /// Number of layouts begun and abandoned before this one.
         restarts: u32,
-        /// Candidate positions drawn, all restarts included.
+        /// Number of candidate positions drawn, all restarts included.
         draws: u64,
     },
     /// Given one by one.
     Explicit,
 }
 
-/// Plates, and what is to be said about them.
+/// Plates with the findings about their positions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Layout {
-    /// The plates, in the order in which they were drawn or given.
+    /// Plates, in the order in which they were drawn or given.
     pub plates: Vec<Plate>,
-    /// Where their positions come from.
+    /// Source of their positions.
     pub source: LayoutSource,
-    /// What is wrong with them.
+    /// Problems of their positions.
     pub findings: Vec<Finding>,
 }
 
 impl Layout {
-    /// Some plates, given, about which nothing is to be said.
+    /// Returns a layout of given plates without findings.
     #[must_use]
     pub fn of(plates: Vec<Plate>) -> Self {
         Self {
@@ -65,7 +65,7 @@ impl Layout {
         }
     }
 
-    /// Plates given one by one in the world, and which of them overlap; `foot_m` is the foot of the arm's mount.
+    /// Returns a layout of plates given in the world, with their overlaps as findings. `[x, y]` is the foot of the arm's mount \[m\].
     #[must_use]
     pub fn listed(plates: Vec<Plate>, [x, y]: [f64; 2], base: Option<&BaseFootprint>) -> Self {
         let to_foot = Pose::translation(-x, -y, 0.0);
@@ -76,7 +76,7 @@ impl Layout {
         }
     }
 
-    /// The same places with plates of several kinds, so many of each, in their order.
+    /// Returns the same positions with plates of several kinds: a number of each, in their order.
     #[must_use]
     pub fn of_kinds(self, kinds: &[(usize, PlateGeometry)], base: Option<&BaseFootprint>) -> Self {
         let each = kinds.iter().flat_map(|(count, kind)| std::iter::repeat_n(kind, *count));
@@ -92,7 +92,7 @@ impl Layout {
         }
     }
 
-    /// The same about another origin: everything is farther by as much \[m\].
+    /// Returns the layout moved by `[x, y]` \[m\], for another origin.
     #[must_use]
     pub fn moved_by(mut self, [x, y]: [f64; 2]) -> Self {
         let by = Pose::translation(x, y, 0.0);
@@ -106,29 +106,29 @@ impl Layout {
     }
 }
 
-/// What to draw.
+/// Request for a random layout.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampleRequest {
-    /// Where centres may be.
+    /// Region of the plates' centres.
     pub region: Region,
-    /// How far they keep from each other and from the base axis.
+    /// Distances of the centres from each other and from the base axis.
     pub spacing: Spacing,
     /// Number of plates, 1 to [`MAX_PLATES`].
     pub count: usize,
     /// Shape and height of the plates.
     pub geometry: PlateGeometry,
-    /// What the robot's base covers, for [`Finding::OverlapsBase`] alone; `None` where no plate is level with it.
+    /// Footprint of the robot's base, only for [`Finding::OverlapsBase`]; `None` if no plate is level with it.
     pub base: Option<BaseFootprint>,
 }
 
-/// When to stop trying.
+/// Limits on the work for a random layout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SampleSettings {
-    /// Layouts begun after the first one came to a dead end. Any number is valid.
+    /// Greatest number of restarts after the first layout came to a dead end. Any number is valid.
     pub max_restarts: u32,
-    /// No layout is begun after this many steps (positions drawn plus quadtree cells examined). Any number is valid; a count
-    /// rather than a time, so that the outcome does not depend on the machine.
+    /// Number of steps (positions drawn plus quadtree cells examined) after which no layout is begun. Any number is valid. It is a count
+    /// and not a time, so that the outcome does not depend on the machine.
     pub max_steps: u64,
 }
 
@@ -142,7 +142,7 @@ impl Default for SampleSettings {
 }
 
 impl SampleSettings {
-    /// Enough to say how many plates random layouts hold where the count asked for is out of the question.
+    /// Returns settings that are enough to measure how many plates random layouts hold, for a count that is impossible.
     fn for_a_measure(self) -> Self {
         Self {
             max_restarts: self.max_restarts.min(99),
@@ -151,15 +151,15 @@ impl SampleSettings {
     }
 }
 
-/// Draws a layout by the paper's law (see [`Sampler`]), beginning anew at every dead end. It ends in bounded time for every
-/// request. The same generator state gives the same layout on every machine. Findings are overlaps, which the law allows:
-/// with the paper's numbers plates of 0.145 m radius may be 0.28 m apart.
+/// Draws a layout by the paper's law (see [`Sampler`]), and begins anew at every dead end. It ends in bounded time for every request. The
+/// same generator state gives the same layout on every machine. Findings are overlaps, which the law allows: with the paper's numbers
+/// plates of 0.145 m radius may be 0.28 m apart.
 ///
 /// # Errors
 ///
-/// [`LayoutError::InvalidInput`] names the number that makes no sense; [`LayoutError::EmptyRegion`] when not even a first
-/// plate has room; [`LayoutError::NoRoom`] when every layout begun came to a dead end. Where [`packing_bound`] rules the
-/// request out, at most a hundred layouts are begun, only to say how many plates they held.
+/// [`LayoutError::InvalidInput`] names the invalid number; [`LayoutError::EmptyRegion`] if not even a first plate has room;
+/// [`LayoutError::NoRoom`] if every layout came to a dead end. If [`packing_bound`] rules the request out, at most a hundred layouts are
+/// begun, only to measure how many plates they held.
 pub fn sample<R: Rng + ?Sized>(
     request: &SampleRequest,
     settings: &SampleSettings,
@@ -213,13 +213,12 @@ pub fn sample<R: Rng + ?Sized>(
     }
 }
 
-/// Makes a layout of given centres (`[x, y]`, metres, base frame) and reports every rule that they break; `region` is `None`
-/// when no region was given.
+/// Builds a layout from given centres (`[x, y]` \[m\], base frame) and reports every rule that they break. `region` is `None` if no region
+/// was given.
 ///
 /// # Errors
 ///
-/// [`LayoutError::InvalidInput`] or [`LayoutError::InvalidPosition`] for a number that makes no sense. A bad layout is not
-/// an error but has findings.
+/// [`LayoutError::InvalidInput`] or [`LayoutError::InvalidPosition`] for an invalid number. A bad layout is not an error but has findings.
 pub fn check_explicit(
     positions_m: &[[f64; 2]],
     region: Option<&Region>,
@@ -256,42 +255,42 @@ fn check_count(count: usize) -> Result<(), LayoutError> {
     }
 }
 
-/// The largest number of plates that a layout may have.
+/// Greatest number of plates of a layout.
 pub const MAX_PLATES: usize = 1000;
 
 /// Shape and height that all plates of a layout share.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlateGeometry {
-    /// The washing surface; plates keep apart by the radius of its rim.
+    /// Washing surface; plates keep apart by the radius of its rim.
     pub surface: Surface,
-    /// Height of the pole of the washing surface (z, base frame), metres.
+    /// Height of the pole of the washing surface (z, base frame) \[m\].
     pub height_m: f64,
-    /// Thickness, from the washing surface down, metres.
+    /// Thickness, from the washing surface down \[m\].
     pub thickness_m: f64,
-    /// The ring that a plate stands on, where it has one.
+    /// Ring that a plate stands on, if it has one.
     pub foot: Option<Foot>,
 }
 
-/// The rule by which plates keep their distance. It concerns centres: it does not keep plates from overlapping.
+/// Rule for the distances between plates. It applies to centres and does not keep plates from overlapping.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spacing {
-    /// Centres must be farther apart than this, metres.
+    /// Distance between centres that must be exceeded \[m\].
     pub min_distance_m: f64,
-    /// Centres must be farther from the base axis than this, metres.
+    /// Distance of centres from the base axis that must be exceeded \[m\].
     pub base_radius_m: f64,
 }
 
-/// The rectangle that the robot's base covers, base frame.
+/// Rectangle that the robot's base covers, base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BaseFootprint {
-    /// Least and greatest x, metres.
+    /// Least and greatest x \[m\].
     pub x_m: [f64; 2],
-    /// Least and greatest y, metres.
+    /// Least and greatest y \[m\].
     pub y_m: [f64; 2],
 }
 
 impl PlateGeometry {
-    /// Refuses a radius or thickness that is not greater than zero, a height that is not finite, and a foot of no size.
+    /// Refuses a radius or thickness that is not greater than zero, a height that is not finite, and an invalid foot.
     ///
     /// # Errors
     ///
@@ -306,7 +305,7 @@ impl PlateGeometry {
         Ok(())
     }
 
-    /// Plates of this geometry at the centres `[x, y]`, metres, base frame.
+    /// Returns plates of this geometry at the centres `[x, y]` \[m\], base frame.
     pub(crate) fn plates(&self, centres: &[[f64; 2]]) -> Vec<Plate> {
         let at = |&[x, y]: &[f64; 2]| Plate {
             surface: self.surface,
@@ -341,15 +340,15 @@ impl BaseFootprint {
         range("base footprint y", self.y_m)
     }
 
-    /// How far a plate that lies level with the base is apart from it, seen from above; negative where it lies over it \[m\]. `None` of a plate
-    /// that does not lie level: what it meets is for the bodies to tell.
+    /// Distance between the footprint and the rim of a level plate, seen from above \[m\]; negative if the plate lies over it. `None` for a
+    /// plate that is not level, which is checked by its bodies.
     #[must_use]
     pub fn gap_m(&self, plate: &Plate) -> Option<f64> {
         let away_m = plate.is_level().then(|| self.signed_distance(plate.centre_xy()));
         away_m.map(|away_m| away_m - plate.rim_m())
     }
 
-    /// Distance of a point \[m\], negative inside.
+    /// Distance of a point from the footprint \[m\]; negative inside.
     fn signed_distance(&self, [x, y]: [f64; 2]) -> f64 {
         let beyond = |value: f64, [low, high]: [f64; 2]| (low - value).max(value - high);
         let (dx, dy) = (beyond(x, self.x_m), beyond(y, self.y_m));

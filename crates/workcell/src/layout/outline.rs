@@ -1,6 +1,6 @@
-//! The border of a region, to look at.
+//! The border of a region, for display.
 //!
-//! Where plates are drawn, to look at.
+//! The area in which plates are drawn, for display.
 
 use crate::layout::region::Region;
 use crate::trig::sin_cos;
@@ -33,7 +33,7 @@ impl Region {
     }
 }
 
-/// The points between two distances from the origin and two azimuths: out along the outer arc, back along the inner one.
+/// Returns the points between two distances from the origin and two azimuths: out along the outer arc, back along the inner one.
 fn sector([least, most]: [f64; 2], azimuth_deg: [f64; 2]) -> Vec<Point> {
     let [from, to] = azimuth_deg.map(f64::to_radians);
     let steps = ((to - from) / ARC_STEP_RAD).ceil().max(1.0);
@@ -53,8 +53,8 @@ fn sector([least, most]: [f64; 2], azimuth_deg: [f64; 2]) -> Vec<Point> {
     angles.map(|angle| at(most, angle)).chain(back).collect()
 }
 
-/// The part of a polygon on one side of a line (Sutherland and Hodgman, Comm. ACM 17, 1974); `inside` is a distance from it, positive
-/// on that side.
+/// Returns the part of a polygon on one side of a line (Sutherland and Hodgman, Comm. ACM 17, 1974). `inside` is the signed distance from
+/// the line, positive on that side.
 fn kept(polygon: &[Point], inside: impl Fn(&Point) -> f64) -> Vec<Point> {
     let mut kept = Vec::new();
     for (k, here) in polygon.iter().enumerate() {
@@ -71,12 +71,12 @@ fn kept(polygon: &[Point], inside: impl Fn(&Point) -> f64) -> Vec<Point> {
     kept
 }
 
-/// Where the centres of plates are drawn. A plan has its plates and does not say it.
+/// Area in which the centres of plates are drawn. It is not part of a plan, which has the plates themselves.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct TaskRegion {
     /// Radius about the base axis that the centres keep away from \[m\].
     pub base_circle_m: Option<f64>,
-    /// A closed polygon seen from above \[m\].
+    /// Closed polygon, seen from above \[m\].
     pub polygon_m: Option<Vec<[f64; 2]>>,
 }
 
@@ -85,7 +85,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Whether a point is in a polygon: how often a ray from it crosses the border is odd.
+    /// True if a point is in a polygon: a ray from it crosses the border an odd number of times.
     fn holds(polygon: &[Point], [x, y]: Point) -> bool {
         let edges = polygon.iter().zip(polygon.iter().cycle().skip(1));
         let crossed =
@@ -131,7 +131,7 @@ mod tests {
     }
 
     proptest! {
-        /// But for a strip along arcs as narrow as a chord's height, a point is in the polygon where it belongs to the region.
+        /// A point is in the polygon if it belongs to the region, except in a strip along arcs as narrow as a chord's height.
         #[test]
         fn the_border_is_that_of_the_region(
             x in [-0.6..0.0f64, 0.1..0.6f64], y in [-0.6..0.0f64, 0.1..0.6f64], rho in [0.0..0.3f64, 0.31..0.9f64],

@@ -1,15 +1,15 @@
-//! How many plates no arrangement can exceed.
+//! Upper bound on the number of plates in any arrangement.
 
 use crate::layout::region::{Area, Region};
 use crate::trig::sin_cos;
 
 type Point = [f64; 2];
 
-/// Sides of the polygon that stands in for the outer circle of `rho_m` (it is drawn around the circle).
+/// Number of sides of the polygon that replaces the outer circle of `rho_m`. It is drawn around the circle.
 const CIRCLE_SIDES: usize = 64;
 
-/// An upper bound on the number of points of a region that are pairwise at least `min_distance_m` apart, whatever the
-/// arrangement; `None` for a distance of zero, which sets no bound.
+/// Upper bound on the number of points of a region that are pairwise at least `min_distance_m` apart, in any arrangement; `None` for a
+/// distance of zero, which sets no bound.
 ///
 /// Oler's inequality: in a compact convex set of area A and perimeter P, points that are pairwise at least d apart number
 /// at most 2 A/(√3 d²) + P/(2 d) + 1. It is applied to a convex polygon around the region: the x/y box, cut by tangents of
@@ -33,7 +33,7 @@ pub fn packing_bound(region: &Region, min_distance_m: f64) -> Option<usize> {
     Some((bound * (1.0 + 1e-12) + 1e-9) as usize)
 }
 
-/// A convex polygon, counter-clockwise, that contains the region; empty when the region is.
+/// Returns a convex polygon, counter-clockwise, that contains the region; empty if the region is.
 fn convex_cover(region: &Region) -> Vec<Point> {
     let ([x0, x1], [y0, y1]) = (region.x_m, region.y_m);
     let mut polygon = vec![[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
@@ -49,7 +49,7 @@ fn convex_cover(region: &Region) -> Vec<Point> {
     polygon
 }
 
-/// The part of a convex polygon with normal · p ≤ offset (Sutherland and Hodgman).
+/// Returns the part of a convex polygon with normal · p ≤ offset (Sutherland and Hodgman).
 fn clip(polygon: &[Point], normal: Point, offset: f64) -> Vec<Point> {
     let excess = |p: Point| normal[0] * p[0] + normal[1] * p[1] - offset;
     let mut kept = Vec::with_capacity(polygon.len() + 1);

@@ -1,8 +1,8 @@
-//! Where plate centres may be.
+//! Region of the plate centres.
 //!
-//! A range of azimuths about the base axis, as half planes.
+//! A range of azimuths about the base axis is represented by half planes.
 //!
-//! What the arm's base covers.
+//! The footprint of the arm's base is computed here, too.
 
 use crate::layout::BaseFootprint;
 use crate::layout::error::{InputProblem, LayoutError, not_negative, range};
@@ -12,32 +12,32 @@ use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 
-/// The region of plate centres, in the base frame (z up, origin on the base axis): the points that satisfy every range
-/// that is given. Boundaries belong to it.
+/// Region of plate centres, in the base frame (z up, origin on the base axis): the points that satisfy every range that is given.
+/// Boundaries belong to it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Region {
-    /// Least and greatest x, metres.
+    /// Least and greatest x \[m\].
     pub x_m: [f64; 2],
-    /// Least and greatest y, metres.
+    /// Least and greatest y \[m\].
     pub y_m: [f64; 2],
-    /// Least and greatest distance from the base axis, metres; `None` for no such rule.
+    /// Least and greatest distance from the base axis \[m\]; `None` for no limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rho_m: Option<[f64; 2]>,
-    /// Range of azimuths about the base axis, degrees counter-clockwise from base x, at most 360 wide and written in
-    /// any turn (`[-110, 110]`, `[250, 470]`); `None` for no such rule.
+    /// Range of azimuths about the base axis, degrees counter-clockwise from base x, at most 360 wide and written in any turn (`[-110,
+    /// 110]`, `[250, 470]`); `None` for no limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub azimuth_deg: Option<[f64; 2]>,
 }
 
 impl Region {
-    /// The region of the paper's text.
+    /// Region of the paper's text.
     pub const PAPER_TEXT: Self = Self {
         x_m: [0.0, 0.32],
         y_m: [-0.38, 0.32],
         rho_m: None,
         azimuth_deg: None,
     };
-    /// The region of the program in the paper's appendix.
+    /// Region of the program in the paper's appendix.
     pub const PAPER_APPENDIX: Self = Self {
         x_m: [0.0, 0.30],
         y_m: [-0.38, 0.38],
@@ -67,14 +67,14 @@ impl Region {
         Ok(())
     }
 
-    /// Whether the point `[x, y]`, metres in the base frame, belongs to the region.
+    /// True if the point `[x, y]` \[m\] of the base frame belongs to the region.
     #[must_use]
     pub fn contains(&self, point_m: [f64; 2]) -> bool {
         Area::new(self).contains(point_m)
     }
 }
 
-/// A region made ready for many queries.
+/// Region prepared for many queries.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Area {
     low: [f64; 2],
@@ -83,7 +83,7 @@ pub(crate) struct Area {
     wedge: Wedge,
 }
 
-/// An axis-aligned rectangle.
+/// Axis-aligned rectangle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct QuadCell {
     pub(crate) middle: [f64; 2],
@@ -131,7 +131,7 @@ impl Area {
         self.low
     }
 
-    /// Extents of that box; not positive when the area is empty.
+    /// Size of that box; not positive if the area is empty.
     pub(crate) fn size(&self) -> [f64; 2] {
         [self.high[0] - self.low[0], self.high[1] - self.low[1]]
     }
@@ -145,7 +145,7 @@ impl Area {
             && self.wedge.contains(p)
     }
 
-    /// Whether a cell of the box is surely outside. May miss one that is outside, never the reverse.
+    /// True if a cell of the box is certainly outside. A cell outside may be missed; the reverse never happens.
     pub(crate) fn excludes(&self, cell: &QuadCell) -> bool {
         let ring = self
             .rho_squared
@@ -156,15 +156,15 @@ impl Area {
 
 type Point = [f64; 2];
 
-/// The points whose azimuth lies in a closed range. No angle is computed per query: membership is the sign of cross
-/// products with the two bounding rays.
+/// Points whose azimuth lies in a closed range. No angle is computed per query: membership is the sign of cross products with the two
+/// bounding rays.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Wedge {
     /// Every azimuth.
     Full,
     /// At most half a turn, counter-clockwise from the ray `from` to the ray `to`: an intersection of half planes.
     Convex { from: Point, to: Point, middle: Point },
-    /// More than half a turn: what is left outside the open convex wedge from the ray `to` on to the ray `from`.
+    /// More than half a turn: the complement of the open convex wedge from the ray `to` to the ray `from`.
     Reflex { from: Point, to: Point },
 }
 
@@ -176,7 +176,7 @@ fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// The unit vector at an azimuth, exact at multiples of 90° (so that a plate on an axis belongs to `[-90, 90]`).
+/// Unit vector at an azimuth, exact at multiples of 90° (so that a plate on an axis belongs to `[-90, 90]`).
 fn ray(azimuth_deg: f64) -> Point {
     let azimuth_deg = azimuth_deg.rem_euclid(360.0);
     let quarter = (azimuth_deg / 90.0).floor();
@@ -190,7 +190,7 @@ fn ray(azimuth_deg: f64) -> Point {
 }
 
 impl Wedge {
-    /// The wedge of azimuths from `low_deg` to `high_deg`, counter-clockwise from base x, 0 < `high_deg` − `low_deg` ≤ 360.
+    /// Returns the wedge of azimuths from `low_deg` to `high_deg`, counter-clockwise from base x, 0 < `high_deg` − `low_deg` ≤ 360.
     pub(crate) fn new([low_deg, high_deg]: [f64; 2]) -> Self {
         let (from, to) = (ray(low_deg), ray(high_deg));
         let width_deg = high_deg - low_deg;
@@ -215,7 +215,7 @@ impl Wedge {
         }
     }
 
-    /// Whether the convex hull of `corners` is surely outside. May miss a polygon that is outside, never the reverse.
+    /// True if the convex hull of `corners` is certainly outside. A polygon outside may be missed; the reverse never happens.
     pub(crate) fn excludes(&self, corners: &[Point; 4]) -> bool {
         let all = |outside: &dyn Fn(Point) -> bool| corners.iter().all(|&p| outside(p));
         match *self {
@@ -227,7 +227,7 @@ impl Wedge {
         }
     }
 
-    /// Outward normals of the half planes through the origin that contain the wedge; none when it is not convex.
+    /// Returns the outward normals of the half planes through the origin that contain the wedge; empty if it is not convex.
     pub(crate) fn outward_normals(&self) -> Vec<Point> {
         match *self {
             Self::Convex { from, to, .. } => vec![[from[1], -from[0]], [-to[1], to[0]]],
@@ -236,21 +236,21 @@ impl Wedge {
     }
 }
 
-/// Half the side of the footprint assumed for an arm whose base has no collision geometry \[m\].
+/// Half side of the footprint assumed for an arm whose base has no collision geometry \[m\].
 const DEFAULT_HALF_SIDE_M: f64 = 0.09;
 
-/// Sine of the angle to the vertical up to which a base stands upright.
+/// Sine of the angle to the vertical up to which a base counts as upright.
 const UPRIGHT: f64 = 1e-9;
 
-/// The rectangle around what stands on the floor and never moves: the bounds of the base's collision shapes, or
-/// ± 90 mm where there are none.
+/// Returns the rectangle around the links that stand on the floor and never move: the bounds of the base's collision shapes, or ± 90 mm if
+/// there are none.
 #[must_use]
 pub fn base_footprint(robot: &RobotModel) -> BaseFootprint {
     turned_footprint(robot, &Matrix3::identity())
 }
 
-/// The same of an arm mounted at `T_world_base`, in the frame of the layout; `None` where its base does not stand upright, so that no plate
-/// lies level with it.
+/// Returns the footprint of an arm mounted at `T_world_base`, in the frame of the layout; `None` if its base does not stand upright, so
+/// that no plate is level with it.
 #[must_use]
 pub fn mounted_footprint(robot: &RobotModel, mount: &Pose) -> Option<BaseFootprint> {
     let turned = Rigid::from(mount).rotation;
@@ -258,7 +258,7 @@ pub fn mounted_footprint(robot: &RobotModel, mount: &Pose) -> Option<BaseFootpri
     (across <= UPRIGHT && along > 0.0).then(|| turned_footprint(robot, &turned))
 }
 
-/// The footprint of an arm whose base is turned.
+/// Returns the footprint of an arm with a rotated base.
 fn turned_footprint(robot: &RobotModel, turned: &Matrix3<f64>) -> BaseFootprint {
     let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
     let base = robot.fk(&nalgebra::Vector6::zeros());

@@ -9,18 +9,17 @@
 //! superset of the free part, so that an accepted point is exactly uniform over it. When no cell remains, the free part is
 //! proven empty.
 //!
-//! What can be lost: cells are not halved beyond 2⁻³⁰ of the box, nor when there are more than 65,536 of them. Then 64 draws
-//! a cell and 4096 more decide, and a free part that all of them miss is taken for empty. One of the area of a last cell is
-//! missed with a probability below e⁻⁶⁴; a smaller one with a probability of at most e^(−64 · its share of a cell). Free parts
-//! whose outline is short end in cells of about 1e-9 m; a long thin one (a ring of rho_m, a strip along an edge) ends with
-//! larger cells, so that what is lost there is an area, not a width.
-//!
+//! There is a possible loss: cells are not halved beyond 2⁻³⁰ of the box, nor when there are more than 65,536 of them. Then 64 draws per
+//! cell and 4096 more decide, and a free part that all of them miss counts as empty. A free part with the area of a last cell is missed
+//! with a probability below e⁻⁶⁴; a smaller one with a probability of at most e^(−64 · its share of a cell). Free parts with a short
+//! outline end in cells of about 1e-9 m; a long thin one (a ring of rho_m, a strip along an edge) ends with larger cells, so that the loss
+//! there is an area, not a width.
 //! Source of the refinement: G. Zhang and S. Torquato, "Precise algorithm to generate random sequential addition of hard
 //! hyperspheres at saturation", Physical Review E 88 (2013) 053312.
 //!
-//! Which points are free for the next plate.
+//! Free points for the next plate.
 //!
-//! Where the plates of a job come from: given one by one, or drawn.
+//! The source of a job's plates: given one by one, or drawn.
 
 #[cfg(test)]
 mod tests;
@@ -33,13 +32,14 @@ use crate::layout::{
 };
 use rand::Rng;
 
-/// Draws from the box before cells are used.
+/// Number of draws from the box before cells are used.
 const BOX_DRAWS: u64 = 64;
 
-/// Draws from cells that may not be refined any further, besides 64 for each cell. What they miss counts as empty.
+/// Number of draws from cells that may not be refined any further, in addition to 64 for each cell. A free part that they miss counts as
+/// empty.
 const LAST_DRAWS: u64 = 4096;
 
-/// Draws plates into one region with one spacing.
+/// Sampler that draws plates into one region with one spacing.
 #[derive(Clone, Debug)]
 pub struct Sampler {
     area: Area,
@@ -47,35 +47,35 @@ pub struct Sampler {
     box_draws: u64,
 }
 
-/// How one layout, begun once, ended.
+/// Result of one layout.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Attempt {
-    /// All plates are placed: their centres `[x, y]`, metres in the base frame, in the order they were drawn.
+    /// All plates are placed: their centres `[x, y]` \[m\], base frame, in the order they were drawn.
     Placed(Vec<[f64; 2]>),
     /// There is no room for the next plate.
     DeadEnd {
-        /// Plates placed until then.
+        /// Number of plates placed until then.
         placed: usize,
     },
 }
 
-/// Whether a first plate has room.
+/// Room for a first plate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Room {
-    /// At a point that was found.
+    /// A free point was found.
     Found,
-    /// Proven: nowhere.
+    /// It is proved that there is no room.
     None,
-    /// If at all, where cells as small or as many as is allowed do not show it.
+    /// No free point was found with cells as small or as many as allowed; there may be one.
     NotFound,
 }
 
 /// Work done so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Work {
-    /// Candidate positions drawn.
+    /// Number of candidate positions drawn.
     pub(crate) draws: u64,
-    /// Quadtree cells examined.
+    /// Number of quadtree cells examined.
     pub(crate) cells: u64,
 }
 
@@ -84,8 +84,7 @@ impl Sampler {
     ///
     /// # Errors
     ///
-    /// [`LayoutError::InvalidInput`] for a number that makes no sense, [`LayoutError::EmptyRegion`] when not even a first
-    /// plate has room.
+    /// [`LayoutError::InvalidInput`] for an invalid number, [`LayoutError::EmptyRegion`] if not even a first plate has room.
     pub fn new(region: &Region, spacing: &Spacing) -> Result<Self, LayoutError> {
         region.validate()?;
         spacing.validate()?;
@@ -200,7 +199,7 @@ impl Sampler {
     }
 }
 
-/// The first of a number of random points that is free.
+/// Returns the first of a number of random points that is free.
 fn first_free<R: Rng + ?Sized>(
     space: &Space,
     draws: u64,
@@ -214,12 +213,12 @@ fn first_free<R: Rng + ?Sized>(
     })
 }
 
-/// Uniform in [0, 1), from the upper 53 bits of one word: the same on every machine and with every version of `rand`.
+/// Returns a uniform number in [0, 1), from the upper 53 bits of one word: the same on every machine and with every version of `rand`.
 fn unit<R: Rng + ?Sized>(rng: &mut R) -> f64 {
     (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// The region, the free space around the base and the discs around earlier plates.
+/// The region, the free space around the base, and the discs around earlier plates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Space<'a> {
     pub(crate) area: &'a Area,
@@ -228,7 +227,7 @@ pub(crate) struct Space<'a> {
 }
 
 impl Space<'_> {
-    /// In the region and strictly outside of every disc.
+    /// True if a point is in the region and strictly outside of every disc.
     pub(crate) fn is_free(&self, p: [f64; 2]) -> bool {
         p[0] * p[0] + p[1] * p[1] > self.base_radius_squared
             && !self.discs.any_near(p, |[x, y], radius_squared| {
@@ -238,7 +237,7 @@ impl Space<'_> {
             && self.area.contains(p)
     }
 
-    /// Whether a cell of the region's box surely holds no free point: it lies wholly in one disc or outside the region.
+    /// True if a cell of the region's box certainly holds no free point: it lies wholly in one disc or outside the region.
     pub(crate) fn is_closed(&self, cell: &QuadCell) -> bool {
         cell.farthest_squared([0.0; 2]) <= self.base_radius_squared
             || self.discs.any_near(cell.middle, |centre, radius_squared| {
@@ -248,29 +247,29 @@ impl Space<'_> {
     }
 }
 
-/// Where the plates of a job come from.
+/// Source of a job's plates.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Placement {
     /// Given by their centres.
     Given {
         /// Centres `[x, y]` \[m\].
         centres_m: Vec<[f64; 2]>,
-        /// Where they should be, if anywhere; only findings rest on it.
+        /// Region in which they should be, if any. Only findings depend on it.
         region: Option<Region>,
     },
     /// Drawn from a random stream.
     Sampled {
-        /// Where centres may be.
+        /// Region of the centres.
         region: Region,
         /// Number of plates.
         count: usize,
-        /// Whether layouts are drawn until every plate can be washed whole.
+        /// True if layouts are drawn until every plate can be washed completely.
         washable_only: bool,
     },
 }
 
 impl Placement {
-    /// Whether layouts are to be drawn until one can be washed whole, which takes a planner to tell.
+    /// True if layouts are drawn until one can be washed completely, which only a planner can decide.
     #[must_use]
     pub fn needs_planner(&self) -> bool {
         matches!(
@@ -282,7 +281,7 @@ impl Placement {
         )
     }
 
-    /// Places plates of one shape round a base. Whether they can be washed is for a planner to tell.
+    /// Places plates of one shape round a base. A planner decides later if they can be washed.
     ///
     /// # Errors
     /// As [`sample`] and [`check_explicit`].

@@ -1,8 +1,8 @@
-//! The plan file: a job, and a motion that does it, sealed with a hash. It is all that a verifier needs besides the arm.
+//! Plan file: a job and a motion that does it, sealed with a hash. A verifier needs only the file and the arm.
 //!
 //! Formats and kinds of plan files.
 //!
-//! Why a plan file could not be written or read.
+//! Errors of writing and reading plan files.
 
 pub(crate) mod reading;
 
@@ -17,43 +17,43 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
 
-/// A plan file, `"format": "platewash-plan/2"`.
+/// Plan file, `"format": "platewash-plan/2"`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
-    /// [`FORMAT`].
+    /// Format name, [`FORMAT`].
     pub format: String,
     /// SHA-256 over the canonical JSON (RFC 8785) of everything else, lower-case hexadecimal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hash: Option<String>,
-    /// What kind of plan it is.
+    /// Kind of the plan.
     pub process: Process,
-    /// What is asked.
+    /// Job of the plan.
     pub job: JobTerms,
-    /// Where it comes from: stated, never judged.
+    /// Origin of the plan: stated, never judged.
     pub provenance: Provenance,
     /// Plate indices in the order of washing.
     pub order: Vec<usize>,
-    /// How each plate is washed, in the order of washing; none for the paper's program.
+    /// Wash path of each plate, in the order of washing; empty for the paper's program.
     pub wash_paths: Vec<WashPath>,
-    /// The segments in time.
+    /// Segments in time order.
     pub segments: Vec<PlanSegment>,
-    /// The motion: cubic Hermite between knots.
+    /// Motion: cubic Hermite pieces between knots.
     pub knots: Knots,
 }
 
-/// Where a plan comes from.
+/// Origin of a plan.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// Name of the scenario.
     pub scenario: String,
-    /// Version of the program that planned it.
+    /// Version of the program that made the plan.
     pub version: String,
 }
 
 impl Provenance {
-    /// A scenario, planned by this version.
+    /// Returns the provenance of a scenario planned by this version.
     #[must_use]
     pub fn of(scenario: &str) -> Self {
         Self {
@@ -63,20 +63,20 @@ impl Provenance {
     }
 }
 
-/// The knots of a motion.
+/// Knots of a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Knots {
     /// Times \[s\].
     pub t_s: Vec<f64>,
-    /// Positions \[rad\], one row a knot.
+    /// Positions \[rad\], one row per knot.
     pub q_rad: Vec<JointVector>,
-    /// Speeds \[rad/s\], one row a knot.
+    /// Speeds \[rad/s\], one row per knot.
     pub qd_rad_s: Vec<JointVector>,
 }
 
 impl Knots {
-    /// No knots at all.
+    /// Returns an empty list of knots.
     fn none() -> Self {
         Self {
             t_s: Vec::new(),
@@ -85,7 +85,7 @@ impl Knots {
         }
     }
 
-    /// The motion through them.
+    /// Returns the motion through the knots.
     ///
     /// # Errors
     /// [`KnotError`] with the first knot that does not fit.
@@ -104,23 +104,23 @@ impl From<&Trajectory> for Knots {
     }
 }
 
-/// What a plan says besides its job.
+/// Contents of a plan besides its job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanParts {
-    /// Where it comes from.
+    /// Origin of the plan.
     pub provenance: Provenance,
     /// Plate indices in the order of washing.
     pub order: Vec<usize>,
-    /// How each plate is washed, in the order of washing.
+    /// Wash path of each plate, in the order of washing.
     pub wash_paths: Vec<WashPath>,
-    /// The segments in time.
+    /// Segments in time order.
     pub segments: Vec<PlanSegment>,
-    /// The motion.
+    /// Knots of the motion.
     pub knots: Knots,
 }
 
 impl Plan {
-    /// The plan of a job, sealed.
+    /// Seals the plan of a job.
     ///
     /// # Errors
     /// [`PlanFileError::Unwritable`].
@@ -140,8 +140,8 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The same plan with its job in the frame of the arm's base ([`JobTerms::seen_from_base`]), to compute with: its hash is that of
-    /// the plan itself.
+    /// Returns the plan with its job in the frame of the arm's base ([`JobTerms::seen_from_base`]), for computations. The hash stays that
+    /// of the original plan.
     #[must_use]
     pub fn seen_from_base(&self) -> Cow<'_, Self> {
         match self.job.seen_from_base() {
@@ -162,10 +162,10 @@ impl Plan {
         self.wash_paths.iter().find(|path| path.plate == plate)
     }
 
-    /// The hash that belongs to the contents.
+    /// Computes the hash of the contents.
     ///
     /// # Errors
-    /// [`PlanFileError::Unwritable`] for contents that could not be read back: a number that is not finite.
+    /// [`PlanFileError::Unwritable`] for contents that cannot be read back, such as a number that is not finite.
     pub fn seal(&self) -> Result<String, PlanFileError> {
         let open = Self {
             hash: None,
@@ -176,7 +176,7 @@ impl Plan {
         Ok(sha256_hex(&canonical))
     }
 
-    /// Refuses contents that would be read back as others.
+    /// Refuses contents that would change when read back.
     fn check_readable(mut self) -> Result<(), PlanFileError> {
         let refuse = |detail: &str| {
             let detail = detail.to_owned();
@@ -188,7 +188,7 @@ impl Plan {
         if !numbers.all(|number| number.is_finite()) {
             return refuse("a number of the knots is not finite");
         }
-        // What is not finite is written as `null`, and a whole number of more than 53 bits as its neighbour.
+        // A number that is not finite is written as `null`, and a whole number of more than 53 bits as its neighbour.
         let rest = serde_json_canonicalizer::to_vec(&self).map_err(unwritable)?;
         if serde_json::from_slice::<Self>(&rest).map_err(unwritable)? != self {
             return refuse("a whole number is above 2^53 − 1, the largest that JSON says exactly");
@@ -196,13 +196,13 @@ impl Plan {
         Ok(())
     }
 
-    /// Whether the stored hash is that of the contents.
+    /// True if the stored hash is that of the contents.
     #[must_use]
     pub fn is_sealed(&self) -> bool {
         self.hash.is_some() && self.hash == self.seal().ok()
     }
 
-    /// The file's text: canonical JSON, one line.
+    /// Returns the file's text: canonical JSON, one line.
     ///
     /// # Errors
     /// [`PlanFileError::Unwritable`].
@@ -210,8 +210,8 @@ impl Plan {
         serde_json_canonicalizer::to_string(self).map_err(unwritable)
     }
 
-    /// Reads a plan file's text: every key once, none unknown, none left out, so that what is read is all that the file says and the
-    /// hash of the one is that of the other. The hash is not checked here: see [`Plan::is_sealed`].
+    /// Reads the text of a plan file. Every key occurs once, none is unknown and none is missing, so that the plan read has the hash of the
+    /// file's contents. The hash is not checked here: see [`Plan::is_sealed`].
     ///
     /// # Errors
     /// [`PlanFileError`] for anything but a plan of this format.
@@ -232,7 +232,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Refuses names that do not read as what they say.
+    /// Refuses names with control or direction characters.
     fn check_names(&self) -> Result<(), PlanFileError> {
         let world = &self.job.workcell;
         let bodies = world
@@ -264,19 +264,19 @@ impl Plan {
     }
 }
 
-/// What tells formats apart.
+/// Key that identifies the format.
 #[derive(Deserialize)]
 struct Head {
     format: Option<String>,
 }
 
-/// That a text which is no plan says that it has another format.
+/// Returns an error if a text that is no plan states another format.
 fn other_format(text: &str) -> Option<PlanFileError> {
     let format = serde_json::from_str::<Head>(text).ok()?.format?;
     (format != FORMAT).then(|| refused(format))
 }
 
-/// That a plan has another format.
+/// Returns the error for a plan of another format.
 fn refused(format: String) -> PlanFileError {
     if format == BEFORE {
         return PlanFileError::Before;
@@ -288,19 +288,19 @@ fn unwritable(e: serde_json::Error) -> PlanFileError {
     PlanFileError::Unwritable { detail: e.to_string() }
 }
 
-/// The format that this version writes and reads.
+/// Format that this version writes and reads.
 pub const FORMAT: &str = "platewash-plan/2";
 
-/// The format before it.
+/// Format of the version before.
 pub(crate) const BEFORE: &str = "platewash-plan/1";
 
-/// Kinds of plans.
+/// Kind of a plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Process {
-    /// A washing, planned as a whole from home to home; what a certificate is about.
+    /// A washing, planned as a whole from home to home. Certificates are about these.
     Wash,
-    /// A run of the paper's program: waypoint after waypoint. There is no certificate for it.
+    /// A run of the paper's program, waypoint after waypoint. It has no certificate.
     Paper,
 }
 
@@ -322,73 +322,73 @@ impl From<&Planner> for Process {
     }
 }
 
-/// Why a plan file could not be written or read.
+/// Reason that a plan file cannot be written or read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanFileError {
-    /// A number in it is not finite, which JSON cannot say.
+    /// A number in the plan is not finite; JSON cannot represent it.
     #[error("plan cannot be written as JSON: {detail}")]
     Unwritable {
-        /// The serialiser's words.
+        /// Message of the serialiser.
         detail: String,
     },
-    /// Not a plan file.
+    /// The text is not a plan file.
     #[error("not a plan file: {0}")]
     Unreadable(#[from] JsonError),
-    /// A key that no plan has.
+    /// There is a key that no plan has.
     #[error("unknown key '{key}': a plan states what this program knows and nothing else")]
     UnknownKey {
-        /// Its place, e.g. `wash_paths[2].extra`.
+        /// Path of the key, e.g. `wash_paths[2].extra`.
         key: String,
     },
-    /// A key that is left out. Nothing is filled in: the hash is that of what the file says.
+    /// A key is missing. Nothing is filled in, as the hash covers the file's contents.
     #[error("'{key}' is missing: a plan states every value, defaults too; plan the scenario again")]
     MissingKey {
-        /// Its place, e.g. `job.requirements.coverage`.
+        /// Path of the key, e.g. `job.requirements.coverage`.
         key: String,
     },
-    /// A value that says something else than what would be read.
+    /// A value would be read as another one.
     #[error("'{key}' is {found}; expected {read}")]
     Inexact {
-        /// Its place.
+        /// Path of the value.
         key: String,
-        /// What the file says.
+        /// Value in the file.
         found: String,
-        /// What a plan file would say.
+        /// Value as it is read.
         read: String,
     },
-    /// The format before this one.
+    /// The file has the previous format.
     #[error(
         "this is a {BEFORE}: it carries a scenario, and this version reads {FORMAT}, which carries the resolved job; plan its \
          scenario again (platewash plan)"
     )]
     Before,
-    /// The process and the planner contradict each other.
+    /// Process and planner contradict each other.
     #[error("process is \"{stated}\", and the job was planned as \"{planned}\"; a plan states one process")]
     Process {
-        /// What the plan states.
+        /// Process that the plan states.
         stated: Process,
-        /// What its job says.
+        /// Process that its job implies.
         planned: Process,
     },
-    /// Lists that are longer than those of any job.
+    /// A list is longer than that of any job.
     #[error("the plan is too large: {detail}")]
     TooLarge {
-        /// Which list, and where.
+        /// Name of the list and its position.
         detail: String,
     },
-    /// A name that does not read as what it says.
+    /// A name has control or direction characters.
     #[error("'{key}' is {}, a name with a control or direction character (escaped here): plan the scenario with another name", quoted(.found))]
     HiddenCharacter {
-        /// Its place.
+        /// Path of the name.
         key: String,
-        /// The name.
+        /// Name found.
         found: String,
     },
-    /// Another format.
+    /// The file has another format.
     #[error("plan format must be \"{FORMAT}\"; found \"{}\"", printable(.found))]
     Format {
-        /// The format found.
+        /// Format found.
         found: String,
     },
 }

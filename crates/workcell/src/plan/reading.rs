@@ -1,9 +1,9 @@
-//! Whether a plan file says what is read of it, and nothing else.
+//! Checks that a plan file contains exactly what is read from it.
 //!
-//! Reading alone is not strict enough: tagged and flattened types swallow keys that they do not know, missing keys of a scenario
-//! become defaults, and of a key that is stated twice the last one counts. The hash would then be that of other contents.
+//! Reading alone is not strict enough: tagged and flattened types swallow unknown keys, missing keys of a scenario become defaults, and the
+//! last one of repeated keys counts. The hash would then belong to other contents.
 //!
-//! How much a plan file states, counted before it is read: a file that states too much is refused at the cost of its text.
+//! The sizes of lists are counted before a file is read: a file with too long lists is refused at the cost of its text.
 
 use crate::differences::{Difference, NOTHING, by_place};
 use crate::job::MAX_SEED;
@@ -16,10 +16,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::fmt;
 
-/// Longest value that a message repeats, in characters.
+/// Greatest number of characters of a value in a message.
 const LONGEST: usize = 60;
 
-/// Refuses a text that says anything else than what was read of it, which is `written` as canonical JSON.
+/// Checks that a text contains exactly what was read from it, given as canonical JSON in `written`.
 ///
 /// # Errors
 /// [`PlanFileError`] with the key.
@@ -36,7 +36,7 @@ pub(crate) fn check_contents(text: &str, written: &str, plan: &impl Serialize) -
     }
     let read = serde_json::to_value(plan).map_err(unreadable)?;
     let all = by_place(&said, &read);
-    // What is there says more of a slip than what is missing for it.
+    // A key that is present tells more about a mistake than the one that is missing for it.
     let first = all.iter().find(|difference| difference.found != NOTHING);
     first.or(all.first()).map_or(Ok(()), |first| Err(refused(first)))
 }
@@ -56,7 +56,7 @@ fn refused(Difference { key, found, expected }: &Difference) -> PlanFileError {
     PlanFileError::Inexact { key, found, read }
 }
 
-/// The keys of all tables of a value.
+/// Counts the keys of all tables of a value.
 fn keys(value: &Value) -> usize {
     match value {
         Value::Object(table) => table.values().map(|value| 1 + keys(value)).sum(),
@@ -65,7 +65,7 @@ fn keys(value: &Value) -> usize {
     }
 }
 
-/// The keys of all tables of a text that is JSON, those that are stated twice counted twice: a colon outside of texts follows each.
+/// Counts the keys of all tables of a JSON text, repeated ones included, by the colons outside strings.
 fn keys_stated(text: &str) -> usize {
     let (mut count, mut is_in_text, mut is_escaped) = (0, false, false);
     for byte in text.bytes() {
@@ -80,13 +80,13 @@ fn keys_stated(text: &str) -> usize {
     count
 }
 
-/// Most knots of a motion that is read: those of a thousand plates, twice.
+/// Greatest number of knots of a motion: twice those of a thousand plates.
 const MOST_KNOTS: usize = 1_000_000;
 
-/// Length of a text that is read without counting [bytes]: what it states takes some tens of megabytes.
+/// Length of a text that is read without counting \[bytes\]. Its contents take some tens of megabytes.
 const SMALL: usize = 2_000_000;
 
-/// The lists of a plan that may be long.
+/// Lists of a plan that may be long.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct Sizes {
@@ -110,7 +110,7 @@ struct Knots {
     _t_s: (),
 }
 
-/// Refuses a text with more plates or knots than are read. Whatever else is wrong with it is left to the reader.
+/// Refuses a text with more plates or knots than are allowed. All other errors are left to the reader.
 pub(crate) fn check_sizes(text: &str) -> Result<(), PlanFileError> {
     if text.len() <= SMALL {
         return Ok(());
@@ -124,7 +124,7 @@ pub(crate) fn check_sizes(text: &str) -> Result<(), PlanFileError> {
     }
 }
 
-/// How the message on a list that is too long begins.
+/// Start of the message on a list that is too long.
 const TOO_MANY: &str = "more than ";
 
 fn plates<'de, D: Deserializer<'de>>(from: D) -> Result<(), D::Error> {
@@ -137,7 +137,7 @@ fn times<'de, D: Deserializer<'de>>(from: D) -> Result<(), D::Error> {
     from.deserialize_seq(Count { name, most })
 }
 
-/// Reads a list and keeps nothing of it, as long as it is no longer than `most`.
+/// Reader of a list that keeps nothing of it and refuses more than `most` elements.
 struct Count {
     name: &'static str,
     most: usize,

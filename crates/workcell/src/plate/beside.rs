@@ -1,17 +1,17 @@
-//! How two plates lie to each other: seen along the axis of one, beside or over it.
+//! Position of two plates relative to each other, seen along the axis of one.
 
 use crate::plate::Plate;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 
-/// Sine of the angle between the axes of two plates that counts as none.
+/// Greatest sine of the angle between the axes of two plates that count as parallel.
 const PARALLEL: f64 = 1e-9;
 
-/// Heights that differ by less are one: the rounding of places \[m\].
+/// Greatest difference of heights that count as equal: the rounding of positions \[m\].
 const PLACE_M: f64 = 1e-9;
 
 impl Plate {
-    /// Whether the axis of another plate points the same way.
+    /// True if the axis of another plate points the same way.
     #[must_use]
     pub fn is_parallel(&self, other: &Self) -> bool {
         let (here, there) = (self.axis(), other.axis());
@@ -25,27 +25,27 @@ impl Plate {
         (away - axis * axis.dot(&away)).norm()
     }
 
-    /// Distance between the rims of two plates, seen along this one's axis; negative where the one lies over the other \[m\].
+    /// Distance between the rims of two plates, seen along this plate's axis \[m\]; negative where one lies over the other.
     #[must_use]
     pub fn gap_beside_m(&self, other: &Self) -> f64 {
         self.aside_m(other) - self.rim_m() - other.rim_m()
     }
 
-    /// Whether it lies as the base of the arm stands: its axis is that of the base.
+    /// True if the plate's axis is the z axis of its frame, so that it lies level.
     #[must_use]
     pub fn is_level(&self) -> bool {
         self.is_parallel(&Self::level_disc([0.0; 3], 1.0, 1.0))
     }
 
-    /// Whether all of this plate is over all of another one that is parallel to it, along their axis.
+    /// True if all of this plate is above all of another, parallel one, along their axis.
     #[must_use]
     pub fn is_over(&self, other: &Self) -> bool {
         let ([below_m, _], [_, above_m]) = (self.extent_m(), other.extent_m());
         self.is_parallel(other) && below_m - self.higher_m(other) - above_m >= -PLACE_M
     }
 
-    /// Whether the face of another plate, at its highest, is higher than this one's along this one's axis; that of one that is not
-    /// parallel to it counts as higher.
+    /// True if the highest point of another plate's face is above that of this one, along this one's axis. Also true for a plate that is
+    /// not parallel.
     #[must_use]
     pub fn is_below(&self, other: &Self) -> bool {
         if !self.is_parallel(other) {
@@ -55,7 +55,7 @@ impl Plate {
         self.higher_m(other) + top_m - own_m > PLACE_M
     }
 
-    /// Whether another plate is the other face of the same disc: each has a part of its thickness, and they lie back to back.
+    /// True if another plate is the other face of the same disc: each has a part of its thickness, and they lie back to back.
     #[must_use]
     pub fn is_back_of(&self, other: &Self) -> bool {
         let (here, there) = (self.axis(), other.axis());
@@ -65,7 +65,7 @@ impl Plate {
         flat && opposite && self.aside_m(other) <= PLACE_M && apart_m.abs() <= PLACE_M
     }
 
-    /// The other face of a flat disc that both share: each takes half of its thickness. `None` of any other plate.
+    /// Returns both faces of a flat disc as plates, each with half of its thickness; `None` for any other plate.
     #[must_use]
     pub fn faces(&self) -> Option<[Self; 2]> {
         if !self.surface.is_flat() || self.foot.is_some() {
@@ -80,14 +80,14 @@ impl Plate {
         Some([front, Self { pose, ..front }])
     }
 
-    /// Whether the sponge may touch the rim of another plate while it washes this one: that one lies beside it and no higher, and not
-    /// under it. Of all others it keeps clear.
+    /// True if the sponge may touch the rim of another plate while it washes this one: the other one lies beside it, no higher, and not
+    /// under it. The sponge keeps clear of all others.
     #[must_use]
     pub fn may_touch_beside(&self, other: &Self) -> bool {
         !self.is_below(other) && !self.is_over(other)
     }
 
-    /// How much the body reaches along a direction of the frame of its pose, from that frame's origin \[m\]: no less than its parts do.
+    /// Upper bound on the reach of the body along a direction, from the origin of the frame of its pose \[m\].
     #[must_use]
     pub fn reach_along_m(&self, direction: &Vector3<f64>) -> f64 {
         let cosine = self.axis().dot(direction);
@@ -96,7 +96,7 @@ impl Plate {
         self.centre().dot(direction) + (low * cosine).max(high * cosine) + self.rim_m() * sine
     }
 
-    /// Height of the pole of another plate over this one's, along this one's axis \[m\].
+    /// Height of the pole of another plate over this one's pole, along this one's axis \[m\].
     fn higher_m(&self, other: &Self) -> f64 {
         self.axis().dot(&(other.centre() - self.centre()))
     }
@@ -148,7 +148,7 @@ mod tests {
     }
 
     proptest! {
-        /// No rigid motion of both changes how they lie to each other, but where it is a matter of rounding.
+        /// A rigid motion of both plates does not change their relation, except where rounding decides it.
         #[test]
         fn a_motion_of_both_changes_nothing(
             axis in prop::array::uniform3(-1.0..1.0f64), angle in -3.0..3.0f64, place in prop::array::uniform3(-1.0..1.0f64),

@@ -1,6 +1,6 @@
-//! A plate: a face to be washed, the body below it, and where it lies.
+//! A plate: a face to be washed, the body below it, and its pose.
 //!
-//! A plate's axis in words.
+//! The file also puts a plate's axis in words.
 
 mod beside;
 mod solid;
@@ -15,40 +15,40 @@ use platewash_kinematics::Pose;
 use platewash_kinematics::words::rounded;
 use serde::{Deserialize, Serialize};
 
-/// The least size of a plate \[m\].
+/// Least size of a plate \[m\].
 pub const LEAST_PLATE_M: f64 = 1e-6;
 
-/// The greatest size of a plate, and the greatest distance of one from the origin, along each axis \[m\].
+/// Greatest size of a plate, and greatest distance of one from the origin along each axis \[m\].
 pub const GREATEST_M: f64 = 1e3;
 
 /// A plate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plate {
-    /// The face that is washed.
+    /// Face to be washed.
     pub surface: Surface,
-    /// Thickness, from the face against its axis \[m\]; clearance takes it along the normal, too, where that reaches farther down.
+    /// Thickness from the face along the axis \[m\]. For clearance it also applies along the normal, where that reaches farther down.
     pub thickness_m: f64,
-    /// The ring that it stands on, where it has one.
+    /// Ring that the plate stands on, if it has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub foot: Option<Foot>,
-    /// `T_world_plate`: origin at the pole of the face, z along its axis, out of the plate.
+    /// Pose in the world frame, `T_world_plate`: origin at the pole of the face, z along its axis, out of the plate.
     #[serde(with = "pose")]
     pub pose: Pose,
 }
 
-/// The ring below a plate that it stands on, as the cylinder that encloses it.
+/// Ring below a plate that it stands on, as the cylinder that encloses it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Foot {
     /// Outer radius \[m\].
     pub radius_m: f64,
-    /// How far it reaches below the body under the pole \[m\].
+    /// Height below the body under the pole \[m\].
     pub height_m: f64,
 }
 
 impl Foot {
-    /// Whether it is a foot of a plate of that rim \[m\]: of some size, and no wider than the plate.
+    /// Checks that the foot has a valid size and is no wider than the rim of its plate \[m\].
     #[must_use]
     pub fn is_sound(&self, rim_m: f64) -> bool {
         let is_size = |size: f64| size > LEAST_PLATE_M && size <= GREATEST_M;
@@ -57,7 +57,7 @@ impl Foot {
 }
 
 impl Plate {
-    /// A flat round plate that lies level: its face has its centre there \[m\].
+    /// Returns a flat round plate that lies level, with the centre of its face at `centre_m` \[m\].
     #[must_use]
     pub fn level_disc(centre_m: [f64; 3], radius_m: f64, thickness_m: f64) -> Self {
         let [x, y, z] = centre_m;
@@ -69,7 +69,7 @@ impl Plate {
         }
     }
 
-    /// The same plate with the pole of its face above another place of the floor, as high as before \[m\].
+    /// Returns the plate with the pole of its face moved to another x and y \[m\], at the same height.
     #[must_use]
     pub fn moved_to(mut self, [x, y]: [f64; 2]) -> Self {
         self.pose.translation.x = x;
@@ -77,7 +77,7 @@ impl Plate {
         self
     }
 
-    /// The same plate in another frame, by the pose that takes the frame of its own pose there.
+    /// Returns the plate in another frame. `by` takes the frame of its pose to the other one.
     #[must_use]
     pub fn seen_from(&self, by: &Pose) -> Self {
         Self {
@@ -86,13 +86,13 @@ impl Plate {
         }
     }
 
-    /// The pole of the face, world frame \[m\].
+    /// Pole of the face, world frame \[m\].
     #[must_use]
     pub fn centre(&self) -> Vector3<f64> {
         self.pose.translation.vector
     }
 
-    /// The pole of the face seen from above, world frame \[m\].
+    /// Pole of the face seen from above, world frame \[m\].
     #[must_use]
     pub fn centre_xy(&self) -> [f64; 2] {
         [self.pose.translation.x, self.pose.translation.y]
@@ -104,19 +104,19 @@ impl Plate {
         self.surface.rim_m()
     }
 
-    /// The axis of the face, out of the plate, world frame.
+    /// Axis of the face, out of the plate, world frame.
     #[must_use]
     pub fn axis(&self) -> Vector3<f64> {
         self.pose.rotation * Vector3::z()
     }
 
-    /// A point of the world in the plate's frame \[m\].
+    /// Converts a point from the world frame to the plate frame \[m\].
     #[must_use]
     pub fn local(&self, point: &Vector3<f64>) -> Vector3<f64> {
         self.pose.inverse_transform_point(&Point3::from(*point)).coords
     }
 
-    /// A point of the plate's frame in the world \[m\].
+    /// Converts a point from the plate frame to the world frame \[m\].
     #[must_use]
     pub fn world(&self, point: &Vector3<f64>) -> Vector3<f64> {
         self.pose.transform_point(&Point3::from(*point)).coords
@@ -129,7 +129,7 @@ impl Plate {
         local.z - self.surface.height_m(local.xy().norm())
     }
 
-    /// The normal of the face where it is nearest to a point of the world along the axis, world frame.
+    /// Normal of the face at the place under a point of the world, seen along the axis; world frame.
     #[must_use]
     pub fn normal_at(&self, point: &Vector3<f64>) -> Vector3<f64> {
         let local = self.local(point);
@@ -137,7 +137,7 @@ impl Plate {
         self.pose.rotation * self.surface.normal(local.xy().norm(), phi).into_inner()
     }
 
-    /// How far the face and the body reach along the axis, from below to above the pole \[m\].
+    /// Range of the face and the body along the axis, relative to the pole \[m\].
     #[must_use]
     pub fn extent_m(&self) -> [f64; 2] {
         let [least, most] = self.surface.height_bounds_m();
@@ -145,7 +145,7 @@ impl Plate {
         [(-self.thickness_m - below).min(least - self.thickness_m), most]
     }
 
-    /// Whether it is a plate: of some size, and somewhere.
+    /// Checks that the plate has a valid size and pose.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         let sizes = [self.rim_m(), self.thickness_m];
@@ -161,11 +161,12 @@ impl Plate {
 /// Significant digits of an angle.
 const DIGITS: usize = 9;
 
-/// What a part of a direction is told in.
+/// Factor for rounding the components of a direction.
 const PARTS: f64 = 1e9;
 
 impl Plate {
-    /// How a plate stands that does not lie level: `tilted by 60°, axis (0.433012702, 0.75, 0.5)`, in the frame of its pose.
+    /// Describes the tilt of a plate that does not lie level: `tilted by 60°, axis (0.433012702, 0.75, 0.5)`, in the frame of its pose.
+    /// Returns `None` for a level plate.
     #[must_use]
     pub fn tilt_words(&self) -> Option<String> {
         if self.is_level() {

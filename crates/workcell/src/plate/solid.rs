@@ -28,32 +28,32 @@ use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use std::f64::consts::PI;
 
-/// How far a chord of the meridian is above its arc, as a share of the rim's radius.
+/// Greatest height of a chord of the meridian above its arc, as a share of the rim's radius.
 const BEND: f64 = 1e-3;
 
-/// How far a chord across the meridian is above the face, along its normal.
+/// Greatest height of a chord across the meridian above the face, along its normal, as a share of the rim's radius.
 const TURN: f64 = 2e-3;
 
-/// Between what heights the face in the middle lies, which one cylinder holds.
+/// Greatest range of heights of the middle of the face that one cylinder holds, as a share of the rim's radius.
 const WELL: f64 = 2e-3;
 
-/// How far the corners of a sector may stand out beyond the rim.
+/// Greatest distance of the corners of a sector beyond the rim, as a share of the rim's radius.
 const BEYOND: f64 = 5e-3;
 
 impl Plate {
-    /// The cylinder that encloses the whole body, and its pose, world frame.
+    /// Returns the cylinder that encloses the whole body, and its pose, world frame.
     #[must_use]
     pub fn enclosure(&self) -> (Shape, Pose) {
         let (shape, pose) = self.enclosure_here();
         (shape, self.pose * pose)
     }
 
-    /// As [`Plate::enclosure`], plate frame.
+    /// Same as [`Plate::enclosure`], plate frame.
     fn enclosure_here(&self) -> (Shape, Pose) {
         upright(self.rim_m(), self.extent_m())
     }
 
-    /// Convex shapes with their poses, world frame, that enclose the body together ([`PlateParts`]).
+    /// Returns convex shapes with their poses, world frame, that together enclose the body ([`PlateParts`]).
     #[must_use]
     pub fn bodies(&self) -> Vec<(Shape, Pose)> {
         let placed = |(shape, pose)| (shape, self.pose * pose);
@@ -61,21 +61,21 @@ impl Plate {
     }
 }
 
-/// The parts of a plate, plate frame.
+/// Convex parts of a plate, plate frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlateParts {
-    /// A cylinder that holds all of them.
+    /// Cylinder that holds all parts.
     pub whole: (Shape, Pose),
-    /// Parts that stand by themselves.
+    /// Parts that occur once.
     pub single: Vec<(Shape, Pose)>,
-    /// The parts of one sector.
+    /// Parts of one sector.
     pub sector: Vec<(Shape, Pose)>,
-    /// Where that sector stands, again and again round the axis.
+    /// Rotations of that sector about the axis, one for each copy.
     pub turns: Vec<UnitQuaternion<f64>>,
 }
 
 impl PlateParts {
-    /// Those of a plate; a flat one is one cylinder.
+    /// Returns the parts of a plate; a flat one is one cylinder.
     #[must_use]
     pub fn of(plate: &Plate) -> Self {
         match plate.surface {
@@ -89,7 +89,7 @@ impl PlateParts {
         }
     }
 
-    /// All parts, plate frame.
+    /// Returns all parts, plate frame.
     pub fn all(&self) -> impl Iterator<Item = (Shape, Pose)> {
         let sectors = self.turns.iter().flat_map(|turn| {
             let turned = move |(shape, pose): &(Shape, Pose)| (shape.clone(), turn * pose);
@@ -133,18 +133,18 @@ impl PlateParts {
     }
 }
 
-/// A piece of the body, in the half-plane of the meridian.
+/// Piece of the body, in the half-plane of the meridian.
 struct Piece {
-    /// ρ of its far end \[m\].
+    /// Radius ρ of the far end \[m\].
     to_m: f64,
-    /// ρ and z of its corners, those of the face first \[m\].
+    /// Corners as ρ and z, those of the face first \[m\].
     corners: Vec<[f64; 2]>,
-    /// How many of them bound the face.
+    /// Number of corners that bound the face.
     tops: usize,
 }
 
 impl Piece {
-    /// Between two points of an arc or a line; lowered by `deep_m`, and at least down to `down_to_m`.
+    /// Returns the piece between two points of an arc or a line, lowered by `deep_m` and at least down to `down_to_m`.
     fn between([from, to]: [&MeridianPoint; 2], deep_m: f64, down_to_m: f64) -> Self {
         let ends = [from, to].map(|p| [p.radius_m, p.height_m]);
         let mut tops = vec![ends[0]];
@@ -166,7 +166,7 @@ impl Piece {
         }
     }
 
-    /// Between what heights the corners of the face lie \[m\].
+    /// Least and greatest height of the corners of the face \[m\].
     fn top_bounds(&self) -> [f64; 2] {
         let tops = self.corners[..self.tops].iter();
         tops.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &[_, z]| {
@@ -174,12 +174,12 @@ impl Piece {
         })
     }
 
-    /// Its lowest height \[m\].
+    /// Lowest height \[m\].
     fn bottom_m(&self) -> f64 {
         self.corners.iter().map(|&[_, z]| z).fold(f64::INFINITY, f64::min)
     }
 
-    /// Turned about the axis by an angle to each side of x \[rad\], about its own middle.
+    /// Returns the hull of the piece turned about the axis by `half` to each side of x \[rad\], relative to its own middle.
     fn hull(&self, half: f64) -> (Shape, Pose) {
         let (s, c) = sin_cos(half);
         let turned = |&[rho, z]: &[f64; 2]| {
@@ -202,7 +202,7 @@ impl Piece {
     }
 }
 
-/// Where the tangents at both ends of an arc meet \[m\]; `None` of a line.
+/// Intersection of the tangents at both ends of an arc \[m\]; `None` for a line.
 fn corner(from: &MeridianPoint, to: &MeridianPoint) -> Option<[f64; 2]> {
     if from.curvature == 0.0 {
         return None;
@@ -215,7 +215,7 @@ fn corner(from: &MeridianPoint, to: &MeridianPoint) -> Option<[f64; 2]> {
     Some([from.radius_m + leg * from.cosine, from.height_m + leg * from.sine])
 }
 
-/// The pieces of the body from the pole to the rim.
+/// Returns the pieces of the body from the pole to the rim.
 fn pieces(plate: &Plate) -> Vec<Piece> {
     let (surface, rim_m, thickness_m) = (&plate.surface, plate.rim_m(), plate.thickness_m);
     let Surface::Profile(meridian) = surface else {
@@ -290,13 +290,13 @@ fn half_angle(surface: &Surface) -> f64 {
     across.min((2.0 * BEYOND / 1.01).sqrt())
 }
 
-/// A turn about the axis \[rad\].
+/// Rotation about the axis by an angle \[rad\].
 fn about_axis(angle: f64) -> UnitQuaternion<f64> {
     let (s, c) = sin_cos(0.5 * angle);
     UnitQuaternion::new_unchecked(Quaternion::new(c, 0.0, 0.0, s))
 }
 
-/// A cylinder about the axis between two heights \[m\].
+/// Cylinder about the axis between two heights \[m\].
 fn upright(radius_m: f64, [low, high]: [f64; 2]) -> (Shape, Pose) {
     let shape = Shape::Cylinder {
         radius_m,

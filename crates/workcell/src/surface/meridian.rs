@@ -1,4 +1,4 @@
-//! A meridian by knots: arcs and lines, one after the other without a bend.
+//! Meridian by knots: arcs and lines, one after the other, with a continuous slope.
 //!
 //! Between knots (ρ, β), radius and slope, sin β is linear in ρ. With κ = Δ sin β / Δρ every piece is an arc of curvature κ, or a line
 //! where κ = 0, and neighbours share their slope. The first knot is the pole, (0, 0), and is not stated. From a knot on,
@@ -14,19 +14,19 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use thiserror::Error;
 
-/// Knots of a meridian at most, the pole apart.
+/// Greatest number of knots of a meridian, without the pole.
 pub const MOST_KNOTS: usize = 16;
 
-/// The steepest slope of a meridian \[rad\]: 60°. Walls of bowls are steeper.
+/// Greatest slope of a meridian \[rad\]: 60°. Walls of bowls are steeper.
 pub const STEEPEST_RAD: f64 = PI / 3.0;
 
-/// The least radius with which a meridian bends \[m\]: nobody makes a sharper edge, and none is proved in reasonable time.
+/// Least radius of curvature of a meridian \[m\]. Real edges are not sharper, and sharper ones take too long to prove.
 pub const SHARPEST_M: f64 = 1e-4;
 
-/// The greatest radius of a meridian \[m\].
+/// Greatest radius of a meridian \[m\].
 const GREATEST_M: f64 = 1e3;
 
-/// Nodes of the Gauss–Legendre rule of eight points on [−1, 1], the positive ones, and their weights.
+/// Positive nodes of the Gauss–Legendre rule of eight points on [−1, 1], with their weights.
 const GAUSS: [[f64; 2]; 4] = [
     [0.183_434_642_495_649_8, 0.362_683_783_378_362],
     [0.525_532_409_916_329, 0.313_706_645_877_887_3],
@@ -34,20 +34,20 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.960_289_856_497_536_2, 0.101_228_536_290_376_26],
 ];
 
-/// A knot of a meridian.
+/// Knot of a meridian.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Knot {
     /// Distance from the axis \[m\].
     pub radius_m: f64,
-    /// Slope of the face there, above 0 where it rises outwards \[rad\].
+    /// Slope of the face there, above 0 if it rises outwards \[rad\].
     pub slope_rad: f64,
 }
 
-/// A point of a meridian.
+/// Point of a meridian.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeridianPoint {
-    /// Distance from the axis, ρ \[m\].
+    /// Distance ρ from the axis \[m\].
     pub radius_m: f64,
     /// Height over the pole \[m\].
     pub height_m: f64,
@@ -55,27 +55,27 @@ pub struct MeridianPoint {
     pub sine: f64,
     /// cos β.
     pub cosine: f64,
-    /// Curvature along the meridian, above 0 where the face is hollow \[1/m\].
+    /// Curvature along the meridian, above 0 if the face is hollow \[1/m\].
     pub curvature: f64,
 }
 
-/// Between what slopes and curvatures lie on a part of a surface.
+/// Ranges of slope and curvature on a part of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
-    /// sin β.
+    /// Least and greatest sin β.
     pub sine: [f64; 2],
-    /// Curvature along and across the meridian \[1/m\].
+    /// Least and greatest curvature, along and across the meridian \[1/m\].
     pub curvature: [f64; 2],
 }
 
 impl Patch {
-    /// Of a flat face.
+    /// Patch of a flat face.
     pub const FLAT: Self = Self {
         sine: [0.0; 2],
         curvature: [0.0; 2],
     };
 
-    /// Of nothing.
+    /// Empty patch, the start value of a fold.
     const NONE: Self = Self {
         sine: [f64::INFINITY, f64::NEG_INFINITY],
         curvature: [f64::INFINITY, f64::NEG_INFINITY],
@@ -89,63 +89,63 @@ impl Patch {
         self.curvature = [self.curvature[0].min(curvature), self.curvature[1].max(curvature)];
     }
 
-    /// The least cos β.
+    /// Least cos β.
     #[must_use]
     pub fn least_cosine(&self) -> f64 {
         let sine = self.sine[0].abs().max(self.sine[1].abs());
         (1.0 - sine * sine).max(0.0).sqrt()
     }
 
-    /// The greatest curvature, hollow or not \[1/m\].
+    /// Greatest magnitude of the curvature \[1/m\].
     #[must_use]
     pub fn greatest_curvature(&self) -> f64 {
         self.curvature[0].abs().max(self.curvature[1].abs())
     }
 }
 
-/// A meridian by knots.
+/// Meridian by knots.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "InFile", into = "InFile")]
 pub struct Meridian {
     count: usize,
     knots: [Knot; MOST_KNOTS],
-    /// At the pole and at each knot: the point, with the curvature of the piece that begins there, and ℓ \[m\].
+    /// Points at the pole and at each knot, each with the curvature of the piece that begins there, and its ℓ \[m\].
     starts: [(MeridianPoint, f64); MOST_KNOTS + 1],
 }
 
-/// A list of knots that is no meridian.
+/// Reason that a list of knots is no valid meridian.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MeridianError {
-    /// No knot, or too many.
+    /// There is no knot, or there are too many.
     #[error("a profile has from 1 to {MOST_KNOTS} knots; found {found}")]
     Count {
-        /// Knots found.
+        /// Number of knots found.
         found: usize,
     },
-    /// Radii that do not grow.
+    /// The radii do not grow.
     #[error(
         "knot {knot} of the profile: radius {found_m} m, expected more than {before_m} m, that of the knot before, and at most 1000 m"
     )]
     Radius {
         /// Index of the knot.
         knot: usize,
-        /// Its radius \[m\].
+        /// Radius of the knot \[m\].
         found_m: f64,
-        /// That of the one before, or of the pole \[m\].
+        /// Radius of the knot before, or of the pole \[m\].
         before_m: f64,
     },
-    /// A slope that is too steep.
+    /// A slope is too steep.
     #[error(
         "knot {knot} of the profile: slope {found_rad} rad, expected from −π/3 to π/3 (60°): walls of bowls are steeper"
     )]
     Slope {
         /// Index of the knot.
         knot: usize,
-        /// Its slope \[rad\].
+        /// Slope of the knot \[rad\].
         found_rad: f64,
     },
-    /// A bend that is too sharp.
+    /// A bend is too sharp.
     #[error(
         "knot {knot} of the profile: the face turns towards it with a radius of {found_m} m, expected {SHARPEST_M} m or more: move it \
          farther from the knot before, or let the slope change less"
@@ -153,7 +153,7 @@ pub enum MeridianError {
     Sharp {
         /// Index of the knot.
         knot: usize,
-        /// The radius of the arc that ends there \[m\].
+        /// Radius of the arc that ends there \[m\].
         found_m: f64,
     },
 }
@@ -181,11 +181,11 @@ impl From<Meridian> for InFile {
 }
 
 impl Meridian {
-    /// The meridian through knots, from the pole on.
+    /// Builds the meridian through knots, from the pole on.
     ///
     /// # Errors
-    /// [`MeridianError`]: no knot or more than [`MOST_KNOTS`], radii that do not grow, slopes beyond [`STEEPEST_RAD`], arcs sharper than [`SHARPEST_M`], or numbers that
-    /// are none.
+    /// [`MeridianError`]: no knot or more than [`MOST_KNOTS`], radii that do not grow, slopes beyond [`STEEPEST_RAD`], arcs sharper than
+    /// [`SHARPEST_M`], or numbers that are not finite.
     pub fn new(knots: &[Knot]) -> Result<Self, MeridianError> {
         let found = knots.len();
         if !(1..=MOST_KNOTS).contains(&found) {
@@ -247,7 +247,7 @@ impl Meridian {
         Ok(meridian)
     }
 
-    /// The knots, the pole apart.
+    /// Knots, without the pole.
     #[must_use]
     pub fn knots(&self) -> &[Knot] {
         &self.knots[..self.count]
@@ -265,20 +265,20 @@ impl Meridian {
         self.starts[self.count].1
     }
 
-    /// Whether it is a line across its axis.
+    /// True if the meridian is a straight line across its axis.
     #[must_use]
     pub fn is_flat(&self) -> bool {
         self.knots().iter().all(|knot| knot.slope_rad == 0.0)
     }
 
-    /// The point at a distance from the axis \[m\]; beyond the rim the meridian goes on straight.
+    /// Returns the point at a distance from the axis \[m\]. Beyond the rim the meridian continues straight.
     #[must_use]
     pub fn at_radius(&self, radius_m: f64) -> MeridianPoint {
         let (from, _) = self.piece(|(start, _)| start.radius_m <= radius_m);
         on_piece(from, radius_m)
     }
 
-    /// The same, where the piece is likely the one found last: any number at first.
+    /// Same as [`Self::at_radius`], with the index of the piece found last as a guess: any number at first.
     pub(crate) fn at_radius_near(&self, radius_m: f64, piece: &mut usize) -> MeridianPoint {
         let mut at = (*piece).min(self.count);
         while at > 0 && self.starts[at].0.radius_m > radius_m {
@@ -291,7 +291,7 @@ impl Meridian {
         on_piece(&self.starts[at].0, radius_m)
     }
 
-    /// The point at a length along the meridian from the pole \[m\]; beyond the rim the meridian goes on straight.
+    /// Returns the point at a length along the meridian from the pole \[m\]. Beyond the rim the meridian continues straight.
     #[must_use]
     pub fn at_arc(&self, arc_m: f64) -> MeridianPoint {
         let (from, before_m) = self.piece(|(_, start_m)| *start_m <= arc_m);
@@ -310,7 +310,7 @@ impl Meridian {
         }
     }
 
-    /// The length along the meridian from the pole to a distance from the axis \[m\].
+    /// Length along the meridian from the pole to a distance from the axis \[m\].
     #[must_use]
     pub fn arc_at(&self, radius_m: f64) -> f64 {
         let (from, before_m) = self.piece(|(start, _)| start.radius_m <= radius_m);
@@ -318,7 +318,7 @@ impl Meridian {
         before_m + length(from, radius_m, there.sine, there.cosine)
     }
 
-    /// Between what the heights over the pole are \[m\].
+    /// Least and greatest height over the pole \[m\].
     #[must_use]
     pub fn height_bounds_m(&self) -> [f64; 2] {
         let mut bounds = [0.0_f64; 2];
@@ -334,7 +334,7 @@ impl Meridian {
         bounds
     }
 
-    /// Between what slopes and curvatures lie, between two distances from the axis \[m\].
+    /// Returns the ranges of slope and curvature between two distances from the axis \[m\].
     #[must_use]
     pub fn patch(&self, [from_m, to_m]: [f64; 2]) -> Patch {
         let mut patch = Patch::NONE;
@@ -360,7 +360,7 @@ impl Meridian {
         patch
     }
 
-    /// Between what the curvatures lie, along and across the meridian \[1/m\].
+    /// Least and greatest curvature, along and across the meridian \[1/m\].
     #[must_use]
     pub fn curvature_bounds(&self) -> [f64; 2] {
         self.patch([0.0, self.rim_m()]).curvature
@@ -385,7 +385,7 @@ impl Meridian {
         area
     }
 
-    /// The start of the last piece that begins where asked; beyond the rim, the rim.
+    /// Returns the start of the last piece for which `begins` is true; beyond the rim, the rim.
     fn piece(&self, begins: impl Fn(&(MeridianPoint, f64)) -> bool) -> &(MeridianPoint, f64) {
         let starts = &self.starts[..=self.count];
         let after = starts.partition_point(begins).max(1);
@@ -393,7 +393,7 @@ impl Meridian {
     }
 }
 
-/// The point of a piece at a distance from the axis \[m\].
+/// Returns the point of a piece at a distance from the axis \[m\].
 fn on_piece(from: &MeridianPoint, radius_m: f64) -> MeridianPoint {
     let sine = from.sine + from.curvature * (radius_m - from.radius_m);
     let cosine = (1.0 - sine * sine).max(0.0).sqrt();
@@ -407,12 +407,12 @@ fn on_piece(from: &MeridianPoint, radius_m: f64) -> MeridianPoint {
     }
 }
 
-/// Δz from the start of a piece to a radius on it, where sin β and cos β are known \[m\].
+/// Height difference Δz from the start of a piece to a radius on it, with known sin β and cos β \[m\].
 fn rise(from: &MeridianPoint, radius_m: f64, sine: f64, cosine: f64) -> f64 {
     (radius_m - from.radius_m) * (from.sine + sine) / (from.cosine + cosine)
 }
 
-/// ℓ from the start of a piece to a radius on it \[m\].
+/// Length ℓ from the start of a piece to a radius on it \[m\].
 fn length(from: &MeridianPoint, radius_m: f64, sine: f64, cosine: f64) -> f64 {
     let along = radius_m - from.radius_m;
     // cos m = √((1 + cos 2m)/2), 2m the sum of both slopes.
@@ -431,7 +431,7 @@ fn sinc(x: f64) -> f64 {
     if x.abs() < 1e-4 { 1.0 - x * x / 6.0 } else { sin(x) / x }
 }
 
-/// cos and sin of a slope that a share of another one has.
+/// Returns cos and sin of the angle whose slope is a share of that of the meridian.
 #[must_use]
 pub fn share_of_slope(point: &MeridianPoint, share: f64) -> [f64; 2] {
     let slope = share * asin(point.sine.clamp(-1.0, 1.0));

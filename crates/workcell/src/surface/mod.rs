@@ -1,11 +1,11 @@
-//! The face of a plate that is washed: a surface of revolution, by its meridian.
+//! Face of a plate to be washed: a surface of revolution, given by its meridian.
 //!
 //! In its plate's frame the axis is z and the pole, where the axis meets the face, is the origin. A point is stated by its
 //! distance ρ from the axis \[m\] and its azimuth φ from x \[rad\], or by its length ℓ along the meridian from the pole \[m\] and φ.
 //!
-//! The profiles that come along.
+//! Some profiles are built in.
 //!
-//! A profile in words.
+//! Profiles can be described in words.
 
 mod meridian;
 
@@ -19,13 +19,13 @@ use platewash_kinematics::words::rounded;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
-/// A surface of revolution.
+/// Surface of revolution.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "meridian", rename_all = "snake_case", deny_unknown_fields)]
 #[non_exhaustive]
 #[allow(clippy::large_enum_variant, reason = "copied seldom, and never in a loop")]
 pub enum Surface {
-    /// A flat disc.
+    /// Flat disc.
     Disc {
         /// Radius of the rim \[m\].
         radius_m: f64,
@@ -35,7 +35,7 @@ pub enum Surface {
 }
 
 impl Surface {
-    /// The surface of a profile by its knots, the pole apart; a disc where all of it is level.
+    /// Builds the surface of a profile from its knots, without the pole. It is a disc if all of it is level.
     ///
     /// # Errors
     /// As [`Meridian::new`].
@@ -50,13 +50,13 @@ impl Surface {
         })
     }
 
-    /// Whether it is flat.
+    /// True if the face is flat.
     #[must_use]
     pub fn is_flat(&self) -> bool {
         matches!(self, Self::Disc { .. })
     }
 
-    /// Radius of the rim \[m\]: the greatest ρ.
+    /// Radius of the rim, the greatest ρ \[m\].
     #[must_use]
     pub fn rim_m(&self) -> f64 {
         match self {
@@ -74,7 +74,7 @@ impl Surface {
         }
     }
 
-    /// The point of the meridian at ρ \[m\]; beyond the rim it goes on straight.
+    /// Returns the point of the meridian at ρ \[m\]. Beyond the rim it continues straight.
     #[must_use]
     pub fn at_radius(&self, rho_m: f64) -> MeridianPoint {
         match self {
@@ -83,7 +83,7 @@ impl Surface {
         }
     }
 
-    /// The point of the meridian at ℓ \[m\]; beyond the rim it goes on straight.
+    /// Returns the point of the meridian at ℓ \[m\]. Beyond the rim it continues straight.
     #[must_use]
     pub fn at_arc(&self, arc_m: f64) -> MeridianPoint {
         match self {
@@ -92,7 +92,7 @@ impl Surface {
         }
     }
 
-    /// ℓ at ρ \[m\].
+    /// Length ℓ along the meridian at ρ \[m\].
     #[must_use]
     pub fn arc_at(&self, rho_m: f64) -> f64 {
         match self {
@@ -107,8 +107,8 @@ impl Surface {
         self.at_radius(rho_m).height_m
     }
 
-    /// Points of the meridian from the pole to the rim, ρ and height \[m\], to look at: every knot among them, and between two of them
-    /// the face turns by at most `turn_rad` \[rad\], which is to be above 0.
+    /// Returns points of the meridian from the pole to the rim, ρ and height \[m\], for display. Every knot is included, and between two of
+    /// them the face turns by at most `turn_rad` \[rad\], which must be above 0.
     #[must_use]
     pub fn outline_m(&self, turn_rad: f64) -> Vec<[f64; 2]> {
         let mut points = vec![[0.0, 0.0]];
@@ -129,7 +129,7 @@ impl Surface {
         points
     }
 
-    /// Between what the heights of the face over its pole are \[m\].
+    /// Least and greatest height of the face over its pole \[m\].
     #[must_use]
     pub fn height_bounds_m(&self) -> [f64; 2] {
         match self {
@@ -158,7 +158,7 @@ impl Surface {
         }
     }
 
-    /// Between what the principal curvatures lie \[1/m\], above 0 where the face is hollow.
+    /// Least and greatest principal curvature \[1/m\], above 0 if the face is hollow.
     #[must_use]
     pub fn curvature_bounds(&self) -> [f64; 2] {
         match self {
@@ -167,7 +167,7 @@ impl Surface {
         }
     }
 
-    /// Between what slopes and curvatures lie, between two ρ \[m\].
+    /// Returns the ranges of slope and curvature between two ρ \[m\].
     #[must_use]
     pub fn patch(&self, between_m: [f64; 2]) -> Patch {
         match self {
@@ -193,8 +193,8 @@ impl Surface {
 }
 
 impl Surface {
-    /// Points spread evenly over the face, about `apart_m` \[m\] from each other: each in the plate frame \[m\], with the area that it
-    /// stands for \[m²\]. The areas add up to that of the face.
+    /// Returns points spread evenly over the face, about `apart_m` \[m\] from each other: each in the plate frame \[m\], with the area that
+    /// it represents \[m²\]. The areas add up to that of the face.
     pub fn points(&self, apart_m: f64) -> impl Iterator<Item = (Vector3<f64>, f64)> + '_ {
         let rings = (self.arc_m() / apart_m).ceil().max(1.0) as usize;
         let radius_m = move |half_ring: usize| {
@@ -215,7 +215,7 @@ impl Surface {
     }
 }
 
-/// A point of a flat face.
+/// Returns a point of a flat face.
 fn level(radius_m: f64) -> MeridianPoint {
     MeridianPoint {
         radius_m,
@@ -226,14 +226,14 @@ fn level(radius_m: f64) -> MeridianPoint {
     }
 }
 
-/// A profile by its name: knots as radius \[mm\] and slope \[°\].
+/// Named profile: knots as radius \[mm\] and slope \[°\].
 struct Shipped {
     name: &'static str,
     knots: &'static [[f64; 2]],
 }
 
-/// `coupe275` is fitted to a scan of a real plate, within 0.54 mm; the shapes of the others are assumptions, with the diameters of dinner,
-/// soup and dessert plates (EN 50242).
+/// Built-in profiles. `coupe275` is fitted to a scan of a real plate, within 0.54 mm; the shapes of the others are assumptions, with the
+/// diameters of dinner, soup and dessert plates (EN 50242).
 const SHIPPED: [Shipped; 4] = [
     Shipped {
         name: "coupe275",
@@ -261,11 +261,11 @@ const SHIPPED: [Shipped; 4] = [
     },
 ];
 
-/// Names of the profiles that come along, a flat disc apart.
+/// Names of the built-in profiles, without the flat disc.
 pub const SHIPPED_PROFILES: [&str; 4] = ["coupe275", "rim270", "deep230", "dessert190"];
 
 impl Surface {
-    /// The profile of that name; `None` where none has it.
+    /// Returns the built-in profile of a name; `None` for an unknown name.
     #[must_use]
     pub fn shipped(name: &str) -> Option<Self> {
         let found = SHIPPED.iter().find(|profile| profile.name == name)?;
@@ -277,7 +277,7 @@ impl Surface {
         Self::profile(&knots).ok()
     }
 
-    /// The name of the profile that comes along with this very shape; `None` of any other.
+    /// Returns the name of the built-in profile with exactly this shape; `None` for any other.
     #[must_use]
     pub fn shipped_name(&self) -> Option<&'static str> {
         SHIPPED_PROFILES
@@ -286,11 +286,11 @@ impl Surface {
     }
 }
 
-/// Significant digits of a knot, which is stated; and of a height, which follows.
+/// Significant digits of a knot, which is stated, and of a height, which is computed.
 const DIGITS: [usize; 2] = [9, 5];
 
 impl Surface {
-    /// Which profile it is, by its name or its knots, and how high its rim is over its pole; `None` of a disc.
+    /// Describes the profile by its name or its knots, and the height of its rim over its pole; `None` for a disc.
     #[must_use]
     pub fn profile_words(&self) -> Option<String> {
         let Self::Profile(meridian) = self else { return None };

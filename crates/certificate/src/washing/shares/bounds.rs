@@ -1,4 +1,4 @@
-//! What is known of a cell: lower bounds of how well, how long and how much it is pressed.
+//! Bounds over a cell: lower bounds of compression, contact time and dose.
 
 use crate::washing::shares::Sags;
 use crate::washing::shares::cell::{Cell, Lower, Seen};
@@ -11,19 +11,19 @@ use std::ops::Range;
 /// Half of the edge of a large cell, as a part of the sponge's radius.
 const LARGE: f64 = 0.1;
 
-/// That of a cell over which the sponge's rim hardly differs from a line, from one moment to another.
+/// Half of the edge of a small cell, as a part of the sponge's radius. The sponge's rim hardly differs from a line over such a cell.
 const SMALL: f64 = 0.025;
 
-/// What counts all over a cell.
+/// Amounts that every place of a cell gets.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Kept {
-    /// Whether there is a moment at which all of it is in contact.
+    /// True if there is a moment at which all of the cell is in contact.
     pub contact: bool,
     pub time_s: f64,
     pub dose: Polynomial,
 }
 
-/// What a cell is at the moments that are looked at, and its windows of them.
+/// Reused buffers: the state of a cell at the moments, and the windows of those moments.
 #[derive(Default)]
 pub(crate) struct Scratch {
     all: Vec<Seen>,
@@ -39,13 +39,14 @@ impl Scratch {
     }
 }
 
-/// What is found of a cell.
+/// Bounds found for a cell.
 pub(crate) struct Found {
-    /// What counts all over it.
+    /// Amounts that every place of the cell gets.
     pub kept: Kept,
-    /// Lower bounds for every height of the plate within its error: above 0 where it is in contact, time \[s\], dose \[Pa·m\].
+    /// Lower bounds that hold for every height of the plate within its error: contact (above 0 where in contact), time \[s\], dose
+    /// \[Pa·m\].
     pub bounds: [Lower; 3],
-    /// The greatest compression of all of it \[m\].
+    /// Greatest compression of the whole cell \[m\].
     pub compression_m: f64,
 }
 
@@ -54,7 +55,7 @@ pub(crate) struct Passes<'a> {
     pub surface: &'a Surface,
     pub edges: Edges<'a>,
     pub sums: Sums,
-    /// How far beyond the sponge a moment counts as one that reaches a cell: the moment before or after one that does \[m\].
+    /// Distance beyond the sponge at which a moment still counts as near a cell \[m\]: the longest step between two moments.
     pub step_m: f64,
 }
 
@@ -80,7 +81,7 @@ impl<'a> Passes<'a> {
         }
     }
 
-    /// The moments that reach a cell, in windows.
+    /// Fills `windows` with the runs of moments near a cell.
     pub fn near(&self, cell: &Cell, windows: &mut Vec<[u32; 2]>) {
         let moments = self.edges.moments;
         let reach_m = self.reach_m(cell);
@@ -105,14 +106,16 @@ impl<'a> Passes<'a> {
         }
     }
 
-    /// No point of a cell is within the sponge, nor a step later or earlier, where its middle is farther from the axis \[m\].
+    /// Upper bound on the distance of the sponge's axis from the middle of a cell, across the axis, at which a point of the cell may be
+    /// within the sponge at that moment or the neighbouring ones \[m\].
     pub fn reach_m(&self, cell: &Cell) -> f64 {
         self.edges.foundation.radius_m + cell.away_m() + self.step_m
     }
 }
 
 impl Passes<'_> {
-    /// What is found of a cell through some windows of moments, besides what is known to be kept all over it; `None` where that is enough.
+    /// Bounds a cell through some windows of moments, on top of the amounts `kept` that are known already. Returns `None` where those
+    /// bounds are enough.
     pub(crate) fn bounds(
         &self,
         cell: &Cell,
@@ -141,11 +144,11 @@ impl Passes<'_> {
             };
             [contact, time.settled(error_m), dose.settled(error_m)]
         };
-        // What is enough all over it is not looked for more closely.
+        // A cell that gets enough everywhere is not refined.
         if is_enough(&bounds(Default::default())) {
             return None;
         }
-        // Of a large cell hardly anything is known while it leaves or enters: its quarters are looked at.
+        // Hardly anything is known of a large cell while it leaves or enters: its quarters are examined instead.
         let is_large = cell.half > LARGE * edges.foundation.radius_m && !spans.is_empty();
         let mut gains = [Lower::flat(0.0, if is_large { f64::INFINITY } else { 0.0 }); 2];
         for span in spans.iter().filter(|_| !is_large) {
@@ -159,8 +162,9 @@ impl Passes<'_> {
         })
     }
 
-    /// Tells runs of moments between which all of a cell is in contact from windows in which it is not: of `seen` from `first` on, which
-    /// are moments one after the other. A window has one pair more at either side, as its quarters leave and enter from there on.
+    /// Separates the runs of moments between which all of a cell is in contact from the windows in which it is not, in consecutive moments
+    /// `seen` from `first` on. A window has one more pair of moments at either side, as the quarters of the cell leave and enter from there
+    /// on.
     fn runs(
         &self,
         cell: &Cell,
@@ -206,7 +210,7 @@ impl Passes<'_> {
         }
     }
 
-    /// Adds what all of a cell gets through a window: where its places leave or enter, and what they all get at once besides.
+    /// Adds the gains of a cell in a window: those where its places leave or enter, and those that all places get.
     fn gains(&self, cell: &Cell, window: &[Seen], gains: &mut [Lower; 2]) {
         let mut add = |gain: &Gain| {
             gains[0].add(&gain.time);
@@ -227,7 +231,7 @@ impl Passes<'_> {
         }
     }
 
-    /// The dose of what is kept all over a cell.
+    /// Returns the dose that all of a cell gets.
     fn dose(&self, cell: &Cell, kept: &Kept) -> Lower {
         let (value, gradient) = kept.dose.at(&cell.point);
         let error_m = self.edges.wanted.height_error_m;
@@ -241,7 +245,7 @@ impl Passes<'_> {
     }
 }
 
-/// How far a sponge gets between two moments, its rim included \[m\].
+/// Longest step of the sponge between two moments, its rim included \[m\].
 fn longest_step(moments: &[Moment], radius_m: f64) -> f64 {
     let step = |pair: &[Moment]| {
         let [from, to] = [&pair[0].pose, &pair[1].pose];

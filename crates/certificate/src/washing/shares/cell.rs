@@ -1,48 +1,49 @@
-//! A square cell of a plate's face, seen along the plate's axis, and what it is to a sponge at a moment.
+//! Square cell of a plate's face, seen along the plate's axis, and its state under the sponge at a moment.
 //!
 //! A point of its patch is X + J δ + b ẑ, X the face over its middle, δ from there to the point (‖δ‖ ≤ r), J the tangents (1, 0, G_x) and
 //! (0, 1, G_y), G the gradient there, and |b| ≤ ½ K r², K the greatest second derivative of the height over the cell. A plate that lies
 //! higher by e adds e ẑ.
 //!
-//! What is affine over a square cell, and how much of the cell is below 0.
+//! The file also has functions that are affine over a square cell, and the share of the cell where one is below 0.
 
 use nalgebra::{Vector2, Vector3};
 use platewash_workcell::contact::{Foundation, Moment, SpongePose};
 use platewash_workcell::coverage::area_of_rectangle_in_disc;
 use platewash_workcell::surface::Surface;
 
-/// A cell of the face, and bounds over its patch.
+/// Cell of the face, with bounds over its patch.
 pub(crate) struct Cell {
     middle: [f64; 2],
-    /// Half of its edge \[m\].
+    /// Half of the edge \[m\].
     pub half: f64,
-    /// X \[m\].
+    /// Point X of the face over the middle \[m\].
     pub point: Vector3<f64>,
-    /// G.
+    /// Gradient G of the height.
     gradient: Vector2<f64>,
-    /// r \[m\].
+    /// Half of the diagonal, r \[m\].
     pub reach_m: f64,
-    /// ½ K r² \[m\].
+    /// Bound on the deviation of the patch from its tangent plane, ½ K r² \[m\].
     pub bend_m: f64,
-    /// r √(1 + G²): what ‖J δ‖ is not above \[m\].
+    /// Upper bound on ‖J δ‖: r √(1 + G²) \[m\].
     pub tangent_m: f64,
 }
 
-/// What a cell is to a sponge at a moment.
+/// State of a cell under the sponge at a moment.
 #[derive(Clone, Copy)]
 pub(crate) struct Seen {
     pub index: u32,
-    /// The compression over its middle \[m\].
+    /// Compression over the middle \[m\].
     pub compression_m: f64,
-    /// By how much it may be less over its patch, wherever the plate lies \[m\], …
+    /// Greatest loss of compression over the patch, for every plate height within its error \[m\].
     pub shallower_m: f64,
-    /// … and where the plate lies where it is stated to.
+    /// Greatest loss of compression over the patch, with the plate at its stated height \[m\].
     pub sloping_m: f64,
-    /// From the sponge's axis to its middle, across the axis \[m\].
+    /// Vector from the sponge's axis to the middle, across the axis \[m\].
     pub way: Vector3<f64>,
-    /// How long that is \[m\].
+    /// Length of `way` \[m\].
     pub off_m: f64,
-    /// By how much farther off a point of its patch may be, wherever the plate lies \[m\].
+    /// Greatest amount by which a point of the patch is farther from the axis than the middle, for every plate height within its error
+    /// \[m\].
     pub farther_m: f64,
 }
 
@@ -68,17 +69,17 @@ impl Cell {
         }
     }
 
-    /// How far from X a point of the patch is at most \[m\].
+    /// Upper bound on the distance of a point of the patch from X \[m\].
     pub fn away_m(&self) -> f64 {
         self.tangent_m + self.bend_m
     }
 
-    /// What a vector is along the tangents.
+    /// Components of a vector along the tangents.
     pub fn along(&self, v: &Vector3<f64>) -> [f64; 2] {
         [v.x + self.gradient.x * v.z, v.y + self.gradient.y * v.z]
     }
 
-    /// The tangents.
+    /// Tangents of the patch along x and y, not normalised.
     pub fn tangents(&self) -> [Vector3<f64>; 2] {
         [
             Vector3::new(1.0, 0.0, self.gradient.x),
@@ -86,7 +87,7 @@ impl Cell {
         ]
     }
 
-    /// What it is at a moment, the plate higher or lower by up to `error_m`.
+    /// Returns the state at a moment, with the plate higher or lower by up to `error_m`.
     pub fn seen(&self, foundation: &Foundation, (index, moment): (u32, &Moment), error_m: f64) -> Seen {
         let SpongePose { tip, axis } = &moment.pose;
         let away = self.point - tip;
@@ -106,7 +107,7 @@ impl Cell {
         }
     }
 
-    /// What the area of its patch within the rim is not above, and of any part that is such a share of it seen along the axis \[m²\].
+    /// Returns upper bounds on the area of the patch within the rim, for parts that are the given shares of it seen along the axis \[m²\].
     pub fn greatest_areas(&self, surface: &Surface, shares: [f64; 3]) -> [f64; 3] {
         let ([x, y], half) = (self.middle, self.half);
         let rim_m = surface.rim_m();
@@ -121,14 +122,14 @@ impl Cell {
         shares.map(|share| (share * all).min(within) / cosine)
     }
 
-    /// Whether all of it is beyond the rim.
+    /// Checks that all of a square is beyond the rim.
     pub fn is_beyond([x, y]: [f64; 2], half: f64, rim_m: f64) -> bool {
         let [near_m, _] = distances([x, y], half);
         near_m >= rim_m
     }
 }
 
-/// Least and greatest distance of a square from the axis \[m\].
+/// Least and greatest distance of a square from the plate's axis \[m\].
 fn distances([x, y]: [f64; 2], half: f64) -> [f64; 2] {
     let (x, y) = (x.abs(), y.abs());
     let (near, far) = (
@@ -138,22 +139,22 @@ fn distances([x, y]: [f64; 2], half: f64) -> [f64; 2] {
     [near.norm(), far.norm()]
 }
 
-/// A lower bound over a cell: value + slope·(place − middle), seen along the plate's axis, and −|lower| times how far the plate may lie
-/// too low or too high.
+/// Lower bound over a cell: value + slope·(place − middle), seen along the plate's axis, and −|over_height| times the height error of the
+/// plate.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Lower {
-    /// At the middle.
+    /// Value at the middle.
     pub value: f64,
-    /// Over x and y.
+    /// Slope along x and y.
     pub slope: [f64; 2],
-    /// Over the height of the plate.
+    /// Slope along the height of the plate.
     pub over_height: f64,
-    /// By how much what it bounds is likely to be above it at most.
+    /// Likely upper bound on the amount by which the bounded quantity exceeds the bound.
     pub slack: f64,
 }
 
 impl Lower {
-    /// The same everywhere.
+    /// Returns a bound that is the same everywhere.
     pub const fn flat(value: f64, slack: f64) -> Self {
         Self {
             value,
@@ -170,7 +171,7 @@ impl Lower {
         self.slack += other.slack;
     }
 
-    /// The least over a cell for every height of the plate within its error: value and slope.
+    /// Returns the bound that holds for every height of the plate within its error; its slope along the height is 0.
     pub fn settled(&self, height_error_m: f64) -> Self {
         Self {
             value: self.value - self.over_height.abs() * height_error_m,
@@ -179,23 +180,23 @@ impl Lower {
         }
     }
 
-    /// How steep it is.
+    /// Length of the slope.
     pub fn steepness(&self) -> f64 {
         let [x, y] = self.slope;
         (x * x + y * y).sqrt()
     }
 
-    /// The least over a cell.
+    /// Least value over a cell.
     pub fn least(&self, half: f64) -> f64 {
         self.value - half * (self.slope[0].abs() + self.slope[1].abs())
     }
 
-    /// The share of a cell where it is below a threshold, at least so much: none too small.
+    /// Upper bound on the share of a cell where the bound is below a threshold.
     pub fn share_below(&self, threshold: f64, half: f64) -> f64 {
         share_below_0(self.value - threshold, self.slope.map(|slope| slope.abs() * half))
     }
 
-    /// The share of a cell where as much as is likely is below a threshold.
+    /// Share of a cell where even the likely upper value is below a threshold.
     pub fn hopeless(&self, threshold: f64, half: f64) -> f64 {
         let hope = Self {
             value: self.value + self.slack,
@@ -205,8 +206,8 @@ impl Lower {
     }
 }
 
-/// The share of the square [−1, 1]² where value + a x + b y < 0, a and b not below 0: none too small. With t = a + b − value it is the
-/// distribution of a sum of two even ones, (t₊² − (t − 2a)₊² − (t − 2b)₊² + (t − 2a − 2b)₊²) / (8 a b).
+/// Share of the square [−1, 1]² where value + a x + b y < 0, with a and b not below 0, rounded up. With t = a + b − value it is the
+/// distribution of a sum of two uniform variables, (t₊² − (t − 2a)₊² − (t − 2b)₊² + (t − 2a − 2b)₊²) / (8 a b).
 fn share_below_0(value: f64, [a, b]: [f64; 2]) -> f64 {
     let (a, b) = (a.max(b), a.min(b));
     let t = a + b - value;
@@ -222,7 +223,7 @@ fn share_below_0(value: f64, [a, b]: [f64; 2]) -> f64 {
     }
     let part = |less: f64| (t - less).max(0.0) * (t - less).max(0.0);
     let sum = part(0.0) - part(2.0 * a) - part(2.0 * b);
-    // What cancels is off by less.
+    // The error of the cancellation is less than this.
     (sum / (8.0 * a * b) + 1e-9).clamp(0.0, 1.0)
 }
 

@@ -1,16 +1,16 @@
 //! The dose that every place of a cell gets near the edges of its time in contact.
 //!
-//! Over the patch the compression is at least that over its middle less how much shallower it may be, and the sponge slides in a direction
-//! d at least as fast as over the middle less ω times how far a place may be from there. Between two moments both are above lines through
-//! what they are at those, less their sags; and a place in contact is compressed by no less than what counts. So its dose until a time is
-//! at least a function Q of that time, the integral of a product of two lines; near t₀, where that product is between q₀ and q₁, Q(t₀ + u)
-//! is at least Q(t₀) + (q₀ + q₁)/2 u − (q₁ − q₀)/2 |u|.
+//! Over the patch the compression is at least that over its middle less the greatest loss over the patch. The sponge slides in a direction
+//! d at least as fast as over the middle less ω times the greatest distance of a place from there. Between two moments both are above lines
+//! through their values at the ends, less their sags; and a place in contact is compressed by no less than the compression that counts. So
+//! its dose until a time is at least a function Q of that time, the integral of a product of two lines; near t₀, where that product is
+//! between q₀ and q₁, Q(t₀ + u) is at least Q(t₀) + (q₀ + q₁)/2 u − (q₁ − q₀)/2 |u|.
 //!
-//! The dose of any place over any run of moments, by sums.
+//! The dose of any place over a run of moments comes from sums.
 //!
-//! Between two moments h apart the compression at a point x is at least a line in time less its sag, and the way that the sponge slides is
-//! at least that in one direction d, another line less its sag: w(x) = (c + p·a) − a·x and v(x) = d·P(ṗ + ω × (x − p)), both affine in x.
-//! Where w is not below 0 their product is not above that of what they stand for, whatever the sign of v, and its integral
+//! Between two moments h apart the compression at a point x is at least a line in time less its sag, and the sliding speed is at least that
+//! in one direction d, another line less its sag: w(x) = (c + p·a) − a·x and v(x) = d·P(ṗ + ω × (x − p)), both affine in x. Where w is not
+//! below 0 their product is not above the true one, whatever the sign of v, and its integral
 //!
 //! h ((w₀ + w₁)(v₀ + v₁)/4 + (w₁ − w₀)(v₁ − v₀)/12)
 //!
@@ -24,13 +24,13 @@ use nalgebra::{Matrix3, Vector3};
 use platewash_workcell::contact::{Foundation, Moment, at_least_0, both};
 use std::ops::{Add, AddAssign, Sub};
 
-/// What q is made of at a moment: compression \[m\] and speed \[m/s\], at least.
+/// Lower bounds of the factors of q at a moment: compression \[m\] and sliding speed \[m/s\].
 #[derive(Clone, Copy)]
 struct Factors {
     at_s: f64,
     compression_m: f64,
     speed_m_s: f64,
-    /// By how much both are likely to be more at most.
+    /// Likely upper bounds on the amounts by which the true factors exceed these.
     spread: [f64; 2],
 }
 
@@ -45,7 +45,7 @@ impl Factors {
         }
     }
 
-    /// By how much q is likely to be more at most.
+    /// Likely upper bound on the amount by which the true q exceeds this one.
     fn slack(&self) -> f64 {
         let [w, v] = self.spread;
         (self.compression_m + w) * (self.speed_m_s + v) - self.compression_m * self.speed_m_s
@@ -53,7 +53,7 @@ impl Factors {
 }
 
 impl Edges<'_> {
-    /// The dose of a cell from the first moment of a window until its places leave.
+    /// Returns the dose of a cell from the first moment of a window until its places leave.
     pub(crate) fn dose(&self, cell: &Cell, window: Window<'_>, leaving: &Leaving) -> Lower {
         let Leaving {
             at_s,
@@ -102,12 +102,12 @@ impl Edges<'_> {
         }
     }
 
-    /// Pressure of the softest foam, by its compression \[Pa/m\].
+    /// Pressure of the softest foam per compression \[Pa/m\].
     fn pressure(&self) -> f64 {
         self.foundation.stiffness_pa[0] / self.foundation.free_height_m
     }
 
-    /// How fast the sponge slides over the middle of a cell, across its axis \[m/s\].
+    /// Sliding velocity of the sponge over the middle of a cell, across the sponge's axis \[m/s\].
     fn slide(&self, cell: &Cell, seen: &Seen) -> Vector3<f64> {
         let moment = self.moment(seen.index);
         let axis = &moment.pose.axis;
@@ -115,14 +115,14 @@ impl Edges<'_> {
         slide - axis * slide.dot(axis)
     }
 
-    /// That of a window.
+    /// Mean sliding direction over a window, a unit vector.
     fn direction(&self, cell: &Cell, window: Window<'_>, last: usize) -> Vector3<f64> {
         let ends =
             [window.at(0), window.at(last)].map(|seen| seen.map_or_else(Vector3::zeros, |seen| self.slide(cell, seen)));
         (ends[0] + ends[1]).try_normalize(0.0).unwrap_or_else(Vector3::zeros)
     }
 
-    /// At a moment.
+    /// Returns the factors at a moment.
     fn factors(&self, cell: &Cell, seen: &Seen, direction: &Vector3<f64>, at_s: f64) -> Factors {
         let turning = self.moment(seen.index).turning.norm();
         let away = turning * (cell.away_m() + self.wanted.height_error_m);
@@ -134,7 +134,8 @@ impl Edges<'_> {
         }
     }
 
-    /// Lines between two moments that no place in contact is below: never below what counts, and below 0, respectively.
+    /// Returns lines between two moments that bound the factors of every place in contact from below: compression not below the one that
+    /// counts, speed not below 0.
     fn between(&self, seen: [&Seen; 2], ends: [Factors; 2]) -> [Factors; 2] {
         let sags = self.sags(seen[0], seen[1]);
         let slower = sags.slide_m / (ends[1].at_s - ends[0].at_s);
@@ -157,7 +158,8 @@ impl Edges<'_> {
         })
     }
 
-    /// What places of a large cell are likely to get at most through a window in which not all of it is in contact: none for certain.
+    /// Returns the gain that places of a large cell are likely to get at most through a window in which not all of it is in contact. The
+    /// proved gain is 0.
     pub(crate) fn grazed(&self, cell: &Cell, window: &[Seen]) -> Gain {
         let near = |seen: &&Seen| {
             self.pressed_m(seen) + 2.0 * seen.sloping_m >= 0.0 && self.inside_m(seen) + 2.0 * cell.away_m() >= 0.0
@@ -178,7 +180,7 @@ impl Edges<'_> {
         }
     }
 
-    /// Time and dose that all of a cell gets for certain between two moments, and as much as is likely at most.
+    /// Returns the time and dose that all of a cell gets between two moments, with the likely slack.
     pub(crate) fn flat(&self, cell: &Cell, ends: [&Seen; 2]) -> Gain {
         let sags = self.sags(ends[0], ends[1]);
         let least = common(
@@ -221,19 +223,19 @@ impl Edges<'_> {
     }
 }
 
-/// Where between two moments, 0 to 1, both are nowhere below 0.
+/// Part of the interval between two moments, as parameters 0 to 1, in which both values are not below 0.
 fn common(pressed: [f64; 2], inside: [f64; 2]) -> Option<[f64; 2]> {
     both(at_least_0(pressed)?, at_least_0(inside)?)
 }
 
-/// The mean of the product of two lines.
+/// Mean of the product of two lines.
 fn mean_product(from: &Factors, to: &Factors) -> f64 {
     let (w, v) = (from.compression_m + to.compression_m, from.speed_m_s + to.speed_m_s);
     let (dw, dv) = (to.compression_m - from.compression_m, to.speed_m_s - from.speed_m_s);
     0.25 * w * v + dw * dv / 12.0
 }
 
-/// A polynomial of the second degree in the place: k + l·x + xᵀ Q x \[Pa·m\].
+/// Polynomial of the second degree in the place: k + l·x + xᵀ Q x \[Pa·m\].
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Polynomial {
     constant: f64,
@@ -241,29 +243,29 @@ pub(crate) struct Polynomial {
     square: Matrix3<f64>,
 }
 
-/// Affine in the place: k + l·x.
+/// Affine function of the place: k + l·x.
 #[derive(Clone, Copy)]
 struct Affine {
     constant: f64,
     linear: Vector3<f64>,
 }
 
-/// The sums of doses from the first moment on.
+/// Cumulative doses from the first moment on.
 #[derive(Debug)]
 pub(crate) struct Sums {
     sums: Vec<Polynomial>,
-    /// What rounding may have made of any difference of two of them, over the plate \[Pa·m\].
+    /// Bound on the rounding error of any difference of two of them, over the plate \[Pa·m\].
     rounding: f64,
 }
 
 impl Sums {
-    /// Those of some moments, the places no farther than `far_m` from the origin.
+    /// Builds the sums of some moments, for places no farther than `far_m` from the origin.
     pub fn new(foundation: &Foundation, (moments, sags): (&[Moment], &[Sags]), far_m: f64) -> Self {
         let mut sums = vec![Polynomial::default()];
         let (mut sum, mut size) = (Polynomial::default(), 0.0);
         for (pair, sags) in moments.windows(2).zip(sags) {
             let part = Polynomial::of_pair(foundation, [&pair[0], &pair[1]], sags);
-            // What is not known belongs to pairs that are in no run.
+            // A dose that is not finite belongs to a pair of moments that is in no run.
             if part.size(far_m).is_finite() {
                 sum += part;
                 size += part.size(far_m);
@@ -275,7 +277,7 @@ impl Sums {
         Self { sums, rounding }
     }
 
-    /// The dose between two moments, `from` not after `to`.
+    /// Returns the dose between two moments, `from` not after `to`.
     pub fn between(&self, from: u32, to: u32) -> Polynomial {
         match (self.sums.get(from as usize), self.sums.get(to as usize)) {
             (Some(from), Some(to)) => *to - *from,
@@ -283,7 +285,7 @@ impl Sums {
         }
     }
 
-    /// What rounding may have made of it \[Pa·m\].
+    /// Bound on the rounding error of a dose \[Pa·m\].
     pub const fn rounding(&self) -> f64 {
         self.rounding
     }
@@ -313,7 +315,7 @@ impl Polynomial {
         even.times(0.25 * pressure * whole_s).product(&v_even) + odd.times(pressure * whole_s / 12.0).product(&v_odd)
     }
 
-    /// Its value at a place, and its gradient there.
+    /// Returns the value and the gradient at a place.
     pub fn at(&self, place: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let turned = self.square * place;
         (
@@ -322,7 +324,7 @@ impl Polynomial {
         )
     }
 
-    /// By how much it may be off the line through a place, `away_m` from it.
+    /// Bound on the difference from the tangent at a place, up to the distance `away_m` from it.
     pub fn bend(&self, away_m: f64) -> f64 {
         self.square.norm() * away_m * away_m
     }
@@ -332,7 +334,7 @@ impl Polynomial {
     }
 }
 
-/// What of a vector is across an axis.
+/// Part of a vector across an axis.
 fn across(v: &Vector3<f64>, axis: &Vector3<f64>) -> Vector3<f64> {
     v - axis * v.dot(axis)
 }

@@ -1,4 +1,4 @@
-//! When the places of a cell leave the sponge: to the second order in the size of the cell.
+//! Times at which the places of a cell leave the sponge, to the second order in the size of the cell.
 //!
 //! Near the moment t₀ at which the middle X of a cell leaves the sponge, let the way from the axis to a point of its patch be
 //! V₀ + B (t − t₀) + J δ + j e (`cell.rs`; J and j across the axis, at one moment), but for ε at most: what the moments looked at are off
@@ -13,17 +13,17 @@
 //! Where the foam is released rather than left, its compression w₀ + ẇ (t − t₀) + j·δ + j_e e is such a line itself, so that g = −j/ẇ and
 //! η = ε/|ẇ|. What a cell enters it leaves in reversed time.
 //!
-//! Where a cell is in contact at one moment at least.
+//! The file also finds out if a cell is in contact at one moment at least.
 
 use crate::washing::shares::Sags;
 use crate::washing::shares::cell::{Cell, Lower, Seen};
 use nalgebra::Vector3;
 use platewash_workcell::contact::{Foundation, Moment, Wanted};
 
-/// What rounding of the formulas above may make of a length \[m\].
+/// Error of the formulas above due to rounding \[m\].
 const ROUNDING_M: f64 = 1e-12;
 
-/// What moments and a plate are looked at with.
+/// Inputs for the bounds of moments over a plate.
 pub(crate) struct Edges<'a> {
     pub foundation: &'a Foundation,
     pub moments: &'a [Moment],
@@ -31,37 +31,37 @@ pub(crate) struct Edges<'a> {
     pub wanted: &'a Wanted,
 }
 
-/// Time and dose: lower bounds, and what of the window they belong to.
+/// Lower bounds of time and dose that a cell gets in a part of a window.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Gain {
     pub time: Lower,
     pub dose: Lower,
-    /// The latest that any place leaves, or the earliest that any enters \[s\].
+    /// Latest time at which any place leaves, or earliest at which any enters \[s\].
     pub until_s: f64,
 }
 
-/// Moments one after the other, or in reversed time.
+/// Consecutive moments, in order or in reversed time.
 #[derive(Clone, Copy)]
 pub(crate) struct Window<'a> {
     seen: &'a [Seen],
     pub reversed: bool,
 }
 
-/// When the places of a cell leave, from the first moment of a window on.
+/// Times at which the places of a cell leave, counted from the first moment of a window.
 pub(crate) struct Leaving {
-    /// t₀, since the first moment \[s\].
+    /// Time t₀ since the first moment \[s\].
     pub at_s: f64,
-    /// By how much sooner \[s\].
+    /// Time η by which a place may leave sooner \[s\].
     pub sooner_s: f64,
     pub slope: [f64; 2],
     pub over_height: f64,
-    /// How much sooner or later than t₀ places of the cell leave \[s\].
+    /// Greatest difference between t₀ and the time at which a place of the cell leaves \[s\].
     pub spread_s: f64,
-    /// The first moment at which all have left.
+    /// First moment at which all places have left.
     pub last: usize,
 }
 
-/// A line in time through what is seen at two moments.
+/// Line in time through the values at two moments.
 struct Line<T> {
     at_s: f64,
     value: T,
@@ -74,7 +74,7 @@ impl Window<'_> {
         self.seen.get(if self.reversed { last.checked_sub(k)? } else { k })
     }
 
-    /// What is seen from the first moment to another one.
+    /// Returns the states from the first moment to another one.
     pub fn until(&self, last: usize) -> impl Iterator<Item = &Seen> {
         (0..=last).map_while(|k| self.at(k))
     }
@@ -85,7 +85,7 @@ impl Edges<'_> {
         &self.moments[index as usize]
     }
 
-    /// Between two neighbours in any order; infinite where nothing is known.
+    /// Returns the sags between two neighbouring moments, in any order; infinite where nothing is known.
     pub fn sags(&self, a: &Seen, b: &Seen) -> Sags {
         let unknown = Sags {
             compression_m: f64::INFINITY,
@@ -96,7 +96,7 @@ impl Edges<'_> {
         self.sags.get(first).copied().unwrap_or(unknown)
     }
 
-    /// Whether all of a cell is in contact from one moment to the next.
+    /// Checks that all of a cell is in contact from one moment to the next.
     pub fn is_full(&self, from: &Seen, to: &Seen) -> bool {
         let sags = self.sags(from, to);
         [from, to]
@@ -104,18 +104,18 @@ impl Edges<'_> {
             .all(|end| self.inside_m(end) >= sags.aside_m && self.pressed_m(end) >= sags.compression_m)
     }
 
-    /// How far within the sponge all of a cell is \[m\].
+    /// Depth of the whole cell within the sponge's rim \[m\]; negative where a part is outside.
     pub fn inside_m(&self, seen: &Seen) -> f64 {
         self.foundation.radius_m - seen.off_m - seen.farther_m
     }
 
-    /// By how much more than wanted all of a cell is compressed \[m\].
+    /// Compression of the whole cell above the wanted one \[m\]; negative where a part has less.
     pub fn pressed_m(&self, seen: &Seen) -> f64 {
         seen.compression_m - seen.shallower_m - self.wanted.compression_m
     }
 
-    /// What every place of a cell gets through a window: one after the other, the cell wholly in contact at the first and the second
-    /// moment, at the last and the one before, or neither.
+    /// Returns lower bounds for every place of a cell through a window: one for leaving, if the cell is wholly in contact at the first two
+    /// moments, and one for entering, if it is at the last two.
     pub fn gain(&self, cell: &Cell, seen: &[Seen]) -> [Option<Gain>; 2] {
         let leaves = seen.len() > 2 && self.is_full(&seen[0], &seen[1]);
         let enters = seen.len() > 2 && self.is_full(&seen[seen.len() - 2], &seen[seen.len() - 1]);
@@ -125,7 +125,7 @@ impl Edges<'_> {
             enters.then(|| one(true)).flatten(),
         );
         match (left, entered) {
-            // What leaves and comes back counts once where both have some time in common.
+            // A place that leaves and comes back counts once if both parts have some time in common.
             (Some(a), Some(b)) if a.until_s > b.until_s => {
                 if a.time.value > b.time.value {
                     [left, None]
@@ -157,7 +157,7 @@ impl Edges<'_> {
         })
     }
 
-    /// Since the first moment of a window \[s\].
+    /// Time of a state since the first moment of a window \[s\].
     pub fn elapsed_s(&self, window: Window<'_>, seen: &Seen) -> f64 {
         let first = window.at(0).map_or(0.0, |first| self.moment(first.index).t_s);
         (self.moment(seen.index).t_s - first).abs()
@@ -201,7 +201,7 @@ impl Edges<'_> {
         None
     }
 
-    /// Where a cell gets beyond the sponge's rim while all of it is pressed.
+    /// Returns the times at which a cell gets beyond the sponge's rim while all of it is pressed.
     fn left_aside(
         &self,
         cell: &Cell,
@@ -245,7 +245,7 @@ impl Edges<'_> {
         })
     }
 
-    /// Where the foam on a cell is released while all of it is within the sponge.
+    /// Returns the times at which the foam on a cell is released while all of it is within the sponge.
     fn released(&self, cell: &Cell, window: Window<'_>, line: &Line<f64>, axis: &Vector3<f64>) -> Option<Leaving> {
         let error_m = self.wanted.height_error_m;
         let falls = -line.rate;
@@ -264,7 +264,7 @@ impl Edges<'_> {
         let lost_m = ROUNDING_M + off_m + sags.compression_m + cell.bend_m + turned * (cell.away_m() + error_m);
         let sooner_s = lost_m / falls * (1.0 + 1e-12);
         let within = window.until(last).all(|seen| self.inside_m(seen) >= sags.aside_m);
-        // Where it begins it is pressed: by more than is lost, and what lies sooner.
+        // The foam must be pressed at the first moment, by more than the losses and the time by which a place leaves sooner.
         (within && line.at_s - spread_s - sooner_s >= 0.0).then_some(Leaving {
             at_s: line.at_s,
             sooner_s,
@@ -275,7 +275,7 @@ impl Edges<'_> {
         })
     }
 
-    /// The first moment of a window at which a time has passed; `None` where none has.
+    /// Returns the first moment of a window later than a given time; `None` if there is none.
     fn all_left(&self, window: Window<'_>, after_s: f64) -> Option<usize> {
         for k in 1.. {
             let seen = window.at(k)?;
@@ -286,7 +286,7 @@ impl Edges<'_> {
         None
     }
 
-    /// How far what is seen until a moment is off a line at most, how much the axis is off one, and the greatest sags.
+    /// Returns the greatest distance of the states up to a moment from a line, the greatest difference from `axis`, and the greatest sags.
     fn astray(
         &self,
         window: Window<'_>,
@@ -311,12 +311,12 @@ impl Edges<'_> {
     }
 }
 
-/// Of a vector of two.
+/// Length of a vector of two components.
 fn length(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// Where between two ways, 0 to 1, the line through them gets longer than a radius.
+/// Parameter, 0 to 1, at which the line between two vectors gets longer than a radius.
 fn crossing(from: &Vector3<f64>, to: &Vector3<f64>, radius_m: f64) -> f64 {
     let step = to - from;
     let (a, b, c) = (
@@ -330,23 +330,23 @@ fn crossing(from: &Vector3<f64>, to: &Vector3<f64>, radius_m: f64) -> f64 {
     share.clamp(0.0, 1.0)
 }
 
-/// How well a cell is in contact at the moment that suits it best.
+/// State of a cell at the moments that suit its contact best.
 #[derive(Default)]
 pub(crate) struct Touch {
-    /// Whether all of it is.
+    /// True if all of the cell is in contact at some moment.
     pub all: bool,
-    /// Whether some of it may be.
+    /// True if a part of the cell may be in contact at some moment.
     some: bool,
-    /// Where it is: what is not below 0 there.
+    /// Lower bound over the cell that is not below 0 where a place is in contact.
     bound: Lower,
-    /// How far from its middle that gets below 0 \[m\]; `None` before there is such a moment.
+    /// Distance from the middle of the cell at which that bound gets below 0 \[m\]; `None` before the first such moment.
     spare_m: Option<f64>,
-    /// The greatest compression of all of it while it is within the sponge \[m\].
+    /// Greatest compression of the whole cell while it is within the sponge \[m\].
     pub compression_m: f64,
 }
 
 impl Touch {
-    /// What is not below 0 where the cell is in contact.
+    /// Returns a bound over the cell that is not below 0 where a place is in contact.
     pub fn bound(&self, is_large: bool) -> Lower {
         let bound = match self.spare_m {
             Some(_) => self.bound,
@@ -360,8 +360,8 @@ impl Touch {
         }
     }
 
-    /// Of the ways P (X + J δ + b ẑ + e ẑ − p) the squared lengths are at most those of P (X + J δ − p), ‖V‖² + 2 V·J δ + ‖J δ‖², with the
-    /// others taken off the radius.
+    /// Updates the state with a moment. The squared lengths of the vectors P (X + J δ + b ẑ + e ẑ − p) are at most those of P (X + J δ −
+    /// p), ‖V‖² + 2 V·J δ + ‖J δ‖², with the remaining terms taken off the radius.
     pub fn see(&mut self, edges: &Edges<'_>, cell: &Cell, seen: &Seen) {
         let (inside_m, pressed_m) = (edges.inside_m(seen), edges.pressed_m(seen));
         if inside_m >= 0.0 {

@@ -1,4 +1,4 @@
-//! Where a plate is pressed, for how long and how much: its face in cells.
+//! Shares of a plate's face that are pressed, and for how long and with which dose: bounds over cells of the face.
 //!
 //! Seen along its axis, the face is cut into squares (`cell.rs`), which are halved where more is likely to keep what is wanted than is
 //! shown, down to a least size, until as much is shown as was asked for. Of the moments that reach a cell, one after the other, those
@@ -6,7 +6,8 @@
 //! left are windows in which places of the cell leave the sponge or get under it (`edges.rs`): together they give lower bounds of time
 //! and dose that are affine over the cell, so that of a cell at the edge of what is wanted the part counts that keeps it.
 //!
-//! What is not shown to keep something counts as not keeping it, with as much area as it may have: so the shares are none too great.
+//! A place that is not shown to get an amount counts as not getting it, with the greatest area that it may have. So the shares are lower
+//! bounds.
 
 pub(crate) mod bounds;
 pub(crate) mod cell;
@@ -23,57 +24,58 @@ use platewash_workcell::coverage::{SMALLEST_CELL, reaches};
 use platewash_workcell::surface::Surface;
 use std::ops::Range;
 
-/// A cell is halved where more of it than this may keep more than is shown.
+/// Share of a cell above which the cell is halved: the part that may get the wanted amount and is not shown to.
 const WORTH: f64 = 0.02;
 
-/// The first cells: of edges no longer than this part of the sponge's radius, and no more of them along an edge of the face.
+/// Greatest edge of the first cells, as a part of the sponge's radius, and below their greatest number along an edge of the face.
 const FIRST_CELLS: f64 = 0.4;
 const MOST_FIRST_CELLS: f64 = 128.0;
 
-/// What may be lost between two moments, against the line through both: h²/8 times what bounds the second derivative, h the time between.
+/// Bounds on the difference between a quantity and the line through its values at two moments: h²/8 times the bound of the second
+/// derivative, h the time between them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sags {
-    /// Of the compression at any point in contact \[m\].
+    /// Sag of the compression at any point in contact \[m\].
     pub compression_m: f64,
-    /// Of the distance of such a point from the sponge's axis \[m\].
+    /// Sag of the distance of such a point from the sponge's axis \[m\].
     pub aside_m: f64,
-    /// Of the way that the sponge slides over such a point: h times what its velocity across the axis may be off \[m\].
+    /// Sag of the sliding way over such a point: h times the error of its velocity across the axis \[m\].
     pub slide_m: f64,
 }
 
-/// How finely a face is looked at.
+/// Resolution at which a face is bounded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fineness {
     /// Edge of the smallest cells \[m\].
     pub cell_m: f64,
-    /// Shares of the face for contact, time and dose that suffice: where as much is shown, it is looked at no more finely.
+    /// Shares of the face for contact, time and dose that suffice. The face is not refined once they are shown.
     pub enough: [f64; 3],
 }
 
-/// A share of a plate's face, by its area.
+/// Share of a plate's face, by its area.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Share {
-    /// No less than this of the face keeps what is wanted.
+    /// Lower bound on the share of the face that gets the wanted amount.
     pub at_least: f64,
-    /// The middle of the smallest cell that was seen to keep least of it, plate frame \[m\]; `None` where all keep it.
+    /// Middle of the smallest cell with the least amount, plate frame \[m\]; `None` where all cells get enough.
     pub worst_m: Option<[f64; 3]>,
-    /// What it keeps of it: compression \[m\], time \[s\] or dose \[Pa·m\].
+    /// Amount there: compression \[m\], time \[s\] or dose \[Pa·m\].
     pub worst: Option<f64>,
 }
 
-/// Shares of a plate's face that keep what is wanted.
+/// Shares of a plate's face that get the wanted amounts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shares {
-    /// Compressed enough, at some moment.
+    /// Share that is compressed enough at some moment.
     pub contact: Share,
-    /// In contact long enough.
+    /// Share that is in contact long enough.
     pub time: Share,
-    /// With enough of a dose.
+    /// Share that gets enough dose.
     pub dose: Share,
 }
 
-/// The shares of a face that keep what is wanted through some moments in order; `sags[k]` belongs to those between moments k and k + 1,
-/// and where it is missing nothing is known of them.
+/// Bounds the shares of a face that get the wanted amounts through some moments in order. `sags[k]` belongs to the interval between the
+/// moments k and k + 1; nothing is known of an interval without one.
 #[must_use]
 pub fn shares(
     surface: &Surface,
@@ -83,7 +85,7 @@ pub fn shares(
     fineness: &Fineness,
 ) -> Shares {
     let rim_m = surface.rim_m();
-    // What is no size, or too small a one to end soon, is the least that is looked at.
+    // An edge that is not a number, or too small to end soon, is replaced by the least one.
     let least = 0.5 * fineness.cell_m.max(SMALLEST_CELL * rim_m);
     let mut half = least;
     while half < rim_m {
@@ -109,11 +111,11 @@ pub fn shares(
     }
 }
 
-/// What does not keep something.
+/// Area that is not shown to get an amount.
 #[derive(Debug, Clone, Copy, Default)]
 struct Missing {
     area_m2: f64,
-    /// What the worst place keeps, and where that is.
+    /// Value and position of the worst place.
     worst: Option<(f64, [f64; 3])>,
 }
 
@@ -134,19 +136,19 @@ impl Missing {
     }
 }
 
-/// A cell that does not keep all that is wanted, all over.
+/// Cell that is not shown to get all wanted amounts everywhere.
 struct Node {
     middle: [f64; 2],
     point: Vector3<f64>,
-    /// What counts all over it, so that its quarters need not look for it.
+    /// Amounts that every place of the cell gets, so that its quarters need not look for them.
     kept: Kept,
-    /// The windows that are left, in its level.
+    /// Remaining windows, as a range in its level.
     windows: Range<usize>,
-    /// By contact, time and dose: what area of it does not keep what is wanted, as far as is shown \[m²\], …
+    /// Upper bound on the area that does not get the wanted amount, for contact, time and dose \[m²\].
     missing_m2: [f64; 3],
-    /// … how much of it may, seen along the axis, as a part of it, …
+    /// Part of the cell, seen along the axis, that may get it beyond the part that is shown to.
     worth: [f64; 3],
-    /// … and what its worst place keeps.
+    /// Amount at the worst place of the cell.
     found: [f64; 3],
 }
 
@@ -164,12 +166,12 @@ impl Node {
 #[derive(Default)]
 struct Level {
     nodes: Vec<Node>,
-    /// Windows of moments: the first and the last of each.
+    /// Windows of moments, each as the first and the last one.
     windows: Vec<[u32; 2]>,
 }
 
 impl Passes<'_> {
-    /// The first cells.
+    /// Returns the first cells.
     fn first(&self, half: f64) -> Level {
         let mut level = Level::default();
         let count = (self.surface.rim_m() / (2.0 * half)).ceil() as i32;
@@ -190,7 +192,8 @@ impl Passes<'_> {
         level
     }
 
-    /// The quarters of the cells of a level of which more is likely to keep what is left to show; the others are told to be missing.
+    /// Returns the quarters of those cells of a level that are likely to get amounts that are not shown yet. The others are counted as
+    /// missing.
     fn halved(&self, level: &Level, half: f64, left: [bool; 3], missing: &mut [Missing; 3]) -> Level {
         let (mut next, mut scratch) = (Level::default(), Scratch::default());
         for node in &level.nodes {
@@ -212,7 +215,7 @@ impl Passes<'_> {
         next
     }
 
-    /// A cell through some windows, besides what is kept all over it; `None` where it keeps all that is wanted.
+    /// Bounds a cell through some windows, on top of the amounts `kept`. Returns `None` where it gets all that is wanted.
     fn node(
         &self,
         cell: &Cell,

@@ -1,6 +1,6 @@
-//! All answers within the limits, and why the other branches are none.
+//! All analytic answers within the limits, and the reasons that the other branches have none.
 //!
-//! Closing a branch that ends beyond a limit by no more than its joints are uncertain.
+//! A branch that ends beyond a limit by no more than the uncertainty of its joints is closed onto the limit.
 
 use crate::ik::analytic::branch::{Branch, Degenerate, Label, OutOfReach};
 use crate::ik::analytic::nearest::{Window, nearest_integer};
@@ -13,7 +13,7 @@ use nalgebra::{Complex, Matrix6, Vector6};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// The filter that rejected a branch.
+/// Filter that rejected a branch.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
 pub enum Rejection {
     /// Its shoulder side cannot reach the wrist centre.
@@ -24,36 +24,36 @@ pub enum Rejection {
     Limit(LimitViolation),
 }
 
-/// One branch within the limits, with every whole turn of its joints that the limits allow.
+/// Branch within the limits, with every whole turn of its joints that the limits allow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solution {
-    /// Its name.
+    /// Name of the branch.
     pub label: Label,
-    /// Where it is degenerate.
+    /// Degeneracies of the branch.
     pub degenerate: Degenerate,
-    /// Every joint at its lowest value within the limits \[rad\].
+    /// Lowest value of every joint within the limits \[rad\].
     pub lowest: JointVector,
-    /// How many values, a whole turn apart, each joint has within its limits. A continuous joint counts as
-    /// one: the value nearest to `previous`.
+    /// Number of values, a whole turn apart, that each joint has within its limits. A continuous joint counts as one: the value nearest to
+    /// `previous`.
     pub turns: [u32; AXES],
     upper: JointVector,
 }
 
-/// The configurations of a [`Solution`]: every combination of turns, joint 6 changing fastest.
+/// Configurations of a [`Solution`]: every combination of turns, joint 6 changing fastest.
 #[derive(Debug, Clone)]
 pub struct Configurations {
     solution: Solution,
     next: Option<[u32; AXES]>,
 }
 
-/// The eight branches of one target under limits, each a solution or the reason why not.
+/// The eight branches of one target under limits, each a solution or the reason that there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solutions {
     slots: [Result<Solution, Rejection>; 8],
 }
 
 impl Solution {
-    /// Every configuration of this branch within the limits \[rad\].
+    /// Returns every configuration of this branch within the limits \[rad\].
     #[must_use]
     pub fn configurations(&self) -> Configurations {
         Configurations {
@@ -85,24 +85,24 @@ impl Iterator for Configurations {
 }
 
 impl Solutions {
-    /// The branches with a configuration within the limits, in the order of [`Label::ALL`].
+    /// Returns the branches with a configuration within the limits, in the order of [`Label::ALL`].
     pub fn iter(&self) -> impl Iterator<Item = &Solution> {
         self.slots.iter().filter_map(|slot| slot.as_ref().ok())
     }
 
-    /// Every configuration within the limits \[rad\]. Branches that meet in a singularity repeat it.
+    /// Returns every configuration within the limits \[rad\]. Branches that meet in a singularity repeat it.
     pub fn configurations(&self) -> impl Iterator<Item = (Label, JointVector)> {
         self.iter()
             .flat_map(|solution| solution.configurations().map(|q| (solution.label, q)))
     }
 
-    /// The branches without one, each with the filter that rejected it.
+    /// Returns the branches without one, each with the filter that rejected it.
     pub fn rejections(&self) -> impl Iterator<Item = (Label, Rejection)> {
         let rejection = |(label, slot): (Label, &Result<Solution, Rejection>)| Some((label, slot.err()?));
         Label::ALL.into_iter().zip(&self.slots).filter_map(rejection)
     }
 
-    /// One branch by its label.
+    /// Returns one branch by its label.
     ///
     /// # Errors
     /// [`Rejection`]: the filter that rejected it.
@@ -112,13 +112,13 @@ impl Solutions {
 }
 
 impl AnalyticArm {
-    /// All configurations within `limits` that bring body 6 to `target` (`T_base_body6`, as for
-    /// [`AnalyticArm::branches`]): branches and whole turns of their joints. Free joints keep their value in
-    /// `previous` \[rad\] (set to the nearer limit if it is outside) as far as the limits allow.
+    /// Returns all configurations within `limits` that bring body 6 to `target` (`T_base_body6`, as for [`AnalyticArm::branches`]):
+    /// branches and whole turns of their joints. Free joints keep their value in `previous` \[rad\] (set to the nearer limit if it is
+    /// outside) as far as the limits allow.
     ///
     /// # Errors
-    /// [`AnalyticError::Target`] and [`AnalyticError::Start`] for input that is not finite. That no branch is within
-    /// the limits is no error here: [`Solutions::rejections`] says why.
+    /// [`AnalyticError::Target`] and [`AnalyticError::Start`] for input that is not finite. It is no error if no branch is within the
+    /// limits: [`Solutions::rejections`] gives the reasons.
     pub fn solve_all(
         &self,
         target: &Rigid,
@@ -147,7 +147,7 @@ impl AnalyticArm {
         Solutions { slots }
     }
 
-    /// The branch with its turns, or its worst joint.
+    /// Returns the branch with its turns, or its worst joint.
     fn solution(
         &self,
         target: &Rigid,
@@ -175,7 +175,7 @@ impl AnalyticArm {
         })
     }
 
-    /// The branch's configuration nearest to the start, within the limits.
+    /// Returns the branch's configuration nearest to the start, within the limits.
     fn branch_within(&self, target: &Rigid, branch: &Branch, turn: &Turn, window: &Window<'_>) -> Option<JointVector> {
         let [q1, q2, q3] = [0, 1, 2].map(|joint| window.value(joint, branch.q[joint]));
         let [q4, q5, q6] = self.wrist_within(turn, branch.label.wrist, window)?;
@@ -184,7 +184,7 @@ impl AnalyticArm {
     }
 }
 
-/// The lowest of the values a whole turn apart within the limits, and how many there are. `q` is one of them.
+/// Returns the lowest of the values a whole turn apart within the limits, and their number. `q` is one of them.
 fn turns_within(q: f64, limits: &JointLimits, joint: usize) -> (f64, u32) {
     let (lower, upper) = (limits.lower[joint], limits.upper[joint]);
     if !(lower.is_finite() && upper.is_finite()) {
@@ -195,7 +195,7 @@ fn turns_within(q: f64, limits: &JointLimits, joint: usize) -> (f64, u32) {
     ((q - TAU * below).max(lower), nearest_integer(below + above) as u32 + 1)
 }
 
-/// Most Gauss–Newton steps.
+/// Greatest number of Gauss–Newton steps.
 const STEPS: usize = 6;
 /// Damping: keeps the normal matrix definite where the free joints are singular.
 const DAMPING: f64 = 1e-16;
@@ -204,7 +204,7 @@ const DAMPING: f64 = 1e-16;
 const HOPELESS: f64 = 50.0 * CLOSED;
 
 impl AnalyticArm {
-    /// `q` within the limits, if it is so up to rounding or the free joints can make up for the rest.
+    /// Returns `q` within the limits, if it is so up to rounding or the free joints can make up for the rest.
     #[inline]
     pub(crate) fn settled(&self, target: &Rigid, q: JointVector, limits: &JointLimits) -> Option<JointVector> {
         if limits.contain(&q) {
@@ -239,8 +239,8 @@ impl AnalyticArm {
         None
     }
 
-    /// |det J| but for a constant factor: `|sin ψ · X / (L₂ + L₃) · sin(q₅ + α₅)|`, zero at full stretch or fold, with
-    /// the wrist centre beside axis 1, and with axes 4 and 6 parallel.
+    /// Returns |det J| up to a constant factor: `|sin ψ · X / (L₂ + L₃) · sin(q₅ + α₅)|`, zero at full stretch or fold, with the wrist
+    /// centre beside axis 1, and with axes 4 and 6 parallel.
     fn regularity(&self, q: &JointVector) -> f64 {
         let [upper, fore] = self.lengths;
         let [sign_2, sign_3] = self.signs;
@@ -252,7 +252,7 @@ impl AnalyticArm {
         (s * out / (upper + fore) * wrist).abs()
     }
 
-    /// `(p* − p, log(R* Rᵀ))` of body 6 and its geometric Jacobian, in base axes \[m, rad\].
+    /// Returns `(p* − p, log(R* Rᵀ))` of body 6 and its geometric Jacobian, in base axes \[m, rad\].
     fn error_and_jacobian(&self, target: &Rigid, q: &JointVector) -> (Vector6<f64>, Matrix6<f64>) {
         let mut body = Rigid::identity();
         let bodies: [Rigid; AXES] = std::array::from_fn(|i| {

@@ -1,6 +1,6 @@
-//! The eight branches.
+//! The eight branches of a target.
 //!
-//! The names of the branches, and where they end.
+//! Names of the branches, and the borders where they meet.
 
 use crate::JointVector;
 use crate::ik::analytic::wrist::{Bend, Goal, Swing, Turn};
@@ -9,14 +9,14 @@ use crate::rotation::Rigid;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
-/// A configuration that brings body 6 to the target; limits are not looked at.
+/// Configuration that brings body 6 to the target; limits are not checked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Branch {
     /// Joint positions in (−π, π] \[rad\].
     pub q: JointVector,
-    /// Its name.
+    /// Name of the branch.
     pub label: Label,
-    /// Where it is degenerate.
+    /// Degeneracies of the branch.
     pub degenerate: Degenerate,
 }
 
@@ -27,24 +27,23 @@ pub struct Branches {
 }
 
 impl Branches {
-    /// The branches within reach, in the order of [`Label::ALL`].
+    /// Returns the branches within reach, in the order of [`Label::ALL`].
     pub fn iter(&self) -> impl Iterator<Item = &Branch> {
         self.slots.iter().filter_map(|slot| slot.as_ref().ok())
     }
 
-    /// One branch by its label.
+    /// Returns one branch by its label.
     ///
     /// # Errors
-    /// [`OutOfReach`] when the label's shoulder side cannot reach the wrist centre.
+    /// [`OutOfReach`] if the label's shoulder side cannot reach the wrist centre.
     pub fn get(&self, label: Label) -> Result<Branch, OutOfReach> {
         self.slots[label.index()]
     }
 }
 
 impl AnalyticArm {
-    /// All branches for `target`, `T_base_body6` of the folded chain (the pose of [`Frame`](crate::Frame) on body 6
-    /// without offset; its rotation orthonormal to rounding). Free joints keep the value they have in `previous`
-    /// \[rad\]. Limits are not looked at.
+    /// Returns all branches for `target`, `T_base_body6` of the folded chain (the pose of [`Frame`](crate::Frame) on body 6 without offset;
+    /// its rotation orthonormal to rounding). Free joints keep the value they have in `previous` \[rad\]. Limits are not checked.
     ///
     /// # Errors
     /// [`AnalyticError::Target`] and [`AnalyticError::Start`] for input that is not finite.
@@ -55,7 +54,7 @@ impl AnalyticArm {
         })
     }
 
-    /// All branches in the order of [`Label::ALL`], each with its wrist.
+    /// Returns all branches in the order of [`Label::ALL`], each with its wrist.
     pub(crate) fn all_branches(
         &self,
         target: &Rigid,
@@ -97,7 +96,7 @@ impl AnalyticArm {
     }
 }
 
-/// The angle in (−π, π] \[rad\], up to rounding.
+/// Returns the angle in (−π, π] \[rad\], up to rounding.
 fn principal(angle: f64) -> f64 {
     if -PI < angle && angle <= PI {
         return angle;
@@ -106,10 +105,10 @@ fn principal(angle: f64) -> f64 {
     if turned <= -PI { turned + TAU } else { turned }
 }
 
-/// On which side of axis 1 the wrist centre lies, in the direction the arm faces. The two meet in the plane that
-/// holds axis 1 and is parallel to axis 2.
+/// Side of axis 1 on which the wrist centre lies, in the direction the arm faces. The two meet in the plane that holds axis 1 and is
+/// parallel to axis 2.
 ///
-/// The front is the side of axis 2; where axes 1 and 2 meet, the side of the wrist centre at q = 0.
+/// The front is the side of axis 2; if axes 1 and 2 meet, the side of the wrist centre at q = 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shoulder {
@@ -119,7 +118,7 @@ pub enum Shoulder {
     Back,
 }
 
-/// To which side the forearm is bent out of the upper arm's line. The two meet at full stretch and full fold.
+/// Side to which the forearm is bent out of the upper arm's line. The two meet at full stretch and full fold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Elbow {
@@ -130,8 +129,7 @@ pub enum Elbow {
     Down,
 }
 
-/// The sense of axis 5 (as the description directs it) against axes 4 and 6. The two meet where axes 4 and 6 are
-/// parallel.
+/// Sense of axis 5 (as the description directs it) against axes 4 and 6. The two meet where axes 4 and 6 are parallel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Wrist {
@@ -141,8 +139,8 @@ pub enum Wrist {
     Flipped,
 }
 
-/// The name of a branch. It depends on where the arm's axes are, not on zero positions or turns, and so stays the
-/// same along any path that crosses no singularity.
+/// Name of a branch. It depends on the positions of the arm's axes, not on zero positions or turns, and so stays the same along any path
+/// that crosses no singularity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Label {
     /// Shoulder side.
@@ -154,7 +152,7 @@ pub struct Label {
 }
 
 impl Label {
-    /// All eight: front before back, then up before down, then plain before flipped.
+    /// All eight labels: front before back, then up before down, then plain before flipped.
     pub const ALL: [Self; 8] = {
         use {Elbow::*, Shoulder::*, Wrist::*};
         [
@@ -169,7 +167,7 @@ impl Label {
         ]
     };
 
-    /// A label from its parts.
+    /// Returns a label from its parts.
     #[must_use]
     pub const fn new(shoulder: Shoulder, elbow: Elbow, wrist: Wrist) -> Self {
         Self { shoulder, elbow, wrist }
@@ -182,7 +180,7 @@ impl Label {
     }
 }
 
-/// Where a branch meets its neighbour or leaves a joint free.
+/// Degeneracies of a branch: it meets its neighbour, or leaves a joint free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Degenerate {
     /// Front and back meet; with b = 0 joint 1 is free and keeps its previous value.
@@ -193,7 +191,7 @@ pub struct Degenerate {
     pub wrist: bool,
 }
 
-/// Which border of the reachable space lies before the wrist centre.
+/// Border of the reachable space that the wrist centre is beyond.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ReachBorder {
@@ -205,18 +203,18 @@ pub enum ReachBorder {
     Column,
 }
 
-/// A wrist centre that one shoulder side cannot reach.
+/// Wrist centre that one shoulder side cannot reach.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
 #[error("the wrist centre is {by_m:.3e} m beyond {border:?}")]
 pub struct OutOfReach {
-    /// The border.
+    /// Border that it is beyond.
     pub border: ReachBorder,
     /// Distance of the wrist centre from that border, in the plane of the arm \[m\].
     pub by_m: f64,
 }
 
 impl OutOfReach {
-    /// Beyond everything: no wrist centre is as bad.
+    /// Greatest possible miss, the start value of a search for the least.
     pub(crate) const NOWHERE: Self = Self {
         border: ReachBorder::Stretch,
         by_m: f64::INFINITY,

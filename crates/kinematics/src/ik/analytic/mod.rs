@@ -53,11 +53,11 @@
 //! joint may be uncertain by more than that; a branch within [`LIMIT_NEAR_RAD`] is moved onto the limit and the other
 //! joints closed by Gauss–Newton, and counts only if the pose is met to [`CLOSED`] m and rad.
 //!
-//! An arm with a closed form, in its own terms.
+//! Arm with a closed form, in terms of its geometry.
 //!
-//! What counts as zero, as a limit, as met.
+//! Tolerances for zero lengths and angles, for limits, and for a pose that is met.
 //!
-//! Why there is no analytic answer.
+//! Errors of the analytic solution.
 
 mod all;
 mod branch;
@@ -76,7 +76,7 @@ use crate::rotation::Rigid;
 use crate::{AXES, JointVector, LimitViolation};
 use nalgebra::{Complex, Matrix3};
 
-/// An arm whose inverse kinematics has a closed form: see the [module](super) text. Immutable.
+/// Arm whose inverse kinematics has a closed form: see the [module](super) text. Immutable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnalyticArm {
     /// `F_i` of the model.
@@ -110,29 +110,29 @@ pub const GEOMETRY_TOLERANCE_M: f64 = 1e-10;
 pub const GEOMETRY_TOLERANCE_RAD: f64 = 1e-10;
 /// Shortest upper arm and forearm \[m\].
 pub const SHORTEST_LINK_M: f64 = 1e-3;
-/// A target this far beyond full stretch, full fold or the column around axis 1 is still answered \[m\].
+/// Distance of a target beyond full stretch, full fold or the column around axis 1 up to which it is still answered \[m\].
 pub const REACH_ROUNDING_M: f64 = 5e-10;
-/// A wrist centre this close to axis 1 (or axis 2, where the arm can fold so far) leaves the joint free \[m\].
+/// Distance of a wrist centre from axis 1 (or axis 2, if the arm can fold so far) below which the joint is free \[m\].
 pub const FREE_SHOULDER_M: f64 = 1e-10;
-/// Axes 4 and 6 this close to parallel leave joint 4 free \[rad\].
+/// Angle between axes 4 and 6 below which joint 4 is free \[rad\].
 pub const FREE_WRIST_RAD: f64 = 1e-10;
-/// A joint this far beyond a limit is set onto it \[rad\].
+/// Distance beyond a limit up to which a joint is set onto it \[rad\].
 pub const LIMIT_ROUNDING_RAD: f64 = 1e-11;
-/// A branch this far beyond a limit is moved onto it if the other joints can make up for it \[rad\].
+/// Distance beyond a limit up to which a branch is moved onto it, if the other joints can make up for it \[rad\].
 pub const LIMIT_NEAR_RAD: f64 = 1e-5;
-/// … to this much \[m and rad\].
+/// Error of the pose up to which those joints must make up for it \[m and rad\].
 pub const CLOSED: f64 = 2e-10;
-/// At most this many whole turns of a continuous joint are followed, either way.
+/// Greatest number of whole turns of a continuous joint that are followed, either way.
 pub const MOST_TURNS: f64 = 1000.0;
 
-/// Why there is no analytic answer.
+/// Reason that there is no analytic answer.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AnalyticError {
     /// The target has NaN or infinite entries.
     #[error("the target pose is not finite: position {position:?} m")]
     Target {
-        /// The position as given.
+        /// Position of the target \[m\].
         position: [f64; 3],
     },
     /// The start has a NaN or infinite entry.
@@ -140,21 +140,21 @@ pub enum AnalyticError {
     Start {
         /// Joint index, 0 for joint 1.
         joint: usize,
-        /// What was given \[rad\].
+        /// Value given \[rad\].
         found: f64,
     },
-    /// No branch reaches the wrist centre; the one that misses it by least.
+    /// No branch reaches the wrist centre; holds the one that misses it by least.
     #[error("out of reach: {0}")]
     OutOfReach(OutOfReach),
-    /// Every branch that reaches the target breaks a limit; the one that breaks its worst limit by least.
+    /// Every branch that reaches the target breaks a limit; holds the one that breaks its worst limit by least.
     #[error(
         "outside the limits: the nearest branch needs joint {} at {} rad, limit {} rad",
         .violation.joint + 1, .violation.position_rad, .violation.limit_rad
     )]
     Limits {
-        /// The branch.
+        /// Label of the branch.
         label: Label,
-        /// Its worst joint.
+        /// Violation of its worst joint.
         violation: LimitViolation,
     },
 }

@@ -1,6 +1,6 @@
-//! The answer nearest to a start.
+//! Analytic answer nearest to a start.
 //!
-//! Joint limits and the start against which values are weighed.
+//! Joint limits, and the start from which distances are measured.
 
 use crate::ik::analytic::all::{Rejection, Solutions};
 use crate::ik::analytic::branch::{Degenerate, Elbow, Label, OutOfReach, Shoulder, Wrist};
@@ -11,29 +11,29 @@ use crate::{JointLimits, JointVector, LimitViolation};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// A configuration within the limits, and how far it is from the start.
+/// Configuration within the limits, with its distance from the start.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Nearest {
     /// Joint positions within the limits \[rad\].
     pub q: JointVector,
-    /// Its branch.
+    /// Label of its branch.
     pub label: Label,
-    /// Where it is degenerate.
+    /// Degeneracies of the branch.
     pub degenerate: Degenerate,
-    /// `‖q − start‖` \[rad\].
+    /// Distance `‖q − start‖` \[rad\].
     pub distance_rad: f64,
 }
 
 impl AnalyticArm {
-    /// The configuration within `limits` that brings body 6 to `target` (`T_base_body6`, as for
-    /// [`AnalyticArm::branches`]) and is nearest to `start` \[rad\]: `min ‖q − start‖`, Euclidean over the six joints, over
-    /// all branches and whole turns. Equals go to the first in [`Label::ALL`], and to the turn further from zero.
+    /// Returns the configuration within `limits` that brings body 6 to `target` (`T_base_body6`, as for [`AnalyticArm::branches`]) and is
+    /// nearest to `start` \[rad\]: `min ‖q − start‖`, Euclidean over the six joints, over all branches and whole turns. Ties go to the
+    /// first in [`Label::ALL`], and to the turn further from zero.
     ///
     /// Free joints keep their value in `start` (set to the nearer limit if it is outside), as far as the
     /// limits of the others allow. A continuous joint follows the start for up to [`crate::ik::analytic::MOST_TURNS`] turns.
     ///
     /// # Errors
-    /// [`AnalyticError`]: the input is not finite, or the branch that misses the reach or the limits by least.
+    /// [`AnalyticError`]: input that is not finite, or the branch that misses the reach or the limits by least.
     pub fn nearest(&self, target: &Rigid, start: &JointVector, limits: &JointLimits) -> Result<Nearest, AnalyticError> {
         check_finite(target, start)?;
         let window = Window::new(limits, start);
@@ -57,7 +57,7 @@ impl AnalyticArm {
         search.best
     }
 
-    /// With joint 1 free, the next values of it that may do; otherwise the reason.
+    /// Searches the next values of joint 1 that may do, if it is free; otherwise returns the reason.
     #[cold]
     fn search_elsewhere(&self, target: &Rigid, goal: &Goal, window: &Window<'_>) -> Result<Nearest, AnalyticError> {
         self.critical_turns(goal, window)
@@ -73,7 +73,7 @@ struct Search<'a> {
     target: &'a Rigid,
     window: &'a Window<'a>,
     best: Option<Nearest>,
-    /// Squared distance of the best \[rad²\].
+    /// Squared distance of the best answer \[rad²\].
     least: f64,
 }
 
@@ -112,7 +112,7 @@ impl Search<'_> {
         Some(())
     }
 
-    /// Takes the configuration if it is nearer than the best and, where it stands beyond a limit, can be moved onto it.
+    /// Takes the configuration if it is nearer than the best. One beyond a limit must be movable onto it.
     #[inline]
     fn offer(&mut self, q: JointVector, label: Label, degenerate: Degenerate) -> Option<()> {
         if self.window.squared_distance(q.as_slice()) >= self.least {
@@ -130,7 +130,7 @@ impl Search<'_> {
     }
 }
 
-/// The rejection by a limit that misses by least; without any, the least distance from reach.
+/// Returns the rejection by a limit that misses by least; without any, the least distance from reach.
 fn least_miss(solutions: &Solutions) -> AnalyticError {
     let by = |violation: &LimitViolation| (violation.position_rad - violation.limit_rad).abs();
     let cost = |rejection: &Rejection| match rejection {
@@ -150,11 +150,11 @@ fn least_miss(solutions: &Solutions) -> AnalyticError {
     }
 }
 
-/// Limits and a start.
+/// Joint limits and a start.
 pub(crate) struct Window<'a> {
     pub limits: &'a JointLimits,
     pub start: JointVector,
-    /// The start within the limits: the value within limits that is nearest to it is nearest to the start too.
+    /// Start clamped to the limits: the value within limits that is nearest to it is nearest to the start too.
     pub anchor: JointVector,
 }
 
@@ -169,7 +169,7 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// The same window with joint 1, where it is free, kept at another value \[rad\].
+    /// Returns the window with joint 1, if it is free, kept at another value \[rad\].
     pub fn anchored(&self, q1: f64) -> Self {
         let mut anchor = self.anchor;
         anchor[0] = q1;
@@ -180,8 +180,8 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// The value `angle + 2πk` within the limits that is nearest to the start, or failing that the one
-    /// within [`LIMIT_NEAR_RAD`] of them.
+    /// Returns the value `angle + 2πk` within the limits that is nearest to the start, or failing that the one within [`LIMIT_NEAR_RAD`] of
+    /// them.
     #[inline]
     pub fn value(&self, joint: usize, angle: f64) -> Option<f64> {
         let q = angle + TAU * nearest_integer((self.anchor[joint] - angle) * (1.0 / TAU));
@@ -189,7 +189,7 @@ impl<'a> Window<'a> {
             .or_else(|| self.within(joint, q, LIMIT_NEAR_RAD))
     }
 
-    /// `q`, at most half a turn from the anchor, or the next turn towards the limits.
+    /// Returns `q`, at most half a turn from the anchor, or the next turn towards the limits.
     #[inline]
     fn within(&self, joint: usize, q: f64, slack: f64) -> Option<f64> {
         let (lower, upper) = (self.limits.lower[joint] - slack, self.limits.upper[joint] + slack);
@@ -203,7 +203,7 @@ impl<'a> Window<'a> {
         (lower <= q && q <= upper).then_some(q)
     }
 
-    /// How far the turn of `angle` that misses the limits by least misses them, and at which value \[rad\].
+    /// Returns the turn of `angle` that misses the limits by least: the distance by which it misses them, and its value \[rad\].
     pub fn miss(&self, joint: usize, angle: f64) -> (f64, LimitViolation) {
         let (lower, upper) = (self.limits.lower[joint], self.limits.upper[joint]);
         let q = angle + TAU * nearest_integer((self.anchor[joint] - angle) / TAU);
@@ -230,7 +230,7 @@ impl<'a> Window<'a> {
     }
 }
 
-/// The nearest integer, halves away from zero; the argument must fit an `i32`.
+/// Returns the nearest integer, halves away from zero; the argument must fit an `i32`.
 #[inline]
 pub(crate) fn nearest_integer(x: f64) -> f64 {
     f64::from((x + 0.5_f64.copysign(x)) as i32)

@@ -7,7 +7,7 @@ use crate::trig::{atan2, sin_cos};
 use crate::{AXES, RobotModel};
 use nalgebra::{Complex, Matrix3, Vector3};
 
-/// The property of the structure that an arm does not have, and by how much.
+/// Property of the structure that an arm does not have, with the deviation.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotAnalytic {
@@ -49,7 +49,7 @@ pub enum NotAnalytic {
     },
 }
 
-/// A joint axis as a line in the base frame.
+/// Joint axis as a line in the base frame.
 #[derive(Clone, Copy)]
 struct Line {
     point: Vector3<f64>,
@@ -112,7 +112,7 @@ impl AnalyticArm {
 }
 
 impl AnalyticArm {
-    /// The target of body 6, `T_base_body6`, for a target of `frame` on it, `T_base_frame`.
+    /// Returns the target of body 6, `T_base_body6`, for a target of `frame` on it, `T_base_frame`.
     ///
     /// `None` unless body 6, the one behind joint 6, carries the frame.
     #[must_use]
@@ -148,7 +148,7 @@ fn perpendicular(axes: &[Line; AXES], joints: [usize; 2]) -> Result<(), NotAnaly
     Err(NotAnalytic::NotPerpendicular { joints, by_rad })
 }
 
-/// Where axes 4 and 5 meet, if axis 6 passes through that point too. Axes 4 and 5 are perpendicular.
+/// Returns the intersection of axes 4 and 5, if axis 6 passes through that point too. Axes 4 and 5 are perpendicular.
 fn wrist_centre(axes: &[Line; AXES]) -> Result<Vector3<f64>, NotAnalytic> {
     let [fourth, fifth, sixth] = [axes[3], axes[4], axes[5]];
     let between = fifth.point - fourth.point;
@@ -165,8 +165,8 @@ fn wrist_centre(axes: &[Line; AXES]) -> Result<Vector3<f64>, NotAnalytic> {
 
 /// `T_base_S` at q₁ = 0: on axis 1 at the height of axis 2, z along axis 1, y along ± axis 2, x to the front.
 ///
-/// The front is the side of axis 1 on which axis 2 lies; where they meet, the side on which the wrist centre lies
-/// at q = 0; where it lies on neither, y points along axis 2.
+/// The front is the side of axis 1 on which axis 2 lies. If they meet, it is the side on which the wrist centre lies at q = 0; if that lies
+/// on neither side, y points along axis 2.
 fn shoulder_frame(axes: &[Line; AXES], wrist: &Vector3<f64>) -> Rigid {
     let z = axes[0].direction;
     let origin = axes[0].point + z * z.dot(&(axes[1].point - axes[0].point));

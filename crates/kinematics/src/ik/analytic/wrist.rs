@@ -1,8 +1,8 @@
-//! Joints 1 to 3: where the wrist centre is.
+//! Joints 1 to 3 from the position of the wrist centre.
 //!
-//! Joints 4 to 6: how the hand is turned.
+//! Joints 4 to 6 from the orientation of the hand.
 //!
-//! The shoulder singularity under limits: which values of the free joint 1 are worth trying.
+//! The shoulder singularity under limits: the values of the free joint 1 that are worth trying.
 //!
 //! With the wrist centre on axis 1, joints 2 and 3 do not depend on joint 1, and the wrist's rotation is
 //! `E(q₁) = N Rot_z(−q₁) R` with a constant N. The values of q₁ that leave the wrist within its limits form
@@ -24,7 +24,7 @@ use std::f64::consts::PI;
 /// Sine of the elbow angle below which its two branches count as one.
 const ELBOWS_MEET: f64 = 1e-7;
 
-/// The target seen from the shoulder frame at q₁ = 0.
+/// Target in the shoulder frame at q₁ = 0.
 #[derive(Clone, Copy)]
 pub(crate) struct Goal {
     /// `R_S_6`.
@@ -62,7 +62,7 @@ pub(crate) struct Triangle {
 pub(crate) struct Bend {
     pub q2: f64,
     pub q3: f64,
-    /// `e^{iθ₂₃}`: how far the forearm is turned about y from where it stands at q = 0.
+    /// Turn of the forearm about y from its direction at q = 0, `e^{iθ₂₃}`.
     pub forearm: Complex<f64>,
     /// Elbow up and down meet.
     pub meets: bool,
@@ -172,7 +172,7 @@ fn beyond(border: ReachBorder, by_m: f64) -> OutOfReach {
     OutOfReach { border, by_m }
 }
 
-/// The wrist's angles as z–y–z form, for the plain branch.
+/// Angles of the wrist in z–y–z form, for the plain branch.
 #[derive(Clone, Copy)]
 pub(crate) struct Turn {
     /// `E = Rot_z(q₄) Rot_y(q₅ + α₅) Rot_z(q₆ + α₆)`.
@@ -184,14 +184,14 @@ pub(crate) struct Turn {
 }
 
 impl AnalyticArm {
-    /// `E = Kᵀ Rot_y(−θ₂₃) Rot_z(−q₁) R`, split into its three turns.
+    /// Splits `E = Kᵀ Rot_y(−θ₂₃) Rot_z(−q₁) R` into its three turns.
     #[inline]
     pub(crate) fn wrist(&self, swing: &Swing, bend: &Bend, previous_q4: f64) -> Turn {
         let rotation = self.wrist_from_shoulder * turned_about_y(&swing.rotation, bend.forearm);
         Turn::split(rotation, previous_q4)
     }
 
-    /// `[q₄, q₅, q₆]` of one wrist branch: the flipped one has `[q₄ + π, −(q₅ + α₅) − α₅, q₆ + π]`.
+    /// Returns `[q₄, q₅, q₆]` of one wrist branch: the flipped one has `[q₄ + π, −(q₅ + α₅) − α₅, q₆ + π]`.
     #[inline]
     pub(crate) fn wrist_joints(&self, turn: &Turn, wrist: Wrist) -> [f64; 3] {
         let [first, second, third] = turn.angles;
@@ -202,7 +202,7 @@ impl AnalyticArm {
         }
     }
 
-    /// `[q₄, q₅, q₆]` of one wrist branch, each the value within the limits that is nearest to the start.
+    /// Returns `[q₄, q₅, q₆]` of one wrist branch, each the value within the limits that is nearest to the start.
     #[inline]
     pub(crate) fn wrist_within(&self, turn: &Turn, wrist: Wrist, window: &Window<'_>) -> Option<[f64; 3]> {
         let [q4, q5, q6] = self.wrist_joints(turn, wrist);
@@ -263,11 +263,11 @@ fn turned_about_y(r: &Matrix3<f64>, turn: Complex<f64>) -> Matrix3<f64> {
     Matrix3::from_rows(&[x * c - z * s, r.row(1).into(), x * s + z * c])
 }
 
-/// Two elbows, three joints, two limits, two roots, and the limits of joint 1.
+/// Greatest number of candidates: two elbows, three joints, two limits, two roots, and the limits of joint 1.
 const MOST: usize = 2 * 3 * 2 * 2 + 2;
 
 impl AnalyticArm {
-    /// The candidates within joint 1's limits, nearest to the anchor first; none unless joint 1 is free.
+    /// Returns the candidates within joint 1's limits, nearest to the anchor first; none unless joint 1 is free.
     pub(crate) fn critical_turns(&self, goal: &Goal, window: &Window<'_>) -> impl Iterator<Item = f64> + use<> {
         let mut found = [f64::NAN; MOST];
         let side = Shoulder::Front;
@@ -305,7 +305,7 @@ impl AnalyticArm {
     }
 }
 
-/// Both q₁ with `g · Rot_z(−q₁) d = h`; where there is none, the q₁ that comes closest (twice).
+/// Returns both q₁ with `g · Rot_z(−q₁) d = h`; if there is none, the q₁ that comes closest (twice).
 fn turns_with(g: &Vector3<f64>, d: &Vector3<f64>, h: f64) -> [f64; 2] {
     let (a, b) = (g.x * d.x + g.y * d.y, g.x * d.y - g.y * d.x);
     let amplitude = (a * a + b * b).sqrt();

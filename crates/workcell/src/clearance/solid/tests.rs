@@ -36,8 +36,8 @@ fn trough() -> Mesh {
     .concat()
 }
 
-/// How far a point is outside of the nearest of some hulls: by their planes, at most 0 within one; where those are not to be relied on, the distance
-/// of the point to the hull of the corners, less what it is stated to be right to.
+/// Distance of a point outside of the nearest of some hulls, by their planes, at most 0 within one. For unreliable hulls it is the distance
+/// of the point to the hull of the corners, less its stated error.
 fn outside(parts: &[Vec<Point3<f64>>], point: Point3<f64>) -> f64 {
     let p = Vector::new(point.x, point.y, point.z);
     let beyond = |part: &Vec<Point3<f64>>| {
@@ -54,7 +54,7 @@ fn outside(parts: &[Vec<Point3<f64>>], point: Point3<f64>) -> f64 {
     parts.iter().map(beyond).fold(f64::INFINITY, f64::min)
 }
 
-/// The distance of a point from a hull.
+/// Distance of a point from a hull.
 fn distance(points: &[Point3<f64>], point: Point3<f64>) -> f64 {
     let points = points.to_vec();
     let hull = convex::Part::new(&Shape::Hull { points }, Frame::base()).unwrap();
@@ -111,7 +111,7 @@ fn sheets_get_a_thickness_and_what_is_flat_altogether_is_refused() {
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 4, ..ProptestConfig::default() })]
-    /// Whatever is proposed: every point of every triangle is in a part. The pieces are boxes in a heap, and loose triangles.
+    /// Every point of every triangle is in a part, for any proposal. The pieces are boxes in a heap, and loose triangles.
     #[test]
     fn every_point_of_the_surface_is_enclosed(
         boxes in prop::collection::vec((prop::array::uniform3(-0.3..0.3f64), prop::array::uniform3(0.005..0.3f64)), 1..4),
@@ -140,7 +140,7 @@ proptest! {
     }
 }
 
-/// As many corners as would take minutes are refused before a hull is made, whatever counts of the mesh; as many as are allowed are not.
+/// Too many corners are refused before a hull is computed, for every interpretation of the mesh; the greatest allowed number is not.
 #[test]
 fn more_corners_than_can_be_judged_are_refused() {
     let spread = |count: usize| -> Mesh {

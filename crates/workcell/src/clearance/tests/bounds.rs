@@ -1,4 +1,4 @@
-//! What is claimed of distances between solids, against alternating projections: a method that shares nothing with it.
+//! Bounds of distances between solids, against alternating projections: a method that shares nothing with the code under test.
 
 use crate::clearance::tests::*;
 
@@ -20,8 +20,8 @@ fn projected(shape: &Shape, pose: &Isometry3<f64>, point: &Point3<f64>) -> Point
     pose * nearest
 }
 
-/// The distance of a point of one solid from one of the other, which nears the least distance from above (von Neumann; Cheney &
-/// Goldstein, Proc. AMS 10, 1959), and whether it has settled.
+/// Returns the distance between a point of one solid and one of the other, which approaches the least distance from above (von Neumann;
+/// Cheney & Goldstein, Proc. AMS 10, 1959), and true once it has settled.
 fn alternating(a: (&Shape, &Isometry3<f64>), b: (&Shape, &Isometry3<f64>)) -> (f64, bool) {
     let mut here = Point3::from(a.1.translation.vector);
     let mut last = f64::INFINITY;
@@ -49,7 +49,7 @@ fn cylinder(radius_m: f64, half_length_m: f64) -> Shape {
     }
 }
 
-/// What is claimed is no more than the distance, what is stated no less, and both are as near as they say.
+/// Checks that the lower bound is no more than the distance, the stated distance no less, and both as near as promised.
 #[track_caller]
 fn hold(a: (&Shape, &Isometry3<f64>), b: (&Shape, &Isometry3<f64>)) {
     let (stated, at_least) = claims(a, b);

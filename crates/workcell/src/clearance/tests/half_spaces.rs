@@ -44,7 +44,7 @@ proptest! {
             let place = normal.dot(&(Vector3::from(found.place) - plane.translation.vector));
             prop_assert!((place - 0.5 * expected).abs() < 1e-12, "{place} {expected}");
         }
-        // What is grown is nearer by as much, whichever of the two it is.
+        // A grown body is nearer by its margin, whichever of the two it is.
         for (space, body) in [(space.clone().grown(margin), body.clone()), (space, body.grown(margin))] {
             prop_assert!((gap(&space, &body).distance - (expected - margin)).abs() < 1e-12);
         }
@@ -101,7 +101,7 @@ proptest! {
     }
 }
 
-/// What joint 1 turns keeps its height over a floor and under a ceiling, beside a wall it does not.
+/// The body that joint 1 turns keeps its height over a floor and under a ceiling, but not beside a wall.
 #[test]
 fn joint_1_keeps_heights_over_level_planes_alone() {
     let robot = RobotModel::irb120().unwrap();

@@ -1,4 +1,4 @@
-//! Plates of many parts, against the same parts as obstacles, each a body of its own that is looked at by itself.
+//! Plates of many parts, against the same parts as separate obstacles that are examined one by one.
 
 use crate::clearance::motion::PartPairs;
 use crate::clearance::{ClearanceModel, ITERATIVE_ERROR_M, is_clear};
@@ -21,7 +21,7 @@ fn plates(kind: usize, z: f64) -> [Plate; 2] {
     })
 }
 
-/// The world of a plate whose parts are obstacles.
+/// Returns the world of a plate whose parts are obstacles.
 fn in_pieces(world: &Workcell, plate: &Plate) -> Workcell {
     let pieces = plate
         .bodies()
@@ -34,7 +34,7 @@ fn in_pieces(world: &Workcell, plate: &Plate) -> Workcell {
     }
 }
 
-/// The least distance of one body to a plate, part by part.
+/// Returns the least distance of one body to a plate, part by part.
 fn least(pieces: &ClearanceModel, name: &str, q: &JointVector) -> f64 {
     let all = pieces.all(q);
     let of = all.iter().filter(|pair| pair.a == name && pair.b.starts_with("piece"));

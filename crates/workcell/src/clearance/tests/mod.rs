@@ -27,7 +27,7 @@ fn gap(a: &Part, b: &Part) -> Separation {
     bounds(a, b).0
 }
 
-/// The distance as it is stated, and what it is not below.
+/// Returns the stated distance and its lower bound.
 fn bounds(a: &Part, b: &Part) -> (Separation, f64) {
     static ARM: std::sync::LazyLock<RobotModel> = std::sync::LazyLock::new(|| RobotModel::irb120().unwrap());
     let poses = ARM.fk(&JointVector::zeros());
@@ -253,8 +253,8 @@ fn nan_is_never_a_distance_of_zero() {
     assert!(model().all(&q).iter().all(|p| p.distance_m.is_nan()));
 }
 
-/// A hull is enclosed by what its support functions know, however wide and low it is and in whatever order its points stand: no
-/// distance is overstated for what the collision library leaves out.
+/// A hull is enclosed by its support functions, however wide and low it is and in any order of its points: no distance is overstated
+/// because of points that the collision library leaves out.
 #[test]
 fn wide_and_low_hulls_are_no_smaller_than_their_points() {
     let wide: Vec<_> = [[1e3, 1e3], [1e3, -1e3], [-1e3, 1e3], [-1e3, -1e3]]

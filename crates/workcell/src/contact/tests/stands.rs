@@ -1,4 +1,4 @@
-//! What is said of a sponge on a plate over a stretch of time, against sums over its face at moments of it, column by column by halving.
+//! Bounds of a sponge on a plate over a stretch of time, against sums over its face at moments of it, column by column by halving.
 
 use crate::contact::tests::*;
 use crate::surface::{SHIPPED_PROFILES, Surface};
@@ -14,10 +14,10 @@ const FOUNDATION: Foundation = Foundation {
     stiffness_pa: [1.1e4, 4.4e4],
 };
 
-/// How much higher or lower the plate may lie \[m\].
+/// Height by which the plate may lie higher or lower \[m\].
 const ERROR_M: f64 = 1e-3;
 
-/// Rings and sectors of the sums, and what they may be off of the whole face pressed as deep as its deepest column.
+/// Rings and sectors of the sums, and the error of the sums relative to the whole face pressed as deep as its deepest column.
 const RINGS: u32 = 40;
 const SECTORS: u32 = 90;
 const OFF: f64 = 4e-3;
@@ -29,7 +29,7 @@ fn surface(profile: usize) -> Surface {
     })
 }
 
-/// Over a place of a surface, by its share of the radius and its azimuth, `over_m` above it, leaning from its axis.
+/// Returns a pose `over_m` above a place of a surface, given by its share of the radius and its azimuth, tilted from the axis there.
 fn over(surface: &Surface, [share, azimuth]: [f64; 2], over_m: f64, [tilt, lean]: [f64; 2]) -> SpongePose {
     let rho = share * surface.rim_m();
     let (s, c) = lean.sin_cos();
@@ -39,7 +39,8 @@ fn over(surface: &Surface, [share, azimuth]: [f64; 2], over_m: f64, [tilt, lean]
     }
 }
 
-/// How far along a line a surface that lies `up_m` higher is met, and the cosine against its normal there; by halving.
+/// Returns the length along a line at which it meets a surface that lies `up_m` higher, and the cosine against its normal there; by
+/// halving.
 fn meets(surface: &Surface, start: &Vector3<f64>, axis: &Vector3<f64>, up_m: f64) -> (f64, f64, f64) {
     let place = |along: f64| start + axis * along;
     let rho = |point: &Vector3<f64>| point.xy().norm();
@@ -85,7 +86,7 @@ fn summed(surface: &Surface, pose: &SpongePose, up_m: f64) -> [f64; 3] {
     [volume, deepest, twist]
 }
 
-/// That what is pressed at a moment is within what is said of it, wherever within its error the plate lies.
+/// Checks that the load at a moment is within the bounds, for plate heights within the error.
 fn is_within(surface: &Surface, pose: &SpongePose, press: &Press) -> TestCaseResult {
     let area = PI * FOUNDATION.radius_m * FOUNDATION.radius_m;
     for up in [-1.0, 0.4, 1.0] {
@@ -102,7 +103,7 @@ fn is_within(surface: &Surface, pose: &SpongePose, press: &Press) -> TestCaseRes
     Ok(())
 }
 
-/// A direction across a pose's axis.
+/// Returns a direction across a pose's axis.
 fn across(pose: &SpongePose) -> Vector3<f64> {
     pose.axis
         .cross(&Vector3::new(0.2, -0.1, 0.4))
@@ -132,7 +133,8 @@ proptest! {
         prop_assert!(high[1] >= seen.deepest_m - 1.5e-3, "{high:?} {seen:?}");
     }
 
-    /// Over a stretch in which the sponge moves, speeds up and turns, at any moment of it: columns that turn with it.
+    /// Checks the bounds over a stretch in which the sponge moves, accelerates and turns, at any moment of it, with columns that turn with
+    /// it.
     #[test]
     fn what_is_pressed_between_moments_is_what_their_columns_say(
         profile in 0..5usize, place in [0.0..1.0f64, 0.0..TAU], up in -2e-3..3e-3f64, lean in [0.0..0.52f64, 0.0..TAU],
@@ -170,7 +172,7 @@ proptest! {
         prop_assert!(!touches || touching.is_none_or(|parts| !parts.is_empty()));
     }
 
-    /// Across the face little is lost: what is said of a moment is near what is.
+    /// Little is lost across the face: the bounds at a moment are near the values.
     #[test]
     fn what_is_said_of_a_moment_is_not_much_more_than_what_is(profile in 0..5usize, place in [0.05..0.75f64, 0.0..TAU], tilt in -0.1..0.1f64) {
         let surface = surface(profile);
@@ -191,7 +193,7 @@ proptest! {
     }
 }
 
-/// Where nothing is known nothing is said: a tool that lies along the face, one that flies, a place that is none.
+/// Nothing is claimed where nothing is known: for a tool that lies along the face, one that flies, and a place that is NaN.
 #[test]
 fn of_what_is_not_met_nothing_is_said() {
     let surface = surface(0);

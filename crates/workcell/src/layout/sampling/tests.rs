@@ -14,7 +14,7 @@ fn sampler(region: &Region) -> Sampler {
     Sampler::new(region, &SPACING).unwrap()
 }
 
-/// The same law, drawn from cells from the first draw on.
+/// Returns a sampler of the same law that draws from cells from the first draw on.
 fn by_cells(region: &Region, spacing: &Spacing) -> Sampler {
     Sampler {
         box_draws: 0,
@@ -26,7 +26,7 @@ fn squared_distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
 }
 
-/// Free by the words of the law.
+/// True if a point is free by the definition of the law.
 fn is_free(region: &Region, spacing: &Spacing, placed: &[[f64; 2]], p: [f64; 2]) -> bool {
     region.contains(p)
         && squared_distance(p, [0.0, 0.0]).sqrt() > spacing.base_radius_m
@@ -35,8 +35,8 @@ fn is_free(region: &Region, spacing: &Spacing, placed: &[[f64; 2]], p: [f64; 2])
             .all(|&q| squared_distance(p, q).sqrt() > spacing.min_distance_m)
 }
 
-/// Dead ends per 20,000 layouts, against rates measured independently on about 1,500 layouts each (their 95 % half width is
-/// 2.5 points, a standard error of 1.28).
+/// Dead ends per 20,000 layouts, against rates measured independently on about 1,500 layouts each (their 95 % half width is 2.5 points, a
+/// standard error of 1.28).
 #[test]
 fn dead_ends_are_as_frequent_as_measured() {
     let measured = [
@@ -62,8 +62,8 @@ fn dead_ends_are_as_frequent_as_measured() {
     }
 }
 
-/// Pearson's χ² of draws beside `placed`, in bins of equal size over a box, against the free area of every bin. Returns it in
-/// standard deviations from its mean.
+/// Returns Pearson's χ² of draws beside `placed`, in bins of equal size over a box, against the free area of every bin, in standard
+/// deviations from its mean.
 fn uniformity(sampler: &Sampler, region: &Region, placed: &[[f64; 2]], low: [f64; 2], high: [f64; 2]) -> f64 {
     let (bins, fine, draws) = (12_usize, 60_usize, 100_000);
     let step = [0, 1].map(|k| (high[k] - low[k]) / (bins * fine) as f64);
@@ -123,7 +123,7 @@ fn plates_are_uniform_over_what_is_free() {
     }
 }
 
-/// Three discs about the origin that leave a three-pointed gap of `slack` between them.
+/// Returns three discs about the origin that leave a three-pointed gap of `slack` between them.
 fn three_around(slack: f64) -> Vec<[f64; 2]> {
     let at = |degrees: f64| {
         let (sin, cos) = sin_cos(degrees.to_radians());
@@ -169,8 +169,8 @@ fn a_gap_of_a_billionth_is_found_and_sampled_uniformly() {
     }
 }
 
-/// Whether anything is free, by another way: every component of the free part has a boundary arc between neighbouring
-/// crossings of two boundary curves, and next to the middle of that arc lies a free point.
+/// True if any point is free, by another method: every component of the free part has a boundary arc between neighbouring crossings of two
+/// boundary curves, and next to the middle of that arc lies a free point.
 fn has_room_by_arcs(region: &Region, spacing: &Spacing, placed: &[[f64; 2]]) -> bool {
     let tiny = 1e-9;
     let ([x0, x1], [y0, y1]) = (region.x_m, region.y_m);
@@ -244,7 +244,7 @@ fn has_room_by_arcs(region: &Region, spacing: &Spacing, placed: &[[f64; 2]]) -> 
     false
 }
 
-/// Whether a point of a grid is free.
+/// True if a point of a grid is free.
 fn has_room_by_grid(region: &Region, spacing: &Spacing, placed: &[[f64; 2]], n: usize) -> bool {
     let coordinate = |[low, high]: [f64; 2], i: usize| low + (high - low) * (i as f64 + 0.5) / n as f64;
     (0..n * n).any(|k| {

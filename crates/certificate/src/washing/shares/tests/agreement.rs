@@ -73,7 +73,7 @@ fn little(random: &mut Pcg64, radius_m: f64) -> Surface {
     Surface::profile(&[Knot { radius_m, slope_rad }]).unwrap()
 }
 
-/// What the cell that is a whole face is proved to get.
+/// Returns the amounts proved for a single cell that covers the whole face.
 fn proved(surface: &Surface, foundation: &Foundation, (moments, sags): (&[Moment], &[Sags]), wanted: &Wanted) -> Dwell {
     let fineness = Fineness {
         cell_m: 2.0 * surface.rim_m(),
@@ -134,7 +134,7 @@ fn a_point_is_measured_to_get_what_its_cell_is_proved_to() {
         for _ in 0..20 {
             let point = place(random, &surface);
             let got = looks.at(&point);
-            // What is measured takes means of pressure and of speed between moments, which is off by what both change.
+            // The measured dose uses means of pressure and speed between moments, so it is off by the product of their changes.
             let keeps = [
                 (got.compression_m.max(0.0), least.compression_m, 1.0),
                 (got.time_s, least.time_s, 1.0),
