@@ -16,7 +16,7 @@ use platewash_workcell::trajectory::{KnotError, SegmentKind};
 use platewash_workcell::verdict::Infeasibility;
 use platewash_workcell::words::{millimetres, printable};
 
-/// Why a job could not be planned.
+/// Reason that a job could not be planned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
@@ -32,7 +32,7 @@ pub enum PlanError {
         least: f64,
         /// Greatest value.
         most: f64,
-        /// What was given.
+        /// Value given.
         found: f64,
     },
     /// There is no such plate.
@@ -40,13 +40,13 @@ pub enum PlanError {
     Plate {
         /// Index of the plate.
         plate: usize,
-        /// How many there are.
+        /// Number of plates of the job.
         count: usize,
     },
     /// An order that is none.
     #[error("an order of {count} plates must name each of them once")]
     Order {
-        /// How many there are.
+        /// Number of plates of the job.
         count: usize,
     },
     /// The terms are no job.
@@ -97,12 +97,12 @@ pub enum PlanError {
     /// A plate cannot be washed whole, or no way to was found.
     #[error("{0}")]
     Unwashable(Box<UnwashablePlate>),
-    /// Of no layout drawn was a way found to wash it whole.
+    /// No layout drawn has a known way to wash every plate whole.
     #[error("no plan was found for any of {layouts} random layouts; for the last one: {last}")]
     NoneWashable {
         /// Layouts drawn.
         layouts: usize,
-        /// What stands in the way in the last one, in words.
+        /// Obstruction in the last layout, in words.
         last: String,
     },
     /// From the configurations found on a plate, the arm does not follow the line over it.
@@ -115,7 +115,7 @@ pub enum PlanError {
         plate: usize,
         /// Height of the line \[m\].
         lift_m: f64,
-        /// Why.
+        /// Error of the inverse kinematics along the line.
         error: Box<IkPathError>,
     },
     /// The arm can follow a wash path, but with none that was tried the sponge does what is promised.
@@ -123,7 +123,7 @@ pub enum PlanError {
     Promise {
         /// The plate.
         plate: usize,
-        /// What is not kept.
+        /// Promise that is not kept, with the value found and the value required.
         shortfall: Shortfall,
     },
     /// The tool would tilt too far between the points that were solved.
@@ -139,7 +139,7 @@ pub enum PlanError {
         kind: SegmentKind,
         /// The largest tilt seen \[rad\].
         tilt_rad: f64,
-        /// What is allowed \[rad\].
+        /// Largest angle allowed \[rad\].
         most_rad: f64,
     },
     /// The line over a plate is no path.
@@ -179,13 +179,13 @@ impl PlanError {
         })
     }
 
-    /// Whether the input was fine but no plan came of it.
+    /// Returns true where the input is valid but no plan was found.
     #[must_use]
     pub fn is_infeasible(&self) -> bool {
         self.infeasibility().is_some()
     }
 
-    /// Whether the job cannot be done, or no way to do it was found; `None` for bad input.
+    /// Returns how firmly the job is known to be infeasible: proved, or only no way found; `None` for bad input.
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
         let found = |proved| Some(Infeasibility::proved_if(proved));

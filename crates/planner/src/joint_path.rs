@@ -9,7 +9,7 @@
 
 use platewash_kinematics::JointVector;
 
-/// How the curve ends.
+/// End conditions of the curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ends {
     /// With these derivatives dq/du at the first and the last sample \[rad per unit of u\].

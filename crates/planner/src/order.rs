@@ -17,7 +17,7 @@ pub struct TravelTimes {
     pub back: Vec<f64>,
 }
 
-/// Whether an order is known to be the best.
+/// Degree to which an order is known to be the best.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Optimality {

@@ -103,7 +103,7 @@ impl MapArea {
 #[derive(Debug)]
 pub(crate) struct Levels<'a> {
     area: &'a MapArea,
-    /// Whether the plate could be washed, square by square of each level.
+    /// Answers square by square of each level: true where the plate could be washed.
     found: Vec<BTreeMap<Square, bool>>,
 }
 
@@ -150,7 +150,7 @@ impl<'a> Levels<'a> {
         rows.flat_map(square).filter(inside).collect()
     }
 
-    /// Whether one of the eight squares around it has the other answer. Outside of the area nothing can be washed.
+    /// Checks that one of the eight squares around has the other answer. Outside of the area nothing can be washed.
     fn is_border(&self, level: usize, (column, row): Square) -> bool {
         let here = self.answer(level, (column, row));
         let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (column + dx, row + dy)));
@@ -187,7 +187,7 @@ mod tests {
         step_m: 1.0,
     };
 
-    /// Where every square is at the border.
+    /// Every square is at the border.
     #[test]
     fn there_are_never_more_than_twenty_thousand_squares() {
         let mut levels = Levels::new(&AREA);
@@ -204,7 +204,8 @@ mod tests {
         assert!((14_000..20_000).contains(&all), "{all}");
     }
 
-    /// Of a half plane only what lies beside its edge is quartered, on both of its sides; and the rim, as nothing is washed outside.
+    /// On a half plane, only the squares beside its edge, on both sides, are quartered, and those at the rim: nothing is washed
+    /// outside.
     #[test]
     fn squares_are_quartered_along_the_border_alone() {
         let mut levels = Levels::new(&AREA);

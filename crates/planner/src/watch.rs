@@ -5,7 +5,7 @@
 use platewash_workcell::cancel::CancelToken;
 use std::fmt;
 
-/// Who hears what planning is busy with; it is called often, and must not take long.
+/// Callback that receives the current activity of planning; it is called often, and must not take long.
 pub type Listener<'a> = &'a (dyn Fn(&Activity) + Sync);
 
 /// Whoever waits for planning: hears of it, and may give it up.
@@ -33,7 +33,7 @@ impl fmt::Debug for Watch<'_> {
     }
 }
 
-/// What planning is busy with.
+/// Current activity of planning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Activity {
@@ -41,7 +41,7 @@ pub enum Activity {
     Layout {
         /// The layout, from 1.
         drawn: usize,
-        /// How many are drawn at most.
+        /// Greatest number of layouts drawn.
         most: usize,
     },
     /// Looking for configurations that wash a plate, and timing its wash.

@@ -29,10 +29,10 @@ const INNER: [f64; 3] = [1.0, 1.08, 1.17];
 /// Rings that are tried at most, where their number is not stated.
 const MOST_TRIED: usize = 40;
 
-/// Those of denser curves, for doses that others do not give.
+/// Pitches of denser curves, for doses that the usual ones do not give.
 const DENSE_PITCHES: [f64; 3] = [0.65, 0.5, 0.35];
 
-/// How densely a curve covers a face.
+/// Density with which a curve covers a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Density {
     /// As a usual job needs it.
@@ -148,7 +148,7 @@ fn with_inner(count: usize, inner_m: f64, radius_m: f64) -> WashCurve {
     }
 }
 
-/// How far a chord of the curve that is looked at may leave it \[m\].
+/// Largest deviation of a chord from the curve that is checked \[m\].
 const CHORD_M: f64 = 5e-5;
 
 /// The longest stride between moments \[m\].
@@ -184,7 +184,7 @@ impl Estimate {
         }
     }
 
-    /// Whether on the bare face, with the tool by its rule, it brings about what is promised.
+    /// Checks that the curve keeps the promise on the bare face, with the tool set by its rule.
     pub fn keeps(&self, promise: &Promise, surface: &Surface, (rule, cone_rad): (&AxisRule, f64)) -> bool {
         let swept = promise.swept_within(surface, cone_rad);
         let (promise, cone_rad) = swept.as_ref().map_or((promise, cone_rad), |swept| (swept, 0.0));

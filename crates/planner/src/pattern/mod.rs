@@ -21,7 +21,8 @@ use platewash_workcell::job::{JobTerms, PlannerSettings};
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 
-/// What the tilt of the tool may take of the sponge's contact on a flat face, besides what is promised \[m\]: for the tip's own error.
+/// Contact height on a flat face that the tilt of the tool may use up, besides the promised part \[m\]: a reserve for the error
+/// of the tip.
 const HEIGHT_RESERVE_M: f64 = 2e-4;
 
 /// The share of the cone that leaves the whole sponge in contact which is tried first: tilted less, the sponge presses more evenly.
@@ -48,7 +49,7 @@ pub struct Pattern {
     pub cone_rad: f64,
     /// The share of the speed limit of washing at which it is followed at most.
     pub speed_share: f64,
-    /// What it takes at the limits of washing, from rest to rest, the arm apart \[s\].
+    /// Least time at the limits of washing, from rest to rest, without the limits of the arm \[s\].
     pub least_s: f64,
 }
 
@@ -74,7 +75,7 @@ pub struct Patterns {
     limits: [f64; 2],
     /// The shortest first; at least one.
     candidates: Vec<Estimate>,
-    /// Whether anything is promised about contact.
+    /// True where the job promises something about contact.
     has_contact: bool,
     /// Curves that cover the face more densely.
     dense: Vec<WashCurve>,
@@ -86,7 +87,7 @@ pub struct Patterns {
 }
 
 impl Patterns {
-    /// What a job offers on a surface.
+    /// Returns the patterns that a job offers on a surface.
     #[must_use]
     pub fn new(terms: &JobTerms, settings: &PlannerSettings, surface: &Surface, cancel: &CancelToken) -> Self {
         let promise = Promise::of(terms, surface);
@@ -126,13 +127,13 @@ impl Patterns {
         patterns
     }
 
-    /// Those that are tried first, the best first; at least one.
+    /// Patterns that are tried first, the best first; at least one.
     #[must_use]
     pub fn first(&self) -> &[Pattern] {
         &self.first
     }
 
-    /// Those of wider cones, for places that the first ones do not reach.
+    /// Patterns of wider cones, for places that the first ones do not reach.
     pub fn wider(&self) -> impl Iterator<Item = Pattern> {
         self.cones[1..].iter().flat_map(|cone| self.within(*cone))
     }
@@ -153,7 +154,7 @@ impl Patterns {
         }
     }
 
-    /// Whether the curve is chosen, not stated.
+    /// Returns true where the curve is chosen, not stated.
     #[must_use]
     pub fn is_chosen(&self) -> bool {
         self.candidates.len() > 1

@@ -34,22 +34,22 @@ const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
 /// Every force is within \[N\].
 const ANY_FORCE_N: [f64; 2] = [0.0, f64::INFINITY];
 
-/// How far the tip may be off a flat face, as far as strain and force go \[m\].
+/// Distance of the tip from a flat face that is tolerated for strain and force \[m\].
 const OFF_FACE_M: f64 = 1e-5;
 
 /// A compression that every place has \[m\].
 const ANY_M: f64 = -1e3;
 
-/// By how much more than is promised must be seen, as what is looked at is no bound.
+/// Margins by which an estimate must exceed the promise: it looks at some places and moments only, and is no bound.
 #[derive(Debug, Clone, Copy)]
 pub struct Margin {
-    /// Of time and dose, as a factor.
+    /// Factor on time and dose.
     more: f64,
-    /// Of shares, as a part of what may lack it.
+    /// Part of the share that may lack it, kept as a reserve.
     part: f64,
-    /// Of strain and force, as a factor.
+    /// Factor on strain and force.
     load: f64,
-    /// Of the tool's tilt on a flat face \[rad\].
+    /// Reserve of the tool's tilt on a flat face \[rad\].
     tilt_rad: f64,
 }
 
@@ -94,12 +94,12 @@ impl Margin {
     }
 }
 
-/// What a wash must bring about: of how much of a face it is wanted.
+/// Result that a wash must bring about, and the share of a face on which it is required.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Promise {
     /// The sponge; of unknown stiffness 1 Pa.
     pub foundation: Foundation,
-    /// What is wanted of a place.
+    /// Requirement at a single place of the face.
     pub wanted: Wanted,
     /// Shares that must be in contact, long enough, and with enough of a dose.
     pub shares: [f64; 3],
@@ -110,8 +110,8 @@ pub struct Promise {
 }
 
 impl Promise {
-    /// What a job asks for on a surface. Without a promise about contact the sponge sweeps flat faces with its whole face, and touches
-    /// others.
+    /// Promise of a job on a surface. Without a promise about contact the sponge sweeps flat faces with its whole face, and
+    /// touches others.
     #[must_use]
     pub fn of(terms: &JobTerms, surface: &Surface) -> Self {
         let (requirements, sponge) = (&terms.requirements, &terms.workcell.tool.sponge);
@@ -165,7 +165,8 @@ impl Promise {
         })
     }
 
-    /// What an arm in some configurations along a wash, at a constant speed, lacks of it: looked at there, not between.
+    /// Returns the shortfall of an arm in some configurations along a wash at a constant speed. It is checked in these
+    /// configurations, not between them.
     #[must_use]
     pub fn shortfall(
         &self,
@@ -248,12 +249,12 @@ impl Promise {
         )
     }
 
-    /// Whether places of a face, looked at one by one through some moments, have what is promised with a margin.
+    /// Checks that the places of a face, one by one over some moments, keep the promise with a margin.
     pub(crate) fn seems_kept(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
         !self.lacks_much(surface, moments, margin) && self.missing(surface, moments, margin).is_none()
     }
 
-    /// Whether a few of the places that are looked at first lack so much that all of them do: most candidates are refused by these.
+    /// Checks that a few of the first places lack enough to refuse all of them: most candidates are refused by these.
     fn lacks_much(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
         let wanted = self.wanted_with(margin);
         let looks = Looks::new(&self.foundation, moments, &wanted);
@@ -267,7 +268,7 @@ impl Promise {
         })
     }
 
-    /// What is wanted of a place, with a margin.
+    /// Requirement at a place, with a margin.
     fn wanted_with(&self, margin: &Margin) -> Wanted {
         Wanted {
             time_s: margin.more * self.wanted.time_s,
@@ -358,7 +359,7 @@ pub(crate) fn foundation(sponge: &Sponge) -> Foundation {
     Foundation::stiff(sponge, sponge.stiffness_pa.unwrap_or([1.0; 2]))
 }
 
-/// Whether the k-th place is pressed deep enough, for long enough, and with enough of a dose.
+/// Checks that the k-th place is pressed deep enough, long enough, and with enough of a dose.
 fn kept_at(looks: &Looks<'_>, surface: &Surface, wanted: &Wanted, k: u32) -> [bool; 3] {
     let dwell = looks.at(&place(surface, k));
     [
@@ -398,9 +399,9 @@ pub enum Promised {
 pub struct Shortfall {
     /// Which one.
     pub promised: Promised,
-    /// What was found: a force \[N\], or a share.
+    /// Value found: a force \[N\], or a share.
     pub found: f64,
-    /// What is required.
+    /// Value required.
     pub required: f64,
 }
 

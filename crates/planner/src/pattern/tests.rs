@@ -152,7 +152,8 @@ fn what_is_chosen_is_short_and_on_the_plate() {
     }
 }
 
-/// What was only looked at on the bare face holds with the arm's own tilts; with a third of the compression nothing does.
+/// A pattern checked on the bare face alone also keeps its promise with the arm's own tilts; with a third of the compression no
+/// pattern does.
 #[test]
 fn the_kitchen_presses_as_is_promised() {
     let job = contact_kitchen();

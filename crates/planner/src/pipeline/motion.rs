@@ -136,7 +136,7 @@ impl Pipeline<'_> {
 /// Looks into every piece of the motion.
 const LOOKS: u32 = 16;
 
-/// What a tilt of zero may be by rounding \[rad\].
+/// Largest tilt that counts as zero within rounding \[rad\].
 const ROUNDING_RAD: f64 = 1e-8;
 
 /// The part of the usual reserve that is left for the certificate: it bounds the tilt between what is looked at here.

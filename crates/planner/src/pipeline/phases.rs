@@ -14,7 +14,7 @@ use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::trajectory::Trajectory;
 use platewash_workcell::wash_path::WashPath;
 
-/// What the reserve of tilt is multiplied by, where a motion uses up more of it.
+/// Factors on the reserve of tilt, for motions that use up more of it.
 const MORE_TILT_RESERVE: [f64; 3] = [2.0, 5.0, 12.0];
 
 /// Plans a job.

@@ -23,7 +23,7 @@ const LONGEST_LIFT_M: f64 = 10.0;
 /// Most waypoints of the arc round the base.
 const MOST_ARC_POINTS: f64 = 1e4;
 
-/// What the phases of planning share.
+/// Data that the phases of planning share.
 #[derive(Debug)]
 pub(crate) struct Pipeline<'a> {
     pub robot: &'a RobotModel,
@@ -33,14 +33,14 @@ pub(crate) struct Pipeline<'a> {
     pub settings: &'a PlannerSettings,
     pub plates: &'a [Plate],
     pub clearance: ClearanceModel,
-    /// What the largest tilt planned stays below the largest allowed \[rad\].
+    /// Reserve between the largest tilt planned and the largest allowed \[rad\].
     pub tilt_reserve_rad: f64,
     /// Limits while washing, and elsewhere.
     pub washing: MotionLimits,
     pub transit: MotionLimits,
-    /// How another place is looked for where a plate cannot be washed.
+    /// Extent of the search for another place where a plate cannot be washed.
     pub place_search: PlaceSearch,
-    /// Whether it is looked into why a plate cannot be washed.
+    /// True where the cause is investigated that keeps a plate from being washed.
     pub explains: bool,
     /// The patterns to try on each plate.
     pub patterns: Vec<Arc<Patterns>>,
@@ -193,7 +193,7 @@ impl<'a> Pipeline<'a> {
         self.terms.requirements.clearance_m
     }
 
-    /// Where the tip is at an end \[m\].
+    /// Position of the tip at an end \[m\], in the frame of the base.
     pub fn home_tip(&self, scene: &Scene<'_>, home: &JointVector) -> Vector3<f64> {
         self.robot.fk(home).rigid(&scene.tip).translation
     }

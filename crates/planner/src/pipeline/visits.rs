@@ -26,7 +26,7 @@ pub(crate) struct Failed {
     pub path: WashPath,
     /// The configuration not far from which it was to start \[rad\].
     pub near: JointVector,
-    /// Where the search ended.
+    /// Error with which the search ended.
     pub error: RedundancyError,
 }
 
@@ -164,7 +164,7 @@ impl Pipeline<'_> {
         }
     }
 
-    /// What a plate's washing lacks of what is promised about contact, looked at where its configurations are.
+    /// Returns the shortfall of a plate's washing against the promise about contact, checked at its configurations.
     fn shortfall(&self, scene: &Scene<'_>, turn: &Turn, margin: &Margin) -> Option<Shortfall> {
         self.terms.requirements.contact?;
         let plate = &self.plates[turn.path.plate];
@@ -259,7 +259,7 @@ impl Pipeline<'_> {
         }
     }
 
-    /// Why, and where else it could lie if that is to be looked for.
+    /// Returns the cause, and the nearest other place for the plate if the job asks for it.
     fn with_place(&self, scene: &Scene<'_>, failed: Failed) -> Result<UnwashablePlate, Cancelled> {
         let (path, near) = (failed.path, failed.near);
         let plate = self.look_into(scene, failed)?;
@@ -271,7 +271,7 @@ impl Pipeline<'_> {
         Ok(UnwashablePlate { nearest_m, ..plate })
     }
 
-    /// Why, without a search for another place.
+    /// Returns the cause, without a search for another place.
     fn look_into(&self, scene: &Scene<'_>, failed: Failed) -> Result<UnwashablePlate, Cancelled> {
         let Failed { path, near, error } = failed;
         if let RedundancyError::Cancelled(cancelled) = error {

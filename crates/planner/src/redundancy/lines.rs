@@ -25,7 +25,7 @@ impl Task<'_> {
         Ok(())
     }
 
-    /// Whether the line over a contact point that a wash begins or ends at can be followed.
+    /// Checks that the arm can follow the line over a contact point at which a wash begins or ends.
     pub(crate) fn has_line(&self, contact: &Contact, tilt: f64, q: &JointVector, start: &Start) -> bool {
         self.check_line(contact, tilt, self.started(*q, start)).is_ok()
     }
@@ -63,7 +63,7 @@ impl Task<'_> {
     }
 }
 
-/// Whether lines must be clear, and whether that ever stood in the way.
+/// Rule for lines: must they be clear, and was one refused because of it.
 #[derive(Debug, Clone)]
 pub(crate) struct Lines {
     must_be_clear: bool,
@@ -71,7 +71,7 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// Those that must be clear.
+    /// Rule under which lines must be clear.
     pub fn clear() -> Self {
         Self {
             must_be_clear: true,
@@ -79,7 +79,7 @@ impl Lines {
         }
     }
 
-    /// Those that need not be: that they are not is for whoever plans them to tell.
+    /// Rule under which lines need not be clear: the caller that plans them reports those that are not.
     pub fn any() -> Self {
         Self {
             must_be_clear: false,
@@ -87,7 +87,7 @@ impl Lines {
         }
     }
 
-    /// Whether they must be clear.
+    /// Returns true where lines must be clear.
     pub fn must_be_clear(&self) -> bool {
         self.must_be_clear
     }
@@ -97,7 +97,7 @@ impl Lines {
         self.stood_in_the_way.store(true, Ordering::Relaxed);
     }
 
-    /// Whether a line was refused because it is not clear.
+    /// Returns true once a line was refused because it is not clear.
     pub fn stood_in_the_way(&self) -> bool {
         self.stood_in_the_way.load(Ordering::Relaxed)
     }

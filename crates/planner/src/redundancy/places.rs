@@ -59,8 +59,8 @@ impl<'a> Trial<'a> {
         &self.clearance
     }
 
-    /// Whether a policy of tilts washes the plate whole with its centre there \[m\], and it has room there: it overlaps neither
-    /// another plate nor the base.
+    /// Checks that a policy of tilts washes the plate whole with its centre at `centre` \[m\], and that the plate has room there:
+    /// it overlaps neither another plate nor the base.
     ///
     /// # Errors
     /// [`RedundancyError`] for numbers out of range, or where the search was given up.
@@ -102,7 +102,7 @@ pub const RING_M: f64 = 0.02;
 /// Rings tried.
 pub const RINGS: u32 = 30;
 
-/// How far from where a plate lies another place is looked for \[m\].
+/// Greatest distance from a plate's own place at which another place is searched for \[m\].
 pub const SEARCHED_M: f64 = 0.6;
 
 /// Places of the grid in a metre.

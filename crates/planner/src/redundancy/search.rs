@@ -72,8 +72,8 @@ pub(crate) struct Vertex {
 /// Vertices of a layer, by tilt.
 type Layer = Vec<Option<Vertex>>;
 
-/// What the trace back needs of a layer: of every vertex the index of the tilt before it. Of a long wash path it is a small part of
-/// what the vertices are.
+/// Part of a layer that the trace back needs: for every vertex, the index of the tilt before it. On a long wash path it is much
+/// smaller than the vertices themselves.
 type Trail = Vec<Option<u16>>;
 
 impl Graph {

@@ -24,7 +24,8 @@ use std::f64::consts::TAU;
 /// Contact points looked at: even, so that the farthest from axis 1 and the nearest are among them.
 const POINTS: u32 = 16;
 
-/// Whether some contact point of the last turn has no configuration among those that a search would try; `false` says nothing.
+/// Checks for a contact point of the last turn without a configuration among those that a search would try; `false` proves
+/// nothing.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -56,7 +57,7 @@ fn first_dead(task: &Task<'_>, graph: &Graph) -> Result<Option<usize>, Cancelled
     Ok(None)
 }
 
-/// Why no search can find anything, if points of the last turn show it.
+/// Returns the reason that no search can find anything, if points of the last turn show it.
 pub(crate) fn blocked(task: &Task<'_>, graph: &Graph) -> Result<Option<RedundancyError>, Cancelled> {
     let layers = last_turn(task, graph);
     let (tried, mut dead) = (layers.len(), Vec::new());
@@ -101,7 +102,7 @@ fn last_turn(task: &Task<'_>, graph: &Graph) -> Vec<usize> {
     layers
 }
 
-/// Whether a layer has no configuration at any tilt, on any branch.
+/// Checks that a layer has no configuration at any tilt, on any branch.
 fn at(task: &Task<'_>, graph: &Graph, layer: usize) -> Result<bool, Cancelled> {
     let contact = task.samples.at(graph.theta[layer]);
     for tilt in graph.likeliest_first(task, &contact) {
@@ -184,7 +185,7 @@ pub(crate) fn between(task: &Task<'_>, stop: Stop) -> RedundancyError {
     RedundancyError::Between { plate, end }
 }
 
-/// What stands in the way of every tilt of a layer.
+/// Returns the dead end of a layer: the hindrance at each of its tilts.
 pub(crate) fn dead_end(task: &Task<'_>, graph: &Graph, layer: usize, near: &Start) -> DeadEnd {
     let theta = graph.theta[layer];
     let contact = task.samples.at(theta);

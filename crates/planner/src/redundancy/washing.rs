@@ -23,7 +23,7 @@ const SMOOTHING: [usize; 6] = [256, 64, 16, 4, 1, 0];
 /// Shares of the gentle tilt that are tried on faces that are not flat, the least first.
 const PROFILE_STEPS: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
 
-/// How a plate is washed.
+/// Configurations and tilts that wash a plate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Washing {
     /// Parameters of the wash path, from 0 to its end, as
@@ -32,7 +32,8 @@ pub struct Washing {
     pub theta: Vec<f64>,
     /// Tilt of the tool in the arm's plane at each: its angle from the plate's normal there, positive where the flange leans away from axis 1 \[rad\].
     pub tilt_rad: Vec<f64>,
-    /// How far the tool leans across the arm's plane besides, all along: [`Stance::aside_rad`](crate::scene::Stance::aside_rad) \[rad\].
+    /// Lean of the tool across the arm's plane, the same all along: [`Stance::aside_rad`](crate::scene::Stance::aside_rad)
+    /// \[rad\].
     pub aside_rad: f64,
     /// Configuration of the arm at each \[rad\].
     pub q: Vec<JointVector>,
@@ -40,11 +41,11 @@ pub struct Washing {
     pub feet: [Contact; 2],
     /// dq/dθ at the first and at the last.
     pub end_slopes: [JointVector; 2],
-    /// How the tilt was chosen.
+    /// Source of the tilt.
     pub choice: TiltChoice,
 }
 
-/// How the tilt was chosen.
+/// Source of the tilt.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -75,7 +76,7 @@ impl Washing {
     }
 }
 
-/// How to wash a plate.
+/// Finds configurations and tilts that wash a plate.
 ///
 /// # Errors
 /// [`RedundancyError`]: the contact points where nothing will do, and why; or the search was given up.
@@ -210,8 +211,8 @@ pub(crate) fn by_search(task: &Task<'_>) -> Result<Washing, RedundancyError> {
     })
 }
 
-/// Whether some branch reaches the contact points nearest to axis 1 and farthest from it, where every branch is known: it spares
-/// the path there.
+/// Checks that some branch reaches the contact points nearest to axis 1 and farthest from it, on arms with every branch known: a
+/// quick test before the whole path is tried.
 fn may_do(task: &Task<'_>, tilts: &[f64]) -> bool {
     let inverse = &task.scene.inverse;
     if !inverse.knows_all_branches() {
@@ -309,7 +310,7 @@ fn finish(task: &Task<'_>, profile: &Profile, tilt_rad: Vec<f64>, q: Vec<JointVe
     }
 }
 
-/// How far it leans, as shares of the cone that is planned: the least first, as the rest is left for tilts in the arm's plane.
+/// Leans aside that are tried, as shares of the planned cone: the least first, as the rest is left for tilts in the arm's plane.
 const SHARES: [f64; 3] = [0.35, 0.65, 1.0];
 
 /// The leans to try \[rad\], to either side.
@@ -320,7 +321,7 @@ pub(crate) fn leans(task: &Task<'_>) -> impl Iterator<Item = f64> + use<> {
         .flat_map(move |share| [share * most_rad, -share * most_rad])
 }
 
-/// Whether an obstacle stands in the way where a search ended.
+/// Checks that an obstacle stands in the way at the contact points where a search ended.
 pub(crate) fn may_help(task: &Task<'_>, error: &RedundancyError) -> bool {
     let ends = match error {
         RedundancyError::NoTilt { ends, .. } => &ends[..],
@@ -330,7 +331,7 @@ pub(crate) fn may_help(task: &Task<'_>, error: &RedundancyError) -> bool {
     ends.iter().any(|end| may_help_at(task, end))
 }
 
-/// Whether an obstacle stands in the way of some tilt at a contact point.
+/// Checks that an obstacle stands in the way of some tilt at a contact point.
 pub(crate) fn may_help_at(task: &Task<'_>, end: &DeadEnd) -> bool {
     let surroundings = task.scene.surroundings;
     end.reasons.iter().any(|reason| match &reason.least {

@@ -32,23 +32,23 @@ pub const AXIS_SHARE: f64 = 0.5;
 /// Half the length of the meridian over which the axis takes the mean slope \[m\], so that it turns evenly over a bend.
 const HALF_WINDOW_M: f64 = 6e-3;
 
-/// What a wrist keeps more than it must \[rad\], 0.25°: between the points solved it may come nearer.
+/// Reserve of the wrist beyond its least angle \[rad\], 0.25°: between the points solved joint 5 may come nearer to 0.
 pub const WRIST_RESERVE_RAD: f64 = PI / 720.0;
 
-/// What the largest tilt planned stays below the largest allowed \[rad\], 0.057°: between the points solved, the joints follow
+/// Reserve between the largest tilt planned and the largest allowed \[rad\], 0.057°. Between the points solved, the joints follow
 /// curves through them and then cubics, which turn the tool a little further.
 pub const TILT_RESERVE_RAD: f64 = 1e-3;
 
-/// How a tool stands on faces, and how the wrist is held.
+/// Rules for the tool on faces, and for the wrist.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stance {
     /// Slope of the tool's axis as a share of the mean slope of the face around.
     pub axis_share: f64,
-    /// How far joint 5 keeps from 0, always on one side \[rad\]; `None` where nothing is asked of it.
+    /// Least angle of joint 5 from 0, always on one side \[rad\]; `None` where no angle is required.
     pub wrist_rad: Option<f64>,
-    /// What the largest tilt planned stays below the largest allowed \[rad\].
+    /// Reserve between the largest tilt planned and the largest allowed \[rad\].
     pub tilt_reserve_rad: f64,
-    /// How far the tool leans across the arm's plane, besides any tilt in it: towards n × ρ̂ where that is positive \[rad\].
+    /// Lean of the tool across the arm's plane, besides any tilt in it \[rad\]: positive towards n × ρ̂.
     pub aside_rad: f64,
 }
 
@@ -64,7 +64,7 @@ impl Default for Stance {
 }
 
 impl Stance {
-    /// How far the tool leans in all at a tilt in the arm's plane \[rad\].
+    /// Total lean of the tool at a tilt in the arm's plane \[rad\].
     #[must_use]
     pub fn lean_rad(&self, tilt_rad: f64) -> f64 {
         if self.aside_rad == 0.0 {

@@ -17,11 +17,11 @@ const MOST_STEPS: u32 = 16;
 /// Demand over limit, by piece: above 1 the limit is broken.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Demand {
-    /// Of the speeds of joints and tip, the larger.
+    /// Demand of the speeds of joints and tip, the larger.
     pub speed: f64,
-    /// Of the accelerations of the joints.
+    /// Demand of the accelerations of the joints.
     pub joints: f64,
-    /// Of the tip's acceleration; 0 without a limit.
+    /// Demand of the tip's acceleration; 0 without a limit.
     pub tip: f64,
 }
 

@@ -24,7 +24,7 @@ pub(crate) struct PathKnot {
     pub q: JointVector,
     /// dq/ds \[rad\].
     pub slope: JointVector,
-    /// How the tip moves, where it has limits.
+    /// Rates of the tip, where it has limits.
     pub tip: Option<TipRates>,
 }
 
@@ -73,7 +73,7 @@ impl<'a> Grid<'a> {
         self.path.on_piece(self.knots[k].piece, from + (to - from) * share).q
     }
 
-    /// How much u goes through while s goes from 0 to 1.
+    /// Range of u that s covers from 0 to 1.
     pub fn span(&self) -> f64 {
         self.span
     }

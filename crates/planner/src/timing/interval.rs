@@ -155,7 +155,7 @@ impl Interval {
         most
     }
 
-    /// How far (x₀, x₁) goes towards the limits: above 1 it breaks one.
+    /// Load of (x₀, x₁) relative to the limits: above 1 it breaks one.
     pub fn load(&self, x: [f64; 2]) -> f64 {
         let mut most = 0.0;
         for k in 0..STRIPS {

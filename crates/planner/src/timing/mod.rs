@@ -98,7 +98,7 @@ pub struct Timed {
     pub path_error_rad: f64,
 }
 
-/// Why a path could not be timed.
+/// Reason that a path could not be timed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TimingError {
@@ -119,7 +119,7 @@ pub enum TimingError {
     /// The path is so steep, so slow or so finely sampled that its time cannot be computed.
     #[error("no time can be computed at the path's parameter {u:.6}: the numbers leave the range of a double")]
     Range {
-        /// Where, as the path's parameter.
+        /// Position, as the path's parameter.
         u: f64,
     },
     /// Cubics in time would leave the path by more than allowed with as many knots as may be.
@@ -128,11 +128,11 @@ pub enum TimingError {
          at most {allowed_rad:.1e} rad is allowed"
     )]
     PathError {
-        /// Where, as the path's parameter.
+        /// Position, as the path's parameter.
         u: f64,
         /// Largest deviation of a joint there \[rad\].
         error_rad: f64,
-        /// What is allowed \[rad\].
+        /// Deviation allowed \[rad\].
         allowed_rad: f64,
         /// Knots of the motion.
         knots: usize,

@@ -38,9 +38,9 @@ const REFINEMENTS: usize = 10;
 pub(crate) struct Rounds<'a> {
     grid: Grid<'a>,
     samples: usize,
-    /// What is aimed at: the limits less the margin.
+    /// Limits that are aimed at: the given limits less the margin.
     limits: MotionLimits,
-    /// Where the parameter moves slowly.
+    /// Ranges in which the parameter moves slowly.
     slow: Vec<Slow>,
     intervals: Vec<Interval>,
     /// By what each interval's speed is lowered.
@@ -175,7 +175,7 @@ impl<'a> Rounds<'a> {
         self.grid.knots().len() > knots
     }
 
-    /// What piece k demands of the limits.
+    /// Demand of piece k on the limits.
     fn demand(&self, k: usize) -> Demand {
         let piece = piece(k, &self.times, self.grid.knots(), &self.speeds);
         check::demand(&piece, &self.grid, &self.limits)
@@ -304,7 +304,7 @@ impl Passes {
 /// above 25 s.
 pub const LONGEST_PIECE_S: f64 = 0.025;
 
-/// How far a joint may leave its path between knots \[rad\].
+/// Largest deviation of a joint from its path between knots \[rad\].
 pub const PATH_ERROR_RAD: f64 = 5e-6;
 
 /// Length of the new pieces over the longest allowed: some room for what the next round changes.
@@ -314,7 +314,7 @@ const MOST_PARTS: f64 = 64.0;
 /// Knots of a motion at most, for each sample of its path, and for any path.
 const MOST_KNOTS: [usize; 2] = [16, 4096];
 
-/// How a piece fares: x = ṡ² at its ends, length in s, duration and deviation from the path.
+/// Course of a piece: x = ṡ² at its ends, length in s, duration and deviation from the path.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Course {
     /// x at both ends.
@@ -377,7 +377,7 @@ pub(crate) fn missing(courses: &[Course], longest_s: f64) -> usize {
     courses.iter().map(|course| course.parts(longest_s) - 1).sum()
 }
 
-/// Whether a path of so many samples may have so many knots.
+/// Checks that a path of so many samples may have so many knots.
 pub(crate) fn affordable(samples: usize, knots: usize) -> bool {
     knots <= samples.saturating_mul(MOST_KNOTS[0]).saturating_add(MOST_KNOTS[1])
 }

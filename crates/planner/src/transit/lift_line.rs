@@ -31,7 +31,7 @@ pub struct LiftLine {
 pub struct LiftLineError {
     /// The plate.
     pub plate: usize,
-    /// What is wrong with its samples.
+    /// Error in its samples.
     pub error: JointPathError,
 }
 
@@ -72,7 +72,7 @@ impl LiftLine {
         self
     }
 
-    /// Where a path that leaves from here is slow: its parameter is the height.
+    /// Slow range of a path that leaves from here: its parameter is the height.
     pub(crate) fn slow_from(&self, u: f64) -> Option<Slow> {
         self.slow.map(|[height_m, most]| Slow {
             u: [u, u + height_m],
@@ -100,13 +100,13 @@ impl LiftLine {
         (&self.height_m, &self.q)
     }
 
-    /// Where the arm rests \[rad\].
+    /// Configuration in which the arm rests \[rad\].
     #[must_use]
     pub fn rest(&self) -> &JointVector {
         &self.q[0]
     }
 
-    /// Where the arm is free to go anywhere \[rad\].
+    /// Configuration from which the arm is free to go anywhere \[rad\].
     #[must_use]
     pub fn top(&self) -> &JointVector {
         &self.q[self.q.len() - 1]

@@ -22,7 +22,7 @@ pub(crate) const SPACINGS_RAD: [f64; 3] = [0.12, 0.06, 0.03];
 /// Straight lines of the joints that are free, one after the other.
 #[derive(Debug)]
 pub(crate) struct FreeLines {
-    /// Where they meet, with both ends \[rad\].
+    /// Corners between the lines, with both ends \[rad\].
     corners: Vec<JointVector>,
     /// Configurations that were sampled for them.
     pub nodes: usize,

@@ -13,7 +13,7 @@ use platewash_workcell::random;
 use platewash_workcell::tool::{StraightTool, Tool};
 use std::fmt;
 
-/// Whether a configuration is free on a stretch.
+/// Check that a configuration is free on a stretch.
 type Free<'a> = &'a (dyn Fn(&JointVector, Stretch) -> bool + Sync);
 
 /// Obstacles that a rule says.
@@ -37,7 +37,7 @@ impl Surroundings for MadeUp<'_> {
 
 struct Set {
     robot: RobotModel,
-    /// Of an arm without a tool.
+    /// Tip of an arm without a tool.
     tip: Frame,
     limits: MotionLimits,
 }

@@ -5,7 +5,7 @@ use crate::scene::Stance;
 use platewash_kinematics::Pose;
 use platewash_workcell::tool_chain::{Handle, ToolChain};
 
-/// How far joint 5 keeps from 0 \[rad\]: 3°.
+/// Least distance of joint 5 from 0 \[rad\]: 3°.
 const WRIST_RAD: f64 = 0.0524;
 
 /// A tool 35 mm before the flange that leans by 30°.

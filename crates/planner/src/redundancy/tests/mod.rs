@@ -27,7 +27,7 @@ use proptest::prelude::*;
 
 const RADIUS_M: f64 = 0.12385;
 const CLEARANCE_M: f64 = 0.01;
-/// What a distance that decides a quick answer may be wrong by \[m\].
+/// Largest error of a distance that decides a quick answer \[m\].
 const QUICK_ERROR_M: f64 = 1e-4;
 const HOME: JointVector = JointVector::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
 
@@ -229,7 +229,7 @@ proptest! {
         });
     }
 
-    /// What the last turn alone tells is what the whole search finds, on every branch.
+    /// The last turn alone gives the same answer as the whole search, on every branch.
     #[test]
     fn what_is_known_before_the_search_is_what_the_search_finds(
         places in prop::collection::vec((0.2..0.62f64, -170.0..170.0f64), 1..3),

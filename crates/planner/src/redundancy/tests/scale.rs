@@ -9,7 +9,7 @@ use platewash_workcell::surface::Surface;
 use rand::RngExt;
 use std::time::{Duration, Instant};
 
-/// What came out over many plates.
+/// Counts of results over many plates.
 #[derive(Debug, Default)]
 struct Tally {
     gentle: usize,
