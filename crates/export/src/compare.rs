@@ -28,26 +28,26 @@ use std::collections::HashMap;
 /// Changes that are listed; more would help nobody.
 const MOST_CHANGES: usize = 20;
 
-/// What came of a program that was read back.
+/// Result of reading a program back and judging it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Compared {
     /// Its dialect.
     pub dialect: &'static str,
-    /// What it says otherwise than the program that was handed over, in the order of its lines; the first of them.
+    /// Differences from the program that was handed over, in the order of its lines; the first of them.
     pub changes: Vec<Change>,
-    /// How many more there are.
+    /// Number of further differences.
     pub more_changes: usize,
-    /// How far its tip may be from the plan, as the program states it; otherwise what is usual \[m\].
+    /// Tolerance of the tip about the plan that the program states, otherwise the default \[m\].
     pub tolerance_m: f64,
-    /// What is proved of it as it stands.
+    /// Proof of the program as it stands.
     pub judged: Judged,
-    /// That the tool that it states is not the plan's.
+    /// Refusal where the tool that the program states is not the plan's.
     pub tool: Option<Refusal>,
-    /// Whether the program refuses to move where the arm does not stand at the start ([`Reading::checks_start`]).
+    /// True where the program refuses to move if the arm does not stand at the start ([`Reading::checks_start`]).
     pub checks_start: bool,
 }
 
-/// Why a program could not be compared.
+/// Reason that a program could not be compared.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CompareError {
@@ -180,13 +180,13 @@ fn refuse_other_plan(plan: &Plan, files: &[ProgramFile]) -> Result<(), CompareEr
 }
 
 impl Compared {
-    /// Whether nothing was changed but spaces and how numbers are written.
+    /// Returns true where nothing was changed but spaces and the notation of numbers.
     #[must_use]
     pub fn is_unchanged(&self) -> bool {
         self.changes.is_empty()
     }
 
-    /// Whether what the program does holds, under every assumption, with the tool of the plan.
+    /// Returns true where the motion of the program holds under every assumption, with the tool of the plan.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.tool.is_none() && self.judged.holds()
@@ -201,18 +201,18 @@ const TOLD: usize = 80;
 pub struct Change {
     /// File and line, as `FILE:LINE`; of a line that is missing the one before it.
     pub place: String,
-    /// What it is about, e.g. `joint 3`.
+    /// Subject of the change, e.g. `joint 3`.
     pub what: String,
-    /// What the line says.
+    /// Value in the line.
     pub found: String,
-    /// What was handed over.
+    /// Value that was handed over.
     pub expected: String,
 }
 
 /// A program: its files, and what they say.
 type Said<'a> = (&'a [ProgramFile], &'a Reading);
 
-/// What the lines of one program say otherwise than those of another one.
+/// Lists the differences between the lines of two programs.
 pub(crate) fn changes(found: Said<'_>, expected: Said<'_>) -> Vec<Change> {
     let steps = [found, expected].map(|(_, reading)| by_line(reading));
     let rounding_s = rounding_s(found.1, expected.1);
@@ -370,7 +370,7 @@ pub(crate) fn speed_share(plan: &Plan, found: &Reading, points: Points) -> f64 {
     if (LEAST..=1.0).contains(&share) { share } else { 1.0 }
 }
 
-/// Of a program of all the plan's knots: that of most of them, so that a time that was changed does not count.
+/// Share of a program with all the plan's knots: the median over the knots, so that a time that was changed does not count.
 fn of_knots(plan: &Plan, found: &Reading) -> f64 {
     let both = plan.knots.t_s.iter().zip(&found.points).skip(1);
     let mut shares: Vec<_> = both.map(|(plan_s, point)| plan_s / point.t_s).collect();
@@ -382,8 +382,8 @@ fn of_duration(plan: &Plan, found: &Reading) -> f64 {
     plan.duration_s() / found.points.last().map_or(0.0, |point| point.t_s)
 }
 
-/// Of rows at even steps, the last of which is up to a step after the plan's end: that at which they are nearest to the plan, in the sense
-/// of least squares.
+/// Share of a program of rows at even steps, the last of which is up to a step after the plan's end: the share at which the rows
+/// are nearest to the plan, in the sense of least squares.
 fn of_rows(plan: &Plan, found: &Reading) -> f64 {
     let least = of_duration(plan, found);
     let ([.., before, _], Ok(motion)) = (found.points.as_slice(), plan.knots.motion()) else {
@@ -407,11 +407,11 @@ fn of_rows(plan: &Plan, found: &Reading) -> f64 {
     })
 }
 
-/// What is rounding of angles and their speeds \[rad, rad/s\], and of lengths \[m\].
+/// Differences that count as rounding: of angles and their speeds \[rad, rad/s\], and of lengths \[m\].
 const ROUNDING: (f64, f64) = (1e-12, 1e-9);
 
-/// What is rounding of a step that was worked out of sums of times \[s\]: of programs that run at the same share of the speed, and at
-/// different ones.
+/// Differences that count as rounding of a step computed from sums of times \[s\]: between programs that run at the same share of
+/// the speed, and at different ones.
 const ROUNDING_S: [f64; 2] = [1e-10, 2e-7];
 
 /// A point, with speeds and the time since the point before in the plan's time.
@@ -424,7 +424,7 @@ pub(crate) struct Step<'a> {
     qd_rad_s: Option<JointVector>,
 }
 
-/// What is rounding of the steps of two programs \[s\].
+/// Difference that counts as rounding between the steps of two programs \[s\].
 pub(crate) fn rounding_s(a: &Reading, b: &Reading) -> f64 {
     ROUNDING_S[usize::from(a.share() != b.share())]
 }
@@ -448,7 +448,7 @@ pub(crate) fn by_line(reading: &Reading) -> HashMap<(&str, usize), Vec<Step<'_>>
 }
 
 impl Step<'_> {
-    /// What is different, as name, found and expected.
+    /// Returns the differences, as name, found and expected.
     pub fn differences(&self, other: &Self, most_s: f64) -> Vec<(String, String, String)> {
         let (most_rad, most_m) = ROUNDING;
         let mut all = Vec::new();

@@ -19,10 +19,10 @@ const STEP_S: f64 = 0.004;
 /// Decimals of every number: a nanosecond, a nanoradian.
 const DECIMALS: usize = 9;
 
-/// What a number may be at most \[s, rad, rad/s\]; beyond it the file is in other units, or no motion.
+/// Greatest magnitude of a number \[s, rad, rad/s\]; beyond it the file is in other units, or no motion.
 const GREATEST: f64 = 1e6;
 
-/// How far `plan_t_s` may be from its share of `t_s` \[s\].
+/// Largest deviation of `plan_t_s` from its share of `t_s` \[s\].
 const TIME_S: f64 = 1e-6;
 
 const TIMES: [&str; 2] = ["t_s", "plan_t_s"];
@@ -116,7 +116,7 @@ fn row(point: &Point, share: f64) -> Vec<String> {
     numbers.map(|number| fixed(*number, DECIMALS)).collect()
 }
 
-/// What explains the table.
+/// Text that explains the table.
 fn about(program: &Program<'_>, name: &str) -> String {
     let joints: Vec<String> = program
         .arm
@@ -145,7 +145,7 @@ fn about(program: &Program<'_>, name: &str) -> String {
     wrapped("-", program.header.iter().chain(&own).map(String::as_str))
 }
 
-/// What a table says.
+/// Reads a table.
 fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
     let refused = |error: TableError| ReadError::at(&file.name, error.line, error.without_line());
     read(file).map_err(refused)

@@ -14,7 +14,7 @@ use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::workcell::ArmId;
 
-/// How far a point that was read back may be from the one that was written \[°\], and its time \[s\].
+/// Largest difference between a point that was read back and the one that was written \[°\], and between their times \[s\].
 const READ_WITHIN: (f64, f64) = (1e-4, 1e-4);
 
 /// A program that may be handed over.
@@ -22,13 +22,13 @@ const READ_WITHIN: (f64, f64) = (1e-4, 1e-4);
 pub struct Exported {
     /// Its files.
     pub files: Vec<ProgramFile>,
-    /// What is proved of it.
+    /// Proof of the program.
     pub judged: Judged,
-    /// What it says, read back.
+    /// Program as read back.
     pub reading: Reading,
 }
 
-/// Why there is no program.
+/// Reason that there is no program.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
@@ -43,7 +43,7 @@ pub enum ExportError {
     Unfaithful {
         /// The dialect.
         dialect: &'static str,
-        /// What differs, and where.
+        /// Difference, and its place.
         reason: String,
     },
 }
@@ -79,7 +79,7 @@ pub(crate) fn again(
     written(certified, arm, dialect, settings, cancel)
 }
 
-/// What must hold whatever the dialect.
+/// Checks the requirements that hold for every dialect.
 fn check(certified: &Certified<Plan>, arm: &RobotModel, settings: &ExportSettings) -> Result<(), Refusal> {
     settings.check()?;
     let job = &certified.plan().job;
@@ -161,7 +161,7 @@ fn written(
     Ok(Exported { files, judged, reading })
 }
 
-/// Where what was read back is not what was written.
+/// Returns the first difference between the program written and the one read back.
 fn differs(program: &Program<'_>, reading: &Reading) -> Option<String> {
     let (written, read) = (program.points.len(), reading.points.len());
     if written != read {

@@ -64,8 +64,8 @@ fn hash(certificate: &Certificate) -> String {
     serde_json_canonicalizer::to_vec(certificate).map_or_else(|_| "none".to_owned(), |text| sha256_hex(&text))
 }
 
-/// How a base stands. What is not turned at all needs nothing; a controller must know how its arm is turned, for its dynamics, and no program
-/// tells it.
+/// Describes the attitude of the base. A base that is not turned needs no further words; otherwise the controller must know the
+/// turn for its dynamics, and no program states it.
 fn attitude(mount: &Pose) -> String {
     if mount.rotation == UnitQuaternion::identity() {
         return "upright".to_owned();
@@ -172,7 +172,7 @@ fn speeds(source: &Source<'_>, settings: &ExportSettings, points: &[Point]) -> V
     ]
 }
 
-/// What is proved of the text itself.
+/// Lines on the proof of the text itself.
 fn verdict(judged: &Judged, settings: &ExportSettings) -> Vec<String> {
     let corners = judged.cases.iter().any(|case| case.corner_scale.is_some());
     let how = match corners {
@@ -201,7 +201,7 @@ fn verdict(judged: &Judged, settings: &ExportSettings) -> Vec<String> {
     lines
 }
 
-/// What a plan promises of contact and its program is not judged for, in words; `None` where it promises nothing.
+/// Names the promises of a plan about contact for which its program is not judged; `None` where it promises nothing.
 #[must_use]
 pub fn contact_not_judged(promised: &Requirements) -> Option<String> {
     let contact = promised
@@ -246,7 +246,7 @@ fn told(check: &Check, beside: &str, factor: f64) -> String {
     )
 }
 
-/// What corners of one size ask of the controller; nothing where the motion is as smooth as the plan.
+/// Describes the demands of corners of one size on the controller; `None` where the motion is as smooth as the plan.
 fn asked(case: &Case, speed_share: f64) -> Option<String> {
     let scale = case.corner_scale?;
     let share = |v: Option<f64>| v.map(|v| decimals_up(v * speed_share * speed_share, 2));

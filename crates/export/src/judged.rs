@@ -22,27 +22,27 @@ use serde::Serialize;
 /// Share of the arm's joint speeds that a program may use: what a controller needs to keep its time is left.
 pub const JOINT_SPEED_SHARE: f64 = 0.95;
 
-/// What came of a program.
+/// Judgement of a program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
     /// Under each assumption, in the order of [`CORNER_SCALES`] where there are corners.
     pub cases: Vec<Case>,
 }
 
-/// What came of a program under one assumption.
+/// Judgement of a program under one assumption.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Case {
     /// Size of its corners relative to what the program says; `None` where it has none.
     pub corner_scale: Option<f64>,
-    /// What is proved.
+    /// Proof of the motion.
     #[serde(skip)]
     pub proof: ProgramProof,
-    /// What the controller is asked for.
+    /// Demands on the controller.
     #[serde(flatten)]
     pub asked: Asked,
 }
 
-/// What a motion asks of the controller, which times it: measured, not judged.
+/// Demands of a motion on the controller, which times it: measured, not judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Asked {
     /// The greatest acceleration of a joint at each corner, as a share of what the plan's job allows: the median of all corners. `None`
@@ -87,7 +87,7 @@ pub fn judge(
 }
 
 impl Judged {
-    /// Whether it holds under every assumption.
+    /// Returns true where the program holds under every assumption.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.cases.iter().all(|case| case.proof.holds())
@@ -160,7 +160,7 @@ impl Asked {
     }
 }
 
-/// What helps against a requirement that is not kept, as the end of a sentence.
+/// Advice against a requirement that is not kept, as the end of a sentence.
 fn remedy(requirement: Requirement) -> &'static str {
     match requirement {
         Requirement::JointSpeed => "; a smaller share of the speed helps",
@@ -169,7 +169,7 @@ fn remedy(requirement: Requirement) -> &'static str {
     }
 }
 
-/// Of each check the one with the worst bound.
+/// Returns, for each requirement, the check with the worst bound.
 fn worst_of<'a>(cases: impl Iterator<Item = &'a Vec<Check>>) -> Vec<Check> {
     let mut worst: Vec<Check> = Vec::new();
     for check in cases.flatten() {
@@ -182,7 +182,7 @@ fn worst_of<'a>(cases: impl Iterator<Item = &'a Vec<Check>>) -> Vec<Check> {
     worst
 }
 
-/// How bad a check is: one that is not kept is worse than one that is, then the nearer to its limit.
+/// Sort key of a check: one that is not kept ranks above one that is kept, then the nearer to its limit.
 fn badness(check: &Check) -> (bool, f64) {
     let beyond = |measure: &Measure| {
         let bound = measure.bound.unwrap_or(f64::INFINITY);
@@ -197,7 +197,7 @@ fn badness(check: &Check) -> (bool, f64) {
 /// Sizes of corners, relative to what a program says, with which its motion is judged.
 pub const CORNER_SCALES: [f64; 4] = [0.0, 0.5, 1.0, 2.0];
 
-/// What is shorter is no line between two corners \[s\].
+/// Shortest line between two corners that counts as a line \[s\].
 const NOTHING_S: f64 = 1e-9;
 
 /// The motion of a program under one assumption.

@@ -16,7 +16,8 @@ use platewash_workcell::trajectory::{KnotError, SegmentKind, Trajectory};
 /// The longest step between two points \[s\].
 const LONGEST_S: f64 = 0.1;
 
-/// What the choice leaves of the tolerance: to the resolution of the proof a part of it, and to the rounding of angles in a text \[m\].
+/// Parts of the tolerance that the choice of points leaves free: a share for the resolution of the proof, and a length for the
+/// rounding of angles in a text \[m\].
 const LEFT: (f64, f64) = (0.008, 1e-6);
 
 /// Most points of a program that has them at even steps.
@@ -25,7 +26,7 @@ const MOST_STEPS: f64 = 300_000.0;
 /// Rounds of packing.
 const ROUNDS: usize = 24;
 
-/// What times of a program are multiples of \[s\].
+/// Grid of the times of a program \[s\]: every time is a multiple of it.
 const GRID_S: f64 = 1e-6;
 
 /// Moments at which the density is worked out, in each piece of the plan.
@@ -42,7 +43,7 @@ pub(crate) struct Source<'a> {
     pub tip: Frame,
 }
 
-/// How far the tip may be seen to be from the plan \[m\].
+/// Largest deviation of the tip from the plan that the choice of points may show \[m\].
 fn allowed_m(settings: &ExportSettings) -> f64 {
     let (part, rounding_m) = LEFT;
     settings.tolerance_m * (1.0 - part) - rounding_m
@@ -159,7 +160,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// How far the tip is seen to leave the plan in each step, whatever the size of the corners \[m\].
+    /// Deviation of the tip from the plan in each step, for corners of the given size \[m\].
     fn deviations_m(&self, points: &[Point], corner_m: f64) -> Vec<f64> {
         let passed = |point: &Point| Passed {
             t_s: point.t_s,
@@ -187,7 +188,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// How many points a second are wanted, over time.
+/// Required density of points over time.
 struct Density {
     /// Moments, in ascending order \[s\].
     t_s: Vec<f64>,

@@ -13,10 +13,10 @@ const GREATEST_TOLERANCE_M: f64 = 2e-3;
 /// The largest corner \[m\].
 const GREATEST_CORNER_M: f64 = 0.1;
 
-/// How a plan is handed over.
+/// Settings of an export.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExportSettings {
-    /// How far the tip may be from the plan \[m\].
+    /// Largest deviation of the tip from the plan \[m\].
     pub tolerance_m: f64,
     /// Share of the plan's speed at which the program runs, above 0 and at most 1.
     pub speed_share: f64,
@@ -24,7 +24,7 @@ pub struct ExportSettings {
     pub corner_m: f64,
     /// Requirements whose waiving is accepted.
     pub accepted: Vec<Requirement>,
-    /// Where the arm stands now, if that is to be compared with the start of the plan \[rad\].
+    /// Configuration in which the arm stands now, if it is to be compared with the start of the plan \[rad\].
     pub stands_rad: Option<JointVector>,
     /// `T_flange_tip` as the controller has it, if that is to be compared with the plan's.
     pub tip: Option<Pose>,
@@ -109,5 +109,5 @@ impl ExportSettings {
     }
 }
 
-/// What such a line begins with.
+/// Prefix of such a line.
 const SETTING: &str = "platewash setting:";

@@ -41,7 +41,7 @@ enum Statement {
     Move(Box<Motion>),
     /// \[s\]
     Wait(Time),
-    /// Of a procedure, in small letters.
+    /// Call of a procedure, by its name in small letters.
     Call(String),
     Exit,
     /// A message, an output, or a setting that changes no motion.
@@ -52,7 +52,7 @@ enum Statement {
 #[derive(Debug)]
 struct Motion {
     q_rad: JointVector,
-    /// Where the target is declared.
+    /// Place at which the target is declared.
     declared: Option<Place>,
     time: Option<Time>,
     corner_m: Option<f64>,
@@ -63,11 +63,11 @@ struct Motion {
 #[derive(Debug, Clone, Copy)]
 struct Time {
     written_s: f32,
-    /// Whether it is divided by the share of the run.
+    /// True where it is divided by the share of the run.
     is_divided: bool,
 }
 
-/// What a program does.
+/// Interprets a program.
 ///
 /// # Errors
 /// [`ReadError`] with the line of what is not read.
@@ -100,7 +100,7 @@ fn is_block(key: &str) -> bool {
     [CHECK_SHARE, CHECK_START, CHECK_JOINT].contains(&key)
 }
 
-/// That the checks stand as they are written.
+/// Checks that the procedures that check the start are as they were written.
 fn check_blocks(found: &Modules) -> Result<(), ReadError> {
     let written = modules(&[ProgramFile {
         name: "checks".to_owned(),
@@ -340,7 +340,7 @@ fn time(cursor: &mut Cursor<'_>) -> Result<Time, ReadError> {
     Ok(Time { written_s, is_divided })
 }
 
-/// Why a statement is refused.
+/// Explains why a statement is refused.
 fn why_not(name: &str, next: Option<&Token>) -> String {
     const FLOW: &str = "IF FOR WHILE TEST GOTO RETURN RAISE RETRY TRYNEXT CONNECT";
     const HANDLERS: &str = "ERROR UNDO BACKWARD";
@@ -374,7 +374,7 @@ struct Run<'a> {
     tool: Option<ReadTool>,
     /// The share of the run, once it was checked.
     running: Option<f32>,
-    /// Where the arm was found to stand, once it was checked \[rad\].
+    /// Configuration in which the arm was found to stand, once it was checked \[rad\].
     start_rad: Option<JointVector>,
     is_over: bool,
     steps: usize,
@@ -549,7 +549,7 @@ impl<'a> Run<'a> {
         });
     }
 
-    /// What the program did.
+    /// Returns the motion of the program that was run.
     fn reading(self, main: Place) -> Result<Reading, ReadError> {
         let refused = |place: Place, reason: &str| {
             Err(ReadError {

@@ -25,7 +25,7 @@ pub(crate) struct Node<'a> {
     pub(crate) kind: Kind<'a>,
 }
 
-/// What a value is.
+/// Kind of a value.
 #[derive(Debug)]
 pub(crate) enum Kind<'a> {
     /// Without quotes: a number, or a word.

@@ -30,7 +30,7 @@ pub(crate) fn quoted(text: &str) -> String {
     out
 }
 
-/// What a text says as a number.
+/// Number in a text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Said {
     /// A finite number that every reader takes for a float.

@@ -141,7 +141,7 @@ pub(crate) const NAME: &str = "play.py";
 /// Its text.
 pub(crate) const TEXT: &str = include_str!("play.py");
 
-/// Whether a file is the script, by its name.
+/// Checks that a file is the script, by its name.
 pub(crate) fn is_it(file: &ProgramFile) -> bool {
     file.name == NAME
 }

@@ -297,7 +297,7 @@ fn nothing_is_handed_over_when_it_is_given_up() {
     );
 }
 
-/// What is found in a text that is changed.
+/// Compares a program whose text is changed.
 fn compared(change: impl Fn(&str) -> String) -> Result<Compared, CompareError> {
     let settings = ExportSettings {
         speed_share: 0.8,
@@ -321,7 +321,7 @@ fn text() -> String {
     export(&settings).unwrap().files[0].text.clone()
 }
 
-/// What the changes are about.
+/// Subjects of the changes.
 fn about(compared: &Compared) -> Vec<&str> {
     compared.changes.iter().map(|change| change.what.as_str()).collect()
 }
@@ -385,7 +385,7 @@ fn lines_that_are_missing_or_added_are_found_where_they_are() {
     assert!(found.holds());
 }
 
-/// What is no motion is named all the same: the head, too.
+/// Changes outside the motion are listed too, such as those of the head.
 #[test]
 fn a_head_that_was_changed_is_named() {
     let found = compared(|text| text.replace("not a safety function", "a safety function")).unwrap();

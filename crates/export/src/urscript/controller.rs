@@ -18,7 +18,7 @@ const LOOKAHEAD_S: [f64; 2] = [0.03, 0.2];
 /// Gains that a controller takes.
 const GAIN: [f64; 2] = [100.0, 2000.0];
 
-/// How far a `movej` may go where no motion is meant \[rad\].
+/// Largest motion of a `movej` where no motion is meant \[rad\].
 const NOWHERE_RAD: f64 = 1e-6;
 
 /// Joint positions beyond which no arm of the maker goes \[rad\]: two turns.
@@ -82,7 +82,7 @@ impl Value {
     }
 }
 
-/// What the arm has done so far.
+/// Stage of the program so far.
 #[derive(Debug, Default)]
 enum Stage {
     /// Nothing: where it stands is not known.
@@ -121,7 +121,7 @@ impl Controller {
         &self.points
     }
 
-    /// Whether it moves beyond its start.
+    /// Returns true once it moves beyond its start.
     fn moves(&self) -> bool {
         self.points.len() > 1
     }
@@ -158,7 +158,7 @@ impl Controller {
         Ok(())
     }
 
-    /// What the tool is must not change while it moves.
+    /// Checks that the arm does not move yet: the tool must not change in the midst of the motion.
     fn check_standing(&self, what: &str) -> Result<(), String> {
         match self.moves() {
             true => Err(format!("{what} is set in the midst of the motion; expected before it")),
@@ -231,7 +231,7 @@ impl Controller {
         Ok(())
     }
 
-    /// What the program did.
+    /// Returns the motion of the program that was run.
     pub(crate) fn reading(mut self, speed_share: f64) -> Result<Reading, String> {
         // Where it stays for a step, and at both ends, it rests.
         let stays: Vec<bool> = self

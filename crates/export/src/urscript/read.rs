@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 /// Most lines that are read, and statements that are carried out.
 const MOST_LINES: usize = 1_000_000;
 
-/// How far the limit of the check may be above [`START_WITHIN_DEG`], for its digits.
+/// Largest excess of the limit of the check over [`START_WITHIN_DEG`], for its digits.
 const NEARLY: f64 = 1e-6;
 
 /// The share of the plan's speed that a program states.
@@ -32,7 +32,7 @@ struct Line {
     tokens: Vec<Token>,
 }
 
-/// What a program does.
+/// Interprets a program.
 ///
 /// # Errors
 /// [`ReadError`] with the line of what is not read.
@@ -119,7 +119,7 @@ struct Run<'a> {
     globals: BTreeMap<&'a str, Value>,
     /// The variable that holds what the arm measures.
     measured: Option<&'a str>,
-    /// Where the check expects the arm \[rad\], and the joints that it checks.
+    /// Configuration in which the check expects the arm \[rad\], and the joints that it checks.
     start: Option<JointVector>,
     checked: [bool; AXES],
     /// Functions that run.
@@ -435,7 +435,7 @@ fn numbers(tokens: &[Token]) -> Result<(Vec<f64>, &[Token]), String> {
     }
 }
 
-/// Why a word is refused.
+/// Explains why a word is refused.
 fn why_not(name: &str) -> String {
     let why = match name {
         "while" | "for" | "break" | "continue" | "elif" | "else" | "return" => {

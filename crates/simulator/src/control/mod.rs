@@ -29,7 +29,7 @@ use crate::plant::Plant;
 use platewash_kinematics::JointLimits;
 use platewash_workcell::simulation::{ControlLawName, ControlSettings, FeedForward};
 
-/// How a torque law is made.
+/// Constructor of a torque law.
 type Made<'a> = fn(&'a DynamicsModel, Gains, FeedForward) -> Box<dyn ControlLaw + 'a>;
 
 /// The law `name` without a plant, as the paper's program needs, whatever its gains.

@@ -19,7 +19,7 @@ use platewash_workcell::tool::Tool;
 /// Standard gravity as rigid-body codes round it \[m/s²\].
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.81;
 
-/// Why an arm has no dynamics.
+/// Reason that an arm has no dynamics.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DynamicsError {
@@ -34,13 +34,13 @@ pub enum DynamicsError {
     Link {
         /// The link.
         link: String,
-        /// Why.
+        /// Reason that the mass properties are refused.
         cause: Unphysical,
     },
     /// A tool that cannot exist.
     #[error("tool: {cause}")]
     Tool {
-        /// Why.
+        /// Reason that the mass properties are refused.
         cause: Unphysical,
     },
     /// The arm has no link that carries the tool.
@@ -59,7 +59,7 @@ pub enum DynamicsError {
     /// Gravity that is not finite.
     #[error("gravity must be finite; found {found:?} m/s²")]
     Gravity {
-        /// What was found.
+        /// Gravity found.
         found: [f64; 3],
     },
 }

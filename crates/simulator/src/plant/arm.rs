@@ -29,9 +29,9 @@ pub struct Plant {
     pub model: DynamicsModel,
     /// Friction in the joints.
     pub friction: Friction,
-    /// What the motors give at most.
+    /// Torque limits of the motors.
     pub limits: TorqueLimits,
-    /// How the motion is integrated.
+    /// Integrator of the motion.
     pub integrator: Integrator,
 }
 
@@ -184,7 +184,7 @@ impl Friction {
 pub struct TorqueLimits(pub [Option<f64>; AXES]);
 
 impl TorqueLimits {
-    /// Those of the settings, otherwise those of the arm's description.
+    /// Limits of the settings, otherwise those of the arm's description.
     #[must_use]
     pub fn new(settings: &PlantSettings, limits: &JointLimits) -> Self {
         Self(settings.torque_limit_n_m.map_or(limits.effort, |given| given.map(Some)))

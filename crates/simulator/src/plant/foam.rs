@@ -27,7 +27,7 @@ use platewash_workcell::simulation::{FoamContact, Integrator};
 /// Strain from which foam bottoms out; no plan that is proved goes beyond.
 pub const DENSE_STRAIN: f64 = 0.6;
 
-/// How many times as stiff it is there: an assumption.
+/// Factor by which it is stiffer there: an assumption.
 pub const DENSE_FACTOR: f64 = 20.0;
 
 /// Strain from which there is no foam any more.
@@ -45,7 +45,7 @@ pub struct Foam {
 }
 
 impl Foam {
-    /// That of settings, in a sponge of that free height \[m\].
+    /// Foam of the settings, in a sponge of that free height \[m\].
     #[must_use]
     pub fn new(settings: &FoamContact, free_height_m: f64) -> Self {
         Self {
@@ -55,7 +55,7 @@ impl Foam {
         }
     }
 
-    /// Whether a column compressed so far \[m\] acts at all.
+    /// Checks that a column compressed so far \[m\] acts at all.
     #[inline]
     #[must_use]
     pub fn acts(&self, compression_m: f64) -> bool {
@@ -99,7 +99,7 @@ impl Foam {
     }
 }
 
-/// What the foam feels.
+/// Load on the foam.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Felt {
     /// Force along the tool's axis, of all plates together: Σ p dA \[N\].

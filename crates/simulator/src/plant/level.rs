@@ -41,7 +41,7 @@ impl LevelColumns {
         }
     }
 
-    /// How a flat face with a rim pushes, in its plate's frame: along z, and at the rim off it. The tool is not level: cos τ > 0.
+    /// Force of a flat face with a rim, in its plate's frame: along z, and at the rim off it. The tool is not level: cos τ > 0.
     pub fn pressed(
         &self,
         foam: &Foam,
@@ -70,7 +70,7 @@ impl LevelColumns {
         }
     }
 
-    /// Whether every column is compressed within the limit of the foam, and on the plate.
+    /// Checks that every column is compressed within the limit of the foam, and on the plate.
     fn is_whole(&self, foam: &Foam, face: &Face<'_>) -> bool {
         let (least_m, most_m) = (face.middle_m - face.steep_m, face.middle_m + face.steep_m);
         if least_m < 0.0 || most_m > DENSE_STRAIN * foam.free_height_m {

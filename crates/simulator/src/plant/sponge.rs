@@ -46,7 +46,7 @@ struct Target {
     plate: Plate,
     /// From the plate's frame to the base's.
     turn: Matrix3<f64>,
-    /// Where its pole is, base frame \[m\].
+    /// Position of its pole, base frame \[m\].
     pole: Vector3<f64>,
     /// The tip touches it only where its distance from the plate's axis, squared, is below this \[m²\], ...
     far_squared: f64,
@@ -54,12 +54,12 @@ struct Target {
     heights_m: [f64; 2],
 }
 
-/// How plates push a sponge.
+/// Effect of plates on a sponge.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Push {
     /// Torques at the joints \[N·m\].
     pub torque: JointVector,
-    /// What is felt: the sum of forces along the tool's axis, and where most.
+    /// Load on the foam: the sum of forces along the tool's axis, and the greatest compression.
     pub felt: Felt,
     /// Energy in the foam \[J\].
     pub energy_j: f64,
@@ -87,7 +87,7 @@ impl Target {
         }
     }
 
-    /// Whether a column might meet the plate: by the height and distance of the tip alone.
+    /// Checks that a column might meet the plate, by the height and distance of the tip alone.
     #[inline]
     fn may_touch(&self, at: &FrameMotion) -> bool {
         let away = at.pose.translation - self.pole;
@@ -136,7 +136,7 @@ impl SpongeOnPlates {
         &self.foam
     }
 
-    /// How all plates push at a state of the arm.
+    /// Effect of all plates at a state of the arm.
     #[must_use]
     pub fn push(&self, model: &DynamicsModel, state: &PlantState) -> Push {
         let at = model.frame_motion(&state.q, &self.tip);
@@ -154,7 +154,7 @@ impl SpongeOnPlates {
         push
     }
 
-    /// What the foam feels of one plate that lies higher by `higher_m` along its axis, at rest at `q` \[rad\].
+    /// Load on the foam from one plate that is raised by `higher_m` along its axis, at rest at `q` \[rad\].
     #[must_use]
     pub fn felt(&self, model: &DynamicsModel, q: &JointVector, plate: usize, higher_m: f64) -> Felt {
         let Some(target) = self.plates.get(plate) else {
@@ -234,7 +234,7 @@ impl SpongeOnPlates {
         }
     }
 
-    /// What a plate of any shape does to the columns, one by one, in its frame.
+    /// Effect of a plate of any shape on the columns, summed one by one, in its frame.
     fn summed(
         &self,
         plate: &Plate,
@@ -274,7 +274,7 @@ impl SpongeOnPlates {
     }
 }
 
-/// What is left of the law at a cosine between tool and plate's axis, and its slope by the cosine.
+/// Remaining share of the law at a cosine between tool and plate's axis, and its slope by the cosine.
 fn faded(cosine: f64) -> (f64, f64) {
     let [from, to] = FADES;
     let past = (from - cosine) / (from - to);

@@ -21,7 +21,7 @@ fn counted_a_sample(substeps: usize) -> String {
     format!("with {} a sample", counted(substeps, "step"))
 }
 
-/// Why a plan could not be simulated.
+/// Reason that a plan could not be simulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimulationError {
@@ -62,9 +62,9 @@ pub enum SimulationError {
     Setting {
         /// The field of the settings.
         name: &'static str,
-        /// What it must be.
+        /// Range or kind of value required.
         expected: &'static str,
-        /// What it is.
+        /// Value found.
         found: f64,
     },
     /// Foam that shall push back, on no sponge.
@@ -77,7 +77,7 @@ pub enum SimulationError {
     Stiffness {
         /// Least and greatest of the sponge \[Pa\].
         range_pa: [f64; 2],
-        /// What is asked for \[Pa\].
+        /// Stiffness asked for \[Pa\].
         found_pa: f64,
     },
     /// Foam that is too stiff for the steps of integration.
@@ -128,9 +128,9 @@ pub enum SimulationError {
         t_s: f64,
         /// Joint index, 0 for joint 1.
         joint: usize,
-        /// Where it is \[rad\].
+        /// Position of the joint \[rad\].
         position_rad: f64,
-        /// How fast it moves \[rad/s\].
+        /// Speed of the joint \[rad/s\].
         speed_rad_s: f64,
     },
     /// The work was given up, as it was told to be.
@@ -144,7 +144,7 @@ pub enum SimulationError {
 /// Stiffer, or damped more, is no foam \[Pa, Pa·s\].
 const STIFFEST_PA: f64 = 1e9;
 
-/// What a stiffness may be past the bounds of the sponge's range, as a part of them.
+/// Largest excess of a stiffness over the bounds of the sponge's range, as a part of them.
 const ROUNDING: f64 = 1e-12;
 
 /// Checks what the law does not check by itself; a plan file may state anything.

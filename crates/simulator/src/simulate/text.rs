@@ -223,7 +223,7 @@ fn payload(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
 /// Significant digits of what a job states.
 const SHOWN_DIGITS: usize = 6;
 
-/// What a job states, as people read it.
+/// Rounds a stated value to the digits that are shown to people.
 pub(crate) fn shown(value: f64) -> f64 {
     rounded(value, SHOWN_DIGITS)
 }

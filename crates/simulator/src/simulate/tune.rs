@@ -13,7 +13,7 @@ use serde::Serialize;
 /// The outcome of a setting.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TuneOutcome {
-    /// Whether the wash survives.
+    /// Verdict on the wash.
     pub verdict: SimulationVerdict,
     /// Tip error over the whole execution, root mean square \[m\].
     pub tip_rms_m: f64,

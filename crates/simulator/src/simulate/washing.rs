@@ -33,7 +33,7 @@ const RASTER: CoverageSettings = CoverageSettings { cell_m: 2e-4 };
 /// Points of a path nearer to the last one than this are left out \[m\]: on a circle of 10 mm the chord is off by 3 µm.
 const SPACING_M: f64 = 5e-4;
 
-/// Whether a plate is washed by what the arm did, or swept where the job requires no contact.
+/// Verdict on the washing of a plate by the executed motion, or on its sweeping where the job requires no contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PlateVerdict {
@@ -60,7 +60,7 @@ impl PlateVerdict {
         }
     }
 
-    /// Whether the plate got what the job requires.
+    /// Returns true where the plate got the treatment that the job requires.
     #[must_use]
     pub fn is_done(self) -> bool {
         matches!(self, Self::Washed | Self::Swept | Self::SweptInAir)
@@ -79,14 +79,14 @@ impl PlateVerdict {
     }
 }
 
-/// What was washed of a plate.
+/// Result of a plate's wash.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlateOutcome {
     /// Index of the plate.
     pub plate: usize,
-    /// Whether it is washed.
+    /// Verdict on the plate.
     pub verdict: PlateVerdict,
-    /// Why not, or why less than planned.
+    /// Causes that it is not washed, or swept less than planned.
     pub causes: Vec<Cause>,
     /// Share swept by the planned motion.
     pub planned: Coverage,
@@ -98,7 +98,7 @@ pub struct PlateOutcome {
     pub in_contact: usize,
     /// Largest tilt of the tool from the plate's normal, executed \[rad\].
     pub tilt_rad: f64,
-    /// How the sponge pressed; `None` where force is not simulated.
+    /// Pressing of the sponge; `None` where force is not simulated.
     pub pressing: Option<Pressing>,
 }
 
@@ -335,7 +335,7 @@ fn sideways_m(plate: &Plate, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
     plate.pose.inverse_transform_vector(&(to - from)).xy().norm()
 }
 
-/// Why less is swept than planned, or why a plate is not washed.
+/// Cause that less is swept than planned, or that a plate is not washed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "cause", rename_all = "snake_case")]
 #[non_exhaustive]
@@ -371,9 +371,9 @@ pub enum Cause {
     },
     /// Less is surely swept than is required.
     NotSwept {
-        /// What is surely swept.
+        /// Share that is surely swept.
         at_least: f64,
-        /// What is required.
+        /// Share required.
         required: f64,
     },
 }

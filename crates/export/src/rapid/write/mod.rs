@@ -89,7 +89,7 @@ fn shared_out(routines: &[Routine]) -> Vec<&[Routine]> {
     groups
 }
 
-/// What every module says of itself.
+/// Notes at the head of every module.
 const OWN: [&str; 2] = [
     "Units: mm, degrees, kg, kg*m^2; times after \\T in seconds at the plan's own speed, divided by the share of the run.",
     "Joints are the robot's own, 1 to 6; no external axes; no work object: MoveAbsJ needs none.",
@@ -182,7 +182,7 @@ pub const MOST: &str = "pwShareMost";
 /// The share of the speed of a run.
 pub const RUNNING: &str = "pwRunning";
 
-/// What all names begin with that the program gives.
+/// Prefix of all names that the program defines.
 pub const PREFIX: &str = "pw";
 
 /// Names of modules and data that controllers have already, and that of the routine that is started.

@@ -26,7 +26,7 @@ impl Routine {
         &self.name
     }
 
-    /// How many targets it has.
+    /// Number of targets.
     pub fn targets(&self) -> usize {
         self.lines.len()
     }
@@ -45,7 +45,7 @@ impl Routine {
 /// The zone at targets that are no stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Zone {
-    /// One that every controller has.
+    /// Zone that every controller has, by its name.
     Named(&'static str),
     /// One of that radius \[m\].
     Own(f64),
@@ -155,7 +155,7 @@ fn motion(program: &Program<'_>, clock: &mut Clock, from: &Point, point: &Point,
 #[derive(Debug)]
 struct Clock {
     share: f64,
-    /// What the controller has come to \[s\].
+    /// Time that the controller has reached \[s\].
     passed_s: f64,
 }
 

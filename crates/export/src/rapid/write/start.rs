@@ -62,7 +62,8 @@ pub fn main(lines: &mut Lines, routines: &[Routine]) {
     lines.line(1, "ENDPROC");
 }
 
-/// What is checked before the arm moves. Where a check fails the program ends: `EXIT` cannot be passed by starting it again, `Stop` can.
+/// Writes the checks before the arm moves. Where a check fails the program ends: `EXIT` cannot be passed by starting it again,
+/// `Stop` can.
 pub fn checks(lines: &mut Lines) {
     lines.blank();
     lines.line(1, "PROC pwCheckShare()");
