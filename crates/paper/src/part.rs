@@ -30,7 +30,7 @@ impl PaperPart {
         }
     }
 
-    /// Where it lets centres of plates be.
+    /// Region for the centres of plates.
     #[must_use]
     pub fn region(self) -> Region {
         match self {
@@ -39,7 +39,7 @@ impl PaperPart {
         }
     }
 
-    /// How far it keeps plates from each other and from the base axis. The distance is below two radii: plates may overlap.
+    /// Least distances of plates from each other and from the base axis. The distance is below two radii: plates may overlap.
     #[must_use]
     pub fn spacing(self) -> Spacing {
         Spacing {
@@ -59,7 +59,7 @@ impl PaperPart {
         }
     }
 
-    /// How many plates it lays.
+    /// Number of plates.
     #[must_use]
     pub fn plate_count(self) -> usize {
         4

@@ -75,14 +75,14 @@ pub enum IkSeed {
 pub struct SettingError {
     /// Its place in [`PaperSettings`], e.g. `spiral.points`.
     pub name: &'static str,
-    /// What it must be.
+    /// Range or kind of value required.
     pub expected: &'static str,
-    /// What it is.
+    /// Value found.
     pub found: f64,
 }
 
 impl PaperSettings {
-    /// Those of the program in the paper's appendix.
+    /// Settings of the program in the paper's appendix.
     #[must_use]
     pub fn appendix() -> Self {
         Self {
@@ -113,7 +113,7 @@ impl PaperSettings {
         }
     }
 
-    /// Those of the paper's text, which differs in the region of the plates alone.
+    /// Settings of the paper's text, which differs in the region of the plates alone.
     #[must_use]
     pub fn text() -> Self {
         Self::appendix()

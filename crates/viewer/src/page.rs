@@ -8,14 +8,14 @@ use crate::view::View;
 use platewash_workcell::words::printable;
 use serde::Serialize;
 
-/// What stands around a placeholder's name.
+/// Text before a placeholder's name.
 const OPEN: &str = "<!--platewash:";
 const CLOSE: &str = "-->";
 
 /// Longest name in a title, in characters.
 const LONGEST_TITLE: usize = 120;
 
-/// Why there is no page.
+/// Reason that there is no page.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PageError {
@@ -25,7 +25,7 @@ pub enum PageError {
     /// A template with an unknown placeholder, or without one that it needs.
     #[error("the page's template {what} the placeholder \"{name}\": it was made for another version")]
     Template {
-        /// What it does with it.
+        /// Verb for the fault: it lacks or has the placeholder.
         what: &'static str,
         /// The placeholder.
         name: String,
@@ -35,7 +35,7 @@ pub enum PageError {
     Ends {
         /// The part.
         part: &'static str,
-        /// What ends it.
+        /// Text that ends it.
         end: &'static str,
     },
 }
@@ -94,7 +94,7 @@ fn template(what: &'static str, name: &str) -> PageError {
     PageError::Template { what, name }
 }
 
-/// What stands before the first placeholder, its name, and what stands behind it.
+/// Returns the text before the first placeholder, its name, and the text behind it.
 fn next_placeholder(text: &str) -> Option<(&str, &str, &str)> {
     let (before, inside) = text.split_once(OPEN)?;
     let (name, after) = inside.split_once(CLOSE)?;
@@ -191,7 +191,7 @@ mod tests {
         view
     }
 
-    /// What a browser reads from the data block, which ends at the first `</script`.
+    /// Returns the data block as a browser reads it: it ends at the first `</script`.
     fn read_back(page: &str) -> serde_json::Value {
         read_back_from(page, DATA)
     }

@@ -9,7 +9,7 @@ use platewash_workcell::trajectory::{SegmentExtremes, SegmentKind, Trajectory};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What a violation breaks.
+/// Limit that a violation breaks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ViolationKind {
@@ -26,9 +26,9 @@ pub enum ViolationKind {
 /// A stretch of time during which a limit is broken.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Violation {
-    /// What is broken.
+    /// Kind of the limit that is broken.
     pub kind: ViolationKind,
-    /// Who: `joint_1` …, or the two bodies.
+    /// Joint or bodies at fault: `joint_1` …, or the two bodies.
     pub who: String,
     /// Start \[s\].
     pub t_start_s: f64,
@@ -45,7 +45,7 @@ pub struct Violation {
 pub struct ClosestApproach {
     /// When \[s\].
     pub t_s: f64,
-    /// What and where.
+    /// The pair, its distance and its place.
     #[serde(flatten)]
     pub pair: PairClearance,
 }
@@ -148,7 +148,7 @@ fn merged(violations: impl Iterator<Item = Violation>, gap_s: f64) -> Vec<Violat
     all
 }
 
-/// How near the arm comes at one step.
+/// Distances of the arm at one step.
 pub(super) struct Nearness {
     /// The nearest pair.
     pub nearest: Option<ClosestApproach>,
@@ -156,7 +156,7 @@ pub(super) struct Nearness {
     pub too_near: Vec<ClosestApproach>,
 }
 
-/// How near the arm comes at every step, commanded and executed.
+/// Distances of the arm at every step, commanded and executed.
 pub(super) fn nearnesses(
     run: &PaperRun,
     clearance: &ClearanceModel,

@@ -194,7 +194,7 @@ fn violations(f: &mut Formatter<'_>, what: &str, all: &[Violation]) -> fmt::Resu
 }
 
 impl Violation {
-    /// How bad it is, for ranking: contacts first, then the share of the limit.
+    /// Rank of the violation by severity: contacts first, then by the share of the limit.
     fn severity(&self) -> f64 {
         match self.kind {
             ViolationKind::Clearance => 1e9 - self.worst,

@@ -79,7 +79,7 @@ fn percent(samples: &[Sample], key: &str) -> Estimate {
     }
 }
 
-/// How well the control law tracks, over both regions.
+/// Rows on the tracking errors of the control law, over both regions.
 pub(super) fn tracking(samples: &[Sample]) -> Vec<Row> {
     const GROUP: &str = "Tracking under the paper's control law (both regions)";
     let millimetres = |lengths: &str, share: Option<f64>| {

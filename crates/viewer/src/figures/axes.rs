@@ -7,12 +7,12 @@ use super::svg::{Drawing, END, LINE, MIDDLE, PAPER, Rect, SMALL, Spot, WORDS, fi
 pub struct Scale {
     /// Least and greatest number.
     pub numbers: [f64; 2],
-    /// Where they are \[px\].
+    /// Positions on the page \[px\].
     pub places: [f64; 2],
 }
 
 impl Scale {
-    /// Where a number is \[px\].
+    /// Position of a number \[px\].
     pub fn at(&self, number: f64) -> f64 {
         let ([low, high], [from, to]) = (self.numbers, self.places);
         from + (number - low) / (high - low) * (to - from)
@@ -105,7 +105,7 @@ impl Axes {
         }
     }
 
-    /// Where a pair of numbers is.
+    /// Position of a pair of numbers on the page.
     pub fn at(&self, across: f64, up: f64) -> Spot {
         [self.across.at(across), self.up.at(up)]
     }

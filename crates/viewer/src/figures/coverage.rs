@@ -77,7 +77,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
     Ok(drawing)
 }
 
-/// What the colours say, and what is asked for.
+/// Caption: the meaning of the colours, and the requirements.
 fn caption(subject: &Subject<'_>, plates: usize) -> String {
     let job = &subject.plan.job;
     let sponge = format!("sponge, radius {:.0} mm", 1e3 * job.workcell.tool.sponge.radius_m);
@@ -168,7 +168,7 @@ impl Map {
         }
     }
 
-    /// What is known of the share that counts: in words, the share, and what is required.
+    /// Returns the known share that counts: in words, the share, and the share required.
     fn share(&self, subject: &Subject<'_>) -> Option<(&'static str, f64, f64)> {
         let asked = &subject.plan.job.requirements;
         let is_promised = self.counted.is_some_and(|counted| counted.is_promised);
@@ -210,7 +210,7 @@ fn colour(seconds: f64, step_s: f64) -> &'static str {
     }
 }
 
-/// What colours mean.
+/// Draws the key of the colours.
 fn key(drawing: &mut Drawing, room: Rect, step_s: f64, is_contact: bool) {
     let [never, what] = match is_contact {
         true => ["no contact", "time in contact [s]"],

@@ -2,7 +2,7 @@
 
 use platewash_workcell::trajectory::KnotError;
 
-/// Why a figure cannot be drawn.
+/// Reason that a figure cannot be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FigureError {
@@ -12,7 +12,7 @@ pub enum FigureError {
     /// Nothing moves.
     #[error("the plan has {knots} knots; a motion has at least 2")]
     NoMotion {
-        /// How many there are.
+        /// Number of knots.
         knots: usize,
     },
     /// The motion leads nowhere that could be drawn.
@@ -30,7 +30,7 @@ pub enum FigureError {
         segment: usize,
         /// The plate that it names.
         plate: usize,
-        /// How many there are.
+        /// Number of plates.
         plates: usize,
         /// Its start \[s\].
         t_start_s: f64,

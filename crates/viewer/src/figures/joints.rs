@@ -51,9 +51,9 @@ pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
 struct Panel {
     name: &'static str,
     range: [f64; 2],
-    /// What must not be exceeded.
+    /// Limits that must not be exceeded.
     limits: Vec<f64>,
-    /// What is said of it at its upper edge.
+    /// Words at its upper edge.
     words: String,
     lines: Vec<(Vec<f64>, &'static str)>,
 }
@@ -196,7 +196,7 @@ fn colour(kind: SegmentKind) -> &'static str {
     }
 }
 
-/// What the arm does over time, as a strip above the diagrams.
+/// Draws the segments of the motion over time, as a strip above the diagrams.
 fn segments(drawing: &mut Drawing, subject: &Subject<'_>, axes: &Axes) {
     let top = axes.frame.at[1] - STRIP - 5.0;
     for segment in &subject.plan.segments {

@@ -23,7 +23,7 @@ use platewash_workcell::trajectory::SegmentKind;
 /// Ways that are nearer to each other look like one \[m\].
 const APART_M: f64 = 1e-3;
 
-/// How far obstacles are shown beyond everything else \[m\].
+/// Width of the border beyond everything else in which obstacles are shown \[m\].
 const AROUND_M: f64 = 0.12;
 
 /// Sine of the angle to the vertical up to which a plate lies level.
@@ -60,7 +60,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
     drawing
 }
 
-/// How it is looked at: where the arm is not turned, from behind it.
+/// Caption on the view: from above, and from behind the arm if the arm is not turned.
 fn caption(subject: &Subject<'_>) -> String {
     let from = if subject.mount().rotation == UnitQuaternion::identity() {
         "Seen from above, from behind the arm: x leads away from it, y to its left."

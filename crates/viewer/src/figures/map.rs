@@ -32,17 +32,17 @@ impl Map {
         )
     }
 
-    /// Where a place is.
+    /// Position of a place on the page.
     pub fn spot(&self, [x, y]: [f64; 2]) -> Spot {
         self.0.at(y, x)
     }
 
-    /// Where places are.
+    /// Positions of places on the page.
     pub fn spots<'p>(&self, places: impl IntoIterator<Item = &'p [f64; 2]>) -> Vec<Spot> {
         places.into_iter().map(|place| self.spot(*place)).collect()
     }
 
-    /// How long a length is \[px\].
+    /// Length on the page \[px\] of a length in metres.
     pub fn pixels(&self, length_m: f64) -> f64 {
         (self.0.up.at(length_m) - self.0.up.at(0.0)).abs()
     }

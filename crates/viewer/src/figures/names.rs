@@ -6,7 +6,7 @@
 pub struct UnknownFigure {
     /// The name.
     found: String,
-    /// What shows it now, where it once was a figure.
+    /// Replacement of a figure that no longer exists.
     instead: String,
 }
 
@@ -32,9 +32,9 @@ pub enum Figure {
     Layout,
     /// Joints and tip over time.
     Joints,
-    /// What is swept of each plate.
+    /// Swept area of each plate.
     Coverage,
-    /// What the tip was to follow on each plate, and what it followed.
+    /// Commanded and executed path of the tip on each plate.
     Spiral,
 }
 

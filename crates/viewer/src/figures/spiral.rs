@@ -92,7 +92,7 @@ fn entries(subject: &Subject<'_>) -> Vec<Entry> {
     ]
 }
 
-/// What the coloured part of a plate is.
+/// Describes the coloured part of a plate.
 fn reached(subject: &Subject<'_>) -> String {
     let job = &subject.plan.job;
     let sponge = format!("a sponge of {:.0} mm", 1e3 * job.workcell.tool.sponge.radius_m);

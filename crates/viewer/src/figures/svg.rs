@@ -22,11 +22,11 @@ pub const WASH: &str = "#c2187f";
 pub const TRANSIT: &str = "#0072b2";
 /// Down to a plate and up from it.
 pub const LIFT: &str = "#56b4e9";
-/// What an arm made of it; what was not reached.
+/// Colour of the executed motion, and of places that were not reached.
 pub const EXECUTED: &str = "#d55e00";
-/// What is kept.
+/// Colour of requirements that are kept.
 pub const GOOD: &str = "#00795a";
-/// What is not kept, and limits.
+/// Colour of requirements that are not kept, and of limits.
 pub const BAD: &str = "#c0392b";
 
 /// Looks of texts: size, weight and colour.
@@ -140,7 +140,7 @@ impl Drawing {
         self.0 += &format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{}\" {look}/>\n", number(radius));
     }
 
-    /// What `draw` adds, seen within a rectangle alone.
+    /// Draws what `draw` adds, clipped to a rectangle.
     pub fn within(&mut self, rect: Rect, draw: impl FnOnce(&mut Self)) {
         let ([x, y], [width, height]) = (rect.at.map(number), rect.size.map(number));
         let attributes = rect.attributes();
@@ -149,7 +149,7 @@ impl Drawing {
         self.0 += "</svg>\n";
     }
 
-    /// What `draw` adds, as a group with attributes.
+    /// Draws what `draw` adds, as a group with attributes.
     pub fn group(&mut self, attributes: &str, draw: impl FnOnce(&mut Self)) {
         self.0 += &format!("<g {attributes}>\n");
         draw(self);

@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 use std::io::{Result, Write};
 
-/// What a page may do and load: what stands in it, pictures that it draws itself, and events from here; nobody frames it.
+/// Content security policy of the page: it may use its own text, pictures that it draws itself, and events from here; nobody
+/// frames it.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; connect-src 'self'; \
      base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
@@ -16,7 +17,7 @@ pub const LINES: &str = "application/x-ndjson; charset=utf-8";
 /// Words: text, whatever is in them.
 const TEXT: &str = "text/plain; charset=utf-8";
 
-/// Why a request is refused.
+/// Reason that a request is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
     /// It is no HTTP, or says something twice that can be said once.

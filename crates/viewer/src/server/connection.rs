@@ -15,19 +15,19 @@ use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::{Builder, scope};
 use std::time::{Duration, Instant};
 
-/// How much of what a client goes on sending is read before its connection is closed \[bytes\], and for how long: closed at once, the
-/// system would tell the client of a reset in place of the answer.
+/// Amount of further data from a client that is read before its connection is closed \[bytes\], and the time for it. A connection
+/// that is closed at once makes the system send a reset in place of the answer.
 const LINGER_BYTES: usize = 64 << 10;
 const LINGER: Duration = Duration::from_millis(500);
 
-/// What all connections of a server share.
+/// State that all connections of a server share.
 #[derive(Debug)]
 pub struct Served {
-    /// What is served.
+    /// The site that is served.
     pub site: Site,
     /// By which names.
     pub names: Names,
-    /// How much is worked on at a time.
+    /// Limit on simultaneous work.
     pub turns: Turns,
 }
 

@@ -51,7 +51,7 @@ impl Listener {
         Ok(Self { listener, address })
     }
 
-    /// What a browser on this machine opens.
+    /// Address that a browser on this machine opens.
     #[must_use]
     pub fn url(&self) -> String {
         url(self.address)
@@ -79,7 +79,7 @@ impl Listener {
 }
 
 impl Server {
-    /// What a browser on this machine opens.
+    /// Address that a browser on this machine opens.
     #[must_use]
     pub fn url(&self) -> String {
         url(self.address)

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 /// A sample as the page takes it: t \[s\], six q \[rad\], six q̇ \[rad/s\], six torques \[N·m\], distance of the tip from the planned one \[m\].
 pub type Row = [f64; 20];
 
-/// Where the events of a live run are.
+/// Path of the events of a live run.
 pub const EVENTS: &str = "/events";
 
 /// Most pages that follow a run.
@@ -25,7 +25,7 @@ const ROWS_AN_EVENT: usize = 500;
 /// Time after which a page that has lost the connection comes again \[ms\].
 const RETRY_MS: u32 = 500;
 
-/// How far a run has come.
+/// Progress of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 enum LiveState {
@@ -37,12 +37,12 @@ enum LiveState {
     Done,
 }
 
-/// What came of a run.
+/// Result of a run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct LiveEnd {
     /// The report's first line, or why there is none.
     pub headline: String,
-    /// Whether every plate is washed; `None` where that is not judged.
+    /// True where every plate is washed; `None` where that is not judged.
     pub washed: Option<bool>,
 }
 
@@ -86,13 +86,13 @@ impl Live {
         })
     }
 
-    /// Where the page of this run finds its events.
+    /// Path at which the page of this run finds its events.
     #[must_use]
     pub fn events(&self) -> String {
         format!("{EVENTS}?run={}", self.tag)
     }
 
-    /// Whether the query of a request is that of this run.
+    /// Checks that the query of a request is the one of this run.
     pub(super) fn is_asked_for(&self, query: &str) -> bool {
         query.strip_prefix("run=") == Some(&self.tag)
     }

@@ -22,7 +22,7 @@ const TOKEN: &str = "x-platewash-token";
 /// A request that may be answered.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Request {
-    /// What it is to get.
+    /// Kind of answer that is asked for.
     pub wants: Wants,
     /// From `/` to `?`.
     pub path: String,
@@ -34,12 +34,12 @@ pub struct Request {
     pub head_bytes: usize,
 }
 
-/// What a request is to get.
+/// Kind of answer that a request asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wants {
-    /// What is here.
+    /// Headers and contents.
     Contents,
-    /// The headers of that alone.
+    /// The headers alone.
     Headers,
     /// The answer to a question, which follows.
     Answer(Question),
@@ -166,13 +166,13 @@ impl<'a> Headers<'a> {
         }
     }
 
-    /// Whether a page of another site asks, as browsers say of their own accord.
+    /// Checks for a request from a page of another site, as browsers state of their own accord.
     fn are_of_a_foreign_page(&self) -> Result<bool, Refusal> {
         let site = self.one("sec-fetch-site")?;
         Ok(site.is_some_and(|site| !["same-origin", "none"].contains(&site)))
     }
 
-    /// Whether a link is followed: who follows it sees the page, and the other site does not.
+    /// Checks for a link that is followed: the person who follows it sees the page, and the other site does not.
     fn are_of_a_link(&self) -> Result<bool, Refusal> {
         Ok(self.one("sec-fetch-mode")? == Some("navigate") && self.one("sec-fetch-dest")? == Some("document"))
     }

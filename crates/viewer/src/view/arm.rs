@@ -41,12 +41,12 @@ pub struct Joint {
 /// A link, fixed to the frame behind some joints.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Link {
-    /// How many joints are between it and the base.
+    /// Number of joints between it and the base.
     pub joints: usize,
     /// `T_frame_link`.
     #[serde(serialize_with = "pose::serialize")]
     pub pose: Pose,
-    /// What it looks like, link frame; where nothing is known, the page shows the shapes that count for the proof.
+    /// Visual bodies, link frame; where none are known, the page shows the shapes that count for the proof.
     pub visuals: Vec<Body>,
     /// The shapes that count for the proof, link frame.
     pub collision: Vec<Body>,

@@ -8,24 +8,24 @@ use serde::Serialize;
 /// The proof.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Certificate {
-    /// Whether every requirement is kept, and the hash is that of the contents.
+    /// True where every requirement is kept, and the hash is that of the contents.
     pub passes: bool,
     /// Its first line.
     pub headline: String,
-    /// Of the hash in the file.
+    /// State of the hash in the file.
     pub hash: Status,
     /// The requirements, in the certificate's order.
     pub checks: Vec<Check>,
-    /// What is proved of the contact with each plate; `None` where none is asked for.
+    /// Proof of the contact with each plate; `None` where the job requires no contact.
     pub contact: Option<Contact>,
-    /// What the verdict rests on, a line each.
+    /// Assumptions of the verdict, one line each.
     pub rests_on: Vec<String>,
 }
 
-/// What is asked of the contact with plates, and what is proved of it.
+/// Requirements on the contact with plates, and the proof of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Contact {
-    /// What is asked.
+    /// Requirements.
     pub asked: ContactRequirements,
     /// In the order of washing.
     pub plates: Vec<proved::PlateContact>,
@@ -41,7 +41,7 @@ pub struct Check {
     pub words: String,
     /// Bound, limit, what was found, and what does not agree; empty where there is nothing to add.
     pub detail: String,
-    /// Where it is worst: pair, joint, segment and plate in words; empty where nothing is said.
+    /// Worst place: pair, joint, segment and plate in words; empty where none is known.
     pub place: String,
 }
 

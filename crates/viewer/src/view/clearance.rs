@@ -19,7 +19,7 @@ const LEAST_STEP_S: f64 = 0.02;
 /// The smallest distance over time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Clearance {
-    /// What is required \[m\].
+    /// Clearance required \[m\].
     pub margin_m: f64,
     /// \[n\] \[s\].
     pub t_s: Numbers,

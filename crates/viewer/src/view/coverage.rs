@@ -24,14 +24,14 @@ const EDGE: [usize; 2] = [24, 88];
 /// Longest stroke that is made of several moments \[m\].
 const STROKE_M: f64 = 4e-3;
 
-/// How a plate gets swept.
+/// Swept area of a plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlateCoverage {
     /// Index of the plate.
     pub plate: usize,
     /// Half of the square's edge: the rim's radius \[m\].
     pub half_m: f64,
-    /// What counts; `None` where the sponge has but to be over a place.
+    /// Contact that counts; `None` where the sponge only has to be over a place.
     pub counted: Option<Counted>,
     /// When and for how long.
     #[serde(flatten)]
@@ -95,7 +95,7 @@ pub(crate) fn proved_share(certificate: &proved::Certificate, plate: usize, coun
     of.map(|swept| swept.at_least)
 }
 
-/// What of a plate counts on some ways of the sponge's tip.
+/// Computes the counted area of a plate on some paths of the sponge's tip.
 pub(crate) fn swept(
     plate: &Plate,
     tool: &Tool,
@@ -145,7 +145,7 @@ pub(crate) fn swept(
     raster
 }
 
-/// Whether the way between two moments is longer than a stroke that is taken for straight.
+/// Checks that the path between two moments is too long for one straight stroke.
 fn is_long(from: &Disc, to: &Disc) -> bool {
     let [x, y] = [to.at[0] - from.at[0], to.at[1] - from.at[1]];
     x * x + y * y > STROKE_M * STROKE_M

@@ -3,7 +3,7 @@
 use platewash_workcell::job::JobError;
 use platewash_workcell::trajectory::KnotError;
 
-/// Why there is nothing to show.
+/// Reason that there is nothing to show.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewError {

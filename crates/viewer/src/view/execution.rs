@@ -22,10 +22,10 @@ const MOST_SAMPLES: [usize; 2] = [1500, 250];
 /// Time between two moments of a wash at least \[s\].
 const WASH_STEP_S: f64 = 4e-3;
 
-/// How much later than the plan a motion may end \[s\].
+/// Largest delay of the end of a motion after the plan's end \[s\].
 const SLACK_S: f64 = 1.0;
 
-/// Where an execution comes from.
+/// Source of an execution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
@@ -37,23 +37,23 @@ pub enum Source {
     Live,
 }
 
-/// What is known of an execution beside its samples.
+/// Facts about an execution besides its samples.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Told {
-    /// Where it comes from.
+    /// Source of the execution.
     pub source: Source,
     /// The control law, where it is known.
     pub law: Option<ControlLawName>,
     /// First line of its report, where there is one.
     pub headline: Option<String>,
-    /// Whether every plate is washed, where that is judged.
+    /// True where every plate is washed; `None` where that is not judged.
     pub washed: Option<bool>,
     /// Six limits \[N·m\]; `None` where not all are known.
     pub torque_limit_n_m: Option<[f64; 6]>,
 }
 
 impl Told {
-    /// Of an execution of which nothing is known but where it comes from.
+    /// Facts about an execution of which only the source is known.
     fn new(source: Source, law: Option<ControlLawName>) -> Self {
         Self {
             source,
@@ -65,7 +65,7 @@ impl Told {
     }
 }
 
-/// What an arm did, sample by sample.
+/// Executed motion, sample by sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Executed {
     told: Told,
@@ -144,10 +144,10 @@ fn all(limits: [Option<f64>; 6]) -> Option<[f64; 6]> {
     known.and_then(|known| known.try_into().ok())
 }
 
-/// What an arm did, as it is shown.
+/// Executed motion, as it is shown.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Execution {
-    /// What is known of it.
+    /// Facts about it.
     #[serde(flatten)]
     pub told: Told,
     /// \[n\] \[s\].
@@ -162,7 +162,7 @@ pub struct Execution {
     pub torque_n_m: Option<Numbers>,
     /// \[n\]: distance of the tip from where the plan has it at that time \[m\].
     pub error_m: Numbers,
-    /// What was swept.
+    /// Swept area.
     pub coverage: Vec<PlateCoverage>,
 }
 

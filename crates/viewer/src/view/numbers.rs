@@ -25,7 +25,7 @@ pub enum Data {
     F32(String),
     /// Whole numbers of 16 bits without sign.
     U16(String),
-    /// Of 8 bits.
+    /// Unsigned numbers of 8 bits.
     U8(String),
 }
 

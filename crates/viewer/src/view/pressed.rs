@@ -13,20 +13,20 @@ use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Tool, Touch};
 use serde::Serialize;
 
-/// What counts as pressed.
+/// Contact that counts as pressed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Counted {
     /// Least compression of the foam \[m\].
     pub compression_m: f64,
-    /// By how much the plate may lie higher or lower \[m\].
+    /// Error of the plate's height, up or down, within which it must hold \[m\].
     pub height_error_m: f64,
-    /// Whether the job asks for it; otherwise it is that the foam touches.
+    /// True where the job asks for it; otherwise any touch of the foam counts.
     pub is_promised: bool,
 }
 
 impl Counted {
-    /// What counts on a plate of a job; `None` where the sponge, or what stands for it, has but to be over a place: on a disc of which
-    /// no contact is asked, and without a tool.
+    /// Contact that counts on a plate of a job; `None` where the sponge only has to be over a place: on a flat face without a
+    /// promise of contact, and without a tool.
     #[must_use]
     pub fn on(plate: &Plate, job: &JobTerms) -> Option<Self> {
         if !job.workcell.tool.is_present() {

@@ -262,7 +262,7 @@ mod tests {
         assert!((255.0 * marks.dwell_step_s - 2.0).abs() < 1e-12);
     }
 
-    /// Of five by five cells the corners' middles are 1.13 from the centre.
+    /// In a raster of five by five cells the middles of the corners are 1.13 from the centre.
     #[test]
     fn cells_beyond_the_rim_are_marked_and_far_ways_harmless() {
         let mut raster = Raster::new(1.0, 5);
