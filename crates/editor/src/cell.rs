@@ -22,7 +22,7 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::verdict::Verdict;
 use std::sync::Arc;
 
-/// What a map means.
+/// Meaning of a map, in words for the page.
 const MEANING: &str = "Where a plate of this size could lie, the others as they are: at the middle of each square it has room, and \
                        configurations were found for all of its wash path. Not planned, not proved.";
 
@@ -242,7 +242,7 @@ fn told_map(subject: &Subject, question: &MapQuestion, told: &mut Told<'_>) -> R
     Ok(())
 }
 
-/// Why there is no plan, without another place for a plate: that is told behind it.
+/// Reason that there is no plan, without another place for a plate: that follows in a line of its own.
 fn reason(error: PlanError) -> String {
     match error {
         PlanError::Unwashable(plate) => plate.why().to_string(),

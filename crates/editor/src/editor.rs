@@ -21,7 +21,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Why there is nothing to edit.
+/// Reason that there is nothing to edit.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EditorError {
@@ -99,7 +99,7 @@ impl Editor {
         &self.subject.name
     }
 
-    /// Where paths in the scenario begin.
+    /// Folder that relative paths in the scenario start from.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         self.subject.folder.as_deref()
@@ -111,7 +111,7 @@ impl Editor {
         &self.subject.text
     }
 
-    /// What came last, of an editor that is [`Editor::remembering`].
+    /// Latest answer of an editor that is [`Editor::remembering`].
     #[must_use]
     pub fn latest(&self) -> Option<Latest> {
         self.subject.latest()
@@ -233,7 +233,7 @@ fn read<'a, Q: Deserialize<'a>>(question: &'a [u8]) -> Result<Q, String> {
     serde_json::from_slice(question).map_err(|error| format!("the question is none: {error}"))
 }
 
-/// Where the page's questions go.
+/// Channel for the page's questions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 enum Channel {
@@ -256,7 +256,7 @@ struct EditDocument<'a> {
 }
 
 impl<'a> EditDocument<'a> {
-    /// Of a scenario, and the file that it is saved in.
+    /// Document of a scenario, with the file that it is saved in.
     fn new(channel: Channel, text: &'a str, kept: Option<&Kept>) -> Self {
         let standing = kept.and_then(|kept| kept.standing().ok());
         Self {

@@ -9,18 +9,18 @@ use std::fmt::Debug;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// Who keeps the scenario's file and what is written beside it.
+/// Store of the scenario's file and of the files written beside it.
 pub trait Keeper: Debug + Send + Sync {
     /// The file, in words.
     fn file(&self) -> String;
 
-    /// Whether what stands there is the scenario that is edited, and no other one that is to be written over.
+    /// Returns true where the file on disk is the scenario that is edited, and no other one that would be overwritten.
     fn is_scenario(&self) -> bool;
 
-    /// What stands there: `None` for nothing.
+    /// Reads the file on disk: `None` where there is none.
     ///
     /// # Errors
-    /// Why it cannot be read, in words.
+    /// The reason that it cannot be read, in words.
     fn on_disk(&self) -> Result<Option<Vec<u8>>, String>;
 
     /// Writes a scenario's text there, and beside it what comes of the scenario: all of it or nothing. `still` is asked once all is ready,
@@ -31,7 +31,7 @@ pub trait Keeper: Debug + Send + Sync {
     fn write(&self, save: &Save<'_>, still: &dyn Fn() -> bool, cancel: &CancelToken) -> Result<Written, NotWritten>;
 }
 
-/// What is to be written.
+/// Contents to write.
 #[derive(Debug, Clone, Copy)]
 pub struct Save<'a> {
     /// The text.
@@ -40,11 +40,11 @@ pub struct Save<'a> {
     pub scenario: Result<&'a Scenario, &'a str>,
 }
 
-/// Why nothing was written.
+/// Reason that nothing was written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotWritten {
-    /// What stands there has changed meanwhile.
+    /// The file on disk has changed meanwhile.
     #[error("the file was changed meanwhile")]
     Changed,
     /// It cannot be, in words.
@@ -52,12 +52,12 @@ pub enum NotWritten {
     Cannot(String),
 }
 
-/// What was written.
+/// Result of writing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Written {
     /// The files.
     pub files: Vec<String>,
-    /// What came of the scenario, in a line.
+    /// Result of the scenario, in one line.
     pub words: String,
 }
 
@@ -68,7 +68,7 @@ pub struct Kept {
     one_at_a_time: Mutex<()>,
 }
 
-/// What stands on disk.
+/// Contents of the file on disk.
 pub struct Standing {
     bytes: Option<Vec<u8>>,
 }
@@ -114,7 +114,7 @@ impl Kept {
         standing?.into_text()
     }
 
-    /// What stands there.
+    /// Reads the file on disk.
     pub fn standing(&self) -> Result<Standing, String> {
         self.keeper.on_disk().map(|bytes| Standing { bytes })
     }

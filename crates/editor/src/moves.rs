@@ -3,7 +3,7 @@
 use crate::protocol::{BodyMove, Moves, PlateMoves};
 use platewash_scenario::{BodyShape, HeldPlates, Scenario};
 
-/// How the things of a cell are moved.
+/// Lists the keys that move the things of a cell.
 pub fn moves(scenario: &Scenario) -> Moves {
     Moves {
         plates: plates(scenario),

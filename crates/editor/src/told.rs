@@ -75,7 +75,7 @@ impl<'a> Told<'a> {
     }
 }
 
-/// Why an answer ends before its end.
+/// Reason that an answer ends early.
 pub enum End {
     /// The scenario is none, or states no job.
     Refused(Refusal),

@@ -20,7 +20,7 @@ use platewash_workcell::tool_chain::ToolError;
 use platewash_workcell::verdict::Infeasibility;
 use std::fmt;
 
-/// Why a scenario could not be carried out. Its words name the keys that decide it.
+/// Reason that a scenario could not be carried out. Its words name the keys that decide it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Failure {
@@ -54,7 +54,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Whether the job cannot be done, or no way to do it was found; `None` for bad input.
+    /// Returns how firmly the job is known to be infeasible: proved, or only no way found; `None` for bad input.
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
         match self {
@@ -65,7 +65,7 @@ impl Failure {
         }
     }
 
-    /// Whether the work was given up, as it was told to be.
+    /// Returns true where the work was cancelled on request.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         matches!(

@@ -144,7 +144,7 @@ impl Scenario {
     }
 }
 
-/// What a stiffness may be past the bounds of a range in another unit, as a part of them.
+/// Largest excess of a stiffness over the bounds of a range in another unit, as a part of them: rounding.
 const ROUNDING: f64 = 1e-12;
 
 impl Scenario {
@@ -227,7 +227,7 @@ pub(crate) const MAX_BYTES: u64 = 1 << 20;
 /// A scenario's text, and where it stands.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ScenarioSource {
-    /// What it was asked for by: a shipped name, or the file as it was given.
+    /// Name that it was asked for by: a shipped name, or the file as it was given.
     pub name: String,
     /// Its TOML text, as it stands there; not checked.
     pub text: String,

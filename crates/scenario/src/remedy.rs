@@ -40,7 +40,7 @@ pub struct Remedy {
     pub value: Option<Value>,
     /// The value that it has.
     pub found: Option<Value>,
-    /// Whether the plan is proved; otherwise the job is planned, no more.
+    /// True where the plan is proved; otherwise the job is only planned.
     pub is_proved: bool,
 }
 
@@ -54,7 +54,7 @@ impl fmt::Display for Remedy {
     }
 }
 
-/// What was tried for a job that cannot be done.
+/// Changes that were tried for a job that cannot be done.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Remedies {
     /// The keys that would do, each alone: those with which the plan is proved first, in the order in which the cause points to them.
@@ -116,7 +116,7 @@ struct Grid {
     set: fn(&mut Scenario, f64),
 }
 
-/// What comes of a changed job.
+/// Result of a changed job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Trial {
     Refused,
@@ -188,7 +188,7 @@ static MOUNT: Grid = Grid {
     set: |scenario, value| scenario.robot.mount_m[2] = value,
 };
 
-/// Whether plates are drawn.
+/// Checks that plates are drawn at random.
 fn is_sampled(scenario: &Scenario) -> bool {
     scenario.plate.is_empty() && scenario.layout.positions_m.is_none()
 }
@@ -262,7 +262,7 @@ impl Scenario {
         Ok(remedies)
     }
 
-    /// Whether a key is one that decides anything as the scenario is.
+    /// Returns true where a key has an effect in this scenario.
     fn decides(&self, tried: Tried) -> bool {
         match tried {
             Tried::Number(grid) => (grid.get)(self).is_some(),
@@ -309,14 +309,14 @@ impl Scenario {
         })
     }
 
-    /// What it states of a key.
+    /// Returns the stated value of a key.
     fn stated(&self, key: &str) -> Option<Value> {
         let (section, name) = key.split_once('.')?;
         let all = serde_json::to_value(self).ok()?;
         all.get(section)?.get(name).cloned()
     }
 
-    /// What comes of it.
+    /// Plans and proves the changed scenario.
     fn trial(&self, arm: &Arc<RobotModel>, watch: &Watch<'_>) -> Trial {
         if self.validate().is_err() {
             return Trial::Refused;

@@ -27,11 +27,11 @@ pub struct Scenario {
     pub name: String,
     /// Seed of every random stream.
     pub seed: u64,
-    /// What counts as done.
+    /// Program, order of the plates and coverage of the job.
     pub job: JobSection,
     /// The arm.
     pub robot: RobotSection,
-    /// What it holds.
+    /// Tool that the arm holds.
     pub tool: ToolSection,
     /// Further bodies of it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -40,10 +40,10 @@ pub struct Scenario {
     pub floor: FloorSection,
     /// A table.
     pub table: TableSection,
-    /// What else stands around.
+    /// Further obstacles.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub obstacle: Vec<ObstacleSection>,
-    /// Where the plates lie.
+    /// Positions of the plates.
     pub layout: LayoutSection,
     /// Plates one by one, or kinds of them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -56,7 +56,7 @@ pub struct Scenario {
     pub transition: TransitionSection,
     /// Limits beyond those of the arm's description.
     pub limits: LimitsSection,
-    /// How the arm follows.
+    /// Control of the arm in the simulation.
     pub control: ControlSection,
     /// The arm as a physical system.
     pub plant: PlantSection,

@@ -23,7 +23,7 @@ pub struct Journal {
     /// Which rows are done.
     has: Vec<bool>,
     done: u64,
-    /// Where rows and timings are appended; nothing of a study that is finished is touched.
+    /// Files to which rows and timings are appended; `None` for a finished study, which is not touched.
     files: Option<[Lines<File>; 2]>,
 }
 
@@ -107,13 +107,13 @@ impl Journal {
         })
     }
 
-    /// How many rows are done.
+    /// Number of rows that are done.
     #[must_use]
     pub fn done(&self) -> u64 {
         self.done
     }
 
-    /// How many rows the study has.
+    /// Number of rows of the study.
     #[must_use]
     pub fn rows(&self) -> u64 {
         self.manifest.rows
@@ -182,7 +182,7 @@ impl Journal {
     }
 }
 
-/// What stands in a study's folder beside its manifest from the beginning.
+/// Files of a study's folder that are written at the beginning, beside its manifest.
 fn texts(study: &Study) -> [(&'static str, String); 2] {
     [(STUDY, study.text.clone()), (PARTS, study.parts().to_json())]
 }

@@ -57,7 +57,7 @@ pub(crate) fn rows(folder: &Path, manifest: &Manifest, mut each: impl FnMut(u64,
     Ok(())
 }
 
-/// How many rows a folder has, and how many its study has; of one that is finished they are not looked at.
+/// Returns the number of rows in a folder, and the number of rows of its study; the rows of a finished study are not read.
 ///
 /// # Errors
 /// [`StudyError`]: no study, or rows that are none.

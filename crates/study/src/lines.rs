@@ -21,7 +21,7 @@ pub(crate) fn write_whole(file: &Path, text: &[u8]) -> Result<(), StudyError> {
     atomic_file::write(file, text).map_err(StudyError::disk(file, UNWRITTEN))
 }
 
-/// What a file of lines is written to; a file, and in tests one that fails.
+/// Destination of a file of lines: a file, and in tests one that fails.
 pub(crate) trait Sink: Write + Send {
     /// Cuts it to its first bytes, and goes on there.
     fn cut(&mut self, length: u64) -> io::Result<()>;

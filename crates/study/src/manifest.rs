@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What `format` says.
+/// Value of `format`.
 pub(crate) const FORMAT: &str = "platewash-study-manifest/1";
 
 /// A study that is kept: `manifest.json`.
@@ -26,7 +26,7 @@ pub struct Manifest {
     pub version: String,
     /// The version of its rows.
     pub row_schema: u32,
-    /// How many rows it has when it is finished.
+    /// Number of rows when it is finished.
     pub rows: u64,
     /// SHA-256 of the study file.
     pub study_sha256: String,
@@ -69,9 +69,9 @@ pub struct ManifestFile {
 pub struct ManifestAxis {
     /// The scenario's key.
     pub key: String,
-    /// How many values it takes.
+    /// Number of values.
     pub count: u64,
-    /// What they have in common.
+    /// Common kind of its values.
     pub kind: AxisKind,
 }
 
@@ -123,7 +123,8 @@ impl Manifest {
         write_whole(&path, format!("{text}\n").as_bytes())
     }
 
-    /// What tells this study from another one, with what each of them has: of lists, what the other has not.
+    /// Returns the first fact in which two studies differ, with the value of each: of lists, the entries that the other one
+    /// lacks.
     pub(crate) fn difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
         let mut pairs = self.facts().into_iter().zip(other.facts());
         let ((what, mine), (_, its)) = pairs.find(|((_, mine), (_, its))| mine != its)?;

@@ -55,7 +55,7 @@ type Judge = fn(&Scenario, &Arc<RobotModel>, &CancelToken) -> Result<(Planned, C
 type Read = ((usize, BTreeMap<String, Value>), Arc<Scenario>);
 
 impl Resolver {
-    /// Of a study; nothing is read yet.
+    /// Resolver of a study; nothing is read yet.
     #[must_use]
     pub fn new(study: Arc<Study>) -> Self {
         Self {
@@ -67,7 +67,7 @@ impl Resolver {
         }
     }
 
-    /// What comes of a row: the same for every order and thread. A panic is an outcome of its own. `None` where the token cancels.
+    /// Computes a row: the same for every order and thread. A panic is an outcome of its own. `None` where the token cancels.
     ///
     /// # Errors
     /// [`StudyError::NoRow`].

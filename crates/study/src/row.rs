@@ -12,7 +12,8 @@ use std::collections::BTreeMap;
 /// The version of rows. Fields are added, taken away or given another meaning only with another number.
 pub const ROW_SCHEMA: u32 = 2;
 
-/// What came of one scenario of a study. It depends on the study and the program's version alone: how long it took is kept elsewhere.
+/// Result of one scenario of a study. It depends on the study and the program's version alone: the time that it took is kept
+/// elsewhere.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Row {
@@ -26,11 +27,11 @@ pub struct Row {
     pub scenario: String,
     /// The values of the axes.
     pub axes: BTreeMap<String, Value>,
-    /// How it ended.
+    /// Outcome of the row.
     pub outcome: Outcome,
-    /// Why it is not proved; where it is proved but for what its scenario waives, that.
+    /// Reason that it is not proved; where it is proved except for the requirements that its scenario waives, a note on these.
     pub reason: Option<String>,
-    /// Where that is.
+    /// Place of the cause.
     pub place: Place,
     /// Duration of the motion \[s\].
     pub duration_s: Option<f64>,
@@ -109,7 +110,7 @@ impl Row {
     }
 }
 
-/// How a row ended. The words are those of `sweep`, and one more.
+/// Outcome of a row. The words are those of `sweep`, and one more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
@@ -151,7 +152,7 @@ impl Outcome {
         }
     }
 
-    /// Of a layout that was planned and judged.
+    /// Outcome of a layout that was planned and judged.
     #[must_use]
     pub fn judged(verdict: Verdict) -> Self {
         match verdict {
@@ -162,7 +163,7 @@ impl Outcome {
 }
 
 impl From<&Failure> for Outcome {
-    /// Of a layout that came to no plan, or to none that could be judged.
+    /// Outcome of a layout without a plan, or with a plan that could not be judged.
     fn from(error: &Failure) -> Self {
         match error.infeasibility() {
             Some(Infeasibility::Proved) => Self::Infeasible,
@@ -192,7 +193,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// Of the first requirement that is not kept.
+    /// Place of the first requirement that is not kept.
     pub(crate) fn of_certificate(certificate: &Certificate) -> Self {
         let place = certificate.broken().next().map(|check| Self {
             requirement: Some(check.requirement),
@@ -205,7 +206,7 @@ impl Place {
         place.unwrap_or_default()
     }
 
-    /// Of what stood in the way of a plan.
+    /// Place of the obstruction of a plan.
     pub(crate) fn of_failure(error: &Failure) -> Self {
         let Failure::Plan(error) = error else {
             return Self::default();
@@ -249,7 +250,7 @@ pub enum Keep {
 }
 
 impl Keep {
-    /// Whether the plan of a row is kept; a row without one has none to keep.
+    /// Checks that the plan of a row is kept; a row without a plan has none to keep.
     #[must_use]
     pub fn wants(self, row: &Row) -> bool {
         row.plan.is_some()
@@ -264,7 +265,7 @@ impl Keep {
 /// A row, and the plan where the study keeps it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Made {
-    /// What came of the scenario.
+    /// Result of the scenario.
     pub row: Row,
     /// The plan's file, as `run` writes `plan.json`; there exactly where [`Keep::wants`](crate::Keep::wants) it.
     pub plan: Option<Vec<u8>>,

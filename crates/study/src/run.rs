@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 /// Rows that may wait to be kept.
 const WAITING: usize = 64;
 
-/// How far a study is.
+/// Progress of a study.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// Rows that are kept, those of earlier calls among them.
@@ -20,7 +20,7 @@ pub struct Progress {
     pub rows: u64,
     /// Rows a second in this call.
     pub per_s: f64,
-    /// What is left at this rate \[s\].
+    /// Time left at this rate \[s\].
     pub left_s: f64,
 }
 

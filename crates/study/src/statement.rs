@@ -14,7 +14,7 @@ use std::path::Path;
 use std::sync::Arc;
 use toml::Spanned;
 
-/// What `format` must be.
+/// Required value of `format`.
 const FORMAT: &str = "platewash-study/1";
 /// Most values that an axis lists; seeds are counted, not listed.
 const MOST_LISTED: usize = 10_000;
@@ -71,7 +71,7 @@ impl OneOrMore {
 }
 
 impl ScenarioStatement {
-    /// What the study calls it.
+    /// Name of the scenario in the study.
     fn name(&self) -> &str {
         match self {
             Self::Named(name) => name,
@@ -97,7 +97,7 @@ pub(crate) struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// What the text states.
+    /// Parses the text.
     pub fn statement(&self) -> Result<Statement, StudyError> {
         let stated: Statement = toml::from_str(self.text).map_err(|error| {
             let key = error.span().and_then(|span| self.key_at(span.start));
@@ -333,8 +333,9 @@ fn evenly(stated: &[toml::Value]) -> Option<Vec<Value>> {
     is_range.then(|| spaced(from, to, count))
 }
 
-/// Whether every base has the key, and the key takes the value. That the texts have a place for the key is tried out with its first two values,
-/// of which one may be there already; the others are looked at by themselves, as a text is read again with every change.
+/// Checks that every base has the key, and that the key takes the value. The first two values are tried in the texts, to see that
+/// these have a place for the key: one of the two may be there already. The others are checked by themselves, as every change
+/// makes the text be read again.
 fn check_value(bases: &[Base], key: &str, value: &Value, place: usize) -> Result<(), String> {
     if key == "job.program" && value != "certified" {
         return Err(format!("{key}: a study plans certified jobs; found {value}"));

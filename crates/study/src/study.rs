@@ -90,7 +90,7 @@ pub struct StudyParts {
 pub struct PartsFile {
     /// By what name it was read.
     pub path: PathBuf,
-    /// What it holds.
+    /// Contents of the file.
     pub base64: String,
 }
 
@@ -252,14 +252,14 @@ impl Study {
         })
     }
 
-    /// How many rows its scenarios, axes and listed rows make; `None` beyond all numbers.
+    /// Number of rows that its scenarios, axes and listed rows make; `None` where it overflows.
     pub(crate) fn counted(&self) -> Option<u64> {
         let counts = [self.bases.len() as u64, self.listed.len().max(1) as u64];
         let counts = counts.into_iter().chain(self.axes.iter().map(Axis::count));
         counts.into_iter().try_fold(1, u64::checked_mul)
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> u64 {
         self.rows

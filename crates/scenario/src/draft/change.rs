@@ -18,7 +18,7 @@ const MOST_ON_A_LINE: usize = 4;
 /// Longest part of a line that is quoted in a message.
 const LONGEST: usize = 40;
 
-/// Why a text is not changed.
+/// Reason that a text is not changed.
 pub(crate) enum Stop {
     /// The value is there already.
     Same,
@@ -155,7 +155,7 @@ fn remove(document: &mut DocumentMut, target: &Target) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Whether braces have no lines and no comments of their own: those could not be kept.
+/// Checks that braces have no lines and no comments of their own, which could not be kept.
 fn is_on_one_line(table: &InlineTable) -> bool {
     !table.to_string().contains('\n')
 }
@@ -184,7 +184,7 @@ fn add_section(document: &mut DocumentMut, section: &str) {
     document.insert(section, Item::Table(table));
 }
 
-/// Whether there are keys before the first section.
+/// Checks that there are keys before the first section.
 fn has_keys(document: &DocumentMut) -> bool {
     let is_key = |item: &Item| match item {
         Item::Table(table) => table.is_dotted(),
@@ -210,7 +210,7 @@ fn take_head(document: &mut DocumentMut) -> String {
     }
 }
 
-/// Where the last header of a section is printed, those of its own sections included.
+/// Position of the last header of a section, those of its own sections included.
 fn last_position(item: &Item) -> Option<isize> {
     let table = item.as_table()?;
     let inside = table.iter().filter_map(|(_, item)| last_position(item));
@@ -374,7 +374,7 @@ pub(crate) fn json(value: &Value) -> Json {
     DeValue::parse(&bare(value)).map_or(Json::Null, |value| json_of(value.get_ref()))
 }
 
-/// Whether two values are the same to whoever reads the file: numbers to the bit, and a whole number with a point is the one
+/// Compares two values as readers of the file see them: numbers to the bit, and a whole number with a point equals the one
 /// without.
 pub(crate) fn same(a: &Json, b: &Json) -> bool {
     match (a, b) {
@@ -385,7 +385,7 @@ pub(crate) fn same(a: &Json, b: &Json) -> bool {
     }
 }
 
-/// What stands where a key would go: the last thing on the way to it that is there.
+/// Error of a key whose place is taken: it names the last thing on the way to it that is there.
 fn blocked(text: &str, target: &Target) -> EditError {
     let mut at = 0;
     if let Ok(document) = Document::parse(text) {

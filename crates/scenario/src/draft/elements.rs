@@ -29,7 +29,7 @@ pub(crate) fn merge(old: &mut Array, new: &[Json]) -> Result<(), Stop> {
     Ok(())
 }
 
-/// What stands before an element; before the bracket, behind the last one.
+/// Text before an element; before the bracket, behind the last one.
 fn gap(array: &Array, at: usize) -> String {
     match (array.get(at), array.get(at.wrapping_sub(1))) {
         (Some(element), _) => text_of(element.decor().prefix()),

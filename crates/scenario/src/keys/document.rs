@@ -79,13 +79,13 @@ pub struct FormKey {
     pub domain: FormDomain,
     /// The domain in words, as messages and the reference print it.
     pub expected: String,
-    /// What it means.
+    /// Meaning of the key.
     pub meaning: &'static str,
     /// Its value where a file states none; `None` where there is none then.
     pub default: Option<Value>,
 }
 
-/// What a key's value may be.
+/// Domain of a key's values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FormDomain {
     /// The kind of [`Domain`], in lower case with underscores.

@@ -6,7 +6,7 @@ use platewash_kinematics::urdf::{Files, MAX_BYTES, MeshSource};
 use platewash_kinematics::{DisabledPairs, RobotModel, SrdfError, UrdfError};
 use std::path::{Path, PathBuf};
 
-/// Why the arm of a scenario could not be made.
+/// Reason that the arm of a scenario could not be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ArmError {
@@ -26,7 +26,7 @@ pub enum ArmError {
     Urdf {
         /// The file.
         file: String,
-        /// Why.
+        /// Error in the description.
         error: UrdfError,
     },
     /// The SRDF was refused.
@@ -34,7 +34,7 @@ pub enum ArmError {
     Srdf {
         /// The file.
         file: String,
-        /// Why.
+        /// Error in the description.
         error: SrdfError,
     },
 }

@@ -52,7 +52,7 @@ impl Scenario {
         }
     }
 
-    /// Where the meshes of its bodies are.
+    /// Source of the meshes of its bodies.
     pub(crate) fn meshes(&self) -> MeshSource {
         MeshSource::new(&self.robot.package_path, None).reading(&self.files)
     }

@@ -62,7 +62,7 @@ impl Scenario {
         self.table.check()
     }
 
-    /// What stands around an arm with its tool, among so many plates.
+    /// Obstacles around an arm with its tool, among so many plates.
     ///
     /// # Errors
     /// [`Failure`]: a mesh that cannot be read or is no body, a name that another body has.
@@ -118,8 +118,8 @@ impl Scenario {
         }
     }
 
-    /// How far the convex parts that count reach beyond the meshes of tool and obstacles, where they do. Meshes that cannot be read are
-    /// left out: whoever makes the workcell is told of them.
+    /// Notes on convex parts that reach beyond the meshes of tool and obstacles. Meshes that cannot be read are left out: the
+    /// caller that makes the workcell reports them.
     #[must_use]
     pub fn notes_on_meshes(&self) -> Vec<Note> {
         let source = self.meshes();
