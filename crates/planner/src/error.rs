@@ -61,15 +61,15 @@ pub enum PlanError {
     /// An end configuration lies outside the joint limits.
     #[error("at the {end} of the motion: {violation}")]
     Home {
-        /// Which end.
+        /// The end at fault.
         end: End,
-        /// Which joint, and by how much.
+        /// The joint, its limit and its position.
         violation: LimitViolation,
     },
-    /// At an end configuration the arm is too near something.
+    /// The arm is too near a body at an end configuration.
     #[error("at the {end} of the motion the arm is not clear: {too_near}")]
     HomeNotClear {
-        /// Which end.
+        /// The end at fault.
         end: End,
         /// The bodies.
         too_near: Box<TooNear>,
@@ -105,7 +105,7 @@ pub enum PlanError {
         /// Obstruction in the last layout, in words.
         last: String,
     },
-    /// From the configurations found on a plate, the arm does not follow the line over it.
+    /// The arm cannot follow the line over a plate from the configurations found there.
     #[error(
         "no way was found for the arm to follow the line over plate {plate} up to the lift of {}: {error}",
         millimetres(*.lift_m)
@@ -118,7 +118,7 @@ pub enum PlanError {
         /// Error of the inverse kinematics along the line.
         error: Box<IkPathError>,
     },
-    /// The arm can follow a wash path, but with none that was tried the sponge does what is promised.
+    /// The arm can follow a wash path, but no path that was tried keeps the promises of the job.
     #[error("no way was found to wash plate {plate} as required: {shortfall}")]
     Promise {
         /// The plate.
@@ -204,7 +204,7 @@ impl PlanError {
     }
 }
 
-// The messages above hold those of their causes, which are therefore not told again as sources.
+// The messages above contain those of their causes. The causes are therefore not repeated as sources.
 impl From<LayoutError> for PlanError {
     fn from(error: LayoutError) -> Self {
         Self::Layout(error)
@@ -226,7 +226,7 @@ impl From<TransitError> for PlanError {
     }
 }
 
-/// Which pair is in the way most often, where one is.
+/// Names the pair that is in the way most often; empty where there is none.
 fn most_often(in_the_way: Option<&([String; 2], usize)>) -> String {
     in_the_way.map_or_else(String::new, |([a, b], count)| {
         let [a, b] = [a, b].map(|name| printable(name));

@@ -1,6 +1,7 @@
-//! What is reported of a job that cannot be done, or that no way was found to do: why, and what of each plate concerned.
+//! Report of a job that cannot be done, or that no way was found to do: the reason, and the findings on each plate concerned.
 //!
-//! A plate for which no way was found to wash it whole: which part of it, why, whether that is known, and where it could be washed.
+//! Findings on a plate for which no way was found to wash it whole: the part at fault, the cause, the firmness of the conclusion,
+//! and another place at which it could be washed.
 
 use crate::error::PlanError;
 use crate::redundancy::washable::Cause;
@@ -61,7 +62,7 @@ pub struct InfeasiblePart {
     pub first: InfeasibleHindrance,
     /// Hindrances at the other tilts.
     pub others: Vec<InfeasibleHindrance>,
-    /// The same in words.
+    /// The cause in words.
     pub cause: String,
 }
 
@@ -70,9 +71,9 @@ pub struct InfeasiblePart {
 pub struct InfeasibleHindrance {
     /// The kind of hindrance.
     pub kind: Filter,
-    /// By how much the worst point is missed \[m\]; `None` for joints.
+    /// Shortfall of the worst point \[m\]; `None` for joints.
     pub shortfall_m: Option<f64>,
-    /// By how much the worst joint is off \[rad\]; `None` for lengths.
+    /// Shortfall of the worst joint \[rad\]; `None` for lengths.
     pub shortfall_rad: Option<f64>,
 }
 
@@ -96,7 +97,7 @@ impl InfeasibleReport {
         Some(report.explained(error.to_string()))
     }
 
-    /// The same with further plates that stand in the way.
+    /// The same report with further plates that stand in the way.
     #[must_use]
     pub fn besides(mut self, others: &[UnwashablePlate]) -> Self {
         for other in others {
@@ -110,7 +111,7 @@ impl InfeasibleReport {
         self.explained(reason)
     }
 
-    /// The same with the reason in other words.
+    /// The same report with the reason in other words.
     #[must_use]
     pub fn explained(self, reason: String) -> Self {
         let word = match self.verdict {
@@ -244,13 +245,13 @@ pub struct UnwashablePlate {
     pub share: Option<f64>,
     /// Causes that keep the rest from being washed, the most frequent first.
     pub causes: Vec<Cause>,
-    /// Contact points, world frame \[m\], looked at one by one: those for which configurations were found on the best branch of
-    /// the arm. Without a `share` none were looked at, here and in `dead_m`.
+    /// Contact points with a configuration on the best branch of the arm, checked one by one, world frame \[m\]. Without a
+    /// `share` none were checked, here and in `dead_m`.
     pub free_m: Vec<[f64; 3]>,
     /// Contact points without a configuration \[m\].
     pub dead_m: Vec<[f64; 3]>,
-    /// The nearest centre found at which it can be washed whole, and the arm gets there and away \[m\]; on a grid of a
-    /// millimetre, so that what is printed is what was tried.
+    /// Nearest centre found at which it can be washed whole, and which the arm reaches and leaves \[m\]. It is on a grid of a
+    /// millimetre, so that the printed place is the place that was tried.
     pub nearest_m: Option<[f64; 2]>,
     /// Extent of the search for another place.
     pub place_search: PlaceSearch,
@@ -260,11 +261,11 @@ pub struct UnwashablePlate {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PlaceSearch {
-    /// On rings up to this distance from where it lies \[m\].
+    /// Search on rings up to this distance from its own place \[m\].
     Within(f64),
-    /// Not at all: the job does not ask for it.
+    /// No search: the job does not ask for it.
     Off,
-    /// Not yet: the job asks for it, but whoever asked for an answer did not wait for it.
+    /// No search yet: the job asks for it, but the caller did not wait for it.
     Later,
 }
 

@@ -9,11 +9,11 @@ pub const EXACT_UP_TO: usize = 12;
 /// Times \[s\] from home to each plate, between plates (row: from), and from each plate home.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TravelTimes {
-    /// From home to each plate.
+    /// Travel time from home to each plate.
     pub out: Vec<f64>,
-    /// From the plate of the row to the plate of the column.
+    /// Travel time from the plate of the row to the plate of the column.
     pub between: Vec<Vec<f64>>,
-    /// From each plate home.
+    /// Travel time from each plate to home.
     pub back: Vec<f64>,
 }
 

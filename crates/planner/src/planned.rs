@@ -1,6 +1,6 @@
-//! What planning makes: the plan, and what is to be said of it.
+//! Result of planning: the plan, and a summary of it.
 //!
-//! How long a wash takes beside the least time for its face, and which limits hold it back.
+//! Time of a wash against the least time for its face, and the limits that hold it back.
 //!
 //! A disc of radius s whose centre moves by L covers at most 2 s L + π s². A wash at the speed v or below that covers the area A
 //! therefore takes at least (A − π s²)/(2 s v).
@@ -27,7 +27,7 @@ pub struct Planned {
     pub plan: Plan,
     /// One entry a plate, in the order of washing.
     pub visits: Vec<VisitSummary>,
-    /// From home, between the plates, and home.
+    /// Transits from home, between the plates, and to home.
     pub transits: Vec<TransitSummary>,
     /// Travel time saved by the order.
     pub tour: TourSummary,
@@ -73,7 +73,7 @@ pub struct TransitSummary {
 pub struct TourSummary {
     /// Travel time estimated for the order taken \[s\]: each joint at its limits from place to place.
     pub travel_s: f64,
-    /// The same for always the plate reached soonest \[s\].
+    /// The same estimate for an order that always takes the plate reached soonest \[s\].
     pub nearest_next_s: f64,
     /// Degree to which the order is known to be the best under that estimate.
     pub optimality: Option<Optimality>,

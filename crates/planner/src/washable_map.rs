@@ -1,4 +1,4 @@
-//! Where a plate could be washed, square by square: the squares, and what is told of them.
+//! Map of the places at which a plate could be washed: the squares, and the answers for them.
 
 use crate::error::PlanError;
 use platewash_workcell::job::WashJob;
@@ -11,10 +11,10 @@ const LEVELS: [i32; 3] = [4, 2, 1];
 /// Finest squares across the radius of an area, at most; of all levels together there are then fewer than 20 000.
 const MOST_ACROSS: f64 = 60.0;
 
-/// The same where the area is chosen here.
+/// The same number where the area is chosen here.
 const CHOSEN_ACROSS: f64 = 45.0;
 
-/// The same at least: the first squares are four times as large, and some must lie in the area.
+/// Least number of them: the first squares are four times as large, and some must lie in the area.
 const LEAST_ACROSS: f64 = 4.0;
 
 /// Radius of an area, at least and at most \[m\].
@@ -23,13 +23,13 @@ const RADII_M: [f64; 2] = [0.05, 1e3];
 /// Distance of an area from the base, at most \[m\].
 const FARTHEST_M: f64 = 1e3;
 
-/// Squares told of at once, at most: few, so that the first are soon there.
+/// Greatest number of squares in one patch: few, so that the first ones arrive soon.
 pub const IN_A_PATCH: usize = 32;
 
 /// Places of the edges chosen here in a metre.
 const PER_METRE: f64 = 1000.0;
 
-/// The disc of the floor that is looked at: centres of the plate.
+/// The disc of the floor that is mapped: centres of the plate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MapArea {
     /// Its centre \[m\].
@@ -40,7 +40,7 @@ pub struct MapArea {
     pub step_m: f64,
 }
 
-/// Some squares of one size, looked at.
+/// Some checked squares of one size.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MapPatch {
     /// Their edge \[m\].
@@ -49,7 +49,7 @@ pub struct MapPatch {
     pub washable_m: Vec<[f64; 2]>,
     /// Centres of the others \[m\].
     pub unwashable_m: Vec<[f64; 2]>,
-    /// Squares of this size told of so far.
+    /// Squares of this size checked so far.
     pub done: usize,
     /// Squares of this size in all.
     pub of: usize,
@@ -75,7 +75,7 @@ impl MapArea {
         Ok(Self::about([from.x, from.y], reach_m))
     }
 
-    /// All that a reach about a point covers: squares so fine that all levels take seconds, with edges in whole millimetres.
+    /// Area of a reach about a point: squares so fine that all levels take seconds, with edges in whole millimetres.
     fn about(centre_m: [f64; 2], reach_m: f64) -> Self {
         let [least, most] = RADII_M;
         // NaN is the least here.
@@ -99,7 +99,7 @@ impl MapArea {
     }
 }
 
-/// The levels of a map, coarse to fine, with what was found so far.
+/// The levels of a map, coarse to fine, with the answers so far.
 #[derive(Debug)]
 pub(crate) struct Levels<'a> {
     area: &'a MapArea,

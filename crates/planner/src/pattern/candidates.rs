@@ -1,6 +1,6 @@
-//! The curves among which is chosen.
+//! Candidate curves.
 //!
-//! How long a curve takes at the limits of washing, and what it brings about on the bare face.
+//! Estimates for a curve: its time at the limits of washing, and its effect on the bare face.
 
 use crate::pattern::promise::{Margin, Promise};
 use crate::scene::AxisRule;
@@ -35,13 +35,13 @@ const DENSE_PITCHES: [f64; 3] = [0.65, 0.5, 0.35];
 /// Density with which a curve covers a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Density {
-    /// As a usual job needs it.
+    /// Density for a usual job.
     Usual,
     /// Denser than that.
     Dense,
 }
 
-/// All curves of a density that the settings leave open; of the usual one at least one.
+/// Lists all curves of a density that the settings leave open; at least one of the usual density.
 pub(crate) fn candidates(
     settings: &PlannerSettings,
     surface: &Surface,
@@ -161,7 +161,7 @@ const LEAN: f64 = 0.8;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Estimate {
     pub curve: WashCurve,
-    /// From rest to rest, the arm apart \[s\].
+    /// Least time from rest to rest, without the limits of the arm \[s\].
     pub least_s: f64,
     speed_m_s: f64,
 }

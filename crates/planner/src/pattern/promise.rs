@@ -1,6 +1,6 @@
-//! What a wash must bring about on a face.
+//! Promise of a wash: the contact that it must bring about on a face.
 //!
-//! What a wash falls short of.
+//! Shortfall of a wash against its promise.
 
 use crate::scene::Scene;
 use crate::trig::{acos, sin_cos};
@@ -17,14 +17,14 @@ use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// Places of a face that are looked at.
+/// Number of places of a face that are checked.
 const PLACES: u32 = 2000;
 
-/// Places that are looked at first: where this much of a share lacks there, the others are not.
+/// Number of places that are checked first: where they lack this much of a share, the others are skipped.
 const FIRST: u32 = 250;
 const LACKING: f64 = 8e-3;
 
-/// Places of those that are looked at before them, and the stride from one to the next, which spreads them over the face.
+/// Number of places that are checked before those, and the stride from one to the next, which spreads them over the face.
 const FEW: u32 = 50;
 const SPREAD: u32 = 97;
 
@@ -54,10 +54,10 @@ pub struct Margin {
 }
 
 impl Margin {
-    /// Before the arm's own tilts are known.
+    /// Margin before the arm's own tilts are known.
     pub const BARE_FACE: Self = Self { more: 1.1, ..Self::ARM };
 
-    /// With the arm.
+    /// Margin with the arm's own configurations.
     pub const ARM: Self = Self {
         more: 1.04,
         part: 0.2,
@@ -65,14 +65,14 @@ impl Margin {
         tilt_rad: 5e-4,
     };
 
-    /// On the bare face, where an arm pressed less than [`BARE_FACE`](Self::BARE_FACE) lets expect.
+    /// Margin on the bare face where an arm pressed less than [`BARE_FACE`](Self::BARE_FACE) allows for.
     pub const WEAK_ARM: Self = Self {
         more: 1.3,
         part: 0.5,
         ..Self::ARM
     };
 
-    /// With the arm, where more would cost time: what places that are looked at one by one may miss of a share.
+    /// Margin with the arm where a larger one would cost time: for the part of a share that a check of single places may miss.
     pub const CLOSE: Self = Self {
         more: 1.005,
         part: 0.05,
@@ -80,7 +80,7 @@ impl Margin {
         tilt_rad: 1e-4,
     };
 
-    /// None: what lacks even so is not proved.
+    /// No margin: a shortfall that remains is certain to fail the proof.
     pub const NONE: Self = Self {
         more: 1.0,
         part: 0.0,
@@ -103,9 +103,9 @@ pub struct Promise {
     pub wanted: Wanted,
     /// Shares that must be in contact, long enough, and with enough of a dose.
     pub shares: [f64; 3],
-    /// Greatest strain; infinite where nothing is asked.
+    /// Greatest strain; infinite without a limit.
     pub strain: f64,
-    /// Least and greatest force \[N\]; 0 and infinite where nothing is asked.
+    /// Least and greatest force \[N\]; 0 and infinite without limits.
     pub force_n: [f64; 2],
 }
 
@@ -150,9 +150,9 @@ impl Promise {
 }
 
 impl Promise {
-    /// The same of a face that is to be swept alone, where nothing tells which way the tool leans: of the sponge's face counts what is over the
-    /// disc whose radius is that of the sponge times the cosine of the cone, less what the tip may be off its path, as in the certificate.
-    /// `None` of all others.
+    /// The same promise for a face that only has to be swept, where the lean of the tool has an unknown direction. The counted
+    /// part of the sponge's face is the part over a disc. The radius of the disc is that of the sponge times the cosine of the
+    /// cone, less the tip's deviation from its path, as in the certificate. `None` for all other promises.
     pub(crate) fn swept_within(&self, surface: &Surface, cone_rad: f64) -> Option<Self> {
         let (_, cosine) = sin_cos(cone_rad);
         let is_swept = surface.is_flat() && self.wanted.compression_m == ANY_M;
@@ -180,7 +180,7 @@ impl Promise {
             .or_else(|| self.missing(&plate.surface, &moments, margin))
     }
 
-    /// The strain or force of the sponge that is beyond what is promised.
+    /// The strain or force of the sponge that exceeds the promise.
     fn overload(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> Option<Shortfall> {
         let [least_n, most_n] = self.force_n;
         if self.strain.is_infinite() && self.force_n == ANY_FORCE_N {
@@ -212,8 +212,8 @@ impl Promise {
         }
     }
 
-    /// The least and the greatest volume of compressed foam \[m³\] and the greatest compression \[m\] on a flat face, whatever the moment: as
-    /// the certificate bounds them, from the greatest tilt and the place farthest out.
+    /// Least and greatest volume of compressed foam \[m³\] and greatest compression \[m\] on a flat face, over all moments. They
+    /// are bounded as in the certificate, from the greatest tilt and the place farthest out.
     fn pressed_level(&self, rim_m: f64, moments: &[Moment], margin: &Margin) -> ([f64; 2], f64) {
         let (mut least_cosine, mut distance_m): (f64, f64) = (1.0, 0.0);
         for moment in moments {
@@ -292,8 +292,8 @@ impl Promise {
         })
     }
 
-    /// The greatest share of the speed, from `least` to 1, at which places of a face have what is promised with a margin. Slower, they are
-    /// pressed longer; how deep they are pressed and what dose they get stays.
+    /// Greatest share of the speed, from `least` to 1, at which the places of a face keep the promise with a margin. A lower
+    /// speed makes the contact longer; depth and dose stay the same.
     pub(crate) fn speed_share(
         &self,
         surface: &Surface,
@@ -316,7 +316,7 @@ impl Promise {
         Some((time_s / (margin.more * self.wanted.time_s)).clamp(least, 1.0))
     }
 
-    /// The share of a face that is too small, looked at place by place through some moments.
+    /// The share of a face that is too small, checked place by place over some moments.
     fn missing(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> Option<Shortfall> {
         let wanted = self.wanted_with(margin);
         let looks = Looks::new(&self.foundation, moments, &wanted);
@@ -397,7 +397,7 @@ pub enum Promised {
 /// A promise that a wash does not keep, as it is seen at the configurations along it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Shortfall {
-    /// Which one.
+    /// The promise that is not kept.
     pub promised: Promised,
     /// Value found: a force \[N\], or a share.
     pub found: f64,

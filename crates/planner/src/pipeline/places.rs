@@ -1,8 +1,8 @@
-//! Where else a plate could lie for the job to wash it.
+//! Search for another place of a plate at which the job can wash it.
 //!
-//! Where a plate could be washed, the others as they lie.
+//! Map of the places at which a plate could be washed, with the others in place.
 //!
-//! What to expect of each plate, before anything is planned.
+//! Outlook on each plate, before anything is planned.
 //!
 //! Layouts of which every plate can be washed whole.
 
@@ -45,8 +45,8 @@ pub fn nearest_place(job: &WashJob, plate: usize, watch: &Watch<'_>) -> Result<O
 }
 
 impl Pipeline<'_> {
-    /// The wash path of a plate, and the configuration not far from which it starts \[rad\]: where the one before it ended; home,
-    /// where a few points tell that it cannot be washed.
+    /// Returns the wash path of a plate, and the configuration near which it starts \[rad\]. That is the end of the plate before
+    /// it, or home, where a check of a few points shows that the former cannot be washed.
     fn start_on(&self, scene: &Scene<'_>, order: &[usize], plate: usize) -> Result<(WashPath, JointVector), Cancelled> {
         let turn = order.iter().position(|&other| other == plate).unwrap_or(0);
         let path = self.path_of(scene, order, turn);
@@ -90,7 +90,7 @@ impl Pipeline<'_> {
         }
     }
 
-    /// The plate of a wash path, to be looked at elsewhere.
+    /// The plate of a wash path as a subject of the search for another place.
     pub fn elsewhere<'a>(&'a self, scene: &'a Scene<'a>, path: &'a WashPath, near: &'a JointVector) -> Elsewhere<'a> {
         Elsewhere {
             scene,
@@ -139,9 +139,9 @@ impl Pipeline<'_> {
 /// patches.
 ///
 /// A square counts as washable where the plate, with its centre in the middle, overlaps neither another plate nor the base, a policy
-/// of tilts washes it whole from home, and the arm is clear at home. That is a guess, as [`outlook`](crate::outlook) is: transits are
-/// not looked at, and a search may wash more. Every square told of was looked at; the finer ones are those along the border of what
-/// the coarser ones told, so that what lies within one coarse square alone may be missed.
+/// of tilts washes it whole from home, and the arm is clear at home. This is an estimate, as [`outlook`](crate::outlook) is:
+/// transits are not checked, and a search may wash more. Every reported square was checked. The finer ones are those along the
+/// border in the answers of the coarser ones, so that a detail within one coarse square may be missed.
 ///
 /// Squares, answers and their order in patches are the same for any number of threads: of each size, the nearest to where the plate
 /// lies come first.
@@ -245,7 +245,7 @@ impl Pipeline<'_> {
 /// Layouts drawn before it is given up.
 const MOST_LAYOUTS: usize = 200;
 
-/// The first of the layouts drawn of which every plate can be washed whole under `terms`, whose own plates are ignored.
+/// Draws layouts until every plate of one can be washed whole under `terms`, whose own plates are ignored.
 ///
 /// # Errors
 /// [`PlanError::Layout`] of the draws, [`PlanError::NoneWashable`] when no layout drawn will do, and whatever [`check`](crate::check)

@@ -1,4 +1,4 @@
-//! What the phases of planning share.
+//! Data that the phases of planning share.
 
 use crate::error::PlanError;
 use crate::infeasible::PlaceSearch;
@@ -46,7 +46,7 @@ pub(crate) struct Pipeline<'a> {
     pub patterns: Vec<Arc<Patterns>>,
     /// The order of the plates, where it is not for the settings to decide.
     pub asked_order: Option<Vec<usize>>,
-    /// Paths to follow as they are, whatever lies where they end.
+    /// Wash paths whose curves are taken as given: they are not turned towards the next place.
     pub asked_paths: Vec<WashPath>,
     pub watch: Watch<'a>,
 }
@@ -146,7 +146,7 @@ impl<'a> Pipeline<'a> {
         })
     }
 
-    /// The same among as many plates that lie elsewhere; nobody listens.
+    /// The same pipeline among as many plates at other places, without a listener.
     pub fn among<'b>(&self, plates: &'b [Plate]) -> Pipeline<'b>
     where
         'a: 'b,
@@ -212,7 +212,7 @@ impl<'a> Pipeline<'a> {
         self.check_homes_among(&self.clearance)
     }
 
-    /// The same among other bodies.
+    /// The same check among other bodies.
     pub fn check_homes_among(&self, bodies: &ClearanceModel) -> Result<(), PlanError> {
         for (end, q) in ends(self.terms) {
             let too_near = TooNear::at(bodies, q, Stretch::Free, self.clearance_m());

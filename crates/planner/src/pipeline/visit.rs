@@ -28,7 +28,8 @@ const MEETS_M: f64 = 1e-4;
 /// The share of the speed of landing and lifting at which the free sponge touches at most.
 const LANDING: f64 = 0.97;
 
-/// The share of the speed limit of washing at which the sponge touches at most: the rest is for what its rim adds to the tip.
+/// Share of the speed limit of washing at which the sponge touches at most: the rest is for the motion of its rim relative to the
+/// tip.
 const TOUCHING: f64 = 0.99;
 
 /// Washing of one plate.
@@ -65,7 +66,8 @@ pub(crate) fn wash_path(pipeline: &Pipeline<'_>, plate: usize, pattern: &Pattern
     }
 }
 
-/// The curve that ends in a direction of its plate's frame; it leaves the centre at an angle within a turn of 0, whatever its turns.
+/// Turns a curve so that it ends in a direction of its plate's frame; it leaves the centre at an angle within a turn of 0, for
+/// any number of turns.
 fn turned(curve: WashCurve, towards: &Vector3<f64>) -> WashCurve {
     let start_angle_rad = (atan2(towards.y, towards.x) - curve.end() % TAU) % TAU;
     WashCurve {
@@ -144,9 +146,9 @@ pub(crate) fn lines(
 /// Reach of a sponge towards a plate that it comes down on or leaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Reach {
-    /// As far as while it washes.
+    /// Reach while it washes.
     Compressed,
-    /// As far as while nothing presses it.
+    /// Reach while nothing presses it.
     Free,
 }
 

@@ -1,6 +1,6 @@
 //! The lines over the ends of a wash path: on them the wrist is held as on the path, and bodies keep off each other.
 //!
-//! Whether the lines over the ends of a wash path must be clear.
+//! The rule that says if these lines must be clear.
 
 use crate::redundancy::task::{Stop, Task};
 use crate::scene::{Contact, Hindrance, Start, Stretch};
@@ -8,7 +8,7 @@ use platewash_kinematics::JointVector;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Places on a line that are looked at.
+/// Number of places on a line that are checked.
 const PLACES: u32 = 8;
 
 impl Task<'_> {
@@ -34,8 +34,8 @@ impl Task<'_> {
         Start { q, ..*start }
     }
 
-    /// Refuses a line on which the wrist comes too near to 0, or to its other side, or bodies too near to each other, with the tool turned as
-    /// it is at its foot. A line that the arm does not follow at all is for whoever plans it to tell.
+    /// Refuses a line on which the wrist comes too near to 0, or to its other side, or bodies come too near each other, with the
+    /// tool turned as at its foot. A line that the arm cannot follow at all is left to the caller that plans it.
     fn check_line(&self, contact: &Contact, tilt: f64, mut from: Start) -> Result<(), Hindrance> {
         self.check_apart(&from.q, self.stretch())?;
         for k in 1..=PLACES {

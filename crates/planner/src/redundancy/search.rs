@@ -161,7 +161,7 @@ impl Graph {
         }
     }
 
-    /// The tilts, those near to what a contact point prefers first \[rad\].
+    /// Returns the tilts, those closest to the preferred tilt of a contact point first \[rad\].
     pub fn likeliest_first(&self, task: &Task<'_>, contact: &Contact) -> Vec<f64> {
         let preferred = self.preferred.tilt(task.scene.distance(&contact.point));
         let mut tilts = self.tilts.clone();

@@ -2,11 +2,11 @@
 //!
 //! A search along a wash path fails where some contact point has no configuration at all, whatever the branch and the points
 //! before it. The points farthest from the plate's centre are the likeliest: the farthest from axis 1 may be out of reach, the
-//! nearest too close to the base. So the last turn is looked at, on every branch and at every tilt that the search would try.
+//! nearest too close to the base. So the last turn is checked, on every branch and at every tilt that the search would try.
 //!
-//! What stands in the way where a search finds nothing.
+//! Dead ends: the obstructions where a search finds nothing.
 //!
-//! Whether a contact point can be washed at all: every branch, every tilt, in every direction.
+//! Exhaustive check of a contact point: every branch, every tilt, in every direction.
 //!
 //! It judges the planner: where it finds nothing, a failure is the arm's. It takes no short cut that the planner
 //! takes: tilts out of the arm's plane are tried too, and neighbouring points are not looked at. Yaw about the tool's
@@ -21,7 +21,7 @@ use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;
 use std::f64::consts::TAU;
 
-/// Contact points looked at: even, so that the farthest from axis 1 and the nearest are among them.
+/// Number of contact points that are checked: even, so that the farthest from axis 1 and the nearest are among them.
 const POINTS: u32 = 16;
 
 /// Checks for a contact point of the last turn without a configuration among those that a search would try; `false` proves

@@ -1,8 +1,8 @@
-//! One plate to wash: whether a contact point can be washed at a tilt, and a whole wash path at a profile of tilts.
+//! Task of washing one plate: checks a contact point at a tilt, and a whole wash path at a profile of tilts.
 //!
-//! Numbers that bound what is planned on a plate.
+//! Bounds of planning on a plate.
 //!
-//! Why no configurations were found along a wash path.
+//! Errors of a search for configurations along a wash path.
 
 use crate::redundancy::lines::Lines;
 use crate::redundancy::samples::{Samples, TiltSpline};
@@ -37,9 +37,9 @@ const DIFFERENCE_RAD: f64 = 1e-3;
 /// A tilt in the arm's plane for each contact point.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Profile {
-    /// By the distance from axis 1.
+    /// Tilt by the distance from axis 1.
     Policy(TiltPolicy),
-    /// By the length along the wash path.
+    /// Tilt by the length along the wash path.
     Spline(TiltSpline),
 }
 
@@ -92,7 +92,7 @@ impl<'a> Task<'a> {
         })
     }
 
-    /// The same task, whose lines over the ends of the path need not be clear.
+    /// The same task without the rule that the lines over the ends of the path must be clear.
     pub(crate) fn with_any_lines(&self) -> Self {
         Self {
             lines: Lines::any(),
@@ -105,12 +105,12 @@ impl<'a> Task<'a> {
         self.clearance_m + self.stretch().reserve_m()
     }
 
-    /// It is at its plate.
+    /// The stretch of its plate.
     pub(crate) fn stretch(&self) -> Stretch {
         Stretch::AtPlate(self.path.plate)
     }
 
-    /// The task with the arm in another scene, its lines not looked at yet.
+    /// The task with the arm in another scene, its lines not checked yet.
     pub(crate) fn in_scene<'b>(&self, scene: &'b Scene<'b>) -> Task<'b>
     where
         'a: 'b,
@@ -167,7 +167,7 @@ impl<'a> Task<'a> {
         self.check_wrist(q).is_ok() && self.is_clear(q)
     }
 
-    /// The same, where it is known whether the bodies have room.
+    /// The same check, where it is already known if the bodies have room.
     pub(crate) fn is_allowed_with(&self, q: &JointVector, has_room: bool) -> bool {
         self.check_wrist(q).is_ok() && (has_room || self.check_clear(q).is_ok())
     }
@@ -204,12 +204,12 @@ impl<'a> Task<'a> {
         surroundings.is_clear(q, self.stretch(), self.required_m())
     }
 
-    /// The same, with what does not.
+    /// The same check; the error names the pair that is too near.
     pub(crate) fn check_clear(&self, q: &JointVector) -> Result<(), Hindrance> {
         self.check_clear_in(q, self.stretch())
     }
 
-    /// The same in another stretch.
+    /// The same check in another stretch.
     pub(crate) fn check_clear_in(&self, q: &JointVector, stretch: Stretch) -> Result<(), Hindrance> {
         let (surroundings, required_m) = (self.scene.surroundings, self.clearance_m + stretch.reserve_m());
         if surroundings.is_clear(q, stretch, required_m) {
@@ -401,7 +401,7 @@ pub struct DeadEnd {
     pub reasons: Vec<Reason>,
 }
 
-/// A filter and what it rejected at one contact point.
+/// A filter, and the hindrance that it found at one contact point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reason {
     /// Tilts that it rejected.

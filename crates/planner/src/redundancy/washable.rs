@@ -1,6 +1,6 @@
-//! Whether a plate can be washed whole where it lies; if not, which part of it not, and why.
+//! Extent to which a plate can be washed in its place: the part that cannot be washed, and the cause.
 //!
-//! What follows from having found no configuration: that there is none, or nothing.
+//! Conclusion from a search that found no configuration: a proof that there is none, or no conclusion.
 
 use crate::redundancy::search::Graph;
 use crate::redundancy::stuck::{anywhere, reasons};
@@ -24,16 +24,16 @@ pub enum Washable {
     Part {
         /// Share of the wash path for which configurations were found, on the best branch of the arm.
         share: f64,
-        /// The parts of the rest, by what stands in their way, the largest first: they add up to the rest.
+        /// The parts of the rest, by their obstruction, the largest first: they add up to the rest.
         causes: Vec<Cause>,
         /// Conclusion about the rest: proved unwashable, or only not found to be washable.
         conclusion: Conclusion,
-        /// The contact points looked at.
+        /// The contact points that were checked.
         points: Points,
     },
 }
 
-/// Contact points looked at one by one, in the order of the wash path, world frame \[m\].
+/// Contact points that were checked one by one, in the order of the wash path, world frame \[m\].
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Points {
     /// Contact points with a configuration, on the best branch of the arm.
@@ -172,7 +172,7 @@ fn survey(
     Ok(Some(unwashed))
 }
 
-/// Points, each with its distance from axis 1 \[m\], gathered by what stands in their way: by the set of the filters.
+/// Groups points, each with its distance from axis 1 \[m\], by the set of filters that stand in their way.
 fn causes(unwashed: Vec<(f64, Vec<Reason>)>, tried: f64) -> Vec<Cause> {
     let mut found: Vec<(Vec<Filter>, Cause)> = Vec::new();
     for (r, reasons) in unwashed.into_iter().filter(|(_, reasons)| !reasons.is_empty()) {
@@ -207,7 +207,7 @@ fn causes(unwashed: Vec<(f64, Vec<Reason>)>, tried: f64) -> Vec<Cause> {
     found.into_iter().map(|(_, cause)| cause).collect()
 }
 
-/// Contact points looked at closely before it is said that there may be a configuration after all.
+/// Greatest number of contact points that are checked closely before the conclusion that a configuration may exist.
 const MOST_LOOKED_AT: usize = 4;
 
 /// Tolerance within which the tip lies on axis 6, so that its yaw is joint 6 alone (m, and sine of the angle).

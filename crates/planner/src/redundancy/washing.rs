@@ -1,6 +1,6 @@
-//! How a plate is washed: the policies in turn, then the search.
+//! Washing of a plate: the policies in turn, then the search.
 //!
-//! Leaning across the arm's plane, away from what stands beside the arm.
+//! Leaning across the arm's plane, away from obstacles beside the arm.
 //!
 //! A tilt in the arm's plane moves forearm and wrist towards axis 1 or away from it, along whatever stands beside them. Where that is in the
 //! way of every such tilt, the tool leans across the plane besides, by as much all along the wash path; both together stay within the
@@ -50,9 +50,9 @@ pub struct Washing {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum TiltChoice {
-    /// By the distance from axis 1.
+    /// Tilt by the distance from axis 1.
     Policy(TiltPolicy),
-    /// By a search along the wash path.
+    /// Tilt by a search along the wash path.
     Search {
         /// Passes of smoothing that its path bore.
         smoothing: usize,
@@ -95,14 +95,14 @@ pub fn washing(task: &Task<'_>) -> Result<Washing, RedundancyError> {
             }
         }
     }
-    // What stands in the way of the lines is for whoever plans them to tell.
+    // The caller that plans the lines reports their obstructions.
     if task.lines.stood_in_the_way() {
         return washing_by_any(&task.with_any_lines());
     }
     found
 }
 
-/// By a policy, or by the search.
+/// Finds a washing by a policy, or by the search.
 fn washing_by_any(task: &Task<'_>) -> Result<Washing, RedundancyError> {
     match by_policy(task, Width::Everywhere)? {
         Some(washing) => Ok(washing),
@@ -131,7 +131,8 @@ pub(crate) fn policies(task: &Task<'_>) -> Vec<TiltPolicy> {
     amplitudes.iter().flat_map(both).collect()
 }
 
-/// The policy, with less amplitude where on this wash path it would come nearer to the largest tilt than what follows may need.
+/// The policy, with less amplitude where this wash path would otherwise bring it nearer to the largest tilt than the later steps
+/// allow.
 fn within(policy: TiltPolicy, task: &Task<'_>) -> TiltPolicy {
     let most = task.planned_tilt_rad();
     let tilt = |contact: &Contact| policy.tilt(task.scene.distance(&contact.point)).abs();
@@ -264,7 +265,7 @@ pub(crate) fn search_starts(task: &Task<'_>, graph: &Graph) -> Result<Vec<Start>
 
 /// The path's tilts, as smooth as they can be and still do.
 fn smooth(task: &Task<'_>, graph: &Graph, path: &GraphPath, start: &Start) -> Result<Result<Washing, Stop>, Cancelled> {
-    // A spline stays between its control values: where those keep within what is planned, so do its tilts.
+    // A spline stays between its control values: where those keep within the planned tilt, so does the spline.
     let most = task.planned_tilt_rad();
     let planned = |tilt: f64| tilt.clamp(-most, most);
     let rough: Vec<f64> = path.tilt.iter().map(|&j| planned(graph.tilts[j])).collect();

@@ -1,4 +1,4 @@
-//! What keeps the arm from a contact point: the filters of a configuration, one a variant.
+//! Hindrances of the arm at a contact point: the filters of a configuration, one per variant.
 
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::analytic::{AnalyticError, OutOfReach, Rejection};
@@ -127,7 +127,7 @@ impl Hindrance {
     pub(crate) fn fmt_worst(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mm = |m: f64| (1e4 * m).ceil() / 10.0;
         let degrees = |rad: f64| (100.0 * rad.to_degrees()).ceil() / 100.0;
-        // What is 10 mm but for rounding reads so.
+        // 10 mm up to rounding is printed as 10 mm.
         let nearest = |mm: f64| (10.0 * mm + 1e-6).floor() / 10.0;
         match self {
             Self::Reach(miss) => write!(f, "out of reach by up to {:.1} mm", mm(miss.by_m)),

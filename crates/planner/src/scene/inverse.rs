@@ -13,7 +13,7 @@ const TOLERANCE: f64 = 1e-9;
 /// Configurations on one named branch this near to each other start the same path \[rad\].
 const SAME_START_RAD: f64 = 0.5 * PI;
 
-/// The same where branches have no names \[rad\].
+/// The same tolerance where branches have no names \[rad\].
 const SAME_UNNAMED_RAD: f64 = 0.5;
 
 /// Starts of the numeric solver's list that are tried for all branches of a pose.
@@ -32,22 +32,22 @@ pub(crate) struct Start {
 /// The inverse kinematics of an arm.
 #[derive(Debug)]
 pub(crate) enum Inverse<'a> {
-    /// In closed form.
+    /// Closed form.
     Analytic {
         arm: Box<AnalyticArm>,
         tip: Frame,
         limits: &'a JointLimits,
     },
-    /// By iteration, from where a path stands.
+    /// Iteration, from the current configuration of a path.
     Numeric(Box<IkSolver<'a>>),
 }
 
 /// Width of the search for configurations to start from, on arms where they are searched for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Width {
-    /// From a configuration nearby, turned towards the target, and its mirrored branches.
+    /// Starts from a configuration nearby, turned towards the target, and its mirrored branches.
     Near,
-    /// From the solver's list of starts too.
+    /// Starts from the solver's list, too.
     Everywhere,
 }
 

@@ -1,6 +1,6 @@
-//! The arm, its tool and what stands around it; and how the tool stands at a contact point.
+//! The arm, its tool and the bodies around it; and the pose of the tool at a contact point.
 //!
-//! What the arm must keep clear of.
+//! Bodies that the arm must keep clear of.
 
 mod hindrance;
 mod inverse;
@@ -50,7 +50,7 @@ pub struct Scene<'a> {
     pub reach: ReachBorders,
     /// Rules for the tool on faces, and for the wrist.
     pub stance: Stance,
-    /// `T_world_base`, for places that are told; all else is in the frame of the base.
+    /// `T_world_base`, for places in reports; all else is in the frame of the base.
     pub mount: Pose,
     pub(crate) solver: Arc<IkSolver<'a>>,
     pub(crate) inverse: Arc<Inverse<'a>>,
@@ -93,7 +93,7 @@ impl<'a> Scene<'a> {
         Ok(scene)
     }
 
-    /// The same scene, in which all searches end as soon as `cancel` says so.
+    /// The same scene, in which all searches end as soon as `cancel` is set.
     #[must_use]
     pub fn until(self, cancel: &'a CancelToken) -> Self {
         let cancel = Some(cancel);

@@ -1,4 +1,4 @@
-//! How a tool stands on faces that are not flat, and how a wrist is held.
+//! Stance: the rules for a tool on faces that are not flat, and for the wrist.
 //!
 //! A point at which the tip stands.
 //!
@@ -16,7 +16,7 @@
 //!
 //! - [`TiltPolicy::sloping`]: both ramps over the whole plate. The tool turns about its tip while the tip moves out
 //!   and in, so that shoulder and elbow travel less: on the IRB 120 a wash path takes half the joint travel of a fixed pose.
-//! - [`TiltPolicy::upright`]: ramps at the borders of what the arm reaches, and upright between them.
+//! - [`TiltPolicy::upright`]: ramps at the borders of the arm's reach, and upright between them.
 
 use crate::trig::{asin, sin_cos};
 use nalgebra::Vector3;
@@ -140,14 +140,14 @@ pub(crate) fn angle_between(a: &nalgebra::Vector3<f64>, b: &nalgebra::Vector3<f6
     2.0 * asin(half)
 }
 
-/// A point at which the tip stands, and what it stands on.
+/// Point at which the tip stands, with the face there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// The point \[m\], base frame.
     pub point: Vector3<f64>,
     /// The normal of the face there, out of it, base frame.
     pub normal: Vector3<f64>,
-    /// From where the tilt of the tool counts, base frame: along it the tool is upright. On a flat face the normal.
+    /// Axis from which the tilt of the tool counts, base frame: along it the tool is upright. On a flat face it is the normal.
     pub axis: Vector3<f64>,
 }
 

@@ -66,9 +66,9 @@ struct Candidate {
     manipulability: f64,
 }
 
-/// A home for terms whose own is of no account: of many configurations whose tool points down over the plates, the one that is best in
-/// clearance, pair by pair, distance from limits and manipulability together, each up to what is of use. It keeps the clearance asked for among the
-/// plates of the terms.
+/// Suggests a home for terms, without regard to their own. Of many configurations with the tool pointing down over the plates, it
+/// returns the best one by clearance, pair by pair, distance from limits and manipulability together, each up to a useful bound.
+/// It keeps the clearance asked for among the plates of the terms.
 ///
 /// The search draws nothing: the same arm, tool, obstacles and plates have the same home, for any number of threads.
 ///

@@ -101,7 +101,7 @@ pub fn suggest_region(job: &WashJob, watch: &Watch<'_>) -> Result<SuggestedRegio
     })
 }
 
-/// The squares told of, by their edge: the finest last.
+/// The checked squares, by their edge: the finest last.
 #[derive(Debug)]
 struct Map<'a> {
     area: &'a MapArea,
@@ -244,7 +244,7 @@ mod tests {
         step_m: 0.04,
     };
 
-    /// All squares of one level, washable where a rule says so.
+    /// Map with all squares of one level, washable by a rule.
     fn map(rule: impl Fn(f64, f64) -> bool) -> SuggestedRegion {
         let mut map = Map::of(&AREA);
         let places = (-25..25).flat_map(|i| (-25..25).map(move |k| [i, k].map(|n| 0.04 * (f64::from(n) + 0.5))));
@@ -271,7 +271,7 @@ mod tests {
         assert!((region.area_m2 - std::f64::consts::PI * (0.49 - 0.09)).abs() < 0.05);
     }
 
-    /// Behind −x, where directions begin, too.
+    /// The sector crosses −x, the direction from which directions count.
     #[test]
     fn the_sector_of_a_wedge_lies_in_it() {
         for middle in [0.0_f64, 90.0, 180.0] {

@@ -38,9 +38,9 @@ pub(crate) struct Interval {
     pub at_end: [f64; STRIPS],
     /// The tip's acceleration at both ends.
     pub tip: Option<[VectorStrip; 2]>,
-    /// By what the joints' limits were divided.
+    /// Divisor of the joints' limits.
     joints_tightened: f64,
-    /// By what the tip's limit was divided.
+    /// Divisor of the tip's limit.
     tip_tightened: f64,
 }
 
@@ -184,9 +184,9 @@ impl Interval {
 
 /// Tangents of the tip's ellipses that may be added.
 const TANGENTS: usize = 16;
-/// By what an ellipse may be left before the answer is scaled.
+/// Excess over an ellipse that is tolerated before the answer is scaled.
 const TANGENT_TOLERANCE: f64 = 1e-5;
-/// By what a strip may be left before it counts as broken.
+/// Excess over a strip that is tolerated before it counts as broken.
 const TOLERANCE: f64 = 1e-12;
 /// Variation of a constraint over a range below which it says nothing about a place in it.
 const FLAT: f64 = 1e-10;
@@ -291,7 +291,7 @@ impl LinearProgram {
         }
         let x = [x[0].clamp(0.0, most[0]), x[1].clamp(0.0, most[1])];
         let share = interval.load(x).max(1.0).recip();
-        // What is always possible: to stop until the end. Counts where rounding spoils the rest.
+        // A stop until the end is always possible. It counts where rounding spoils the rest.
         let stop = interval.load([1.0, 0.0]).recip().min(most[0]);
         if stop > x[0] * share {
             [stop, 0.0]

@@ -12,13 +12,13 @@
 //! | constraints of an interval; linear program of an interval | `interval.rs` |
 //! | backward and forward pass; the rounds of all this | `rounds.rs` |
 //! | a piece of the motion | `hermite.rs` |
-//! | what a piece demands of its limits | `check.rs` |
+//! | demand of a piece on its limits | `check.rs` |
 //!
 //! A path in time.
 //!
-//! Why a path could not be timed.
+//! Errors of timing.
 //!
-//! What a timed motion must keep to.
+//! Limits of a timed motion.
 
 mod check;
 mod grid;
@@ -105,7 +105,7 @@ pub enum TimingError {
     /// A limit is no positive finite number.
     #[error("limit of the {limit}: {value}; it must be a positive, finite number")]
     Limit {
-        /// Which.
+        /// The limit.
         limit: Limit,
         /// Its value \[rad/s, rad/s², m/s, m/s²\].
         value: f64,
@@ -141,7 +141,7 @@ pub enum TimingError {
     /// samples much too close together for its length.
     #[error("a motion of {duration_s:.1} s still exceeds its limits: time would have to be stretched by {excess:.1e}")]
     Unheld {
-        /// By what share time would have to be stretched further.
+        /// Share by which time would have to be stretched further.
         excess: f64,
         /// Duration reached \[s\].
         duration_s: f64,
@@ -174,7 +174,7 @@ pub struct TipLimits {
 /// A stretch of a path on which its parameter moves slowly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slow {
-    /// From one value of the parameter to another, both included.
+    /// Range of the parameter, both ends included.
     pub u: [f64; 2],
     /// Largest speed of the parameter at a knot there, per second; positive.
     pub most: f64,

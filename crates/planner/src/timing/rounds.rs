@@ -24,7 +24,7 @@ pub const SHORTEST_PIECE_S: f64 = 1e-4;
 const MARGIN: f64 = 1e-6;
 /// Excess of a limit that is left to stretching the whole motion in time.
 const STRETCHED: f64 = 1e-4;
-/// Stretch that is not worth it: what it mends is within the margin.
+/// Stretch that is not worth it: the excess is within the margin.
 const HELD: f64 = 2e-7;
 /// Times that a motion is stretched at most; the first is enough but where times round coarsely.
 const STRETCHES: usize = 8;
@@ -43,7 +43,7 @@ pub(crate) struct Rounds<'a> {
     /// Ranges in which the parameter moves slowly.
     slow: Vec<Slow>,
     intervals: Vec<Interval>,
-    /// By what each interval's speed is lowered.
+    /// Factor by which the speed of each interval is lowered.
     slowed: Vec<f64>,
     /// Bounds on x = ṡ² at the knots.
     most: Vec<f64>,
@@ -54,7 +54,7 @@ pub(crate) struct Rounds<'a> {
 }
 
 impl<'a> Rounds<'a> {
-    /// Before the first round.
+    /// State before the first round.
     pub fn new(grid: Grid<'a>, limits: &MotionLimits, slow: &[Slow]) -> Self {
         let samples = grid.knots().len();
         let mut rounds = Self {
@@ -78,7 +78,7 @@ impl<'a> Rounds<'a> {
         rounds
     }
 
-    /// All rounds.
+    /// Runs all rounds.
     pub fn run(mut self) -> Result<Timed, TimingError> {
         self.pass()?;
         for _ in 0..REFINEMENTS {
@@ -200,7 +200,7 @@ impl<'a> Rounds<'a> {
         worst
     }
 
-    /// Stretches the whole motion in time until it keeps its limits, `worst` being what it demands.
+    /// Stretches the whole motion in time until it keeps its limits, for the demand `worst`.
     fn stretch(&mut self, mut worst: Demand) -> Result<(), TimingError> {
         for _ in 0..STRETCHES {
             let by = worst.stretch();
@@ -307,7 +307,7 @@ pub const LONGEST_PIECE_S: f64 = 0.025;
 /// Largest deviation of a joint from its path between knots \[rad\].
 pub const PATH_ERROR_RAD: f64 = 5e-6;
 
-/// Length of the new pieces over the longest allowed: some room for what the next round changes.
+/// Length of the new pieces over the longest allowed: some room for the changes of the next round.
 const ROOM: f64 = 0.8;
 /// Pieces that one piece becomes at most, in one round.
 const MOST_PARTS: f64 = 64.0;

@@ -15,7 +15,7 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TransitError {
-    /// None that is free was found.
+    /// No free transit was found.
     #[error(
         "no free transit from {} to {} was found: direct, raised, arc and {nodes} sampled configurations all fail{}",
         name(.from), name(.to), first(.blocked.as_deref())
@@ -95,7 +95,7 @@ fn colon(too_near: Option<&TooNear>) -> String {
     too_near.map_or_else(String::new, |too_near| format!(": {too_near}"))
 }
 
-/// With a hint where it is the lift that decides: at the top of the line the sponge must be clear of the plates.
+/// Words on a line, with a hint where the lift decides: at the top of the line the sponge must be clear of the plates.
 fn line(too_near: Option<&TooNear>) -> String {
     let touches = |too_near: &&TooNear| {
         let names = [&too_near.pair.a, &too_near.pair.b];
@@ -133,7 +133,7 @@ impl TooNear {
     }
 }
 
-/// Distances that differ by less than this are not told apart by their digits \[m\].
+/// Distances that differ by less than this get no further digits \[m\].
 const ALIKE_M: f64 = 1e-9;
 
 /// Words of both messages that stand before the reserve.

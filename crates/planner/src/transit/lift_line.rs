@@ -1,4 +1,4 @@
-//! Where a transit begins or ends.
+//! Ends of a transit.
 //!
 //! The arc round the base, as a path of the joints.
 //!
@@ -18,7 +18,7 @@ pub struct LiftLine {
     height_m: Vec<f64>,
     /// Configurations there \[rad\].
     q: Vec<JointVector>,
-    /// By the height, at the lower and the upper end \[rad/m\]; the second one twice at the upper end.
+    /// Slopes by the height, at the lower and the upper end \[rad/m\]; the second one twice at the upper end.
     slopes: Option<[JointVector; 3]>,
     plate: Option<usize>,
     /// Up to a height \[m\] the tip is no faster than that \[m/s\].
@@ -65,7 +65,7 @@ impl LiftLine {
         })
     }
 
-    /// The same, with the tip no faster than `speed_m_s` up to `height_m` above the place of rest.
+    /// The same line, with the tip no faster than `speed_m_s` up to `height_m` above the place of rest.
     #[must_use]
     pub fn no_faster(mut self, height_m: f64, speed_m_s: f64) -> Self {
         self.slow = Some([height_m, speed_m_s]);
@@ -80,7 +80,7 @@ impl LiftLine {
         })
     }
 
-    /// The same for a path that ends here.
+    /// The same range for a path that ends here.
     pub(crate) fn slow_until(&self, u: f64) -> Option<Slow> {
         self.slow.map(|[height_m, most]| Slow {
             u: [u - height_m, u],

@@ -11,7 +11,7 @@
 //! | [`TransitKind::Sampled`] | bidirectional random trees, shortened and smoothed | `sampled.rs` |
 //!
 //! All candidates of the first two that are free are timed and the fastest is taken; the others stand in when none is.
-//! Every candidate is looked at in steps of at most [`STEP_RAD`] of a joint; a certificate proves what lies between.
+//! Every candidate is checked in steps of at most [`STEP_RAD`] of a joint; a certificate proves the motion between them.
 
 mod error;
 mod lift_line;

@@ -1,4 +1,5 @@
-//! Bidirectional random trees for what nothing simple solves (RRT-Connect: Kuffner & LaValle 2000), shortened and smoothed.
+//! Bidirectional random trees for transits without a simple solution (RRT-Connect: Kuffner & LaValle 2000), shortened and
+//! smoothed.
 
 use crate::scene::Stretch;
 use crate::transit::search::{FreePath, STEP_RAD, TransitRules};
@@ -133,7 +134,7 @@ fn random(rules: &TransitRules<'_>, rng: &mut Pcg64) -> JointVector {
     })
 }
 
-/// From the first tree's root to the second one's, over the configuration at which both end.
+/// Path from the first tree's root to the second one's, over the configuration at which both end.
 fn joined(trees: &[Vec<Node>; 2]) -> Vec<JointVector> {
     let to_root = |tree: &[Node]| {
         let mut at = tree.len() - 1;

@@ -1,6 +1,6 @@
 //! Candidates of a transit, and the choice among them.
 //!
-//! What a transit must keep, and what it may try.
+//! Requirements of a transit, and the candidates that it may try.
 //!
 //! Kinds of transits.
 //!
@@ -129,8 +129,8 @@ impl Search<'_> {
 }
 
 impl Search<'_> {
-    /// Considers sampled paths until one is free; how many configurations were sampled. A smooth path may leave what is free where the
-    /// lines that it follows do not: then it is laid closer to them, and at last along others.
+    /// Tries sampled paths until one is free; returns the number of configurations sampled. A smooth path may leave the free
+    /// space where the lines that it follows do not: then it is laid closer to them, and at last along others.
     fn sampled(&mut self, rng: &mut Pcg64) -> Result<usize, TransitError> {
         let (mut nodes, [from, to]) = (0, self.ends);
         for _ in 0..SAMPLED_WAYS {
@@ -311,7 +311,7 @@ impl TransitRules<'_> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TransitKind {
-    /// From top to top in the joints.
+    /// Quintic from top to top in the joints.
     Direct,
     /// The same over a raised configuration.
     Raised,
@@ -332,7 +332,7 @@ impl fmt::Display for TransitKind {
     }
 }
 
-/// Joint motion between neighbouring configurations that are looked at, at most \[rad\].
+/// Largest joint motion between neighbouring configurations that are checked \[rad\].
 pub const STEP_RAD: f64 = 0.02;
 
 /// Configurations between two tops, both left out, with the parameter counted from the first top \[m\], and its
